@@ -1,0 +1,83 @@
+#include "sim/core/files.h"
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <system_error>
+
+#include "sim/core/input_error.h"
+
+namespace insonate {
+
+namespace fs = std::filesystem;
+
+std::string read_file(const fs::path& file, std::size_t limit) {
+  std::error_code error;
+  const fs::file_status status = fs::status(file, error);
+  if (!fs::exists(status)) throw InputError(file.string(), "", "there is no such file", "check the name");
+  if (fs::is_directory(status)) throw InputError(file.string(), "", "this is a folder", "name a file in it");
+  const std::uintmax_t size = fs::file_size(file, error);
+  if (error) throw InputError(file.string(), "", "it is no ordinary file", "name a file on disk");
+  if (size == 0) throw InputError(file.string(), "", "the file is empty", "write or copy it again");
+  if (size > limit)
+    throw InputError(file.string(), "",
+                     "the file has " + std::to_string(size) + " bytes, above the limit of " + std::to_string(limit),
+                     "check that it is the right file");
+  std::ifstream stream(file, std::ios::binary);
+  std::string bytes(size, '\0');
+  if (!stream.read(bytes.data(), std::streamsize(size)))
+    throw InputError(file.string(), "", "it cannot be read", "check its permissions");
+  return bytes;
+}
+
+void write_atomically(const fs::path& file, const std::function<void(const fs::path&)>& write) {
+  std::error_code error;
+  if (file.has_parent_path()) fs::create_directories(file.parent_path(), error);
+  if (error)
+    throw InputError(file.parent_path().string(), "", "the folder cannot be made (" + error.message() + ")",
+                     "name a folder that may be written");
+  fs::path temporary = file;
+  temporary.replace_filename("." + file.stem().string() + "." + std::to_string(getpid()) + ".partial" +
+                             file.extension().string());
+  try {
+    write(temporary);
+  } catch (...) {
+    fs::remove(temporary, error);
+    throw;
+  }
+  fs::rename(temporary, file, error);
+  if (error) {
+    const std::string why = error.message();
+    fs::remove(temporary, error);
+    throw InputError(file.string(), "", "it cannot be written (" + why + ")", "name a file that may be written");
+  }
+}
+
+void write_file(const fs::path& file, std::string_view bytes) {
+  write_atomically(file, [&](const fs::path& temporary) {
+    std::ofstream stream(temporary, std::ios::binary);
+    stream.write(bytes.data(), std::streamsize(bytes.size()));
+    stream.close();
+    if (!stream)
+      throw InputError(file.string(), "", "it cannot be written", "check the folder's permissions and free space");
+  });
+}
+
+fs::path assets_folder() {
+  std::error_code error;
+  if (const char* named = std::getenv("INSONATE_ASSETS")) return named;
+  const fs::path bin = fs::read_symlink("/proc/self/exe", error).parent_path();
+  for (const fs::path& folder : {bin / "../share/insonate", fs::path(INSONATE_SOURCE_ASSETS)})
+    if (fs::is_directory(folder, error)) return fs::weakly_canonical(folder, error);
+  throw InputError("assets", "", "the bundled assets are neither beside the program nor in the source tree",
+                   "set INSONATE_ASSETS to their folder");
+}
+
+fs::path cache_folder() {
+  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache) return fs::path(cache) / "insonate";
+  if (const char* home = std::getenv("HOME"); home && *home) return fs::path(home) / ".cache" / "insonate";
+  return fs::temp_directory_path() / "insonate";
+}
+
+}  // namespace insonate

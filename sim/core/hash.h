@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+
+namespace insonate {
+
+/// A counter-based random number: the same key gives the same 32 well-mixed bits on every machine, in any order and
+/// from any thread. Mixing steps of MurmurHash3's 32-bit finaliser (Appleby, public domain), one round a key.
+constexpr std::uint32_t hash(std::uint32_t h) {
+  h ^= h >> 16;
+  h *= 0x85ebca6bu;
+  h ^= h >> 13;
+  h *= 0xc2b2ae35u;
+  h ^= h >> 16;
+  return h;
+}
+
+constexpr std::uint32_t hash(std::uint32_t a, std::uint32_t b) {
+  return hash(hash(a) + 0x9e3779b9u + b);
+}
+
+constexpr std::uint32_t hash(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+  return hash(hash(hash(a, b), c), d);
+}
+
+/// From 32 random bits to [0, 1): 24 bits, so that float holds it exactly.
+constexpr float unit_float(std::uint32_t bits) {
+  return float(bits >> 8) * (1.0f / 16777216.0f);
+}
+
+}  // namespace insonate

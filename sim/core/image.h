@@ -1,0 +1,29 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+namespace insonate {
+
+/// Values on a rectangle, rows from the top down, x fastest.
+template <typename T>
+struct Image {
+  int width = 0;
+  int height = 0;
+  std::vector<T> pixels;
+
+  Image() = default;
+  Image(int w, int h, const T& fill = T{}) : width(w), height(h), pixels(std::size_t(w) * std::size_t(h), fill) {}
+  T& at(int x, int y) { return pixels[std::size_t(y) * std::size_t(width) + std::size_t(x)]; }
+  const T& at(int x, int y) const { return pixels[std::size_t(y) * std::size_t(width) + std::size_t(x)]; }
+};
+
+using Rgba8 = std::array<std::uint8_t, 4>;
+
+/// Writes a PNG under a temporary name and renames it. Throws InputError when it cannot be written.
+void write_png(const std::filesystem::path& file, const Image<std::uint8_t>& grey);
+void write_png(const std::filesystem::path& file, const Image<Rgba8>& image);
+
+}  // namespace insonate

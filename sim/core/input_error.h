@@ -1,0 +1,20 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace insonate {
+
+/// Something a person handed over (a file, an option) cannot be used.
+///
+/// Thrown where outside data enters and nowhere else; programs print what() and exit with code 2, the trainer shows it
+/// in a dialog and goes on. what() is one sentence, "FILE: PLACE: PROBLEM; REMEDY.", so write
+///   place    where in the file: "header", "line 12, column 3", "frame 41", "[[step]] 2, key 'hold_s'"; may be empty,
+///   problem  what is there and what was expected, with the numbers: "the spacing is 0 mm along axis 2",
+///   remedy   what to do, as an imperative: "export the series again".
+class InputError : public std::runtime_error {
+public:
+  InputError(const std::string& file, const std::string& place, const std::string& problem, const std::string& remedy);
+};
+
+}  // namespace insonate

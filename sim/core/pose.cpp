@@ -1,0 +1,81 @@
+#include "sim/core/pose.h"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace insonate {
+
+namespace {
+
+constexpr double kOrthonormalTolerance = 1e-4;
+constexpr double kReachMm = 1e5;
+
+std::string with_number(const char* format, double number) {
+  char text[160];
+  std::snprintf(text, sizeof text, format, number);
+  return text;
+}
+
+}  // namespace
+
+Pose Pose::inverse() const {
+  const glm::dmat3 back = glm::transpose(rotation);
+  return {back, -(back * translation)};
+}
+
+glm::dmat4 Pose::matrix() const {
+  glm::dmat4 m(rotation);
+  m[3] = glm::dvec4(translation, 1.0);
+  return m;
+}
+
+Pose operator*(const Pose& a_from_b, const Pose& b_from_c) {
+  return {a_from_b.rotation * b_from_c.rotation, a_from_b.point(b_from_c.translation)};
+}
+
+std::optional<std::string> why_not_rigid(const glm::dmat4& m) {
+  for (int c = 0; c < 4; ++c)
+    for (int r = 0; r < 4; ++r)
+      if (!std::isfinite(m[c][r])) return "the matrix holds a number that is not finite";
+  const glm::dvec4 last_row(m[0][3], m[1][3], m[2][3], m[3][3]);
+  if (glm::length(last_row - glm::dvec4(0, 0, 0, 1)) > kOrthonormalTolerance)
+    return "the matrix's last row is not 0 0 0 1";
+
+  const glm::dmat3 rotation(m);
+  const double determinant = glm::determinant(rotation);
+  if (std::abs(determinant) < kOrthonormalTolerance)
+    return with_number("the rotation is singular: its determinant is %g", determinant);
+  if (determinant < 0) return with_number("the rotation mirrors: its determinant is %g", determinant);
+  const glm::dmat3 excess = glm::transpose(rotation) * rotation - glm::dmat3(1.0);
+  for (int c = 0; c < 3; ++c)
+    for (int r = 0; r < 3; ++r)
+      if (std::abs(excess[c][r]) > 2 * kOrthonormalTolerance)
+        return with_number("the rotation is not orthonormal: it stretches or shears by %.2g", std::abs(excess[c][r]));
+  const double reach = glm::length(glm::dvec3(m[3]));
+  if (reach > kReachMm) return with_number("the translation is %g mm long, beyond any tracker's reach", reach);
+  return std::nullopt;
+}
+
+Pose pose_from_matrix(const glm::dmat4& m) {
+  return {glm::mat3_cast(glm::normalize(glm::quat_cast(glm::dmat3(m)))), glm::dvec3(m[3])};
+}
+
+double angle_between_deg(const Pose& a, const Pose& b) {
+  const glm::dmat3 turn = glm::transpose(a.rotation) * b.rotation;
+  // The sine comes from the skew part and the cosine from the trace: acos alone loses half its digits near 0.
+  const glm::dvec3 axis(turn[1][2] - turn[2][1], turn[2][0] - turn[0][2], turn[0][1] - turn[1][0]);
+  return glm::degrees(std::atan2(glm::length(axis) / 2, (turn[0][0] + turn[1][1] + turn[2][2] - 1) / 2));
+}
+
+Pose interpolate(const Pose& a, const Pose& b, double t) {
+  const glm::dquat turn = glm::slerp(glm::quat_cast(a.rotation), glm::quat_cast(b.rotation), t);
+  return {glm::mat3_cast(turn), glm::mix(a.translation, b.translation, t)};
+}
+
+}  // namespace insonate

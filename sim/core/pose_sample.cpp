@@ -1,0 +1,25 @@
+#include "sim/core/pose_sample.h"
+
+namespace insonate {
+
+std::string_view to_string(PoseStatus status) {
+  switch (status) {
+    case PoseStatus::ok:
+      return "ok";
+    case PoseStatus::missing:
+      return "missing";
+    case PoseStatus::out_of_view:
+      return "out of view";
+    case PoseStatus::out_of_volume:
+      return "out of volume";
+    case PoseStatus::switched:
+      return "switched";
+    case PoseStatus::invalid:
+      return "invalid";
+    case PoseStatus::unknown:
+      return "unknown";
+  }
+  return "unknown";
+}
+
+}  // namespace insonate

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "sim/core/pose.h"
+
+namespace insonate {
+
+/// What a tracker says of a sample, as IGSIO/PLUS name it in sequence files. Only `ok` samples carry a usable pose.
+enum class PoseStatus { ok, missing, out_of_view, out_of_volume, switched, invalid, unknown };
+
+std::string_view to_string(PoseStatus status);
+
+/// One reading of the tracked probe. Devices make them, scenarios score them, the simulator shows them.
+struct PoseSample {
+  double time_s = 0;  ///< on the tracker's own clock, strictly rising within a run
+  PoseStatus status = PoseStatus::unknown;
+  Pose patient_from_probe;    ///< meaningful only when status is ok
+  std::uint32_t buttons = 0;  ///< bit b is set while button b is held
+};
+
+}  // namespace insonate

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace insonate {
+
+/// The shape of the receive beam across scan lines.
+enum class BeamWindow { box, triangle, hann };
+
+/// Against what the image is compressed.
+enum class ReferenceLevel {
+  frame_maximum,  ///< the brightest pixel of each frame is white, as in the paper
+  fixed           ///< a fixed level is white, so that the picture does not pump while the probe moves
+};
+
+/// Everything that decides how model S turns a volume, a pose and a probe into a picture. Numbers in brackets are the
+/// equations of Kutter, Shams, Navab 2009.
+struct Settings {
+  // Traversal
+  int samples = 512;                  ///< a line, 1 to 8192
+  double reflection_length_mm = 0.6;  ///< l: the distance over which two media count as one interface, 0.01 to 20 (1)
+  double frequency_mhz = 3.5;         ///< 0.5 to 30
+  bool absorption = true;             ///< frequency-dependent absorption in (5); off in the paper's own mode
+  double gel_mm = 6;                  ///< coupling gel: air nearer to the face than this counts as water; 0 for none
+
+  // Beam width (4)
+  BeamWindow beam_window = BeamWindow::hann;
+  int beam_lines = 5;  ///< n_a: lines under the window, odd, 1 (none) to 255
+
+  // Speckle
+  bool speckle = true;
+  std::uint32_t speckle_seed = 1;
+  double speckle_cell_mm = 0.45;  ///< pitch of the scatterer lattice, 0.05 to 10
+
+  // Fusion (6)
+  double reflection_sigma_mm = 0.35;  ///< s1: smoothing of the reflections in the image, 0 (none) to 1000
+  double transmission_sigma_mm = 0;   ///< s2: the same of the transmission
+  double blend = 2e-4;                ///< b: scattered against reflected echo
+  bool two_way = true;                ///< T = (I/I0)^2: the scattered echo goes back the way it came; off in the paper
+
+  // Display (7)
+  double gain_db = 0;              ///< -60 to 60
+  std::array<double, 8> tgc_db{};  ///< time gain compensation at 8 depths from face to full depth, linear between
+  double dynamic_range_db = 60;    ///< beta, 1 to 200
+  ReferenceLevel reference_level = ReferenceLevel::fixed;
+  double fixed_level = 1e-3;  ///< the U that is white before gain
+
+  int image_width = 640;  ///< 1 to 8192
+  int image_height = 480;
+};
+
+/// As in the paper: no absorption, reflection length = sample distance, one-way transmission, frame's maximum.
+Settings paper_settings(double depth_mm, int samples);
+
+/// What the trainer starts with: every effect on, TGC set to the mean absorption of soft tissue up to `depth_mm`.
+Settings trainer_settings(double frequency_mhz, double depth_mm);
+
+}  // namespace insonate

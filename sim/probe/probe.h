@@ -1,0 +1,74 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace insonate {
+
+enum class ProbeKind { linear, curvilinear };
+
+/// A transducer. Its frame is described in sim/core/pose.h.
+struct Probe {
+  std::string name;  ///< "curvilinear"
+  ProbeKind kind = ProbeKind::curvilinear;
+  double radius_mm = 60;          ///< curvilinear: of the face, 5 to 200
+  double field_of_view_deg = 60;  ///< curvilinear: between the outer lines' outer edges, 5 to 150
+  double width_mm = 40;           ///< linear: of the face, 5 to 200
+  double frequency_mhz = 3.5;     ///< centre frequency, 1 to 20
+  double depth_mm = 160;          ///< default imaging depth
+  int lines = 192;                ///< scan lines, 1 to 4096
+};
+
+/// The probes that ship: "curvilinear" (abdomen, 3.5 MHz) and "linear" (vessels and soft parts, 7.5 MHz).
+const std::vector<Probe>& probes();
+const Probe* find_probe(std::string_view name);
+
+/// A line of sight: sample k sits at start + direction * r_k, r_k = r_min + (k + 1/2) dr. Probe frame, mm.
+struct ScanLine {
+  glm::dvec3 start{0.0};          ///< on the transducer's face
+  glm::dvec3 direction{0, 1, 0};  ///< unit
+};
+
+/// What the traversal is given: it knows lines, not probes.
+struct ScanLines {
+  std::vector<ScanLine> lines;
+  int samples = 512;  ///< a line, 1 to 8192
+  double r_min_mm = 0;
+  double r_max_mm = 160;
+
+  double dr_mm() const { return (r_max_mm - r_min_mm) / samples; }
+};
+
+/// The scan lines of a probe at a depth, from the edge opposite the marker (-x) to the marker's edge (+x), spread over
+/// the face at the middles of `probe.lines` equal parts.
+ScanLines scan_lines(const Probe& probe, double depth_mm, int samples);
+
+/// Where a point of the imaging plane (x lateral, y along the central beam, probe frame, mm) lies among the lines.
+struct LinePosition {
+  double line;  ///< 0 on the first line, N - 1 on the last; -1/2 and N - 1/2 at the fan's edges
+  double r_mm;  ///< distance from the face along the line
+};
+
+/// Empty outside the fan: beyond its edges, in front of the face, or deeper than `depth_mm`.
+std::optional<LinePosition> line_position(const Probe& probe, double depth_mm, const glm::dvec2& xy_mm);
+
+/// How pixels of the displayed image lie in the imaging plane: square pixels, the fan as large as fits, centred.
+/// Pixel (x, y), counted from the top left, has its centre at top_left_mm + mm_per_pixel * (x, y) in the probe's plane.
+struct ImageGeometry {
+  int width = 640;
+  int height = 480;
+  double mm_per_pixel = 0.4;
+  glm::dvec2 top_left_mm{0.0};  ///< centre of the top left pixel
+
+  glm::dvec2 plane_mm(double x, double y) const { return top_left_mm + mm_per_pixel * glm::dvec2(x, y); }
+  glm::dvec2 pixel(const glm::dvec2& plane_mm) const { return (plane_mm - top_left_mm) / mm_per_pixel; }
+};
+
+ImageGeometry image_geometry(const Probe& probe, double depth_mm, int width, int height);
+
+}  // namespace insonate

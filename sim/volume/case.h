@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "sim/core/grid.h"
+#include "sim/core/pose.h"
+
+namespace insonate {
+
+/// A structure in a case's label volume.
+struct Label {
+  std::uint8_t value = 0;  ///< as in the label volume; 0 is "nothing in particular" and never listed
+  std::string name;        ///< unique in the case, lower case with underscores: "right_kidney_cortex"
+  std::string tissue;      ///< a name of the tissue table's [tissue.*]: "kidney_cortex"
+};
+
+/// A point an examiner would point at.
+struct Landmark {
+  std::string name;          ///< unique in the case: "hepatorenal_recess"
+  glm::dvec3 position{0.0};  ///< patient (LPS), mm
+};
+
+/// How an expert would hold the probe to show something.
+struct ReferenceView {
+  std::string name;                    ///< unique in the case: "hepatorenal"
+  std::string title;                   ///< as a sentence on the screen: "Right upper quadrant, hepatorenal recess"
+  std::string probe;                   ///< a name known to find_probe(): "curvilinear"
+  double depth_mm = 160;               ///< 20 to 300
+  std::vector<std::string> landmarks;  ///< what must be in the picture; names of the case's landmarks
+  std::vector<std::string> targets;    ///< whose area in the picture counts; names of the case's labels
+  Pose patient_from_probe;
+};
+
+/// A patient, or a phantom, ready to be scanned.
+struct Case {
+  std::string name;             ///< shown to people: "Abdomen phantom"
+  Volume<std::int16_t> ct;      ///< Hounsfield units, -1024 to 32767
+  Volume<std::uint8_t> labels;  ///< on the CT's grid; empty when the case has none
+  std::vector<Label> label_table;
+  std::vector<Landmark> landmarks;
+  std::vector<ReferenceView> views;
+
+  const Label* find_label(std::string_view name) const;
+  const Landmark* find_landmark(std::string_view name) const;
+  const ReferenceView* find_view(std::string_view name) const;
+};
+
+/// Reads a case folder: `case.toml`, the CT and the labels it names. Throws InputError.
+Case read_case(const std::filesystem::path& folder);
+
+/// Writes a case folder whole or not at all: it appears under its name only when every file in it is written.
+void write_case(const std::filesystem::path& folder, const Case& subject);
+
+}  // namespace insonate

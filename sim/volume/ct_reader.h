@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "sim/core/grid.h"
+
+namespace insonate {
+
+/// What was found where a person pointed, beside the voxels.
+struct CtSource {
+  std::string format;                     ///< "NIfTI", "NRRD", "MetaImage", "DICOM series"
+  std::string stored_as;                  ///< the voxel type in the file: "int32"
+  std::vector<std::string> other_series;  ///< DICOM: one line each for the series that were not taken
+  std::size_t clamped = 0;                ///< voxels outside int16's or air's range that were brought back to it
+};
+
+/// Reads a CT to Hounsfield units: a NIfTI (.nii, .nii.gz), NRRD (.nrrd, .nhdr) or MetaImage (.mha, .mhd) file, or a
+/// DICOM folder, of which the series with the most slices is taken. Integers of 8 to 64 bits and floats are
+/// accepted, rescale slope and intercept applied, and the direction matrix honoured; values are rounded and clamped
+/// to [-1024, 32767].
+/// Throws InputError for anything that is no 3D scalar volume of finite numbers with sides of at most 4096 voxels,
+/// at most 2^31 voxels in all, positive spacing (1e-3 to 100 mm) and an invertible orthogonal direction matrix.
+Volume<std::int16_t> read_ct(const std::filesystem::path& file_or_folder, CtSource* source = nullptr);
+
+/// Reads a label volume: whole numbers from 0 to 255.
+Volume<std::uint8_t> read_labels(const std::filesystem::path& file);
+
+/// Writes NRRD files (gzip), atomically.
+void write_ct(const std::filesystem::path& nrrd_file, const Volume<std::int16_t>& ct);
+void write_labels(const std::filesystem::path& nrrd_file, const Volume<std::uint8_t>& labels);
+
+/// The CT on a grid of (about) `spacing_mm`, isotropic, axes as before, covering the same box. Cubic B-spline
+/// interpolation, so that gradients between thick slices are smooth; overshoot beyond the neighbours' range is cut.
+/// Returns the volume as it is when its spacing is already within 20 % of that.
+Volume<std::int16_t> resample_isotropic(const Volume<std::int16_t>& ct, double spacing_mm);
+
+/// Labels carried onto another grid over the same patient, by nearest neighbour.
+Volume<std::uint8_t> resample_labels(const Volume<std::uint8_t>& labels, const Grid& onto);
+
+}  // namespace insonate

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "sim/volume/case.h"
+
+namespace insonate {
+
+/// A phantom is made from a recipe: a TOML text that lists tissues, shapes in the order they displace each other,
+/// texture, landmarks and views. `assets/phantoms/abdomen.toml` documents the format key by key.
+
+/// Progress from 0 to 1, called from one thread at a time, a hundred times at most.
+using Progress = std::function<void(double share)>;
+
+/// Makes a case from a recipe's text. `options` are added to the recipe's own [options] and override them
+/// ("free_fluid" = "true", "aorta_diameter_mm" = "45"). The same text, options and seed give the same voxels, whatever
+/// the number of threads. Throws InputError naming `recipe_name` and the line.
+Case make_phantom(const std::string& recipe_name, const std::string& recipe_text,
+                  const std::vector<std::pair<std::string, std::string>>& options = {}, const Progress& progress = {});
+
+/// The same, kept under `cache` in a folder named after a digest of the recipe, the options and the maker's version. A
+/// cached case whose files do not match the digests written beside them is thrown away and made again.
+Case cached_phantom(const std::filesystem::path& recipe,
+                    const std::vector<std::pair<std::string, std::string>>& options, const std::filesystem::path& cache,
+                    const Progress& progress = {});
+
+}  // namespace insonate

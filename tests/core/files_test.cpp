@@ -1,0 +1,68 @@
+#include "sim/core/files.h"
+
+#include <catch2/catch.hpp>
+
+#include <filesystem>
+#include <fstream>
+
+#include "sim/core/image.h"
+#include "sim/core/input_error.h"
+
+using namespace insonate;
+namespace fs = std::filesystem;
+
+namespace {
+
+struct TemporaryFolder {
+  fs::path path = fs::temp_directory_path() / ("insonate-files-test-" + std::to_string(::getpid()));
+  TemporaryFolder() { fs::create_directories(path); }
+  ~TemporaryFolder() { fs::remove_all(path); }
+};
+
+std::string why_unreadable(const fs::path& file) {
+  try {
+    read_file(file);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::ptrdiff_t entries(const fs::path& folder) {
+  return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
+}
+
+}  // namespace
+
+TEST_CASE("what cannot be read is named in one sentence") {
+  const TemporaryFolder folder;
+  CHECK(why_unreadable(folder.path / "none").find("there is no such file") != std::string::npos);
+  CHECK(why_unreadable(folder.path).find("this is a folder") != std::string::npos);
+  std::ofstream(folder.path / "empty").close();
+  CHECK(why_unreadable(folder.path / "empty").find("the file is empty") != std::string::npos);
+  CHECK(why_unreadable("/dev/null").find("no ordinary file") != std::string::npos);
+  write_file(folder.path / "long", std::string(100, 'x'));
+  CHECK_THROWS_AS(read_file(folder.path / "long", 99), InputError);
+  CHECK(read_file(folder.path / "long", 100).size() == 100);
+}
+
+TEST_CASE("a write that fails leaves the old file and nothing beside it") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path / "deep" / "result.txt";
+  write_file(file, "old");
+  CHECK_THROWS(write_atomically(file, [](const fs::path& temporary) {
+    std::ofstream(temporary) << "half";
+    throw std::runtime_error("the disk is full");
+  }));
+  CHECK(read_file(file) == "old");
+  CHECK(entries(file.parent_path()) == 1);
+  write_file(file, "new");
+  CHECK(read_file(file) == "new");
+}
+
+TEST_CASE("a picture is written as PNG or refused with its name") {
+  const TemporaryFolder folder;
+  write_png(folder.path / "grey.png", Image<std::uint8_t>(3, 2, 128));
+  CHECK(read_file(folder.path / "grey.png").substr(1, 3) == "PNG");
+  CHECK_THROWS_AS(write_png("/proc/none/grey.png", Image<std::uint8_t>(3, 2, 128)), InputError);
+}

@@ -1,0 +1,52 @@
+# A room is one folder, one library target, and the only headers its users see.
+#
+# Every include is written from the repository's root ("sim/core/pose.h"), but no target has the root on its
+# include path: each room's folder is linked into an include folder of its own, which only those targets get that
+# link the room. So an include that crosses a wall the architecture forbids does not compile.
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+
+option(INSONATE_WERROR "Treat the project's own warnings as errors" OFF)
+
+# What every target of the project's own code is compiled with. Contraction is off because a fused multiply-add
+# rounds differently from the pair it replaces, and scores have to come out the same to the last bit everywhere.
+add_library(insonate_options INTERFACE)
+target_compile_options(insonate_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -ffp-contract=off
+                                                  $<$<BOOL:${INSONATE_WERROR}>:-Werror>)
+
+find_program(CCACHE ccache)
+if(CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE}")
+endif()
+
+# insonate_room(<name> SOURCES <file>... [USES <room or library>...] [PRIVATELY <library>...])
+# makes the target insonate_<name> (alias insonate::<name>) of the current folder. USES are seen by the room's users
+# too, because its headers include them; what is linked PRIVATELY stays behind the room's wall.
+function(insonate_room name)
+  cmake_parse_arguments(ROOM "" "" "SOURCES;USES;PRIVATELY" ${ARGN})
+  file(RELATIVE_PATH folder "${CMAKE_SOURCE_DIR}" "${CMAKE_CURRENT_SOURCE_DIR}")
+  set(include_root "${CMAKE_BINARY_DIR}/rooms/${name}")
+  cmake_path(GET folder PARENT_PATH parent)
+  file(MAKE_DIRECTORY "${include_root}/${parent}")
+  file(CREATE_LINK "${CMAKE_CURRENT_SOURCE_DIR}" "${include_root}/${folder}" SYMBOLIC)
+
+  if(ROOM_SOURCES)
+    add_library(insonate_${name} STATIC ${ROOM_SOURCES})
+    target_include_directories(insonate_${name} PUBLIC "${include_root}")
+    target_link_libraries(insonate_${name} PUBLIC ${ROOM_USES} PRIVATE insonate_options ${ROOM_PRIVATELY})
+  else()
+    add_library(insonate_${name} INTERFACE)
+    target_include_directories(insonate_${name} INTERFACE "${include_root}")
+    target_link_libraries(insonate_${name} INTERFACE ${ROOM_USES})
+  endif()
+  add_library(insonate::${name} ALIAS insonate_${name})
+endfunction()
+
+# insonate_program(<name> SOURCES <file>... USES <room or library>...) makes an executable of the project.
+function(insonate_program name)
+  cmake_parse_arguments(PROGRAM "" "" "SOURCES;USES" ${ARGN})
+  add_executable(${name} ${PROGRAM_SOURCES})
+  target_link_libraries(${name} PRIVATE insonate_options ${PROGRAM_USES})
+endfunction()
