@@ -7,7 +7,8 @@ std::string sentence(const std::string& file, const std::string& place, const st
                      const std::string& remedy) {
   std::string text = file + ": ";
   if (!place.empty()) text += place + ": ";
-  return text + problem + "; " + remedy + ".";
+  text += problem + "; " + remedy;
+  return text.back() == '?' ? text : text + ".";
 }
 
 }  // namespace

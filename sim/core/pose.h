@@ -24,6 +24,7 @@ struct Pose {
   glm::dvec3 direction(const glm::dvec3& d) const { return rotation * d; }
   Pose inverse() const;
   glm::dmat4 matrix() const;
+  bool operator==(const Pose&) const = default;
 };
 
 Pose operator*(const Pose& a_from_b, const Pose& b_from_c);

@@ -1,1 +1,96 @@
 #include "sim/probe/probe.h"
+
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace insonate {
+namespace {
+
+// Angle of a curvilinear line from the central beam, from -fov/2 to fov/2 at position 0 to 1 across the face.
+double angle_at(const Probe& probe, double across) {
+  return glm::radians(probe.field_of_view_deg) * (across - 0.5);
+}
+
+struct Extent {
+  glm::dvec2 low, high;  // mm in the imaging plane
+};
+
+Extent fan_extent(const Probe& probe, double depth_mm) {
+  if (probe.kind == ProbeKind::linear) return {{-probe.width_mm / 2, 0}, {probe.width_mm / 2, depth_mm}};
+  const double half = glm::radians(probe.field_of_view_deg) / 2;
+  const double reach = probe.radius_mm + depth_mm;
+  // Beyond a half turn the fan is widest at its equator, not at its deep corners.
+  const double half_width = reach * std::sin(std::min(half, glm::radians(90.0)));
+  const double top = std::min(probe.radius_mm * std::cos(half), reach * std::cos(half)) - probe.radius_mm;
+  return {{-half_width, top}, {half_width, depth_mm}};
+}
+
+}  // namespace
+
+const std::vector<Probe>& probes() {
+  static const std::vector<Probe> all = [] {
+    Probe curvilinear;  // as common abdominal arrays are: 60 mm radius, 60 degrees, 2 to 5 MHz
+    curvilinear.name = "curvilinear";
+    Probe linear;  // as common vascular arrays are: 38 to 40 mm, 5 to 10 MHz
+    linear.name = "linear";
+    linear.kind = ProbeKind::linear;
+    linear.frequency_mhz = 7.5;
+    linear.depth_mm = 50;
+    return std::vector<Probe>{curvilinear, linear};
+  }();
+  return all;
+}
+
+const Probe* find_probe(std::string_view name) {
+  const auto& all = probes();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Probe& probe) { return probe.name == name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+ScanLines scan_lines(const Probe& probe, double depth_mm, int samples) {
+  ScanLines set;
+  set.samples = samples;
+  set.r_max_mm = depth_mm;
+  for (int i = 0; i < probe.lines; ++i) {
+    const double across = (i + 0.5) / probe.lines;
+    if (probe.kind == ProbeKind::linear) {
+      set.lines.push_back({{probe.width_mm * (across - 0.5), 0, 0}, {0, 1, 0}});
+    } else {
+      const double angle = angle_at(probe, across);
+      const glm::dvec3 direction(std::sin(angle), std::cos(angle), 0);
+      set.lines.push_back({glm::dvec3(0, -probe.radius_mm, 0) + probe.radius_mm * direction, direction});
+    }
+  }
+  return set;
+}
+
+std::optional<LinePosition> line_position(const Probe& probe, double depth_mm, const glm::dvec2& xy_mm) {
+  double across = 0, r = 0;
+  if (probe.kind == ProbeKind::linear) {
+    across = xy_mm.x / probe.width_mm + 0.5;
+    r = xy_mm.y;
+  } else {
+    const double from_apex = xy_mm.y + probe.radius_mm;
+    across = std::atan2(xy_mm.x, from_apex) / glm::radians(probe.field_of_view_deg) + 0.5;
+    r = std::hypot(xy_mm.x, from_apex) - probe.radius_mm;
+  }
+  if (across < 0 || across > 1 || r < 0 || r > depth_mm) return std::nullopt;
+  return LinePosition{across * probe.lines - 0.5, r};
+}
+
+ImageGeometry image_geometry(const Probe& probe, double depth_mm, int width, int height) {
+  const Extent fan = fan_extent(probe, depth_mm);
+  const glm::dvec2 size = fan.high - fan.low;
+  ImageGeometry geometry;
+  geometry.width = width;
+  geometry.height = height;
+  geometry.mm_per_pixel = std::max(size.x / width, size.y / height);
+  const glm::dvec2 shown = geometry.mm_per_pixel * glm::dvec2(width, height);
+  geometry.top_left_mm = (fan.low + fan.high - shown) / 2.0 + geometry.mm_per_pixel / 2;
+  return geometry;
+}
+
+}  // namespace insonate

@@ -1,0 +1,120 @@
+#include "sim/gl/objects.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+namespace insonate::gl {
+
+Buffer::Buffer(std::size_t bytes, const void* data) {
+  GLuint name = 0;
+  glCreateBuffers(1, &name);
+  object_ = Object<BufferKind>(name);
+  glNamedBufferStorage(name, GLsizeiptr(bytes), data, GL_DYNAMIC_STORAGE_BIT);
+}
+
+void Buffer::write(const void* data, std::size_t bytes) {
+  glNamedBufferSubData(object_.name(), 0, GLsizeiptr(bytes), data);
+}
+
+void Buffer::read(void* data, std::size_t bytes) const {
+  glGetNamedBufferSubData(object_.name(), 0, GLsizeiptr(bytes), data);
+}
+
+Texture Texture::make(GLenum target, GLenum format, int width, int height, int depth, Filter filter, Wrap wrap) {
+  GLint limit = 0;
+  glGetIntegerv(target == GL_TEXTURE_3D ? GL_MAX_3D_TEXTURE_SIZE : GL_MAX_TEXTURE_SIZE, &limit);
+  if (std::max({width, height, depth}) > limit)
+    throw std::runtime_error("a texture of " + std::to_string(width) + " x " + std::to_string(height) + " x " +
+                             std::to_string(depth) + " is above the device's limit of " + std::to_string(limit));
+  Texture texture;
+  GLuint name = 0;
+  glCreateTextures(target, 1, &name);
+  texture.object_ = Object<TextureKind>(name);
+  texture.format_ = format;
+  texture.width_ = width;
+  texture.height_ = height;
+  texture.depth_ = depth;
+  if (target == GL_TEXTURE_3D)
+    glTextureStorage3D(name, 1, format, width, height, depth);
+  else
+    glTextureStorage2D(name, 1, format, width, height);
+  const GLint gl_filter = filter == Filter::linear ? GL_LINEAR : GL_NEAREST;
+  glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, gl_filter);
+  glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, gl_filter);
+  const GLint gl_wrap = wrap == Wrap::edge ? GL_CLAMP_TO_EDGE : wrap == Wrap::repeat ? GL_REPEAT : GL_CLAMP_TO_BORDER;
+  for (GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
+    glTextureParameteri(name, axis, gl_wrap);
+  return texture;
+}
+
+Texture Texture::make_2d(GLenum format, int width, int height, Filter filter, Wrap wrap) {
+  return make(GL_TEXTURE_2D, format, width, height, 1, filter, wrap);
+}
+
+Texture Texture::make_3d(GLenum format, int width, int height, int depth, Filter filter, Wrap wrap) {
+  return make(GL_TEXTURE_3D, format, width, height, depth, filter, wrap);
+}
+
+void Texture::set_border(float r, float g, float b, float a) {
+  const float colour[] = {r, g, b, a};
+  glTextureParameterfv(object_.name(), GL_TEXTURE_BORDER_COLOR, colour);
+}
+
+void Texture::write(GLenum layout, GLenum type, const void* pixels) {
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  GLint target = 0;
+  glGetTextureParameteriv(object_.name(), GL_TEXTURE_TARGET, &target);
+  if (GLenum(target) == GL_TEXTURE_3D)
+    glTextureSubImage3D(object_.name(), 0, 0, 0, 0, width_, height_, depth_, layout, type, pixels);
+  else
+    glTextureSubImage2D(object_.name(), 0, 0, 0, width_, height_, layout, type, pixels);
+}
+
+void Texture::read(GLenum layout, GLenum type, void* pixels, std::size_t bytes) const {
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
+  glGetTextureImage(object_.name(), 0, layout, type, GLsizei(bytes), pixels);
+}
+
+void Texture::bind_image(GLuint unit, GLenum access) const {
+  glBindImageTexture(unit, object_.name(), 0, GL_FALSE, 0, access, format_);
+}
+
+Framebuffer::Framebuffer(const Texture& colour) : width_(colour.width()), height_(colour.height()) {
+  GLuint name = 0;
+  glCreateFramebuffers(1, &name);
+  object_ = Object<FramebufferKind>(name);
+  glNamedFramebufferTexture(name, GL_COLOR_ATTACHMENT0, colour.name(), 0);
+}
+
+void Framebuffer::bind() const {
+  glBindFramebuffer(GL_FRAMEBUFFER, object_.name());
+  glViewport(0, 0, width_, height_);
+}
+
+FullScreenTriangle::FullScreenTriangle() {
+  GLuint name = 0;
+  glCreateVertexArrays(1, &name);
+  object_ = Object<VertexArrayKind>(name);
+}
+
+void FullScreenTriangle::draw() const {
+  glBindVertexArray(object_.name());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glBindVertexArray(0);
+}
+
+Timer::Timer() {
+  GLuint name = 0;
+  glCreateQueries(GL_TIME_ELAPSED, 1, &name);
+  object_ = Object<QueryKind>(name);
+}
+
+double Timer::milliseconds() const {
+  GLuint64 nanoseconds = 0;
+  glGetQueryObjectui64v(object_.name(), GL_QUERY_RESULT, &nanoseconds);
+  return double(nanoseconds) * 1e-6;
+}
+
+}  // namespace insonate::gl

@@ -1,0 +1,147 @@
+#pragma once
+
+#include <epoxy/gl.h>
+
+#include <cstddef>
+#include <utility>
+
+/// OpenGL's objects as move-only values: each is deleted by its one owner, with the context it was made in current.
+namespace insonate::gl {
+
+/// The name of an OpenGL object and how to delete it.
+template <typename Kind>
+class Object {
+public:
+  Object() = default;
+  explicit Object(GLuint name) : name_(name) {}
+  Object(Object&& other) noexcept : name_(std::exchange(other.name_, 0)) {}
+  Object& operator=(Object&& other) noexcept {
+    std::swap(name_, other.name_);
+    return *this;
+  }
+  ~Object() {
+    if (name_) Kind::destroy(name_);
+  }
+  GLuint name() const { return name_; }
+  explicit operator bool() const { return name_ != 0; }
+
+private:
+  GLuint name_ = 0;
+};
+
+struct BufferKind {
+  static void destroy(GLuint name) { glDeleteBuffers(1, &name); }
+};
+
+/// Bytes on the device.
+class Buffer {
+public:
+  Buffer() = default;
+  /// Storage of fixed size, filled from `data` when there is any.
+  Buffer(std::size_t bytes, const void* data);
+
+  /// Replaces the first `bytes` bytes.
+  void write(const void* data, std::size_t bytes);
+  void read(void* data, std::size_t bytes) const;
+  void bind_uniform(GLuint binding) const { glBindBufferBase(GL_UNIFORM_BUFFER, binding, object_.name()); }
+  void bind_storage(GLuint binding) const { glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, object_.name()); }
+  GLuint name() const { return object_.name(); }
+
+private:
+  Object<BufferKind> object_;
+};
+
+struct TextureKind {
+  static void destroy(GLuint name) { glDeleteTextures(1, &name); }
+};
+
+enum class Filter { nearest, linear };
+
+/// What a texture gives outside [0, 1].
+enum class Wrap { edge, repeat, border };
+
+/// A 2D or 3D texture with one level and immutable storage.
+class Texture {
+public:
+  Texture() = default;
+
+  /// @param format  sized internal format, such as GL_RGBA32F
+  static Texture make_2d(GLenum format, int width, int height, Filter filter, Wrap wrap = Wrap::edge);
+  /// Throws std::runtime_error when a side is above what the device takes (GL_MAX_3D_TEXTURE_SIZE).
+  static Texture make_3d(GLenum format, int width, int height, int depth, Filter filter, Wrap wrap);
+
+  /// The colour that Wrap::border gives outside.
+  void set_border(float r, float g, float b, float a);
+
+  /// Uploads everything; `pixels` are tightly packed values of `type` in `layout` (GL_RG, GL_SHORT, ...).
+  void write(GLenum layout, GLenum type, const void* pixels);
+  /// Reads everything back, tightly packed.
+  void read(GLenum layout, GLenum type, void* pixels, std::size_t bytes) const;
+
+  void bind(GLuint unit) const { glBindTextureUnit(unit, object_.name()); }
+  void bind_image(GLuint unit, GLenum access) const;
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  int depth() const { return depth_; }
+  GLuint name() const { return object_.name(); }
+  explicit operator bool() const { return bool(object_); }
+
+private:
+  static Texture make(GLenum target, GLenum format, int width, int height, int depth, Filter filter, Wrap wrap);
+
+  Object<TextureKind> object_;
+  GLenum format_ = 0;
+  int width_ = 0, height_ = 0, depth_ = 0;
+};
+
+struct FramebufferKind {
+  static void destroy(GLuint name) { glDeleteFramebuffers(1, &name); }
+};
+
+/// A texture to draw into.
+class Framebuffer {
+public:
+  Framebuffer() = default;
+  /// @param colour  outlives the framebuffer
+  explicit Framebuffer(const Texture& colour);
+  /// Binds it and sets the viewport to the whole of it.
+  void bind() const;
+
+private:
+  Object<FramebufferKind> object_;
+  int width_ = 0, height_ = 0;
+};
+
+struct VertexArrayKind {
+  static void destroy(GLuint name) { glDeleteVertexArrays(1, &name); }
+};
+
+/// Draws a triangle that covers the viewport; the vertex shader makes its corners from gl_VertexID.
+class FullScreenTriangle {
+public:
+  FullScreenTriangle();
+  void draw() const;
+
+private:
+  Object<VertexArrayKind> object_;
+};
+
+struct QueryKind {
+  static void destroy(GLuint name) { glDeleteQueries(1, &name); }
+};
+
+/// Times what the device does between begin() and end().
+class Timer {
+public:
+  Timer();
+  void begin() { glBeginQuery(GL_TIME_ELAPSED, object_.name()); }
+  void end() { glEndQuery(GL_TIME_ELAPSED); }
+  /// Waits for the device. Milliseconds.
+  double milliseconds() const;
+
+private:
+  Object<QueryKind> object_;
+};
+
+}  // namespace insonate::gl

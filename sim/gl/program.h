@@ -1,0 +1,69 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "sim/gl/objects.h"
+
+namespace insonate::gl {
+
+/// The text of the project's shaders: those embedded in the program, or those of a folder while one is being edited.
+class ShaderSources {
+public:
+  ShaderSources() = default;
+  /// Takes files from `folder` (laid out as sim/shaders) where they exist there, else the embedded ones.
+  explicit ShaderSources(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  /// A shader with its `#include "shared/..."` lines replaced by those files, and #line directives so that the
+  /// compiler's messages can be traced back. Throws std::runtime_error when there is no such shader.
+  /// @param files  receives the names in the order of the numbers that #line gives them
+  std::string text(std::string_view name, std::vector<std::string>& files) const;
+
+  /// When the newest file of the folder was written; nothing when shaders come from the program alone.
+  std::optional<std::filesystem::file_time_type> last_change() const;
+
+private:
+  std::string load(std::string_view name) const;
+  void expand(std::string_view name, std::string& text, std::vector<std::string>& files) const;
+
+  std::optional<std::filesystem::path> folder_;
+};
+
+/// Lines put in front of a shader as `#define NAME VALUE`.
+using Defines = std::vector<std::pair<std::string, std::string>>;
+
+struct ProgramKind {
+  static void destroy(GLuint name) { glDeleteProgram(name); }
+};
+
+/// A linked program that can be made anew from its files while it is in use.
+class Program {
+public:
+  Program() = default;
+  /// One compute shader, or a vertex and a fragment shader; the ending of a name says which (.comp, .vert, .frag).
+  /// Throws std::runtime_error with file, line and the compiler's words when it does not build.
+  Program(const ShaderSources& sources, std::vector<std::string> shaders, Defines defines = {});
+
+  /// Builds again. When that fails the program goes on as it was, and the compiler's words are returned.
+  std::optional<std::string> reload(const ShaderSources& sources);
+
+  void use() const { glUseProgram(object_.name()); }
+  GLint uniform(const char* name) const { return glGetUniformLocation(object_.name(), name); }
+  GLuint name() const { return object_.name(); }
+
+  /// Runs a compute program over at least `x` by `y` invocations in groups of its local size, and makes what it wrote
+  /// visible to whatever comes next.
+  void dispatch(int x, int y) const;
+
+private:
+  Object<ProgramKind> object_;
+  std::vector<std::string> shaders_;
+  Defines defines_;
+  int group_x_ = 1, group_y_ = 1;
+};
+
+}  // namespace insonate::gl

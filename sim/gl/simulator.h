@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "sim/core/pose.h"
+#include "sim/gl/objects.h"
+#include "sim/gl/program.h"
+#include "sim/model/acoustic_volume.h"
+#include "sim/model/settings.h"
+#include "sim/model/stages.h"
+#include "sim/model/tissue.h"
+#include "sim/probe/probe.h"
+
+namespace insonate::gl {
+
+/// The stages of model S in the order they run; each reads what the one before it wrote.
+enum class Stage { traverse, beam, scan_convert, smooth, fuse, maximum, compress };
+inline constexpr int kStageCount = 7;
+
+/// Model S on the graphics card: a volume, a probe, a pose and settings in, a picture out.
+///
+/// Setters only note what changed; image() runs the first stage that a change reaches and those behind it, and nothing
+/// when nothing changed. Needs an OpenGL 4.5 context, current whenever it is used, from construction to destruction.
+/// Throws std::runtime_error when shaders do not build or the device cannot hold the volume.
+class Simulator {
+public:
+  explicit Simulator(const ShaderSources& sources = {});
+  ~Simulator();
+  Simulator(Simulator&&) noexcept;
+  Simulator& operator=(Simulator&&) noexcept;
+
+  void set_volume(const AcousticVolume& volume, const TissueTable& table);
+  /// @param depth_mm  10 to 400
+  void set_probe(const Probe& probe, double depth_mm);
+  void set_settings(const Settings& settings);
+  /// @param patient_from_probe  rigid and finite; checked where poses enter the program
+  void set_pose(const Pose& patient_from_probe);
+
+  /// The picture: RGBA8, grey in red, green and blue, alpha 255 inside the fan; row 0 is the top.
+  const Texture& image();
+  /// How its pixels lie in the probe's plane.
+  const ImageGeometry& geometry() const;
+
+  /// The volume as uploaded, (HU, echogenicity in hundredths of a dB) / 32767, for views of the same patient.
+  const Texture& volume_texture() const;
+  /// Patient mm -> that texture's coordinates.
+  const glm::dmat4& texture_from_patient() const;
+
+  /// Everything that crosses the stages, read back. Runs what is due first.
+  Stages<float> read_stages();
+
+  /// How often each stage has run, in the order of Stage.
+  const std::array<long, kStageCount>& runs() const;
+
+  /// Builds all shaders again; what does not build goes on as it was and is told of.
+  std::optional<std::string> reload(const ShaderSources& sources);
+
+private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace insonate::gl

@@ -1,0 +1,48 @@
+// The parameters of the simulation's stages: read by the shaders and written by C++, which both include this file.
+// std140: every group of four scalars below fills one 16-byte row.
+#ifdef __cplusplus
+#pragma once
+#include <glm/mat4x4.hpp>
+#include <glm/vec4.hpp>
+namespace insonate::gl {
+using glm::mat4;
+using glm::vec4;
+struct SimulationParameters {
+#else
+layout(std140, binding = 0) uniform SimulationParameters {
+#endif
+  mat4 texture_from_probe;  // probe mm -> coordinates of the volume's texture, [0, 1] over its box
+  mat4 lattice_from_probe;  // probe mm -> coordinates of the scatterer lattice, period 1
+
+  int lines;    // N
+  int samples;  // D
+  float r_min_mm;
+  float dr_mm;
+
+  float half_reflection_length_mm;  // l/2
+  float reflection_exponent;        // dr/l
+  float absorption_per_sample;      // f dr/100 ln 10: times dB/(cm MHz), the natural logarithm that a sample takes
+  float gel_mm;
+
+  int speckle;         // 1 draws scatterers, 0 leaves their mean
+  int beam_half;       // (n_a - 1)/2
+  int two_way;         // 1: T = I^2
+  float blend;         // b
+
+  int reflection_radius_px;    // half width of the smoothing windows; 0 for none
+  int transmission_radius_px;
+  float gain;                  // as a factor
+  float dynamic_range_db;      // beta
+
+  float fixed_level;
+  int frame_maximum;  // 1: the brightest pixel is white
+  int unused0;
+  int unused1;
+
+  vec4 tgc_db[2];  // at 8 depths from the face to full depth
+#ifdef __cplusplus
+};
+}  // namespace insonate::gl
+#else
+};
+#endif
