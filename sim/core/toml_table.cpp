@@ -1,0 +1,143 @@
+#include "sim/core/toml_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "sim/core/input_error.h"
+#include "sim/core/suggest.h"
+
+namespace insonate {
+namespace {
+
+std::string line_and_column(const toml::source_position& at) {
+  return "line " + std::to_string(at.line) + ", column " + std::to_string(at.column);
+}
+
+std::string with_number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", value);
+  return text;
+}
+
+std::string quoted(std::string_view key) {
+  return "'" + std::string(key) + "'";
+}
+
+}  // namespace
+
+toml::table parse_toml(const std::string& file, std::string_view text) {
+  try {
+    return toml::parse(text, file);
+  } catch (const toml::parse_error& error) {
+    std::string problem(error.description());
+    std::replace_if(
+        problem.begin(), problem.end(), [](unsigned char c) { return c < ' '; }, ' ');
+    throw InputError(file, line_and_column(error.source().begin), "this is not TOML: " + problem, "correct the line");
+  }
+}
+
+void TomlTable::fail(std::string_view key, const std::string& problem, const std::string& remedy) const {
+  const toml::node* node = key.empty() ? nullptr : table_->get(key);
+  toml::source_position at = (node ? node : static_cast<const toml::node*>(table_))->source().begin;
+  std::string place = at ? line_and_column(at) : "";
+  if (!name_.empty()) place += (place.empty() ? "" : ", ") + name_;
+  throw InputError(file_, place, problem, remedy);
+}
+
+void TomlTable::allow_only(const std::vector<std::string>& keys) const {
+  for (const auto& [key, value] : *table_)
+    if (std::find(keys.begin(), keys.end(), key.str()) == keys.end())
+      fail(key.str(), "the key " + quoted(key.str()) + " is unknown here", suggest(key.str(), keys));
+}
+
+std::vector<std::string> TomlTable::keys() const {
+  std::vector<std::string> names;
+  for (const auto& [key, value] : *table_) names.emplace_back(key.str());
+  return names;
+}
+
+const toml::node& TomlTable::required(std::string_view key, const char* kind) const {
+  const toml::node* node = table_->get(key);
+  if (!node) fail("", "the key " + quoted(key) + " is missing", std::string("add it: ") + kind);
+  return *node;
+}
+
+double TomlTable::number(std::string_view key, double least, double most) const {
+  const auto value = required(key, "a number").value<double>();
+  if (!value || !(*value >= least && *value <= most))
+    fail(key, quoted(key) + (value ? " is " + with_number(*value) : " is no number"),
+         "give a number from " + with_number(least) + " to " + with_number(most));
+  return *value;
+}
+
+int TomlTable::whole_number(std::string_view key, int least, int most) const {
+  const auto* value = required(key, "a whole number").as_integer();
+  if (!value || value->get() < least || value->get() > most)
+    fail(key, quoted(key) + (value ? " is " + std::to_string(value->get()) : " is no whole number"),
+         "give a whole number from " + std::to_string(least) + " to " + std::to_string(most));
+  return int(value->get());
+}
+
+bool TomlTable::boolean(std::string_view key) const {
+  const auto* value = required(key, "true or false").as_boolean();
+  if (!value) fail(key, quoted(key) + " is neither true nor false", "write true or false without quotes");
+  return value->get();
+}
+
+std::string TomlTable::text(std::string_view key) const {
+  const auto* value = required(key, "a text in quotes").as_string();
+  if (!value || value->get().empty()) fail(key, quoted(key) + " is no text", "write a text in quotes");
+  return value->get();
+}
+
+std::vector<double> TomlTable::numbers(std::string_view key, int count) const {
+  const std::string wanted = std::to_string(count) + " numbers in square brackets";
+  const toml::array* array = required(key, wanted.c_str()).as_array();
+  if (!array) fail(key, quoted(key) + " is no list", "write " + wanted);
+  std::vector<double> values;
+  for (const toml::node& element : *array) {
+    const auto value = element.value<double>();
+    if (!value || !std::isfinite(*value))
+      fail(key, quoted(key) + " holds something that is no finite number", "write " + wanted);
+    values.push_back(*value);
+  }
+  if (values.size() != std::size_t(count))
+    fail(key, quoted(key) + " has " + std::to_string(values.size()) + " numbers", "write " + wanted);
+  return values;
+}
+
+std::vector<std::string> TomlTable::texts(std::string_view key) const {
+  std::vector<std::string> values;
+  if (!has(key)) return values;
+  const toml::array* array = table_->get(key)->as_array();
+  if (!array) fail(key, quoted(key) + " is no list", "write texts in square brackets");
+  for (const toml::node& element : *array) {
+    const auto* value = element.as_string();
+    if (!value || value->get().empty())
+      fail(key, quoted(key) + " holds something that is no text", "put each in quotes");
+    values.push_back(value->get());
+  }
+  return values;
+}
+
+TomlTable TomlTable::table(std::string_view key) const {
+  const toml::table* table = required(key, "a table").as_table();
+  if (!table) fail(key, quoted(key) + " is no table", "write it as [" + std::string(key) + "]");
+  return {file_, (name_.empty() ? "[" : name_ + " [") + std::string(key) + "]", *table};
+}
+
+std::vector<TomlTable> TomlTable::tables(std::string_view key) const {
+  std::vector<TomlTable> all;
+  if (!has(key)) return all;
+  const toml::array* array = table_->get(key)->as_array();
+  const std::string heading = "[[" + std::string(key) + "]]";
+  if (!array) fail(key, quoted(key) + " is no list of tables", "write each as " + heading);
+  for (const toml::node& element : *array) {
+    if (!element.is_table()) fail(key, quoted(key) + " holds something that is no table", "write each as " + heading);
+    all.emplace_back(file_, heading + " " + std::to_string(all.size() + 1), *element.as_table());
+  }
+  return all;
+}
+
+}  // namespace insonate
