@@ -1,1 +1,150 @@
 #include "sim/model/acoustic_volume.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <stdexcept>
+
+#include "sim/core/input_error.h"
+#include "sim/core/suggest.h"
+
+namespace insonate {
+namespace {
+
+constexpr int kLabels = 256;
+
+// Texture: CT noise and structure of +-10 to 15 HU within an organ becomes +-1 to 2 dB of grain. Beyond 30 HU from the
+// label's mean the voxel is no texture but partial volume at the organ's rim; the shift fades out by 60 HU, so that
+// rims get no dark or bright seam. Estimates, chosen by eye on real scans.
+constexpr double kTextureDbPerHu = 0.1;
+constexpr double kTextureHu = 30;
+constexpr double kRimHu = 60;
+
+// A voxel counts as partial volume when two opposite neighbours at this distance enclose its density with a margin on
+// both sides. The distance spans half the blur of an edge in resampled thick slices; the margin is above the noise of
+// an abdominal CT (10 to 15 HU), so that noise in a cyst does not fill it with echoes.
+constexpr double kEdgeReachMm = 2;
+constexpr int kEdgeMarginHu = 20;
+
+std::int16_t centidecibel(double db) {
+  return std::int16_t(std::lround(db * 100));
+}
+
+double texture_db(double hu_above_mean) {
+  const double away = std::abs(hu_above_mean);
+  const double fade = std::clamp((kRimHu - away) / (kRimHu - kTextureHu), 0.0, 1.0);
+  return kTextureDbPerHu * hu_above_mean * fade;
+}
+
+/// Echogenicity by density alone, for each int16 Hounsfield unit.
+std::vector<std::int16_t> tabulate(const TissueTable& table) {
+  std::vector<std::int16_t> by_hu(1u << 16);
+  for (int hu = -32768; hu <= 32767; ++hu) by_hu[std::size_t(hu + 32768)] = centidecibel(table.at(hu).echogenicity_db);
+  return by_hu;
+}
+
+/// Per label value, its mean density. Sums are of whole numbers, so the order in which threads add them is no matter.
+std::array<double, kLabels> mean_densities(const Volume<std::int16_t>& ct, const Volume<std::uint8_t>& labels) {
+  std::array<std::atomic<std::int64_t>, kLabels> sums{}, counts{};
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, ct.voxels.size(), 1u << 18), [&](const auto& range) {
+    std::array<std::int64_t, kLabels> sum{}, count{};
+    for (std::size_t v = range.begin(); v != range.end(); ++v) {
+      sum[labels.voxels[v]] += ct.voxels[v];
+      ++count[labels.voxels[v]];
+    }
+    for (int l = 0; l < kLabels; ++l)
+      if (count[std::size_t(l)]) {
+        sums[std::size_t(l)] += sum[std::size_t(l)];
+        counts[std::size_t(l)] += count[std::size_t(l)];
+      }
+  });
+  std::array<double, kLabels> means{};
+  for (std::size_t l = 0; l < kLabels; ++l) means[l] = counts[l] ? double(sums[l]) / double(counts[l]) : 0;
+  return means;
+}
+
+class EchogenicityOf {
+public:
+  EchogenicityOf(const Volume<std::int16_t>& ct, const Volume<std::uint8_t>& labels,
+                 const std::vector<std::string>& tissue_of, const TissueTable& table)
+      : ct_(ct), labels_(labels), by_hu_(tabulate(table)) {
+    for (int axis = 0; axis < 3; ++axis)
+      reach_[axis] = std::max(1, int(std::lround(kEdgeReachMm / ct.grid.spacing[axis])));
+    if (labels.empty()) return;
+    means_ = mean_densities(ct, labels);
+    for (std::size_t l = 1; l < tissue_of.size(); ++l) {
+      if (tissue_of[l].empty()) continue;
+      const auto known = table.labelled.find(tissue_of[l]);
+      if (known == table.labelled.end()) {
+        std::vector<std::string> names;
+        for (const auto& [name, tissue] : table.labelled) names.push_back(name);
+        throw InputError("label table", "label " + std::to_string(l), "the tissue '" + tissue_of[l] + "' is unknown",
+                         suggest(tissue_of[l], names));
+      }
+      has_tissue_[l] = true;
+      tissue_db_[l] = known->second.echogenicity_db;
+    }
+  }
+
+  std::int16_t operator()(const glm::ivec3& i) const {
+    const std::size_t v = ct_.grid.offset(i);
+    const std::uint8_t label = labels_.empty() ? 0 : labels_.voxels[v];
+    const int hu = ct_.voxels[v];
+    if (has_tissue_[label])
+      return centidecibel(std::clamp(tissue_db_[label] + texture_db(hu - means_[label]), -60.0, 30.0));
+    std::int16_t echo = by_density(hu);
+    std::ptrdiff_t stride = 1;
+    for (int axis = 0; axis < 3; ++axis) {
+      const int reach = reach_[axis];
+      if (i[axis] >= reach && i[axis] + reach < ct_.grid.size[axis]) {
+        const std::int16_t* here = ct_.voxels.data() + v;
+        const int before = here[-reach * stride], after = here[reach * stride];
+        const auto [low, high] = std::minmax(before, after);
+        if (hu - low >= kEdgeMarginHu && high - hu >= kEdgeMarginHu)
+          echo = std::max({echo, by_density(before), by_density(after)});
+      }
+      stride *= ct_.grid.size[axis];
+    }
+    return echo;
+  }
+
+private:
+  std::int16_t by_density(int hu) const { return by_hu_[std::size_t(hu + 32768)]; }
+
+  const Volume<std::int16_t>& ct_;
+  const Volume<std::uint8_t>& labels_;
+  std::vector<std::int16_t> by_hu_;
+  glm::ivec3 reach_{1};
+  std::array<double, kLabels> means_{};
+  std::array<double, kLabels> tissue_db_{};
+  std::array<bool, kLabels> has_tissue_{};
+};
+
+}  // namespace
+
+AcousticVolume make_acoustic_volume(const Volume<std::int16_t>& ct, const Volume<std::uint8_t>& labels,
+                                    const std::vector<std::string>& tissue_of, const TissueTable& table) {
+  if (!labels.empty() && labels.grid.size != ct.grid.size)
+    throw std::invalid_argument("make_acoustic_volume: the labels are on another grid than the CT");
+  if (tissue_of.size() > kLabels) throw std::invalid_argument("make_acoustic_volume: more than 256 label values");
+  const EchogenicityOf echogenicity(ct, labels, tissue_of, table);
+  AcousticVolume acoustic;
+  acoustic.grid = ct.grid;
+  acoustic.voxels.resize(ct.voxels.size());
+  tbb::parallel_for(tbb::blocked_range<int>(0, ct.grid.size.z), [&](const auto& slices) {
+    for (int z = slices.begin(); z != slices.end(); ++z)
+      for (int y = 0; y < ct.grid.size.y; ++y)
+        for (int x = 0; x < ct.grid.size.x; ++x) {
+          const glm::ivec3 i(x, y, z);
+          const std::size_t v = ct.grid.offset(i);
+          acoustic.voxels[v] = {ct.voxels[v], echogenicity(i)};
+        }
+  });
+  return acoustic;
+}
+
+}  // namespace insonate

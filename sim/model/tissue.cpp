@@ -1,1 +1,69 @@
 #include "sim/model/tissue.h"
+
+#include <algorithm>
+
+#include "sim/core/files.h"
+#include "sim/core/toml_table.h"
+
+namespace insonate {
+namespace {
+
+constexpr std::size_t kLargestFile = 1u << 20;
+constexpr int kMostKnots = 256;
+
+// Beyond every tissue and metal in the sources, so that what is refused is a slip of the keyboard.
+constexpr double kLeastImpedance = 1e-4, kMostImpedance = 100;
+constexpr double kMostAbsorption = 1000;
+constexpr double kLeastEchogenicity = -60, kMostEchogenicity = 30;
+
+TissueKnot read_knot(const TomlTable& entry) {
+  entry.allow_only({"hu", "impedance", "absorption", "echogenicity"});
+  return {entry.whole_number("hu", -1024, 32767), entry.number("impedance", kLeastImpedance, kMostImpedance),
+          entry.number("absorption", 0, kMostAbsorption),
+          entry.number("echogenicity", kLeastEchogenicity, kMostEchogenicity)};
+}
+
+}  // namespace
+
+TissueKnot TissueTable::at(double hu) const {
+  const auto above =
+      std::upper_bound(knots.begin(), knots.end(), hu, [](double value, const TissueKnot& k) { return value < k.hu; });
+  if (above == knots.begin()) return knots.front();
+  if (above == knots.end()) return knots.back();
+  const TissueKnot &a = above[-1], &b = *above;
+  const double t = (hu - a.hu) / (b.hu - a.hu);
+  return {int(hu), a.impedance_mrayl + t * (b.impedance_mrayl - a.impedance_mrayl),
+          a.absorption_db_cm_mhz + t * (b.absorption_db_cm_mhz - a.absorption_db_cm_mhz),
+          a.echogenicity_db + t * (b.echogenicity_db - a.echogenicity_db)};
+}
+
+TissueTable read_tissue_table(const std::filesystem::path& toml_file) {
+  const toml::table parsed = parse_toml(toml_file.string(), read_file(toml_file, kLargestFile));
+  const TomlTable root(toml_file.string(), "", parsed);
+  root.allow_only({"knot", "tissue"});
+
+  TissueTable table;
+  for (const TomlTable& entry : root.tables("knot")) {
+    const TissueKnot knot = read_knot(entry);
+    if (!table.knots.empty() && knot.hu <= table.knots.back().hu)
+      entry.fail("hu",
+                 "'hu' is " + std::to_string(knot.hu) + " after a knot at " + std::to_string(table.knots.back().hu),
+                 "order the knots by rising hu");
+    table.knots.push_back(knot);
+  }
+  if (table.knots.size() < 2 || table.knots.size() > kMostKnots)
+    root.fail("knot", "there are " + std::to_string(table.knots.size()) + " knots",
+              "give 2 to " + std::to_string(kMostKnots) + " [[knot]] entries");
+
+  if (root.has("tissue")) {
+    const TomlTable tissues = root.table("tissue");
+    for (const std::string& name : tissues.keys()) {
+      const TomlTable entry = tissues.table(name);
+      entry.allow_only({"echogenicity_db"});
+      table.labelled[name] = {entry.number("echogenicity_db", kLeastEchogenicity, kMostEchogenicity)};
+    }
+  }
+  return table;
+}
+
+}  // namespace insonate

@@ -1,0 +1,145 @@
+#include "sim/model/acoustic_volume.h"
+
+#include <catch2/catch.hpp>
+#include <tbb/global_control.h>
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+
+#include "sim/core/hash.h"
+#include "sim/core/input_error.h"
+
+using namespace insonate;
+
+namespace {
+
+const TissueTable& shipped() {
+  static const TissueTable table = read_tissue_table(std::filesystem::path(INSONATE_ASSETS_FOLDER) / "tissues.toml");
+  return table;
+}
+
+/// A CT whose density is a function of the position along x in mm.
+template <typename Density>
+Volume<std::int16_t> along_x(glm::ivec3 size, double spacing_mm, Density density) {
+  Volume<std::int16_t> ct;
+  ct.grid.size = size;
+  ct.grid.spacing = glm::dvec3(spacing_mm);
+  for (int k = 0; k < size.z; ++k)
+    for (int j = 0; j < size.y; ++j)
+      for (int i = 0; i < size.x; ++i) ct.voxels.push_back(std::int16_t(std::lround(density(i * spacing_mm))));
+  return ct;
+}
+
+/// From one density to another over about `width_mm`, as a scanner blurs an edge at 20 mm.
+auto edge(double from, double to, double width_mm) {
+  return [=](double x) { return from + (to - from) / (1 + std::exp(-(x - 20) * 4 / width_mm)); };
+}
+
+double echogenicity_db(const AcousticVolume& volume, const glm::ivec3& i) {
+  return volume.at(i).echogenicity_cdb / 100.0;
+}
+
+double darkest_db(const AcousticVolume& volume) {
+  double least = 1000;
+  for (const AcousticVoxel& voxel : volume.voxels) least = std::min(least, voxel.echogenicity_cdb / 100.0);
+  return least;
+}
+
+}  // namespace
+
+TEST_CASE("without labels echogenicity follows density and the CT is kept as it is") {
+  for (const int hu : {-100, 5, 60}) {
+    const AcousticVolume volume =
+        make_acoustic_volume(along_x({8, 8, 8}, 1, [&](double) { return hu; }), {}, {}, shipped());
+    CHECK(volume.grid.size == glm::ivec3(8));
+    CHECK(volume.at({4, 4, 4}).hu == hu);
+    CHECK(echogenicity_db(volume, {4, 4, 4}) == Approx(shipped().at(hu).echogenicity_db));
+  }
+}
+
+TEST_CASE("the edge between fat and organ has no dark outline") {
+  for (const double spacing : {0.8, 1.0, 3.0})
+    for (const double width : {1.0, 2.0, 4.0})
+      for (const auto& [from, to] : {std::pair{-100.0, 60.0}, {60.0, -100.0}, {-100.0, 400.0}}) {
+        INFO("voxels of " << spacing << " mm, an edge of " << width << " mm from " << from << " to " << to << " HU");
+        const auto ct = along_x({int(40 / spacing), 9, 9}, spacing, edge(from, to, width));
+        // Fluid's -50 dB would be the outline; the partial-volume foot of the edge may look like loose tissue.
+        CHECK(darkest_db(make_acoustic_volume(ct, {}, {}, shipped())) > -20);
+      }
+}
+
+TEST_CASE("true fluid stays echo-free beside an organ, under noise and when it is small") {
+  const auto ct = along_x({40, 9, 9}, 1, edge(5, 60, 2));
+  const AcousticVolume volume = make_acoustic_volume(ct, {}, {}, shipped());
+  CHECK(echogenicity_db(volume, {10, 4, 4}) < -40);
+  CHECK(echogenicity_db(volume, {16, 4, 4}) < -40);
+  CHECK(echogenicity_db(volume, {30, 4, 4}) > -3);
+
+  // A vessel of 3 mm: between equal neighbours, so no edge.
+  const auto vessel = along_x({40, 9, 9}, 1, [](double x) { return std::abs(x - 20) < 1.5 ? 5.0 : 60.0; });
+  CHECK(echogenicity_db(make_acoustic_volume(vessel, {}, {}, shipped()), {20, 4, 4}) < -40);
+
+  // Noise of 8 HU, evenly spread, in a cyst: hardly a voxel may fill with echoes.
+  auto noisy = along_x({32, 32, 32}, 1, [](double) { return 5; });
+  for (std::size_t v = 0; v < noisy.voxels.size(); ++v)
+    noisy.voxels[v] = std::int16_t(5 + (unit_float(hash(std::uint32_t(v), 7)) - 0.5) * 20);
+  int filled = 0;
+  for (const AcousticVoxel& voxel : make_acoustic_volume(noisy, {}, {}, shipped()).voxels)
+    filled += voxel.echogenicity_cdb > -2000;
+  CHECK(filled == 0);
+}
+
+TEST_CASE("a label's tissue decides, and its voxels keep their texture") {
+  auto ct = along_x({20, 9, 9}, 1, [](double x) { return x < 10 ? 60 : 5; });
+  ct.at({5, 4, 4}) = 80;
+  ct.at({6, 4, 4}) = 40;
+  ct.at({7, 4, 4}) = -60;  // far off: partial volume, no texture
+  Volume<std::uint8_t> labels{ct.grid, std::vector<std::uint8_t>(ct.voxels.size(), 0)};
+  for (std::size_t v = 0; v < labels.voxels.size(); ++v) labels.voxels[v] = ct.voxels[v] == 5 ? 9 : 3;
+  std::vector<std::string> tissue_of(256);
+  tissue_of[3] = "kidney_sinus";
+  tissue_of[9] = "urine";
+  const AcousticVolume volume = make_acoustic_volume(ct, labels, tissue_of, shipped());
+  const double sinus = shipped().labelled.at("kidney_sinus").echogenicity_db;
+  CHECK(echogenicity_db(volume, {2, 4, 4}) == Approx(sinus).margin(0.1));
+  CHECK(echogenicity_db(volume, {5, 4, 4}) == Approx(sinus + 2).margin(0.1));
+  CHECK(echogenicity_db(volume, {6, 4, 4}) == Approx(sinus - 2).margin(0.1));
+  CHECK(echogenicity_db(volume, {7, 4, 4}) == Approx(sinus).margin(0.1));
+  CHECK(echogenicity_db(volume, {15, 4, 4}) == Approx(shipped().labelled.at("urine").echogenicity_db));
+
+  // A label of no tissue in particular is judged by density.
+  tissue_of[9].clear();
+  CHECK(echogenicity_db(make_acoustic_volume(ct, labels, tissue_of, shipped()), {15, 4, 4}) ==
+        Approx(shipped().at(5).echogenicity_db));
+}
+
+TEST_CASE("a label's unknown tissue is refused with the name it resembles") {
+  const auto ct = along_x({4, 4, 4}, 1, [](double) { return 0; });
+  const Volume<std::uint8_t> labels{ct.grid, std::vector<std::uint8_t>(ct.voxels.size(), 1)};
+  std::vector<std::string> tissue_of(256);
+  tissue_of[1] = "livr";
+  CHECK_THROWS_WITH(make_acoustic_volume(ct, labels, tissue_of, shipped()), Catch::Contains("did you mean 'liver'?"));
+  Volume<std::uint8_t> elsewhere = labels;
+  elsewhere.grid.size = {2, 8, 4};
+  tissue_of[1] = "liver";
+  CHECK_THROWS_AS(make_acoustic_volume(ct, elsewhere, tissue_of, shipped()), std::invalid_argument);
+}
+
+TEST_CASE("the acoustic volume is the same to the bit on any number of threads") {
+  auto ct = along_x({61, 47, 33}, 1.3, edge(-100, 60, 9));
+  Volume<std::uint8_t> labels{ct.grid, std::vector<std::uint8_t>(ct.voxels.size())};
+  for (std::size_t v = 0; v < ct.voxels.size(); ++v) {
+    ct.voxels[v] = std::int16_t(ct.voxels[v] + int(unit_float(hash(std::uint32_t(v), 1)) * 60));
+    labels.voxels[v] = std::uint8_t(hash(std::uint32_t(v), 2) % 4);
+  }
+  std::vector<std::string> tissue_of(256);
+  tissue_of[1] = "liver";
+  tissue_of[2] = "blood";
+  const auto with_threads = [&](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    return make_acoustic_volume(ct, labels, tissue_of, shipped());
+  };
+  const AcousticVolume one = with_threads(1), many = with_threads(7);
+  CHECK(std::memcmp(one.voxels.data(), many.voxels.data(), one.voxels.size() * sizeof(AcousticVoxel)) == 0);
+}
