@@ -1,0 +1,28 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "devices/tracker.h"
+#include "devices/tracker_context.h"
+#include "devices/tracker_uri.h"
+
+namespace insonate {
+
+/// A kind of tracker. A new one is a folder with its class and an open function, and a line in registry.cpp.
+struct TrackerKind {
+  std::string_view scheme;   ///< "replay"
+  std::string_view form;     ///< "replay:FILE[?speed=2&loop=1]"
+  std::string_view summary;  ///< one line for people
+  std::unique_ptr<Tracker> (*open)(const TrackerUri& uri, const TrackerContext& context);
+};
+
+/// Every kind this build has.
+std::span<const TrackerKind> tracker_kinds();
+
+/// Opens the tracker that `uri` names. Throws InputError when there is no such kind, an option or its value is not
+/// allowed, or what it names (a file) cannot be used.
+std::unique_ptr<Tracker> open_tracker(std::string_view uri, const TrackerContext& context = {});
+
+}  // namespace insonate

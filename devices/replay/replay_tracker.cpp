@@ -1,0 +1,67 @@
+#include "devices/replay/replay_tracker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <stdexcept>
+
+#include "devices/sequence/probe_samples.h"
+#include "sim/core/input_error.h"
+
+namespace insonate {
+
+ReplayTracker::ReplayTracker(std::string name, std::vector<PoseSample> samples, const Options& options)
+    : Tracker(std::move(name)), log_(std::move(samples)), options_(options) {
+  if (log_.empty()) throw std::invalid_argument("a log without samples cannot be replayed");
+  if (!(options_.speed > 0)) throw std::invalid_argument("the replay's speed is not above 0");
+  for (std::size_t i = 1; i < log_.size(); ++i)
+    if (!(log_[i].time_s > log_[i - 1].time_s)) throw std::invalid_argument("the log's times do not rise");
+  // The step from the last sample to the first of the next round is as long as a step is on average; a log of one
+  // sample repeats every second.
+  const double duration = log_.back().time_s - log_.front().time_s;
+  round_s_ = log_.size() > 1 ? duration + duration / double(log_.size() - 1) : 1.0;
+}
+
+double ReplayTracker::clock_s(double now_s) const {
+  return log_.front().time_s + (start_s_ ? (now_s - *start_s_) * options_.speed : 0.0);
+}
+
+void ReplayTracker::collect(double now_s, std::vector<PoseSample>& samples) {
+  if (!start_s_) start_s_ = now_s;
+  const double elapsed_s = (now_s - *start_s_) * options_.speed;
+  for (;;) {
+    if (next_ == log_.size()) {
+      if (!options_.loop) return;
+      next_ = 0;
+      ++round_;
+    }
+    const double due_s = log_[next_].time_s - log_.front().time_s + double(round_) * round_s_;
+    if (due_s > elapsed_s) return;
+    PoseSample sample = log_[next_++];
+    if (round_ > 0) {
+      sample.time_s += double(round_) * round_s_;
+      // Steps of less than the clock's resolution must not vanish in the sum.
+      sample.time_s = std::max(sample.time_s, std::nextafter(last_time_s_, HUGE_VAL));
+    }
+    last_time_s_ = sample.time_s;
+    samples.push_back(sample);
+  }
+}
+
+std::optional<double> ReplayTracker::progress() const {
+  if (options_.loop) return std::nullopt;
+  return double(next_) / double(log_.size());
+}
+
+std::unique_ptr<Tracker> open_replay(const TrackerUri& uri, const TrackerContext&) {
+  uri.allow_options({"speed", "loop", "transform"});
+  if (uri.subject.empty())
+    throw InputError("tracker '" + uri.text + "'", "", "it names no file", "write it as in 'replay:scan.igs.mha'");
+  const ReplayTracker::Options options{uri.number("speed", 1.0, 0.01, 1000.0), uri.flag("loop", false)};
+  const auto transform = uri.options.find("transform");
+  return std::make_unique<ReplayTracker>(
+      "replay of " + std::filesystem::path(uri.subject).filename().string(),
+      read_probe_samples(uri.subject, transform == uri.options.end() ? "" : transform->second), options);
+}
+
+}  // namespace insonate

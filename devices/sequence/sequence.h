@@ -1,0 +1,65 @@
+#pragma once
+
+#include <glm/mat4x4.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/core/pose_sample.h"
+
+namespace insonate {
+
+/// A transform of one frame of a sequence file. `AToB` takes points of frame A to frame B, mm.
+struct SequenceTransform {
+  int name = 0;  ///< index into Sequence::transform_names
+  PoseStatus status = PoseStatus::unknown;
+  glm::dmat4 matrix{0.0};  ///< finite where status is ok, not necessarily rigid; zero where it is not
+};
+
+struct SequenceFrame {
+  double time_s = 0;                          ///< the file's Timestamp: since some start or since 1970
+  std::uint32_t buttons = 0;                  ///< bit b is set while button b is held
+  std::vector<SequenceTransform> transforms;  ///< in no particular order, none twice
+
+  const SequenceTransform* find(int name) const;
+};
+
+/// What an IGSIO/PLUS sequence file (.igs.mha, .seq.mha, .mha) says of its frames; the images are left where they are.
+struct Sequence {
+  std::string file;                             ///< for messages
+  std::vector<std::string> transform_names;     ///< of all frames, without "Transform": "ProbeToTracker"
+  std::map<std::string, glm::dmat4> constants;  ///< transforms of the header, which hold for all frames; finite
+  std::vector<SequenceFrame> frames;            ///< at least one; times finite and strictly rising
+  bool has_images = false;
+  std::size_t image_offset = 0;  ///< in the file's bytes
+  std::size_t image_bytes = 0;   ///< compressed, where the file is
+
+  /// Index into transform_names, or -1.
+  int find(std::string_view transform) const;
+};
+
+/// Reads the header of a sequence file as PLUS, IGSIO and 3D Slicer write it: a MetaImage header with a line
+/// `Seq_Frame0000_Field = value` for each field of each frame. Understood are, of a frame, `...Transform` (16 numbers
+/// by rows), `...TransformStatus` (absent: unknown), `Timestamp` and `Buttons`; of the header the fields that tell size
+/// and kind, and `...Transform` fields. All else that is well formed is skipped, images too: they are only checked to
+/// be there. `file` names it in messages.
+///
+/// A pure function of the bytes. Takes memory and time in proportion to them, whatever they claim. Throws InputError
+/// for whatever is truncated, malformed, contradictory, or a sequence of a kind that is not read here (NRRD, a separate
+/// data file).
+Sequence parse_sequence(std::string_view bytes, const std::string& file);
+
+/// A transform-only sequence file that parse_sequence and probe_samples read back to the same bits, under the name
+/// ProbeToPatient. Of samples that are not ok the pose is not kept. Throws std::invalid_argument when there are none,
+/// or when their times do not strictly rise or an ok pose is not rigid, as then nobody could read them back.
+std::string write_sequence(const std::vector<PoseSample>& samples);
+
+/// The status words of IGSIO's writers ("OK", "OUT_OF_VIEW", "SWITCH1_IS_ON"...); any case, and with the prefixes of
+/// older versions ("TOOL_MISSING"). A word nobody knows is PoseStatus::unknown.
+PoseStatus status_from_igsio(std::string_view word);
+
+}  // namespace insonate
