@@ -1,0 +1,39 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "sim/core/grid.h"
+#include "sim/core/pose.h"
+
+namespace insonate::view {
+
+/// A perspective camera that circles a point of the patient and keeps the head up.
+struct OrbitCamera {
+  glm::dvec3 centre{0.0};         ///< what it looks at, patient mm
+  double yaw_deg = 0;             ///< 0 from the front, 90 from the patient's left, 180 from behind
+  double pitch_deg = 0;           ///< -89 (from the feet) to 89 (from the head)
+  double distance_mm = 900;       ///< from the centre, > 0
+  double field_of_view_deg = 30;  ///< over the picture's height, 5 to 120
+
+  /// Sees the whole volume from the front, a little from the patient's left and from the feet.
+  static OrbitCamera framing(const Grid& volume);
+
+  /// The camera's frame: x to the right of the picture, y down, z into it; its rotation turns the orientation cue.
+  Pose patient_from_camera() const;
+
+  /// Where a patient's point falls in a picture, in pixels: (0, 0) is the top left corner, whole numbers are edges of
+  /// pixels. For points in front of the camera.
+  glm::dvec2 project(const glm::dvec3& patient_mm, int width, int height) const;
+
+  /// Dragging: the patient turns as if held at the pointer.
+  void orbit(double yaw_by_deg, double pitch_by_deg);
+  /// Dragging by pixels in a picture of that height: what lies at the centre's depth follows the pointer.
+  void pan(const glm::dvec2& by_px, int height);
+  /// Factor > 1 comes nearer. The distance stays within 50 mm and 5 m.
+  void zoom(double factor);
+
+  bool operator==(const OrbitCamera&) const = default;
+};
+
+}  // namespace insonate::view
