@@ -1,0 +1,105 @@
+#include "scenarios/marking.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace insonate {
+namespace {
+
+std::string fixed(double value, int decimals) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f", decimals, value);
+  return text;
+}
+
+std::string name_of(const StepResult& step, std::size_t index) {
+  return "Step " + std::to_string(index + 1) + " (" + step.title + ")";
+}
+
+/// Why a step was not done, as a sentence; empty when it was.
+std::string why_not_held(const StepResult& step, std::size_t index) {
+  const std::string longest = " (longest: " + fixed(step.longest_hold_s, 1) + " s)";
+  switch (step.outcome) {
+    case StepOutcome::held:
+      return "";
+    case StepOutcome::timed_out:
+      return name_of(step, index) + ": the view was not held long enough before the time ran out" + longest + ".";
+    case StepOutcome::scan_ended:
+      return name_of(step, index) + ": the scan ended before the view was held long enough" + longest + ".";
+    case StepOutcome::not_reached:
+      return name_of(step, index) + " was not reached.";
+  }
+  return "";
+}
+
+/// The criteria of one part of the exam that earned nothing, the critical ones only or the others only.
+void add_failed(const std::vector<Mark>& marks, const std::string& where, bool critical,
+                std::vector<std::string>& reasons) {
+  for (const Mark& m : marks)
+    if (m.points <= 0 && m.critical == critical)
+      reasons.push_back(where + (critical ? ", critical: " : ": ") + std::string(info(m.metric).words) + ": " + m.why);
+}
+
+}  // namespace
+
+std::string in_words(Metric metric, double value) {
+  const MetricInfo& m = info(metric);
+  const bool degrees = m.unit == "\u00b0";
+  return fixed(value, m.decimals) + (m.unit.empty() || degrees ? "" : " ") + std::string(m.unit);
+}
+
+Mark mark(const Criterion& criterion, std::optional<double> value, const std::string& why_no_value) {
+  Mark m{criterion.metric, criterion.full, criterion.zero, criterion.weight, criterion.critical, value, 0, ""};
+  if (!value) {
+    m.why = why_no_value;
+    return m;
+  }
+  const double share = std::clamp((*value - criterion.zero) / (criterion.full - criterion.zero), 0.0, 1.0);
+  m.points = share * criterion.weight;
+  const std::string measured = in_words(criterion.metric, *value);
+  const std::string limit_full = in_words(criterion.metric, criterion.full);
+  const std::string limit_zero = in_words(criterion.metric, criterion.zero);
+  const bool less = criterion.full < criterion.zero;
+  if (share >= 1)
+    m.why = measured + " earns full points, as up to " + limit_full + ".";
+  else if (share <= 0)
+    m.why = measured + " earns nothing, as from " + limit_zero + (less ? " up." : " down.");
+  else
+    m.why = measured + " lies between " + limit_full + " (full points) and " + limit_zero + " (none).";
+  if (share >= 1 && !less) m.why = measured + " earns full points, as from " + limit_full + " up.";
+  return m;
+}
+
+void decide(ExamResult& result) {
+  result.points = result.points_possible = 0;
+  bool critical_failed = false;
+  const auto add = [&](const std::vector<Mark>& marks) {
+    for (const Mark& m : marks) {
+      result.points += m.points;
+      result.points_possible += m.weight;
+      critical_failed = critical_failed || m.fails_exam();
+    }
+  };
+  for (const StepResult& step : result.steps) add(step.marks);
+  add(result.marks);
+  result.percent = result.points_possible > 0 ? 100 * result.points / result.points_possible : 0;
+  const bool enough = result.percent >= result.pass_mark_percent;
+  result.passed = enough && !critical_failed;
+  result.reasons.clear();
+  if (result.passed) return;
+
+  if (!enough)
+    result.reasons.push_back("The score is " + fixed(result.percent, 1) + " %; " + fixed(result.pass_mark_percent, 0) +
+                             " % are needed to pass.");
+  for (const bool critical : {true, false}) {
+    for (std::size_t i = 0; i < result.steps.size(); ++i) {
+      const StepResult& step = result.steps[i];
+      if (critical && !step.marks.empty() && step.outcome != StepOutcome::held)
+        result.reasons.push_back(why_not_held(step, i));
+      if (step.outcome != StepOutcome::not_reached) add_failed(step.marks, name_of(step, i), critical, result.reasons);
+    }
+    add_failed(result.marks, "Whole exam", critical, result.reasons);
+  }
+}
+
+}  // namespace insonate

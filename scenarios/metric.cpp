@@ -1,0 +1,68 @@
+#include "scenarios/metric.h"
+
+#include <array>
+
+namespace insonate {
+namespace {
+
+using enum MetricScope;
+
+constexpr std::array kMetrics{
+    // metric, name, unit, words, scope, less is better, needs targets, needs landmarks, decimals
+    MetricInfo{Metric::plane_distance_mm, "plane_distance_mm", "mm", "Target's distance from the picture's plane",
+               picture, true, false, false, 1},
+    MetricInfo{Metric::in_plane_offset_mm, "in_plane_offset_mm", "mm", "Target's shift within the picture", picture,
+               true, false, false, 1},
+    MetricInfo{Metric::plane_angle_deg, "plane_angle_deg", "\u00b0", "Angle between the planes", picture, true, false,
+               false, 1},
+    MetricInfo{Metric::tilt_deg, "tilt_deg", "\u00b0", "Tilt off the reference", picture, true, false, false, 1},
+    MetricInfo{Metric::rock_deg, "rock_deg", "\u00b0", "Rock off the reference", picture, true, false, false, 1},
+    MetricInfo{Metric::rotation_deg, "rotation_deg", "\u00b0", "Rotation off the reference", picture, true, false,
+               false, 1},
+    MetricInfo{Metric::off_centre_percent, "off_centre_percent", "%", "Target off the picture's middle", picture, true,
+               true, false, 0},
+    MetricInfo{Metric::target_in_view_percent, "target_in_view_percent", "%", "Target in the picture", picture, false,
+               true, false, 0},
+    MetricInfo{Metric::target_insonated_percent, "target_insonated_percent", "%", "Target reached by the sound",
+               picture, false, true, false, 0},
+    MetricInfo{Metric::landmarks_in_view_percent, "landmarks_in_view_percent", "%", "Landmarks in the picture", picture,
+               false, false, true, 0},
+    MetricInfo{Metric::longest_hold_s, "longest_hold_s", "s", "View held still", step, false, false, false, 2},
+    MetricInfo{Metric::time_s, "time_s", "s", "Time taken", motion, true, false, false, 1},
+    MetricInfo{Metric::path_length_mm, "path_length_mm", "mm", "Path of the probe", motion, true, false, false, 0},
+    MetricInfo{Metric::angular_path_deg, "angular_path_deg", "\u00b0", "Turning of the probe", motion, true, false,
+               false, 0},
+    MetricInfo{Metric::translational_movements, "translational_movements", "", "Separate shifts of the probe", motion,
+               true, false, false, 0},
+    MetricInfo{Metric::rotational_movements, "rotational_movements", "", "Separate turns of the probe", motion, true,
+               false, false, 0},
+    MetricInfo{Metric::skin_contact_percent, "skin_contact_percent", "%", "Time with the face on the skin", motion,
+               false, false, false, 0},
+    MetricInfo{Metric::dropout_percent, "dropout_percent", "%", "Time without tracking", motion, true, false, false, 1},
+    MetricInfo{Metric::dropouts, "dropouts", "", "Losses of tracking", motion, true, false, false, 0},
+};
+
+constexpr bool in_order_of_enumeration() {
+  for (std::size_t i = 0; i < kMetrics.size(); ++i)
+    if (std::size_t(kMetrics[i].metric) != i) return false;
+  return true;
+}
+static_assert(in_order_of_enumeration());
+
+}  // namespace
+
+std::span<const MetricInfo> metrics() {
+  return kMetrics;
+}
+
+const MetricInfo& info(Metric metric) {
+  return kMetrics[std::size_t(metric)];
+}
+
+std::optional<Metric> find_metric(std::string_view name) {
+  for (const MetricInfo& m : kMetrics)
+    if (m.name == name) return m.metric;
+  return std::nullopt;
+}
+
+}  // namespace insonate

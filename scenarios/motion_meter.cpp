@@ -1,0 +1,116 @@
+#include "scenarios/motion_meter.h"
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+
+namespace insonate {
+
+double MotionValues::of(Metric motion_metric) const {
+  switch (motion_metric) {
+    case Metric::time_s:
+      return time_s;
+    case Metric::path_length_mm:
+      return path_length_mm;
+    case Metric::angular_path_deg:
+      return angular_path_deg;
+    case Metric::translational_movements:
+      return translational_movements;
+    case Metric::rotational_movements:
+      return rotational_movements;
+    case Metric::skin_contact_percent:
+      return tracked_s > 0 ? 100 * on_skin_s / tracked_s : 0;
+    case Metric::dropout_percent:
+      return time_s > 0 ? 100 * untracked_s / time_s : 0;
+    case Metric::dropouts:
+      return dropouts;
+    default:
+      return 0;  // no metric of motion
+  }
+}
+
+void MotionMeter::Movements::see(double time_s, double speed, double limit) {
+  if (!(speed > limit)) return;
+  constexpr double one_step_s = 1 / kRate_hz;
+  if (time_s - one_step_s - last_moving_s >= kJoined_s) ++count;
+  last_moving_s = time_s;
+}
+
+void MotionMeter::feed(const PoseSample& sample, bool on_skin) {
+  const bool valid = sample.status == PoseStatus::ok;
+  if (!any_) {
+    any_ = true;
+    start_s_ = last_s_ = sample.time_s;
+  } else {
+    pass(sample.time_s, valid && last_valid_ && sample.time_s - last_s_ <= kBridged_s, on_skin);
+    in_dropout_ = !valid;
+  }
+  if (valid) {
+    interpolate_to(sample);
+    last_ok_ = sample;
+  }
+  last_valid_ = valid;
+  last_on_skin_ = on_skin;
+}
+
+void MotionMeter::end(double time_s) {
+  if (any_) pass(time_s, last_valid_ && time_s - last_s_ <= kBridged_s, last_on_skin_);
+}
+
+MotionMeter MotionMeter::following(double time_s) const {
+  MotionMeter next;
+  next.any_ = any_;
+  next.start_s_ = next.last_s_ = time_s;
+  next.last_valid_ = last_valid_;
+  next.last_on_skin_ = last_on_skin_;
+  next.last_ok_ = last_ok_;
+  return next;
+}
+
+void MotionMeter::pass(double time_s, bool tracked, bool on_skin_at_end) {
+  const double dt = time_s - last_s_;
+  values_.time_s = time_s - start_s_;
+  if (tracked) {
+    values_.tracked_s += dt;
+    values_.on_skin_s += dt * (int(last_on_skin_) + int(on_skin_at_end)) / 2;
+  } else if (dt > 0) {
+    values_.untracked_s += dt;
+    values_.dropouts += !in_dropout_;
+    in_dropout_ = true;
+  }
+  last_s_ = time_s;
+}
+
+void MotionMeter::interpolate_to(const PoseSample& sample) {
+  const double now = sample.time_s - start_s_;
+  if (!last_ok_ || sample.time_s - last_ok_->time_s > kBridged_s) {
+    last_grid_pose_.reset();
+    next_grid_ = long(std::ceil(now * kRate_hz));
+    if (double(next_grid_) / kRate_hz > now) return;
+  }
+  const double before = last_ok_ ? last_ok_->time_s - start_s_ : now;
+  for (; double(next_grid_) / kRate_hz <= now; ++next_grid_) {
+    const double time = double(next_grid_) / kRate_hz;
+    const double share = now > before ? (time - before) / (now - before) : 1;
+    grid_pose(last_ok_ ? interpolate(last_ok_->patient_from_probe, sample.patient_from_probe, share)
+                       : sample.patient_from_probe,
+              time);
+  }
+}
+
+void MotionMeter::grid_pose(const Pose& pose, double time_s) {
+  if (last_grid_pose_) {
+    const double shift = glm::distance(pose.translation, last_grid_pose_->translation);
+    const double turn = angle_between_deg(*last_grid_pose_, pose);
+    values_.path_length_mm += shift;
+    values_.angular_path_deg += turn;
+    speed_mm_s_ = shift * kRate_hz;
+    shifts_.see(time_s, shift * kRate_hz, kMoving_mm_s);
+    turns_.see(time_s, turn * kRate_hz, kMoving_deg_s);
+    values_.translational_movements = shifts_.count;
+    values_.rotational_movements = turns_.count;
+  }
+  last_grid_pose_ = pose;
+}
+
+}  // namespace insonate

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include <optional>
+
+#include "scenarios/metric.h"
+#include "sim/core/pose_sample.h"
+
+namespace insonate {
+
+/// How a probe was moved during a stretch of samples.
+struct MotionValues {
+  double time_s = 0;
+  double path_length_mm = 0;        ///< of the middle of the face
+  double angular_path_deg = 0;      ///< of the whole orientation
+  int translational_movements = 0;  ///< stretches faster than kMoving_mm_s
+  int rotational_movements = 0;     ///< stretches faster than kMoving_deg_s
+  double tracked_s = 0;             ///< between valid samples that follow each other
+  double on_skin_s = 0;             ///< of tracked_s
+  double untracked_s = 0;           ///< the rest
+  int dropouts = 0;                 ///< stretches of untracked time
+
+  double of(Metric motion_metric) const;
+};
+
+/// Measures motion, one sample after the other.
+///
+/// Path and speed are taken from poses interpolated at kRate_hz from the meter's first sample on, not from the samples
+/// themselves: otherwise a faster tracker would sum up more of its own noise, and the same scan would get a longer
+/// path. Speeds are differences of positions and orientations, never of matrices multiplied with inverses, whose
+/// translation grows with the distance from the origin. An interval between samples counts as tracked when both are
+/// valid and no more than kBridged_s apart; over losses up to kBridged_s the motion is interpolated, over longer ones
+/// it is unknown and left out.
+class MotionMeter {
+public:
+  static constexpr double kRate_hz = 20;
+  static constexpr double kMoving_mm_s = 50;
+  static constexpr double kMoving_deg_s = 50;
+  static constexpr double kJoined_s = 0.2;    ///< a shorter rest does not end a movement
+  static constexpr double kBridged_s = 0.25;  ///< when a picture freezes with a banner, too
+
+  /// @param on_skin  whether the sample's face is on the skin; only looked at for valid samples
+  void feed(const PoseSample& sample, bool on_skin);
+
+  /// Ends the stretch at a time after the last sample.
+  void end(double time_s);
+
+  /// A meter for the stretch that follows, from that time on. It knows the last sample, so that no motion between the
+  /// two stretches is lost.
+  MotionMeter following(double time_s) const;
+
+  const MotionValues& values() const { return values_; }
+
+  /// Speed over the last step of the grid; 0 before there is one.
+  double speed_mm_s() const { return speed_mm_s_; }
+
+private:
+  /// Counts stretches above a speed, joined over short rests.
+  struct Movements {
+    double last_moving_s = -1e9;
+    int count = 0;
+    void see(double time_s, double speed, double limit);
+  };
+  void pass(double time_s, bool tracked, bool on_skin_at_end);
+  void interpolate_to(const PoseSample& sample);
+  void grid_pose(const Pose& pose, double time_s);
+
+  MotionValues values_;
+  double start_s_ = 0;
+  double last_s_ = 0;
+  bool last_valid_ = false;
+  bool last_on_skin_ = false;
+  bool in_dropout_ = false;
+  bool any_ = false;
+  std::optional<PoseSample> last_ok_;
+  long next_grid_ = 0;
+  std::optional<Pose> last_grid_pose_;
+  double speed_mm_s_ = 0;
+  Movements shifts_;
+  Movements turns_;
+};
+
+}  // namespace insonate

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scenarios/metric.h"
+#include "scenarios/motion_meter.h"
+#include "scenarios/view_meter.h"
+
+namespace insonate {
+
+/// A criterion's mark and why.
+struct Mark {
+  Metric metric{};
+  double full = 0;  ///< full, zero, weight, critical: as in the scenario
+  double zero = 0;
+  double weight = 0;
+  bool critical = false;
+  std::optional<double> value;  ///< in the metric's unit; empty when it could not be measured
+  double points = 0;            ///< 0 to weight
+  std::string why;              ///< one sentence: "12.4 mm: full points up to 5.0 mm, none from 20.0 mm."
+
+  bool fails_exam() const { return critical && points <= 0; }
+};
+
+enum class StepOutcome {
+  held,        ///< the view was held for the time asked
+  timed_out,   ///< its time limit, or the exam's, came first
+  scan_ended,  ///< there were no more samples
+  not_reached  ///< the exam ended before it
+};
+
+struct StepResult {
+  std::string title;
+  std::string view;
+  StepOutcome outcome = StepOutcome::not_reached;
+  double start_s = 0;  ///< since the start of the exam
+  double end_s = 0;
+  std::optional<double> judged_from_s;  ///< the picture is judged from here to judged_to_s
+  std::optional<double> judged_to_s;
+  std::optional<ViewValues> judged;  ///< means of the unsigned values over that time; empty without a valid sample
+  double longest_hold_s = 0;
+  MotionValues motion;
+  std::vector<Mark> marks;
+};
+
+/// What a score was made from, so that it can be made again.
+struct Provenance {
+  std::string program_version;
+  std::string scenario;  ///< file name
+  std::string scenario_digest;
+  std::string case_name;
+  std::string case_digest;
+  std::vector<std::pair<std::string, std::string>> phantom_options;
+  std::string log;  ///< file name; empty for a live scan that was not recorded
+  std::string log_digest;
+};
+
+struct ExamResult {
+  /// Raised whenever the same samples could get another score.
+  static constexpr int kScoringVersion = 1;
+
+  std::string title;
+  Provenance provenance;
+  bool complete = false;  ///< every step ended, or the time or the samples did; else the marks so far
+  double points = 0;
+  double points_possible = 0;
+  double percent = 0;
+  double pass_mark_percent = 0;
+  bool passed = false;
+  std::vector<std::string> reasons;  ///< of failing, one sentence each, the gravest first; empty when passed
+  std::vector<StepResult> steps;
+  std::vector<Mark> marks;  ///< of the whole exam
+  MotionValues motion;      ///< of the whole exam
+};
+
+}  // namespace insonate

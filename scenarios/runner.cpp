@@ -1,0 +1,261 @@
+#include "scenarios/runner.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scenarios/digest.h"
+#include "scenarios/marking.h"
+
+namespace insonate {
+namespace {
+
+constexpr double kTraceStep_s = 0.1;
+
+/// What differences of times may be off by rounding: times count from when a machine was started, to microseconds.
+constexpr double kRounding_s = 1e-6;
+
+bool usable(const PoseSample& sample) {
+  if (sample.status != PoseStatus::ok) return true;
+  double sum = 0;
+  for (int c = 0; c < 3; ++c)
+    for (int r = 0; r < 3; ++r) sum += sample.patient_from_probe.rotation[c][r];
+  for (int r = 0; r < 3; ++r) sum += sample.patient_from_probe.translation[r];
+  return std::isfinite(sum);
+}
+
+ViewValues scaled(const ViewValues& v, double factor) {
+  ViewValues out = v;
+  for (double* value : {&out.plane_distance_mm, &out.in_plane_offset_mm, &out.plane_angle_deg, &out.tilt_deg,
+                        &out.rock_deg, &out.rotation_deg, &out.off_centre_percent, &out.target_in_view_percent,
+                        &out.target_insonated_percent, &out.landmarks_in_view_percent})
+    *value = std::abs(*value) * factor;
+  return out;
+}
+
+ViewValues sum(const ViewValues& a, const ViewValues& b) {
+  return {a.plane_distance_mm + b.plane_distance_mm,
+          a.in_plane_offset_mm + b.in_plane_offset_mm,
+          a.plane_angle_deg + b.plane_angle_deg,
+          a.tilt_deg + b.tilt_deg,
+          a.rock_deg + b.rock_deg,
+          a.rotation_deg + b.rotation_deg,
+          a.off_centre_percent + b.off_centre_percent,
+          a.target_in_view_percent + b.target_in_view_percent,
+          a.target_insonated_percent + b.target_insonated_percent,
+          a.landmarks_in_view_percent + b.landmarks_in_view_percent};
+}
+
+}  // namespace
+
+Runner::Runner(Scenario scenario, const Case& subject, const TissueTable& tissues)
+    : scenario_(std::move(scenario)), case_name_(subject.name) {
+  check_against_case(scenario_, subject);
+  case_digest_ = digest_of(subject);
+  for (const Step& step : scenario_.steps) {
+    const ReferenceView& view = *subject.find_view(step.view);
+    meters_.push_back(std::make_unique<ViewMeter>(subject, view, tissues));
+    contacts_.emplace_back(subject.ct, *find_probe(view.probe));
+  }
+  live_.step_remaining_s = scenario_.steps.front().time_limit_s;
+  live_.exam_remaining_s = scenario_.time_limit_s;
+}
+
+void Runner::feed(std::span<const PoseSample> samples) {
+  for (const PoseSample& sample : samples) feed(sample);
+}
+
+void Runner::feed(const PoseSample& sample) {
+  if (live_.finished || !std::isfinite(sample.time_s) || !usable(sample)) return;
+  if (!live_.started) {
+    live_.started = true;
+    first_s_ = sample.time_s;
+    begin_step(0);
+  } else if (sample.time_s - first_s_ <= last_s_) {
+    return;
+  }
+  const double now = sample.time_s - first_s_;
+  pass_limits(now);
+  if (live_.finished) return;
+  last_s_ = now;
+  look(sample, now);
+}
+
+void Runner::end() {
+  if (live_.finished || !live_.started) return;
+  end_step(StepOutcome::scan_ended, last_s_);
+  finish(last_s_);
+}
+
+/// Ends whatever had to end by `now`.
+void Runner::pass_limits(double now) {
+  while (!live_.finished) {
+    const double step_limit = run_.start_s + step().time_limit_s;
+    const double limit = std::min(step_limit, scenario_.time_limit_s);
+    if (now < limit) return;
+    end_step(StepOutcome::timed_out, limit);
+    if (scenario_.time_limit_s <= limit) finish(limit);
+  }
+}
+
+void Runner::look(const PoseSample& raw, double now) {
+  PoseSample sample = raw;
+  sample.time_s = now;
+  const bool valid = sample.status == PoseStatus::ok;
+  live_.tracking = sample.status;
+  live_.elapsed_s = now;
+  live_.on_skin = valid && contacts_[live_.step].at(sample.patient_from_probe);
+  live_.within_tolerance = false;
+  live_.view.reset();
+  motion_.feed(sample, live_.on_skin);
+  run_.motion.feed(sample, live_.on_skin);
+
+  if (valid) {
+    const bool bridged = !run_.recent.empty() && now - run_.recent.back().time_s <= MotionMeter::kBridged_s;
+    live_.view = meters_[live_.step]->measure(sample.patient_from_probe);
+    live_.within_tolerance = within_tolerance(*live_.view);
+    if (!live_.within_tolerance)
+      run_.holding_from.reset();
+    else if (!run_.holding_from || !bridged)
+      run_.holding_from = now;
+    run_.recent.push_back({now, *live_.view});
+    while (run_.recent.front().time_s < now - step().hold_s - MotionMeter::kBridged_s) run_.recent.pop_front();
+  } else if (!run_.recent.empty() && now - run_.recent.back().time_s > MotionMeter::kBridged_s) {
+    run_.holding_from.reset();
+  }
+  const double held_s = run_.holding_from && valid ? now - *run_.holding_from : 0;
+  const bool held_long_enough = held_s >= step().hold_s - kRounding_s;
+  run_.longest_hold_s = std::max(run_.longest_hold_s, held_long_enough ? step().hold_s : held_s);
+  live_.hold_share = run_.holding_from ? std::min(1.0, (now - *run_.holding_from) / step().hold_s) : 0;
+  record(sample, now);
+
+  if (held_long_enough) end_step(StepOutcome::held, now);
+  live_.step_remaining_s = std::max(0.0, run_.start_s + step().time_limit_s - now);
+  live_.exam_remaining_s = std::max(0.0, scenario_.time_limit_s - now);
+}
+
+bool Runner::within_tolerance(const ViewValues& view) const {
+  return std::all_of(step().tolerance.begin(), step().tolerance.end(), [&](const Tolerance& t) {
+    const double value = view.of(t.metric);
+    return info(t.metric).less_is_better ? value <= t.limit : value >= t.limit;
+  });
+}
+
+void Runner::begin_step(double now) {
+  StepRun next;
+  next.start_s = now;
+  next.motion = run_.motion.following(now);
+  run_ = std::move(next);
+  live_.hold_share = 0;
+}
+
+void Runner::end_step(StepOutcome outcome, double now) {
+  run_.motion.end(now);
+  done_.push_back(judge(outcome, now));
+  for (const Mark& m : done_.back().marks) {
+    live_.points += m.points;
+    live_.points_possible += m.weight;
+  }
+  if (done_.size() == scenario_.steps.size()) {
+    finish(now);
+  } else {
+    live_.step = done_.size();
+    begin_step(now);
+  }
+}
+
+void Runner::finish(double now) {
+  if (live_.finished) return;
+  motion_.end(now);
+  live_.finished = true;
+  live_.elapsed_s = now;
+}
+
+StepResult Runner::judge(StepOutcome outcome, double now) const {
+  const Step& asked = step();
+  StepResult result;
+  result.title = asked.title;
+  result.view = asked.view;
+  result.outcome = outcome;
+  result.start_s = run_.start_s;
+  result.end_s = now;
+  result.longest_hold_s = run_.longest_hold_s;
+  result.motion = run_.motion.values();
+
+  if (!run_.recent.empty()) {
+    const double to = run_.recent.back().time_s;
+    const double from = outcome == StepOutcome::held ? *run_.holding_from : to - asked.hold_s;
+    ViewValues integral;
+    integral.off_centre_percent = 0;
+    double weight = 0;
+    const Seen* before = nullptr;
+    for (const Seen& seen : run_.recent) {
+      if (seen.time_s < from) continue;
+      if (!result.judged_from_s) result.judged_from_s = seen.time_s;
+      if (before && seen.time_s - before->time_s <= MotionMeter::kBridged_s) {
+        const double dt = seen.time_s - before->time_s;
+        integral = sum(integral, scaled(before->view, dt / 2));
+        integral = sum(integral, scaled(seen.view, dt / 2));
+        weight += dt;
+      }
+      before = &seen;
+    }
+    result.judged_to_s = to;
+    result.judged = weight > 0 ? scaled(integral, 1 / weight) : scaled(run_.recent.back().view, 1);
+  }
+
+  for (const Criterion& criterion : asked.criteria) {
+    std::optional<double> value;
+    if (info(criterion.metric).scope == MetricScope::motion)
+      value = result.motion.of(criterion.metric);
+    else if (criterion.metric == Metric::longest_hold_s)
+      value = result.longest_hold_s;
+    else if (result.judged)
+      value = result.judged->of(criterion.metric);
+    result.marks.push_back(mark(criterion, value, "there was no valid pose to judge."));
+  }
+  return result;
+}
+
+ExamResult Runner::result() const {
+  ExamResult result;
+  result.title = scenario_.title;
+  result.provenance.scenario = scenario_.file.filename().string();
+  result.provenance.scenario_digest = scenario_.digest;
+  result.provenance.phantom_options = scenario_.phantom_options;
+  result.provenance.case_name = case_name_;
+  result.provenance.case_digest = case_digest_;
+  result.provenance.program_version = INSONATE_VERSION;
+  result.pass_mark_percent = scenario_.pass_mark_percent;
+  result.complete = live_.finished;
+  result.motion = motion_.values();
+  result.steps = done_;
+  for (std::size_t i = done_.size(); i < scenario_.steps.size(); ++i) {
+    StepResult missed;
+    missed.title = scenario_.steps[i].title;
+    missed.view = scenario_.steps[i].view;
+    missed.start_s = missed.end_s = last_s_;
+    for (const Criterion& criterion : scenario_.steps[i].criteria)
+      missed.marks.push_back(mark(criterion, std::nullopt, "the step was not reached."));
+    result.steps.push_back(std::move(missed));
+  }
+  for (const Criterion& criterion : scenario_.criteria)
+    result.marks.push_back(mark(criterion, result.motion.of(criterion.metric)));
+  decide(result);
+  return result;
+}
+
+void Runner::record(const PoseSample& sample, double now) {
+  if (!trace_.empty() && now - trace_.back().time_s < kTraceStep_s && trace_.back().step == live_.step) return;
+  TracePoint point;
+  point.time_s = now;
+  point.step = live_.step;
+  point.valid = sample.status == PoseStatus::ok;
+  point.on_skin = live_.on_skin;
+  point.within_tolerance = live_.within_tolerance;
+  point.speed_mm_s = run_.motion.speed_mm_s();
+  point.face = sample.patient_from_probe.translation;
+  if (live_.view) point.view = *live_.view;
+  trace_.push_back(point);
+}
+
+}  // namespace insonate

@@ -1,0 +1,108 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "scenarios/metric.h"
+#include "sim/core/input_error.h"
+#include "sim/volume/case.h"
+#include "sim/volume/phantom.h"
+
+namespace insonate {
+
+/// A scenario is a TOML text that an instructor can read, copy and change; no code runs from it. The types below are
+/// its tables, with the file's key, its range and an example at each field. Whatever is not listed here is refused.
+
+/// Where in the text something was said; 1-based, 0 when it was left to its default.
+struct SourcePlace {
+  int line = 0;
+  int column = 0;
+};
+
+/// A line of the marking scheme: `[[step.criterion]]` for a step, `[[criterion]]` for the whole exam.
+struct Criterion {
+  Metric metric{};        ///< metric = "plane_distance_mm"; the whole exam takes motion metrics only
+  double full = 0;        ///< full = 5: this value or a better one earns the whole weight
+  double zero = 0;        ///< zero = 20: this value or a worse one earns nothing; between them a straight line
+  double weight = 1;      ///< weight = 2: the points there are to earn, above 0 to 1000; default 1
+  bool critical = false;  ///< critical = true: earning nothing here fails the exam, whatever the total; default false
+  SourcePlace place;
+};
+
+/// `[step.tolerance]`: a picture metric and the limit it has to keep while the view is held.
+/// plane_distance_mm = 5 asks for 5 mm or less, target_in_view_percent = 60 for 60 % or more.
+struct Tolerance {
+  Metric metric{};
+  double limit = 0;
+  SourcePlace place;
+};
+
+/// `[[step]]`: what the learner is asked to do, in the order of the file.
+struct Step {
+  std::string kind;         ///< kind = "find_view": show the named view and hold it; more kinds will follow
+  std::string title;        ///< title = "Hepatorenal recess"
+  std::string instruction;  ///< instruction = "Show the recess between liver and right kidney and hold it."
+  std::string view;         ///< view = "hepatorenal": one of the case's reference views
+  SourcePlace view_place;
+  double hold_s = 1;        ///< hold_s = 1.0: how long all tolerances have to hold together, 0.1 to 60; default 1
+  double time_limit_s = 0;  ///< time_limit_s = 60: 1 to 3600; the step ends there, held or not
+  std::vector<Tolerance> tolerance;  ///< one or more
+  std::vector<Criterion> criteria;   ///< none makes the step a warm-up that does not count
+};
+
+struct Scenario {
+  static constexpr int kFormat = 1;  ///< format = 1: the version of these rules that the file is written for
+
+  std::string title;              ///< title = "FAST: right upper quadrant"
+  std::string case_name;          ///< case = "abdomen", the built-in phantom, or a case folder relative to the file
+  std::string briefing;           ///< briefing = """...""": what the learner reads before the start; may be left out
+  double pass_mark_percent = 80;  ///< pass_mark_percent = 80: 0 to 100
+  double time_limit_s = 0;        ///< time_limit_s = 180: of the whole exam, 1 to 36000
+  /// `[phantom]`: options of the built-in phantom's recipe, in the file's order (free_fluid = true); only with
+  /// case = "abdomen".
+  std::vector<std::pair<std::string, std::string>> phantom_options;
+  std::vector<Step> steps;          ///< 1 to 100
+  std::vector<Criterion> criteria;  ///< of the whole exam; may be empty
+
+  std::filesystem::path file;  ///< where it was read from, for messages and for relative case folders
+  std::string digest;          ///< of the file's bytes (scenarios/digest.h)
+};
+
+/// Something wrong in a scenario file, in words: "step 2 names the view 'hepatorenl', which the case does not have",
+/// "did you mean 'hepatorenal'?".
+struct ScenarioProblem {
+  SourcePlace place;
+  std::string problem;
+  std::string remedy;
+};
+
+/// Thrown with every problem that a scenario has, in the order of the file; what() lists them all.
+class ScenarioError : public InputError {
+public:
+  ScenarioError(const std::string& file, std::vector<ScenarioProblem> problems);
+  const std::vector<ScenarioProblem>& problems() const { return problems_; }
+
+private:
+  std::vector<ScenarioProblem> problems_;
+};
+
+/// Reads and checks all that can be checked without the case. Throws ScenarioError, or InputError when there is no
+/// such file.
+Scenario read_scenario(const std::filesystem::path& file);
+
+/// The same for a text at hand; `name` stands for the file in messages.
+Scenario parse_scenario(std::string_view text, const std::filesystem::path& name);
+
+/// Checks what the scenario says of the case: views, and that their targets and landmarks are there for the metrics
+/// that need them. Throws ScenarioError.
+void check_against_case(const Scenario& scenario, const Case& subject);
+
+/// The case that the scenario names: the built-in phantom out of `assets`, kept in `cache`, or a case folder. Throws
+/// InputError.
+Case load_case(const Scenario& scenario, const std::filesystem::path& assets, const std::filesystem::path& cache,
+               const Progress& progress = {});
+
+}  // namespace insonate

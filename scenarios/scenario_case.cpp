@@ -1,0 +1,62 @@
+#include <algorithm>
+
+#include "scenarios/scenario.h"
+#include "sim/core/suggest.h"
+
+namespace insonate {
+namespace {
+
+template <typename Named>
+std::vector<std::string> names_of(const std::vector<Named>& list) {
+  std::vector<std::string> names;
+  for (const Named& one : list) names.push_back(one.name);
+  return names;
+}
+
+/// What a metric needs and the view lacks, as the end of a sentence; empty when it can be measured.
+std::string lacking(const MetricInfo& metric, const ReferenceView& view, const Case& subject) {
+  if (metric.needs_targets) {
+    if (subject.labels.empty()) return "but the case has no labels";
+    if (view.targets.empty()) return "but the view names no targets";
+  }
+  if (metric.needs_landmarks && view.landmarks.empty()) return "but the view names no landmarks";
+  return "";
+}
+
+void check_step(const Step& step, const std::string& where, const Case& subject,
+                std::vector<ScenarioProblem>& problems) {
+  const ReferenceView* view = subject.find_view(step.view);
+  if (!view) {
+    problems.push_back(
+        {step.view_place,
+         where + " names the view '" + step.view + "', which the case '" + subject.name + "' does not have",
+         suggest(step.view, names_of(subject.views))});
+    return;
+  }
+  const auto check = [&](Metric metric, const SourcePlace& place) {
+    const std::string lack = lacking(info(metric), *view, subject);
+    if (!lack.empty())
+      problems.push_back({place, where + " asks for " + std::string(info(metric).name) + ", " + lack,
+                          "add them to the case or remove the metric"});
+  };
+  for (const Tolerance& tolerance : step.tolerance) check(tolerance.metric, tolerance.place);
+  for (const Criterion& criterion : step.criteria) check(criterion.metric, criterion.place);
+}
+
+}  // namespace
+
+void check_against_case(const Scenario& scenario, const Case& subject) {
+  std::vector<ScenarioProblem> problems;
+  for (std::size_t i = 0; i < scenario.steps.size(); ++i)
+    check_step(scenario.steps[i], "step " + std::to_string(i + 1), subject, problems);
+  if (!problems.empty()) throw ScenarioError(scenario.file.string(), std::move(problems));
+}
+
+Case load_case(const Scenario& scenario, const std::filesystem::path& assets, const std::filesystem::path& cache,
+               const Progress& progress) {
+  if (scenario.case_name == "abdomen")
+    return cached_phantom(assets / "phantoms" / "abdomen.toml", scenario.phantom_options, cache, progress);
+  return read_case(scenario.file.parent_path() / scenario.case_name);
+}
+
+}  // namespace insonate
