@@ -25,7 +25,7 @@ std::string log_of(GLuint name, void (*get)(GLuint, GLenum, GLint*), void (*text
   get(name, GL_INFO_LOG_LENGTH, &length);
   std::string log(std::size_t(std::max(length, 1)), '\0');
   text(name, length, nullptr, log.data());
-  return log;
+  return log.c_str();  // without the terminating zero that the length counts
 }
 
 struct ShaderKind {
@@ -45,7 +45,9 @@ Object<ShaderKind> compile(const ShaderSources& sources, const std::string& name
   glGetShaderiv(shader.name(), GL_COMPILE_STATUS, &compiled);
   if (!compiled) {
     std::string message = name + " does not compile:\n" + log_of(shader.name(), glGetShaderiv, glGetShaderInfoLog);
-    for (std::size_t i = 0; i < files.size(); ++i) message += "  (" + std::to_string(i) + " is " + files[i] + ")\n";
+    for (std::size_t i = 1; i < files.size(); ++i)
+      message +=
+          "  line " + std::to_string(int(i) * ShaderSources::kLinesPerFile + 1) + " is line 1 of " + files[i] + "\n";
     throw std::runtime_error(message);
   }
   return shader;
@@ -66,7 +68,10 @@ std::string ShaderSources::load(std::string_view name) const {
 void ShaderSources::expand(std::string_view name, std::string& text, std::vector<std::string>& files) const {
   const std::size_t number = files.size();
   files.emplace_back(name);
-  text += "#line 1 " + std::to_string(number) + "\n";
+  const auto line_directive = [&](int line) {
+    return "#line " + std::to_string(int(number) * kLinesPerFile + line) + "\n";
+  };
+  text += line_directive(1);
   std::istringstream lines(load(name));
   int line_number = 0;
   for (std::string line; std::getline(lines, line);) {
@@ -77,7 +82,7 @@ void ShaderSources::expand(std::string_view name, std::string& text, std::vector
     }
     const std::string included = line.substr(kInclude.size(), line.rfind('"') - kInclude.size());
     if (std::find(files.begin(), files.end(), included) == files.end()) expand(included, text, files);
-    text += "#line " + std::to_string(line_number + 1) + " " + std::to_string(number) + "\n";
+    text += line_directive(line_number + 1);
   }
 }
 

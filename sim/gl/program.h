@@ -14,13 +14,16 @@ namespace insonate::gl {
 /// The text of the project's shaders: those embedded in the program, or those of a folder while one is being edited.
 class ShaderSources {
 public:
+  static constexpr int kLinesPerFile = 10000;
+
   ShaderSources() = default;
   /// Takes files from `folder` (laid out as sim/shaders) where they exist there, else the embedded ones.
   explicit ShaderSources(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// A shader with its `#include "shared/..."` lines replaced by those files, and #line directives so that the
-  /// compiler's messages can be traced back. Throws std::runtime_error when there is no such shader.
-  /// @param files  receives the names in the order of the numbers that #line gives them
+  /// A shader with its `#include "shared/..."` lines replaced by those files. The first line of file number i is given
+  /// the line number i * kLinesPerFile + 1 by #line, because drivers drop the source number that #line also takes.
+  /// Throws std::runtime_error when there is no such shader.
+  /// @param files  receives the names in the order of their numbers
   std::string text(std::string_view name, std::vector<std::string>& files) const;
 
   /// When the newest file of the folder was written; nothing when shaders come from the program alone.

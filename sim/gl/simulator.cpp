@@ -20,8 +20,10 @@ constexpr int kFirstHu = -1024;
 constexpr int kLookupSize = 4096;
 constexpr double kLn10 = 2.302585092994046;
 
+// As `Line` in traverse.comp.
 struct GpuLine {
-  glm::vec4 start, direction;
+  glm::vec4 start, along, lateral, elevation;
+  glm::vec4 lattice_start, lattice_along;
 };
 
 Buffer storage(const std::vector<float>& values) {
@@ -96,6 +98,7 @@ struct Simulator::State {
 
   void lay_out();
   void upload_scatterers();
+  void place_lines();
   void fill_parameters();
   void run();
   void run_smoothing();
@@ -105,10 +108,7 @@ struct Simulator::State {
 void Simulator::State::lay_out() {
   lines = scan_lines(probe, depth_mm, settings.samples);
   const int n = int(lines.lines.size()), d = lines.samples;
-  std::vector<GpuLine> gpu_lines;
-  for (const ScanLine& line : lines.lines)
-    gpu_lines.push_back({glm::vec4(glm::vec3(line.start), 0), glm::vec4(glm::vec3(line.direction), 0)});
-  line_buffer = Buffer(gpu_lines.size() * sizeof(GpuLine), gpu_lines.data());
+  line_buffer = Buffer(lines.lines.size() * sizeof(GpuLine), nullptr);
   scan = Texture::make_2d(GL_RGBA32F, n, d, Filter::nearest);
   echoes = Texture::make_2d(GL_RGBA32F, n, d, Filter::linear);
 
@@ -138,15 +138,29 @@ void Simulator::State::upload_scatterers() {
   scatterers_changed = false;
 }
 
-void Simulator::State::fill_parameters() {
-  const double dr = lines.dr_mm();
+// The lines where the probe now is, in the textures' coordinates.
+void Simulator::State::place_lines() {
+  const glm::dmat4 texture_from_probe = texture_from_patient * patient_from_probe.matrix();
   glm::dmat4 lattice_from_probe = lattice_from_patient(settings.speckle_cell_mm) * patient_from_probe.matrix();
   // Whole periods of the translation change nothing but cost the shader's single precision digits.
   for (int axis = 0; axis < 3; ++axis) lattice_from_probe[3][axis] -= std::floor(lattice_from_probe[3][axis]);
 
+  const auto point = [](const glm::dmat4& map, const glm::dvec3& p) { return glm::vec4(map * glm::dvec4(p, 1)); };
+  const auto step = [](const glm::dmat4& map, const glm::dvec3& d) { return glm::vec4(map * glm::dvec4(d, 0)); };
+  std::vector<GpuLine> placed;
+  placed.reserve(lines.lines.size());
+  for (const ScanLine& line : lines.lines) {
+    const glm::dvec3 d = line.direction, lateral(d.y, -d.x, 0);
+    placed.push_back({point(texture_from_probe, line.start), step(texture_from_probe, d),
+                      step(texture_from_probe, lateral), step(texture_from_probe, glm::cross(d, lateral)),
+                      point(lattice_from_probe, line.start), step(lattice_from_probe, d)});
+  }
+  line_buffer.write(placed.data(), placed.size() * sizeof(GpuLine));
+}
+
+void Simulator::State::fill_parameters() {
+  const double dr = lines.dr_mm();
   SimulationParameters& p = parameters;
-  p.texture_from_probe = glm::mat4(texture_from_patient * patient_from_probe.matrix());
-  p.lattice_from_probe = glm::mat4(lattice_from_probe);
   p.lines = int(lines.lines.size());
   p.samples = lines.samples;
   p.r_min_mm = float(lines.r_min_mm);
@@ -197,6 +211,7 @@ void Simulator::State::run() {
   if (!first_due || !volume) return;
   if (layout_changed) lay_out();
   if (scatterers_changed) upload_scatterers();
+  if (*first_due == Stage::traverse) place_lines();
   fill_parameters();
   parameter_buffer.bind_uniform(0);
 

@@ -1,1 +1,243 @@
 #include "sim/reference/reference.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+#include "sim/model/beam.h"
+#include "sim/model/scatterers.h"
+
+namespace insonate {
+namespace {
+
+constexpr double kCouplingAirHu = -300;  // what is less dense than this within the gel layer is gel
+
+double with_gel(double hu, double r_mm, const Settings& settings) {
+  return r_mm < settings.gel_mm && hu < kCouplingAirHu ? 0.0 : hu;
+}
+
+/// The lattice's complex amplitude at a patient position: trilinear, brought back to variance 1.
+class Scatterers {
+public:
+  explicit Scatterers(const Settings& settings)
+      : lattice_(make_scatterers(settings.speckle_seed)),
+        lattice_from_patient_(lattice_from_patient(settings.speckle_cell_mm)) {}
+
+  std::complex<double> at(const glm::dvec3& patient_mm) const {
+    constexpr int side = ScattererLattice::kSide;
+    const glm::dvec3 position = glm::dvec3(lattice_from_patient_ * glm::dvec4(patient_mm, 1)) * double(side) - 0.5;
+    const glm::dvec3 floor = glm::floor(position);
+    const glm::dvec3 f = position - floor;
+    std::complex<double> sum = 0;
+    double squares = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+      const glm::ivec3 step(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
+      const double weight = (step.x ? f.x : 1 - f.x) * (step.y ? f.y : 1 - f.y) * (step.z ? f.z : 1 - f.z);
+      sum += weight * point(glm::ivec3(floor) + step);
+      squares += weight * weight;
+    }
+    return sum / std::sqrt(squares);
+  }
+
+private:
+  std::complex<double> point(const glm::ivec3& i) const {
+    constexpr int side = ScattererLattice::kSide;
+    const auto wrapped = [](int a) { return std::size_t((a % side + side) % side); };
+    const std::size_t offset = 2 * ((wrapped(i.z) * side + wrapped(i.y)) * side + wrapped(i.x));
+    return std::complex<double>(lattice_.stored[offset], lattice_.stored[offset + 1]) *
+           (ScattererLattice::kScale / 32767.0);
+  }
+
+  ScattererLattice lattice_;
+  glm::dmat4 lattice_from_patient_;
+};
+
+double bilinear(const Image<double>& image, double x, double y) {
+  x = std::clamp(x, 0.0, image.width - 1.0);
+  y = std::clamp(y, 0.0, image.height - 1.0);
+  const int x0 = std::min(int(x), std::max(image.width - 2, 0)), x1 = std::min(x0 + 1, image.width - 1);
+  const int y0 = std::min(int(y), std::max(image.height - 2, 0)), y1 = std::min(y0 + 1, image.height - 1);
+  const double fx = x - x0, fy = y - y0;
+  return (1 - fy) * ((1 - fx) * image.at(x0, y0) + fx * image.at(x1, y0)) +
+         fy * ((1 - fx) * image.at(x0, y1) + fx * image.at(x1, y1));
+}
+
+/// A Gaussian over the pixels inside the fan, out to three sigma; below a twentieth of a pixel it is none.
+Image<double> smoothed(const Image<double>& image, const Image<std::uint8_t>& inside, double sigma_px) {
+  if (sigma_px < 0.05) return image;
+  const int radius = std::min(int(std::ceil(3 * sigma_px)), std::max(image.width, image.height) - 1);
+  const auto pass = [&](const Image<double>& from, int dx, int dy) {
+    Image<double> to(from.width, from.height);
+    for (int y = 0; y < from.height; ++y)
+      for (int x = 0; x < from.width; ++x) {
+        if (!inside.at(x, y)) continue;
+        double sum = 0, total = 0;
+        for (int j = -radius; j <= radius; ++j) {
+          const int u = x + j * dx, v = y + j * dy;
+          if (u < 0 || v < 0 || u >= from.width || v >= from.height || !inside.at(u, v)) continue;
+          const double weight = std::exp(-0.5 * j * j / (sigma_px * sigma_px));
+          sum += weight * from.at(u, v);
+          total += weight;
+        }
+        to.at(x, y) = sum / total;
+      }
+    return to;
+  };
+  return pass(pass(image, 1, 0), 0, 1);
+}
+
+double time_gain(const Settings& settings, double depth_share) {
+  const double at = std::clamp(depth_share, 0.0, 1.0) * double(settings.tgc_db.size() - 1);
+  const std::size_t below = std::min(std::size_t(at), settings.tgc_db.size() - 2);
+  const double f = at - double(below);
+  const double db = (1 - f) * settings.tgc_db[below] + f * settings.tgc_db[below + 1] + settings.gain_db;
+  return std::pow(10.0, db / 10);
+}
+
+}  // namespace
+
+MediumField trilinear_field(const AcousticVolume& volume) {
+  return [&volume, inverse = glm::inverse(volume.grid.matrix())](const glm::dvec3& p) {
+    const AcousticVoxel outside;
+    const glm::dvec3 index(inverse * glm::dvec4(p, 1));
+    const glm::dvec3 floor = glm::floor(index);
+    if (!glm::all(glm::greaterThanEqual(floor, glm::dvec3(-1))) ||
+        !glm::all(glm::lessThan(floor, glm::dvec3(volume.grid.size))))
+      return Medium{double(outside.hu), outside.echogenicity_cdb / 100.0};
+    const glm::dvec3 f = index - floor;
+    Medium medium{0, 0};
+    for (int corner = 0; corner < 8; ++corner) {
+      const glm::ivec3 step(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
+      const glm::ivec3 i = glm::ivec3(floor) + step;
+      const double weight = (step.x ? f.x : 1 - f.x) * (step.y ? f.y : 1 - f.y) * (step.z ? f.z : 1 - f.z);
+      const AcousticVoxel& voxel = volume.grid.contains(i) ? volume.at(i) : outside;
+      medium.hu += weight * voxel.hu;
+      medium.echogenicity_db += weight * voxel.echogenicity_cdb / 100.0;
+    }
+    return medium;
+  };
+}
+
+ReferenceScan traverse_reference(const MediumField& field, const TissueTable& table, const ScanLines& lines,
+                                 const Settings& settings, const Pose& patient_from_probe) {
+  const int count = int(lines.lines.size());
+  const double dr = lines.dr_mm(), l = settings.reflection_length_mm;
+  const Scatterers scatterers(settings);
+  ReferenceScan scan{Image<double>(count, lines.samples), Image<double>(count, lines.samples),
+                     Image<double>(count, lines.samples), Image<double>(count, lines.samples)};
+
+  for (int line = 0; line < count; ++line) {
+    const glm::dvec3 start = patient_from_probe.point(lines.lines[std::size_t(line)].start);
+    const glm::dvec3 d = lines.lines[std::size_t(line)].direction;
+    const glm::dvec3 along = patient_from_probe.direction(d);
+    const glm::dvec3 lateral = patient_from_probe.direction({d.y, -d.x, 0});
+    const glm::dvec3 elevation = glm::cross(along, lateral);
+
+    double intensity = 1;
+    for (int k = 0; k < lines.samples; ++k) {
+      const double r = lines.r_min_mm + (k + 0.5) * dr;
+      const glm::dvec3 p = start + r * along;
+      const Medium here = field(p);
+      const auto impedance = [&](const glm::dvec3& offset, double depth) {
+        return table.at(with_gel(field(p + offset).hu, depth, settings)).impedance_mrayl;
+      };
+      const double a = settings.absorption ? table.at(with_gel(here.hu, r, settings)).absorption_db_cm_mhz : 0;
+      const auto absorbed = [&](double distance_mm) {
+        return std::pow(10.0, -a * settings.frequency_mhz * distance_mm / 100);
+      };
+
+      const double before = impedance(-l / 2 * along, r - l / 2);
+      const double behind = impedance(l / 2 * along, r + l / 2);
+      const double alpha = std::pow((behind - before) / (behind + before), 2);  // (1)
+      const glm::dvec3 gradient(impedance(l / 2 * lateral, r) - impedance(-l / 2 * lateral, r), behind - before,
+                                impedance(l / 2 * elevation, r) - impedance(-l / 2 * elevation, r));
+      const double steepness = glm::length(gradient);
+      const double cosine = steepness > 0 ? std::abs(gradient.y) / steepness : 0;
+
+      if (k == 0) intensity *= absorbed(dr / 2);
+      scan.intensity.at(line, k) = intensity;
+      scan.reflection.at(line, k) = alpha * intensity * intensity * cosine;  // (3)
+      const double amplitude = std::pow(10.0, here.echogenicity_db / 10);
+      const std::complex<double> echo = amplitude * (settings.speckle ? scatterers.at(p) : 1.0);
+      scan.echo_re.at(line, k) = echo.real();
+      scan.echo_im.at(line, k) = echo.imag();
+
+      intensity *= std::pow(1 - alpha, dr / l) * absorbed(dr);  // (5)
+    }
+  }
+  return scan;
+}
+
+Stages<double> simulate_reference(const MediumField& field, const TissueTable& table, const Probe& probe,
+                                  double depth_mm, const Settings& settings, const Pose& patient_from_probe) {
+  const ScanLines lines = scan_lines(probe, depth_mm, settings.samples);
+  const int n = int(lines.lines.size()), d = lines.samples;
+  ReferenceScan scan = traverse_reference(field, table, lines, settings, patient_from_probe);
+
+  Stages<double> stages;
+  stages.reflection_beam = Image<double>(n, d);
+  stages.transmission = Image<double>(n, d);
+  stages.speckle = Image<double>(n, d);
+  const std::vector<double> weights = beam_weights(settings);
+  const std::vector<double> scale = envelope_scale(lines, settings);
+  const int half = (settings.beam_lines - 1) / 2;
+  for (int k = 0; k < d; ++k)
+    for (int line = 0; line < n; ++line) {
+      double reflection = 0, total = 0;
+      std::complex<double> echo = 0;
+      for (int j = -half; j <= half; ++j) {  // (4)
+        if (line + j < 0 || line + j >= n) continue;
+        const double weight = weights[std::size_t(j + half)];
+        reflection += weight * scan.reflection.at(line + j, k);
+        echo += weight * std::complex(scan.echo_re.at(line + j, k), scan.echo_im.at(line + j, k));
+        total += weight;
+      }
+      stages.reflection_beam.at(line, k) = reflection / total;
+      const double intensity = scan.intensity.at(line, k);
+      stages.transmission.at(line, k) = settings.two_way ? intensity * intensity : intensity;
+      stages.speckle.at(line, k) = std::abs(echo) / total * (settings.speckle ? scale[std::size_t(k)] : 1);
+    }
+  stages.intensity = std::move(scan.intensity);
+  stages.reflection = std::move(scan.reflection);
+
+  const int w = settings.image_width, h = settings.image_height;
+  const ImageGeometry geometry = image_geometry(probe, depth_mm, w, h);
+  Image<double> reflection(w, h), transmission(w, h), speckle(w, h), gain(w, h);
+  stages.inside = Image<std::uint8_t>(w, h);
+  for (int y = 0; y < h; ++y)
+    for (int x = 0; x < w; ++x) {
+      const auto position = line_position(probe, depth_mm, geometry.plane_mm(x, y));
+      if (!position) continue;
+      const double sample = position->r_mm / lines.dr_mm() - 0.5;
+      stages.inside.at(x, y) = 1;
+      reflection.at(x, y) = bilinear(stages.reflection_beam, position->line, sample);
+      transmission.at(x, y) = bilinear(stages.transmission, position->line, sample);
+      speckle.at(x, y) = bilinear(stages.speckle, position->line, sample);
+      gain.at(x, y) = time_gain(settings, position->r_mm / depth_mm);
+    }
+  reflection = smoothed(reflection, stages.inside, settings.reflection_sigma_mm / geometry.mm_per_pixel);
+  transmission = smoothed(transmission, stages.inside, settings.transmission_sigma_mm / geometry.mm_per_pixel);
+
+  stages.fused = Image<double>(w, h);
+  double brightest = 0;
+  for (std::size_t i = 0; i < stages.fused.pixels.size(); ++i) {
+    stages.fused.pixels[i] =
+        (reflection.pixels[i] + settings.blend * transmission.pixels[i]) * speckle.pixels[i];  // (6)
+    brightest = std::max(brightest, stages.fused.pixels[i] * gain.pixels[i]);
+  }
+  const double level = settings.reference_level == ReferenceLevel::frame_maximum ? brightest : settings.fixed_level;
+  stages.grey = Image<std::uint8_t>(w, h);
+  for (std::size_t i = 0; i < stages.fused.pixels.size(); ++i) {
+    const double echo = stages.fused.pixels[i] * gain.pixels[i];
+    if (!stages.inside.pixels[i] || echo <= 0) continue;
+    const double grey = 1 + 10 * std::log10(echo / level) / settings.dynamic_range_db;  // (7)
+    stages.grey.pixels[i] = std::uint8_t(std::lround(255 * std::clamp(grey, 0.0, 1.0)));
+  }
+  return stages;
+}
+
+}  // namespace insonate

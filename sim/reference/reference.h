@@ -1,1 +1,38 @@
 #pragma once
+
+#include <functional>
+
+#include "sim/core/pose.h"
+#include "sim/model/acoustic_volume.h"
+#include "sim/model/settings.h"
+#include "sim/model/stages.h"
+#include "sim/model/tissue.h"
+#include "sim/probe/probe.h"
+
+namespace insonate {
+
+/// What lies at a point, however it is stored: the reference also takes fields given by a formula, against which its
+/// own accuracy can be measured.
+struct Medium {
+  double hu = -1000;
+  double echogenicity_db = -60;
+};
+using MediumField = std::function<Medium(const glm::dvec3& patient_mm)>;
+
+/// The trilinear field of a volume, with air outside.
+MediumField trilinear_field(const AcousticVolume& volume);
+
+/// Model S in double precision, as MODEL.md's formulas read, in plain loops: the measure of everything faster. Shares
+/// with the shaders the tissue table, the probes' geometry, the scatterers' bits and the beam's weights, and no code.
+Stages<double> simulate_reference(const MediumField& field, const TissueTable& table, const Probe& probe,
+                                  double depth_mm, const Settings& settings, const Pose& patient_from_probe);
+
+/// The first step alone: I and R along given lines (the other stages are left empty), and the scatterers' echo.
+struct ReferenceScan {
+  Image<double> intensity, reflection;  ///< x line, y sample
+  Image<double> echo_re, echo_im;
+};
+ReferenceScan traverse_reference(const MediumField& field, const TissueTable& table, const ScanLines& lines,
+                                 const Settings& settings, const Pose& patient_from_probe);
+
+}  // namespace insonate

@@ -2,18 +2,13 @@
 // std140: every group of four scalars below fills one 16-byte row.
 #ifdef __cplusplus
 #pragma once
-#include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
 namespace insonate::gl {
-using glm::mat4;
 using glm::vec4;
 struct SimulationParameters {
 #else
 layout(std140, binding = 0) uniform SimulationParameters {
 #endif
-  mat4 texture_from_probe;  // probe mm -> coordinates of the volume's texture, [0, 1] over its box
-  mat4 lattice_from_probe;  // probe mm -> coordinates of the scatterer lattice, period 1
-
   int lines;    // N
   int samples;  // D
   float r_min_mm;

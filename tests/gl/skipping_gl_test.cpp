@@ -1,0 +1,69 @@
+// The simulator runs the stages that a change reaches, and no others.
+
+#include <catch2/catch.hpp>
+
+#include <functional>
+
+#include "sim/gl/headless_context.h"
+#include "sim/gl/simulator.h"
+#include "tests/gl/test_body.h"
+
+using namespace insonate;
+using gl::Stage;
+
+namespace {
+
+struct Fixture {
+  gl::HeadlessContext context;
+  gl::Simulator simulator;
+  Settings settings = trainer_settings(3.5, 100);
+
+  Fixture() {
+    settings.samples = 64;
+    settings.image_width = 64;
+    settings.image_height = 48;
+    simulator.set_volume(test::test_body(), read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml"));
+    simulator.set_probe(*find_probe("curvilinear"), 100);
+    simulator.set_settings(settings);
+    simulator.set_pose(test::on_the_skin(0, 9, 0));
+    simulator.image();
+  }
+
+  /// The stages that run after a change, as a string of their numbers.
+  std::string after(const std::function<void()>& change) {
+    const auto before = simulator.runs();
+    change();
+    simulator.set_settings(settings);
+    simulator.image();
+    std::string ran;
+    for (int stage = 0; stage < gl::kStageCount; ++stage)
+      if (simulator.runs()[std::size_t(stage)] > before[std::size_t(stage)]) ran += char('0' + stage);
+    return ran;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("an unchanged frame runs nothing") {
+  Fixture f;
+  CHECK(f.after([] {}) == "");
+  CHECK(f.after([&] { f.simulator.set_pose(test::on_the_skin(0, 9, 0)); }) == "");
+}
+
+TEST_CASE("a change runs the first stage it reaches and those behind it") {
+  Fixture f;
+  CHECK(f.after([&] { f.simulator.set_pose(test::on_the_skin(1, 9, 0)); }) == "012346");
+  CHECK(f.after([&] { f.settings.beam_lines = 9; }) == "12346");
+  CHECK(f.after([&] { f.settings.reflection_sigma_mm = 2; }) == "346");
+  CHECK(f.after([&] { f.settings.blend *= 2; }) == "46");
+  CHECK(f.after([&] { f.settings.gain_db = 6; }) == "6");
+  CHECK(f.after([&] { f.settings.tgc_db[3] += 6; }) == "6");
+  CHECK(f.after([&] { f.settings.dynamic_range_db = 50; }) == "6");
+}
+
+TEST_CASE("smoothing that is off and a maximum that nobody asks for do not run") {
+  Fixture f;
+  CHECK(f.after([&] { f.settings.reflection_sigma_mm = 0; }) == "46");
+  CHECK(f.after([&] { f.simulator.set_pose(test::on_the_skin(2, 9, 0)); }) == "01246");
+  CHECK(f.after([&] { f.settings.reference_level = ReferenceLevel::frame_maximum; }) == "56");
+}
