@@ -1,10 +1,29 @@
 #include "scenarios/digest.h"
 
+#include <xxhash.h>
+
 #include <cinttypes>
 #include <cstdio>
+#include <memory>
 
 namespace insonate {
 namespace {
+
+class Digest {
+public:
+  Digest() : state_(XXH3_createState(), XXH3_freeState) { XXH3_64bits_reset(state_.get()); }
+  void add(std::string_view bytes) { XXH3_64bits_update(state_.get(), bytes.data(), bytes.size()); }
+  void add(double number) { XXH3_64bits_update(state_.get(), &number, sizeof number); }
+
+  std::string hex() const {
+    char text[17];
+    std::snprintf(text, sizeof text, "%016" PRIx64, std::uint64_t(XXH3_64bits_digest(state_.get())));
+    return text;
+  }
+
+private:
+  std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> state_;
+};
 
 void add_vector(Digest& digest, const glm::dvec3& v) {
   for (int c = 0; c < 3; ++c) digest.add(v[c]);
@@ -26,20 +45,6 @@ void add_voxels(Digest& digest, const std::vector<T>& voxels) {
 }
 
 }  // namespace
-
-void Digest::add(std::string_view bytes) {
-  for (const char byte : bytes) state_ = (state_ ^ std::uint8_t(byte)) * 0x100000001b3u;
-}
-
-void Digest::add(double number) {
-  add(std::string_view(reinterpret_cast<const char*>(&number), sizeof number));
-}
-
-std::string Digest::hex() const {
-  char text[17];
-  std::snprintf(text, sizeof text, "%016" PRIx64, state_);
-  return text;
-}
 
 std::string digest_of(std::string_view bytes) {
   Digest digest;

@@ -1,0 +1,170 @@
+#include "scenarios/report.h"
+
+#include <cstdio>
+
+#include "scenarios/marking.h"
+#include "scenarios/report_charts.h"
+#include "scenarios/report_style.h"
+
+namespace insonate {
+namespace {
+
+std::string escaped(std::string_view text) {
+  std::string html;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        html += "&amp;";
+        break;
+      case '<':
+        html += "&lt;";
+        break;
+      case '>':
+        html += "&gt;";
+        break;
+      case '"':
+        html += "&quot;";
+        break;
+      case '\'':
+        html += "&#39;";
+        break;
+      default:
+        html += c;
+    }
+  }
+  return html;
+}
+
+std::string fixed(double value, int decimals) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f", decimals, value);
+  return text;
+}
+
+/// Points as short as they can be said: "2", "1.75".
+std::string points(double value) {
+  std::string text = fixed(value, 2);
+  while (text.back() == '0') text.pop_back();
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+
+const char* in_words(StepOutcome outcome) {
+  switch (outcome) {
+    case StepOutcome::held:
+      return "view held";
+    case StepOutcome::timed_out:
+      return "time ran out";
+    case StepOutcome::scan_ended:
+      return "scan ended first";
+    case StepOutcome::not_reached:
+      return "not reached";
+  }
+  return "";
+}
+
+std::string bar(double share) {
+  return "<div class='bar'><i style='width:" + fixed(100 * share, 1) + "%'></i></div>";
+}
+
+std::string row(const Mark& m) {
+  const double share = m.weight > 0 ? m.points / m.weight : 0;
+  const char* grade = share >= 1 ? "all" : share > 0 ? "some" : "none";
+  std::string html = "<tr class='" + std::string(grade) + "'><td><b>" + escaped(info(m.metric).words) + "</b>";
+  if (m.critical) html += " <span class='critical'>critical</span>";
+  html += "<small>" + escaped(m.why) + "</small></td>";
+  html += "<td class='number'>" + (m.value ? in_words(m.metric, *m.value) : "\u2013") + "</td>";
+  html += "<td class='number'>" + in_words(m.metric, m.full) + " \u2026 " + in_words(m.metric, m.zero) + "</td>";
+  html += "<td class='number'>" + points(m.points) + " of " + points(m.weight) + bar(share) + "</td></tr>\n";
+  return html;
+}
+
+std::string table(const std::vector<Mark>& marks) {
+  if (marks.empty()) return "<p class='quiet'>This part does not count.</p>";
+  std::string html =
+      "<table><thead><tr><th>Criterion</th><th class='number'>Value</th><th class='number'>Full \u2026 no points</th>"
+      "<th class='number'>Points</th></tr></thead><tbody>\n";
+  for (const Mark& m : marks) html += row(m);
+  return html + "</tbody></table>";
+}
+
+std::string section(const StepResult& step, std::size_t index) {
+  std::string html = "<section><h2>" + std::to_string(index + 1) + ". " + escaped(step.title) +
+                     "<span class='outcome " + (step.outcome == StepOutcome::held ? "good" : "bad") + "'>" +
+                     in_words(step.outcome) + "</span></h2>";
+  if (step.outcome != StepOutcome::not_reached) {
+    html += "<p class='quiet'>From " + fixed(step.start_s, 1) + " s to " + fixed(step.end_s, 1) + " s. ";
+    if (step.judged_from_s)
+      html +=
+          std::string(step.outcome == StepOutcome::held ? "Judged over the hold" : "Never held long enough: judged") +
+          " from " + fixed(*step.judged_from_s, 1) + " s to " + fixed(*step.judged_to_s, 1) + " s.";
+    html += "</p>";
+  }
+  return html + table(step.marks) + "</section>\n";
+}
+
+std::string verdict(const ExamResult& result) {
+  const char* state = !result.complete ? "open" : result.passed ? "passed" : "failed";
+  const char* word = !result.complete ? "Not finished" : result.passed ? "Passed" : "Not passed";
+  std::string html = "<div class='verdict " + std::string(state) + "'><div><strong>" + word +
+                     "</strong><span class='percent'>" + fixed(result.percent, 1) + "<small> %</small></span></div>";
+  html += "<div class='meter'><i style='width:" + fixed(result.percent, 1) +
+          "%'></i><b style='left:" + fixed(result.pass_mark_percent, 1) + "%'></b></div>";
+  html += "<p>" + points(result.points) + " of " + points(result.points_possible) + " points; " +
+          points(result.pass_mark_percent) + " % are needed.</p>";
+  if (!result.reasons.empty()) {
+    html += "<ul>";
+    for (const std::string& reason : result.reasons) html += "<li>" + escaped(reason) + "</li>";
+    html += "</ul>";
+  }
+  return html + "</div>\n";
+}
+
+std::string made_from(const ExamResult& result) {
+  const Provenance& p = result.provenance;
+  const auto line = [](const char* name, const std::string& value, const std::string& digest = {}) {
+    if (value.empty()) return std::string();
+    return "<tr><td>" + std::string(name) + "</td><td>" + escaped(value) +
+           (digest.empty() ? "" : " <code>" + escaped(digest) + "</code>") + "</td></tr>";
+  };
+  std::string options;
+  for (const auto& [name, value] : p.phantom_options) options += (options.empty() ? "" : ", ") + name + " = " + value;
+  return "<section class='origin'><h2>Made from</h2><table>" + line("Scenario", p.scenario, p.scenario_digest) +
+         line("Case", p.case_name, p.case_digest) + line("Phantom options", options) +
+         line("Log", p.log, p.log_digest) +
+         line("Insonate", p.program_version + ", scoring " + std::to_string(ExamResult::kScoringVersion)) +
+         "</table></section>\n";
+}
+
+}  // namespace
+
+std::string report_html(const ExamResult& result, std::span<const TracePoint> trace,
+                        std::span<const ReportPicture> pictures) {
+  std::string html =
+      "<!doctype html>\n<html lang='en'><head><meta charset='utf-8'>"
+      "<meta name='viewport' content='width=device-width, initial-scale=1'><title>" +
+      escaped(result.title) + "</title><style>" + kReportStyle + "</style></head>\n<body><main>\n";
+  html += "<header><p class='quiet'>Insonate score report</p><h1>" + escaped(result.title) + "</h1><p class='quiet'>" +
+          escaped(result.provenance.case_name) + "</p></header>\n" + verdict(result);
+  if (!pictures.empty()) {
+    html += "<section class='pictures'>";
+    for (const ReportPicture& picture : pictures)
+      html += "<figure><img alt='' src='" + escaped(picture.data_uri) + "'><figcaption>" + escaped(picture.caption) +
+              "</figcaption></figure>";
+    html += "</section>\n";
+  }
+  for (std::size_t i = 0; i < result.steps.size(); ++i) html += section(result.steps[i], i);
+  html += "<section><h2>Whole exam</h2>" + table(result.marks) + "</section>\n";
+  if (!trace.empty()) {
+    html += "<section><h2>Over time</h2>" + time_charts_svg(result, trace) +
+            "<p class='legend'><i class='key held'></i>held <i class='key judged'></i>judged without a hold "
+            "<i class='key lost'></i>no tracking <i class='key full'></i>full points</p></section>\n";
+    html += "<section><h2>Way of the probe</h2>" + path_charts_svg(result, trace) + "<p class='legend'>";
+    for (std::size_t i = 0; i < result.steps.size(); ++i)
+      html += "<i class='key way" + std::to_string(i % 4) + "'></i>" + escaped(result.steps[i].title) + " ";
+    html += "</p></section>\n";
+  }
+  return html + made_from(result) + "</main></body></html>\n";
+}
+
+}  // namespace insonate
