@@ -8,6 +8,7 @@
 
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/core/suggest.h"
 
 namespace insonate {
 namespace {
@@ -45,9 +46,8 @@ int choose(const Sequence& sequence, std::string_view wanted) {
   if (name.ends_with("Transform")) name.remove_suffix(std::string_view("Transform").size());
   const int found = sequence.find(name);
   if (found < 0)
-    throw InputError(sequence.file, "",
-                     "no frame has the transform '" + std::string(wanted) + "'; there are " + all_names(sequence),
-                     "name one of these");
+    throw InputError(sequence.file, "", "no frame has the transform '" + std::string(wanted) + "'",
+                     suggest(name, sequence.transform_names));
   return found;
 }
 
