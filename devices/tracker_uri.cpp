@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sim/core/input_error.h"
+#include "sim/core/suggest.h"
 
 namespace insonate {
 namespace {
@@ -47,10 +48,9 @@ TrackerUri parse_tracker_uri(std::string_view text) {
 void TrackerUri::allow_options(std::initializer_list<std::string_view> names) const {
   for (const auto& [option, value] : options) {
     if (std::find(names.begin(), names.end(), option) != names.end()) continue;
-    std::string allowed;
-    for (const std::string_view name : names) allowed += (allowed.empty() ? "'" : ", '") + std::string(name) + "'";
     throw InputError("tracker '" + text + "'", "option '" + option + "'", "there is no such option",
-                     names.size() == 0 ? "give none: this tracker has no options" : "use one of " + allowed);
+                     names.size() == 0 ? "leave it out: this tracker has no options"
+                                       : suggest(option, {names.begin(), names.end()}));
   }
 }
 
