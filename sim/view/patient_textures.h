@@ -11,35 +11,37 @@
 namespace insonate::view {
 
 /// A patient as the views see it: made once per patient, in some tenths of a second, from the CT, its labels and the
-/// texture of the simulator.
+/// simulator's texture.
 class PatientTextures {
 public:
-  /// @param acoustic_volume  gl::Simulator::volume_texture(), which outlives this
+  /// @param acoustic_volume  gl::Simulator::volume_texture() of the same CT; outlives this
   /// @param labels           on the CT's grid, or empty
   PatientTextures(const gl::Texture& acoustic_volume, const Volume<std::int16_t>& ct,
                   const Volume<std::uint8_t>& labels, const OrganColours& colours);
 
   const Grid& grid() const { return grid_; }
-  const glm::dmat4& texture_from_patient() const { return texture_from_patient_; }
   const OrganColours& colours() const { return colours_; }
 
-  /// (HU, ...) / 32767 at the CT's own resolution.
+  /// (HU, ...) / 32767 at the CT's own resolution, air outside.
   const gl::Texture& acoustic_volume() const { return *acoustic_volume_; }
-  /// R8UI, the CT's size; 1 x 1 x 1 of 0 when there are no labels.
+  /// R8UI, the CT's size; a single 0 when there are no labels.
   const gl::Texture& labels() const { return labels_; }
-  /// What is drawn, at about 2 mm: RGBA8, colour times coverage, and the coverage of organs and bone.
-  const gl::Texture& tissue() const { return tissue_; }
-  /// The same size, RG8: the opacity of 1 mm, and how much of the voxel is the patient's body.
-  const gl::Texture& body() const { return body_; }
-  /// Per block of kBlock^3 of those voxels, R8UI: how many blocks away (Chebyshev) the next one is that is not empty.
-  const gl::Texture& distance() const { return distance_; }
+  /// Patient mm -> coordinates of those two.
+  glm::dmat4 texture_from_patient() const;
 
-  static constexpr int kBlock = 4;
+  /// What is drawn in space: the arrays of TissueClasses as RGBA8, RG8 and R8UI.
+  const gl::Texture& tissue() const { return tissue_; }
+  const gl::Texture& body() const { return body_; }
+  const gl::Texture& distance() const { return distance_; }
+  /// Patient mm -> coordinates of tissue() and body().
+  glm::dmat4 tissue_from_patient() const;
+  /// The side of their voxels, the smallest of the three, mm.
+  double tissue_voxel_mm() const;
 
 private:
   Grid grid_;
-  glm::dmat4 texture_from_patient_{1.0};
   OrganColours colours_;
+  glm::ivec3 step_{1};  // voxels of the CT in one of tissue()
   const gl::Texture* acoustic_volume_ = nullptr;
   gl::Texture labels_, tissue_, body_, distance_;
 };

@@ -1,6 +1,10 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "sim/gl/objects.h"
 #include "sim/gl/program.h"
@@ -10,11 +14,11 @@
 namespace insonate::view {
 
 struct SliceStyle {
-  double window_hu = 400;    ///< width of the grey scale, > 0
-  double level_hu = 40;      ///< its middle
-  double ultrasound = 0;     ///< 0 the CT alone, 1 the ultrasound alone inside the fan, between: their mix
-  double outside_fan = 0.4;  ///< brightness of the CT outside the fan, 0 to 1
-  bool outlines = false;     ///< the edges of labelled organs in their colours
+  double window_hu = 400;              ///< width of the grey scale, > 0
+  double level_hu = 40;                ///< its middle
+  double ultrasound = 0;               ///< 0 the CT alone, 1 the ultrasound alone inside the fan, between: their mix
+  double outside_fan = 0.4;            ///< brightness of the CT outside the fan, 0 to 1
+  std::vector<std::uint8_t> outlined;  ///< label values whose edges are drawn in their organs' colours
   bool operator==(const SliceStyle&) const = default;
 };
 
@@ -27,9 +31,9 @@ public:
   SliceView& operator=(SliceView&&) noexcept;
 
   /// RGBA8, alpha 255, row 0 is the top, the size of plane.geometry. Drawn anew only when something changed; valid
-  /// until the next call. Leaves the framebuffer binding and viewport as they were.
+  /// until the next call. Leaves the framebuffer binding, viewport and switches as they were.
   /// @param patient  compared by address: call forget() after changing what lies there
-  const gl::Texture& render(const PatientTextures& patient, const UltrasoundPlane& plane, const SliceStyle& style);
+  const gl::Texture& render(const PatientTextures& patient, const UltrasoundPlane& plane, const SliceStyle& style = {});
 
   /// The next render() draws.
   void forget();

@@ -1,0 +1,26 @@
+// What the slice's shader is told: read by it and written by C++, which both include this file (std140).
+#ifdef __cplusplus
+#pragma once
+#include <glm/mat4x4.hpp>
+#include <glm/vec4.hpp>
+namespace insonate::view {
+using glm::mat4;
+using glm::vec4;
+struct SliceParameters {
+#else
+layout(std140, binding = 0) uniform SliceParameters {
+#endif
+  mat4 texture_from_pixel;  // (x, y, 0, 1) of a pixel's centre -> coordinates of the patient's textures
+
+  float window_hu;
+  float level_hu;
+  float ultrasound;   // share of the ultrasound inside the fan
+  float outside_fan;  // brightness of the CT outside it
+
+  vec4 outline[256];  // per label: colour of its edge, alpha 0 for none
+#ifdef __cplusplus
+};
+}  // namespace insonate::view
+#else
+};
+#endif

@@ -1,0 +1,40 @@
+// The CT in the ultrasound picture's plane, mixed with that picture, pixel by pixel.
+
+#include "shared/slice_parameters.h"
+
+layout(binding = 0) uniform sampler3D acoustic_volume;  // (HU, ...) / 32767
+layout(binding = 1) uniform sampler2D ultrasound_image;  // alpha 0 outside the fan
+layout(binding = 2) uniform usampler3D labels;
+
+layout(location = 0) out vec4 colour;
+
+vec3 texture_position(vec2 pixel) {
+  return (texture_from_pixel * vec4(pixel, 0.0, 1.0)).xyz;
+}
+
+uint label_at(vec2 pixel) {
+  ivec3 size = textureSize(labels, 0);
+  ivec3 voxel = ivec3(floor(texture_position(pixel) * vec3(size)));
+  if (any(lessThan(voxel, ivec3(0))) || any(greaterThanEqual(voxel, size))) return 0u;
+  return texelFetch(labels, voxel, 0).x;
+}
+
+// The colour of the label whose inner edge runs through the pixel.
+vec4 outline_at(vec2 pixel) {
+  uint here = label_at(pixel);
+  if (here == 0u || outline[here].a == 0.0) return vec4(0.0);
+  const vec2 around[4] = vec2[](vec2(-1.5, 0.0), vec2(1.5, 0.0), vec2(0.0, -1.5), vec2(0.0, 1.5));
+  for (int i = 0; i < 4; ++i)
+    if (label_at(pixel + around[i]) != here) return outline[here];
+  return vec4(0.0);
+}
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  float hu = textureLod(acoustic_volume, texture_position(vec2(pixel)), 0.0).x * 32767.0;
+  float ct = clamp((hu - level_hu) / window_hu + 0.5, 0.0, 1.0);
+  vec4 echo = texelFetch(ultrasound_image, pixel, 0);
+  vec3 shown = echo.a > 0.5 ? mix(vec3(ct), echo.rgb, ultrasound) : vec3(ct * outside_fan);
+  vec4 edge = outline_at(vec2(pixel));
+  colour = vec4(mix(shown, edge.rgb, edge.a * (echo.a > 0.5 ? 0.85 : 0.85 * outside_fan)), 1.0);
+}

@@ -1,0 +1,169 @@
+// Direct volume rendering by ray casting: skin, organs and bone front to back, with the ultrasound picture, the cut's
+// face and the probe where they lie in depth.
+
+#include "shared/volume_view_parameters.h"
+#include "shared/probe_body.glsl"
+
+layout(binding = 0) uniform sampler3D acoustic_volume;   // (HU, ...) / 32767
+layout(binding = 1) uniform sampler2D ultrasound_image;  // alpha 0 outside the fan
+layout(binding = 2) uniform sampler3D tissue;            // colour times coverage, coverage
+layout(binding = 3) uniform sampler3D body;              // opacity of 1 mm times coverage, share of the patient's body
+layout(binding = 4) uniform usampler3D block_distance;   // blocks to the nearest one where something changes
+
+layout(location = 0) out vec4 colour;
+
+const int kBlock = 4;  // TissueClasses::kBlock
+const float kOpaque = 0.98;
+const float kNever = 1e9;
+const vec3 kSkinColour = vec3(0.86, 0.68, 0.58);
+const vec3 kFanEdge = vec3(0.36, 0.72, 0.88);
+const float kCutWindow_hu = 400.0, kCutLevel_hu = 40.0;
+
+vec4 sum = vec4(0.0);  // colour times opacity, opacity: what lies in front of the point the ray has come to
+
+void composite(vec3 shade, float opacity) {
+  sum += (1.0 - sum.a) * opacity * vec4(shade, 1.0);
+}
+
+vec3 background(vec2 at) {
+  return mix(vec3(0.085, 0.095, 0.115), vec3(0.045, 0.050, 0.062), smoothstep(0.2, 1.5, length(at)));
+}
+
+// A soft lamp at the viewer's upper left shoulder, and a little of the room.
+vec3 lit(vec3 base, vec3 normal, vec3 view, float gloss) {
+  vec3 lamp = normalize(-into.xyz - 0.45 * normalize(right.xyz) - 0.6 * normalize(down.xyz));
+  float diffuse = max(dot(normal, lamp), 0.0);
+  float from_above = 0.5 - 0.5 * dot(normal, normalize(down.xyz));
+  float highlight = pow(max(dot(normal, normalize(lamp - view)), 0.0), 28.0);
+  return base * (0.22 + 0.12 * from_above + 0.72 * diffuse) + gloss * highlight;
+}
+
+// Central differences over one voxel, patient mm: x the opacity's, y the body's.
+mat2x3 gradients(vec3 at, vec3 step_uv) {
+  vec2 dx = textureLod(body, at + vec3(step_uv.x, 0, 0), 0.0).xy - textureLod(body, at - vec3(step_uv.x, 0, 0), 0.0).xy;
+  vec2 dy = textureLod(body, at + vec3(0, step_uv.y, 0), 0.0).xy - textureLod(body, at - vec3(0, step_uv.y, 0), 0.0).xy;
+  vec2 dz = textureLod(body, at + vec3(0, 0, step_uv.z), 0.0).xy - textureLod(body, at - vec3(0, 0, step_uv.z), 0.0).xy;
+  mat3 to_patient = transpose(mat3(tissue_from_patient));
+  return mat2x3(to_patient * (vec3(dx.x, dy.x, dz.x) / step_uv), to_patient * (vec3(dx.y, dy.y, dz.y) / step_uv));
+}
+
+// The normal that faces the viewer; where there is no gradient, as on a cut, the viewer's own direction.
+vec3 facing(vec3 gradient, vec3 view) {
+  float size = length(gradient);
+  if (size < 1e-4) return -view;
+  vec3 normal = gradient / size;
+  return dot(normal, view) > 0.0 ? -normal : normal;
+}
+
+// The picture's plane at a point: the ultrasound inside the fan, the fan's edge, the CT on the cut around it.
+void composite_plane(vec3 patient, float t, float slant) {
+  vec2 on_plane = (probe_from_patient * vec4(patient, 1.0)).xy;
+  vec2 size = vec2(textureSize(ultrasound_image, 0));
+  vec2 uv = (on_plane - image_geometry.xy) / (image_geometry.z * size);
+  if (show_plane == 1 && all(greaterThan(uv, vec2(0.0))) && all(lessThan(uv, vec2(1.0)))) {
+    vec4 echo = textureLod(ultrasound_image, uv, 0.0);
+    // The edge is as wide as one and a half pixels of the screen, the slant of the plane allowed for.
+    vec2 width = vec2(1.5 * picture.z * t / max(slant, 0.25)) / (image_geometry.z * size);
+    float around = min(min(textureLod(ultrasound_image, uv + vec2(width.x, 0), 0.0).a,
+                           textureLod(ultrasound_image, uv - vec2(width.x, 0), 0.0).a),
+                       min(textureLod(ultrasound_image, uv + vec2(0, width.y), 0.0).a,
+                           textureLod(ultrasound_image, uv - vec2(0, width.y), 0.0).a));
+    if (echo.a > 0.5) {
+      composite(around < 0.5 ? kFanEdge : echo.rgb, 1.0);
+      return;
+    }
+  }
+  if (cut == 0) return;
+  vec3 at = (tissue_from_patient * vec4(patient, 1.0)).xyz;
+  if (any(lessThan(at, vec3(0.0))) || any(greaterThan(at, vec3(1.0)))) return;
+  float inside = smoothstep(0.4, 0.6, textureLod(body, at, 0.0).y);
+  if (inside == 0.0) return;
+  float hu = textureLod(acoustic_volume, (texture_from_patient * vec4(patient, 1.0)).xyz, 0.0).x * 32767.0;
+  float grey = clamp((hu - kCutLevel_hu) / kCutWindow_hu + 0.5, 0.0, 1.0);
+  vec4 organ = textureLod(tissue, at, 0.0);
+  vec3 shade = vec3(0.9 * grey);
+  if (show_organs == 1) shade = mix(shade, organ.rgb * (0.4 + 0.9 * grey), 0.55 * organ.a);
+  composite(shade, inside * cut_face);
+}
+
+void main() {
+  vec2 at = 2.0 * gl_FragCoord.xy / picture.xy - 1.0;
+  vec3 direction = into.xyz + at.x * right.xyz + at.y * down.xyz;
+  direction = normalize(direction);
+  vec3 from = eye.xyz;
+
+  // The plane, the probe and the part of the ray that is left of the patient.
+  vec4 probe_eye = probe_from_patient * vec4(from, 1.0);
+  vec3 probe_direction = mat3(probe_from_patient) * direction;
+  float t_plane = -probe_eye.z / probe_direction.z;
+  bool meets_plane = t_plane > 0.0 && t_plane < kNever;  // false for a ray within the plane
+  if (!meets_plane) t_plane = kNever;
+  float t_probe = show_probe == 1 ? meet_probe(probe_eye.xyz, probe_direction) : -1.0;
+  if (t_probe < 0.0) t_probe = kNever;
+
+  vec3 box_origin = (tissue_from_patient * vec4(from, 1.0)).xyz;
+  vec3 box_direction = mat3(tissue_from_patient) * direction;
+  vec3 safe = mix(box_direction, vec3(1e-9), lessThan(abs(box_direction), vec3(1e-9)));
+  vec3 a = -box_origin / safe, b = (1.0 - box_origin) / safe;
+  vec3 low = min(a, b), high = max(a, b);
+  float t = max(max(low.x, low.y), max(low.z, 0.0));
+  float end = min(min(high.x, high.y), high.z);
+  if (cut == 1) t = max(t, t_plane);  // what never meets the plane lies wholly in front of it
+  end = min(end, t_probe);
+
+  bool plane_due = meets_plane && t_plane < t_probe && (show_plane == 1 || cut == 1);
+  vec3 size = vec3(textureSize(body, 0));
+  vec3 blocks_per_uv = size / float(kBlock);
+  vec3 voxel_uv = 1.0 / size;
+  float before = -1.0;  // share of body at the sample before; none yet
+  float t_before = t;
+  float slant = abs(probe_direction.z);
+
+  // Each pass takes one sample or leaps over blocks where nothing changes. The bound is a guard, far above need.
+  for (int i = 0; i < 4096 && t < end && sum.a < kOpaque; ++i) {
+    if (plane_due && t >= t_plane) {
+      composite_plane(from + t_plane * direction, t_plane, slant);
+      plane_due = false;
+    }
+    vec3 uv = box_origin + t * box_direction;
+    ivec3 block = clamp(ivec3(floor(uv * blocks_per_uv)), ivec3(0), textureSize(block_distance, 0) - 1);
+    uint empty = texelFetch(block_distance, block, 0).x;
+    if (empty > 0u) {
+      vec3 near_side = vec3(block - int(empty) + 1), far_side = vec3(block + int(empty));
+      vec3 exits = (mix(near_side, far_side, greaterThan(safe, vec3(0.0))) / blocks_per_uv - box_origin) / safe;
+      t = max(min(min(exits.x, exits.y), exits.z), t) + 0.05;
+      continue;
+    }
+
+    vec2 here = textureLod(body, uv, 0.0).xy;
+    // The skin is where the body is half: a surface, seen as glass is, more where it turns away.
+    if (before >= 0.0 && (before - 0.5) * (here.y - 0.5) < 0.0 && skin > 0.0) {
+      float t_skin = mix(t_before, t, (0.5 - before) / (here.y - before));
+      vec3 normal = facing(gradients(box_origin + t_skin * box_direction, voxel_uv)[1], direction);
+      float facing_us = abs(dot(normal, direction));
+      float opacity = mix(1.0, skin, pow(facing_us, 0.6)) * (here.y > before ? 1.0 : 0.6);
+      composite(lit(kSkinColour, normal, direction, 0.12), min(opacity, 0.9));
+    }
+    before = here.y;
+    t_before = t;
+
+    if (show_organs == 1 && here.x > 0.004) {
+      vec4 organ = textureLod(tissue, uv, 0.0);
+      float coverage = smoothstep(0.35, 0.65, organ.a);
+      if (coverage > 0.0) {
+        float opacity = coverage * (1.0 - pow(1.0 - min(here.x / organ.a, 0.999), step_mm));
+        vec3 normal = facing(gradients(uv, voxel_uv)[0], direction);
+        composite(lit(organ.rgb / organ.a, normal, direction, 0.10), opacity);
+      }
+    }
+    t += step_mm;
+  }
+
+  if (plane_due && sum.a < kOpaque) composite_plane(from + t_plane * direction, t_plane, slant);
+  if (t_probe < kNever && sum.a < kOpaque) {
+    vec3 p = probe_eye.xyz + t_probe * probe_direction;
+    vec3 normal = transpose(mat3(probe_from_patient)) * probe_normal(p);
+    composite(lit(probe_colour(p), normal, direction, 0.25), 1.0);
+  }
+  colour = vec4(sum.rgb + (1.0 - min(sum.a / kOpaque, 1.0)) * background(at), 1.0);
+}

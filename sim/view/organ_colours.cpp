@@ -1,0 +1,75 @@
+#include "sim/view/organ_colours.h"
+
+#include <algorithm>
+#include <initializer_list>
+
+namespace insonate::view {
+namespace {
+
+struct Known {
+  std::initializer_list<std::string_view> words;  // any of them as a whole word of the name
+  OrganColour look;
+};
+
+constexpr OrganColour kNotDrawn{};
+
+// Searched in this order, so that what lies within an organ comes before it ("liver_vein"). The colours are the muted
+// ones of anatomical atlases: arteries red, veins blue, bile green, bone ivory.
+const Known kKnown[] = {
+    // Carry no form of their own, or would hide all the rest.
+    {{"skin", "fat", "muscle", "muscles", "subcutaneous", "body", "air", "iliopsoas", "gluteus", "autochthon", "fascia",
+      "diaphragm", "wall"},
+     kNotDrawn},
+    {{"stone", "gallstone", "calculus"}, {{0.95f, 0.92f, 0.75f}, 0.9f}},
+    {{"fluid", "ascites"}, {{0.35f, 0.65f, 0.85f}, 0.35f}},
+    {{"cyst"}, {{0.45f, 0.68f, 0.80f}, 0.6f}},
+    {{"aorta", "artery", "arteries", "aneurysm"}, {{0.80f, 0.20f, 0.18f}, 0.8f}},
+    {{"cava", "vein", "veins", "venous", "portal", "hepatic"}, {{0.28f, 0.40f, 0.72f}, 0.8f}},
+    {{"vessel", "vessels"}, {{0.50f, 0.30f, 0.60f}, 0.8f}},
+    {{"gallbladder", "bile"}, {{0.36f, 0.60f, 0.30f}, 0.7f}},
+    {{"liver"}, {{0.58f, 0.27f, 0.20f}, 0.5f}},
+    {{"sinus", "pelvis"}, {{0.85f, 0.72f, 0.45f}, 0.6f}},
+    {{"medulla"}, {{0.50f, 0.16f, 0.15f}, 0.6f}},
+    {{"kidney", "cortex"}, {{0.62f, 0.20f, 0.18f}, 0.6f}},
+    {{"adrenal"}, {{0.80f, 0.62f, 0.30f}, 0.6f}},
+    {{"spleen"}, {{0.47f, 0.18f, 0.28f}, 0.6f}},
+    {{"pancreas"}, {{0.83f, 0.64f, 0.45f}, 0.6f}},
+    {{"stomach", "oesophagus", "esophagus"}, {{0.78f, 0.55f, 0.50f}, 0.4f}},
+    {{"bowel", "colon", "duodenum", "intestine", "ileum", "jejunum", "rectum"}, {{0.76f, 0.58f, 0.46f}, 0.4f}},
+    {{"bladder", "urine"}, {{0.84f, 0.76f, 0.42f}, 0.5f}},
+    {{"uterus", "prostate"}, {{0.75f, 0.48f, 0.46f}, 0.6f}},
+    {{"heart"}, {{0.64f, 0.24f, 0.22f}, 0.6f}},
+    {{"lung", "lungs"}, {{0.66f, 0.58f, 0.60f}, 0.15f}},
+    {{"cord"}, {{0.90f, 0.85f, 0.60f}, 0.6f}},
+    {{"cartilage"}, {{0.72f, 0.78f, 0.78f}, 0.7f}},
+    {{"bone", "rib", "ribs", "vertebra", "vertebrae", "spine", "sacrum", "hip", "femur", "sternum", "costal", "marrow",
+      "pelvic", "scapula", "clavicula", "humerus"},
+     {{0.90f, 0.85f, 0.73f}, 0.9f}},
+};
+
+bool has_word(std::string_view name, std::string_view word) {
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  for (std::size_t at = name.find(word); at != std::string_view::npos; at = name.find(word, at + 1)) {
+    const std::size_t end = at + word.size();
+    if ((at == 0 || !is_letter(name[at - 1])) && (end == name.size() || !is_letter(name[end]))) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+OrganColour colour_of_organ(std::string_view name) {
+  for (const Known& known : kKnown)
+    if (std::any_of(known.words.begin(), known.words.end(), [&](auto word) { return has_word(name, word); }))
+      return known.look;
+  return kNotDrawn;
+}
+
+OrganColours colours_of_organs(const std::vector<std::string>& names) {
+  OrganColours colours{};
+  for (std::size_t value = 0; value < std::min(names.size(), colours.size()); ++value)
+    colours[value] = colour_of_organ(names[value]);
+  return colours;
+}
+
+}  // namespace insonate::view

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "sim/gl/objects.h"
+
+namespace insonate::view {
+
+/// A picture to draw into: RGBA8, sampled with linear filtering.
+struct PictureTarget {
+  gl::Texture texture;
+  gl::Framebuffer framebuffer;
+
+  /// Makes it anew when it has another size.
+  void resize(int width, int height);
+};
+
+/// While it lives, drawing goes into rows [first, end) of a target without blending or tests; then the framebuffer
+/// binding, viewport and switches are as they were, so that a view can be drawn amid another program's frame.
+class DrawingInto {
+public:
+  DrawingInto(const PictureTarget& target, int first_row, int end_row);
+  ~DrawingInto();
+  DrawingInto(const DrawingInto&) = delete;
+  DrawingInto& operator=(const DrawingInto&) = delete;
+
+private:
+  GLint framebuffer_ = 0, viewport_[4] = {}, scissor_[4] = {};
+  bool blend_, depth_test_, cull_face_, scissor_test_;
+};
+
+}  // namespace insonate::view

@@ -1,0 +1,98 @@
+#include "sim/view/slice_view.h"
+
+#include "sim/shaders/shared/slice_parameters.h"
+#include "sim/view/picture_target.h"
+
+namespace insonate::view {
+namespace {
+
+// For an outlined label whose organ has no colour: amber, which no tissue has.
+constexpr glm::vec3 kPlainOutline(0.95f, 0.70f, 0.20f);
+// Muted organ colours, brightened: a thin line on grey needs more of it.
+constexpr float kOutlineBrightness = 1.35f;
+
+glm::dmat4 plane_from_pixel(const ImageGeometry& geometry) {
+  glm::dmat4 m(1.0);
+  m[0][0] = m[1][1] = geometry.mm_per_pixel;
+  m[3] = glm::dvec4(geometry.top_left_mm, 0, 1);
+  return m;
+}
+
+SliceParameters parameters_for(const PatientTextures& patient, const UltrasoundPlane& plane, const SliceStyle& style) {
+  SliceParameters p{};
+  p.texture_from_pixel =
+      glm::mat4(patient.texture_from_patient() * plane.patient_from_probe.matrix() * plane_from_pixel(plane.geometry));
+  p.window_hu = float(style.window_hu);
+  p.level_hu = float(style.level_hu);
+  p.ultrasound = float(style.ultrasound);
+  p.outside_fan = float(style.outside_fan);
+  for (const std::uint8_t label : style.outlined) {
+    const OrganColour& look = patient.colours()[label];
+    const glm::vec3 colour = look.opacity > 0 ? kOutlineBrightness * look.colour : kPlainOutline;
+    p.outline[label] = glm::vec4(glm::min(colour, 1.0f), 1);
+  }
+  return p;
+}
+
+struct Inputs {
+  const PatientTextures* patient;
+  PlaneState plane;
+  SliceStyle style;
+  bool operator==(const Inputs&) const = default;
+};
+
+}  // namespace
+
+struct SliceView::State {
+  explicit State(const gl::ShaderSources& sources) : program(sources, {"full_screen.vert", "slice.frag"}) {}
+
+  gl::Program program;
+  gl::FullScreenTriangle triangle;
+  gl::Buffer parameters{sizeof(SliceParameters), nullptr};
+  PictureTarget target;
+  std::optional<Inputs> drawn;
+  long renders = 0;
+};
+
+SliceView::SliceView(const gl::ShaderSources& sources) : state_(std::make_unique<State>(sources)) {}
+SliceView::~SliceView() = default;
+SliceView::SliceView(SliceView&&) noexcept = default;
+SliceView& SliceView::operator=(SliceView&&) noexcept = default;
+
+const gl::Texture& SliceView::render(const PatientTextures& patient, const UltrasoundPlane& plane,
+                                     const SliceStyle& style) {
+  State& s = *state_;
+  Inputs inputs{&patient, PlaneState(plane), style};
+  if (s.drawn == inputs) return s.target.texture;
+
+  s.target.resize(plane.geometry.width, plane.geometry.height);
+  const SliceParameters parameters = parameters_for(patient, plane, style);
+  s.parameters.write(&parameters, sizeof parameters);
+  s.parameters.bind_uniform(0);
+  patient.acoustic_volume().bind(0);
+  plane.image->bind(1);
+  patient.labels().bind(2);
+  {
+    const DrawingInto drawing(s.target, 0, plane.geometry.height);
+    s.program.use();
+    s.triangle.draw();
+  }
+  ++s.renders;
+  s.drawn = std::move(inputs);
+  return s.target.texture;
+}
+
+void SliceView::forget() {
+  state_->drawn.reset();
+}
+
+long SliceView::renders() const {
+  return state_->renders;
+}
+
+std::optional<std::string> SliceView::reload(const gl::ShaderSources& sources) {
+  forget();
+  return state_->program.reload(sources);
+}
+
+}  // namespace insonate::view

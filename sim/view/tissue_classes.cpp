@@ -1,0 +1,248 @@
+#include "sim/view/tissue_classes.h"
+
+#include <glm/common.hpp>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace insonate::view {
+namespace {
+
+constexpr double kVoxel_mm = 2;
+
+// Compact bone is above 300 HU, spongy bone from 100 to 300; enhanced vessels and kidneys stay below 200 in the portal
+// phase in which abdomens are scanned.
+constexpr float kBoneFromHu = 180, kBoneFullHu = 320;
+// From air to fat: the middle, where the skin is drawn, is a voxel half full.
+constexpr float kBodyFromHu = -900, kBodyFullHu = -150;
+
+constexpr OrganColour kBone{{0.90f, 0.85f, 0.73f}, 0.9f};
+
+float ramp(float value, float from, float to) {
+  return std::clamp((value - from) / (to - from), 0.0f, 1.0f);
+}
+
+std::uint8_t byte(float share) {
+  return std::uint8_t(std::lround(std::clamp(share, 0.0f, 1.0f) * 255));
+}
+
+/// A box of voxels, x fastest.
+struct Box {
+  glm::ivec3 size;
+
+  std::size_t count() const { return std::size_t(size.x) * std::size_t(size.y) * std::size_t(size.z); }
+  std::size_t offset(int x, int y, int z) const {
+    return (std::size_t(z) * std::size_t(size.y) + std::size_t(y)) * std::size_t(size.x) + std::size_t(x);
+  }
+  std::size_t stride(int axis) const {
+    return axis == 0 ? 1 : axis == 1 ? std::size_t(size.x) : std::size_t(size.x) * std::size_t(size.y);
+  }
+
+  /// `visit(x, y, z, offset)` for all, planes in parallel.
+  template <typename Visit>
+  void for_each(const Visit& visit) const {
+    tbb::parallel_for(0, size.z, [&](int z) {
+      for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x) visit(x, y, z, offset(x, y, z));
+    });
+  }
+};
+
+/// Each voxel the mean of what the CT has in it.
+void gather(const Volume<std::int16_t>& ct, const Volume<std::uint8_t>& labels, const OrganColours& colours,
+            TissueClasses& classes) {
+  const Box box{classes.size};
+  box.for_each([&](int x, int y, int z, std::size_t at) {
+    glm::vec3 colour(0);
+    float coverage = 0, opacity = 0, body = 0;
+    int count = 0;
+    const glm::ivec3 first = glm::ivec3(x, y, z) * classes.step;
+    const glm::ivec3 end = glm::min(first + classes.step, ct.grid.size);
+    for (int k = first.z; k < end.z; ++k)
+      for (int j = first.y; j < end.y; ++j)
+        for (int i = first.x; i < end.x; ++i, ++count) {
+          const std::size_t v = ct.grid.offset({i, j, k});
+          const float hu = ct.voxels[v];
+          body += ramp(hu, kBodyFromHu, kBodyFullHu);
+          const OrganColour* look = labels.empty() ? nullptr : &colours[labels.voxels[v]];
+          const bool labelled = look && look->opacity > 0;
+          const float share = labelled ? 1.0f : ramp(hu, kBoneFromHu, kBoneFullHu);
+          if (!labelled) look = &kBone;
+          colour += share * look->colour;
+          coverage += share;
+          opacity += share * look->opacity;
+        }
+    const float n = float(count);
+    classes.tissue[at] = {byte(colour.r / n), byte(colour.g / n), byte(colour.b / n), byte(coverage / n)};
+    classes.body[at] = {byte(opacity / n), byte(body / n)};
+  });
+}
+
+constexpr std::uint8_t kHalf = 128;
+
+/// All voxels reached from `seeds` through neighbours for which `passes` holds; each gets `mark`.
+template <typename Passes>
+std::size_t flood(const Box& box, std::vector<std::size_t> seeds, std::vector<std::uint8_t>& marks, std::uint8_t mark,
+                  const Passes& passes) {
+  std::size_t reached = 0;
+  const auto take = [&](std::size_t at) {
+    if (marks[at] || !passes(at)) return false;
+    marks[at] = mark;
+    ++reached;
+    return true;
+  };
+  std::vector<std::size_t> front;
+  for (std::size_t at : seeds)
+    if (take(at)) front.push_back(at);
+  while (!front.empty()) {
+    const std::size_t at = front.back();
+    front.pop_back();
+    const std::size_t plane = box.stride(2), row = box.stride(1);
+    const int p[3] = {int(at % row), int(at % plane / row), int(at / plane)};
+    for (int axis = 0; axis < 3; ++axis) {
+      if (p[axis] > 0 && take(at - box.stride(axis))) front.push_back(at - box.stride(axis));
+      if (p[axis] + 1 < box.size[axis] && take(at + box.stride(axis))) front.push_back(at + box.stride(axis));
+    }
+  }
+  return reached;
+}
+
+/// Makes the body solid: gas within it is body, and takes away what is not joined to it.
+void keep_body(const glm::dmat3& direction, TissueClasses& classes) {
+  const Box box{classes.size};
+  auto& body = classes.body;
+  const auto is_air = [&](std::size_t at) { return body[at][1] < kHalf; };
+  const auto is_body = [&](std::size_t at) { return body[at][1] >= kHalf; };
+
+  // From the sides only: a lung or bowel that the scan's top or bottom cuts open stays within.
+  std::vector<std::size_t> rim;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (std::abs(direction[axis].z) > 0.7) continue;
+    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    for (int side : {0, box.size[axis] - 1})
+      for (int a = 0; a < box.size[u]; ++a)
+        for (int b = 0; b < box.size[v]; ++b) {
+          glm::ivec3 p;
+          p[axis] = side;
+          p[u] = a;
+          p[v] = b;
+          rim.push_back(box.offset(p.x, p.y, p.z));
+        }
+  }
+  enum : std::uint8_t { kUnknown, kAround, kPart, kLargest };
+  std::vector<std::uint8_t> marks(box.count(), kUnknown);
+  flood(box, rim, marks, kAround, is_air);
+
+  std::size_t largest = 0, seed = 0;
+  for (std::size_t at = 0; at < marks.size(); ++at)
+    if (!marks[at] && is_body(at))
+      if (const std::size_t n = flood(box, {at}, marks, kPart, [](std::size_t) { return true; }); n > largest) {
+        largest = n;
+        seed = at;
+      }
+  if (!largest) return;
+  std::vector<std::uint8_t> kept(box.count(), 0);
+  flood(box, {seed}, kept, 1, [&](std::size_t at) { return marks[at] == kPart; });
+
+  // Partial volume stays on both sides of the surface, so that it lies where it is, not on a voxel's face.
+  std::vector<std::uint8_t> solid(box.count());
+  box.for_each([&](int x, int y, int z, std::size_t at) {
+    bool same = true;
+    for (int axis = 0; axis < 3; ++axis) {
+      const int p = axis == 0 ? x : axis == 1 ? y : z;
+      if (p > 0) same = same && kept[at - box.stride(axis)] == kept[at];
+      if (p + 1 < box.size[axis]) same = same && kept[at + box.stride(axis)] == kept[at];
+    }
+    solid[at] = !same ? body[at][1] : kept[at] ? 255 : 0;
+    if (!same && kept[at]) solid[at] = std::max(solid[at], kHalf);  // gas against the skin
+  });
+  for (std::size_t at = 0; at < solid.size(); ++at) {
+    body[at][1] = solid[at];
+    if (solid[at] > 0) continue;
+    body[at][0] = 0;
+    classes.tissue[at] = {};
+  }
+}
+
+/// Smooths by (1 2 1)/4 along each axis, which rounds the steps of labels and thresholds.
+template <std::size_t N>
+void smooth(const Box& box, std::vector<std::array<std::uint8_t, N>>& values) {
+  auto source = values;
+  for (int axis = 0; axis < 3; ++axis) {
+    box.for_each([&](int x, int y, int z, std::size_t at) {
+      const int p = axis == 0 ? x : axis == 1 ? y : z;
+      const std::size_t before = p > 0 ? at - box.stride(axis) : at;
+      const std::size_t after = p + 1 < box.size[axis] ? at + box.stride(axis) : at;
+      for (std::size_t c = 0; c < N; ++c)
+        values[at][c] = std::uint8_t((source[before][c] + 2 * source[at][c] + source[after][c] + 2) / 4);
+    });
+    source = values;
+  }
+}
+
+/// Marks the blocks in which, or within a voxel of which, there is tissue or the body's surface.
+std::vector<std::uint8_t> busy_blocks(const TissueClasses& classes) {
+  const Box box{classes.size}, blocks{classes.blocks};
+  std::vector<std::uint8_t> busy(blocks.count(), 0);
+  blocks.for_each([&](int bx, int by, int bz, std::size_t block) {
+    const glm::ivec3 first = glm::ivec3(bx, by, bz) * TissueClasses::kBlock;
+    const glm::ivec3 low = glm::max(first - 1, glm::ivec3(0));
+    const glm::ivec3 high = glm::min(first + TissueClasses::kBlock + 1, classes.size);
+    const std::uint8_t inside = classes.body[box.offset(low.x, low.y, low.z)][1];
+    for (int z = low.z; z < high.z; ++z)
+      for (int y = low.y; y < high.y; ++y)
+        for (int x = low.x; x < high.x; ++x) {
+          const auto& [opacity, body] = classes.body[box.offset(x, y, z)];
+          if (opacity > 0 || body != inside) busy[block] = 1;
+        }
+  });
+  return busy;
+}
+
+/// Chebyshev distances by passes along the axes: the distance to the nearest busy block within d steps along x, then y,
+/// then z is the largest of the three, because the steps are independent.
+std::vector<std::uint8_t> distances(const glm::ivec3& size, const std::vector<std::uint8_t>& busy) {
+  constexpr std::uint8_t kFar = 255;
+  const Box blocks{size};
+  std::vector<std::uint8_t> distance(busy.size());
+  std::transform(busy.begin(), busy.end(), distance.begin(), [](auto b) { return b ? std::uint8_t(0) : kFar; });
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto source = distance;
+    blocks.for_each([&](int x, int y, int z, std::size_t at) {
+      const int p = axis == 0 ? x : axis == 1 ? y : z;
+      int least = source[at];
+      for (int d = 1; d < least; ++d) {
+        const std::size_t away = std::size_t(d) * blocks.stride(axis);
+        if (p >= d) least = std::min(least, std::max<int>(d, source[at - away]));
+        if (p + d < size[axis]) least = std::min(least, std::max<int>(d, source[at + away]));
+        if (p < d && p + d >= size[axis]) break;
+      }
+      distance[at] = std::uint8_t(least);
+    });
+  }
+  return distance;
+}
+
+}  // namespace
+
+TissueClasses classify_tissue(const Volume<std::int16_t>& ct, const Volume<std::uint8_t>& labels,
+                              const OrganColours& colours) {
+  TissueClasses classes;
+  for (int axis = 0; axis < 3; ++axis)
+    classes.step[axis] = std::clamp(int(std::lround(kVoxel_mm / ct.grid.spacing[axis])), 1, ct.grid.size[axis]);
+  classes.size = (ct.grid.size + classes.step - 1) / classes.step;
+  classes.blocks = (classes.size + TissueClasses::kBlock - 1) / TissueClasses::kBlock;
+  const Box box{classes.size};
+  classes.tissue.resize(box.count());
+  classes.body.resize(box.count());
+  gather(ct, labels, colours, classes);
+  keep_body(ct.grid.direction, classes);
+  smooth(box, classes.tissue);
+  smooth(box, classes.body);
+  classes.distance = distances(classes.blocks, busy_blocks(classes));
+  return classes;
+}
+
+}  // namespace insonate::view
