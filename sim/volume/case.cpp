@@ -1,1 +1,319 @@
 #include "sim/volume/case.h"
+
+#include <glm/geometric.hpp>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+#include <set>
+#include <stdexcept>
+#include <system_error>
+
+#include "sim/core/files.h"
+#include "sim/core/input_error.h"
+#include "sim/core/suggest.h"
+#include "sim/core/toml_table.h"
+#include "sim/volume/ct_reader.h"
+
+namespace insonate {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kFormat = 1;
+constexpr std::size_t kLargestTable = 1u << 22;
+constexpr double kFurthestMm = 1e5;
+constexpr const char* kTableFile = "case.toml";
+constexpr const char* kCtFile = "ct.nrrd";
+constexpr const char* kLabelsFile = "labels.nrrd";
+
+template <typename Named>
+const Named* find_named(const std::vector<Named>& all, std::string_view name) {
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Named& one) { return one.name == name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+template <typename Named>
+std::vector<std::string> names_of(const std::vector<Named>& all) {
+  std::vector<std::string> names;
+  for (const Named& one : all) names.push_back(one.name);
+  return names;
+}
+
+/// A name that other files and other entries refer to.
+std::string read_identifier(const TomlTable& entry, std::string_view key) {
+  const std::string name = entry.text(key);
+  const bool plain = std::all_of(name.begin(), name.end(),
+                                 [](unsigned char c) { return std::islower(c) || std::isdigit(c) || c == '_'; });
+  if (!plain)
+    entry.fail(key, "'" + std::string(key) + "' is '" + name + "'", "use lower-case letters, digits and underscores");
+  return name;
+}
+
+/// A file beside case.toml: a case may be moved as a whole, and names nothing outside its folder.
+fs::path read_file_name(const TomlTable& root, std::string_view key, const fs::path& folder) {
+  const fs::path name = root.text(key);
+  if (name != name.filename() || name == "." || name == "..")
+    root.fail(key, "'" + std::string(key) + "' is '" + name.string() + "'", "name a file in the case's folder");
+  return folder / name;
+}
+
+Label read_label(const TomlTable& entry) {
+  entry.allow_only({"value", "name", "tissue"});
+  return {std::uint8_t(entry.whole_number("value", 1, 255)), read_identifier(entry, "name"),
+          read_identifier(entry, "tissue")};
+}
+
+Landmark read_landmark(const TomlTable& entry) {
+  entry.allow_only({"name", "position"});
+  const std::vector<double> p = entry.numbers("position", 3);
+  for (const double coordinate : p)
+    if (std::abs(coordinate) > kFurthestMm)
+      entry.fail("position", "the position is further than 100 m away", "give patient coordinates in mm");
+  return {read_identifier(entry, "name"), {p[0], p[1], p[2]}};
+}
+
+ReferenceView read_view(const TomlTable& entry) {
+  entry.allow_only({"name", "title", "probe", "depth_mm", "landmarks", "targets", "patient_from_probe"});
+  ReferenceView view;
+  view.name = read_identifier(entry, "name");
+  view.title = entry.text("title");
+  view.probe = read_identifier(entry, "probe");
+  view.depth_mm = entry.number("depth_mm", 20, 300);
+  view.landmarks = entry.texts("landmarks");
+  view.targets = entry.texts("targets");
+  const std::vector<double> m = entry.numbers("patient_from_probe", 16);
+  glm::dmat4 matrix;
+  for (int r = 0; r < 4; ++r)
+    for (int c = 0; c < 4; ++c) matrix[c][r] = m[std::size_t(4 * r + c)];
+  if (const auto why = why_not_rigid(matrix))
+    entry.fail("patient_from_probe", *why, "give a rotation and a translation");
+  view.patient_from_probe = pose_from_matrix(matrix);
+  return view;
+}
+
+template <typename Entry, typename Read>
+std::vector<Entry> read_entries(const TomlTable& root, std::string_view key, Read read) {
+  std::vector<Entry> all;
+  for (const TomlTable& entry : root.tables(key)) {
+    Entry one = read(entry);
+    if (find_named(all, one.name)) entry.fail("name", "the name '" + one.name + "' is taken", "use each name once");
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
+/// What entries say of each other.
+void check_references(const TomlTable& root, const Case& subject) {
+  std::set<int> values;
+  for (const TomlTable& entry : root.tables("label"))
+    if (!values.insert(entry.whole_number("value", 1, 255)).second)
+      entry.fail("value", "the value is taken by another label", "use each value once");
+  const std::vector<std::string> landmarks = names_of(subject.landmarks), labels = names_of(subject.label_table);
+  for (const TomlTable& entry : root.tables("view")) {
+    for (const std::string& name : entry.texts("landmarks"))
+      if (!subject.find_landmark(name))
+        entry.fail("landmarks", "no landmark is called '" + name + "'", suggest(name, landmarks));
+    for (const std::string& name : entry.texts("targets"))
+      if (!subject.find_label(name)) entry.fail("targets", "no label is called '" + name + "'", suggest(name, labels));
+  }
+}
+
+/// What the entries say of the volumes.
+void check_volumes(const TomlTable& root, const Case& subject) {
+  if (subject.labels.empty()) {
+    if (!subject.label_table.empty())
+      root.fail("label", "there are labels but no label volume", "add: labels = \"FILE\"");
+    return;
+  }
+  const Grid &ct = subject.ct.grid, &labels = subject.labels.grid;
+  if (labels.size != ct.size)
+    root.fail("labels", "the labels have other sizes than the CT", "resample them onto the CT's grid");
+  // Corner by corner, so that a small angle counts by what it moves.
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec3 index(corner & 1 ? ct.size.x - 1 : 0, corner & 2 ? ct.size.y - 1 : 0,
+                           corner & 4 ? ct.size.z - 1 : 0);
+    const double apart = glm::length(ct.patient_from_index(index) - labels.patient_from_index(index));
+    if (apart > 0.1 * std::min({ct.spacing.x, ct.spacing.y, ct.spacing.z}))
+      root.fail("labels", "the labels lie elsewhere in the patient than the CT", "resample them onto the CT's grid");
+  }
+  // A listed label without voxels is a finding that this patient lacks; a voxel without a listed label is a mistake.
+  std::array<bool, 256> listed{};
+  listed[0] = true;
+  for (const Label& label : subject.label_table) listed[label.value] = true;
+  std::array<bool, 256> present{};
+  for (const std::uint8_t value : subject.labels.voxels) present[value] = true;
+  for (std::size_t value = 0; value < present.size(); ++value)
+    if (present[value] && !listed[value])
+      root.fail("labels", "the label volume holds the value " + std::to_string(value) + ", which no [[label]] names",
+                "add it to the table");
+}
+
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      out += '\\';
+      out += c;
+    } else if (code < 0x20 || code == 0x7f) {
+      char escaped[8];
+      std::snprintf(escaped, sizeof escaped, "\\u%04x", code);
+      out += escaped;
+    } else {
+      out += c;
+    }
+  }
+  return out + '"';
+}
+
+std::string quoted_list(const std::vector<std::string>& texts) {
+  std::string out;
+  for (const std::string& text : texts) out += (out.empty() ? "" : ", ") + quoted(text);
+  return "[" + out + "]";
+}
+
+std::string exactly(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.17g", value);
+  return text;
+}
+
+std::string case_table(const Case& subject) {
+  std::string out = "# A case of Insonate: lengths in mm, positions in the patient's frame (LPS).\n";
+  out += "format = " + std::to_string(kFormat) + "\n";
+  out += "name = " + quoted(subject.name) + "\n";
+  out += "ct = " + quoted(kCtFile) + "\n";
+  if (!subject.labels.empty()) out += "labels = " + quoted(kLabelsFile) + "\n";
+  for (const Label& label : subject.label_table)
+    out += "\n[[label]]\nvalue = " + std::to_string(label.value) + "\nname = " + quoted(label.name) +
+           "\ntissue = " + quoted(label.tissue) + "\n";
+  for (const Landmark& landmark : subject.landmarks) {
+    const glm::dvec3& p = landmark.position;
+    out += "\n[[landmark]]\nname = " + quoted(landmark.name) + "\nposition = [" + exactly(p.x) + ", " + exactly(p.y) +
+           ", " + exactly(p.z) + "]\n";
+  }
+  for (const ReferenceView& view : subject.views) {
+    out += "\n[[view]]\nname = " + quoted(view.name) + "\ntitle = " + quoted(view.title) +
+           "\nprobe = " + quoted(view.probe) + "\ndepth_mm = " + exactly(view.depth_mm) +
+           "\nlandmarks = " + quoted_list(view.landmarks) + "\ntargets = " + quoted_list(view.targets) +
+           "\npatient_from_probe = [\n";
+    const glm::dmat4 m = view.patient_from_probe.matrix();
+    for (int r = 0; r < 4; ++r) {
+      out += " ";
+      for (int c = 0; c < 4; ++c) out += " " + exactly(m[c][r]) + ",";
+      out += "\n";
+    }
+    out += "]\n";
+  }
+  return out;
+}
+
+/// Everything of case.toml but the volumes it names.
+Case read_table(const TomlTable& root) {
+  if (const int format = root.whole_number("format", 1, 1 << 30); format != kFormat)
+    root.fail(
+        "format",
+        "the case has format " + std::to_string(format) + ", this program knows format " + std::to_string(kFormat),
+        "use a newer program");
+  root.allow_only({"format", "name", "ct", "labels", "label", "landmark", "view"});
+  Case subject;
+  subject.name = root.text("name");
+  subject.label_table = read_entries<Label>(root, "label", read_label);
+  subject.landmarks = read_entries<Landmark>(root, "landmark", read_landmark);
+  subject.views = read_entries<ReferenceView>(root, "view", read_view);
+  check_references(root, subject);
+  return subject;
+}
+
+/// A folder beside `target` that is gone again unless it was renamed.
+struct TemporaryFolder {
+  fs::path path;
+  explicit TemporaryFolder(const fs::path& target) : path(target) {
+    path.replace_filename("." + target.filename().string() + "." + std::to_string(getpid()) + ".partial");
+    std::error_code error;
+    fs::remove_all(path, error);
+    fs::create_directories(path, error);
+    if (error)
+      throw InputError(target.string(), "", "the folder cannot be made (" + error.message() + ")",
+                       "name a folder that may be written");
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  }
+};
+
+/// Renames a folder onto another, which makes way first and comes back when that fails.
+void replace_folder(const fs::path& from, const fs::path& to) {
+  std::error_code error, ignored;
+  fs::path old = from;
+  old += ".old";
+  const bool replaces = fs::exists(to, ignored);
+  if (replaces) fs::rename(to, old, error);
+  if (!error) {
+    fs::rename(from, to, error);
+    if (error && replaces) fs::rename(old, to, ignored);
+  }
+  if (error)
+    throw InputError(to.string(), "", "it cannot be written (" + error.message() + ")",
+                     "name a folder that may be written");
+  fs::remove_all(old, ignored);
+}
+
+}  // namespace
+
+const Label* Case::find_label(std::string_view label) const {
+  return find_named(label_table, label);
+}
+const Landmark* Case::find_landmark(std::string_view landmark) const {
+  return find_named(landmarks, landmark);
+}
+const ReferenceView* Case::find_view(std::string_view view) const {
+  return find_named(views, view);
+}
+
+Case read_case(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::is_directory(folder, error))
+    throw InputError(folder.string(), "", "there is no such folder", "name a folder that holds a case.toml");
+  const fs::path file = folder / kTableFile;
+  const toml::table parsed = parse_toml(file.string(), read_file(file, kLargestTable));
+  const TomlTable root(file.string(), "", parsed);
+  Case subject = read_table(root);
+  // The volumes last: a slip in the table is told without the wait.
+  subject.ct = read_ct(read_file_name(root, "ct", folder));
+  if (root.has("labels")) subject.labels = read_labels(read_file_name(root, "labels", folder));
+  check_volumes(root, subject);
+  return subject;
+}
+
+void write_case(const fs::path& folder, const Case& subject) {
+  if (subject.ct.empty()) throw std::invalid_argument("write_case: the case has no CT");
+  // The name without a trailing slash: beside it goes the temporary folder.
+  const fs::path target = folder.has_filename() ? folder : folder.parent_path();
+  std::error_code error;
+  if (fs::exists(target, error) && !fs::exists(target / kTableFile, error) &&
+      !(fs::is_directory(target, error) && fs::is_empty(target, error)))
+    throw InputError(target.string(), "", "something that is no case is in the way", "name another folder");
+
+  // What could not be read again is not written: the table goes through the reader's own checks.
+  const std::string table = case_table(subject);
+  const toml::table parsed = parse_toml((target / kTableFile).string(), table);
+  const TomlTable root((target / kTableFile).string(), "", parsed);
+  read_table(root);
+  check_volumes(root, subject);
+
+  const TemporaryFolder temporary(target);
+  write_ct(temporary.path / kCtFile, subject.ct);
+  if (!subject.labels.empty()) write_labels(temporary.path / kLabelsFile, subject.labels);
+  write_file(temporary.path / kTableFile, table);
+  replace_folder(temporary.path, target);
+}
+
+}  // namespace insonate

@@ -48,10 +48,40 @@ struct Case {
   const ReferenceView* find_view(std::string_view name) const;
 };
 
-/// Reads a case folder: `case.toml`, the CT and the labels it names. Throws InputError.
+/// Reads a case folder. Its case.toml (names below are lower case with underscores, files lie in the folder itself):
+///
+///     format = 1                           # of this file
+///     name = "Abdomen phantom"
+///     ct = "ct.nrrd"                       # whatever read_ct() reads but a folder
+///     labels = "labels.nrrd"               # optional; on the CT's grid
+///
+///     [[label]]                            # as Label; each value in the label volume has one
+///     value = 7                            # 1 to 255
+///     name = "liver"
+///     tissue = "liver"
+///
+///     [[landmark]]                         # as Landmark
+///     name = "hepatorenal_recess"
+///     position = [-62.5, 14, 120]          # patient (LPS), mm
+///
+///     [[view]]                             # as ReferenceView
+///     name = "hepatorenal"
+///     title = "Right upper quadrant, hepatorenal recess"
+///     probe = "curvilinear"
+///     depth_mm = 160                       # 20 to 300
+///     landmarks = ["hepatorenal_recess"]   # optional; names from above
+///     targets = ["liver"]                  # optional; labels from above
+///     patient_from_probe = [ ... ]         # 16 numbers, row-major, rigid
+///
+/// Throws InputError with line and column for what is missing, unknown, out of range, named twice or named without
+/// being there, for a pose that is not rigid, and for labels on another grid than the CT's (0.1 voxels off at a corner).
+/// A label that no voxel carries is a finding this patient lacks, and stays.
 Case read_case(const std::filesystem::path& folder);
 
-/// Writes a case folder whole or not at all: it appears under its name only when every file in it is written.
+/// Writes a case folder whole or not at all: it appears under its name only when every file in it is written, and takes
+/// the place of an older case as a whole. The volumes are raw NRRD: the reading of a cached phantom is what its user
+/// waits for. Throws InputError when the folder cannot be written or holds something that is no case, and for a case
+/// that read_case() would refuse.
 void write_case(const std::filesystem::path& folder, const Case& subject);
 
 }  // namespace insonate

@@ -29,7 +29,7 @@ Volume<std::int16_t> read_ct(const std::filesystem::path& file_or_folder, CtSour
 /// Reads a label volume: whole numbers from 0 to 255.
 Volume<std::uint8_t> read_labels(const std::filesystem::path& file);
 
-/// Writes NRRD files (gzip), atomically.
+/// Writes NRRD files (raw, so that they read fast), atomically. Throws InputError.
 void write_ct(const std::filesystem::path& nrrd_file, const Volume<std::int16_t>& ct);
 void write_labels(const std::filesystem::path& nrrd_file, const Volume<std::uint8_t>& labels);
 

@@ -1,0 +1,1 @@
+#include "sim/volume/ct_reader.h"

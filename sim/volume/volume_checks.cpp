@@ -1,0 +1,97 @@
+#include "sim/volume/volume_checks.h"
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include <cmath>
+#include <cstdio>
+
+#include "sim/core/input_error.h"
+#include "sim/volume/itk_image_io.h"
+
+namespace insonate {
+namespace {
+
+constexpr double kLeastSpacingMm = 1e-3, kMostSpacingMm = 100;
+constexpr double kFurthestOriginMm = 1e6;
+// Directions are often stored with 6 decimals, and as cosines of small angles lose a digit or two more.
+constexpr double kOrthogonalTolerance = 1e-3;
+
+std::string with_number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", value);
+  return text;
+}
+
+[[noreturn]] void refuse(const std::string& file, const std::string& problem, const std::string& remedy) {
+  throw InputError(file, "header", problem, remedy);
+}
+
+}  // namespace
+
+void check_size(const std::string& file, std::uint64_t i, std::uint64_t j, std::uint64_t k) {
+  const std::string sizes = std::to_string(i) + " x " + std::to_string(j) + " x " + std::to_string(k) + " voxels";
+  for (const std::uint64_t side : {i, j, k}) {
+    if (side < 2) refuse(file, "it claims " + sizes + ", which is no volume", "give a 3D volume of 2 or more slices");
+    if (side > kMostVoxelsASide)
+      refuse(file, "it claims " + sizes + ", above the limit of " + std::to_string(kMostVoxelsASide) + " a side",
+             "check that the file is whole, or crop it");
+  }
+  if (i * j * k > kMostVoxels)
+    refuse(file, "it claims " + sizes + ", above the limit of 2^31 in all", "resample it to fewer voxels");
+}
+
+Grid checked_grid(const std::string& file, Grid grid) {
+  for (int a = 0; a < 3; ++a) {
+    const double spacing = grid.spacing[a];
+    if (!(spacing >= kLeastSpacingMm && spacing <= kMostSpacingMm))
+      refuse(file, "the spacing along axis " + std::to_string(a + 1) + " is " + with_number(spacing) + " mm",
+             "give a spacing from 0.001 to 100 mm");
+    if (!(std::abs(grid.origin[a]) <= kFurthestOriginMm))
+      refuse(file, "the origin is at " + with_number(grid.origin[a]) + " mm", "correct the origin");
+    for (int r = 0; r < 3; ++r)
+      if (!std::isfinite(grid.direction[a][r]))
+        refuse(file, "the direction matrix holds a number that is not finite", "correct the orientation");
+  }
+  const glm::dmat3 excess = glm::transpose(grid.direction) * grid.direction - glm::dmat3(1.0);
+  double worst = 0;
+  for (int c = 0; c < 3; ++c)
+    for (int r = 0; r < 3; ++r) worst = std::max(worst, std::abs(excess[c][r]));
+  if (worst > kOrthogonalTolerance) {
+    const double determinant = glm::determinant(grid.direction);
+    if (std::abs(determinant) < kOrthogonalTolerance) refuse(file, "the direction matrix is singular", "correct it");
+    refuse(file, "the axes are not orthogonal: they stretch or shear by " + with_number(worst),
+           "resample it to orthogonal axes");
+  }
+  // Gram-Schmidt; the third axis keeps its side, for a reflection is legitimate.
+  glm::dmat3& d = grid.direction;
+  d[0] = glm::normalize(d[0]);
+  d[1] = glm::normalize(d[1] - glm::dot(d[1], d[0]) * d[0]);
+  const glm::dvec3 third = glm::cross(d[0], d[1]);
+  d[2] = glm::dot(third, d[2]) < 0 ? -third : third;
+  return grid;
+}
+
+Grid checked_grid(const std::string& file, const ImageFile& image) {
+  const auto& axes = image.axes();
+  std::size_t dimensions = axes.size();
+  while (dimensions > 3 && axes[dimensions - 1].size == 1) --dimensions;
+  if (dimensions != 3)
+    refuse(file, "the image has " + std::to_string(dimensions) + " dimensions",
+           dimensions < 3 ? "give a 3D volume" : "save one time point of it");
+  if (image.components() != 1)
+    refuse(file, "each voxel has " + std::to_string(image.components()) + " components, as in colour images",
+           "give a volume with one number a voxel");
+  check_size(file, axes[0].size, axes[1].size, axes[2].size);
+  Grid grid;
+  for (int a = 0; a < 3; ++a) {
+    const ImageFile::Axis& axis = axes[std::size_t(a)];
+    grid.size[a] = int(axis.size);
+    grid.spacing[a] = axis.spacing;
+    grid.origin[a] = axis.origin;
+    for (int r = 0; r < 3; ++r) grid.direction[a][r] = axis.direction[std::size_t(r)];
+  }
+  return checked_grid(file, grid);
+}
+
+}  // namespace insonate
