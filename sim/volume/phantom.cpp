@@ -1,1 +1,160 @@
 #include "sim/volume/phantom.h"
+
+#include <glm/geometric.hpp>
+#include <tbb/blocked_range3d.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <mutex>
+
+#include "sim/core/hash.h"
+#include "sim/core/input_error.h"
+#include "sim/volume/phantom_plan.h"
+#include "sim/volume/phantom_recipe.h"
+#include "sim/volume/phantom_texture.h"
+
+namespace insonate {
+namespace {
+
+constexpr int kBlock = 16;  // voxels a side; small enough that most shapes miss it, large enough to spread their cost
+
+// Passes a share on when it has grown by a hundredth, from one thread at a time.
+class ProgressCounter {
+public:
+  ProgressCounter(const Progress& report, std::size_t total) : report_(report), total_(total) {}
+
+  void one_done() {
+    const std::size_t done = ++done_;
+    if (!report_ || done * 100 / total_ == (done - 1) * 100 / total_) return;
+    const std::lock_guard lock(mutex_);
+    if (done <= reported_) return;
+    reported_ = done;
+    report_(double(done) / double(total_));
+  }
+
+private:
+  const Progress& report_;
+  std::size_t total_;
+  std::atomic<std::size_t> done_ = 0;
+  std::mutex mutex_;
+  std::size_t reported_ = 0;
+};
+
+class Painter {
+public:
+  explicit Painter(const PhantomPlan& plan) : plan_(plan) {
+    for (const PaintedLabel& label : plan.labels)
+      textures_.emplace_back(hash(plan.seed, label.label.value), label.grain_mm);
+  }
+
+  void paint(const glm::ivec3& first, const glm::ivec3& last, Case& subject) const {
+    const Grid& grid = plan_.grid;
+    std::vector<std::size_t> offsets;
+    std::vector<float> x, y, z;
+    for (int k = first.z; k < last.z; ++k)
+      for (int j = first.y; j < last.y; ++j)
+        for (int i = first.x; i < last.x; ++i) {
+          const glm::dvec3 p = grid.patient_from_index(glm::dvec3(i, j, k));
+          offsets.push_back(grid.offset({i, j, k}));
+          x.push_back(float(p.x));
+          y.push_back(float(p.y));
+          z.push_back(float(p.z));
+        }
+    Points points(std::move(x), std::move(y), std::move(z));
+
+    // From the last shape, which displaces all others, back to the first; what is still free shows the next below.
+    std::vector<float> hu(points.count(), 0.0f), free(points.count(), 1.0f);
+    std::vector<int> label(points.count(), -1);
+    const auto pitch = float(grid.spacing.x);
+    for (auto painted = plan_.shapes.rbegin(); painted != plan_.shapes.rend(); ++painted) {
+      if (painted->shape->bounds().distance_to(points.bounds()) > pitch) continue;
+      const std::vector<float>& distance = points.distances_to(*painted->shape);
+      const float own_hu = plan_.labels[painted->label].hu;
+      float most_free = 0;
+      for (std::size_t n = 0; n < points.count(); ++n) {
+        const float share = free[n] * std::clamp(0.5f - distance[n] / pitch, 0.0f, 1.0f);
+        hu[n] += share * own_hu;
+        free[n] -= share;
+        if (label[n] < 0 && distance[n] < 0) label[n] = int(painted->label);
+        most_free = std::max(most_free, free[n]);
+      }
+      if (most_free < 1e-4f) break;
+    }
+
+    for (std::size_t n = 0; n < points.count(); ++n) {
+      float value = hu[n] + free[n] * float(kAirHu);
+      if (label[n] >= 0) {
+        const auto index = std::size_t(label[n]);
+        const PaintedLabel& look = plan_.labels[index];
+        if (look.texture_hu > 0)
+          value += look.texture_hu * textures_[index].at({points.x[n], points.y[n], points.z[n]});
+        subject.labels.voxels[offsets[n]] = look.label.value;
+      }
+      subject.ct.voxels[offsets[n]] = std::int16_t(std::clamp(std::round(value), -1024.0f, 32767.0f));
+    }
+  }
+
+private:
+  const PhantomPlan& plan_;
+  std::vector<Texture> textures_;
+};
+
+// The pose of a probe pressed into the skin: from the aim back along the beam to where the body ends for good.
+Pose pose_on_skin(const PlannedView& planned, const Volume<std::int16_t>& ct, const std::string& recipe_name) {
+  constexpr double kSkinHu = -500;  // half way between air and soft tissue: the surface within a fraction of a voxel
+  const double step = ct.grid.spacing.x / 4;
+  const double longest = glm::length(ct.grid.spacing * glm::dvec3(ct.grid.size));
+  double skin = -1;
+  for (double way = 0; way < longest; way += step) {
+    const glm::dvec3 p = planned.aim - planned.beam * way;
+    if (sample_trilinear(ct, ct.grid.index_from_patient(p)) > kSkinHu) skin = way;
+  }
+  const double face = skin - planned.press_mm;
+  if (face <= 0)
+    throw InputError(recipe_name, "view '" + planned.view.name + "'", "what it aims at does not lie under the skin",
+                     "move the aim into the body or press less");
+  Pose pose;
+  pose.translation = planned.aim - planned.beam * face;
+  pose.rotation = glm::dmat3(planned.marker, planned.beam, glm::cross(planned.marker, planned.beam));
+  return pose;
+}
+
+}  // namespace
+
+Case make_phantom(const std::string& recipe_name, const std::string& recipe_text,
+                  const std::vector<std::pair<std::string, std::string>>& options, const Progress& progress) {
+  const Recipe recipe(recipe_name, recipe_text, options);
+  const PhantomPlan plan = plan_phantom(recipe);
+
+  Case subject;
+  subject.name = plan.name;
+  subject.ct.grid = subject.labels.grid = plan.grid;
+  subject.ct.voxels.resize(plan.grid.count());
+  subject.labels.voxels.resize(plan.grid.count());
+  subject.landmarks = plan.landmarks;
+  for (const PaintedLabel& label : plan.labels) subject.label_table.push_back(label.label);
+
+  const glm::ivec3 blocks = (plan.grid.size + kBlock - 1) / kBlock;
+  ProgressCounter counter(progress, std::size_t(blocks.x) * std::size_t(blocks.y) * std::size_t(blocks.z));
+  const Painter painter(plan);
+  tbb::parallel_for(tbb::blocked_range3d<int>(0, blocks.z, 0, blocks.y, 0, blocks.x),
+                    [&](const tbb::blocked_range3d<int>& range) {
+                      for (int k = range.pages().begin(); k < range.pages().end(); ++k)
+                        for (int j = range.rows().begin(); j < range.rows().end(); ++j)
+                          for (int i = range.cols().begin(); i < range.cols().end(); ++i) {
+                            const glm::ivec3 first = glm::ivec3(i, j, k) * kBlock;
+                            painter.paint(first, glm::min(first + kBlock, plan.grid.size), subject);
+                            counter.one_done();
+                          }
+                    });
+
+  for (const PlannedView& planned : plan.views) {
+    subject.views.push_back(planned.view);
+    subject.views.back().patient_from_probe = pose_on_skin(planned, subject.ct, recipe_name);
+  }
+  return subject;
+}
+
+}  // namespace insonate

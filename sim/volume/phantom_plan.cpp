@@ -1,0 +1,218 @@
+#include "sim/volume/phantom_plan.h"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "sim/volume/phantom_shape_reader.h"
+
+namespace insonate {
+namespace {
+
+constexpr double kFar_mm = 2000;
+constexpr double kMostVoxelsASide = 2048;
+
+Grid read_grid(const Recipe& recipe, RecipeTable& root) {
+  const toml::node* node = root.has("grid") ? root.table().get("grid") : nullptr;
+  if (node == nullptr || !node->is_table()) root.refuse("grid", "there is no [grid]", "add it");
+  RecipeTable table(recipe, *node->as_table(), "[grid]");
+  const glm::dvec3 from = table.vector("from", -kFar_mm, kFar_mm);
+  const glm::dvec3 to = table.vector("to", -kFar_mm, kFar_mm);
+  Grid grid;
+  const double pitch = table.number("voxel_mm", 0.2, 50);
+  grid.spacing = glm::dvec3(pitch);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double voxels = std::floor((to[axis] - from[axis]) / pitch);
+    if (voxels < 2 || voxels > kMostVoxelsASide)
+      table.refuse("to", "the grid has " + std::to_string(long(voxels)) + " voxels along axis " + std::to_string(axis),
+                   "choose from, to and voxel_mm for 2 to 2048");
+    grid.size[axis] = int(voxels);
+  }
+  grid.origin = from + grid.spacing / 2.0;
+  table.finish();
+  return grid;
+}
+
+std::vector<PaintedLabel> read_labels_key(const Recipe& recipe, RecipeTable& root) {
+  std::vector<PaintedLabel> labels;
+  std::set<std::string> names;
+  for (const toml::table* entry : root.tables("labels")) {
+    RecipeTable table(recipe, *entry, "label " + std::to_string(labels.size() + 1));
+    PaintedLabel made;
+    made.label.name = table.text("name");
+    made.label.tissue = table.text("tissue");
+    made.hu = float(table.number("hu", -1024, 30000));
+    made.texture_hu = float(table.number_or("texture_hu", 0, 0, 1000));
+    made.grain_mm = float(table.number_or("grain_mm", 2, 0.2, 500));
+    table.finish();
+    if (!names.insert(made.label.name).second)
+      table.refuse("name", "there are two labels '" + made.label.name + "'", "rename one");
+    if (labels.size() == 255) table.refuse("name", "there are more than 255 labels", "join some");
+    made.label.value = std::uint8_t(labels.size() + 1);
+    labels.push_back(made);
+  }
+  if (labels.empty()) root.refuse("labels", "there are no labels", "list at least one");
+  return labels;
+}
+
+std::map<std::string, Frame> read_frames(const Recipe& recipe, RecipeTable& root) {
+  std::map<std::string, Frame> frames;
+  for (const toml::table* entry : root.tables("frame")) {
+    RecipeTable table(recipe, *entry, "frame " + std::to_string(frames.size() + 1));
+    const std::string name = table.text("name");
+    Frame frame;
+    frame.origin = table.vector("at", -kFar_mm, kFar_mm);
+    const glm::dvec3 turn = glm::radians(table.vector_or("turn_deg", glm::dvec3(0.0), -360, 360));
+    glm::dmat4 rotation(1.0);
+    rotation = glm::rotate(rotation, turn.z, glm::dvec3(0, 0, 1));
+    rotation = glm::rotate(rotation, turn.y, glm::dvec3(0, 1, 0));
+    rotation = glm::rotate(rotation, turn.x, glm::dvec3(1, 0, 0));
+    frame.rotation = glm::mat3(rotation);
+    frame.flipped = table.flag_or("flipped", false);
+    table.finish();
+    if (!frames.emplace(name, frame).second) table.refuse("name", "there are two frames '" + name + "'", "rename one");
+  }
+  return frames;
+}
+
+std::vector<PaintedShape> read_shapes(const Recipe& recipe, RecipeTable& root, ShapeReader& reader,
+                                      const std::vector<PaintedLabel>& labels) {
+  std::map<std::string, std::size_t> label_index;
+  for (std::size_t n = 0; n < labels.size(); ++n) label_index[labels[n].label.name] = n;
+  std::vector<PaintedShape> shapes;
+  for (const toml::table* entry : root.tables("shape")) {
+    const std::optional<std::string> name = (*entry)["name"].value<std::string>();
+    RecipeTable table(recipe, *entry, name ? "shape '" + *name + "'" : std::string("a shape"));
+    const ShapePtr shape = reader.read(table);
+    if (table.has("label")) {
+      const std::string label = table.text("label");
+      const auto found = label_index.find(label);
+      if (found == label_index.end())
+        table.refuse("label", "there is no label '" + label + "'", suggestion(label, names_of(label_index)));
+      shapes.push_back({shape, found->second});
+    }
+    table.finish();
+  }
+  if (shapes.empty()) root.refuse("shape", "no shape has a label, so nothing would be drawn", "add a [[shape]]");
+  return shapes;
+}
+
+std::map<std::string, glm::dvec3> read_landmarks(const Recipe& recipe, RecipeTable& root,
+                                                 const std::map<std::string, Frame>& frames,
+                                                 std::vector<Landmark>& landmarks) {
+  std::map<std::string, glm::dvec3> positions;
+  for (const toml::table* entry : root.tables("landmark")) {
+    RecipeTable table(recipe, *entry, "landmark " + std::to_string(landmarks.size() + 1));
+    Landmark landmark;
+    landmark.name = table.text("name");
+    const glm::dvec3 at = table.vector("at", -kFar_mm, kFar_mm);
+    landmark.position = table.has("frame") ? glm::dvec3(frame_of(table, frames).patient_from_part(at)) : at;
+    table.finish();
+    if (!positions.emplace(landmark.name, landmark.position).second)
+      table.refuse("name", "there are two landmarks '" + landmark.name + "'", "rename one");
+    landmarks.push_back(landmark);
+  }
+  return positions;
+}
+
+class ViewReader {
+public:
+  ViewReader(const Recipe& recipe, const std::map<std::string, glm::dvec3>& landmarks,
+             const std::vector<PaintedLabel>& labels)
+      : recipe_(recipe), landmarks_(landmarks) {
+    for (const PaintedLabel& label : labels) labels_.insert(label.label.name);
+  }
+
+  std::vector<PlannedView> read(RecipeTable& root) {
+    std::vector<PlannedView> views;
+    std::set<std::string> names;
+    for (const toml::table* entry : root.tables("view")) {
+      views.push_back(view(*entry));
+      const ReferenceView& made = views.back().view;
+      if (!names.insert(made.name).second)
+        recipe_.refuse(*entry, "there are two views '" + made.name + "'", "rename one");
+    }
+    return views;
+  }
+
+private:
+  PlannedView view(const toml::table& entry) {
+    const std::optional<std::string> name = entry["name"].value<std::string>();
+    RecipeTable table(recipe_, entry, name ? "view '" + *name + "'" : std::string("a view"));
+    PlannedView made;
+    made.view.name = table.text("name");
+    made.view.title = table.text("title");
+    made.view.probe = table.text("probe");
+    made.view.depth_mm = table.number_or("depth_mm", 160, 20, 300);
+    made.view.landmarks = names(table, "landmarks", names_of(landmarks_), "landmark");
+    made.view.targets = names(table, "targets", labels_, "label");
+    made.aim = point(table, "aim");
+    const glm::dvec3 way = made.aim - point(table, "from");
+    if (glm::length(way) < 1) table.refuse("from", "it looks from where it aims at", "move one of the points");
+    made.beam = glm::normalize(way);
+    const glm::dvec3 lateral = marker(table);
+    const glm::dvec3 square = lateral - made.beam * glm::dot(lateral, made.beam);
+    if (glm::length(square) < 0.1 * glm::length(lateral) || glm::length(lateral) < 1e-6)
+      table.refuse("marker", "the marker points along the beam", "point it across");
+    made.marker = glm::normalize(square);
+    made.press_mm = table.number_or("press_mm", 8, 0, 30);
+    table.finish();
+    return made;
+  }
+
+  std::vector<std::string> names(RecipeTable& table, const std::string& key, const std::set<std::string>& known,
+                                 const std::string& noun) {
+    std::vector<std::string> found = table.texts_or_none(key);
+    for (const std::string& name : found)
+      if (known.count(name) == 0) table.refuse(key, "there is no " + noun + " '" + name + "'", suggestion(name, known));
+    return found;
+  }
+
+  const glm::dvec3& landmark(RecipeTable& table, const std::string& key, const std::string& name) {
+    const auto found = landmarks_.find(name);
+    if (found == landmarks_.end())
+      table.refuse(key, "there is no landmark '" + name + "'", suggestion(name, names_of(landmarks_)));
+    return found->second;
+  }
+
+  glm::dvec3 point(RecipeTable& table, const std::string& key) {
+    if (table.has(key) && table.table().get(key)->is_string()) return landmark(table, key, table.text(key));
+    return table.vector(key, -kFar_mm, kFar_mm);
+  }
+
+  // Three numbers, or the names of two landmarks: from the first towards the second.
+  glm::dvec3 marker(RecipeTable& table) {
+    const toml::array* array = table.has("marker") ? table.table().get("marker")->as_array() : nullptr;
+    if (array == nullptr || array->size() != 2) return table.vector("marker", -kFar_mm, kFar_mm);
+    const std::vector<std::string> ends = table.texts_or_none("marker");
+    return landmark(table, "marker", ends[1]) - landmark(table, "marker", ends[0]);
+  }
+
+  const Recipe& recipe_;
+  const std::map<std::string, glm::dvec3>& landmarks_;
+  std::set<std::string> labels_;
+};
+
+}  // namespace
+
+PhantomPlan plan_phantom(const Recipe& recipe) {
+  RecipeTable root(recipe, recipe.root(), "the recipe");
+  root.has("options");  // read with the recipe itself
+  PhantomPlan plan;
+  plan.name = root.text("name");
+  plan.seed = std::uint32_t(root.number_or("seed", 1, 0, 4294967295.0));
+  plan.grid = read_grid(recipe, root);
+  plan.labels = read_labels_key(recipe, root);
+  const std::map<std::string, Frame> frames = read_frames(recipe, root);
+  ShapeReader reader(recipe, plan.seed, frames);
+  plan.shapes = read_shapes(recipe, root, reader, plan.labels);
+  const std::map<std::string, glm::dvec3> positions = read_landmarks(recipe, root, frames, plan.landmarks);
+  plan.views = ViewReader(recipe, positions, plan.labels).read(root);
+  root.finish();
+  return plan;
+}
+
+}  // namespace insonate

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+
+#include "sim/volume/phantom_recipe.h"
+#include "sim/volume/phantom_shapes.h"
+
+namespace insonate {
+
+/// Turns a recipe's [[shape]] tables into shapes, in their order: a shape may refer to those before it.
+class ShapeReader {
+public:
+  ShapeReader(const Recipe& recipe, std::uint32_t seed, std::map<std::string, Frame> frames)
+      : recipe_(recipe), seed_(seed), frames_(std::move(frames)) {}
+
+  /// Reads every key but `label`. A shape whose `when` is off is empty, and may be referred to all the same.
+  ShapePtr read(RecipeTable& table);
+
+private:
+  ShapePtr solid(RecipeTable& table, const std::string& name);
+  ShapePtr tube(RecipeTable& table);
+  ShapePtr rib(RecipeTable& table);
+  ShapePtr loft(RecipeTable& table, const std::string& name);
+  TubeForm tube_form(RecipeTable& table);
+  ShapePtr part(RecipeTable& table, const std::string& key);
+  std::vector<ShapePtr> parts(RecipeTable& table, const std::string& key);
+  ShapePtr known(RecipeTable& table, const std::string& key, const std::string& name);
+
+  const Recipe& recipe_;
+  std::uint32_t seed_;
+  std::uint32_t read_so_far_ = 0;
+  std::map<std::string, Frame> frames_;
+  std::map<std::string, ShapePtr> shapes_;
+  std::map<std::string, LoftForm> lofts_;
+};
+
+/// The frame a table's `frame` key names; the patient's own when it has none.
+Frame frame_of(RecipeTable& table, const std::map<std::string, Frame>& frames);
+
+template <typename Value>
+std::set<std::string> names_of(const std::map<std::string, Value>& map) {
+  std::set<std::string> names;
+  for (const auto& entry : map) names.insert(entry.first);
+  return names;
+}
+
+}  // namespace insonate
