@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace insonate {
+
+enum class Bus { hid, usb };
+
+/// A tracker that can be told by its USB vendor and product numbers.
+struct KnownTracker {
+  Bus bus;
+  std::uint16_t vendor;
+  std::uint16_t product;  ///< or kAnyProduct
+  std::string_view name;
+  std::string_view note;  ///< what a person should know of it now; may be empty
+};
+
+inline constexpr std::uint16_t kAnyProduct = 0;
+
+/// The tracker with these numbers on this bus, or nullptr.
+const KnownTracker* known_tracker(Bus bus, std::uint16_t vendor, std::uint16_t product);
+
+}  // namespace insonate

@@ -1,0 +1,78 @@
+#include "devices/log_report.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace insonate {
+namespace {
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+void count_gaps(const std::vector<PoseSample>& samples, LogReport& report) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < samples.size(); ++i) steps.push_back(samples[i].time_s - samples[i - 1].time_s);
+  if (steps.empty()) return;
+  report.interval_s = median(steps);
+  double squares = 0;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const double intervals = steps[i] / report.interval_s;
+    if (intervals > kGapIntervals)
+      report.gaps.push_back({i + 1, samples[i + 1].time_s, steps[i], std::size_t(std::round(intervals)) - 1});
+    else
+      squares += (steps[i] - report.interval_s) * (steps[i] - report.interval_s);
+  }
+  if (const std::size_t regular = steps.size() - report.gaps.size(); regular > 0)
+    report.jitter_s = std::sqrt(squares / double(regular));
+}
+
+void count_dropouts(const std::vector<PoseSample>& samples, LogReport& report) {
+  for (std::size_t i = 0; i < samples.size();) {
+    std::size_t end = i + 1;
+    while (end < samples.size() && samples[end].status == samples[i].status) ++end;
+    if (samples[i].status == PoseStatus::ok) {
+      report.usable += end - i;
+    } else {
+      LogReport::Dropout& dropout = report.dropouts[samples[i].status];
+      dropout.frames += end - i;
+      ++dropout.spells;
+      const double until_s = samples[std::min(end, samples.size() - 1)].time_s;
+      dropout.longest_s = std::max(dropout.longest_s, until_s - samples[i].time_s);
+    }
+    i = end;
+  }
+}
+
+void follow_path(const std::vector<PoseSample>& samples, LogReport& report) {
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    const PoseSample &a = samples[i - 1], &b = samples[i];
+    if (a.status != PoseStatus::ok || b.status != PoseStatus::ok) continue;
+    const double mm = glm::distance(a.patient_from_probe.translation, b.patient_from_probe.translation);
+    const double deg = angle_between_deg(a.patient_from_probe, b.patient_from_probe);
+    const double s = b.time_s - a.time_s;
+    report.path_mm += mm;
+    if ((mm > kJumpLeastMm && mm / s > kJumpMmPerS) || (deg > kJumpLeastDeg && deg / s > kJumpDegPerS))
+      report.jumps.push_back({i, b.time_s, mm, deg});
+  }
+}
+
+}  // namespace
+
+LogReport check_log(const std::vector<PoseSample>& samples) {
+  LogReport report;
+  report.frames = samples.size();
+  if (samples.empty()) return report;
+  report.begin_s = samples.front().time_s;
+  report.duration_s = samples.back().time_s - samples.front().time_s;
+  count_gaps(samples, report);
+  count_dropouts(samples, report);
+  follow_path(samples, report);
+  return report;
+}
+
+}  // namespace insonate
