@@ -49,6 +49,7 @@ struct MetricInfo {
   bool less_is_better;
   bool needs_targets;    ///< the view must name targets that are in the case's labels
   bool needs_landmarks;  ///< the view must name landmarks
+  bool economy;          ///< of effort: earns points only where the task was done, or giving up at once would pay
   int decimals;          ///< worth showing
 };
 

@@ -6,10 +6,19 @@
 
 namespace insonate {
 
-double MotionValues::of(Metric motion_metric) const {
+std::optional<double> MotionValues::of(Metric motion_metric) const {
   switch (motion_metric) {
     case Metric::time_s:
       return time_s;
+    case Metric::dropout_percent:
+      return time_s > 0 ? 100 * untracked_s / time_s : 0;
+    case Metric::dropouts:
+      return dropouts;
+    default:
+      break;
+  }
+  if (!(tracked_s > 0)) return std::nullopt;
+  switch (motion_metric) {
     case Metric::path_length_mm:
       return path_length_mm;
     case Metric::angular_path_deg:
@@ -19,13 +28,9 @@ double MotionValues::of(Metric motion_metric) const {
     case Metric::rotational_movements:
       return rotational_movements;
     case Metric::skin_contact_percent:
-      return tracked_s > 0 ? 100 * on_skin_s / tracked_s : 0;
-    case Metric::dropout_percent:
-      return time_s > 0 ? 100 * untracked_s / time_s : 0;
-    case Metric::dropouts:
-      return dropouts;
+      return 100 * on_skin_s / tracked_s;
     default:
-      return 0;  // no metric of motion
+      return std::nullopt;  // no metric of motion
   }
 }
 

@@ -21,7 +21,8 @@ struct MotionValues {
   double untracked_s = 0;           ///< the rest
   int dropouts = 0;                 ///< stretches of untracked time
 
-  double of(Metric motion_metric) const;
+  /// Empty for what cannot be said of a stretch without tracked time.
+  std::optional<double> of(Metric motion_metric) const;
 };
 
 /// Measures motion, one sample after the other.

@@ -14,6 +14,17 @@ constexpr double kTraceStep_s = 0.1;
 /// What differences of times may be off by rounding: times count from when a machine was started, to microseconds.
 constexpr double kRounding_s = 1e-6;
 
+constexpr char kNothingValid[] = "there was no valid pose to judge.";
+
+Mark mark_motion(const Criterion& criterion, const MotionValues& motion, bool task_done) {
+  Mark m = mark(criterion, motion.of(criterion.metric), kNothingValid);
+  if (info(criterion.metric).economy && !task_done && m.value) {
+    m.points = 0;
+    m.why = in_words(criterion.metric, *m.value) + ", which earns nothing, because the task was not done.";
+  }
+  return m;
+}
+
 bool usable(const PoseSample& sample) {
   if (sample.status != PoseStatus::ok) return true;
   double sum = 0;
@@ -205,13 +216,15 @@ StepResult Runner::judge(StepOutcome outcome, double now) const {
 
   for (const Criterion& criterion : asked.criteria) {
     std::optional<double> value;
-    if (info(criterion.metric).scope == MetricScope::motion)
-      value = result.motion.of(criterion.metric);
-    else if (criterion.metric == Metric::longest_hold_s)
+    if (info(criterion.metric).scope == MetricScope::motion) {
+      result.marks.push_back(mark_motion(criterion, result.motion, outcome == StepOutcome::held));
+      continue;
+    }
+    if (criterion.metric == Metric::longest_hold_s)
       value = result.longest_hold_s;
     else if (result.judged)
       value = result.judged->of(criterion.metric);
-    result.marks.push_back(mark(criterion, value, "there was no valid pose to judge."));
+    result.marks.push_back(mark(criterion, value, kNothingValid));
   }
   return result;
 }
@@ -238,8 +251,10 @@ ExamResult Runner::result() const {
       missed.marks.push_back(mark(criterion, std::nullopt, "the step was not reached."));
     result.steps.push_back(std::move(missed));
   }
+  const bool all_held = std::all_of(result.steps.begin(), result.steps.end(),
+                                    [](const StepResult& s) { return s.outcome == StepOutcome::held; });
   for (const Criterion& criterion : scenario_.criteria)
-    result.marks.push_back(mark(criterion, result.motion.of(criterion.metric)));
+    result.marks.push_back(mark_motion(criterion, result.motion, all_held));
   decide(result);
   return result;
 }

@@ -22,7 +22,8 @@ struct SourcePlace {
   int column = 0;
 };
 
-/// A line of the marking scheme: `[[step.criterion]]` for a step, `[[criterion]]` for the whole exam.
+/// A line of the marking scheme: `[[step.criterion]]` for a step, `[[criterion]]` for the whole exam. Economy (time,
+/// path, movements) earns points only where the task was done: the step's view held, or for the whole exam every view.
 struct Criterion {
   Metric metric{};        ///< metric = "plane_distance_mm"; the whole exam takes motion metrics only
   double full = 0;        ///< full = 5: this value or a better one earns the whole weight

@@ -90,12 +90,12 @@ public:
     if (!value) {
       problem(place(key), "has a '" + std::string(key) + "' that is no number",
               "write a number from " + plain(range.least) + " to " + plain(range.most));
-      return range.least;
+      return otherwise.value_or(range.least);
     }
     if (!(*value >= range.least && *value <= range.most)) {
       problem(place(key), "has " + std::string(key) + " = " + plain(*value),
               "choose from " + plain(range.least) + " to " + plain(range.most));
-      return range.least;
+      return otherwise.value_or(range.least);
     }
     return *value;
   }

@@ -1,0 +1,90 @@
+#include "scenarios/marking.h"
+
+#include <catch2/catch.hpp>
+
+using namespace insonate;
+
+namespace {
+
+Criterion criterion(Metric metric, double full, double zero, double weight, bool critical = false) {
+  return {metric, full, zero, weight, critical, {}};
+}
+
+ExamResult exam(std::vector<Mark> marks, double pass_mark_percent) {
+  ExamResult result;
+  result.pass_mark_percent = pass_mark_percent;
+  StepResult step;
+  step.title = "Ball";
+  step.outcome = StepOutcome::held;
+  step.marks = std::move(marks);
+  result.steps.push_back(step);
+  decide(result);
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("points fall on a straight line from full to zero") {
+  const Criterion less = criterion(Metric::plane_distance_mm, 5, 20, 3);
+  CHECK(mark(less, 0).points == 3);
+  CHECK(mark(less, 5).points == 3);
+  CHECK(mark(less, 12.5).points == Approx(1.5));
+  CHECK(mark(less, 20).points == 0);
+  CHECK(mark(less, 1e9).points == 0);
+
+  const Criterion more = criterion(Metric::target_in_view_percent, 80, 30, 2);
+  CHECK(mark(more, 95).points == 2);
+  CHECK(mark(more, 55).points == Approx(1));
+  CHECK(mark(more, 30).points == 0);
+  CHECK(mark(more, 0).points == 0);
+}
+
+TEST_CASE("a mark says why") {
+  const Criterion less = criterion(Metric::plane_distance_mm, 5, 20, 3);
+  CHECK(mark(less, 4.04).why == "4.0 mm earns full points, as up to 5.0 mm.");
+  CHECK(mark(less, 12.5).why == "12.5 mm lies between 5.0 mm (full points) and 20.0 mm (none).");
+  CHECK(mark(less, 33).why == "33.0 mm earns nothing, as from 20.0 mm up.");
+  const Criterion more = criterion(Metric::target_in_view_percent, 80, 30, 2);
+  CHECK(mark(more, 95).why == "95 % earns full points, as from 80 % up.");
+  CHECK(mark(more, 12).why == "12 % earns nothing, as from 30 % down.");
+  CHECK(mark(more, std::nullopt, "nothing was seen.").why == "nothing was seen.");
+  CHECK(mark(more, std::nullopt, "nothing was seen.").points == 0);
+  CHECK(mark(criterion(Metric::tilt_deg, 5, 20, 1), 3).why == "3.0\u00b0 earns full points, as up to 5.0\u00b0.");
+}
+
+TEST_CASE("the exam is passed from the pass mark on") {
+  const Mark half = mark(criterion(Metric::plane_distance_mm, 0, 10, 2), 5);
+  const Mark all = mark(criterion(Metric::tilt_deg, 5, 20, 2), 0);
+  const ExamResult passed = exam({half, all}, 75);
+  CHECK(passed.points == 3);
+  CHECK(passed.points_possible == 4);
+  CHECK(passed.percent == 75);
+  CHECK(passed.passed);
+  CHECK(passed.reasons.empty());
+
+  const ExamResult failed = exam({half, all}, 75.1);
+  CHECK_FALSE(failed.passed);
+  REQUIRE(failed.reasons.size() == 1);
+  CHECK(failed.reasons[0].find("75.0 %") != std::string::npos);
+}
+
+TEST_CASE("a critical criterion that earns nothing fails the exam alone, and is named") {
+  const Mark rest = mark(criterion(Metric::plane_distance_mm, 5, 20, 99), 0);
+  const ExamResult failed = exam({rest, mark(criterion(Metric::target_insonated_percent, 80, 30, 1, true), 10)}, 80);
+  CHECK(failed.percent == 99);
+  CHECK_FALSE(failed.passed);
+  REQUIRE(failed.reasons.size() == 1);
+  CHECK(failed.reasons[0] ==
+        "Step 1 (Ball), critical: Target reached by the sound: 10 % earns nothing, as from 30 % down.");
+
+  CHECK(exam({rest, mark(criterion(Metric::target_insonated_percent, 80, 30, 1, true), 31)}, 80).passed);
+}
+
+TEST_CASE("each metric has a name of its own that leads back to it") {
+  for (const MetricInfo& m : metrics()) {
+    REQUIRE(find_metric(m.name));
+    CHECK(*find_metric(m.name) == m.metric);
+    CHECK(&info(m.metric) == &m);
+  }
+  CHECK_FALSE(find_metric("nothing"));
+}

@@ -1,0 +1,118 @@
+#include <catch2/catch.hpp>
+
+#include "scenarios/report.h"
+#include "scenarios/result_json.h"
+#include "scenarios/runner.h"
+#include "sim/core/input_error.h"
+#include "tests/scenarios/tiny_case.h"
+
+using namespace insonate;
+
+namespace {
+
+struct Scan {
+  ExamResult result;
+  std::vector<TracePoint> trace;
+};
+
+Scan scan(double offset_mm, const std::string& scenario_text = kTinyScenario) {
+  const Case subject = tiny_case();
+  Runner runner(parse_scenario(scenario_text, "exam.toml"), subject, tiny_tissues());
+  auto samples = samples_of(25, 30, [&](double t) {
+    return turned(1.0 / 3 * t, {1, 0, 0}, {0, 0, offset_mm + 10 * std::exp(-t)});
+  });
+  for (PoseSample& sample : samples)
+    if (sample.time_s > 0.5 && sample.time_s < 0.9) sample.status = PoseStatus::missing;
+  runner.feed(samples);
+  runner.end();
+  return {runner.result(), runner.trace()};
+}
+
+int count(const std::string& text, const std::string& what) {
+  int found = 0;
+  for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++found;
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("a result goes to JSON and back without losing a bit") {
+  for (const double offset : {1.0 / 3, 70.0}) {
+    ExamResult result = scan(offset).result;
+    result.provenance.log = "a \"quoted\" n\u00e4me.igs.mha";
+    result.provenance.phantom_options = {{"free_fluid", "true"}};
+    const std::string json = to_json(result);
+    const ExamResult back = result_from_json(json, "result.json");
+    CHECK(to_json(back) == json);
+    CHECK(back.percent == result.percent);
+    CHECK(back.motion.path_length_mm == result.motion.path_length_mm);
+    CHECK(back.reasons == result.reasons);
+    CHECK(back.steps[0].judged->tilt_deg == result.steps[0].judged->tilt_deg);
+    CHECK(back.steps[0].marks[0].value == result.steps[0].marks[0].value);
+  }
+}
+
+TEST_CASE("JSON that is no result is refused") {
+  const std::string json = to_json(scan(1).result);
+  CHECK_THROWS_AS(result_from_json("", "x"), InputError);
+  CHECK_THROWS_AS(result_from_json("{}", "x"), InputError);
+  CHECK_THROWS_AS(result_from_json(json.substr(0, json.size() / 2), "x"), InputError);
+  const auto spoiled = [&](const std::string& from, const std::string& to) {
+    std::string text = json;
+    REQUIRE(text.find(from) != std::string::npos);
+    text.replace(text.find(from), from.size(), to);
+    CHECK_THROWS_AS(result_from_json(text, "x"), InputError);
+  };
+  spoiled("\"format\": 1", "\"format\": 2");
+  spoiled("\"scoring_version\": 1", "\"scoring_version\": 99");
+  spoiled("\"plane_distance_mm\",", "\"plane_distance_km\",");
+  spoiled("\"held\"", "\"dropped\"");
+  spoiled("\"percent\": ", "\"percent\": \"\", \"x\": ");
+}
+
+TEST_CASE("the report names the verdict, its reasons, and each criterion with value, limits, points and why") {
+  for (const double offset : {0.0, 70.0}) {
+    const Scan one = scan(offset);
+    const std::string html = report_html(one.result, one.trace);
+    CHECK(html.find(one.result.passed ? ">Passed<" : ">Not passed<") != std::string::npos);
+    for (const std::string& reason : one.result.reasons) CHECK(html.find(reason) != std::string::npos);
+    for (const StepResult& step : one.result.steps)
+      for (const Mark& m : step.marks) {
+        CHECK(html.find(std::string(info(m.metric).words).substr(0, 6)) != std::string::npos);
+        CHECK(html.find(m.why) != std::string::npos);
+      }
+    CHECK(count(html, "<tr class='") == 4);
+    CHECK(count(html, "class='critical'") == 1);
+    CHECK(html.find("exam.toml") != std::string::npos);
+    CHECK(html.find(one.result.provenance.case_digest) != std::string::npos);
+    CHECK(html.find("nan") == std::string::npos);
+  }
+  CHECK(scan(0).result.passed);
+  CHECK_FALSE(scan(70).result.passed);
+}
+
+TEST_CASE("the report draws the scan over time and in space, and needs no other file") {
+  const Scan one = scan(0);
+  const std::string html = report_html(one.result, one.trace);
+  CHECK(count(html, "<svg") == 2);
+  CHECK(count(html, "class='curve'") == 4);
+  CHECK(count(html, "class='held'") == 4 * 2);
+  CHECK(count(html, "class='lost'") >= 4);
+  CHECK(html.find("http") == std::string::npos);
+  CHECK(html.find("src=") == std::string::npos);
+  CHECK(report_html(one.result, one.trace) == html);
+
+  const ReportPicture picture{"Best frame", "data:image/png;base64,AAAA"};
+  CHECK(report_html(one.result, one.trace, {&picture, 1}).find("src='data:image/png;base64,AAAA'") !=
+        std::string::npos);
+  CHECK(count(report_html(one.result, {}), "<svg") == 0);
+}
+
+TEST_CASE("text from a scenario stays text in the report") {
+  std::string text = kTinyScenario;
+  text.replace(text.find("Find the ball"), 13, "<script>alert('x')</script> & co");
+  const Scan one = scan(0, text);
+  const std::string html = report_html(one.result, one.trace);
+  CHECK(html.find("<script") == std::string::npos);
+  CHECK(html.find("&lt;script&gt;alert(&#39;x&#39;)&lt;/script&gt; &amp; co") != std::string::npos);
+}

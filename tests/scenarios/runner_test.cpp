@@ -1,0 +1,276 @@
+#include "scenarios/runner.h"
+
+#include <catch2/catch.hpp>
+
+#include "scenarios/result_json.h"
+#include "sim/core/hash.h"
+#include "tests/scenarios/tiny_case.h"
+
+using namespace insonate;
+
+namespace {
+
+const Case& shared_case() {
+  static const Case subject = tiny_case();
+  return subject;
+}
+
+Scenario tiny_scenario() {
+  return parse_scenario(kTinyScenario, "exam.toml");
+}
+
+ExamResult scored(const std::vector<PoseSample>& samples, const Scenario& scenario = tiny_scenario(),
+                  const Case& subject = shared_case()) {
+  Runner runner(scenario, subject, tiny_tissues());
+  runner.feed(samples);
+  runner.end();
+  return runner.result();
+}
+
+Pose at_z(double z) {
+  return {glm::dmat3(1.0), {0, 0, z}};
+}
+
+/// From 40 mm aside at 20 mm/s to 4 mm off the ball's plane, and there it stays: in tolerance from 1.6 s on.
+Pose approach(double t) {
+  return at_z(std::max(4.0, 40 - 20 * t));
+}
+
+/// A scan with everything in it: turns, losses of tracking, a wrong place, the right one.
+std::vector<PoseSample> wandering(double rate_hz) {
+  auto samples = samples_of(14, rate_hz, [](double t) {
+    const double off = 25 * std::exp(-t / 2) * std::sin(2 * t) + 3;
+    return turned(10 * std::sin(t) * std::exp(-t / 3), {1, 0.4, 0}, {4 * std::sin(0.7 * t), 0.5, off});
+  });
+  for (PoseSample& sample : samples)
+    if (std::fmod(sample.time_s + 1, 3.1) < 0.4) sample.status = PoseStatus::missing;
+  return samples;
+}
+
+}  // namespace
+
+TEST_CASE("a scan's score can be computed by hand") {
+  const ExamResult result = scored(samples_of(6, 50, approach));
+  REQUIRE(result.complete);
+  REQUIRE(result.steps.size() == 2);
+  const StepResult& first = result.steps[0];
+  CHECK(first.outcome == StepOutcome::held);
+  CHECK(first.start_s == 0);
+  // In tolerance from 8 mm on, at 1.6 s; the grid of samples adds 0.02 s at most.
+  CHECK(*first.judged_from_s == Approx(1.6).margin(0.021));
+  CHECK(first.end_s == Approx(2.6).margin(0.021));
+  CHECK(first.longest_hold_s == 1.0);
+  // Over the hold the distance falls from 8 to 4 mm in 0.2 s and stays there for 0.8 s: 0.2 * 6 + 0.8 * 4 = 4.4 mm.
+  CHECK(first.judged->plane_distance_mm == Approx(4.4).margin(0.05));
+  REQUIRE(first.marks.size() == 2);
+  CHECK(first.marks[0].points == Approx(4 * (10 - first.judged->plane_distance_mm) / 8));
+  CHECK(first.marks[1].points == 2);  // the disc at 4.4 mm is 95 % of the largest, more than 80
+
+  const StepResult& second = result.steps[1];
+  CHECK(second.outcome == StepOutcome::held);
+  CHECK(second.start_s == first.end_s);
+  CHECK(second.end_s == Approx(first.end_s + 0.5).margin(0.021));
+  CHECK(second.marks[0].points == 1);
+
+  CHECK(result.motion.time_s == Approx(3.1).margin(0.021));
+  CHECK(result.motion.path_length_mm == Approx(36));
+  CHECK(result.marks[0].points == 3);  // 36 mm of way are less than 50
+  CHECK(result.points == Approx(2.8 + 2 + 1 + 3).margin(0.03));
+  CHECK(result.points_possible == 10);
+  CHECK(result.percent == Approx(88).margin(0.3));
+  CHECK(result.passed);
+}
+
+TEST_CASE("who never shows the view runs out of time, is judged by the last second, and is told so") {
+  const ExamResult result = scored(samples_of(25, 20, [](double) { return at_z(60); }));
+  CHECK(result.complete);
+  CHECK_FALSE(result.passed);
+  CHECK(result.steps[0].outcome == StepOutcome::timed_out);
+  CHECK(result.steps[0].end_s == 10);
+  CHECK(result.steps[0].motion.time_s == Approx(10));
+  CHECK(result.steps[1].start_s == 10);
+  CHECK(result.steps[1].end_s == 20);
+  CHECK(*result.steps[0].judged_from_s == Approx(8.95).margin(0.051));
+  CHECK(result.steps[0].judged->plane_distance_mm == Approx(60));
+  CHECK(result.motion.time_s == Approx(20));
+  REQUIRE(result.reasons.size() >= 3);
+  CHECK(result.reasons[0].find("60 % are needed") != std::string::npos);
+  CHECK(result.reasons[1].find("Step 1 (Ball): the view was not held long enough") != std::string::npos);
+  CHECK(result.reasons[2].find("critical") != std::string::npos);
+}
+
+TEST_CASE("the exam's time limit ends it at once, and what was not reached earns nothing") {
+  Scenario scenario = tiny_scenario();
+  scenario.time_limit_s = 2;
+  const ExamResult result = scored(samples_of(6, 50, approach), scenario);
+  CHECK(result.complete);
+  CHECK(result.steps[0].outcome == StepOutcome::timed_out);
+  CHECK(result.steps[0].end_s == 2);
+  CHECK(result.steps[0].longest_hold_s == Approx(0.38).margin(0.021));
+  CHECK(result.steps[1].outcome == StepOutcome::not_reached);
+  CHECK(result.steps[1].marks[0].points == 0);
+  CHECK(result.steps[1].marks[0].why == "the step was not reached.");
+  CHECK(result.motion.time_s == Approx(2));
+}
+
+TEST_CASE("an exam whose samples end early is scored as far as it came") {
+  const ExamResult result = scored(samples_of(1.0, 50, approach));
+  CHECK(result.complete);
+  CHECK(result.steps[0].outcome == StepOutcome::scan_ended);
+  CHECK(result.steps[1].outcome == StepOutcome::not_reached);
+  CHECK_FALSE(result.passed);
+
+  Runner empty(tiny_scenario(), shared_case(), tiny_tissues());
+  empty.end();
+  CHECK_FALSE(empty.result().complete);
+  CHECK(empty.result().points == 0);
+}
+
+TEST_CASE("giving up at once earns nothing for being quick") {
+  const ExamResult result = scored(samples_of(1.0, 50, approach));
+  REQUIRE(result.marks[0].metric == Metric::path_length_mm);
+  CHECK(*result.marks[0].value < 50);
+  CHECK(result.marks[0].points == 0);
+  CHECK(result.marks[0].why.find("the task was not done") != std::string::npos);
+}
+
+TEST_CASE("a hold survives a loss of tracking of a blink, not a longer one") {
+  const auto with_loss = [](double loss_s) {
+    auto samples = samples_of(2.4, 50, [](double) { return at_z(0); });
+    for (PoseSample& sample : samples)
+      if (sample.time_s > 0.505 && sample.time_s < 0.505 + loss_s) sample.status = PoseStatus::out_of_view;
+    return scored(samples).steps[0];
+  };
+  CHECK(with_loss(0.0).end_s == Approx(1.0));
+  CHECK(with_loss(0.2).end_s == Approx(1.0));
+  CHECK(with_loss(0.4).end_s == Approx(1.92).margin(0.021));
+}
+
+TEST_CASE("a pose that is not valid is never looked at") {
+  auto samples = samples_of(3, 50, [](double) { return at_z(0); });
+  for (PoseSample& sample : samples) {
+    sample.status = PoseStatus::missing;
+    sample.patient_from_probe.translation.x = std::nan("");
+  }
+  const ExamResult result = scored(samples);
+  CHECK_FALSE(result.steps[0].judged);
+  CHECK(result.steps[0].marks[0].points == 0);
+  CHECK(result.steps[0].marks[0].why == "there was no valid pose to judge.");
+  CHECK(*result.motion.of(Metric::dropout_percent) == Approx(100));
+
+  // Neither is one that is called valid and is no number, nor one whose time goes back.
+  auto spoiled = samples_of(6, 50, approach);
+  const ExamResult clean = scored(spoiled);
+  PoseSample broken = sample_at(1.5001, at_z(0));
+  broken.patient_from_probe.rotation[1][1] = std::nan("");
+  spoiled.insert(spoiled.begin() + 76, {broken, sample_at(0.3, at_z(0))});
+  CHECK(to_json(scored(spoiled)) == to_json(clean));
+}
+
+TEST_CASE("the score is the same to the bit however the samples are fed") {
+  const std::vector<PoseSample> samples = wandering(60);
+  const std::string at_once = to_json(scored(samples));
+  for (std::uint32_t seed = 1; seed <= 5; ++seed) {
+    Runner runner(tiny_scenario(), shared_case(), tiny_tissues());
+    std::size_t next = 0;
+    for (std::uint32_t batch = 0; next < samples.size(); ++batch) {
+      const std::size_t size = std::min<std::size_t>(hash(seed, batch) % 9, samples.size() - next);
+      runner.feed(std::span(samples).subspan(next, size));
+      runner.result();  // looking on the way, as a screen does, changes nothing
+      next += size;
+    }
+    runner.end();
+    CHECK(to_json(runner.result()) == at_once);
+  }
+}
+
+TEST_CASE("the score does not depend on where time begins") {
+  std::vector<PoseSample> samples = wandering(64);
+  const ExamResult before = scored(samples);
+  // 64 Hz and a whole number of seconds: the times stay exact, and so must the score.
+  for (PoseSample& sample : samples) sample.time_s += 1700000000.0;
+  CHECK(to_json(scored(samples)) == to_json(before));
+}
+
+TEST_CASE("the score hardly depends on the sampling rate") {
+  const ExamResult fine = scored(wandering(400));
+  REQUIRE(fine.steps[1].outcome == StepOutcome::held);
+  for (const double rate : {30.0, 60.0, 125.0}) {
+    const ExamResult coarse = scored(wandering(rate));
+    INFO(rate);
+    // A hold begins and ends up to a sample later each, 1/30 s at the coarsest; the view moves by at most about
+    // 30 mm/s then, which is 1 mm of distance or an eighth of the line's 8 mm of its 4 points.
+    CHECK(coarse.points == Approx(fine.points).margin(0.5));
+    CHECK(coarse.motion.time_s == Approx(fine.motion.time_s).margin(0.2));
+  }
+}
+
+TEST_CASE("the score does not depend on where the patient lies") {
+  const Pose moved = turned(121, {0.3, 1, -2}, {-300, 1250, 90});
+  Case elsewhere = shared_case();
+  for (Grid* grid : {&elsewhere.ct.grid, &elsewhere.labels.grid}) {
+    grid->origin = moved.point(grid->origin);
+    grid->direction = moved.rotation * grid->direction;
+  }
+  for (Landmark& landmark : elsewhere.landmarks) landmark.position = moved.point(landmark.position);
+  for (ReferenceView& view : elsewhere.views) view.patient_from_probe = moved * view.patient_from_probe;
+  std::vector<PoseSample> samples = wandering(60);
+  const ExamResult here = scored(samples);
+  for (PoseSample& sample : samples) sample.patient_from_probe = moved * sample.patient_from_probe;
+  const ExamResult there = scored(samples, tiny_scenario(), elsewhere);
+  // Rounding alone, and samples on voxel borders: see the same test of the view's metrics.
+  CHECK(there.points == Approx(here.points).margin(1e-3));
+  CHECK(there.motion.path_length_mm == Approx(here.motion.path_length_mm).epsilon(1e-9));
+  CHECK(there.steps[0].end_s == here.steps[0].end_s);
+}
+
+TEST_CASE("what the screen shows follows the exam") {
+  Runner runner(tiny_scenario(), shared_case(), tiny_tissues());
+  CHECK_FALSE(runner.live().started);
+  const auto samples = samples_of(6, 50, approach);
+  runner.feed(std::span(samples).first(51));  // to 1.0 s
+  CHECK(runner.live().started);
+  CHECK(runner.live().elapsed_s == Approx(1));
+  CHECK(runner.live().step_remaining_s == Approx(9));
+  CHECK(runner.live().exam_remaining_s == Approx(29));
+  CHECK(runner.live().view->plane_distance_mm == Approx(-20));
+  CHECK(runner.live().on_skin);
+  CHECK_FALSE(runner.live().within_tolerance);
+  CHECK(runner.live().hold_share == 0);
+
+  runner.feed(std::span(samples).subspan(51, 55));  // to 2.1 s
+  CHECK(runner.live().within_tolerance);
+  CHECK(runner.live().hold_share == Approx(0.5).margin(0.021));
+
+  runner.feed(std::span(samples).subspan(106));
+  CHECK(runner.live().finished);
+  CHECK(runner.live().step == 1);
+  CHECK(runner.live().points == Approx(5.8).margin(0.03));
+  CHECK(runner.live().points_possible == 7);
+  const std::string finished = to_json(runner.result());
+  runner.feed(sample_at(100, at_z(0)));
+  runner.end();
+  CHECK(to_json(runner.result()) == finished);
+}
+
+TEST_CASE("the marks of an exam under way are not called complete") {
+  Runner runner(tiny_scenario(), shared_case(), tiny_tissues());
+  runner.feed(samples_of(1, 50, approach));
+  CHECK_FALSE(runner.result().complete);
+}
+
+TEST_CASE("a scenario that does not fit the case does not start") {
+  Scenario scenario = tiny_scenario();
+  scenario.steps[1].view = "cube";
+  CHECK_THROWS_AS(Runner(scenario, shared_case(), tiny_tissues()), ScenarioError);
+}
+
+TEST_CASE("a better scan never earns less on what it is better in") {
+  double last = 1e9;
+  for (const double offset : {0.0, 2.5, 4.0, 6.0, 7.5}) {
+    const double points = scored(samples_of(4, 50, [&](double) { return at_z(offset); })).steps[0].marks[0].points;
+    CHECK(points <= last);
+    last = points;
+  }
+  CHECK(last == Approx(4 * 2.5 / 8));
+}
