@@ -5,6 +5,8 @@
 #include <cstring>
 
 #include "sim/core/input_error.h"
+#include "sim/volume/dicom_series.h"
+#include "sim/volume/file_header.h"
 #include "sim/volume/itk_image_io.h"
 #include "sim/volume/volume_checks.h"
 
@@ -14,24 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kLeastHu = -1024, kMostHu = 32767;
-
-std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
-
-bool ends_with(const std::string& text, std::string_view end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
-ImageFormat format_of(const fs::path& file) {
-  const std::string name = lower_case(file.filename().string());
-  if (ends_with(name, ".nii") || ends_with(name, ".nii.gz")) return ImageFormat::nifti;
-  if (ends_with(name, ".nrrd") || ends_with(name, ".nhdr")) return ImageFormat::nrrd;
-  if (ends_with(name, ".mha") || ends_with(name, ".mhd")) return ImageFormat::meta_image;
-  throw InputError(file.string(), "", "the name does not end as a volume's does",
-                   "give a .nii, .nii.gz, .nrrd, .nhdr, .mha or .mhd file, or a DICOM folder");
-}
 
 const char* format_name(ImageFormat format) {
   switch (format) {
@@ -80,7 +64,7 @@ std::string voxel_at(const Grid& grid, std::size_t offset) {
          std::to_string(offset / (x * y)) + ")";
 }
 
-fs::path existing_file(const fs::path& file) {
+const fs::path& existing_file(const fs::path& file) {
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
   if (!fs::exists(status)) throw InputError(file.string(), "", "there is no such file", "check the name");
@@ -90,33 +74,68 @@ fs::path existing_file(const fs::path& file) {
   return file;
 }
 
+/// Adds an image's voxels to a CT whose grid is known, rounded and brought into range.
+void append_hounsfield(const fs::path& file, ImageFile& image, Volume<std::int16_t>& ct, std::size_t& clamped) {
+  std::size_t count = 1;
+  for (const ImageFile::Axis& axis : image.axes()) count *= axis.size;
+  const auto bytes = image.read_voxels();
+  const std::size_t first = ct.voxels.size();
+  ct.voxels.resize(first + count);
+  with_typed(image.voxel_type(), bytes.get(), [&](const auto* voxels) {
+    for (std::size_t v = 0; v < count; ++v) {
+      const double hu = double(voxels[v]);
+      if (!std::isfinite(hu))
+        throw InputError(file.string(), voxel_at(ct.grid, first + v), "the value is not a finite number",
+                         "export the CT again");
+      const double kept = std::clamp(hu, kLeastHu, kMostHu);
+      clamped += kept != hu;
+      ct.voxels[first + v] = std::int16_t(std::lround(kept));
+    }
+  });
+}
+
+Volume<std::int16_t> read_dicom_folder(const fs::path& folder, CtSource& source) {
+  DicomSeries series = find_dicom_series(folder);
+  Volume<std::int16_t> ct{series.grid, {}};
+  source = {format_name(ImageFormat::dicom), "", std::move(series.other_series), 0};
+  // Room for all is taken slice by slice: a header may claim more than its file gives.
+  for (const fs::path& slice : series.slices) {
+    ImageFile image(slice, ImageFormat::dicom);
+    const auto& axes = image.axes();
+    const bool as_expected = axes.size() >= 2 && axes[0].size == std::uint64_t(ct.grid.size.x) &&
+                             axes[1].size == std::uint64_t(ct.grid.size.y) && (axes.size() < 3 || axes[2].size == 1);
+    if (!as_expected || image.components() != 1)
+      throw InputError(slice.string(), "header", "it is no grey image of the series' size", "export the series again");
+    source.stored_as = to_string(image.voxel_type());
+    append_hounsfield(slice, image, ct, source.clamped);
+  }
+  return ct;
+}
+
 }  // namespace
 
 Volume<std::int16_t> read_ct(const fs::path& file_or_folder, CtSource* source) {
-  const std::string name = file_or_folder.string();
-  const fs::path file = existing_file(file_or_folder);
-  const ImageFormat format = format_of(file);
-  ImageFile image(file, format);
-  Volume<std::int16_t> ct{checked_grid(name, image), {}};
-  const auto bytes = image.read_voxels();
-  ct.voxels.resize(ct.grid.count());
-  std::size_t clamped = 0;
-  with_typed(image.voxel_type(), bytes.get(), [&](const auto* voxels) {
-    for (std::size_t v = 0; v < ct.voxels.size(); ++v) {
-      const double hu = double(voxels[v]);
-      if (!std::isfinite(hu))
-        throw InputError(name, voxel_at(ct.grid, v), "the value is not a finite number", "export the CT again");
-      const double kept = std::clamp(hu, kLeastHu, kMostHu);
-      clamped += kept != hu;
-      ct.voxels[v] = std::int16_t(std::lround(kept));
-    }
-  });
-  if (source) *source = {format_name(format), to_string(image.voxel_type()), {}, clamped};
+  CtSource found;
+  Volume<std::int16_t> ct;
+  std::error_code error;
+  if (fs::is_directory(file_or_folder, error)) {
+    ct = read_dicom_folder(file_or_folder, found);
+  } else {
+    const fs::path& file = existing_file(file_or_folder);
+    if (is_dicom_file(file))
+      throw InputError(file.string(), "", "this is one DICOM file", "name the folder of its series");
+    const FileHeader header = check_file_header(file);
+    ImageFile image(file, header.format);
+    ct.grid = checked_grid(file.string(), image);
+    found = {format_name(header.format), header.stored_as, {}, 0};
+    append_hounsfield(file, image, ct, found.clamped);
+  }
+  if (source) *source = std::move(found);
   return ct;
 }
 
 Volume<std::uint8_t> read_labels(const fs::path& file) {
-  ImageFile image(existing_file(file), format_of(file));
+  ImageFile image(file, check_file_header(existing_file(file)).format);
   Volume<std::uint8_t> labels{checked_grid(file.string(), image), {}};
   const auto bytes = image.read_voxels();
   labels.voxels.resize(labels.grid.count());

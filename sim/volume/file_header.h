@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "sim/volume/itk_image_io.h"
+
+namespace insonate {
+
+/// What a volume file's own header says, read before ITK sees the file.
+struct FileHeader {
+  ImageFormat format = ImageFormat::nifti;
+  std::string stored_as;  ///< the voxel type on disk, before any rescale: "int32"
+};
+
+/// Reads the header of a NIfTI, NRRD or MetaImage file, chosen by the name's ending, and holds what it claims against
+/// the limits and against the bytes that are there. ITK's parsers believe a header: they allocate what it claims, fill
+/// what is missing with zeros, and replace a spacing of 0 by 1. Throws InputError.
+FileHeader check_file_header(const std::filesystem::path& file);
+
+}  // namespace insonate
