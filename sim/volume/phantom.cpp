@@ -18,7 +18,7 @@
 namespace insonate {
 namespace {
 
-constexpr int kBlock = 16;  // voxels a side; small enough that most shapes miss it, large enough to spread their cost
+constexpr int kBlock = 8;  // voxels a side; small enough that most shapes miss it, large enough to spread the search
 
 // Passes a share on when it has grown by a hundredth, from one thread at a time.
 class ProgressCounter {

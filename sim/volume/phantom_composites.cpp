@@ -23,6 +23,11 @@ float smooth_min(float a, float b, float blend) {
   return std::min(a, b) - h * h * blend * 0.25f;
 }
 
+// What is cut off only takes points further out.
+bool out_of_reach(const Points& points, const float* distances) {
+  return *std::min_element(distances, distances + points.count()) > kReach_mm;
+}
+
 class Union : public Shape {
 public:
   Union(std::vector<ShapePtr> parts, float blend)
@@ -56,6 +61,7 @@ public:
     for (const ShapePtr& part : parts_) {
       const std::vector<float>& d = points.distances_to(*part);
       for (std::size_t n = 0; n < d.size(); ++n) out[n] = -smooth_min(-out[n], -d[n], blend_);
+      if (out_of_reach(points, out)) return;
     }
   }
 
@@ -77,6 +83,7 @@ public:
   void distances(Points& points, float* out) const override {
     const std::vector<float>& whole = points.distances_to(*from_);
     std::copy(whole.begin(), whole.end(), out);
+    if (out_of_reach(points, out)) return;
     for (const ShapePtr& cut : cuts_) {
       const std::vector<float>& d = points.distances_to(*cut);
       for (std::size_t n = 0; n < d.size(); ++n) out[n] = -smooth_min(-out[n], d[n] - gap_, blend_);

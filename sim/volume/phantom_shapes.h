@@ -26,9 +26,9 @@ struct Bounds {
 
 inline constexpr Bounds kEverywhere{glm::vec3(-1e6f), glm::vec3(1e6f)};
 
-/// Beyond this distance to a shape's bounds, the distance to the bounds stands in for the distance to the shape. No
-/// blend, gap or offset may reach further.
-inline constexpr float kReach_mm = 60.0f;
+/// No blend, gap or offset reaches further than this, so where a shape is more than that away, any lower bound of the
+/// distance that is no less will do.
+inline constexpr float kReach_mm = 30.0f;
 
 class Points;
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "sim/volume/phantom_shapes.h"
 
@@ -81,22 +82,21 @@ Bounds bounds_of(const std::vector<Segment>& segments) {
 class Tube : public Shape {
 public:
   Tube(std::vector<Segment> segments, const TubeForm& form)
-      : Shape(bounds_of(segments)), segments_(std::move(segments)), form_(form) {}
+      : Shape(bounds_of(segments)), segments_(std::move(segments)), form_(form) {
+    constexpr std::size_t kTogether = 8;
+    for (std::size_t begin = 0; begin < segments_.size(); begin += kTogether) {
+      Stretch stretch{begin, std::min(begin + kTogether, segments_.size()), {}};
+      for (std::size_t i = begin; i < stretch.end; ++i) stretch.bounds = stretch.bounds.united(segments_[i].bounds);
+      stretches_.push_back(stretch);
+    }
+  }
 
   void distances(Points& points, float* out) const override {
-    // Of a long tube only the pieces near the block matter: a point in the block is at most the block's diagonal
-    // further from the nearest piece than that piece's bounds are from the block.
-    const Bounds& block = points.bounds();
-    float nearest = 1e9f, thickest = 0;
-    for (const Segment& segment : segments_) {
-      nearest = std::min(nearest, segment.bounds.distance_to(block));
-      thickest = std::max({thickest, segment.radius_from, segment.radius_to});
+    const std::vector<const Segment*> near = segments_near(points.bounds());
+    if (near.empty()) {
+      std::fill_n(out, points.count(), kReach_mm);
+      return;
     }
-    const float reach = nearest + glm::length(block.high - block.low) + 4.0f * thickest;
-    std::vector<const Segment*> near;
-    for (const Segment& segment : segments_)
-      if (segment.bounds.distance_to(block) <= reach) near.push_back(&segment);
-
     for (std::size_t n = 0; n < points.count(); ++n) {
       const glm::vec3 p(points.x[n], points.y[n], points.z[n]);
       float distance = 1e6f;
@@ -106,6 +106,30 @@ public:
   }
 
 private:
+  // Of a long tube only the pieces near a block matter. Between the block's middle and any point of it a distance
+  // changes by no more than the half diagonal, so a piece that is two of those further off than the nearest is nearest
+  // nowhere. Empty when all of the tube is out of reach.
+  std::vector<const Segment*> segments_near(const Bounds& block) const {
+    const glm::vec3 middle = 0.5f * (block.low + block.high);
+    const float half_diagonal = glm::length(block.high - middle);
+    const Bounds point{middle, middle};
+    float nearest = kReach_mm + half_diagonal;
+    std::vector<std::pair<float, const Segment*>> candidates;
+    for (const Stretch& stretch : stretches_) {
+      if (stretch.bounds.distance_to(point) > nearest + 2.0f * half_diagonal) continue;
+      for (std::size_t i = stretch.begin; i < stretch.end; ++i) {
+        const float distance = distance_to(segments_[i], middle);
+        nearest = std::min(nearest, distance);
+        candidates.emplace_back(distance, &segments_[i]);
+      }
+    }
+    std::vector<const Segment*> near;
+    if (nearest >= kReach_mm + half_diagonal) return near;
+    for (const auto& [distance, segment] : candidates)
+      if (distance <= nearest + 2.0f * half_diagonal) near.push_back(segment);
+    return near;
+  }
+
   float distance_to(const Segment& segment, const glm::vec3& p) const {
     const float t = std::clamp(glm::dot(p - segment.from, segment.along) * segment.per_length_squared, 0.0f, 1.0f);
     const glm::vec3 foot = segment.from + t * segment.along;
@@ -123,7 +147,14 @@ private:
     return (f - radius) * f / glm::length(twice);
   }
 
+  // Neighbouring segments, looked at one by one only when their common bounds are near.
+  struct Stretch {
+    std::size_t begin, end;
+    Bounds bounds;
+  };
+
   std::vector<Segment> segments_;
+  std::vector<Stretch> stretches_;
   TubeForm form_;
 };
 
