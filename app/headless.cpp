@@ -1,0 +1,117 @@
+#include "app/headless.h"
+
+#include <imgui.h>
+
+#include <cstdio>
+#include <optional>
+
+#include "app/panels/screen.h"
+#include "app/trainer.h"
+#include "sim/gl/headless_context.h"
+
+namespace insonate {
+namespace {
+
+/// The session's clock advances in steps as of a screen; scores do not depend on it.
+constexpr double kStep_s = 1.0 / 30;
+/// How long a session without an exam runs when nobody says.
+constexpr double kFreeScan_s = 10;
+
+/// The screen, drawn into a texture.
+class OffScreen {
+public:
+  OffScreen(int width, int height)
+      : width_(width),
+        height_(height),
+        colour_(gl::Texture::make_2d(GL_RGBA8, width, height, gl::Filter::nearest)),
+        framebuffer_(colour_) {}
+
+  Image<Rgba8> draw(Trainer& trainer) {
+    ImGuiIO& io = ImGui::GetIO();
+    io.DisplaySize = ImVec2(float(width_), float(height_));
+    io.DeltaTime = float(kStep_s);
+    // The first frame of a window that appears is laid out but not shown.
+    for (int frame = 0; frame < 3; ++frame) {
+      trainer.draw(screen_.picture_sizes(io.DisplaySize.x, io.DisplaySize.y), 1.0,
+                   std::numeric_limits<double>::infinity());
+      framebuffer_.bind();
+      screen_.render(trainer);
+    }
+    Image<Rgba8> upside_down = read_back(colour_), image(width_, height_);
+    for (int y = 0; y < height_; ++y)
+      for (int x = 0; x < width_; ++x) {
+        image.at(x, y) = upside_down.at(x, height_ - 1 - y);
+        image.at(x, y)[3] = 255;
+      }
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    return image;
+  }
+
+private:
+  int width_, height_;
+  ui::Screen screen_;
+  gl::Texture colour_;
+  gl::Framebuffer framebuffer_;
+};
+
+void print_result(const ExamResult& result) {
+  std::printf("%s: %s, %.1f %% (%.2f of %.2f points, %.0f %% are needed)\n", result.title.c_str(),
+              result.passed ? "passed" : "not passed", result.percent, result.points, result.points_possible,
+              result.pass_mark_percent);
+  for (const std::string& reason : result.reasons) std::printf("  %s\n", reason.c_str());
+}
+
+void print_file(const std::filesystem::path& file) {
+  std::printf("wrote %s\n", file.string().c_str());
+}
+
+}  // namespace
+
+int run_headless(const Options& options) {
+  const gl::HeadlessContext context;
+  Trainer trainer(options);
+  trainer.open_from_options();
+  trainer.finish_loading();
+  OffScreen screen(options.width, options.height);
+
+  const Session& session = *trainer.session();
+  const double end_s = options.seconds > 0 ? options.seconds : session.runner() ? 0 : kFreeScan_s;
+  std::optional<Image<Rgba8>> held_screen;
+  for (long step = 0;; ++step) {
+    const double now_s = double(step) * kStep_s;
+    trainer.update(now_s);
+    if (trainer.best_frame_due()) {
+      held_screen = screen.draw(trainer);
+      trainer.keep_best_frame();
+    }
+    if (session.result() || (end_s > 0 && now_s >= end_s)) break;
+  }
+
+  const Image<Rgba8> last_screen = screen.draw(trainer);
+  const std::filesystem::path trainer_png = options.out / "trainer.png", sheet_png = options.out / "score_sheet.png",
+                              picture_png = options.out / "ultrasound.png";
+  if (session.result()) {
+    trainer.write_results_if_due();
+    print_result(*session.result());
+    print_file(trainer.result_files()->report);
+    print_file(trainer.result_files()->score);
+    write_png(sheet_png, screen.draw(trainer));
+    print_file(sheet_png);
+  } else {
+    std::printf("ended after %.1f s, before there was anything to score\n", end_s);
+  }
+  if (trainer.best_frame())
+    write_png(picture_png, *trainer.best_frame());
+  else if (trainer.pictures().ultrasound())
+    write_png(picture_png, mirrored(read_back(*trainer.pictures().ultrasound())));
+  print_file(picture_png);
+  write_png(trainer_png, held_screen.value_or(last_screen));
+  print_file(trainer_png);
+  if (!options.screenshot.empty()) {
+    write_png(options.screenshot, session.result() ? screen.draw(trainer) : last_screen);
+    print_file(options.screenshot);
+  }
+  return 0;
+}
+
+}  // namespace insonate

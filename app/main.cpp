@@ -1,0 +1,22 @@
+#include <cstdio>
+
+#include "app/headless.h"
+#include "app/options.h"
+#include "app/window.h"
+#include "tools/program.h"
+
+int main(int argc, char** argv) {
+  using namespace insonate;
+  CLI::App arguments("", "insonate");
+  Options options;
+  declare(arguments, options);
+  return run_program(arguments, argc, argv, [&] {
+    check(options);
+    if (!options.headless && !has_display()) {
+      std::printf("There is no display: the session runs without a window, and leaves its results in %s.\n",
+                  options.out.string().c_str());
+      options.headless = true;
+    }
+    return options.headless ? run_headless(options) : run_window(options);
+  });
+}

@@ -1,0 +1,57 @@
+#include "app/options.h"
+
+#include "devices/registry.h"
+#include "sim/core/input_error.h"
+
+namespace insonate {
+
+void declare(CLI::App& arguments, Options& options) {
+  arguments.description(
+      "A bedside ultrasound trainer: live ultrasound from CT, guided and scored.\n"
+      "With no arguments it replays the bundled scan of the built-in patient and scores it.");
+  arguments.add_option("--case", options.case_folder, "The patient: a case folder")->type_name("FOLDER");
+  arguments.add_option("--ct", options.ct, "The patient: a CT (NIfTI, NRRD, MetaImage, or a folder of DICOM files)")
+      ->type_name("PATH");
+  arguments.add_option("--scenario", options.scenario, "The exam: a scenario file (TOML)")->type_name("FILE");
+  std::string trackers = "Where the probe's poses come from:";
+  for (const TrackerKind& kind : tracker_kinds())
+    trackers += "\n  " + std::string(kind.form) + "\n      " + std::string(kind.summary);
+  arguments.add_option("--tracker", options.tracker, trackers)->type_name("URI");
+  arguments.add_flag("--headless", options.headless, "Run without a window, as fast as it goes, and write the results");
+  arguments.add_option("--seconds", options.seconds, "End after so many seconds of the session")
+      ->check(CLI::Range(0.0, 86400.0));
+  arguments.add_option("--out", options.out, "Folder for report, score and pictures")
+      ->type_name("FOLDER")
+      ->capture_default_str();
+  arguments.add_option("--screenshot", options.screenshot, "Write the whole screen as a PNG when the session ends")
+      ->type_name("FILE");
+  arguments.add_option("--width", options.width, "Of the screen, pixels")
+      ->check(CLI::Range(1024, 7680))
+      ->capture_default_str();
+  arguments.add_option("--height", options.height, "Of the screen, pixels")
+      ->check(CLI::Range(700, 4320))
+      ->capture_default_str();
+  arguments.add_option("--shader-dir", options.shader_folder, "Take shaders from this folder and reload what changes")
+      ->type_name("FOLDER");
+  arguments.add_option("--state-file", options.state_file, "Keep a JSON file that says what the trainer is doing")
+      ->type_name("FILE");
+  arguments.footer(
+      "Examples:\n"
+      "  insonate                                          the bundled exam, replayed\n"
+      "  insonate --tracker mouse:                         the same exam, the probe in your hands\n"
+      "  insonate --ct abdomen.nii.gz                      free practice on a CT of your own\n"
+      "  insonate --scenario exam.toml --tracker replay:scan.igs.mha\n"
+      "  insonate --headless --out results                 score the bundled scan without a window\n"
+      "\nExit codes: 0 done, 2 input that cannot be used, 3 any other failure.");
+}
+
+void check(const Options& options) {
+  if (!options.case_folder.empty() && !options.ct.empty())
+    throw InputError("command line", "--ct", "--case and --ct both name a patient", "give one of them");
+  std::error_code error;
+  if (!options.shader_folder.empty() && !std::filesystem::is_directory(options.shader_folder, error))
+    throw InputError(options.shader_folder.string(), "--shader-dir", "it is not a folder",
+                     "name a folder laid out as sim/shaders");
+}
+
+}  // namespace insonate

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <filesystem>
+#include <string>
+
+namespace insonate {
+
+/// What the command line asks of the trainer. Empty paths mean: what is built in.
+struct Options {
+  std::filesystem::path case_folder;
+  std::filesystem::path ct;  ///< a file or a DICOM folder
+  std::filesystem::path scenario;
+  std::string tracker;  ///< a tracker's URI
+  bool headless = false;
+  std::filesystem::path screenshot;  ///< a PNG of the whole screen, taken at the end
+  double seconds = 0;                ///< end after so long; 0: at the exam's end (headless), never (window)
+  std::filesystem::path out = "out";
+  std::filesystem::path shader_folder;
+  int width = 1280;
+  int height = 800;
+  std::filesystem::path state_file;  ///< what the trainer is doing, for programs that drive it
+};
+
+/// Declares the options on `arguments`, to be filled into `options` when they are parsed.
+void declare(CLI::App& arguments, Options& options);
+
+/// Refuses combinations that contradict each other. Throws InputError.
+void check(const Options& options);
+
+}  // namespace insonate

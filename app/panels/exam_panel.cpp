@@ -1,0 +1,131 @@
+#include "app/panels/exam_panel.h"
+
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+namespace insonate::ui {
+namespace {
+
+/// From here on the time left is shown in amber.
+constexpr double kHurry_s = 10;
+
+std::string status_text(PoseStatus status) {
+  switch (status) {
+    case PoseStatus::ok:
+      return "tracking";
+    case PoseStatus::missing:
+      return "no pose";
+    case PoseStatus::out_of_view:
+      return "out of view";
+    case PoseStatus::out_of_volume:
+      return "out of range";
+    case PoseStatus::switched:
+      return "switched off";
+    case PoseStatus::invalid:
+      return "invalid pose";
+    case PoseStatus::unknown:
+      break;
+  }
+  return "state unknown";
+}
+
+void draw_tracker(const Theme& theme, const Rect& where, const Session& session) {
+  const TrackerState state = session.tracker_state();
+  std::string condition;
+  ImU32 light = colour::kAccent;
+  if (session.holder() == Holder::learner) {
+    condition = "You hold the probe";
+  } else if (state.condition == TrackerCondition::finished) {
+    condition = "End of the recording";
+    light = colour::kFaint;
+  } else if (state.condition == TrackerCondition::waiting) {
+    condition = "Waiting for the first pose";
+    light = colour::kAmber;
+  } else {
+    condition = (session.lost_for_s() ? "Lost: " : "") + status_text(state.last_status);
+    if (!session.lost_for_s() && !condition.empty()) condition[0] = char(std::toupper(condition[0]));
+    if (session.lost_for_s() || state.last_status != PoseStatus::ok) light = colour::kAmber;
+    char rate[32];
+    std::snprintf(rate, sizeof rate, ", %.0f Hz", state.rate_hz);
+    if (state.rate_hz > 0) condition += rate;
+  }
+  Rect upper{where.x, where.y + theme.px(11), where.w, theme.px(21)};
+  Rect lower{where.x, upper.y + upper.h, where.w, theme.px(20)};
+  ImGui::GetWindowDrawList()->AddCircleFilled({upper.x + theme.px(5), upper.y + upper.h / 2}, theme.px(5), light, 20);
+  upper.take_left(theme.px(18));
+  lower.take_left(theme.px(18));
+  draw_text(upper, theme.strong, light == colour::kAmber ? colour::kAmber : colour::kText, condition);
+  draw_text(lower, theme.small_text, colour::kMuted,
+            session.holder() == Holder::learner ? "Mouse and keyboard; F1 shows the keys" : state.name);
+}
+
+void draw_hold(const Theme& theme, const Rect& where, const LiveExam& live) {
+  const ImVec2 centre{where.x + theme.px(28), where.y + where.h / 2};
+  const bool on_target = live.within_tolerance && !live.finished;
+  draw_ring(centre, theme.px(19), theme.px(5), live.finished ? 1.0 : live.hold_share, colour::kAccent, colour::kRaised);
+  const Rect upper{where.x + theme.px(60), where.y + theme.px(11), where.w - theme.px(60), theme.px(21)};
+  const Rect lower{upper.x, upper.y + upper.h, upper.w, theme.px(20)};
+  draw_text(upper, theme.strong, on_target ? colour::kAccent : colour::kText,
+            live.finished ? "Done"
+            : on_target   ? "Hold still"
+                          : "Searching");
+  draw_text(lower, theme.small_text, colour::kMuted,
+            live.finished           ? "see the score sheet"
+            : !live.started         ? "not started"
+            : live.on_skin          ? "probe on the skin"
+            : live.view.has_value() ? "probe off the skin"
+                                    : "no pose");
+}
+
+void draw_time(const Theme& theme, const Rect& where, const LiveExam& live) {
+  const bool hurry = !live.finished && live.started && live.step_remaining_s < kHurry_s;
+  const Rect upper{where.x, where.y + theme.px(11), where.w, theme.px(21)};
+  const Rect lower{where.x, upper.y + upper.h, where.w, theme.px(20)};
+  draw_text(upper, theme.strong, colour::kText, clock_text(live.elapsed_s));
+  draw_text(lower, theme.small_text, hurry ? colour::kAmber : colour::kMuted,
+            live.finished ? "in all" : clock_text(live.step_remaining_s) + " left");
+}
+
+}  // namespace
+
+std::string clock_text(double seconds) {
+  const int whole = int(std::floor(seconds));
+  char text[32];
+  std::snprintf(text, sizeof text, "%d:%02d", whole / 60, whole % 60);
+  return text;
+}
+
+void draw_exam_panel(const Theme& theme, const Rect& panel, const Session& session) {
+  fill(panel, colour::kPanel, theme.px(4));
+  Rect rest = panel.inset(theme.px(16), 0);
+  draw_tracker(theme, rest.take_right(theme.px(264)), session);
+  rest.take_right(theme.px(12));
+  const Rect upper{rest.x, rest.y + theme.px(9), rest.w, theme.px(25)};
+  const Runner* runner = session.runner();
+  if (!runner) {
+    draw_text(upper, theme.heading, colour::kText, "Free practice");
+    draw_text({rest.x, upper.y + upper.h, rest.w, theme.px(20)}, theme.text, colour::kMuted,
+              session.study().scenario ? "Nothing is scored. Start the exam with the button below."
+                                       : "Move the probe with the arrow keys or drag it over the patient.");
+    return;
+  }
+  const LiveExam& live = runner->live();
+  draw_time(theme, rest.take_right(theme.px(80)), live);
+  rest.take_right(theme.px(12));
+  draw_hold(theme, rest.take_right(theme.px(190)), live);
+  rest.take_right(theme.px(12));
+
+  const Scenario& scenario = runner->scenario();
+  const Step& step = scenario.steps[live.step];
+  const std::string number = std::to_string(live.step + 1) + " / " + std::to_string(scenario.steps.size());
+  Rect title{rest.x, upper.y, rest.w, upper.h};
+  const Rect plate = title.take_left(text_width(theme.strong, number) + theme.px(16));
+  fill(plate.inset(0, theme.px(1)), colour::kAccentDark, theme.px(4));
+  draw_text(plate, theme.strong, colour::kText, number, Align::centre);
+  title.take_left(theme.px(10));
+  draw_text(title, theme.heading, colour::kText, step.title);
+  draw_text({rest.x, upper.y + upper.h, rest.w, theme.px(22)}, theme.text, colour::kMuted, step.instruction);
+}
+
+}  // namespace insonate::ui

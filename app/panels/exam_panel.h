@@ -1,0 +1,15 @@
+#pragma once
+
+#include "app/panels/theme.h"
+#include "app/panels/widgets.h"
+#include "app/session.h"
+
+namespace insonate::ui {
+
+/// The strip on top: what is asked for now, how far the hold is, the time, and where the poses come from.
+void draw_exam_panel(const Theme& theme, const Rect& panel, const Session& session);
+
+/// "1:04"
+std::string clock_text(double seconds);
+
+}  // namespace insonate::ui

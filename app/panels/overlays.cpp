@@ -1,0 +1,125 @@
+#include "app/panels/overlays.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace insonate::ui {
+
+Rect begin_overlay(const Theme& theme, const Rect& screen, const ImVec2& size) {
+  ImGui::SetNextWindowPos(screen.min());
+  ImGui::SetNextWindowSize({screen.w, screen.h});
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, colour::kDim);
+  if (!ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId)) ImGui::SetNextWindowFocus();
+  ImGui::Begin("overlay", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_NoNav);
+  ImGui::PopStyleColor();
+  const Rect sheet{std::round((screen.w - size.x) / 2), std::round((screen.h - size.y) / 2), size.x, size.y};
+  fill(sheet, colour::kPanel, theme.px(8));
+  outline(sheet, colour::kLine, theme.px(8));
+  return sheet.inset(theme.px(28), theme.px(24));
+}
+
+void end_overlay() {
+  ImGui::End();
+}
+
+void draw_loading(const Theme& theme, const Rect& screen, const Trainer::Progress& progress) {
+  Rect sheet = begin_overlay(theme, screen, {theme.px(460), theme.px(150)});
+  draw_text(sheet.take_top(theme.px(28)), theme.heading, colour::kText, "Insonate");
+  sheet.take_top(theme.px(10));
+  Rect line = sheet.take_top(theme.px(22));
+  char percent[16];
+  std::snprintf(percent, sizeof percent, "%.0f %%", 100 * progress.share);
+  draw_text(line.take_right(theme.px(60)), theme.text, colour::kMuted, percent, Align::right);
+  draw_text(line, theme.text, colour::kMuted, progress.what);
+  sheet.take_top(theme.px(14));
+  const Rect bar = sheet.take_top(theme.px(5));
+  fill(bar, colour::kRaised, theme.px(2.5f));
+  fill({bar.x, bar.y, bar.w * float(std::clamp(progress.share, 0.0, 1.0)), bar.h}, colour::kAccent, theme.px(2.5f));
+  end_overlay();
+}
+
+bool draw_problem(const Theme& theme, const Rect& screen, const std::string& problem) {
+  const float width = theme.px(600), margin = theme.px(28);
+  const float text_height = theme.text
+                                ->CalcTextSizeA(theme.text->FontSize, 3e38f, width - 2 * margin, problem.data(),
+                                                problem.data() + problem.size())
+                                .y;
+  const float shown = std::min(text_height, screen.h * 0.5f);
+  Rect sheet = begin_overlay(theme, screen, {width, shown + theme.px(160)});
+  draw_text(sheet.take_top(theme.px(28)), theme.heading, colour::kAmber, "This cannot be used");
+  sheet.take_top(theme.px(14));
+  draw_paragraph(sheet.take_top(shown), theme.text, colour::kText, problem);
+  Rect buttons = sheet.take_bottom(theme.px(38));
+  const bool closed = button(theme, "acknowledge", buttons.take_right(theme.px(120)), "Go on", ButtonKind::primary);
+  end_overlay();
+  return closed;
+}
+
+bool draw_key_help(const Theme& theme, const Rect& screen) {
+  static constexpr std::array<std::array<const char*, 2>, 14> kKeys{{
+      {"Arrow keys", "slide over the skin"},
+      {"Page up, Page down", "lift, press"},
+      {"Q, E", "rotate about the beam"},
+      {"W, S", "rock in the plane"},
+      {"A, D", "tilt out of the plane"},
+      {"Shift", "with any of these: fine"},
+      {"Drag on the ultrasound", "slide; with Shift rock and tilt; the wheel rotates"},
+      {"Drag the probe", "put it elsewhere on the patient"},
+      {"Drag the patient", "turn; right button shifts, the wheel zooms"},
+      {"Tab", "take the probe, give it back to the tracker"},
+      {"Space", "freeze the picture"},
+      {"+, \u2212 and [, ]", "gain; depth"},
+      {"Ctrl O", "open a case, CT, scenario or recorded scan"},
+      {"F1", "this page"},
+  }};
+  const float row = theme.px(27);
+  Rect sheet = begin_overlay(theme, screen, {theme.px(660), row * float(kKeys.size()) + theme.px(146)});
+  draw_text(sheet.take_top(theme.px(28)), theme.heading, colour::kText, "Keys and mouse");
+  sheet.take_top(theme.px(12));
+  for (const auto& [key, meaning] : kKeys) {
+    Rect line = sheet.take_top(row);
+    draw_text(line.take_left(theme.px(220)), theme.strong, colour::kText, key);
+    draw_text(line, theme.text, colour::kMuted, meaning);
+  }
+  Rect buttons = sheet.take_bottom(theme.px(38));
+  const bool closed = button(theme, "close_help", buttons.take_right(theme.px(120)), "Close", ButtonKind::primary);
+  end_overlay();
+  return closed;
+}
+
+OpenDialog::Answer OpenDialog::draw(const Theme& theme, const Rect& screen) {
+  Answer answer = Answer::none;
+  Rect sheet = begin_overlay(theme, screen, {theme.px(640), theme.px(218)});
+  draw_text(sheet.take_top(theme.px(28)), theme.heading, colour::kText, "Open");
+  sheet.take_top(theme.px(6));
+  draw_text(sheet.take_top(theme.px(24)), theme.text, colour::kMuted,
+            "A case or DICOM folder, a CT, a scenario or a recorded scan. Or drop it on the window.");
+  sheet.take_top(theme.px(12));
+  const Rect field = sheet.take_top(theme.px(38));
+  fill(field, colour::kRaised, theme.px(4));
+  ImGui::SetCursorScreenPos({field.x, field.y + (field.h - theme.text->FontSize) / 2 - theme.px(4)});
+  ImGui::PushFont(theme.text);
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {theme.px(10), theme.px(4)});
+  ImGui::SetNextItemWidth(field.w);
+  if (!focused_) ImGui::SetKeyboardFocusHere();
+  focused_ = true;
+  if (ImGui::InputText("##path", path_.data(), path_.size(), ImGuiInputTextFlags_EnterReturnsTrue))
+    answer = Answer::chosen;
+  ImGui::PopStyleVar();
+  ImGui::PopFont();
+  Rect buttons = sheet.take_bottom(theme.px(38));
+  const bool any = path_[0] != 0;
+  if (button(theme, "open_path", buttons.take_right(theme.px(120)), "Open", ButtonKind::primary, any))
+    answer = Answer::chosen;
+  buttons.take_right(theme.px(8));
+  if (button(theme, "cancel", buttons.take_right(theme.px(120)), "Cancel")) answer = Answer::cancelled;
+  end_overlay();
+  if (answer == Answer::chosen && !any) answer = Answer::cancelled;
+  if (answer != Answer::none) focused_ = false;
+  return answer;
+}
+
+}  // namespace insonate::ui

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "app/panels/theme.h"
+#include "app/panels/widgets.h"
+#include "app/trainer.h"
+
+namespace insonate::ui {
+
+/// What lies over the whole screen until it is answered; drawn one at a time.
+
+/// A sheet in the middle of a dimmed screen, from begin_overlay to end_overlay; nothing below it takes the mouse.
+Rect begin_overlay(const Theme& theme, const Rect& screen, const ImVec2& size);
+void end_overlay();
+
+void draw_loading(const Theme& theme, const Rect& screen, const Trainer::Progress& progress);
+
+/// True when it was acknowledged.
+bool draw_problem(const Theme& theme, const Rect& screen, const std::string& problem);
+
+/// True when it was closed.
+bool draw_key_help(const Theme& theme, const Rect& screen);
+
+/// Asks for a path to open; files may be dropped on the window as well.
+class OpenDialog {
+public:
+  enum class Answer { none, cancelled, chosen };
+  Answer draw(const Theme& theme, const Rect& screen);
+  std::string path() const { return path_.data(); }
+
+private:
+  std::array<char, 1024> path_{};
+  bool focused_ = false;
+};
+
+}  // namespace insonate::ui

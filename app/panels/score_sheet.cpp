@@ -1,0 +1,160 @@
+#include "app/panels/score_sheet.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "app/panels/exam_panel.h"
+#include "app/panels/overlays.h"
+#include "scenarios/marking.h"
+
+namespace insonate::ui {
+namespace {
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", std::round(value * 10) / 10);
+  return text;
+}
+
+std::string outcome_text(const StepResult& step) {
+  char text[64];
+  switch (step.outcome) {
+    case StepOutcome::held:
+      std::snprintf(text, sizeof text, "held after %.1f s", step.end_s - step.start_s);
+      return text;
+    case StepOutcome::timed_out:
+      return "time ran out";
+    case StepOutcome::scan_ended:
+      return "the scan ended first";
+    case StepOutcome::not_reached:
+      return "not reached";
+  }
+  return {};
+}
+
+struct Columns {
+  Rect criterion, value, limits, points;
+};
+
+Columns columns_of(const Theme& theme, Rect row) {
+  Columns columns;
+  columns.points = row.take_right(theme.px(84));
+  columns.limits = row.take_right(theme.px(150));
+  columns.value = row.take_right(theme.px(90));
+  columns.criterion = row;
+  return columns;
+}
+
+void draw_verdict(const Theme& theme, Rect head, const ExamResult& result) {
+  const ImU32 colour = result.passed ? colour::kAccent : colour::kRed;
+  char percent[16];
+  std::snprintf(percent, sizeof percent, "%.0f %%", result.percent);
+  draw_text(head.take_right(theme.px(150)), theme.huge, colour, percent, Align::right);
+  draw_text(head.take_top(theme.px(26)), theme.heading, colour::kText, result.title);
+  draw_text(head.take_top(theme.px(24)), theme.strong, colour, result.passed ? "Passed" : "Not passed");
+  std::string line = number(result.points) + " of " + number(result.points_possible) + " points; " +
+                     number(result.pass_mark_percent) + " % are needed";
+  draw_text(head.take_top(theme.px(20)), theme.small_text, colour::kMuted, line);
+}
+
+void draw_mark(const Theme& theme, const Rect& row, const Mark& mark) {
+  const Columns columns = columns_of(theme, row);
+  const MetricInfo& metric = info(mark.metric);
+  const double share = mark.weight > 0 ? mark.points / mark.weight : 1;
+  const ImU32 ink = mark.fails_exam() ? colour::kRed : share < 0.5 ? colour::kAmber : colour::kText;
+  std::string name(metric.words);
+  if (mark.critical) name += " (critical)";
+  draw_text(columns.criterion, theme.text, mark.fails_exam() ? colour::kRed : colour::kText, name);
+  draw_text(columns.value, theme.text, ink, mark.value ? in_words(mark.metric, *mark.value) : "\u2013", Align::right);
+  draw_text(columns.limits, theme.small_text, colour::kMuted,
+            in_words(mark.metric, mark.full) + " \u2013 " + in_words(mark.metric, mark.zero), Align::right);
+  draw_text(columns.points, theme.text, ink, number(mark.points) + " / " + number(mark.weight), Align::right);
+  if (ImGui::IsMouseHoveringRect(row.min(), row.max())) {
+    ImGui::BeginTooltip();
+    ImGui::PushFont(theme.small_text);
+    ImGui::TextUnformatted(mark.why.c_str());
+    ImGui::PopFont();
+    ImGui::EndTooltip();
+  }
+}
+
+void draw_group(const Theme& theme, const Rect& row, const std::string& title, const std::string& remark) {
+  Rect line = row;
+  line.y += theme.px(6);
+  line.h -= theme.px(6);
+  draw_text(line, theme.strong, colour::kText, title);
+  draw_text(line, theme.small_text, colour::kMuted, remark, Align::right);
+  ImGui::GetWindowDrawList()->AddLine({row.x, row.y + row.h}, {row.x + row.w, row.y + row.h}, colour::kLine);
+}
+
+std::size_t row_count(const ExamResult& result) {
+  std::size_t rows = result.steps.size() + 1 + result.marks.size();
+  for (const StepResult& step : result.steps) rows += step.marks.size();
+  return rows;
+}
+
+void draw_rows(const Theme& theme, Rect rows, float height, const ExamResult& result) {
+  for (std::size_t i = 0; i < result.steps.size(); ++i) {
+    const StepResult& step = result.steps[i];
+    draw_group(theme, rows.take_top(height), std::to_string(i + 1) + "  " + step.title, outcome_text(step));
+    for (const Mark& mark : step.marks) draw_mark(theme, rows.take_top(height), mark);
+  }
+  if (result.marks.empty()) return;
+  draw_group(theme, rows.take_top(height), "The whole exam", clock_text(result.motion.time_s));
+  for (const Mark& mark : result.marks) draw_mark(theme, rows.take_top(height), mark);
+}
+
+}  // namespace
+
+ScoreAnswer draw_score_sheet(const Theme& theme, const Rect& screen, const ExamResult& result,
+                             const std::optional<ResultFiles>& files, bool learner_scanned) {
+  const float row = theme.px(26), head_height = theme.px(74), reason_height = theme.px(22);
+  const std::size_t reasons = std::min<std::size_t>(result.reasons.size(), 3);
+  const float rows_height = row * float(row_count(result));
+  const float others = theme.px(48) + head_height + theme.px(20) + reason_height * float(reasons) + theme.px(104);
+  const float height = std::min(screen.h - theme.px(40), rows_height + others);
+  Rect sheet = begin_overlay(theme, screen, {std::min(theme.px(860), screen.w - theme.px(40)), height});
+  draw_verdict(theme, sheet.take_top(head_height), result);
+  sheet.take_top(theme.px(8));
+  for (std::size_t i = 0; i < reasons; ++i)
+    draw_text(sheet.take_top(reason_height), theme.small_text, colour::kAmber, result.reasons[i]);
+  sheet.take_top(theme.px(4));
+
+  Rect bottom = sheet.take_bottom(theme.px(92));
+  ImGui::SetCursorScreenPos(sheet.min());
+  ImGui::BeginChild("marks", {sheet.w + theme.px(14), sheet.h});
+  const ImVec2 origin = ImGui::GetCursorScreenPos();
+  draw_rows(theme, {origin.x, origin.y, sheet.w, rows_height}, row, result);
+  ImGui::Dummy({sheet.w, rows_height});
+  ImGui::EndChild();
+
+  ScoreAnswer answer = ScoreAnswer::none;
+  bottom.take_top(theme.px(12));
+  draw_text(
+      bottom.take_top(theme.px(24)), theme.small_text, colour::kMuted,
+      files ? "Report: " + std::filesystem::absolute(files->report).string() : "The report could not be written.");
+  bottom.take_top(theme.px(14));
+  Rect buttons = bottom.take_top(theme.px(40));
+  const float gap = theme.px(8);
+  const float width = (buttons.w - 4 * gap) / 5;
+  const auto next = [&] {
+    const Rect place = buttons.take_right(width);
+    buttons.take_right(gap);
+    return place;
+  };
+  if (button(theme, "close_sheet", next(), "Close")) answer = ScoreAnswer::close;
+  if (button(theme, "open_report", next(), "Open the report", ButtonKind::normal, files.has_value()))
+    answer = ScoreAnswer::open_report;
+  if (button(theme, "practice_after", next(), "Free practice")) answer = ScoreAnswer::practice;
+  if (!learner_scanned) {
+    if (button(theme, "again", next(), "Watch again")) answer = ScoreAnswer::again;
+    if (button(theme, "own_try", next(), "Try it yourself", ButtonKind::primary)) answer = ScoreAnswer::own_try;
+  } else if (button(theme, "again", next(), "Try again", ButtonKind::primary)) {
+    answer = ScoreAnswer::again;
+  }
+  end_overlay();
+  return answer;
+}
+
+}  // namespace insonate::ui

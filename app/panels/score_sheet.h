@@ -1,0 +1,20 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "app/panels/theme.h"
+#include "app/panels/widgets.h"
+#include "app/results.h"
+#include "scenarios/result.h"
+
+namespace insonate::ui {
+
+enum class ScoreAnswer { none, again, own_try, practice, open_report, close };
+
+/// The marks of a finished exam: verdict, each criterion's value, limits, points and why, and where the report is.
+/// @param learner_scanned  whether it was the learner's own hand that was scored
+ScoreAnswer draw_score_sheet(const Theme& theme, const Rect& screen, const ExamResult& result,
+                             const std::optional<ResultFiles>& files, bool learner_scanned);
+
+}  // namespace insonate::ui

@@ -1,0 +1,204 @@
+#include "app/panels/screen.h"
+
+#include <backends/imgui_impl_opengl3.h>
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "app/panels/console_panel.h"
+#include "app/panels/exam_panel.h"
+#include "app/panels/ultrasound_panel.h"
+#include "sim/core/files.h"
+#include "sim/gl/headless_context.h"
+
+namespace insonate::ui {
+namespace {
+
+/// Shows a file with whatever the desktop has for it; the trainer goes on meanwhile.
+void open_on_desktop(const std::filesystem::path& file) {
+  std::string quoted = "'";
+  for (const char c : std::filesystem::absolute(file).string()) quoted += c == '\'' ? "'\\''" : std::string(1, c);
+  const std::string command = "xdg-open " + quoted + "' >/dev/null 2>&1 &";
+  if (std::system(command.c_str()) != 0) std::fprintf(stderr, "insonate: the desktop does not open files\n");
+}
+
+}  // namespace
+
+Screen::ImGuiOwner::ImGuiOwner() {
+  IMGUI_CHECKVERSION();
+  ImGui::CreateContext();
+  ImGui::GetIO().IniFilename = nullptr;  // the layout is fixed: nothing to remember
+  ImGui_ImplOpenGL3_Init("#version 450 core");
+}
+
+Screen::ImGuiOwner::~ImGuiOwner() {
+  ImGui_ImplOpenGL3_Shutdown();
+  ImGui::DestroyContext();
+}
+
+Screen::Screen() : theme_(assets_folder() / "fonts"), device_(gl::device_description()) {}
+Screen::~Screen() = default;
+
+void Screen::lay_out(float width, float height) {
+  screen_ = {0, 0, width, height};
+  const float gap = theme_.px(8);
+  Rect rest = screen_.inset(gap, gap);
+  rest.h += gap;
+  status_ = rest.take_bottom(theme_.px(26));
+  top_ = rest.take_top(theme_.px(66));
+  rest.take_top(gap);
+  console_ = rest.take_bottom(theme_.px(120));
+  rest.take_bottom(gap);
+  // The image first: the views get a third, and no more than makes them square.
+  Rect side = rest.take_right(std::min(std::round(rest.w * 0.35f), std::round(rest.h * 0.82f)));
+  rest.take_right(gap);
+  ultrasound_ = rest;
+  volume_ = side.take_top(std::round(side.h * 0.58f));
+  side.take_top(gap);
+  slice_ = side.take_left(std::round((side.w - gap) / 2));
+  side.take_left(gap);
+  blend_ = side;
+  places_ = {{"ultrasound", ultrasound_}, {"space", volume_},    {"slice", slice_},
+             {"blend", blend_},           {"console", console_}, {"exam", top_}};
+}
+
+PictureSizes Screen::picture_sizes(float width, float height) const {
+  Screen& self = const_cast<Screen&>(*this);
+  self.lay_out(width, height);
+  const Rect ultrasound = UltrasoundPanel::picture_area(theme_, ultrasound_);
+  return {int(ultrasound.w), int(ultrasound.h), int(volume_.w), int(volume_.h)};
+}
+
+void Screen::render(Trainer& trainer) {
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  if (theme_.fit(size.x, size.y)) ImGui_ImplOpenGL3_DestroyFontsTexture();
+  if (!ImGui::GetIO().Fonts->TexID) ImGui_ImplOpenGL3_CreateFontsTexture();
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui::NewFrame();
+  lay_out(size.x, size.y);
+  draw_panels(trainer);
+  draw_overlay(trainer);
+  ImGui::Render();
+  glViewport(0, 0, GLsizei(size.x), GLsizei(size.y));
+  const ImVec4 background = ImGui::ColorConvertU32ToFloat4(colour::kBackground);
+  glClearColor(background.x, background.y, background.z, 1);
+  glClear(GL_COLOR_BUFFER_BIT);
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+void Screen::draw_panels(Trainer& trainer) {
+  ImGui::SetNextWindowPos(screen_.min());
+  ImGui::SetNextWindowSize({screen_.w, screen_.h});
+  ImGui::Begin("trainer", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav |
+                   ImGuiWindowFlags_NoScrollWithMouse);
+  if (Session* session = trainer.session()) {
+    Pictures& pictures = trainer.pictures();
+    draw_exam_panel(theme_, top_, *session);
+    UltrasoundPanel::draw(theme_, ultrasound_, *session, pictures);
+    space_.draw(theme_, volume_, *session, pictures);
+    draw_slice_panel(theme_, slice_, pictures);
+    draw_blend_panel(theme_, blend_, pictures);
+    const auto attempt = [&](const std::function<void()>& action) { trainer.attempt(action); };
+    switch (draw_console_panel(theme_, console_, *session, attempt)) {
+      case ConsoleRequest::help:
+        help_ = true;
+        break;
+      case ConsoleRequest::open:
+        asking_ = true;
+        break;
+      case ConsoleRequest::none:
+        break;
+    }
+  } else {
+    for (const Rect& panel : {top_, console_}) fill(panel, colour::kPanel, theme_.px(4));
+    for (const Rect& panel : {ultrasound_, volume_, slice_, blend_}) fill(panel, colour::kImage, theme_.px(4));
+  }
+  draw_status(trainer);
+  ImGui::End();
+}
+
+void Screen::draw_status(Trainer& trainer) {
+  Rect line = status_.inset(theme_.px(16), 0);
+  if (frames_per_second_ > 0) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.0f frames/s", frames_per_second_);
+    draw_text(line.take_right(theme_.px(100)), theme_.small_text, colour::kFaint, text, Align::right);
+  }
+  if (!trainer.shader_problem().empty()) {
+    draw_text(line, theme_.small_text, colour::kAmber, "Shaders kept as they were: " + trainer.shader_problem());
+    return;
+  }
+  const std::string keys = "F1 keys    Tab probe    Space freeze";
+  draw_text(line.take_left(text_width(theme_.small_text, keys) + theme_.px(24)), theme_.small_text, colour::kMuted,
+            keys);
+  draw_text(line, theme_.small_text, colour::kFaint, device_, Align::right);
+}
+
+std::string Screen::overlay(const Trainer& trainer) const {
+  Trainer& asked = const_cast<Trainer&>(trainer);
+  if (!asked.problems().empty()) return "problem";
+  if (trainer.loading()) return "loading";
+  if (help_) return "help";
+  if (asking_) return "open";
+  const Session* session = asked.session();
+  if (session && session->result() && &*session->result() != closed_sheet_of_) return "score";
+  return "";
+}
+
+bool Screen::takes_keys(const Trainer& trainer) const {
+  return !overlay(trainer).empty() || ImGui::GetIO().WantTextInput;
+}
+
+void Screen::dismiss() {
+  help_ = asking_ = false;
+}
+
+void Screen::draw_overlay(Trainer& trainer) {
+  Session* session = trainer.session();
+  if (session && !session->result()) closed_sheet_of_ = nullptr;
+  const std::string shown = overlay(trainer);
+  if (shown == "problem") {
+    if (draw_problem(theme_, screen_, trainer.problems().front())) trainer.problems().pop_front();
+  } else if (shown == "loading") {
+    draw_loading(theme_, screen_, trainer.progress());
+  } else if (shown == "help") {
+    if (draw_key_help(theme_, screen_)) help_ = false;
+  } else if (shown == "open") {
+    const OpenDialog::Answer answer = open_dialog_.draw(theme_, screen_);
+    if (answer != OpenDialog::Answer::none) asking_ = false;
+    if (answer == OpenDialog::Answer::chosen) trainer.open(open_dialog_.path());
+  } else if (shown == "score") {
+    answer_score(trainer, draw_score_sheet(theme_, screen_, *session->result(), trainer.result_files(),
+                                           session->holder() == Holder::learner));
+  }
+}
+
+void Screen::answer_score(Trainer& trainer, ScoreAnswer answer) {
+  Session& session = *trainer.session();
+  switch (answer) {
+    case ScoreAnswer::again:
+      trainer.attempt([&] { session.start_over(); });
+      break;
+    case ScoreAnswer::own_try:
+      trainer.attempt([&] { session.take_probe(); });
+      break;
+    case ScoreAnswer::practice:
+      trainer.attempt([&] { session.practise(); });
+      break;
+    case ScoreAnswer::open_report:
+      open_on_desktop(trainer.result_files()->report);
+      break;
+    case ScoreAnswer::close:
+      closed_sheet_of_ = &*session.result();
+      break;
+    case ScoreAnswer::none:
+      break;
+  }
+}
+
+}  // namespace insonate::ui

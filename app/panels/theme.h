@@ -1,0 +1,51 @@
+#pragma once
+
+#include <imgui.h>
+
+#include <filesystem>
+
+namespace insonate::ui {
+
+/// Colours: near black, greys, and one accent. Amber and red mean that something is wrong, and nothing else.
+namespace colour {
+inline constexpr ImU32 kBackground = IM_COL32(10, 12, 15, 255);
+inline constexpr ImU32 kPanel = IM_COL32(18, 22, 27, 255);
+inline constexpr ImU32 kRaised = IM_COL32(31, 38, 46, 255);
+inline constexpr ImU32 kHovered = IM_COL32(43, 52, 62, 255);
+inline constexpr ImU32 kLine = IM_COL32(40, 48, 57, 255);
+inline constexpr ImU32 kText = IM_COL32(232, 236, 240, 255);
+inline constexpr ImU32 kMuted = IM_COL32(152, 164, 176, 255);
+inline constexpr ImU32 kFaint = IM_COL32(104, 116, 128, 255);
+inline constexpr ImU32 kAccent = IM_COL32(74, 190, 204, 255);
+inline constexpr ImU32 kAccentDark = IM_COL32(24, 74, 82, 255);
+inline constexpr ImU32 kAmber = IM_COL32(236, 172, 62, 255);
+inline constexpr ImU32 kRed = IM_COL32(232, 90, 80, 255);
+inline constexpr ImU32 kImage = IM_COL32(0, 0, 0, 255);
+inline constexpr ImU32 kDim = IM_COL32(4, 6, 8, 190);
+}  // namespace colour
+
+/// Type sizes and lengths, all in proportion to the screen. Needs an ImGui context; one at a time.
+class Theme {
+public:
+  /// @param fonts  the folder with the interface's fonts
+  explicit Theme(std::filesystem::path fonts);
+
+  /// Fits type to a screen. Rebuilds the fonts when that changes their size: true then, and the renderer has to take
+  /// the new font texture. To be called between frames.
+  bool fit(float width, float height);
+
+  /// A length given for a screen of 1280 x 800.
+  float px(float at_1280) const { return at_1280 * scale_; }
+
+  ImFont* small_text = nullptr;
+  ImFont* text = nullptr;
+  ImFont* strong = nullptr;
+  ImFont* heading = nullptr;
+  ImFont* huge = nullptr;
+
+private:
+  std::filesystem::path folder_;
+  float scale_ = 0;
+};
+
+}  // namespace insonate::ui

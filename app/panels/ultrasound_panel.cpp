@@ -1,0 +1,155 @@
+#include "app/panels/ultrasound_panel.h"
+
+#include <glm/trigonometric.hpp>
+
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+namespace insonate::ui {
+namespace {
+
+template <typename... Values>
+std::string formatted(const char* format, Values... values) {
+  char text[160];
+  std::snprintf(text, sizeof text, format, values...);
+  return text;
+}
+
+// From the probe's plane to the screen, mirrored so that the marker's side (+x) is on the left.
+class PlaneOnScreen {
+public:
+  PlaneOnScreen(const Rect& area, const ImageGeometry& geometry)
+      : area_(area), geometry_(geometry), scale_(area.w / float(geometry.width)) {}
+  ImVec2 at(const glm::dvec2& plane_mm) const {
+    const glm::dvec2 p = geometry_.pixel(plane_mm) + 0.5;
+    return {area_.x + area_.w - float(p.x) * scale_, area_.y + float(p.y) * scale_};
+  }
+  double pixels_per_mm() const { return scale_ / geometry_.mm_per_pixel; }
+
+private:
+  Rect area_;
+  ImageGeometry geometry_;
+  float scale_;
+};
+
+// A tick every centimetre; longer and numbered every five, or every one when there is room.
+void draw_depth_scale(const Theme& theme, const Rect& panel, const PlaneOnScreen& plane, double depth_mm) {
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  const float right = panel.x + panel.w - theme.px(14);
+  const int numbered_cm = plane.pixels_per_mm() * 10 > theme.px(34) ? 1 : 5;
+  for (int cm = 0; 10 * cm <= depth_mm + 0.5; ++cm) {
+    const float y = std::round(plane.at({0, 10.0 * cm}).y);
+    const bool major = cm % 5 == 0;
+    list->AddLine({right - theme.px(major ? 12 : 6), y}, {right, y}, major ? colour::kText : colour::kMuted, 1);
+    if (cm % numbered_cm == 0 && cm > 0)
+      draw_text({right - theme.px(52), y - theme.px(10), theme.px(34), theme.px(20)}, theme.small_text, colour::kMuted,
+                std::to_string(cm), Align::right);
+  }
+  draw_text({right - theme.px(52), plane.at({0, 0}).y - theme.px(10), theme.px(34), theme.px(20)}, theme.small_text,
+            colour::kFaint, "cm", Align::right);
+}
+
+void draw_grey_scale(const Theme& theme, const Rect& panel, double dynamic_range_db) {
+  const Rect bar{panel.x + theme.px(16), panel.y + panel.h * 0.36f, theme.px(12), panel.h * 0.34f};
+  ImGui::GetWindowDrawList()->AddRectFilledMultiColor(bar.min(), bar.max(), IM_COL32_WHITE, IM_COL32_WHITE,
+                                                      IM_COL32_BLACK, IM_COL32_BLACK);
+  outline(bar, colour::kLine);
+  const Rect label{bar.x + theme.px(18), bar.y, theme.px(60), theme.px(16)};
+  draw_text(label, theme.small_text, colour::kMuted, "0 dB");
+  draw_text({label.x, bar.y + bar.h - theme.px(16), label.w, label.h}, theme.small_text, colour::kMuted,
+            formatted("\u2212%.0f", dynamic_range_db));
+}
+
+// The dot beside the face's edge that is on the marker's side.
+void draw_marker(const Theme& theme, const PlaneOnScreen& plane, const Probe& probe) {
+  glm::dvec2 edge(probe.width_mm / 2, 0);
+  if (probe.kind == ProbeKind::curvilinear) {
+    const double half = glm::radians(probe.field_of_view_deg / 2);
+    edge = {probe.radius_mm * std::sin(half), probe.radius_mm * (std::cos(half) - 1)};
+  }
+  const ImVec2 at = plane.at(edge);
+  const ImVec2 dot{at.x - theme.px(20), at.y + theme.px(4)};
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  list->AddCircleFilled(dot, theme.px(6), colour::kAccent, 24);
+  list->AddCircle(dot, theme.px(9), colour::kAccent, 24, 1.2f);
+}
+
+void draw_annotations(const Theme& theme, const Rect& panel, const Session& session) {
+  const Console& console = session.console();
+  Rect left{panel.x + theme.px(16), panel.y + theme.px(12), panel.w * 0.32f, theme.px(22)};
+  draw_text(left, theme.strong, colour::kText, session.study().subject.name);
+  left.y += left.h;
+  draw_text(left, theme.small_text, colour::kMuted,
+            console.probe.kind == ProbeKind::linear ? "Linear probe" : "Curvilinear probe");
+
+  const std::string lines[] = {
+      formatted("%.1f MHz", console.frequency_mhz), formatted("Depth %.1f cm", console.depth_mm / 10),
+      formatted("Gain %+.0f dB", console.gain_db), formatted("DR %.0f dB", console.dynamic_range_db)};
+  const float width = theme.px(130);
+  Rect right{panel.x + panel.w - width - theme.px(14), panel.y + theme.px(12), width, theme.px(20)};
+  for (const std::string& line : lines) {
+    draw_text(right, theme.small_text, colour::kMuted, line, Align::right);
+    right.y += right.h;
+  }
+}
+
+void draw_banner(const Theme& theme, const Rect& panel, const Session& session) {
+  std::string text;
+  ImU32 background = colour::kAmber, ink = colour::kBackground;
+  if (const auto lost_s = session.lost_for_s()) {
+    text = formatted("No usable pose for %.1f s: the picture stands still", *lost_s);
+  } else if (session.console().frozen) {
+    text = "Frozen";
+    background = colour::kAccentDark;
+    ink = colour::kText;
+  } else {
+    return;
+  }
+  const float width = text_width(theme.strong, text) + theme.px(24);
+  draw_chip(theme, {panel.x + (panel.w - width) / 2, panel.y + panel.h - theme.px(46)}, background, ink, text);
+}
+
+void take_mouse(const Rect& area, Session& session, const PlaneOnScreen& plane) {
+  ImGui::SetCursorScreenPos(area.min());
+  ImGui::InvisibleButton("ultrasound", {area.w, area.h});
+  const ImGuiIO& io = ImGui::GetIO();
+  if (ImGui::IsItemHovered() && io.MouseWheel != 0) {
+    const double turn_deg = 3.0 * io.MouseWheel;
+    session.move_probe([&](const ProbeHand&, const Pose& pose) { return ProbeHand::turn(pose, 0, turn_deg, 0); });
+  }
+  if (!ImGui::IsItemActive() || (io.MouseDelta.x == 0 && io.MouseDelta.y == 0)) return;
+  constexpr double kDegPerPixel = 0.15;
+  // The tissue follows the pointer: the probe goes the other way. The picture is mirrored, so that is +x here.
+  const glm::dvec2 mm = glm::dvec2(io.MouseDelta.x, io.MouseDelta.y) / plane.pixels_per_mm();
+  session.move_probe([&](const ProbeHand& hand, const Pose& pose) {
+    if (io.KeyShift) return ProbeHand::turn(pose, kDegPerPixel * io.MouseDelta.y, 0, kDegPerPixel * io.MouseDelta.x);
+    return hand.slide(pose, mm);
+  });
+}
+
+}  // namespace
+
+Rect UltrasoundPanel::picture_area(const Theme& theme, const Rect& panel) {
+  return panel.inset(theme.px(16), theme.px(12));
+}
+
+void UltrasoundPanel::draw(const Theme& theme, const Rect& panel, Session& session, const Pictures& pictures) {
+  fill(panel, colour::kImage, theme.px(4));
+  const Rect area = picture_area(theme, panel);
+  if (const gl::Texture* picture = pictures.ultrasound()) {
+    const PlaneOnScreen plane(area, pictures.geometry());
+    ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(std::uintptr_t(picture->name())), area.min(),
+                                         area.max(), {1, 0}, {0, 1});
+    draw_depth_scale(theme, panel, plane, session.console().depth_mm);
+    draw_grey_scale(theme, panel, session.console().dynamic_range_db);
+    draw_marker(theme, plane, session.console().probe);
+    take_mouse(area, session, plane);
+  } else {
+    draw_text(panel, theme.text, colour::kFaint, "Waiting for the probe", Align::centre);
+  }
+  draw_annotations(theme, panel, session);
+  draw_banner(theme, panel, session);
+}
+
+}  // namespace insonate::ui

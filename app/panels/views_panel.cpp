@@ -1,0 +1,129 @@
+#include "app/panels/views_panel.h"
+
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+namespace insonate::ui {
+namespace {
+
+void draw_title(const Theme& theme, const Rect& panel, std::string_view title) {
+  draw_text({panel.x + theme.px(10), panel.y + theme.px(6), panel.w - theme.px(20), theme.px(20)}, theme.small_text,
+            colour::kMuted, title);
+}
+
+ImTextureID id_of(const gl::Texture& texture) {
+  return reinterpret_cast<ImTextureID>(std::uintptr_t(texture.name()));
+}
+
+// A picture in the middle of the panel at its own aspect, mirrored like the ultrasound.
+void draw_mirrored(const Rect& panel, const gl::Texture* picture) {
+  if (!picture) return;
+  const float scale = std::min(panel.w / float(picture->width()), panel.h / float(picture->height()));
+  const float w = float(picture->width()) * scale, h = float(picture->height()) * scale;
+  const Rect area{panel.x + (panel.w - w) / 2, panel.y + (panel.h - h) / 2, w, h};
+  ImGui::GetWindowDrawList()->AddImage(id_of(*picture), area.min(), area.max(), {1, 0}, {0, 1});
+}
+
+// Which way the patient lies: the axes that point towards the viewer, with the anatomical letters.
+void draw_orientation(const Theme& theme, const Rect& panel, const view::OrbitCamera& camera) {
+  struct Axis {
+    glm::dvec3 direction;
+    const char* name;
+  };
+  static constexpr double kFaces = 0.08;
+  const std::array<Axis, 6> axes{
+      {{{1, 0, 0}, "L"}, {{-1, 0, 0}, "R"}, {{0, 1, 0}, "P"}, {{0, -1, 0}, "A"}, {{0, 0, 1}, "H"}, {{0, 0, -1}, "F"}}};
+  const glm::dmat3 camera_from_patient = glm::transpose(camera.patient_from_camera().rotation);
+  const ImVec2 centre{panel.x + panel.w - theme.px(40), panel.y + panel.h - theme.px(40)};
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  list->AddCircleFilled(centre, theme.px(31), IM_COL32(10, 12, 15, 150), 32);
+  for (const Axis& axis : axes) {
+    const glm::dvec3 seen = camera_from_patient * axis.direction;  // z into the picture
+    const ImVec2 tip{centre.x + float(seen.x) * theme.px(22), centre.y + float(seen.y) * theme.px(22)};
+    if (seen.z > kFaces) continue;
+    list->AddLine(centre, tip, colour::kFaint, 1);
+    draw_text({tip.x - theme.px(10), tip.y - theme.px(9), theme.px(20), theme.px(18)}, theme.small_text, colour::kText,
+              axis.name, Align::centre);
+  }
+}
+
+// The line of sight through a point of the screen, patient mm.
+struct Sight {
+  glm::dvec3 eye, direction;
+};
+
+Sight sight(const view::OrbitCamera& camera, const Rect& panel, const ImVec2& pointer) {
+  const Pose pose = camera.patient_from_camera();
+  const double focal = panel.h / 2 / std::tan(glm::radians(camera.field_of_view_deg / 2));
+  const glm::dvec3 ray((pointer.x - panel.x - panel.w / 2) / focal, (pointer.y - panel.y - panel.h / 2) / focal, 1);
+  return {pose.translation, glm::normalize(pose.rotation * ray)};
+}
+
+// Whether the pointer is on the dummy probe: near its face or its handle.
+bool on_probe(const Theme& theme, const view::OrbitCamera& camera, const Rect& panel, const Pose& probe,
+              const ImVec2& pointer) {
+  constexpr double kHandle_mm = 90;
+  for (const double back : {0.0, 0.33, 0.67, 1.0}) {
+    const glm::dvec2 at = camera.project(probe.point({0, -kHandle_mm * back, 0}), int(panel.w), int(panel.h));
+    if (std::hypot(at.x + panel.x - pointer.x, at.y + panel.y - pointer.y) < theme.px(26)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+void SpacePanel::draw(const Theme& theme, const Rect& panel, Session& session, Pictures& pictures) {
+  fill(panel, colour::kImage, theme.px(4));
+  if (const gl::Texture* picture = pictures.volume())
+    ImGui::GetWindowDrawList()->AddImage(id_of(*picture), panel.min(), panel.max());
+  ImGui::SetCursorScreenPos(panel.min());
+  ImGui::InvisibleButton("space", {panel.w, panel.h},
+                         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
+  const ImGuiIO& io = ImGui::GetIO();
+  view::OrbitCamera& camera = pictures.camera;
+  const bool over_probe = ImGui::IsItemHovered() && session.shown_pose() &&
+                          on_probe(theme, camera, panel, *session.shown_pose(), io.MousePos);
+  if (ImGui::IsItemHovered() && io.MouseWheel != 0) camera.zoom(std::pow(1.1, io.MouseWheel));
+  if (ImGui::IsItemActivated()) holds_probe_ = over_probe && io.MouseDown[0];
+  if (over_probe || (holds_probe_ && ImGui::IsItemActive())) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+  if (ImGui::IsItemActive() && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0)) {
+    constexpr double kDegPerPixel = 0.4;
+    if (holds_probe_) {
+      const Sight to = sight(camera, panel, io.MousePos);
+      session.move_probe([&](const ProbeHand& hand, const Pose& pose) { return hand.put(pose, to.eye, to.direction); });
+    } else if (io.MouseDown[1]) {
+      camera.pan({io.MouseDelta.x, io.MouseDelta.y}, int(panel.h));
+    } else {
+      camera.orbit(kDegPerPixel * io.MouseDelta.x, kDegPerPixel * io.MouseDelta.y);
+    }
+  }
+  draw_title(theme, panel, "Patient");
+  draw_orientation(theme, panel, camera);
+}
+
+void draw_slice_panel(const Theme& theme, const Rect& panel, const Pictures& pictures) {
+  fill(panel, colour::kImage, theme.px(4));
+  draw_mirrored(panel, pictures.slice());
+  draw_title(theme, panel, "CT in this plane");
+}
+
+void draw_blend_panel(const Theme& theme, const Rect& panel, Pictures& pictures) {
+  fill(panel, colour::kImage, theme.px(4));
+  draw_mirrored(panel, pictures.blend());
+  draw_title(theme, panel, "CT and ultrasound");
+  Rect track{panel.x + theme.px(10), panel.y + panel.h - theme.px(20), panel.w - theme.px(20), theme.px(16)};
+  ImGui::SetCursorScreenPos(track.min());
+  ImGui::InvisibleButton("blend", {track.w, track.h});
+  if (ImGui::IsItemActive())
+    pictures.blend_share = std::clamp(double(ImGui::GetIO().MousePos.x - track.x) / track.w, 0.0, 1.0);
+  const float y = track.y + track.h / 2, x = track.x + float(pictures.blend_share) * track.w;
+  fill({track.x, y - theme.px(1.5f), track.w, theme.px(3)}, colour::kHovered, theme.px(1.5f));
+  ImGui::GetWindowDrawList()->AddCircleFilled({x, y}, theme.px(6), colour::kAccent, 20);
+}
+
+}  // namespace insonate::ui

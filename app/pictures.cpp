@@ -1,0 +1,100 @@
+#include "app/pictures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace insonate {
+namespace {
+
+/// Below that the fan's own samples are coarser than the screen.
+constexpr int kLeastWidth = 240;
+
+std::vector<std::string> label_names(const Case& subject) {
+  std::vector<std::string> names(256);
+  for (const Label& label : subject.label_table) names[label.value] = label.name;
+  return names;
+}
+
+}  // namespace
+
+Pictures::Pictures(const gl::ShaderSources& sources)
+    : simulator_(sources), slice_view_(sources), blend_view_(sources), volume_view_(sources) {}
+
+void Pictures::show(const Study& study) {
+  ultrasound_ = slice_ = blend_ = volume_ = nullptr;
+  patient_.reset();
+  simulator_.set_volume(study.acoustic, study.tissues);
+  patient_.emplace(simulator_.volume_texture(), study.subject.ct, study.subject.labels,
+                   view::colours_of_organs(label_names(study.subject)));
+  slice_view_.forget();
+  blend_view_.forget();
+  volume_view_.forget();
+  camera = view::OrbitCamera::framing(study.subject.ct.grid);
+}
+
+void Pictures::update(const Session& session, const PictureSizes& sizes, double quality, double budget_ms) {
+  const std::optional<Pose>& pose = session.shown_pose();
+  if (!patient_ || !pose) return;
+  const Console& console = session.console();
+  if (console.probe.name != probe_name_ || console.depth_mm != depth_mm_) {
+    simulator_.set_probe(console.probe, console.depth_mm);
+    probe_name_ = console.probe.name;
+    depth_mm_ = console.depth_mm;
+  }
+  Settings settings = console.settings();
+  const int width = std::max(sizes.ultrasound_width, 1), height = std::max(sizes.ultrasound_height, 1);
+  settings.image_width = std::clamp(int(std::lround(width * quality)), std::min(kLeastWidth, width), 4096);
+  settings.image_height = std::max(1, settings.image_width * height / width);
+  simulator_.set_settings(settings);
+  simulator_.set_pose(*pose);
+  ultrasound_ = &simulator_.image();
+
+  view::UltrasoundPlane plane;
+  plane.image = ultrasound_;
+  plane.image_version = simulator_.runs().back();
+  plane.geometry = simulator_.geometry();
+  plane.probe = console.probe;
+  plane.patient_from_probe = *pose;
+  view::SliceStyle style;
+  slice_ = &slice_view_.render(*patient_, plane, style);
+  style.ultrasound = blend_share;
+  blend_ = &blend_view_.render(*patient_, plane, style);
+  volume_ = &volume_view_.render(std::max(sizes.volume_width, 1), std::max(sizes.volume_height, 1), *patient_, camera,
+                                 plane, {}, budget_ms);
+}
+
+long Pictures::simulator_runs() const {
+  long sum = 0;
+  for (const long runs : simulator_.runs()) sum += runs;
+  return sum;
+}
+
+long Pictures::drawn() const {
+  return simulator_runs() + slice_view_.renders() + blend_view_.renders() + volume_view_.renders();
+}
+
+std::optional<std::string> Pictures::reload(const gl::ShaderSources& sources) {
+  std::string problems;
+  for (const auto& problem : {simulator_.reload(sources), slice_view_.reload(sources), blend_view_.reload(sources),
+                              volume_view_.reload(sources)})
+    if (problem) problems += *problem + "\n";
+  return problems.empty() ? std::nullopt : std::optional(problems);
+}
+
+Image<Rgba8> read_back(const gl::Texture& texture) {
+  Image<Rgba8> image(texture.width(), texture.height());
+  texture.read(GL_RGBA, GL_UNSIGNED_BYTE, image.pixels.data(), image.pixels.size() * sizeof(Rgba8));
+  return image;
+}
+
+Image<Rgba8> mirrored(const Image<Rgba8>& image) {
+  Image<Rgba8> out = image;
+  for (int y = 0; y < out.height; ++y) {
+    const auto row = out.pixels.begin() + std::ptrdiff_t(y) * out.width;
+    std::reverse(row, row + out.width);
+  }
+  return out;
+}
+
+}  // namespace insonate

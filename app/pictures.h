@@ -1,0 +1,70 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/session.h"
+#include "sim/gl/simulator.h"
+#include "sim/view/orbit_camera.h"
+#include "sim/view/slice_view.h"
+#include "sim/view/volume_view.h"
+
+namespace insonate {
+
+/// How many pixels the screen has for each picture.
+struct PictureSizes {
+  int ultrasound_width = 800, ultrasound_height = 560;
+  int volume_width = 440, volume_height = 330;
+};
+
+/// The graphics card's side of a session: draws its pictures, each only when something it shows has changed. Needs an
+/// OpenGL 4.5 context from construction to destruction.
+class Pictures {
+public:
+  explicit Pictures(const gl::ShaderSources& sources = {});
+
+  /// Uploads a patient; takes some tenths of a second. The study outlives this or the next one shown.
+  void show(const Study& study);
+
+  /// Draws what is due.
+  /// @param quality    0 to 1: the share of the screen's pixels that the ultrasound is computed for, along each side
+  /// @param budget_ms  for the volume view, which gets coarser while things move to stay within it
+  void update(const Session& session, const PictureSizes& sizes, double quality, double budget_ms);
+
+  /// Null until update() had a pose to draw. Row 0 is the top; the marker's side is on the right.
+  const gl::Texture* ultrasound() const { return ultrasound_; }
+  const gl::Texture* slice() const { return slice_; }
+  const gl::Texture* blend() const { return blend_; }
+  const gl::Texture* volume() const { return volume_; }
+  const ImageGeometry& geometry() const { return simulator_.geometry(); }
+
+  view::OrbitCamera camera;
+  double blend_share = 0.55;  ///< 0: the CT, 1: the ultrasound
+
+  /// How often any picture was drawn; a stage of the simulator that ran counts as one.
+  long drawn() const;
+  long simulator_runs() const;
+
+  /// Builds all shaders again; what does not build goes on as it was and is told of.
+  std::optional<std::string> reload(const gl::ShaderSources& sources);
+
+private:
+  gl::Simulator simulator_;
+  view::SliceView slice_view_, blend_view_;
+  view::VolumeView volume_view_;
+  std::optional<view::PatientTextures> patient_;
+  const gl::Texture* ultrasound_ = nullptr;
+  const gl::Texture* slice_ = nullptr;
+  const gl::Texture* blend_ = nullptr;
+  const gl::Texture* volume_ = nullptr;
+  std::string probe_name_;
+  double depth_mm_ = 0;
+};
+
+/// A texture's pixels, row 0 at the top.
+Image<Rgba8> read_back(const gl::Texture& texture);
+/// With left and right exchanged: the way a screen shows it, with the marker on the left.
+Image<Rgba8> mirrored(const Image<Rgba8>& image);
+
+}  // namespace insonate

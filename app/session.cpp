@@ -1,0 +1,153 @@
+#include "app/session.h"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include <algorithm>
+#include <utility>
+
+#include "scenarios/digest.h"
+#include "sim/core/files.h"
+
+namespace insonate {
+namespace {
+
+/// The motion from one pose to another as MouseTracker takes it: in the probe's own frame.
+void push(MouseTracker& mouse, const Pose& from, const Pose& to) {
+  const Pose step = from.inverse() * to;
+  const glm::dquat turn = glm::normalize(glm::quat_cast(step.rotation));
+  const double angle = glm::angle(turn);
+  mouse.move(step.translation, angle > 1e-12 ? angle * glm::axis(turn) : glm::dvec3(0.0));
+}
+
+}  // namespace
+
+void Console::choose(const Probe& chosen) {
+  probe = chosen;
+  depth_mm = chosen.depth_mm;
+  frequency_mhz = chosen.frequency_mhz;
+}
+
+Settings Console::settings() const {
+  Settings settings = trainer_settings(frequency_mhz, depth_mm);
+  settings.gain_db = gain_db;
+  settings.dynamic_range_db = dynamic_range_db;
+  for (std::size_t i = 0; i < tgc_db.size(); ++i) settings.tgc_db[i] += tgc_db[i];
+  return settings;
+}
+
+bool Console::operator==(const Console& other) const {
+  return probe.name == other.probe.name && depth_mm == other.depth_mm && frequency_mhz == other.frequency_mhz &&
+         gain_db == other.gain_db && dynamic_range_db == other.dynamic_range_db && tgc_db == other.tgc_db &&
+         frozen == other.frozen;
+}
+
+Session::Session(std::shared_ptr<const Study> study, OpenTracker open, const std::filesystem::path& log_file)
+    : study_(std::move(study)), open_(std::move(open)), hand_(study_->subject.ct) {
+  tracker_ = open_();
+  if (!log_file.empty()) {
+    log_name_ = log_file.filename().string();
+    log_digest_ = digest_of(read_file(log_file));
+  }
+  only_learner_ = dynamic_cast<MouseTracker*>(tracker_.get()) != nullptr;
+  if (only_learner_) {
+    learner_.reset(static_cast<MouseTracker*>(tracker_.release()));
+    holder_ = Holder::learner;
+  }
+  Probe probe = probes().front();
+  if (study_->scenario) {
+    const ReferenceView* view = study_->subject.find_view(study_->scenario->steps.front().view);
+    if (view && find_probe(view->probe)) {
+      probe = *find_probe(view->probe);
+      probe.depth_mm = std::clamp(view->depth_mm, Console::kLeastDepth_mm, Console::kMostDepth_mm);
+    }
+    activity_ = Activity::exam;
+  }
+  console_.choose(probe);
+  begin_attempt();
+}
+
+const Tracker& Session::source() const {
+  if (holder_ == Holder::learner) return *learner_;
+  return *tracker_;
+}
+
+void Session::begin_attempt() {
+  runner_.reset();
+  result_.reset();
+  if (activity_ == Activity::exam && study_->scenario)
+    runner_ = std::make_unique<Runner>(*study_->scenario, study_->subject, study_->tissues);
+  last_usable_s_ = now_s_;
+  console_.frozen = false;
+}
+
+void Session::start_over() {
+  activity_ = study_->scenario ? Activity::exam : Activity::practice;
+  if (holder_ == Holder::learner)
+    learner_ = std::make_unique<MouseTracker>(study_->surroundings.start);
+  else
+    tracker_ = open_();
+  shown_pose_.reset();
+  newest_pose_.reset();
+  begin_attempt();
+}
+
+void Session::practise() {
+  activity_ = Activity::practice;
+  begin_attempt();
+  take_probe();
+}
+
+void Session::take_probe() {
+  if (holder_ == Holder::learner) return;
+  learner_ = std::make_unique<MouseTracker>(newest_pose_.value_or(study_->surroundings.start));
+  holder_ = Holder::learner;
+  begin_attempt();
+}
+
+void Session::give_back_probe() {
+  if (holder_ == Holder::tracker || only_learner_) return;
+  std::unique_ptr<Tracker> again = open_();  // may throw: then the learner keeps the probe
+  tracker_ = std::move(again);
+  holder_ = Holder::tracker;
+  if (study_->scenario) activity_ = Activity::exam;
+  begin_attempt();
+}
+
+void Session::move_probe(const std::function<Pose(const ProbeHand&, const Pose&)>& motion) {
+  take_probe();
+  const Pose from = learner_->pose();
+  push(*learner_, from, motion(hand_, from));
+}
+
+void Session::take(const PoseSample& sample) {
+  if (runner_) runner_->feed(sample);
+  if (sample.status != PoseStatus::ok) return;
+  newest_pose_ = sample.patient_from_probe;
+  last_usable_s_ = now_s_;
+}
+
+void Session::advance(double now_s) {
+  now_s_ = now_s;
+  samples_.clear();
+  source().poll(now_s, samples_);
+  for (const PoseSample& sample : samples_) take(sample);
+  if (!console_.frozen) shown_pose_ = newest_pose_;
+
+  if (!runner_ || result_) return;
+  if (source().state().condition == TrackerCondition::finished) runner_->end();
+  if (!runner_->live().finished) return;
+  result_ = runner_->result();
+  if (holder_ == Holder::tracker) {
+    result_->provenance.log = log_name_;
+    result_->provenance.log_digest = log_digest_;
+  }
+}
+
+std::optional<double> Session::lost_for_s() const {
+  if (source().state().condition == TrackerCondition::finished) return std::nullopt;
+  const double lost_s = now_s_ - last_usable_s_;
+  return lost_s > kStale_s ? std::optional(lost_s) : std::nullopt;
+}
+
+}  // namespace insonate

@@ -1,0 +1,119 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/probe_hand.h"
+#include "app/study.h"
+#include "devices/mouse/mouse_tracker.h"
+#include "devices/tracker.h"
+#include "scenarios/runner.h"
+#include "sim/model/settings.h"
+#include "sim/probe/probe.h"
+
+namespace insonate {
+
+/// What the learner sets on the ultrasound machine.
+struct Console {
+  Probe probe;
+  double depth_mm = 160;
+  double frequency_mhz = 3.5;
+  double gain_db = 0;
+  double dynamic_range_db = 60;
+  std::array<double, 8> tgc_db{};  ///< on top of what the machine gives by itself; the sliders' middle is 0
+  bool frozen = false;
+
+  static constexpr double kLeastDepth_mm = 30, kMostDepth_mm = 240;
+
+  /// Takes a probe with its own depth and frequency.
+  void choose(const Probe& chosen);
+  /// As the simulator takes them; picture size and samples are left to whoever draws.
+  Settings settings() const;
+  bool operator==(const Console&) const;
+};
+
+enum class Holder { tracker, learner };
+enum class Activity { exam, practice };
+
+/// One person's time with one patient: where poses come from, the attempt at the exam that they make, and the machine.
+/// Knows no window and no graphics, so that a run looks the same with and without. Time is passed in.
+///
+/// An attempt is scored from one source only. When the learner takes the probe, or gives it back, the attempt that was
+/// under way is dropped and a new one begins; a replayed log then starts over. Every sample of the source in charge is
+/// fed to the runner, in order, whatever the frame rate.
+class Session {
+public:
+  using OpenTracker = std::function<std::unique_ptr<Tracker>()>;
+
+  /// Keeps the study. `open` is called at once, and again when a log is to start over; what it throws passes through.
+  /// Throws ScenarioError or InputError when the scenario does not fit the case.
+  /// @param log_file  the log that `open` replays, if it does: named in the result
+  Session(std::shared_ptr<const Study> study, OpenTracker open, const std::filesystem::path& log_file = {});
+
+  /// Takes what has come from the source in charge up to `now_s`.
+  void advance(double now_s);
+
+  // The exam
+  Activity activity() const { return activity_; }
+  /// Starts the exam from its beginning; without a scenario only the source starts over.
+  void start_over();
+  /// No exam, no score: the probe is free.
+  void practise();
+  /// The runner of the exam; nullptr in free practice.
+  const Runner* runner() const { return runner_.get(); }
+  /// Complete marks with their provenance; empty until the exam is finished.
+  const std::optional<ExamResult>& result() const { return result_; }
+
+  // The probe
+  Holder holder() const { return holder_; }
+  /// Whether the learner's own hand is the source that was asked for: there is nothing to give back to then.
+  bool only_learner() const { return only_learner_; }
+  void take_probe();
+  void give_back_probe();
+  /// Moves the probe to where a motion leads from where it is; takes it first if need be.
+  void move_probe(const std::function<Pose(const ProbeHand&, const Pose&)>& motion);
+
+  /// Where the picture is taken: the newest usable pose, or an older one while the picture is frozen. Empty until the
+  /// first usable pose came.
+  const std::optional<Pose>& shown_pose() const { return shown_pose_; }
+  /// The newest usable pose, which a frozen picture does not show.
+  const std::optional<Pose>& newest_pose() const { return newest_pose_; }
+  /// How long no usable pose has come (s), once that is longer than kStale_s; the picture stands still then.
+  std::optional<double> lost_for_s() const;
+  static constexpr double kStale_s = 0.25;
+
+  const Tracker& source() const;
+  TrackerState tracker_state() const { return source().state(); }
+
+  Console& console() { return console_; }
+  const Console& console() const { return console_; }
+  const Study& study() const { return *study_; }
+  double now_s() const { return now_s_; }
+
+private:
+  void begin_attempt();
+  void take(const PoseSample& sample);
+  Tracker& source() { return const_cast<Tracker&>(std::as_const(*this).source()); }
+
+  std::shared_ptr<const Study> study_;
+  OpenTracker open_;
+  std::string log_name_, log_digest_;
+  std::unique_ptr<Tracker> tracker_;
+  std::unique_ptr<MouseTracker> learner_;
+  bool only_learner_ = false;
+  ProbeHand hand_;
+  Holder holder_ = Holder::tracker;
+  Activity activity_ = Activity::practice;
+  std::unique_ptr<Runner> runner_;
+  std::optional<ExamResult> result_;
+  Console console_;
+  std::optional<Pose> shown_pose_, newest_pose_;
+  double now_s_ = 0;
+  double last_usable_s_ = 0;
+  std::vector<PoseSample> samples_;
+};
+
+}  // namespace insonate

@@ -1,0 +1,47 @@
+#include "app/state_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include "sim/core/files.h"
+
+namespace insonate {
+
+void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::Screen& screen, long frames) {
+  nlohmann::ordered_json state;
+  state["overlay"] = screen.overlay(trainer);
+  state["problem"] = trainer.problems().empty() ? "" : trainer.problems().front();
+  state["frames"] = frames;
+  state["pictures_drawn"] = trainer.pictures().drawn();
+  state["simulator_runs"] = trainer.pictures().simulator_runs();
+  for (const auto& [name, rect] : screen.places()) {
+    state[name + "_x"] = int(rect.x);
+    state[name + "_y"] = int(rect.y);
+    state[name + "_w"] = int(rect.w);
+    state[name + "_h"] = int(rect.h);
+  }
+  if (const Session* session = trainer.session()) {
+    state["patient"] = session->study().subject.name;
+    state["activity"] = session->activity() == Activity::exam ? "exam" : "practice";
+    state["holder"] = session->holder() == Holder::learner ? "learner" : "tracker";
+    state["frozen"] = session->console().frozen;
+    state["depth_mm"] = session->console().depth_mm;
+    state["gain_db"] = session->console().gain_db;
+    if (const auto& pose = session->shown_pose()) {
+      for (int axis = 0; axis < 3; ++axis) {
+        state[std::string("face_") + "xyz"[axis]] = pose->translation[axis];
+        state[std::string("beam_") + "xyz"[axis]] = pose->rotation[1][axis];
+        state[std::string("marker_") + "xyz"[axis]] = pose->rotation[0][axis];
+      }
+    }
+    if (const Runner* runner = session->runner()) {
+      state["step"] = runner->live().step;
+      state["elapsed_s"] = runner->live().elapsed_s;
+      state["hold_share"] = runner->live().hold_share;
+      state["finished"] = runner->live().finished;
+    }
+    if (session->result()) state["percent"] = session->result()->percent;
+  }
+  write_file(file, state.dump(1) + "\n");
+}
+
+}  // namespace insonate

@@ -1,0 +1,169 @@
+#include "app/trainer.h"
+
+#include <chrono>
+#include <utility>
+
+#include "devices/registry.h"
+#include "sim/core/files.h"
+
+namespace insonate {
+namespace {
+
+std::filesystem::path replayed_file(const std::string& tracker) {
+  const TrackerUri uri = parse_tracker_uri(tracker);
+  return uri.scheme == "replay" ? std::filesystem::path(uri.subject) : std::filesystem::path();
+}
+
+std::string bundled_log() {
+  return "replay:" + (assets_folder() / "logs" / "ruq_good.igs.mha").string();
+}
+
+gl::ShaderSources shaders_of(const Options& options) {
+  return options.shader_folder.empty() ? gl::ShaderSources() : gl::ShaderSources(options.shader_folder);
+}
+
+}  // namespace
+
+Trainer::Trainer(Options options)
+    : options_(std::move(options)),
+      shaders_(shaders_of(options_)),
+      shaders_changed_(shaders_.last_change()),
+      pictures_(shaders_) {}
+
+Trainer::~Trainer() {
+  if (loading_.valid()) loading_.wait();
+}
+
+void Trainer::open_from_options() {
+  load({{options_.case_folder, options_.ct, options_.scenario}, options_.tracker});
+}
+
+void Trainer::open_bundled() {
+  load({});
+}
+
+void Trainer::open(const std::filesystem::path& path) {
+  if (loading()) return;
+  attempt([&] {
+    Request next;
+    switch (kind_of_material(path)) {
+      case Material::case_folder:
+        next.source.case_folder = path;
+        break;
+      case Material::ct:
+        next.source.ct = path;
+        break;
+      case Material::scenario:
+        next.source.scenario = path;
+        break;
+      case Material::tracker_log:
+        next = current_;
+        next.tracker = "replay:" + path.string();
+        if (study_) return begin(study_, next);
+        break;
+    }
+    load(next);
+  });
+}
+
+bool Trainer::attempt(const std::function<void()>& action) {
+  try {
+    action();
+    return true;
+  } catch (const std::exception& error) {
+    if (options_.headless) throw;
+    problems_.emplace_back(error.what());
+    return false;
+  }
+}
+
+void Trainer::load(Request request) {
+  requested_ = std::move(request);
+  const auto report = [this](const std::string& what, double share) {
+    const std::lock_guard lock(progress_mutex_);
+    progress_ = {what, share};
+  };
+  report("Starting", 0);
+  loading_ = std::async(std::launch::async, [source = requested_.source, report] {
+    return std::make_shared<const Study>(load_study(source, report));
+  });
+}
+
+Trainer::Progress Trainer::progress() const {
+  const std::lock_guard lock(progress_mutex_);
+  return progress_;
+}
+
+void Trainer::finish_loading() {
+  if (!loading_.valid()) return;
+  loading_.wait();
+  take_over_loaded();
+}
+
+void Trainer::take_over_loaded() {
+  attempt([&] { begin(loading_.get(), requested_); });
+  // A trainer whose command line names something unusable goes on with what is built in.
+  if (!session_ && !loading() && !requested_.source.is_bundled()) load({});
+}
+
+void Trainer::begin(std::shared_ptr<const Study> study, const Request& request) {
+  std::string uri = request.tracker;
+  if (uri.empty()) uri = request.source.is_bundled() ? bundled_log() : "mouse:";
+  auto open = [uri, surroundings = study->surroundings] { return open_tracker(uri, surroundings); };
+  auto session = std::make_unique<Session>(study, open, replayed_file(uri));
+  if (study != study_) pictures_.show(*study);
+  session_ = std::move(session);
+  study_ = std::move(study);
+  current_ = request;
+  result_files_.reset();
+  best_frame_of_ = nullptr;
+}
+
+void Trainer::update(double now_s) {
+  if (loading_.valid() && loading_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) take_over_loaded();
+  if (!options_.shader_folder.empty() && now_s - shaders_looked_at_s_ > 0.5) {
+    shaders_looked_at_s_ = now_s;
+    reload_shaders();
+  }
+  if (!session_) return;
+  const bool had_result = session_->result().has_value();
+  session_->advance(now_s);
+  if (!session_->result()) result_files_.reset();
+  results_due_ = results_due_ || (!had_result && session_->result());
+}
+
+void Trainer::draw(const PictureSizes& sizes, double quality, double budget_ms) {
+  if (!session_) return;
+  pictures_.update(*session_, sizes, quality, budget_ms);
+}
+
+bool Trainer::best_frame_due() const {
+  if (!session_ || !session_->runner()) return false;
+  constexpr double kStep = 0.1;  // of the hold
+  const LiveExam& live = session_->runner()->live();
+  if (session_->runner() != best_frame_of_ || live.step != best_step_) return live.hold_share > 0;
+  return live.hold_share > best_share_ + kStep;
+}
+
+void Trainer::keep_best_frame() {
+  if (!pictures_.ultrasound()) return;
+  best_frame_of_ = session_->runner();
+  best_step_ = best_frame_of_->live().step;
+  best_share_ = best_frame_of_->live().hold_share;
+  best_frame_ = mirrored(read_back(*pictures_.ultrasound()));
+}
+
+void Trainer::write_results_if_due() {
+  if (!std::exchange(results_due_, false)) return;
+  if (best_frame_of_ != session_->runner()) best_frame_.reset();
+  attempt([&] { result_files_ = write_results(options_.out, *session_, best_frame_); });
+}
+
+void Trainer::reload_shaders() {
+  const auto changed = shaders_.last_change();
+  if (changed == shaders_changed_) return;
+  shaders_changed_ = changed;
+  shader_problem_ = pictures_.reload(shaders_).value_or("");
+}
+
+}  // namespace insonate

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <atomic>
+#include <deque>
+#include <future>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "app/options.h"
+#include "app/pictures.h"
+#include "app/results.h"
+#include "app/session.h"
+#include "app/study.h"
+
+namespace insonate {
+
+/// The trainer without its screen: loads what is asked for on a thread of its own, runs the session, draws its
+/// pictures, writes the results, and collects what went wrong for a dialog. Needs an OpenGL context current, from
+/// construction to destruction, on the one thread that uses it.
+class Trainer {
+public:
+  explicit Trainer(Options options);
+  ~Trainer();
+
+  /// Opens what the command line names, without waiting for it.
+  void open_from_options();
+  /// Opens a file or folder that a person dropped, typed or chose: a case, a CT, a scenario or a recorded scan.
+  void open(const std::filesystem::path& path);
+  /// Opens the bundled exam.
+  void open_bundled();
+
+  bool loading() const { return loading_.valid(); }
+  struct Progress {
+    std::string what;
+    double share = 0;
+  };
+  Progress progress() const;
+  /// Waits until what is being loaded is there.
+  void finish_loading();
+
+  /// Takes over what was loaded and advances the session to `now_s`.
+  void update(double now_s);
+  /// Draws the pictures of the session.
+  void draw(const PictureSizes& sizes, double quality, double budget_ms);
+  /// Whether the view is held longer than when the best frame was kept: draw, then keep it.
+  bool best_frame_due() const;
+  void keep_best_frame();
+  /// Writes report and score of an exam that has ended, once.
+  void write_results_if_due();
+
+  Session* session() { return session_.get(); }
+  Pictures& pictures() { return pictures_; }
+  const Options& options() const { return options_; }
+  const std::optional<ResultFiles>& result_files() const { return result_files_; }
+  /// The ultrasound, marker on the left, when the exam's view was held best.
+  const std::optional<Image<Rgba8>>& best_frame() const { return best_frame_; }
+
+  /// What went wrong and nobody has acknowledged yet, the oldest first.
+  std::deque<std::string>& problems() { return problems_; }
+  /// What shaders being edited do not build with; empty when they do.
+  const std::string& shader_problem() const { return shader_problem_; }
+
+  /// Runs `action` and turns what it throws into a problem to acknowledge, except without a window, where there is
+  /// nobody to do so: there it passes through. Whether it went well.
+  bool attempt(const std::function<void()>& action);
+
+private:
+  struct Request {
+    StudySource source;
+    std::string tracker;  ///< URI; empty: the bundled log with the bundled exam, else the learner's own hand
+  };
+  void load(Request request);
+  void take_over_loaded();
+  void begin(std::shared_ptr<const Study> study, const Request& request);
+  void reload_shaders();
+
+  Options options_;
+  gl::ShaderSources shaders_;
+  std::optional<std::filesystem::file_time_type> shaders_changed_;
+  double shaders_looked_at_s_ = 0;
+  std::string shader_problem_;
+
+  Request current_, requested_;
+  std::future<std::shared_ptr<const Study>> loading_;
+  mutable std::mutex progress_mutex_;
+  Progress progress_;
+
+  std::shared_ptr<const Study> study_;
+  std::unique_ptr<Session> session_;
+  Pictures pictures_;
+  std::optional<ResultFiles> result_files_;
+  bool results_due_ = false;
+  std::optional<Image<Rgba8>> best_frame_;
+  const Runner* best_frame_of_ = nullptr;  ///< compared by address only
+  std::size_t best_step_ = 0;
+  double best_share_ = 0;
+  std::deque<std::string> problems_;
+};
+
+}  // namespace insonate

@@ -1,0 +1,217 @@
+#include "app/window.h"
+
+#include <epoxy/gl.h>
+// After epoxy, which brings OpenGL's declarations.
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+#include "app/keyboard.h"
+#include "app/panels/screen.h"
+#include "app/state_file.h"
+#include "app/trainer.h"
+
+namespace insonate {
+namespace {
+
+constexpr int kLeastWidth = 1024, kLeastHeight = 700;
+/// More frames than that show nothing more.
+constexpr double kFrame_s = 1.0 / 60;
+/// While nothing changes the screen still has clocks to show.
+constexpr double kIdle_s = 0.1;
+/// How long a change of anything keeps the screen at full rate.
+constexpr double kLively_s = 0.4;
+/// What the volume view may take of a frame while things move.
+constexpr double kVolumeBudget_ms = 10;
+
+/// Computes the ultrasound for fewer pixels where the machine cannot keep up.
+class QualityGovernor {
+public:
+  double quality() const { return quality_; }
+  void see(double frame_s) {
+    mean_s_ += 0.1 * (frame_s - mean_s_);
+    if (++frames_ < 20 || mean_s_ < kSlow_s || quality_ <= kLeast) return;
+    quality_ = std::max(kLeast, quality_ * 0.85);
+    frames_ = 0;
+  }
+
+private:
+  static constexpr double kSlow_s = 0.045, kLeast = 0.6;
+  double quality_ = 1, mean_s_ = 0.02;
+  int frames_ = 0;
+};
+
+struct GlfwLibrary {
+  GlfwLibrary() {
+    if (!glfwInit()) throw std::runtime_error("there is no display to open a window on");
+  }
+  ~GlfwLibrary() { glfwTerminate(); }
+};
+
+struct WindowDeleter {
+  void operator()(GLFWwindow* window) const { glfwDestroyWindow(window); }
+};
+
+/// What GLFW's callbacks leave for the next frame.
+struct Events {
+  bool any = false;
+  std::vector<KeyPress> keys;
+  std::vector<std::filesystem::path> dropped;
+};
+
+Events& events_of(GLFWwindow* window) {
+  return *static_cast<Events*>(glfwGetWindowUserPointer(window));
+}
+
+// Installed before ImGui's, which calls these in turn.
+void listen(GLFWwindow* window, Events& events) {
+  glfwSetWindowUserPointer(window, &events);
+  glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int mods) {
+    events_of(w).any = true;
+    if (action != GLFW_RELEASE) events_of(w).keys.push_back({key, mods, action == GLFW_REPEAT});
+  });
+  glfwSetCursorPosCallback(window, [](GLFWwindow* w, double, double) { events_of(w).any = true; });
+  glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int, int, int) { events_of(w).any = true; });
+  glfwSetScrollCallback(window, [](GLFWwindow* w, double, double) { events_of(w).any = true; });
+  glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { events_of(w).any = true; });
+  glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { events_of(w).any = true; });
+  glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
+    events_of(w).any = true;
+    for (int i = 0; i < count; ++i) events_of(w).dropped.emplace_back(paths[i]);
+  });
+}
+
+std::unique_ptr<GLFWwindow, WindowDeleter> open_window(const Options& options) {
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
+  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+  glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+  std::unique_ptr<GLFWwindow, WindowDeleter> window(
+      glfwCreateWindow(options.width, options.height, "Insonate", nullptr, nullptr));
+  if (!window) throw std::runtime_error("no window with OpenGL 4.5 can be opened on this display");
+  glfwSetWindowSizeLimits(window.get(), kLeastWidth, kLeastHeight, GLFW_DONT_CARE, GLFW_DONT_CARE);
+  glfwMakeContextCurrent(window.get());
+  glfwSwapInterval(1);
+  return window;
+}
+
+Image<Rgba8> read_screen(int width, int height) {
+  Image<Rgba8> upside_down(width, height), image(width, height);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, upside_down.pixels.data());
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      image.at(x, y) = upside_down.at(x, height - 1 - y);
+      image.at(x, y)[3] = 255;
+    }
+  return image;
+}
+
+/// The loop around the trainer: full rate while something changes, nearly none while nothing does.
+class Loop {
+public:
+  Loop(GLFWwindow* window, const Options& options)
+      : window_(window), options_(options), trainer_(options), keyboard_(window) {
+    listen(window, events_);
+    ImGui_ImplGlfw_InitForOpenGL(window, true);
+    glfwSetCursorPosCallback(window, [](GLFWwindow* w, double, double) { events_of(w).any = true; });
+    trainer_.open_from_options();
+    start_s_ = last_s_ = glfwGetTime();
+  }
+  ~Loop() { ImGui_ImplGlfw_Shutdown(); }
+  Loop(const Loop&) = delete;
+  Loop& operator=(const Loop&) = delete;
+
+  void run() {
+    while (!glfwWindowShouldClose(window_)) {
+      wait();
+      const double now_s = glfwGetTime();
+      step(now_s);
+      if (options_.seconds > 0 && now_s - start_s_ >= options_.seconds) break;
+    }
+    if (!options_.screenshot.empty()) {
+      draw();
+      int width = 0, height = 0;
+      glfwGetFramebufferSize(window_, &width, &height);
+      write_png(options_.screenshot, read_screen(width, height));
+    }
+  }
+
+private:
+  void wait() {
+    const double since_s = glfwGetTime() - last_s_;
+    const bool lively = glfwGetTime() - changed_s_ < kLively_s;
+    const double left_s = (lively ? kFrame_s : kIdle_s) - since_s;
+    if (left_s > 0.0005 && !events_.any)
+      glfwWaitEventsTimeout(left_s);
+    else
+      glfwPollEvents();
+  }
+
+  void step(double now_s) {
+    const bool touched = std::exchange(events_.any, false);
+    for (const std::filesystem::path& path : std::exchange(events_.dropped, {})) trainer_.open(path);
+    const bool moved = keyboard_.apply(std::exchange(events_.keys, {}), trainer_, screen_, now_s - last_s_);
+    const double previous_s = std::exchange(last_s_, now_s);
+
+    trainer_.update(now_s - start_s_);
+    const long drawn_before = trainer_.pictures().drawn();
+    draw();
+    glfwSwapBuffers(window_);
+    ++frames_;
+    const bool changed = trainer_.pictures().drawn() != drawn_before;
+    if (touched || moved || changed || trainer_.loading()) changed_s_ = now_s;
+    if (changed) governor_.see(glfwGetTime() - now_s);
+    frame_s_ += 0.08 * (now_s - previous_s - frame_s_);
+    screen_.set_frames_per_second(1 / frame_s_);
+    if (trainer_.best_frame_due()) trainer_.keep_best_frame();
+    trainer_.write_results_if_due();
+    if (!options_.state_file.empty() && now_s - state_written_s_ > 0.1) {
+      state_written_s_ = now_s;
+      write_state(options_.state_file, trainer_, screen_, frames_);
+    }
+  }
+
+  void draw() {
+    ImGui_ImplGlfw_NewFrame();
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    if (size.x <= 0 || size.y <= 0) return;  // minimised
+    trainer_.draw(screen_.picture_sizes(size.x, size.y), governor_.quality(), kVolumeBudget_ms);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    screen_.render(trainer_);
+  }
+
+  GLFWwindow* window_;
+  Options options_;
+  Trainer trainer_;
+  ui::Screen screen_;
+  Keyboard keyboard_;
+  Events events_;
+  QualityGovernor governor_;
+  double start_s_ = 0, last_s_ = 0, changed_s_ = 0, state_written_s_ = -1, frame_s_ = kFrame_s;
+  long frames_ = 0;
+};
+
+}  // namespace
+
+bool has_display() {
+  glfwSetErrorCallback(nullptr);
+  const bool there = glfwInit() == GLFW_TRUE;
+  if (there) glfwTerminate();
+  return there;
+}
+
+int run_window(const Options& options) {
+  const GlfwLibrary library;
+  const auto window = open_window(options);
+  Loop(window.get(), options).run();
+  return 0;
+}
+
+}  // namespace insonate

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "app/options.h"
+
+namespace insonate {
+
+/// Whether a window can be opened here at all.
+bool has_display();
+
+/// Runs the trainer in a window until it is closed or options.seconds have passed. Returns the exit code. Throws
+/// std::runtime_error when there is no window with OpenGL 4.5 to be had.
+int run_window(const Options& options);
+
+}  // namespace insonate
