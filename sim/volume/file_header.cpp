@@ -9,6 +9,7 @@
 #include <cstring>
 #include <fstream>
 #include <map>
+#include <new>
 #include <optional>
 #include <sstream>
 #include <vector>
@@ -23,6 +24,8 @@ namespace fs = std::filesystem;
 
 // Deflate packs at most 1032 bytes into one (zlib's technical notes).
 constexpr std::uint64_t kMostDeflated = 1032;
+// What may follow the voxels in a packed stream, such as a tool's own extension.
+constexpr std::uint64_t kMostTrailing = 1u << 24;
 constexpr std::size_t kLongestTextHeader = 1u << 20;
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& problem, const std::string& remedy) {
@@ -39,9 +42,42 @@ struct Claim {
   std::array<std::uint64_t, 3> size{};
   VoxelType type = VoxelType::int16;
   fs::path data_file;
-  std::uint64_t data_offset = 0;
-  bool compressed = false;
+  std::uint64_t data_offset = 0;         ///< where the voxels begin in that file, or the packed stream that holds them
+  bool packed = false;                   ///< by zlib or gzip
+  std::uint64_t packed_with_header = 0;  ///< bytes in the packed stream that come before the voxels
 };
+
+/// Unpacks a zlib or gzip stream to nowhere and counts; stops beyond `enough`. Empty when the stream is damaged or cut
+/// off: ITK would fill what is missing with zeros.
+std::optional<std::uint64_t> unpacked_size(const fs::path& file, std::uint64_t offset, std::uint64_t enough) {
+  constexpr std::size_t kChunk = 1u << 18;
+  constexpr int kZlibOrGzip = 15 + 32;
+  std::ifstream stream(file, std::ios::binary);
+  stream.seekg(std::streamoff(offset));
+  z_stream unpacker{};
+  if (inflateInit2(&unpacker, kZlibOrGzip) != Z_OK) throw std::bad_alloc();
+  std::vector<char> packed(kChunk), plain(kChunk);
+  std::uint64_t size = 0;
+  int state = Z_OK;
+  while (size <= enough) {
+    if (unpacker.avail_in == 0) {
+      stream.read(packed.data(), std::streamsize(kChunk));
+      unpacker.next_in = reinterpret_cast<Bytef*>(packed.data());
+      unpacker.avail_in = uInt(stream.gcount());
+      if (unpacker.avail_in == 0) break;
+    }
+    // gzip allows one stream after another.
+    if (state == Z_STREAM_END && inflateReset(&unpacker) != Z_OK) break;
+    unpacker.next_out = reinterpret_cast<Bytef*>(plain.data());
+    unpacker.avail_out = uInt(kChunk);
+    state = inflate(&unpacker, Z_NO_FLUSH);
+    size += kChunk - unpacker.avail_out;
+    if (state != Z_OK && state != Z_STREAM_END) break;
+  }
+  inflateEnd(&unpacker);
+  if (state != Z_STREAM_END && size <= enough) return std::nullopt;
+  return size;
+}
 
 void check_against_bytes(const fs::path& file, const Claim& claim) {
   check_size(file.string(), claim.size[0], claim.size[1], claim.size[2]);
@@ -49,13 +85,23 @@ void check_against_bytes(const fs::path& file, const Claim& claim) {
   if (!fs::is_regular_file(claim.data_file, error))
     refuse(file, "there is no data file '" + claim.data_file.string() + "'", "put it beside the header");
   const std::uint64_t there = fs::file_size(claim.data_file, error);
-  const std::uint64_t claimed = claim.size[0] * claim.size[1] * claim.size[2] * bytes_of(claim.type);
-  const std::uint64_t held = there > claim.data_offset ? there - claim.data_offset : 0;
-  if (claim.compressed ? claimed / kMostDeflated > held : claimed > held)
-    refuse(file,
-           "it claims " + std::to_string(claimed) + " bytes of voxels, the file holds " + std::to_string(held) +
-               (claim.compressed ? " compressed ones" : ""),
-           "copy the file again, it is cut off");
+  const std::uint64_t voxels = claim.size[0] * claim.size[1] * claim.size[2] * bytes_of(claim.type);
+  const std::string claims = "it claims " + std::to_string(voxels) + " bytes of voxels, ";
+  const char* const remedy = "copy the file again";
+  if (!claim.packed) {
+    const std::uint64_t held = there > claim.data_offset ? there - claim.data_offset : 0;
+    if (voxels > held) refuse(file, claims + "the file holds " + std::to_string(held), remedy);
+    return;
+  }
+  const std::uint64_t needed = claim.packed_with_header + voxels;
+  if (needed / kMostDeflated > there)
+    refuse(file, claims + "which its " + std::to_string(there) + " packed bytes cannot hold", remedy);
+  const auto size = unpacked_size(claim.data_file, claim.data_offset, needed + kMostTrailing);
+  if (!size) refuse(file, "the packed data are damaged or cut off", remedy);
+  if (*size < needed)
+    refuse(file, claims + "the file holds " + std::to_string(*size - std::min(*size, claim.packed_with_header)),
+           remedy);
+  if (*size > needed + kMostTrailing) refuse(file, claims + "the file holds far more", remedy);
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -182,8 +228,8 @@ FileHeader check_nifti(const fs::path& file) {
   if (!(n.data_offset >= 0 && n.data_offset < 1e12))
     refuse(file, "it claims that the voxels begin at byte " + std::to_string(n.data_offset), "save it again");
   claim.data_file = file;
-  claim.data_offset = packed ? 0 : std::uint64_t(n.data_offset);
-  claim.compressed = packed;
+  claim.packed = packed;
+  (packed ? claim.packed_with_header : claim.data_offset) = std::uint64_t(n.data_offset);
   check_against_bytes(file, claim);
   return {ImageFormat::nifti, to_string(claim.type)};
 }
@@ -310,7 +356,7 @@ FileHeader check_nrrd(const fs::path& file) {
   const std::string encoding = lower_case(header.value("encoding"));
   if (encoding != "raw" && encoding != "gzip" && encoding != "gz")
     refuse(file, "the encoding is '" + encoding + "'", "save it as raw or gzip");
-  claim.compressed = encoding != "raw";
+  claim.packed = encoding != "raw";
   std::string data_file = header.value("data file");
   if (data_file.empty()) data_file = header.value("datafile");
   claim.data_file = data_file.empty() ? file : named_data_file(file, data_file);
@@ -345,7 +391,7 @@ FileHeader check_meta_image(const fs::path& file) {
     refuse(file, "the voxels are written as text", "save them as binary");
   if (const std::string skip = header.value("headersize"); !skip.empty() && skip != "0")
     refuse(file, "the header asks for a HeaderSize of " + skip, "save it without");
-  claim.compressed = lower_case(header.value("compresseddata")) == "true";
+  claim.packed = lower_case(header.value("compresseddata")) == "true";
   const std::string data_file = header.value("elementdatafile");
   const bool local = lower_case(data_file) == "local";
   claim.data_file = local ? file : named_data_file(file, data_file);

@@ -173,13 +173,13 @@ TEST_CASE("a case that cannot be used is refused with the place and the reason")
       {"[[view]]", "[[view", "this is not TOML"},
   };
   for (const auto& bad : cases) {
-    write_file(path / "case.toml", replaced(good, bad.what, bad.by));
+    folder.put("case/case.toml", replaced(good, bad.what, bad.by));
     const std::string why = why_refused(path);
     INFO(bad.by << " -> " << why);
     CHECK(why.find(bad.told) != std::string::npos);
     CHECK(why.find(path.string()) == 0);
   }
-  write_file(path / "case.toml", good);
+  folder.put("case/case.toml", good);
   CHECK(why_refused(path).empty());
   CHECK(why_refused(folder.path / "none").find("there is no such folder") != std::string::npos);
   CHECK(why_refused(folder.path).find("there is no such file") != std::string::npos);
@@ -221,7 +221,7 @@ TEST_CASE("a case table cut anywhere or with any byte changed is read or refused
       for (int flips = 1 + int(random(3)); flips > 0; --flips)
         bytes[random(std::uint32_t(bytes.size()))] = char(random(256));
     }
-    write_file(path / "case.toml", bytes);
+    folder.put("case/case.toml", bytes);
     try {
       read_case(path);
     } catch (const InputError&) {

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <filesystem>
+#include <fstream>
 #include <string>
 
 namespace insonate {
@@ -21,6 +22,15 @@ struct TemporaryFolder {
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
   ~TemporaryFolder() { std::filesystem::remove_all(path); }
+
+  /// Writes a file in it. Not by write_file(): to replace a file by renaming waits for the disk, thousands of times in
+  /// some tests.
+  std::filesystem::path put(const std::string& name, const std::string& bytes) const {
+    const std::filesystem::path file = path / name;
+    std::filesystem::remove(file);
+    std::ofstream(file, std::ios::binary) << bytes;
+    return file;
+  }
 };
 
 }  // namespace insonate

@@ -1,0 +1,235 @@
+#include <catch2/catch.hpp>
+
+#include <fstream>
+#include <functional>
+#include <limits>
+
+#include "sim/core/files.h"
+#include "sim/core/input_error.h"
+#include "sim/volume/ct_reader.h"
+#include "tests/volume/temporary_folder.h"
+#include "tests/volume/volume_files.h"
+
+using namespace insonate;
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string small_voxels() {
+  std::vector<std::int16_t> values(24);
+  for (std::size_t v = 0; v < 24; ++v) values[v] = std::int16_t(v);
+  return bytes_of_values(values);
+}
+
+std::string why_refused(const fs::path& file) {
+  try {
+    read_ct(file);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+struct BadFile {
+  std::string name, bytes, told;
+};
+
+void check_refused(const std::vector<BadFile>& files) {
+  const TemporaryFolder folder;
+  for (const BadFile& bad : files) {
+    const fs::path file = folder.path / bad.name;
+    folder.put(bad.name, bad.bytes);
+    const std::string why = why_refused(file);
+    INFO(bad.name << " (" << bad.told << ") -> " << why << "\n" << bad.bytes.substr(0, 300));
+    CHECK(why.find(bad.told) != std::string::npos);
+    CHECK(why.find(file.string()) == 0);
+    CHECK(why.find('\n') == std::string::npos);
+  }
+}
+
+const float kNan = std::numeric_limits<float>::quiet_NaN();
+
+std::string nifti_with(const std::function<void(NiftiSpec&)>& change) {
+  NiftiSpec spec;
+  change(spec);
+  return nifti(spec, small_voxels());
+}
+
+std::string nrrd_with(const std::string& key, const std::string& by) {
+  return nrrd(with_line(nrrd_lines(), key, by), small_voxels());
+}
+
+std::string meta_with(const std::string& key, const std::string& by) {
+  return meta_image(with_line(meta_lines(), key, by), small_voxels());
+}
+
+}  // namespace
+
+TEST_CASE("what is no volume file is refused by name") {
+  const TemporaryFolder folder;
+  CHECK(why_refused(folder.path / "none.nii").find("there is no such file") != std::string::npos);
+  CHECK(why_refused(folder.path).find("no DICOM images") != std::string::npos);
+  CHECK(why_refused("/dev/zero").find("no ordinary file") != std::string::npos);
+  std::ofstream(folder.path / "empty.nii").close();
+  CHECK(why_refused(folder.path / "empty.nii").find("empty") != std::string::npos);
+  const std::string png = std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16) + std::string(600, 'x');
+  const std::string text = "Dear radiologist,\n\nplease find enclosed the scan.\n" + std::string(600, '.');
+  const std::string dicom = std::string(128, '\0') + "DICM" + std::string(600, '\0');
+  for (const char* name : {"a.nii", "a.nii.gz", "a.nrrd", "a.nhdr", "a.mha", "a.mhd"})
+    check_refused(
+        {{name, png, "this is no "}, {name, text, "this is no "}, {name, dicom, "name the folder of its series"}});
+  check_refused({{"a.png", png, "does not end as a volume's does"}, {"noextension", text, "does not end as"}});
+}
+
+TEST_CASE("NIfTI files that cannot be a CT are refused with the reason") {
+  const std::string good = nifti({}, small_voxels());
+  check_refused({
+      {"a.nii", good.substr(0, 200), "the file ends within the header"},
+      {"a.nii", good.substr(0, 352), "it claims 48 bytes of voxels, the file holds 0"},
+      {"a.nii", good.substr(0, good.size() - 1), "the file holds 47"},
+      {"a.nii.gz", gzip(good.substr(0, 200)), "the file ends within the header"},
+      {"a.nii.gz", gzip(good.substr(0, good.size() - 1)), "the file holds 47"},
+      {"a.nii.gz", gzip(good).substr(0, 60), "header"},
+      {"a.nii", nifti_with([](auto& s) { s.dim = {3, 30000, 30000, 30000, 1, 1, 1, 1}; }), "above the limit of 4096"},
+      {"a.nii", nifti_with([](auto& s) { s.dim = {3, 4096, 4096, 4096, 1, 1, 1, 1}; }), "above the limit of 2^31"},
+      {"a.nii", nifti_with([](auto& s) { s.dim = {3, 1024, 1024, 1024, 1, 1, 1, 1}; }), "the file holds 48"},
+      {"a.nii.gz", gzip(nifti_with([](auto& s) { s.dim = {3, 1024, 1024, 1024, 1, 1, 1, 1}; })), "cannot hold"},
+      {"a.nii", nifti_with([](auto& s) { s.dim[1] = 0; }), "no volume"},
+      {"a.nii", nifti_with([](auto& s) { s.dim[2] = -3; }), "no volume"},
+      {"a.nii", nifti_with([](auto& s) { s.dim[3] = 1; }), "no volume"},
+      {"a.nii", nifti_with([](auto& s) { s.dim[0] = 0; }), "dimensions"},
+      {"a.nii", nifti_with([](auto& s) { s.dim[0] = 9; }), "dimensions"},
+      {"a.nii", nifti_with([](auto& s) { s.dim[0] = 2; }), "2 dimensions"},
+      {"a.nii", nifti_with([](auto& s) { s.dim = {4, 2, 3, 2, 2, 1, 1, 1}; }), "more than 3 dimensions"},
+      {"a.nii", nifti_with([](auto& s) { s.datatype = 128; }), "data type 128"},    // RGB
+      {"a.nii", nifti_with([](auto& s) { s.datatype = 32; }), "data type 32"},      // complex
+      {"a.nii", nifti_with([](auto& s) { s.datatype = 1; }), "data type 1"},        // bits
+      {"a.nii", nifti_with([](auto& s) { s.datatype = 1536; }), "data type 1536"},  // long double
+      {"a.nii", nifti_with([](auto& s) { s.pixdim[1] = 0; }), "spacing along axis 1"},
+      {"a.nii", nifti_with([](auto& s) { s.pixdim[2] = -2; }), "spacing along axis 2"},
+      {"a.nii", nifti_with([](auto& s) { s.pixdim[3] = kNan; }), "spacing along axis 3"},
+      {"a.nii", nifti_with([](auto& s) { s.sform[0] = kNan; }), "not finite"},
+      {"a.nii", nifti_with([](auto& s) { s.sform = {1, 0, 0, 10, 1, 0, 0, 20, 0, 0, 3, 30}; }), "header"},
+      {"a.nii", nifti_with([](auto& s) { s.sform = {0, 0, 0, 10, 0, 0, 0, 20, 0, 0, 0, 30}; }), "header"},
+      {"a.nii", nifti_with([](auto& s) { s.sform[1] = 1; }), "header"},  // sheared
+      {"a.nii", nifti_with([](auto& s) { s.vox_offset = kNan; }), "voxels begin"},
+      {"a.nii", nifti_with([](auto& s) { s.vox_offset = -4; }), "voxels begin"},
+      {"a.nii", nifti_with([](auto& s) { s.vox_offset = 1e6; }), "the file holds 0"},
+      {"a.nii", nifti_with([](auto& s) { s.magic = std::string("ni1\0", 4); }), "this is no NIfTI file"},
+      {"a.nii", nifti_with([](auto& s) { s.slope = 1e38f; }), ""},
+  });
+}
+
+TEST_CASE("NRRD files that cannot be a CT are refused with the reason") {
+  const std::string voxels = small_voxels();
+  const auto gzipped = with_line(nrrd_lines(), "encoding", "encoding: gzip");
+  check_refused({
+      {"a.nrrd", nrrd_with("sizes", "sizes: 100000 100000 100000"), "above the limit of 4096"},
+      {"a.nrrd", nrrd_with("sizes", "sizes: 2048 2048 1024"), "above the limit of 2^31"},
+      {"a.nrrd", nrrd_with("sizes", "sizes: 4 3 20"), "it claims 480 bytes of voxels, the file holds 48"},
+      {"a.nrrd", nrrd_with("sizes", "sizes: 4 3"), "three whole numbers"},
+      {"a.nrrd", nrrd_with("sizes", "sizes: 4 3 -2"), "three whole numbers"},
+      {"a.nrrd", nrrd_with("sizes", "sizes: 4 3 99999999999999999999"), "three whole numbers"},
+      {"a.nrrd", nrrd_with("sizes", ""), "three whole numbers"},
+      {"a.nrrd", nrrd_with("dimension", "dimension: 4"), "'4' dimensions"},
+      {"a.nrrd", nrrd_with("dimension", "dimension: 99"), "'99' dimensions"},
+      {"a.nrrd", nrrd_with("type", "type: block"), "the type is 'block'"},
+      {"a.nrrd", nrrd_with("type", ""), "the type is ''"},
+      {"a.nrrd", nrrd_with("encoding", "encoding: ascii"), "save it as raw or gzip"},
+      {"a.nrrd", nrrd_with("endian", ""), "cannot be read"},
+      {"a.nrrd", nrrd_with("byte skip", "byte skip: -1"), "byte skip"},
+      {"a.nrrd", nrrd_with("space directions", "space directions: (1,0,0) (0,0,0) (0,0,3)"), ""},
+      {"a.nrrd", nrrd_with("space directions", "space directions: (1,0,0) (1,0,0) (0,0,3)"), ""},
+      {"a.nrrd", nrrd_with("space directions", "space directions: (1,0,0) (1,2,0) (0,0,3)"), "not orthogonal"},
+      {"a.nrrd", nrrd_with("space directions", "space directions: (nan,0,0) (0,2,0) (0,0,3)"), ""},
+      {"a.nrrd", nrrd_with("space directions", "space directions: (1e9,0,0) (0,2,0) (0,0,3)"), "spacing along axis 1"},
+      {"a.nrrd", nrrd_with("space origin", "space origin: (nan,0,0)"), ""},
+      {"a.nrrd", nrrd_with("space origin", "space origin: (1e9,0,0)"), "origin"},
+      {"a.nrrd", nrrd(gzipped, gzip(voxels).substr(0, 30)), "damaged or cut off"},
+      {"a.nrrd", nrrd(gzipped, gzip(voxels.substr(0, 40))), "the file holds 40"},
+      {"a.nrrd", nrrd(gzipped, voxels), "damaged or cut off"},
+      {"a.nrrd", nrrd(with_line(gzipped, "sizes", "sizes: 1024 1024 1024"), gzip(voxels)), "cannot hold"},
+      {"a.nhdr", nrrd_with("data file", "data file: none.raw"), "there is no data file"},
+      {"a.nhdr", nrrd_with("data file", "data file: /dev/zero"), "there is no data file"},
+      {"a.nhdr", nrrd_with("data file", "data file: LIST"), "several files"},
+      {"a.nhdr", nrrd_with("data file", "data file: slice%03d.raw 1 2 1"), "several files"},
+      {"a.nrrd", "NRRD0004\n" + std::string(3 << 20, 'x'), "the header does not end"},
+  });
+  std::vector<float> values(24, 1);
+  for (const float bad : {kNan, std::numeric_limits<float>::infinity()}) {
+    values[23] = bad;
+    check_refused({{"a.nrrd", nrrd(with_line(nrrd_lines(), "type", "type: float"), bytes_of_values(values)),
+                    "voxel (3, 2, 1): the value is not a finite number"}});
+  }
+}
+
+TEST_CASE("MetaImage files that cannot be a CT are refused with the reason") {
+  const std::string voxels = small_voxels();
+  const auto packed = with_line(meta_lines(), "CompressedData", "CompressedData = True");
+  check_refused({
+      {"a.mha", meta_with("DimSize", "DimSize = 100000 100000 100000"), "above the limit of 4096"},
+      {"a.mha", meta_with("DimSize", "DimSize = 4 3 20"), "it claims 480 bytes of voxels, the file holds 48"},
+      {"a.mha", meta_with("DimSize", "DimSize = 4 3"), "three whole numbers"},
+      {"a.mha", meta_with("DimSize", "DimSize = 4 3 -2"), "three whole numbers"},
+      {"a.mha", meta_with("NDims", "NDims = 100"), "'100' dimensions"},
+      {"a.mha", meta_with("NDims", "NDims = -1"), "'-1' dimensions"},
+      {"a.mha", meta_with("NDims", ""), "this is no MetaImage file"},
+      {"a.mha", meta_with("ElementType", "ElementType = MET_STRING"), "the ElementType is 'MET_STRING'"},
+      {"a.mha", meta_with("ElementNumberOfChannels", "ElementNumberOfChannels = 3"), "3 components"},
+      {"a.mha", meta_with("BinaryData ", "BinaryData = False"), "written as text"},
+      {"a.mha", meta_with("HeaderSize", "HeaderSize = -1"), "HeaderSize"},
+      {"a.mha", meta_with("ElementSpacing", "ElementSpacing = 0 2 3"), ""},
+      {"a.mha", meta_with("ElementSpacing", "ElementSpacing = -1 2 3"), ""},
+      {"a.mha", meta_with("ElementSpacing", "ElementSpacing = 1 nan 3"), ""},
+      {"a.mha", meta_with("TransformMatrix", "TransformMatrix = 1 0 0 1 0 0 0 0 1"), "singular"},
+      {"a.mha", meta_with("TransformMatrix", "TransformMatrix = 1 0 0 0 0 0 0 0 1"), "singular"},
+      {"a.mha", meta_with("TransformMatrix", "TransformMatrix = 1 0 0 1 1 0 0 0 1"), "not orthogonal"},
+      {"a.mha", meta_with("TransformMatrix", "TransformMatrix = nan 0 0 0 1 0 0 0 1"), "header"},
+      {"a.mha", meta_with("Offset", "Offset = 1e30 0 0"), "origin"},
+      {"a.mha", meta_image(packed, voxels), "damaged or cut off"},
+      {"a.mha", meta_image(with_line(packed, "DimSize", "DimSize = 1024 1024 1024"), voxels), "cannot hold"},
+      {"a.mhd", meta_image(meta_lines(), "", "none.raw"), "there is no data file"},
+      {"a.mhd", meta_image(meta_lines(), "", "LIST"), "several files"},
+      {"a.mhd", meta_image(meta_lines(), "", "slice%03d.raw 1 2 1"), "several files"},
+  });
+}
+
+TEST_CASE("a volume file cut anywhere or with bytes changed is read or refused") {
+  const std::string voxels = small_voxels();
+  const auto gzipped = with_line(nrrd_lines(), "encoding", "encoding: gzip");
+  const struct {
+    std::string name, bytes;
+  } files[] = {
+      {"a.nii", nifti({}, voxels)},
+      {"a.nii.gz", gzip(nifti({}, voxels))},
+      {"a.nrrd", nrrd(nrrd_lines(), voxels)},
+      {"b.nrrd", nrrd(gzipped, gzip(voxels))},
+      {"a.mha", meta_image(meta_lines(), voxels)},
+      {"b.mha", meta_image(with_line(meta_lines(), "CompressedData", "CompressedData = True"), zlib(voxels))},
+  };
+  const TemporaryFolder folder;
+  std::uint32_t state = 1;
+  const auto random = [&](std::size_t below) {
+    return std::size_t((state = state * 1664525u + 1013904223u) >> 8) % below;
+  };
+  for (const auto& file : files) {
+    INFO(file.name);
+    const fs::path path = folder.path / file.name;
+    folder.put(file.name, file.bytes);
+    CHECK(why_refused(path).empty());
+    for (std::size_t part = 1; part < 16; ++part) {
+      folder.put(file.name, file.bytes.substr(0, std::max<std::size_t>(1, file.bytes.size() * part / 16)));
+      INFO("the first " << part << "/16");
+      CHECK_FALSE(why_refused(path).empty());
+    }
+    int refused = 0;
+    for (int round = 0; round < 1000; ++round) {
+      std::string bytes = file.bytes;
+      for (std::size_t flips = 1 + random(3); flips > 0; --flips) bytes[random(bytes.size())] = char(random(256));
+      folder.put(file.name, bytes);
+      refused += !why_refused(path).empty();
+    }
+    CHECK(refused > 0);
+    CHECK(refused < 1000);
+  }
+}

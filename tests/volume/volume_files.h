@@ -1,0 +1,54 @@
+#pragma once
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <vector>
+
+namespace insonate {
+
+/// Volume files made byte by byte from their formats' definitions, so that the reader is not held against itself.
+
+template <typename T>
+std::string bytes_of_values(const std::vector<T>& values) {
+  std::string bytes(values.size() * sizeof(T), '\0');
+  std::memcpy(bytes.data(), values.data(), bytes.size());
+  return bytes;
+}
+
+std::string gzip(const std::string& bytes);
+std::string zlib(const std::string& bytes);
+
+struct NiftiSpec {
+  std::array<std::int16_t, 8> dim{3, 4, 3, 2, 1, 1, 1, 1};
+  std::int16_t datatype = 4;  ///< int16
+  std::int16_t bits = 16;
+  std::array<float, 8> pixdim{1, 1, 2, 3, 1, 1, 1, 1};
+  float vox_offset = 352;
+  float slope = 1, inter = 0;
+  std::int16_t sform_code = 1;
+  std::array<float, 12> sform{1, 0, 0, 10, 0, 2, 0, 20, 0, 0, 3, 30};  ///< RAS, row by row
+  std::string magic = std::string("n+1\0", 4);
+};
+
+std::string nifti(const NiftiSpec& spec, const std::string& voxels);
+
+/// NRRD with the given header lines between the magic and the empty line.
+std::string nrrd(const std::vector<std::string>& lines, const std::string& data);
+
+/// MetaImage with the given lines before ElementDataFile.
+std::string meta_image(const std::vector<std::string>& lines, const std::string& data,
+                       const std::string& data_file = "LOCAL");
+
+/// `lines` with the one that begins with `key` replaced, removed when `by` is empty, or added when there is none.
+std::vector<std::string> with_line(std::vector<std::string> lines, const std::string& key, const std::string& by);
+
+/// Lines for a volume of 4 x 3 x 2 voxels, 1 x 2 x 3 mm, int16, origin (10, 20, 30), axes as LPS.
+std::vector<std::string> nrrd_lines();
+std::vector<std::string> meta_lines();
+
+}  // namespace insonate
