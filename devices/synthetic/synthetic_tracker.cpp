@@ -1,5 +1,6 @@
 #include "devices/synthetic/synthetic_tracker.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -7,6 +8,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <stdexcept>
 
 #include "sim/core/hash.h"
 #include "sim/core/input_error.h"
@@ -54,6 +56,8 @@ double between(double least, double most, double t) {
 
 SyntheticTracker::SyntheticTracker(std::uint32_t seed, double rate_hz, const TrackerContext& body)
     : Tracker("synthetic hand " + std::to_string(seed)), seed_(seed), rate_hz_(rate_hz), body_(body) {
+  if (!glm::all(glm::greaterThan(body.body_max, body.body_min)))
+    throw std::invalid_argument("the body's bounding box is empty");
   move_.to = {.around = 0, .along = 0.5};
   move_.from = move_.to;
 }

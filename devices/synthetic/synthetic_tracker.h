@@ -17,6 +17,7 @@ namespace insonate {
 /// taken to be the ellipse that fits the body's bounding box.
 class SyntheticTracker : public Tracker {
 public:
+  /// Throws std::invalid_argument when the body's box is empty.
   SyntheticTracker(std::uint32_t seed, double rate_hz, const TrackerContext& body);
 
   double clock_s(double now_s) const override { return start_s_ ? now_s - *start_s_ : 0.0; }

@@ -181,8 +181,10 @@ TEST_CASE("a chain is as good as its worse link") {
   lost.replace(lost.find("Seq_Frame0001_TrackerToPatientTransformStatus = OK"),
                std::string("Seq_Frame0001_TrackerToPatientTransformStatus = OK").size(),
                "Seq_Frame0001_TrackerToPatientTransformStatus = OUT_OF_VIEW");
+  const std::string probe_status = "Seq_Frame0000_ProbeToTrackerTransformStatus = ";
+  lost.replace(lost.find(probe_status + "OK"), probe_status.size() + 2, probe_status + "MISSING");
   const auto samples = probe_samples(parse_sequence(lost, "log"));
-  CHECK(samples[0].status == PoseStatus::ok);
+  CHECK(samples[0].status == PoseStatus::missing);
   CHECK(samples[1].status == PoseStatus::out_of_view);
   CHECK(samples[2].status == PoseStatus::ok);
   CHECK(samples[2].patient_from_probe.translation == glm::dvec3(2, 7, 0));

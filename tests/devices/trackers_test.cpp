@@ -14,6 +14,7 @@
 #include "devices/sequence/probe_samples.h"
 #include "devices/synthetic/synthetic_tracker.h"
 #include "sim/core/files.h"
+#include "sim/core/hash.h"
 #include "sim/core/input_error.h"
 
 using namespace insonate;
@@ -79,6 +80,21 @@ TEST_CASE("a tracker that cannot be opened is refused with what to write instead
   }
 }
 
+TEST_CASE("whatever is typed as a tracker is opened or refused in a sentence") {
+  const std::string letters = "replaysynthticmou:?&=.0123456789-+/ \t%";
+  int refused = 0;
+  for (std::uint32_t trial = 0; trial < 5000; ++trial) {
+    std::string uri = std::string(trial % 2 ? "synthetic:" : "") + (trial % 4 == 3 ? "1?rate=" : "");
+    for (std::uint32_t i = 0; i < hash(trial, 0) % 12; ++i) uri += letters[hash(trial, i + 1) % letters.size()];
+    try {
+      open_tracker(uri);
+    } catch (const InputError&) {
+      ++refused;
+    }
+  }
+  CHECK(refused > 4000);
+}
+
 TEST_CASE("every kind of tracker opens by the registry, and its form begins with its name") {
   for (const TrackerKind& kind : tracker_kinds()) CHECK(kind.form.starts_with(std::string(kind.scheme) + ":"));
   const auto replay = open_tracker("replay:" + kLog + "?speed=2&loop=0&transform=ReferenceToTracker");
@@ -136,8 +152,12 @@ TEST_CASE("a synthetic hand is the same for its seed, however it is polled, and 
   }
 }
 
-TEST_CASE(
-    "a synthetic hand stays on the front of the body, looks into it, moves as a hand does and drops out at times") {
+TEST_CASE("a hand needs a body with a size") {
+  CHECK_THROWS_AS(SyntheticTracker(1, 60, {{0, 0, 0}, {100, 0, 100}, {}}), std::invalid_argument);
+  CHECK_THROWS_AS(SyntheticTracker(1, 60, {{0, 0, 0}, {100, std::nan(""), 100}, {}}), std::invalid_argument);
+}
+
+TEST_CASE("a synthetic hand stays on the body's front, looks into it, moves as a hand does and drops out at times") {
   const TrackerContext body{{-150, -260, 900}, {170, -20, 1300}, {}};
   const glm::dvec3 centre = (body.body_min + body.body_max) / 2.0;
   int dropouts = 0;
@@ -205,6 +225,18 @@ TEST_CASE("the mouse gives 60 samples a second, and what is pushed moves the pro
   mouse.place(start);
   mouse.poll(7.3, samples);
   CHECK(glm::distance(samples.back().patient_from_probe.translation, start.translation) < 1e-12);
+}
+
+TEST_CASE("a time that runs backwards, or is none, brings nothing and moves nothing") {
+  MouseTracker mouse({});
+  std::vector<PoseSample> samples;
+  mouse.poll(10, samples);
+  mouse.move({6, 0, 0}, {});
+  for (const double now_s : {9.0, -1e300, std::nan(""), 10.0}) mouse.poll(now_s, samples);
+  CHECK(samples.size() == 1);
+  mouse.poll(10.0501, samples);
+  CHECK(samples.size() == 4);
+  CHECK(samples.back().patient_from_probe.translation.x == Approx(6));
 }
 
 TEST_CASE("a steady rate moves the mouse's probe as far whatever the polls, and never out of shape") {
