@@ -12,10 +12,19 @@ constexpr double kAirBelowHu = -500;  // half way between air and fat: gel fills
 
 }  // namespace
 
-Transmission::Transmission(const Volume<std::int16_t>& ct, const TissueTable& tissues, const ScanLines& lines,
+VoxelLine voxel_line(const Grid& grid, const ScanLines& set, std::size_t line, const Pose& patient_from_probe) {
+  const ScanLine& way = set.lines[line];
+  const auto index = [&](double r) {
+    return grid.index_from_patient(patient_from_probe.point(way.start + way.direction * r));
+  };
+  const glm::dvec3 start = index(set.r_min_mm);
+  return {start, (index(set.r_max_mm) - start) / double(set.samples)};
+}
+
+Transmission::Transmission(const Volume<std::int16_t>& ct, const TissueTable& tissues, double sample_distance_mm,
                            double frequency_mhz)
-    : ct_(&ct), lines_(lines) {
-  const double half_step_cm_mhz = lines.dr_mm() / 20 * frequency_mhz;
+    : ct_(&ct), dr_mm_(sample_distance_mm) {
+  const double half_step_cm_mhz = dr_mm_ / 20 * frequency_mhz;
   medium_of_hu_.reserve(kMostHu - kLeastHu + 1);
   for (int hu = kLeastHu; hu <= kMostHu; ++hu) {
     const TissueKnot knot = tissues.at(hu);
@@ -30,24 +39,15 @@ const Transmission::Medium& Transmission::medium(const glm::dvec3& index, double
   return medium_of_hu_[std::size_t(nearest)];
 }
 
-void Transmission::along(std::size_t line, const Pose& patient_from_probe, std::vector<double>& intensity) const {
-  const ScanLine& way = lines_.lines[line];
-  // The map from the patient to voxels is affine, so a line in the patient is a line through the voxels.
-  const Grid& grid = ct_->grid;
-  const glm::dvec3 first =
-      grid.index_from_patient(patient_from_probe.point(way.start + way.direction * lines_.r_min_mm));
-  const glm::dvec3 last =
-      grid.index_from_patient(patient_from_probe.point(way.start + way.direction * lines_.r_max_mm));
-  const glm::dvec3 step = (last - first) / double(lines_.samples);
-
+void Transmission::along(const VoxelLine& line, std::vector<double>& intensity) const {
   double arriving = 1;
-  Medium before = medium(first, 0);
-  for (int k = 0; k < lines_.samples; ++k) {
-    const Medium after = medium(first + step * double(k + 1), (k + 1) * lines_.dr_mm());
+  Medium before = medium(line.start, 0);
+  for (std::size_t k = 0; k < intensity.size(); ++k) {
+    const Medium after = medium(line.at(double(k + 1)), double(k + 1) * dr_mm_);
     const double contrast =
         (after.impedance_mrayl - before.impedance_mrayl) / (after.impedance_mrayl + before.impedance_mrayl);
     const double leaving = arriving * (1 - contrast * contrast) * before.half_step * after.half_step;
-    intensity[std::size_t(k)] = (arriving + leaving) / 2;
+    intensity[k] = (arriving + leaving) / 2;
     arriving = leaving;
     before = after;
   }

@@ -9,6 +9,16 @@
 
 namespace insonate {
 
+/// A scan line through the voxels of a grid: the map from the patient is affine, so that sample positions are too.
+struct VoxelLine {
+  glm::dvec3 start{0.0};     ///< continuous index where the line's first sample begins
+  glm::dvec3 per_step{0.0};  ///< from sample to sample; sample k begins at start + k per_step
+
+  glm::dvec3 at(double step) const { return start + step * per_step; }
+};
+
+VoxelLine voxel_line(const Grid& grid, const ScanLines& set, std::size_t line, const Pose& patient_from_probe);
+
 /// How much sound arrives along scan lines: model S's transmission (Kutter, Shams, Navab 2009, equations 1 and 5) with
 /// the reflection length equal to the sample distance, on the CPU in double precision.
 class Transmission {
@@ -16,12 +26,12 @@ public:
   /// Air nearer to the face than this is filled with coupling gel, as in the trainer's picture.
   static constexpr double kGel_mm = 6;
 
-  Transmission(const Volume<std::int16_t>& ct, const TissueTable& tissues, const ScanLines& lines,
+  Transmission(const Volume<std::int16_t>& ct, const TissueTable& tissues, double sample_distance_mm,
                double frequency_mhz);
 
-  /// One-way intensity relative to the emitted at the middle of each sample of one line, into `intensity`, which
-  /// holds as many as the line has samples.
-  void along(std::size_t line, const Pose& patient_from_probe, std::vector<double>& intensity) const;
+  /// One-way intensity relative to the emitted at the middle of each sample of a line through the CT, into
+  /// `intensity`, which holds as many as the line has samples.
+  void along(const VoxelLine& line, std::vector<double>& intensity) const;
 
 private:
   struct Medium {
@@ -31,7 +41,7 @@ private:
   const Medium& medium(const glm::dvec3& index, double distance_mm) const;
 
   const Volume<std::int16_t>* ct_;
-  ScanLines lines_;
+  double dr_mm_;
   std::vector<Medium> medium_of_hu_;  ///< from kLeastHu up, one a Hounsfield unit
 };
 

@@ -81,7 +81,7 @@ ViewMeter::ViewMeter(const Case& subject, const ReferenceView& view, const Tissu
       view_(&view),
       probe_(probe_of(subject, view)),
       lines_(scan_lines(probe_, view.depth_mm, int(std::ceil(view.depth_mm / kSampleDistance_mm)))),
-      transmission_(subject.ct, tissues, lines_, probe_.frequency_mhz),
+      transmission_(subject.ct, tissues, lines_.dr_mm(), probe_.frequency_mhz),
       cell_mm2_(cell_areas(lines_)) {
   const auto refuse = [&](const std::string& problem, const std::string& remedy) {
     throw InputError(subject.name, "view '" + view.name + "'", problem, remedy);
@@ -120,23 +120,23 @@ glm::dvec3 ViewMeter::find_target_point(const TargetArea& reference) const {
 ViewMeter::TargetArea ViewMeter::target_area(const Pose& patient_from_probe, double least_transmission) const {
   TargetArea area;
   if (is_target_.none() || case_->labels.empty()) return area;
-  const Grid& grid = case_->labels.grid;
   const int count = int(lines_.lines.size());
   std::vector<double> intensity(std::size_t(lines_.samples));
   for (int i = 0; i < count; ++i) {
+    // Labels lie on the CT's grid, so one way through the voxels serves both.
+    const VoxelLine way = voxel_line(case_->ct.grid, lines_, std::size_t(i), patient_from_probe);
+    transmission_.along(way, intensity);
     const ScanLine& line = lines_.lines[std::size_t(i)];
-    transmission_.along(std::size_t(i), patient_from_probe, intensity);
     const double across = (2 * i + 1 - count) / double(count);
     for (int k = 0; k < lines_.samples; ++k) {
-      const glm::dvec3 p = line.start + line.direction * (lines_.r_min_mm + (k + 0.5) * lines_.dr_mm());
-      const std::uint8_t label = sample_nearest(case_->labels, grid.index_from_patient(patient_from_probe.point(p)));
-      if (!is_target_[label]) continue;
+      if (!is_target_[sample_nearest(case_->labels, way.at(k + 0.5))]) continue;
+      const double r_mm = lines_.r_min_mm + (k + 0.5) * lines_.dr_mm();
       const double cell = cell_mm2_[std::size_t(i) * std::size_t(lines_.samples) + std::size_t(k)];
       area.seen_mm2 += cell;
       area.transmission_mm2 += cell * intensity[std::size_t(k)];
       if (intensity[std::size_t(k)] >= least_transmission) area.insonated_mm2 += cell;
       area.off_centre_mm2 += cell * across;
-      area.moment_mm3 += cell * glm::dvec2(p);
+      area.moment_mm3 += cell * glm::dvec2(line.start + line.direction * r_mm);
     }
   }
   return area;

@@ -1,3 +1,5 @@
+#include <unistd.h>
+
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -18,7 +20,8 @@ namespace {
 using namespace insonate;
 
 void show_progress(double share) {
-  std::fprintf(stderr, "\rmaking the phantom: %3.0f %%%s", 100 * share, share >= 1 ? "\n" : "");
+  if (isatty(STDERR_FILENO))
+    std::fprintf(stderr, "\rmaking the phantom: %3.0f %%%s", 100 * share, share >= 1 ? "\n" : "");
 }
 
 Case case_for(const Scenario& scenario, const std::filesystem::path& folder) {
