@@ -26,25 +26,25 @@ struct Settings {
 
   // Beam width (4)
   BeamWindow beam_window = BeamWindow::hann;
-  int beam_lines = 5;  ///< n_a: lines under the window, odd, 1 (none) to 255
+  int beam_lines = 7;  ///< n_a: lines under the window, odd, 1 (none) to 255
 
   // Speckle
   bool speckle = true;
   std::uint32_t speckle_seed = 1;
-  double speckle_cell_mm = 0.45;  ///< pitch of the scatterer lattice, 0.05 to 10
+  double speckle_cell_mm = 0.65;  ///< pitch of the scatterer lattice, 0.05 to 10
 
   // Fusion (6)
-  double reflection_sigma_mm = 0.35;  ///< s1: smoothing of the reflections in the image, 0 (none) to 1000
+  double reflection_sigma_mm = 0.45;  ///< s1: smoothing of the reflections in the image, 0 (none) to 1000
   double transmission_sigma_mm = 0;   ///< s2: the same of the transmission
-  double blend = 2e-4;                ///< b: scattered against reflected echo
+  double blend = 4e-5;                ///< b: scattered against reflected echo
   bool two_way = true;                ///< T = (I/I0)^2: the scattered echo goes back the way it came; off in the paper
 
   // Display (7)
   double gain_db = 0;              ///< -60 to 60
   std::array<double, 8> tgc_db{};  ///< time gain compensation at 8 depths from face to full depth, linear between
-  double dynamic_range_db = 60;    ///< beta, 1 to 200
+  double dynamic_range_db = 55;    ///< beta, 1 to 200
   ReferenceLevel reference_level = ReferenceLevel::fixed;
-  double fixed_level = 1e-3;  ///< the U that is white before gain
+  double fixed_level = 0.014;  ///< the U that is white before gain
 
   int image_width = 640;  ///< 1 to 8192
   int image_height = 480;
