@@ -16,7 +16,7 @@ constexpr double kFar_mm = 2000;
 constexpr double kMostVoxelsASide = 2048;
 
 Grid read_grid(const Recipe& recipe, RecipeTable& root) {
-  const toml::node* node = root.has("grid") ? root.table().get("grid") : nullptr;
+  const toml::node* node = root.node("grid");
   if (node == nullptr || !node->is_table()) root.refuse("grid", "there is no [grid]", "add it");
   RecipeTable table(recipe, *node->as_table(), "[grid]");
   const glm::dvec3 from = table.vector("from", -kFar_mm, kFar_mm);
@@ -42,7 +42,7 @@ std::vector<PaintedLabel> read_labels_key(const Recipe& recipe, RecipeTable& roo
   for (const toml::table* entry : root.tables("labels")) {
     RecipeTable table(recipe, *entry, "label " + std::to_string(labels.size() + 1));
     PaintedLabel made;
-    made.label.name = table.text("name");
+    made.label.name = table.name();
     made.label.tissue = table.text("tissue");
     made.hu = float(table.number("hu", -1024, 30000));
     made.texture_hu = float(table.number_or("texture_hu", 0, 0, 1000));
@@ -60,9 +60,9 @@ std::vector<PaintedLabel> read_labels_key(const Recipe& recipe, RecipeTable& roo
 
 std::map<std::string, Frame> read_frames(const Recipe& recipe, RecipeTable& root) {
   std::map<std::string, Frame> frames;
-  for (const toml::table* entry : root.tables("frame")) {
+  for (const toml::table* entry : root.tables("frames")) {
     RecipeTable table(recipe, *entry, "frame " + std::to_string(frames.size() + 1));
-    const std::string name = table.text("name");
+    const std::string name = table.name();
     Frame frame;
     frame.origin = table.vector("at", -kFar_mm, kFar_mm);
     const glm::dvec3 turn = glm::radians(table.vector_or("turn_deg", glm::dvec3(0.0), -360, 360));
@@ -83,7 +83,7 @@ std::vector<PaintedShape> read_shapes(const Recipe& recipe, RecipeTable& root, S
   std::map<std::string, std::size_t> label_index;
   for (std::size_t n = 0; n < labels.size(); ++n) label_index[labels[n].label.name] = n;
   std::vector<PaintedShape> shapes;
-  for (const toml::table* entry : root.tables("shape")) {
+  for (const toml::table* entry : root.tables("shapes")) {
     const std::optional<std::string> name = (*entry)["name"].value<std::string>();
     RecipeTable table(recipe, *entry, name ? "shape '" + *name + "'" : std::string("a shape"));
     const ShapePtr shape = reader.read(table);
@@ -91,12 +91,12 @@ std::vector<PaintedShape> read_shapes(const Recipe& recipe, RecipeTable& root, S
       const std::string label = table.text("label");
       const auto found = label_index.find(label);
       if (found == label_index.end())
-        table.refuse("label", "there is no label '" + label + "'", suggestion(label, names_of(label_index)));
+        table.refuse("label", "there is no label '" + label + "'", suggest_from(label, label_index));
       shapes.push_back({shape, found->second});
     }
     table.finish();
   }
-  if (shapes.empty()) root.refuse("shape", "no shape has a label, so nothing would be drawn", "add a [[shape]]");
+  if (shapes.empty()) root.refuse("shapes", "no shape has a label, so nothing would be drawn", "add a shape");
   return shapes;
 }
 
@@ -104,10 +104,10 @@ std::map<std::string, glm::dvec3> read_landmarks(const Recipe& recipe, RecipeTab
                                                  const std::map<std::string, Frame>& frames,
                                                  std::vector<Landmark>& landmarks) {
   std::map<std::string, glm::dvec3> positions;
-  for (const toml::table* entry : root.tables("landmark")) {
+  for (const toml::table* entry : root.tables("landmarks")) {
     RecipeTable table(recipe, *entry, "landmark " + std::to_string(landmarks.size() + 1));
     Landmark landmark;
-    landmark.name = table.text("name");
+    landmark.name = table.name();
     const glm::dvec3 at = table.vector("at", -kFar_mm, kFar_mm);
     landmark.position = table.has("frame") ? glm::dvec3(frame_of(table, frames).patient_from_part(at)) : at;
     table.finish();
@@ -123,13 +123,13 @@ public:
   ViewReader(const Recipe& recipe, const std::map<std::string, glm::dvec3>& landmarks,
              const std::vector<PaintedLabel>& labels)
       : recipe_(recipe), landmarks_(landmarks) {
-    for (const PaintedLabel& label : labels) labels_.insert(label.label.name);
+    for (std::size_t n = 0; n < labels.size(); ++n) labels_[labels[n].label.name] = n;
   }
 
   std::vector<PlannedView> read(RecipeTable& root) {
     std::vector<PlannedView> views;
     std::set<std::string> names;
-    for (const toml::table* entry : root.tables("view")) {
+    for (const toml::table* entry : root.tables("views")) {
       views.push_back(view(*entry));
       const ReferenceView& made = views.back().view;
       if (!names.insert(made.name).second)
@@ -143,11 +143,11 @@ private:
     const std::optional<std::string> name = entry["name"].value<std::string>();
     RecipeTable table(recipe_, entry, name ? "view '" + *name + "'" : std::string("a view"));
     PlannedView made;
-    made.view.name = table.text("name");
+    made.view.name = table.name();
     made.view.title = table.text("title");
     made.view.probe = table.text("probe");
     made.view.depth_mm = table.number_or("depth_mm", 160, 20, 300);
-    made.view.landmarks = names(table, "landmarks", names_of(landmarks_), "landmark");
+    made.view.landmarks = names(table, "landmarks", landmarks_, "landmark");
     made.view.targets = names(table, "targets", labels_, "label");
     made.aim = point(table, "aim");
     const glm::dvec3 way = made.aim - point(table, "from");
@@ -163,43 +163,47 @@ private:
     return made;
   }
 
-  std::vector<std::string> names(RecipeTable& table, const std::string& key, const std::set<std::string>& known,
-                                 const std::string& noun) {
-    std::vector<std::string> found = table.texts_or_none(key);
+  template <typename Value>
+  static std::vector<std::string> names(RecipeTable& table, const std::string& key,
+                                        const std::map<std::string, Value>& known, const std::string& noun) {
+    std::vector<std::string> found = table.texts(key);
     for (const std::string& name : found)
-      if (known.count(name) == 0) table.refuse(key, "there is no " + noun + " '" + name + "'", suggestion(name, known));
+      if (known.count(name) == 0)
+        table.refuse(key, "there is no " + noun + " '" + name + "'", suggest_from(name, known));
     return found;
   }
 
   const glm::dvec3& landmark(RecipeTable& table, const std::string& key, const std::string& name) {
     const auto found = landmarks_.find(name);
     if (found == landmarks_.end())
-      table.refuse(key, "there is no landmark '" + name + "'", suggestion(name, names_of(landmarks_)));
+      table.refuse(key, "there is no landmark '" + name + "'", suggest_from(name, landmarks_));
     return found->second;
   }
 
   glm::dvec3 point(RecipeTable& table, const std::string& key) {
-    if (table.has(key) && table.table().get(key)->is_string()) return landmark(table, key, table.text(key));
+    if (const toml::node* node = table.node(key); node != nullptr && node->is_string())
+      return landmark(table, key, table.text(key));
     return table.vector(key, -kFar_mm, kFar_mm);
   }
 
   // Three numbers, or the names of two landmarks: from the first towards the second.
   glm::dvec3 marker(RecipeTable& table) {
-    const toml::array* array = table.has("marker") ? table.table().get("marker")->as_array() : nullptr;
-    if (array == nullptr || array->size() != 2) return table.vector("marker", -kFar_mm, kFar_mm);
-    const std::vector<std::string> ends = table.texts_or_none("marker");
+    const toml::node* node = table.node("marker");
+    if (node == nullptr || !node->is_array() || node->as_array()->size() != 2)
+      return table.vector("marker", -kFar_mm, kFar_mm);
+    const std::vector<std::string> ends = table.texts("marker");
     return landmark(table, "marker", ends[1]) - landmark(table, "marker", ends[0]);
   }
 
   const Recipe& recipe_;
   const std::map<std::string, glm::dvec3>& landmarks_;
-  std::set<std::string> labels_;
+  std::map<std::string, std::size_t> labels_;
 };
 
 }  // namespace
 
 PhantomPlan plan_phantom(const Recipe& recipe) {
-  RecipeTable root(recipe, recipe.root(), "the recipe");
+  RecipeTable root(recipe, recipe.root(), "");
   root.has("options");  // read with the recipe itself
   PhantomPlan plan;
   plan.name = root.text("name");

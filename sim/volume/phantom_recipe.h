@@ -3,13 +3,13 @@
 #include <glm/vec3.hpp>
 #include <toml++/toml.h>
 
-#include <cstdint>
 #include <map>
-#include <optional>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "sim/core/suggest.h"
+#include "sim/core/toml_table.h"
 
 namespace insonate {
 
@@ -25,70 +25,84 @@ public:
   const std::string& name() const { return name_; }
   const toml::table& root() const { return root_; }
 
-  /// The value of a text of arithmetic; `where` is blamed when it is none.
+  /// The value of a text of arithmetic; `where` is blamed when it has none.
   double evaluate(const std::string& expression, const toml::node& where) const;
 
   /// Throws an InputError that points at `where` in the text.
   [[noreturn]] void refuse(const toml::node& where, const std::string& problem, const std::string& remedy) const;
 
 private:
-  void declare_options(const toml::node& node);
-  void set_option(const std::string& option, const std::string& value);
-
   struct Option {
     double value = 0, least = 0, most = 1;
     bool is_flag = false;
   };
+  Option declared_option(const std::string& option, const toml::table& declared) const;
+  void set_option(const std::string& option, const std::string& value);
+
   std::string name_;
   toml::table root_;
   std::map<std::string, Option> options_;
 };
 
-/// One table of a recipe, read key by key. What was never asked for is unknown: finish() refuses it. Every reader
-/// throws InputError with line and column when the value is missing, of another type or out of range.
+/// One table of a recipe, read key by key: numbers may be arithmetic, and finish() refuses every key that was never
+/// asked for. Each reader throws InputError with line and column when the value is missing, of another type or out of
+/// range.
 class RecipeTable {
 public:
-  /// `what` names the table in messages: "shape 'liver'".
-  RecipeTable(const Recipe& recipe, const toml::table& table, std::string what);
+  /// `what` names the table in messages: "shape 'liver'"; empty for the recipe's top level.
+  RecipeTable(const Recipe& recipe, const toml::table& table, const std::string& what)
+      : recipe_(recipe), table_(table), plain_(recipe.name(), what, table) {}
 
-  bool has(const std::string& key);
-  std::string text(const std::string& key);
-  std::string text_or(const std::string& key, const std::string& otherwise);
-  bool flag_or(const std::string& key, bool otherwise);
+  bool has(const std::string& key) { return ask(key).has(key); }
+  std::string text(const std::string& key) { return ask(key).text(key); }
+  std::vector<std::string> texts(const std::string& key) { return ask(key).texts(key); }
+  bool flag_or(const std::string& key, bool otherwise) { return has(key) ? plain_.boolean(key) : otherwise; }
+
+  /// A text of lower-case letters, digits and underscores, for which a case's files have room.
+  std::string name();
+
   double number(const std::string& key, double least, double most);
   double number_or(const std::string& key, double otherwise, double least, double most);
   glm::dvec3 vector(const std::string& key, double least, double most);
   glm::dvec3 vector_or(const std::string& key, const glm::dvec3& otherwise, double least, double most);
-  std::vector<std::string> texts_or_none(const std::string& key);
 
-  /// Rows of numbers, each with at least `fewest` and at most `widest` of them, and at least `rows` rows.
-  std::vector<std::vector<double>> rows(const std::string& key, std::size_t rows, std::size_t fewest,
+  /// At least `count` rows of `fewest` to `widest` numbers.
+  std::vector<std::vector<double>> rows(const std::string& key, std::size_t count, std::size_t fewest,
                                         std::size_t widest, double least, double most);
 
   /// The array of tables under a key; empty when it is missing.
   std::vector<const toml::table*> tables(const std::string& key);
 
+  /// The value under a key as it stands; null when it is missing.
+  const toml::node* node(const std::string& key) { return has(key) ? table_.get(key) : nullptr; }
+
   /// Points at the key's value, or at the table when there is none.
-  [[noreturn]] void refuse(const std::string& key, const std::string& problem, const std::string& remedy) const;
+  [[noreturn]] void refuse(const std::string& key, const std::string& problem, const std::string& remedy) const {
+    plain_.fail(key, problem, remedy);
+  }
 
-  void finish() const;
-
-  const toml::table& table() const { return table_; }
-  const Recipe& recipe() const { return recipe_; }
-  const std::string& what() const { return what_; }
+  void finish() const { plain_.allow_only(asked_); }
 
 private:
-  const toml::node* ask(const std::string& key);
-  const toml::node& need(const std::string& key, const std::string& type);
+  const TomlTable& ask(const std::string& key) {
+    asked_.push_back(key);
+    return plain_;
+  }
+  const toml::array& array(const std::string& key, const std::string& wanted);
   double number_at(const toml::node& node, const std::string& key, double least, double most) const;
 
   const Recipe& recipe_;
   const toml::table& table_;
-  std::string what_;
-  std::set<std::string> asked_;
+  TomlTable plain_;
+  std::vector<std::string> asked_;
 };
 
-/// "did you mean 'radius'?" for the candidate closest to a misspelt name, else the whole list.
-std::string suggestion(const std::string& misspelt, const std::set<std::string>& candidates);
+/// The remedy for a name that a map does not have.
+template <typename Value>
+std::string suggest_from(const std::string& unknown, const std::map<std::string, Value>& known) {
+  std::vector<std::string> names;
+  for (const auto& entry : known) names.push_back(entry.first);
+  return names.empty() ? "define it first" : suggest(unknown, names);
+}
 
 }  // namespace insonate

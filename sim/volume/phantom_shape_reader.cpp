@@ -18,15 +18,14 @@ Frame frame_of(RecipeTable& table, const std::map<std::string, Frame>& frames) {
   if (!table.has("frame")) return {};
   const std::string name = table.text("frame");
   const auto found = frames.find(name);
-  if (found == frames.end())
-    table.refuse("frame", "there is no frame '" + name + "'", suggestion(name, names_of(frames)));
+  if (found == frames.end()) table.refuse("frame", "there is no frame '" + name + "'", suggest_from(name, frames));
   return found->second;
 }
 
 ShapePtr ShapeReader::known(RecipeTable& table, const std::string& key, const std::string& name) {
   const auto found = shapes_.find(name);
   if (found == shapes_.end())
-    table.refuse(key, "there is no shape '" + name + "' above this one", suggestion(name, names_of(shapes_)));
+    table.refuse(key, "there is no shape '" + name + "' above this one", suggest_from(name, shapes_));
   return found->second;
 }
 
@@ -36,12 +35,12 @@ ShapePtr ShapeReader::part(RecipeTable& table, const std::string& key) {
 
 std::vector<ShapePtr> ShapeReader::parts(RecipeTable& table, const std::string& key) {
   std::vector<ShapePtr> shapes;
-  for (const std::string& name : table.texts_or_none(key)) shapes.push_back(known(table, key, name));
+  for (const std::string& name : table.texts(key)) shapes.push_back(known(table, key, name));
   return shapes;
 }
 
 ShapePtr ShapeReader::read(RecipeTable& table) {
-  const std::string name = table.text("name");
+  const std::string name = table.name();
   if (shapes_.count(name) != 0) table.refuse("name", "there is another shape '" + name + "' above", "rename one");
   const std::uint32_t seed = hash(seed_, ++read_so_far_);
 
@@ -69,7 +68,7 @@ ShapePtr ShapeReader::read(RecipeTable& table) {
     shape = make_difference(shape, cuts, float(table.number_or("gap_mm", 0, -20, 20)), blend);
   if (table.has("when")) {
     const std::string when = table.text("when");
-    if (!(recipe_.evaluate(when, *table.table().get("when")) > 0)) shape = make_empty();
+    if (!(recipe_.evaluate(when, *table.node("when")) > 0)) shape = make_empty();
   }
   return shapes_[name] = shape;
 }
@@ -111,8 +110,8 @@ ShapePtr ShapeReader::solid(RecipeTable& table, const std::string& name) {
     return make_placed(part(table, "of"), shift);
   }
   table.refuse("kind", "there is no kind '" + kind + "'",
-               suggestion(kind, {"ellipsoid", "box", "half_space", "tube", "rib", "loft", "union", "intersection",
-                                 "difference", "offset", "shell", "copy"}));
+               suggest(kind, {"ellipsoid", "box", "half_space", "tube", "rib", "loft", "union", "intersection",
+                              "difference", "offset", "shell", "copy"}));
 }
 
 TubeForm ShapeReader::tube_form(RecipeTable& table) {
@@ -142,7 +141,7 @@ ShapePtr ShapeReader::rib(RecipeTable& table) {
   const std::string on = table.text("on");
   const auto found = lofts_.find(on);
   if (found == lofts_.end())
-    table.refuse("on", "there is no loft '" + on + "' above this shape", suggestion(on, names_of(lofts_)));
+    table.refuse("on", "there is no loft '" + on + "' above this shape", suggest_from(on, lofts_));
   const LoftForm& wall = found->second;
   const auto radius = float(table.number("radius_mm", kThin_mm, 50));
   const auto inset = float(table.number_or("inset_mm", 0, -50, 200));

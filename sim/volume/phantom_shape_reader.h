@@ -1,7 +1,6 @@
 #pragma once
 
 #include <map>
-#include <set>
 #include <string>
 
 #include "sim/volume/phantom_recipe.h"
@@ -38,12 +37,5 @@ private:
 
 /// The frame a table's `frame` key names; the patient's own when it has none.
 Frame frame_of(RecipeTable& table, const std::map<std::string, Frame>& frames);
-
-template <typename Value>
-std::set<std::string> names_of(const std::map<std::string, Value>& map) {
-  std::set<std::string> names;
-  for (const auto& entry : map) names.insert(entry.first);
-  return names;
-}
 
 }  // namespace insonate
