@@ -106,15 +106,17 @@ void FullScreenTriangle::draw() const {
 }
 
 Timer::Timer() {
-  GLuint name = 0;
-  glCreateQueries(GL_TIME_ELAPSED, 1, &name);
-  object_ = Object<QueryKind>(name);
+  GLuint names[2] = {};
+  glCreateQueries(GL_TIMESTAMP, 2, names);
+  begin_ = Object<QueryKind>(names[0]);
+  end_ = Object<QueryKind>(names[1]);
 }
 
 double Timer::milliseconds() const {
-  GLuint64 nanoseconds = 0;
-  glGetQueryObjectui64v(object_.name(), GL_QUERY_RESULT, &nanoseconds);
-  return double(nanoseconds) * 1e-6;
+  GLuint64 begin = 0, end = 0;
+  glGetQueryObjectui64v(begin_.name(), GL_QUERY_RESULT, &begin);
+  glGetQueryObjectui64v(end_.name(), GL_QUERY_RESULT, &end);
+  return double(end - begin) * 1e-6;
 }
 
 }  // namespace insonate::gl

@@ -132,16 +132,22 @@ struct QueryKind {
 };
 
 /// Times what the device does between begin() and end().
+///
+/// By two time stamps with a flush behind the first: Mesa's software renderer draws tile by tile, and its elapsed-time
+/// query knows only the last tile.
 class Timer {
 public:
   Timer();
-  void begin() { glBeginQuery(GL_TIME_ELAPSED, object_.name()); }
-  void end() { glEndQuery(GL_TIME_ELAPSED); }
+  void begin() {
+    glQueryCounter(begin_.name(), GL_TIMESTAMP);
+    glFlush();
+  }
+  void end() { glQueryCounter(end_.name(), GL_TIMESTAMP); }
   /// Waits for the device. Milliseconds.
   double milliseconds() const;
 
 private:
-  Object<QueryKind> object_;
+  Object<QueryKind> begin_, end_;
 };
 
 }  // namespace insonate::gl

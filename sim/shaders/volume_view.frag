@@ -12,7 +12,7 @@ layout(binding = 4) uniform usampler3D block_distance;   // blocks to the neares
 
 layout(location = 0) out vec4 colour;
 
-const int kBlock = 4;  // TissueClasses::kBlock
+const int kBlock = 2;  // TissueClasses::kBlock
 const float kOpaque = 0.98;
 const float kNever = 1e9;
 const vec3 kSkinColour = vec3(0.86, 0.68, 0.58);
@@ -29,13 +29,14 @@ vec3 background(vec2 at) {
   return mix(vec3(0.085, 0.095, 0.115), vec3(0.045, 0.050, 0.062), smoothstep(0.2, 1.5, length(at)));
 }
 
-// A soft lamp at the viewer's upper left shoulder, and a little of the room.
-vec3 lit(vec3 base, vec3 normal, vec3 view, float gloss) {
+// A soft lamp at the viewer's upper left shoulder, and a little of the room: what a surface's colour is multiplied by,
+// and the highlight.
+vec2 lighting(vec3 normal, vec3 view) {
   vec3 lamp = normalize(-into.xyz - 0.45 * normalize(right.xyz) - 0.6 * normalize(down.xyz));
   float diffuse = max(dot(normal, lamp), 0.0);
   float from_above = 0.5 - 0.5 * dot(normal, normalize(down.xyz));
   float highlight = pow(max(dot(normal, normalize(lamp - view)), 0.0), 28.0);
-  return base * (0.22 + 0.12 * from_above + 0.72 * diffuse) + gloss * highlight;
+  return vec2(0.22 + 0.12 * from_above + 0.72 * diffuse, highlight);
 }
 
 // Central differences over one voxel, patient mm: x the opacity's, y the body's.
@@ -61,17 +62,14 @@ void composite_plane(vec3 patient, float t, float slant) {
   vec2 size = vec2(textureSize(ultrasound_image, 0));
   vec2 uv = (on_plane - image_geometry.xy) / (image_geometry.z * size);
   if (show_plane == 1 && all(greaterThan(uv, vec2(0.0))) && all(lessThan(uv, vec2(1.0)))) {
-    vec4 echo = textureLod(ultrasound_image, uv, 0.0);
-    // The edge is as wide as one and a half pixels of the screen, the slant of the plane allowed for.
-    vec2 width = vec2(1.5 * picture.z * t / max(slant, 0.25)) / (image_geometry.z * size);
-    float around = min(min(textureLod(ultrasound_image, uv + vec2(width.x, 0), 0.0).a,
-                           textureLod(ultrasound_image, uv - vec2(width.x, 0), 0.0).a),
-                       min(textureLod(ultrasound_image, uv + vec2(0, width.y), 0.0).a,
-                           textureLod(ultrasound_image, uv - vec2(0, width.y), 0.0).a));
-    if (echo.a > 0.5) {
-      composite(around < 0.5 ? kFanEdge : echo.rgb, 1.0);
-      return;
-    }
+    // The share of the fan around the point, over about a pixel of the screen, the slant of the plane allowed for.
+    vec2 reach = vec2(picture.z * t / max(slant, 0.25)) / (image_geometry.z * size);
+    float fan = 0.25 * (textureLod(ultrasound_image, uv + reach * vec2(0.9, 0.4), 0.0).a +
+                        textureLod(ultrasound_image, uv + reach * vec2(-0.4, 0.9), 0.0).a +
+                        textureLod(ultrasound_image, uv + reach * vec2(-0.9, -0.4), 0.0).a +
+                        textureLod(ultrasound_image, uv + reach * vec2(0.4, -0.9), 0.0).a);
+    vec3 echo = textureLod(ultrasound_image, uv, 0.0).rgb;
+    composite(mix(kFanEdge, echo, smoothstep(0.75, 1.0, fan)), smoothstep(0.0, 0.5, fan));
   }
   if (cut == 0) return;
   vec3 at = (tissue_from_patient * vec4(patient, 1.0)).xyz;
@@ -84,6 +82,62 @@ void composite_plane(vec3 patient, float t, float slant) {
   vec3 shade = vec3(0.9 * grey);
   if (show_organs == 1) shade = mix(shade, organ.rgb * (0.4 + 0.9 * grey), 0.55 * organ.a);
   composite(shade, inside * cut_face);
+}
+
+// A ray on its way through the patient.
+struct March {
+  vec3 box_origin, box_direction;  // in coordinates of the tissue's texture, per mm
+  float t;                         // mm from the eye
+  float before, t_before;          // share of body at the sample before, and where; -1 for none yet
+  float here;                      // the same at t
+  bool in_organ;
+  vec2 light;  // of the organ's surface where the ray entered it
+};
+
+const int kNothing = 0, kSkin = 1, kOrgan = 2;
+
+// Goes on until the ray meets the skin or an organ, or `stop`. Kept apart from the shading of what it meets because a
+// software renderer runs all code of a loop's body for all samples, whatever its branches say.
+int march_to_event(inout March march, float stop) {
+  vec3 blocks_per_uv = vec3(textureSize(body, 0)) / float(kBlock);
+  vec3 safe = mix(march.box_direction, vec3(1e-9), lessThan(abs(march.box_direction), vec3(1e-9)));
+  vec3 block_origin = march.box_origin * blocks_per_uv, per_block = 1.0 / (safe * blocks_per_uv);
+  bvec3 forward = greaterThan(safe, vec3(0.0));
+  ivec3 last_block = textureSize(block_distance, 0) - 1;
+
+  // The bounds of both loops are guards, far above need.
+  for (int i = 0; i < 4096; ++i) {
+    vec3 uv;
+    for (int leap = 0; leap < 1024; ++leap) {  // over blocks in which nothing changes
+      uv = march.box_origin + march.t * march.box_direction;
+      ivec3 block = clamp(ivec3(uv * blocks_per_uv), ivec3(0), last_block);
+      int empty = int(texelFetch(block_distance, block, 0).x);
+      if (empty == 0) break;
+      vec3 exits = (vec3(block + mix(ivec3(1 - empty), ivec3(empty), forward)) - block_origin) * per_block;
+      march.t = max(min(min(exits.x, exits.y), exits.z), march.t) + 0.02;
+      if (march.t >= stop) break;
+    }
+    if (march.t >= stop) return kNothing;
+
+    vec2 solid_and_body = textureLod(body, uv, 0.0).xy;
+    march.here = solid_and_body.y;
+    if (march.before >= 0.0 && (march.before - 0.5) * (march.here - 0.5) < 0.0 && skin > 0.0) return kSkin;
+    march.before = march.here;
+    march.t_before = march.t;
+
+    vec4 organ = textureLod(tissue, uv, 0.0);
+    float coverage = show_organs == 1 ? smoothstep(0.35, 0.65, organ.a) : 0.0;
+    if (coverage > 0.0 && !march.in_organ) return kOrgan;
+    if (coverage > 0.0) {
+      float opacity = coverage * (1.0 - pow(1.0 - min(solid_and_body.x / organ.a, 0.999), step_mm));
+      composite(organ.rgb / organ.a * march.light.x + 0.10 * march.light.y, opacity);
+      if (sum.a >= kOpaque) return kNothing;
+    }
+    march.in_organ = coverage > 0.0;
+    // Smoothing has spread every edge over two voxels: where nothing is, a whole voxel can be stepped over.
+    march.t += organ.a == 0.0 && (march.here == 0.0 || march.here == 1.0) ? max(step_mm, voxel_mm) : step_mm;
+  }
+  return kNothing;
 }
 
 void main() {
@@ -111,59 +165,36 @@ void main() {
   if (cut == 1) t = max(t, t_plane);  // what never meets the plane lies wholly in front of it
   end = min(end, t_probe);
 
-  bool plane_due = meets_plane && t_plane < t_probe && (show_plane == 1 || cut == 1);
-  vec3 size = vec3(textureSize(body, 0));
-  vec3 blocks_per_uv = size / float(kBlock);
-  vec3 voxel_uv = 1.0 / size;
-  float before = -1.0;  // share of body at the sample before; none yet
-  float t_before = t;
-  float slant = abs(probe_direction.z);
-
-  // Each pass takes one sample or leaps over blocks where nothing changes. The bound is a guard, far above need.
-  for (int i = 0; i < 4096 && t < end && sum.a < kOpaque; ++i) {
-    if (plane_due && t >= t_plane) {
-      composite_plane(from + t_plane * direction, t_plane, slant);
-      plane_due = false;
-    }
-    vec3 uv = box_origin + t * box_direction;
-    ivec3 block = clamp(ivec3(floor(uv * blocks_per_uv)), ivec3(0), textureSize(block_distance, 0) - 1);
-    uint empty = texelFetch(block_distance, block, 0).x;
-    if (empty > 0u) {
-      vec3 near_side = vec3(block - int(empty) + 1), far_side = vec3(block + int(empty));
-      vec3 exits = (mix(near_side, far_side, greaterThan(safe, vec3(0.0))) / blocks_per_uv - box_origin) / safe;
-      t = max(min(min(exits.x, exits.y), exits.z), t) + 0.05;
-      continue;
-    }
-
-    vec2 here = textureLod(body, uv, 0.0).xy;
-    // The skin is where the body is half: a surface, seen as glass is, more where it turns away.
-    if (before >= 0.0 && (before - 0.5) * (here.y - 0.5) < 0.0 && skin > 0.0) {
-      float t_skin = mix(t_before, t, (0.5 - before) / (here.y - before));
-      vec3 normal = facing(gradients(box_origin + t_skin * box_direction, voxel_uv)[1], direction);
-      float facing_us = abs(dot(normal, direction));
-      float opacity = mix(1.0, skin, pow(facing_us, 0.6)) * (here.y > before ? 1.0 : 0.6);
-      composite(lit(kSkinColour, normal, direction, 0.12), min(opacity, 0.9));
-    }
-    before = here.y;
-    t_before = t;
-
-    if (show_organs == 1 && here.x > 0.004) {
-      vec4 organ = textureLod(tissue, uv, 0.0);
-      float coverage = smoothstep(0.35, 0.65, organ.a);
-      if (coverage > 0.0) {
-        float opacity = coverage * (1.0 - pow(1.0 - min(here.x / organ.a, 0.999), step_mm));
-        vec3 normal = facing(gradients(uv, voxel_uv)[0], direction);
-        composite(lit(organ.rgb / organ.a, normal, direction, 0.10), opacity);
+  float plane_at = meets_plane && t_plane < t_probe && (show_plane == 1 || cut == 1) ? t_plane : kNever;
+  vec3 voxel_uv = 1.0 / vec3(textureSize(body, 0));
+  March march = March(box_origin, box_direction, t, -1.0, t, 0.0, false, vec2(0.0));
+  for (int part = 0; part < 2; ++part) {  // before the plane, and behind it
+    float stop = part == 0 ? min(plane_at, end) : end;
+    for (int i = 0; i < 256 && march.t < stop && sum.a < kOpaque; ++i) {
+      int event = march_to_event(march, stop);
+      float t_event = event == kSkin ? mix(march.t_before, march.t, (0.5 - march.before) / (march.here - march.before))
+                                     : march.t;
+      mat2x3 gradient = gradients(box_origin + t_event * box_direction, voxel_uv);
+      vec3 normal = facing(gradient[event == kSkin ? 1 : 0], direction);
+      if (event == kSkin) {
+        // Seen as glass is: more where it turns away, and from within less.
+        float rim = 1.0 - abs(dot(normal, direction));
+        float side = march.here > march.before ? 1.0 : 0.5;
+        vec2 light = lighting(normal, direction);
+        composite(kSkinColour * light.x + 0.15 * light.y, mix(skin, 0.75, rim * rim) * side);
+        march.before = march.here;
+      } else if (event == kOrgan) {
+        march.light = lighting(normal, direction);
+        march.in_organ = true;
       }
     }
-    t += step_mm;
+    if (part == 0 && plane_at < kNever && sum.a < kOpaque) composite_plane(from + t_plane * direction, t_plane, abs(probe_direction.z));
   }
-
-  if (plane_due && sum.a < kOpaque) composite_plane(from + t_plane * direction, t_plane, slant);
   if (t_probe < kNever && sum.a < kOpaque) {
     vec3 p = probe_eye.xyz + t_probe * probe_direction;
     vec3 normal = transpose(mat3(probe_from_patient)) * probe_normal(p);
-    composite(lit(probe_colour(p), normal, direction, 0.25), 1.0);
+    vec2 light = lighting(normal, direction);
+    composite(probe_colour(p) * light.x + 0.25 * light.y, 1.0);
   }
   colour = vec4(sum.rgb + (1.0 - min(sum.a / kOpaque, 1.0)) * background(at), 1.0);
 }

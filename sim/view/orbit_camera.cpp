@@ -19,8 +19,8 @@ OrbitCamera OrbitCamera::framing(const Grid& volume) {
   camera.centre = volume.centre();
   camera.yaw_deg = 20;
   camera.pitch_deg = -12;
-  // The sphere around the box, less a fifth: a body is rounder than its box.
-  const double radius = 0.8 * glm::length(glm::dvec3(volume.size) * volume.spacing) / 2;
+  // The sphere around the box, less a quarter: a body is rounder than its box.
+  const double radius = 0.75 * glm::length(glm::dvec3(volume.size) * volume.spacing) / 2;
   camera.distance_mm =
       std::clamp(radius / std::sin(glm::radians(camera.field_of_view_deg / 2)), kNearest_mm, kFarthest_mm);
   return camera;

@@ -18,7 +18,7 @@ struct TissueClasses {
   std::vector<std::array<std::uint8_t, 4>> tissue;  ///< colour times coverage, and the coverage of organs and bone
   std::vector<std::array<std::uint8_t, 2>> body;    ///< the opacity of 1 mm times coverage; share of the patient's body
 
-  static constexpr int kBlock = 4;     ///< voxels a side
+  static constexpr int kBlock = 2;     ///< voxels a side
   glm::ivec3 blocks{0};                ///< blocks along each axis
   std::vector<std::uint8_t> distance;  ///< per block: blocks (Chebyshev) to the nearest one where something changes
 };

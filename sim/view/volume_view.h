@@ -14,11 +14,11 @@
 namespace insonate::view {
 
 struct VolumeStyle {
-  bool cut = true;        ///< takes away what lies between the camera and the ultrasound's plane
-  double cut_face = 0.5;  ///< opacity of the CT shown on the cut outside the fan, 0 to 1
-  double skin = 0.25;     ///< opacity of the skin seen face on, 0 to 1
-  bool organs = true;     ///< labelled organs and bone
-  bool plane = true;      ///< the ultrasound picture in its place
+  bool cut = true;         ///< takes away what lies between the camera and the ultrasound's plane
+  double cut_face = 0.85;  ///< opacity of the CT shown on the cut outside the fan, 0 to 1
+  double skin = 0.14;      ///< opacity of the skin seen face on, 0 to 1
+  bool organs = true;      ///< labelled organs and bone
+  bool plane = true;       ///< the ultrasound picture in its place
   bool probe = true;
   bool operator==(const VolumeStyle&) const = default;
 };

@@ -60,5 +60,5 @@ vec3 probe_normal(vec3 p) {
 
 vec3 probe_colour(vec3 p) {
   if (marker_distance(p) < 0.5) return vec3(0.30, 0.85, 0.45);
-  return face_distance(p.xy).x > -kLens ? vec3(0.24, 0.26, 0.29) : vec3(0.78, 0.80, 0.82);
+  return p.y > -kHeadDepth && face_distance(p.xy).x > -kLens ? vec3(0.24, 0.26, 0.29) : vec3(0.78, 0.80, 0.82);
 }
