@@ -72,17 +72,21 @@ std::string write_sequence(const std::vector<PoseSample>& samples) {
     const std::string index = std::to_string(i);
     const std::string frame = "Seq_Frame" + std::string(index.size() < 4 ? 4 - index.size() : 0, '0') + index + "_";
 
-    text += frame + "ProbeToPatientTransform =";
+    const auto field = [&](std::string_view name) -> std::string& { return text.append(frame).append(name); };
+
+    field("ProbeToPatientTransform =");
     const glm::dmat4 matrix = sample.status == PoseStatus::ok ? sample.patient_from_probe.matrix() : glm::dmat4(1.0);
     for (int row = 0; row < 4; ++row)
       for (int column = 0; column < 4; ++column) append(text += ' ', matrix[column][row]);
-    text += "\n" + frame + "ProbeToPatientTransformStatus = " + std::string(igsio_word(sample)) + "\n";
+    text += '\n';
+    field("ProbeToPatientTransformStatus = ").append(igsio_word(sample)) += '\n';
     if (sample.buttons != 0 || sample.status == PoseStatus::switched)
-      text += frame + "Buttons = " + std::to_string(sample.buttons) + "\n";
-    text += frame + "FrameNumber = " + index + "\n";
-    append(text += frame + "Timestamp = ", sample.time_s);
-    append(text += "\n" + frame + "UnfilteredTimestamp = ", sample.time_s);
-    text += "\n";
+      field("Buttons = ").append(std::to_string(sample.buttons)) += '\n';
+    field("FrameNumber = ").append(index) += '\n';
+    append(field("Timestamp = "), sample.time_s);
+    text += '\n';
+    append(field("UnfilteredTimestamp = "), sample.time_s);
+    text += '\n';
   }
   return text + "ElementDataFile = LOCAL\n";
 }

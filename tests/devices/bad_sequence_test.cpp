@@ -56,7 +56,7 @@ struct Damage {
 }  // namespace
 
 TEST_CASE("every sequence file that is damaged in a way people meet is refused with the place and the reason") {
-  REQUIRE(refusal(kGood) == "");
+  REQUIRE(refusal(kGood).empty());
   const std::vector<Damage> damages = {
       {"ObjectType = Image\n", "", {}},  // what else is said first is still a MetaImage
       {"ObjectType = Image", "\x89PNG\r\n\x1a", {"line 1", "MetaImage", "give a sequence file"}},
@@ -171,7 +171,7 @@ TEST_CASE("a file with more transforms than any tracker has is refused before it
 TEST_CASE("a file cut short anywhere is refused") {
   for (const std::string& name : kGolden) {
     const std::string bytes = golden_bytes(name);
-    REQUIRE(refusal(bytes) == "");
+    REQUIRE(refusal(bytes).empty());
     const std::size_t data = bytes.find("ElementDataFile = LOCAL") + std::string("ElementDataFile = LOCAL").size();
     for (std::size_t length = 0; length < bytes.size(); ++length) {
       const std::string sentence = refusal(bytes.substr(0, length));
@@ -179,7 +179,7 @@ TEST_CASE("a file cut short anywhere is refused") {
       // A transform-only file says all that matters in its header; its one pixel a frame may be missing as a whole.
       const bool whole_header = length >= data;
       if (name == "plus_transforms.igs.mha" && whole_header && length <= data + 3) continue;
-      CHECK(sentence != "");
+      CHECK_FALSE(sentence.empty());
     }
   }
 }
@@ -219,10 +219,10 @@ TEST_CASE("flipped bits are taken or refused, with rigid poses at rising times w
 TEST_CASE("lines and numbers of any length are read in a time in proportion to them") {
   std::string bytes = kGood;
   bytes.insert(bytes.find("Kinds"), "Comment = " + std::string(1 << 20, 'x') + "\n");
-  CHECK(refusal(bytes) == "");
+  CHECK(refusal(bytes).empty());
   bytes = kGood;
   bytes.replace(bytes.find(" 5 0 1"), 2, " " + std::string(1 << 20, '5'));
   CHECK(refusal(bytes).find("frame 1") != std::string::npos);
-  CHECK(refusal(std::string(1 << 20, '\n')) != "");
-  CHECK(refusal(std::string(1 << 20, '\0')) != "");
+  CHECK_FALSE(refusal(std::string(1 << 20, '\n')).empty());
+  CHECK_FALSE(refusal(std::string(1 << 20, '\0')).empty());
 }

@@ -99,7 +99,7 @@ TEST_CASE("trackers are known by their numbers, the more particular name first")
   CHECK(known_tracker(Bus::hid, 0x1532, 0x0300)->name == "Razer Hydra");
   CHECK(known_tracker(Bus::hid, 0x256f, 0xc635)->name == "3Dconnexion SpaceMouse Compact");
   CHECK(known_tracker(Bus::hid, 0x256f, 0xffff)->name == "3Dconnexion SpaceMouse");
-  CHECK(known_tracker(Bus::usb, 0x0f44, 0xbf01)->note == "");
+  CHECK(known_tracker(Bus::usb, 0x0f44, 0xbf01)->note.empty());
   CHECK(contains(std::string(known_tracker(Bus::usb, 0x0f44, 0xff21)->note), "firmware"));
   CHECK(known_tracker(Bus::usb, 0x1532, 0x0300) == nullptr);
   CHECK(known_tracker(Bus::hid, 0x1234, 0x5678) == nullptr);

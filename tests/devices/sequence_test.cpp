@@ -29,7 +29,7 @@ TEST_CASE("a sequence with images is read as PLUS writes it") {
   const Sequence sequence = golden("plus_images.igs.mha");
   CHECK(sequence.transform_names == std::vector<std::string>{"ProbeToTracker", "ReferenceToTracker"});
   CHECK(sequence.has_images);
-  CHECK(sequence.image_bytes == 4 * 3 * 5);
+  CHECK(sequence.image_bytes == 60);
   REQUIRE(sequence.frames.size() == 5);
 
   const std::vector<PoseSample> samples = probe_samples(sequence);
@@ -87,7 +87,7 @@ TEST_CASE("a transform-only sequence is read as 3D Slicer writes it, without its
 
 TEST_CASE("an ITK header with CR LF, blank lines and fields of its own is read, and its calibration is chained") {
   const Sequence sequence = golden("itk_crlf.mha");
-  CHECK(sequence.image_bytes == 2 * 2 * 1 * 2 * 2);
+  CHECK(sequence.image_bytes == 16);
   const auto samples = probe_samples(sequence);
   REQUIRE(samples.size() == 2);
   // TrackerToPatient turns x to y and y to -x, and moves by (100, 200, 300).

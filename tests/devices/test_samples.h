@@ -1,16 +1,25 @@
 #pragma once
 
-#include <cstring>
+#include <bit>
+#include <cstdint>
 #include <vector>
 
 #include "sim/core/pose_sample.h"
 
 namespace insonate {
 
+inline bool same_bits(double a, double b) {
+  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+
 /// Whether two samples are the same to the last bit.
 inline bool same_bits(const PoseSample& a, const PoseSample& b) {
-  return std::memcmp(&a.time_s, &b.time_s, sizeof a.time_s) == 0 && a.status == b.status && a.buttons == b.buttons &&
-         std::memcmp(&a.patient_from_probe, &b.patient_from_probe, sizeof a.patient_from_probe) == 0;
+  if (!same_bits(a.time_s, b.time_s) || a.status != b.status || a.buttons != b.buttons) return false;
+  const glm::dmat4 x = a.patient_from_probe.matrix(), y = b.patient_from_probe.matrix();
+  for (int column = 0; column < 4; ++column)
+    for (int row = 0; row < 4; ++row)
+      if (!same_bits(x[column][row], y[column][row])) return false;
+  return true;
 }
 
 inline bool same_bits(const std::vector<PoseSample>& a, const std::vector<PoseSample>& b) {

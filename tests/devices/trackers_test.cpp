@@ -37,7 +37,7 @@ const std::string kLog = std::string(INSONATE_SEQUENCES_FOLDER) + "/plus_images.
 TEST_CASE("a URI is taken apart into kind, subject and options") {
   const TrackerUri plain = parse_tracker_uri("mouse:");
   CHECK(plain.scheme == "mouse");
-  CHECK(plain.subject == "");
+  CHECK(plain.subject.empty());
   const TrackerUri full = parse_tracker_uri("replay:/scans/what?now: then.igs.mha?speed=0.5&loop=1");
   CHECK(full.subject == "/scans/what?now: then.igs.mha");
   CHECK(full.options == std::map<std::string, std::string>{{"speed", "0.5"}, {"loop", "1"}});
@@ -75,7 +75,7 @@ TEST_CASE("a tracker that cannot be opened is refused with what to write instead
   for (const auto& [uri, expected] : refused) {
     const std::string sentence = refusal(uri);
     CAPTURE(uri, sentence);
-    REQUIRE(sentence != "");
+    REQUIRE_FALSE(sentence.empty());
     for (const std::string& words : expected) CHECK(sentence.find(words) != std::string::npos);
   }
 }
