@@ -15,7 +15,7 @@ layout(location = 0) out vec4 colour;
 const int kBlock = 2;  // TissueClasses::kBlock
 const float kOpaque = 0.98;
 const float kNever = 1e9;
-const vec3 kSkinColour = vec3(0.86, 0.68, 0.58);
+const vec3 kSkinColour = vec3(0.95, 0.78, 0.68);
 const vec3 kFanEdge = vec3(0.36, 0.72, 0.88);
 const float kCutWindow_hu = 400.0, kCutLevel_hu = 40.0;
 
@@ -56,18 +56,19 @@ vec3 facing(vec3 gradient, vec3 view) {
   return dot(normal, view) > 0.0 ? -normal : normal;
 }
 
+float fan_at(vec2 uv) {
+  return all(equal(uv, clamp(uv, 0.0, 1.0))) ? textureLod(ultrasound_image, uv, 0.0).a : 0.0;
+}
+
 // The picture's plane at a point: the ultrasound inside the fan, the fan's edge, the CT on the cut around it.
 void composite_plane(vec3 patient, float t, float slant) {
-  vec2 on_plane = (probe_from_patient * vec4(patient, 1.0)).xy;
-  vec2 size = vec2(textureSize(ultrasound_image, 0));
-  vec2 uv = (on_plane - image_geometry.xy) / (image_geometry.z * size);
-  if (show_plane == 1 && all(greaterThan(uv, vec2(0.0))) && all(lessThan(uv, vec2(1.0)))) {
+  if (show_plane == 1) {
+    vec2 image_mm = image_geometry.z * vec2(textureSize(ultrasound_image, 0));
+    vec2 uv = ((probe_from_patient * vec4(patient, 1.0)).xy - image_geometry.xy) / image_mm;
     // The share of the fan around the point, over about a pixel of the screen, the slant of the plane allowed for.
-    vec2 reach = vec2(picture.z * t / max(slant, 0.25)) / (image_geometry.z * size);
-    float fan = 0.25 * (textureLod(ultrasound_image, uv + reach * vec2(0.9, 0.4), 0.0).a +
-                        textureLod(ultrasound_image, uv + reach * vec2(-0.4, 0.9), 0.0).a +
-                        textureLod(ultrasound_image, uv + reach * vec2(-0.9, -0.4), 0.0).a +
-                        textureLod(ultrasound_image, uv + reach * vec2(0.4, -0.9), 0.0).a);
+    vec2 reach = picture.z * t / max(slant, 0.25) / image_mm;
+    float fan = 0.25 * (fan_at(uv + reach * vec2(0.9, 0.4)) + fan_at(uv + reach * vec2(-0.4, 0.9)) +
+                        fan_at(uv + reach * vec2(-0.9, -0.4)) + fan_at(uv + reach * vec2(0.4, -0.9)));
     vec3 echo = textureLod(ultrasound_image, uv, 0.0).rgb;
     composite(mix(kFanEdge, echo, smoothstep(0.75, 1.0, fan)), smoothstep(0.0, 0.5, fan));
   }
@@ -181,14 +182,15 @@ void main() {
         float rim = 1.0 - abs(dot(normal, direction));
         float side = march.here > march.before ? 1.0 : 0.5;
         vec2 light = lighting(normal, direction);
-        composite(kSkinColour * light.x + 0.15 * light.y, mix(skin, 0.75, rim * rim) * side);
+        composite(kSkinColour * light.x + 0.15 * light.y, mix(skin, 0.7, rim * rim) * side);
         march.before = march.here;
       } else if (event == kOrgan) {
         march.light = lighting(normal, direction);
         march.in_organ = true;
       }
     }
-    if (part == 0 && plane_at < kNever && sum.a < kOpaque) composite_plane(from + t_plane * direction, t_plane, abs(probe_direction.z));
+    if (part == 0 && plane_at < kNever && sum.a < kOpaque)
+      composite_plane(from + t_plane * direction, t_plane, abs(probe_direction.z));
   }
   if (t_probe < kNever && sum.a < kOpaque) {
     vec3 p = probe_eye.xyz + t_probe * probe_direction;

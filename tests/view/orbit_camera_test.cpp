@@ -1,0 +1,68 @@
+#include "sim/view/orbit_camera.h"
+
+#include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+using insonate::Pose;
+using insonate::view::OrbitCamera;
+
+namespace {
+
+constexpr int kWidth = 640, kHeight = 480;
+
+glm::dvec2 place(const OrbitCamera& camera, const glm::dvec3& p) {
+  return camera.project(p, kWidth, kHeight);
+}
+
+}  // namespace
+
+TEST_CASE("From the front the patient's left is on the right and the head is up") {
+  const OrbitCamera camera;
+  CHECK(place(camera, {50, 0, 0}).x > kWidth / 2.0);
+  CHECK(place(camera, {0, 0, 50}).y < kHeight / 2.0);
+  CHECK(place(camera, {0, 0, 0}) == glm::dvec2(kWidth, kHeight) / 2.0);
+}
+
+TEST_CASE("Yaw and pitch take the camera where they say") {
+  OrbitCamera camera;
+  camera.distance_mm = 700;
+  camera.yaw_deg = 90;
+  CHECK(glm::distance(camera.patient_from_camera().translation, glm::dvec3(700, 0, 0)) < 1e-9);
+  camera.yaw_deg = 180;
+  CHECK(glm::distance(camera.patient_from_camera().translation, glm::dvec3(0, 700, 0)) < 1e-9);
+  CHECK(place(camera, {50, 0, 0}).x < kWidth / 2.0);
+  camera.pitch_deg = 60;
+  CHECK(camera.patient_from_camera().translation.z == Approx(700 * std::sqrt(3.0) / 2));
+  const glm::dmat3 r = camera.patient_from_camera().rotation;
+  CHECK(glm::determinant(r) == Approx(1));
+}
+
+TEST_CASE("Perspective: a length at the centre has the pixels that the field of view gives it") {
+  OrbitCamera camera;
+  camera.distance_mm = 500;
+  camera.field_of_view_deg = 90;  // the picture's height spans twice the distance
+  CHECK(place(camera, {100, 0, 0}).x - kWidth / 2.0 == Approx(100 * kHeight / 1000.0));
+}
+
+TEST_CASE("Panning moves what lies at the centre's depth by the pointer's pixels") {
+  OrbitCamera camera;
+  camera.yaw_deg = 35;
+  camera.pitch_deg = -20;
+  const glm::dvec3 held = camera.centre;
+  camera.pan({30, -12}, kHeight);
+  const glm::dvec2 moved = place(camera, held) - glm::dvec2(kWidth, kHeight) / 2.0;
+  CHECK(moved.x == Approx(30));
+  CHECK(moved.y == Approx(-12));
+}
+
+TEST_CASE("Dragging never turns the camera over and never loses the patient") {
+  OrbitCamera camera;
+  camera.orbit(350, 400);
+  CHECK(camera.pitch_deg < 90);
+  CHECK(std::abs(camera.yaw_deg) <= 180);
+  camera.zoom(1e9);
+  CHECK(camera.distance_mm > 1);
+  camera.zoom(1e-12);
+  CHECK(camera.distance_mm < 1e5);
+}

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <cmath>
+#include <functional>
+#include <memory>
+
+#include "sim/core/grid.h"
+#include "sim/core/image.h"
+#include "sim/gl/headless_context.h"
+#include "sim/gl/simulator.h"
+#include "sim/view/patient_textures.h"
+#include "sim/view/ultrasound_plane.h"
+
+namespace insonate::test {
+
+/// A box around the origin whose axes are turned, reflected and unequally spaced, so that whoever ignores the direction
+/// matrix or the spacing fails.
+inline Grid skewed_grid(double half_side_mm) {
+  Grid grid;
+  grid.spacing = {1.0, 1.5, 2.0};
+  grid.size = glm::ivec3(glm::ceil(2 * half_side_mm / grid.spacing)) + 1;
+  const glm::dmat3 turned(glm::rotate(glm::dmat4(1.0), 0.4, glm::normalize(glm::dvec3(0.3, 1, -0.5))));
+  grid.direction = glm::dmat3(-turned[0], turned[1], turned[2]);
+  grid.origin = -grid.direction * (grid.spacing * glm::dvec3(grid.size - 1) / 2.0);
+  return grid;
+}
+
+/// A CT that is `hu` of the patient's position.
+inline Volume<std::int16_t> ct_of(const Grid& grid, const std::function<double(const glm::dvec3&)>& hu) {
+  Volume<std::int16_t> ct{grid, std::vector<std::int16_t>(grid.count())};
+  for (int k = 0; k < grid.size.z; ++k)
+    for (int j = 0; j < grid.size.y; ++j)
+      for (int i = 0; i < grid.size.x; ++i)
+        ct.at({i, j, k}) = std::int16_t(std::lround(hu(grid.patient_from_index({i, j, k}))));
+  return ct;
+}
+
+inline Image<Rgba8> read(const gl::Texture& texture) {
+  Image<Rgba8> image(texture.width(), texture.height());
+  texture.read(GL_RGBA, GL_UNSIGNED_BYTE, image.pixels.data(), image.pixels.size() * sizeof(Rgba8));
+  return image;
+}
+
+/// A patient on the graphics card, with a picture of one colour as its ultrasound.
+struct Scene {
+  gl::Simulator simulator = in_context();
+  std::unique_ptr<view::PatientTextures> patient;
+  std::unique_ptr<gl::Texture> picture;
+  view::UltrasoundPlane plane;
+
+  Scene(const Volume<std::int16_t>& ct, const Volume<std::uint8_t>& labels, const view::OrganColours& colours) {
+    const TissueTable table{{{-1000, 0.0004, 0, 0}, {1000, 7.8, 0, 0}}, {}};
+    simulator.set_volume(make_acoustic_volume(ct, {}, {}, table), table);
+    patient = std::make_unique<view::PatientTextures>(simulator.volume_texture(), ct, labels, colours);
+  }
+
+  /// Fills the picture, `width` by `height` pixels of `mm`, centred below the probe's face, with `colour`; alpha as
+  /// `inside` says.
+  void set_picture(
+      int width, int height, double mm, const Rgba8& colour,
+      const std::function<bool(int x, int y)>& inside = [](int, int) { return true; }) {
+    Image<Rgba8> pixels(width, height);
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) pixels.at(x, y) = inside(x, y) ? colour : Rgba8{};
+    picture = std::make_unique<gl::Texture>(gl::Texture::make_2d(GL_RGBA8, width, height, gl::Filter::linear));
+    picture->write(GL_RGBA, GL_UNSIGNED_BYTE, pixels.pixels.data());
+    plane.image = picture.get();
+    ++plane.image_version;
+    plane.geometry = {width, height, mm, {-mm * (width - 1) / 2, mm / 2}};
+  }
+
+private:
+  // One context for all scenes of the program: objects live only in the one that was current when they were made.
+  static gl::Simulator in_context() {
+    static const gl::HeadlessContext context;
+    return gl::Simulator();
+  }
+};
+
+}  // namespace insonate::test
