@@ -52,19 +52,18 @@ std::optional<ProbeHand::Contact> ProbeHand::contact(const Pose& pose) const {
   return Contact{*middle, length > 1e-6 ? normal / length : beam};
 }
 
-Pose ProbeHand::settle(const Pose& from, const Contact& old, Pose to) const {
+Pose ProbeHand::settle(const Pose& from, const Contact& old, const Contact& reached) {
   const double pressed = glm::dot(from.translation - old.point, from.rotation[1]);
-  const auto reached = contact(to);
-  if (!reached) return from;
-  to.rotation = orthonormal(turn_between(old.inward, reached->inward) * to.rotation);
-  to.translation = reached->point + pressed * to.rotation[1];
+  Pose to{orthonormal(turn_between(old.inward, reached.inward) * from.rotation), reached.point};
+  to.translation += pressed * to.rotation[1];
   return to;
 }
 
 Pose ProbeHand::slide(const Pose& from, const glm::dvec2& mm) const {
-  const auto old = contact(from);
-  if (!old) return {from.rotation, from.point({mm.x, 0, mm.y})};
-  return settle(from, *old, {from.rotation, from.point({mm.x, 0, mm.y})});
+  const Pose aside{from.rotation, from.point({mm.x, 0, mm.y})};
+  const auto old = contact(from), reached = contact(aside);
+  if (!old) return aside;
+  return reached ? settle(from, *old, *reached) : from;
 }
 
 Pose ProbeHand::press(const Pose& from, double mm) const {
@@ -87,7 +86,10 @@ Pose ProbeHand::put(const Pose& from, const glm::dvec3& eye, const glm::dvec3& d
   const auto distance = distance_to_skin(*ct_, eye, direction, kSight_mm);
   const auto old = contact(from);
   if (!distance || !old) return from;
-  return settle(from, *old, {from.rotation, eye + *distance * direction});
+  // The skin's slope there is looked at from where the eye is: the beam may run along it.
+  const Pose looking{turn_between(from.rotation[1], direction) * from.rotation, eye + *distance * direction};
+  const auto reached = contact(looking);
+  return reached ? settle(from, *old, *reached) : from;
 }
 
 }  // namespace insonate

@@ -40,7 +40,8 @@ private:
     glm::dvec3 inward;  ///< the skin's normal there, unit
   };
   std::optional<Contact> contact(const Pose& pose) const;
-  Pose settle(const Pose& from, const Contact& old, Pose to) const;
+  /// The pose that meets the skin elsewhere as it met it before.
+  static Pose settle(const Pose& from, const Contact& old, const Contact& reached);
 
   const Volume<std::int16_t>* ct_;
 };

@@ -1,21 +1,17 @@
 #include "app/study.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <limits>
+#include <vector>
 
 #include "scenarios/skin_contact.h"
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
-#include "sim/volume/ct_reader.h"
-#include "sim/volume/phantom.h"
+#include "sim/volume/open_case.h"
 
 namespace insonate {
 namespace {
-
-/// Fine enough that gradients between thick slices are smooth, coarse enough for a graphics card's memory.
-constexpr double kSpacing_mm = 1.0;
 
 bool ends_with(const std::string& name, std::string_view ending) {
   return name.size() >= ending.size() && std::equal(ending.rbegin(), ending.rend(), name.rbegin(), [](char a, char b) {
@@ -23,24 +19,7 @@ bool ends_with(const std::string& name, std::string_view ending) {
          });
 }
 
-Case case_of_ct(const std::filesystem::path& path, const LoadProgress& progress) {
-  progress("Reading the CT", 0);
-  Case subject;
-  subject.name = path.filename().string();
-  if (subject.name.empty()) subject.name = path.parent_path().filename().string();
-  const Volume<std::int16_t> ct = read_ct(path);
-  progress("Resampling the CT to " + std::to_string(int(kSpacing_mm)) + " mm", 0.5);
-  subject.ct = resample_isotropic(ct, kSpacing_mm);
-  return subject;
-}
-
-std::vector<std::string> tissue_names(const Case& subject) {
-  std::vector<std::string> names(256);
-  for (const Label& label : subject.label_table) names[label.value] = label.tissue;
-  return names;
-}
-
-/// The body's bounding box and a pose on the belly: across the body, beam to the back, marker to the patient's right.
+/// The body's bounding box, and a place for the probe on the belly, or above the middle where there is no body.
 TrackerContext find_surroundings(const Volume<std::int16_t>& ct) {
   constexpr int kStride = 4;
   TrackerContext found;
@@ -57,11 +36,9 @@ TrackerContext find_surroundings(const Volume<std::int16_t>& ct) {
   found.body_min = low;
   found.body_max = high;
 
-  found.start.rotation = glm::dmat3(glm::dvec3(-1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, -1));
-  const double reach = high.y - low.y + 100;
-  glm::dvec3 start((low.x + high.x) / 2, low.y - 20, (low.z + high.z) / 2);
-  if (const auto skin = distance_to_skin(ct, start, {0, 1, 0}, reach)) start.y += *skin;
-  found.start.translation = start;
+  const std::vector<ReferenceView> views = default_views(ct, 0);
+  found.start.translation = {(low.x + high.x) / 2, low.y, (low.z + high.z) / 2};
+  if (!views.empty()) found.start = views.front().patient_from_probe;
   return found;
 }
 
@@ -77,7 +54,8 @@ Study load_study(const StudySource& source, const LoadProgress& progress) {
     study.scenario = read_scenario(assets / "scenarios" / "ruq_hepatorenal.toml");
 
   if (!source.ct.empty()) {
-    study.subject = case_of_ct(source.ct, progress);
+    progress("Reading the CT", 0);
+    study.subject = open_case(source.ct);
   } else if (!source.case_folder.empty()) {
     progress("Reading the case", 0);
     study.subject = read_case(source.case_folder);
@@ -90,7 +68,7 @@ Study load_study(const StudySource& source, const LoadProgress& progress) {
 
   progress("Working out what the sound will meet", 0);
   study.acoustic =
-      make_acoustic_volume(study.subject.ct, study.subject.labels, tissue_names(study.subject), study.tissues);
+      make_acoustic_volume(study.subject.ct, study.subject.labels, tissue_by_label(study.subject), study.tissues);
   study.surroundings = find_surroundings(study.subject.ct);
   progress("Starting", 1);
   return study;

@@ -120,7 +120,6 @@ public:
       : window_(window), options_(options), trainer_(options), keyboard_(window) {
     listen(window, events_);
     ImGui_ImplGlfw_InitForOpenGL(window, true);
-    glfwSetCursorPosCallback(window, [](GLFWwindow* w, double, double) { events_of(w).any = true; });
     trainer_.open_from_options();
     start_s_ = last_s_ = glfwGetTime();
   }

@@ -77,20 +77,17 @@ void draw_marker(const Theme& theme, const PlaneOnScreen& plane, const Probe& pr
 
 void draw_annotations(const Theme& theme, const Rect& panel, const Session& session) {
   const Console& console = session.console();
-  Rect left{panel.x + theme.px(16), panel.y + theme.px(12), panel.w * 0.32f, theme.px(22)};
-  draw_text(left, theme.strong, colour::kText, session.study().subject.name);
-  left.y += left.h;
-  draw_text(left, theme.small_text, colour::kMuted,
-            console.probe.kind == ProbeKind::linear ? "Linear probe" : "Curvilinear probe");
-
-  const std::string lines[] = {
-      formatted("%.1f MHz", console.frequency_mhz), formatted("Depth %.1f cm", console.depth_mm / 10),
-      formatted("Gain %+.0f dB", console.gain_db), formatted("DR %.0f dB", console.dynamic_range_db)};
-  const float width = theme.px(130);
-  Rect right{panel.x + panel.w - width - theme.px(14), panel.y + theme.px(12), width, theme.px(20)};
-  for (const std::string& line : lines) {
-    draw_text(right, theme.small_text, colour::kMuted, line, Align::right);
-    right.y += right.h;
+  Rect line{panel.x + theme.px(16), panel.y + theme.px(12), panel.w * 0.27f, theme.px(24)};
+  draw_text(line, theme.strong, colour::kText, session.study().subject.name);
+  line.y += line.h;
+  line.h = theme.px(19);
+  for (const std::string& text :
+       {std::string(console.probe.kind == ProbeKind::linear ? "Linear" : "Curvilinear") +
+            formatted(", %.1f MHz", console.frequency_mhz),
+        formatted("Depth %.1f cm", console.depth_mm / 10), formatted("Gain %+.0f dB", console.gain_db),
+        formatted("Range %.0f dB", console.dynamic_range_db)}) {
+    draw_text(line, theme.small_text, colour::kMuted, text);
+    line.y += line.h;
   }
 }
 

@@ -20,13 +20,18 @@ ImTextureID id_of(const gl::Texture& texture) {
   return reinterpret_cast<ImTextureID>(std::uintptr_t(texture.name()));
 }
 
-// A picture in the middle of the panel at its own aspect, mirrored like the ultrasound.
+// A picture in the middle of the panel, mirrored like the ultrasound. Its sides, where the fan never reaches far, are
+// cut off as far as that makes the rest larger.
 void draw_mirrored(const Rect& panel, const gl::Texture* picture) {
   if (!picture) return;
-  const float scale = std::min(panel.w / float(picture->width()), panel.h / float(picture->height()));
-  const float w = float(picture->width()) * scale, h = float(picture->height()) * scale;
+  constexpr float kSides = 0.10f;
+  const float width = float(picture->width()), height = float(picture->height());
+  const float scale = std::min(panel.h / height, panel.w / (width * (1 - kSides)));
+  const float shown = std::min(1.0f, panel.w / (width * scale));
+  const float w = shown * width * scale, h = height * scale;
   const Rect area{panel.x + (panel.w - w) / 2, panel.y + (panel.h - h) / 2, w, h};
-  ImGui::GetWindowDrawList()->AddImage(id_of(*picture), area.min(), area.max(), {1, 0}, {0, 1});
+  ImGui::GetWindowDrawList()->AddImage(id_of(*picture), area.min(), area.max(), {(1 + shown) / 2, 0},
+                                       {(1 - shown) / 2, 1});
 }
 
 // Which way the patient lies: the axes that point towards the viewer, with the anatomical letters.

@@ -1,0 +1,168 @@
+#include "app/session.h"
+
+#include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
+
+#include "devices/replay/replay_tracker.h"
+#include "scenarios/result_json.h"
+#include "sim/core/input_error.h"
+#include "tests/scenarios/tiny_case.h"
+
+using namespace insonate;
+
+namespace {
+
+std::shared_ptr<const Study> tiny_study(bool with_exam = true) {
+  auto study = std::make_shared<Study>();
+  study->subject = tiny_case();
+  study->tissues = tiny_tissues();
+  if (with_exam) study->scenario = parse_scenario(kTinyScenario, "exam.toml");
+  study->surroundings.start.translation = {0, 0, -40};
+  return study;
+}
+
+/// A scan that finds the ball after some searching, with losses of tracking on the way.
+std::vector<PoseSample> scan() {
+  auto samples = samples_of(9, 60, [](double t) {
+    const double off = 25 * std::exp(-t / 2) * std::sin(2 * t) + 3;
+    return turned(10 * std::sin(t) * std::exp(-t / 3), {1, 0.4, 0}, {4 * std::sin(0.7 * t), 0.5, off});
+  });
+  for (PoseSample& sample : samples)
+    if (std::fmod(sample.time_s + 1, 3.1) < 0.2) sample.status = PoseStatus::missing;
+  return samples;
+}
+
+Session::OpenTracker replay(std::vector<PoseSample> samples) {
+  return [samples = std::move(samples)] {
+    return std::make_unique<ReplayTracker>("a log", samples, ReplayTracker::Options{});
+  };
+}
+
+/// Advances in steps of that many a second; returns the time reached.
+double run_until(Session& session, double from_s, double to_s, double steps_per_s = 60) {
+  for (long i = 1; from_s + i / steps_per_s <= to_s + 1e-9; ++i) session.advance(from_s + i / steps_per_s);
+  return to_s;
+}
+
+}  // namespace
+
+TEST_CASE("a log gets the same score to the bit in the trainer as from the runner, at any frame rate") {
+  const auto study = tiny_study();
+  Runner runner(*study->scenario, study->subject, study->tissues);
+  runner.feed(scan());
+  runner.end();
+  const std::string expected = to_json(runner.result());
+  for (const double frames_per_s : {2.0, 23.0, 60.0, 144.0}) {
+    CAPTURE(frames_per_s);
+    Session session(study, replay(scan()));
+    session.advance(0);
+    run_until(session, 0, 10, frames_per_s);
+    REQUIRE(session.result());
+    CHECK(to_json(*session.result()) == expected);
+  }
+}
+
+TEST_CASE(
+    "a sample that is not OK never moves the probe, and after a quarter of a second the picture is said to stand") {
+  const Pose good = turned(5, {1, 0, 0}, {1, 2, 3}), garbage = turned(50, {0, 1, 0}, {90, 90, 90});
+  std::vector<PoseSample> samples;
+  for (int i = 0; i < 240; ++i) {
+    const bool lost = i >= 60 && i < 180;
+    samples.push_back(sample_at(i / 60.0, lost ? garbage : good, lost ? PoseStatus::out_of_view : PoseStatus::ok));
+  }
+  Session session(tiny_study(), replay(samples));
+  session.advance(0);
+  for (int i = 1; i < 239; ++i) {
+    session.advance(i / 60.0);
+    CAPTURE(i);
+    REQUIRE(session.shown_pose());
+    CHECK(*session.shown_pose() == good);
+    // The last good sample is number 59, shown at 59/60 s.
+    const bool stands = i / 60.0 - 59 / 60.0 > Session::kStale_s && i < 180;
+    CHECK(session.lost_for_s().has_value() == stands);
+  }
+}
+
+TEST_CASE("the learner who takes the probe gets an attempt of his own, and giving it back starts the log over") {
+  Session session(tiny_study(), replay(scan()));
+  session.advance(0);
+  double now_s = run_until(session, 0, 2);
+  const Pose before = *session.shown_pose();
+  CHECK(session.runner()->live().elapsed_s == Approx(2).margin(0.02));
+
+  session.take_probe();
+  CHECK(session.holder() == Holder::learner);
+  now_s = run_until(session, now_s, now_s + 1);
+  INFO("the probe stays where it was taken, and only the learner's second counts");
+  CHECK(glm::distance(session.shown_pose()->translation, before.translation) < 1e-9);
+  CHECK(session.runner()->live().elapsed_s == Approx(1).margin(0.02));
+  for (const TracePoint& point : session.runner()->trace()) CHECK(glm::distance(point.face, before.translation) < 1e-9);
+
+  session.give_back_probe();
+  CHECK(session.holder() == Holder::tracker);
+  run_until(session, now_s, now_s + 10);
+  Runner runner(*session.study().scenario, session.study().subject, session.study().tissues);
+  runner.feed(scan());
+  runner.end();
+  REQUIRE(session.result());
+  CHECK(to_json(*session.result()) == to_json(runner.result()));
+}
+
+TEST_CASE("moving the probe takes it, and moves it as far as was asked") {
+  Session session(tiny_study(), replay(scan()));
+  session.advance(0);
+  double now_s = run_until(session, 0, 0.5);
+  const Pose before = *session.shown_pose();
+  session.move_probe([](const ProbeHand&, const Pose& from) { return Pose{from.rotation, from.point({7, 0, 0})}; });
+  CHECK(session.holder() == Holder::learner);
+  run_until(session, now_s, now_s + 0.2);
+  CHECK(glm::distance(session.shown_pose()->translation, before.point({7, 0, 0})) < 1e-9);
+}
+
+TEST_CASE("a log that is gone leaves the probe with the learner") {
+  bool gone = false;
+  Session session(tiny_study(), [&]() -> std::unique_ptr<Tracker> {
+    if (gone) throw InputError("scan.igs.mha", "", "it is gone", "bring it back");
+    return replay(scan())();
+  });
+  session.advance(0);
+  session.take_probe();
+  gone = true;
+  CHECK_THROWS_AS(session.give_back_probe(), InputError);
+  CHECK(session.holder() == Holder::learner);
+  run_until(session, 0, 0.5);
+  CHECK(session.runner()->live().elapsed_s == Approx(0.5).margin(0.02));
+}
+
+TEST_CASE("a frozen picture stays while the exam goes on") {
+  Session session(tiny_study(), replay(scan()));
+  session.advance(0);
+  double now_s = run_until(session, 0, 1);
+  const Pose frozen = *session.shown_pose();
+  session.console().frozen = true;
+  now_s = run_until(session, now_s, 2);
+  CHECK(*session.shown_pose() == frozen);
+  CHECK(session.runner()->live().elapsed_s == Approx(2).margin(0.02));
+  session.console().frozen = false;
+  run_until(session, now_s, 2.1);
+  CHECK_FALSE(*session.shown_pose() == frozen);
+}
+
+TEST_CASE("free practice has no exam, and an exam can be started from it") {
+  Session session(tiny_study(), replay(scan()));
+  session.advance(0);
+  session.practise();
+  CHECK(session.runner() == nullptr);
+  CHECK(session.holder() == Holder::learner);
+  run_until(session, 0, 1);
+  CHECK_FALSE(session.result());
+  session.start_over();
+  REQUIRE(session.runner());
+  CHECK(session.holder() == Holder::learner);
+
+  Session without(tiny_study(false), replay(scan()));
+  without.advance(0);
+  run_until(without, 0, 10);
+  CHECK(without.runner() == nullptr);
+  CHECK_FALSE(without.result());
+}

@@ -1,0 +1,201 @@
+#include <catch2/catch.hpp>
+
+#include <fstream>
+
+#include "app/trainer.h"
+#include "devices/sequence/sequence.h"
+#include "scenarios/result_json.h"
+#include "sim/core/files.h"
+#include "sim/core/input_error.h"
+#include "sim/gl/headless_context.h"
+#include "tests/scenarios/tiny_case.h"
+
+using namespace insonate;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A folder of its own for a test, with the tiny case, its exam, and a scan that shows the ball.
+class Folder {
+public:
+  Folder() : path(fs::temp_directory_path() / ("insonate-trainer-" + std::to_string(std::rand()))) {
+    fs::create_directories(path);
+    write_case(path / "tiny", tiny_case());
+    write_file(path / "exam.toml", kTinyScenario);
+    write_file(path / "scan.igs.mha", write_sequence(samples_of(4, 60, [](double t) {
+                 return Pose{glm::dmat3(1.0), {0, 1, std::max(2.0, 20 - 20 * t)}};
+               })));
+  }
+  ~Folder() {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  }
+
+  Options options() const {
+    Options options;
+    options.case_folder = path / "tiny";
+    options.scenario = path / "exam.toml";
+    options.tracker = "replay:" + (path / "scan.igs.mha").string();
+    options.out = path / "out";
+    return options;
+  }
+  fs::path file(const std::string& name, const std::string& bytes) const {
+    std::ofstream(path / name, std::ios::binary) << bytes;
+    return path / name;
+  }
+
+  fs::path path;
+};
+
+constexpr PictureSizes kSizes{320, 240, 160, 120};
+constexpr double kNoBudget = std::numeric_limits<double>::infinity();
+
+void open_and_wait(Trainer& trainer, const fs::path& path) {
+  trainer.open(path);
+  trainer.finish_loading();
+}
+
+}  // namespace
+
+TEST_CASE("the trainer replays a log, draws it, and leaves a report and the runner's score") {
+  const gl::HeadlessContext context;
+  const Folder folder;
+  Trainer trainer(folder.options());
+  trainer.open_from_options();
+  trainer.finish_loading();
+  REQUIRE(trainer.session());
+  for (int i = 0; i < 150; ++i) {
+    trainer.update(i / 30.0);
+    if (!trainer.best_frame_due()) continue;
+    trainer.draw(kSizes, 1, kNoBudget);
+    trainer.keep_best_frame();
+  }
+  trainer.write_results_if_due();
+  REQUIRE(trainer.session()->result());
+  REQUIRE(trainer.result_files());
+
+  const ExamResult written =
+      result_from_json(read_file(trainer.result_files()->score), trainer.result_files()->score.string());
+  Runner runner(*trainer.session()->study().scenario, trainer.session()->study().subject,
+                trainer.session()->study().tissues);
+  runner.feed(samples_of(4, 60, [](double t) { return Pose{glm::dmat3(1.0), {0, 1, std::max(2.0, 20 - 20 * t)}}; }));
+  runner.end();
+  CHECK(written.points == runner.result().points);
+  CHECK(written.percent == runner.result().percent);
+  CHECK(written.provenance.log == "scan.igs.mha");
+  CHECK_FALSE(written.provenance.log_digest.empty());
+  CHECK(read_file(trainer.result_files()->report).find("data:image/png;base64,iVBOR") != std::string::npos);
+  // The picture that was kept shows something: tissue below the face, and black beside the fan.
+  REQUIRE(trainer.best_frame());
+  const Image<Rgba8>& frame = *trainer.best_frame();
+  CHECK(frame.at(frame.width / 2, frame.height / 3)[0] > 20);
+  CHECK(frame.at(1, 1)[3] == 0);
+}
+
+TEST_CASE("where nothing changes nothing is drawn, and each change draws what it reaches") {
+  const gl::HeadlessContext context;
+  const Folder folder;
+  Trainer trainer(folder.options());
+  trainer.open_from_options();
+  trainer.finish_loading();
+  trainer.update(0.5);
+  trainer.draw(kSizes, 1, kNoBudget);
+  Pictures& pictures = trainer.pictures();
+  const long drawn = pictures.drawn(), simulated = pictures.simulator_runs();
+  REQUIRE(simulated > 0);
+  for (int i = 0; i < 5; ++i) trainer.draw(kSizes, 1, kNoBudget);
+  CHECK(pictures.drawn() == drawn);
+
+  trainer.session()->console().gain_db = 3;
+  trainer.draw(kSizes, 1, kNoBudget);
+  CHECK(pictures.simulator_runs() == simulated + 1);  // display alone
+  trainer.update(0.6);
+  trainer.draw(kSizes, 1, kNoBudget);
+  CHECK(pictures.simulator_runs() > simulated + 2);
+  const long before_camera = pictures.simulator_runs(), all = pictures.drawn();
+  pictures.camera.orbit(10, 0);
+  trainer.draw(kSizes, 1, kNoBudget);
+  CHECK(pictures.simulator_runs() == before_camera);
+  CHECK(pictures.drawn() == all + 1);
+}
+
+TEST_CASE("what cannot be opened is told of, and the session goes on as it was") {
+  const gl::HeadlessContext context;
+  const Folder folder;
+  Trainer trainer(folder.options());
+  trainer.open_from_options();
+  trainer.finish_loading();
+  REQUIRE(trainer.problems().empty());
+  const Session* const session = trainer.session();
+  fs::create_directories(folder.path / "empty");
+  fs::create_directories(folder.path / "broken");
+  folder.file("broken/case.toml", "name = 3");
+
+  std::string of_nobody = kTinyScenario;
+  of_nobody.replace(of_nobody.find("\"tiny\""), 6, "\"nobody\"");
+
+  const std::vector<std::pair<fs::path, std::string>> bad = {
+      {folder.path / "missing.nii.gz", "no such file"},
+      {folder.file("picture.jpg", "JFIF"), "does not open files of this kind"},
+      {folder.file("cut.nii.gz", "\x1f\x8b not really"), "cut.nii.gz"},
+      {folder.file("nothing.nrrd", ""), "empty"},
+      {folder.path / "empty", "empty"},
+      {folder.path / "broken", "case.toml"},
+      {folder.file("typo.toml", "format = 1\ntitel = \"x\"\n"), "titel"},
+      {folder.file("other_case.toml", of_nobody), "nobody"},
+      {folder.file("words.igs.mha", "this is no sequence\n"), "words.igs.mha"},
+  };
+  for (const auto& [path, words] : bad) {
+    CAPTURE(path.string());
+    open_and_wait(trainer, path);
+    REQUIRE(trainer.problems().size() == 1);
+    CHECK(trainer.problems().front().find(words) != std::string::npos);
+    trainer.problems().pop_front();
+    CHECK(trainer.session() == session);
+    trainer.update(0.1);
+    trainer.draw(kSizes, 1, kNoBudget);
+    CHECK(trainer.pictures().ultrasound() != nullptr);
+  }
+}
+
+TEST_CASE("another log can be opened in the same session's place, another patient too") {
+  const gl::HeadlessContext context;
+  const Folder folder;
+  Trainer trainer(folder.options());
+  trainer.open_from_options();
+  trainer.finish_loading();
+  const fs::path second = folder.file("second.igs.mha", write_sequence(samples_of(2, 60, [](double) {
+                                        return Pose{glm::dmat3(1.0), {0, 0, 30}};
+                                      })));
+  open_and_wait(trainer, second);
+  REQUIRE(trainer.problems().empty());
+  trainer.update(0);
+  trainer.update(3);
+  trainer.draw(kSizes, 1, kNoBudget);
+  trainer.write_results_if_due();
+  REQUIRE(trainer.session()->result());
+  CHECK(trainer.session()->result()->provenance.log == "second.igs.mha");
+  CHECK(trainer.result_files());
+
+  Case another = tiny_case();
+  another.name = "Somebody else";
+  write_case(folder.path / "another", another);
+  open_and_wait(trainer, folder.path / "another");
+  REQUIRE(trainer.problems().empty());
+  CHECK(trainer.session()->study().subject.name == "Somebody else");
+  CHECK(trainer.session()->holder() == Holder::learner);
+  trainer.update(4);
+  trainer.draw(kSizes, 1, kNoBudget);
+  CHECK(trainer.pictures().ultrasound() != nullptr);
+}
+
+TEST_CASE("without a window there is nobody to answer a dialog: bad input passes through") {
+  const gl::HeadlessContext context;
+  const Folder folder;
+  Options options = folder.options();
+  options.headless = true;
+  options.case_folder = folder.path / "missing";
+  Trainer trainer(options);
+  trainer.open_from_options();
+  CHECK_THROWS_AS(trainer.finish_loading(), InputError);
+}
