@@ -37,7 +37,7 @@ void add_failed(const std::vector<Mark>& marks, const std::string& where, bool c
                 std::vector<std::string>& reasons) {
   for (const Mark& m : marks)
     if (m.points <= 0 && m.critical == critical)
-      reasons.push_back(where + (critical ? ", critical: " : ": ") + std::string(info(m.metric).words) + ": " + m.why);
+      reasons.push_back(where + (critical ? ", critical: " : ": ") + std::string(info(m.metric).words) + ", " + m.why);
 }
 
 }  // namespace
@@ -57,16 +57,15 @@ Mark mark(const Criterion& criterion, std::optional<double> value, const std::st
   const double share = std::clamp((*value - criterion.zero) / (criterion.full - criterion.zero), 0.0, 1.0);
   m.points = share * criterion.weight;
   const std::string measured = in_words(criterion.metric, *value);
-  const std::string limit_full = in_words(criterion.metric, criterion.full);
-  const std::string limit_zero = in_words(criterion.metric, criterion.zero);
+  const std::string full = in_words(criterion.metric, criterion.full);
+  const std::string zero = in_words(criterion.metric, criterion.zero);
   const bool less = criterion.full < criterion.zero;
   if (share >= 1)
-    m.why = measured + " earns full points, as up to " + limit_full + ".";
+    m.why = measured + ": full points for " + full + (less ? " or less." : " or more.");
   else if (share <= 0)
-    m.why = measured + " earns nothing, as from " + limit_zero + (less ? " up." : " down.");
+    m.why = measured + ": nothing for " + zero + (less ? " or more." : " or less.");
   else
-    m.why = measured + " lies between " + limit_full + " (full points) and " + limit_zero + " (none).";
-  if (share >= 1 && !less) m.why = measured + " earns full points, as from " + limit_full + " up.";
+    m.why = measured + ": between full points at " + full + " and none at " + zero + ".";
   return m;
 }
 

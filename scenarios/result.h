@@ -20,7 +20,7 @@ struct Mark {
   bool critical = false;
   std::optional<double> value;  ///< in the metric's unit; empty when it could not be measured
   double points = 0;            ///< 0 to weight
-  std::string why;              ///< one sentence: "12.4 mm: full points up to 5.0 mm, none from 20.0 mm."
+  std::string why;              ///< one sentence: "12.4 mm: between full points at 5.0 mm and none at 20.0 mm."
 
   bool fails_exam() const { return critical && points <= 0; }
 };

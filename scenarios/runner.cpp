@@ -20,7 +20,7 @@ Mark mark_motion(const Criterion& criterion, const MotionValues& motion, bool ta
   Mark m = mark(criterion, motion.of(criterion.metric), kNothingValid);
   if (info(criterion.metric).economy && !task_done && m.value) {
     m.points = 0;
-    m.why = in_words(criterion.metric, *m.value) + ", which earns nothing, because the task was not done.";
+    m.why = in_words(criterion.metric, *m.value) + ": nothing, because the task was not done.";
   }
   return m;
 }

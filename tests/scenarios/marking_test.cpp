@@ -41,15 +41,15 @@ TEST_CASE("points fall on a straight line from full to zero") {
 
 TEST_CASE("a mark says why") {
   const Criterion less = criterion(Metric::plane_distance_mm, 5, 20, 3);
-  CHECK(mark(less, 4.04).why == "4.0 mm earns full points, as up to 5.0 mm.");
-  CHECK(mark(less, 12.5).why == "12.5 mm lies between 5.0 mm (full points) and 20.0 mm (none).");
-  CHECK(mark(less, 33).why == "33.0 mm earns nothing, as from 20.0 mm up.");
+  CHECK(mark(less, 4.04).why == "4.0 mm: full points for 5.0 mm or less.");
+  CHECK(mark(less, 12.5).why == "12.5 mm: between full points at 5.0 mm and none at 20.0 mm.");
+  CHECK(mark(less, 33).why == "33.0 mm: nothing for 20.0 mm or more.");
   const Criterion more = criterion(Metric::target_in_view_percent, 80, 30, 2);
-  CHECK(mark(more, 95).why == "95 % earns full points, as from 80 % up.");
-  CHECK(mark(more, 12).why == "12 % earns nothing, as from 30 % down.");
+  CHECK(mark(more, 95).why == "95 %: full points for 80 % or more.");
+  CHECK(mark(more, 12).why == "12 %: nothing for 30 % or less.");
   CHECK(mark(more, std::nullopt, "nothing was seen.").why == "nothing was seen.");
   CHECK(mark(more, std::nullopt, "nothing was seen.").points == 0);
-  CHECK(mark(criterion(Metric::tilt_deg, 5, 20, 1), 3).why == "3.0\u00b0 earns full points, as up to 5.0\u00b0.");
+  CHECK(mark(criterion(Metric::tilt_deg, 5, 20, 1), 3).why == "3.0\u00b0: full points for 5.0\u00b0 or less.");
 }
 
 TEST_CASE("the exam is passed from the pass mark on") {
@@ -74,8 +74,7 @@ TEST_CASE("a critical criterion that earns nothing fails the exam alone, and is 
   CHECK(failed.percent == 99);
   CHECK_FALSE(failed.passed);
   REQUIRE(failed.reasons.size() == 1);
-  CHECK(failed.reasons[0] ==
-        "Step 1 (Ball), critical: Target reached by the sound: 10 % earns nothing, as from 30 % down.");
+  CHECK(failed.reasons[0] == "Step 1 (Ball), critical: Target reached by the sound, 10 %: nothing for 30 % or less.");
 
   CHECK(exam({rest, mark(criterion(Metric::target_insonated_percent, 80, 30, 1, true), 31)}, 80).passed);
 }
