@@ -10,6 +10,7 @@ namespace insonate::view {
 namespace {
 
 constexpr double kSteepest_deg = 89;
+constexpr double kPictureMiddle_mm = 70;  // depth, of abdominal pictures
 constexpr double kNearest_mm = 50, kFarthest_mm = 5000;
 
 }  // namespace
@@ -23,6 +24,23 @@ OrbitCamera OrbitCamera::framing(const Grid& volume) {
   const double radius = 0.75 * glm::length(glm::dvec3(volume.size) * volume.spacing) / 2;
   camera.distance_mm =
       std::clamp(radius / std::sin(glm::radians(camera.field_of_view_deg / 2)), kNearest_mm, kFarthest_mm);
+  return camera;
+}
+
+OrbitCamera OrbitCamera::facing(const Grid& volume, const Pose& patient_from_probe) {
+  // Where a teacher stands at the bed: in front of the patient, nearer to the feet.
+  const glm::dvec3 teacher = glm::normalize(glm::dvec3(0.15, -1, -0.45));
+  const glm::dvec3 normal =
+      patient_from_probe.rotation[2] * (glm::dot(patient_from_probe.rotation[2], teacher) < 0 ? -1.0 : 1.0);
+  const glm::dvec3 aside = teacher - glm::dot(teacher, normal) * normal;
+  const double tilt = std::min(glm::radians(35.0), std::asin(std::min(glm::length(aside), 1.0)));
+  glm::dvec3 to_camera = normal;
+  if (glm::length(aside) > 1e-6) to_camera = std::cos(tilt) * normal + std::sin(tilt) * glm::normalize(aside);
+  OrbitCamera camera = framing(volume);
+  camera.centre = (camera.centre + patient_from_probe.point({0, kPictureMiddle_mm, 0})) / 2.0;
+  camera.yaw_deg = glm::degrees(std::atan2(to_camera.x, -to_camera.y));
+  camera.pitch_deg =
+      std::clamp(glm::degrees(std::asin(std::clamp(to_camera.z, -1.0, 1.0))), -kSteepest_deg, kSteepest_deg);
   return camera;
 }
 

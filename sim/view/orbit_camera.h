@@ -19,6 +19,10 @@ struct OrbitCamera {
   /// Sees the whole volume from the front, a little from the patient's left and from the feet.
   static OrbitCamera framing(const Grid& volume);
 
+  /// From where the probe's plane is seen best: some 35 degrees off its normal, on the side nearer to the patient's
+  /// front and feet. Looks at a point between the volume's centre and the middle of a usual picture.
+  static OrbitCamera facing(const Grid& volume, const Pose& patient_from_probe);
+
   /// The camera's frame: x to the right of the picture, y down, z into it; its rotation turns the orientation cue.
   Pose patient_from_camera() const;
 

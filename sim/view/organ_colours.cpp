@@ -18,7 +18,7 @@ constexpr OrganColour kNotDrawn{};
 const Known kKnown[] = {
     // Carry no form of their own, or would hide all the rest.
     {{"skin", "fat", "muscle", "muscles", "subcutaneous", "body", "air", "iliopsoas", "gluteus", "autochthon", "fascia",
-      "diaphragm", "wall"},
+      "diaphragm", "abdominal_wall"},
      kNotDrawn},
     {{"stone", "gallstone", "calculus"}, {{0.95f, 0.92f, 0.75f}, 0.9f}},
     {{"fluid", "ascites"}, {{0.35f, 0.65f, 0.85f}, 0.35f}},
@@ -28,7 +28,7 @@ const Known kKnown[] = {
     {{"vessel", "vessels"}, {{0.46f, 0.32f, 0.52f}, 0.9f}},
     {{"gallbladder", "bile"}, {{0.38f, 0.54f, 0.30f}, 0.9f}},
     {{"liver"}, {{0.54f, 0.28f, 0.21f}, 0.8f}},
-    {{"sinus", "pelvis"}, {{0.82f, 0.70f, 0.46f}, 0.8f}},
+    {{"sinus", "kidney_pelvis", "renal_pelvis"}, {{0.82f, 0.70f, 0.46f}, 0.8f}},
     {{"medulla"}, {{0.40f, 0.15f, 0.14f}, 0.8f}},
     {{"kidney", "cortex"}, {{0.52f, 0.20f, 0.18f}, 0.8f}},
     {{"adrenal"}, {{0.76f, 0.60f, 0.34f}, 0.8f}},
@@ -40,13 +40,14 @@ const Known kKnown[] = {
     {{"uterus", "prostate"}, {{0.72f, 0.48f, 0.45f}, 0.8f}},
     {{"heart"}, {{0.58f, 0.25f, 0.22f}, 0.8f}},
     {{"lung", "lungs"}, {{0.66f, 0.58f, 0.60f}, 0.15f}},
-    {{"cord"}, {{0.90f, 0.85f, 0.60f}, 0.6f}},
-    {{"cartilage"}, {{0.72f, 0.78f, 0.78f}, 0.7f}},
+    {{"cord", "spinal_canal"}, {{0.90f, 0.85f, 0.60f}, 0.6f}},
+    {{"cartilage", "cartilages", "disc", "discs"}, {{0.72f, 0.78f, 0.78f}, 0.7f}},
     {{"bone", "rib", "ribs", "vertebra", "vertebrae", "spine", "sacrum", "hip", "femur", "sternum", "costal", "marrow",
-      "pelvic", "scapula", "clavicula", "humerus"},
+      "pelvis", "pelvic", "scapula", "clavicula", "humerus"},
      {{0.90f, 0.85f, 0.73f}, 0.9f}},
 };
 
+// Letters around it would make it another word; a phrase is found as it is written.
 bool has_word(std::string_view name, std::string_view word) {
   const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
   for (std::size_t at = name.find(word); at != std::string_view::npos; at = name.find(word, at + 1)) {

@@ -2,6 +2,7 @@
 
 #include "sim/shaders/shared/slice_parameters.h"
 #include "sim/view/picture_target.h"
+#include "sim/view/plane_state.h"
 
 namespace insonate::view {
 namespace {

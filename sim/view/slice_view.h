@@ -33,6 +33,7 @@ public:
   /// RGBA8, alpha 255, row 0 is the top, the size of plane.geometry. Drawn anew only when something changed; valid
   /// until the next call. Leaves the framebuffer binding, viewport and switches as they were.
   /// @param patient  compared by address: call forget() after changing what lies there
+  /// @param plane    with an image
   const gl::Texture& render(const PatientTextures& patient, const UltrasoundPlane& plane, const SliceStyle& style = {});
 
   /// The next render() draws.

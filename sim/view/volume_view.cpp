@@ -3,11 +3,12 @@
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <utility>
 
 #include "sim/shaders/shared/volume_view_parameters.h"
 #include "sim/view/picture_target.h"
+#include "sim/view/plane_state.h"
 
 namespace insonate::view {
 namespace {
@@ -66,24 +67,38 @@ struct Inputs {
   bool operator==(const Inputs&) const = default;
 };
 
-/// How long drawing takes, learnt from what it took. The device is asked for a time only at the next drawing, when it
-/// has long been done, so that nobody waits.
+/// How long drawing takes, learnt from what whole pictures took: parts of one differ, the patient lies in the middle.
+/// The device is asked for a time only when the next part is due, when it has long been done, so that nobody waits.
 class Pace {
 public:
-  void begin() { timer_.begin(); }
-  void end(double pixels) {
+  void begin(bool first_part) {
+    collect();
+    if (first_part) sum_ms_ = sum_pixels_ = 0;
+    timer_.begin();
+  }
+  void end(double pixels, bool last_part) {
     timer_.end();
     pending_pixels_ = pixels;
+    pending_is_last_ = last_part;
   }
-  /// Of one pixel, ms; nothing before the first drawing.
+  /// Of one pixel, ms; nothing before the first whole picture.
   std::optional<double> pixel_ms() {
-    if (pending_pixels_ > 0) pixel_ms_ = timer_.milliseconds() / std::exchange(pending_pixels_, 0);
+    collect();
     return pixel_ms_;
   }
 
 private:
+  void collect() {
+    if (pending_pixels_ == 0) return;
+    sum_ms_ += timer_.milliseconds();
+    sum_pixels_ += std::exchange(pending_pixels_, 0);
+    if (pending_is_last_) pixel_ms_ = sum_ms_ / sum_pixels_;
+  }
+
   gl::Timer timer_;
   double pending_pixels_ = 0;
+  bool pending_is_last_ = false;
+  double sum_ms_ = 0, sum_pixels_ = 0;
   std::optional<double> pixel_ms_;
 };
 
@@ -124,7 +139,6 @@ int VolumeView::State::choose_scale(double full_pixels, double budget_ms) {
 
 void VolumeView::State::draw(const PictureTarget& target, int first_row, int end_row, const PatientTextures& patient,
                              const UltrasoundPlane& plane, const VolumeViewParameters& values) {
-  pace.pixel_ms();  // collects the time before, whose query is used again
   parameters.write(&values, sizeof values);
   parameters.bind_uniform(0);
   patient.acoustic_volume().bind(0);
@@ -134,9 +148,9 @@ void VolumeView::State::draw(const PictureTarget& target, int first_row, int end
   patient.distance().bind(4);
   const DrawingInto drawing(target, first_row, end_row);
   program.use();
-  pace.begin();
+  pace.begin(first_row == 0);
   triangle.draw();
-  pace.end(double(target.texture.width()) * (end_row - first_row));
+  pace.end(double(target.texture.width()) * (end_row - first_row), end_row == target.texture.height());
   ++renders;
 }
 

@@ -56,6 +56,23 @@ TEST_CASE("Panning moves what lies at the centre's depth by the pointer's pixels
   CHECK(moved.y == Approx(-12));
 }
 
+TEST_CASE("A camera that faces a plane looks across it from the front, whatever the plane") {
+  insonate::Grid grid;
+  grid.size = {300, 200, 400};
+  for (const glm::dvec3& normal : {glm::dvec3(0, 0, 1), glm::dvec3(0, 0, -1), glm::dvec3(1, 0, 0), glm::dvec3(-1, 0, 0),
+                                   glm::dvec3(0, 1, 0), glm::dvec3(0.6, 0.48, 0.64)}) {
+    const glm::dvec3 x = glm::normalize(glm::cross(normal, glm::dvec3(0.3, 0.5, -0.8)));
+    const Pose probe{glm::dmat3(x, glm::cross(normal, x), normal), glm::dvec3(10, -60, 20)};
+    const OrbitCamera camera = OrbitCamera::facing(grid, probe);
+    const glm::dvec3 to_camera = -camera.patient_from_camera().rotation[2];
+    INFO("normal " << normal.x << " " << normal.y << " " << normal.z);
+    CHECK(std::abs(glm::dot(to_camera, normal)) > 0.8);
+    CHECK(glm::dot(to_camera, glm::dvec3(0, -1, 0)) > 0);
+    const glm::dvec2 face = camera.project(probe.translation, kWidth, kHeight);
+    CHECK((face.x > 0 && face.x < kWidth && face.y > 0 && face.y < kHeight));
+  }
+}
+
 TEST_CASE("Dragging never turns the camera over and never loses the patient") {
   OrbitCamera camera;
   camera.orbit(350, 400);

@@ -21,6 +21,9 @@ TEST_CASE("Structures are known by the words of their names, in the phantom's an
 TEST_CASE("What lies in an organ comes before the organ") {
   CHECK(colour_of_organ("liver_vein").colour == colour_of_organ("vein").colour);
   CHECK(colour_of_organ("kidney_cyst_left").colour == colour_of_organ("cyst").colour);
+  CHECK(colour_of_organ("pelvis").colour == colour_of_organ("sacrum").colour);
+  CHECK(colour_of_organ("right_kidney_pelvis").colour != colour_of_organ("pelvis").colour);
+  CHECK(colour_of_organ("aorta_wall").colour == colour_of_organ("aorta").colour);
 }
 
 TEST_CASE("What would hide the rest, and unknown names, are not drawn") {
