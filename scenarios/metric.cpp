@@ -27,7 +27,7 @@ constexpr std::array kMetrics{
                picture, false, true, false, false, 0},
     MetricInfo{Metric::landmarks_in_view_percent, "landmarks_in_view_percent", "%", "Landmarks in the picture", picture,
                false, false, true, false, 0},
-    MetricInfo{Metric::longest_hold_s, "longest_hold_s", "s", "View held still", step, false, false, false, false, 2},
+    MetricInfo{Metric::longest_hold_s, "longest_hold_s", "s", "View held", step, false, false, false, false, 2},
     MetricInfo{Metric::time_s, "time_s", "s", "Time taken", motion, true, false, false, true, 1},
     MetricInfo{Metric::path_length_mm, "path_length_mm", "mm", "Path of the probe", motion, true, false, false, true,
                0},

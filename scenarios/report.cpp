@@ -82,7 +82,8 @@ std::string row(const Mark& m) {
 std::string table(const std::vector<Mark>& marks) {
   if (marks.empty()) return "<p class='quiet'>This part does not count.</p>";
   std::string html =
-      "<table><thead><tr><th>Criterion</th><th class='number'>Value</th><th class='number'>Full \u2026 no points</th>"
+      "<table class='marks'><thead><tr><th>Criterion</th><th class='number'>Value</th><th class='number'>Full \u2026 "
+      "no points</th>"
       "<th class='number'>Points</th></tr></thead><tbody>\n";
   for (const Mark& m : marks) html += row(m);
   return html + "</tbody></table>";

@@ -32,7 +32,6 @@ constexpr double kAxisHeight = 26;
 /// One of the charts over time.
 struct Quantity {
   const char* title;
-  const char* unit;
   double most;                 ///< the axis ends here; what lies beyond is cut
   std::optional<Metric> mark;  ///< the criterion whose full points are drawn
   std::function<double(const TracePoint&)> value;
@@ -99,14 +98,17 @@ std::string steps_on(const Axes& axes, const ExamResult& result, const std::opti
   return svg;
 }
 
-std::string scale(const Quantity& quantity, const Axes& axes) {
+std::string scale(const Quantity& quantity, const Axes& axes, std::span<const TracePoint> trace) {
+  const bool cut = std::any_of(trace.begin(), trace.end(), [&](const TracePoint& point) {
+    return point.valid && quantity.value(point) > axes.most;
+  });
   std::string svg = print("<text class='name' x='%.0f' y='%.1f'>%s</text>", kLeft, axes.top - 7, quantity.title);
   for (const double share : {0.0, 0.5, 1.0}) {
     const double value = share * axes.most;
     svg += print("<line class='grid' x1='%.0f' x2='%.0f' y1='%.1f' y2='%.1f'/>", kLeft, kWidth - kRight, axes.y(value),
                  axes.y(value));
     svg += print("<text class='tick' x='%.0f' y='%.1f' text-anchor='end'>%g%s</text>", kLeft - 6, axes.y(value) + 4,
-                 value, share == 1.0 ? quantity.unit : "");
+                 value, share == 1.0 && cut ? "+" : "");
   }
   return svg;
 }
@@ -180,26 +182,24 @@ std::string projected_path(const Projection& projection, double left, const Exam
 
 std::string time_charts_svg(const ExamResult& result, std::span<const TracePoint> trace) {
   if (trace.empty()) return "";
-  double fastest = 100;
+  double fastest = 0;
   for (const TracePoint& point : trace)
     if (point.valid) fastest = std::max(fastest, point.speed_mm_s);
-  const double speed_most = round_step(fastest * 2.5) * std::ceil(fastest / round_step(fastest * 2.5));
-  const std::array quantities{
-      Quantity{"Target\u2019s distance from the picture\u2019s plane", " mm", 40, Metric::plane_distance_mm,
-               [](const TracePoint& p) { return std::abs(p.view.plane_distance_mm); }},
-      Quantity{"Angle between the planes", "\u00b0", 90, Metric::plane_angle_deg,
-               [](const TracePoint& p) { return p.view.plane_angle_deg; }},
-      Quantity{"Target reached by the sound", " %", 120, Metric::target_insonated_percent,
-               [](const TracePoint& p) { return p.view.target_insonated_percent; }},
-      Quantity{"Speed of the probe", " mm/s", speed_most, std::nullopt,
-               [](const TracePoint& p) { return p.speed_mm_s; }}};
+  const std::array quantities{Quantity{"Distance of the target from the plane, mm", 40, Metric::plane_distance_mm,
+                                       [](const TracePoint& p) { return std::abs(p.view.plane_distance_mm); }},
+                              Quantity{"Angle between the planes, degrees", 90, Metric::plane_angle_deg,
+                                       [](const TracePoint& p) { return p.view.plane_angle_deg; }},
+                              Quantity{"Target reached by the sound, %", 120, Metric::target_insonated_percent,
+                                       [](const TracePoint& p) { return p.view.target_insonated_percent; }},
+                              Quantity{"Speed of the probe, mm/s", 100 * std::max(1.0, std::ceil(fastest / 100)),
+                                       std::nullopt, [](const TracePoint& p) { return p.speed_mm_s; }}};
 
   const double height = kTop + quantities.size() * (kChartHeight + kChartGap) - kChartGap + kAxisHeight;
   std::string svg = print("<svg class='chart' viewBox='0 0 %.0f %.0f' role='img'>", kWidth, height);
   Axes axes{kTop, std::max(1.0, result.motion.time_s), 1};
   for (const Quantity& quantity : quantities) {
     axes.most = quantity.most;
-    svg += steps_on(axes, result, quantity.mark) + untracked(axes, trace) + scale(quantity, axes) +
+    svg += steps_on(axes, result, quantity.mark) + untracked(axes, trace) + scale(quantity, axes, trace) +
            curve(quantity, axes, trace);
     axes.top += kChartHeight + kChartGap;
   }

@@ -42,6 +42,10 @@ td { border-top: 1px solid var(--line); padding: 9px 0; vertical-align: top; }
 td b { font-weight: 600; }
 td small { display: block; color: var(--quiet); font-size: 13px; max-width: 30em; }
 .number { text-align: right; padding-left: 18px; white-space: nowrap; font-variant-numeric: tabular-nums; }
+.marks { table-layout: fixed; }
+.marks th:nth-child(2) { width: 96px; }
+.marks th:nth-child(3) { width: 180px; }
+.marks th:nth-child(4) { width: 112px; }
 .critical { font-size: 11px; color: var(--bad); border: 1px solid currentColor; border-radius: 8px; padding: 0 7px; }
 .bar { width: 84px; height: 4px; margin: 5px 0 0 auto; border-radius: 2px; background: #e9edf1; }
 .bar i { display: block; height: 100%; border-radius: 2px; background: var(--some); }
