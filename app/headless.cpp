@@ -81,7 +81,8 @@ int run_headless(const Options& options) {
     const double now_s = double(step) * kStep_s;
     trainer.update(now_s);
     if (trainer.best_frame_due()) {
-      held_screen = screen.draw(trainer);
+      const Image<Rgba8> now = screen.draw(trainer);
+      if (!session.result()) held_screen = now;  // else the score sheet lies over it
       trainer.keep_best_frame();
     }
     if (session.result() || (end_s > 0 && now_s >= end_s)) break;

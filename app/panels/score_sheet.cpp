@@ -13,7 +13,7 @@ namespace {
 
 std::string number(double value) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.4g", std::round(value * 10) / 10);
+  std::snprintf(text, sizeof text, "%.6g", std::round(value * 100) / 100);
   return text;
 }
 
@@ -48,9 +48,9 @@ Columns columns_of(const Theme& theme, Rect row) {
 
 void draw_verdict(const Theme& theme, Rect head, const ExamResult& result) {
   const ImU32 colour = result.passed ? colour::kAccent : colour::kRed;
-  char percent[16];
-  std::snprintf(percent, sizeof percent, "%.0f %%", result.percent);
-  draw_text(head.take_right(theme.px(150)), theme.huge, colour, percent, Align::right);
+  // Cut off, not rounded: 79.96 % is not yet 80 %.
+  const std::string percent = number(std::floor(result.percent * 10) / 10) + " %";
+  draw_text(head.take_right(theme.px(190)), theme.huge, colour, percent, Align::right);
   draw_text(head.take_top(theme.px(26)), theme.heading, colour::kText, result.title);
   draw_text(head.take_top(theme.px(24)), theme.strong, colour, result.passed ? "Passed" : "Not passed");
   std::string line = number(result.points) + " of " + number(result.points_possible) + " points; " +
@@ -77,6 +77,13 @@ void draw_mark(const Theme& theme, const Rect& row, const Mark& mark) {
     ImGui::PopFont();
     ImGui::EndTooltip();
   }
+}
+
+void draw_column_titles(const Theme& theme, const Rect& row) {
+  const Columns columns = columns_of(theme, row);
+  draw_text(columns.value, theme.small_text, colour::kFaint, "Value", Align::right);
+  draw_text(columns.limits, theme.small_text, colour::kFaint, "Full \u2013 no points", Align::right);
+  draw_text(columns.points, theme.small_text, colour::kFaint, "Points", Align::right);
 }
 
 void draw_group(const Theme& theme, const Rect& row, const std::string& title, const std::string& remark) {
@@ -112,7 +119,7 @@ ScoreAnswer draw_score_sheet(const Theme& theme, const Rect& screen, const ExamR
   const float row = theme.px(26), head_height = theme.px(74), reason_height = theme.px(22);
   const std::size_t reasons = std::min<std::size_t>(result.reasons.size(), 3);
   const float rows_height = row * float(row_count(result));
-  const float others = theme.px(48) + head_height + theme.px(20) + reason_height * float(reasons) + theme.px(104);
+  const float others = theme.px(48) + row + head_height + theme.px(20) + reason_height * float(reasons) + theme.px(104);
   const float height = std::min(screen.h - theme.px(40), rows_height + others);
   Rect sheet = begin_overlay(theme, screen, {std::min(theme.px(860), screen.w - theme.px(40)), height});
   draw_verdict(theme, sheet.take_top(head_height), result);
@@ -120,6 +127,7 @@ ScoreAnswer draw_score_sheet(const Theme& theme, const Rect& screen, const ExamR
   for (std::size_t i = 0; i < reasons; ++i)
     draw_text(sheet.take_top(reason_height), theme.small_text, colour::kAmber, result.reasons[i]);
   sheet.take_top(theme.px(4));
+  draw_column_titles(theme, sheet.take_top(row));
 
   Rect bottom = sheet.take_bottom(theme.px(92));
   ImGui::SetCursorScreenPos(sheet.min());
