@@ -18,7 +18,9 @@
 namespace insonate {
 namespace {
 
-constexpr int kBlock = 8;  // voxels a side; small enough that most shapes miss it, large enough to spread the search
+// What is measured together: small enough that most shapes are out of reach of it, large enough to spread the search
+// for those that are not.
+constexpr double kBlock_mm = 8;
 
 // Passes a share on when it has grown by a hundredth, from one thread at a time.
 class ProgressCounter {
@@ -69,9 +71,18 @@ public:
     std::vector<int> label(points.count(), -1);
     const auto pitch = float(grid.spacing.x);
     for (auto painted = plan_.shapes.rbegin(); painted != plan_.shapes.rend(); ++painted) {
-      if (painted->shape->bounds().distance_to(points.bounds()) > pitch) continue;
-      const std::vector<float>& distance = points.distances_to(*painted->shape);
+      const DistanceRange range = points.range_of(*painted->shape);
+      if (range.least > 0.5f * pitch) continue;
       const float own_hu = plan_.labels[painted->label].hu;
+      if (range.most < -0.5f * pitch) {
+        for (std::size_t n = 0; n < points.count(); ++n) {
+          hu[n] += free[n] * own_hu;
+          free[n] = 0;
+          if (label[n] < 0) label[n] = int(painted->label);
+        }
+        break;
+      }
+      const std::vector<float>& distance = points.distances_to(*painted->shape);
       float most_free = 0;
       for (std::size_t n = 0; n < points.count(); ++n) {
         const float share = free[n] * std::clamp(0.5f - distance[n] / pitch, 0.0f, 1.0f);
@@ -136,7 +147,8 @@ Case make_phantom(const std::string& recipe_name, const std::string& recipe_text
   subject.landmarks = plan.landmarks;
   for (const PaintedLabel& label : plan.labels) subject.label_table.push_back(label.label);
 
-  const glm::ivec3 blocks = (plan.grid.size + kBlock - 1) / kBlock;
+  const int block = std::max(2, int(std::lround(kBlock_mm / plan.grid.spacing.x)));  // voxels a side
+  const glm::ivec3 blocks = (plan.grid.size + block - 1) / block;
   ProgressCounter counter(progress, std::size_t(blocks.x) * std::size_t(blocks.y) * std::size_t(blocks.z));
   const Painter painter(plan);
   tbb::parallel_for(tbb::blocked_range3d<int>(0, blocks.z, 0, blocks.y, 0, blocks.x),
@@ -144,8 +156,8 @@ Case make_phantom(const std::string& recipe_name, const std::string& recipe_text
                       for (int k = range.pages().begin(); k < range.pages().end(); ++k)
                         for (int j = range.rows().begin(); j < range.rows().end(); ++j)
                           for (int i = range.cols().begin(); i < range.cols().end(); ++i) {
-                            const glm::ivec3 first = glm::ivec3(i, j, k) * kBlock;
-                            painter.paint(first, glm::min(first + kBlock, plan.grid.size), subject);
+                            const glm::ivec3 first = glm::ivec3(i, j, k) * block;
+                            painter.paint(first, glm::min(first + block, plan.grid.size), subject);
                             counter.one_done();
                           }
                     });

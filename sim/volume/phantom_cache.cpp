@@ -81,10 +81,14 @@ Case cached_phantom(const fs::path& recipe, const std::vector<std::pair<std::str
     }
   }
   Case subject = make_phantom(recipe.string(), text, options, progress);
-  std::error_code ignored;
-  fs::remove_all(folder, ignored);
-  write_case(folder, subject);
-  write_file(folder / kDigestsFile, digests_of(folder));
+  try {
+    std::error_code ignored;
+    fs::remove_all(folder, ignored);
+    write_case(folder, subject);
+    write_file(folder / kDigestsFile, digests_of(folder));
+  } catch (const InputError&) {
+    // The case is whole all the same: a cache that cannot be written costs the time to make it again.
+  }
   return subject;
 }
 

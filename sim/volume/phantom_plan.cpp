@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kFar_mm = 2000;
 constexpr double kMostVoxelsASide = 2048;
+constexpr std::size_t kMostVoxels = std::size_t(1) << 29;  // 1.6 GB with their labels
 
 Grid read_grid(const Recipe& recipe, RecipeTable& root) {
   const toml::node* node = root.node("grid");
@@ -31,6 +32,9 @@ Grid read_grid(const Recipe& recipe, RecipeTable& root) {
                    "choose from, to and voxel_mm for 2 to 2048");
     grid.size[axis] = int(voxels);
   }
+  if (grid.count() > kMostVoxels)
+    table.refuse("voxel_mm", "the grid has " + std::to_string(grid.count()) + " voxels",
+                 "choose from, to and voxel_mm for at most " + std::to_string(kMostVoxels));
   grid.origin = from + grid.spacing / 2.0;
   table.finish();
   return grid;

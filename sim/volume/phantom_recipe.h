@@ -3,6 +3,7 @@
 #include <glm/vec3.hpp>
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <utility>
@@ -85,7 +86,7 @@ public:
 
 private:
   const TomlTable& ask(const std::string& key) {
-    asked_.push_back(key);
+    if (std::find(asked_.begin(), asked_.end(), key) == asked_.end()) asked_.push_back(key);
     return plain_;
   }
   const toml::array& array(const std::string& key, const std::string& wanted);

@@ -35,18 +35,38 @@ float Bounds::distance_to(const Bounds& other) const {
 
 Points::Points(std::vector<float> x_mm, std::vector<float> y_mm, std::vector<float> z_mm)
     : x(std::move(x_mm)), y(std::move(y_mm)), z(std::move(z_mm)) {
-  for (std::size_t n = 0; n < x.size(); ++n) bounds_.include({x[n], y[n], z[n]});
+  const auto [low_x, high_x] = std::minmax_element(x.begin(), x.end());
+  const auto [low_y, high_y] = std::minmax_element(y.begin(), y.end());
+  const auto [low_z, high_z] = std::minmax_element(z.begin(), z.end());
+  bounds_ = {{*low_x, *low_y, *low_z}, {*high_x, *high_y, *high_z}};
+  if (count() == 1) return;
+  // A true distance changes by no more than the way gone; one that is exact to first order may change a little faster.
+  constexpr float kSteepest = 2.0f;
+  const glm::vec3 middle = 0.5f * (bounds_.low + bounds_.high);
+  slack_mm_ = kSteepest * glm::length(bounds_.high - middle);
+  middle_ = std::make_unique<Points>(std::vector{middle.x}, std::vector{middle.y}, std::vector{middle.z});
+}
+
+DistanceRange Points::range_of(const Shape& shape) {
+  const float way = bounds_.distance_to(shape.bounds());
+  if (way > kReach_mm) return {way, way};
+  const float distance = middle_ ? middle_->distances_to(shape)[0] : distances_to(shape)[0];
+  return {distance - slack_mm_, distance + slack_mm_};
 }
 
 const std::vector<float>& Points::distances_to(const Shape& shape) {
-  const auto [found, fresh] = measured_.try_emplace(&shape);
-  if (!fresh) return found->second;
+  const auto found = measured_.find(&shape);
+  if (found != measured_.end()) return found->second;
   std::vector<float> values(count());
   const float way = bounds_.distance_to(shape.bounds());
-  if (way > kReach_mm)
-    std::fill(values.begin(), values.end(), way);
+  DistanceRange range{way, way};
+  if (way <= kReach_mm && middle_) range = range_of(shape);
+  if (range.least > kReach_mm)
+    std::fill(values.begin(), values.end(), range.least);
+  else if (middle_ && range.most < -kReach_mm)
+    std::fill(values.begin(), values.end(), range.most);
   else
-    shape.distances(*this, values.data());  // may measure its parts at these points, so `found` is not kept
+    shape.distances(*this, values.data());
   return measured_[&shape] = std::move(values);
 }
 
@@ -154,7 +174,7 @@ private:
     if (f < 1e-3f) return -shortest;
     const float fx = n == 2.0f ? x / f : std::pow(x / f, n - 1.0f);
     const float fy = n == 2.0f ? y / f : std::pow(y / f, n - 1.0f);
-    return std::max((f - 1.0f) / std::hypot(fx / width, fy / depth), -shortest);
+    return std::max((f - 1.0f) / std::sqrt(fx * fx / (width * width) + fy * fy / (depth * depth)), -shortest);
   }
 
   static Bounds bounds_of(const LoftForm& form) {

@@ -26,8 +26,8 @@ struct Bounds {
 
 inline constexpr Bounds kEverywhere{glm::vec3(-1e6f), glm::vec3(1e6f)};
 
-/// No blend, gap or offset reaches further than this, so where a shape is more than that away, any lower bound of the
-/// distance that is no less will do.
+/// No blend, gap or offset reaches further than this, so where a surface is more than that away, any distance between
+/// this one and the true one will do.
 inline constexpr float kReach_mm = 30.0f;
 
 class Points;
@@ -53,6 +53,11 @@ private:
 
 using ShapePtr = std::shared_ptr<const Shape>;
 
+/// Between what two numbers a shape's distances lie at all points of a block.
+struct DistanceRange {
+  float least = 0, most = 0;
+};
+
 /// A block of points at which shapes are measured together, and what was measured already: a shape that five others
 /// keep clear of is measured once a block. Used by one thread.
 class Points {
@@ -62,13 +67,19 @@ public:
   std::size_t count() const { return x.size(); }
   const Bounds& bounds() const { return bounds_; }
 
-  /// The shape's signed distances at the points. Good until the points go.
+  /// From the distance at the block's middle alone: most blocks lie wholly in or out of most shapes.
+  DistanceRange range_of(const Shape& shape);
+
+  /// The shape's signed distances at the points. Where all of the block is further than kReach_mm from the surface, a
+  /// value between that and the distance. Good until the points go.
   const std::vector<float>& distances_to(const Shape& shape);
 
   const std::vector<float> x, y, z;
 
 private:
   Bounds bounds_;
+  float slack_mm_ = 0;  // by how much a distance may differ from the one at the block's middle
+  std::unique_ptr<Points> middle_;
   std::unordered_map<const Shape*, std::vector<float>> measured_;
 };
 
