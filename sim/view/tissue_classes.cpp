@@ -84,8 +84,8 @@ constexpr std::uint8_t kHalf = 128;
 
 /// All voxels reached from `seeds` through neighbours for which `passes` holds; each gets `mark`.
 template <typename Passes>
-std::size_t flood(const Box& box, std::vector<std::size_t> seeds, std::vector<std::uint8_t>& marks, std::uint8_t mark,
-                  const Passes& passes) {
+std::size_t flood(const Box& box, const std::vector<std::size_t>& seeds, std::vector<std::uint8_t>& marks,
+                  std::uint8_t mark, const Passes& passes) {
   std::size_t reached = 0;
   const auto take = [&](std::size_t at) {
     if (marks[at] || !passes(at)) return false;

@@ -56,14 +56,15 @@ struct Scene {
     patient = std::make_unique<view::PatientTextures>(simulator.volume_texture(), ct, labels, colours);
   }
 
-  /// Fills the picture, `width` by `height` pixels of `mm`, centred below the probe's face, with `colour`; alpha as
-  /// `inside` says.
+  /// Fills the picture, `width` by `height` pixels of `mm`, centred below the probe's face, with `colour`; alpha 0
+  /// where not `inside`, so that whoever ignores it shows the colour there.
   void set_picture(
       int width, int height, double mm, const Rgba8& colour,
       const std::function<bool(int x, int y)>& inside = [](int, int) { return true; }) {
     Image<Rgba8> pixels(width, height);
     for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x) pixels.at(x, y) = inside(x, y) ? colour : Rgba8{};
+      for (int x = 0; x < width; ++x)
+        pixels.at(x, y) = inside(x, y) ? colour : Rgba8{colour[0], colour[1], colour[2], 0};
     picture = std::make_unique<gl::Texture>(gl::Texture::make_2d(GL_RGBA8, width, height, gl::Filter::linear));
     picture->write(GL_RGBA, GL_UNSIGNED_BYTE, pixels.pixels.data());
     plane.image = picture.get();
