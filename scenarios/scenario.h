@@ -62,7 +62,7 @@ struct Scenario {
   std::string briefing;           ///< briefing = """...""": what the learner reads before the start; may be left out
   double pass_mark_percent = 80;  ///< pass_mark_percent = 80: 0 to 100
   double time_limit_s = 0;        ///< time_limit_s = 180: of the whole exam, 1 to 36000
-  /// `[phantom]`: options of the built-in phantom's recipe, in the file's order (free_fluid = true); only with
+  /// `[phantom]`: options of the built-in phantom's recipe, by name (free_fluid = true); only with
   /// case = "abdomen".
   std::vector<std::pair<std::string, std::string>> phantom_options;
   std::vector<Step> steps;          ///< 1 to 100

@@ -1,8 +1,8 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <set>
 
@@ -25,10 +25,10 @@ struct Range {
   double most;
 };
 
+/// As short as it can be said without losing a bit.
 std::string plain(double number) {
   char text[32];
-  std::snprintf(text, sizeof text, "%g", number);
-  return text;
+  return {text, std::to_chars(text, text + sizeof text, number).ptr};
 }
 
 SourcePlace place_of(const toml::source_region& source) {

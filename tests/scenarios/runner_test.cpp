@@ -71,6 +71,9 @@ TEST_CASE("a scan's score can be computed by hand") {
   CHECK(second.start_s == first.end_s);
   CHECK(second.end_s == Approx(first.end_s + 0.5).margin(0.021));
   CHECK(second.marks[0].points == 1);
+  // No time is lost between the steps.
+  CHECK(first.motion.time_s + second.motion.time_s == Approx(result.motion.time_s));
+  CHECK(second.motion.tracked_s == Approx(second.end_s - second.start_s));
 
   CHECK(result.motion.time_s == Approx(3.1).margin(0.021));
   CHECK(result.motion.path_length_mm == Approx(36));
@@ -144,6 +147,11 @@ TEST_CASE("a hold survives a loss of tracking of a blink, not a longer one") {
   CHECK(with_loss(0.0).end_s == Approx(1.0));
   CHECK(with_loss(0.2).end_s == Approx(1.0));
   CHECK(with_loss(0.4).end_s == Approx(1.92).margin(0.021));
+
+  // The same for a tracker that says nothing at all while it is lost.
+  auto silent = samples_of(2.4, 50, [](double) { return at_z(0); });
+  silent.erase(silent.begin() + 26, silent.begin() + 46);
+  CHECK(scored(silent).steps[0].end_s == Approx(1.92).margin(0.021));
 }
 
 TEST_CASE("a pose that is not valid is never looked at") {

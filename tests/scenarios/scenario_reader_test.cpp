@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "scenarios/scenario.h"
+#include "sim/core/hash.h"
 #include "tests/scenarios/tiny_case.h"
 
 using namespace insonate;
@@ -173,6 +174,34 @@ TEST_CASE("names are checked against the case, with the name that was meant") {
   CHECK_THROWS_WITH(check_against_case(parse_scenario(kTinyScenario, "exam.toml"), without_labels),
                     Catch::Contains("has no labels"));
   CHECK_NOTHROW(check_against_case(parse_scenario(kTinyScenario, "exam.toml"), tiny_case()));
+}
+
+TEST_CASE("whatever a scenario file holds, it is read or refused in words") {
+  const std::string whole = kTinyScenario;
+  int refused = 0;
+  const auto feed = [&](const std::string& text) {
+    try {
+      parse_scenario(text, "exam.toml");
+    } catch (const InputError& error) {
+      ++refused;
+      CHECK(std::string(error.what()).rfind("exam.toml: ", 0) == 0);
+    }
+  };
+  for (std::size_t length = 0; length < whole.size(); length += 3) feed(whole.substr(0, length));
+  for (std::uint32_t i = 0; i < 1500; ++i) {
+    std::string flipped = whole;
+    flipped[hash(1, i) % whole.size()] = char(hash(2, i) & 0xff);
+    feed(flipped);
+  }
+  CHECK(refused > 700);
+}
+
+TEST_CASE("phantom options are handed on as they are written") {
+  std::string text = with(kTinyScenario, "case = \"tiny\"", "case = \"abdomen\"");
+  text += "[phantom]\nfree_fluid = true\naorta_diameter_mm = 45.25\nvoxel_mm = 2\n";
+  const auto options = parse_scenario(text, "exam.toml").phantom_options;
+  CHECK(options == std::vector<std::pair<std::string, std::string>>{
+                       {"aorta_diameter_mm", "45.25"}, {"free_fluid", "true"}, {"voxel_mm", "2"}});
 }
 
 TEST_CASE("a scenario file that is not there or empty is refused") {
