@@ -1,5 +1,5 @@
 // Direct volume rendering by ray casting: skin, organs and bone front to back, with the ultrasound picture, the cut's
-// face and the probe where they lie in depth.
+// face and the probe where they lie in depth. VOXELS_PER_BLOCK is defined by whoever builds it.
 
 #include "shared/volume_view_parameters.h"
 #include "shared/probe_body.glsl"
@@ -12,7 +12,6 @@ layout(binding = 4) uniform usampler3D block_distance;   // blocks to the neares
 
 layout(location = 0) out vec4 colour;
 
-const int kBlock = 2;  // TissueClasses::kBlock
 const float kOpaque = 0.98;
 const float kNever = 1e9;
 const vec3 kSkinColour = vec3(0.95, 0.78, 0.68);
@@ -100,7 +99,7 @@ const int kNothing = 0, kSkin = 1, kOrgan = 2;
 // Goes on until the ray meets the skin or an organ, or `stop`. Kept apart from the shading of what it meets because a
 // software renderer runs all code of a loop's body for all samples, whatever its branches say.
 int march_to_event(inout March march, float stop) {
-  vec3 blocks_per_uv = vec3(textureSize(body, 0)) / float(kBlock);
+  vec3 blocks_per_uv = vec3(textureSize(body, 0)) / float(VOXELS_PER_BLOCK);
   vec3 safe = mix(march.box_direction, vec3(1e-9), lessThan(abs(march.box_direction), vec3(1e-9)));
   vec3 block_origin = march.box_origin * blocks_per_uv, per_block = 1.0 / (safe * blocks_per_uv);
   bvec3 forward = greaterThan(safe, vec3(0.0));

@@ -9,6 +9,7 @@
 #include "sim/shaders/shared/volume_view_parameters.h"
 #include "sim/view/picture_target.h"
 #include "sim/view/plane_state.h"
+#include "sim/view/tissue_classes.h"
 
 namespace insonate::view {
 namespace {
@@ -105,7 +106,9 @@ private:
 }  // namespace
 
 struct VolumeView::State {
-  explicit State(const gl::ShaderSources& sources) : program(sources, {"full_screen.vert", "volume_view.frag"}) {}
+  explicit State(const gl::ShaderSources& sources)
+      : program(sources, {"full_screen.vert", "volume_view.frag"},
+                {{"VOXELS_PER_BLOCK", std::to_string(TissueClasses::kBlock)}}) {}
 
   gl::Program program;
   gl::FullScreenTriangle triangle;
