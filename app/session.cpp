@@ -95,14 +95,13 @@ void Session::start_over() {
 void Session::practise() {
   activity_ = Activity::practice;
   begin_attempt();
-  take_probe();
 }
 
 void Session::take_probe() {
   if (holder_ == Holder::learner) return;
   learner_ = std::make_unique<MouseTracker>(newest_pose_.value_or(study_->surroundings.start));
   holder_ = Holder::learner;
-  begin_attempt();
+  practise();
 }
 
 void Session::give_back_probe() {

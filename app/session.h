@@ -41,9 +41,11 @@ enum class Activity { exam, practice };
 /// One person's time with one patient: where poses come from, the attempt at the exam that they make, and the machine.
 /// Knows no window and no graphics, so that a run looks the same with and without. Time is passed in.
 ///
-/// An attempt is scored from one source only. When the learner takes the probe, or gives it back, the attempt that was
-/// under way is dropped and a new one begins; a replayed log then starts over. Every sample of the source in charge is
-/// fed to the runner, in order, whatever the frame rate.
+/// An attempt at the exam is scored from one source only, from the first sample to the last. Who takes the probe out of
+/// a running exam practises from there on: nothing is scored, because what the tracker has found so far is not his own.
+/// An exam of the learner's own starts with the probe on the belly. Giving the probe back starts the exam, and a
+/// replayed log, from the beginning. Every sample of the source in charge is fed to the runner, in order, whatever the
+/// frame rate.
 class Session {
 public:
   using OpenTracker = std::function<std::unique_ptr<Tracker>()>;
@@ -58,9 +60,9 @@ public:
 
   // The exam
   Activity activity() const { return activity_; }
-  /// Starts the exam from its beginning; without a scenario only the source starts over.
+  /// Starts the exam from its beginning with whoever holds the probe, or without a scenario just the scan.
   void start_over();
-  /// No exam, no score: the probe is free.
+  /// Ends the exam without a score: whoever holds the probe goes on with it.
   void practise();
   /// The runner of the exam; nullptr in free practice.
   const Runner* runner() const { return runner_.get(); }
@@ -71,7 +73,9 @@ public:
   Holder holder() const { return holder_; }
   /// Whether the learner's own hand is the source that was asked for: there is nothing to give back to then.
   bool only_learner() const { return only_learner_; }
+  /// Puts the probe into the learner's hand where it is, and ends the exam of the tracker.
   void take_probe();
+  /// Throws what opening the tracker throws; the learner keeps the probe then.
   void give_back_probe();
   /// Moves the probe to where a motion leads from where it is; takes it first if need be.
   void move_probe(const std::function<Pose(const ProbeHand&, const Pose&)>& motion);

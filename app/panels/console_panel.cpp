@@ -82,7 +82,7 @@ ConsoleRequest draw_console_panel(const Theme& theme, const Rect& panel, Session
   upper.take_left(between);
   const bool learner = session.holder() == Holder::learner;
   if (session.only_learner()) {
-    if (button(theme, "restart", upper, session.study().scenario ? "Start the exam" : "Back to the start"))
+    if (button(theme, "restart", upper, session.study().scenario ? "Start over" : "Back to the start"))
       attempt([&] { session.start_over(); });
   } else if (button(theme, "hands", upper, learner ? "Give the probe back" : "Take the probe",
                     learner ? ButtonKind::chosen : ButtonKind::normal)) {
@@ -96,7 +96,10 @@ ConsoleRequest draw_console_panel(const Theme& theme, const Rect& panel, Session
   if (practising) {
     if (button(theme, "exam", first, "Exam")) attempt([&] { session.start_over(); });
   } else if (button(theme, "practice", first, "Practice", ButtonKind::normal, session.study().scenario.has_value())) {
-    attempt([&] { session.practise(); });
+    {
+      session.take_probe();
+      session.practise();
+    }
   }
   if (button(theme, "open", lower, "Open")) request = ConsoleRequest::open;
   return request;

@@ -1,0 +1,53 @@
+#!/usr/bin/env bash
+# The trainer without a window, as a whole program: the bundled scans get the scores that insonate-score gives them, the
+# good one passes, the poor one fails, and bad input ends in one sentence and exit code 2.
+#   headless_test.sh INSONATE INSONATE_SCORE ASSETS_FOLDER
+set -euo pipefail
+trainer=$1 score=$2
+export INSONATE_ASSETS=$3
+unset DISPLAY WAYLAND_DISPLAY
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+fail() {
+  echo "FAILED: $*" >&2
+  exit 1
+}
+
+scenario="$INSONATE_ASSETS/scenarios/ruq_hepatorenal.toml"
+for scan in good poor; do
+  log="$INSONATE_ASSETS/logs/ruq_$scan.igs.mha"
+  "$score" --log "$log" --scenario "$scenario" >"$work/$scan.json" 2>"$work/log" || fail "$(cat "$work/log")"
+  "$trainer" --headless --tracker "replay:$log" --scenario "$scenario" --out "$work/$scan" \
+    --screenshot "$work/$scan.png" >"$work/$scan.txt" 2>&1 || fail "$(cat "$work/$scan.txt")"
+  cmp "$work/$scan.json" "$work/$scan/score.json" || fail "the trainer's score of the $scan scan is another"
+  for file in report.html ultrasound.png trainer.png score_sheet.png; do
+    [ -s "$work/$scan/$file" ] || fail "$file is missing"
+  done
+done
+grep -q '"passed": true' "$work/good.json" || fail "the good scan does not pass"
+grep -q '"passed": false' "$work/poor.json" || fail "the poor scan passes"
+grep -q 'not passed' "$work/poor.txt" || fail "the trainer does not say that the poor scan failed"
+[ "$(identify -format '%wx%h' "$work/good.png")" = 1280x800 ] || fail "the screenshot has another size"
+
+# `refuses ARGUMENTS...`: exit code 2 and one line that names what is wrong.
+refuses() {
+  local words=$1 code=0
+  shift
+  "$trainer" --out "$work/none" "$@" >"$work/refused.txt" 2>&1 || code=$?
+  [ "$code" = 2 ] || fail "exit code $code for: $* ($(cat "$work/refused.txt"))"
+  grep -q -- "$words" "$work/refused.txt" || fail "no '$words' in: $(cat "$work/refused.txt")"
+  [ ! -e "$work/none" ] || fail "results were written for: $*"
+}
+printf 'format = 1\ntitel = "x"\n' >"$work/typo.toml"
+: >"$work/empty.nii.gz"
+head -c 2000 "$INSONATE_ASSETS/logs/ruq_good.igs.mha" >"$work/cut.igs.mha"
+refuses missing.toml --headless --scenario "$work/missing.toml"
+refuses titel --headless --scenario "$work/typo.toml"
+refuses empty.nii.gz --headless --ct "$work/empty.nii.gz"
+refuses cut.igs.mha --headless --tracker "replay:$work/cut.igs.mha"
+refuses missing --headless --case "$work/missing"
+refuses mouse --headless --tracker mousse:
+refuses both --headless --case a --ct b
+refuses width --headless --width 3
+refuses shader-dir --headless --shader-dir "$work/missing"
+echo "passed"
