@@ -12,9 +12,8 @@
 #include "sim/core/input_error.h"
 #include "sim/gl/headless_context.h"
 #include "sim/gl/simulator.h"
-#include "sim/volume/open_case.h"
-#include "sim/volume/phantom.h"
 #include "tools/program.h"
+#include "tools/subject.h"
 
 using namespace insonate;
 
@@ -71,9 +70,7 @@ int main(int argc, char** argv) {
   arguments.add_option("--csv", csv, "Write the table as CSV too");
 
   return run_program(arguments, argc, argv, [&] {
-    const Case subject = subject_path.empty()
-                             ? cached_phantom(assets_folder() / "phantoms" / "abdomen.toml", {}, cache_folder())
-                             : open_case(subject_path);
+    const Case subject = open_subject(subject_path);
     if (subject.views.empty())
       throw InputError(subject_path, "", "no view is marked and no body was found", "name a case with a view");
     const ReferenceView& view = subject.views.front();

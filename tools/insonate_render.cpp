@@ -10,9 +10,8 @@
 #include "sim/core/suggest.h"
 #include "sim/gl/headless_context.h"
 #include "sim/gl/simulator.h"
-#include "sim/volume/open_case.h"
-#include "sim/volume/phantom.h"
 #include "tools/program.h"
+#include "tools/subject.h"
 
 using namespace insonate;
 
@@ -39,15 +38,6 @@ Pose read_pose(const std::string& file) {
   if (const auto why = why_not_rigid(matrix))
     throw InputError(file, "", *why, "give a rotation and a translation in mm");
   return pose_from_matrix(matrix);
-}
-
-Case open_subject(const std::string& path) {
-  if (!path.empty()) return open_case(path);
-  int last = -1;
-  return cached_phantom(assets_folder() / "phantoms" / "abdomen.toml", {}, cache_folder(), [&](double share) {
-    if (int(share * 100) != last) std::fprintf(stderr, "\rMaking the abdomen phantom: %d %%", last = int(share * 100));
-    if (share >= 1) std::fprintf(stderr, "\n");
-  });
 }
 
 const ReferenceView& choose_view(const Case& subject, const std::string& path, const std::string& name) {

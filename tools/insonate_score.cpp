@@ -1,5 +1,3 @@
-#include <unistd.h>
-
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -14,15 +12,11 @@
 #include "sim/core/files.h"
 #include "sim/model/tissue.h"
 #include "tools/program.h"
+#include "tools/subject.h"
 
 namespace {
 
 using namespace insonate;
-
-void show_progress(double share) {
-  if (isatty(STDERR_FILENO))
-    std::fprintf(stderr, "\rmaking the phantom: %3.0f %%%s", 100 * share, share >= 1 ? "\n" : "");
-}
 
 Case case_for(const Scenario& scenario, const std::filesystem::path& folder) {
   return folder.empty() ? load_case(scenario, assets_folder(), cache_folder(), show_progress) : read_case(folder);

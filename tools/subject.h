@@ -1,0 +1,27 @@
+#pragma once
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+
+#include "sim/core/files.h"
+#include "sim/volume/open_case.h"
+#include "sim/volume/phantom.h"
+
+namespace insonate {
+
+/// How far the phantom's maker is, on a terminal's standard error.
+inline void show_progress(double share) {
+  if (isatty(STDERR_FILENO))
+    std::fprintf(stderr, "\rmaking the phantom: %3.0f %%%s", 100 * share, share >= 1 ? "\n" : "");
+}
+
+/// The patient that a program was pointed at: a case folder, CT file or DICOM folder, or the built-in abdomen when
+/// nothing was named.
+inline Case open_subject(const std::filesystem::path& named) {
+  if (!named.empty()) return open_case(named);
+  return cached_phantom(assets_folder() / "phantoms" / "abdomen.toml", {}, cache_folder(), show_progress);
+}
+
+}  // namespace insonate
