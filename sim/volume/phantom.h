@@ -4,13 +4,15 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "sim/volume/case.h"
 
 namespace insonate {
 
-/// A phantom is made from a recipe: a TOML text that lists tissues, shapes in the order they displace each other,
-/// texture, landmarks and views. `assets/phantoms/abdomen.toml` documents the format key by key.
+/// A phantom is made from a recipe: a TOML text that lists labels with their Hounsfield units and texture, shapes in
+/// the order they displace each other, landmarks and views. `assets/phantoms/abdomen.toml` documents it key by key.
 
 /// Progress from 0 to 1, called from one thread at a time, a hundred times at most.
 using Progress = std::function<void(double share)>;
@@ -22,7 +24,8 @@ Case make_phantom(const std::string& recipe_name, const std::string& recipe_text
                   const std::vector<std::pair<std::string, std::string>>& options = {}, const Progress& progress = {});
 
 /// The same, kept under `cache` in a folder named after a digest of the recipe, the options and the maker's version. A
-/// cached case whose files do not match the digests written beside them is thrown away and made again.
+/// cached case whose files do not match the digests written beside them is thrown away and made again; a cache that
+/// cannot be written costs that time whenever the case is asked for, and nothing else.
 Case cached_phantom(const std::filesystem::path& recipe,
                     const std::vector<std::pair<std::string, std::string>>& options, const std::filesystem::path& cache,
                     const Progress& progress = {});

@@ -202,13 +202,13 @@ TEST_CASE("each reference view holds its landmarks, and nothing hides the first 
     REQUIRE_FALSE(view.targets.empty());
     CHECK_FALSE(why_not_rigid(view.patient_from_probe.matrix()));
 
-    // The face's middle lies under the skin: back along the beam it is `press` to the air.
+    // The face's middle lies under the skin: back along the beam it is 12 mm to the air.
     const Pose& pose = view.patient_from_probe;
     const auto hu_before_face = [&](double way) {
       return sample_trilinear(subject.ct, subject.ct.grid.index_from_patient(pose.point({0, -way, 0})));
     };
-    CHECK(hu_before_face(8 - 3) > -300);  // the body at one voxel either side of the skin
-    CHECK(hu_before_face(8 + 3) < -700);
+    CHECK(hu_before_face(12 - 3) > -300);  // the body at one voxel either side of the skin
+    CHECK(hu_before_face(12 + 3) < -700);
 
     const Pose probe_from_patient = pose.inverse();
     for (std::size_t n = 0; n < view.landmarks.size(); ++n) {
