@@ -120,28 +120,37 @@ void Runner::look(const PoseSample& raw, double now) {
   motion_.feed(sample, live_.on_skin);
   run_.motion.feed(sample, live_.on_skin);
 
-  if (valid) {
-    const bool bridged = !run_.recent.empty() && now - run_.recent.back().time_s <= MotionMeter::kBridged_s;
-    live_.view = meters_[live_.step]->measure(sample.patient_from_probe);
-    live_.within_tolerance = within_tolerance(*live_.view);
-    if (!live_.within_tolerance)
-      run_.holding_from.reset();
-    else if (!run_.holding_from || !bridged)
-      run_.holding_from = now;
-    run_.recent.push_back({now, *live_.view});
-    while (run_.recent.front().time_s < now - step().hold_s - MotionMeter::kBridged_s) run_.recent.pop_front();
-  } else if (!run_.recent.empty() && now - run_.recent.back().time_s > MotionMeter::kBridged_s) {
-    run_.holding_from.reset();
-  }
-  const double held_s = run_.holding_from && valid ? now - *run_.holding_from : 0;
-  const bool held_long_enough = held_s >= step().hold_s - kRounding_s;
-  run_.longest_hold_s = std::max(run_.longest_hold_s, held_long_enough ? step().hold_s : held_s);
-  live_.hold_share = run_.holding_from ? std::min(1.0, (now - *run_.holding_from) / step().hold_s) : 0;
+  if (valid) see(sample.patient_from_probe, now);
+  const bool held = update_hold(valid, now);
   record(sample, now);
-
-  if (held_long_enough) end_step(StepOutcome::held, now);
+  if (held) end_step(StepOutcome::held, now);
   live_.step_remaining_s = std::max(0.0, run_.start_s + step().time_limit_s - now);
   live_.exam_remaining_s = std::max(0.0, scenario_.time_limit_s - now);
+}
+
+/// Measures the picture of a valid sample and keeps it as long as it may be judged.
+void Runner::see(const Pose& patient_from_probe, double now) {
+  const bool bridged = !run_.recent.empty() && now - run_.recent.back().time_s <= MotionMeter::kBridged_s;
+  if (!bridged) run_.holding_from.reset();
+  live_.view = meters_[live_.step]->measure(patient_from_probe);
+  live_.within_tolerance = within_tolerance(*live_.view);
+  run_.recent.push_back({now, *live_.view});
+  while (run_.recent.front().time_s < now - step().hold_s - MotionMeter::kBridged_s) run_.recent.pop_front();
+}
+
+/// Whether the view has now been held for as long as the step asks.
+bool Runner::update_hold(bool valid, double now) {
+  const bool lost = run_.recent.empty() || now - run_.recent.back().time_s > MotionMeter::kBridged_s;
+  if (lost || (valid && !live_.within_tolerance))
+    run_.holding_from.reset();
+  else if (valid && !run_.holding_from)
+    run_.holding_from = now;
+
+  const double holding_s = run_.holding_from ? now - *run_.holding_from : 0;
+  const bool held = valid && holding_s >= step().hold_s - kRounding_s;
+  if (valid) run_.longest_hold_s = std::max(run_.longest_hold_s, held ? step().hold_s : holding_s);
+  live_.hold_share = std::min(1.0, holding_s / step().hold_s);
+  return held;
 }
 
 bool Runner::within_tolerance(const ViewValues& view) const {

@@ -93,7 +93,9 @@ private:
   const Step& step() const { return scenario_.steps[live_.step]; }
   void pass_limits(double now);
   void look(const PoseSample& sample, double now);
+  void see(const Pose& patient_from_probe, double now);
   bool within_tolerance(const ViewValues& view) const;
+  bool update_hold(bool valid, double now);
   void end_step(StepOutcome outcome, double now);
   void begin_step(double now);
   void finish(double now);

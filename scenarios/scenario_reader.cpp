@@ -19,6 +19,7 @@ constexpr std::size_t kMostSteps = 100;
 constexpr std::size_t kMostCriteria = 100;
 constexpr double kLongestExam_s = 36000;
 constexpr double kLongestStep_s = 3600;
+constexpr double kLargestLimit = 1000;
 
 struct Range {
   double least;
@@ -219,26 +220,24 @@ std::vector<Tolerance> read_tolerance(const toml::table& table, const std::strin
   for (const MetricInfo& m : metrics())
     if (m.scope == MetricScope::picture) usable.emplace_back(m.name);
 
+  const std::string subject = "the tolerance of " + where;
   std::vector<Tolerance> tolerance;
   for (const auto& [key, node] : table) {
     const std::string name(key.str());
     const auto metric = find_metric(name);
-    if (!metric || info(*metric).scope != MetricScope::picture) {
-      problems.push_back({place_of(key.source()),
-                          "the tolerance of " + where + " has '" + name + "', which is no metric of a picture",
+    const double limit = TableReader::is_number(node) ? *node.template value<double>() : -1;
+    if (!metric || info(*metric).scope != MetricScope::picture)
+      problems.push_back({place_of(key.source()), subject + " has '" + name + "', which is no metric of a picture",
                           suggest(name, usable)});
-    } else if (!TableReader::is_number(node) || !(*node.template value<double>() >= 0) ||
-               !(*node.template value<double>() <= 1000)) {
-      problems.push_back({place_of(node.source()),
-                          "the tolerance of " + where + " has a " + name + " that is no usable limit",
-                          "write a number from 0 to 1000"});
-    } else {
-      tolerance.push_back({*metric, *node.template value<double>(), place_of(key.source())});
-    }
+    else if (!(limit >= 0 && limit <= kLargestLimit))
+      problems.push_back({place_of(node.source()), subject + " has no usable limit for " + name,
+                          "write a number from 0 to " + plain(kLargestLimit)});
+    else
+      tolerance.push_back({*metric, limit, place_of(key.source())});
   }
   if (table.empty())
-    problems.push_back({place_of(table.source()), "the tolerance of " + where + " is empty",
-                        "add a limit, for example plane_distance_mm = 5"});
+    problems.push_back(
+        {place_of(table.source()), subject + " is empty", "add a limit, for example plane_distance_mm = 5"});
   // A table's keys are sorted by name; whoever reads the screen wants the order of the file.
   std::sort(tolerance.begin(), tolerance.end(), [](const Tolerance& a, const Tolerance& b) {
     return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
