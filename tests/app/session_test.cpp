@@ -96,6 +96,9 @@ TEST_CASE("who takes the probe out of an exam practises, and giving it back star
   now_s = run_until(session, now_s, now_s + 12);
   INFO("the probe stays where it was taken, and the log's end brings no score");
   CHECK(glm::distance(session.shown_pose()->translation, before.translation) < 1e-9);
+  const Pose resting = *session.shown_pose();
+  now_s = run_until(session, now_s, now_s + 3);
+  CHECK(*session.shown_pose() == resting);  // to the bit: a probe at rest is not drawn anew
   CHECK_FALSE(session.result());
 
   session.give_back_probe();
