@@ -9,7 +9,7 @@
 #include "scenarios/metric.h"
 #include "sim/core/input_error.h"
 #include "sim/volume/case.h"
-#include "sim/volume/phantom.h"
+#include "sim/phantom/phantom.h"
 
 namespace insonate {
 

@@ -220,24 +220,25 @@ std::vector<Tolerance> read_tolerance(const toml::table& table, const std::strin
   for (const MetricInfo& m : metrics())
     if (m.scope == MetricScope::picture) usable.emplace_back(m.name);
 
-  const std::string subject = "the tolerance of " + where;
+  const auto problem = [&](const toml::source_region& source, const std::string& what, const std::string& name,
+                           const std::string& remedy) {
+    problems.push_back({place_of(source), "the tolerance of " + where + " has " + what + " '" + name + "'", remedy});
+  };
   std::vector<Tolerance> tolerance;
   for (const auto& [key, node] : table) {
     const std::string name(key.str());
     const auto metric = find_metric(name);
     const double limit = TableReader::is_number(node) ? *node.template value<double>() : -1;
     if (!metric || info(*metric).scope != MetricScope::picture)
-      problems.push_back({place_of(key.source()), subject + " has '" + name + "', which is no metric of a picture",
-                          suggest(name, usable)});
+      problem(key.source(), "what is no metric of a picture,", name, suggest(name, usable));
     else if (!(limit >= 0 && limit <= kLargestLimit))
-      problems.push_back({place_of(node.source()), subject + " has no usable limit for " + name,
-                          "write a number from 0 to " + plain(kLargestLimit)});
+      problem(node.source(), "no usable limit for", name, "write a number from 0 to " + plain(kLargestLimit));
     else
       tolerance.push_back({*metric, limit, place_of(key.source())});
   }
   if (table.empty())
-    problems.push_back(
-        {place_of(table.source()), subject + " is empty", "add a limit, for example plane_distance_mm = 5"});
+    problems.push_back({place_of(table.source()), "the tolerance of " + where + " is empty",
+                        "add a limit, for example plane_distance_mm = 5"});
   // A table's keys are sorted by name; whoever reads the screen wants the order of the file.
   std::sort(tolerance.begin(), tolerance.end(), [](const Tolerance& a, const Tolerance& b) {
     return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
