@@ -72,6 +72,11 @@ const Tracker& Session::source() const {
   return *tracker_;
 }
 
+Tracker& Session::source() {
+  if (holder_ == Holder::learner) return *learner_;
+  return *tracker_;
+}
+
 void Session::begin_attempt() {
   runner_.reset();
   result_.reset();

@@ -100,7 +100,7 @@ public:
 private:
   void begin_attempt();
   void take(const PoseSample& sample);
-  Tracker& source() { return const_cast<Tracker&>(std::as_const(*this).source()); }
+  Tracker& source();
 
   std::shared_ptr<const Study> study_;
   OpenTracker open_;

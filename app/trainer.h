@@ -51,6 +51,7 @@ public:
   void write_results_if_due();
 
   Session* session() { return session_.get(); }
+  const Session* session() const { return session_.get(); }
   Pictures& pictures() { return pictures_; }
   const Options& options() const { return options_; }
   const std::optional<ResultFiles>& result_files() const { return result_files_; }
@@ -59,6 +60,7 @@ public:
 
   /// What went wrong and nobody has acknowledged yet, the oldest first.
   std::deque<std::string>& problems() { return problems_; }
+  const std::deque<std::string>& problems() const { return problems_; }
   /// What shaders being edited do not build with; empty when they do.
   const std::string& shader_problem() const { return shader_problem_; }
 

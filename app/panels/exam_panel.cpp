@@ -126,7 +126,8 @@ void draw_exam_panel(const Theme& theme, const Rect& panel, const Session& sessi
   draw_text(plate, theme.strong, colour::kText, number, Align::centre);
   title.take_left(theme.px(10));
   draw_text(title, theme.heading, colour::kText, step.title);
-  draw_text({rest.x, upper.y + upper.h, rest.w, theme.px(22)}, theme.text, colour::kMuted, step.instruction);
+  ImFont* font = text_width(theme.text, step.instruction) <= rest.w ? theme.text : theme.small_text;
+  draw_text({rest.x, upper.y + upper.h, rest.w, theme.px(22)}, font, colour::kMuted, step.instruction);
 }
 
 }  // namespace insonate::ui

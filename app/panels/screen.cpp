@@ -65,9 +65,8 @@ void Screen::lay_out(float width, float height) {
              {"blend", blend_},           {"console", console_}, {"exam", top_}};
 }
 
-PictureSizes Screen::picture_sizes(float width, float height) const {
-  Screen& self = const_cast<Screen&>(*this);
-  self.lay_out(width, height);
+PictureSizes Screen::picture_sizes(float width, float height) {
+  lay_out(width, height);
   const Rect ultrasound = UltrasoundPanel::picture_area(theme_, ultrasound_);
   return {int(ultrasound.w), int(ultrasound.h), int(volume_.w), int(volume_.h)};
 }
@@ -140,12 +139,11 @@ void Screen::draw_status(Trainer& trainer) {
 }
 
 std::string Screen::overlay(const Trainer& trainer) const {
-  Trainer& asked = const_cast<Trainer&>(trainer);
-  if (!asked.problems().empty()) return "problem";
+  if (!trainer.problems().empty()) return "problem";
   if (trainer.loading()) return "loading";
   if (help_) return "help";
   if (asking_) return "open";
-  const Session* session = asked.session();
+  const Session* session = trainer.session();
   if (session && session->result() && &*session->result() != closed_sheet_of_) return "score";
   return "";
 }

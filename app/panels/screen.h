@@ -26,7 +26,7 @@ public:
   void render(Trainer& trainer);
 
   /// How many pixels the pictures have on a screen of that size.
-  PictureSizes picture_sizes(float width, float height) const;
+  PictureSizes picture_sizes(float width, float height);
 
   void toggle_help() { help_ = !help_; }
   void ask_for_path() { asking_ = true; }
