@@ -7,7 +7,7 @@
 
 #include "sim/core/files.h"
 #include "sim/volume/open_case.h"
-#include "sim/volume/phantom.h"
+#include "sim/phantom/phantom.h"
 
 namespace insonate {
 

@@ -3,8 +3,8 @@
 #include <map>
 #include <string>
 
-#include "sim/volume/phantom_recipe.h"
-#include "sim/volume/phantom_shapes.h"
+#include "sim/phantom/recipe.h"
+#include "sim/phantom/shapes.h"
 
 namespace insonate {
 

@@ -1,4 +1,4 @@
-#include "sim/volume/phantom_shapes.h"
+#include "sim/phantom/shapes.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "sim/core/files.h"
-#include "sim/volume/phantom.h"
+#include "sim/phantom/phantom.h"
 
 using namespace insonate;
 

@@ -1,4 +1,4 @@
-#include "sim/volume/phantom_plan.h"
+#include "sim/phantom/plan.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -7,7 +7,7 @@
 #include <map>
 #include <set>
 
-#include "sim/volume/phantom_shape_reader.h"
+#include "sim/phantom/shape_reader.h"
 
 namespace insonate {
 namespace {

@@ -8,9 +8,9 @@
 
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
-#include "sim/volume/phantom.h"
-#include "sim/volume/phantom_arithmetic.h"
-#include "sim/volume/phantom_texture.h"
+#include "sim/phantom/phantom.h"
+#include "sim/phantom/arithmetic.h"
+#include "sim/phantom/texture.h"
 
 using namespace insonate;
 

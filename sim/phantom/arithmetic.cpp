@@ -1,4 +1,4 @@
-#include "sim/volume/phantom_arithmetic.h"
+#include "sim/phantom/arithmetic.h"
 
 #include <algorithm>
 #include <cctype>

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/volume/phantom_shapes.h"
-#include "sim/volume/phantom_texture.h"
+#include "sim/phantom/shapes.h"
+#include "sim/phantom/texture.h"
 
 namespace insonate {
 

@@ -1,4 +1,4 @@
-#include "sim/volume/phantom.h"
+#include "sim/phantom/phantom.h"
 
 #include <glm/geometric.hpp>
 #include <tbb/blocked_range3d.h>
@@ -11,9 +11,9 @@
 
 #include "sim/core/hash.h"
 #include "sim/core/input_error.h"
-#include "sim/volume/phantom_plan.h"
-#include "sim/volume/phantom_recipe.h"
-#include "sim/volume/phantom_texture.h"
+#include "sim/phantom/plan.h"
+#include "sim/phantom/recipe.h"
+#include "sim/phantom/texture.h"
 
 namespace insonate {
 namespace {

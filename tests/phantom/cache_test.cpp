@@ -7,7 +7,7 @@
 
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
-#include "sim/volume/phantom.h"
+#include "sim/phantom/phantom.h"
 
 using namespace insonate;
 namespace fs = std::filesystem;

@@ -1,11 +1,11 @@
-#include "sim/volume/phantom_recipe.h"
+#include "sim/phantom/recipe.h"
 
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
 
 #include "sim/core/input_error.h"
-#include "sim/volume/phantom_arithmetic.h"
+#include "sim/phantom/arithmetic.h"
 
 namespace insonate {
 namespace {

@@ -1,4 +1,4 @@
-#include "sim/volume/phantom_shape_reader.h"
+#include "sim/phantom/shape_reader.h"
 
 #include <glm/geometric.hpp>
 

@@ -1,4 +1,4 @@
-#include "sim/volume/phantom_texture.h"
+#include "sim/phantom/texture.h"
 
 #include <array>
 

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "sim/volume/phantom_shapes.h"
+#include "sim/phantom/shapes.h"
 
 namespace insonate {
 namespace {

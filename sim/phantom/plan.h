@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "sim/volume/case.h"
-#include "sim/volume/phantom_recipe.h"
-#include "sim/volume/phantom_shapes.h"
+#include "sim/phantom/recipe.h"
+#include "sim/phantom/shapes.h"
 
 namespace insonate {
 
