@@ -48,8 +48,8 @@ Columns columns_of(const Theme& theme, Rect row) {
 
 void draw_verdict(const Theme& theme, Rect head, const ExamResult& result) {
   const ImU32 colour = result.passed ? colour::kAccent : colour::kRed;
-  // Cut off, not rounded: 79.96 % is not yet 80 %.
-  const std::string percent = number(std::floor(result.percent * 10) / 10) + " %";
+  char percent[16];
+  std::snprintf(percent, sizeof percent, "%.1f %%", result.percent);
   draw_text(head.take_right(theme.px(190)), theme.huge, colour, percent, Align::right);
   draw_text(head.take_top(theme.px(26)), theme.heading, colour::kText, result.title);
   draw_text(head.take_top(theme.px(24)), theme.strong, colour, result.passed ? "Passed" : "Not passed");
