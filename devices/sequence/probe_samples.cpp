@@ -1,10 +1,7 @@
 #include "devices/sequence/probe_samples.h"
 
-#include <glm/matrix.hpp>
-
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
@@ -14,18 +11,6 @@ namespace insonate {
 namespace {
 
 constexpr std::string_view kPreferred[] = {"ProbeToPatient", "ProbeToReference", "ProbeToTracker"};
-
-// Rounding error of a rotation computed in double: far above what a few products leave, far below what six decimals do.
-constexpr double kRoundingError = 1e-12;
-
-Pose pose_of(const glm::dmat4& matrix) {
-  const glm::dmat3 rotation(matrix);
-  const glm::dmat3 excess = glm::transpose(rotation) * rotation - glm::dmat3(1.0);
-  for (int column = 0; column < 3; ++column)
-    for (int row = 0; row < 3; ++row)
-      if (std::abs(excess[column][row]) > kRoundingError) return pose_from_matrix(matrix);
-  return {rotation, glm::dvec3(matrix[3])};
-}
 
 std::string all_names(const Sequence& sequence) {
   std::string names;
@@ -78,7 +63,7 @@ Pose pose_in(const Sequence& sequence, std::size_t frame, const Source& source, 
   if (const auto why = why_not_rigid(*matrix))
     throw InputError(sequence.file, source.constant ? "header" : "frame " + std::to_string(frame),
                      source.name + "Transform: " + *why, "calibrate and record again, or mark the frame as INVALID");
-  return pose_of(*matrix);
+  return pose_from_matrix(*matrix);
 }
 
 }  // namespace

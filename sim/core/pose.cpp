@@ -16,6 +16,18 @@ namespace {
 constexpr double kOrthonormalTolerance = 1e-4;
 constexpr double kReachMm = 1e5;
 
+// Far above what a few products in double precision leave, far below what six decimals do.
+constexpr double kRoundingError = 1e-12;
+
+// The largest entry of R^T R - 1.
+double orthonormal_error(const glm::dmat3& rotation) {
+  const glm::dmat3 excess = glm::transpose(rotation) * rotation - glm::dmat3(1.0);
+  double largest = 0;
+  for (int c = 0; c < 3; ++c)
+    for (int r = 0; r < 3; ++r) largest = std::max(largest, std::abs(excess[c][r]));
+  return largest;
+}
+
 std::string with_number(const char* format, double number) {
   char text[160];
   std::snprintf(text, sizeof text, format, number);
@@ -52,17 +64,16 @@ std::optional<std::string> why_not_rigid(const glm::dmat4& m) {
   if (std::abs(determinant) < kOrthonormalTolerance)
     return with_number("the rotation is singular: its determinant is %g", determinant);
   if (determinant < 0) return with_number("the rotation mirrors: its determinant is %g", determinant);
-  const glm::dmat3 excess = glm::transpose(rotation) * rotation - glm::dmat3(1.0);
-  for (int c = 0; c < 3; ++c)
-    for (int r = 0; r < 3; ++r)
-      if (std::abs(excess[c][r]) > 2 * kOrthonormalTolerance)
-        return with_number("the rotation is not orthonormal: it stretches or shears by %.2g", std::abs(excess[c][r]));
+  const double error = orthonormal_error(rotation);
+  if (error > 2 * kOrthonormalTolerance)
+    return with_number("the rotation is not orthonormal: it stretches or shears by %.2g", error);
   const double reach = glm::length(glm::dvec3(m[3]));
   if (reach > kReachMm) return with_number("the translation is %g mm long, beyond any tracker's reach", reach);
   return std::nullopt;
 }
 
 Pose pose_from_matrix(const glm::dmat4& m) {
+  if (orthonormal_error(glm::dmat3(m)) < kRoundingError) return {glm::dmat3(m), glm::dvec3(m[3])};
   return {glm::mat3_cast(glm::normalize(glm::quat_cast(glm::dmat3(m)))), glm::dvec3(m[3])};
 }
 

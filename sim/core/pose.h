@@ -34,7 +34,8 @@ Pose operator*(const Pose& a_from_b, const Pose& b_from_c);
 /// orthonormal, last row (0 0 0 1), and a translation up to 1e5 mm, beyond which no tracker reaches.
 std::optional<std::string> why_not_rigid(const glm::dmat4& matrix);
 
-/// The pose nearest to a matrix that why_not_rigid has let pass: what rounding left over is removed.
+/// The pose nearest to a matrix that why_not_rigid has let pass: what rounding left over is removed. A matrix that is
+/// orthonormal to double precision is kept to the bit, so that a pose written with 17 digits reads back equal.
 Pose pose_from_matrix(const glm::dmat4& matrix);
 
 /// The angle of the rotation that takes one pose's axes to the other's, in degrees from 0 to 180.
