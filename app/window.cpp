@@ -200,10 +200,9 @@ private:
 }  // namespace
 
 bool has_display() {
-  glfwSetErrorCallback(nullptr);
-  const bool there = glfwInit() == GLFW_TRUE;
-  if (there) glfwTerminate();
-  return there;
+  // Stays connected until run_window ends: a bare X server resets when its last client leaves, and would turn away the
+  // one that comes next.
+  return glfwInit() == GLFW_TRUE;
 }
 
 int run_window(const Options& options) {

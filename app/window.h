@@ -4,7 +4,7 @@
 
 namespace insonate {
 
-/// Whether a window can be opened here at all.
+/// Whether a window can be opened here at all. Keeps the connection to the display for run_window.
 bool has_display();
 
 /// Runs the trainer in a window until it is closed or options.seconds have passed. Returns the exit code. Throws

@@ -96,10 +96,8 @@ ConsoleRequest draw_console_panel(const Theme& theme, const Rect& panel, Session
   if (practising) {
     if (button(theme, "exam", first, "Exam")) attempt([&] { session.start_over(); });
   } else if (button(theme, "practice", first, "Practice", ButtonKind::normal, session.study().scenario.has_value())) {
-    {
-      session.take_probe();
-      session.practise();
-    }
+    session.take_probe();
+    session.practise();
   }
   if (button(theme, "open", lower, "Open")) request = ConsoleRequest::open;
   return request;
