@@ -15,6 +15,9 @@ namespace insonate {
 class InputError : public std::runtime_error {
 public:
   InputError(const std::string& file, const std::string& place, const std::string& problem, const std::string& remedy);
+
+  /// A sentence that another process has made of its parts.
+  explicit InputError(const std::string& made_sentence) : std::runtime_error(made_sentence) {}
 };
 
 }  // namespace insonate

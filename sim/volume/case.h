@@ -74,8 +74,8 @@ struct Case {
 ///     patient_from_probe = [ ... ]         # 16 numbers, row-major, rigid
 ///
 /// Throws InputError with line and column for what is missing, unknown, out of range, named twice or named without
-/// being there, for a pose that is not rigid, and for labels on another grid than the CT's (0.1 voxels off at a corner).
-/// A label that no voxel carries is a finding this patient lacks, and stays.
+/// being there, for a pose that is not rigid, and for labels on another grid than the CT's (0.1 voxels off at a
+/// corner). A label that no voxel carries is a finding this patient lacks, and stays.
 Case read_case(const std::filesystem::path& folder);
 
 /// Writes a case folder whole or not at all: it appears under its name only when every file in it is written, and takes

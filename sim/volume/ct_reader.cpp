@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "sim/core/input_error.h"
+#include "sim/volume/apart.h"
 #include "sim/volume/dicom_series.h"
 #include "sim/volume/file_header.h"
 #include "sim/volume/itk_image_io.h"
@@ -100,6 +101,7 @@ Volume<std::int16_t> read_dicom_folder(const fs::path& folder, CtSource& source)
   source = {format_name(ImageFormat::dicom), "", std::move(series.other_series), 0};
   // Room for all is taken slice by slice: a header may claim more than its file gives.
   for (const fs::path& slice : series.slices) {
+    check_dicom_voxels(slice);
     ImageFile image(slice, ImageFormat::dicom);
     const auto& axes = image.axes();
     const bool as_expected = axes.size() >= 2 && axes[0].size == std::uint64_t(ct.grid.size.x) &&
@@ -112,6 +114,83 @@ Volume<std::int16_t> read_dicom_folder(const fs::path& folder, CtSource& source)
   return ct;
 }
 
+/// A CT and its source as bytes, for the way from one process to another of the same program.
+std::string packed(const Volume<std::int16_t>& ct, const CtSource& source) {
+  std::string bytes(reinterpret_cast<const char*>(&ct.grid), sizeof ct.grid);
+  const auto add_number = [&](std::uint64_t number) {
+    bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
+  };
+  const auto add_text = [&](const std::string& text) {
+    add_number(text.size());
+    bytes += text;
+  };
+  add_number(source.clamped);
+  add_text(source.stored_as);
+  add_number(source.other_series.size());
+  for (const std::string& line : source.other_series) add_text(line);
+  return bytes.append(reinterpret_cast<const char*>(ct.voxels.data()), ct.voxels.size() * sizeof ct.voxels[0]);
+}
+
+Volume<std::int16_t> unpacked(const std::string& bytes, CtSource& source) {
+  std::size_t at = 0;
+  const auto take = [&](void* into, std::size_t size) {
+    std::memcpy(into, bytes.data() + at, size);
+    at += size;
+  };
+  const auto take_number = [&] {
+    std::uint64_t number = 0;
+    take(&number, sizeof number);
+    return number;
+  };
+  const auto take_text = [&] {
+    std::string text(take_number(), '\0');
+    take(text.data(), text.size());
+    return text;
+  };
+  Volume<std::int16_t> ct;
+  take(&ct.grid, sizeof ct.grid);
+  source = {format_name(ImageFormat::dicom), "", {}, take_number()};
+  source.stored_as = take_text();
+  for (std::uint64_t left = take_number(); left > 0; --left) source.other_series.push_back(take_text());
+  ct.voxels.resize(ct.grid.count());
+  take(ct.voxels.data(), ct.voxels.size() * sizeof ct.voxels[0]);
+  return ct;
+}
+
+/// Reads a DICOM folder in a process of its own, and if that dies of it, finds the file to blame.
+Volume<std::int16_t> read_dicom_folder_apart(const fs::path& folder, CtSource& source) {
+  std::uintmax_t bytes = 0;
+  std::vector<fs::path> files;
+  constexpr auto options = fs::directory_options::skip_permission_denied;
+  std::error_code error;
+  for (fs::recursive_directory_iterator at(folder, options, error), end; at != end && !error; at.increment(error))
+    if (std::error_code ignored; at->is_regular_file(ignored)) {
+      files.push_back(at->path());
+      bytes += at->file_size(ignored);
+    }
+  try {
+    const std::string result = done_apart(bytes, [&] {
+      CtSource found;
+      const Volume<std::int16_t> ct = read_dicom_folder(folder, found);
+      return packed(ct, found);
+    });
+    return unpacked(result, source);
+  } catch (const WorkDied&) {
+  }
+  for (const fs::path& file : files) try {
+      done_apart(fs::file_size(file, error), [&] {
+        scan_dicom_file(file);
+        ImageFile(file, ImageFormat::dicom).read_voxels();
+        return std::string();
+      });
+    } catch (const WorkDied&) {
+      throw InputError(file.string(), "", "the DICOM file is damaged", "export the series again, or remove the file");
+    } catch (const InputError&) {
+      // No image, or one that says what is wrong with it: not what ended the process.
+    }
+  throw InputError(folder.string(), "", "one of its DICOM files is damaged", "export the series again");
+}
+
 }  // namespace
 
 Volume<std::int16_t> read_ct(const fs::path& file_or_folder, CtSource* source) {
@@ -119,7 +198,7 @@ Volume<std::int16_t> read_ct(const fs::path& file_or_folder, CtSource* source) {
   Volume<std::int16_t> ct;
   std::error_code error;
   if (fs::is_directory(file_or_folder, error)) {
-    ct = read_dicom_folder(file_or_folder, found);
+    ct = read_dicom_folder_apart(file_or_folder, found);
   } else {
     const fs::path& file = existing_file(file_or_folder);
     if (is_dicom_file(file))

@@ -1,5 +1,7 @@
 #include "sim/volume/dicom_series.h"
 
+#include <gdcmAttribute.h>
+#include <gdcmReader.h>
 #include <gdcmScanner.h>
 #include <gdcmTrace.h>
 #include <glm/geometric.hpp>
@@ -9,10 +11,12 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <map>
 #include <optional>
 
+#include "sim/core/files.h"
 #include "sim/core/input_error.h"
 #include "sim/volume/volume_checks.h"
 
@@ -53,7 +57,8 @@ struct Stack {
   }
 
   // Series without a modality come from anonymisers, OT from converters.
-  bool is_ct() const { return (modality == "CT" || modality.empty() || modality == "OT") && frames == 1 && placed; }
+  bool may_be_ct() const { return modality == "CT" || modality.empty() || modality == "OT"; }
+  bool is_ct() const { return may_be_ct() && frames == 1 && placed; }
 };
 
 std::string printable(std::string text) {
@@ -98,16 +103,22 @@ std::vector<std::string> files_below(const fs::path& folder) {
   return files;
 }
 
-/// Per series, size and orientation, its slices. Files that are no images are passed over, damaged ones are not.
-std::vector<Stack> stacks_of(const fs::path& folder) {
+/// GDCM's scanner, silent, told which tags are wanted.
+gdcm::SmartPointer<gdcm::Scanner> make_scanner() {
   gdcm::Trace::DebugOff();
   gdcm::Trace::WarningOff();
   gdcm::Trace::ErrorOff();
-  const std::vector<std::string> files = files_below(folder);
   const auto scanner = gdcm::Scanner::New();
   for (const gdcm::Tag& tag : {kSopInstance, kModality, kDescription, kSeries, kSeriesNumber, kPosition, kOrientation,
                                kFrames, kRows, kColumns, kPixelSpacing})
     scanner->AddTag(tag);
+  return scanner;
+}
+
+/// Per series, size and orientation, its slices. Files that are no images are passed over, damaged ones are not.
+std::vector<Stack> stacks_of(const fs::path& folder) {
+  const std::vector<std::string> files = files_below(folder);
+  const auto scanner = make_scanner();
   bool scanned = false;
   try {
     scanned = scanner->Scan(files);
@@ -227,6 +238,42 @@ bool is_dicom_file(const fs::path& file) {
   return stream.read(start, sizeof start) && std::string_view(start + 128, 4) == "DICM";
 }
 
+void check_dicom_voxels(const fs::path& file) {
+  gdcm::Reader reader;
+  reader.SetFileName(file.c_str());
+  if (!reader.Read()) throw InputError(file.string(), "header", "the DICOM file is damaged", "export the series again");
+  // Compressed voxels that end early do not decode; of raw ones GDCM makes up the rest.
+  const gdcm::TransferSyntax syntax = reader.GetFile().GetHeader().GetDataSetTransferSyntax();
+  if (syntax.IsEncapsulated() || syntax == gdcm::TransferSyntax::ExplicitVRBigEndian) return;
+  gdcm::Attribute<0x0028, 0x0010> rows{};
+  gdcm::Attribute<0x0028, 0x0011> columns{};
+  gdcm::Attribute<0x0028, 0x0100> bits{};
+  const gdcm::DataSet& header = reader.GetFile().GetDataSet();
+  rows.SetFromDataSet(header);
+  columns.SetFromDataSet(header);
+  bits.SetFromDataSet(header);
+  const std::uint64_t needed = std::uint64_t(rows.GetValue()) * columns.GetValue() * bits.GetValue() / 8;
+
+  // The element (7fe0,0010) with the image's own length; an icon's, if there is one, has another.
+  const std::string bytes = read_file(file);
+  for (std::size_t at = 0; (at = bytes.find("\xe0\x7f\x10\x00", at, 4)) != std::string::npos; ++at) {
+    const bool explicit_type = bytes.compare(at + 4, 2, "OW") == 0 || bytes.compare(at + 4, 2, "OB") == 0;
+    const std::size_t length_at = at + (explicit_type ? 8 : 4);
+    std::uint32_t length = 0;
+    if (length_at + sizeof length > bytes.size()) break;
+    std::memcpy(&length, bytes.data() + length_at, sizeof length);
+    if (length != needed + needed % 2) continue;
+    if (bytes.size() - length_at - sizeof length >= length) return;
+    throw InputError(file.string(), "voxels", "the file ends before its image does", "export the series again");
+  }
+  throw InputError(file.string(), "voxels", "there are none of the size that the header tells",
+                   "export the series again");
+}
+
+void scan_dicom_file(const fs::path& file) {
+  make_scanner()->Scan({file.string()});
+}
+
 DicomSeries find_dicom_series(const fs::path& folder) {
   const std::string name = folder.string();
   std::vector<Stack> stacks = stacks_of(folder);
@@ -234,11 +281,10 @@ DicomSeries find_dicom_series(const fs::path& folder) {
   const auto chosen = std::find_if(stacks.begin(), stacks.end(), [](const Stack& stack) { return stack.is_ct(); });
   if (chosen == stacks.end()) {
     const Stack& largest = stacks.front();
+    if (!largest.may_be_ct()) throw InputError(name, largest.name(), "this is no CT", "name the folder of a CT");
     if (largest.frames > 1)
       throw InputError(name, largest.name(), "one file holds many frames", "convert it to one slice a file");
-    if (!largest.placed)
-      throw InputError(name, largest.name(), "the images do not say where they lie", "export the original CT series");
-    throw InputError(name, largest.name(), "this is no CT", "name the folder of a CT");
+    throw InputError(name, largest.name(), "the images do not say where they lie", "export the original CT series");
   }
   DicomSeries series;
   series.grid = ordered(name, *chosen);

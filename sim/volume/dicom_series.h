@@ -21,6 +21,12 @@ struct DicomSeries {
 /// was tilted.
 DicomSeries find_dicom_series(const std::filesystem::path& folder);
 
+/// Reads one file's header as find_dicom_series does, and keeps nothing of it.
+void scan_dicom_file(const std::filesystem::path& file);
+
+/// Throws InputError when a file that find_dicom_series has found ends before its voxels do.
+void check_dicom_voxels(const std::filesystem::path& file);
+
 /// Whether a file carries DICOM's mark, "DICM" after 128 bytes.
 bool is_dicom_file(const std::filesystem::path& file);
 

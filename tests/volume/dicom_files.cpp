@@ -1,0 +1,103 @@
+#include "tests/volume/dicom_files.h"
+
+#include <gdcmAttribute.h>
+#include <gdcmImageChangeTransferSyntax.h>
+#include <gdcmImageWriter.h>
+#include <gdcmReader.h>
+#include <gdcmWriter.h>
+
+#include <cstring>
+#include <stdexcept>
+
+namespace insonate {
+namespace {
+
+void must(bool done, const char* what) {
+  if (!done) throw std::runtime_error(std::string("GDCM cannot ") + what);
+}
+
+gdcm::TransferSyntax::TSType transfer_syntax(DicomCoding coding) {
+  switch (coding) {
+    case DicomCoding::raw:
+      break;
+    case DicomCoding::jpeg:
+      return gdcm::TransferSyntax::JPEGLosslessProcess14_1;
+    case DicomCoding::jpeg_ls:
+      return gdcm::TransferSyntax::JPEGLSLossless;
+    case DicomCoding::jpeg_2000:
+      return gdcm::TransferSyntax::JPEG2000Lossless;
+    case DicomCoding::rle:
+      return gdcm::TransferSyntax::RLELossless;
+  }
+  return gdcm::TransferSyntax::ExplicitVRLittleEndian;
+}
+
+template <std::uint16_t group, std::uint16_t element>
+void set_text(gdcm::DataSet& data, const std::string& text) {
+  gdcm::Attribute<group, element> attribute;
+  attribute.SetValue(text);
+  data.Replace(attribute.GetAsDataElement());
+}
+
+}  // namespace
+
+void write_dicom(const std::filesystem::path& file, const DicomSlice& slice) {
+  gdcm::SmartPointer<gdcm::Image> image = new gdcm::Image;
+  image->SetNumberOfDimensions(2);
+  image->SetDimension(0, unsigned(slice.columns));
+  image->SetDimension(1, unsigned(slice.rows));
+  image->SetPixelFormat(gdcm::PixelFormat::UINT16);
+  image->SetPhotometricInterpretation(gdcm::PhotometricInterpretation::MONOCHROME2);
+  image->SetTransferSyntax(gdcm::TransferSyntax::ExplicitVRLittleEndian);
+  image->SetSpacing(0, slice.between_columns_mm);
+  image->SetSpacing(1, slice.between_rows_mm);
+  for (unsigned a = 0; a < 3; ++a) image->SetOrigin(a, slice.position[a]);
+  image->SetDirectionCosines(slice.orientation.data());
+  image->SetSlope(slice.slope);
+  image->SetIntercept(slice.intercept);
+  std::string bytes(slice.stored.size() * 2, '\0');
+  std::memcpy(bytes.data(), slice.stored.data(), bytes.size());
+  gdcm::DataElement pixels(gdcm::Tag(0x7fe0, 0x0010));
+  pixels.SetByteValue(bytes.data(), std::uint32_t(bytes.size()));
+  image->SetDataElement(pixels);
+
+  gdcm::ImageWriter writer;
+  writer.SetImage(*image);
+  if (slice.coding != DicomCoding::raw) {
+    gdcm::ImageChangeTransferSyntax change;
+    change.SetTransferSyntax(transfer_syntax(slice.coding));
+    change.SetInput(*image);
+    must(change.Change(), "compress");
+    writer.SetImage(change.GetOutput());
+  }
+  gdcm::DataSet& data = writer.GetFile().GetDataSet();
+  const std::string instance = slice.instance.empty()
+                                   ? slice.series + "." + std::to_string(int(slice.position[2] * 1000) + 1000000) +
+                                         "." + std::to_string(int(slice.position[1] * 1000) + 1000000)
+                                   : slice.instance;
+  const bool is_ct = slice.modality == "CT";
+  set_text<0x0008, 0x0016>(data, is_ct ? "1.2.840.10008.5.1.4.1.1.2" : "1.2.840.10008.5.1.4.1.1.4");  // CT, MR
+  set_text<0x0008, 0x0018>(data, instance);
+  set_text<0x0008, 0x0060>(data, slice.modality);
+  set_text<0x0008, 0x103e>(data, slice.description);
+  set_text<0x0020, 0x000e>(data, slice.series);
+  gdcm::Attribute<0x0020, 0x0011> number;
+  number.SetValue(std::stoi(slice.series_number));
+  data.Replace(number.GetAsDataElement());
+  writer.SetFileName(file.c_str());
+  must(writer.Write(), "write");
+}
+
+void remove_tag(const std::filesystem::path& file, std::uint16_t group, std::uint16_t element) {
+  gdcm::Reader reader;
+  reader.SetFileName(file.c_str());
+  must(reader.Read(), "read");
+  reader.GetFile().GetDataSet().Remove(gdcm::Tag(group, element));
+  gdcm::Writer writer;
+  writer.SetFile(reader.GetFile());
+  writer.SetFileName(file.c_str());
+  writer.CheckFileMetaInformationOff();
+  must(writer.Write(), "write");
+}
+
+}  // namespace insonate

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace insonate {
+
+enum class DicomCoding { raw, jpeg, jpeg_ls, jpeg_2000, rle };
+
+/// One slice of a DICOM series, as a scanner would store it; written by GDCM.
+struct DicomSlice {
+  std::string series = "1.2.3.4";
+  std::string instance;  ///< made from series and position when empty
+  std::string series_number = "3";
+  std::string description = "ABDOMEN 1.0";
+  std::string modality = "CT";
+  int columns = 8, rows = 6;
+  std::array<double, 3> position{0, 0, 0};
+  std::array<double, 6> orientation{1, 0, 0, 0, 1, 0};
+  double between_columns_mm = 0.7, between_rows_mm = 0.8;
+  double slope = 1, intercept = -1024;
+  std::vector<std::uint16_t> stored;  ///< rows x columns
+  DicomCoding coding = DicomCoding::raw;
+};
+
+void write_dicom(const std::filesystem::path& file, const DicomSlice& slice);
+
+/// Takes a tag out of a DICOM file.
+void remove_tag(const std::filesystem::path& file, std::uint16_t group, std::uint16_t element);
+
+}  // namespace insonate
