@@ -1,6 +1,7 @@
 #include "sim/model/acoustic_volume.h"
 
 #include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -82,6 +83,12 @@ public:
       reach_[axis] = std::max(1, int(std::lround(kEdgeReachMm / ct.grid.spacing[axis])));
       neighbour_[axis] = std::max(1, int(std::lround(kNeighbourMm / ct.grid.spacing[axis])));
     }
+    const std::ptrdiff_t row = ct.grid.size.x, slice = row * ct.grid.size.y;
+    std::size_t n = 0;
+    for (int dz = -1; dz <= 1; ++dz)
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx)
+          around_[n++] = dx * neighbour_.x + dy * neighbour_.y * row + dz * neighbour_.z * slice;
     if (labels.empty()) return;
     means_ = mean_densities(ct, labels);
     for (std::size_t l = 1; l < tissue_of.size(); ++l) {
@@ -104,7 +111,7 @@ public:
     const int hu = ct_.voxels[v];
     if (has_tissue_[label])
       return centidecibel(std::clamp(tissue_db_[label] + texture_db(hu - means_[label]), -60.0, 30.0));
-    const int density = local_density(i, hu);
+    const int density = local_density(i, v);
     std::int16_t echo = std::int16_t(by_density(density) + centidecibel(texture_db(hu - density)));
     std::ptrdiff_t stride = 1;
     for (int axis = 0; axis < 3; ++axis) {
@@ -122,17 +129,24 @@ public:
   }
 
 private:
-  int local_density(const glm::ivec3& i, int hu) const {
+  int local_density(const glm::ivec3& i, std::size_t v) const {
+    const int hu = ct_.voxels[v];
     int sum = 0, count = 0;
-    for (int dz = -1; dz <= 1; ++dz)
-      for (int dy = -1; dy <= 1; ++dy)
-        for (int dx = -1; dx <= 1; ++dx) {
-          const glm::ivec3 at = glm::clamp(i + neighbour_ * glm::ivec3(dx, dy, dz), glm::ivec3(0), ct_.grid.size - 1);
-          const int there = ct_.at(at);
-          if (std::abs(there - hu) > kNoiseHu) continue;
-          sum += there;
-          ++count;
-        }
+    const auto add = [&](int there) {
+      const bool alike = std::abs(there - hu) <= kNoiseHu;
+      sum += alike ? there : 0;
+      count += alike;
+    };
+    const glm::ivec3 last = ct_.grid.size - 1;
+    if (glm::all(glm::greaterThanEqual(i, neighbour_)) && glm::all(glm::lessThanEqual(i, last - neighbour_))) {
+      const std::int16_t* here = ct_.voxels.data() + v;
+      for (const std::ptrdiff_t step : around_) add(here[step]);
+    } else {
+      for (int dz = -1; dz <= 1; ++dz)
+        for (int dy = -1; dy <= 1; ++dy)
+          for (int dx = -1; dx <= 1; ++dx)
+            add(ct_.at(glm::clamp(i + neighbour_ * glm::ivec3(dx, dy, dz), glm::ivec3(0), last)));
+    }
     return int(std::lround(double(sum) / count));  // the voxel itself counts, so there is always one
   }
 
@@ -142,6 +156,7 @@ private:
   const Volume<std::uint8_t>& labels_;
   std::vector<std::int16_t> by_hu_;
   glm::ivec3 reach_{1}, neighbour_{1};
+  std::array<std::ptrdiff_t, 27> around_{};  ///< from a voxel away from the border to its neighbours and itself
   std::array<double, kLabels> means_{};
   std::array<double, kLabels> tissue_db_{};
   std::array<bool, kLabels> has_tissue_{};
