@@ -8,8 +8,8 @@
 
 #include "scenarios/metric.h"
 #include "sim/core/input_error.h"
-#include "sim/volume/case.h"
 #include "sim/phantom/phantom.h"
+#include "sim/volume/case.h"
 
 namespace insonate {
 

@@ -6,8 +6,8 @@
 #include <filesystem>
 
 #include "sim/core/files.h"
-#include "sim/volume/open_case.h"
 #include "sim/phantom/phantom.h"
+#include "sim/volume/open_case.h"
 
 namespace insonate {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "sim/volume/case.h"
 #include "sim/phantom/recipe.h"
 #include "sim/phantom/shapes.h"
+#include "sim/volume/case.h"
 
 namespace insonate {
 

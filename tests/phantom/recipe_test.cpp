@@ -8,8 +8,8 @@
 
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
-#include "sim/phantom/phantom.h"
 #include "sim/phantom/arithmetic.h"
+#include "sim/phantom/phantom.h"
 #include "sim/phantom/texture.h"
 
 using namespace insonate;
