@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <unistd.h>
 
 #include <fstream>
 
@@ -18,7 +19,7 @@ namespace {
 /// A folder of its own for a test, with the tiny case, its exam, and a scan that shows the ball.
 class Folder {
 public:
-  Folder() : path(fs::temp_directory_path() / ("insonate-trainer-" + std::to_string(std::rand()))) {
+  Folder() : path(fs::temp_directory_path() / ("insonate-trainer-" + std::to_string(getpid()))) {
     fs::create_directories(path);
     write_case(path / "tiny", tiny_case());
     write_file(path / "exam.toml", kTinyScenario);
