@@ -101,11 +101,12 @@ int run_headless(const Options& options) {
   } else {
     std::printf("ended after %.1f s, before there was anything to score\n", end_s);
   }
-  if (trainer.best_frame())
-    write_png(picture_png, *trainer.best_frame());
-  else if (trainer.pictures().ultrasound())
-    write_png(picture_png, mirrored(read_back(*trainer.pictures().ultrasound())));
-  print_file(picture_png);
+  std::optional<Image<Rgba8>> picture = trainer.best_frame();
+  if (!picture && trainer.pictures().ultrasound()) picture = mirrored(read_back(*trainer.pictures().ultrasound()));
+  if (picture) {
+    write_png(picture_png, *picture);
+    print_file(picture_png);
+  }
   write_png(trainer_png, held_screen.value_or(last_screen));
   print_file(trainer_png);
   if (!options.screenshot.empty()) {

@@ -78,6 +78,7 @@ Tracker& Session::source() {
 }
 
 void Session::begin_attempt() {
+  ++attempt_;
   runner_.reset();
   result_.reset();
   if (activity_ == Activity::exam && study_->scenario)

@@ -64,6 +64,8 @@ public:
   void start_over();
   /// Ends the exam without a score: whoever holds the probe goes on with it.
   void practise();
+  /// Counts from 1 each time that the exam or practice starts from its beginning.
+  int attempt() const { return attempt_; }
   /// The runner of the exam; nullptr in free practice.
   const Runner* runner() const { return runner_.get(); }
   /// Complete marks with their provenance; empty until the exam is finished.
@@ -104,6 +106,7 @@ private:
 
   std::shared_ptr<const Study> study_;
   OpenTracker open_;
+  int attempt_ = 0;
   std::string log_name_, log_digest_;
   std::unique_ptr<Tracker> tracker_;
   std::unique_ptr<MouseTracker> learner_;

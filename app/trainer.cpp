@@ -103,7 +103,8 @@ void Trainer::finish_loading() {
 void Trainer::take_over_loaded() {
   attempt([&] { begin(loading_.get(), requested_); });
   // A trainer whose command line names something unusable goes on with what is built in.
-  if (!session_ && !loading() && !requested_.source.is_bundled()) load({});
+  const bool asked_for_more = !requested_.source.is_bundled() || !requested_.tracker.empty();
+  if (!session_ && !loading() && asked_for_more) load({});
 }
 
 void Trainer::begin(std::shared_ptr<const Study> study, const Request& request) {
@@ -116,7 +117,7 @@ void Trainer::begin(std::shared_ptr<const Study> study, const Request& request) 
   study_ = std::move(study);
   current_ = request;
   result_files_.reset();
-  best_frame_of_ = nullptr;
+  best_frame_of_ = 0;
 }
 
 void Trainer::update(double now_s) {
@@ -141,21 +142,22 @@ bool Trainer::best_frame_due() const {
   if (!session_ || !session_->runner()) return false;
   constexpr double kStep = 0.1;  // of the hold
   const LiveExam& live = session_->runner()->live();
-  if (session_->runner() != best_frame_of_ || live.step != best_step_) return live.hold_share > 0;
+  if (session_->attempt() != best_frame_of_ || live.step != best_step_) return live.hold_share > 0;
   return live.hold_share > best_share_ + kStep;
 }
 
 void Trainer::keep_best_frame() {
   if (!pictures_.ultrasound()) return;
-  best_frame_of_ = session_->runner();
-  best_step_ = best_frame_of_->live().step;
-  best_share_ = best_frame_of_->live().hold_share;
+  const LiveExam& live = session_->runner()->live();
+  best_frame_of_ = session_->attempt();
+  best_step_ = live.step;
+  best_share_ = live.hold_share;
   best_frame_ = mirrored(read_back(*pictures_.ultrasound()));
 }
 
 void Trainer::write_results_if_due() {
   if (!std::exchange(results_due_, false)) return;
-  if (best_frame_of_ != session_->runner()) best_frame_.reset();
+  if (best_frame_of_ != session_->attempt()) best_frame_.reset();
   attempt([&] { result_files_ = write_results(options_.out, *session_, best_frame_); });
 }
 

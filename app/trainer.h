@@ -95,7 +95,7 @@ private:
   std::optional<ResultFiles> result_files_;
   bool results_due_ = false;
   std::optional<Image<Rgba8>> best_frame_;
-  const Runner* best_frame_of_ = nullptr;  ///< compared by address only
+  int best_frame_of_ = 0;  ///< the session's attempt; 0 for none
   std::size_t best_step_ = 0;
   double best_share_ = 0;
   std::deque<std::string> problems_;

@@ -8,6 +8,9 @@
 namespace insonate {
 namespace {
 
+// Above every count that means anything, below what a whole number holds.
+constexpr double kMostMissing = 1e15;
+
 double median(std::vector<double> values) {
   const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -23,7 +26,8 @@ void count_gaps(const std::vector<PoseSample>& samples, LogReport& report) {
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const double intervals = steps[i] / report.interval_s;
     if (intervals > kGapIntervals)
-      report.gaps.push_back({i + 1, samples[i + 1].time_s, steps[i], std::size_t(std::round(intervals)) - 1});
+      report.gaps.push_back(
+          {i + 1, samples[i + 1].time_s, steps[i], std::size_t(std::round(std::min(intervals, kMostMissing))) - 1});
     else
       squares += (steps[i] - report.interval_s) * (steps[i] - report.interval_s);
   }

@@ -79,7 +79,11 @@ int main(int argc, char** argv) {
     const gl::HeadlessContext context;
     gl::Simulator simulator;
     simulator.set_volume(make_acoustic_volume(subject.ct, subject.labels, tissue_by_label(subject), table), table);
-    Probe probe = *find_probe(view.probe);
+    const Probe* known = find_probe(view.probe);
+    if (!known)
+      throw InputError(subject_path, "view '" + view.name + "'", "there is no probe named '" + view.probe + "'",
+                       "name curvilinear or linear");
+    Probe probe = *known;
 
     std::string rows = "device,case,view,lines,samples,width,height,frames,q1_ms,median_ms,q3_ms,runs_still\n";
     std::printf("%s\n%s, view %s, moving probe\n\n", gl::device_description().c_str(), subject.name.c_str(),

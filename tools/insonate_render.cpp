@@ -61,8 +61,8 @@ int main(int argc, char** argv) {
   arguments.add_option("--pose", pose_file, "A file with 16 numbers, row-major patient_from_probe, instead of a view");
   arguments.add_option("--probe", probe_name, "curvilinear or linear")->capture_default_str();
   arguments.add_option("--depth", depth_mm, "Imaging depth, mm (the view's or the probe's)")
-      ->check(CLI::Range(10, 400));
-  arguments.add_option("--gain", gain_db, "Gain, dB")->check(CLI::Range(-60, 60));
+      ->check(CLI::Range(10.0, 400.0));
+  arguments.add_option("--gain", gain_db, "Gain, dB")->check(CLI::Range(-60.0, 60.0));
   arguments.add_option("--width", width, "Pixels")->check(CLI::Range(1, 8192))->capture_default_str();
   arguments.add_option("--height", height, "Pixels")->check(CLI::Range(1, 8192))->capture_default_str();
   arguments.add_option("image", out, "The PNG to write")->required();

@@ -24,6 +24,9 @@ constexpr std::size_t kMostTransforms = 256;
 // The shortest line a frame needs, "Seq_Frame0_Timestamp=0\n": a file cannot hold more frames than such lines.
 constexpr std::size_t kLeastFrameBytes = 23;
 
+// No scan pauses for longer: a clock that was set while it ran, which would keep whoever replays it waiting.
+constexpr double kLongestGap_s = 3600;
+
 constexpr const char* kRecordAgain = "record the scan again";
 
 std::optional<glm::dmat4> to_matrix(std::string_view value) {
@@ -211,10 +214,13 @@ private:
   void check_times() const {
     for (std::size_t f = 1; f < sequence_.frames.size(); ++f) {
       const double before = sequence_.frames[f - 1].time_s, now = sequence_.frames[f].time_s;
-      if (now > before) continue;
+      if (now > before && now - before <= kLongestGap_s) continue;
       char times[80];
       std::snprintf(times, sizeof times, "%.17g s after %.17g s", now, before);
-      fail(f, std::string("its Timestamp ") + (now == before ? "repeats that" : "lies before that") +
+      fail(f, std::string("its Timestamp ") +
+                  (now == before  ? "repeats that"
+                   : now < before ? "lies before that"
+                                  : "lies more than an hour behind that") +
                   " of the frame before it (" + times + ")");
     }
   }

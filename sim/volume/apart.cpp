@@ -56,6 +56,7 @@ std::string receive_all(int pipe_end) {
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_AS, taken_bytes() + (rlim_t(512) << 20) + 64 * rlim_t(bytes));
   limit(RLIMIT_CPU, 10 + rlim_t(bytes >> 20));
+  alarm(unsigned(120 + (bytes >> 20)));
   const int nowhere = open("/dev/null", O_WRONLY);
   dup2(nowhere, STDOUT_FILENO);
   dup2(nowhere, STDERR_FILENO);

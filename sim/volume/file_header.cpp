@@ -371,10 +371,12 @@ FileHeader check_nrrd(const fs::path& file) {
 FileHeader check_meta_image(const fs::path& file) {
   const TextHeader header = read_text_header(file, "=", "elementdatafile");
   static const std::map<std::string, VoxelType> types = {
-      {"MET_CHAR", VoxelType::int8},       {"MET_UCHAR", VoxelType::uint8},       {"MET_SHORT", VoxelType::int16},
-      {"MET_USHORT", VoxelType::uint16},   {"MET_INT", VoxelType::int32},         {"MET_UINT", VoxelType::uint32},
-      {"MET_LONG_LONG", VoxelType::int64}, {"MET_ULONG_LONG", VoxelType::uint64}, {"MET_FLOAT", VoxelType::float32},
-      {"MET_DOUBLE", VoxelType::float64},  {"MET_LONG", VoxelType::int64},        {"MET_ULONG", VoxelType::uint64}};
+      {"MET_CHAR", VoxelType::int8},       {"MET_UCHAR", VoxelType::uint8},
+      {"MET_SHORT", VoxelType::int16},     {"MET_USHORT", VoxelType::uint16},
+      {"MET_INT", VoxelType::int32},       {"MET_UINT", VoxelType::uint32},
+      {"MET_LONG_LONG", VoxelType::int64}, {"MET_ULONG_LONG", VoxelType::uint64},
+      {"MET_FLOAT", VoxelType::float32},   {"MET_DOUBLE", VoxelType::float64},
+      {"MET_LONG", VoxelType::int32},      {"MET_ULONG", VoxelType::uint32}};  // 4 bytes on every machine
   if (header.value("ndims").empty() || header.value("elementdatafile").empty())
     refuse(file, "this is no MetaImage file", "check that it is the right file");
   Claim claim;

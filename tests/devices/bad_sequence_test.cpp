@@ -87,6 +87,7 @@ TEST_CASE("every sequence file that is damaged in a way people meet is refused w
       {"Kinds = domain domain list", "Kinds = domain domain domain", {"one of them is 'list'"}},
       {"Seq_Frame0001_Timestamp = 2.5", "Seq_Frame0001_Timestamp = 1.5", {"frame 1", "Timestamp repeats", "1.5 s"}},
       {"Seq_Frame0001_Timestamp = 2.5", "Seq_Frame0001_Timestamp = 0.5", {"frame 1", "Timestamp lies before"}},
+      {"Seq_Frame0001_Timestamp = 2.5", "Seq_Frame0001_Timestamp = 1.7e9", {"frame 1", "more than an hour behind"}},
       {"Seq_Frame0001_Timestamp = 2.5", "Seq_Frame0001_Timestamp = nan", {"frame 1", "'nan' instead of a finite"}},
       {"Seq_Frame0001_Timestamp = 2.5", "Seq_Frame0001_Timestamp = inf", {"frame 1", "finite"}},
       {"Seq_Frame0001_Timestamp = 2.5", "Seq_Frame0001_Timestamp = 1e999", {"frame 1", "finite"}},

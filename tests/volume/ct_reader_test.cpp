@@ -65,6 +65,15 @@ std::vector<StoredType> stored_types() {
 
 }  // namespace
 
+TEST_CASE("MetaImage's long is read as the four bytes that it has on every machine") {
+  const TemporaryFolder folder;
+  const std::string four_bytes = bytes_of_values(counting<std::int32_t>());
+  for (const char* name : {"MET_INT", "MET_LONG"}) {
+    const auto lines = with_line(meta_lines(), "ElementType", std::string("ElementType = ") + name);
+    CHECK(read_bytes(folder, "a.mha", meta_image(lines, four_bytes)).voxels.size() == 24);
+  }
+}
+
 TEST_CASE("each format gives the same volume whatever the type and packing of its voxels") {
   const TemporaryFolder folder;
   for (const StoredType& type : stored_types()) {
