@@ -19,7 +19,7 @@ namespace {
 using namespace insonate;
 
 Case case_for(const Scenario& scenario, const std::filesystem::path& folder) {
-  return folder.empty() ? load_case(scenario, assets_folder(), cache_folder(), show_progress) : read_case(folder);
+  return folder.empty() ? load_case(scenario, assets_folder(), cache_folder(), show_progress) : open_case(folder);
 }
 
 struct Arguments {
@@ -27,12 +27,13 @@ struct Arguments {
   std::filesystem::path scenario;
   std::filesystem::path case_folder;
   std::filesystem::path report;
+  std::string transform;
 };
 
 int score(const Arguments& given) {
   const Scenario scenario = read_scenario(given.scenario);
   const std::string bytes = read_file(given.log);
-  const std::vector<PoseSample> samples = probe_samples(parse_sequence(bytes, given.log.string()));
+  const std::vector<PoseSample> samples = probe_samples(parse_sequence(bytes, given.log.string()), given.transform);
   const Case subject = case_for(scenario, given.case_folder);
 
   Runner runner(scenario, subject, read_tissue_table(assets_folder() / "tissues.toml"));
@@ -71,7 +72,11 @@ int main(int argc, char** argv) {
   Arguments given;
   arguments.add_option("--log", given.log, "The recorded scan, a PLUS/IGSIO sequence file (.igs.mha)");
   arguments.add_option("--scenario", given.scenario, "The scenario, a TOML file");
-  arguments.add_option("--case", given.case_folder, "A case folder to take instead of the scenario's own case");
+  arguments.add_option("--case,--ct", given.case_folder,
+                       "A case folder, CT file or DICOM folder to take instead of the scenario's own case");
+  arguments.add_option("--transform", given.transform,
+                       "The probe's transform in the log, as in replay:FILE?transform=... (ProbeToPatient, "
+                       "ProbeToReference or ProbeToTracker, the first that is there)");
   arguments.add_option("--report", given.report, "Also writes a report as one HTML page");
 
   bool without_case = false;
