@@ -38,10 +38,6 @@ void Trainer::open_from_options() {
   load({{options_.case_folder, options_.ct, options_.scenario}, options_.tracker});
 }
 
-void Trainer::open_bundled() {
-  load({});
-}
-
 void Trainer::open(const std::filesystem::path& path) {
   if (loading()) return;
   attempt([&] {

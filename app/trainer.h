@@ -28,8 +28,6 @@ public:
   void open_from_options();
   /// Opens a file or folder that a person dropped, typed or chose: a case, a CT, a scenario or a recorded scan.
   void open(const std::filesystem::path& path);
-  /// Opens the bundled exam.
-  void open_bundled();
 
   bool loading() const { return loading_.valid(); }
   struct Progress {
