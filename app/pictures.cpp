@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace insonate {
@@ -22,11 +23,12 @@ Pictures::Pictures(const gl::ShaderSources& sources)
     : simulator_(sources), slice_view_(sources), blend_view_(sources), volume_view_(sources) {}
 
 void Pictures::show(const Study& study) {
-  ultrasound_ = slice_ = blend_ = volume_ = nullptr;
-  patient_.reset();
+  // Whatever the device may refuse comes first: the patient on the screen stays there then.
+  view::PatientTextures patient(simulator_.volume_texture(), study.subject.ct, study.subject.labels,
+                                view::colours_of_organs(label_names(study.subject)));
   simulator_.set_volume(study.acoustic, study.tissues);
-  patient_.emplace(simulator_.volume_texture(), study.subject.ct, study.subject.labels,
-                   view::colours_of_organs(label_names(study.subject)));
+  patient_ = std::move(patient);
+  ultrasound_ = slice_ = blend_ = volume_ = nullptr;
   slice_view_.forget();
   blend_view_.forget();
   volume_view_.forget();

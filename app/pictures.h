@@ -24,7 +24,8 @@ class Pictures {
 public:
   explicit Pictures(const gl::ShaderSources& sources = {});
 
-  /// Uploads a patient; takes some tenths of a second. The study outlives this or the next one shown.
+  /// Uploads a patient; takes some tenths of a second. The study outlives this or the next one shown. Throws
+  /// gl::TextureRefused, and goes on as it was, when the device cannot hold the patient beside the one before.
   void show(const Study& study);
 
   /// Draws what is due.

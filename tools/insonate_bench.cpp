@@ -12,6 +12,7 @@
 #include "sim/core/input_error.h"
 #include "sim/gl/headless_context.h"
 #include "sim/gl/simulator.h"
+#include "sim/gl/upload.h"
 #include "tools/program.h"
 #include "tools/subject.h"
 
@@ -78,7 +79,9 @@ int main(int argc, char** argv) {
 
     const gl::HeadlessContext context;
     gl::Simulator simulator;
-    simulator.set_volume(make_acoustic_volume(subject.ct, subject.labels, tissue_by_label(subject), table), table);
+    gl::upload_ct(subject_path, subject.ct.grid, [&] {
+      simulator.set_volume(make_acoustic_volume(subject.ct, subject.labels, tissue_by_label(subject), table), table);
+    });
     const Probe* known = find_probe(view.probe);
     if (!known)
       throw InputError(subject_path, "view '" + view.name + "'", "there is no probe named '" + view.probe + "'",

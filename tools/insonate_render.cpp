@@ -10,6 +10,7 @@
 #include "sim/core/suggest.h"
 #include "sim/gl/headless_context.h"
 #include "sim/gl/simulator.h"
+#include "sim/gl/upload.h"
 #include "tools/program.h"
 #include "tools/subject.h"
 
@@ -90,7 +91,9 @@ int main(int argc, char** argv) {
     const TissueTable table = read_tissue_table(assets_folder() / "tissues.toml");
     const gl::HeadlessContext context;
     gl::Simulator simulator;
-    simulator.set_volume(make_acoustic_volume(subject.ct, subject.labels, tissue_by_label(subject), table), table);
+    gl::upload_ct(subject_path, subject.ct.grid, [&] {
+      simulator.set_volume(make_acoustic_volume(subject.ct, subject.labels, tissue_by_label(subject), table), table);
+    });
     simulator.set_probe(*probe, depth_mm);
     simulator.set_settings(settings);
     simulator.set_pose(pose);

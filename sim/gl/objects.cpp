@@ -1,10 +1,32 @@
 #include "sim/gl/objects.h"
 
 #include <algorithm>
-#include <stdexcept>
 #include <string>
 
 namespace insonate::gl {
+namespace {
+
+std::string why_refused(int width, int height, int depth, int limit) {
+  const std::string texture =
+      "a texture of " + std::to_string(width) + " x " + std::to_string(height) + " x " + std::to_string(depth);
+  return limit > 0 ? texture + " is above the device's limit of " + std::to_string(limit)
+                   : "the device has no memory for " + texture;
+}
+
+// What was reported before is not about what comes next. A lost context reports without end.
+void forget_errors() {
+  for (int i = 0; i < 100 && glGetError() != GL_NO_ERROR; ++i) {
+  }
+}
+
+bool out_of_memory() {
+  return glGetError() == GL_OUT_OF_MEMORY;
+}
+
+}  // namespace
+
+TextureRefused::TextureRefused(int width, int height, int depth, int limit)
+    : std::runtime_error(why_refused(width, height, depth, limit)), limit_(limit) {}
 
 Buffer::Buffer(std::size_t bytes, const void* data) {
   GLuint name = 0;
@@ -24,9 +46,7 @@ void Buffer::read(void* data, std::size_t bytes) const {
 Texture Texture::make(GLenum target, GLenum format, int width, int height, int depth, Filter filter, Wrap wrap) {
   GLint limit = 0;
   glGetIntegerv(target == GL_TEXTURE_3D ? GL_MAX_3D_TEXTURE_SIZE : GL_MAX_TEXTURE_SIZE, &limit);
-  if (std::max({width, height, depth}) > limit)
-    throw std::runtime_error("a texture of " + std::to_string(width) + " x " + std::to_string(height) + " x " +
-                             std::to_string(depth) + " is above the device's limit of " + std::to_string(limit));
+  if (std::max({width, height, depth}) > limit) throw TextureRefused(width, height, depth, limit);
   Texture texture;
   GLuint name = 0;
   glCreateTextures(target, 1, &name);
@@ -35,10 +55,12 @@ Texture Texture::make(GLenum target, GLenum format, int width, int height, int d
   texture.width_ = width;
   texture.height_ = height;
   texture.depth_ = depth;
+  forget_errors();
   if (target == GL_TEXTURE_3D)
     glTextureStorage3D(name, 1, format, width, height, depth);
   else
     glTextureStorage2D(name, 1, format, width, height);
+  if (out_of_memory()) throw TextureRefused(width, height, depth, 0);
   const GLint gl_filter = filter == Filter::linear ? GL_LINEAR : GL_NEAREST;
   glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, gl_filter);
   glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, gl_filter);
@@ -65,10 +87,12 @@ void Texture::write(GLenum layout, GLenum type, const void* pixels) {
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   GLint target = 0;
   glGetTextureParameteriv(object_.name(), GL_TEXTURE_TARGET, &target);
+  forget_errors();
   if (GLenum(target) == GL_TEXTURE_3D)
     glTextureSubImage3D(object_.name(), 0, 0, 0, 0, width_, height_, depth_, layout, type, pixels);
   else
     glTextureSubImage2D(object_.name(), 0, 0, 0, width_, height_, layout, type, pixels);
+  if (out_of_memory()) throw TextureRefused(width_, height_, depth_, 0);
 }
 
 void Texture::read(GLenum layout, GLenum type, void* pixels, std::size_t bytes) const {

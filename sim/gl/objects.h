@@ -3,6 +3,7 @@
 #include <epoxy/gl.h>
 
 #include <cstddef>
+#include <stdexcept>
 #include <utility>
 
 /// OpenGL's objects as move-only values: each is deleted by its one owner, with the context it was made in current.
@@ -55,6 +56,17 @@ struct TextureKind {
   static void destroy(GLuint name) { glDeleteTextures(1, &name); }
 };
 
+/// The device does not take a texture: a side is above its limit, or it has no memory for it.
+class TextureRefused : public std::runtime_error {
+public:
+  TextureRefused(int width, int height, int depth, int limit);
+  /// The longest side that the device takes, when that is what is wrong; 0 when it is the memory.
+  int limit() const { return limit_; }
+
+private:
+  int limit_;
+};
+
 enum class Filter { nearest, linear };
 
 /// What a texture gives outside [0, 1].
@@ -65,15 +77,16 @@ class Texture {
 public:
   Texture() = default;
 
+  /// Throws TextureRefused.
   /// @param format  sized internal format, such as GL_RGBA32F
   static Texture make_2d(GLenum format, int width, int height, Filter filter, Wrap wrap = Wrap::edge);
-  /// Throws std::runtime_error when a side is above what the device takes (GL_MAX_3D_TEXTURE_SIZE).
   static Texture make_3d(GLenum format, int width, int height, int depth, Filter filter, Wrap wrap);
 
   /// The colour that Wrap::border gives outside.
   void set_border(float r, float g, float b, float a);
 
-  /// Uploads everything; `pixels` are tightly packed values of `type` in `layout` (GL_RG, GL_SHORT, ...).
+  /// Uploads everything; `pixels` are tightly packed values of `type` in `layout` (GL_RG, GL_SHORT, ...). Throws
+  /// TextureRefused: a device may look for memory no sooner than here.
   void write(GLenum layout, GLenum type, const void* pixels);
   /// Reads everything back, tightly packed.
   void read(GLenum layout, GLenum type, void* pixels, std::size_t bytes) const;

@@ -271,10 +271,11 @@ Simulator& Simulator::operator=(Simulator&&) noexcept = default;
 
 void Simulator::set_volume(const AcousticVolume& volume, const TissueTable& table) {
   const glm::ivec3 size = volume.grid.size;
-  state_->volume = Texture::make_3d(GL_RG16_SNORM, size.x, size.y, size.z, Filter::linear, Wrap::border);
+  Texture texture = Texture::make_3d(GL_RG16_SNORM, size.x, size.y, size.z, Filter::linear, Wrap::border);
   const AcousticVoxel outside;
-  state_->volume.set_border(float(outside.hu) / 32767.0f, float(outside.echogenicity_cdb) / 32767.0f, 0, 0);
-  state_->volume.write(GL_RG, GL_SHORT, volume.voxels.data());
+  texture.set_border(float(outside.hu) / 32767.0f, float(outside.echogenicity_cdb) / 32767.0f, 0, 0);
+  texture.write(GL_RG, GL_SHORT, volume.voxels.data());
+  state_->volume = std::move(texture);
   // Voxel centres lie at (i + 1/2) / size in a texture.
   glm::dmat4 texture_from_index = glm::scale(glm::dmat4(1.0), 1.0 / glm::dvec3(size));
   texture_from_index = glm::translate(texture_from_index, glm::dvec3(0.5));

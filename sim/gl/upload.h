@@ -1,0 +1,21 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "sim/core/grid.h"
+#include "sim/core/input_error.h"
+
+namespace insonate::gl {
+
+/// Runs `upload`, which takes a CT to the device, and refuses the CT if the device refuses a texture of it. Throws
+/// InputError.
+/// @param file  what the person who gave the CT calls it
+/// @param grid  of the CT as uploaded: voxels may have been made smaller since it was read
+void upload_ct(const std::string& file, const Grid& grid, const std::function<void()>& upload);
+
+/// What a person is told then.
+/// @param limit  of the device, voxels along an axis; 0 when it is the memory that does not suffice
+InputError too_large_for_device(const std::string& file, const Grid& grid, int limit);
+
+}  // namespace insonate::gl
