@@ -18,8 +18,8 @@ constexpr double kLeastEchogenicity = -60, kMostEchogenicity = 30;
 
 TissueKnot read_knot(const TomlTable& entry) {
   entry.allow_only({"hu", "impedance", "absorption", "echogenicity"});
-  return {entry.whole_number("hu", -1024, 32767), entry.number("impedance", kLeastImpedance, kMostImpedance),
-          entry.number("absorption", 0, kMostAbsorption),
+  return {entry.whole_number("hu", kLeastKnotHu, kMostKnotHu),
+          entry.number("impedance", kLeastImpedance, kMostImpedance), entry.number("absorption", 0, kMostAbsorption),
           entry.number("echogenicity", kLeastEchogenicity, kMostEchogenicity)};
 }
 

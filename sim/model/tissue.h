@@ -7,9 +7,13 @@
 
 namespace insonate {
 
+/// The Hounsfield units that knots may lie at: what a CT scanner's 12 bits hold. Denser metal is as good as the last
+/// knot, so a table of one entry a unit over this range holds all that a tissue table says.
+inline constexpr int kLeastKnotHu = -1024, kMostKnotHu = 3071;
+
 /// What a Hounsfield unit means acoustically; between knots linear, beyond the ends constant.
 struct TissueKnot {
-  int hu = 0;                       ///< rising from knot to knot
+  int hu = 0;                       ///< rising from knot to knot, kLeastKnotHu to kMostKnotHu
   double impedance_mrayl = 0;       ///< characteristic acoustic impedance, > 0
   double absorption_db_cm_mhz = 0;  ///< one way, >= 0
   double echogenicity_db = 0;       ///< backscatter relative to liver, used where no label says better; -60 to 30

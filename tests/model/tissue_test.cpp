@@ -103,6 +103,19 @@ TEST_CASE("between knots a tissue table is linear and beyond them constant") {
   CHECK(table.at(-1e9).impedance_mrayl == 1);
 }
 
+TEST_CASE("an entry for each unit of a 12-bit CT holds all that a tissue table says") {
+  // The last knots that are allowed: beyond them nothing changes, so that a lookup that ends there loses nothing.
+  const TemporaryFile file(knot("-1024", "impedance = 1\nabsorption = 2\nechogenicity = 3") +
+                           knot("3071", "impedance = 4\nabsorption = 5\nechogenicity = 6"));
+  const TissueTable table = read_tissue_table(file.path);
+  for (const double beyond : {3071.0, 3072.0, 32767.0}) {
+    CHECK(table.at(beyond).impedance_mrayl == 4);
+    CHECK(table.at(beyond).absorption_db_cm_mhz == 5);
+  }
+  CHECK(table.at(-1024).impedance_mrayl == 1);
+  CHECK(table.at(3070).impedance_mrayl < 4);
+}
+
 TEST_CASE("a tissue table that cannot be used is refused with the place and the reason") {
   const std::string two = knot("0") + knot("10");
   CHECK(why_refused(two).empty());
@@ -117,6 +130,8 @@ TEST_CASE("a tissue table that cannot be used is refused with the place and the 
       {knot("10") + knot("0"), "line 7", "'hu' is 0 after a knot at 10"},
       {knot("1.5"), "line 2", "no whole number"},
       {knot("99999"), "line 2", "'hu' is 99999"},
+      {knot("0") + knot("3072"), "line 7, column 6, [[knot]] 2", "give a whole number from -1024 to 3071"},
+      {knot("-1025"), "line 2", "'hu' is -1025"},
       {knot("\"zero\""), "line 2", "no whole number"},
       {knot("0", "impedance = 0\nabsorption = 0\nechogenicity = 0"), "line 3", "'impedance' is 0"},
       {knot("0", "impedance = -1\nabsorption = 0\nechogenicity = 0"), "line 3", "'impedance' is -1"},
