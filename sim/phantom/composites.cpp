@@ -155,10 +155,13 @@ public:
   void distances(Points& points, float* out) const override {
     const std::vector<float>& d = points.distances_to(*shape_);
     const float near = kLimit * amplitude_ + 2.0f;  // bumps further from the surface would be seen by nobody
+    std::vector<std::size_t> bumpy;
     for (std::size_t n = 0; n < d.size(); ++n) {
-      const float bump = std::abs(d[n]) > near ? 0.0f : texture_.at({points.x[n], points.y[n], points.z[n]});
-      out[n] = d[n] + amplitude_ * std::clamp(bump, -kLimit, kLimit);
+      out[n] = d[n];
+      if (std::abs(d[n]) <= near) bumpy.push_back(n);
     }
+    const std::vector<float> bumps = texture_.at(points, bumpy);
+    for (std::size_t n = 0; n < bumpy.size(); ++n) out[bumpy[n]] += amplitude_ * std::clamp(bumps[n], -kLimit, kLimit);
   }
 
 private:

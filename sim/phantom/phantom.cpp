@@ -94,20 +94,33 @@ public:
       if (most_free < 1e-4f) break;
     }
 
+    for (std::size_t n = 0; n < points.count(); ++n) hu[n] += free[n] * float(kAirHu);
+    add_textures(points, label, hu);
     for (std::size_t n = 0; n < points.count(); ++n) {
-      float value = hu[n] + free[n] * float(kAirHu);
-      if (label[n] >= 0) {
-        const auto index = std::size_t(label[n]);
-        const PaintedLabel& look = plan_.labels[index];
-        if (look.texture_hu > 0)
-          value += look.texture_hu * textures_[index].at({points.x[n], points.y[n], points.z[n]});
-        subject.labels.voxels[offsets[n]] = look.label.value;
-      }
-      subject.ct.voxels[offsets[n]] = std::int16_t(std::clamp(std::round(value), -1024.0f, 32767.0f));
+      if (label[n] >= 0) subject.labels.voxels[offsets[n]] = plan_.labels[std::size_t(label[n])].label.value;
+      subject.ct.voxels[offsets[n]] = std::int16_t(std::clamp(std::round(hu[n]), -1024.0f, 32767.0f));
     }
   }
 
 private:
+  // Label by label: a texture is made fastest for many points at once.
+  void add_textures(const Points& points, const std::vector<int>& label, std::vector<float>& hu) const {
+    std::vector<bool> done(plan_.labels.size(), false);
+    std::vector<std::size_t> alike;
+    for (std::size_t first = 0; first < label.size(); ++first) {
+      if (label[first] < 0 || done[std::size_t(label[first])]) continue;
+      const auto index = std::size_t(label[first]);
+      done[index] = true;
+      const float deviation = plan_.labels[index].texture_hu;
+      if (deviation <= 0) continue;
+      alike.clear();
+      for (std::size_t n = first; n < label.size(); ++n)
+        if (label[n] == label[first]) alike.push_back(n);
+      const std::vector<float> texture = textures_[index].at(points, alike);
+      for (std::size_t n = 0; n < alike.size(); ++n) hu[alike[n]] += deviation * texture[n];
+    }
+  }
+
   const PhantomPlan& plan_;
   std::vector<Texture> textures_;
 };

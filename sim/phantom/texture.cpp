@@ -1,8 +1,7 @@
 #include "sim/phantom/texture.h"
 
-#include <array>
-
 #include "sim/core/hash.h"
+#include "sim/phantom/shapes.h"
 
 namespace insonate {
 namespace {
@@ -25,37 +24,68 @@ float below(float value) {
   return whole > value ? whole - 1.0f : whole;
 }
 
-float gradient_noise(std::uint32_t seed, const glm::vec3& p) {
-  const float fx = below(p.x), fy = below(p.y), fz = below(p.z);
-  const float x = p.x - fx, y = p.y - fy, z = p.z - fz;
-  const float u = fade(x), v = fade(y), w = fade(z);
-  const auto i = std::uint32_t(int(fx)), j = std::uint32_t(int(fy)), k = std::uint32_t(int(fz));
+// The lattice cell around a position, and where in it the position lies.
+struct Cell {
+  std::uint32_t i, j, k;
+  float x, y, z;
+};
 
-  std::array<float, 4> edges;
-  for (std::uint32_t n = 0; n < 4; ++n) {
-    const std::uint32_t dj = n & 1u, dk = n >> 1u;
-    const std::uint32_t column = hash(hash(seed, k + dk), j + dj);
-    const float low = slope(hash(column, i), x, y - float(dj), z - float(dk));
-    const float high = slope(hash(column, i + 1), x - 1.0f, y - float(dj), z - float(dk));
-    edges[n] = low + u * (high - low);
-  }
-  const float front = edges[0] + v * (edges[1] - edges[0]);
-  const float back = edges[2] + v * (edges[3] - edges[2]);
-  return front + w * (back - front);
+// Along the cell's edge in x that lies dj and dk further up.
+float edge(std::uint32_t seed, const Cell& cell, std::uint32_t dj, std::uint32_t dk) {
+  const std::uint32_t column = hash(hash(seed, cell.k + dk), cell.j + dj);
+  const float y = cell.y - float(dj), z = cell.z - float(dk);
+  const float low = slope(hash(column, cell.i), cell.x, y, z);
+  const float high = slope(hash(column, cell.i + 1), cell.x - 1.0f, y, z);
+  return low + fade(cell.x) * (high - low);
+}
+
+float gradient_noise(std::uint32_t seed, const glm::vec3& p) {
+  const float i = below(p.x), j = below(p.y), k = below(p.z);
+  const Cell cell{std::uint32_t(int(i)), std::uint32_t(int(j)), std::uint32_t(int(k)), p.x - i, p.y - j, p.z - k};
+  const float v = fade(cell.y), w = fade(cell.z);
+  const float low_front = edge(seed, cell, 0, 0), low_back = edge(seed, cell, 1, 0);
+  const float high_front = edge(seed, cell, 0, 1), high_back = edge(seed, cell, 1, 1);
+  const float low = low_front + v * (low_back - low_front);
+  const float high = high_front + v * (high_back - high_front);
+  return low + w * (high - low);
 }
 
 // Standard deviation of the two layers' sum, measured over 10^6 points.
 constexpr float kStandardDeviation = 0.33f;
 
-}  // namespace
-
-float Texture::at(const glm::vec3& position_mm) const {
-  const glm::vec3 p = position_mm * per_mm_;
+// Both layers at one position in units of the grain.
+float noise(std::uint32_t seed, const glm::vec3& p) {
   // A turn by the quaternion (0.5, 0.5, 0.3, 0.64), normalised, and a scale of 1.7 that no lattice step repeats.
   const glm::vec3 turned =
       1.7f * glm::vec3(0.3337f * p.x - 0.1363f * p.y + 0.9328f * p.z, 0.9387f * p.x + 0.1486f * p.y - 0.3141f * p.z,
                        -0.0958f * p.x + 0.9795f * p.y + 0.1774f * p.z);
-  return (gradient_noise(seed_, p) + 0.6f * gradient_noise(hash(seed_), turned)) / kStandardDeviation;
+  return (gradient_noise(seed, p) + 0.6f * gradient_noise(hash(seed), turned)) / kStandardDeviation;
+}
+
+// All of it in one loop without a branch, so that the compiler takes several positions at once.
+[[gnu::flatten]] void fill_noise(std::uint32_t seed, float per_mm, const float* x, const float* y, const float* z,
+                                 std::size_t count, float* out) {
+  for (std::size_t n = 0; n < count; ++n) out[n] = noise(seed, glm::vec3(x[n], y[n], z[n]) * per_mm);
+}
+
+}  // namespace
+
+float Texture::at(const glm::vec3& position_mm) const {
+  float value = 0;
+  fill_noise(seed_, per_mm_, &position_mm.x, &position_mm.y, &position_mm.z, 1, &value);
+  return value;
+}
+
+std::vector<float> Texture::at(const Points& points, const std::vector<std::size_t>& which) const {
+  const auto taken_from = [&](const std::vector<float>& coordinate) {
+    std::vector<float> taken(which.size());
+    for (std::size_t n = 0; n < which.size(); ++n) taken[n] = coordinate[which[n]];
+    return taken;
+  };
+  const std::vector<float> x = taken_from(points.x), y = taken_from(points.y), z = taken_from(points.z);
+  std::vector<float> values(which.size());
+  fill_noise(seed_, per_mm_, x.data(), y.data(), z.data(), which.size(), values.data());
+  return values;
 }
 
 }  // namespace insonate

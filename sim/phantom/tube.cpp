@@ -97,12 +97,9 @@ public:
       std::fill_n(out, points.count(), kReach_mm);
       return;
     }
-    for (std::size_t n = 0; n < points.count(); ++n) {
-      const glm::vec3 p(points.x[n], points.y[n], points.z[n]);
-      float distance = 1e6f;
-      for (const Segment* segment : near) distance = std::min(distance, distance_to(*segment, p));
-      out[n] = distance;
-    }
+    std::fill_n(out, points.count(), 1e6f);
+    for (const Segment* segment : near)
+      lower_to(*segment, points.x.data(), points.y.data(), points.z.data(), points.count(), out);
   }
 
 private:
@@ -131,20 +128,58 @@ private:
   }
 
   float distance_to(const Segment& segment, const glm::vec3& p) const {
+    float distance = 1e6f;
+    lower_to(segment, &p.x, &p.y, &p.z, 1, &distance);
+    return distance;
+  }
+
+  // Brings `out` down to the segment's distances.
+  void lower_to(const Segment& segment, const float* x, const float* y, const float* z, std::size_t count,
+                float* out) const {
+    if (form_.flatness == 1.0f)
+      lower_to<false>(segment, form_, x, y, z, count, out);
+    else
+      lower_to<true>(segment, form_, x, y, z, count, out);
+  }
+
+  // All of it by value and without a branch, so that the compiler takes several points at once.
+  template <bool kFlat>
+  [[gnu::flatten]] static void lower_to(const Segment segment, const TubeForm form, const float* x, const float* y,
+                                        const float* z, std::size_t count, float* out) {
+    for (std::size_t n = 0; n < count; ++n) {
+      const glm::vec3 p(x[n], y[n], z[n]);
+      const float distance = kFlat ? flat_distance(segment, form, p) : round_distance(segment, p);
+      out[n] = distance < out[n] ? distance : out[n];
+    }
+  }
+
+  // The nearest point of the segment's axis, and the tube's radius there.
+  struct Foot {
+    glm::vec3 at;
+    float radius;
+  };
+
+  static Foot foot_of(const Segment& segment, const glm::vec3& p) {
     const float t = std::clamp(glm::dot(p - segment.from, segment.along) * segment.per_length_squared, 0.0f, 1.0f);
-    const glm::vec3 foot = segment.from + t * segment.along;
-    const float radius = glm::mix(segment.radius_from, segment.radius_to, t);
-    const glm::vec3 off = p - foot;
-    if (form_.flatness == 1.0f) return glm::length(off) - radius;
-    // An ellipse of half axes radius and flatness * radius, to first order as for the ellipsoid.
-    const glm::vec3 look = form_.flat_towards - foot;
+    return {segment.from + t * segment.along, glm::mix(segment.radius_from, segment.radius_to, t)};
+  }
+
+  static float round_distance(const Segment& segment, const glm::vec3& p) {
+    const Foot foot = foot_of(segment, p);
+    return glm::length(p - foot.at) - foot.radius;
+  }
+
+  // An ellipse of half axes radius and flatness * radius, to first order as for the ellipsoid.
+  static float flat_distance(const Segment& segment, const TubeForm& form, const glm::vec3& p) {
+    const Foot foot = foot_of(segment, p);
+    const glm::vec3 off = p - foot.at, look = form.flat_towards - foot.at;
     const glm::vec3 narrow = look / std::max(glm::length(look), 1e-3f);
-    const float across = glm::dot(off, narrow);
-    const glm::vec3 stretched = off + narrow * (across * (1.0f / form_.flatness - 1.0f));
+    const float stretch = 1.0f / form.flatness - 1.0f;
+    const glm::vec3 stretched = off + narrow * (glm::dot(off, narrow) * stretch);
+    const glm::vec3 twice = stretched + narrow * (glm::dot(stretched, narrow) * stretch);
     const float f = glm::length(stretched);
-    if (f < 1e-3f) return -radius * form_.flatness;
-    const glm::vec3 twice = stretched + narrow * (glm::dot(stretched, narrow) * (1.0f / form_.flatness - 1.0f));
-    return (f - radius) * f / glm::length(twice);
+    const float beside = (f - foot.radius) * f / glm::length(twice), on_axis = -foot.radius * form.flatness;
+    return f < 1e-3f ? on_axis : beside;
   }
 
   // Neighbouring segments, looked at one by one only when their common bounds are near.

@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
 #include <tbb/global_control.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +11,7 @@
 #include "sim/core/input_error.h"
 #include "sim/phantom/arithmetic.h"
 #include "sim/phantom/phantom.h"
+#include "sim/phantom/shapes.h"
 #include "sim/phantom/texture.h"
 
 using namespace insonate;
@@ -136,17 +138,22 @@ TEST_CASE("options set numbers and switch shapes") {
   CHECK(count(make(shapes, {{"extra", "true"}}), "rough") > 90);
 }
 
-TEST_CASE("the same recipe gives the same bits with one thread and with several") {
+TEST_CASE("the same recipe gives the same bits with one, two and five threads") {
   const std::string shapes =
       R"({ name = "a", label = "rough", kind = "ellipsoid", centre = [1, 2, 3], radii = [14, 12, 13], uneven_mm = 1, uneven_grain_mm = 6 },
     { name = "b", label = "organ", kind = "tube", points = [[-15, 0, 0, 3], [0, 9, 2, 4], [15, 0, -5, 2]], clear_of = ["a"], gap_mm = 1 },)";
-  const auto with_threads = [&](std::size_t threads) {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    return make(shapes);
+  const auto with_threads = [&](int threads) {
+    // More of them than the machine has cores, too.
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
+    tbb::task_arena arena(threads);
+    return arena.execute([&] { return make(shapes); });
   };
-  const Case one = with_threads(1), two = with_threads(2);
-  CHECK(one.ct.voxels == two.ct.voxels);
-  CHECK(one.labels.voxels == two.labels.voxels);
+  const Case one = with_threads(1);
+  for (const int threads : {2, 5}) {
+    const Case several = with_threads(threads);
+    CHECK((several.ct.voxels == one.ct.voxels));
+    CHECK((several.labels.voxels == one.labels.voxels));
+  }
 
   std::string reseeded = small_recipe(shapes);
   reseeded.replace(reseeded.find("seed = 7"), 8, "seed = 8");
@@ -173,6 +180,36 @@ TEST_CASE("texture has no mean, unit deviation, and nothing finer than its grain
   CHECK(std::sqrt(step_squares / samples) < 0.31);
   CHECK(texture.at({1, 2, 3}) == texture.at({1, 2, 3}));
   CHECK(texture.at({1, 2, 3}) != Texture(4, 4.0f).at({1, 2, 3}));
+}
+
+TEST_CASE("texture and tubes are the same to the bit, at a point alone and among others") {
+  std::vector<float> x, y, z;
+  for (int n = 0; n < 203; ++n) {  // no multiple of what a processor takes at once
+    x.push_back(float(n % 7) * 1.3f - 4.0f);
+    y.push_back(float(n % 11) * 0.9f - 5.0f);
+    z.push_back(float(n % 13) * 0.7f - 4.0f);
+  }
+  const Points points(x, y, z);
+  const Texture texture(3, 2.0f);
+  std::vector<std::size_t> odd;
+  for (std::size_t n = 1; n < points.count(); n += 2) odd.push_back(n);
+  const std::vector<float> values = texture.at(points, odd);
+  REQUIRE(values.size() == odd.size());
+  for (std::size_t n = 0; n < odd.size(); ++n) CHECK(values[n] == texture.at({x[odd[n]], y[odd[n]], z[odd[n]]}));
+
+  const std::vector<TubePoint> bent{{{-9, -3, 0}, 2}, {{0, 4, 1}, 3}, {{8, -2, -3}, 1.5f}};
+  TubeForm flat;
+  flat.flatness = 0.6f;
+  flat.flat_towards = {0, 100, 0};
+  for (const TubeForm& form : {TubeForm(), flat}) {
+    const ShapePtr tube = make_tube(bent, form);
+    Points block(x, y, z);
+    const std::vector<float>& together = block.distances_to(*tube);
+    for (std::size_t n = 0; n < points.count(); ++n) {
+      Points alone({x[n]}, {y[n]}, {z[n]});
+      CHECK(together[n] == alone.distances_to(*tube)[0]);
+    }
+  }
 }
 
 TEST_CASE("progress rises to one, in at most a hundred calls") {
