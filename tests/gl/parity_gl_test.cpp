@@ -9,57 +9,18 @@
 #include <cstdio>
 #include <string>
 
-#include "sim/core/hash.h"
 #include "sim/gl/headless_context.h"
 #include "sim/gl/simulator.h"
 #include "sim/reference/reference.h"
+#include "tests/gl/parity.h"
 #include "tests/gl/test_body.h"
 
 using namespace insonate;
+using test::told;
+using test::worst;
+using test::Worst;
 
 namespace {
-
-struct Worst {
-  double error = 0;
-  int x = 0, y = 0;
-  double expected = 0, got = 0;
-};
-
-// The worst disagreement, as a multiple of what is tolerated at that place.
-Worst worst(const Image<double>& expected, const Image<float>& got, const Image<double>& tolerated) {
-  REQUIRE(expected.pixels.size() == got.pixels.size());
-  Worst found;
-  for (int y = 0; y < expected.height; ++y)
-    for (int x = 0; x < expected.width; ++x) {
-      REQUIRE(std::isfinite(got.at(x, y)));
-      const double error = std::abs(expected.at(x, y) - double(got.at(x, y))) / tolerated.at(x, y);
-      if (error > found.error) found = {error, x, y, expected.at(x, y), got.at(x, y)};
-    }
-  return found;
-}
-
-std::string told(const char* what, const Worst& w) {
-  char text[200];
-  std::snprintf(text, sizeof text, "%s: worst %.3g of the tolerance at (%d, %d): reference %.9g, GLSL %.9g", what,
-                w.error, w.x, w.y, w.expected, w.got);
-  return text;
-}
-
-// Where the tissue table is steep, as at the foot of gas's ramp, rounding alone decides a sample's impedance: nobody
-// can ask single precision for more there than it can hold. From a line's start to the filter's weights a coordinate in
-// [0, 1] is rounded six times, each by up to 3e-8 of the body's 160 mm: 3e-5 mm in all. Filtering adds up eight
-// products of values around 1000 HU, each rounded by 6e-8: 2e-4 HU. References over fields that are wrong by as much,
-// at random, tell what that can change.
-MediumField as_single_precision_knows_it(const MediumField& field, std::uint32_t seed) {
-  constexpr double kPositionMm = 3e-5, kHu = 2e-4;
-  return [&field, seed, count = std::uint32_t(0)](const glm::dvec3& p) mutable {
-    const auto random = [&] { return 2.0 * unit_float(hash(seed, count++)) - 1.0; };
-    const glm::dvec3 jitter(random(), random(), random());
-    Medium medium = field(p + kPositionMm * jitter);
-    medium.hu += kHu * random();
-    return medium;
-  };
-}
 
 void check_parity(const Probe& probe, double depth_mm, const Settings& settings, const Pose& pose) {
   const gl::HeadlessContext context;
@@ -75,16 +36,11 @@ void check_parity(const Probe& probe, double depth_mm, const Settings& settings,
   const Stages<double> expected = simulate_reference(field, table, probe, depth_mm, settings, pose);
   std::array<Stages<double>, 4> uncertain;
   for (std::uint32_t i = 0; i < uncertain.size(); ++i)
-    uncertain[i] = simulate_reference(as_single_precision_knows_it(field, i), table, probe, depth_mm, settings, pose);
+    uncertain[i] =
+        simulate_reference(test::as_single_precision_knows_it(field, i), table, probe, depth_mm, settings, pose);
 
   const auto tolerance = [&](Image<double> Stages<double>::*stage, auto&& basic) {
-    Image<double> tolerated = expected.*stage;
-    for (std::size_t i = 0; i < tolerated.pixels.size(); ++i) {
-      const double value = (expected.*stage).pixels[i];
-      tolerated.pixels[i] = basic(value);
-      for (const Stages<double>& other : uncertain) tolerated.pixels[i] += std::abs((other.*stage).pixels[i] - value);
-    }
-    return tolerated;
+    return test::tolerated(expected, uncertain, stage, basic);
   };
 
   // I: 1e-4 relative, or 1e-10 below 1e-6.
