@@ -1,5 +1,11 @@
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
 #include <xxhash.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <map>
 #include <system_error>
@@ -67,17 +73,80 @@ bool is_whole(const fs::path& folder) {
   }
 }
 
+// A cached folder held while it is read, together with others who read it, or alone to throw it away. It falls with the
+// process, so none is ever left behind. Where a file system has no such locks nothing is held, and a reader whose files
+// are thrown away makes the phantom again.
+class FolderLock {
+public:
+  enum class Kind { shared, alone };
+
+  FolderLock(const fs::path& folder, Kind kind) : file_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    held_ = file_ >= 0 && flock(file_, (kind == Kind::alone ? LOCK_EX : LOCK_SH) | LOCK_NB) == 0;
+  }
+  ~FolderLock() {
+    if (file_ >= 0) close(file_);
+  }
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+  bool held() const { return held_; }
+
+private:
+  int file_;
+  bool held_ = false;
+};
+
+// Gone under its name at once, and from the disk after that.
+void throw_away(const fs::path& folder) {
+  const FolderLock lock(folder, FolderLock::Kind::alone);
+  if (!lock.held()) return;
+  fs::path gone = folder;
+  gone.replace_filename("." + folder.filename().string() + "." + std::to_string(getpid()) + ".gone");
+  std::error_code error;
+  fs::rename(folder, gone, error);
+  if (!error) fs::remove_all(gone, error);
+}
+
+// When a folder was last used is the time of its own last change, by the file system's clock.
+void mark_used(const fs::path& folder) {
+  utimensat(AT_FDCWD, folder.c_str(), nullptr, 0);
+}
+
+// Keeps the phantoms used last, of which `newest` is one. What a process that ended too early left half written or half
+// thrown away, under a name with a leading dot, goes when it is a day older.
+void tidy(const fs::path& newest) {
+  std::error_code error;
+  const fs::file_time_type day_before = fs::last_write_time(newest, error) - std::chrono::hours(24);
+  std::vector<std::pair<fs::file_time_type, fs::path>> found;
+  for (fs::directory_iterator entry(newest.parent_path(), error), end; !error && entry != end; entry.increment(error)) {
+    std::error_code unknown;
+    const fs::file_time_type used = fs::last_write_time(entry->path(), unknown);
+    if (unknown || !entry->is_directory(unknown)) continue;
+    if (entry->path().filename().string().front() != '.')
+      found.emplace_back(used, entry->path());
+    else if (used < day_before)
+      fs::remove_all(entry->path(), unknown);
+  }
+  std::sort(found.begin(), found.end(), std::greater<>());
+  for (std::size_t n = kKeptPhantoms; n < found.size(); ++n) throw_away(found[n].second);
+}
+
 }  // namespace
 
 Case cached_phantom(const fs::path& recipe, const std::vector<std::pair<std::string, std::string>>& options,
                     const fs::path& cache, const Progress& progress) {
   const std::string text = read_file(recipe, std::size_t(16) << 20);
   const fs::path folder = cache / "phantoms" / (recipe.stem().string() + "-" + key_of(text, options));
-  if (is_whole(folder)) {
-    try {
-      return read_case(folder);
-    } catch (const InputError&) {
-      // Whole, yet not to be read: written by another version of the reader. Made again below.
+  {
+    const FolderLock lock(folder, FolderLock::Kind::shared);
+    if (is_whole(folder)) {
+      try {
+        Case subject = read_case(folder);
+        mark_used(folder);
+        return subject;
+      } catch (const InputError&) {
+        // Whole, yet not to be read: written by another version of the reader, or thrown away meanwhile. Made again.
+      }
     }
   }
   Case subject = make_phantom(recipe.string(), text, options, progress);
@@ -86,8 +155,11 @@ Case cached_phantom(const fs::path& recipe, const std::vector<std::pair<std::str
     fs::remove_all(folder, ignored);
     write_case(folder, subject);
     write_file(folder / kDigestsFile, digests_of(folder));
+    tidy(folder);
   } catch (const InputError&) {
     // The case is whole all the same: a cache that cannot be written costs the time to make it again.
+  } catch (const fs::filesystem_error&) {
+    // As above: somebody else throws it away while its digests are taken.
   }
   return subject;
 }

@@ -1,6 +1,10 @@
 #include <catch2/catch.hpp>
+#include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -136,6 +140,67 @@ TEST_CASE("a cache that cannot be written costs time and nothing else") {
   CHECK(place.made == 1);
   CHECK(same(place.get(), made));
   CHECK(place.made == 2);
+}
+
+namespace {
+
+fs::file_time_type hours_ago(int hours) {
+  return fs::file_time_type::clock::now() - std::chrono::hours(hours);
+}
+
+// As many phantoms as a cache keeps, numbered by their radius from 1 up, each an hour older than the one before it.
+std::vector<fs::path> fill(Workplace& place) {
+  std::vector<fs::path> folders;
+  for (std::size_t n = 1; n <= kKeptPhantoms; ++n) {
+    place.get({{"radius_mm", std::to_string(n)}});
+    for (const fs::path& folder : place.folders())
+      if (std::find(folders.begin(), folders.end(), folder) == folders.end()) folders.push_back(folder);
+    REQUIRE(folders.size() == n);
+    fs::last_write_time(folders.back(), hours_ago(int(n)));
+  }
+  return folders;
+}
+
+}  // namespace
+
+TEST_CASE("a cache keeps the phantoms that were used last") {
+  Workplace place;
+  const std::vector<fs::path> folders = fill(place);
+  place.get({{"radius_mm", std::to_string(kKeptPhantoms)}});  // the oldest, just used
+  CHECK(place.made == int(kKeptPhantoms));
+  place.get({{"radius_mm", "8.5"}});
+  CHECK(place.folders().size() == kKeptPhantoms);
+  CHECK(fs::exists(folders.back()));
+  CHECK_FALSE(fs::exists(folders[kKeptPhantoms - 2]));  // now the one that was used longest ago
+  CHECK(fs::exists(folders[kKeptPhantoms - 3]));
+}
+
+TEST_CASE("a cached phantom that somebody reads stays") {
+  Workplace place;
+  const std::vector<fs::path> folders = fill(place);
+  const int reader = open(folders.back().c_str(), O_RDONLY | O_DIRECTORY);
+  REQUIRE(reader >= 0);
+  REQUIRE(flock(reader, LOCK_SH) == 0);
+  place.get({{"radius_mm", "8.5"}});
+  CHECK(fs::exists(folders.back()));
+  close(reader);
+  place.get({{"radius_mm", "8.6"}});
+  CHECK_FALSE(fs::exists(folders.back()));
+  CHECK(place.folders().size() == kKeptPhantoms);
+}
+
+TEST_CASE("what was left half done goes from a cache when it is old, and nothing that is no folder") {
+  Workplace place;
+  const fs::path phantoms = place.cache() / "phantoms";
+  write_file(phantoms / ".old.partial" / "ct.nrrd", "x");
+  write_file(phantoms / ".new.partial" / "ct.nrrd", "x");
+  write_file(phantoms / "note.txt", "x");
+  fs::last_write_time(phantoms / ".old.partial", hours_ago(48));
+  fs::last_write_time(phantoms / "note.txt", hours_ago(48));
+  place.get();
+  CHECK_FALSE(fs::exists(phantoms / ".old.partial"));
+  CHECK(fs::exists(phantoms / ".new.partial"));
+  CHECK(fs::exists(phantoms / "note.txt"));
 }
 
 TEST_CASE("a missing recipe is named") {
