@@ -1,5 +1,7 @@
 #include "sim/model/settings.h"
 
+#include <algorithm>
+
 namespace insonate {
 
 Settings paper_settings(double depth_mm, int samples) {
@@ -19,7 +21,7 @@ Settings trainer_settings(double frequency_mhz, double depth_mm) {
   settings.frequency_mhz = frequency_mhz;
   const double two_way_db = 2 * kSoftTissueAbsorption * frequency_mhz * depth_mm / 10;
   for (std::size_t i = 0; i < settings.tgc_db.size(); ++i)
-    settings.tgc_db[i] = two_way_db * double(i) / double(settings.tgc_db.size() - 1);
+    settings.tgc_db[i] = std::min(two_way_db * double(i) / double(settings.tgc_db.size() - 1), kMostTimeGainDb);
   return settings;
 }
 

@@ -14,15 +14,19 @@ enum class ReferenceLevel {
   fixed           ///< a fixed level is white, so that the picture does not pump while the probe moves
 };
 
+/// Time gain at most: 10^30 and the gain over it are what single precision holds, and sound that has lost as much is
+/// silent.
+inline constexpr double kMostTimeGainDb = 300;
+
 /// Everything that decides how model S turns a volume, a pose and a probe into a picture. Numbers in brackets are the
-/// equations of Kutter, Shams, Navab 2009.
+/// equations of Kutter, Shams, Navab 2009. A field added here gets its line in settings_file.cpp.
 struct Settings {
   // Traversal
   int samples = 512;                  ///< a line, 1 to 8192
   double reflection_length_mm = 0.6;  ///< l: the distance over which two media count as one interface, 0.01 to 20 (1)
   double frequency_mhz = 3.5;         ///< 0.5 to 30
   bool absorption = true;             ///< frequency-dependent absorption in (5); off in the paper's own mode
-  double gel_mm = 6;                  ///< coupling gel: air nearer to the face than this counts as water; 0 for none
+  double gel_mm = 6;  ///< coupling gel: air nearer to the face than this counts as water; 0 (none) to 100
 
   // Beam width (4)
   BeamWindow beam_window = BeamWindow::hann;
@@ -35,19 +39,19 @@ struct Settings {
 
   // Fusion (6)
   double reflection_sigma_mm = 0.45;  ///< s1: smoothing of the reflections in the image, 0 (none) to 1000
-  double transmission_sigma_mm = 0;   ///< s2: the same of the transmission
-  double blend = 4e-5;                ///< b: scattered against reflected echo
+  double transmission_sigma_mm = 0;   ///< s2: the same of the transmission, 0 to 1000
+  double blend = 4e-5;                ///< b: scattered against reflected echo, 0 to 1000
   bool two_way = true;                ///< T = (I/I0)^2: the scattered echo goes back the way it came; off in the paper
 
   // Display (7)
   double gain_db = 0;              ///< -60 to 60
-  std::array<double, 8> tgc_db{};  ///< time gain compensation at 8 depths from face to full depth, linear between
+  std::array<double, 8> tgc_db{};  ///< time gain at 8 depths from face to full depth, linear between; -300 to 300
   double dynamic_range_db = 55;    ///< beta, 1 to 200
   ReferenceLevel reference_level = ReferenceLevel::fixed;
-  double fixed_level = 0.014;  ///< the U that is white before gain
+  double fixed_level = 0.014;  ///< the U that is white before gain, 1e-12 to 1e6
 
-  int image_width = 640;  ///< 1 to 8192
-  int image_height = 480;
+  int image_width = 640;   ///< 1 to 8192
+  int image_height = 480;  ///< 1 to 8192
 };
 
 /// As in the paper: no absorption, reflection length = sample distance, one-way transmission, frame's maximum.

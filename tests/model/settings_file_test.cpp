@@ -1,0 +1,167 @@
+#include "sim/model/settings_file.h"
+
+#include <catch2/catch.hpp>
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+
+#include "sim/core/files.h"
+#include "sim/core/input_error.h"
+
+using namespace insonate;
+
+namespace {
+
+struct SettingsFile {
+  std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("insonate_settings_" + std::to_string(getpid()) + ".toml");
+  explicit SettingsFile(const std::string& text) { write_file(path, text); }
+  ~SettingsFile() { std::filesystem::remove(path); }
+};
+
+constexpr double kFrequency = 4, kDepth = 120;
+
+Settings read(const std::string& text) {
+  return read_settings(SettingsFile(text).path, kFrequency, kDepth);
+}
+
+std::string why_refused(const std::string& text) {
+  try {
+    read(text);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+// As many fields as can be given a value of their own in braces.
+struct AnyField {
+  template <typename T>
+  operator T() const;
+};
+template <typename T, typename... Fields>
+constexpr std::size_t fields_of() {
+  if constexpr (requires { T{Fields{}..., AnyField{}}; })
+    return fields_of<T, Fields..., AnyField>();
+  else
+    return sizeof...(Fields);
+}
+
+std::string with_all_digits(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.17g", x);
+  return text;
+}
+
+std::string as_toml(const SettingValue& value) {
+  struct {
+    std::string operator()(bool b) const { return b ? "true" : "false"; }
+    std::string operator()(std::int64_t n) const { return std::to_string(n); }
+    std::string operator()(double x) const { return with_all_digits(x); }
+    std::string operator()(const std::string& text) const { return "'" + text + "'"; }
+    std::string operator()(const std::vector<double>& list) const {
+      std::string text = "[";
+      for (double x : list) text += with_all_digits(x) + ", ";
+      return text + "]";
+    }
+  } words;
+  return std::visit(words, value);
+}
+
+}  // namespace
+
+TEST_CASE("every field of Settings is a key of settings files") {
+  CHECK(named_settings({}).size() == fields_of<Settings>());
+}
+
+TEST_CASE("a settings file is a preset and what is written over it") {
+  CHECK(named_settings(read("preset = 'trainer'")) == named_settings(trainer_settings(kFrequency, kDepth)));
+  CHECK(named_settings(read("# nothing")) == named_settings(trainer_settings(kFrequency, kDepth)));
+
+  // The preset is that of the file's own samples and frequency, whichever line they are on.
+  Settings paper = paper_settings(kDepth, 300);
+  paper.frequency_mhz = 2.5;
+  CHECK(named_settings(read("frequency_mhz = 2.5\npreset = 'paper'\nsamples = 300")) == named_settings(paper));
+  CHECK(named_settings(read("frequency_mhz = 2")) == named_settings(trainer_settings(2, kDepth)));
+
+  const Settings own = read(
+      "preset = 'paper'\nreflection_length_mm = 0.5\nbeam_window = 'triangle'\nspeckle = false\nspeckle_seed = "
+      "4294967295\n"
+      "tgc_db = [0, 1, 2, 3, 4, 5, 6, 7.5]\nreference_level = 'fixed'\ngain_db = 3");
+  CHECK(own.reflection_length_mm == 0.5);
+  CHECK(own.beam_window == BeamWindow::triangle);
+  CHECK_FALSE(own.speckle);
+  CHECK(own.speckle_seed == 4294967295u);
+  CHECK(own.tgc_db == std::array<double, 8>{0, 1, 2, 3, 4, 5, 6, 7.5});
+  CHECK(own.reference_level == ReferenceLevel::fixed);
+  CHECK(own.gain_db == 3);
+  CHECK_FALSE(own.absorption);
+}
+
+TEST_CASE("what settings hold reads back as it was") {
+  Settings settings = trainer_settings(5, 90);
+  settings.beam_window = BeamWindow::box;
+  settings.reference_level = ReferenceLevel::frame_maximum;
+  settings.two_way = false;
+  settings.fixed_level = 0.25;
+  settings.blend = 0.5;
+  std::string text;
+  for (const auto& [name, value] : named_settings(settings)) text += name + " = " + as_toml(value) + "\n";
+  INFO(text);
+  CHECK(named_settings(read(text)) == named_settings(settings));
+}
+
+TEST_CASE("a settings file that cannot be used is refused with every place and reason") {
+  const struct {
+    std::string text, place, problem;
+  } cases[] = {
+      {"samples = \n", "line 1, column", "not TOML"},
+      {"\nsample = 3\n", "line 2, column 10", "did you mean 'samples'?"},
+      {"preset = 'papper'\n", "line 1, column 10", "did you mean 'paper'?"},
+      {"preset = 3\n", "line 1", "'preset' is no text"},
+      {"samples = 0\n", "line 1, column 11", "'samples' is 0; give a whole number from 1 to 8192."},
+      {"samples = 9999999999999\n", "line 1", "'samples' is 9999999999999"},
+      {"samples = 3.5\n", "line 1", "'samples' is of another kind; give a whole number"},
+      {"speckle_seed = -1\n", "line 1", "give a whole number from 0 to 4294967295"},
+      {"beam_lines = 4\n", "line 1", "'beam_lines' is 4; give an odd number from 1 to 255"},
+      {"absorption = 1\n", "line 1", "give true or false"},
+      {"frequency_mhz = 'high'\n", "line 1", "give a number from 0.5 to 30"},
+      {"frequency_mhz = nan\n", "line 1", "'frequency_mhz' is nan"},
+      {"gain_db = inf\n", "line 1", "'gain_db' is inf"},
+      {"beam_window = 'Hann'\n", "line 1", "'beam_window' is 'Hann'; give 'box', 'triangle' or 'hann'"},
+      {"tgc_db = [1, 2]\n", "line 1", "'tgc_db' is [1, 2]; give a list of 8 numbers from -300 to 300"},
+      {"tgc_db = [0, 0, 0, 0, 0, 0, 0, 301]\n", "line 1", "give a list of 8 numbers"},
+      {"tgc_db = [0, 0, 0, 0, 0, 0, 0, 'a']\n", "line 1", "of another kind"},
+      {"preset = 'paper'\nsamples = 2\n", "line 1, column 10", "with this preset 'reflection_length_mm' is 60, not a"},
+      // all at once
+      {"sampels = 3\nblend = 1\nblend_ = 2\ngain_db = 99\n", "line 1",
+       "line 3, column 10: the key 'blend_' is unknown"},
+      {"sampels = 3\nblend = 1\nblend_ = 2\ngain_db = 99\n", "line 4, column 11", "'gain_db' is 99"},
+  };
+  for (const auto& bad : cases) {
+    const std::string why = why_refused(bad.text);
+    INFO(bad.text << " -> " << why);
+    CHECK(why.find(bad.place) != std::string::npos);
+    CHECK(why.find(bad.problem) != std::string::npos);
+  }
+}
+
+TEST_CASE("settings that no file could hold are told of by name") {
+  CHECK_FALSE(why_not_valid({}));
+  CHECK_FALSE(why_not_valid(paper_settings(160, 512)));
+  CHECK_FALSE(why_not_valid(trainer_settings(30, 400)));  // whose absorption no gain makes up for
+  Settings settings;
+  settings.samples = 0;
+  CHECK(why_not_valid(settings) == "'samples' is 0, not a whole number from 1 to 8192");
+  settings = {};
+  settings.reflection_sigma_mm = std::numeric_limits<double>::quiet_NaN();
+  CHECK(why_not_valid(settings) == "'reflection_sigma_mm' is nan, not a number from 0 to 1000");
+  settings = {};
+  settings.beam_window = BeamWindow(7);
+  CHECK(why_not_valid(settings) == "'beam_window' is 'number 7', not 'box', 'triangle' or 'hann'");
+  settings = {};
+  settings.tgc_db[3] = 1e9;
+  CHECK(why_not_valid(settings).value_or("").find("'tgc_db' is [0, 0, 0, 1e+09") == 0);
+}
