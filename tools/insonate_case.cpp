@@ -216,6 +216,7 @@ std::vector<std::pair<std::string, std::string>> parse_options(const std::vector
 void make_and_write(std::filesystem::path recipe, const std::vector<std::string>& settings,
                     const std::filesystem::path& folder) {
   constexpr std::size_t kLongestRecipe = std::size_t(16) << 20;
+  check_case_can_be_written(folder);  // before a minute's work rather than after it
   if (recipe.empty()) recipe = assets_folder() / "phantoms" / "abdomen.toml";
   int last = -1;
   const bool on_terminal = isatty(STDERR_FILENO) != 0;

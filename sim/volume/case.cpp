@@ -229,6 +229,11 @@ Case read_table(const TomlTable& root) {
   return subject;
 }
 
+/// The name without a trailing slash: beside it goes the temporary folder.
+fs::path without_slash(const fs::path& folder) {
+  return folder.has_filename() ? folder : folder.parent_path();
+}
+
 /// A folder beside `target` that is gone again unless it was renamed.
 struct TemporaryFolder {
   fs::path path;
@@ -293,14 +298,30 @@ Case read_case(const fs::path& folder) {
   return subject;
 }
 
-void write_case(const fs::path& folder, const Case& subject) {
-  if (subject.ct.empty()) throw std::invalid_argument("write_case: the case has no CT");
-  // The name without a trailing slash: beside it goes the temporary folder.
-  const fs::path target = folder.has_filename() ? folder : folder.parent_path();
+void check_case_can_be_written(const fs::path& folder) {
+  const fs::path target = without_slash(folder);
+  const std::string name = target.filename().string();
+  if (name.empty() || name == "." || name == "..")
+    throw InputError(folder.string(), "", "it is no name of a folder to make", "name a new folder");
   std::error_code error;
   if (fs::exists(target, error) && !fs::exists(target / kTableFile, error) &&
       !(fs::is_directory(target, error) && fs::is_empty(target, error)))
     throw InputError(target.string(), "", "something that is no case is in the way", "name another folder");
+  // The lowest of the folders above that is there has to take a folder. Nothing but trying tells whether it will.
+  fs::path above = fs::absolute(target, error).parent_path();
+  while (above.has_relative_path() && !fs::exists(above, error)) above = above.parent_path();
+  const fs::path trial = above / ("." + name + "." + std::to_string(getpid()) + ".trial");
+  fs::create_directory(trial, error);
+  if (error)
+    throw InputError(target.string(), "", "the folder cannot be made (" + error.message() + ")",
+                     "name a folder that may be written");
+  fs::remove(trial, error);
+}
+
+void write_case(const fs::path& folder, const Case& subject) {
+  if (subject.ct.empty()) throw std::invalid_argument("write_case: the case has no CT");
+  check_case_can_be_written(folder);
+  const fs::path target = without_slash(folder);
 
   // What could not be read again is not written: the table goes through the reader's own checks.
   const std::string table = case_table(subject);

@@ -78,6 +78,10 @@ struct Case {
 /// corner). A label that no voxel carries is a finding this patient lacks, and stays.
 Case read_case(const std::filesystem::path& folder);
 
+/// Throws the InputError that write_case() would throw for the folder alone: something that is no case is in the way,
+/// or the place is not one to write to. For those who make a case at length before they write it.
+void check_case_can_be_written(const std::filesystem::path& folder);
+
 /// Writes a case folder whole or not at all: it appears under its name only when every file in it is written, and takes
 /// the place of an older case as a whole. The volumes are raw NRRD: the reading of a cached phantom is what its user
 /// waits for. Throws InputError when the folder cannot be written or holds something that is no case, and for a case

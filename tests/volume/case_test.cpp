@@ -121,6 +121,14 @@ TEST_CASE("a case replaces an older one whole, and nothing that is no case") {
   CHECK(read_file(folder.path / "thesis" / "chapter.tex") == "years of work");
   CHECK_THROWS_AS(write_case("/proc/none/case", subject), InputError);
 
+  // The same is said without a case, and nothing is left behind.
+  for (const fs::path& taken : {folder.path / "thesis", folder.path / "thesis" / "chapter.tex" / "case",
+                                fs::path("/proc/none/case"), fs::path("."), folder.path / ".."})
+    CHECK_THROWS_AS(check_case_can_be_written(taken), InputError);
+  check_case_can_be_written(folder.path / "case/");
+  check_case_can_be_written(folder.path / "deep" / "new");
+  CHECK_FALSE(fs::exists(folder.path / "deep"));
+
   // What read_case would refuse is not written at all.
   subject.views[0].landmarks = {"nowhere"};
   CHECK_THROWS_AS(write_case(folder.path / "case", subject), InputError);

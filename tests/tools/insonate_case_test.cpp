@@ -1,0 +1,205 @@
+// insonate-case as a person runs it.
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "sim/core/files.h"
+#include "sim/volume/case.h"
+#include "tests/volume/dicom_files.h"
+#include "tests/volume/temporary_folder.h"
+
+using namespace insonate;
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+namespace {
+
+const std::string kRecipe = R"(name = "Ball"
+grid = { from = [0, 0, 0], to = [24, 20, 16], voxel_mm = 1 }
+options.radius_mm = { default = 6, least = 1, most = 9, about = "a radius" }
+labels = [{ name = "ball", tissue = "liver", hu = 60 }]
+shapes = [{ name = "ball", kind = "ellipsoid", centre = [12, 10, 8], radii = [7, 7, "radius_mm"], label = "ball" }]
+landmarks = [{ name = "middle", at = [12, 10, 8] }]
+views = [{ name = "front", title = "From the front", probe = "curvilinear", aim = "middle", from = [9, 0, 7], marker = [1, 0, 0], press_mm = 1, landmarks = ["middle"], targets = ["ball"] }]
+)";
+
+struct Outcome {
+  int code;
+  std::string output, errors;
+};
+
+std::string text_of(const fs::path& file) {
+  return fs::file_size(file) > 0 ? read_file(file) : "";
+}
+
+bool contains(const std::string& text, const std::string& words) {
+  return text.find(words) != std::string::npos;
+}
+
+// A folder with a recipe, and the program run with what it prints caught in it.
+struct Workplace {
+  TemporaryFolder folder;
+  fs::path recipe = folder.put("ball.toml", kRecipe);
+  fs::path made = folder.path / "ball";
+
+  Outcome run(const std::string& arguments) const {
+    const fs::path output = folder.path / "output", errors = folder.path / "errors";
+    const std::string line = std::string(INSONATE_CASE_PROGRAM) + " " + arguments;
+    const int status = std::system((line + " >" + output.string() + " 2>" + errors.string()).c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(output), text_of(errors)};
+  }
+
+  Outcome make(const fs::path& to, const std::string& more = "") const {
+    return run("phantom --recipe " + recipe.string() + " " + more + " " + to.string());
+  }
+
+  Json inspect(const fs::path& what) const {
+    const Outcome told = run("inspect --json " + what.string());
+    INFO(told.errors);
+    REQUIRE(told.code == 0);
+    CHECK(told.errors.empty());
+    return Json::parse(told.output);
+  }
+
+  // Exit code 2, nothing on standard output, and one sentence that holds each of the words.
+  void refused(const std::string& arguments, const std::vector<std::string>& words) const {
+    const Outcome outcome = run(arguments);
+    INFO(arguments << "\n" << outcome.output << outcome.errors);
+    CHECK(outcome.code == 2);
+    CHECK(outcome.output.empty());
+    CHECK(std::count(outcome.errors.begin(), outcome.errors.end(), '\n') == 1);
+    for (const std::string& word : words) CHECK(contains(outcome.errors, word));
+  }
+};
+
+}  // namespace
+
+TEST_CASE("insonate-case phantom makes the recipe's case and says how far it is") {
+  const Workplace place;
+  const Outcome outcome = place.make(place.made, "--set radius_mm=3");
+  INFO(outcome.errors);
+  REQUIRE(outcome.code == 0);
+  CHECK(outcome.output.empty());
+  CHECK(contains(outcome.errors, "Making the phantom: 100 %\n"));
+  // A log file gets a line for every tenth, not for every hundredth.
+  CHECK(std::count(outcome.errors.begin(), outcome.errors.end(), '\n') <= 11);
+  const Case ball = read_case(place.made);
+  CHECK(ball.name == "Ball");
+  const auto inside = std::count(ball.labels.voxels.begin(), ball.labels.voxels.end(), 1);
+  CHECK(double(inside) == Approx(4 / 3.0 * 3.1416 * 7 * 7 * 3).epsilon(0.1));  // six voxels across: edges count
+
+  // An older case gives way.
+  REQUIRE(place.make(place.made).code == 0);
+  const Case larger = read_case(place.made);
+  CHECK(std::count(larger.labels.voxels.begin(), larger.labels.voxels.end(), 1) > inside);
+}
+
+TEST_CASE("insonate-case phantom refuses a folder before the work, and a bad recipe or option in a sentence") {
+  const Workplace place;
+  const fs::path thesis = place.folder.path / "thesis";
+  fs::create_directories(thesis);
+  write_file(thesis / "chapter.tex", "years of work");
+  const auto refused = [&](const std::string& arguments, const std::vector<std::string>& words) {
+    place.refused("phantom " + arguments, words);
+  };
+  const std::string recipe = "--recipe " + place.recipe.string() + " ";
+  // Not a line of progress: refused() counts the lines.
+  refused(recipe + thesis.string(), {thesis.string(), "something that is no case is in the way"});
+  refused(recipe + thesis.string() + "/", {"something that is no case is in the way"});
+  refused(recipe + (thesis / "chapter.tex" / "case").string(), {"the folder cannot be made"});
+  refused(recipe + "/proc/none/case", {"the folder cannot be made"});
+  refused(recipe + ".", {"it is no name of a folder"});
+  CHECK(read_file(thesis / "chapter.tex") == "years of work");
+
+  const std::string to = place.made.string();
+  refused("--recipe /nowhere.toml " + to, {"/nowhere.toml"});
+  refused(recipe + "--set radius_mm " + to, {"write KEY=VALUE"});
+  refused(recipe + "--set radius=3 " + to, {"radius_mm"});
+  refused(recipe + "--set radius_mm=30 " + to, {"radius_mm"});
+  CHECK_FALSE(fs::exists(place.made));
+}
+
+TEST_CASE("insonate-case inspect tells what a case holds") {
+  const Workplace place;
+  REQUIRE(place.make(place.made).code == 0);
+  const Json about = place.inspect(place.made);
+  CHECK(about["format"] == "case");
+  CHECK(about["name"] == "Ball");
+  CHECK(about["size"] == Json({24, 20, 16}));
+  CHECK(about["orientation"] == "LPS");
+  CHECK(about["hu"]["most"] == 60);
+  CHECK(about["hu"]["least"] == -1000);
+  CHECK(about["labels"][0]["name"] == "ball");
+  CHECK(about["labels"][0]["volume_ml"].get<double>() == Approx(about["labels"][0]["voxels"].get<double>() / 1000));
+  CHECK(about["landmarks"][0]["position_mm"] == Json({12, 10, 8}));
+  CHECK(about["views"][0]["patient_from_probe"].size() == 16);
+
+  const Outcome words = place.run("inspect " + place.made.string());
+  CHECK(words.code == 0);
+  for (const char* part : {"24 x 20 x 16 voxels", "i to the left, j to the back, k to the head", "From the front"})
+    CHECK(contains(words.output, part));
+}
+
+TEST_CASE("insonate-case inspect tells what a CT file holds") {
+  const Workplace place;
+  REQUIRE(place.make(place.made).code == 0);
+  const Json about = place.inspect(place.made / "ct.nrrd");
+  CHECK(about["format"] == "NRRD");
+  CHECK(about["stored_as"] == "int16");
+  CHECK(about["clamped_voxels"] == 0);
+  CHECK(about["size"] == Json({24, 20, 16}));
+  CHECK_FALSE(about.contains("labels"));
+}
+
+TEST_CASE("insonate-case inspect tells what a DICOM folder holds, and the series that it left") {
+  const Workplace place;
+  const fs::path folder = place.folder.path / "dicom";
+  fs::create_directories(folder);
+  DicomSlice slice;
+  slice.stored.assign(std::size_t(slice.columns) * std::size_t(slice.rows), 1084);  // 60 HU
+  for (int k = 0; k < 5; ++k) {
+    slice.position = {-20, -30, 100 + 2.5 * k};
+    write_dicom(folder / ("a" + std::to_string(k) + ".dcm"), slice);
+  }
+  slice.series = "1.2.3.5";
+  slice.description = "SCOUT";
+  for (int k = 0; k < 2; ++k) {
+    slice.position = {-20, -30, 100.0 + k};
+    write_dicom(folder / ("b" + std::to_string(k) + ".dcm"), slice);
+  }
+  const Json about = place.inspect(folder);
+  CHECK(about["format"] == "DICOM series");
+  CHECK(about["size"] == Json({8, 6, 5}));
+  CHECK(about["spacing_mm"][2].get<double>() == Approx(2.5));
+  CHECK(about["hu"]["percentiles"]["50"] == 60);
+  REQUIRE(about["other_series"].size() == 1);
+  CHECK(contains(about["other_series"][0].get<std::string>(), "SCOUT"));
+  CHECK(contains(place.run("inspect " + folder.string()).output, "SCOUT"));
+}
+
+TEST_CASE("insonate-case inspect refuses in a sentence what it cannot read, and exits with 2") {
+  const Workplace place;
+  REQUIRE(place.make(place.made).code == 0);
+  const std::string whole = read_file(place.made / "ct.nrrd");
+  const std::string cut = place.folder.put("cut.nrrd", whole.substr(0, whole.size() / 2)).string();
+  const std::string header = place.folder.put("header.nrrd", whole.substr(0, 20)).string();
+  fs::create_directories(place.folder.path / "nothing");
+  const std::string table = read_file(place.made / "case.toml");
+  fs::create_directories(place.folder.path / "cut_case");
+  place.folder.put("cut_case/case.toml", table.substr(0, table.size() / 2));
+  place.refused("inspect /nowhere/scan.nii.gz", {"/nowhere/scan.nii.gz"});
+  place.refused("inspect " + cut, {"cut.nrrd"});
+  place.refused("inspect " + header, {"header.nrrd"});
+  place.refused("inspect --json " + cut, {"cut.nrrd"});
+  place.refused("inspect " + (place.folder.path / "nothing").string(), {"nothing"});
+  place.refused("inspect " + (place.folder.path / "cut_case").string(), {"case.toml"});
+  place.refused("inspect " + place.recipe.string(), {"ball.toml"});
+
+  CHECK(place.run("").code == 2);
+  CHECK(place.run("inspct " + place.made.string()).code == 2);
+  CHECK(place.run("inspect").code == 2);
+  CHECK(place.run("--help").code == 0);
+}
