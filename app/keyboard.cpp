@@ -3,8 +3,10 @@
 #include <epoxy/gl.h>
 // After epoxy, which brings OpenGL's declarations.
 #include <GLFW/glfw3.h>
+#include <imgui.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace insonate {
 namespace {
@@ -14,14 +16,44 @@ constexpr double kFine = 0.2;
 /// A frame that took longer moves the probe no farther: nothing jumps after a pause.
 constexpr double kLongestFrame_s = 0.1;
 
+/// Whether a key edits text rather than typing some.
+bool edits_text(const KeyEvent& event) {
+  switch (event.key) {
+    case GLFW_KEY_BACKSPACE:
+    case GLFW_KEY_DELETE:
+    case GLFW_KEY_LEFT:
+    case GLFW_KEY_RIGHT:
+    case GLFW_KEY_HOME:
+    case GLFW_KEY_END:
+      return true;
+    case GLFW_KEY_A:
+    case GLFW_KEY_C:
+    case GLFW_KEY_V:
+    case GLFW_KEY_X:
+    case GLFW_KEY_Y:
+    case GLFW_KEY_Z:
+      return event.modifiers & GLFW_MOD_CONTROL;
+    default:
+      return false;
+  }
+}
+
+bool is_enter(const KeyEvent& event) {
+  return event.key == GLFW_KEY_ENTER || event.key == GLFW_KEY_KP_ENTER;
+}
+
 }  // namespace
 
 bool Keyboard::held(int key) const {
-  return glfwGetKey(window_, key) == GLFW_PRESS;
+  return glfwGetKey(window_, key) == GLFW_PRESS || tapped_.contains(key);
 }
 
-bool Keyboard::apply(const std::vector<KeyPress>& pressed, Trainer& trainer, ui::Screen& screen, double elapsed_s) {
-  for (const KeyPress& key : pressed) press(key, trainer, screen);
+bool Keyboard::apply(Trainer& trainer, ui::Screen& screen, double elapsed_s) {
+  ImGuiIO& io = ImGui::GetIO();
+  tapped_.clear();
+  io.KeyShift = held(GLFW_KEY_LEFT_SHIFT) || held(GLFW_KEY_RIGHT_SHIFT);
+  io.KeyCtrl = held(GLFW_KEY_LEFT_CONTROL) || held(GLFW_KEY_RIGHT_CONTROL);
+  hand_on(trainer, screen);
   if (!trainer.session() || screen.takes_keys(trainer)) return false;
   return move_probe(*trainer.session(), std::min(elapsed_s, kLongestFrame_s));
 }
@@ -49,15 +81,61 @@ bool Keyboard::move_probe(Session& session, double elapsed_s) const {
   return true;
 }
 
-void Keyboard::press(const KeyPress& pressed, Trainer& trainer, ui::Screen& screen) {
-  const std::string overlay = screen.overlay(trainer);
-  if (pressed.key == GLFW_KEY_ESCAPE) return screen.dismiss();
-  if (overlay == "problem") {
-    if (pressed.key == GLFW_KEY_ENTER) trainer.problems().pop_front();
+void Keyboard::hand_on(Trainer& trainer, ui::Screen& screen) {
+  field_is_busy_ = false;
+  while (!events_.empty() && !screen.opens_text_field(trainer)) {
+    const KeyEvent event = events_.front();
+    if (screen.types_text(trainer)) {
+      if (!type(event, trainer, screen)) return;
+    } else if (event.kind == KeyEvent::Kind::released) {
+      ImGui::GetIO().KeysDown[event.key] = false;  // of a field that has been closed since
+    } else if (event.kind != KeyEvent::Kind::typed) {
+      press(event, trainer, screen);
+    }
+    events_.pop_front();
+  }
+}
+
+// Whether the field takes it in this frame: it sees keys as they are at the frame, and what was typed before them.
+bool Keyboard::type(const KeyEvent& event, Trainer& trainer, ui::Screen& screen) {
+  if (field_is_busy_) return false;
+  ImGuiIO& io = ImGui::GetIO();
+  switch (event.kind) {
+    case KeyEvent::Kind::typed:
+      io.AddInputCharacter(event.character);
+      break;
+    case KeyEvent::Kind::released:
+      field_is_busy_ = std::exchange(io.KeysDown[event.key], false);
+      break;
+    case KeyEvent::Kind::repeated:
+      break;  // ImGui repeats by itself
+    case KeyEvent::Kind::pressed:
+      if (event.key == GLFW_KEY_ESCAPE) {
+        screen.dismiss(trainer);
+      } else if (is_enter(event)) {
+        screen.confirm(trainer);
+        field_is_busy_ = true;
+      } else if (edits_text(event)) {
+        io.KeysDown[event.key] = true;
+        io.KeyShift = event.modifiers & GLFW_MOD_SHIFT;
+        io.KeyCtrl = event.modifiers & GLFW_MOD_CONTROL;
+        field_is_busy_ = true;
+      }
+      break;
+  }
+  return true;
+}
+
+void Keyboard::press(const KeyEvent& pressed, Trainer& trainer, ui::Screen& screen) {
+  const bool repeated = pressed.kind == KeyEvent::Kind::repeated;
+  if (pressed.key == GLFW_KEY_ESCAPE || (is_enter(pressed) && screen.takes_keys(trainer))) {
+    if (!repeated) is_enter(pressed) ? screen.confirm(trainer) : screen.dismiss(trainer);
     return;
   }
-  if (pressed.key == GLFW_KEY_F1) return screen.toggle_help();
-  if (screen.takes_keys(trainer)) return;
+  const std::string overlay = screen.overlay(trainer);
+  if (pressed.key == GLFW_KEY_F1 && overlay != "problem" && !repeated) return screen.toggle_help();
+  if (!overlay.empty()) return;
+  if (!(pressed.modifiers & GLFW_MOD_CONTROL)) tapped_.insert(pressed.key);
   if (pressed.key == GLFW_KEY_SLASH && (pressed.modifiers & GLFW_MOD_SHIFT)) return screen.toggle_help();
   if (pressed.key == GLFW_KEY_O && (pressed.modifiers & GLFW_MOD_CONTROL)) return screen.ask_for_path();
   if (!trainer.session()) return;
@@ -65,12 +143,12 @@ void Keyboard::press(const KeyPress& pressed, Trainer& trainer, ui::Screen& scre
   Console& console = session.console();
   switch (pressed.key) {
     case GLFW_KEY_TAB:
-      if (!pressed.repeated)
+      if (!repeated)
         trainer.attempt(
             [&] { session.holder() == Holder::learner ? session.give_back_probe() : session.take_probe(); });
       break;
     case GLFW_KEY_SPACE:
-      if (!pressed.repeated) console.frozen = !console.frozen;
+      if (!repeated) console.frozen = !console.frozen;
       break;
     case GLFW_KEY_EQUAL:
     case GLFW_KEY_KP_ADD:

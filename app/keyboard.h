@@ -1,6 +1,7 @@
 #pragma once
 
-#include <vector>
+#include <deque>
+#include <set>
 
 #include "app/panels/screen.h"
 #include "app/trainer.h"
@@ -9,28 +10,44 @@ struct GLFWwindow;
 
 namespace insonate {
 
-/// A key that went down, as GLFW numbers it.
-struct KeyPress {
-  int key = 0;
-  int modifiers = 0;
-  bool repeated = false;
+/// What happened to a key, or a character that was typed.
+struct KeyEvent {
+  enum class Kind { pressed, repeated, released, typed };
+  Kind kind = Kind::pressed;
+  int key = 0;             ///< as GLFW numbers it
+  int modifiers = 0;       ///< GLFW's bits
+  unsigned character = 0;  ///< of what was typed, Unicode
 };
 
-/// What keys do: those held move the probe as long as they are held, those pressed do something once.
+/// What keys do: those held move the probe as long as they are held, those pressed do something once, and what is
+/// typed goes to the field that asks for it. Everything happens in the order it came, however long a frame takes: Dear
+/// ImGui 1.86 looks at keys once a frame and would miss one that is up again by then.
 class Keyboard {
 public:
   explicit Keyboard(GLFWwindow* window) : window_(window) {}
 
+  /// From GLFW's callbacks.
+  void note(const KeyEvent& event) { events_.push_back(event); }
+
+  /// To be called before each of ImGui's frames.
   /// @param elapsed_s  since the last call
   /// Whether a key is held that moves the probe.
-  bool apply(const std::vector<KeyPress>& pressed, Trainer& trainer, ui::Screen& screen, double elapsed_s);
+  bool apply(Trainer& trainer, ui::Screen& screen, double elapsed_s);
+
+  /// Whether something waits for the next frame.
+  bool waiting() const { return !events_.empty(); }
 
 private:
   bool held(int key) const;
   bool move_probe(Session& session, double elapsed_s) const;
-  static void press(const KeyPress& press, Trainer& trainer, ui::Screen& screen);
+  void hand_on(Trainer& trainer, ui::Screen& screen);
+  bool type(const KeyEvent& event, Trainer& trainer, ui::Screen& screen);
+  void press(const KeyEvent& event, Trainer& trainer, ui::Screen& screen);
 
   GLFWwindow* window_;
+  std::deque<KeyEvent> events_;
+  std::set<int> tapped_;        ///< pressed since the last frame, even if up again
+  bool field_is_busy_ = false;  ///< with a key that it has to see before the next one
 };
 
 }  // namespace insonate

@@ -1,6 +1,7 @@
 #include <cstdio>
 
 #include "app/headless.h"
+#include "app/loading.h"
 #include "app/options.h"
 #include "app/window.h"
 #include "tools/program.h"
@@ -10,7 +11,7 @@ int main(int argc, char** argv) {
   CLI::App arguments("", "insonate");
   Options options;
   declare(arguments, options);
-  return run_program(arguments, argc, argv, [&] {
+  const int exit_code = run_program(arguments, argc, argv, [&] {
     check(options);
     if (!options.headless && !has_display()) {
       std::printf("There is no display: the session runs without a window, and leaves its results in %s.\n",
@@ -19,4 +20,5 @@ int main(int argc, char** argv) {
     }
     return options.headless ? run_headless(options) : run_window(options);
   });
+  return leave_program(exit_code);
 }

@@ -10,6 +10,7 @@ void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::
   nlohmann::ordered_json state;
   state["overlay"] = screen.overlay(trainer);
   state["problem"] = trainer.problems().empty() ? "" : trainer.problems().front();
+  state["shader_problem"] = trainer.shader_problem();
   state["frames"] = frames;
   state["pictures_drawn"] = trainer.pictures().drawn();
   state["simulator_runs"] = trainer.pictures().simulator_runs();
@@ -27,6 +28,10 @@ void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::
     state["depth_mm"] = session->console().depth_mm;
     state["gain_db"] = session->console().gain_db;
     if (const auto& pose = session->shown_pose()) {
+      const ui::Rect& space = screen.places().at("space");
+      const glm::dvec2 face = trainer.pictures().camera.project(pose->translation, int(space.w), int(space.h));
+      state["probe_on_screen_x"] = int(face.x + space.x);
+      state["probe_on_screen_y"] = int(face.y + space.y);
       for (int axis = 0; axis < 3; ++axis) {
         state[std::string("face_") + "xyz"[axis]] = pose->translation[axis];
         state[std::string("beam_") + "xyz"[axis]] = pose->rotation[1][axis];

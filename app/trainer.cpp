@@ -1,10 +1,10 @@
 #include "app/trainer.h"
 
-#include <chrono>
 #include <utility>
 
 #include "devices/registry.h"
 #include "sim/core/files.h"
+#include "sim/gl/upload.h"
 
 namespace insonate {
 namespace {
@@ -16,6 +16,13 @@ std::filesystem::path replayed_file(const std::string& tracker) {
 
 std::string bundled_log() {
   return "replay:" + (assets_folder() / "logs" / "ruq_good.igs.mha").string();
+}
+
+/// What a person calls the patient of a study.
+std::string patient_of(const StudySource& source) {
+  for (const std::filesystem::path& named : {source.ct, source.case_folder, source.scenario})
+    if (!named.empty()) return named.string();
+  return "the built-in patient";
 }
 
 gl::ShaderSources shaders_of(const Options& options) {
@@ -30,16 +37,11 @@ Trainer::Trainer(Options options)
       shaders_changed_(shaders_.last_change()),
       pictures_(shaders_) {}
 
-Trainer::~Trainer() {
-  if (loading_.valid()) loading_.wait();
-}
-
 void Trainer::open_from_options() {
   load({{options_.case_folder, options_.ct, options_.scenario}, options_.tracker});
 }
 
 void Trainer::open(const std::filesystem::path& path) {
-  if (loading()) return;
   attempt([&] {
     Request next;
     switch (kind_of_material(path)) {
@@ -53,9 +55,9 @@ void Trainer::open(const std::filesystem::path& path) {
         next.source.scenario = path;
         break;
       case Material::tracker_log:
-        next = current_;
+        next = loading_ ? requested_ : current_;
         next.tracker = "replay:" + path.string();
-        if (study_) return begin(study_, next);
+        if (study_ && !loading_) return begin(study_, next);
         break;
     }
     load(next);
@@ -75,32 +77,24 @@ bool Trainer::attempt(const std::function<void()>& action) {
 
 void Trainer::load(Request request) {
   requested_ = std::move(request);
-  const auto report = [this](const std::string& what, double share) {
-    const std::lock_guard lock(progress_mutex_);
-    progress_ = {what, share};
-  };
-  report("Starting", 0);
-  loading_ = std::async(std::launch::async, [source = requested_.source, report] {
-    return std::make_shared<const Study>(load_study(source, report));
-  });
-}
-
-Trainer::Progress Trainer::progress() const {
-  const std::lock_guard lock(progress_mutex_);
-  return progress_;
+  loading_ = std::make_unique<Loading>(
+      [source = requested_.source](const LoadProgress& progress) { return load_study(source, progress); });
 }
 
 void Trainer::finish_loading() {
-  if (!loading_.valid()) return;
-  loading_.wait();
-  take_over_loaded();
+  if (loading_) take_over_loaded();
+}
+
+void Trainer::stop_loading() {
+  if (session_) loading_.reset();
 }
 
 void Trainer::take_over_loaded() {
-  attempt([&] { begin(loading_.get(), requested_); });
+  const std::unique_ptr<Loading> loaded = std::move(loading_);
+  attempt([&] { begin(loaded->take(), requested_); });
   // A trainer whose command line names something unusable goes on with what is built in.
   const bool asked_for_more = !requested_.source.is_bundled() || !requested_.tracker.empty();
-  if (!session_ && !loading() && asked_for_more) load({});
+  if (!session_ && asked_for_more) load({});
 }
 
 void Trainer::begin(std::shared_ptr<const Study> study, const Request& request) {
@@ -108,7 +102,8 @@ void Trainer::begin(std::shared_ptr<const Study> study, const Request& request) 
   if (uri.empty()) uri = request.source.is_bundled() ? bundled_log() : "mouse:";
   auto open = [uri, surroundings = study->surroundings] { return open_tracker(uri, surroundings); };
   auto session = std::make_unique<Session>(study, open, replayed_file(uri));
-  if (study != study_) pictures_.show(*study);
+  if (study != study_)
+    gl::upload_ct(patient_of(request.source), study->subject.ct.grid, [&] { pictures_.show(*study); });
   session_ = std::move(session);
   study_ = std::move(study);
   current_ = request;
@@ -117,7 +112,7 @@ void Trainer::begin(std::shared_ptr<const Study> study, const Request& request) 
 }
 
 void Trainer::update(double now_s) {
-  if (loading_.valid() && loading_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) take_over_loaded();
+  if (loading_ && loading_->done()) take_over_loaded();
   if (!options_.shader_folder.empty() && now_s - shaders_looked_at_s_ > 0.5) {
     shaders_looked_at_s_ = now_s;
     reload_shaders();

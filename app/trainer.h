@@ -1,13 +1,12 @@
 #pragma once
 
-#include <atomic>
 #include <deque>
-#include <future>
+#include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 
+#include "app/loading.h"
 #include "app/options.h"
 #include "app/pictures.h"
 #include "app/results.h"
@@ -22,21 +21,19 @@ namespace insonate {
 class Trainer {
 public:
   explicit Trainer(Options options);
-  ~Trainer();
 
   /// Opens what the command line names, without waiting for it.
   void open_from_options();
-  /// Opens a file or folder that a person dropped, typed or chose: a case, a CT, a scenario or a recorded scan.
+  /// Opens a file or folder that a person dropped, typed or chose: a case, a CT, a scenario or a recorded scan. It
+  /// takes the place of what is being loaded.
   void open(const std::filesystem::path& path);
 
-  bool loading() const { return loading_.valid(); }
-  struct Progress {
-    std::string what;
-    double share = 0;
-  };
-  Progress progress() const;
-  /// Waits until what is being loaded is there.
+  /// What is being loaded; nullptr for nothing.
+  const Loading* loading() const { return loading_.get(); }
+  /// Waits until it is there.
   void finish_loading();
+  /// Gives it up and goes on with the session there is; does nothing when there is none.
+  void stop_loading();
 
   /// Takes over what was loaded and advances the session to `now_s`.
   void update(double now_s);
@@ -83,9 +80,7 @@ private:
   std::string shader_problem_;
 
   Request current_, requested_;
-  std::future<std::shared_ptr<const Study>> loading_;
-  mutable std::mutex progress_mutex_;
-  Progress progress_;
+  std::unique_ptr<Loading> loading_;
 
   std::shared_ptr<const Study> study_;
   std::unique_ptr<Session> session_;

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "app/keyboard.h"
+#include "app/mouse.h"
 #include "app/panels/screen.h"
 #include "app/state_file.h"
 #include "app/trainer.h"
@@ -60,8 +61,10 @@ struct WindowDeleter {
 
 /// What GLFW's callbacks leave for the next frame.
 struct Events {
+  explicit Events(GLFWwindow* window) : keyboard(window) {}
   bool any = false;
-  std::vector<KeyPress> keys;
+  Keyboard keyboard;
+  Mouse mouse;
   std::vector<std::filesystem::path> dropped;
 };
 
@@ -69,16 +72,36 @@ Events& events_of(GLFWwindow* window) {
   return *static_cast<Events*>(glfwGetWindowUserPointer(window));
 }
 
-// Installed before ImGui's, which calls these in turn.
+KeyEvent::Kind kind_of(int action) {
+  return action == GLFW_RELEASE  ? KeyEvent::Kind::released
+         : action == GLFW_REPEAT ? KeyEvent::Kind::repeated
+                                 : KeyEvent::Kind::pressed;
+}
+
 void listen(GLFWwindow* window, Events& events) {
   glfwSetWindowUserPointer(window, &events);
   glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int mods) {
     events_of(w).any = true;
-    if (action != GLFW_RELEASE) events_of(w).keys.push_back({key, mods, action == GLFW_REPEAT});
+    if (key != GLFW_KEY_UNKNOWN) events_of(w).keyboard.note({kind_of(action), key, mods, 0});
+  });
+  glfwSetCharCallback(window, [](GLFWwindow* w, unsigned character) {
+    events_of(w).any = true;
+    events_of(w).keyboard.note({KeyEvent::Kind::typed, GLFW_KEY_UNKNOWN, 0, character});
+  });
+  glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int) {
+    events_of(w).any = true;
+    double x = 0, y = 0;
+    glfwGetCursorPos(w, &x, &y);
+    if (button < Mouse::kButtons) events_of(w).mouse.note({button, action == GLFW_PRESS, ImVec2(float(x), float(y))});
   });
   glfwSetCursorPosCallback(window, [](GLFWwindow* w, double, double) { events_of(w).any = true; });
-  glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int, int, int) { events_of(w).any = true; });
-  glfwSetScrollCallback(window, [](GLFWwindow* w, double, double) { events_of(w).any = true; });
+  // These go to ImGui as they are.
+  glfwSetScrollCallback(window, [](GLFWwindow* w, double x, double y) {
+    events_of(w).any = true;
+    ImGui_ImplGlfw_ScrollCallback(w, x, y);
+  });
+  glfwSetCursorEnterCallback(window, ImGui_ImplGlfw_CursorEnterCallback);
+  glfwSetWindowFocusCallback(window, ImGui_ImplGlfw_WindowFocusCallback);
   glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { events_of(w).any = true; });
   glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { events_of(w).any = true; });
   glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
@@ -117,9 +140,9 @@ Image<Rgba8> read_screen(int width, int height) {
 class Loop {
 public:
   Loop(GLFWwindow* window, const Options& options)
-      : window_(window), options_(options), trainer_(options), keyboard_(window) {
+      : window_(window), options_(options), trainer_(options), events_(window) {
+    ImGui_ImplGlfw_InitForOpenGL(window, false);
     listen(window, events_);
-    ImGui_ImplGlfw_InitForOpenGL(window, true);
     trainer_.open_from_options();
     start_s_ = last_s_ = glfwGetTime();
   }
@@ -147,7 +170,7 @@ private:
     const double since_s = glfwGetTime() - last_s_;
     const bool lively = glfwGetTime() - changed_s_ < kLively_s;
     const double left_s = (lively ? kFrame_s : kIdle_s) - since_s;
-    if (left_s > 0.0005 && !events_.any)
+    if (left_s > 0.0005 && !events_.any && !events_.keyboard.waiting() && !events_.mouse.waiting())
       glfwWaitEventsTimeout(left_s);
     else
       glfwPollEvents();
@@ -155,8 +178,8 @@ private:
 
   void step(double now_s) {
     const bool touched = std::exchange(events_.any, false);
-    for (const std::filesystem::path& path : std::exchange(events_.dropped, {})) trainer_.open(path);
-    const bool moved = keyboard_.apply(std::exchange(events_.keys, {}), trainer_, screen_, now_s - last_s_);
+    open_dropped();
+    const bool moved = events_.keyboard.apply(trainer_, screen_, now_s - last_s_);
     const double previous_s = std::exchange(last_s_, now_s);
 
     trainer_.update(now_s - start_s_);
@@ -177,8 +200,17 @@ private:
     }
   }
 
+  void open_dropped() {
+    const std::vector<std::filesystem::path> dropped = std::exchange(events_.dropped, {});
+    if (dropped.size() == 1) trainer_.open(dropped.front());
+    if (dropped.size() > 1)
+      trainer_.problems().push_back(std::to_string(dropped.size()) +
+                                    " things were dropped; drop one at a time, a DICOM series as its folder.");
+  }
+
   void draw() {
     ImGui_ImplGlfw_NewFrame();
+    events_.mouse.apply();
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     if (size.x <= 0 || size.y <= 0) return;  // minimised
     trainer_.draw(screen_.picture_sizes(size.x, size.y), governor_.quality(), kVolumeBudget_ms);
@@ -190,7 +222,6 @@ private:
   Options options_;
   Trainer trainer_;
   ui::Screen screen_;
-  Keyboard keyboard_;
   Events events_;
   QualityGovernor governor_;
   double start_s_ = 0, last_s_ = 0, changed_s_ = 0, state_written_s_ = -1, frame_s_ = kFrame_s;

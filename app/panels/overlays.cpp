@@ -25,8 +25,8 @@ void end_overlay() {
   ImGui::End();
 }
 
-void draw_loading(const Theme& theme, const Rect& screen, const Trainer::Progress& progress) {
-  Rect sheet = begin_overlay(theme, screen, {theme.px(460), theme.px(150)});
+bool draw_loading(const Theme& theme, const Rect& screen, const Loading::Progress& progress, bool can_stop) {
+  Rect sheet = begin_overlay(theme, screen, {theme.px(460), theme.px(can_stop ? 198 : 150)});
   draw_text(sheet.take_top(theme.px(28)), theme.heading, colour::kText, "Insonate");
   sheet.take_top(theme.px(10));
   Rect line = sheet.take_top(theme.px(22));
@@ -38,7 +38,10 @@ void draw_loading(const Theme& theme, const Rect& screen, const Trainer::Progres
   const Rect bar = sheet.take_top(theme.px(5));
   fill(bar, colour::kRaised, theme.px(2.5f));
   fill({bar.x, bar.y, bar.w * float(std::clamp(progress.share, 0.0, 1.0)), bar.h}, colour::kAccent, theme.px(2.5f));
+  Rect buttons = sheet.take_bottom(theme.px(38));
+  const bool stop = can_stop && button(theme, "stop_loading", buttons.take_right(theme.px(120)), "Cancel");
   end_overlay();
+  return stop;
 }
 
 bool draw_problem(const Theme& theme, const Rect& screen, const std::string& problem) {
@@ -104,21 +107,19 @@ OpenDialog::Answer OpenDialog::draw(const Theme& theme, const Rect& screen) {
   ImGui::PushFont(theme.text);
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {theme.px(10), theme.px(4)});
   ImGui::SetNextItemWidth(field.w);
-  if (!focused_) ImGui::SetKeyboardFocusHere();
-  focused_ = true;
-  if (ImGui::InputText("##path", path_.data(), path_.size(), ImGuiInputTextFlags_EnterReturnsTrue))
-    answer = Answer::chosen;
+  if (!ready_) ImGui::SetKeyboardFocusHere();
+  ImGui::InputText("##path", path_.data(), path_.size(), ImGuiInputTextFlags_AutoSelectAll);
+  ready_ = ready_ || ImGui::IsItemActive();
   ImGui::PopStyleVar();
   ImGui::PopFont();
   Rect buttons = sheet.take_bottom(theme.px(38));
   const bool any = path_[0] != 0;
-  if (button(theme, "open_path", buttons.take_right(theme.px(120)), "Open", ButtonKind::primary, any))
+  if (button(theme, "open_path", buttons.take_right(theme.px(120)), "Open", ButtonKind::primary, any) || confirmed_)
     answer = Answer::chosen;
   buttons.take_right(theme.px(8));
   if (button(theme, "cancel", buttons.take_right(theme.px(120)), "Cancel")) answer = Answer::cancelled;
   end_overlay();
   if (answer == Answer::chosen && !any) answer = Answer::cancelled;
-  if (answer != Answer::none) focused_ = false;
   return answer;
 }
 

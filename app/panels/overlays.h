@@ -16,7 +16,8 @@ namespace insonate::ui {
 Rect begin_overlay(const Theme& theme, const Rect& screen, const ImVec2& size);
 void end_overlay();
 
-void draw_loading(const Theme& theme, const Rect& screen, const Trainer::Progress& progress);
+/// True when it is to be given up, which is offered when it `can_stop`.
+bool draw_loading(const Theme& theme, const Rect& screen, const Loading::Progress& progress, bool can_stop);
 
 /// True when it was acknowledged.
 bool draw_problem(const Theme& theme, const Rect& screen, const std::string& problem);
@@ -31,9 +32,16 @@ public:
   Answer draw(const Theme& theme, const Rect& screen);
   std::string path() const { return path_.data(); }
 
+  /// Whether the field takes what is typed.
+  bool ready() const { return ready_; }
+  /// The next draw() answers `chosen`, with what was typed until then.
+  void confirm() { confirmed_ = true; }
+  /// To be called when it is no longer drawn.
+  void close() { ready_ = confirmed_ = false; }
+
 private:
   std::array<char, 1024> path_{};
-  bool focused_ = false;
+  bool ready_ = false, confirmed_ = false;
 };
 
 }  // namespace insonate::ui

@@ -148,12 +148,24 @@ std::string Screen::overlay(const Trainer& trainer) const {
   return "";
 }
 
-bool Screen::takes_keys(const Trainer& trainer) const {
-  return !overlay(trainer).empty() || ImGui::GetIO().WantTextInput;
+void Screen::dismiss(Trainer& trainer) {
+  const std::string shown = overlay(trainer);
+  if (shown == "problem") trainer.problems().pop_front();
+  if (shown == "loading") trainer.stop_loading();
+  if (shown == "help") help_ = false;
+  if (shown == "open") stop_asking();
+  if (shown == "score") closed_sheet_of_ = &*trainer.session()->result();
 }
 
-void Screen::dismiss() {
-  help_ = asking_ = false;
+void Screen::confirm(Trainer& trainer) {
+  const std::string shown = overlay(trainer);
+  if (shown == "open") open_dialog_.confirm();
+  if (shown == "problem" || shown == "help") dismiss(trainer);
+}
+
+void Screen::stop_asking() {
+  asking_ = false;
+  open_dialog_.close();
 }
 
 void Screen::draw_overlay(Trainer& trainer) {
@@ -163,12 +175,12 @@ void Screen::draw_overlay(Trainer& trainer) {
   if (shown == "problem") {
     if (draw_problem(theme_, screen_, trainer.problems().front())) trainer.problems().pop_front();
   } else if (shown == "loading") {
-    draw_loading(theme_, screen_, trainer.progress());
+    if (draw_loading(theme_, screen_, trainer.loading()->progress(), session != nullptr)) trainer.stop_loading();
   } else if (shown == "help") {
     if (draw_key_help(theme_, screen_)) help_ = false;
   } else if (shown == "open") {
     const OpenDialog::Answer answer = open_dialog_.draw(theme_, screen_);
-    if (answer != OpenDialog::Answer::none) asking_ = false;
+    if (answer != OpenDialog::Answer::none) stop_asking();
     if (answer == OpenDialog::Answer::chosen) trainer.open(open_dialog_.path());
   } else if (shown == "score") {
     answer_score(trainer, draw_score_sheet(theme_, screen_, *session->result(), trainer.result_files(),

@@ -30,10 +30,16 @@ public:
 
   void toggle_help() { help_ = !help_; }
   void ask_for_path() { asking_ = true; }
-  /// Closes what lies over the screen and can be closed without an answer.
-  void dismiss();
-  /// Something lies over the screen, or text is typed: keys do not move the probe.
-  bool takes_keys(const Trainer& trainer) const;
+  /// Closes what lies over the screen without an answer, as Escape does.
+  void dismiss(Trainer& trainer);
+  /// Answers it as Enter does.
+  void confirm(Trainer& trainer);
+  /// Something lies over the screen: keys do not move the probe.
+  bool takes_keys(const Trainer& trainer) const { return !overlay(trainer).empty(); }
+  /// There is a field that text is typed into.
+  bool types_text(const Trainer& trainer) const { return overlay(trainer) == "open"; }
+  /// There will be one, which takes text from one of the next frames on.
+  bool opens_text_field(const Trainer& trainer) const { return types_text(trainer) && !open_dialog_.ready(); }
 
   /// What lies over the screen: "problem", "loading", "help", "open", "score", or "" for nothing.
   std::string overlay(const Trainer& trainer) const;
@@ -46,6 +52,7 @@ private:
   void draw_panels(Trainer& trainer);
   void draw_overlay(Trainer& trainer);
   void draw_status(Trainer& trainer);
+  void stop_asking();
   void answer_score(Trainer& trainer, ScoreAnswer answer);
 
   struct ImGuiOwner {

@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <unistd.h>
 
+#include <array>
 #include <fstream>
 
 #include "app/trainer.h"
@@ -47,6 +48,15 @@ public:
 
   fs::path path;
 };
+
+/// A MetaImage of 1 mm voxels along y and z, all of them water.
+std::string water(int voxels_along_x, double spacing_x_mm) {
+  constexpr int kOthers = 4;
+  return "ObjectType = Image\nNDims = 3\nDimSize = " + std::to_string(voxels_along_x) +
+         " 4 4\nElementSpacing = " + std::to_string(spacing_x_mm) +
+         " 1 1\nElementType = MET_SHORT\nElementDataFile = LOCAL\n" +
+         std::string(std::size_t(voxels_along_x) * kOthers * kOthers * sizeof(short), '\0');
+}
 
 constexpr PictureSizes kSizes{320, 240, 160, 120};
 constexpr double kNoBudget = std::numeric_limits<double>::infinity();
@@ -157,6 +167,43 @@ TEST_CASE("what cannot be opened is told of, and the session goes on as it was")
     trainer.draw(kSizes, 1, kNoBudget);
     CHECK(trainer.pictures().ultrasound() != nullptr);
   }
+}
+
+TEST_CASE("a CT that the device cannot hold is told of, and the patient on the screen stays there") {
+  const gl::HeadlessContext context;
+  const Folder folder;
+  Trainer trainer(folder.options());
+  trainer.open_from_options();
+  trainer.finish_loading();
+  trainer.update(0.5);
+  trainer.draw(kSizes, 1, kNoBudget);
+  const Pictures& pictures = trainer.pictures();
+  const Session* const session = trainer.session();
+  const long drawn = pictures.drawn();
+  const auto pixels = [&] {
+    return std::array{read_back(*pictures.ultrasound()).pixels, read_back(*pictures.slice()).pixels,
+                      read_back(*pictures.volume()).pixels};
+  };
+  const auto before = pixels();
+  GLint limit = 0;
+  glGetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &limit);
+
+  // Few and thick voxels in the file, one a millimetre when they are insonated.
+  constexpr int kVoxels = 600;
+  open_and_wait(trainer, folder.file("long.mha", water(kVoxels, (limit + 50.0) / kVoxels)));
+  REQUIRE(trainer.problems().size() == 1);
+  const std::string told = trainer.problems().front();
+  CAPTURE(told);
+  for (const std::string& words : {std::string("long.mha"), std::to_string(limit), std::string("crop")})
+    CHECK(told.find(words) != std::string::npos);
+  CHECK(trainer.session() == session);
+  REQUIRE(pictures.ultrasound());
+  CHECK((pixels() == before));
+  trainer.draw(kSizes, 1, kNoBudget);
+  CHECK(pictures.drawn() == drawn);  // nothing was lost that would have to be drawn again
+  trainer.session()->console().gain_db = 6;
+  trainer.draw(kSizes, 1, kNoBudget);
+  CHECK((pixels()[0] != before[0]));
 }
 
 TEST_CASE("another log can be opened in the same session's place, another patient too") {

@@ -1,0 +1,94 @@
+#!/usr/bin/env bash
+# However long a frame takes, no key is lost that went down and up within it, and a click counts where it was made.
+#   window_keys_test.sh PROGRAM ASSETS_FOLDER
+. "$(dirname "$0")/window_session.sh"
+
+# All events of a command fall into one frame: the trainer stands still meanwhile.
+in_one_frame() {
+  kill -STOP "$trainer"
+  "$@"
+  kill -CONT "$trainer"
+}
+
+start_trainer --tracker mouse:
+await "the session starts" is activity exam
+await "nothing lies over the screen" is overlay ""
+await "the probe is seen" is_not face_x ""
+
+echo "keys in one frame: each counts"
+depth=$(value depth_mm)
+in_one_frame xdotool key bracketright bracketright bracketright
+await "three brackets add 15 mm" is depth_mm "$(awk -v d="$depth" 'BEGIN { printf "%.1f", d + 15 }')"
+remember_probe
+in_one_frame xdotool key Left
+slid() { moved face_x "$x" 0.1 || moved face_y "$y" 0.1 || moved face_z "$z" 0.1; }
+await "a tapped arrow slides the probe" slid
+in_one_frame xdotool key F1
+await "F1 shows the keys" is overlay help
+in_one_frame xdotool key Escape space
+await "Escape closes them" is overlay ""
+await "the space behind it freezes" is frozen true
+in_one_frame xdotool key space
+await "space lets go" is frozen false
+
+echo "a path is asked for, typed, corrected and entered in one frame"
+type_path() {
+  xdotool key ctrl+o
+  xdotool type "/nowhexx"
+  xdotool key BackSpace BackSpace
+  xdotool type "re.tomlx"
+  xdotool key Left Delete
+  xdotool key Return
+}
+in_one_frame type_path
+await "the path is looked for" is overlay problem
+value problem | grep -q "^/nowhere.toml: " || fail "another path arrived: $(value problem)"
+in_one_frame xdotool key Return
+await "Return acknowledges" is overlay ""
+
+echo "a click counts where it was made, a drag from where it began"
+click_and_go_on() {
+  click "$(freeze_x)" "$(freeze_y)"
+  pointer_to "$(middle_x ultrasound)" "$(middle_y ultrasound)"
+}
+in_one_frame click_and_go_on
+await "Freeze was clicked" is frozen true
+in_one_frame click_and_go_on
+await "Live was clicked" is frozen false
+remember_probe
+drag() {
+  pointer_to "$(middle_x ultrasound)" "$(middle_y ultrasound)"
+  xdotool mousedown 1
+  pointer_to $(($(middle_x ultrasound) + 90)) "$(middle_y ultrasound)"
+  xdotool mouseup 1
+  pointer_to "$(freeze_x)" "$(freeze_y)"
+}
+pointer_to "$(freeze_x)" "$(freeze_y)"
+in_one_frame drag
+await "the drag slides the probe" far_enough
+
+echo "short presses on a busy machine"
+for _ in 1 2; do
+  (while :; do :; done) &
+  helpers+=($!)
+done
+renice -n 19 -p "$trainer" >/dev/null
+await "the session goes on" is overlay ""
+depth=$(value depth_mm)
+for _ in $(seq 1 10); do
+  xdotool key bracketleft
+  sleep 0.05
+done
+await "ten brackets take 50 mm away" is depth_mm "$(awk -v d="$depth" 'BEGIN { printf "%.1f", d - 50 }')"
+for _ in 1 2 3; do
+  xdotool key ctrl+o
+  xdotool type "/nowhere.toml"
+  xdotool key Return
+  await "the path is looked for" is overlay problem
+  value problem | grep -q "^/nowhere.toml: " || fail "another path arrived: $(value problem)"
+  xdotool key Return
+  await "Return acknowledges" is overlay ""
+done
+
+kill -0 "$trainer" || fail "the trainer ended by itself"
+echo "passed"
