@@ -7,6 +7,7 @@
 
 #include "app/panels/screen.h"
 #include "app/trainer.h"
+#include "scenarios/words.h"
 #include "sim/gl/headless_context.h"
 
 namespace insonate {
@@ -55,9 +56,9 @@ private:
 };
 
 void print_result(const ExamResult& result) {
-  std::printf("%s: %s, %.1f %% (%.2f of %.2f points, %.0f %% are needed)\n", result.title.c_str(),
-              result.passed ? "passed" : "not passed", result.percent, result.points, result.points_possible,
-              result.pass_mark_percent);
+  std::printf("%s: %s, %s %% (%.2f of %.2f points, %s %% are needed)\n", result.title.c_str(),
+              result.passed ? "passed" : "not passed", percentage(result).c_str(), result.points,
+              result.points_possible, short_number(result.pass_mark_percent).c_str());
   for (const std::string& reason : result.reasons) std::printf("  %s\n", reason.c_str());
 }
 

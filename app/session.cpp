@@ -6,8 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "scenarios/digest.h"
-#include "sim/core/files.h"
+#include "sim/core/input_error.h"
 
 namespace insonate {
 namespace {
@@ -42,13 +41,9 @@ bool Console::operator==(const Console& other) const {
          frozen == other.frozen;
 }
 
-Session::Session(std::shared_ptr<const Study> study, OpenTracker open, const std::filesystem::path& log_file)
+Session::Session(std::shared_ptr<const Study> study, OpenTracker open)
     : study_(std::move(study)), open_(std::move(open)), hand_(study_->subject.ct) {
-  tracker_ = open_();
-  if (!log_file.empty()) {
-    log_name_ = log_file.filename().string();
-    log_digest_ = digest_of(read_file(log_file));
-  }
+  tracker_ = open_fresh();
   only_learner_ = dynamic_cast<MouseTracker*>(tracker_.get()) != nullptr;
   if (only_learner_) {
     learner_.reset(static_cast<MouseTracker*>(tracker_.release()));
@@ -77,6 +72,14 @@ Tracker& Session::source() {
   return *tracker_;
 }
 
+std::unique_ptr<Tracker> Session::open_fresh() const {
+  std::unique_ptr<Tracker> tracker = open_();
+  if (study_->scenario && tracker->repeats())
+    throw InputError(tracker->state().name, "option 'loop'", "an exam is scored from a log that comes once",
+                     "leave loop=1 out, or practise on a patient of your own, without a scenario");
+  return tracker;
+}
+
 void Session::begin_attempt() {
   ++attempt_;
   runner_.reset();
@@ -92,7 +95,7 @@ void Session::start_over() {
   if (holder_ == Holder::learner)
     learner_ = std::make_unique<MouseTracker>(study_->surroundings.start);
   else
-    tracker_ = open_();
+    tracker_ = open_fresh();
   shown_pose_.reset();
   newest_pose_.reset();
   begin_attempt();
@@ -112,7 +115,7 @@ void Session::take_probe() {
 
 void Session::give_back_probe() {
   if (holder_ == Holder::tracker || only_learner_) return;
-  std::unique_ptr<Tracker> again = open_();  // may throw: then the learner keeps the probe
+  std::unique_ptr<Tracker> again = open_fresh();  // may throw: then the learner keeps the probe
   tracker_ = std::move(again);
   holder_ = Holder::tracker;
   if (study_->scenario) activity_ = Activity::exam;
@@ -143,9 +146,10 @@ void Session::advance(double now_s) {
   if (source().state().condition == TrackerCondition::finished) runner_->end();
   if (!runner_->live().finished) return;
   result_ = runner_->result();
-  if (holder_ == Holder::tracker) {
-    result_->provenance.log = log_name_;
-    result_->provenance.log_digest = log_digest_;
+  if (const Recording* recording = source().recording()) {
+    result_->provenance.log = recording->file;
+    result_->provenance.log_digest = recording->digest;
+    result_->provenance.log_transform = recording->transform;
   }
 }
 

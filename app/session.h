@@ -51,9 +51,9 @@ public:
   using OpenTracker = std::function<std::unique_ptr<Tracker>()>;
 
   /// Keeps the study. `open` is called at once, and again when a log is to start over; what it throws passes through.
-  /// Throws ScenarioError or InputError when the scenario does not fit the case.
-  /// @param log_file  the log that `open` replays, if it does: named in the result
-  Session(std::shared_ptr<const Study> study, OpenTracker open, const std::filesystem::path& log_file = {});
+  /// Throws ScenarioError or InputError when the scenario does not fit the case, and InputError when there is an exam
+  /// and the tracker repeats itself: nobody could score such a log again.
+  Session(std::shared_ptr<const Study> study, OpenTracker open);
 
   /// Takes what has come from the source in charge up to `now_s`.
   void advance(double now_s);
@@ -100,6 +100,7 @@ public:
   double now_s() const { return now_s_; }
 
 private:
+  std::unique_ptr<Tracker> open_fresh() const;
   void begin_attempt();
   void take(const PoseSample& sample);
   Tracker& source();
@@ -107,7 +108,6 @@ private:
   std::shared_ptr<const Study> study_;
   OpenTracker open_;
   int attempt_ = 0;
-  std::string log_name_, log_digest_;
   std::unique_ptr<Tracker> tracker_;
   std::unique_ptr<MouseTracker> learner_;
   bool only_learner_ = false;

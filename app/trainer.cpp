@@ -9,11 +9,6 @@
 namespace insonate {
 namespace {
 
-std::filesystem::path replayed_file(const std::string& tracker) {
-  const TrackerUri uri = parse_tracker_uri(tracker);
-  return uri.scheme == "replay" ? std::filesystem::path(uri.subject) : std::filesystem::path();
-}
-
 std::string bundled_log() {
   return "replay:" + (assets_folder() / "logs" / "ruq_good.igs.mha").string();
 }
@@ -101,7 +96,7 @@ void Trainer::begin(std::shared_ptr<const Study> study, const Request& request) 
   std::string uri = request.tracker;
   if (uri.empty()) uri = request.source.is_bundled() ? bundled_log() : "mouse:";
   auto open = [uri, surroundings = study->surroundings] { return open_tracker(uri, surroundings); };
-  auto session = std::make_unique<Session>(study, open, replayed_file(uri));
+  auto session = std::make_unique<Session>(study, open);
   if (study != study_)
     gl::upload_ct(patient_of(request.source), study->subject.ct.grid, [&] { pictures_.show(*study); });
   session_ = std::move(session);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "devices/recording.h"
 #include "sim/core/pose_sample.h"
 
 namespace insonate {
@@ -51,6 +52,12 @@ public:
   void poll(double now_s, std::vector<PoseSample>& samples);
 
   TrackerState state() const;
+
+  /// The recorded scan whose samples come, if there is one.
+  virtual const Recording* recording() const { return nullptr; }
+
+  /// Whether samples come again that have come before, as of a log that begins anew at its end.
+  virtual bool repeats() const { return false; }
 
   /// The tracker's own clock, which stamps its samples, at `now_s`: the time to ask a PoseHistory for. Meaningful from
   /// the first poll on.

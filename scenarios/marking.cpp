@@ -1,16 +1,14 @@
 #include "scenarios/marking.h"
 
 #include <algorithm>
-#include <cstdio>
+
+#include "scenarios/words.h"
 
 namespace insonate {
 namespace {
 
-std::string fixed(double value, int decimals) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", decimals, value);
-  return text;
-}
+/// What summing up points may be off by rounding, in per cent: eight of ten criteria of 0.1 points each are 80 %.
+constexpr double kRounding_percent = 1e-9;
 
 std::string name_of(const StepResult& step, std::size_t index) {
   return "Step " + std::to_string(index + 1) + " (" + step.title + ")";
@@ -41,12 +39,6 @@ void add_failed(const std::vector<Mark>& marks, const std::string& where, bool c
 }
 
 }  // namespace
-
-std::string in_words(Metric metric, double value) {
-  const MetricInfo& m = info(metric);
-  const bool degrees = m.unit == "\u00b0";
-  return fixed(value, m.decimals) + (m.unit.empty() || degrees ? "" : " ") + std::string(m.unit);
-}
 
 Mark mark(const Criterion& criterion, std::optional<double> value, const std::string& why_no_value) {
   Mark m{criterion.metric, criterion.full, criterion.zero, criterion.weight, criterion.critical, value, 0, ""};
@@ -82,13 +74,13 @@ void decide(ExamResult& result) {
   for (const StepResult& step : result.steps) add(step.marks);
   add(result.marks);
   result.percent = result.points_possible > 0 ? 100 * result.points / result.points_possible : 0;
-  const bool enough = result.percent >= result.pass_mark_percent;
+  const bool enough = result.percent >= result.pass_mark_percent - kRounding_percent;
   result.passed = enough && !critical_failed;
   result.reasons.clear();
   if (result.passed) return;
 
   if (!enough)
-    result.reasons.push_back("The score is " + fixed(result.percent, 1) + " %; " + fixed(result.pass_mark_percent, 0) +
+    result.reasons.push_back("The score is " + percentage(result) + " %; " + short_number(result.pass_mark_percent) +
                              " % are needed to pass.");
   for (const bool critical : {true, false}) {
     for (std::size_t i = 0; i < result.steps.size(); ++i) {

@@ -15,7 +15,4 @@ Mark mark(const Criterion& criterion, std::optional<double> value, const std::st
 /// and marks are there. An exam is passed when the percentage reaches the pass mark and no critical criterion failed.
 void decide(ExamResult& result);
 
-/// A value as people read it: "12.4 mm", "82 %", "7".
-std::string in_words(Metric metric, double value);
-
 }  // namespace insonate

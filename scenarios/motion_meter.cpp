@@ -2,6 +2,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace insonate {
@@ -34,11 +35,13 @@ std::optional<double> MotionValues::of(Metric motion_metric) const {
   }
 }
 
-void MotionMeter::Movements::see(double time_s, double speed, double limit) {
+void MotionMeter::Movements::see(long grid, double speed, double limit) {
   if (!(speed > limit)) return;
-  constexpr double one_step_s = 1 / kRate_hz;
-  if (time_s - one_step_s - last_moving_s >= kJoined_s) ++count;
-  last_moving_s = time_s;
+  // Steps are counted instead of times, whose differences round now up and now down.
+  constexpr long kJoinedSteps = 4;
+  static_assert(kJoinedSteps / kRate_hz == kJoined_s);
+  if (!last_moving || grid - 1 - *last_moving >= kJoinedSteps) ++count;
+  last_moving = grid;
 }
 
 void MotionMeter::feed(const PoseSample& sample, bool on_skin) {
@@ -47,7 +50,7 @@ void MotionMeter::feed(const PoseSample& sample, bool on_skin) {
     any_ = true;
     start_s_ = last_s_ = sample.time_s;
   } else {
-    pass(sample.time_s, valid && last_valid_ && sample.time_s - last_s_ <= kBridged_s, on_skin);
+    pass(sample.time_s, valid && last_valid_ && bridges(sample.time_s - last_s_), on_skin);
     in_dropout_ = !valid;
   }
   if (valid) {
@@ -59,7 +62,7 @@ void MotionMeter::feed(const PoseSample& sample, bool on_skin) {
 }
 
 void MotionMeter::end(double time_s) {
-  if (any_) pass(time_s, last_valid_ && time_s - last_s_ <= kBridged_s, last_on_skin_);
+  if (any_) pass(time_s, last_valid_ && bridges(time_s - last_s_), last_on_skin_);
 }
 
 MotionMeter MotionMeter::following(double time_s) const {
@@ -88,30 +91,28 @@ void MotionMeter::pass(double time_s, bool tracked, bool on_skin_at_end) {
 
 void MotionMeter::interpolate_to(const PoseSample& sample) {
   const double now = sample.time_s - start_s_;
-  if (!last_ok_ || sample.time_s - last_ok_->time_s > kBridged_s) {
+  const auto time_of = [](long grid) { return double(grid) / kRate_hz; };
+  if (!last_ok_ || !bridges(sample.time_s - last_ok_->time_s)) {
     last_grid_pose_.reset();
-    next_grid_ = long(std::ceil(now * kRate_hz));
-    if (double(next_grid_) / kRate_hz > now) return;
+    next_grid_ = long(std::ceil((now - kTimeRounding_s) * kRate_hz));
   }
   const double before = last_ok_ ? last_ok_->time_s - start_s_ : now;
-  for (; double(next_grid_) / kRate_hz <= now; ++next_grid_) {
-    const double time = double(next_grid_) / kRate_hz;
-    const double share = now > before ? (time - before) / (now - before) : 1;
+  for (; time_of(next_grid_) <= now + kTimeRounding_s; ++next_grid_) {
+    const double share = now > before ? std::min(1.0, (time_of(next_grid_) - before) / (now - before)) : 1;
     grid_pose(last_ok_ ? interpolate(last_ok_->patient_from_probe, sample.patient_from_probe, share)
-                       : sample.patient_from_probe,
-              time);
+                       : sample.patient_from_probe);
   }
 }
 
-void MotionMeter::grid_pose(const Pose& pose, double time_s) {
+void MotionMeter::grid_pose(const Pose& pose) {
   if (last_grid_pose_) {
     const double shift = glm::distance(pose.translation, last_grid_pose_->translation);
     const double turn = angle_between_deg(*last_grid_pose_, pose);
     values_.path_length_mm += shift;
     values_.angular_path_deg += turn;
     speed_mm_s_ = shift * kRate_hz;
-    shifts_.see(time_s, shift * kRate_hz, kMoving_mm_s);
-    turns_.see(time_s, turn * kRate_hz, kMoving_deg_s);
+    shifts_.see(next_grid_, shift * kRate_hz, kMoving_mm_s);
+    turns_.see(next_grid_, turn * kRate_hz, kMoving_deg_s);
     values_.translational_movements = shifts_.count;
     values_.rotational_movements = turns_.count;
   }

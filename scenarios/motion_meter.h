@@ -9,6 +9,10 @@
 
 namespace insonate {
 
+/// What differences of times may be off by rounding: a double holds seconds since 1970 to a quarter of a microsecond.
+/// Whoever compares one with a limit allows for it, or the score would depend on where time begins.
+inline constexpr double kTimeRounding_s = 1e-6;
+
 /// How a probe was moved during a stretch of samples.
 struct MotionValues {
   double time_s = 0;
@@ -31,8 +35,8 @@ struct MotionValues {
 /// themselves: otherwise a faster tracker would sum up more of its own noise, and the same scan would get a longer
 /// path. Speeds are differences of positions and orientations, never of matrices multiplied with inverses, whose
 /// translation grows with the distance from the origin. An interval between samples counts as tracked when both are
-/// valid and no more than kBridged_s apart; over losses up to kBridged_s the motion is interpolated, over longer ones
-/// it is unknown and left out.
+/// valid and no more than kBridged_s apart, give or take kTimeRounding_s; over losses up to kBridged_s the motion is
+/// interpolated, over longer ones it is unknown and left out.
 class MotionMeter {
 public:
   static constexpr double kRate_hz = 20;
@@ -40,6 +44,9 @@ public:
   static constexpr double kMoving_deg_s = 50;
   static constexpr double kJoined_s = 0.2;    ///< a shorter rest does not end a movement
   static constexpr double kBridged_s = 0.25;  ///< when a picture freezes with a banner, too
+
+  /// Whether the time between two valid samples counts as tracked.
+  static bool bridges(double gap_s) { return gap_s <= kBridged_s + kTimeRounding_s; }
 
   /// @param on_skin  whether the sample's face is on the skin; only looked at for valid samples
   void feed(const PoseSample& sample, bool on_skin);
@@ -59,13 +66,13 @@ public:
 private:
   /// Counts stretches above a speed, joined over short rests.
   struct Movements {
-    double last_moving_s = -1e9;
+    std::optional<long> last_moving;  ///< the step of the grid that ends there
     int count = 0;
-    void see(double time_s, double speed, double limit);
+    void see(long grid, double speed, double limit);
   };
   void pass(double time_s, bool tracked, bool on_skin_at_end);
   void interpolate_to(const PoseSample& sample);
-  void grid_pose(const Pose& pose, double time_s);
+  void grid_pose(const Pose& pose);
 
   MotionValues values_;
   double start_s_ = 0;
@@ -75,7 +82,7 @@ private:
   bool in_dropout_ = false;
   bool any_ = false;
   std::optional<PoseSample> last_ok_;
-  long next_grid_ = 0;
+  long next_grid_ = 0;  ///< counts poses at kRate_hz since start_s_
   std::optional<Pose> last_grid_pose_;
   double speed_mm_s_ = 0;
   Movements shifts_;

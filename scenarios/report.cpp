@@ -1,10 +1,8 @@
 #include "scenarios/report.h"
 
-#include <cstdio>
-
-#include "scenarios/marking.h"
 #include "scenarios/report_charts.h"
 #include "scenarios/report_style.h"
+#include "scenarios/words.h"
 
 namespace insonate {
 namespace {
@@ -35,20 +33,6 @@ std::string escaped(std::string_view text) {
   return html;
 }
 
-std::string fixed(double value, int decimals) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", decimals, value);
-  return text;
-}
-
-/// Points as short as they can be said: "2", "1.75".
-std::string points(double value) {
-  std::string text = fixed(value, 2);
-  while (text.back() == '0') text.pop_back();
-  if (text.back() == '.') text.pop_back();
-  return text;
-}
-
 const char* in_words(StepOutcome outcome) {
   switch (outcome) {
     case StepOutcome::held:
@@ -75,7 +59,8 @@ std::string row(const Mark& m) {
   html += "<small>" + escaped(m.why) + "</small></td>";
   html += "<td class='number'>" + (m.value ? in_words(m.metric, *m.value) : "\u2013") + "</td>";
   html += "<td class='number'>" + in_words(m.metric, m.full) + " \u2026 " + in_words(m.metric, m.zero) + "</td>";
-  html += "<td class='number'>" + points(m.points) + " of " + points(m.weight) + bar(share) + "</td></tr>\n";
+  html +=
+      "<td class='number'>" + short_number(m.points) + " of " + short_number(m.weight) + bar(share) + "</td></tr>\n";
   return html;
 }
 
@@ -108,11 +93,11 @@ std::string verdict(const ExamResult& result) {
   const char* state = !result.complete ? "open" : result.passed ? "passed" : "failed";
   const char* word = !result.complete ? "Not finished" : result.passed ? "Passed" : "Not passed";
   std::string html = "<div class='verdict " + std::string(state) + "'><div><strong>" + word +
-                     "</strong><span class='percent'>" + fixed(result.percent, 1) + "<small> %</small></span></div>";
+                     "</strong><span class='percent'>" + percentage(result) + "<small> %</small></span></div>";
   html += "<div class='meter'><i style='width:" + fixed(result.percent, 1) +
           "%'></i><b style='left:" + fixed(result.pass_mark_percent, 1) + "%'></b></div>";
-  html += "<p>" + points(result.points) + " of " + points(result.points_possible) + " points; " +
-          points(result.pass_mark_percent) + " % are needed.</p>";
+  html += "<p>" + short_number(result.points) + " of " + short_number(result.points_possible) + " points; " +
+          short_number(result.pass_mark_percent) + " % are needed.</p>";
   if (!result.reasons.empty()) {
     html += "<ul>";
     for (const std::string& reason : result.reasons) html += "<li>" + escaped(reason) + "</li>";
@@ -129,10 +114,11 @@ std::string made_from(const ExamResult& result) {
            (digest.empty() ? "" : " <code>" + escaped(digest) + "</code>") + "</td></tr>";
   };
   std::string options;
-  for (const auto& [name, value] : p.phantom_options) options += (options.empty() ? "" : ", ") + name + " = " + value;
+  for (const auto& [name, value] : p.phantom_options)
+    options.append(options.empty() ? "" : ", ").append(name).append(" = ").append(value);
   return "<section class='origin'><h2>Made from</h2><table>" + line("Scenario", p.scenario, p.scenario_digest) +
          line("Case", p.case_name, p.case_digest) + line("Phantom options", options) +
-         line("Log", p.log, p.log_digest) +
+         line("Log", p.log, p.log_digest) + line("Transform", p.log_transform) +
          line("Insonate", p.program_version + ", scoring " + std::to_string(ExamResult::kScoringVersion)) +
          "</table></section>\n";
 }

@@ -1,5 +1,7 @@
 #include "scenarios/report_charts.h"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -117,9 +119,9 @@ std::string time_axis(const Axes& axes) {
   std::string svg;
   const double step = round_step(axes.duration_s);
   const double y = axes.top + kChartHeight + 16;
-  for (double t = 0; t <= axes.duration_s; t += step)
-    svg += print("<text class='tick' x='%.1f' y='%.1f' text-anchor='middle'>%g%s</text>", axes.x(t), y, t,
-                 t == 0 ? " s" : "");
+  for (int tick = 0; tick * step <= axes.duration_s; ++tick)
+    svg += print("<text class='tick' x='%.1f' y='%.1f' text-anchor='middle'>%g%s</text>", axes.x(tick * step), y,
+                 tick * step, tick == 0 ? " s" : "");
   return svg;
 }
 
@@ -131,18 +133,18 @@ struct Projection {
   glm::dvec3 up;
 };
 
-double dot(const glm::dvec3& a, const glm::dvec3& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
 constexpr double kPathSize = 300;
 constexpr double kPathMargin = 24;
 
 std::string projected_path(const Projection& projection, double left, const ExamResult& result,
                            std::span<const TracePoint> trace, double mm_across, const glm::dvec3& middle) {
   const double scale = (kPathSize - 2 * kPathMargin) / mm_across;
-  const auto x = [&](const glm::dvec3& p) { return left + kPathSize / 2 + scale * dot(p - middle, projection.right); };
-  const auto y = [&](const glm::dvec3& p) { return kTop + kPathSize / 2 - scale * dot(p - middle, projection.up); };
+  const auto x = [&](const glm::dvec3& p) {
+    return left + kPathSize / 2 + scale * glm::dot(p - middle, projection.right);
+  };
+  const auto y = [&](const glm::dvec3& p) {
+    return kTop + kPathSize / 2 - scale * glm::dot(p - middle, projection.up);
+  };
 
   std::string svg =
       print("<rect class='frame' x='%.0f' y='%.0f' width='%.0f' height='%.0f'/>", left, kTop, kPathSize, kPathSize);

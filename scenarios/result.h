@@ -56,11 +56,12 @@ struct Provenance {
   std::vector<std::pair<std::string, std::string>> phantom_options;
   std::string log;  ///< file name; empty for a live scan that was not recorded
   std::string log_digest;
+  std::string log_transform;  ///< the one that was taken for the probe's: "ProbeToPatient"
 };
 
 struct ExamResult {
   /// Raised whenever the same samples could get another score.
-  static constexpr int kScoringVersion = 1;
+  static constexpr int kScoringVersion = 2;
 
   std::string title;
   Provenance provenance;

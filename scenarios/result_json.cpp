@@ -23,20 +23,6 @@ constexpr std::array kOutcomes{OutcomeName{StepOutcome::held, "held"}, OutcomeNa
 
 /// Each field once, for writing and for reading: `Visit` is called with a key and the field.
 template <typename Values, typename Visit>
-void each_field_of_view(Values& v, Visit&& visit) {
-  visit("plane_distance_mm", v.plane_distance_mm);
-  visit("in_plane_offset_mm", v.in_plane_offset_mm);
-  visit("plane_angle_deg", v.plane_angle_deg);
-  visit("tilt_deg", v.tilt_deg);
-  visit("rock_deg", v.rock_deg);
-  visit("rotation_deg", v.rotation_deg);
-  visit("off_centre_percent", v.off_centre_percent);
-  visit("target_in_view_percent", v.target_in_view_percent);
-  visit("target_insonated_percent", v.target_insonated_percent);
-  visit("landmarks_in_view_percent", v.landmarks_in_view_percent);
-}
-
-template <typename Values, typename Visit>
 void each_field_of_motion(Values& v, Visit&& visit) {
   visit("time_s", v.time_s);
   visit("path_length_mm", v.path_length_mm);
@@ -58,6 +44,7 @@ void each_field_of_provenance(Values& v, Visit&& visit) {
   visit("case_digest", v.case_digest);
   visit("log", v.log);
   visit("log_digest", v.log_digest);
+  visit("log_transform", v.log_transform);
 }
 
 template <typename T>
@@ -72,7 +59,7 @@ std::optional<double> number_or_null(const Json& json, const char* key) {
 
 Json json_of(const ViewValues& view) {
   Json json;
-  each_field_of_view(view, [&](const char* key, const auto& value) { json[key] = value; });
+  for (const auto& [metric, value] : ViewValues::fields()) json[std::string(info(metric).name)] = view.*value;
   return json;
 }
 
@@ -154,7 +141,8 @@ StepResult step_from(const Json& json) {
   step.judged_to_s = number_or_null(json, "judged_to_s");
   if (const Json& judged = json.at("judged"); !judged.is_null()) {
     step.judged.emplace();
-    each_field_of_view(*step.judged, [&](const char* key, double& value) { judged.at(key).get_to(value); });
+    for (const auto& [metric, value] : ViewValues::fields())
+      judged.at(std::string(info(metric).name)).get_to((*step.judged).*value);
   }
   step.motion = motion_from(json.at("motion"));
   step.marks = marks_from(json.at("criteria"));

@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scenarios/digest.h"
+#include "scenarios/case_digest.h"
 #include "scenarios/marking.h"
+#include "scenarios/words.h"
 
 namespace insonate {
 namespace {
 
 constexpr double kTraceStep_s = 0.1;
-
-/// What differences of times may be off by rounding: times count from when a machine was started, to microseconds.
-constexpr double kRounding_s = 1e-6;
 
 constexpr char kNothingValid[] = "there was no valid pose to judge.";
 
@@ -34,26 +32,15 @@ bool usable(const PoseSample& sample) {
   return std::isfinite(sum);
 }
 
-ViewValues scaled(const ViewValues& v, double factor) {
-  ViewValues out = v;
-  for (double* value : {&out.plane_distance_mm, &out.in_plane_offset_mm, &out.plane_angle_deg, &out.tilt_deg,
-                        &out.rock_deg, &out.rotation_deg, &out.off_centre_percent, &out.target_in_view_percent,
-                        &out.target_insonated_percent, &out.landmarks_in_view_percent})
-    *value = std::abs(*value) * factor;
-  return out;
+ViewValues all_zero() {
+  ViewValues values;
+  values.off_centre_percent = 0;
+  return values;
 }
 
-ViewValues sum(const ViewValues& a, const ViewValues& b) {
-  return {a.plane_distance_mm + b.plane_distance_mm,
-          a.in_plane_offset_mm + b.in_plane_offset_mm,
-          a.plane_angle_deg + b.plane_angle_deg,
-          a.tilt_deg + b.tilt_deg,
-          a.rock_deg + b.rock_deg,
-          a.rotation_deg + b.rotation_deg,
-          a.off_centre_percent + b.off_centre_percent,
-          a.target_in_view_percent + b.target_in_view_percent,
-          a.target_insonated_percent + b.target_insonated_percent,
-          a.landmarks_in_view_percent + b.landmarks_in_view_percent};
+/// Adds a picture's values, without their signs, times a weight.
+void add(ViewValues& sum, const ViewValues& view, double weight) {
+  for (const auto& [metric, value] : ViewValues::fields()) sum.*value += weight * std::abs(view.*value);
 }
 
 }  // namespace
@@ -84,9 +71,10 @@ void Runner::feed(const PoseSample& sample) {
   } else if (sample.time_s - first_s_ <= last_s_) {
     return;
   }
-  const double now = sample.time_s - first_s_;
+  double now = sample.time_s - first_s_;
   pass_limits(now);
   if (live_.finished) return;
+  now = std::max(now, run_.start_s);  // a step may have begun at a limit that lies a rounding later
   last_s_ = now;
   look(sample, now);
 }
@@ -102,7 +90,7 @@ void Runner::pass_limits(double now) {
   while (!live_.finished) {
     const double step_limit = run_.start_s + step().time_limit_s;
     const double limit = std::min(step_limit, scenario_.time_limit_s);
-    if (now < limit) return;
+    if (now < limit - kTimeRounding_s) return;
     end_step(StepOutcome::timed_out, limit);
     if (scenario_.time_limit_s <= limit) finish(limit);
   }
@@ -123,14 +111,20 @@ void Runner::look(const PoseSample& raw, double now) {
   if (valid) see(sample.patient_from_probe, now);
   const bool held = update_hold(valid, now);
   record(sample, now);
-  if (held) end_step(StepOutcome::held, now);
+  if (held) {
+    end_step(StepOutcome::held, now);
+    if (!live_.finished) {
+      see(sample.patient_from_probe, now);
+      update_hold(true, now);
+    }
+  }
   live_.step_remaining_s = std::max(0.0, run_.start_s + step().time_limit_s - now);
   live_.exam_remaining_s = std::max(0.0, scenario_.time_limit_s - now);
 }
 
 /// Measures the picture of a valid sample and keeps it as long as it may be judged.
 void Runner::see(const Pose& patient_from_probe, double now) {
-  const bool bridged = !run_.recent.empty() && now - run_.recent.back().time_s <= MotionMeter::kBridged_s;
+  const bool bridged = !run_.recent.empty() && MotionMeter::bridges(now - run_.recent.back().time_s);
   if (!bridged) run_.holding_from.reset();
   live_.view = meters_[live_.step]->measure(patient_from_probe);
   live_.within_tolerance = within_tolerance(*live_.view);
@@ -140,14 +134,14 @@ void Runner::see(const Pose& patient_from_probe, double now) {
 
 /// Whether the view has now been held for as long as the step asks.
 bool Runner::update_hold(bool valid, double now) {
-  const bool lost = run_.recent.empty() || now - run_.recent.back().time_s > MotionMeter::kBridged_s;
+  const bool lost = run_.recent.empty() || !MotionMeter::bridges(now - run_.recent.back().time_s);
   if (lost || (valid && !live_.within_tolerance))
     run_.holding_from.reset();
   else if (valid && !run_.holding_from)
     run_.holding_from = now;
 
   const double holding_s = run_.holding_from ? now - *run_.holding_from : 0;
-  const bool held = valid && holding_s >= step().hold_s - kRounding_s;
+  const bool held = valid && holding_s >= step().hold_s - kTimeRounding_s;
   if (valid) run_.longest_hold_s = std::max(run_.longest_hold_s, held ? step().hold_s : holding_s);
   live_.hold_share = std::min(1.0, holding_s / step().hold_s);
   return held;
@@ -204,23 +198,26 @@ StepResult Runner::judge(StepOutcome outcome, double now) const {
   if (!run_.recent.empty()) {
     const double to = run_.recent.back().time_s;
     const double from = outcome == StepOutcome::held ? *run_.holding_from : to - asked.hold_s;
-    ViewValues integral;
-    integral.off_centre_percent = 0;
+    ViewValues integral = all_zero(), mean = all_zero();
     double weight = 0;
     const Seen* before = nullptr;
     for (const Seen& seen : run_.recent) {
-      if (seen.time_s < from) continue;
+      if (seen.time_s < from - kTimeRounding_s) continue;
       if (!result.judged_from_s) result.judged_from_s = seen.time_s;
-      if (before && seen.time_s - before->time_s <= MotionMeter::kBridged_s) {
+      if (before && MotionMeter::bridges(seen.time_s - before->time_s)) {
         const double dt = seen.time_s - before->time_s;
-        integral = sum(integral, scaled(before->view, dt / 2));
-        integral = sum(integral, scaled(seen.view, dt / 2));
+        add(integral, before->view, dt / 2);
+        add(integral, seen.view, dt / 2);
         weight += dt;
       }
       before = &seen;
     }
     result.judged_to_s = to;
-    result.judged = weight > 0 ? scaled(integral, 1 / weight) : scaled(run_.recent.back().view, 1);
+    if (weight > 0)
+      add(mean, integral, 1 / weight);
+    else
+      add(mean, run_.recent.back().view, 1);
+    result.judged = mean;
   }
 
   for (const Criterion& criterion : asked.criteria) {

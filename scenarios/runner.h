@@ -56,7 +56,9 @@ struct TracePoint {
 ///   begins with the same sample.
 /// - The picture of a step is judged by the mean over the hold, weighted by time; of a step that ended without one, by
 ///   the mean over the hold_s before its last valid sample.
-/// - Whichever limit comes first ends a step at that very time, and the exam's limit ends the exam.
+/// - Whichever limit comes first ends a step at that very time, and the exam's limit ends the exam. A sample at the
+///   limit comes too late.
+/// - Times are compared to kTimeRounding_s.
 /// - A sample that does not come later than the one before it, or whose pose is not finite, is passed over.
 class Runner {
 public:

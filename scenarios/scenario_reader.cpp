@@ -6,8 +6,8 @@
 #include <optional>
 #include <set>
 
-#include "scenarios/digest.h"
 #include "scenarios/scenario.h"
+#include "sim/core/digest.h"
 #include "sim/core/files.h"
 #include "sim/core/suggest.h"
 

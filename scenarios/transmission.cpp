@@ -35,8 +35,8 @@ Transmission::Transmission(const Volume<std::int16_t>& ct, const TissueTable& ti
 const Transmission::Medium& Transmission::medium(const glm::dvec3& index, double distance_mm) const {
   double hu = sample_trilinear(*ct_, index);
   if (distance_mm < kGel_mm && hu < kAirBelowHu) hu = 0;
-  const int nearest = int(std::clamp(hu, double(kLeastHu), double(kMostHu)) - kLeastHu + 0.5);
-  return medium_of_hu_[std::size_t(nearest)];
+  constexpr double kHalfBelow = kLeastHu - 0.5;  // what lies above it is cut to the nearest whole number
+  return medium_of_hu_[std::size_t(std::clamp(hu, double(kLeastHu), double(kMostHu)) - kHalfBelow)];
 }
 
 void Transmission::along(const VoxelLine& line, std::vector<double>& intensity) const {

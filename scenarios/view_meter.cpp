@@ -4,6 +4,7 @@
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "sim/core/input_error.h"
@@ -49,31 +50,26 @@ Probe probe_of(const Case& subject, const ReferenceView& view) {
 
 }  // namespace
 
+std::span<const ViewValues::Field> ViewValues::fields() {
+  static constexpr std::array kFields{
+      Field{Metric::plane_distance_mm, &ViewValues::plane_distance_mm},
+      Field{Metric::in_plane_offset_mm, &ViewValues::in_plane_offset_mm},
+      Field{Metric::plane_angle_deg, &ViewValues::plane_angle_deg},
+      Field{Metric::tilt_deg, &ViewValues::tilt_deg},
+      Field{Metric::rock_deg, &ViewValues::rock_deg},
+      Field{Metric::rotation_deg, &ViewValues::rotation_deg},
+      Field{Metric::off_centre_percent, &ViewValues::off_centre_percent},
+      Field{Metric::target_in_view_percent, &ViewValues::target_in_view_percent},
+      Field{Metric::target_insonated_percent, &ViewValues::target_insonated_percent},
+      Field{Metric::landmarks_in_view_percent, &ViewValues::landmarks_in_view_percent},
+  };
+  return kFields;
+}
+
 double ViewValues::of(Metric picture_metric) const {
-  switch (picture_metric) {
-    case Metric::plane_distance_mm:
-      return std::abs(plane_distance_mm);
-    case Metric::in_plane_offset_mm:
-      return in_plane_offset_mm;
-    case Metric::plane_angle_deg:
-      return plane_angle_deg;
-    case Metric::tilt_deg:
-      return std::abs(tilt_deg);
-    case Metric::rock_deg:
-      return std::abs(rock_deg);
-    case Metric::rotation_deg:
-      return std::abs(rotation_deg);
-    case Metric::off_centre_percent:
-      return off_centre_percent;
-    case Metric::target_in_view_percent:
-      return target_in_view_percent;
-    case Metric::target_insonated_percent:
-      return target_insonated_percent;
-    case Metric::landmarks_in_view_percent:
-      return landmarks_in_view_percent;
-    default:
-      return 0;  // no metric of a picture
-  }
+  for (const auto& [metric, value] : fields())
+    if (metric == picture_metric) return std::abs(this->*value);
+  return 0;  // no metric of a picture
 }
 
 ViewMeter::ViewMeter(const Case& subject, const ReferenceView& view, const TissueTable& tissues)

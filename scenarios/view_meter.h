@@ -1,6 +1,7 @@
 #pragma once
 
 #include <bitset>
+#include <span>
 #include <vector>
 
 #include "scenarios/metric.h"
@@ -32,6 +33,13 @@ struct ViewValues {
   double target_in_view_percent = 0;     ///< area of the targets in the fan over that in the reference; may exceed 100
   double target_insonated_percent = 0;   ///< the same, only where the sound arrives; see ViewMeter
   double landmarks_in_view_percent = 0;  ///< within kLandmarkDistance_mm of the plane and in the fan
+
+  /// A field and the metric that it is judged by, which has the same name.
+  struct Field {
+    Metric metric;
+    double ViewValues::*value;
+  };
+  static std::span<const Field> fields();
 
   /// As a criterion takes it: signed values lose their sign.
   double of(Metric picture_metric) const;

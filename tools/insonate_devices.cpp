@@ -98,7 +98,7 @@ void print(const std::string& log, const LogReport& report) {
 }
 
 int check(const std::string& log, const std::string& transform, bool json) {
-  const LogReport report = check_log(read_probe_samples(log, transform));
+  const LogReport report = check_log(read_recorded_scan(log, transform).samples);
   if (json)
     std::printf("%s\n", to_json(log, report).dump(2).c_str());
   else

@@ -3,8 +3,6 @@
 #include <string>
 
 #include "devices/sequence/probe_samples.h"
-#include "devices/sequence/sequence.h"
-#include "scenarios/digest.h"
 #include "scenarios/report.h"
 #include "scenarios/result_json.h"
 #include "scenarios/runner.h"
@@ -32,16 +30,16 @@ struct Arguments {
 
 int score(const Arguments& given) {
   const Scenario scenario = read_scenario(given.scenario);
-  const std::string bytes = read_file(given.log);
-  const std::vector<PoseSample> samples = probe_samples(parse_sequence(bytes, given.log.string()), given.transform);
+  const RecordedScan scan = read_recorded_scan(given.log, given.transform);
   const Case subject = case_for(scenario, given.case_folder);
 
   Runner runner(scenario, subject, read_tissue_table(assets_folder() / "tissues.toml"));
-  runner.feed(samples);
+  runner.feed(scan.samples);
   runner.end();
   ExamResult result = runner.result();
-  result.provenance.log = given.log.filename().string();
-  result.provenance.log_digest = digest_of(bytes);
+  result.provenance.log = scan.recording.file;
+  result.provenance.log_digest = scan.recording.digest;
+  result.provenance.log_transform = scan.recording.transform;
 
   if (!given.report.empty()) write_file(given.report, report_html(result, runner.trace()));
   std::fputs(to_json(result).c_str(), stdout);

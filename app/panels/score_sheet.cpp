@@ -1,21 +1,14 @@
 #include "app/panels/score_sheet.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 
 #include "app/panels/exam_panel.h"
 #include "app/panels/overlays.h"
-#include "scenarios/marking.h"
+#include "scenarios/words.h"
 
 namespace insonate::ui {
 namespace {
-
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", std::round(value * 100) / 100);
-  return text;
-}
 
 std::string outcome_text(const StepResult& step) {
   char text[64];
@@ -48,13 +41,11 @@ Columns columns_of(const Theme& theme, Rect row) {
 
 void draw_verdict(const Theme& theme, Rect head, const ExamResult& result) {
   const ImU32 colour = result.passed ? colour::kAccent : colour::kRed;
-  char percent[16];
-  std::snprintf(percent, sizeof percent, "%.1f %%", result.percent);
-  draw_text(head.take_right(theme.px(190)), theme.huge, colour, percent, Align::right);
+  draw_text(head.take_right(theme.px(190)), theme.huge, colour, percentage(result) + " %", Align::right);
   draw_text(head.take_top(theme.px(26)), theme.heading, colour::kText, result.title);
   draw_text(head.take_top(theme.px(24)), theme.strong, colour, result.passed ? "Passed" : "Not passed");
-  std::string line = number(result.points) + " of " + number(result.points_possible) + " points; " +
-                     number(result.pass_mark_percent) + " % are needed";
+  std::string line = short_number(result.points) + " of " + short_number(result.points_possible) + " points; " +
+                     short_number(result.pass_mark_percent) + " % are needed";
   draw_text(head.take_top(theme.px(20)), theme.small_text, colour::kMuted, line);
 }
 
@@ -69,7 +60,8 @@ void draw_mark(const Theme& theme, const Rect& row, const Mark& mark) {
   draw_text(columns.value, theme.text, ink, mark.value ? in_words(mark.metric, *mark.value) : "\u2013", Align::right);
   draw_text(columns.limits, theme.small_text, colour::kMuted,
             in_words(mark.metric, mark.full) + " \u2013 " + in_words(mark.metric, mark.zero), Align::right);
-  draw_text(columns.points, theme.text, ink, number(mark.points) + " / " + number(mark.weight), Align::right);
+  draw_text(columns.points, theme.text, ink, short_number(mark.points) + " / " + short_number(mark.weight),
+            Align::right);
   if (ImGui::IsMouseHoveringRect(row.min(), row.max())) {
     ImGui::BeginTooltip();
     ImGui::PushFont(theme.small_text);

@@ -2,16 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <stdexcept>
+#include <utility>
 
 #include "devices/sequence/probe_samples.h"
 #include "sim/core/input_error.h"
 
 namespace insonate {
 
-ReplayTracker::ReplayTracker(std::string name, std::vector<PoseSample> samples, const Options& options)
-    : Tracker(std::move(name)), log_(std::move(samples)), options_(options) {
+ReplayTracker::ReplayTracker(std::string name, std::vector<PoseSample> samples, const Options& options,
+                             std::optional<Recording> recording)
+    : Tracker(std::move(name)), log_(std::move(samples)), options_(options), recording_(std::move(recording)) {
   if (log_.empty()) throw std::invalid_argument("a log without samples cannot be replayed");
   if (!(options_.speed > 0)) throw std::invalid_argument("the replay's speed is not above 0");
   for (std::size_t i = 1; i < log_.size(); ++i)
@@ -59,9 +60,9 @@ std::unique_ptr<Tracker> open_replay(const TrackerUri& uri, const TrackerContext
     throw InputError("tracker '" + uri.text + "'", "", "it names no file", "write it as in 'replay:scan.igs.mha'");
   const ReplayTracker::Options options{uri.number("speed", 1.0, 0.01, 1000.0), uri.flag("loop", false)};
   const auto transform = uri.options.find("transform");
-  return std::make_unique<ReplayTracker>(
-      "replay of " + std::filesystem::path(uri.subject).filename().string(),
-      read_probe_samples(uri.subject, transform == uri.options.end() ? "" : transform->second), options);
+  RecordedScan scan = read_recorded_scan(uri.subject, transform == uri.options.end() ? "" : transform->second);
+  return std::make_unique<ReplayTracker>("replay of " + scan.recording.file, std::move(scan.samples), options,
+                                         scan.recording);
 }
 
 }  // namespace insonate

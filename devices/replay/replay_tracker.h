@@ -22,8 +22,11 @@ public:
   };
 
   /// `samples` are at least one, with strictly rising times; else throws std::invalid_argument.
-  ReplayTracker(std::string name, std::vector<PoseSample> samples, const Options& options);
+  ReplayTracker(std::string name, std::vector<PoseSample> samples, const Options& options,
+                std::optional<Recording> recording = std::nullopt);
 
+  const Recording* recording() const override { return recording_ ? &*recording_ : nullptr; }
+  bool repeats() const override { return options_.loop; }
   double clock_s(double now_s) const override;
 
 protected:
@@ -33,6 +36,7 @@ protected:
 private:
   std::vector<PoseSample> log_;
   Options options_;
+  std::optional<Recording> recording_;
   double round_s_;                 ///< how long a round takes on the log's clock, with the step back to its beginning
   std::optional<double> start_s_;  ///< of the first poll
   std::size_t next_ = 0;           ///< index into the log

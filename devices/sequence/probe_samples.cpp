@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "sim/core/digest.h"
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
 #include "sim/core/suggest.h"
@@ -100,8 +101,15 @@ std::vector<PoseSample> probe_samples(const Sequence& sequence, std::string_view
   return samples;
 }
 
-std::vector<PoseSample> read_probe_samples(const std::filesystem::path& file, std::string_view transform) {
-  return probe_samples(parse_sequence(read_file(file), file.string()), transform);
+std::string probe_transform(const Sequence& sequence, std::string_view transform) {
+  return sequence.transform_names[std::size_t(choose(sequence, transform))];
+}
+
+RecordedScan read_recorded_scan(const std::filesystem::path& file, std::string_view transform) {
+  const std::string bytes = read_file(file);
+  const Sequence sequence = parse_sequence(bytes, file.string());
+  return {{file.filename().string(), digest_of(bytes), probe_transform(sequence, transform)},
+          probe_samples(sequence, transform)};
 }
 
 }  // namespace insonate

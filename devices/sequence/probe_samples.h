@@ -1,9 +1,11 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 #include <vector>
 
+#include "devices/recording.h"
 #include "devices/sequence/sequence.h"
 #include "sim/core/pose_sample.h"
 
@@ -23,7 +25,15 @@ namespace insonate {
 /// that is ok is not rigid.
 std::vector<PoseSample> probe_samples(const Sequence& sequence, std::string_view transform = {});
 
-/// Reads, parses and picks in one.
-std::vector<PoseSample> read_probe_samples(const std::filesystem::path& file, std::string_view transform = {});
+/// The name of the transform that probe_samples() takes, without "Transform" at its end. Throws as that does.
+std::string probe_transform(const Sequence& sequence, std::string_view transform = {});
+
+struct RecordedScan {
+  Recording recording;
+  std::vector<PoseSample> samples;
+};
+
+/// Reads a file once, parses it and picks. Throws InputError.
+RecordedScan read_recorded_scan(const std::filesystem::path& file, std::string_view transform = {});
 
 }  // namespace insonate

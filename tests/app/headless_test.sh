@@ -46,6 +46,7 @@ refuses titel --headless --scenario "$work/typo.toml"
 refuses empty.nii.gz --headless --ct "$work/empty.nii.gz"
 refuses cut.igs.mha --headless --tracker "replay:$work/cut.igs.mha"
 refuses missing --headless --case "$work/missing"
+refuses "leave loop=1 out" --headless --tracker "replay:$INSONATE_ASSETS/logs/ruq_good.igs.mha?loop=1"
 refuses mouse --headless --tracker mousse:
 refuses both --headless --case a --ct b
 refuses width --headless --width 3

@@ -2,9 +2,16 @@
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
+#include <unistd.h>
 
+#include <filesystem>
+
+#include "devices/registry.h"
 #include "devices/replay/replay_tracker.h"
+#include "devices/sequence/probe_samples.h"
 #include "scenarios/result_json.h"
+#include "sim/core/digest.h"
+#include "sim/core/files.h"
 #include "sim/core/input_error.h"
 #include "tests/scenarios/tiny_case.h"
 
@@ -60,6 +67,62 @@ TEST_CASE("a log gets the same score to the bit in the trainer as from the runne
     REQUIRE(session.result());
     CHECK(to_json(*session.result()) == expected);
   }
+}
+
+TEST_CASE("a log that begins again at its end is refused for an exam, and practised with") {
+  const auto looping = [] {
+    return std::make_unique<ReplayTracker>("replay of scan.igs.mha", scan(), ReplayTracker::Options{1.0, true});
+  };
+  CHECK_THROWS_WITH(Session(tiny_study(), looping),
+                    Catch::Contains("scan.igs.mha") && Catch::Contains("leave loop=1 out"));
+  CHECK_THROWS_AS(Session(tiny_study(), looping), InputError);
+
+  Session session(tiny_study(false), looping);
+  session.advance(0);
+  run_until(session, 0, 20);  // more than twice through
+  CHECK(session.tracker_state().delivered > 2 * scan().size());
+  CHECK_FALSE(session.result());
+}
+
+TEST_CASE("each attempt names the log that it was scored from, also when the file has changed in between") {
+  const auto file =
+      std::filesystem::temp_directory_path() / ("insonate_session_" + std::to_string(getpid()) + ".igs.mha");
+  const std::string first = write_sequence(scan());
+  const std::string second = write_sequence(samples_of(3, 60, [](double) { return turned(0, {1, 0, 0}, {0, 0, 30}); }));
+  write_file(file, first);
+  const auto study = tiny_study();
+  Session session(study, [&] { return open_tracker("replay:" + file.string()); });
+  session.advance(0);
+  double now_s = run_until(session, 0, 1);
+  write_file(file, second);  // the attempt under way has its samples already
+  now_s = run_until(session, now_s, 10);
+
+  const auto check = [&](const std::string& bytes) {
+    Runner runner(*study->scenario, study->subject, study->tissues);
+    runner.feed(probe_samples(parse_sequence(bytes, "a log")));
+    runner.end();
+    ExamResult expected = runner.result();
+    expected.provenance.log = file.filename().string();
+    expected.provenance.log_digest = digest_of(bytes);
+    expected.provenance.log_transform = "ProbeToPatient";
+    REQUIRE(session.result());
+    CHECK(to_json(*session.result()) == to_json(expected));
+  };
+  check(first);
+  session.start_over();
+  CHECK_FALSE(session.result());
+  now_s = run_until(session, now_s, now_s + 5);
+  check(second);
+  std::filesystem::remove(file);
+
+  INFO("the learner's own exam names none");
+  session.take_probe();
+  session.start_over();
+  run_until(session, now_s, now_s + 25);
+  REQUIRE(session.result());
+  CHECK(session.result()->provenance.log.empty());
+  CHECK(session.result()->provenance.log_digest.empty());
+  CHECK(session.result()->provenance.log_transform.empty());
 }
 
 TEST_CASE(

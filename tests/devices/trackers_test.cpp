@@ -13,6 +13,7 @@
 #include "devices/registry.h"
 #include "devices/sequence/probe_samples.h"
 #include "devices/synthetic/synthetic_tracker.h"
+#include "sim/core/digest.h"
 #include "sim/core/files.h"
 #include "sim/core/hash.h"
 #include "sim/core/input_error.h"
@@ -102,8 +103,16 @@ TEST_CASE("every kind of tracker opens by the registry, and its form begins with
   replay->poll(0, samples);
   CHECK(samples.size() == 1);
   replay->poll(0.11, samples);
-  CHECK(same_bits(samples, read_probe_samples(kLog, "ReferenceToTracker")));
+  CHECK(same_bits(samples, read_recorded_scan(kLog, "ReferenceToTracker").samples));
   CHECK(replay->state().name == "replay of plus_images.igs.mha");
+  REQUIRE(replay->recording());
+  CHECK(replay->recording()->file == "plus_images.igs.mha");
+  CHECK(replay->recording()->digest == digest_of(read_file(kLog)));
+  CHECK(replay->recording()->transform == "ReferenceToTracker");
+  CHECK_FALSE(replay->repeats());
+  CHECK(open_tracker("replay:" + kLog + "?loop=1")->repeats());
+  CHECK(open_tracker("replay:" + kLog)->recording()->transform == "ProbeToTracker");
+  CHECK(open_tracker("mouse:")->recording() == nullptr);
   CHECK_NOTHROW(open_tracker("mouse:"));
   CHECK_NOTHROW(open_tracker("synthetic:"));
 }

@@ -49,7 +49,7 @@ struct BundledExam {
 };
 
 std::vector<PoseSample> log(const char* name) {
-  return read_probe_samples(kAssets / "logs" / name);
+  return read_recorded_scan(kAssets / "logs" / name).samples;
 }
 
 bool any_contains(const std::vector<std::string>& reasons, const std::string& words) {

@@ -68,6 +68,28 @@ TEST_CASE("the exam is passed from the pass mark on") {
   CHECK(failed.reasons[0].find("75.0 %") != std::string::npos);
 }
 
+TEST_CASE("who earns the pass mark's share of the points passes, whatever their sum rounds to") {
+  for (const double weight : {0.1, 0.3, 0.7, 1.0, 1.1, 2.3})
+    for (const int all : {5, 10, 15, 20}) {
+      CAPTURE(weight, all);
+      std::vector<Mark> marks;
+      for (int i = 0; i < all; ++i)
+        marks.push_back(mark(criterion(Metric::tilt_deg, 5, 20, weight), 5 * i < 4 * all ? 0 : 90));
+      CHECK(exam(marks, 80).passed);
+      marks.front().points = 0;
+      CHECK_FALSE(exam(marks, 80).passed);
+    }
+}
+
+TEST_CASE("a failed score is never shown as the pass mark or above, nor the pass mark as another") {
+  const auto reason = [](double percent, double pass_mark) {
+    return exam({mark(criterion(Metric::plane_distance_mm, 0, 100, 1), 100 - percent)}, pass_mark).reasons.front();
+  };
+  CHECK(reason(79.96, 80) == "The score is 79.96 %; 80 % are needed to pass.");
+  CHECK(reason(79.65, 79.7) == "The score is 79.65 %; 79.7 % are needed to pass.");
+  CHECK(reason(79.5, 79.7) == "The score is 79.5 %; 79.7 % are needed to pass.");
+}
+
 TEST_CASE("a critical criterion that earns nothing fails the exam alone, and is named") {
   const Mark rest = mark(criterion(Metric::plane_distance_mm, 5, 20, 99), 0);
   const ExamResult failed = exam({rest, mark(criterion(Metric::target_insonated_percent, 80, 30, 1, true), 10)}, 80);

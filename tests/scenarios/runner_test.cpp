@@ -154,6 +154,111 @@ TEST_CASE("a hold survives a loss of tracking of a blink, not a longer one") {
   CHECK(scored(silent).steps[0].end_s == Approx(1.92).margin(0.021));
 }
 
+TEST_CASE("a loss at the end or the beginning of a hold moves that end, and a loss in between is judged over") {
+  const auto lost_between = [](double from_s, double to_s) {
+    auto samples = samples_of(3, 50, [](double t) { return at_z(t < 0.495 ? 60 : 0); });
+    for (PoseSample& sample : samples)
+      if (sample.time_s > from_s - 0.01 && sample.time_s < to_s + 0.01) sample.status = PoseStatus::missing;
+    return scored(samples).steps[0];
+  };
+  CHECK(lost_between(9, 9).end_s == Approx(1.5));
+  // At its beginning: the view counts from when it is seen.
+  CHECK(*lost_between(0.5, 0.6).judged_from_s == Approx(0.62));
+  CHECK(lost_between(0.5, 0.6).end_s == Approx(1.62));
+  // At its end: it is over when the view is seen again, unless tracking was away for too long.
+  CHECK(lost_between(1.5, 1.6).end_s == Approx(1.62));
+  CHECK(lost_between(1.5, 1.6).judged->plane_distance_mm == Approx(0).margin(1e-9));
+  CHECK(lost_between(1.5, 1.7).end_s == Approx(1.72));
+  CHECK(lost_between(1.5, 1.8).end_s == Approx(2.82));
+  CHECK(*lost_between(1.5, 1.8).judged_from_s == Approx(1.82));
+}
+
+TEST_CASE("a step begins with the sample that ended the one before") {
+  for (const double rate : {10.0, 50.0, 250.0}) {
+    CAPTURE(rate);
+    const ExamResult result = scored(samples_of(2, rate, [](double) { return at_z(0); }));
+    CHECK(result.steps[0].end_s == Approx(1.0));
+    CHECK(result.steps[1].end_s == Approx(1.5));
+    CHECK(*result.steps[1].judged_from_s == Approx(1.0));
+  }
+}
+
+TEST_CASE("a hold that ends with the scan counts, one that is a sample short does not") {
+  const ExamResult enough = scored(samples_of(1.0, 50, [](double) { return at_z(0); }));
+  CHECK(enough.steps[0].outcome == StepOutcome::held);
+  CHECK(enough.steps[1].outcome == StepOutcome::scan_ended);
+  CHECK(enough.steps[1].longest_hold_s == 0);
+  const ExamResult less = scored(samples_of(0.98, 50, [](double) { return at_z(0); }));
+  CHECK(less.steps[0].outcome == StepOutcome::scan_ended);
+  CHECK(less.steps[0].longest_hold_s == Approx(0.98));
+}
+
+TEST_CASE("a hold that ends at the time limit comes too late, wherever time begins") {
+  // Tenths are no doubles, and times since 1970 are rounded once more: some limits lie above their sample, some below.
+  for (int tenths = 90; tenths <= 99; ++tenths)
+    for (const double begin_s : {0.0, 1.7e9}) {
+      const double limit_s = tenths / 10.0;
+      CAPTURE(limit_s, begin_s);
+      Scenario scenario = tiny_scenario();
+      scenario.steps[0].time_limit_s = limit_s;
+      const auto held_from = [&](double from_s) {
+        auto samples = samples_of(11, 50, [&](double t) { return at_z(t > from_s - 0.01 ? 0 : 60); });
+        for (PoseSample& sample : samples) sample.time_s += begin_s;
+        return scored(samples, scenario);
+      };
+      const ExamResult late = held_from(limit_s - 1);
+      CHECK(late.steps[0].outcome == StepOutcome::timed_out);
+      CHECK(late.steps[0].end_s == limit_s);
+      CHECK(late.steps[0].longest_hold_s == Approx(0.98));
+      CHECK(late.steps[1].motion.time_s == Approx(0.5));
+      const ExamResult in_time = held_from(limit_s - 1.02);
+      CHECK(in_time.steps[0].outcome == StepOutcome::held);
+      CHECK(in_time.steps[0].end_s == Approx(limit_s - 0.02));
+    }
+}
+
+TEST_CASE("a hold survives a loss of just a quarter of a second at any moment, also when the tracker falls silent") {
+  for (std::size_t last = 1; last <= 14; ++last)
+    for (const double begin_s : {0.0, 1.7e9})
+      for (const bool silent : {false, true}) {
+        CAPTURE(last, begin_s, silent);
+        auto samples = samples_of(2, 20, [](double) { return at_z(0); });
+        for (PoseSample& sample : samples) sample.time_s += begin_s;
+        for (std::size_t i = last + 1; i < last + 5; ++i) samples[i].status = PoseStatus::missing;
+        if (silent) samples.erase(samples.begin() + long(last) + 1, samples.begin() + long(last) + 5);
+        CHECK(scored(samples).steps[0].end_s == Approx(1.0));
+      }
+}
+
+TEST_CASE("of samples at one time the first counts") {
+  const std::vector<PoseSample> clean = wandering(30);
+  std::vector<PoseSample> twice;
+  for (const PoseSample& sample : clean) {
+    twice.push_back(sample);
+    twice.push_back(sample_at(sample.time_s, at_z(40)));
+    twice.push_back(sample_at(sample.time_s, at_z(0), PoseStatus::missing));
+  }
+  CHECK(to_json(scored(twice)) == to_json(scored(clean)));
+}
+
+TEST_CASE("an exam of one step that earns nothing by itself ends with its hold") {
+  Scenario scenario = tiny_scenario();
+  scenario.steps.pop_back();
+  scenario.steps[0].criteria.clear();
+  const ExamResult result = scored(samples_of(6, 50, approach), scenario);
+  CHECK(result.complete);
+  CHECK(result.steps[0].outcome == StepOutcome::held);
+  CHECK(result.motion.time_s == Approx(result.steps[0].end_s));
+  CHECK(result.points == 3);
+  CHECK(result.points_possible == 3);
+  CHECK(result.passed);
+  // And who never gets there earns nothing for moving little.
+  const ExamResult never = scored(samples_of(12, 50, [](double) { return at_z(60); }), scenario);
+  CHECK(never.complete);
+  CHECK(never.points == 0);
+  CHECK_FALSE(never.passed);
+}
+
 TEST_CASE("a pose that is not valid is never looked at") {
   auto samples = samples_of(3, 50, [](double) { return at_z(0); });
   for (PoseSample& sample : samples) {
@@ -200,10 +305,33 @@ TEST_CASE("the score does not depend on where time begins") {
   CHECK(to_json(scored(samples)) == to_json(before));
 }
 
+TEST_CASE("where times round the score does not depend on where time begins either") {
+  for (const double rate : {20.0, 30.0, 250.0}) {
+    const std::vector<PoseSample> samples = wandering(rate);
+    const ExamResult before = scored(samples);
+    for (std::uint32_t trial = 0; trial < 4; ++trial) {
+      const double begin_s = 1.7e9 + hash(trial, 3) / 4294967296.0;
+      CAPTURE(rate, begin_s);
+      std::vector<PoseSample> later = samples;
+      for (PoseSample& sample : later) sample.time_s += begin_s;
+      const ExamResult after = scored(later);
+      // Times are off by 0.24 microseconds, at 30 mm/s a hundred thousandth of a millimetre.
+      CHECK(after.points == Approx(before.points).margin(1e-4));
+      for (std::size_t i = 0; i < before.steps.size(); ++i) {
+        CHECK(after.steps[i].outcome == before.steps[i].outcome);
+        CHECK(after.steps[i].end_s == Approx(before.steps[i].end_s).margin(1e-6));
+      }
+      CHECK(after.motion.path_length_mm == Approx(before.motion.path_length_mm).margin(1e-3));
+      CHECK(after.motion.dropouts == before.motion.dropouts);
+      CHECK(after.motion.rotational_movements == before.motion.rotational_movements);
+    }
+  }
+}
+
 TEST_CASE("the score hardly depends on the sampling rate") {
   const ExamResult fine = scored(wandering(400));
   REQUIRE(fine.steps[1].outcome == StepOutcome::held);
-  for (const double rate : {30.0, 60.0, 125.0}) {
+  for (const double rate : {30.0, 60.0, 125.0, 250.0}) {
     const ExamResult coarse = scored(wandering(rate));
     INFO(rate);
     // A hold begins and ends up to a sample later each, 1/30 s at the coarsest; the view moves by at most about

@@ -4,9 +4,9 @@
 #include <cstdlib>
 
 #include "devices/sequence/probe_samples.h"
-#include "scenarios/digest.h"
 #include "scenarios/result_json.h"
 #include "scenarios/runner.h"
+#include "sim/core/digest.h"
 #include "sim/core/files.h"
 
 using namespace insonate;
@@ -68,11 +68,12 @@ TEST_CASE("insonate-score prints the very score that the trainer comes to, and a
   const Scenario scenario = read_scenario(exam);
   const Case subject = load_case(scenario, kAssets, cache_folder());
   Runner runner(scenario, subject, read_tissue_table(kAssets / "tissues.toml"));
-  for (const PoseSample& sample : read_probe_samples(log)) runner.feed(sample);
+  for (const PoseSample& sample : read_recorded_scan(log).samples) runner.feed(sample);
   runner.end();
   ExamResult expected = runner.result();
   expected.provenance.log = "ruq_poor.igs.mha";
   expected.provenance.log_digest = digest_of(read_file(log));
+  expected.provenance.log_transform = "ProbeToTracker";
   CHECK(outcome.output == to_json(expected));
   CHECK_FALSE(result_from_json(outcome.output, "output").passed);
   CHECK(read_file(report).find("Not passed") != std::string::npos);

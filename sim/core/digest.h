@@ -3,15 +3,10 @@
 #include <string>
 #include <string_view>
 
-#include "sim/volume/case.h"
-
 namespace insonate {
 
 /// Names a content by 16 hexadecimal digits, to tell later whether two scores come from the same inputs. It finds
 /// accidents and old versions; it does not stand against someone who wants a collision (XXH3, 64 bits).
 std::string digest_of(std::string_view bytes);
-
-/// Of all that scoring reads of a case: grid, CT, labels, their names, landmarks and views.
-std::string digest_of(const Case& subject);
 
 }  // namespace insonate

@@ -1,0 +1,37 @@
+#include "scenarios/words.h"
+
+#include <cstdio>
+#include <cstdlib>
+
+namespace insonate {
+
+std::string fixed(double value, int decimals) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f", decimals, value);
+  return text;
+}
+
+std::string short_number(double value) {
+  std::string text = fixed(value, 2);
+  while (text.back() == '0') text.pop_back();
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+
+std::string in_words(Metric metric, double value) {
+  const MetricInfo& m = info(metric);
+  const bool degrees = m.unit == "\u00b0";
+  return fixed(value, m.decimals) + (m.unit.empty() || degrees ? "" : " ") + std::string(m.unit);
+}
+
+std::string percentage(const ExamResult& result) {
+  const auto misleads = [&](const std::string& text) {
+    return result.percent < result.pass_mark_percent && std::atof(text.c_str()) >= result.pass_mark_percent;
+  };
+  constexpr int kMostDecimals = 12;
+  int decimals = 1;
+  while (!result.passed && decimals < kMostDecimals && misleads(fixed(result.percent, decimals))) ++decimals;
+  return fixed(result.percent, decimals);
+}
+
+}  // namespace insonate
