@@ -25,8 +25,28 @@ std::string shortened(ImFont* font, std::string_view text, float width) {
   return kEllipsis;
 }
 
-double rounded(double value, double step, double least, double most) {
-  return std::clamp(std::round(value / step) * step, least, most);
+struct Scale {
+  double least, most, step, normal;
+};
+
+/// Lets the mouse move a slider's value: dragged to `at_mouse`, a step with the wheel, to the normal with a double
+/// click. Whether the mouse is at it.
+bool handle(const char* id, const Rect& where, const Scale& scale, double at_mouse, double& value) {
+  ImGui::SetCursorScreenPos(where.min());
+  ImGui::InvisibleButton(id, {where.w, where.h});
+  const bool active = ImGui::IsItemActive(), hovered = ImGui::IsItemHovered();
+  const float wheel = hovered ? ImGui::GetIO().MouseWheel : 0;
+  const auto set = [&](double to) {
+    value = std::clamp(std::round(to / scale.step) * scale.step, scale.least, scale.most);
+  };
+  if (active) set(at_mouse);
+  if (wheel != 0) set(value + scale.step * wheel);
+  if (hovered && ImGui::IsMouseDoubleClicked(0)) value = scale.normal;
+  return active || hovered;
+}
+
+void draw_knob(const Theme& theme, const ImVec2& centre, float radius, bool lit) {
+  ImGui::GetWindowDrawList()->AddCircleFilled(centre, theme.px(radius), lit ? colour::kText : colour::kAccent, 24);
 }
 
 }  // namespace
@@ -119,16 +139,11 @@ bool button(const Theme& theme, const char* id, const Rect& where, std::string_v
 
 bool slider(const Theme& theme, const char* id, const Rect& where, std::string_view name, std::string_view value_text,
             double& value, double least, double most, double step, double normal) {
-  ImGui::SetCursorScreenPos(where.min());
-  ImGui::InvisibleButton(id, {where.w, where.h});
-  const bool active = ImGui::IsItemActive(), hovered = ImGui::IsItemHovered();
+  constexpr float kRadius = 7;
   const double before = value;
-  const float radius = theme.px(7);
-  const float left = where.x + radius, right = where.x + where.w - radius;
-  const ImGuiIO& io = ImGui::GetIO();
-  if (active) value = rounded(least + (most - least) * (io.MousePos.x - left) / (right - left), step, least, most);
-  if (hovered && io.MouseWheel != 0) value = rounded(value + step * io.MouseWheel, step, least, most);
-  if (hovered && ImGui::IsMouseDoubleClicked(0)) value = normal;
+  const float left = where.x + theme.px(kRadius), right = where.x + where.w - theme.px(kRadius);
+  const double at_mouse = least + (most - least) * (ImGui::GetIO().MousePos.x - left) / (right - left);
+  const bool lit = handle(id, where, {least, most, step, normal}, at_mouse, value);
 
   Rect line = where;
   line.h = theme.px(20);
@@ -141,27 +156,22 @@ bool slider(const Theme& theme, const char* id, const Rect& where, std::string_v
   const float half = theme.px(2);
   fill({where.x, y - half, where.w, 2 * half}, colour::kRaised, half);
   fill({where.x, y - half, x - where.x, 2 * half}, colour::kAccent, half);
-  ImGui::GetWindowDrawList()->AddCircleFilled({x, y}, radius, hovered || active ? colour::kText : colour::kAccent, 24);
+  draw_knob(theme, {x, y}, kRadius, lit);
   return value != before;
 }
 
 bool upright_slider(const Theme& theme, const char* id, const Rect& where, double& value, double reach) {
-  ImGui::SetCursorScreenPos(where.min());
-  ImGui::InvisibleButton(id, {where.w, where.h});
-  const bool active = ImGui::IsItemActive(), hovered = ImGui::IsItemHovered();
+  constexpr float kRadius = 5;
   const double before = value;
-  const float radius = theme.px(5);
-  const float top = where.y + radius, bottom = where.y + where.h - radius;
-  const ImGuiIO& io = ImGui::GetIO();
-  if (active) value = rounded(reach * (1 - 2.0 * (io.MousePos.y - top) / (bottom - top)), 1, -reach, reach);
-  if (hovered && io.MouseWheel != 0) value = rounded(value + io.MouseWheel, 1, -reach, reach);
-  if (hovered && ImGui::IsMouseDoubleClicked(0)) value = 0;
+  const float top = where.y + theme.px(kRadius), bottom = where.y + where.h - theme.px(kRadius);
+  const double at_mouse = reach * (1 - 2.0 * (ImGui::GetIO().MousePos.y - top) / (bottom - top));
+  const bool lit = handle(id, where, {-reach, reach, 1, 0}, at_mouse, value);
 
   const float x = std::round(where.x + where.w / 2), half = theme.px(1.5f);
   const float middle = (top + bottom) / 2, y = middle - float(value / reach) * (bottom - top) / 2;
   fill({x - half, where.y, 2 * half, where.h}, colour::kRaised, half);
   fill({x - half, std::min(y, middle), 2 * half, std::abs(y - middle)}, colour::kAccent);
-  ImGui::GetWindowDrawList()->AddCircleFilled({x, y}, radius, hovered || active ? colour::kText : colour::kAccent, 20);
+  draw_knob(theme, {x, y}, kRadius, lit);
   return value != before;
 }
 
