@@ -36,7 +36,7 @@ std::string digest(const std::string& bytes) {
   return text;
 }
 
-std::string key_of(const std::string& recipe_text, std::vector<std::pair<std::string, std::string>> options) {
+std::string key_of(const std::string& recipe_text, const std::vector<std::pair<std::string, std::string>>& options) {
   // Lengths before the parts, so that no two lists of parts run together to the same text.
   std::string all;
   const auto add = [&](const std::string& part) { all += std::to_string(part.size()) + ":" + part; };
@@ -58,7 +58,7 @@ std::string digests_of(const fs::path& folder) {
       digests[name] = digest(read_file(entry.path(), std::size_t(1) << 34));
   }
   std::string text;
-  for (const auto& [name, value] : digests) text += value + "  " + name + "\n";
+  for (const auto& [name, value] : digests) text.append(value).append("  ").append(name).append("\n");
   return text;
 }
 

@@ -131,7 +131,8 @@ Pose pose_on_skin(const PlannedView& planned, const Volume<std::int16_t>& ct, co
   const double step = ct.grid.spacing.x / 4;
   const double longest = glm::length(ct.grid.spacing * glm::dvec3(ct.grid.size));
   double skin = -1;
-  for (double way = 0; way < longest; way += step) {
+  for (int n = 0; step * n < longest; ++n) {
+    const double way = step * n;
     const glm::dvec3 p = planned.aim - planned.beam * way;
     if (sample_trilinear(ct, ct.grid.index_from_patient(p)) > kSkinHu) skin = way;
   }

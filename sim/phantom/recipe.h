@@ -102,6 +102,7 @@ private:
 template <typename Value>
 std::string suggest_from(const std::string& unknown, const std::map<std::string, Value>& known) {
   std::vector<std::string> names;
+  names.reserve(known.size());
   for (const auto& entry : known) names.push_back(entry.first);
   return names.empty() ? "define it first" : suggest(unknown, names);
 }

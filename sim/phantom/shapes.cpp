@@ -180,7 +180,10 @@ private:
   static Bounds bounds_of(const LoftForm& form) {
     Bounds bounds;
     const float top = form.sections.back().z;
-    for (float z = form.sections.front().z; z < top + kStep_mm; z += kStep_mm) {
+    const float bottom = form.sections.front().z;
+    const int steps = int(std::ceil((top - bottom) / kStep_mm));
+    for (int step = 0; step <= steps; ++step) {
+      const float z = bottom + kStep_mm * float(step);
       const LoftSection s = form.section_at(z);
       bounds.include({s.x - s.half_width, s.y - s.front, std::min(z, top)});
       bounds.include({s.x + s.half_width, s.y + s.back, std::min(z, top)});
