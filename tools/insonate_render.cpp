@@ -1,8 +1,8 @@
-// insonate-render: one pose of one patient to a PNG, without a window.
+// insonate-render: one pose of one patient to a PNG, without a window; and, when asked, what the picture was made of.
 
 #include <nlohmann/json.hpp>
 
-#include <cstdio>
+#include <optional>
 #include <sstream>
 
 #include "sim/core/files.h"
@@ -11,7 +11,10 @@
 #include "sim/gl/headless_context.h"
 #include "sim/gl/simulator.h"
 #include "sim/gl/upload.h"
+#include "sim/model/settings_file.h"
+#include "sim/reference/reference.h"
 #include "tools/program.h"
+#include "tools/render_stages.h"
 #include "tools/subject.h"
 
 using namespace insonate;
@@ -50,28 +53,59 @@ const ReferenceView& choose_view(const Case& subject, const std::string& path, c
   throw InputError("--view", "", "there is no view named '" + name + "'", suggest(name, names));
 }
 
+struct Rendered {
+  Stages<float> stages;
+  std::string made_by;
+};
+
+/// @param file  what the person who gave the CT calls it
+Rendered render(const std::string& file, const RenderedScene& scene) {
+  const gl::HeadlessContext context;
+  gl::Simulator simulator;
+  gl::upload_ct(file, scene.volume.grid, [&] { simulator.set_volume(scene.volume, scene.table); });
+  simulator.set_probe(scene.probe, scene.depth_mm);
+  simulator.set_settings(scene.settings);
+  simulator.set_pose(scene.patient_from_probe);
+  return {simulator.read_stages(), gl::device_description()};
+}
+
+Rendered render_by_reference(const RenderedScene& scene) {
+  return {in_single_precision(simulate_reference(trilinear_field(scene.volume), scene.table, scene.probe,
+                                                 scene.depth_mm, scene.settings, scene.patient_from_probe)),
+          "reference in double precision"};
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   CLI::App arguments("Renders one ultrasound image of a patient to a PNG, without a window.", "insonate-render");
-  std::string subject_path, view_name, pose_file, probe_name = "curvilinear", out;
-  double depth_mm = 0, gain_db = 0;
-  int width = 640, height = 480;
+  std::string subject_path, view_name, pose_file, probe_name = "curvilinear", settings_file, stages_folder, out;
+  double depth_mm = 0;
+  std::optional<double> gain_db;
+  std::optional<int> width, height;
+  bool by_reference = false;
   arguments.add_option("--case,--ct", subject_path, "A case folder, CT file or DICOM folder (the built-in abdomen)");
   arguments.add_option("--view", view_name, "A view of the case by name (its first)");
   arguments.add_option("--pose", pose_file, "A file with 16 numbers, row-major patient_from_probe, instead of a view");
   arguments.add_option("--probe", probe_name, "curvilinear or linear")->capture_default_str();
   arguments.add_option("--depth", depth_mm, "Imaging depth, mm (the view's or the probe's)")
       ->check(CLI::Range(10.0, 400.0));
-  arguments.add_option("--gain", gain_db, "Gain, dB")->check(CLI::Range(-60.0, 60.0));
-  arguments.add_option("--width", width, "Pixels")->check(CLI::Range(1, 8192))->capture_default_str();
-  arguments.add_option("--height", height, "Pixels")->check(CLI::Range(1, 8192))->capture_default_str();
+  arguments.add_option("--settings", settings_file,
+                       "A TOML file: preset = \"paper\" or \"trainer\", and names of sim/model/settings.h over it");
+  arguments.add_option("--gain", gain_db, "Gain, dB (the settings': 0)")->check(CLI::Range(-60.0, 60.0));
+  arguments.add_option("--width", width, "Pixels (the settings': 640)")->check(CLI::Range(1, 8192));
+  arguments.add_option("--height", height, "Pixels (the settings': 480)")->check(CLI::Range(1, 8192));
+  arguments.add_option(
+      "--stages", stages_folder,
+      "A new folder for what crosses the stages: scanlines.json, and NRRD files that say what they hold");
+  arguments.add_flag("--reference", by_reference, "Compute by the double-precision reference, without OpenGL");
   arguments.add_option("image", out, "The PNG to write")->required();
 
   return run_program(arguments, argc, argv, [&] {
     const Probe* probe = find_probe(probe_name);
     if (!probe)
       throw InputError("--probe", "", "there is no probe named '" + probe_name + "'", "take curvilinear or linear");
+    if (!stages_folder.empty()) refuse_taken(stages_folder);
     const Case subject = open_subject(subject_path);
     Pose pose;
     if (!pose_file.empty()) {
@@ -83,24 +117,18 @@ int main(int argc, char** argv) {
     }
     if (depth_mm == 0) depth_mm = probe->depth_mm;
 
-    Settings settings = trainer_settings(probe->frequency_mhz, depth_mm);
-    settings.gain_db = gain_db;
-    settings.image_width = width;
-    settings.image_height = height;
+    Settings settings = settings_file.empty() ? trainer_settings(probe->frequency_mhz, depth_mm)
+                                              : read_settings(settings_file, probe->frequency_mhz, depth_mm);
+    settings.gain_db = gain_db.value_or(settings.gain_db);
+    settings.image_width = width.value_or(settings.image_width);
+    settings.image_height = height.value_or(settings.image_height);
 
     const TissueTable table = read_tissue_table(assets_folder() / "tissues.toml");
-    const gl::HeadlessContext context;
-    gl::Simulator simulator;
-    gl::upload_ct(subject_path, subject.ct.grid, [&] {
-      simulator.set_volume(make_acoustic_volume(subject.ct, subject.labels, tissue_by_label(subject), table), table);
-    });
-    simulator.set_probe(*probe, depth_mm);
-    simulator.set_settings(settings);
-    simulator.set_pose(pose);
-    Image<Rgba8> image(width, height);
-    simulator.image().read(GL_RGBA, GL_UNSIGNED_BYTE, image.pixels.data(), image.pixels.size() * sizeof(Rgba8));
-    for (Rgba8& pixel : image.pixels) pixel[3] = 255;
-    write_png(std::filesystem::path(out), image);
+    const AcousticVolume volume = make_acoustic_volume(subject.ct, subject.labels, tissue_by_label(subject), table);
+    const RenderedScene scene{volume, table, *probe, depth_mm, settings, pose};
+    const auto [stages, made_by] = by_reference ? render_by_reference(scene) : render(subject_path, scene);
+    if (!stages_folder.empty()) write_stages(stages_folder, scene, stages, made_by);
+    write_png(out, stages.grey);
     return 0;
   });
 }

@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 
@@ -246,4 +247,58 @@ TEST_CASE("without a window there is nobody to answer a dialog: bad input passes
   Trainer trainer(options);
   trainer.open_from_options();
   CHECK_THROWS_AS(trainer.finish_loading(), InputError);
+}
+
+TEST_CASE("a second attempt's report shows its own best frame, and none when the view was never held") {
+  const gl::HeadlessContext context;
+  const Folder folder;
+  // One step, so that no attempt's frame gives way only because another step came.
+  std::string exam = kTinyScenario;
+  const std::size_t second_step = exam.find("[[step]]", exam.find("[[step]]") + 1);
+  folder.file("exam.toml", exam.erase(second_step, exam.find("[[criterion]]") - second_step));
+  /// On the ball for so long, then beside it.
+  const auto holding = [](double seconds, double degrees) {
+    return write_sequence(samples_of(4, 60, [=](double t) {
+      return turned(degrees, {0, 1, 0}, {0, 1, t <= seconds ? 0 : 60});
+    }));
+  };
+  double now_s = 0;
+  /// Lets the exam that has just begun run to its end.
+  const auto finish = [&](Trainer& trainer) {
+    trainer.update(now_s);
+    REQUIRE_FALSE(trainer.result_files());  // those of the attempt before
+    for (int i = 0; i < 1000 && !trainer.result_files(); ++i, now_s += 1 / 30.0) {
+      trainer.update(now_s);
+      if (trainer.best_frame_due()) {
+        trainer.draw(kSizes, 1, kNoBudget);
+        trainer.keep_best_frame();
+      }
+      trainer.write_results_if_due();
+    }
+    REQUIRE(trainer.result_files());
+    return read_file(trainer.result_files()->report);
+  };
+  const std::string picture = "data:image/png;base64,";
+
+  Trainer trainer(folder.options());
+  folder.file("scan.igs.mha", holding(4, 0));
+  trainer.open_from_options();
+  trainer.finish_loading();
+  const std::string first = finish(trainer);
+  CHECK(first.find(picture) != std::string::npos);
+  const std::vector<Rgba8> first_pixels = trainer.best_frame()->pixels;
+
+  folder.file("scan.igs.mha", holding(0.5, 15));  // not held for as long as the first, and yet its own
+  trainer.session()->start_over();
+  const std::string second = finish(trainer);
+  REQUIRE(trainer.best_frame());
+  CHECK_FALSE(std::equal(first_pixels.begin(), first_pixels.end(), trainer.best_frame()->pixels.begin()));
+  CHECK(second.find(picture) != std::string::npos);
+
+  // The second attempt's picture lies at hand, but it is not this one's.
+  folder.file("scan.igs.mha", holding(-1, 0));
+  trainer.session()->start_over();
+  const std::string third = finish(trainer);
+  CHECK(third.find(picture) == std::string::npos);
+  CHECK_FALSE(trainer.best_frame());
 }

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace outsider {
+
+/// A folder for the files of one test, gone at the end.
+struct TestFolder {
+  std::filesystem::path path;
+  TestFolder();
+  ~TestFolder();
+  std::filesystem::path file(const std::string& name, const std::string& text) const;
+};
+
+struct Outcome {
+  int code;
+  std::string errors;  ///< what it said on standard error
+};
+/// Runs a program; its arguments are split by the shell.
+Outcome run(const TestFolder& folder, const std::string& program, const std::string& arguments);
+
+std::string bytes_of(const std::filesystem::path& file);
+
+}  // namespace outsider

@@ -1,0 +1,410 @@
+#include "tests/tools/render/stage_folder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace outsider {
+namespace {
+
+const double kPi = std::acos(-1.0);
+constexpr double kFloat = 6e-8;  // what rounding to float32 changes at most, relative
+
+Plane read_nrrd(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string line;
+  Plane plane;
+  if (!std::getline(stream, line) || line != "NRRD0004") throw std::runtime_error(file.string() + " is no NRRD");
+  bool raw = false, little = false, real = false;
+  while (std::getline(stream, line) && !line.empty()) {
+    raw |= line == "encoding: raw";
+    little |= line == "endian: little";
+    real |= line == "type: float";
+    if (line.rfind("sizes: ", 0) == 0) std::istringstream(line.substr(7)) >> plane.width >> plane.height;
+  }
+  std::vector<float> values(std::size_t(plane.width) * std::size_t(plane.height));
+  stream.read(reinterpret_cast<char*>(values.data()), std::streamsize(values.size() * sizeof(float)));
+  if (!raw || !little || !real || !stream || stream.peek() != EOF || values.empty())
+    throw std::runtime_error(file.string() + " is not as documented");
+  plane.values.assign(values.begin(), values.end());
+  return plane;
+}
+
+Vec3 vec3(const nlohmann::json& json) {
+  return {json.at(0), json.at(1), json.at(2)};
+}
+
+/// The recomputation of one folder. Each check notes the worst disagreement of a stage.
+class Recomputation {
+public:
+  Recomputation(const StageFolder& stages, const SyntheticCt& ct, const Tolerances& tolerances)
+      : about_(stages.description),
+        set_(about_.at("settings")),
+        planes_(stages.planes),
+        ct_(ct),
+        tolerances_(tolerances) {
+    for (const auto& line : about_.at("scan_lines")) {
+      starts_.push_back(vec3(line.at("start_mm")));
+      directions_.push_back(vec3(line.at("direction")));
+    }
+    for (const auto& knot : about_.at("tissues"))
+      knots_.push_back({knot.at("hu"), knot.at("impedance_mrayl"), knot.at("absorption_db_cm_mhz")});
+    n_ = int(starts_.size());
+    d_ = about_.at("samples");
+    dr_ = about_.at("dr_mm");
+    r_min_ = about_.at("r_min_mm");
+    l_ = set_.at("reflection_length_mm");
+    gel_mm_ = set_.at("gel_mm");
+    coupling_air_hu_ = about_.at("coupling_air_hu");
+  }
+
+  std::map<std::string, double> all() {
+    sizes();
+    tissue();
+    intensity();
+    reflection();
+    beam();
+    speckle();
+    pixels();
+    fusion();
+    compression();
+    return worst_;
+  }
+
+private:
+  const Plane& plane(const std::string& name) const { return planes_.at(name); }
+  double value(const char* key) const { return about_.at(key); }
+  double setting(const char* key) const { return set_.at(key); }
+  bool on(const char* key) const { return set_.at(key); }
+
+  void compare(const std::string& stage, double expected, double got, double tolerated) {
+    double misfit = std::abs(expected - got) / tolerated;
+    if (!(misfit >= 0)) misfit = HUGE_VAL;  // not a number is no agreement
+    worst_[stage] = std::max(worst_[stage], misfit);
+  }
+
+  void sizes() {
+    const int w = about_.at("image").at("width"), h = about_.at("image").at("height");
+    for (const auto& [name, p] : planes_) {
+      const bool as_picture = name.rfind("pixel_", 0) == 0 || name == "fused" || name == "image";
+      if (p.width != (as_picture ? w : n_) || p.height != (as_picture ? h : d_))
+        throw std::runtime_error(name + " is of another size");
+    }
+    if (about_.at("lines") != n_ || w != set_.at("image_width") || d_ != set_.at("samples"))
+      throw std::runtime_error("scanlines.json contradicts itself");
+    compare("samples", value("r_max_mm") - r_min_, dr_ * d_, 1e-9);
+  }
+
+  struct Knot {
+    double hu, impedance, absorption;
+  };
+  /// The tissue table: linear between knots, constant beyond.
+  Knot tabled(double hu) const {
+    if (hu <= knots_.front().hu) return knots_.front();
+    for (std::size_t i = 1; i < knots_.size(); ++i) {
+      const Knot &a = knots_[i - 1], &b = knots_[i];
+      const double t = (hu - a.hu) / (b.hu - a.hu);
+      if (t <= 1)
+        return {hu, a.impedance + t * (b.impedance - a.impedance), a.absorption + t * (b.absorption - a.absorption)};
+    }
+    return knots_.back();
+  }
+  double with_gel(double hu, double r) const { return r < gel_mm_ && hu < coupling_air_hu_ ? 0 : hu; }
+  double impedance_at(const Vec3& p, double r) const { return tabled(with_gel(ct_.hounsfield(p), r)).impedance; }
+
+  /// From the CT: Hounsfield units, impedance, absorption, alpha and the angle of incidence.
+  void tissue() {
+    for (int line = 0; line < n_; ++line) {
+      const Vec3 along = directions_[std::size_t(line)];
+      // Beside the line, in the imaging plane: lines of a fan part in it, those of a linear array stand side by side.
+      Vec3 lateral = starts_.back() - starts_.front();
+      lateral = lateral - dot(lateral, along) * along;
+      lateral = 1 / length(lateral) * lateral;
+      const Vec3 elevation = cross(along, lateral);
+      for (int k = 0; k < d_; ++k) {
+        const double r = r_min_ + (k + 0.5) * dr_;
+        const Vec3 p = starts_[std::size_t(line)] + r * along;
+        const double hu = ct_.hounsfield(p);
+        compare("hounsfield", hu, plane("hounsfield").at(line, k), 1000 * kFloat + 1e-9);
+        // The float's own rounding, and that of the Hounsfield units on the table's steepest ramps.
+        const double hu_error = 1000 * kFloat, seen = with_gel(plane("hounsfield").at(line, k), r);
+        const double z = plane("impedance").at(line, k);
+        compare("impedance", tabled(seen).impedance, z, 0.007 * hu_error + kFloat * z + 1e-12);
+        const double a = plane("absorption").at(line, k);
+        compare("absorption", tabled(seen).absorption, a, 0.2 * hu_error + kFloat * a + 1e-12);
+
+        // (1) where half a reflection length is a whole number of samples: from the impedances alone.
+        const double alpha = plane("alpha").at(line, k);
+        const double rounding = 4 * kFloat;  // two impedances in both sum and difference
+        const double tolerated = 2 * std::sqrt(alpha) * rounding + rounding * rounding + kFloat * alpha;
+        const int m = int(std::lround(l_ / 2 / dr_));
+        if (std::abs(m * dr_ - l_ / 2) > 1e-9)
+          throw std::runtime_error("half a reflection length is no whole number of samples");
+        if (k >= m && k + m < d_) {
+          const double before = plane("impedance").at(line, k - m), behind = plane("impedance").at(line, k + m);
+          compare("alpha", std::pow((behind - before) / (behind + before), 2), alpha, tolerated);
+        }
+        // And from the CT at every sample, with the angle.
+        const double rise[] = {
+            impedance_at(p + l_ / 2 * along, r + l_ / 2) - impedance_at(p - l_ / 2 * along, r - l_ / 2),
+            impedance_at(p + l_ / 2 * lateral, r) - impedance_at(p - l_ / 2 * lateral, r),
+            impedance_at(p + l_ / 2 * elevation, r) - impedance_at(p - l_ / 2 * elevation, r)};
+        const double sum = impedance_at(p + l_ / 2 * along, r + l_ / 2) + impedance_at(p - l_ / 2 * along, r - l_ / 2);
+        compare("alpha from the CT", std::pow(rise[0] / sum, 2), alpha, tolerated);
+        const double steepness = std::sqrt(rise[0] * rise[0] + rise[1] * rise[1] + rise[2] * rise[2]);
+        // Where nothing rises by more than positions of 1e-12 mm can change, there is no angle to compare.
+        if (steepness > 1e-8)
+          compare("incidence", std::abs(rise[0]) / steepness, plane("incidence").at(line, k),
+                  2 * kFloat + 1e-13 / steepness);
+      }
+    }
+  }
+
+  /// (5) along each line, from alpha and the absorption.
+  void intensity() {
+    const double f = on("absorption") ? setting("frequency_mhz") : 0;
+    for (int line = 0; line < n_; ++line) {
+      double db = 0;        // of what is left of I
+      double rounding = 0;  // relative, of 1 - alpha in all steps so far
+      for (int k = 0; k < d_; ++k) {
+        const double step_db = plane("absorption").at(line, k) * f * dr_ / 10;
+        if (k == 0) db = -step_db / 2;
+        const double expected = std::pow(10, db / 10);
+        compare("transmission", expected, plane("transmission").at(line, k),
+                (tolerances_.intensity + rounding) * std::max(expected, 1e-6));
+        const double alpha = plane("alpha").at(line, k);
+        db += 10 * std::log10(1 - alpha) * dr_ / l_ - step_db;
+        rounding += kFloat * alpha / (1 - alpha) * dr_ / l_;
+      }
+    }
+  }
+
+  /// (3) from alpha, I and the angle.
+  void reflection() {
+    const double brightest = *std::max_element(plane("reflection").values.begin(), plane("reflection").values.end());
+    compare("brightest", 1, brightest > 1e-6, 0.5);  // a frame without echo would agree with anything
+    for (int line = 0; line < n_; ++line)
+      for (int k = 0; k < d_; ++k)
+        compare("reflection",
+                plane("alpha").at(line, k) * std::pow(plane("transmission").at(line, k), 2) *
+                    plane("incidence").at(line, k),
+                plane("reflection").at(line, k), tolerances_.reflection * brightest);
+  }
+
+  /// The window over the lines of the aperture, which nothing beyond the outer ones is part of.
+  std::vector<double> weights() const {
+    const int half = (set_.at("beam_lines").get<int>() - 1) / 2;
+    const std::string shape = set_.at("beam_window");
+    std::vector<double> all;
+    for (int j = -half; j <= half; ++j) {
+      const double t = j / (half + 1.0);
+      all.push_back(shape == "hann" ? std::pow(std::cos(kPi * t / 2), 2) : shape == "triangle" ? 1 - std::abs(t) : 1);
+    }
+    double sum = 0;
+    for (double weight : all) sum += weight;
+    for (double& weight : all) weight /= sum;
+    return all;
+  }
+  double across_lines(const Plane& from, int line, int k) const {
+    const int half = int(weights_.size()) / 2;
+    double sum = 0, total = 0;
+    for (int j = std::max(-half, -line); j <= std::min(half, n_ - 1 - line); ++j) {
+      sum += weights_[std::size_t(j + half)] * from.at(line + j, k);
+      total += weights_[std::size_t(j + half)];
+    }
+    return sum / total;
+  }
+
+  /// (4) from R.
+  void beam() {
+    weights_ = weights();
+    for (std::size_t i = 0; i < weights_.size(); ++i)
+      compare("beam_weights", weights_[i], about_.at("beam_weights").at(i), 1e-12);
+    for (int line = 0; line < n_; ++line)
+      for (int k = 0; k < d_; ++k) {
+        // Sums of positive numbers: in single precision each of the terms costs a rounding or two.
+        const double expected = across_lines(plane("reflection"), line, k);
+        compare("reflection_beam", expected, plane("reflection_beam").at(line, k),
+                4 * kFloat * double(weights_.size()) * expected + 1e-30);
+      }
+  }
+
+  /// The envelope of the scatterers' echo behind the same window.
+  void speckle() {
+    const bool speckle = on("speckle");
+    for (int line = 0; line < n_; ++line)
+      for (int k = 0; k < d_; ++k) {
+        const double re = across_lines(plane("echo_re"), line, k), im = across_lines(plane("echo_im"), line, k);
+        const double scale = speckle ? about_.at("envelope_scale").at(std::size_t(k)).get<double>() : 1.0;
+        compare("speckle", std::hypot(re, im) * scale, plane("speckle").at(line, k), tolerances_.speckle);
+        if (!speckle) {
+          const double amplitude = std::pow(10, plane("echogenicity").at(line, k) / 10);
+          compare("echo_re", amplitude, plane("echo_re").at(line, k), 100 * kFloat * amplitude);
+        }
+      }
+  }
+
+  /// Where each pixel lies among the lines, from the lines' own places.
+  void pixels() {
+    const auto& image = about_.at("image");
+    const auto& pose = about_.at("patient_from_probe");
+    const Vec3 d0 = directions_.front(), d1 = directions_.back();
+    const bool fan = length(cross(d0, d1)) > 1e-9;
+    // The point where the outer lines meet: start + t d on either, t by the sine rule.
+    const double opening = std::atan2(length(cross(d0, d1)), dot(d0, d1));
+    const double t = fan ? length(starts_.back() - starts_.front()) / 2 / std::sin(opening / 2) : 0;
+    const Vec3 apex = starts_.front() - t * d0;
+    const Vec3 across = starts_.back() - starts_.front();
+    Plane line_at = plane("pixel_line");
+    for (int y = 0; y < line_at.height; ++y)
+      for (int x = 0; x < line_at.width; ++x) {
+        const double in_probe[] = {
+            image.at("top_left_mm").at(0).get<double>() + x * image.at("mm_per_pixel").get<double>(),
+            image.at("top_left_mm").at(1).get<double>() + y * image.at("mm_per_pixel").get<double>()};
+        Vec3 p{};
+        for (std::size_t row = 0; row < 3; ++row)
+          p[row] = pose.at(4 * row).get<double>() * in_probe[0] + pose.at(4 * row + 1).get<double>() * in_probe[1] +
+                   pose.at(4 * row + 3).get<double>();
+        double line = 0, r = 0;
+        if (fan) {
+          const Vec3 from_apex = p - apex, normal = cross(d0, d1);
+          const double angle = std::atan2(dot(cross(d0, from_apex), normal) / length(normal), dot(d0, from_apex));
+          line = angle / opening * (n_ - 1);
+          r = length(from_apex) - t;
+        } else {
+          line = dot(p - starts_.front(), across) / dot(across, across) * (n_ - 1);
+          r = dot(p - starts_.front(), d0);
+        }
+        const double sample = (r - r_min_) / dr_ - 0.5;
+        const double to_edge = std::min({line + 0.5, n_ - 0.5 - line, sample + 0.5, d_ - 0.5 - sample});
+        if (std::abs(to_edge) < 1e-6) continue;  // on the edge, where rounding decides
+        compare("pixel_line", to_edge > 0 ? line : -2, line_at.at(x, y), kFloat * n_ + 1e-9);
+        compare("pixel_sample", to_edge > 0 ? sample : -2, plane("pixel_sample").at(x, y), kFloat * d_ + 1e-9);
+      }
+  }
+
+  bool inside(int x, int y) const { return plane("pixel_line").at(x, y) > -1; }
+
+  /// Bilinear among the lines, which end in their middles.
+  Plane converted(const Plane& from) const {
+    Plane to = plane("pixel_line");
+    for (int y = 0; y < to.height; ++y)
+      for (int x = 0; x < to.width; ++x) {
+        if (!inside(x, y)) {
+          to.at(x, y) = 0;
+          continue;
+        }
+        const double line = std::clamp(plane("pixel_line").at(x, y), 0.0, n_ - 1.0);
+        const double sample = std::clamp(plane("pixel_sample").at(x, y), 0.0, d_ - 1.0);
+        const int i = std::min(int(line), n_ - 2), k = std::min(int(sample), d_ - 2);
+        const double u = line - i, v = sample - k;
+        to.at(x, y) = (1 - u) * (1 - v) * from.at(i, k) + u * (1 - v) * from.at(i + 1, k) +
+                      (1 - u) * v * from.at(i, k + 1) + u * v * from.at(i + 1, k + 1);
+      }
+    return to;
+  }
+
+  /// A Gaussian over what lies inside the fan, out to three sigma.
+  Plane smoothed(Plane from, double sigma_mm) const {
+    const double sigma = sigma_mm / about_.at("image").at("mm_per_pixel").get<double>();
+    if (sigma < 0.05) return from;
+    const int radius = int(std::ceil(3 * sigma));
+    for (const bool vertical : {false, true}) {
+      Plane to = from;
+      for (int y = 0; y < from.height; ++y)
+        for (int x = 0; x < from.width; ++x) {
+          if (!inside(x, y)) continue;
+          double sum = 0, total = 0;
+          for (int j = -radius; j <= radius; ++j) {
+            const int u = vertical ? x : x + j, v = vertical ? y + j : y;
+            if (u < 0 || v < 0 || u >= from.width || v >= from.height || !inside(u, v)) continue;
+            const double weight = std::exp(-j * j / (2 * sigma * sigma));
+            sum += weight * from.at(u, v);
+            total += weight;
+          }
+          to.at(x, y) = sum / total;
+        }
+      from = to;
+    }
+    return from;
+  }
+
+  /// (6) from R behind the beam, I and S.
+  void fusion() {
+    Plane transmission = plane("transmission");
+    if (on("two_way"))
+      for (double& i : transmission.values) i *= i;
+    const Plane r = smoothed(converted(plane("reflection_beam")), setting("reflection_sigma_mm"));
+    const Plane t = smoothed(converted(transmission), setting("transmission_sigma_mm"));
+    const Plane s = converted(plane("speckle"));
+    Plane expected = r;
+    for (std::size_t i = 0; i < r.values.size(); ++i)
+      expected.values[i] = (r.values[i] + setting("blend") * t.values[i]) * s.values[i];
+    for (int y = 0; y < r.height; ++y)
+      for (int x = 0; x < r.width; ++x) {
+        double brightest = 1e-20;
+        for (int v = std::max(y - 1, 0); v <= std::min(y + 1, r.height - 1); ++v)
+          for (int u = std::max(x - 1, 0); u <= std::min(x + 1, r.width - 1); ++u)
+            brightest = std::max(brightest, expected.at(u, v));
+        compare("fused", expected.at(x, y), plane("fused").at(x, y), tolerances_.fused * brightest);
+      }
+  }
+
+  /// (7) from U.
+  void compression() {
+    const Plane& u = plane("fused");
+    const auto& tgc = set_.at("tgc_db");
+    Plane db = u;  // of the echo behind gain
+    double brightest = -HUGE_VAL;
+    for (int y = 0; y < u.height; ++y)
+      for (int x = 0; x < u.width; ++x) {
+        const double depth = std::clamp((plane("pixel_sample").at(x, y) + 0.5) / d_, 0.0, 1.0) * double(tgc.size() - 1);
+        const std::size_t below = std::min(std::size_t(depth), tgc.size() - 2);
+        const double low = tgc.at(below), high = tgc.at(below + 1);
+        db.at(x, y) = inside(x, y) && u.at(x, y) > 0 ? 10 * std::log10(u.at(x, y)) + low +
+                                                           (high - low) * (depth - double(below)) + setting("gain_db")
+                                                     : -HUGE_VAL;
+        brightest = std::max(brightest, db.at(x, y));
+      }
+    const double white =
+        set_.at("reference_level") == "frame_maximum" ? brightest : 10 * std::log10(setting("fixed_level"));
+    for (std::size_t i = 0; i < db.values.size(); ++i) {
+      const double grey = 255 * std::clamp(1 + (db.values[i] - white) / setting("dynamic_range_db"), 0.0, 1.0);
+      // Half a level is rounding to whole ones; the hundredth is single precision's, whose logarithms of factors of
+      // 10^30 are good to about 1e-5 dB.
+      compare("image", grey, plane("image").values[i], 0.51);
+    }
+  }
+
+  const nlohmann::json &about_, &set_;
+  const std::map<std::string, Plane>& planes_;
+  const SyntheticCt& ct_;
+  const Tolerances tolerances_;
+  std::vector<Vec3> starts_, directions_;
+  std::vector<Knot> knots_;
+  std::vector<double> weights_;
+  int n_ = 0, d_ = 0;
+  double dr_ = 0, r_min_ = 0, l_ = 0, gel_mm_ = 0, coupling_air_hu_ = 0;
+  std::map<std::string, double> worst_;
+};
+
+}  // namespace
+
+StageFolder read_stage_folder(const std::filesystem::path& folder) {
+  StageFolder stages;
+  std::ifstream stream(folder / "scanlines.json");
+  stages.description = nlohmann::json::parse(stream);
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().extension() == ".nrrd") stages.planes[entry.path().stem().string()] = read_nrrd(entry.path());
+  return stages;
+}
+
+std::map<std::string, double> misfits(const StageFolder& stages, const SyntheticCt& ct, const Tolerances& tolerances) {
+  return Recomputation(stages, ct, tolerances).all();
+}
+
+}  // namespace outsider

@@ -1,0 +1,234 @@
+#include "tools/render_stages.h"
+
+#include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include <bit>
+#include <cmath>
+#include <system_error>
+
+#include "sim/core/files.h"
+#include "sim/core/input_error.h"
+#include "sim/model/beam.h"
+#include "sim/model/settings_file.h"
+#include "sim/reference/reference.h"
+
+namespace insonate {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr double kCouplingAirHu = -300;  // within the gel layer, what is less dense is gel: as in the reference
+constexpr double kOutsideFan = -2;       // of pixel_line and pixel_sample
+
+Image<float> in_single_precision(const Image<double>& image) {
+  Image<float> rounded(image.width, image.height);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) rounded.pixels[i] = float(image.pixels[i]);
+  return rounded;
+}
+
+/// What the sound meets at each sample.
+struct Tissue {
+  Image<float> hounsfield, echogenicity, impedance, absorption, alpha, incidence;
+};
+
+Tissue tissue_along(const ScanLines& lines, const RenderedScene& scene) {
+  const MediumField field = trilinear_field(scene.volume);
+  const double l = scene.settings.reflection_length_mm;
+  const int n = int(lines.lines.size()), d = lines.samples;
+  const Image<float> empty(n, d);
+  Tissue tissue{empty, empty, empty, empty, empty, empty};
+
+  const auto knot = [&](double hu, double r_mm) {
+    return scene.table.at(r_mm < scene.settings.gel_mm && hu < kCouplingAirHu ? 0.0 : hu);
+  };
+  for (int line = 0; line < n; ++line) {
+    const ScanLine& in_probe = lines.lines[std::size_t(line)];
+    const glm::dvec3 start = scene.patient_from_probe.point(in_probe.start);
+    const glm::dvec3 along = scene.patient_from_probe.direction(in_probe.direction);
+    const glm::dvec3 lateral = scene.patient_from_probe.direction({in_probe.direction.y, -in_probe.direction.x, 0});
+    const glm::dvec3 elevation = glm::cross(along, lateral);
+    for (int k = 0; k < d; ++k) {
+      const double r = lines.r_min_mm + (k + 0.5) * lines.dr_mm();
+      const glm::dvec3 p = start + r * along;
+      const auto impedance = [&](const glm::dvec3& offset, double depth) {
+        return knot(field(p + offset).hu, depth).impedance_mrayl;
+      };
+      const Medium here = field(p);
+      const TissueKnot met = knot(here.hu, r);
+      tissue.hounsfield.at(line, k) = float(here.hu);
+      tissue.echogenicity.at(line, k) = float(here.echogenicity_db);
+      tissue.impedance.at(line, k) = float(met.impedance_mrayl);
+      tissue.absorption.at(line, k) = float(met.absorption_db_cm_mhz);
+
+      const double before = impedance(-l / 2 * along, r - l / 2), behind = impedance(l / 2 * along, r + l / 2);
+      const double contrast = (behind - before) / (behind + before);
+      const glm::dvec3 rise(behind - before, impedance(l / 2 * lateral, r) - impedance(-l / 2 * lateral, r),
+                            impedance(l / 2 * elevation, r) - impedance(-l / 2 * elevation, r));
+      const double steepness = glm::length(rise);
+      tissue.alpha.at(line, k) = float(contrast * contrast);
+      tissue.incidence.at(line, k) = float(steepness > 0 ? std::abs(rise.x) / steepness : 0);
+    }
+  }
+  return tissue;
+}
+
+struct PixelPositions {
+  Image<float> line, sample;
+};
+
+PixelPositions pixel_positions(const RenderedScene& scene, const ScanLines& lines, const ImageGeometry& geometry) {
+  const Image<float> outside(geometry.width, geometry.height, float(kOutsideFan));
+  PixelPositions positions{outside, outside};
+  for (int y = 0; y < geometry.height; ++y)
+    for (int x = 0; x < geometry.width; ++x)
+      if (const auto at = line_position(scene.probe, scene.depth_mm, geometry.plane_mm(x, y))) {
+        positions.line.at(x, y) = float(at->line);
+        positions.sample.at(x, y) = float((at->r_mm - lines.r_min_mm) / lines.dr_mm() - 0.5);
+      }
+  return positions;
+}
+
+Json json(const glm::dvec3& v) {
+  return {v.x, v.y, v.z};
+}
+
+Json description(const RenderedScene& scene, const ScanLines& lines, const ImageGeometry& geometry,
+                 const std::string& made_by) {
+  const Grid& grid = scene.volume.grid;
+  const glm::dmat4 pose = scene.patient_from_probe.matrix();
+  Json text;
+  text["format"] = 1;
+  text["made_by"] = made_by;
+  text["probe"] = scene.probe.name;
+  text["depth_mm"] = scene.depth_mm;
+  text["lines"] = lines.lines.size();
+  text["samples"] = lines.samples;
+  text["r_min_mm"] = lines.r_min_mm;
+  text["r_max_mm"] = lines.r_max_mm;
+  text["dr_mm"] = lines.dr_mm();
+  text["reflection_length_mm"] = scene.settings.reflection_length_mm;
+  text["frequency_mhz"] = scene.settings.frequency_mhz;
+  text["coupling_air_hu"] = kCouplingAirHu;
+  for (int i = 0; i < 16; ++i) text["patient_from_probe"].push_back(pose[i % 4][i / 4]);
+  text["image"] = {{"width", geometry.width},
+                   {"height", geometry.height},
+                   {"mm_per_pixel", geometry.mm_per_pixel},
+                   {"top_left_mm", {geometry.top_left_mm.x, geometry.top_left_mm.y}}};
+  text["volume"] = {{"size", {grid.size.x, grid.size.y, grid.size.z}},
+                    {"spacing_mm", json(grid.spacing)},
+                    {"origin_mm", json(grid.origin)},
+                    {"axes", {json(grid.direction[0]), json(grid.direction[1]), json(grid.direction[2])}}};
+  for (const auto& [name, value] : named_settings(scene.settings))
+    text["settings"][name] = std::visit([](const auto& held) { return Json(held); }, value);
+  for (const TissueKnot& knot : scene.table.knots)
+    text["tissues"].push_back({{"hu", knot.hu},
+                               {"impedance_mrayl", knot.impedance_mrayl},
+                               {"absorption_db_cm_mhz", knot.absorption_db_cm_mhz},
+                               {"echogenicity_db", knot.echogenicity_db}});
+  text["beam_weights"] = beam_weights(scene.settings);
+  text["envelope_scale"] = envelope_scale(lines, scene.settings);
+  for (const ScanLine& line : lines.lines)
+    text["scan_lines"].push_back({{"start_mm", json(scene.patient_from_probe.point(line.start))},
+                                  {"direction", json(scene.patient_from_probe.direction(line.direction))}});
+  return text;
+}
+
+void write_nrrd(const fs::path& file, const Image<float>& image, const char* axes, const std::string& content) {
+  static_assert(std::endian::native == std::endian::little);
+  std::string bytes = "NRRD0004\ncontent: " + content +
+                      "\ntype: float\ndimension: 2\nsizes: " + std::to_string(image.width) + " " +
+                      std::to_string(image.height) + "\nlabels: " + axes + "\nendian: little\nencoding: raw\n\n";
+  bytes.append(reinterpret_cast<const char*>(image.pixels.data()), image.pixels.size() * sizeof(float));
+  write_file(file, bytes);
+}
+
+void write_files(const fs::path& folder, const RenderedScene& scene, const Stages<float>& stages,
+                 const std::string& made_by) {
+  const Settings& settings = scene.settings;
+  const ScanLines lines = scan_lines(scene.probe, scene.depth_mm, settings.samples);
+  const ImageGeometry geometry =
+      image_geometry(scene.probe, scene.depth_mm, settings.image_width, settings.image_height);
+  write_file(folder / "scanlines.json", description(scene, lines, geometry, made_by).dump(1) + "\n");
+
+  const auto among_lines = [&](const char* name, const Image<float>& image, const char* content) {
+    write_nrrd(folder / (std::string(name) + ".nrrd"), image, "\"line\" \"sample\"", content);
+  };
+  const Tissue tissue = tissue_along(lines, scene);
+  among_lines("hounsfield", tissue.hounsfield, "Hounsfield units of the volume, trilinear");
+  among_lines("echogenicity", tissue.echogenicity, "backscatter relative to liver, dB");
+  among_lines("impedance", tissue.impedance, "Z, MRayl; gel in place of air within gel_mm");
+  among_lines("absorption", tissue.absorption, "a, dB/(cm MHz), one way; gel as in impedance");
+  among_lines("alpha", tissue.alpha, "alpha (1): ((Z(r + l/2) - Z(r - l/2)) / (Z(r + l/2) + Z(r - l/2)))^2");
+  among_lines("incidence", tissue.incidence, "|d . n|, n from differences of Z over l along three axes");
+  const ReferenceScan scan =
+      traverse_reference(trilinear_field(scene.volume), scene.table, lines, settings, scene.patient_from_probe);
+  among_lines("echo_re", in_single_precision(scan.echo_re), "the scatterers' echo before the beam's width, real part");
+  among_lines("echo_im", in_single_precision(scan.echo_im), "the same, imaginary part");
+  among_lines("transmission", stages.intensity, "I (5), relative to the intensity at the face");
+  among_lines("reflection", stages.reflection, "R (3) before the beam's width");
+  among_lines("reflection_beam", stages.reflection_beam, "R behind the beam's width (4)");
+  among_lines("speckle", stages.speckle, "S: envelope of the scatterers' echo behind the beam's width");
+
+  const auto as_picture = [&](const char* name, const Image<float>& image, const char* content) {
+    write_nrrd(folder / (std::string(name) + ".nrrd"), image, "\"x\" \"y\"", content);
+  };
+  const PixelPositions positions = pixel_positions(scene, lines, geometry);
+  as_picture("pixel_line", positions.line, "scan line at the pixel, 0 on the first; -2 outside the fan");
+  as_picture("pixel_sample", positions.sample, "sample at the pixel, 0 on the first; -2 outside the fan");
+  as_picture("fused", stages.fused, "U (6), before gain");
+  Image<float> grey(stages.grey.width, stages.grey.height);
+  for (std::size_t i = 0; i < grey.pixels.size(); ++i) grey.pixels[i] = float(stages.grey.pixels[i]);
+  as_picture("image", grey, "grey level behind gain and log compression (7), 0 to 255");
+}
+
+fs::path without_slash(const fs::path& folder) {
+  return folder.has_filename() ? folder : folder.parent_path();
+}
+
+}  // namespace
+
+Stages<float> in_single_precision(const Stages<double>& stages) {
+  return {in_single_precision(stages.intensity),
+          in_single_precision(stages.reflection),
+          in_single_precision(stages.reflection_beam),
+          in_single_precision(stages.transmission),
+          in_single_precision(stages.speckle),
+          in_single_precision(stages.fused),
+          stages.inside,
+          stages.grey};
+}
+
+void refuse_taken(const fs::path& folder) {
+  std::error_code error;
+  if (fs::exists(fs::symlink_status(without_slash(folder), error)))
+    throw InputError(folder.string(), "", "something of this name is there", "name a folder that is new");
+}
+
+void write_stages(const fs::path& folder, const RenderedScene& scene, const Stages<float>& stages,
+                  const std::string& made_by) {
+  const fs::path target = without_slash(folder);
+  fs::path temporary = target;
+  temporary.replace_filename("." + target.filename().string() + "." + std::to_string(getpid()) + ".partial");
+  std::error_code error, ignored;
+  fs::create_directories(temporary, error);
+  if (!error) {
+    try {
+      write_files(temporary, scene, stages, made_by);
+      refuse_taken(target);
+    } catch (...) {
+      fs::remove_all(temporary, ignored);
+      throw;
+    }
+    fs::rename(temporary, target, error);
+  }
+  if (error) {
+    fs::remove_all(temporary, ignored);
+    throw InputError(folder.string(), "", "the folder cannot be written (" + error.message() + ")",
+                     "name a folder that may be written");
+  }
+}
+
+}  // namespace insonate
