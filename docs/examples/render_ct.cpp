@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <exception>
+#include <stdexcept>
 
 #include "sim/core/files.h"
 #include "sim/core/image.h"

@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <png.h>
 
+#include <algorithm>
+
 #include "tests/tools/render/render_program.h"
 #include "tests/tools/render/stage_folder.h"
 

@@ -2,6 +2,9 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <cmath>
+
 #include "tests/tools/render/render_program.h"
 #include "tests/tools/render/stage_folder.h"
 
