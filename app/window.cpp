@@ -65,6 +65,7 @@ struct Events {
   bool any = false;
   Keyboard keyboard;
   Mouse mouse;
+  ImVec2 pointer;
   std::vector<std::filesystem::path> dropped;
 };
 
@@ -88,13 +89,15 @@ void listen(GLFWwindow* window, Events& events) {
     events_of(w).any = true;
     events_of(w).keyboard.note({KeyEvent::Kind::typed, GLFW_KEY_UNKNOWN, 0, character});
   });
+  // Asked for its pointer, GLFW tells where that is now, not where it was at an event.
+  glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
+    events_of(w).any = true;
+    events_of(w).pointer = ImVec2(float(x), float(y));
+  });
   glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int) {
     events_of(w).any = true;
-    double x = 0, y = 0;
-    glfwGetCursorPos(w, &x, &y);
-    if (button < Mouse::kButtons) events_of(w).mouse.note({button, action == GLFW_PRESS, ImVec2(float(x), float(y))});
+    if (button < Mouse::kButtons) events_of(w).mouse.note({button, action == GLFW_PRESS, events_of(w).pointer});
   });
-  glfwSetCursorPosCallback(window, [](GLFWwindow* w, double, double) { events_of(w).any = true; });
   // These go to ImGui as they are.
   glfwSetScrollCallback(window, [](GLFWwindow* w, double x, double y) {
     events_of(w).any = true;

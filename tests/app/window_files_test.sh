@@ -1,14 +1,15 @@
 #!/usr/bin/env bash
 # What a person drops on the trainer's window, drags in its 3D view, edits beside it, and closes too early.
-#   window_files_test.sh PROGRAM ASSETS_FOLDER DROP_FILE_PROGRAM SHADER_FOLDER
-drop=$3
+#   window_files_test.sh PROGRAM ASSETS_FOLDER DESKTOP_PROGRAM SHADER_FOLDER
+desktop=$3
 shaders=$4
 . "$(dirname "$0")/window_session.sh"
 
 echo "a window closed while the patient is made does not wait for it"
 XDG_CACHE_HOME="$work/cache" start_trainer
 await "the patient is being made" is overlay loading
-xdotool search --name '^Insonate$' windowquit
+pointer_to 640 400
+"$desktop" close || fail "there is no window to close"
 wait "$trainer" || fail "the trainer ended with an error"
 [ -z "$(find "$work/cache" -name case.toml 2>/dev/null)" ] || fail "the trainer waited until the patient was made"
 [ ! -s "$work/log" ] || fail "the trainer complains: $(cat "$work/log")"
@@ -20,7 +21,7 @@ await "the session starts" is activity exam
 echo "files are dropped on the window"
 drop_here() {
   pointer_to "$(middle_x ultrasound)" "$(middle_y ultrasound)"
-  "$drop" "$@" || fail "the window did not take: $*"
+  "$desktop" drop "$@" || fail "the window did not take: $*"
 }
 xdotool key Tab
 await "the learner has the probe" is holder learner
@@ -43,7 +44,7 @@ is activity practice || fail "a CT of one's own has no exam"
 : >"$work/picture.jpg"
 drop_here "$work/picture.jpg"
 await "what is no patient brings a dialog" is overlay problem
-value problem | grep -q picture.jpg || fail "the dialog does not name the file: $(value problem)"
+grep -q '"problem": ".*picture.jpg' "$state" || fail "the dialog does not name the file"
 import -window root "$work/refused.png"
 xdotool key Escape
 await "Escape acknowledges" is overlay ""
