@@ -1,0 +1,144 @@
+// insonate-bench as a person runs it, on a small case and with settings that take no time. What it measures depends on
+// the machine and is not asserted.
+
+#include <catch2/catch.hpp>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+#include <string>
+
+#include "sim/core/files.h"
+#include "tests/scenarios/tiny_case.h"
+#include "tools/bench_table.h"
+
+using namespace insonate;
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Fixture {
+  fs::path folder = fs::temp_directory_path() / ("insonate-bench-" + std::to_string(getpid()));
+  fs::path csv = folder / "table.csv";
+  std::string output;
+
+  Fixture() { write_case(folder / "tiny", tiny_case()); }
+  ~Fixture() { fs::remove_all(folder); }
+
+  int run(const std::string& arguments) {
+    FILE* pipe = popen((std::string(INSONATE_BENCH_PROGRAM) + " " + arguments + " 2>&1").c_str(), "r");
+    REQUIRE(pipe);
+    output.clear();
+    std::array<char, 4096> part;
+    while (const std::size_t got = std::fread(part.data(), 1, part.size(), pipe)) output.append(part.data(), got);
+    return WEXITSTATUS(pclose(pipe));
+  }
+
+  /// Runs a measurement of two small configurations and checks what every table must hold.
+  bench::Table measure(const std::string& command, const std::string& configurations = "24,40,40,30,18,30,20,30") {
+    const int exit_code = run(command + " --case " + (folder / "tiny").string() + " --frames 3 --configuration " +
+                              configurations + " --csv " + csv.string());
+    INFO(output);
+    REQUIRE(exit_code == 0);
+    bench::Table table = bench::Table::parse("table.csv", read_file(csv));
+    for (std::size_t i = 0; i < table.rows.size(); ++i) {
+      const auto number = [&](const char* name) { return table.number("table.csv", i, name); };
+      CHECK(table.cell(i, "case") == "Ball in a block");
+      CHECK_FALSE(table.cell(i, "device").empty());
+      CHECK(number("q1_ms") > 0);
+      CHECK(number("q1_ms") <= number("median_ms"));
+      CHECK(number("median_ms") <= number("q3_ms"));
+    }
+    return table;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("insonate-bench paper: both methods see the same, and the ratio on the last line is the table's smallest") {
+  Fixture f;
+  const bench::Table table = f.measure("paper");
+  REQUIRE(table.rows.size() == 8);  // two modes, two configurations, two methods
+  double smallest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < table.rows.size(); i += 2) {
+    const auto number = [&](std::size_t row, const char* name) { return table.number("table.csv", row, name); };
+    CHECK(table.cell(i, "method") == "passes");
+    CHECK(table.cell(i + 1, "method") == "insonate");
+    CHECK(table.cell(i, "lines") == (i % 4 == 0 ? "24" : "18"));
+    smallest = std::min(smallest, number(i, "median_ms") / number(i + 1, "median_ms"));
+    // Single precision moves both by 1e-4 at most, which is 4e-4 dB; the distance between samples costs far more.
+    CHECK(number(i, "error_db") > 0);
+    CHECK(number(i, "error_db") == Approx(number(i + 1, "error_db")).margin(1e-3));
+    CHECK(number(i, "error_r_db") == Approx(number(i + 1, "error_r_db")).margin(1e-3));
+    CHECK(number(i, "evaluated") == number(i, "possible"));
+    CHECK(number(i + 1, "evaluated") <= number(i, "possible"));
+  }
+  const std::string words = "\nsmallest ratio ";
+  const std::size_t last = f.output.rfind(words);
+  REQUIRE(last != std::string::npos);
+  // Two digits behind the point, from times of which the CSV keeps four.
+  CHECK(std::stod(f.output.substr(last + words.size())) == Approx(smallest).epsilon(0.01).margin(0.006));
+}
+
+TEST_CASE("insonate-bench frames: the stages' shares make a whole, and a still frame runs none") {
+  Fixture f;
+  const bench::Table table = f.measure("frames");
+  REQUIRE(table.rows.size() == 2);
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    double sum = 0;
+    for (const std::string& column : table.columns)
+      if (column.ends_with("_share")) sum += table.number("table.csv", i, column);
+    CHECK(sum == Approx(1).margin(1e-3));  // seven shares with four digits
+    CHECK(table.cell(i, "runs_still") == "0");
+  }
+}
+
+TEST_CASE("insonate-bench front: errors against the converged reference, a front, and a plot of it") {
+  Fixture f;
+  const fs::path svg = f.folder / "front.svg";
+  const bench::Table table = f.measure("front --svg " + svg.string(), "24,1600,60,45,24,200,60,45,24,1600,20,15");
+  REQUIRE(table.rows.size() == 3 + 3);
+  const auto error = [&](std::size_t row) { return table.number("table.csv", row, "error_db"); };
+  CHECK(error(0) > 0);
+  CHECK(error(1) > 2 * error(0));  // an eighth of the samples
+  CHECK(error(2) > 2 * error(0));  // a ninth of the pixels
+  CHECK(table.cell(3, "setting") == "no speckle");
+  CHECK(error(3) > 2);  // the envelope of speckle is off by 5.6 dB from its mean wherever there is echo
+  CHECK(std::count_if(table.rows.begin(), table.rows.end(), [](const auto& row) { return row.back() == "1"; }) >= 1);
+  CHECK(read_file(svg).starts_with("<svg"));
+  CHECK(f.output.find("The default ") != std::string::npos);
+}
+
+TEST_CASE("insonate-bench compare: a run against itself has not changed") {
+  Fixture f;
+  f.measure("frames");
+  CHECK(f.run("compare " + f.csv.string() + " " + f.csv.string()) == 0);
+  CHECK(f.output.find("2 settings, median ratio 1.000; beyond the spread: 0 slower, 0 faster") != std::string::npos);
+}
+
+TEST_CASE("insonate-bench says what is wrong in one line and exits with 2") {
+  Fixture f;
+  const std::string tiny = "--case " + (f.folder / "tiny").string();
+  const std::pair<std::string, const char*> wrong[] = {
+      {"frames --case /nowhere/ct.nii.gz", "/nowhere/ct.nii.gz"},
+      {"paper " + tiny + " --view bal", "did you mean 'ball'?"},
+      {"front " + tiny + " --configuration 1,2,3", "LINES,SAMPLES,WIDTH,HEIGHT"},
+      {"frames " + tiny + " --configuration 1,2,3,0", "0 lies outside 1 to 8192"},
+      {"compare /nowhere/a.csv /nowhere/b.csv", "/nowhere/a.csv"},
+      {"compare /dev/null /dev/null", "no ordinary file"},
+  };
+  for (const auto& [arguments, expected] : wrong) {
+    CAPTURE(arguments);
+    CHECK(f.run(arguments) == 2);
+    CAPTURE(f.output);
+    CHECK(f.output.find(expected) != std::string::npos);
+    CHECK(std::count(f.output.begin(), f.output.end(), '\n') <= 2);  // the device, then the sentence
+  }
+  CHECK(f.run("") == 2);
+  CHECK(f.run("--help") == 0);
+}

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include "tools/bench_scene.h"
+#include "tools/bench_table.h"
+
+/// The commands of insonate-bench: each prints its table as it goes and returns it for --csv.
+namespace insonate::bench {
+
+/// What a frame costs with a moving probe, by configuration, and each stage's share of it.
+Table measure_frames(const Request& request);
+
+/// The traversal against the paper's own method, both in turn, and each one's error against the converged reference.
+Table measure_paper(const Request& request);
+
+/// Run time against error over the settings. Scenes' plots go into one SVG unless `svg` is empty.
+Table measure_front(const Request& request, const std::string& svg);
+
+/// Prints how the run times of two CSVs differ, setting by setting. Throws InputError.
+void compare_runs(const std::string& old_file, const std::string& new_file);
+
+}  // namespace insonate::bench

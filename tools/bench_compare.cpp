@@ -1,0 +1,85 @@
+#include "tools/bench_compare.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <map>
+
+#include "sim/core/files.h"
+#include "sim/core/input_error.h"
+#include "tools/bench_commands.h"
+#include "tools/bench_statistics.h"
+
+namespace insonate::bench {
+namespace {
+
+constexpr std::array<const char*, 3> kTimes = {"q1_ms", "median_ms", "q3_ms"};
+// What is measured or only told: everything else names the setting. Stages' shares end in _share.
+constexpr std::array<const char*, 9> kMeasured = {"device",     "frames",    "runs_still", "error_db", "error_grey",
+                                                  "error_r_db", "evaluated", "possible",   "on_front"};
+
+bool names_setting(const std::string& column) {
+  const auto is = [&](const char* name) { return column == name; };
+  return std::none_of(kTimes.begin(), kTimes.end(), is) && std::none_of(kMeasured.begin(), kMeasured.end(), is) &&
+         !column.ends_with("_share");
+}
+
+std::string setting_of(const Table& table, std::size_t row) {
+  std::string text;
+  for (std::size_t c = 0; c < table.columns.size(); ++c)
+    if (names_setting(table.columns[c]))
+      text += (text.empty() ? "" : ", ") + table.columns[c] + "=" + table.rows[row][c];
+  return text;
+}
+
+void check(const std::string& file, const Table& table) {
+  for (const char* name : kTimes)
+    if (std::find(table.columns.begin(), table.columns.end(), name) == table.columns.end())
+      throw InputError(file, "", std::string("there is no column '") + name + "'",
+                       "give a file that insonate-bench --csv wrote");
+}
+
+}  // namespace
+
+std::vector<Change> changes(const std::string& old_file, const Table& before, const std::string& new_file,
+                            const Table& after) {
+  check(old_file, before);
+  check(new_file, after);
+  std::map<std::string, std::size_t> row_of;
+  for (std::size_t i = 0; i < after.rows.size(); ++i) row_of[setting_of(after, i)] = i;
+
+  std::vector<Change> found;
+  for (std::size_t i = 0; i < before.rows.size(); ++i) {
+    const auto match = row_of.find(setting_of(before, i));
+    if (match == row_of.end()) continue;
+    const auto was = [&](const char* name) { return before.number(old_file, i, name); };
+    const auto is = [&](const char* name) { return after.number(new_file, match->second, name); };
+    found.push_back({match->first, was("median_ms"), is("median_ms"), is("median_ms") / was("median_ms"),
+                     is("q1_ms") / was("q3_ms"), is("q3_ms") / was("q1_ms")});
+  }
+  if (found.empty())
+    throw InputError(new_file, "", "none of its settings is in " + old_file, "compare two runs of the same command");
+  return found;
+}
+
+void compare_runs(const std::string& old_file, const std::string& new_file) {
+  const Table before = Table::parse(old_file, read_file(old_file)), after = Table::parse(new_file, read_file(new_file));
+  std::vector<double> ratios;
+  int slower = 0, faster = 0;
+  std::printf("  old ms    new ms   ratio  (by the quartiles)\n");
+  for (const Change& change : changes(old_file, before, new_file, after)) {
+    std::printf("%8.2f  %8.2f  %6.3f  (%.3f to %.3f)  %-6s  %s\n", change.old_ms, change.new_ms, change.ratio,
+                change.least_ratio, change.most_ratio,
+                change.slower()   ? "SLOWER"
+                : change.faster() ? "faster"
+                                  : "",
+                change.setting.c_str());
+    ratios.push_back(change.ratio);
+    slower += change.slower();
+    faster += change.faster();
+  }
+  std::printf("%zu settings, median ratio %.3f; beyond the spread: %d slower, %d faster\n", ratios.size(),
+              spread_of(ratios).median, slower, faster);
+}
+
+}  // namespace insonate::bench

@@ -1,0 +1,108 @@
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <numeric>
+
+#include "sim/gl/headless_context.h"
+#include "sim/gl/simulator.h"
+#include "sim/gl/upload.h"
+#include "tools/bench_commands.h"
+#include "tools/bench_statistics.h"
+
+namespace insonate::bench {
+namespace {
+
+// In the order of gl::Stage.
+constexpr std::array<const char*, gl::kStageCount> kStages = {"traverse", "beam",    "scan_convert", "smooth",
+                                                              "fuse",     "maximum", "compress"};
+
+long runs_in_all(const gl::Simulator& simulator) {
+  return std::accumulate(simulator.runs().begin(), simulator.runs().end(), 0L);
+}
+
+/// What each stage takes when the device is waited for behind each, as shares of their sum.
+std::array<double, gl::kStageCount> stage_shares(gl::Simulator& simulator, const Pose& start, int frames) {
+  std::array<std::vector<double>, gl::kStageCount> times;
+  for (int frame = 0; frame < frames; ++frame) {
+    simulator.set_pose(wandering(start, frame));
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      const auto begin = std::chrono::steady_clock::now();
+      run_through(simulator, gl::Stage(i));
+      glFinish();
+      times[i].push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+    }
+  }
+  std::array<double, gl::kStageCount> shares;
+  std::transform(times.begin(), times.end(), shares.begin(), [](const auto& t) { return spread_of(t).median; });
+  const double sum = std::accumulate(shares.begin(), shares.end(), 0.0);
+  for (double& share : shares) share /= sum;
+  return shares;
+}
+
+}  // namespace
+
+Table measure_frames(const Request& request) {
+  // The trainer's own picture first.
+  std::vector<Configuration> usual = {{192, 512, 512, 512}};
+  usual.insert(usual.end(), kPaperConfigurations.begin(), kPaperConfigurations.end());
+  const std::vector<Configuration> sizes = configurations(request, usual);
+
+  Table table{{"device", "case", "view", "lines", "samples", "width", "height", "frames", "q1_ms", "median_ms", "q3_ms",
+               "runs_still"},
+              {}};
+  for (const char* stage : kStages) table.columns.push_back(std::string(stage) + "_share");
+
+  const gl::HeadlessContext context;
+  std::printf("%s\n", gl::device_description().c_str());
+  for_each_scene(request, [&](const Scene& scene) {
+    gl::Simulator simulator;
+    gl::upload_ct(scene.file, scene.volume.grid, [&] { simulator.set_volume(scene.volume, scene.table); });
+    std::printf("\n%s, view %s, a frame with a moving probe, ms\n", scene.name.c_str(), scene.view.c_str());
+    std::printf(
+        "lines x samples  picture       median  (quartiles)        stages of a still frame  shares of stages\n");
+    Probe probe = scene.probe;
+    for (const Configuration& c : sizes) {
+      probe.lines = c.lines;
+      Settings settings = trainer_settings(probe.frequency_mhz, scene.depth_mm);
+      settings.samples = c.samples;
+      settings.image_width = c.width;
+      settings.image_height = c.height;
+      simulator.set_probe(probe, scene.depth_mm);
+      simulator.set_settings(settings);
+      const auto frame = [&](const Pose& pose) {
+        simulator.set_pose(pose);
+        simulator.image();
+      };
+      const Spread ms = spread_of(times_in_turn(scene.pose, request.frames, {frame}).front());
+      const long before = runs_in_all(simulator);
+      simulator.image();
+      const long still = runs_in_all(simulator) - before;
+      const auto shares = stage_shares(simulator, scene.pose, request.frames);
+
+      std::printf("%4d x %-4d      %4d x %-4d  %7.2f  (%.2f to %.2f)  %8ld   ", c.lines, c.samples, c.width, c.height,
+                  ms.median, ms.first_quartile, ms.third_quartile, still);
+      std::vector<std::string> row = {gl::device_description(),
+                                      scene.name,
+                                      scene.view,
+                                      std::to_string(c.lines),
+                                      std::to_string(c.samples),
+                                      std::to_string(c.width),
+                                      std::to_string(c.height),
+                                      std::to_string(request.frames),
+                                      cell_of(ms.first_quartile, 4),
+                                      cell_of(ms.median, 4),
+                                      cell_of(ms.third_quartile, 4),
+                                      std::to_string(still)};
+      for (std::size_t i = 0; i < shares.size(); ++i) {
+        if (shares[i] >= 0.005) std::printf(" %s %.0f %%", kStages[i], 100 * shares[i]);
+        row.push_back(cell_of(shares[i], 4));
+      }
+      std::printf("\n");
+      table.rows.push_back(std::move(row));
+    }
+  });
+  return table;
+}
+
+}  // namespace insonate::bench

@@ -1,0 +1,145 @@
+#include <algorithm>
+#include <cstdio>
+#include <numeric>
+
+#include "sim/core/files.h"
+#include "sim/gl/headless_context.h"
+#include "sim/gl/simulator.h"
+#include "sim/gl/upload.h"
+#include "sim/reference/reference.h"
+#include "tools/bench_commands.h"
+#include "tools/bench_converged.h"
+#include "tools/bench_display.h"
+#include "tools/bench_plot.h"
+#include "tools/bench_statistics.h"
+
+namespace insonate::bench {
+namespace {
+
+struct Setting {
+  std::string name;
+  int lines;
+  Settings settings;
+};
+
+std::string size_name(const Settings& settings) {
+  return std::to_string(settings.samples) + " samples, " + std::to_string(settings.image_width) + " x " +
+         std::to_string(settings.image_height);
+}
+
+/// What is tried, the defaults first.
+std::vector<Setting> settings_to_try(const Request& request, const Scene& scene) {
+  const Settings defaults = trainer_settings(scene.probe.frequency_mhz, scene.depth_mm);
+  const int lines = scene.probe.lines;
+  std::vector<Configuration> sizes = {{lines, defaults.samples, defaults.image_width, defaults.image_height}};
+  for (const glm::ivec2 pixels :
+       {glm::ivec2(320, 240), glm::ivec2(480, 360), glm::ivec2(640, 480), glm::ivec2(960, 720)})
+    for (const int samples : {96, 128, 192, 256, 384, 512, 768, 1024, 2048})
+      if (samples != defaults.samples || pixels != glm::ivec2(defaults.image_width, defaults.image_height))
+        sizes.push_back({lines, samples, pixels.x, pixels.y});
+
+  std::vector<Setting> tried;
+  for (const Configuration& c : configurations(request, sizes)) {
+    Settings settings = defaults;
+    settings.samples = c.samples;
+    settings.image_width = c.width;
+    settings.image_height = c.height;
+    tried.push_back({size_name(settings), c.lines, settings});
+  }
+  const auto without = [&](const char* what, auto change) {
+    Setting setting = tried.front();
+    change(setting.settings);
+    setting.name = what;
+    tried.push_back(setting);
+  };
+  without("no speckle", [](Settings& s) { s.speckle = false; });
+  without("a beam of one line", [](Settings& s) { s.beam_lines = 1; });
+  without("no smoothing", [](Settings& s) { s.reflection_sigma_mm = s.transmission_sigma_mm = 0; });
+  return tried;
+}
+
+void print(const Scene& scene, const Panel& panel, const std::vector<Spread>& times,
+           const std::vector<DisplayError>& errors) {
+  std::printf("\n%s, view %s: run time of a frame against error\n", scene.name.c_str(), scene.view.c_str());
+  std::printf("  ms       (quartiles)        error, dB   grey levels\n");
+  std::vector<std::size_t> order(times.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return times[a].median < times[b].median; });
+  for (const std::size_t i : order)
+    std::printf("%8.2f  (%.2f to %.2f)  %8.3f   %8.2f   %-6s %s%s\n", times[i].median, times[i].first_quartile,
+                times[i].third_quartile, errors[i].db, errors[i].grey, panel.points[i].on_front ? "front" : "",
+                panel.points[i].name.c_str(), panel.points[i].standard ? " (the default)" : "");
+  if (panel.points.front().on_front) {
+    std::printf("The default lies on the front.\n");
+    return;
+  }
+  std::printf("The default does not lie on the front; no slower and no less exact:\n");
+  for (const std::size_t i : order)
+    if (i != 0 && times[i].median <= times[0].median && errors[i].db <= errors[0].db)
+      std::printf("  %s: %+.1f %% of time, %+.1f %% of error\n", panel.points[i].name.c_str(),
+                  100 * (times[i].median / times[0].median - 1), 100 * (errors[i].db / errors[0].db - 1));
+}
+
+}  // namespace
+
+Table measure_front(const Request& request, const std::string& svg) {
+  Table table{{"device", "case", "view", "setting", "lines", "samples", "width", "height", "frames", "q1_ms",
+               "median_ms", "q3_ms", "error_db", "error_grey", "evaluated", "possible", "on_front"},
+              {}};
+  std::vector<Panel> panels;
+  const gl::HeadlessContext context;
+  std::printf("%s\n", gl::device_description().c_str());
+  for_each_scene(request, [&](const Scene& scene) {
+    gl::Simulator simulator;
+    gl::upload_ct(scene.file, scene.volume.grid, [&] { simulator.set_volume(scene.volume, scene.table); });
+    const std::vector<Setting> tried = settings_to_try(request, scene);
+    const double range = tried.front().settings.dynamic_range_db;
+
+    Settings exact = tried.front().settings;
+    exact.samples = std::min(kFiner * exact.samples, 8192);
+    Probe probe = scene.probe;
+    probe.lines = tried.front().lines;
+    const Stages<double> reference =
+        simulate_reference(trilinear_field(scene.volume), scene.table, probe, scene.depth_mm, exact, scene.pose);
+    const Display converged = displayed(reference, scene.probe, scene.depth_mm, exact);
+
+    std::vector<Spread> times;
+    std::vector<DisplayError> errors;
+    std::vector<Cost> costs;
+    for (const Setting& setting : tried) {
+      probe.lines = setting.lines;
+      simulator.set_probe(probe, scene.depth_mm);
+      simulator.set_settings(setting.settings);
+      const auto frame = [&](const Pose& pose) {
+        simulator.set_pose(pose);
+        simulator.image();
+      };
+      times.push_back(spread_of(times_in_turn(scene.pose, request.frames, {frame}).front()));
+      simulator.set_pose(scene.pose);
+      const Stages<float> stages = simulator.read_stages();
+      errors.push_back(error_of(displayed(stages, scene.probe, scene.depth_mm, setting.settings), converged, range));
+      costs.push_back({times.back().median, errors.back().db});
+      const long evaluated =
+          std::count_if(stages.intensity.pixels.begin(), stages.intensity.pixels.end(), [](float i) { return i > 0; });
+      const Spread& ms = times.back();
+      table.rows.push_back({gl::device_description(), scene.name, scene.view, setting.name,
+                            std::to_string(setting.lines), std::to_string(setting.settings.samples),
+                            std::to_string(setting.settings.image_width), std::to_string(setting.settings.image_height),
+                            std::to_string(request.frames), cell_of(ms.first_quartile, 4), cell_of(ms.median, 4),
+                            cell_of(ms.third_quartile, 4), cell_of(errors.back().db, 5), cell_of(errors.back().grey, 4),
+                            std::to_string(evaluated), std::to_string(stages.intensity.pixels.size())});
+    }
+    const std::vector<bool> front = on_front(costs);
+    Panel panel{scene.name + ", view " + scene.view, {}};
+    for (std::size_t i = 0; i < tried.size(); ++i) {
+      table.rows[table.rows.size() - tried.size() + i].push_back(front[i] ? "1" : "0");
+      panel.points.push_back({tried[i].name, costs[i].time, costs[i].error, bool(front[i]), i == 0});
+    }
+    print(scene, panel, times, errors);
+    panels.push_back(std::move(panel));
+  });
+  if (!svg.empty()) write_file(svg, front_svg(gl::device_description(), panels));
+  return table;
+}
+
+}  // namespace insonate::bench

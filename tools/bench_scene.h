@@ -1,0 +1,66 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "sim/core/pose.h"
+#include "sim/model/acoustic_volume.h"
+#include "sim/model/tissue.h"
+#include "sim/probe/probe.h"
+
+namespace insonate::bench {
+
+/// Runs what is due up to a stage where the simulator can stop behind one, else the whole frame.
+template <typename Simulator, typename Stage>
+void run_through(Simulator& simulator, Stage last) {
+  if constexpr (requires { simulator.run_through(last); })
+    simulator.run_through(last);
+  else
+    simulator.image();
+}
+
+/// What every measuring command is asked.
+struct Request {
+  std::vector<std::string> subjects;  ///< case folders, CT files, DICOM folders
+  bool built_in = false;              ///< the built-in abdomen too; it stands in when nothing is named
+  std::string view;                   ///< by name; the first when empty
+  int frames = 30;                    ///< measured per setting
+  std::vector<int> configurations;    ///< lines, samples, width, height, and again; the command's own when empty
+};
+
+/// A patient and where the probe stands on it.
+struct Scene {
+  std::string file;  ///< as named by the person, for messages
+  std::string name, view;
+  AcousticVolume volume;
+  TissueTable table;
+  Probe probe;
+  double depth_mm = 0;
+  Pose pose;
+};
+
+/// Opens the scenes one after the other, so that no two are held in memory. Throws InputError.
+void for_each_scene(const Request& request, const std::function<void(const Scene&)>& measure);
+
+/// Lines, samples and picture of the paper's table.
+struct Configuration {
+  int lines, samples, width, height;
+};
+
+/// Those of the request, or `usual`. Throws InputError when a number is missing or outside its range.
+std::vector<Configuration> configurations(const Request& request, const std::vector<Configuration>& usual);
+
+/// The five of Kutter, Shams, Navab 2009.
+extern const std::vector<Configuration> kPaperConfigurations;
+
+/// Where the probe stands in a frame: it wanders around `start` by a few millimetres along the face and across it.
+Pose wandering(const Pose& start, int frame);
+
+/// Runs the methods in turn, frame by frame, each with the same poses, and tells each one's times from the pose to the
+/// end of the device's work. A few frames before those that count warm up.
+/// @return milliseconds: per method, per frame
+std::vector<std::vector<double>> times_in_turn(const Pose& start, int frames,
+                                               const std::vector<std::function<void(const Pose&)>>& methods);
+
+}  // namespace insonate::bench

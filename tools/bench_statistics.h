@@ -1,0 +1,39 @@
+#pragma once
+
+#include <vector>
+
+namespace insonate::bench {
+
+/// What is told of repeated measurements: half of them lie between the quartiles.
+struct Spread {
+  double first_quartile = 0, median = 0, third_quartile = 0;
+};
+
+/// Quantiles at the ends and evenly between, linear between neighbours. Of no values: zeros.
+Spread spread_of(std::vector<double> values);
+
+/// The root of the mean square of what is added.
+class RootMeanSquare {
+public:
+  void add(double value) {
+    squares_ += value * value;
+    ++count_;
+  }
+  /// 0 when nothing was added.
+  double value() const;
+  long count() const { return count_; }
+
+private:
+  double squares_ = 0;
+  long count_ = 0;
+};
+
+/// A setting's run time and error.
+struct Cost {
+  double time = 0, error = 0;
+};
+
+/// For each, whether it lies on the front: no other is better in one and at least as good in the other.
+std::vector<bool> on_front(const std::vector<Cost>& costs);
+
+}  // namespace insonate::bench
