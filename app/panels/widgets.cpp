@@ -19,7 +19,7 @@ std::string shortened(ImFont* font, std::string_view text, float width) {
   while (length > 0) {
     --length;
     while (length > 0 && (static_cast<unsigned char>(text[length]) & 0xc0u) == 0x80u) --length;
-    const std::string candidate = std::string(text.substr(0, length)) + kEllipsis;
+    std::string candidate = std::string(text.substr(0, length)) + kEllipsis;
     if (size_of(font, candidate).x <= width) return candidate;
   }
   return kEllipsis;
