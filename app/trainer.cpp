@@ -1,5 +1,6 @@
 #include "app/trainer.h"
 
+#include <cstdio>
 #include <utility>
 
 #include "devices/registry.h"
@@ -152,6 +153,8 @@ void Trainer::reload_shaders() {
   if (changed == shaders_changed_) return;
   shaders_changed_ = changed;
   shader_problem_ = pictures_.reload(shaders_).value_or("");
+  // The screen has room for its beginning; whoever edits shaders has a terminal.
+  if (!shader_problem_.empty()) std::fprintf(stderr, "insonate: %s\n", shader_problem_.c_str());
 }
 
 }  // namespace insonate

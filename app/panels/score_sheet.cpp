@@ -63,11 +63,15 @@ void draw_mark(const Theme& theme, const Rect& row, const Mark& mark) {
   draw_text(columns.points, theme.text, ink, short_number(mark.points) + " / " + short_number(mark.weight),
             Align::right);
   if (ImGui::IsMouseHoveringRect(row.min(), row.max())) {
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {theme.px(10), theme.px(7)});
+    ImGui::PushStyleColor(ImGuiCol_PopupBg, colour::kRaised);
     ImGui::BeginTooltip();
     ImGui::PushFont(theme.small_text);
     ImGui::TextUnformatted(mark.why.c_str());
     ImGui::PopFont();
     ImGui::EndTooltip();
+    ImGui::PopStyleColor();
+    ImGui::PopStyleVar();
   }
 }
 

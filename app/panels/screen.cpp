@@ -129,7 +129,9 @@ void Screen::draw_status(Trainer& trainer) {
     draw_text(line.take_right(theme_.px(100)), theme_.small_text, colour::kFaint, text, Align::right);
   }
   if (!trainer.shader_problem().empty()) {
-    draw_text(line, theme_.small_text, colour::kAmber, "Shaders kept as they were: " + trainer.shader_problem());
+    std::string problem = "Shaders kept as they were: " + trainer.shader_problem();
+    std::replace(problem.begin(), problem.end(), '\n', ' ');
+    draw_text(line, theme_.small_text, colour::kAmber, problem);
     return;
   }
   const std::string keys = "F1 keys    Tab probe    Space freeze";

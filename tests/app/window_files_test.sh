@@ -85,11 +85,15 @@ still() {
 }
 await "the picture stands still" still
 shot "$work/before.png" ultrasound 20
+shot "$work/console.png" console
 echo 'this is no GLSL' >>"$work/shaders/compress.comp"
 await "a broken shader is told of" does_not_build
 grep -q 'compress.comp' "$state" || fail "the broken shader is not named"
 await "the picture stands still" still
 shot "$work/broken.png" ultrasound 20
+shot "$work/console_broken.png" console
+pixels=$(different "$work/console.png" "$work/console_broken.png")
+[ "$pixels" = 0 ] || fail "what is wrong with the shader is written over the console: $pixels pixels"
 pixels=$(different "$work/before.png" "$work/broken.png")
 [ "$pixels" = 0 ] || fail "a shader that does not build changed $pixels pixels"
 import -window root "$work/broken_screen.png"
