@@ -11,6 +11,7 @@
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
 #include "sim/gl/headless_context.h"
+#include "sim/volume/volume_checks.h"
 #include "tests/scenarios/tiny_case.h"
 
 using namespace insonate;
@@ -188,6 +189,11 @@ TEST_CASE("a CT that the device cannot hold is told of, and the patient on the s
   const auto before = pixels();
   GLint limit = 0;
   glGetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &limit);
+
+  if (std::uint64_t(limit) >= kMostVoxelsASide) {
+    WARN("this device takes every CT that a file may hold");
+    return;
+  }
 
   // Few and thick voxels in the file, one a millimetre when they are insonated.
   constexpr int kVoxels = 600;
