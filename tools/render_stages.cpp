@@ -20,8 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr double kCouplingAirHu = -300;  // within the gel layer, what is less dense is gel: as in the reference
-constexpr double kOutsideFan = -2;       // of pixel_line and pixel_sample
+constexpr double kOutsideFan = -2;  // of pixel_line and pixel_sample
 
 Image<float> in_single_precision(const Image<double>& image) {
   Image<float> rounded(image.width, image.height);
@@ -36,14 +35,11 @@ struct Tissue {
 
 Tissue tissue_along(const ScanLines& lines, const RenderedScene& scene) {
   const MediumField field = trilinear_field(scene.volume);
-  const double l = scene.settings.reflection_length_mm;
+  const double l = scene.settings.reflection_length_mm, gel = scene.settings.gel_mm;
   const int n = int(lines.lines.size()), d = lines.samples;
   const Image<float> empty(n, d);
   Tissue tissue{empty, empty, empty, empty, empty, empty};
 
-  const auto knot = [&](double hu, double r_mm) {
-    return scene.table.at(r_mm < scene.settings.gel_mm && hu < kCouplingAirHu ? 0.0 : hu);
-  };
   for (int line = 0; line < n; ++line) {
     const ScanLine& in_probe = lines.lines[std::size_t(line)];
     const glm::dvec3 start = scene.patient_from_probe.point(in_probe.start);
@@ -53,20 +49,22 @@ Tissue tissue_along(const ScanLines& lines, const RenderedScene& scene) {
     for (int k = 0; k < d; ++k) {
       const double r = lines.r_min_mm + (k + 0.5) * lines.dr_mm();
       const glm::dvec3 p = start + r * along;
-      const auto impedance = [&](const glm::dvec3& offset, double depth) {
-        return knot(field(p + offset).hu, depth).impedance_mrayl;
+      const auto hu = [&](const glm::dvec3& offset, double depth) {
+        return with_gel(field(p + offset), depth, gel).hu;
       };
-      const Medium here = field(p);
-      const TissueKnot met = knot(here.hu, r);
+      const Medium here = with_gel(field(p), r, gel);
+      const TissueKnot met = scene.table.at(here.hu);
       tissue.hounsfield.at(line, k) = float(here.hu);
       tissue.echogenicity.at(line, k) = float(here.echogenicity_db);
       tissue.impedance.at(line, k) = float(met.impedance_mrayl);
       tissue.absorption.at(line, k) = float(met.absorption_db_cm_mhz);
 
-      const double before = impedance(-l / 2 * along, r - l / 2), behind = impedance(l / 2 * along, r + l / 2);
+      const double hu_before = hu(-l / 2 * along, r - l / 2), hu_behind = hu(l / 2 * along, r + l / 2);
+      const double before = scene.table.at(hu_before).impedance_mrayl;
+      const double behind = scene.table.at(hu_behind).impedance_mrayl;
       const double contrast = (behind - before) / (behind + before);
-      const glm::dvec3 rise(behind - before, impedance(l / 2 * lateral, r) - impedance(-l / 2 * lateral, r),
-                            impedance(l / 2 * elevation, r) - impedance(-l / 2 * elevation, r));
+      const glm::dvec3 rise(hu_behind - hu_before, hu(l / 2 * lateral, r) - hu(-l / 2 * lateral, r),
+                            hu(l / 2 * elevation, r) - hu(-l / 2 * elevation, r));
       const double steepness = glm::length(rise);
       tissue.alpha.at(line, k) = float(contrast * contrast);
       tissue.incidence.at(line, k) = float(steepness > 0 ? std::abs(rise.x) / steepness : 0);

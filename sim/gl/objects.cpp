@@ -39,8 +39,13 @@ void Buffer::write(const void* data, std::size_t bytes) {
   glNamedBufferSubData(object_.name(), 0, GLsizeiptr(bytes), data);
 }
 
-void Buffer::read(void* data, std::size_t bytes) const {
-  glGetNamedBufferSubData(object_.name(), 0, GLsizeiptr(bytes), data);
+void Buffer::read(void* data, std::size_t bytes, std::size_t offset) const {
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  glGetNamedBufferSubData(object_.name(), GLintptr(offset), GLsizeiptr(bytes), data);
+}
+
+void Buffer::clear() {
+  glClearNamedBufferData(object_.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
 }
 
 Texture Texture::make(GLenum target, GLenum format, int width, int height, int depth, Filter filter, Wrap wrap) {
@@ -93,6 +98,10 @@ void Texture::write(GLenum layout, GLenum type, const void* pixels) {
   else
     glTextureSubImage2D(object_.name(), 0, 0, 0, width_, height_, layout, type, pixels);
   if (out_of_memory()) throw TextureRefused(width_, height_, depth_, 0);
+}
+
+void Texture::clear() {
+  glClearTexImage(object_.name(), 0, GL_RED, GL_FLOAT, nullptr);
 }
 
 void Texture::read(GLenum layout, GLenum type, void* pixels, std::size_t bytes) const {

@@ -43,7 +43,10 @@ public:
 
   /// Replaces the first `bytes` bytes.
   void write(const void* data, std::size_t bytes);
-  void read(void* data, std::size_t bytes) const;
+  /// Reads `bytes` bytes from `offset` on. Waits for the device.
+  void read(void* data, std::size_t bytes, std::size_t offset = 0) const;
+  /// Sets every byte to 0.
+  void clear();
   void bind_uniform(GLuint binding) const { glBindBufferBase(GL_UNIFORM_BUFFER, binding, object_.name()); }
   void bind_storage(GLuint binding) const { glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, object_.name()); }
   GLuint name() const { return object_.name(); }
@@ -85,6 +88,8 @@ public:
   /// The colour that Wrap::border gives outside.
   void set_border(float r, float g, float b, float a);
 
+  /// Sets everything to 0.
+  void clear();
   /// Uploads everything; `pixels` are tightly packed values of `type` in `layout` (GL_RG, GL_SHORT, ...). Throws
   /// TextureRefused: a device may look for memory no sooner than here.
   void write(GLenum layout, GLenum type, const void* pixels);

@@ -1,15 +1,12 @@
 #include "sim/gl/paper_traversal.h"
 
 #include <glm/geometric.hpp>
-#include <glm/gtc/matrix_transform.hpp>
 
 #include <cmath>
 
 namespace insonate::gl {
 namespace {
 
-// As in shared/acoustic_volume.glsl.
-constexpr int kFirstHu = -1024, kLookupSize = 4096;
 constexpr double kLn10 = 2.302585092994046;
 
 // As `Line` in paper_pass.frag.
@@ -31,25 +28,11 @@ Object<Kind> created(void (*create)(GLsizei, GLuint*)) {
 
 PaperTraversal::PaperTraversal(const ShaderSources& sources)
     : fetching_(sources, {"paper_pass.vert", "paper_pass.frag"}),
-      carrying_(sources, {"paper_pass.vert", "paper_pass.frag"}, {{"CARRIES_IMPEDANCE", "1"}}),
+      carrying_(sources, {"paper_pass.vert", "paper_pass.frag"}, {{"CARRIES_DENSITY", "1"}}),
       no_vertices_(created<VertexArrayKind>(glCreateVertexArrays)) {}
 
 void PaperTraversal::set_volume(const AcousticVolume& volume, const TissueTable& table) {
-  const glm::ivec3 size = volume.grid.size;
-  volume_ = Texture::make_3d(GL_RG16_SNORM, size.x, size.y, size.z, Filter::linear, Wrap::border);
-  const AcousticVoxel outside;
-  volume_.set_border(float(outside.hu) / 32767.0f, float(outside.echogenicity_cdb) / 32767.0f, 0, 0);
-  volume_.write(GL_RG, GL_SHORT, volume.voxels.data());
-  // Voxel centres lie at (i + 1/2) / size in a texture.
-  const glm::dmat4 scale = glm::scale(glm::dmat4(1.0), 1.0 / glm::dvec3(size));
-  texture_from_patient_ = glm::translate(scale, glm::dvec3(0.5)) * glm::inverse(volume.grid.matrix());
-
-  std::vector<glm::vec2> lookup;
-  for (int i = 0; i < kLookupSize; ++i) {
-    const TissueKnot knot = table.at(kFirstHu + i);
-    lookup.emplace_back(knot.impedance_mrayl, knot.absorption_db_cm_mhz);
-  }
-  tissue_lookup_ = Buffer(lookup.size() * sizeof(glm::vec2), lookup.data());
+  volume_ = DeviceVolume(volume, table);
 }
 
 void PaperTraversal::set_lines(const ScanLines& lines, const Settings& settings) {
@@ -70,7 +53,7 @@ void PaperTraversal::set_lines(const ScanLines& lines, const Settings& settings)
 }
 
 void PaperTraversal::run(const Pose& patient_from_probe) {
-  const glm::dmat4 texture_from_probe = texture_from_patient_ * patient_from_probe.matrix();
+  const glm::dmat4 texture_from_probe = volume_.texture_from_patient() * patient_from_probe.matrix();
   const auto step = [&](const glm::dvec3& d) { return glm::vec4(texture_from_probe * glm::dvec4(d, 0)); };
   std::vector<GpuLine> placed;
   placed.reserve(lines_.lines.size());
@@ -90,9 +73,9 @@ void PaperTraversal::run(const Pose& patient_from_probe) {
   glUniform1f(kAbsorption, float(settings_.absorption ? settings_.frequency_mhz * dr / 100 * kLn10 : 0));
   glUniform1f(kGel, float(settings_.gel_mm));
   glUniform1i(kSamples, lines_.samples);
-  volume_.bind(0);
+  volume_.texture().bind(0);
   line_buffer_.bind_storage(0);
-  tissue_lookup_.bind_storage(1);
+  volume_.tissue_lookup().bind_storage(1);
   glBindVertexArray(no_vertices_.name());
   glViewport(0, 0, scan_.width(), scan_.height());
   for (int k = 0; k < lines_.samples; ++k) {

@@ -5,6 +5,7 @@
 
 #include "sim/core/image.h"
 #include "sim/core/pose.h"
+#include "sim/gl/device_volume.h"
 #include "sim/gl/objects.h"
 #include "sim/gl/program.h"
 #include "sim/model/acoustic_volume.h"
@@ -20,7 +21,7 @@ namespace insonate::gl {
 ///
 /// I and R are those of sim/reference/reference.h in single precision: the same tissue table, reflection length,
 /// trilinear volume and gradient. A pass changes no more state than its targets. Where the reflection length is the
-/// distance between samples, as in the paper, the impedance in front of a sample comes from the pass before too.
+/// distance between samples, as in the paper, the density in front of a sample comes from the pass before too.
 class PaperTraversal {
 public:
   explicit PaperTraversal(const ShaderSources& sources = {});
@@ -39,12 +40,12 @@ public:
   Scan read() const;
 
 private:
-  Program fetching_, carrying_;  ///< the impedance in front of a sample
+  Program fetching_, carrying_;  ///< the density in front of a sample
   ScanLines lines_;
   Settings settings_;
-  glm::dmat4 texture_from_patient_{1.0};
-  Texture volume_, scan_;
-  Buffer tissue_lookup_, line_buffer_;
+  DeviceVolume volume_;
+  Texture scan_;
+  Buffer line_buffer_;
   struct Side {
     Texture carried;
     Object<FramebufferKind> framebuffer;

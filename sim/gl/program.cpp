@@ -133,9 +133,13 @@ std::optional<std::string> Program::reload(const ShaderSources& sources) {
 }
 
 void Program::dispatch(int x, int y) const {
+  dispatch_groups((x + group_x_ - 1) / group_x_, (y + group_y_ - 1) / group_y_);
+}
+
+void Program::dispatch_groups(int x, int y) const {
   use();
-  glDispatchCompute(GLuint((x + group_x_ - 1) / group_x_), GLuint((y + group_y_ - 1) / group_y_), 1);
-  glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+  glDispatchCompute(GLuint(x), GLuint(y), 1);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
 }  // namespace insonate::gl

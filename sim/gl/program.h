@@ -61,6 +61,8 @@ public:
   /// Runs a compute program over at least `x` by `y` invocations in groups of its local size, and makes what it wrote
   /// visible to whatever comes next.
   void dispatch(int x, int y) const;
+  /// The same for a number of whole groups.
+  void dispatch_groups(int x, int y = 1) const;
 
 private:
   Object<ProgramKind> object_;

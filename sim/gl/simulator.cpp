@@ -1,11 +1,11 @@
 #include "sim/gl/simulator.h"
 
-#include <glm/gtc/matrix_transform.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "sim/gl/device_volume.h"
+#include "sim/gl/fan_layout.h"
 #include "sim/model/beam.h"
 #include "sim/model/scatterers.h"
 #include "sim/shaders/shared/simulation_parameters.h"
@@ -13,16 +13,26 @@
 namespace insonate::gl {
 namespace {
 
-// Binding points, as in the shaders.
-enum Storage : GLuint { kScanLines, kTissueLookup, kBeamWeights, kSpeckleScale, kKernels, kMaximum };
+// What traverse.comp is compiled for.
+Defines traversal_of(const Settings& settings, double dr_mm) {
+  const double samples_a_length = settings.reflection_length_mm / dr_mm;
+  const auto is = [&](double whole) { return std::abs(samples_a_length - whole) < 1e-9; };
+  return {{"EDGES_AT", is(2)   ? "kEdgesAtSamples"
+                       : is(1) ? "kEdgesAtMiddles"
+                               : "kEdgesAnywhere"},
+          {"SPECKLE", settings.speckle ? "1" : "0"}};
+}
 
-constexpr int kFirstHu = -1024;
-constexpr int kLookupSize = 4096;
 constexpr double kLn10 = 2.302585092994046;
+
+// An interface counts as too weak for its tilt to be seen where it echoes this share of what the scatterers do: 0.004
+// dB. A tenth of that would show where a beam's width carries it from beside a shadow into it, and nowhere else.
+constexpr double kUnseenShare = 0.001;
 
 // As `Line` in traverse.comp.
 struct GpuLine {
-  glm::vec4 start, along, lateral, elevation;
+  glm::vec4 start, along;
+  glm::vec4 lateral, elevation;
   glm::vec4 lattice_start, lattice_along;
 };
 
@@ -34,32 +44,56 @@ std::vector<float> to_float(const std::vector<double>& values) {
   return {values.begin(), values.end()};
 }
 
-// Half of a Gaussian out to three sigma or the picture's size, centre first.
-std::vector<float> half_gaussian(double sigma_px, int limit_px) {
-  const int radius = sigma_px < 0.05 ? 0 : std::min(int(std::ceil(3 * sigma_px)), limit_px);
-  std::vector<float> weights;
-  for (int i = 0; i <= radius; ++i)
-    weights.push_back(float(radius ? std::exp(-0.5 * i * i / (sigma_px * sigma_px)) : 1.0));
-  return weights;
+// A window as four neighbours see it: at place j from the first one's edge, the weights of all four.
+Buffer window_of_four(const std::vector<double>& window) {
+  std::vector<glm::vec4> of_four;
+  const auto weight = [&](std::ptrdiff_t i) {
+    return i >= 0 && i < std::ptrdiff_t(window.size()) ? float(window[std::size_t(i)]) : 0.0f;
+  };
+  for (std::ptrdiff_t j = 0; j < std::ptrdiff_t(window.size()) + 3; ++j)
+    of_four.emplace_back(weight(j), weight(j - 1), weight(j - 2), weight(j - 3));
+  return Buffer(of_four.size() * sizeof(glm::vec4), of_four.data());
 }
 
-Image<float> channel(const std::vector<float>& rgba, int width, int height, int index) {
-  Image<float> image(width, height);
-  for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = rgba[4 * i + std::size_t(index)];
-  return image;
+// A Gaussian out to three sigma or the picture's size.
+struct Gaussian {
+  int radius = 0;  // pixels; 0 for none
+  std::vector<double> weights;
+  Buffer window;
+
+  Gaussian() = default;
+  Gaussian(double sigma_px, int limit_px) {
+    if (sigma_px >= 0.05) radius = std::min(int(std::ceil(3 * sigma_px)), limit_px);
+    for (int i = -radius; i <= radius; ++i) weights.push_back(std::exp(-0.5 * i * i / (sigma_px * sigma_px)));
+    window = window_of_four(weights);
+  }
+};
+
+// The channels of a texture, each as an image.
+std::vector<Image<float>> read_channels(const Texture& texture, int channels) {
+  const std::size_t count = std::size_t(channels);
+  Image<float> image(texture.width(), texture.height());
+  std::vector<float> values(count * image.pixels.size());
+  texture.read(channels == 4 ? GL_RGBA : GL_RED, GL_FLOAT, values.data(), values.size() * sizeof(float));
+  std::vector<Image<float>> images(count, image);
+  for (std::size_t i = 0; i < values.size(); ++i) images[i % count].pixels[i / count] = values[i];
+  return images;
 }
 
-std::vector<float> read_rgba(const Texture& texture) {
-  std::vector<float> values(4 * std::size_t(texture.width()) * std::size_t(texture.height()));
-  texture.read(GL_RGBA, GL_FLOAT, values.data(), values.size() * sizeof(float));
-  return values;
+// Textures have a row a line, Stages a column.
+Image<float> transposed(const Image<float>& rows) {
+  Image<float> columns(rows.height, rows.width);
+  for (int y = 0; y < rows.height; ++y)
+    for (int x = 0; x < rows.width; ++x) columns.at(y, x) = rows.at(x, y);
+  return columns;
 }
 
 }  // namespace
 
 struct Simulator::State {
-  explicit State(const ShaderSources& sources)
-      : traverse(sources, {"traverse.comp"}),
+  explicit State(const ShaderSources& shader_sources)
+      : sources(shader_sources),
+        traverse(sources, {"traverse.comp"}, traversal),
         beam(sources, {"beam.comp"}),
         scan_convert(sources, {"scan_convert.comp"}),
         smooth(sources, {"smooth.comp"}),
@@ -67,6 +101,8 @@ struct Simulator::State {
         maximum(sources, {"maximum.comp"}),
         compress(sources, {"compress.comp"}) {}
 
+  ShaderSources sources;
+  Defines traversal = traversal_of({}, 1);  // what `traverse` is compiled for
   Program traverse, beam, scan_convert, smooth, fuse, maximum, compress;
 
   // What the user set.
@@ -75,18 +111,23 @@ struct Simulator::State {
   Settings settings;
   Pose patient_from_probe;
   ScanLines lines;
-  ImageGeometry geometry;
-  glm::dmat4 texture_from_patient{1.0};
+  FanLayout fan;
 
   // What the stages read.
+  DeviceVolume volume;
   SimulationParameters parameters{};
   Buffer parameter_buffer{sizeof(SimulationParameters), nullptr};
-  Texture volume, scatterers, line_and_sample;
-  Buffer line_buffer, tissue_lookup, weights, speckle_scale, kernels;
-  Buffer maximum_buffer{sizeof(GLuint), nullptr};
+  Texture scatterers, line_and_sample;
+  Texture window_share;  // of the Gaussians, see fuse.comp
+  Buffer line_buffer, beam_window, speckle_scale, fan_blocks;
+  Gaussian reflection_gaussian, transmission_gaussian;
+  std::array<double, 2> sigmas_px{};  // theirs
 
   // What they write.
-  Texture scan, echoes, picture, half_smoothed, smoothed, fused, image;
+  Texture scan, echoes, picture, half_smoothed, fused;
+  Buffer maximum_buffer{sizeof(GLuint), nullptr};
+  Buffer counters{sizeof(SampleCounts), nullptr};
+  Texture image;
 
   bool layout_changed = true;      // probe, depth, sample count or picture size
   bool scatterers_changed = true;  // seed
@@ -94,14 +135,16 @@ struct Simulator::State {
   std::array<long, kStageCount> runs{};
 
   void due_from(Stage stage) { first_due = std::min(first_due.value_or(stage), stage); }
-  bool smoothing() const { return parameters.reflection_radius_px > 0 || parameters.transmission_radius_px > 0; }
 
   void lay_out();
   void upload_scatterers();
   void place_lines();
   void fill_parameters();
-  void run();
-  void run_smoothing();
+  void prepare();
+  void run_through(Stage last);
+  void run(Stage stage);
+  bool needed(Stage stage) const;
+  void place_windows();
 };
 
 // Allocates what depends on the number of lines, samples and pixels, and works out where each pixel lies.
@@ -109,25 +152,20 @@ void Simulator::State::lay_out() {
   lines = scan_lines(probe, depth_mm, settings.samples);
   const int n = int(lines.lines.size()), d = lines.samples;
   line_buffer = Buffer(lines.lines.size() * sizeof(GpuLine), nullptr);
-  scan = Texture::make_2d(GL_RGBA32F, n, d, Filter::nearest);
-  echoes = Texture::make_2d(GL_RGBA32F, n, d, Filter::linear);
+  scan = Texture::make_2d(GL_RGBA32F, d, n, Filter::nearest);
+  echoes = Texture::make_2d(GL_RGBA32F, d, n, Filter::nearest);
 
   const int w = settings.image_width, h = settings.image_height;
-  geometry = image_geometry(probe, depth_mm, w, h);
-  std::vector<glm::vec2> positions;
-  positions.reserve(std::size_t(w) * std::size_t(h));
-  for (int y = 0; y < h; ++y)
-    for (int x = 0; x < w; ++x) {
-      const auto at = line_position(probe, depth_mm, geometry.plane_mm(x, y));
-      positions.push_back(at ? glm::vec2(at->line, at->r_mm / lines.dr_mm() - 0.5) : glm::vec2(-2));
-    }
+  fan = FanLayout(probe, depth_mm, lines, w, h);
+  window_share = Texture();
   line_and_sample = Texture::make_2d(GL_RG32F, w, h, Filter::nearest);
-  line_and_sample.write(GL_RG, GL_FLOAT, positions.data());
+  line_and_sample.write(GL_RG, GL_FLOAT, fan.line_and_sample.data());
+  fan_blocks = Buffer(fan.blocks.size() * sizeof(glm::ivec2), fan.blocks.data());
   picture = Texture::make_2d(GL_RGBA32F, w, h, Filter::nearest);
-  half_smoothed = Texture::make_2d(GL_RGBA32F, w, h, Filter::nearest);
-  smoothed = Texture::make_2d(GL_RGBA32F, w, h, Filter::nearest);
+  half_smoothed = Texture::make_2d(GL_RG32F, w, h, Filter::nearest);
   fused = Texture::make_2d(GL_R32F, w, h, Filter::nearest);
   image = Texture::make_2d(GL_RGBA8, w, h, Filter::linear);
+  for (Texture* texture : {&picture, &half_smoothed, &fused, &image}) texture->clear();
   layout_changed = false;
 }
 
@@ -140,128 +178,171 @@ void Simulator::State::upload_scatterers() {
 
 // The lines where the probe now is, in the textures' coordinates.
 void Simulator::State::place_lines() {
-  const glm::dmat4 texture_from_probe = texture_from_patient * patient_from_probe.matrix();
+  const glm::dmat4 texture_from_probe = volume.texture_from_patient() * patient_from_probe.matrix();
   glm::dmat4 lattice_from_probe = lattice_from_patient(settings.speckle_cell_mm) * patient_from_probe.matrix();
   // Whole periods of the translation change nothing but cost the shader's single precision digits.
   for (int axis = 0; axis < 3; ++axis) lattice_from_probe[3][axis] -= std::floor(lattice_from_probe[3][axis]);
 
-  const auto point = [](const glm::dmat4& map, const glm::dvec3& p) { return glm::vec4(map * glm::dvec4(p, 1)); };
-  const auto step = [](const glm::dmat4& map, const glm::dvec3& d) { return glm::vec4(map * glm::dvec4(d, 0)); };
+  const auto point = [](const glm::dmat4& map, const glm::dvec3& p) { return glm::dvec3(map * glm::dvec4(p, 1)); };
+  const auto step = [](const glm::dmat4& map, const glm::dvec3& d) { return glm::dvec3(map * glm::dvec4(d, 0)); };
+  const double dr = lines.dr_mm(), half_length = settings.reflection_length_mm / 2;
   std::vector<GpuLine> placed;
   placed.reserve(lines.lines.size());
   for (const ScanLine& line : lines.lines) {
-    const glm::dvec3 d = line.direction, lateral(d.y, -d.x, 0);
-    placed.push_back({point(texture_from_probe, line.start), step(texture_from_probe, d),
-                      step(texture_from_probe, lateral), step(texture_from_probe, glm::cross(d, lateral)),
-                      point(lattice_from_probe, line.start), step(lattice_from_probe, d)});
+    const glm::dvec3 d = line.direction, lateral(d.y, -d.x, 0), elevation = glm::cross(d, lateral);
+    const glm::dvec3 first = line.start + (lines.r_min_mm + dr / 2) * d;
+    const glm::dvec3 start = point(texture_from_probe, first), along = step(texture_from_probe, dr * d);
+    // A sample's width to spare, for the rounding of the shader's own positions.
+    const auto [enters, leaves] = settings.skipping ? volume.meets_body(start, along) : std::pair(-1e9, 1e9);
+    placed.push_back({{start, enters - 1},
+                      {along, leaves + 1},
+                      {step(texture_from_probe, half_length * lateral), 0},
+                      {step(texture_from_probe, half_length * elevation), 0},
+                      {point(lattice_from_probe, first), 0},
+                      {step(lattice_from_probe, dr * d), 0}});
   }
   line_buffer.write(placed.data(), placed.size() * sizeof(GpuLine));
 }
 
 void Simulator::State::fill_parameters() {
-  const double dr = lines.dr_mm();
+  const double dr = lines.dr_mm(), samples_a_length = settings.reflection_length_mm / dr;
   SimulationParameters& p = parameters;
   p.lines = int(lines.lines.size());
   p.samples = lines.samples;
+  p.width = settings.image_width;
+  p.height = settings.image_height;
   p.r_min_mm = float(lines.r_min_mm);
   p.dr_mm = float(dr);
-  p.half_reflection_length_mm = float(settings.reflection_length_mm / 2);
-  p.reflection_exponent = float(dr / settings.reflection_length_mm);
+  p.half_reflection_length = float(samples_a_length / 2);
+  p.reflection_exponent = float(1 / samples_a_length);
   p.absorption_per_sample = float(settings.absorption ? settings.frequency_mhz * dr / 100 * kLn10 : 0);
   p.gel_mm = float(settings.gel_mm);
+  p.least_alpha_with_normal = float(settings.skipping ? kUnseenShare * settings.blend : 0);
+  p.reflection_radius_px = reflection_gaussian.radius;
+  p.transmission_radius_px = transmission_gaussian.radius;
   p.speckle = settings.speckle;
   p.beam_half = (settings.beam_lines - 1) / 2;
   p.two_way = settings.two_way;
   p.blend = float(settings.blend);
-  p.gain = float(std::pow(10.0, settings.gain_db / 10));
+  p.gain_db = float(settings.gain_db);
   p.dynamic_range_db = float(settings.dynamic_range_db);
   p.fixed_level = float(settings.fixed_level);
   p.frame_maximum = settings.reference_level == ReferenceLevel::frame_maximum;
   for (int i = 0; i < 8; ++i) p.tgc_db[i / 4][i % 4] = float(settings.tgc_db[std::size_t(i)]);
-
-  if (*first_due <= Stage::smooth) {
-    weights = storage(to_float(beam_weights(settings)));
-    speckle_scale = storage(to_float(envelope_scale(lines, settings)));
-    const int limit = std::max(settings.image_width, settings.image_height) - 1;
-    std::vector<float> kernel = half_gaussian(settings.reflection_sigma_mm / geometry.mm_per_pixel, limit);
-    const std::vector<float> second = half_gaussian(settings.transmission_sigma_mm / geometry.mm_per_pixel, limit);
-    p.reflection_radius_px = int(kernel.size()) - 1;
-    p.transmission_radius_px = int(second.size()) - 1;
-    kernel.insert(kernel.end(), second.begin(), second.end());
-    kernels = storage(kernel);
-  }
   parameter_buffer.write(&parameters, sizeof parameters);
 }
 
-void Simulator::State::run_smoothing() {
-  const GLint axis = smooth.uniform("axis");
-  kernels.bind_storage(kKernels);
-  smooth.use();
-  picture.bind(0);
-  half_smoothed.bind_image(0, GL_WRITE_ONLY);
-  glUniform2i(axis, 1, 0);
-  smooth.dispatch(picture.width(), picture.height());
-  half_smoothed.bind(0);
-  smoothed.bind_image(0, GL_WRITE_ONLY);
-  glUniform2i(axis, 0, 1);
-  smooth.dispatch(picture.width(), picture.height());
-}
-
-void Simulator::State::run() {
-  if (!first_due || !volume) return;
+// Everything that the stages due read and that is not another stage's.
+void Simulator::State::prepare() {
   if (layout_changed) lay_out();
   if (scatterers_changed) upload_scatterers();
-  if (*first_due == Stage::traverse) place_lines();
+  if (*first_due == Stage::traverse) {
+    const Defines wanted = traversal_of(settings, lines.dr_mm());
+    if (wanted != traversal) traverse = Program(sources, {"traverse.comp"}, wanted);
+    traversal = wanted;
+    place_lines();
+  }
+  if (*first_due <= Stage::smooth) {
+    beam_window = window_of_four(beam_weights(settings));
+    speckle_scale = storage(to_float(envelope_scale(lines, settings)));
+    place_windows();
+  }
   fill_parameters();
-  parameter_buffer.bind_uniform(0);
+}
 
-  const auto due = [&](Stage stage) {
-    if (stage < *first_due) return false;
+void Simulator::State::place_windows() {
+  const int w = settings.image_width, h = settings.image_height, limit = std::max(w, h) - 1;
+  const double sigmas[] = {settings.reflection_sigma_mm / fan.geometry.mm_per_pixel,
+                           settings.transmission_sigma_mm / fan.geometry.mm_per_pixel};
+  if (window_share && sigmas[0] == sigmas_px[0] && sigmas[1] == sigmas_px[1]) return;
+  std::copy(std::begin(sigmas), std::end(sigmas), sigmas_px.begin());
+  reflection_gaussian = Gaussian(sigmas[0], limit);
+  transmission_gaussian = Gaussian(sigmas[1], limit);
+  const Image<float> reflection = one_over_window_inside(fan.inside, reflection_gaussian.weights);
+  const Image<float> transmission = one_over_window_inside(fan.inside, transmission_gaussian.weights);
+  std::vector<glm::vec2> shares;
+  for (std::size_t i = 0; i < reflection.pixels.size(); ++i)
+    shares.emplace_back(reflection.pixels[i], transmission.pixels[i]);
+  window_share = Texture::make_2d(GL_RG32F, w, h, Filter::nearest);
+  window_share.write(GL_RG, GL_FLOAT, shares.data());
+}
+
+bool Simulator::State::needed(Stage stage) const {
+  if (stage == Stage::smooth) return reflection_gaussian.radius > 0 || transmission_gaussian.radius > 0;
+  if (stage == Stage::maximum) return parameters.frame_maximum;
+  return true;
+}
+
+void Simulator::State::run_through(Stage last) {
+  if (!first_due || *first_due > last || !volume) return;
+  prepare();
+  parameter_buffer.bind_uniform(0);
+  for (Stage stage = *first_due; stage <= last; stage = Stage(int(stage) + 1)) {
+    if (!needed(stage)) continue;
+    run(stage);
     ++runs[std::size_t(stage)];
-    return true;
-  };
-  if (due(Stage::traverse)) {
-    volume.bind(0);
-    scatterers.bind(1);
-    line_buffer.bind_storage(kScanLines);
-    tissue_lookup.bind_storage(kTissueLookup);
-    scan.bind_image(0, GL_WRITE_ONLY);
-    traverse.dispatch(scan.width(), 1);
   }
-  if (due(Stage::beam)) {
-    scan.bind(0);
-    weights.bind_storage(kBeamWeights);
-    speckle_scale.bind_storage(kSpeckleScale);
-    echoes.bind_image(0, GL_WRITE_ONLY);
-    beam.dispatch(scan.width(), scan.height());
+  first_due = last == Stage::compress ? std::nullopt : std::optional(Stage(int(last) + 1));
+}
+
+void Simulator::State::run(Stage stage) {
+  const auto over_fan = [&](const Program& program) { program.dispatch_groups(int(fan.blocks.size())); };
+  fan_blocks.bind_storage(7);
+  switch (stage) {
+    case Stage::traverse:
+      counters.clear();
+      line_buffer.bind_storage(0);
+      volume.tissue_lookup().bind_storage(1);
+      counters.bind_storage(2);
+      volume.texture().bind(0);
+      scatterers.bind(1);
+      scan.bind_image(0, GL_WRITE_ONLY);
+      traverse.dispatch(parameters.lines, 1);
+      break;
+    case Stage::beam:
+      beam_window.bind_storage(0);
+      speckle_scale.bind_storage(1);
+      scan.bind(0);
+      echoes.bind_image(0, GL_WRITE_ONLY);
+      beam.dispatch(parameters.samples, (parameters.lines + 3) / 4);
+      break;
+    case Stage::scan_convert:
+      echoes.bind(0);
+      line_and_sample.bind(1);
+      picture.bind_image(0, GL_WRITE_ONLY);
+      over_fan(scan_convert);
+      break;
+    case Stage::smooth:
+      reflection_gaussian.window.bind_storage(0);
+      transmission_gaussian.window.bind_storage(1);
+      picture.bind(0);
+      half_smoothed.bind_image(0, GL_WRITE_ONLY);
+      over_fan(smooth);
+      break;
+    case Stage::fuse:
+      reflection_gaussian.window.bind_storage(0);
+      transmission_gaussian.window.bind_storage(1);
+      picture.bind(0);
+      half_smoothed.bind(1);
+      window_share.bind(2);
+      fused.bind_image(0, GL_WRITE_ONLY);
+      over_fan(fuse);
+      break;
+    case Stage::maximum:
+      maximum_buffer.clear();
+      maximum_buffer.bind_storage(0);
+      fused.bind(0);
+      line_and_sample.bind(1);
+      maximum.dispatch(settings.image_width, 1);
+      break;
+    case Stage::compress:
+      maximum_buffer.bind_storage(0);
+      fused.bind(0);
+      line_and_sample.bind(1);
+      image.bind_image(0, GL_WRITE_ONLY);
+      over_fan(compress);
+      break;
   }
-  if (due(Stage::scan_convert)) {
-    echoes.bind(0);
-    line_and_sample.bind(1);
-    picture.bind_image(0, GL_WRITE_ONLY);
-    scan_convert.dispatch(picture.width(), picture.height());
-  }
-  if (smoothing() && due(Stage::smooth)) run_smoothing();
-  if (due(Stage::fuse)) {
-    (smoothing() ? smoothed : picture).bind(0);
-    fused.bind_image(0, GL_WRITE_ONLY);
-    fuse.dispatch(fused.width(), fused.height());
-  }
-  line_and_sample.bind(1);
-  maximum_buffer.bind_storage(kMaximum);
-  if (parameters.frame_maximum && due(Stage::maximum)) {
-    const GLuint zero = 0;
-    maximum_buffer.write(&zero, sizeof zero);
-    fused.bind(0);
-    maximum.dispatch(fused.width(), 1);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-  }
-  if (due(Stage::compress)) {
-    fused.bind(0);
-    image.bind_image(0, GL_WRITE_ONLY);
-    compress.dispatch(image.width(), image.height());
-  }
-  first_due.reset();
 }
 
 Simulator::Simulator(const ShaderSources& sources) : state_(std::make_unique<State>(sources)) {}
@@ -270,24 +351,7 @@ Simulator::Simulator(Simulator&&) noexcept = default;
 Simulator& Simulator::operator=(Simulator&&) noexcept = default;
 
 void Simulator::set_volume(const AcousticVolume& volume, const TissueTable& table) {
-  const glm::ivec3 size = volume.grid.size;
-  Texture texture = Texture::make_3d(GL_RG16_SNORM, size.x, size.y, size.z, Filter::linear, Wrap::border);
-  const AcousticVoxel outside;
-  texture.set_border(float(outside.hu) / 32767.0f, float(outside.echogenicity_cdb) / 32767.0f, 0, 0);
-  texture.write(GL_RG, GL_SHORT, volume.voxels.data());
-  state_->volume = std::move(texture);
-  // Voxel centres lie at (i + 1/2) / size in a texture.
-  glm::dmat4 texture_from_index = glm::scale(glm::dmat4(1.0), 1.0 / glm::dvec3(size));
-  texture_from_index = glm::translate(texture_from_index, glm::dvec3(0.5));
-  state_->texture_from_patient = texture_from_index * glm::inverse(volume.grid.matrix());
-
-  std::vector<float> lookup;
-  for (int i = 0; i < kLookupSize; ++i) {
-    const TissueKnot knot = table.at(kFirstHu + i);
-    lookup.push_back(float(knot.impedance_mrayl));
-    lookup.push_back(float(knot.absorption_db_cm_mhz));
-  }
-  state_->tissue_lookup = storage(lookup);
+  state_->volume = DeviceVolume(volume, table);
   state_->due_from(Stage::traverse);
 }
 
@@ -306,14 +370,15 @@ void Simulator::set_settings(const Settings& settings) {
 
   using S = Settings;
   if (!same(&S::samples, &S::reflection_length_mm, &S::frequency_mhz, &S::absorption, &S::gel_mm, &S::speckle,
-            &S::speckle_seed, &S::speckle_cell_mm, &S::image_width, &S::image_height))
+            &S::speckle_seed, &S::speckle_cell_mm, &S::image_width, &S::image_height, &S::skipping))
     state_->due_from(Stage::traverse);
   else if (!same(&S::beam_window, &S::beam_lines, &S::two_way))
     state_->due_from(Stage::beam);
   else if (!same(&S::reflection_sigma_mm, &S::transmission_sigma_mm))
     state_->due_from(Stage::smooth);
   else if (!same(&S::blend))
-    state_->due_from(Stage::fuse);
+    // Beside weaker scatterers, interfaces may be seen that were not.
+    state_->due_from(settings.skipping && settings.blend < old.blend ? Stage::traverse : Stage::fuse);
   else if (!same(&S::gain_db, &S::tgc_db, &S::reference_level))
     state_->due_from(Stage::maximum);
   else if (!same(&S::dynamic_range_db, &S::fixed_level))
@@ -327,37 +392,46 @@ void Simulator::set_pose(const Pose& patient_from_probe) {
   state_->due_from(Stage::traverse);
 }
 
+void Simulator::run_through(Stage last) {
+  state_->run_through(last);
+}
+
 const Texture& Simulator::image() {
-  state_->run();
+  state_->run_through(Stage::compress);
   return state_->image;
 }
 
 const ImageGeometry& Simulator::geometry() const {
-  return state_->geometry;
+  return state_->fan.geometry;
 }
 const Texture& Simulator::volume_texture() const {
-  return state_->volume;
+  return state_->volume.texture();
 }
 const glm::dmat4& Simulator::texture_from_patient() const {
-  return state_->texture_from_patient;
+  return state_->volume.texture_from_patient();
 }
 const std::array<long, kStageCount>& Simulator::runs() const {
   return state_->runs;
 }
 
+SampleCounts Simulator::sample_counts() const {
+  SampleCounts counts;
+  state_->counters.read(&counts, sizeof counts);
+  return counts;
+}
+
 Stages<float> Simulator::read_stages() {
-  state_->run();
+  run_through(Stage::compress);
   const State& s = *state_;
-  const int n = s.scan.width(), d = s.scan.height(), w = s.image.width(), h = s.image.height();
   Stages<float> stages;
-  const std::vector<float> scan = read_rgba(s.scan), echoes = read_rgba(s.echoes);
-  stages.intensity = channel(scan, n, d, 0);
-  stages.reflection = channel(scan, n, d, 1);
-  stages.reflection_beam = channel(echoes, n, d, 0);
-  stages.transmission = channel(echoes, n, d, 1);
-  stages.speckle = channel(echoes, n, d, 2);
-  stages.fused = Image<float>(w, h);
-  s.fused.read(GL_RED, GL_FLOAT, stages.fused.pixels.data(), stages.fused.pixels.size() * sizeof(float));
+  const std::vector<Image<float>> scan = read_channels(s.scan, 4), echoes = read_channels(s.echoes, 4);
+  stages.intensity = transposed(scan[0]);
+  stages.reflection = transposed(scan[1]);
+  stages.reflection_beam = transposed(echoes[0]);
+  stages.transmission = transposed(echoes[1]);
+  stages.speckle = transposed(echoes[2]);
+  stages.fused = read_channels(s.fused, 1)[0];
+  const int w = s.image.width(), h = s.image.height();
   Image<Rgba8> rgba(w, h);
   s.image.read(GL_RGBA, GL_UNSIGNED_BYTE, rgba.pixels.data(), rgba.pixels.size() * sizeof(Rgba8));
   stages.inside = Image<std::uint8_t>(w, h);
@@ -365,6 +439,7 @@ Stages<float> Simulator::read_stages() {
   for (std::size_t i = 0; i < rgba.pixels.size(); ++i) {
     stages.grey.pixels[i] = rgba.pixels[i][0];
     stages.inside.pixels[i] = rgba.pixels[i][3] ? 1 : 0;
+    stages.fused.pixels[i] = std::max(stages.fused.pixels[i], 0.0f);
   }
   return stages;
 }
@@ -372,6 +447,7 @@ Stages<float> Simulator::read_stages() {
 std::optional<std::string> Simulator::reload(const ShaderSources& sources) {
   State& s = *state_;
   std::string problems;
+  s.sources = sources;
   for (Program* program : {&s.traverse, &s.beam, &s.scan_convert, &s.smooth, &s.fuse, &s.maximum, &s.compress})
     if (const auto problem = program->reload(sources)) problems += *problem;
   s.due_from(Stage::traverse);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,6 +20,12 @@ namespace insonate::gl {
 /// The stages of model S in the order they run; each reads what the one before it wrote.
 enum class Stage { traverse, beam, scan_convert, smooth, fuse, maximum, compress };
 inline constexpr int kStageCount = 7;
+
+/// What the traversal did for the last picture.
+struct SampleCounts {
+  std::uint32_t walked = 0;   ///< samples evaluated, of lines x samples: a line ends where it has lost its energy
+  std::uint32_t normals = 0;  ///< samples of these whose interface's normal was worked out
+};
 
 /// Model S on the graphics card: a volume, a probe, a pose and settings in, a picture out.
 ///
@@ -39,6 +46,9 @@ public:
   /// @param patient_from_probe  rigid and finite; checked where poses enter the program
   void set_pose(const Pose& patient_from_probe);
 
+  /// Runs what is due up to and including a stage, for those who measure.
+  void run_through(Stage last);
+
   /// The picture: RGBA8, grey in red, green and blue, alpha 255 inside the fan; row 0 is the top.
   const Texture& image();
   /// How its pixels lie in the probe's plane.
@@ -54,6 +64,8 @@ public:
 
   /// How often each stage has run, in the order of Stage.
   const std::array<long, kStageCount>& runs() const;
+  /// Waits for the device.
+  SampleCounts sample_counts() const;
 
   /// Builds all shaders again; what does not build goes on as it was and is told of.
   std::optional<std::string> reload(const ShaderSources& sources);

@@ -108,6 +108,7 @@ const std::vector<Key>& keys() {
       number("frequency_mhz", &S::frequency_mhz, 0.5, 30),
       flag("absorption", &S::absorption),
       number("gel_mm", &S::gel_mm, 0, 100),
+      flag("skipping", &S::skipping),
       choice("beam_window", &S::beam_window, {"box", "triangle", "hann"}),
       whole("beam_lines", &S::beam_lines, 1, 255, true),
       flag("speckle", &S::speckle),

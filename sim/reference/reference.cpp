@@ -14,12 +14,6 @@
 namespace insonate {
 namespace {
 
-constexpr double kCouplingAirHu = -300;  // what is less dense than this within the gel layer is gel
-
-double with_gel(double hu, double r_mm, const Settings& settings) {
-  return r_mm < settings.gel_mm && hu < kCouplingAirHu ? 0.0 : hu;
-}
-
 /// The lattice's complex amplitude at a patient position: trilinear, brought back to variance 1.
 class Scatterers {
 public:
@@ -66,28 +60,29 @@ double bilinear(const Image<double>& image, double x, double y) {
          fy * ((1 - fx) * image.at(x0, y1) + fx * image.at(x1, y1));
 }
 
-/// A Gaussian over the pixels inside the fan, out to three sigma; below a twentieth of a pixel it is none.
+/// A Gaussian over the pixels inside the fan, along rows and then columns, out to three sigma; below a twentieth of a
+/// pixel it is none.
 Image<double> smoothed(const Image<double>& image, const Image<std::uint8_t>& inside, double sigma_px) {
   if (sigma_px < 0.05) return image;
   const int radius = std::min(int(std::ceil(3 * sigma_px)), std::max(image.width, image.height) - 1);
   const auto pass = [&](const Image<double>& from, int dx, int dy) {
     Image<double> to(from.width, from.height);
     for (int y = 0; y < from.height; ++y)
-      for (int x = 0; x < from.width; ++x) {
-        if (!inside.at(x, y)) continue;
-        double sum = 0, total = 0;
-        for (int j = -radius; j <= radius; ++j) {
+      for (int x = 0; x < from.width; ++x)
+        for (int j = -radius; j <= radius && inside.at(x, y); ++j) {
           const int u = x + j * dx, v = y + j * dy;
-          if (u < 0 || v < 0 || u >= from.width || v >= from.height || !inside.at(u, v)) continue;
-          const double weight = std::exp(-0.5 * j * j / (sigma_px * sigma_px));
-          sum += weight * from.at(u, v);
-          total += weight;
+          if (u >= 0 && v >= 0 && u < from.width && v < from.height)
+            to.at(x, y) += std::exp(-0.5 * j * j / (sigma_px * sigma_px)) * from.at(u, v);
         }
-        to.at(x, y) = sum / total;
-      }
     return to;
   };
-  return pass(pass(image, 1, 0), 0, 1);
+  Image<double> ones(image.width, image.height);
+  for (std::size_t i = 0; i < ones.pixels.size(); ++i) ones.pixels[i] = inside.pixels[i];
+  Image<double> sum = pass(pass(image, 1, 0), 0, 1);
+  const Image<double> weight = pass(pass(ones, 1, 0), 0, 1);
+  for (std::size_t i = 0; i < sum.pixels.size(); ++i)
+    if (inside.pixels[i]) sum.pixels[i] /= weight.pixels[i];
+  return sum;
 }
 
 double time_gain(const Settings& settings, double depth_share) {
@@ -99,6 +94,10 @@ double time_gain(const Settings& settings, double depth_share) {
 }
 
 }  // namespace
+
+Medium with_gel(const Medium& medium, double r_mm, double gel_mm) {
+  return r_mm < gel_mm && medium.hu < kCouplingAirHu ? Medium{0, -60} : medium;
+}
 
 MediumField trilinear_field(const AcousticVolume& volume) {
   return [&volume, inverse = glm::inverse(volume.grid.matrix())](const glm::dvec3& p) {
@@ -141,20 +140,21 @@ ReferenceScan traverse_reference(const MediumField& field, const TissueTable& ta
     for (int k = 0; k < lines.samples; ++k) {
       const double r = lines.r_min_mm + (k + 0.5) * dr;
       const glm::dvec3 p = start + r * along;
-      const Medium here = field(p);
-      const auto impedance = [&](const glm::dvec3& offset, double depth) {
-        return table.at(with_gel(field(p + offset).hu, depth, settings)).impedance_mrayl;
+      const Medium here = with_gel(field(p), r, settings.gel_mm);
+      const auto hu = [&](const glm::dvec3& offset, double depth) {
+        return with_gel(field(p + offset), depth, settings.gel_mm).hu;
       };
-      const double a = settings.absorption ? table.at(with_gel(here.hu, r, settings)).absorption_db_cm_mhz : 0;
+      const double a = settings.absorption ? table.at(here.hu).absorption_db_cm_mhz : 0;
       const auto absorbed = [&](double distance_mm) {
         return std::pow(10.0, -a * settings.frequency_mhz * distance_mm / 100);
       };
 
-      const double before = impedance(-l / 2 * along, r - l / 2);
-      const double behind = impedance(l / 2 * along, r + l / 2);
+      const double hu_before = hu(-l / 2 * along, r - l / 2), hu_behind = hu(l / 2 * along, r + l / 2);
+      const double before = table.at(hu_before).impedance_mrayl, behind = table.at(hu_behind).impedance_mrayl;
       const double alpha = std::pow((behind - before) / (behind + before), 2);  // (1)
-      const glm::dvec3 gradient(impedance(l / 2 * lateral, r) - impedance(-l / 2 * lateral, r), behind - before,
-                                impedance(l / 2 * elevation, r) - impedance(-l / 2 * elevation, r));
+      // Impedance is a function of density, so their gradients have one direction.
+      const glm::dvec3 gradient(hu(l / 2 * lateral, r) - hu(-l / 2 * lateral, r), hu_behind - hu_before,
+                                hu(l / 2 * elevation, r) - hu(-l / 2 * elevation, r));
       const double steepness = glm::length(gradient);
       const double cosine = steepness > 0 ? std::abs(gradient.y) / steepness : 0;
 

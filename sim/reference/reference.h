@@ -19,6 +19,13 @@ struct Medium {
 };
 using MediumField = std::function<Medium(const glm::dvec3& patient_mm)>;
 
+/// Below this density, what lies within the gel layer is gel.
+inline constexpr double kCouplingAirHu = -300;
+
+/// What the sound meets where the field has `medium`, at a distance from the face along the line: coupling gel of
+/// `gel_mm`, which is water without any echo, fills what air there is.
+Medium with_gel(const Medium& medium, double r_mm, double gel_mm);
+
 /// The trilinear field of a volume, with air outside.
 MediumField trilinear_field(const AcousticVolume& volume);
 

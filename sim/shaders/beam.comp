@@ -1,31 +1,44 @@
 // Beam width (4): reflections and scatterers' echoes across the lines of the active aperture. Scatterers add up as
 // complex amplitudes before their envelope is taken, which is what makes speckle.
+//
+// An invocation serves four neighbouring lines, whose apertures overlap: a value is read once for all four.
 
-layout(local_size_x = 16, local_size_y = 4) in;
+layout(local_size_x = 64) in;
 
 #include "shared/simulation_parameters.h"
 
-layout(binding = 0) uniform sampler2D scan;
-layout(std430, binding = 2) readonly buffer BeamWeights { float beam_weight[]; };       // 2 beam_half + 1, sum 1
-layout(std430, binding = 3) readonly buffer SpeckleScale { float envelope_scale[]; };  // a sample: mean envelope -> 1
-layout(binding = 0, rgba32f) writeonly uniform image2D echoes;  // x line, y sample: R, T, S, 0
+layout(binding = 0) uniform sampler2D scan;  // a row a line: I, R, scatterers' echo (re, im)
+layout(std430, binding = 0) readonly buffer Window { vec4 window[]; };  // of four lines, by place from the first's edge
+layout(std430, binding = 1) readonly buffer SpeckleScale { float envelope_scale[]; };  // a sample: mean envelope -> 1
+layout(binding = 0, rgba32f) writeonly uniform image2D echoes;                         // a row a line: R, T, S, 0
+
+vec4 reflection = vec4(0.0), re = vec4(0.0), im = vec4(0.0), total = vec4(0.0);
+
+// Adds line first + j, and gives its intensity.
+float add(int first, int j, int k) {
+  int at = first + j;
+  bool exists = at >= 0 && at < lines;
+  vec4 value = texelFetch(scan, ivec2(k, clamp(at, 0, lines - 1)), 0);
+  vec4 weight = exists ? window[j + beam_half] : vec4(0.0);
+  reflection += weight * value.y;
+  re += weight * value.z;
+  im += weight * value.w;
+  total += weight;
+  return value.x;
+}
 
 void main() {
-  ivec2 here = ivec2(gl_GlobalInvocationID.xy);
-  if (here.x >= lines || here.y >= samples) return;
+  int k = int(gl_GlobalInvocationID.x), first = 4 * int(gl_GlobalInvocationID.y);
+  if (first >= lines || k >= samples) return;
 
-  float reflection = 0.0;
-  vec2 echo = vec2(0.0);
-  float total = 0.0;
-  for (int j = max(-beam_half, -here.x); j <= min(beam_half, lines - 1 - here.x); ++j) {
-    float weight = beam_weight[j + beam_half];
-    vec4 neighbour = texelFetch(scan, here + ivec2(j, 0), 0);
-    reflection += weight * neighbour.y;
-    echo += weight * neighbour.zw;
-    total += weight;
-  }
-  float intensity = texelFetch(scan, here, 0).x;
-  float transmission = two_way == 1 ? intensity * intensity : intensity;
-  float envelope = length(echo) / total * (speckle == 1 ? envelope_scale[here.y] : 1.0);
-  imageStore(echoes, here, vec4(reflection / total, transmission, envelope, 0.0));
+  for (int j = -beam_half; j < 0; ++j) add(first, j, k);
+  vec4 intensity = vec4(add(first, 0, k), add(first, 1, k), add(first, 2, k), add(first, 3, k));
+  for (int j = 4; j <= beam_half + 3; ++j) add(first, j, k);
+
+  reflection /= total;
+  vec4 transmission = two_way == 1 ? intensity * intensity : intensity;
+  vec4 envelope = sqrt(re * re + im * im) / total * (speckle == 1 ? envelope_scale[k] : 1.0);
+  for (int i = 0; i < 4; ++i)
+    if (first + i < lines)
+      imageStore(echoes, ivec2(k, first + i), vec4(reflection[i], transmission[i], envelope[i], 0.0));
 }

@@ -1,26 +1,24 @@
 // Gain, log compression (7) and the grey scale.
 
-layout(local_size_x = 16, local_size_y = 4) in;
+layout(local_size_x = 32, local_size_y = 8) in;
 
 #include "shared/simulation_parameters.h"
 #include "shared/time_gain.glsl"
+#include "shared/fan_blocks.glsl"
 
 layout(binding = 0) uniform sampler2D fused;
 layout(binding = 1) uniform sampler2D line_and_sample;
-layout(std430, binding = 5) readonly buffer Maximum { uint maximum_bits; };
+layout(std430, binding = 0) readonly buffer Maximum { uint maximum_bits; };
 layout(binding = 0, rgba8) writeonly uniform image2D image;  // grey, grey, grey, 1 inside the fan
 
 void main() {
-  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(pixel, imageSize(image)))) return;
+  ivec2 pixel = block_start() + ivec2(gl_LocalInvocationID.xy);
+  if (pixel.x >= width || pixel.y >= height) return;
   vec2 position = texelFetch(line_and_sample, pixel, 0).xy;
-  if (position.x <= -1.0) {
-    imageStore(image, pixel, vec4(0.0));
-    return;
-  }
   float level = frame_maximum == 1 ? uintBitsToFloat(maximum_bits) : fixed_level;
-  float echo = texelFetch(fused, pixel, 0).x * time_gain(position.y);
+  float echo = texelFetch(fused, pixel, 0).x;
   float grey = 0.0;  // also for a frame without any echo, whose maximum is 0
-  if (echo > 0.0 && level > 0.0) grey = clamp(1.0 + 4.342944819 * log(echo / level) / dynamic_range_db, 0.0, 1.0);
-  imageStore(image, pixel, vec4(vec3(grey), 1.0));
+  if (echo > 0.0)
+    grey = clamp(1.0 + (4.342944819 * log(echo / level) + time_gain_db(position.y)) / dynamic_range_db, 0.0, 1.0);
+  imageStore(image, pixel, position.x > -1.0 ? vec4(vec3(grey), 1.0) : vec4(0.0));
 }

@@ -1,15 +1,43 @@
-// Fusion (6): reflected and scattered echo, both through the speckle.
+// Fusion (6): reflected and scattered echo, both through the speckle. Where they are smoothed, smooth.comp has done so
+// along the rows; here follow the columns, and the division by the part of the windows that lies inside the fan.
+//
+// An invocation serves four pixels of a column, whose windows overlap: a value is read once for all four.
 
-layout(local_size_x = 16, local_size_y = 4) in;
+layout(local_size_x = 32, local_size_y = 2) in;
 
 #include "shared/simulation_parameters.h"
+#include "shared/fan_blocks.glsl"
 
-layout(binding = 0) uniform sampler2D picture;
-layout(binding = 0, r32f) writeonly uniform image2D fused;
+layout(binding = 0) uniform sampler2D picture;        // R, T, S, 1; all 0 outside the fan
+layout(binding = 1) uniform sampler2D half_smoothed;  // R, T
+layout(binding = 2) uniform sampler2D window_share;   // 1 / (what of the two windows lies inside), per pixel
+layout(std430, binding = 0) readonly buffer ReflectionWindow { vec4 reflection_window[]; };  // by place from the first
+layout(std430, binding = 1) readonly buffer TransmissionWindow { vec4 transmission_window[]; };  // pixel's edge
+layout(binding = 0, r32f) writeonly uniform image2D fused;                                        // U
+
+vec2 half_smoothed_at(ivec2 at) {
+  return at.y >= 0 && at.y < height ? texelFetch(half_smoothed, at, 0).xy : vec2(0.0);
+}
 
 void main() {
-  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(pixel, imageSize(fused)))) return;
-  vec4 value = texelFetch(picture, pixel, 0);
-  imageStore(fused, pixel, vec4((value.x + blend * value.y) * value.z));
+  ivec2 first = block_start() + ivec2(1, 4) * ivec2(gl_LocalInvocationID.xy);
+  if (first.x >= width || first.y >= height) return;
+
+  vec4 reflection = vec4(0.0), transmission = vec4(0.0);
+  if (reflection_radius_px > 0)
+    for (int j = -reflection_radius_px; j <= reflection_radius_px + 3; ++j)
+      reflection += reflection_window[j + reflection_radius_px] * half_smoothed_at(first + ivec2(0, j)).x;
+  if (transmission_radius_px > 0)
+    for (int j = -transmission_radius_px; j <= transmission_radius_px + 3; ++j)
+      transmission += transmission_window[j + transmission_radius_px] * half_smoothed_at(first + ivec2(0, j)).y;
+
+  for (int i = 0; i < 4; ++i) {
+    ivec2 pixel = first + ivec2(0, i);
+    if (pixel.y >= height) break;
+    vec4 value = texelFetch(picture, pixel, 0);
+    vec2 share = texelFetch(window_share, pixel, 0).xy;
+    if (reflection_radius_px > 0) value.x = reflection[i] * share.x;
+    if (transmission_radius_px > 0) value.y = transmission[i] * share.y;
+    imageStore(fused, pixel, vec4((value.x + blend * value.y) * value.z));
+  }
 }

@@ -18,14 +18,12 @@ layout(binding = 1) uniform sampler2D previous;  // as `carried`, of pass k - 1
 
 layout(location = 0) flat in int k;
 layout(location = 0) out vec2 scan;     // I, R
-layout(location = 1) out vec2 carried;  // I behind this sample, Z half a reflection length behind it
+layout(location = 1) out vec2 carried;  // I behind this sample, HU half a reflection length behind it
 
 float density(vec3 at, float r) {
   float hu = textureLod(acoustic_volume, at, 0.0).r * 32767.0;
   return r < gel_mm && hu < kCouplingAirHu ? 0.0 : hu;
 }
-
-float impedance(vec3 at, float r) { return impedance_and_absorption(density(at, r)).x; }
 
 // ln(1 - alpha), by its series where 1 - alpha would lose the digits of a weak interface.
 float log_transmission(float alpha, float z1, float z2) {
@@ -45,25 +43,26 @@ void main() {
   float intensity = k > 0 ? before.x : exp(-0.5 * absorbed);  // the first sample lies half a step behind the face
 
   vec3 half_length = line.along.xyz * half_length_mm;
-#ifdef CARRIES_IMPEDANCE
-  float z_before = k > 0 ? before.y : impedance(at - half_length, r - half_length_mm);
-#else
-  float z_before = impedance(at - half_length, r - half_length_mm);
+  float hu_before = before.y;
+#ifdef CARRIES_DENSITY
+  if (k == 0)
 #endif
-  float z_behind = impedance(at + half_length, r + half_length_mm);
-  float rise = z_behind - z_before;
-  float alpha = rise / (z_behind + z_before);  // (1)
+    hu_before = density(at - half_length, r - half_length_mm);
+  float hu_behind = density(at + half_length, r + half_length_mm);
+  float z_before = impedance_and_absorption(hu_before).x, z_behind = impedance_and_absorption(hu_behind).x;
+  float alpha = (z_behind - z_before) / (z_behind + z_before);  // (1)
   alpha *= alpha;
 
   float reflection = 0.0;
   if (alpha > 0.0) {
     vec3 lateral = line.lateral.xyz * half_length_mm;
     vec3 elevation = line.elevation.xyz * half_length_mm;
-    float across = impedance(at + lateral, r) - impedance(at - lateral, r);
-    float over = impedance(at + elevation, r) - impedance(at - elevation, r);
+    float rise = hu_behind - hu_before;
+    float across = density(at + lateral, r) - density(at - lateral, r);
+    float over = density(at + elevation, r) - density(at - elevation, r);
     float cosine = abs(rise) * inversesqrt(rise * rise + across * across + over * over);
     reflection = alpha * intensity * intensity * cosine;  // (3)
   }
   scan = vec2(intensity, reflection);
-  carried = vec2(intensity * exp(exponent * log_transmission(alpha, z_before, z_behind) - absorbed), z_behind);  // (5)
+  carried = vec2(intensity * exp(exponent * log_transmission(alpha, z_before, z_behind) - absorbed), hu_behind);  // (5)
 }

@@ -1,5 +1,7 @@
 // Model S along one scan line: reflection coefficient, transmitted intensity, echo, and the scatterers' echo.
 // An invocation a line walks from the face into the depth, because the intensity at a sample depends on all before it.
+// Fetches from the volume are what it costs, so it makes as few as the sampling allows. What it writes has a row a line:
+// invocations that each walk along a row stay in the processor's cache, a column each would touch a page a step.
 
 layout(local_size_x = 8) in;
 
@@ -7,26 +9,50 @@ layout(local_size_x = 8) in;
 #include "shared/acoustic_volume.glsl"
 
 layout(binding = 1) uniform sampler3D scatterers;  // complex, unit variance at the lattice's points
-layout(binding = 0, rgba32f) writeonly uniform image2D scan;  // x line, y sample: I, R, scatterers' echo (re, im)
+layout(binding = 0, rgba32f) writeonly uniform image2D scan;  // I, R, scatterers' echo (re, im)
 
 // A line and the directions beside it, worked out in double precision for each pose: adding up single-precision
 // products here instead would move samples by a thousandth of a voxel, which shows at the surface of gas.
 struct Line {
-  vec4 start, along, lateral, elevation;  // in the volume's texture: a point, and steps of 1 mm
-  vec4 lattice_start, lattice_along;      // in the scatterers' lattice
+  vec4 start, along;        // in the volume's texture: of sample 0, and to the next; start.w and along.w: the first and
+                            // the last sample that may lie in the body
+  vec4 lateral, elevation;  // half the reflection length to either side
+  vec4 lattice_start, lattice_along;  // in the scatterers' lattice
 };
 layout(std430, binding = 0) readonly buffer ScanLines { Line scan_lines[]; };
+layout(std430, binding = 2) buffer Counters { uint samples_walked, normals_taken; };
 
+// Where the ends of the reflection length lie. Ends that meet those of the next samples are fetched once for all.
+const int kEdgesAtSamples = 2;  // l = 2 dr: on the neighbouring samples
+const int kEdgesAtMiddles = 1;  // l = dr: halfway between samples, as in the paper
+const int kEdgesAnywhere = 0;
+
+const float kMeanCosine = 0.5;           // |d . n| over all directions, for interfaces too weak to be looked at
 const float kScattererScale = 4.0;     // the lattice stores a quarter of its normally distributed numbers
 const float kLn10 = 2.302585093;
 const float kSpentLogIntensity = -46.0;  // 10^-20: 200 dB down nothing can be heard
 
+Line line;
+
 vec2 voxel(vec3 at) { return textureLod(acoustic_volume, at, 0.0).rg * 32767.0; }
 
 // Coupling gel fills what air there is between the face and the skin, up to its thickness.
-float with_gel(float hu, float r) { return r < gel_mm && hu < kCouplingAirHu ? 0.0 : hu; }
+vec2 with_gel(vec2 voxel, float r) { return r < gel_mm && voxel.x < kCouplingAirHu ? kGel : voxel; }
 
-float impedance(vec3 at, float r) { return impedance_and_absorption(with_gel(voxel(at).r, r)).x; }
+float depth(float k) { return r_min_mm + (k + 0.5) * dr_mm; }
+
+struct Medium { float hu, impedance, absorption, echogenicity; };
+
+// At a place along the line, counted in samples.
+Medium medium(float k) {
+  vec2 here = kOutside;
+  if (k >= line.start.w && k <= line.along.w) here = voxel(line.start.xyz + k * line.along.xyz);
+  here = with_gel(here, depth(k));
+  vec2 known = impedance_and_absorption(here.x);
+  return Medium(here.x, known.x, known.y, here.y);
+}
+
+float hu_at(vec3 at, float r) { return with_gel(voxel(at), r).x; }
 
 // ln(1 - alpha) without the cancellation in 1 - alpha: by its series for weak interfaces, as 4 Z1 Z2 / (Z1 + Z2)^2 for
 // strong ones.
@@ -43,46 +69,54 @@ vec2 scatterer(vec3 lattice) {
   return textureLod(scatterers, lattice, 0.0).rg * (kScattererScale * inversesqrt(kept.x * kept.y * kept.z));
 }
 
-// |cos| of the angle between the beam and the normal of the interface, from differences over the reflection length.
-float incidence(Line line, vec3 at, float r, float along) {
-  vec3 lateral = line.lateral.xyz * half_reflection_length_mm;
-  vec3 elevation = line.elevation.xyz * half_reflection_length_mm;
-  float across = impedance(at + lateral, r) - impedance(at - lateral, r);
-  float over = impedance(at + elevation, r) - impedance(at - elevation, r);
-  float length_squared = along * along + across * across + over * over;
-  return length_squared > 0.0 ? abs(along) * inversesqrt(length_squared) : 0.0;
+// |cos| of the angle between the beam and the normal of the interface, from differences over the reflection length:
+// of density, whose gradient is that of impedance in direction and needs no look at the tissue table.
+float incidence(float k, float along) {
+  vec3 at = line.start.xyz + k * line.along.xyz;
+  float r = depth(k);
+  float across = hu_at(at + line.lateral.xyz, r) - hu_at(at - line.lateral.xyz, r);
+  float over = hu_at(at + line.elevation.xyz, r) - hu_at(at - line.elevation.xyz, r);
+  return abs(along) * inversesqrt(along * along + across * across + over * over);
 }
 
 void main() {
   int index = int(gl_GlobalInvocationID.x);
   if (index >= lines) return;
-  Line line = scan_lines[index];
-  vec3 half_length = line.along.xyz * half_reflection_length_mm;
+  line = scan_lines[index];
 
   float log_intensity = 0.0;
-  for (int k = 0; k < samples; ++k) {
-    if (log_intensity < kSpentLogIntensity) {
-      imageStore(scan, ivec2(index, k), vec4(0.0));
-      continue;
-    }
-    float r = r_min_mm + (float(k) + 0.5) * dr_mm;
-    vec3 at = line.start.xyz + r * line.along.xyz;
-
-    vec2 here = voxel(at);
-    float absorbed = impedance_and_absorption(with_gel(here.x, r)).y * absorption_per_sample;
-    float z_before = impedance(at - half_length, r - half_reflection_length_mm);
-    float z_behind = impedance(at + half_length, r + half_reflection_length_mm);
-    float rise = z_behind - z_before;
-    float alpha = rise / (z_behind + z_before);  // (1)
+  uint normals = 0u;
+  Medium here = medium(0.0), before = medium(-half_reflection_length);
+  int k = 0;
+  for (; k < samples && log_intensity > kSpentLogIntensity; ++k) {
+    float position = float(k);
+    Medium next = medium(position + 1.0), behind = next;
+    if (EDGES_AT != kEdgesAtSamples) behind = medium(position + half_reflection_length);
+    if (EDGES_AT == kEdgesAnywhere) before = medium(position - half_reflection_length);
+    float alpha = (behind.impedance - before.impedance) / (behind.impedance + before.impedance);  // (1)
     alpha *= alpha;
 
+    float absorbed = here.absorption * absorption_per_sample;
     if (k == 0) log_intensity = -0.5 * absorbed;  // the first sample lies half a step behind the face
     float intensity = exp(log_intensity);
-    float reflection = alpha > 0.0 ? alpha * intensity * intensity * incidence(line, at, r, rise) : 0.0;  // (3)
-    vec3 lattice = line.lattice_start.xyz + r * line.lattice_along.xyz;
-    vec2 echo = exp(here.y * (kLn10 / 1000.0)) * (speckle == 1 ? scatterer(lattice) : vec2(1.0, 0.0));
-    imageStore(scan, ivec2(index, k), vec4(intensity, reflection, echo));
+    float cosine = kMeanCosine;
+    if (alpha > least_alpha_with_normal) {
+      cosine = incidence(position, behind.hu - before.hu);
+      ++normals;
+    }
+    vec2 echo = vec2(exp(here.echogenicity * (kLn10 / 1000.0)), 0.0);
+    if (SPECKLE == 1) echo = echo.x * scatterer(line.lattice_start.xyz + position * line.lattice_along.xyz);
 
-    log_intensity += reflection_exponent * log_transmission(alpha, z_before, z_behind) - absorbed;  // (5)
+    float reflection = alpha * intensity * intensity * cosine;  // (3)
+    imageStore(scan, ivec2(k, index), vec4(intensity, reflection, echo));
+
+    log_intensity +=
+        reflection_exponent * log_transmission(alpha, before.impedance, behind.impedance) - absorbed;  // (5)
+    before = behind;
+    if (EDGES_AT == kEdgesAtSamples) before = here;
+    here = next;
   }
+  atomicAdd(samples_walked, uint(k));
+  atomicAdd(normals_taken, normals);
+  for (; k < samples; ++k) imageStore(scan, ivec2(k, index), vec4(0.0));
 }

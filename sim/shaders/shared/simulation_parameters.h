@@ -11,28 +11,33 @@ layout(std140, binding = 0) uniform SimulationParameters {
 #endif
   int lines;    // N
   int samples;  // D
+  int width;    // of the picture, pixels
+  int height;
+
   float r_min_mm;
   float dr_mm;
+  float half_reflection_length;  // l/2 in samples
+  float reflection_exponent;     // dr/l
 
-  float half_reflection_length_mm;  // l/2
-  float reflection_exponent;        // dr/l
-  float absorption_per_sample;      // f dr/100 ln 10: times dB/(cm MHz), the natural logarithm that a sample takes
+  float absorption_per_sample;  // f dr/100 ln 10: times dB/(cm MHz), the natural logarithm that a sample takes
   float gel_mm;
+  float least_alpha_with_normal;  // a weaker interface's tilt is not looked at
+  int unused0;
 
-  int speckle;         // 1 draws scatterers, 0 leaves their mean
-  int beam_half;       // (n_a - 1)/2
-  int two_way;         // 1: T = I^2
-  float blend;         // b
+  int speckle;    // 1 draws scatterers, 0 leaves their mean
+  int beam_half;  // (n_a - 1)/2
+  int two_way;    // 1: T = I^2
+  float blend;    // b
 
   int reflection_radius_px;    // half width of the smoothing windows; 0 for none
   int transmission_radius_px;
-  float gain;                  // as a factor
+  float gain_db;
   float dynamic_range_db;      // beta
 
   float fixed_level;
   int frame_maximum;  // 1: the brightest pixel is white
-  int unused0;
   int unused1;
+  int unused2;
 
   vec4 tgc_db[2];  // at 8 depths from the face to full depth
 #ifdef __cplusplus

@@ -1,0 +1,93 @@
+#include "sim/gl/device_volume.h"
+
+#include <glm/common.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+namespace insonate::gl {
+namespace {
+
+constexpr int kFirstHu = -1024;  // as in acoustic_volume.glsl
+constexpr int kLookupSize = 4096;
+
+Texture upload(const AcousticVolume& volume) {
+  const glm::ivec3 size = volume.grid.size;
+  Texture texture = Texture::make_3d(GL_RG16_SNORM, size.x, size.y, size.z, Filter::linear, Wrap::border);
+  const AcousticVoxel outside;
+  texture.set_border(float(outside.hu) / 32767.0f, float(outside.echogenicity_cdb) / 32767.0f, 0, 0);
+  texture.write(GL_RG, GL_SHORT, volume.voxels.data());
+  return texture;
+}
+
+Buffer tabulate(const TissueTable& table) {
+  std::vector<float> lookup;
+  for (int i = 0; i < kLookupSize; ++i) {
+    const TissueKnot knot = table.at(kFirstHu + i);
+    lookup.push_back(float(knot.impedance_mrayl));
+    lookup.push_back(float(knot.absorption_db_cm_mhz));
+  }
+  return Buffer(lookup.size() * sizeof(float), lookup.data());
+}
+
+// The least box of indices around all voxels that sound can tell from the air outside.
+std::pair<glm::ivec3, glm::ivec3> body_box(const AcousticVolume& volume, const TissueTable& table) {
+  const AcousticVoxel outside;
+  const TissueKnot air = table.at(outside.hu);
+  int densest_air = outside.hu;  // denser than that, impedance or absorption differ from air's
+  const auto like_air = [&](const TissueKnot& knot) {
+    return knot.impedance_mrayl == air.impedance_mrayl && knot.absorption_db_cm_mhz == air.absorption_db_cm_mhz;
+  };
+  while (densest_air < kFirstHu + kLookupSize && like_air(table.at(densest_air + 1))) ++densest_air;
+
+  glm::ivec3 low = volume.grid.size, high(-1);
+  std::size_t v = 0;
+  for (int z = 0; z < volume.grid.size.z; ++z)
+    for (int y = 0; y < volume.grid.size.y; ++y) {
+      const auto body = [&](const AcousticVoxel& voxel) {
+        return voxel.hu > densest_air || voxel.echogenicity_cdb != outside.echogenicity_cdb;
+      };
+      const auto row = volume.voxels.begin() + std::ptrdiff_t(v), end = row + volume.grid.size.x;
+      v += std::size_t(volume.grid.size.x);
+      const auto first = std::find_if(row, end, body);
+      if (first == end) continue;
+      const auto last = std::find_if(std::make_reverse_iterator(end), std::make_reverse_iterator(first), body);
+      low = glm::min(low, glm::ivec3(int(first - row), y, z));
+      high = glm::max(high, glm::ivec3(int(last.base() - row) - 1, y, z));
+    }
+  return {low, high};
+}
+
+}  // namespace
+
+DeviceVolume::DeviceVolume(const AcousticVolume& volume, const TissueTable& table)
+    : texture_(upload(volume)), tissue_lookup_(tabulate(table)) {
+  // Voxel centres lie at (i + 1/2) / size in a texture.
+  const glm::dvec3 size(volume.grid.size);
+  const glm::dmat4 texture_from_index = glm::translate(glm::scale(glm::dmat4(1.0), 1.0 / size), glm::dvec3(0.5));
+  texture_from_patient_ = texture_from_index * glm::inverse(volume.grid.matrix());
+
+  // A voxel is felt up to its neighbours' centres.
+  const auto [low, high] = body_box(volume, table);
+  body_low_ = (glm::dvec3(low) - 0.5) / size;
+  body_high_ = (glm::dvec3(high) + 1.5) / size;
+}
+
+std::pair<double, double> DeviceVolume::meets_body(const glm::dvec3& start, const glm::dvec3& step) const {
+  double first = -std::numeric_limits<double>::infinity(), last = -first;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = body_low_[axis] - start[axis], high = body_high_[axis] - start[axis];
+    if (step[axis] == 0) {
+      if (low > 0 || high < 0) return {0, -1};
+      continue;
+    }
+    const auto [in, out] = std::minmax({low / step[axis], high / step[axis]});
+    first = std::max(first, in);
+    last = std::min(last, out);
+  }
+  return {first, last};
+}
+
+}  // namespace insonate::gl

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+
+#include <cstdint>
+#include <vector>
+
+#include "sim/core/image.h"
+#include "sim/probe/probe.h"
+
+namespace insonate::gl {
+
+/// Where the pixels of the picture lie among the scan lines; changes with probe, depth and size, not with the pose.
+struct FanLayout {
+  static constexpr glm::ivec2 kBlock{32, 8};  ///< pixels that one work group serves, as in fan_blocks.glsl
+
+  ImageGeometry geometry;
+  Image<std::uint8_t> inside;              ///< 1 inside the fan
+  std::vector<glm::vec2> line_and_sample;  ///< per pixel, continuous; (-2, -2) outside the fan
+  std::vector<glm::ivec2> blocks;          ///< those that the fan touches, counted in blocks
+
+  FanLayout() = default;
+  FanLayout(const Probe& probe, double depth_mm, const ScanLines& lines, int width, int height);
+};
+
+/// Per pixel, 1 over what of a separable window lies inside the fan, taken along the rows and then, over the pixels
+/// inside, along the columns; 0 outside. Times it, a sum over the pixels inside is their weighted mean.
+/// @param window  weights, odd in number, the middle one at the pixel
+Image<float> one_over_window_inside(const Image<std::uint8_t>& inside, const std::vector<double>& window);
+
+}  // namespace insonate::gl
