@@ -19,12 +19,12 @@ Settings paper_settings(double depth_mm, int samples) {
 Settings trainer_settings(double frequency_mhz, double depth_mm) {
   constexpr double kSoftTissueAbsorption = 0.5;                // dB/(cm MHz), what machines assume of an abdomen
   constexpr double kAxialResolutionCycles = 0.6 * 3.5 / 1.54;  // of the pulse: 0.6 mm at 3.5 MHz
-  constexpr int kFewestSamples = 256;
+  constexpr int kFewestSamples = 256, kMostSamples = 8192;
   Settings settings;
   settings.frequency_mhz = frequency_mhz;
   // Two samples a reflection length, which share their edges in the volume: about the axial resolution.
   const double axial_resolution_mm = kAxialResolutionCycles * 1.54 / frequency_mhz;
-  settings.samples = std::max(kFewestSamples, int(std::lround(2 * depth_mm / axial_resolution_mm)));
+  settings.samples = std::clamp(int(std::lround(2 * depth_mm / axial_resolution_mm)), kFewestSamples, kMostSamples);
   settings.reflection_length_mm = 2 * depth_mm / settings.samples;
   const double two_way_db = 2 * kSoftTissueAbsorption * frequency_mhz * depth_mm / 10;
   for (std::size_t i = 0; i < settings.tgc_db.size(); ++i)
