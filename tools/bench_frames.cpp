@@ -28,7 +28,7 @@ std::array<double, gl::kStageCount> stage_shares(gl::Simulator& simulator, const
     simulator.set_pose(wandering(start, frame));
     for (std::size_t i = 0; i < times.size(); ++i) {
       const auto begin = std::chrono::steady_clock::now();
-      run_through(simulator, gl::Stage(i));
+      simulator.run_through(gl::Stage(i));
       glFinish();
       times[i].push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
     }

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <numeric>
 
@@ -34,9 +35,9 @@ std::vector<Setting> settings_to_try(const Request& request, const Scene& scene)
   std::vector<Configuration> sizes = {{lines, defaults.samples, defaults.image_width, defaults.image_height}};
   for (const glm::ivec2 pixels :
        {glm::ivec2(320, 240), glm::ivec2(480, 360), glm::ivec2(640, 480), glm::ivec2(960, 720)})
-    for (const int samples : {96, 128, 192, 256, 384, 512, 768, 1024, 2048})
-      if (samples != defaults.samples || pixels != glm::ivec2(defaults.image_width, defaults.image_height))
-        sizes.push_back({lines, samples, pixels.x, pixels.y});
+    for (const double ratio : {0.25, 0.375, 0.5, 0.75, 1.0, 1.5, 2.0, 4.0})
+      if (ratio != 1 || pixels != glm::ivec2(defaults.image_width, defaults.image_height))
+        sizes.push_back({lines, int(std::lround(ratio * defaults.samples)), pixels.x, pixels.y});
 
   std::vector<Setting> tried;
   for (const Configuration& c : configurations(request, sizes)) {
@@ -52,6 +53,7 @@ std::vector<Setting> settings_to_try(const Request& request, const Scene& scene)
     setting.name = what;
     tried.push_back(setting);
   };
+  without("nothing skipped", [](Settings& s) { s.skipping = false; });
   without("no speckle", [](Settings& s) { s.speckle = false; });
   without("a beam of one line", [](Settings& s) { s.beam_lines = 1; });
   without("no smoothing", [](Settings& s) { s.reflection_sigma_mm = s.transmission_sigma_mm = 0; });
@@ -119,15 +121,14 @@ Table measure_front(const Request& request, const std::string& svg) {
       const Stages<float> stages = simulator.read_stages();
       errors.push_back(error_of(displayed(stages, scene.probe, scene.depth_mm, setting.settings), converged, range));
       costs.push_back({times.back().median, errors.back().db});
-      const long evaluated =
-          std::count_if(stages.intensity.pixels.begin(), stages.intensity.pixels.end(), [](float i) { return i > 0; });
       const Spread& ms = times.back();
       table.rows.push_back({gl::device_description(), scene.name, scene.view, setting.name,
                             std::to_string(setting.lines), std::to_string(setting.settings.samples),
                             std::to_string(setting.settings.image_width), std::to_string(setting.settings.image_height),
                             std::to_string(request.frames), cell_of(ms.first_quartile, 4), cell_of(ms.median, 4),
                             cell_of(ms.third_quartile, 4), cell_of(errors.back().db, 5), cell_of(errors.back().grey, 4),
-                            std::to_string(evaluated), std::to_string(stages.intensity.pixels.size())});
+                            std::to_string(simulator.sample_counts().walked),
+                            std::to_string(stages.intensity.pixels.size())});
     }
     const std::vector<bool> front = on_front(costs);
     Panel panel{scene.name + ", view " + scene.view, {}};

@@ -71,7 +71,7 @@ Table measure_paper(const Request& request) {
             trainer ? trainer_settings(probe.frequency_mhz, scene.depth_mm) : paper_settings(scene.depth_mm, c.samples);
         settings.samples = c.samples;
         if (trainer) settings.reflection_length_mm = 2 * scene.depth_mm / c.samples;  // two samples a length, as there
-        settings.skipping = false;  // neither leaves anything out
+        settings.skipping = false;                                                    // neither leaves anything out
         settings.image_width = c.width;
         settings.image_height = c.height;
         settings.speckle = false;  // neither method's traversal is to draw scatterers
@@ -84,7 +84,7 @@ Table measure_paper(const Request& request) {
                                          {[&](const Pose& pose) { paper.run(pose); },
                                           [&](const Pose& pose) {
                                             simulator.set_pose(pose);
-                                            run_through(simulator, gl::Stage::traverse);
+                                            simulator.run_through(gl::Stage::traverse);
                                           }});
         const Spread passes = spread_of(times[0]), own = spread_of(times[1]);
         ratios.push_back(passes.median / own.median);
@@ -96,10 +96,7 @@ Table measure_paper(const Request& request) {
         const Stages<float> stages = simulator.read_stages();
         const Error paper_error = error_of(paper_scan.intensity, paper_scan.reflection, converged);
         const Error own_error = error_of(stages.intensity, stages.reflection, converged);
-        // A line stops, and leaves zeros, where nothing can be heard any more.
-        const long possible = long(c.lines) * c.samples;
-        const long evaluated = std::count_if(stages.intensity.pixels.begin(), stages.intensity.pixels.end(),
-                                             [](float i) { return i > 0; });
+        const long possible = long(c.lines) * c.samples, evaluated = long(simulator.sample_counts().walked);
 
         std::printf(
             "%4d x %-4d      %4d x %-4d  %7.2f (%.2f to %.2f)  %7.2f (%.2f to %.2f)  %6.2f   %.4f / %.4f   "

@@ -11,15 +11,6 @@
 
 namespace insonate::bench {
 
-/// Runs what is due up to a stage where the simulator can stop behind one, else the whole frame.
-template <typename Simulator, typename Stage>
-void run_through(Simulator& simulator, Stage last) {
-  if constexpr (requires { simulator.run_through(last); })
-    simulator.run_through(last);
-  else
-    simulator.image();
-}
-
 /// What every measuring command is asked.
 struct Request {
   std::vector<std::string> subjects;  ///< case folders, CT files, DICOM folders

@@ -3,6 +3,7 @@
 #include <glm/geometric.hpp>
 
 #include <cmath>
+#include <string>
 
 namespace insonate::gl {
 namespace {
@@ -27,9 +28,10 @@ Object<Kind> created(void (*create)(GLsizei, GLuint*)) {
 }  // namespace
 
 PaperTraversal::PaperTraversal(const ShaderSources& sources)
-    : fetching_(sources, {"paper_pass.vert", "paper_pass.frag"}),
-      carrying_(sources, {"paper_pass.vert", "paper_pass.frag"}, {{"CARRIES_DENSITY", "1"}}),
-      no_vertices_(created<VertexArrayKind>(glCreateVertexArrays)) {}
+    : no_vertices_(created<VertexArrayKind>(glCreateVertexArrays)) {
+  for (std::size_t i = 0; i < passes_.size(); ++i)
+    passes_[i] = Program(sources, {"paper_pass.vert", "paper_pass.frag"}, {{"SAMPLES_A_LENGTH", std::to_string(i)}});
+}
 
 void PaperTraversal::set_volume(const AcousticVolume& volume, const TissueTable& table) {
   volume_ = DeviceVolume(volume, table);
@@ -42,7 +44,7 @@ void PaperTraversal::set_lines(const ScanLines& lines, const Settings& settings)
   line_buffer_ = Buffer(lines.lines.size() * sizeof(GpuLine), nullptr);
   scan_ = Texture::make_2d(GL_RG32F, n, d, Filter::nearest);
   for (Side& side : sides_) {
-    side.carried = Texture::make_2d(GL_RG32F, n, d, Filter::nearest);
+    side.carried = Texture::make_2d(GL_RGBA32F, n, d, Filter::nearest);
     side.framebuffer = created<FramebufferKind>(glCreateFramebuffers);
     const GLuint name = side.framebuffer.name();
     glNamedFramebufferTexture(name, GL_COLOR_ATTACHMENT0, scan_.name(), 0);
@@ -65,7 +67,8 @@ void PaperTraversal::run(const Pose& patient_from_probe) {
   line_buffer_.write(placed.data(), placed.size() * sizeof(GpuLine));
 
   const double dr = lines_.dr_mm(), l = settings_.reflection_length_mm;
-  (std::abs(l - dr) < 1e-9 * dr ? carrying_ : fetching_).use();
+  const auto is = [&](double samples) { return std::abs(l / dr - samples) < 1e-9; };
+  passes_[is(1) ? 1 : is(2) ? 2 : 0].use();
   glUniform1f(kRMin, float(lines_.r_min_mm));
   glUniform1f(kDr, float(dr));
   glUniform1f(kHalfLength, float(l / 2));

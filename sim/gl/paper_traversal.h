@@ -21,11 +21,13 @@ namespace insonate::gl {
 ///
 /// I and R are those of sim/reference/reference.h in single precision: the same tissue table, reflection length,
 /// trilinear volume and gradient. A pass changes no more state than its targets. Where the reflection length is the
-/// distance between samples, as in the paper, the density in front of a sample comes from the pass before too.
+/// distance between samples, as in the paper, or twice that, its ends meet other samples', and what the passes before
+/// have fetched is not fetched again.
 class PaperTraversal {
 public:
   explicit PaperTraversal(const ShaderSources& sources = {});
 
+  /// Throws TextureRefused when the device cannot hold it.
   void set_volume(const AcousticVolume& volume, const TissueTable& table);
   /// @param settings  those of the traversal; the number of samples is that of `lines`
   void set_lines(const ScanLines& lines, const Settings& settings);
@@ -40,7 +42,7 @@ public:
   Scan read() const;
 
 private:
-  Program fetching_, carrying_;  ///< the density in front of a sample
+  std::array<Program, 3> passes_;  ///< by how many samples a reflection length has: 1, 2, or any (0)
   ScanLines lines_;
   Settings settings_;
   DeviceVolume volume_;

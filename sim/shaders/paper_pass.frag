@@ -1,5 +1,5 @@
 // Pass k of the traversal as Kutter, Shams and Navab 2009 run it: sample k of every scan line, a fragment a line. What
-// a sample needs of the one before it comes from the target of pass k - 1.
+// a sample needs of those before it comes from the target of pass k - 1.
 
 #include "shared/acoustic_volume.glsl"
 
@@ -18,7 +18,7 @@ layout(binding = 1) uniform sampler2D previous;  // as `carried`, of pass k - 1
 
 layout(location = 0) flat in int k;
 layout(location = 0) out vec2 scan;     // I, R
-layout(location = 1) out vec2 carried;  // I behind this sample, HU half a reflection length behind it
+layout(location = 1) out vec4 carried;  // I behind this sample, and what the next pass need not fetch again
 
 float density(vec3 at, float r) {
   float hu = textureLod(acoustic_volume, at, 0.0).r * 32767.0;
@@ -35,34 +35,42 @@ void main() {
   int index = int(gl_FragCoord.x);
   Line line = scan_lines[index];
   float r = r_min_mm + (float(k) + 0.5) * dr_mm;
-  vec3 at = line.start.xyz + r * line.along.xyz;
-  vec2 before = k > 0 ? texelFetch(previous, ivec2(index, k - 1), 0).xy : vec2(1.0, 0.0);
+  vec3 at = line.start.xyz + r * line.along.xyz, half_length = line.along.xyz * half_length_mm;
+  vec4 known = texelFetch(previous, ivec2(index, max(k - 1, 0)), 0);
+  bool first = k == 0;
 
-  float absorbed = 0.0;
-  if (absorption > 0.0) absorbed = absorption * impedance_and_absorption(density(at, r)).y;
-  float intensity = k > 0 ? before.x : exp(-0.5 * absorbed);  // the first sample lies half a step behind the face
+  // Density and impedance half a reflection length in front of the sample.
+  vec2 before = known.yz;
+  if (first || SAMPLES_A_LENGTH == 0) {
+    before.x = density(at - half_length, r - half_length_mm);
+    before.y = impedance_and_absorption(before.x).x;
+  }
+  float hu_here = known.w;
+  vec2 here = vec2(0.0);  // impedance and absorption
+  if (absorption > 0.0 || SAMPLES_A_LENGTH == 2) {
+    if (first || SAMPLES_A_LENGTH != 2) hu_here = density(at, r);
+    here = impedance_and_absorption(hu_here);
+  }
+  vec2 behind;
+  behind.x = density(at + half_length, r + half_length_mm);
+  behind.y = impedance_and_absorption(behind.x).x;
 
-  vec3 half_length = line.along.xyz * half_length_mm;
-  float hu_before = before.y;
-#ifdef CARRIES_DENSITY
-  if (k == 0)
-#endif
-    hu_before = density(at - half_length, r - half_length_mm);
-  float hu_behind = density(at + half_length, r + half_length_mm);
-  float z_before = impedance_and_absorption(hu_before).x, z_behind = impedance_and_absorption(hu_behind).x;
-  float alpha = (z_behind - z_before) / (z_behind + z_before);  // (1)
+  float alpha = (behind.y - before.y) / (behind.y + before.y);  // (1)
   alpha *= alpha;
+  float absorbed = absorption * here.y;
+  float intensity = first ? exp(-0.5 * absorbed) : known.x;  // the first sample lies half a step behind the face
 
   float reflection = 0.0;
   if (alpha > 0.0) {
     vec3 lateral = line.lateral.xyz * half_length_mm;
     vec3 elevation = line.elevation.xyz * half_length_mm;
-    float rise = hu_behind - hu_before;
+    float rise = behind.x - before.x;
     float across = density(at + lateral, r) - density(at - lateral, r);
     float over = density(at + elevation, r) - density(at - elevation, r);
     float cosine = abs(rise) * inversesqrt(rise * rise + across * across + over * over);
     reflection = alpha * intensity * intensity * cosine;  // (3)
   }
   scan = vec2(intensity, reflection);
-  carried = vec2(intensity * exp(exponent * log_transmission(alpha, z_before, z_behind) - absorbed), hu_behind);  // (5)
+  intensity *= exp(exponent * log_transmission(alpha, before.y, behind.y) - absorbed);  // (5)
+  carried = SAMPLES_A_LENGTH == 2 ? vec4(intensity, hu_here, here.x, behind.x) : vec4(intensity, behind, 0.0);
 }

@@ -56,8 +56,12 @@ TEST_CASE("the paper's passes agree with the reference in the paper's own mode")
   check(paper_settings(110, 301), test::on_the_skin(5, 12, 0));
 }
 
-TEST_CASE("the paper's passes agree with the reference in the trainer's mode") {
+TEST_CASE("the paper's passes agree with the reference in the trainer's mode, two samples a reflection length or any") {
   Settings settings = trainer_settings(3.5, 110);
   settings.samples = 300;
-  check(settings, test::on_the_skin(0, 9, 12));
+  for (const double samples_a_length : {2.0, 1.0, 1.63}) {
+    CAPTURE(samples_a_length);
+    settings.reflection_length_mm = samples_a_length * 110 / 300;
+    check(settings, test::on_the_skin(0, 9, 12));
+  }
 }
