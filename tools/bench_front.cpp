@@ -17,6 +17,10 @@
 namespace insonate::bench {
 namespace {
 
+/// Each setting's frames are measured in as many rounds over all settings, so that a machine that is slower for a while
+/// is so for all of them.
+constexpr int kRounds = 3;
+
 struct Setting {
   std::string name;
   int lines;
@@ -105,20 +109,33 @@ Table measure_front(const Request& request, const std::string& svg) {
         simulate_reference(trilinear_field(scene.volume), scene.table, probe, scene.depth_mm, exact, scene.pose);
     const Display converged = displayed(reference, scene.probe, scene.depth_mm, exact);
 
-    std::vector<Spread> times;
-    std::vector<DisplayError> errors;
-    std::vector<Cost> costs;
-    for (const Setting& setting : tried) {
+    const auto take_on = [&](const Setting& setting) {
       probe.lines = setting.lines;
       simulator.set_probe(probe, scene.depth_mm);
       simulator.set_settings(setting.settings);
-      const auto frame = [&](const Pose& pose) {
-        simulator.set_pose(pose);
-        simulator.image();
-      };
-      times.push_back(spread_of(times_in_turn(scene.pose, request.frames, {frame}).front()));
+    };
+    std::vector<std::vector<double>> frames_ms(tried.size());
+    for (int round = 0; round < kRounds; ++round)
+      for (std::size_t i = 0; i < tried.size(); ++i) {
+        take_on(tried[i]);
+        const auto frame = [&](const Pose& pose) {
+          simulator.set_pose(pose);
+          simulator.image();
+        };
+        const int count = request.frames * (round + 1) / kRounds - request.frames * round / kRounds;
+        const auto measured = times_in_turn(scene.pose, count, {frame}).front();
+        frames_ms[i].insert(frames_ms[i].end(), measured.begin(), measured.end());
+      }
+
+    std::vector<Spread> times;
+    std::vector<DisplayError> errors;
+    std::vector<Cost> costs;
+    for (std::size_t i = 0; i < tried.size(); ++i) {
+      const Setting& setting = tried[i];
+      take_on(setting);
       simulator.set_pose(scene.pose);
       const Stages<float> stages = simulator.read_stages();
+      times.push_back(spread_of(frames_ms[i]));
       errors.push_back(error_of(displayed(stages, scene.probe, scene.depth_mm, setting.settings), converged, range));
       costs.push_back({times.back().median, errors.back().db});
       const Spread& ms = times.back();
