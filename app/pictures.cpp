@@ -1,5 +1,7 @@
 #include "app/pictures.h"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -10,6 +12,10 @@ namespace {
 
 /// Below that the fan's own samples are coarser than the screen.
 constexpr int kLeastWidth = 240;
+
+/// A plane seen more from its edge than this (cosine of the angle to its normal) hides little of the patient, and cutting
+/// there would take away most of him.
+constexpr double kEdgeOn = 0.4;
 
 std::vector<std::string> label_names(const Case& subject) {
   std::vector<std::string> names(256);
@@ -32,7 +38,8 @@ void Pictures::show(const Study& study) {
   slice_view_.forget();
   blend_view_.forget();
   volume_view_.forget();
-  camera = view::OrbitCamera::framing(study.subject.ct.grid);
+  grid_ = study.subject.ct.grid;
+  camera_placed_ = false;
 }
 
 void Pictures::update(const Session& session, const PictureSizes& sizes, double quality, double budget_ms) {
@@ -62,8 +69,12 @@ void Pictures::update(const Session& session, const PictureSizes& sizes, double 
   slice_ = &slice_view_.render(*patient_, plane, style);
   style.ultrasound = blend_share;
   blend_ = &blend_view_.render(*patient_, plane, style);
+  if (!camera_placed_) camera = view::OrbitCamera::facing(grid_, *pose);
+  camera_placed_ = true;
+  view::VolumeStyle body;
+  body.cut = std::abs(glm::dot(camera.patient_from_camera().rotation[2], pose->rotation[2])) > kEdgeOn;
   volume_ = &volume_view_.render(std::max(sizes.volume_width, 1), std::max(sizes.volume_height, 1), *patient_, camera,
-                                 plane, {}, budget_ms);
+                                 plane, body, budget_ms);
 }
 
 long Pictures::simulator_runs() const {

@@ -40,7 +40,7 @@ public:
   const gl::Texture* volume() const { return volume_; }
   const ImageGeometry& geometry() const { return simulator_.geometry(); }
 
-  view::OrbitCamera camera;
+  view::OrbitCamera camera;  ///< faces the plane of a new patient's first pose
   double blend_share = 0.55;  ///< 0: the CT, 1: the ultrasound
 
   /// How often any picture was drawn; a stage of the simulator that ran counts as one.
@@ -55,6 +55,8 @@ private:
   view::SliceView slice_view_, blend_view_;
   view::VolumeView volume_view_;
   std::optional<view::PatientTextures> patient_;
+  Grid grid_;  ///< the patient's
+  bool camera_placed_ = false;
   const gl::Texture* ultrasound_ = nullptr;
   const gl::Texture* slice_ = nullptr;
   const gl::Texture* blend_ = nullptr;
