@@ -13,8 +13,8 @@ namespace {
 /// Below that the fan's own samples are coarser than the screen.
 constexpr int kLeastWidth = 240;
 
-/// A plane seen more from its edge than this (cosine of the angle to its normal) hides little of the patient, and cutting
-/// there would take away most of him.
+/// A plane seen more from its edge than this (cosine of the angle to its normal) hides little of the patient, and
+/// cutting there would take away most of him.
 constexpr double kEdgeOn = 0.4;
 
 std::vector<std::string> label_names(const Case& subject) {

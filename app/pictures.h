@@ -40,7 +40,7 @@ public:
   const gl::Texture* volume() const { return volume_; }
   const ImageGeometry& geometry() const { return simulator_.geometry(); }
 
-  view::OrbitCamera camera;  ///< faces the plane of a new patient's first pose
+  view::OrbitCamera camera;   ///< faces the plane of a new patient's first pose
   double blend_share = 0.55;  ///< 0: the CT, 1: the ultrasound
 
   /// How often any picture was drawn; a stage of the simulator that ran counts as one.

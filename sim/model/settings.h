@@ -28,7 +28,7 @@ struct Settings {
   bool absorption = true;             ///< frequency-dependent absorption in (5); off in the paper's own mode
   double gel_mm = 6;  ///< coupling gel: air nearer to the face than this counts as water; 0 (none) to 100
 
-  bool skipping = true;               ///< leave out what cannot change a pixel by a grey level
+  bool skipping = true;  ///< leave out what cannot change a pixel by a grey level
 
   // Beam width (4)
   BeamWindow beam_window = BeamWindow::hann;
