@@ -1,13 +1,18 @@
 #include "sim/gl/simulator.h"
 
+#include <glm/common.hpp>
+
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <vector>
 
 #include "sim/gl/device_volume.h"
 #include "sim/gl/fan_layout.h"
 #include "sim/model/beam.h"
+#include "sim/model/noise.h"
 #include "sim/model/scatterers.h"
+#include "sim/model/settings_file.h"
 #include "sim/shaders/shared/simulation_parameters.h"
 
 namespace insonate::gl {
@@ -80,6 +85,16 @@ std::vector<Image<float>> read_channels(const Texture& texture, int channels) {
   return images;
 }
 
+// What x line, y sample holds at a continuous place inside the fan, as scan_convert.comp reads it.
+double bilinear(const Image<double>& image, const glm::vec2& line_and_sample) {
+  const glm::dvec2 last(image.width - 1, image.height - 1);
+  const glm::dvec2 position = glm::clamp(glm::dvec2(line_and_sample), glm::dvec2(0), last);
+  const glm::ivec2 low(position), high = glm::min(low + 1, glm::ivec2(last));
+  const glm::dvec2 f = position - glm::dvec2(low);
+  return glm::mix(glm::mix(image.at(low.x, low.y), image.at(high.x, low.y), f.x),
+                  glm::mix(image.at(low.x, high.y), image.at(high.x, high.y), f.x), f.y);
+}
+
 // Textures have a row a line, Stages a column.
 Image<float> transposed(const Image<float>& rows) {
   Image<float> columns(rows.height, rows.width);
@@ -118,10 +133,11 @@ struct Simulator::State {
   SimulationParameters parameters{};
   Buffer parameter_buffer{sizeof(SimulationParameters), nullptr};
   Texture scatterers, line_and_sample;
-  Texture window_share;  // of the Gaussians, see fuse.comp
+  Texture pixel_constants;  // see fuse.comp
   Buffer line_buffer, beam_window, speckle_scale, fan_blocks;
   Gaussian reflection_gaussian, transmission_gaussian;
   std::array<double, 2> sigmas_px{};  // theirs
+  double noise_length_mm = 0;         // reflection length of the noise among the constants; 0 where there is none
 
   // What they write.
   Texture scan, echoes, picture, half_smoothed, fused;
@@ -144,7 +160,7 @@ struct Simulator::State {
   void run_through(Stage last);
   void run(Stage stage);
   bool needed(Stage stage) const;
-  void place_windows();
+  void place_pixel_constants();
 };
 
 // Allocates what depends on the number of lines, samples and pixels, and works out where each pixel lies.
@@ -157,7 +173,7 @@ void Simulator::State::lay_out() {
 
   const int w = settings.image_width, h = settings.image_height;
   fan = FanLayout(probe, depth_mm, lines, w, h);
-  window_share = Texture();
+  pixel_constants = Texture();
   line_and_sample = Texture::make_2d(GL_RG32F, w, h, Filter::nearest);
   line_and_sample.write(GL_RG, GL_FLOAT, fan.line_and_sample.data());
   fan_blocks = Buffer(fan.blocks.size() * sizeof(glm::ivec2), fan.blocks.data());
@@ -224,6 +240,8 @@ void Simulator::State::fill_parameters() {
   p.beam_half = (settings.beam_lines - 1) / 2;
   p.two_way = settings.two_way;
   p.blend = float(settings.blend);
+  p.noise_level = float(noise_level(settings));
+  p.grey_map = int(settings.grey_map);
   p.gain_db = float(settings.gain_db);
   p.dynamic_range_db = float(settings.dynamic_range_db);
   p.fixed_level = float(settings.fixed_level);
@@ -245,26 +263,30 @@ void Simulator::State::prepare() {
   if (*first_due <= Stage::smooth) {
     beam_window = window_of_four(beam_weights(settings));
     speckle_scale = storage(to_float(envelope_scale(lines, settings)));
-    place_windows();
   }
+  if (*first_due <= Stage::fuse) place_pixel_constants();
   fill_parameters();
 }
 
-void Simulator::State::place_windows() {
+void Simulator::State::place_pixel_constants() {
   const int w = settings.image_width, h = settings.image_height, limit = std::max(w, h) - 1;
   const double sigmas[] = {settings.reflection_sigma_mm / fan.geometry.mm_per_pixel,
                            settings.transmission_sigma_mm / fan.geometry.mm_per_pixel};
-  if (window_share && sigmas[0] == sigmas_px[0] && sigmas[1] == sigmas_px[1]) return;
+  const double length_mm = settings.electronic_noise ? settings.reflection_length_mm : 0;
+  if (pixel_constants && sigmas[0] == sigmas_px[0] && sigmas[1] == sigmas_px[1] && noise_length_mm == length_mm) return;
+  noise_length_mm = length_mm;
   std::copy(std::begin(sigmas), std::end(sigmas), sigmas_px.begin());
   reflection_gaussian = Gaussian(sigmas[0], limit);
   transmission_gaussian = Gaussian(sigmas[1], limit);
   const Image<float> reflection = one_over_window_inside(fan.inside, reflection_gaussian.weights);
   const Image<float> transmission = one_over_window_inside(fan.inside, transmission_gaussian.weights);
-  std::vector<glm::vec2> shares;
+  const Image<double> noise = settings.electronic_noise ? electronic_noise(lines, settings) : Image<double>(1, 1);
+  std::vector<glm::vec4> constants;
   for (std::size_t i = 0; i < reflection.pixels.size(); ++i)
-    shares.emplace_back(reflection.pixels[i], transmission.pixels[i]);
-  window_share = Texture::make_2d(GL_RG32F, w, h, Filter::nearest);
-  window_share.write(GL_RG, GL_FLOAT, shares.data());
+    constants.emplace_back(reflection.pixels[i], transmission.pixels[i],
+                           fan.inside.pixels[i] ? bilinear(noise, fan.line_and_sample[i]) : 0, 0);
+  pixel_constants = Texture::make_2d(GL_RGBA32F, w, h, Filter::nearest);
+  pixel_constants.write(GL_RGBA, GL_FLOAT, constants.data());
 }
 
 bool Simulator::State::needed(Stage stage) const {
@@ -324,7 +346,7 @@ void Simulator::State::run(Stage stage) {
       transmission_gaussian.window.bind_storage(1);
       picture.bind(0);
       half_smoothed.bind(1);
-      window_share.bind(2);
+      pixel_constants.bind(2);
       fused.bind_image(0, GL_WRITE_ONLY);
       over_fan(fuse);
       break;
@@ -363,6 +385,7 @@ void Simulator::set_probe(const Probe& probe, double depth_mm) {
 }
 
 void Simulator::set_settings(const Settings& settings) {
+  if (const auto why = why_not_valid(settings)) throw std::invalid_argument("simulator: " + *why);
   const Settings& old = state_->settings;
   const auto same = [&](auto... members) { return ((old.*members == settings.*members) && ...); };
   if (!same(&Settings::samples, &Settings::image_width, &Settings::image_height)) state_->layout_changed = true;
@@ -379,9 +402,11 @@ void Simulator::set_settings(const Settings& settings) {
   else if (!same(&S::blend))
     // Beside weaker scatterers, interfaces may be seen that were not.
     state_->due_from(settings.skipping && settings.blend < old.blend ? Stage::traverse : Stage::fuse);
+  else if (!same(&S::electronic_noise, &S::noise_db) || (settings.electronic_noise && !same(&S::fixed_level)))
+    state_->due_from(Stage::fuse);
   else if (!same(&S::gain_db, &S::tgc_db, &S::reference_level))
     state_->due_from(Stage::maximum);
-  else if (!same(&S::dynamic_range_db, &S::fixed_level))
+  else if (!same(&S::dynamic_range_db, &S::fixed_level, &S::grey_map))
     state_->due_from(Stage::compress);
   state_->settings = settings;
 }

@@ -42,6 +42,7 @@ public:
   void set_volume(const AcousticVolume& volume, const TissueTable& table);
   /// @param depth_mm  10 to 400
   void set_probe(const Probe& probe, double depth_mm);
+  /// Throws std::invalid_argument on settings that why_not_valid() (sim/model/settings_file.h) finds fault with.
   void set_settings(const Settings& settings);
   /// @param patient_from_probe  rigid and finite; checked where poses enter the program
   void set_pose(const Pose& patient_from_probe);

@@ -12,6 +12,7 @@ Settings paper_settings(double depth_mm, int samples) {
   settings.absorption = false;
   settings.gel_mm = 0;
   settings.two_way = false;
+  settings.electronic_noise = false;
   settings.reference_level = ReferenceLevel::frame_maximum;
   return settings;
 }
@@ -26,6 +27,7 @@ Settings trainer_settings(double frequency_mhz, double depth_mm) {
   const double axial_resolution_mm = kAxialResolutionCycles * 1.54 / frequency_mhz;
   settings.samples = std::clamp(int(std::lround(2 * depth_mm / axial_resolution_mm)), kFewestSamples, kMostSamples);
   settings.reflection_length_mm = 2 * depth_mm / settings.samples;
+  settings.electronic_noise = true;
   const double two_way_db = 2 * kSoftTissueAbsorption * frequency_mhz * depth_mm / 10;
   for (std::size_t i = 0; i < settings.tgc_db.size(); ++i)
     settings.tgc_db[i] = std::min(two_way_db * double(i) / double(settings.tgc_db.size() - 1), kMostTimeGainDb);

@@ -14,6 +14,14 @@ enum class ReferenceLevel {
   fixed           ///< a fixed level is white, so that the picture does not pump while the probe moves
 };
 
+/// How echoes between black and white, as a share g from 0 to 1 of the dynamic range, become grey.
+enum class GreyMap {
+  linear,    ///< g, as in the paper
+  soft,      ///< g^0.75: lifts weak echoes
+  contrast,  ///< g^1.5: sinks them, so that fluid stands out
+  s_curve    ///< g^2 (3 - 2 g): parts the middle greys and presses both ends together
+};
+
 /// Time gain at most: 10^30 and the gain over it are what single precision holds, and sound that has lost as much is
 /// silent.
 inline constexpr double kMostTimeGainDb = 300;
@@ -45,18 +53,24 @@ struct Settings {
   double blend = 4e-5;                ///< b: scattered against reflected echo, 0 to 1000
   bool two_way = true;                ///< T = (I/I0)^2: the scattered echo goes back the way it came; off in the paper
 
+  // Receiver
+  bool electronic_noise = false;  ///< in the echo before any gain, so that it shows where time gain is high
+  double noise_db = -103;         ///< its mean beside fixed_level, -200 to 0
+
   // Display (7)
   double gain_db = 0;              ///< -60 to 60
   std::array<double, 8> tgc_db{};  ///< time gain at 8 depths from face to full depth, linear between; -300 to 300
   double dynamic_range_db = 55;    ///< beta, 1 to 200
   ReferenceLevel reference_level = ReferenceLevel::fixed;
   double fixed_level = 0.014;  ///< the U that is white before gain, 1e-12 to 1e6
+  GreyMap grey_map = GreyMap::linear;
 
   int image_width = 640;   ///< 1 to 8192
   int image_height = 480;  ///< 1 to 8192
 };
 
-/// As in the paper: no absorption, reflection length = sample distance, one-way transmission, frame's maximum.
+/// As in the paper: no absorption, reflection length = sample distance, one-way transmission, frame's maximum, no
+/// noise.
 Settings paper_settings(double depth_mm, int samples);
 
 /// What the trainer starts with: every effect on, TGC set to the mean absorption of soft tissue up to `depth_mm`.

@@ -9,6 +9,7 @@
 #include <complex>
 
 #include "sim/model/beam.h"
+#include "sim/model/noise.h"
 #include "sim/model/scatterers.h"
 
 namespace insonate {
@@ -91,6 +92,21 @@ double time_gain(const Settings& settings, double depth_share) {
   const double f = at - double(below);
   const double db = (1 - f) * settings.tgc_db[below] + f * settings.tgc_db[below + 1] + settings.gain_db;
   return std::pow(10.0, db / 10);
+}
+
+/// Of a share from 0 to 1 of the dynamic range.
+double grey_of(GreyMap map, double g) {
+  switch (map) {
+    case GreyMap::linear:
+      return g;
+    case GreyMap::soft:
+      return std::pow(g, 0.75);
+    case GreyMap::contrast:
+      return std::pow(g, 1.5);
+    case GreyMap::s_curve:
+      return g * g * (3 - 2 * g);
+  }
+  return g;
 }
 
 }  // namespace
@@ -206,8 +222,9 @@ Stages<double> simulate_reference(const MediumField& field, const TissueTable& t
 
   const int w = settings.image_width, h = settings.image_height;
   const ImageGeometry geometry = image_geometry(probe, depth_mm, w, h);
-  Image<double> reflection(w, h), transmission(w, h), speckle(w, h), gain(w, h);
+  Image<double> reflection(w, h), transmission(w, h), speckle(w, h), noise(w, h), gain(w, h);
   stages.inside = Image<std::uint8_t>(w, h);
+  const Image<double> noise_of_lines = electronic_noise(lines, settings);
   for (int y = 0; y < h; ++y)
     for (int x = 0; x < w; ++x) {
       const auto position = line_position(probe, depth_mm, geometry.plane_mm(x, y));
@@ -217,6 +234,7 @@ Stages<double> simulate_reference(const MediumField& field, const TissueTable& t
       reflection.at(x, y) = bilinear(stages.reflection_beam, position->line, sample);
       transmission.at(x, y) = bilinear(stages.transmission, position->line, sample);
       speckle.at(x, y) = bilinear(stages.speckle, position->line, sample);
+      noise.at(x, y) = noise_level(settings) * bilinear(noise_of_lines, position->line, sample);
       gain.at(x, y) = time_gain(settings, position->r_mm / depth_mm);
     }
   reflection = smoothed(reflection, stages.inside, settings.reflection_sigma_mm / geometry.mm_per_pixel);
@@ -226,7 +244,7 @@ Stages<double> simulate_reference(const MediumField& field, const TissueTable& t
   double brightest = 0;
   for (std::size_t i = 0; i < stages.fused.pixels.size(); ++i) {
     stages.fused.pixels[i] =
-        (reflection.pixels[i] + settings.blend * transmission.pixels[i]) * speckle.pixels[i];  // (6)
+        (reflection.pixels[i] + settings.blend * transmission.pixels[i]) * speckle.pixels[i] + noise.pixels[i];  // (6)
     brightest = std::max(brightest, stages.fused.pixels[i] * gain.pixels[i]);
   }
   const double level = settings.reference_level == ReferenceLevel::frame_maximum ? brightest : settings.fixed_level;
@@ -235,7 +253,7 @@ Stages<double> simulate_reference(const MediumField& field, const TissueTable& t
     const double echo = stages.fused.pixels[i] * gain.pixels[i];
     if (!stages.inside.pixels[i] || echo <= 0) continue;
     const double grey = 1 + 10 * std::log10(echo / level) / settings.dynamic_range_db;  // (7)
-    stages.grey.pixels[i] = std::uint8_t(std::lround(255 * std::clamp(grey, 0.0, 1.0)));
+    stages.grey.pixels[i] = std::uint8_t(std::lround(255 * grey_of(settings.grey_map, std::clamp(grey, 0.0, 1.0))));
   }
   return stages;
 }

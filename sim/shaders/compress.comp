@@ -11,6 +11,14 @@ layout(binding = 1) uniform sampler2D line_and_sample;
 layout(std430, binding = 0) readonly buffer Maximum { uint maximum_bits; };
 layout(binding = 0, rgba8) writeonly uniform image2D image;  // grey, grey, grey, 1 inside the fan
 
+// Exponents and curve as GreyMap says.
+float mapped(float g) {
+  if (grey_map == 1) return pow(g, 0.75);
+  if (grey_map == 2) return pow(g, 1.5);
+  if (grey_map == 3) return g * g * (3.0 - 2.0 * g);
+  return g;
+}
+
 void main() {
   ivec2 pixel = block_start() + ivec2(gl_LocalInvocationID.xy);
   if (pixel.x >= width || pixel.y >= height) return;
@@ -19,6 +27,6 @@ void main() {
   float echo = texelFetch(fused, pixel, 0).x;
   float grey = 0.0;  // also for a frame without any echo, whose maximum is 0
   if (echo > 0.0)
-    grey = clamp(1.0 + (4.342944819 * log(echo / level) + time_gain_db(position.y)) / dynamic_range_db, 0.0, 1.0);
-  imageStore(image, pixel, position.x > -1.0 ? vec4(vec3(grey), 1.0) : vec4(0.0));
+    grey = 1.0 - clamp((4.342944819 * log(level / echo) - time_gain_db(position.y)) / dynamic_range_db, 0.0, 1.0);
+  imageStore(image, pixel, position.x > -1.0 ? vec4(vec3(mapped(grey)), 1.0) : vec4(0.0));
 }

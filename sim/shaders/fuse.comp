@@ -1,4 +1,4 @@
-// Fusion (6): reflected and scattered echo, both through the speckle. Where they are smoothed, smooth.comp has done so
+// Fusion (6): reflected and scattered echo, both through the speckle, and the receiver's noise. Where they are smoothed, smooth.comp has done so
 // along the rows; here follow the columns, and the division by the part of the windows that lies inside the fan.
 //
 // An invocation serves four pixels of a column, whose windows overlap: a value is read once for all four.
@@ -10,7 +10,7 @@ layout(local_size_x = 32, local_size_y = 2) in;
 
 layout(binding = 0) uniform sampler2D picture;        // R, T, S, 1; all 0 outside the fan
 layout(binding = 1) uniform sampler2D half_smoothed;  // R, T
-layout(binding = 2) uniform sampler2D window_share;   // 1 / (what of the two windows lies inside), per pixel
+layout(binding = 2) uniform sampler2D pixel_constants;  // 1 / (what of the two windows lies inside), noise of mean 1
 layout(std430, binding = 0) readonly buffer ReflectionWindow { vec4 reflection_window[]; };  // by place from the first
 layout(std430, binding = 1) readonly buffer TransmissionWindow { vec4 transmission_window[]; };  // pixel's edge
 layout(binding = 0, r32f) writeonly uniform image2D fused;                                        // U
@@ -35,9 +35,9 @@ void main() {
     ivec2 pixel = first + ivec2(0, i);
     if (pixel.y >= height) break;
     vec4 value = texelFetch(picture, pixel, 0);
-    vec2 share = texelFetch(window_share, pixel, 0).xy;
-    if (reflection_radius_px > 0) value.x = reflection[i] * share.x;
-    if (transmission_radius_px > 0) value.y = transmission[i] * share.y;
-    imageStore(fused, pixel, vec4((value.x + blend * value.y) * value.z));
+    vec3 constants = texelFetch(pixel_constants, pixel, 0).xyz;
+    if (reflection_radius_px > 0) value.x = reflection[i] * constants.x;
+    if (transmission_radius_px > 0) value.y = transmission[i] * constants.y;
+    imageStore(fused, pixel, vec4((value.x + blend * value.y) * value.z + noise_level * constants.z));
   }
 }

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <stdexcept>
 #include <string>
 
 #include "sim/gl/headless_context.h"
@@ -117,4 +118,75 @@ TEST_CASE("GLSL agrees with the reference: the paper's own mode") {
   Settings settings = small(paper_settings(110, 300));
   settings.speckle = false;
   check_parity(probe, 110, settings, test::on_the_skin(5, 12, 0));
+}
+
+TEST_CASE("GLSL agrees with the reference: loud receiver's noise, every grey map") {
+  Probe probe = *find_probe("curvilinear");
+  probe.lines = 64;
+  Settings settings = small(trainer_settings(3.5, 120));
+  settings.noise_db = -75;  // shows from the middle of the picture on
+  settings.grey_map = GENERATE(GreyMap::linear, GreyMap::soft, GreyMap::contrast, GreyMap::s_curve);
+  check_parity(probe, 120, settings, test::on_the_skin(0, 9, 12));
+}
+
+TEST_CASE("a frame without any echo is black, not NaN") {
+  const gl::HeadlessContext context;
+  AcousticVolume water;
+  water.grid.size = {60, 60, 60};
+  water.grid.origin = glm::dvec3(-30);
+  water.voxels.assign(water.grid.count(), {0, -6000});
+  Settings settings = small(paper_settings(20, 32));
+  settings.blend = 0;
+  gl::Simulator simulator;
+  simulator.set_volume(water, read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml"));
+  simulator.set_probe(*find_probe("linear"), 20);
+  simulator.set_settings(settings);
+  const Stages<float> stages = simulator.read_stages();
+  REQUIRE(std::count(stages.inside.pixels.begin(), stages.inside.pixels.end(), 1) > 1000);
+  CHECK(std::all_of(stages.fused.pixels.begin(), stages.fused.pixels.end(), [](float u) { return u == 0; }));
+  CHECK(std::all_of(stages.grey.pixels.begin(), stages.grey.pixels.end(), [](int grey) { return grey == 0; }));
+}
+
+TEST_CASE("what is skipped changes no pixel by more than a grey level") {
+  const gl::HeadlessContext context;
+  Probe probe = *find_probe("curvilinear");
+  Settings settings = trainer_settings(3.5, 120);
+  settings.image_width = 400;
+  settings.image_height = 300;
+  gl::Simulator simulator;
+  simulator.set_volume(test::test_body(), read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml"));
+  simulator.set_probe(probe, 120);
+  const auto grey = [&](bool skipping) {
+    settings.skipping = skipping;
+    simulator.set_settings(settings);
+    return simulator.read_stages().grey;
+  };
+  std::uint32_t skipped_normals = 0;
+  // Over the rib, the cyst and the gas; half off the body; turned away so that lines leave it again; beside it.
+  for (const Pose& pose : {test::on_the_skin(0, 9, 12), test::on_the_skin(-25, 5, 0), test::on_the_skin(20, 8, -15),
+                           test::on_the_skin(60, 2, 0), test::on_the_skin(0, 4, 70), test::on_the_skin(0, -40, 180)}) {
+    simulator.set_pose(pose);
+    const Image<std::uint8_t> skipped = grey(true);
+    const gl::SampleCounts counts = simulator.sample_counts();
+    const Image<std::uint8_t> whole = grey(false);
+    skipped_normals += simulator.sample_counts().normals - counts.normals;
+    int worst_change = 0;
+    for (std::size_t i = 0; i < whole.pixels.size(); ++i)
+      worst_change = std::max(worst_change, std::abs(int(skipped.pixels[i]) - int(whole.pixels[i])));
+    CHECK(worst_change <= 1);
+  }
+  CHECK(skipped_normals > 10000);
+}
+
+TEST_CASE("settings out of their range are refused by name, and those before stay") {
+  const gl::HeadlessContext context;
+  gl::Simulator simulator;
+  simulator.set_volume(test::test_body(), read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml"));
+  simulator.set_probe(*find_probe("curvilinear"), 100);
+  Settings settings = small(trainer_settings(3.5, 100));
+  simulator.set_settings(settings);
+  settings.beam_lines = 4;
+  CHECK_THROWS_WITH(simulator.set_settings(settings), Catch::Contains("'beam_lines' is 4"));
+  CHECK_THROWS_AS(simulator.set_settings(settings), std::invalid_argument);
+  CHECK(simulator.image().width() == 200);
 }

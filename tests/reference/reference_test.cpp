@@ -6,7 +6,10 @@
 #include <catch2/catch.hpp>
 #include <glm/trigonometric.hpp>
 
+#include <cfenv>
 #include <cmath>
+
+#include "sim/model/noise.h"
 
 using namespace insonate;
 
@@ -190,16 +193,100 @@ TEST_CASE("coupling gel takes the place of air in front of the skin, and of noth
   CHECK(at_depth(10, 6) < 1e-2);
 }
 
-TEST_CASE("a frame without any echo is black, not NaN") {
+TEST_CASE("a frame without any echo is black, and nothing undefined is computed on the way") {
   Probe probe = *find_probe("linear");
   probe.lines = 8;
   Settings settings = paper_settings(20, 16);
   settings.image_width = settings.image_height = 12;
   settings.blend = 0;
+  std::feclearexcept(FE_ALL_EXCEPT);
   const auto stages = simulate_reference(
       [](const glm::dvec3&) {
         return Medium{200, 0};
       },
       plain_table(), probe, 20, settings, {});
+  CHECK_FALSE(std::fetestexcept(FE_INVALID | FE_DIVBYZERO));  // a NaN may well round to black
   for (std::uint8_t grey : stages.grey.pixels) CHECK(grey == 0);
+}
+
+TEST_CASE("electronic noise has the envelope of a complex normal signal, whatever the number of samples") {
+  Settings settings;
+  settings.electronic_noise = true;
+  settings.reflection_length_mm = 0.5;
+  ScanLines lines;
+  lines.lines.resize(500);
+  lines.r_max_mm = 200;
+  lines.samples = 400;
+  const Image<double> noise = electronic_noise(lines, settings);
+  double mean = 0, square = 0, beside = 0;
+  for (double e : noise.pixels) {
+    mean += e / double(noise.pixels.size());
+    square += e * e / double(noise.pixels.size());
+  }
+  for (int line = 1; line < noise.width; ++line)
+    for (int k = 0; k < noise.height; ++k)
+      beside += (noise.at(line, k) - mean) * (noise.at(line - 1, k) - mean) / double(noise.pixels.size());
+  // 200,000 envelopes, independent where a sample is a reflection length: means are known to 0.0012, ratios to 0.005.
+  CHECK(mean == Approx(1).margin(0.005));
+  CHECK(mean / std::sqrt(square - mean * mean) == Approx(1.913).margin(0.02));
+  CHECK(std::abs(beside) < 0.01 * (square - mean * mean));
+
+  ScanLines finer = lines;
+  finer.samples = 5 * lines.samples;  // whose sample 5 k + 2 lies where k did
+  const Image<double> same = electronic_noise(finer, settings);
+  for (int k = 0; k < noise.height; ++k) CHECK(same.at(7, 5 * k + 2) == Approx(noise.at(7, k)).epsilon(1e-9));
+}
+
+TEST_CASE("electronic noise comes before time gain: fluid is black where gain is low and grey where it is high") {
+  Probe probe = *find_probe("linear");
+  probe.lines = 64;
+  Settings settings = trainer_settings(5, 40);
+  settings.image_width = settings.image_height = 100;
+  settings.tgc_db = {0, 10, 20, 30, 40, 50, 60, 70};
+  settings.noise_db = -90;
+  const auto mean_grey = [&](double from, double to) {
+    const auto stages = simulate_reference(
+        [](const glm::dvec3&) {
+          return Medium{0, -200};
+        },
+        plain_table(), probe, 40, settings, {});
+    double sum = 0, count = 0;
+    for (int y = int(from * 100); y < int(to * 100); ++y)
+      for (int x = 0; x < 100; ++x)
+        if (stages.inside.at(x, y)) sum += stages.grey.at(x, y), count += 1;
+    return sum / count;
+  };
+  // At the face 90 dB below white, 35 dB below black; at the bottom 20 dB below white, of 55.
+  CHECK(mean_grey(0.05, 0.3) < 1);
+  CHECK(mean_grey(0.9, 0.95) == Approx(255 * (1 - 24.7 / 55)).margin(12));  // a Rayleigh number's mean is 1.1 dB lower
+  settings.electronic_noise = false;
+  CHECK(mean_grey(0.9, 0.95) == 0);
+}
+
+TEST_CASE("grey maps keep black and white, and each bends the greys between as it says") {
+  Probe probe = *find_probe("linear");
+  probe.lines = 4;
+  Settings settings = paper_settings(20, 64);
+  settings.image_width = settings.image_height = 12;
+  settings.speckle = false;
+  settings.reference_level = ReferenceLevel::fixed;
+  const auto grey_at = [&](GreyMap map, double share) {
+    settings.grey_map = map;
+    settings.fixed_level = settings.blend * std::pow(10.0, (1 - share) * settings.dynamic_range_db / 10);
+    const auto stages = simulate_reference(
+        [](const glm::dvec3&) {
+          return Medium{200, 0};
+        },
+        plain_table(), probe, 20, settings, {});
+    REQUIRE(stages.inside.at(6, 6));
+    return int(stages.grey.at(6, 6));
+  };
+  for (GreyMap map : {GreyMap::linear, GreyMap::soft, GreyMap::contrast, GreyMap::s_curve}) {
+    CHECK(grey_at(map, -0.1) == 0);
+    CHECK(grey_at(map, 1.1) == 255);
+  }
+  CHECK(grey_at(GreyMap::linear, 0.25) == 64);
+  CHECK(grey_at(GreyMap::soft, 0.25) == 90);      // 0.25^0.75 = 0.3536
+  CHECK(grey_at(GreyMap::contrast, 0.25) == 32);  // 0.25^1.5 = 0.125
+  CHECK(grey_at(GreyMap::s_curve, 0.25) == 40);   // 0.0625 x 2.5 = 0.15625
 }

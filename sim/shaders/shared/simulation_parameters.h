@@ -36,8 +36,8 @@ layout(std140, binding = 0) uniform SimulationParameters {
 
   float fixed_level;
   int frame_maximum;  // 1: the brightest pixel is white
-  int unused1;
-  int unused2;
+  int grey_map;       // as GreyMap
+  float noise_level;  // mean of the electronic noise in units of U; 0 for none
 
   vec4 tgc_db[2];  // at 8 depths from the face to full depth
 #ifdef __cplusplus

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "sim/core/image.h"
+#include "sim/model/settings.h"
+#include "sim/probe/probe.h"
+
+namespace insonate {
+
+/// The receiver's electronic noise behind its filter, as an envelope of mean 1: x line, y sample.
+///
+/// Thermal noise is complex, normal and independent from line to line; the filter that passes the pulse leaves it
+/// correlated over about the axial resolution. So complex normal numbers stand a reflection length apart along each
+/// line and are interpolated linearly between, brought back to equal variance; their magnitude is Rayleigh distributed
+/// (Goodman, Statistical Optics, 2.9). It depends on depth in mm and not on how many samples a line has. The numbers
+/// are hashes of line and place: every frame has the same ones, so that a still picture is still.
+Image<double> electronic_noise(const ScanLines& lines, const Settings& settings);
+
+/// The mean of the noise in units of U, before gain: `noise_db` below the level that is white; 0 when it is off.
+double noise_level(const Settings& settings);
+
+}  // namespace insonate
