@@ -1,170 +1,18 @@
-// The reference against what can be worked out by hand, so that it may stand as the measure of everything else. The
-// media are given by formulas; tolerances are rounding's unless said otherwise.
+// What the reference makes of gas, bone, gel and the display, against what can be worked out by hand. How exactly it
+// follows the model is tested in tests/accuracy. Tolerances are rounding's unless said otherwise.
 
 #include "sim/reference/reference.h"
 
 #include <catch2/catch.hpp>
-#include <glm/trigonometric.hpp>
 
 #include <cfenv>
 #include <cmath>
 
 #include "sim/model/noise.h"
+#include "tests/accuracy/media.h"
 
 using namespace insonate;
-
-namespace {
-
-// 1.0 MRayl a 100 HU, absorption 0.5 throughout: plain numbers instead of tissue.
-TissueTable plain_table() {
-  return {{{0, 1.0, 0.5, 0}, {1000, 11.0, 0.5, 0}}, {}};
-}
-double impedance(double hu) {
-  return 1 + hu / 100;
-}
-
-ScanLines one_line(double r_max_mm, int samples) {
-  ScanLines lines;
-  lines.lines = {ScanLine{}};
-  lines.samples = samples;
-  lines.r_max_mm = r_max_mm;
-  return lines;
-}
-
-Settings without_absorption(double reflection_length_mm) {
-  Settings settings;
-  settings.absorption = false;
-  settings.gel_mm = 0;
-  settings.speckle = false;
-  settings.reflection_length_mm = reflection_length_mm;
-  return settings;
-}
-
-/// Two media that meet in the plane y = depth, which is turned about z by `tilt`; blurred over `ramp_mm`.
-MediumField interface_at(double depth, double hu_before, double hu_behind, double tilt_deg = 0, double ramp_mm = 0) {
-  const double c = std::cos(glm::radians(tilt_deg)), s = std::sin(glm::radians(tilt_deg));
-  return [=](const glm::dvec3& p) {
-    const double behind = c * (p.y - depth) + s * p.x;
-    const double share = ramp_mm > 0 ? std::clamp(behind / ramp_mm + 0.5, 0.0, 1.0) : (behind > 0 ? 1.0 : 0.0);
-    return Medium{hu_before + share * (hu_behind - hu_before), 0};
-  };
-}
-
-double echo_integral(const ReferenceScan& scan, double dr) {
-  double sum = 0;
-  for (double r : scan.reflection.pixels) sum += r * dr;
-  return sum;
-}
-
-double alpha_of(double hu1, double hu2) {
-  const double z1 = impedance(hu1), z2 = impedance(hu2);
-  return std::pow((z2 - z1) / (z2 + z1), 2);
-}
-
-}  // namespace
-
-TEST_CASE("a homogeneous medium reflects nothing and absorbs by the decibel") {
-  Settings settings = without_absorption(0.5);
-  settings.absorption = true;
-  settings.frequency_mhz = 3.5;
-  const ScanLines lines = one_line(160, 500);
-  const auto scan = traverse_reference(
-      [](const glm::dvec3&) {
-        return Medium{200, 0};
-      },
-      plain_table(), lines, settings, {});
-  for (int k = 0; k < lines.samples; ++k) {
-    const double r = (k + 0.5) * lines.dr_mm();
-    CHECK(scan.reflection.at(0, k) == 0);
-    CHECK(scan.intensity.at(0, k) == Approx(std::pow(10, -0.5 * 3.5 * r / 100)).epsilon(1e-12));
-  }
-}
-
-TEST_CASE("a sharp interface transmits 1 - alpha however finely it is sampled") {
-  const double alpha = alpha_of(100, 500);
-  for (int m : {1, 2, 3, 8}) {
-    const double l = 0.8;
-    const ScanLines lines = one_line(80, 100 * m);  // dr = l / m
-    // Off the grid of samples and their half lengths, where a step has no value.
-    const double depth = 40.0 + lines.dr_mm() * 0.137;
-    const auto scan =
-        traverse_reference(interface_at(depth, 100, 500), plain_table(), lines, without_absorption(l), {});
-    CHECK(scan.intensity.at(0, lines.samples - 1) == Approx(1 - alpha).epsilon(1e-12));
-
-    double weighted = 0, sum = 0;
-    for (int k = 0; k < lines.samples; ++k) {
-      const double r = (k + 0.5) * lines.dr_mm();
-      weighted += r * scan.reflection.at(0, k);
-      sum += scan.reflection.at(0, k);
-    }
-    // The front of the echo is stronger than its end, which pulls its centre forward by less than half a sample.
-    CHECK(std::abs(weighted / sum - depth) <= lines.dr_mm() / 2 + 0.05 * l);
-  }
-}
-
-TEST_CASE("the echo of a sharp interface has the area that the continuous model gives") {
-  const double alpha = alpha_of(100, 500), l = 0.8;
-  const double expected = alpha * l * (std::pow(1 - alpha, 2) - 1) / (2 * std::log(1 - alpha));
-  double previous = 1;
-  for (int m : {8, 16, 32, 64}) {
-    const ScanLines lines = one_line(8, 10 * m);
-    const double depth = 4 + lines.dr_mm() * 0.137;
-    const auto scan =
-        traverse_reference(interface_at(depth, 100, 500), plain_table(), lines, without_absorption(l), {});
-    const double error = std::abs(echo_integral(scan, lines.dr_mm()) / expected - 1);
-    CHECK(error < 0.6 * previous);  // at least linear: halving dr halves it, 0.6 leaves room for the interface's phase
-    previous = error;
-  }
-  CHECK(previous < 0.01);
-}
-
-TEST_CASE("layers transmit the product of what each transmits") {
-  const MediumField layers = [](const glm::dvec3& p) {
-    const double hu[] = {100, 300, 50, 700, 200};
-    return Medium{hu[std::clamp(int(p.y / 10.013), 0, 4)], 0};
-  };
-  const ScanLines lines = one_line(60, 600);
-  const auto scan = traverse_reference(layers, plain_table(), lines, without_absorption(0.4), {});
-  const double expected =
-      (1 - alpha_of(100, 300)) * (1 - alpha_of(300, 50)) * (1 - alpha_of(50, 700)) * (1 - alpha_of(700, 200));
-  CHECK(scan.intensity.at(0, lines.samples - 1) == Approx(expected).epsilon(1e-12));
-}
-
-TEST_CASE("a tilted interface echoes with the cosine of its tilt") {
-  // Blurred over several reflection lengths, as CT blurs every interface. The tilted ramp is crossed on a longer way,
-  // by 1/cos, over which alpha falls with cos^2: the area of the echo falls by cos, and once more by |d . n|.
-  const ScanLines lines = one_line(40, 4000);
-  const auto area = [&](double tilt) {
-    return echo_integral(
-        traverse_reference(interface_at(20, 300, 310, tilt, 4), plain_table(), lines, without_absorption(0.1), {}),
-        lines.dr_mm());
-  };
-  const double upright = area(0);
-  for (double tilt : {15.0, 30.0, 45.0, 60.0}) {
-    INFO("tilt " << tilt);
-    const double cosine = std::cos(glm::radians(tilt));
-    CHECK(area(tilt) / upright == Approx(cosine * cosine).epsilon(0.01));
-  }
-}
-
-TEST_CASE("halving the sample distance changes less and less") {
-  const MediumField wavy = [](const glm::dvec3& p) {
-    return Medium{400 + 300 * std::sin(p.y / 3) * std::sin(p.y / 7), 0};
-  };
-  const auto last_intensity = [&](int samples) {
-    const ScanLines lines = one_line(60, samples);
-    const auto scan = traverse_reference(wavy, plain_table(), lines, without_absorption(0.6), {});
-    // Carried from the last sample to the line's end, so that all sample counts speak of the same place.
-    return scan.intensity.at(0, samples - 1);
-  };
-  const double limit = last_intensity(25600);
-  double previous = std::abs(last_intensity(200) - limit);
-  for (int samples : {400, 800, 1600}) {
-    const double error = std::abs(last_intensity(samples) - limit);
-    CHECK(error < 0.6 * previous);
-    previous = error;
-  }
-}
+using namespace insonate::test;
 
 TEST_CASE("gas and bone cast the shadows that their impedances ask for") {
   const TissueTable table = read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml");

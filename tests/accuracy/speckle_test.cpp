@@ -1,0 +1,110 @@
+// Fully developed speckle: the scatterers' echo in a homogeneous medium has the statistics of many scatterers a
+// resolution cell, whose real and imaginary parts are normal and whose envelope is therefore Rayleigh distributed
+// (Wagner, Smith, Sandrik, Lopez, IEEE Trans. Sonics Ultrason. 30 (1983) 156).
+
+#include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+
+#include <algorithm>
+#include <complex>
+#include <cstdio>
+#include <vector>
+
+#include "sim/model/beam.h"
+#include "sim/model/scatterers.h"
+#include "tests/accuracy/media.h"
+
+using namespace insonate;
+using namespace insonate::test;
+
+namespace {
+
+constexpr int kSide = 63;
+// Trilinear interpolation reaches one cell to either side: beyond two cells echoes share no scatterer. The lattice of
+// 128 cells repeats behind the last of these.
+constexpr double kSpacingCells = 2.03;
+
+/// Lines and samples along the lattice's axes, kSpacingCells apart, so that no two echoes share a scatterer while they
+/// lie at all places between the lattice's points. `beside` lines, a tenth of a cell apart, surround each.
+ScanLines independent_cells(double cell_mm, int beside) {
+  ScanLines lines;
+  lines.samples = kSide;
+  lines.r_max_mm = kSide * kSpacingCells * cell_mm;
+  for (int z = 0; z < kSide; ++z)
+    for (int x = 0; x < kSide; ++x)
+      for (int j = -beside; j <= beside; ++j)
+        lines.lines.push_back(
+            {glm::dvec3(x * kSpacingCells + 0.1 * j, 0, z * kSpacingCells) * cell_mm, glm::dvec3(0, 1, 0)});
+  return lines;
+}
+
+Pose along_the_lattice(double cell_mm) {
+  const glm::dmat3 turned(lattice_from_patient(cell_mm));
+  return {glm::transpose(turned / glm::length(turned[0])), glm::dvec3(0)};
+}
+
+struct Statistics {
+  double signal_to_noise = 0;
+  double off_rayleigh = 0;  ///< the largest distance between the distributions
+  double mean_power = 0;    ///< <|echo|^2>
+};
+
+/// Of envelopes against the Rayleigh distribution with their own mean power.
+Statistics statistics(std::vector<double> envelope) {
+  std::sort(envelope.begin(), envelope.end());
+  const double n = double(envelope.size());
+  double sum = 0, squares = 0;
+  for (const double a : envelope) {
+    sum += a;
+    squares += a * a;
+  }
+  const double mean = sum / n;
+  Statistics found{mean / std::sqrt(squares / n - mean * mean), 0, squares / n};
+  for (std::size_t i = 0; i < envelope.size(); ++i) {
+    const double rayleigh = -std::expm1(-envelope[i] * envelope[i] / found.mean_power);
+    found.off_rayleigh = std::max({found.off_rayleigh, rayleigh - double(i) / n, double(i + 1) / n - rayleigh});
+  }
+  return found;
+}
+
+std::vector<double> envelopes(BeamWindow window, int beam_lines) {
+  Settings settings = without_absorption(0.5);
+  settings.speckle = true;
+  settings.beam_window = window;
+  settings.beam_lines = beam_lines;
+  const int beside = (beam_lines - 1) / 2;
+  const ScanLines lines = independent_cells(settings.speckle_cell_mm, beside);
+  const auto scan = traverse_reference(
+      [](const glm::dvec3&) {
+        return Medium{60, 0};
+      },
+      plain_table(), lines, settings, along_the_lattice(settings.speckle_cell_mm));
+  const std::vector<double> weights = beam_weights(settings);
+  std::vector<double> values;
+  for (int line = 0; line < int(lines.lines.size()); line += beam_lines)
+    for (int k = 0; k < lines.samples; ++k) {
+      std::complex<double> echo = 0;
+      for (int j = 0; j < beam_lines; ++j)
+        echo += weights[std::size_t(j)] * std::complex(scan.echo_re.at(line + j, k), scan.echo_im.at(line + j, k));
+      values.push_back(std::abs(echo));
+    }
+  return values;
+}
+
+}  // namespace
+
+TEST_CASE("fully developed speckle has the signal to noise ratio of 1.91 and is Rayleigh distributed") {
+  for (const int beam_lines : {1, 7}) {
+    const std::vector<double> values = envelopes(BeamWindow::hann, beam_lines);
+    REQUIRE(values.size() >= 100000);
+    const Statistics found = statistics(values);
+    std::printf("speckle of %zu cells, %d lines a beam: SNR %.4f, %.5f off Rayleigh, power %.4f\n", values.size(),
+                beam_lines, found.signal_to_noise, found.off_rayleigh, found.mean_power);
+    CHECK(found.signal_to_noise == Approx(std::sqrt(M_PI / (4 - M_PI))).margin(0.05));
+    // Kolmogorov-Smirnov at a level of 5 %.
+    CHECK(found.off_rayleigh < 1.36 / std::sqrt(double(values.size())));
+    // Two parts of variance 1, or what the window leaves of them.
+    if (beam_lines == 1) CHECK(found.mean_power == Approx(2).epsilon(0.01));
+  }
+}
