@@ -1,6 +1,7 @@
 #include "sim/volume/apart.h"
 
 #include <fcntl.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -53,6 +54,7 @@ std::string receive_all(int pipe_end) {
 }
 
 [[noreturn]] void work_and_send(int pipe_end, std::uintmax_t bytes, const std::function<std::string()>& work) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // who waits for the result may leave
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_AS, taken_bytes() + (rlim_t(512) << 20) + 64 * rlim_t(bytes));
   limit(RLIMIT_CPU, 10 + rlim_t(bytes >> 20));

@@ -35,8 +35,11 @@ void write_labels(const std::filesystem::path& nrrd_file, const Volume<std::uint
 
 /// The CT on a grid of (about) `spacing_mm`, isotropic, axes as before, covering the same box. Cubic B-spline
 /// interpolation, so that gradients between thick slices are smooth; overshoot beyond the neighbours' range is cut.
-/// Returns the volume as it is when its spacing is already within 20 % of that.
-Volume<std::int16_t> resample_isotropic(const Volume<std::int16_t>& ct, double spacing_mm);
+/// Returns the volume as it is when its spacing is already within 20 % of that. Throws InputError where that makes more
+/// voxels than read_ct() takes.
+/// @param file  what the person who gave the CT calls it
+Volume<std::int16_t> resample_isotropic(const Volume<std::int16_t>& ct, double spacing_mm,
+                                        const std::string& file = "the CT");
 
 /// Labels carried onto another grid over the same patient, by nearest neighbour.
 Volume<std::uint8_t> resample_labels(const Volume<std::uint8_t>& labels, const Grid& onto);

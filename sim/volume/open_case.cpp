@@ -51,7 +51,7 @@ Case open_case(const fs::path& path) {
   subject.ct = read_ct(path);
   const glm::dvec3 spacing = subject.ct.grid.spacing;
   if (std::max({spacing.x, spacing.y, spacing.z}) > kInsonatedVoxelMm)
-    subject.ct = resample_isotropic(subject.ct, kInsonatedVoxelMm);
+    subject.ct = resample_isotropic(subject.ct, kInsonatedVoxelMm, path.string());
   subject.views = default_views(subject.ct);
   return subject;
 }

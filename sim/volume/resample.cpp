@@ -134,7 +134,7 @@ void cut_overshoot(const Volume<std::int16_t>& ct, const std::array<AxisPlan, 3>
 
 }  // namespace
 
-Volume<std::int16_t> resample_isotropic(const Volume<std::int16_t>& ct, double spacing_mm) {
+Volume<std::int16_t> resample_isotropic(const Volume<std::int16_t>& ct, double spacing_mm, const std::string& file) {
   const Grid& old = ct.grid;
   bool close = true;
   for (int a = 0; a < 3; ++a) close &= std::abs(old.spacing[a] / spacing_mm - 1) <= kSpacingTolerance;
@@ -154,7 +154,7 @@ Volume<std::int16_t> resample_isotropic(const Volume<std::int16_t>& ct, double s
     first[a] = ((box - (samples - 1) * spacing_mm) / old.spacing[a] - 1) / 2;
     axes[std::size_t(a)] = {old.size[a], int(sides[std::size_t(a)]), first[a], spacing_mm / old.spacing[a]};
   }
-  check_size("resampled CT", sides[0], sides[1], sides[2]);
+  check_size(file + ", in the voxels of equal sides that it is resampled to", sides[0], sides[1], sides[2]);
   out.grid.size = {axes[0].after, axes[1].after, axes[2].after};
   out.grid.origin = old.patient_from_index(first);
 
