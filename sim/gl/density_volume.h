@@ -1,0 +1,14 @@
+#pragma once
+
+#include "sim/gl/objects.h"
+#include "sim/model/acoustic_volume.h"
+
+namespace insonate::gl {
+
+/// What model W reads of a CT: (HU, its differences over the reflection length along the CT's axes i, j, k in eighths
+/// of HU) / 32767, eight bytes a voxel; beyond the CT air without a gradient. Differences above 4095 HU count as that.
+/// Throws TextureRefused.
+/// @param reflection_length_mm  0.01 to 20
+Texture density_volume(const AcousticVolume& volume, double reflection_length_mm);
+
+}  // namespace insonate::gl

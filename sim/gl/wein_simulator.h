@@ -1,0 +1,64 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "sim/core/image.h"
+#include "sim/core/pose.h"
+#include "sim/gl/objects.h"
+#include "sim/gl/program.h"
+#include "sim/model/acoustic_volume.h"
+#include "sim/model/wein_settings.h"
+#include "sim/model/wein_stages.h"
+#include "sim/probe/probe.h"
+
+namespace insonate::gl {
+
+/// Model W (sim/model/wein_settings.h) on the graphics card: many images a call, as registration needs them, and how
+/// much each is like a given ultrasound image.
+///
+/// A call's poses are worked through in chunks whose scan lines stay below a few megabytes, so that memory is bounded
+/// and a processor's caches hold them; nothing is read back between chunks. Needs an OpenGL 4.5 context, current
+/// whenever it is used. Poses are rigid and finite; checked where they enter the program.
+class WeinSimulator {
+public:
+  /// Throws std::runtime_error when shaders do not build, TextureRefused when the device cannot hold the volume.
+  /// @param depth_mm  10 to 400
+  WeinSimulator(const AcousticVolume& volume, const Probe& probe, double depth_mm, const WeinSettings& settings,
+                const ShaderSources& sources = {});
+  ~WeinSimulator();
+  WeinSimulator(WeinSimulator&&) noexcept;
+  WeinSimulator& operator=(WeinSimulator&&) noexcept;
+
+  /// How an image's pixels lie in the probe's plane; the same for all.
+  const ImageGeometry& geometry() const;
+  /// 1 inside the fan: elsewhere images are 0 and mean nothing.
+  const Image<std::uint8_t>& inside() const;
+
+  /// An image a pose, each in its tile of a grid: R8, row 0 on top, near to square. Throws TextureRefused when the
+  /// device takes no grid of that many. Valid until the next call. The device may still be at work.
+  const Texture& simulate(std::span<const Pose> patient_from_probe);
+  /// The top left pixel of an image of the last grid.
+  glm::ivec2 tile(int image) const;
+
+  /// What similarity() compares with: grey values, linear or compressed, of any finite range, on geometry()'s pixels;
+  /// NaN where a pixel is not to count. Pixels outside the fan never do. Throws std::invalid_argument for another size.
+  void set_ultrasound(const Image<float>& image);
+
+  /// LC2 of the image at each pose with the ultrasound image, 0 to 1, as sim/reference/wein_reference.h defines it: the
+  /// images stay on the device, a number each is read back. 0 without an ultrasound image. Waits for the device.
+  std::vector<float> similarity(std::span<const Pose> patient_from_probe);
+
+  /// What crosses the stages of one image but its terms behind scan conversion, read back; for those who check.
+  WeinStages<float> read_stages(const Pose& patient_from_probe);
+
+private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace insonate::gl

@@ -1,0 +1,34 @@
+// The parameters of model W's stages: read by the shaders and written by C++, which both include this file.
+// std140: every group of four scalars below fills one 16-byte row.
+#ifdef __cplusplus
+#pragma once
+namespace insonate::gl {
+struct WeinParameters {
+#else
+layout(std140, binding = 0) uniform WeinParameters {
+#endif
+  int lines;    // of an image
+  int samples;  // a line
+  int width;    // of an image, pixels
+  int height;
+
+  int images;      // of this chunk
+  int first;       // the chunk's first image among all
+  int columns;     // of images in the grid
+  int unused0;
+
+  float first_free_sample;  // those before lie in contact, where nothing reflects
+  float dr_by_length;       // dr/l
+  float compression;        // a
+  float one_over_compressed_one;  // 1/ln(1 + a)
+
+  float dark_hu;
+  float one_over_hu_range;  // from dark to bright
+  float reflection_share;
+  int shadows;  // 1: echogenicity is scaled by I
+#ifdef __cplusplus
+};
+}  // namespace insonate::gl
+#else
+};
+#endif
