@@ -127,6 +127,7 @@ Json description(const RenderedScene& scene, const ScanLines& lines, const Image
                                {"absorption_db_cm_mhz", knot.absorption_db_cm_mhz},
                                {"echogenicity_db", knot.echogenicity_db}});
   text["beam_weights"] = beam_weights(scene.settings);
+  if (scene.settings.focused_beam) text["beam_sigma_lines"] = focused_beam_sigma(lines, scene.settings);
   text["envelope_scale"] = envelope_scale(lines, scene.settings);
   for (const ScanLine& line : lines.lines)
     text["scan_lines"].push_back({{"start_mm", json(scene.patient_from_probe.point(line.start))},

@@ -28,6 +28,11 @@ Defines traversal_of(const Settings& settings, double dr_mm) {
           {"SPECKLE", settings.speckle ? "1" : "0"}};
 }
 
+// What beam.comp is compiled for.
+Defines beam_of(const Settings& settings) {
+  return {{"FOCUSED_BEAM", settings.focused_beam ? "1" : "0"}};
+}
+
 constexpr double kLn10 = 2.302585092994046;
 
 // An interface counts as too weak for its tilt to be seen where it echoes this share of what the scatterers do: 0.004
@@ -109,7 +114,7 @@ struct Simulator::State {
   explicit State(const ShaderSources& shader_sources)
       : sources(shader_sources),
         traverse(sources, {"traverse.comp"}, traversal),
-        beam(sources, {"beam.comp"}),
+        beam(sources, {"beam.comp"}, beam_defines),
         scan_convert(sources, {"scan_convert.comp"}),
         smooth(sources, {"smooth.comp"}),
         fuse(sources, {"fuse.comp"}),
@@ -118,6 +123,7 @@ struct Simulator::State {
 
   ShaderSources sources;
   Defines traversal = traversal_of({}, 1);  // what `traverse` is compiled for
+  Defines beam_defines = beam_of({});       // and `beam`
   Program traverse, beam, scan_convert, smooth, fuse, maximum, compress;
 
   // What the user set.
@@ -134,7 +140,7 @@ struct Simulator::State {
   Buffer parameter_buffer{sizeof(SimulationParameters), nullptr};
   Texture scatterers, line_and_sample;
   Texture pixel_constants;  // see fuse.comp
-  Buffer line_buffer, beam_window, speckle_scale, fan_blocks;
+  Buffer line_buffer, beam_window, speckle_scale, focused, fan_blocks;
   Gaussian reflection_gaussian, transmission_gaussian;
   std::array<double, 2> sigmas_px{};  // theirs
   double noise_length_mm = 0;         // reflection length of the noise among the constants; 0 where there is none
@@ -146,6 +152,7 @@ struct Simulator::State {
   Texture image;
 
   bool layout_changed = true;      // probe, depth, sample count or picture size
+  bool beam_changed = true;        // layout, or what the beam's windows hang on
   bool scatterers_changed = true;  // seed
   std::optional<Stage> first_due = Stage::traverse;
   std::array<long, kStageCount> runs{};
@@ -183,6 +190,7 @@ void Simulator::State::lay_out() {
   image = Texture::make_2d(GL_RGBA8, w, h, Filter::linear);
   for (Texture* texture : {&picture, &half_smoothed, &fused, &image}) texture->clear();
   layout_changed = false;
+  beam_changed = true;
 }
 
 void Simulator::State::upload_scatterers() {
@@ -260,9 +268,17 @@ void Simulator::State::prepare() {
     traversal = wanted;
     place_lines();
   }
-  if (*first_due <= Stage::smooth) {
+  if (beam_changed) {
+    const Defines wanted = beam_of(settings);
+    if (wanted != beam_defines) beam = Program(sources, {"beam.comp"}, wanted);
+    beam_defines = wanted;
     beam_window = window_of_four(beam_weights(settings));
     speckle_scale = storage(to_float(envelope_scale(lines, settings)));
+    std::vector<glm::vec2> of_samples;
+    for (double sigma : focused_beam_sigma(lines, settings))
+      of_samples.emplace_back(focused_reach(sigma), focused_reach(sigma) > 0 ? -0.5 / (sigma * sigma) : 0);
+    focused = Buffer(of_samples.size() * sizeof(glm::vec2), of_samples.data());
+    beam_changed = false;
   }
   if (*first_due <= Stage::fuse) place_pixel_constants();
   fill_parameters();
@@ -324,6 +340,7 @@ void Simulator::State::run(Stage stage) {
     case Stage::beam:
       beam_window.bind_storage(0);
       speckle_scale.bind_storage(1);
+      focused.bind_storage(2);
       scan.bind(0);
       echoes.bind_image(0, GL_WRITE_ONLY);
       beam.dispatch(parameters.samples, (parameters.lines + 3) / 4);
@@ -390,12 +407,15 @@ void Simulator::set_settings(const Settings& settings) {
   const auto same = [&](auto... members) { return ((old.*members == settings.*members) && ...); };
   if (!same(&Settings::samples, &Settings::image_width, &Settings::image_height)) state_->layout_changed = true;
   if (!same(&Settings::speckle_seed)) state_->scatterers_changed = true;
+  if (!same(&Settings::beam_window, &Settings::beam_lines, &Settings::focused_beam, &Settings::focus_mm,
+            &Settings::f_number, &Settings::frequency_mhz, &Settings::speckle_cell_mm))
+    state_->beam_changed = true;
 
   using S = Settings;
   if (!same(&S::samples, &S::reflection_length_mm, &S::frequency_mhz, &S::absorption, &S::gel_mm, &S::speckle,
             &S::speckle_seed, &S::speckle_cell_mm, &S::image_width, &S::image_height, &S::skipping))
     state_->due_from(Stage::traverse);
-  else if (!same(&S::beam_window, &S::beam_lines, &S::two_way))
+  else if (!same(&S::beam_window, &S::beam_lines, &S::focused_beam, &S::focus_mm, &S::f_number, &S::two_way))
     state_->due_from(Stage::beam);
   else if (!same(&S::reflection_sigma_mm, &S::transmission_sigma_mm))
     state_->due_from(Stage::smooth);

@@ -3,8 +3,10 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace insonate {
 namespace {
@@ -29,6 +31,21 @@ double interpolation_correlation(double cells) {
   return 1 - 1.5 * d * d + 0.75 * d * d * d;
 }
 
+// Between the lines in the middle, mm; 0 where there is only one.
+double line_spacing_mm(const ScanLines& lines, double r_mm) {
+  if (lines.lines.size() < 2) return 0;
+  const std::size_t middle = lines.lines.size() / 2;
+  const ScanLine& a = lines.lines[middle - 1];
+  const ScanLine& b = lines.lines[middle];
+  return glm::distance(a.start + r_mm * a.direction, b.start + r_mm * b.direction);
+}
+
+std::vector<double> with_sum_1(std::vector<double> weights) {
+  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+  for (double& weight : weights) weight /= sum;
+  return weights;
+}
+
 // Mean magnitude of a complex number whose parts are normal with variance 1 (Rayleigh).
 const double kRayleighMean = std::sqrt(glm::pi<double>() / 2);
 
@@ -38,32 +55,56 @@ std::vector<double> beam_weights(const Settings& settings) {
   const int half = (settings.beam_lines - 1) / 2;
   std::vector<double> weights;
   for (int j = -half; j <= half; ++j) weights.push_back(window(settings.beam_window, j / (half + 1.0)));
-  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
-  for (double& weight : weights) weight /= sum;
-  return weights;
+  return with_sum_1(std::move(weights));
+}
+
+double focused_beam_fwhm_mm(const Settings& settings, double r_mm) {
+  const double n = settings.f_number, waist = 1.54 / settings.frequency_mhz * n;
+  const double spread = 4 * std::log(2.0) / (2 * glm::pi<double>() * n);
+  const double sent = std::hypot(waist, (r_mm - settings.focus_mm) * spread);
+  const double received = waist * std::max(1.0, r_mm / settings.focus_mm);
+  return 1 / std::hypot(1 / sent, 1 / received);
+}
+
+std::vector<double> focused_beam_sigma(const ScanLines& lines, const Settings& settings) {
+  const double of_fwhm = 1 / std::sqrt(8 * std::log(2.0));
+  std::vector<double> sigma;
+  for (int k = 0; k < lines.samples; ++k) {
+    const double r = lines.r_min_mm + (k + 0.5) * lines.dr_mm(), spacing = line_spacing_mm(lines, r);
+    sigma.push_back(
+        spacing > 0 ? std::min(of_fwhm * focused_beam_fwhm_mm(settings, r) / spacing, kMostFocusedReach / 3.0) : 0);
+  }
+  return sigma;
+}
+
+int focused_reach(double sigma_lines) {
+  return int(3 * sigma_lines + 1e-9);
+}
+
+std::vector<double> beam_weights_at(const Settings& settings, double sigma_lines) {
+  if (!settings.focused_beam) return beam_weights(settings);
+  const int reach = focused_reach(sigma_lines);
+  std::vector<double> weights;
+  for (int j = -reach; j <= reach; ++j)
+    weights.push_back(j == 0 ? 1 : std::exp(-0.5 * j * j / (sigma_lines * sigma_lines)));
+  return with_sum_1(std::move(weights));
 }
 
 std::vector<double> envelope_scale(const ScanLines& lines, const Settings& settings) {
-  const std::vector<double> weights = beam_weights(settings);
-  const int count = int(weights.size());
-  // Sum of w_i w_j by distance in lines: the variance is then one short sum a sample.
-  std::vector<double> overlap(weights.size(), 0.0);
-  for (int i = 0; i < count; ++i)
-    for (int j = 0; j < count; ++j) overlap[std::size_t(std::abs(i - j))] += weights[i] * weights[j];
-
-  const std::size_t middle = lines.lines.size() / 2;
+  const std::vector<double> sigma = focused_beam_sigma(lines, settings);
+  std::vector<double> weights = beam_weights(settings);
   std::vector<double> scale;
   for (int k = 0; k < lines.samples; ++k) {
-    double spacing = 0;
-    if (lines.lines.size() > 1) {
-      const double r = lines.r_min_mm + (k + 0.5) * lines.dr_mm();
-      const ScanLine& a = lines.lines[middle - 1];
-      const ScanLine& b = lines.lines[middle];
-      spacing = glm::distance(a.start + r * a.direction, b.start + r * b.direction);
-    }
+    if (settings.focused_beam) weights = beam_weights_at(settings, sigma[std::size_t(k)]);
+    const double spacing = line_spacing_mm(lines, lines.r_min_mm + (k + 0.5) * lines.dr_mm());
     double variance = 0;
-    for (std::size_t d = 0; d < overlap.size(); ++d)
-      variance += overlap[d] * interpolation_correlation(double(d) * spacing / settings.speckle_cell_mm);
+    for (std::size_t d = 0; d < weights.size(); ++d) {
+      const double correlation = interpolation_correlation(double(d) * spacing / settings.speckle_cell_mm);
+      if (correlation == 0) break;  // and so are all beyond
+      double overlap = 0;
+      for (std::size_t i = d; i < weights.size(); ++i) overlap += weights[i] * weights[i - d];
+      variance += (d == 0 ? 1 : 2) * overlap * correlation;
+    }
     scale.push_back(1.0 / (kRayleighMean * std::sqrt(variance)));
   }
   return scale;

@@ -10,6 +10,29 @@ namespace insonate {
 /// The window (4) over the lines of the active aperture: `beam_lines` weights, symmetric, sum 1.
 std::vector<double> beam_weights(const Settings& settings);
 
+/// Lateral full width at half maximum, mm, of a beam sent with a fixed focus F and received with a moving one, at a
+/// distance r from the face. With N the f-number and lambda = 1.54 mm MHz / frequency:
+///
+///     sent      sqrt((lambda N)^2 + ((r - F) 4 ln 2/(2 pi N))^2)   a Gaussian beam about its waist (Siegman,
+///     Lasers, 17.1) received  lambda N max(1, r/F)                               N is kept until the aperture F/N is
+///     all in use both      (1/sent^2 + 1/received^2)^(-1/2)                   Gaussians multiply (Szabo, Diagnostic
+///     Ultrasound, 6)
+double focused_beam_fwhm_mm(const Settings& settings, double r_mm);
+
+/// Most lines to either side that a focused beam's window reaches.
+inline constexpr int kMostFocusedReach = 127;
+
+/// The focused beam's window at each sample as the standard deviation in lines of a Gaussian, which is cut off at three
+/// of them or kMostFocusedReach lines; wider beams are narrowed to fit.
+std::vector<double> focused_beam_sigma(const ScanLines& lines, const Settings& settings);
+
+/// How many lines to either side that is.
+int focused_reach(double sigma_lines);
+
+/// The window at one sample, of whichever beam the settings ask for: odd in number, symmetric, sum 1.
+/// @param sigma_lines  of the focused beam there
+std::vector<double> beam_weights_at(const Settings& settings, double sigma_lines);
+
 /// What the speckle's envelope is multiplied by at each sample so that fully developed speckle has a mean of 1.
 ///
 /// Where lines lie closer together than the scatterers' cells, neighbouring lines see the same scatterers and their

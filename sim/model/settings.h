@@ -40,7 +40,10 @@ struct Settings {
 
   // Beam width (4)
   BeamWindow beam_window = BeamWindow::hann;
-  int beam_lines = 7;  ///< n_a: lines under the window, odd, 1 (none) to 255
+  int beam_lines = 7;         ///< n_a: lines under the window, odd, 1 (none) to 255
+  bool focused_beam = false;  ///< the width follows from focus and aperture instead, see focused_beam_fwhm_mm()
+  double focus_mm = 80;       ///< depth of the transmit focus, 5 to 400
+  double f_number = 6;        ///< focus over the width of the active aperture, 0.5 to 30
 
   // Speckle
   bool speckle = true;
@@ -70,7 +73,7 @@ struct Settings {
 };
 
 /// As in the paper: no absorption, reflection length = sample distance, one-way transmission, frame's maximum, no
-/// noise.
+/// noise, a beam equally wide at every depth.
 Settings paper_settings(double depth_mm, int samples);
 
 /// What the trainer starts with: every effect on, TGC set to the mean absorption of soft tissue up to `depth_mm`.

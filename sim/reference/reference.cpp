@@ -198,10 +198,11 @@ Stages<double> simulate_reference(const MediumField& field, const TissueTable& t
   stages.reflection_beam = Image<double>(n, d);
   stages.transmission = Image<double>(n, d);
   stages.speckle = Image<double>(n, d);
-  const std::vector<double> weights = beam_weights(settings);
+  const std::vector<double> sigma = focused_beam_sigma(lines, settings);
   const std::vector<double> scale = envelope_scale(lines, settings);
-  const int half = (settings.beam_lines - 1) / 2;
-  for (int k = 0; k < d; ++k)
+  for (int k = 0; k < d; ++k) {
+    const std::vector<double> weights = beam_weights_at(settings, sigma[std::size_t(k)]);
+    const int half = int(weights.size() / 2);
     for (int line = 0; line < n; ++line) {
       double reflection = 0, total = 0;
       std::complex<double> echo = 0;
@@ -217,6 +218,7 @@ Stages<double> simulate_reference(const MediumField& field, const TissueTable& t
       stages.transmission.at(line, k) = settings.two_way ? intensity * intensity : intensity;
       stages.speckle.at(line, k) = std::abs(echo) / total * (settings.speckle ? scale[std::size_t(k)] : 1);
     }
+  }
   stages.intensity = std::move(scan.intensity);
   stages.reflection = std::move(scan.reflection);
 

@@ -129,6 +129,15 @@ TEST_CASE("GLSL agrees with the reference: loud receiver's noise, every grey map
   check_parity(probe, 120, settings, test::on_the_skin(0, 9, 12));
 }
 
+TEST_CASE("GLSL agrees with the reference: a beam focused near the face, wider than the array's edge allows") {
+  Probe probe = *find_probe("linear");
+  probe.lines = 80;
+  Settings settings = small(trainer_settings(5, 60));
+  settings.focus_mm = 15;
+  settings.f_number = 2;
+  check_parity(probe, 60, settings, test::on_the_skin(-10, 1, -8));
+}
+
 TEST_CASE("a frame without any echo is black, not NaN") {
   const gl::HeadlessContext context;
   AcousticVolume water;

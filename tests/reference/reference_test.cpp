@@ -8,6 +8,7 @@
 #include <cfenv>
 #include <cmath>
 
+#include "sim/model/beam.h"
 #include "sim/model/noise.h"
 #include "tests/accuracy/media.h"
 
@@ -137,4 +138,61 @@ TEST_CASE("grey maps keep black and white, and each bends the greys between as i
   CHECK(grey_at(GreyMap::soft, 0.25) == 90);      // 0.25^0.75 = 0.3536
   CHECK(grey_at(GreyMap::contrast, 0.25) == 32);  // 0.25^1.5 = 0.125
   CHECK(grey_at(GreyMap::s_curve, 0.25) == 40);   // 0.0625 x 2.5 = 0.15625
+}
+
+TEST_CASE("a focused beam draws a point as wide as its aperture's theory says, narrowest at the focus") {
+  Probe probe = *find_probe("linear");
+  probe.lines = 128;
+  Settings settings = trainer_settings(5, 60);
+  settings.speckle = settings.electronic_noise = settings.absorption = false;
+  settings.samples = 120;
+  settings.reflection_length_mm = 1;
+  settings.image_width = settings.image_height = 8;
+  settings.focused_beam = true;
+  settings.focus_mm = 20;
+  settings.f_number = 4;
+  const double spacing = probe.width_mm / probe.lines, on_a_line = spacing / 2;
+  // From the profile's second moment; a Gaussian that ends at three sigma has lost 2.7 % of it.
+  const auto width_mm = [&](double depth_mm) {
+    const auto stages = simulate_reference(
+        [=](const glm::dvec3& p) {
+          const bool inside = std::abs(p.x - on_a_line) < spacing / 4 && std::abs(p.y - depth_mm) < 0.6;
+          return Medium{inside ? 250.0 : 200.0, 0};
+        },
+        plain_table(), probe, 60, settings, {});
+    double sum = 0, moment = 0;
+    for (int line = 0; line < probe.lines; ++line) {
+      const double echo = stages.reflection_beam.at(line, int(depth_mm / 0.5)), x = (line - 64) * spacing;
+      sum += echo;
+      moment += echo * x * x;
+    }
+    REQUIRE(sum > 0);
+    return std::sqrt(8 * std::log(2.0) * moment / sum);
+  };
+  // At the focus both apertures give lambda N = 1.23 mm, the two together that over the root of 2.
+  CHECK(focused_beam_fwhm_mm(settings, 20) == Approx(1.54 / 5 * 4 / std::sqrt(2.0)));
+  for (double depth : {5.0, 20.0, 40.0})
+    CHECK(width_mm(depth) == Approx(focused_beam_fwhm_mm(settings, depth)).epsilon(0.05));
+  CHECK(width_mm(20) < width_mm(5));
+  CHECK(width_mm(40) > 2 * width_mm(20));
+  settings.focused_beam = false;
+  CHECK(width_mm(40) == Approx(width_mm(20)));
+}
+
+TEST_CASE("speckle is as bright at every depth of a focused beam") {
+  Settings settings = trainer_settings(3.5, 160);
+  settings.image_width = settings.image_height = 8;
+  settings.focused_beam = true;
+  const auto stages = simulate_reference(
+      [](const glm::dvec3&) {
+        return Medium{60, 0};
+      },
+      plain_table(), *find_probe("curvilinear"), 160, settings, {});
+  const int samples = stages.speckle.height;
+  for (int part = 0; part < 4; ++part) {
+    double mean = 0;
+    for (int k = part * samples / 4; k < (part + 1) * samples / 4; ++k)
+      for (int line = 20; line < 172; ++line) mean += stages.speckle.at(line, k) / (152.0 * (samples / 4));
+    CHECK(mean == Approx(1).margin(0.05));  // over some thousand cells, each of deviation 0.52
+  }
 }
