@@ -19,14 +19,20 @@ float mapped(float g) {
   return g;
 }
 
+// As maximum.comp has written it.
+float maximum_db() {
+  bool negative = (maximum_bits & 0x80000000u) == 0u;
+  return uintBitsToFloat(negative ? ~maximum_bits : maximum_bits & 0x7fffffffu);
+}
+
 void main() {
   ivec2 pixel = block_start() + ivec2(gl_LocalInvocationID.xy);
   if (pixel.x >= width || pixel.y >= height) return;
   vec2 position = texelFetch(line_and_sample, pixel, 0).xy;
-  float level = frame_maximum == 1 ? uintBitsToFloat(maximum_bits) : fixed_level;
+  float white_db = frame_maximum == 1 ? maximum_db() : 4.342944819 * log(fixed_level);
   float echo = texelFetch(fused, pixel, 0).x;
   float grey = 0.0;  // also for a frame without any echo, whose maximum is 0
   if (echo > 0.0)
-    grey = 1.0 - clamp((4.342944819 * log(level / echo) - time_gain_db(position.y)) / dynamic_range_db, 0.0, 1.0);
+    grey = 1.0 - clamp((white_db - 4.342944819 * log(echo) - time_gain_db(position.y)) / dynamic_range_db, 0.0, 1.0);
   imageStore(image, pixel, position.x > -1.0 ? vec4(vec3(mapped(grey)), 1.0) : vec4(0.0));
 }
