@@ -45,13 +45,13 @@ inline std::string told(const char* what, const Worst& w) {
 // [0, 1] is rounded six times, each by up to 3e-8 of the body's 160 mm: 3e-5 mm in all. Filtering adds up eight
 // products of values around 1000 HU, each rounded by 6e-8: 2e-4 HU. References over fields that are wrong by as much,
 // at random, tell what that can change.
-inline MediumField as_single_precision_knows_it(const MediumField& field, std::uint32_t seed) {
-  constexpr double kPositionMm = 3e-5, kHu = 2e-4;
-  return [&field, seed, count = std::uint32_t(0)](const glm::dvec3& p) mutable {
+inline MediumField as_single_precision_knows_it(const MediumField& field, std::uint32_t seed, double position_mm = 3e-5,
+                                                double hu = 2e-4) {
+  return [&field, seed, position_mm, hu, count = std::uint32_t(0)](const glm::dvec3& p) mutable {
     const auto random = [&] { return 2.0 * unit_float(hash(seed, count++)) - 1.0; };
     const glm::dvec3 jitter(random(), random(), random());
-    Medium medium = field(p + kPositionMm * jitter);
-    medium.hu += kHu * random();
+    Medium medium = field(p + position_mm * jitter);
+    medium.hu += hu * random();
     return medium;
   };
 }

@@ -1,0 +1,345 @@
+// Everything at the ends of its range, through the shaders and through the reference: no stage lets out what is not a
+// number or out of its bounds, and both agree wherever single precision can.
+//
+// INSONATE_STRESS_FRAMES and INSONATE_STRESS_SEED ask for more random scenes, or for others.
+
+#include <catch2/catch.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "sim/gl/headless_context.h"
+#include "sim/gl/simulator.h"
+#include "sim/model/settings_file.h"
+#include "sim/reference/reference.h"
+#include "tests/accuracy/stress_scene.h"
+#include "tests/gl/parity.h"
+
+using namespace insonate;
+using namespace insonate::test;
+
+namespace {
+
+template <typename Real>
+std::string at(const char* what, const Image<Real>& image, std::size_t i) {
+  char text[120];
+  std::snprintf(text, sizeof text, "%s is %.9g at (%d, %d)", what, double(image.pixels[i]),
+                int(i % std::size_t(image.width)), int(i / std::size_t(image.width)));
+  return text;
+}
+
+/// The first value that is not finite or lies outside of [0, most].
+template <typename Real>
+std::optional<std::string> outside(const char* what, const Image<Real>& image, double most) {
+  for (std::size_t i = 0; i < image.pixels.size(); ++i)
+    if (!(image.pixels[i] >= 0 && double(image.pixels[i]) <= most)) return at(what, image, i);
+  return std::nullopt;
+}
+
+/// What no picture may hold; "" where all is well.
+template <typename Real>
+std::string out_of_bounds(const Stages<Real>& stages) {
+  constexpr double kFinite = std::numeric_limits<Real>::max();
+  // An interpolated reflection or a mean of them may round up: by a few units of the last place.
+  constexpr double kOne = 1 + 16 * std::numeric_limits<Real>::epsilon();
+  if (const auto fault = outside("I", stages.intensity, 1)) return *fault;
+  if (const auto fault = outside("R", stages.reflection, kOne)) return *fault;
+  if (const auto fault = outside("R behind the beam", stages.reflection_beam, kOne)) return *fault;
+  if (const auto fault = outside("T", stages.transmission, 1)) return *fault;
+  if (const auto fault = outside("S", stages.speckle, kFinite)) return *fault;
+  if (const auto fault = outside("U", stages.fused, kFinite)) return *fault;
+  const std::size_t lines = std::size_t(stages.intensity.width);
+  for (std::size_t i = lines; i < stages.intensity.pixels.size(); ++i)
+    if (stages.intensity.pixels[i] > stages.intensity.pixels[i - lines]) return at("rising I", stages.intensity, i);
+  for (std::size_t i = 0; i < stages.grey.pixels.size(); ++i)
+    if (stages.grey.pixels[i] && !stages.inside.pixels[i]) return at("grey outside the fan", stages.grey, i);
+  return "";
+}
+
+double largest(const Image<double>& image) {
+  return image.pixels.empty() ? 0 : *std::max_element(image.pixels.begin(), image.pixels.end());
+}
+
+/// The samples that all lines reach before they have lost 200 dB. There the shaders end a line, and with it what its
+/// scatterers are to its neighbours' envelope; docs/accuracy.md says so.
+int samples_heard(const Image<double>& intensity) {
+  constexpr double kSpent = 1.1e-20;
+  for (int k = 0; k < intensity.height; ++k)
+    for (int line = 0; line < intensity.width; ++line)
+      if (intensity.at(line, k) < kSpent) return k;
+  return intensity.height;
+}
+
+class Stressed {
+public:
+  Stages<float> shaders(const Scene& scene) {
+    simulator_.set_volume(scene.volume, table_);
+    simulator_.set_probe(scene.probe, scene.depth_mm);
+    simulator_.set_settings(scene.settings);
+    simulator_.set_pose(scene.pose);
+    return simulator_.read_stages();
+  }
+
+  Stages<double> reference(const Scene& scene, const MediumField& field) const {
+    return simulate_reference(field, table_, scene.probe, scene.depth_mm, scene.settings, scene.pose);
+  }
+
+  /// Bounds alone.
+  void check_shaders(const Scene& scene) {
+    const auto refused = why_not_valid(scene.settings);
+    REQUIRE(refused.value_or("") == "");
+    CHECK(out_of_bounds(shaders(scene)) == "");
+  }
+
+  /// Bounds of both, and agreement.
+  void check(const Scene& scene);
+
+private:
+  gl::HeadlessContext context_;
+  gl::Simulator simulator_;
+  TissueTable table_ = read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml");
+};
+
+void Stressed::check(const Scene& scene) {
+  check_shaders(scene);
+  const Stages<float> got = shaders(scene);
+  // The card's normalised integers have no -32768.
+  AcousticVolume volume = scene.volume;
+  for (AcousticVoxel& voxel : volume.voxels) voxel.hu = std::max(voxel.hu, std::int16_t(-32767));
+  const MediumField field = trilinear_field(volume);
+  const Stages<double> expected = reference(scene, field);
+  REQUIRE(out_of_bounds(expected) == "");
+  REQUIRE(expected.inside.pixels == got.inside.pixels);
+
+  // As in parity.h, for scenes of any size and density: a place is as uncertain as the furthest is far away.
+  const Grid& grid = scene.volume.grid;
+  const double reach =
+      glm::length(grid.spacing * glm::dvec3(grid.size)) + glm::length(scene.pose.translation) + scene.depth_mm;
+  double densest = 1000;
+  for (const AcousticVoxel& voxel : volume.voxels) densest = std::max(densest, std::abs(double(voxel.hu)));
+  std::array<Stages<double>, 4> uncertain;
+  for (std::uint32_t i = 0; i < uncertain.size(); ++i)
+    uncertain[i] = reference(scene, as_single_precision_knows_it(field, i, 2e-7 * reach, 2e-7 * densest));
+
+  const Worst intensity = worst(expected.intensity, got.intensity,
+                                tolerated(expected, uncertain, &Stages<double>::intensity,
+                                          [](double value) { return 1e-4 * std::max(value, 1e-6); }));
+  INFO(told("I", intensity));
+  CHECK(intensity.error < 1);
+
+  // A medium that is the same everywhere is so to the last place only: 1e-12.
+  const double brightest = std::max(largest(expected.reflection), 1e-8);
+  const Worst reflection =
+      worst(expected.reflection, got.reflection,
+            tolerated(expected, uncertain, &Stages<double>::reflection, [&](double) { return 1e-4 * brightest; }));
+  INFO(told("R", reflection));
+  CHECK(reflection.error < 1);
+
+  // A place in the lattice is known to the last place of as many periods as a line is long, and cells lie 128 a period.
+  const double periods = 1 + scene.depth_mm / (128 * scene.settings.speckle_cell_mm);
+  const double of_loudest = 1e-3 + (scene.settings.speckle ? 4 * 128 * 1.2e-7 * periods : 0);
+  const double loudest = largest(expected.speckle);
+  const int heard = samples_heard(expected.intensity);
+  Image<double> speckle_tolerance =
+      tolerated(expected, uncertain, &Stages<double>::speckle, [&](double) { return of_loudest * loudest; });
+  std::fill(speckle_tolerance.pixels.begin() + heard * std::ptrdiff_t(speckle_tolerance.width),
+            speckle_tolerance.pixels.end(), std::numeric_limits<double>::infinity());
+  const Worst speckle = worst(expected.speckle, got.speckle, speckle_tolerance);
+  INFO(told("S", speckle));
+  CHECK(speckle.error < 1);
+
+  // Grey values follow from U: what may be wrong of U, in decibels, and two grey levels.
+  const Settings& s = scene.settings;
+  const Image<double> fused_tolerance = tolerated(expected, uncertain, &Stages<double>::fused, [&](double value) {
+    return 1e-3 * value + (1e-4 * brightest + 2e-10 * s.blend) * loudest;
+  });
+  const ImageGeometry geometry = image_geometry(scene.probe, scene.depth_mm, s.image_width, s.image_height);
+  int worst_grey = 0;
+  std::string where;
+  for (std::size_t i = 0; i < expected.grey.pixels.size(); ++i) {
+    const double u = expected.fused.pixels[i];
+    const int width = expected.grey.width, x = int(i) % width, y = int(i) / width;
+    const auto position = line_position(scene.probe, scene.depth_mm, geometry.plane_mm(x, y));
+    if (position && position->r_mm * s.samples / scene.depth_mm + 0.5 >= heard && heard < s.samples) continue;
+    // Where the envelope is near its zero, its own error is as large as it is.
+    if (!expected.inside.pixels[i] || fused_tolerance.pixels[i] >= 0.5 * u) continue;
+    const double db = -10 * std::log10(1 - fused_tolerance.pixels[i] / u);
+    int allowed = 2 + int(std::ceil(255 * db / s.dynamic_range_db));
+    for (const Stages<double>& other : uncertain)
+      allowed += std::abs(int(other.grey.pixels[i]) - int(expected.grey.pixels[i]));
+    const int excess = std::abs(int(got.grey.pixels[i]) - int(expected.grey.pixels[i])) - allowed;
+    if (excess > worst_grey) {
+      worst_grey = excess;
+      where = at("grey", got.grey, i) + ", " + at("reference", expected.grey, i) + ", " + at("U", expected.fused, i) +
+              ", " + at("shader's U", got.fused, i);
+    }
+  }
+  INFO(where);
+  CHECK(worst_grey == 0);
+}
+
+struct Strain {
+  const char* name;
+  std::function<void(Scene&)> apply;
+};
+
+/// `strains` one by one on an ordinary scene.
+void check_each(const std::vector<Strain>& strains) {
+  Stressed stressed;
+  for (const Strain& strain : strains) {
+    INFO(strain.name);
+    Scene scene = ordinary_scene();
+    strain.apply(scene);
+    stressed.check(scene);
+  }
+}
+
+template <typename T>
+std::function<void(Scene&)> set(T Settings::*member, T value) {
+  return [=](Scene& scene) { scene.settings.*member = value; };
+}
+
+std::function<void(Scene&)> filled(const glm::ivec3& size, const glm::dvec3& spacing, int one, int other) {
+  return [=](Scene& scene) {
+    scene.volume = make_volume(size, spacing, [&](const glm::ivec3& i) { return checkerboard(i, one, other); });
+  };
+}
+
+long from_environment(const char* name, long otherwise) {
+  const char* text = std::getenv(name);
+  return text ? std::strtol(text, nullptr, 10) : otherwise;
+}
+
+}  // namespace
+
+TEST_CASE("settings at the ends of their ranges") {
+  using S = Settings;
+  const auto maximum = [](double gain_db, double time_gain_db, double blend) {
+    return [=](Scene& scene) {
+      scene.settings.reference_level = ReferenceLevel::frame_maximum;
+      scene.settings.gain_db = gain_db;
+      scene.settings.tgc_db.fill(time_gain_db);
+      scene.settings.blend = blend;
+    };
+  };
+  check_each({
+      {"nothing strained", [](Scene&) {}},
+      {"1 sample", set(&S::samples, 1)},
+      {"8192 samples",
+       [](Scene& scene) {
+         scene.settings.samples = 8192;
+         scene.probe.lines = 3;
+         scene.settings.image_width = scene.settings.image_height = 12;
+       }},
+      {"reflection length 0.01 mm", set(&S::reflection_length_mm, 0.01)},
+      {"reflection length 20 mm", set(&S::reflection_length_mm, 20.0)},
+      {"0.5 MHz", set(&S::frequency_mhz, 0.5)},
+      {"30 MHz", set(&S::frequency_mhz, 30.0)},
+      {"dynamic range 1 dB", set(&S::dynamic_range_db, 1.0)},
+      {"dynamic range 200 dB", set(&S::dynamic_range_db, 200.0)},
+      {"blend 0", set(&S::blend, 0.0)},
+      {"blend 1000", set(&S::blend, 1000.0)},
+      {"gain -60 dB", set(&S::gain_db, -60.0)},
+      {"gain 60 dB", set(&S::gain_db, 60.0)},
+      {"time gain 300 dB", [](Scene& scene) { scene.settings.tgc_db.fill(300); }},
+      {"time gain -300 dB", [](Scene& scene) { scene.settings.tgc_db.fill(-300); }},
+      {"brightest is white, all gains at their most", maximum(60, 300, 1000)},
+      {"brightest is white, all gains at their least", maximum(-60, -300, 0)},
+      {"white at 1e-12", set(&S::fixed_level, 1e-12)},
+      {"white at 1e6", set(&S::fixed_level, 1e6)},
+      {"no gel", set(&S::gel_mm, 0.0)},
+      {"gel 100 mm", set(&S::gel_mm, 100.0)},
+      {"beam of 255 lines", set(&S::beam_lines, 255)},
+      {"beam of 1 line", set(&S::beam_lines, 1)},
+      {"scatterers 0.05 mm apart", set(&S::speckle_cell_mm, 0.05)},
+      {"scatterers 10 mm apart", set(&S::speckle_cell_mm, 10.0)},
+      {"reflections smoothed by 1000 mm", set(&S::reflection_sigma_mm, 1000.0)},
+      {"transmission smoothed by 1000 mm", set(&S::transmission_sigma_mm, 1000.0)},
+      {"1 pixel", [](Scene& scene) { scene.settings.image_width = scene.settings.image_height = 1; }},
+      {"8192 x 16 pixels",
+       [](Scene& scene) {
+         scene.settings.image_width = 8192;
+         scene.settings.image_height = 16;
+       }},
+      {"1 line", [](Scene& scene) { scene.probe.lines = 1; }},
+      {"4096 lines",
+       [](Scene& scene) {
+         scene.probe.lines = 4096;
+         scene.settings.samples = 8;
+       }},
+  });
+}
+
+TEST_CASE("volumes at the ends of what a grid and a voxel can hold") {
+  check_each({
+      {"one voxel", filled({1, 1, 1}, {5, 5, 5}, 60, 60)},
+      {"one voxel of 0.05 mm", filled({1, 1, 1}, {0.05, 0.05, 0.05}, 60, 60)},
+      {"one slice", filled({20, 20, 1}, {3, 3, 3}, 60, 0)},
+      {"one row", filled({1, 20, 1}, {3, 3, 3}, 60, 0)},
+      {"2 x 2 x 2", filled({2, 2, 2}, {20, 20, 20}, 60, -100)},
+      {"spacing 0.05 mm", filled({40, 40, 40}, {0.05, 0.05, 0.05}, 60, -100)},
+      {"spacing 20 mm", filled({8, 8, 8}, {20, 20, 20}, 60, -100)},
+      {"spacing 0.4 x 20 x 1 mm", filled({60, 6, 30}, {0.4, 20, 1}, 60, -100)},
+      {"reflected", [](Scene& scene) { turn(scene.volume, glm::dmat3(-1, 0, 0, 0, 1, 0, 0, 0, 1)); }},
+      {"-32768 everywhere", filled({8, 8, 8}, {10, 10, 10}, -32768, -32768)},
+      {"32767 everywhere", filled({8, 8, 8}, {10, 10, 10}, 32767, 32767)},
+      {"-32768 beside 32767", filled({8, 8, 8}, {10, 10, 10}, -32768, 32767)},
+      {"air beside bone", filled({16, 16, 16}, {4, 4, 4}, -1000, 1500)},
+      {"air", filled({8, 8, 8}, {10, 10, 10}, -1000, -1000)},
+      {"bone", filled({8, 8, 8}, {10, 10, 10}, 1500, 1500)},
+      {"water", filled({8, 8, 8}, {10, 10, 10}, 0, 0)},
+  });
+}
+
+TEST_CASE("poses that no hand holds") {
+  const auto at = [](const glm::dvec3& place, double angle = 0, const glm::dvec3& axis = {0, 0, 1}) {
+    return [=](Scene& scene) { scene.pose = {glm::dmat3(glm::rotate(glm::dmat4(1), angle, axis)), place}; };
+  };
+  check_each({
+      {"100 m away, looking towards the body", at({0, -99999, 0})},
+      {"100 m away, looking elsewhere", at({99999, 0, 0})},
+      {"behind the body", at({0, 100, 0})},
+      {"in the middle", at({0, 0, 0})},
+      {"within bone",
+       [](Scene& scene) {
+         filled({8, 8, 8}, {10, 10, 10}, 1500, 1500)(scene);
+         scene.pose.translation = {};
+       }},
+      {"along an axis, on the faces between voxels",
+       [](Scene& scene) {
+         scene.probe.kind = ProbeKind::linear;
+         scene.probe.lines = 8;
+         scene.probe.width_mm = 40;  // lines at odd multiples of 2.5 mm, as are the centres of voxels in x; z lies
+         scene.pose.translation = {0, -30, 0};  // between two of them
+       }},
+      {"along an axis, through the centres of voxels",
+       [](Scene& scene) {
+         scene.probe.kind = ProbeKind::linear;
+         scene.probe.lines = 8;
+         scene.probe.width_mm = 40;
+         scene.pose.translation = {0, -30, 2.5};
+       }},
+      {"rotated by 1e-9", at({0, -30, 0}, 1e-9)},
+      {"tangent to the body", at({29.999, -30, 0}, 1.5707963)},
+      {"against the axes", at({0, 40, 0}, 3.141592653589793)},
+  });
+}
+
+TEST_CASE("random scenes, each from its seed") {
+  const long frames = from_environment("INSONATE_STRESS_FRAMES", 25);
+  const long first = from_environment("INSONATE_STRESS_SEED", 1);
+  Stressed stressed;
+  for (long seed = first; seed < first + frames; ++seed) {
+    INFO("seed " << seed);
+    Scene scene = random_scene(std::uint32_t(seed));
+    stressed.check(scene);
+    scene.settings.skipping = true;
+    scene.settings.grey_map = GreyMap(seed % 4);
+    stressed.check_shaders(scene);
+  }
+}

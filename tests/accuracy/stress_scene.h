@@ -1,0 +1,161 @@
+#pragma once
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+#include "sim/core/hash.h"
+#include "sim/core/pose.h"
+#include "sim/model/acoustic_volume.h"
+#include "sim/model/settings.h"
+#include "sim/probe/probe.h"
+
+/// What the pipeline is strained with: everything that a picture depends on, at the ends of its range.
+namespace insonate::test {
+
+struct Scene {
+  AcousticVolume volume;
+  Probe probe;
+  double depth_mm = 60;
+  Settings settings;
+  Pose pose;  ///< the volume's middle lies at the origin
+};
+
+/// A voxel's Hounsfield units by its index.
+using HuAt = std::function<int(const glm::ivec3&)>;
+
+inline int checkerboard(const glm::ivec3& i, int one, int other) {
+  return (i.x + i.y + i.z) % 2 ? one : other;
+}
+
+inline AcousticVolume make_volume(const glm::ivec3& size, const glm::dvec3& spacing, const HuAt& hu) {
+  AcousticVolume volume;
+  volume.grid.size = size;
+  volume.grid.spacing = spacing;
+  for (int z = 0; z < size.z; ++z)
+    for (int y = 0; y < size.y; ++y)
+      for (int x = 0; x < size.x; ++x) {
+        const double share = unit_float(hash(std::uint32_t(volume.voxels.size())));
+        volume.voxels.push_back({std::int16_t(hu({x, y, z})), std::int16_t(std::lround(-6000 + 9000 * share))});
+      }
+  volume.grid.origin = -volume.grid.centre();
+  return volume;
+}
+
+/// The middle of the volume at the origin, its axes along `direction`.
+inline void turn(AcousticVolume& volume, const glm::dmat3& direction) {
+  volume.grid.origin = {};
+  volume.grid.direction = direction;
+  volume.grid.origin = -volume.grid.centre();
+}
+
+/// Soft tissue of all densities with specks of gas and bone.
+inline int mixed(const glm::ivec3& i) {
+  const std::uint32_t bits = hash(std::uint32_t(i.x), std::uint32_t(i.y), std::uint32_t(i.z), 7u);
+  if (bits % 23 == 0) return 900;
+  if (bits % 29 == 0) return -980;
+  return int(bits >> 8) % 200 - 110;
+}
+
+/// A small picture of mixed tissue with every effect on: what the strained scenes depart from.
+inline Scene ordinary_scene() {
+  Scene scene;
+  scene.volume = make_volume({12, 16, 10}, {5, 5, 5}, mixed);
+  scene.probe = *find_probe("curvilinear");
+  scene.probe.lines = 12;
+  scene.settings = trainer_settings(3.5, scene.depth_mm);
+  scene.settings.samples = 100;
+  scene.settings.reflection_length_mm = 0.9;
+  scene.settings.image_width = 48;
+  scene.settings.image_height = 40;
+  scene.settings.skipping = false;  // which the reference does not do
+  scene.pose.translation = {0, -30, 0};
+  return scene;
+}
+
+/// Draws from a seed, equal on every machine.
+class Draw {
+public:
+  explicit Draw(std::uint32_t seed) : seed_(seed) {}
+  double share() { return unit_float(hash(seed_, count_++)); }
+  bool chance(double share_of_yes) { return share() < share_of_yes; }
+  int whole(int least, int most) { return std::min(most, least + int(share() * (most - least + 1))); }
+  template <typename T>
+  T one_of(std::initializer_list<T> choices) {
+    return choices.begin()[whole(0, int(choices.size()) - 1)];
+  }
+  /// The least, the most, or anything between.
+  double within(double least, double most) {
+    const double at = share();
+    if (at < 0.15) return least;
+    if (at > 0.85) return most;
+    return least > 0 ? least * std::pow(most / least, share()) : least + (most - least) * share();
+  }
+
+private:
+  std::uint32_t seed_, count_ = 0;
+};
+
+inline Scene random_scene(std::uint32_t seed) {
+  Draw draw(seed);
+  Scene scene = ordinary_scene();
+
+  const glm::dvec3 spacing(draw.within(0.05, 20), draw.within(0.05, 20), draw.within(0.05, 20));
+  const glm::ivec3 size(draw.whole(1, 9), draw.whole(1, 9), draw.whole(1, 9));
+  const int one = draw.one_of({-32768, -1000, -501, -300, 0, 60, 300, 1500, 32767});
+  const int other = draw.one_of({-32768, -1000, -400, -100, 8, 60, 1000, 3071, 32767});
+  const int pattern = draw.whole(0, 2);
+  scene.volume = make_volume(size, spacing, [&](const glm::ivec3& i) {
+    return pattern == 0 ? one : pattern == 1 ? checkerboard(i, one, other) : mixed(i);
+  });
+  const glm::dmat3 turned(glm::rotate(glm::dmat4(1), draw.within(0, 6), glm::dvec3(0.3, 1, draw.share() - 0.5)));
+  turn(scene.volume, draw.chance(0.5) ? turned : glm::dmat3(-turned[0], turned[1], turned[2]));
+
+  Probe& probe = scene.probe;
+  probe.kind = draw.one_of({ProbeKind::linear, ProbeKind::curvilinear});
+  probe.radius_mm = draw.within(5, 200);
+  probe.field_of_view_deg = draw.within(5, 150);
+  probe.width_mm = draw.within(5, 200);
+  probe.lines = draw.whole(1, 24);
+  scene.depth_mm = draw.within(10, 400);
+
+  Settings& s = scene.settings;
+  s.samples = draw.whole(1, 150);
+  s.reflection_length_mm =
+      draw.chance(0.3) ? std::clamp(draw.whole(1, 3) * scene.depth_mm / s.samples, 0.01, 20.0) : draw.within(0.01, 20);
+  s.frequency_mhz = draw.within(0.5, 30);
+  s.absorption = draw.chance(0.7);
+  s.gel_mm = draw.within(0, 100);
+  s.beam_window = draw.one_of({BeamWindow::box, BeamWindow::triangle, BeamWindow::hann});
+  s.beam_lines = draw.one_of({1, 3, 7, 31, 255});
+  s.speckle = draw.chance(0.7);
+  s.speckle_cell_mm = draw.within(0.05, 10);
+  s.reflection_sigma_mm = draw.one_of({0.0, 0.45, 5.0, 1000.0});
+  s.transmission_sigma_mm = draw.one_of({0.0, 0.45, 5.0, 1000.0});
+  s.blend = draw.one_of({0.0, 4e-5, 1.0, 1000.0});
+  s.two_way = draw.chance(0.5);
+  s.electronic_noise = draw.chance(0.3);
+  s.noise_db = draw.within(-200, -0.5);
+  s.gain_db = draw.within(-60, 60);
+  const double most_time_gain = draw.one_of({0.0, 60.0, 300.0});
+  for (double& db : s.tgc_db) db = most_time_gain * (2 * draw.share() - 1);
+  s.dynamic_range_db = draw.within(1, 200);
+  s.reference_level = draw.one_of({ReferenceLevel::frame_maximum, ReferenceLevel::fixed});
+  s.fixed_level = draw.within(1e-12, 1e6);
+  s.image_width = draw.whole(1, 48);
+  s.image_height = draw.whole(1, 48);
+
+  const glm::dvec3 axis(draw.share() - 0.5, draw.share() - 0.5, 0.1 + draw.share());
+  const double angle = draw.one_of({0.0, 1e-9, 0.3, 3.14159, 6 * draw.share()});
+  scene.pose.rotation = glm::dmat3(glm::rotate(glm::dmat4(1), angle, axis));
+  const double away = draw.one_of({0.0, 1.0, 30.0, 300.0, 99999.0});
+  scene.pose.translation = scene.pose.rotation * glm::dvec3(0, -away, 0);
+  return scene;
+}
+
+}  // namespace insonate::test
