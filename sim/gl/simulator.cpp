@@ -25,12 +25,18 @@ Defines traversal_of(const Settings& settings, double dr_mm) {
   return {{"EDGES_AT", is(2)   ? "kEdgesAtSamples"
                        : is(1) ? "kEdgesAtMiddles"
                                : "kEdgesAnywhere"},
-          {"SPECKLE", settings.speckle ? "1" : "0"}};
+          {"SPECKLE", settings.speckle ? "1" : "0"},
+          {"PLANES", std::to_string(settings.slice_planes)}};
 }
 
 // What beam.comp is compiled for.
 Defines beam_of(const Settings& settings) {
   return {{"FOCUSED_BEAM", settings.focused_beam ? "1" : "0"}};
+}
+
+// What fuse.comp is compiled for.
+Defines fusion_of(const Settings& settings) {
+  return {{"CLUTTER", settings.clutter ? "1" : "0"}};
 }
 
 constexpr double kLn10 = 2.302585092994046;
@@ -117,14 +123,16 @@ struct Simulator::State {
         beam(sources, {"beam.comp"}, beam_defines),
         scan_convert(sources, {"scan_convert.comp"}),
         smooth(sources, {"smooth.comp"}),
-        fuse(sources, {"fuse.comp"}),
+        clutter(sources, {"clutter.comp"}),
+        fuse(sources, {"fuse.comp"}, fusion),
         maximum(sources, {"maximum.comp"}),
         compress(sources, {"compress.comp"}) {}
 
   ShaderSources sources;
   Defines traversal = traversal_of({}, 1);  // what `traverse` is compiled for
   Defines beam_defines = beam_of({});       // and `beam`
-  Program traverse, beam, scan_convert, smooth, fuse, maximum, compress;
+  Defines fusion = fusion_of({});           // and `fuse`
+  Program traverse, beam, scan_convert, smooth, clutter, fuse, maximum, compress;
 
   // What the user set.
   Probe probe;
@@ -146,7 +154,7 @@ struct Simulator::State {
   double noise_length_mm = 0;         // reflection length of the noise among the constants; 0 where there is none
 
   // What they write.
-  Texture scan, echoes, picture, half_smoothed, fused;
+  Texture scan, echoes, mean_echo, picture, half_smoothed, fused;
   Buffer maximum_buffer{sizeof(GLuint), nullptr};
   Buffer counters{sizeof(SampleCounts), nullptr};
   Texture image;
@@ -174,9 +182,10 @@ struct Simulator::State {
 void Simulator::State::lay_out() {
   lines = scan_lines(probe, depth_mm, settings.samples);
   const int n = int(lines.lines.size()), d = lines.samples;
-  line_buffer = Buffer(lines.lines.size() * sizeof(GpuLine), nullptr);
+  line_buffer = Buffer(std::size_t(settings.slice_planes) * lines.lines.size() * sizeof(GpuLine), nullptr);
   scan = Texture::make_2d(GL_RGBA32F, d, n, Filter::nearest);
   echoes = Texture::make_2d(GL_RGBA32F, d, n, Filter::nearest);
+  mean_echo = Texture::make_2d(GL_R32F, d, 1, Filter::nearest);
 
   const int w = settings.image_width, h = settings.image_height;
   fan = FanLayout(probe, depth_mm, lines, w, h);
@@ -211,20 +220,21 @@ void Simulator::State::place_lines() {
   const auto step = [](const glm::dmat4& map, const glm::dvec3& d) { return glm::dvec3(map * glm::dvec4(d, 0)); };
   const double dr = lines.dr_mm(), half_length = settings.reflection_length_mm / 2;
   std::vector<GpuLine> placed;
-  placed.reserve(lines.lines.size());
-  for (const ScanLine& line : lines.lines) {
-    const glm::dvec3 d = line.direction, lateral(d.y, -d.x, 0), elevation = glm::cross(d, lateral);
-    const glm::dvec3 first = line.start + (lines.r_min_mm + dr / 2) * d;
-    const glm::dvec3 start = point(texture_from_probe, first), along = step(texture_from_probe, dr * d);
-    // A sample's width to spare, for the rounding of the shader's own positions.
-    const auto [enters, leaves] = settings.skipping ? volume.meets_body(start, along) : std::pair(-1e9, 1e9);
-    placed.push_back({{start, enters - 1},
-                      {along, leaves + 1},
-                      {step(texture_from_probe, half_length * lateral), 0},
-                      {step(texture_from_probe, half_length * elevation), 0},
-                      {point(lattice_from_probe, first), 0},
-                      {step(lattice_from_probe, dr * d), 0}});
-  }
+  placed.reserve(std::size_t(settings.slice_planes) * lines.lines.size());
+  for (const SlicePlane& plane : slice_planes(settings))
+    for (const ScanLine& line : lines.lines) {
+      const glm::dvec3 d = line.direction, lateral(d.y, -d.x, 0), elevation = glm::cross(d, lateral);
+      const glm::dvec3 first = line.start + glm::dvec3(0, 0, plane.offset_mm) + (lines.r_min_mm + dr / 2) * d;
+      const glm::dvec3 start = point(texture_from_probe, first), along = step(texture_from_probe, dr * d);
+      // A sample's width to spare, for the rounding of the shader's own positions.
+      const auto [enters, leaves] = settings.skipping ? volume.meets_body(start, along) : std::pair(-1e9, 1e9);
+      placed.push_back({{start, enters - 1},
+                        {along, leaves + 1},
+                        {step(texture_from_probe, half_length * lateral), plane.weight},
+                        {step(texture_from_probe, half_length * elevation), 0},
+                        {point(lattice_from_probe, first), 0},
+                        {step(lattice_from_probe, dr * d), 0}});
+    }
   line_buffer.write(placed.data(), placed.size() * sizeof(GpuLine));
 }
 
@@ -248,6 +258,7 @@ void Simulator::State::fill_parameters() {
   p.beam_half = (settings.beam_lines - 1) / 2;
   p.two_way = settings.two_way;
   p.blend = float(settings.blend);
+  p.clutter_share = float(clutter_share(settings));
   p.noise_level = float(noise_level(settings));
   p.grey_map = int(settings.grey_map);
   p.gain_db = float(settings.gain_db);
@@ -280,7 +291,12 @@ void Simulator::State::prepare() {
     focused = Buffer(of_samples.size() * sizeof(glm::vec2), of_samples.data());
     beam_changed = false;
   }
-  if (*first_due <= Stage::fuse) place_pixel_constants();
+  if (*first_due <= Stage::fuse) {
+    const Defines wanted = fusion_of(settings);
+    if (wanted != fusion) fuse = Program(sources, {"fuse.comp"}, wanted);
+    fusion = wanted;
+    place_pixel_constants();
+  }
   fill_parameters();
 }
 
@@ -288,7 +304,8 @@ void Simulator::State::place_pixel_constants() {
   const int w = settings.image_width, h = settings.image_height, limit = std::max(w, h) - 1;
   const double sigmas[] = {settings.reflection_sigma_mm / fan.geometry.mm_per_pixel,
                            settings.transmission_sigma_mm / fan.geometry.mm_per_pixel};
-  const double length_mm = settings.electronic_noise ? settings.reflection_length_mm : 0;
+  const bool noisy = settings.electronic_noise || settings.clutter;
+  const double length_mm = noisy ? settings.reflection_length_mm : 0;
   if (pixel_constants && sigmas[0] == sigmas_px[0] && sigmas[1] == sigmas_px[1] && noise_length_mm == length_mm) return;
   noise_length_mm = length_mm;
   std::copy(std::begin(sigmas), std::end(sigmas), sigmas_px.begin());
@@ -296,11 +313,12 @@ void Simulator::State::place_pixel_constants() {
   transmission_gaussian = Gaussian(sigmas[1], limit);
   const Image<float> reflection = one_over_window_inside(fan.inside, reflection_gaussian.weights);
   const Image<float> transmission = one_over_window_inside(fan.inside, transmission_gaussian.weights);
-  const Image<double> noise = settings.electronic_noise ? electronic_noise(lines, settings) : Image<double>(1, 1);
+  const Image<double> noise = noisy ? electronic_noise(lines, settings) : Image<double>(1, 1);
   std::vector<glm::vec4> constants;
   for (std::size_t i = 0; i < reflection.pixels.size(); ++i)
     constants.emplace_back(reflection.pixels[i], transmission.pixels[i],
-                           fan.inside.pixels[i] ? bilinear(noise, fan.line_and_sample[i]) : 0, 0);
+                           fan.inside.pixels[i] ? bilinear(noise, fan.line_and_sample[i]) : 0,
+                           fan.line_and_sample[i].y);
   pixel_constants = Texture::make_2d(GL_RGBA32F, w, h, Filter::nearest);
   pixel_constants.write(GL_RGBA, GL_FLOAT, constants.data());
 }
@@ -334,7 +352,7 @@ void Simulator::State::run(Stage stage) {
       counters.bind_storage(2);
       volume.texture().bind(0);
       scatterers.bind(1);
-      scan.bind_image(0, GL_WRITE_ONLY);
+      scan.bind_image(0, GL_READ_WRITE);
       traverse.dispatch(parameters.lines, 1);
       break;
     case Stage::beam:
@@ -344,6 +362,11 @@ void Simulator::State::run(Stage stage) {
       scan.bind(0);
       echoes.bind_image(0, GL_WRITE_ONLY);
       beam.dispatch(parameters.samples, (parameters.lines + 3) / 4);
+      if (settings.clutter) {
+        echoes.bind(0);
+        mean_echo.bind_image(0, GL_WRITE_ONLY);
+        clutter.dispatch(parameters.samples, 1);
+      }
       break;
     case Stage::scan_convert:
       echoes.bind(0);
@@ -364,6 +387,7 @@ void Simulator::State::run(Stage stage) {
       picture.bind(0);
       half_smoothed.bind(1);
       pixel_constants.bind(2);
+      mean_echo.bind(3);
       fused.bind_image(0, GL_WRITE_ONLY);
       over_fan(fuse);
       break;
@@ -405,24 +429,28 @@ void Simulator::set_settings(const Settings& settings) {
   if (const auto why = why_not_valid(settings)) throw std::invalid_argument("simulator: " + *why);
   const Settings& old = state_->settings;
   const auto same = [&](auto... members) { return ((old.*members == settings.*members) && ...); };
-  if (!same(&Settings::samples, &Settings::image_width, &Settings::image_height)) state_->layout_changed = true;
+  if (!same(&Settings::samples, &Settings::slice_planes, &Settings::image_width, &Settings::image_height))
+    state_->layout_changed = true;
   if (!same(&Settings::speckle_seed)) state_->scatterers_changed = true;
   if (!same(&Settings::beam_window, &Settings::beam_lines, &Settings::focused_beam, &Settings::focus_mm,
-            &Settings::f_number, &Settings::frequency_mhz, &Settings::speckle_cell_mm))
+            &Settings::f_number, &Settings::frequency_mhz, &Settings::speckle_cell_mm, &Settings::slice_thickness_mm))
     state_->beam_changed = true;
 
   using S = Settings;
   if (!same(&S::samples, &S::reflection_length_mm, &S::frequency_mhz, &S::absorption, &S::gel_mm, &S::speckle,
-            &S::speckle_seed, &S::speckle_cell_mm, &S::image_width, &S::image_height, &S::skipping))
+            &S::speckle_seed, &S::speckle_cell_mm, &S::slice_planes, &S::slice_thickness_mm, &S::image_width,
+            &S::image_height, &S::skipping))
     state_->due_from(Stage::traverse);
-  else if (!same(&S::beam_window, &S::beam_lines, &S::focused_beam, &S::focus_mm, &S::f_number, &S::two_way))
+  else if (!same(&S::beam_window, &S::beam_lines, &S::focused_beam, &S::focus_mm, &S::f_number, &S::clutter,
+                 &S::two_way))
     state_->due_from(Stage::beam);
   else if (!same(&S::reflection_sigma_mm, &S::transmission_sigma_mm))
     state_->due_from(Stage::smooth);
   else if (!same(&S::blend))
     // Beside weaker scatterers, interfaces may be seen that were not.
     state_->due_from(settings.skipping && settings.blend < old.blend ? Stage::traverse : Stage::fuse);
-  else if (!same(&S::electronic_noise, &S::noise_db) || (settings.electronic_noise && !same(&S::fixed_level)))
+  else if (!same(&S::clutter_db, &S::electronic_noise, &S::noise_db) ||
+           (settings.electronic_noise && !same(&S::fixed_level)))
     state_->due_from(Stage::fuse);
   else if (!same(&S::gain_db, &S::tgc_db, &S::reference_level))
     state_->due_from(Stage::maximum);
@@ -493,7 +521,8 @@ std::optional<std::string> Simulator::reload(const ShaderSources& sources) {
   State& s = *state_;
   std::string problems;
   s.sources = sources;
-  for (Program* program : {&s.traverse, &s.beam, &s.scan_convert, &s.smooth, &s.fuse, &s.maximum, &s.compress})
+  for (Program* program :
+       {&s.traverse, &s.beam, &s.scan_convert, &s.smooth, &s.clutter, &s.fuse, &s.maximum, &s.compress})
     if (const auto problem = program->reload(sources)) problems += *problem;
   s.due_from(Stage::traverse);
   return problems.empty() ? std::nullopt : std::optional(problems);

@@ -90,9 +90,28 @@ std::vector<double> beam_weights_at(const Settings& settings, double sigma_lines
   return with_sum_1(std::move(weights));
 }
 
+std::vector<SlicePlane> slice_planes(const Settings& settings) {
+  const int count = settings.slice_planes;
+  const double sigma = settings.slice_thickness_mm / std::sqrt(8 * std::log(2.0));
+  std::vector<SlicePlane> planes;
+  double sum = 0;
+  for (int i = 0; i < count; ++i) {
+    const double offset = 2.0 * (2 * i + 1 - count) / count;
+    planes.push_back({sigma * offset, std::exp(-0.5 * offset * offset)});
+    sum += planes.back().weight;
+  }
+  for (SlicePlane& plane : planes) plane.weight /= sum;
+  return planes;
+}
+
 std::vector<double> envelope_scale(const ScanLines& lines, const Settings& settings) {
   const std::vector<double> sigma = focused_beam_sigma(lines, settings);
   std::vector<double> weights = beam_weights(settings);
+  double of_planes = 0;  // variance that their sum leaves
+  for (const SlicePlane& a : slice_planes(settings))
+    for (const SlicePlane& b : slice_planes(settings))
+      of_planes +=
+          a.weight * b.weight * interpolation_correlation((a.offset_mm - b.offset_mm) / settings.speckle_cell_mm);
   std::vector<double> scale;
   for (int k = 0; k < lines.samples; ++k) {
     if (settings.focused_beam) weights = beam_weights_at(settings, sigma[std::size_t(k)]);
@@ -105,7 +124,7 @@ std::vector<double> envelope_scale(const ScanLines& lines, const Settings& setti
       for (std::size_t i = d; i < weights.size(); ++i) overlap += weights[i] * weights[i - d];
       variance += (d == 0 ? 1 : 2) * overlap * correlation;
     }
-    scale.push_back(1.0 / (kRayleighMean * std::sqrt(variance)));
+    scale.push_back(1.0 / (kRayleighMean * std::sqrt(variance * of_planes)));
   }
   return scale;
 }

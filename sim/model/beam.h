@@ -33,6 +33,17 @@ int focused_reach(double sigma_lines);
 /// @param sigma_lines  of the focused beam there
 std::vector<double> beam_weights_at(const Settings& settings, double sigma_lines);
 
+/// A plane of lines beside the imaging plane, which sees its share of the sound.
+struct SlicePlane {
+  double offset_mm;  ///< in elevation
+  double weight;     ///< of I, R and the scatterers' amplitudes; all sum to 1
+};
+
+/// The slice's thickness as `slice_planes` planes: the middles of equal parts of four standard deviations, weighted by
+/// the Gaussian across a lens's beam at its focus (Goldstein, Ultrasound in Medicine and Biology 14, 1988: slice
+/// thickness). The thickness is that of the focus at every depth.
+std::vector<SlicePlane> slice_planes(const Settings& settings);
+
 /// What the speckle's envelope is multiplied by at each sample so that fully developed speckle has a mean of 1.
 ///
 /// Where lines lie closer together than the scatterers' cells, neighbouring lines see the same scatterers and their

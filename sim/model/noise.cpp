@@ -46,4 +46,8 @@ double noise_level(const Settings& settings) {
   return settings.electronic_noise ? settings.fixed_level * std::pow(10.0, settings.noise_db / 10) : 0;
 }
 
+double clutter_share(const Settings& settings) {
+  return settings.clutter ? std::pow(10.0, settings.clutter_db / 10) : 0;
+}
+
 }  // namespace insonate

@@ -18,4 +18,12 @@ Image<double> electronic_noise(const ScanLines& lines, const Settings& settings)
 /// The mean of the noise in units of U, before gain: `noise_db` below the level that is white; 0 when it is off.
 double noise_level(const Settings& settings);
 
+/// What the side lobes let in, as a share of the mean over all lines of b T S at the same distance from the face:
+/// 10^(clutter_db/10), 0 when clutter is off. Side lobes look every way at once, so that what they bring arrives when
+/// the echo from that distance does, whatever lies in the main beam, in random phase (Szabo, Diagnostic Ultrasound
+/// Imaging, 7: side lobes; Lediju et al., IEEE UFFC 55, 2008: clutter of 0 to -30 dB in the abdomen). It is scatterers'
+/// echo alone: an interface that a side lobe meets aslant sends the sound elsewhere. Speckled as the noise is, it keeps
+/// fluid beside bright tissue from being perfectly black.
+double clutter_share(const Settings& settings);
+
 }  // namespace insonate

@@ -13,7 +13,7 @@ Settings paper_settings(double depth_mm, int samples) {
   settings.gel_mm = 0;
   settings.two_way = false;
   settings.focused_beam = false;
-  settings.electronic_noise = false;
+  settings.clutter = settings.electronic_noise = false;
   settings.reference_level = ReferenceLevel::frame_maximum;
   return settings;
 }
@@ -30,7 +30,7 @@ Settings trainer_settings(double frequency_mhz, double depth_mm) {
   settings.reflection_length_mm = 2 * depth_mm / settings.samples;
   settings.focused_beam = true;
   settings.focus_mm = std::clamp(depth_mm / 2, 5.0, 400.0);  // where sonographers are taught to look
-  settings.electronic_noise = true;
+  settings.clutter = settings.electronic_noise = true;
   const double two_way_db = 2 * kSoftTissueAbsorption * frequency_mhz * depth_mm / 10;
   for (std::size_t i = 0; i < settings.tgc_db.size(); ++i)
     settings.tgc_db[i] = std::min(two_way_db * double(i) / double(settings.tgc_db.size() - 1), kMostTimeGainDb);

@@ -45,6 +45,9 @@ struct Settings {
   double focus_mm = 80;       ///< depth of the transmit focus, 5 to 400
   double f_number = 6;        ///< focus over the width of the active aperture, 0.5 to 30
 
+  int slice_planes = 1;           ///< planes that stand for the beam in elevation, odd, 1 (infinitely thin) to 31
+  double slice_thickness_mm = 3;  ///< full width at half maximum in elevation, 0.1 to 20
+
   // Speckle
   bool speckle = true;
   std::uint32_t speckle_seed = 1;
@@ -57,6 +60,8 @@ struct Settings {
   bool two_way = true;                ///< T = (I/I0)^2: the scattered echo goes back the way it came; off in the paper
 
   // Receiver
+  bool clutter = false;           ///< what the beam's side lobes bring from beside, see clutter_share()
+  double clutter_db = -30;        ///< it beside the scatterers' mean echo from its depth, -100 to 0
   bool electronic_noise = false;  ///< in the echo before any gain, so that it shows where time gain is high
   double noise_db = -103;         ///< its mean beside fixed_level, -200 to 0
 
@@ -73,7 +78,7 @@ struct Settings {
 };
 
 /// As in the paper: no absorption, reflection length = sample distance, one-way transmission, frame's maximum, no
-/// noise, a beam equally wide at every depth.
+/// noise, no clutter, a beam equally wide at every depth.
 Settings paper_settings(double depth_mm, int samples);
 
 /// What the trainer starts with: every effect on, TGC set to the mean absorption of soft tissue up to `depth_mm`.

@@ -192,7 +192,16 @@ Stages<double> simulate_reference(const MediumField& field, const TissueTable& t
                                   double depth_mm, const Settings& settings, const Pose& patient_from_probe) {
   const ScanLines lines = scan_lines(probe, depth_mm, settings.samples);
   const int n = int(lines.lines.size()), d = lines.samples;
-  ReferenceScan scan = traverse_reference(field, table, lines, settings, patient_from_probe);
+  ReferenceScan scan{Image<double>(n, d), Image<double>(n, d), Image<double>(n, d), Image<double>(n, d)};
+  for (const SlicePlane& plane : slice_planes(settings)) {
+    ScanLines beside = lines;
+    for (ScanLine& line : beside.lines) line.start.z += plane.offset_mm;
+    const ReferenceScan one = traverse_reference(field, table, beside, settings, patient_from_probe);
+    for (Image<double> ReferenceScan::*part :
+         {&ReferenceScan::intensity, &ReferenceScan::reflection, &ReferenceScan::echo_re, &ReferenceScan::echo_im})
+      for (std::size_t i = 0; i < (one.*part).pixels.size(); ++i)
+        (scan.*part).pixels[i] += plane.weight * (one.*part).pixels[i];
+  }
 
   Stages<double> stages;
   stages.reflection_beam = Image<double>(n, d);
@@ -226,6 +235,10 @@ Stages<double> simulate_reference(const MediumField& field, const TissueTable& t
   const ImageGeometry geometry = image_geometry(probe, depth_mm, w, h);
   Image<double> reflection(w, h), transmission(w, h), speckle(w, h), noise(w, h), gain(w, h);
   stages.inside = Image<std::uint8_t>(w, h);
+  Image<double> mean_echo(1, d);  // over the lines, for clutter
+  for (int k = 0; k < d; ++k)
+    for (int line = 0; line < n; ++line)
+      mean_echo.at(0, k) += settings.blend * stages.transmission.at(line, k) * stages.speckle.at(line, k) / n;
   const Image<double> noise_of_lines = electronic_noise(lines, settings);
   for (int y = 0; y < h; ++y)
     for (int x = 0; x < w; ++x) {
@@ -236,7 +249,8 @@ Stages<double> simulate_reference(const MediumField& field, const TissueTable& t
       reflection.at(x, y) = bilinear(stages.reflection_beam, position->line, sample);
       transmission.at(x, y) = bilinear(stages.transmission, position->line, sample);
       speckle.at(x, y) = bilinear(stages.speckle, position->line, sample);
-      noise.at(x, y) = noise_level(settings) * bilinear(noise_of_lines, position->line, sample);
+      noise.at(x, y) = (noise_level(settings) + clutter_share(settings) * bilinear(mean_echo, 0, sample)) *
+                       bilinear(noise_of_lines, position->line, sample);
       gain.at(x, y) = time_gain(settings, position->r_mm / depth_mm);
     }
   reflection = smoothed(reflection, stages.inside, settings.reflection_sigma_mm / geometry.mm_per_pixel);

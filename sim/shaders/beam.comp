@@ -10,12 +10,12 @@ layout(local_size_x = 64) in;
 layout(binding = 0) uniform sampler2D scan;  // a row a line: I, R, scatterers' echo (re, im)
 layout(std430, binding = 0) readonly buffer Window { vec4 window[]; };  // of four lines, by place from the first's edge
 layout(std430, binding = 1) readonly buffer SpeckleScale { float envelope_scale[]; };  // a sample: mean envelope -> 1
-layout(std430, binding = 2) readonly buffer Focused { vec2 focused[]; };  // a sample: reach in lines, exponent a line squared
+layout(std430, binding = 2) readonly buffer Focused { vec2 focused[]; };  // a sample: reach in lines, exponent
 layout(binding = 0, rgba32f) writeonly uniform image2D echoes;                         // a row a line: R, T, S, 0
 
 vec4 reflection = vec4(0.0), re = vec4(0.0), im = vec4(0.0), total = vec4(0.0);
 
-// Of the four lines, how much they take of line first + j. FOCUSED_BEAM: Gaussians over the lines instead of the window.
+// How much each of the four lines takes of line first + j. FOCUSED_BEAM: by a Gaussian instead of the window.
 int reach;
 float exponent;
 vec4 weight_of(int j) {

@@ -1,5 +1,6 @@
-// Fusion (6): reflected and scattered echo, both through the speckle, and the receiver's noise. Where they are smoothed, smooth.comp has done so
-// along the rows; here follow the columns, and the division by the part of the windows that lies inside the fan.
+// Fusion (6): reflected and scattered echo, both through the speckle, and with them clutter and the receiver's noise.
+// Where R and T are smoothed, smooth.comp has done so along the rows; here follow the columns, and the division by the
+// part of the windows that lies inside the fan.
 //
 // An invocation serves four pixels of a column, whose windows overlap: a value is read once for all four.
 
@@ -10,13 +11,28 @@ layout(local_size_x = 32, local_size_y = 2) in;
 
 layout(binding = 0) uniform sampler2D picture;        // R, T, S, 1; all 0 outside the fan
 layout(binding = 1) uniform sampler2D half_smoothed;  // R, T
-layout(binding = 2) uniform sampler2D pixel_constants;  // 1 / (what of the two windows lies inside), noise of mean 1
+// 1 / (what of the two windows lies inside), noise of mean 1, sample
+layout(binding = 2) uniform sampler2D pixel_constants;
+layout(binding = 3) uniform sampler2D mean_echo;  // a sample: mean of T S over the lines
 layout(std430, binding = 0) readonly buffer ReflectionWindow { vec4 reflection_window[]; };  // by place from the first
 layout(std430, binding = 1) readonly buffer TransmissionWindow { vec4 transmission_window[]; };  // pixel's edge
 layout(binding = 0, r32f) writeonly uniform image2D fused;                                        // U
 
 vec2 half_smoothed_at(ivec2 at) {
   return at.y >= 0 && at.y < height ? texelFetch(half_smoothed, at, 0).xy : vec2(0.0);
+}
+
+// Its mean at a place along the lines: of the electronics, and with CLUTTER what the side lobes bring.
+float noise_at(float sample_position) {
+#if CLUTTER == 1
+  float position = clamp(sample_position, 0.0, float(samples - 1));
+  int low = int(position), high = min(low + 1, samples - 1);
+  float mean = mix(texelFetch(mean_echo, ivec2(low, 0), 0).x, texelFetch(mean_echo, ivec2(high, 0), 0).x,
+                  position - float(low));
+  return noise_level + clutter_share * blend * mean;
+#else
+  return noise_level;
+#endif
 }
 
 void main() {
@@ -35,9 +51,9 @@ void main() {
     ivec2 pixel = first + ivec2(0, i);
     if (pixel.y >= height) break;
     vec4 value = texelFetch(picture, pixel, 0);
-    vec3 constants = texelFetch(pixel_constants, pixel, 0).xyz;
+    vec4 constants = texelFetch(pixel_constants, pixel, 0);
     if (reflection_radius_px > 0) value.x = reflection[i] * constants.x;
     if (transmission_radius_px > 0) value.y = transmission[i] * constants.y;
-    imageStore(fused, pixel, vec4((value.x + blend * value.y) * value.z + noise_level * constants.z));
+    imageStore(fused, pixel, vec4((value.x + blend * value.y) * value.z + noise_at(constants.w) * constants.z));
   }
 }

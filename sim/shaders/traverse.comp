@@ -9,17 +9,21 @@ layout(local_size_x = 8) in;
 #include "shared/acoustic_volume.glsl"
 
 layout(binding = 1) uniform sampler3D scatterers;  // complex, unit variance at the lattice's points
-layout(binding = 0, rgba32f) writeonly uniform image2D scan;  // I, R, scatterers' echo (re, im)
+layout(binding = 0, rgba32f)
+#if PLANES == 1
+writeonly
+#endif
+uniform image2D scan;  // I, R, scatterers' echo (re, im)
 
 // A line and the directions beside it, worked out in double precision for each pose: adding up single-precision
 // products here instead would move samples by a thousandth of a voxel, which shows at the surface of gas.
 struct Line {
   vec4 start, along;        // in the volume's texture: of sample 0, and to the next; start.w and along.w: the first and
                             // the last sample that may lie in the body
-  vec4 lateral, elevation;  // half the reflection length to either side
+  vec4 lateral, elevation;  // half the reflection length to either side; lateral.w: the plane's weight
   vec4 lattice_start, lattice_along;  // in the scatterers' lattice
 };
-layout(std430, binding = 0) readonly buffer ScanLines { Line scan_lines[]; };
+layout(std430, binding = 0) readonly buffer ScanLines { Line scan_lines[]; };  // plane by plane
 layout(std430, binding = 2) buffer Counters { uint samples_walked, normals_taken; };
 
 // Where the ends of the reflection length lie. Ends that meet those of the next samples are fetched once for all.
@@ -79,10 +83,17 @@ float incidence(float k, float along) {
   return abs(along) * inversesqrt(along * along + across * across + over * over);
 }
 
-void main() {
-  int index = int(gl_GlobalInvocationID.x);
-  if (index >= lines) return;
-  line = scan_lines[index];
+// The planes of the slice add up.
+void put(int plane, ivec2 at, vec4 value) {
+#if PLANES > 1
+  value *= line.lateral.w;
+  if (plane > 0) value += imageLoad(scan, at);
+#endif
+  imageStore(scan, at, value);
+}
+
+void walk(int plane, int index) {
+  line = scan_lines[plane * lines + index];
 
   float log_intensity = 0.0;
   uint normals = 0u;
@@ -108,7 +119,7 @@ void main() {
     if (SPECKLE == 1) echo = echo.x * scatterer(line.lattice_start.xyz + position * line.lattice_along.xyz);
 
     float reflection = alpha * intensity * intensity * cosine;  // (3)
-    imageStore(scan, ivec2(k, index), vec4(intensity, reflection, echo));
+    put(plane, ivec2(k, index), vec4(intensity, reflection, echo));
 
     log_intensity +=
         reflection_exponent * log_transmission(alpha, before.impedance, behind.impedance) - absorbed;  // (5)
@@ -118,5 +129,15 @@ void main() {
   }
   atomicAdd(samples_walked, uint(k));
   atomicAdd(normals_taken, normals);
-  for (; k < samples; ++k) imageStore(scan, ivec2(k, index), vec4(0.0));
+  for (; k < samples; ++k) put(plane, ivec2(k, index), vec4(0.0));
+}
+
+void main() {
+  int index = int(gl_GlobalInvocationID.x);
+  if (index >= lines) return;
+#if PLANES == 1
+  walk(0, index);
+#else
+  for (int plane = 0; plane < PLANES; ++plane) walk(plane, index);
+#endif
 }

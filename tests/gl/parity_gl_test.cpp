@@ -125,6 +125,7 @@ TEST_CASE("GLSL agrees with the reference: loud receiver's noise, every grey map
   probe.lines = 64;
   Settings settings = small(trainer_settings(3.5, 120));
   settings.noise_db = -75;  // shows from the middle of the picture on
+  settings.clutter_db = -15;
   settings.grey_map = GENERATE(GreyMap::linear, GreyMap::soft, GreyMap::contrast, GreyMap::s_curve);
   check_parity(probe, 120, settings, test::on_the_skin(0, 9, 12));
 }
@@ -136,6 +137,15 @@ TEST_CASE("GLSL agrees with the reference: a beam focused near the face, wider t
   settings.focus_mm = 15;
   settings.f_number = 2;
   check_parity(probe, 60, settings, test::on_the_skin(-10, 1, -8));
+}
+
+TEST_CASE("GLSL agrees with the reference: a slice of three planes") {
+  Probe probe = *find_probe("curvilinear");
+  probe.lines = 64;
+  Settings settings = small(trainer_settings(3.5, 120));
+  settings.slice_planes = 3;
+  settings.slice_thickness_mm = 5;
+  check_parity(probe, 120, settings, test::on_the_skin(0, 9, 12));
 }
 
 TEST_CASE("a frame without any echo is black, not NaN") {

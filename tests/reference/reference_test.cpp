@@ -196,3 +196,71 @@ TEST_CASE("speckle is as bright at every depth of a focused beam") {
     CHECK(mean == Approx(1).margin(0.05));  // over some thousand cells, each of deviation 0.52
   }
 }
+
+TEST_CASE("clutter fills a cyst from the tissue at its depth, by as many decibels less as asked for") {
+  Probe probe = *find_probe("linear");
+  probe.lines = 64;
+  Settings settings = trainer_settings(5, 40);
+  settings.image_width = settings.image_height = 100;
+  settings.speckle = settings.absorption = settings.electronic_noise = false;
+  settings.clutter_db = -20;
+  const auto mean_in_cyst = [&](double depth_mm) {
+    const auto stages = simulate_reference(
+        [](const glm::dvec3& p) {
+          const bool cyst = std::abs(p.x) < 10 && p.y > 10 && p.y < 30;
+          return Medium{0, cyst || p.y > 25 ? -200.0 : 0.0};  // below 25 mm no tissue either side echoes
+        },
+        plain_table(), probe, 40, settings, {});
+    const ImageGeometry geometry = image_geometry(probe, 40, 100, 100);
+    double sum = 0, count = 0;
+    for (int y = 0; y < 100; ++y)
+      for (int x = 0; x < 100; ++x)
+        if (const glm::dvec2 p = geometry.plane_mm(x, y); std::abs(p.x) < 7 && std::abs(p.y - depth_mm) < 3)
+          sum += stages.fused.at(x, y), count += 1;
+    return sum / count / settings.blend;
+  };
+  // Tissue of U = b fills half the lines. A few hundred Rayleigh numbers, smoothed: known to some per cent.
+  CHECK(mean_in_cyst(18) == Approx(0.5 * 0.01).epsilon(0.08));
+  CHECK(mean_in_cyst(34) < 1e-9);
+  settings.clutter = false;
+  CHECK(mean_in_cyst(18) < 1e-9);
+}
+
+TEST_CASE("a slice of some thickness sees what lies beside a thin gap, and is as bright where nothing does") {
+  Probe probe = *find_probe("linear");
+  probe.lines = 16;
+  Settings settings = trainer_settings(5, 40);
+  settings.image_width = settings.image_height = 16;
+  settings.speckle = settings.absorption = settings.electronic_noise = settings.clutter = false;
+  const auto echo_in_gap = [&](double gap_mm) {
+    const auto stages = simulate_reference(
+        [=](const glm::dvec3& p) {
+          return Medium{0, std::abs(p.z) < gap_mm / 2 ? -200.0 : 0.0};
+        },
+        plain_table(), probe, 40, settings, {});
+    return stages.fused.at(8, 8) / settings.blend;
+  };
+  CHECK(echo_in_gap(2) < 1e-9);
+  settings.slice_planes = 31;
+  settings.slice_thickness_mm = 3;
+  // A Gaussian of deviation 3/2.355 between one and two deviations, of all within two; a plane at either edge is 0.04.
+  const double within_1mm = std::erf(1 / 1.274 / std::sqrt(2.0)), within_all = std::erf(2 / std::sqrt(2.0));
+  CHECK(echo_in_gap(2) == Approx(1 - within_1mm / within_all).margin(0.04));
+  CHECK(echo_in_gap(0) == Approx(1));
+}
+
+TEST_CASE("speckle keeps its mean through a slice of several planes") {
+  Settings settings = trainer_settings(3.5, 160);
+  settings.image_width = settings.image_height = 8;
+  settings.samples = 300;
+  settings.slice_planes = 5;
+  settings.slice_thickness_mm = 2;
+  const auto stages = simulate_reference(
+      [](const glm::dvec3&) {
+        return Medium{60, 0};
+      },
+      plain_table(), *find_probe("curvilinear"), 160, settings, {});
+  double mean = 0;
+  for (double s : stages.speckle.pixels) mean += s / double(stages.speckle.pixels.size());
+  CHECK(mean == Approx(1).margin(0.05));  // the correlation of planes turned against the lattice is known no better
+}

@@ -22,7 +22,7 @@ layout(std140, binding = 0) uniform SimulationParameters {
   float absorption_per_sample;  // f dr/100 ln 10: times dB/(cm MHz), the natural logarithm that a sample takes
   float gel_mm;
   float least_alpha_with_normal;  // a weaker interface's tilt is not looked at
-  int unused0;
+  float clutter_share;            // of the mean echo from the same depth; 0 for none
 
   int speckle;    // 1 draws scatterers, 0 leaves their mean
   int beam_half;  // (n_a - 1)/2

@@ -1,0 +1,20 @@
+// The scatterers' mean echo over the lines at each depth, of which side lobes bring a share to every line. Neighbouring
+// samples are neighbours in memory, so an invocation takes a sample and goes through the lines.
+
+layout(local_size_x = 8) in;
+
+#include "shared/simulation_parameters.h"
+
+layout(binding = 0) uniform sampler2D echoes;                    // a row a line: R, T, S, 0
+layout(binding = 0, r32f) writeonly uniform image2D mean_echo;  // a sample: mean of T S
+
+void main() {
+  int k = int(gl_GlobalInvocationID.x);
+  if (k >= samples) return;
+  float sum = 0.0;
+  for (int line = 0; line < lines; ++line) {
+    vec4 value = texelFetch(echoes, ivec2(k, line), 0);
+    sum += value.y * value.z;
+  }
+  imageStore(mean_echo, ivec2(k, 0), vec4(sum / float(lines)));
+}
