@@ -14,6 +14,10 @@ Table measure_frames(const Request& request);
 /// The traversal against the paper's own method, both in turn, and each one's error against the converged reference.
 Table measure_paper(const Request& request);
 
+/// Many images in one call against one a call, by configuration: model W's images, their LC2 with an ultrasound image,
+/// and for comparison the trainer's model S.
+Table measure_batch(const Request& request);
+
 /// Run time against error over the settings. Scenes' plots go into one SVG unless `svg` is empty.
 Table measure_front(const Request& request, const std::string& svg);
 

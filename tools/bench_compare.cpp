@@ -15,8 +15,9 @@ namespace {
 
 constexpr std::array<const char*, 3> kTimes = {"q1_ms", "median_ms", "q3_ms"};
 // What is measured or only told: everything else names the setting. Stages' shares end in _share.
-constexpr std::array<const char*, 9> kMeasured = {"device",     "frames",    "runs_still", "error_db", "error_grey",
-                                                  "error_r_db", "evaluated", "possible",   "on_front"};
+constexpr std::array<const char*, 10> kMeasured = {"device",     "frames",         "runs_still", "error_db",
+                                                   "error_grey", "error_r_db",     "evaluated",  "possible",
+                                                   "on_front",   "images_a_second"};
 
 bool names_setting(const std::string& column) {
   const auto is = [&](const char* name) { return column == name; };

@@ -39,6 +39,8 @@ int main(int argc, char** argv) {
   const CLI::App* paper = add_measurement(
       arguments, "paper", "The traversal against that of Kutter, Shams and Navab (2009), a render pass a sample",
       request, csv);
+  const CLI::App* batch = add_measurement(
+      arguments, "batch", "Model W for registration: many images in one call against one a call", request, csv);
   CLI::App* front = add_measurement(arguments, "front", "Run time against error over the settings", request, csv);
   front->add_option("--svg", svg, "Draw the plot too");
   CLI::App* compare = arguments.add_subcommand("compare", "How the run times of two CSVs differ, setting by setting");
@@ -52,6 +54,7 @@ int main(int argc, char** argv) {
     }
     const bench::Table table = frames->parsed()  ? bench::measure_frames(request)
                                : paper->parsed() ? bench::measure_paper(request)
+                               : batch->parsed() ? bench::measure_batch(request)
                                                  : bench::measure_front(request, svg);
     if (!csv.empty()) write_file(csv, table.csv());
     return 0;

@@ -23,6 +23,19 @@ struct GpuLine {
   glm::vec4 start, along, direction;
 };
 
+// Per row of a mask: the first pixel in it and the one behind the last; both 0 where there is none.
+Buffer rows_of(const Image<std::uint8_t>& mask) {
+  std::vector<glm::ivec2> rows(std::size_t(mask.height), glm::ivec2(0));
+  for (int y = 0; y < mask.height; ++y)
+    for (int x = 0; x < mask.width; ++x)
+      if (mask.at(x, y)) {
+        glm::ivec2& row = rows[std::size_t(y)];
+        if (row.y == 0) row.x = x;
+        row.y = x + 1;
+      }
+  return Buffer(rows.size() * sizeof(glm::ivec2), rows.data());
+}
+
 }  // namespace
 
 struct WeinSimulator::State {
@@ -44,7 +57,7 @@ struct WeinSimulator::State {
 
   Program traverse, picture, rows, lc2;
   Buffer parameter_buffer{sizeof(WeinParameters), nullptr};
-  Buffer line_buffer, fan_blocks, counted_rows, similarities;
+  Buffer line_buffer, fan_rows, counted_rows, similarities;
   std::size_t similarities_held = 0;
   Texture density, pixels, scan, sums, grid;
   std::vector<GpuLine> placed;
@@ -77,8 +90,7 @@ WeinSimulator::State::State(const AcousticVolume& volume, const Probe& probe, do
   scan = Texture::make_2d(GL_RGBA32F, d, scan_rows, Filter::nearest);
   sums = Texture::make_2d(GL_RGBA32F, 3 * h, int(chunk_images), Filter::nearest);
   pixels = Texture::make_2d(GL_RGBA32F, w, h, Filter::nearest);
-  counted_rows = Buffer(std::size_t(h) * sizeof(glm::ivec2), nullptr);
-  fan_blocks = Buffer(fan.blocks.size() * sizeof(glm::ivec2), fan.blocks.data());
+  fan_rows = rows_of(fan.inside);
   write_pixels(std::vector<glm::vec2>(fan.inside.pixels.size(), glm::vec2(0)));
 
   WeinParameters& p = parameters;
@@ -100,19 +112,12 @@ WeinSimulator::State::State(const AcousticVolume& volume, const Probe& probe, do
 
 // Where each pixel lies among the lines, and what of the ultrasound image is there.
 void WeinSimulator::State::write_pixels(const std::vector<glm::vec2>& u_and_weight) {
-  const int w = settings.image_width, h = settings.image_height;
   std::vector<glm::vec4> texels;
   for (std::size_t i = 0; i < u_and_weight.size(); ++i) texels.emplace_back(fan.line_and_sample[i], u_and_weight[i]);
   pixels.write(GL_RGBA, GL_FLOAT, texels.data());
-  std::vector<glm::ivec2> counted(std::size_t(h), glm::ivec2(0));
-  for (int y = 0; y < h; ++y)
-    for (int x = 0; x < w; ++x)
-      if (texels[std::size_t(y) * std::size_t(w) + std::size_t(x)].w > 0) {
-        glm::ivec2& row = counted[std::size_t(y)];
-        if (row.y == 0) row.x = x;
-        row.y = x + 1;
-      }
-  counted_rows.write(counted.data(), counted.size() * sizeof(glm::ivec2));
+  Image<std::uint8_t> counted = fan.inside;
+  for (std::size_t i = 0; i < texels.size(); ++i) counted.pixels[i] = texels[i].w > 0;
+  counted_rows = rows_of(counted);
 }
 
 // Places a chunk's lines and walks along them.
@@ -173,10 +178,10 @@ const Texture& WeinSimulator::simulate(std::span<const Pose> patient_from_probe)
   if (!fits) s.grid = Texture::make_2d(GL_R8, columns * w, rows * h, Filter::nearest);
   if (!fits || count < columns * rows) s.grid.clear();  // what no fan covers stays so
   s.parameters.columns = columns;
-  s.fan_blocks.bind_storage(7);
   s.by_chunks(patient_from_probe, [&](int images) {
+    s.fan_rows.bind_storage(0);
     s.grid.bind_image(0, GL_WRITE_ONLY);
-    s.picture.dispatch_groups(int(s.fan.blocks.size()), images);
+    s.picture.dispatch(images * h, 1);
   });
   return s.grid;
 }

@@ -170,7 +170,8 @@ TEST_CASE("LC2 is 1 for an affine map of the image's own terms, and feels neithe
   CHECK(partly > 0.1);
   CHECK(partly < 0.9);
   // A float holds 1e5 and its speckle to 0.004: 1e-5 of what the image varies by.
-  for (const auto& [gain, offset] : {std::pair(255.0, 0.0), std::pair(-3.0, 12.0), std::pair(1000.0, 1e5)})
+  for (const auto& [gain, offset] :
+       {std::pair(255.0, 0.0), std::pair(-3.0, 12.0), std::pair(1000.0, 1e5), std::pair(1e30, 0.0)})
     CHECK(f.similarity(f.ultrasound_like(stages, gain, offset, 1), f.pose) == Approx(partly).margin(1e-4));
 }
 

@@ -98,6 +98,19 @@ TEST_CASE("insonate-bench frames: the stages' shares make a whole, and a still f
   }
 }
 
+TEST_CASE("insonate-bench batch: images and LC2, one a call and many, as throughput") {
+  Fixture f;
+  const bench::Table table = f.measure("batch");
+  REQUIRE(table.rows.size() == 2 * 5);
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    CHECK(table.cell(i, "images_a_call") == (i % 5 == 1 || i % 5 == 3 ? "256" : "1"));
+    CHECK(table.cell(i, "method") == (i % 5 < 2 ? "images" : i % 5 < 4 ? "LC2" : "model S"));
+    // Times keep five digits behind the point, of at least a hundredth of a millisecond.
+    CHECK(table.number("table.csv", i, "images_a_second") * table.number("table.csv", i, "median_ms") ==
+          Approx(1000).epsilon(0.01));
+  }
+}
+
 TEST_CASE("insonate-bench front: errors against the converged reference, a front, and a plot of it") {
   Fixture f;
   const fs::path svg = f.folder / "front.svg";
