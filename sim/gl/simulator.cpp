@@ -31,7 +31,8 @@ Defines traversal_of(const Settings& settings, double dr_mm) {
 
 // What beam.comp is compiled for.
 Defines beam_of(const Settings& settings) {
-  return {{"FOCUSED_BEAM", settings.focused_beam ? "1" : "0"}};
+  return {{"FOCUSED_BEAM", settings.focused_beam ? "1" : "0"},
+          {"REVERBERATION", settings.face_reflection > 0 ? "1" : "0"}};
 }
 
 // What fuse.comp is compiled for.
@@ -256,6 +257,8 @@ void Simulator::State::fill_parameters() {
   p.transmission_radius_px = transmission_gaussian.radius;
   p.speckle = settings.speckle;
   p.beam_half = (settings.beam_lines - 1) / 2;
+  p.face_reflection = float(settings.face_reflection);
+  p.repeats = kRepeats;
   p.two_way = settings.two_way;
   p.blend = float(settings.blend);
   p.clutter_share = float(clutter_share(settings));
@@ -433,7 +436,8 @@ void Simulator::set_settings(const Settings& settings) {
     state_->layout_changed = true;
   if (!same(&Settings::speckle_seed)) state_->scatterers_changed = true;
   if (!same(&Settings::beam_window, &Settings::beam_lines, &Settings::focused_beam, &Settings::focus_mm,
-            &Settings::f_number, &Settings::frequency_mhz, &Settings::speckle_cell_mm, &Settings::slice_thickness_mm))
+            &Settings::f_number, &Settings::frequency_mhz, &Settings::face_reflection, &Settings::speckle_cell_mm,
+            &Settings::slice_thickness_mm))
     state_->beam_changed = true;
 
   using S = Settings;
@@ -441,8 +445,8 @@ void Simulator::set_settings(const Settings& settings) {
             &S::speckle_seed, &S::speckle_cell_mm, &S::slice_planes, &S::slice_thickness_mm, &S::image_width,
             &S::image_height, &S::skipping))
     state_->due_from(Stage::traverse);
-  else if (!same(&S::beam_window, &S::beam_lines, &S::focused_beam, &S::focus_mm, &S::f_number, &S::clutter,
-                 &S::two_way))
+  else if (!same(&S::beam_window, &S::beam_lines, &S::focused_beam, &S::focus_mm, &S::f_number, &S::face_reflection,
+                 &S::clutter, &S::two_way))
     state_->due_from(Stage::beam);
   else if (!same(&S::reflection_sigma_mm, &S::transmission_sigma_mm))
     state_->due_from(Stage::smooth);

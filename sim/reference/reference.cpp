@@ -233,8 +233,14 @@ Stages<double> simulate_reference(const MediumField& field, const TissueTable& t
 
   const int w = settings.image_width, h = settings.image_height;
   const ImageGeometry geometry = image_geometry(probe, depth_mm, w, h);
-  Image<double> reflection(w, h), transmission(w, h), speckle(w, h), noise(w, h), gain(w, h);
+  Image<double> reflection(w, h), transmission(w, h), speckle(w, h), beside(w, h), gain(w, h);
   stages.inside = Image<std::uint8_t>(w, h);
+  Image<double> repeated(n, d);  // by the face
+  for (int k = 0; k < d; ++k)
+    for (int line = 0; line < n; ++line)
+      for (int times = 2; times <= kRepeats; ++times)
+        repeated.at(line, k) += std::pow(settings.face_reflection, times - 1) *
+                                std::pow(stages.reflection.at(line, (2 * k + 1) / (2 * times)), times);
   Image<double> mean_echo(1, d);  // over the lines, for clutter
   for (int k = 0; k < d; ++k)
     for (int line = 0; line < n; ++line)
@@ -249,8 +255,9 @@ Stages<double> simulate_reference(const MediumField& field, const TissueTable& t
       reflection.at(x, y) = bilinear(stages.reflection_beam, position->line, sample);
       transmission.at(x, y) = bilinear(stages.transmission, position->line, sample);
       speckle.at(x, y) = bilinear(stages.speckle, position->line, sample);
-      noise.at(x, y) = (noise_level(settings) + clutter_share(settings) * bilinear(mean_echo, 0, sample)) *
-                       bilinear(noise_of_lines, position->line, sample);
+      beside.at(x, y) = bilinear(repeated, position->line, sample) +
+                        (noise_level(settings) + clutter_share(settings) * bilinear(mean_echo, 0, sample)) *
+                            bilinear(noise_of_lines, position->line, sample);
       gain.at(x, y) = time_gain(settings, position->r_mm / depth_mm);
     }
   reflection = smoothed(reflection, stages.inside, settings.reflection_sigma_mm / geometry.mm_per_pixel);
@@ -260,7 +267,7 @@ Stages<double> simulate_reference(const MediumField& field, const TissueTable& t
   double brightest = 0;
   for (std::size_t i = 0; i < stages.fused.pixels.size(); ++i) {
     stages.fused.pixels[i] =
-        (reflection.pixels[i] + settings.blend * transmission.pixels[i]) * speckle.pixels[i] + noise.pixels[i];  // (6)
+        (reflection.pixels[i] + settings.blend * transmission.pixels[i]) * speckle.pixels[i] + beside.pixels[i];  // (6)
     brightest = std::max(brightest, stages.fused.pixels[i] * gain.pixels[i]);
   }
   const double level = settings.reference_level == ReferenceLevel::frame_maximum ? brightest : settings.fixed_level;

@@ -11,7 +11,7 @@ layout(binding = 0) uniform sampler2D scan;  // a row a line: I, R, scatterers' 
 layout(std430, binding = 0) readonly buffer Window { vec4 window[]; };  // of four lines, by place from the first's edge
 layout(std430, binding = 1) readonly buffer SpeckleScale { float envelope_scale[]; };  // a sample: mean envelope -> 1
 layout(std430, binding = 2) readonly buffer Focused { vec2 focused[]; };  // a sample: reach in lines, exponent
-layout(binding = 0, rgba32f) writeonly uniform image2D echoes;                         // a row a line: R, T, S, 0
+layout(binding = 0, rgba32f) writeonly uniform image2D echoes;                         // a row a line: R, T, S, V
 
 vec4 reflection = vec4(0.0), re = vec4(0.0), im = vec4(0.0), total = vec4(0.0);
 
@@ -40,6 +40,21 @@ float add(int first, int j, int k) {
   return value.x;
 }
 
+// Echoes that the face has sent in again.
+float repeated(int line, int k) {
+  float sum = 0.0;
+#if REVERBERATION == 1
+  float of_face = 1.0;
+  for (int n = 2; n <= repeats; ++n) {
+    of_face *= face_reflection;
+    float first = texelFetch(scan, ivec2((2 * k + 1) / (2 * n), min(line, lines - 1)), 0).y, share = of_face;
+    for (int i = 0; i < n; ++i) share *= first;
+    sum += share;
+  }
+#endif
+  return sum;
+}
+
 void main() {
   int k = int(gl_GlobalInvocationID.x), first = 4 * int(gl_GlobalInvocationID.y);
   if (first >= lines || k >= samples) return;
@@ -60,5 +75,5 @@ void main() {
   vec4 envelope = sqrt(re * re + im * im) / total * (speckle == 1 ? envelope_scale[k] : 1.0);
   for (int i = 0; i < 4; ++i)
     if (first + i < lines)
-      imageStore(echoes, ivec2(k, first + i), vec4(reflection[i], transmission[i], envelope[i], 0.0));
+      imageStore(echoes, ivec2(k, first + i), vec4(reflection[i], transmission[i], envelope[i], repeated(first + i, k)));
 }

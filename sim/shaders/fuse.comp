@@ -9,7 +9,7 @@ layout(local_size_x = 32, local_size_y = 2) in;
 #include "shared/simulation_parameters.h"
 #include "shared/fan_blocks.glsl"
 
-layout(binding = 0) uniform sampler2D picture;        // R, T, S, 1; all 0 outside the fan
+layout(binding = 0) uniform sampler2D picture;        // R, T, S, V; 0, 0, 0, -1 outside the fan
 layout(binding = 1) uniform sampler2D half_smoothed;  // R, T
 // 1 / (what of the two windows lies inside), noise of mean 1, sample
 layout(binding = 2) uniform sampler2D pixel_constants;
@@ -54,6 +54,6 @@ void main() {
     vec4 constants = texelFetch(pixel_constants, pixel, 0);
     if (reflection_radius_px > 0) value.x = reflection[i] * constants.x;
     if (transmission_radius_px > 0) value.y = transmission[i] * constants.y;
-    imageStore(fused, pixel, vec4((value.x + blend * value.y) * value.z + noise_at(constants.w) * constants.z));
+    imageStore(fused, pixel, vec4((value.x + blend * value.y) * value.z + value.w + noise_at(constants.w) * constants.z));
   }
 }

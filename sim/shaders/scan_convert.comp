@@ -6,20 +6,20 @@ layout(local_size_x = 32, local_size_y = 8) in;
 #include "shared/simulation_parameters.h"
 #include "shared/fan_blocks.glsl"
 
-layout(binding = 0) uniform sampler2D echoes;           // a row a line: R, T, S, 0
+layout(binding = 0) uniform sampler2D echoes;           // a row a line: R, T, S, V
 layout(binding = 1) uniform sampler2D line_and_sample;  // per pixel; line below -1 outside the fan
-layout(binding = 0, rgba32f) writeonly uniform image2D picture;  // R, T, S, 1; all 0 outside the fan
+layout(binding = 0, rgba32f) writeonly uniform image2D picture;  // R, T, S, V; 0, 0, 0, -1 outside the fan
 
 void main() {
   ivec2 pixel = block_start() + ivec2(gl_LocalInvocationID.xy);
   if (pixel.x >= width || pixel.y >= height) return;
   vec2 position = texelFetch(line_and_sample, pixel, 0).xy;
-  float inside = position.x > -1.0 ? 1.0 : 0.0;
+  bool inside = position.x > -1.0;
   ivec2 last = ivec2(samples, lines) - 1;
   position = clamp(position.yx, vec2(0.0), vec2(last));
   ivec2 low = min(ivec2(position), max(last - 1, 0)), high = min(low + 1, last);
   vec2 f = position - vec2(low);
   vec4 value = mix(mix(texelFetch(echoes, low, 0), texelFetch(echoes, ivec2(high.x, low.y), 0), f.x),
                    mix(texelFetch(echoes, ivec2(low.x, high.y), 0), texelFetch(echoes, high, 0), f.x), f.y);
-  imageStore(picture, pixel, inside * vec4(value.xyz, 1.0));
+  imageStore(picture, pixel, inside ? value : vec4(0.0, 0.0, 0.0, -1.0));
 }

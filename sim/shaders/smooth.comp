@@ -8,7 +8,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "shared/simulation_parameters.h"
 #include "shared/fan_blocks.glsl"
 
-layout(binding = 0) uniform sampler2D picture;  // R, T, S, 1; all 0 outside the fan
+layout(binding = 0) uniform sampler2D picture;  // R, T, S, V; 0, 0, 0, -1 outside the fan
 layout(std430, binding = 0) readonly buffer ReflectionWindow { vec4 reflection_window[]; };  // by place from the first
 layout(std430, binding = 1) readonly buffer TransmissionWindow { vec4 transmission_window[]; };  // pixel's edge
 layout(binding = 0, rg32f) writeonly uniform image2D half_smoothed;                               // R, T
@@ -37,5 +37,5 @@ void main() {
   }
   for (int i = 0; i < 4; ++i)
     if (first.x + i < width)
-      imageStore(half_smoothed, first + ivec2(i, 0), vec4(own[i].w * vec2(reflection[i], transmission[i]), 0.0, 0.0));
+      imageStore(half_smoothed, first + ivec2(i, 0), vec4(own[i].w < 0.0 ? vec2(0.0) : vec2(reflection[i], transmission[i]), 0.0, 0.0));
 }

@@ -148,6 +148,14 @@ TEST_CASE("GLSL agrees with the reference: a slice of three planes") {
   check_parity(probe, 120, settings, test::on_the_skin(0, 9, 12));
 }
 
+TEST_CASE("GLSL agrees with the reference: a face that reflects everything over a rib and gas") {
+  Probe probe = *find_probe("curvilinear");
+  probe.lines = 64;
+  Settings settings = small(trainer_settings(3.5, 120));
+  settings.face_reflection = 1;
+  check_parity(probe, 120, settings, test::on_the_skin(0, 9, 12));
+}
+
 TEST_CASE("a frame without any echo is black, not NaN") {
   const gl::HeadlessContext context;
   AcousticVolume water;

@@ -264,3 +264,35 @@ TEST_CASE("speckle keeps its mean through a slice of several planes") {
   for (double s : stages.speckle.pixels) mean += s / double(stages.speckle.pixels.size());
   CHECK(mean == Approx(1).margin(0.05));  // the correlation of planes turned against the lattice is known no better
 }
+
+TEST_CASE("gas repeats at multiples of its depth, each time weaker by its echo and the face's reflection") {
+  Probe probe = *find_probe("linear");
+  probe.lines = 16;
+  Settings settings = trainer_settings(5, 40);
+  settings.samples = 400;
+  settings.reflection_length_mm = 0.2;
+  settings.image_width = settings.image_height = 400;
+  settings.blend = settings.reflection_sigma_mm = 0;
+  settings.speckle = settings.absorption = settings.electronic_noise = settings.clutter = false;
+  const auto brightest_near = [&](double depth_mm, double hu_behind) {
+    const auto stages = simulate_reference(
+        [=](const glm::dvec3& p) {
+          return Medium{p.y > 10.05 ? hu_behind : 0.0, 0};
+        },
+        plain_table(), probe, 40, settings, {});
+    const ImageGeometry geometry = image_geometry(probe, 40, 400, 400);
+    double brightest = 0;
+    for (int y = 0; y < 400; ++y)
+      if (std::abs(geometry.plane_mm(200, y).y - depth_mm) < 1)
+        brightest = std::max(brightest, stages.fused.at(200, y));
+    return brightest;
+  };
+  const double alpha = std::pow(4.0 / 6.0, 2);  // of 1 against 5 MRayl
+  settings.face_reflection = 0.1;
+  CHECK(brightest_near(20.1, 400) == Approx(0.1 * alpha * alpha).epsilon(0.01));
+  CHECK(brightest_near(30.15, 400) == Approx(0.01 * alpha * alpha * alpha).epsilon(0.01));
+  CHECK(brightest_near(25, 400) == 0);
+  CHECK(brightest_near(20.1, 1) < 1e-9);  // tissue's are not to be seen
+  settings.face_reflection = 0;
+  CHECK(brightest_near(20.1, 400) == 0);
+}
