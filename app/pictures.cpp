@@ -101,13 +101,4 @@ Image<Rgba8> read_back(const gl::Texture& texture) {
   return image;
 }
 
-Image<Rgba8> mirrored(const Image<Rgba8>& image) {
-  Image<Rgba8> out = image;
-  for (int y = 0; y < out.height; ++y) {
-    const auto row = out.pixels.begin() + std::ptrdiff_t(y) * out.width;
-    std::reverse(row, row + out.width);
-  }
-  return out;
-}
-
 }  // namespace insonate

@@ -67,7 +67,5 @@ private:
 
 /// A texture's pixels, row 0 at the top.
 Image<Rgba8> read_back(const gl::Texture& texture);
-/// With left and right exchanged: the way a screen shows it, with the marker on the left.
-Image<Rgba8> mirrored(const Image<Rgba8>& image);
 
 }  // namespace insonate

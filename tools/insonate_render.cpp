@@ -99,7 +99,8 @@ int main(int argc, char** argv) {
       "--stages", stages_folder,
       "A new folder for what crosses the stages: scanlines.json, and NRRD files that say what they hold");
   arguments.add_flag("--reference", by_reference, "Compute by the double-precision reference, without OpenGL");
-  arguments.add_option("image", out, "The PNG to write")->required();
+  arguments.add_option("image", out, "The PNG to write; the probe's marker is on its left, as clinics show it")
+      ->required();
 
   return run_program(arguments, argc, argv, [&] {
     const Probe* probe = find_probe(probe_name);
@@ -128,7 +129,7 @@ int main(int argc, char** argv) {
     const RenderedScene scene{volume, table, *probe, depth_mm, settings, pose};
     const auto [stages, made_by] = by_reference ? render_by_reference(scene) : render(subject_path, scene);
     if (!stages_folder.empty()) write_stages(stages_folder, scene, stages, made_by);
-    write_png(out, stages.grey);
+    write_png(out, mirrored(stages.grey));
     return 0;
   });
 }

@@ -35,7 +35,7 @@ void refuse_taken(const std::filesystem::path& folder);
 ///   sizes N D, x line, y sample   hounsfield, echogenicity, impedance, absorption, alpha, incidence, echo_re, echo_im
 ///                                 (what the model's definitions give on these lines, in double precision);
 ///                                 transmission, reflection, reflection_beam, speckle (what `stages` hold)
-///   sizes W H, as the picture     pixel_line, pixel_sample (where the pixel lies among the lines); fused, image
+///   sizes W H, marker (+x) right  pixel_line, pixel_sample (where the pixel lies among the lines); fused, image
 /// Throws InputError when the folder cannot be written, or its name is taken.
 /// @param made_by  what computed `stages`: the device, or the reference
 void write_stages(const std::filesystem::path& folder, const RenderedScene& scene, const Stages<float>& stages,

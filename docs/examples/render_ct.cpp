@@ -36,7 +36,7 @@ int main(int argc, char** argv) try {
 
   Image<std::uint8_t> grey(settings.image_width, settings.image_height);
   simulator.image().read(GL_RED, GL_UNSIGNED_BYTE, grey.pixels.data(), grey.pixels.size());
-  write_png(argv[2], grey);
+  write_png(argv[2], mirrored(grey));  // the probe's marker on the left, as clinics show it
   return 0;
 } catch (const std::exception& error) {
   std::fprintf(stderr, "%s\n", error.what());

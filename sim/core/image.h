@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <vector>
@@ -19,6 +21,18 @@ struct Image {
   T& at(int x, int y) { return pixels[std::size_t(y) * std::size_t(width) + std::size_t(x)]; }
   const T& at(int x, int y) const { return pixels[std::size_t(y) * std::size_t(width) + std::size_t(x)]; }
 };
+
+/// With left and right exchanged. People see ultrasound this way, on the screen and in PNG files: the pipeline's
+/// pictures have the probe's marker (+x) on the right, clinics have it on the left.
+template <typename T>
+Image<T> mirrored(const Image<T>& image) {
+  Image<T> out = image;
+  for (int y = 0; y < out.height; ++y) {
+    const auto row = out.pixels.begin() + std::ptrdiff_t(y) * out.width;
+    std::reverse(row, row + out.width);
+  }
+  return out;
+}
 
 using Rgba8 = std::array<std::uint8_t, 4>;
 

@@ -49,7 +49,7 @@ Look look(gl::Simulator& simulator, const Pose& pose, const std::string& picture
   simulator.set_settings(settings);
   simulator.set_pose(pose);
   Look seen{scan_lines(probe, kDepthMm, settings.samples), simulator.read_stages()};
-  write_png(std::filesystem::path(INSONATE_PICTURES_FOLDER) / (picture + ".png"), seen.stages.grey);
+  write_png(std::filesystem::path(INSONATE_PICTURES_FOLDER) / (picture + ".png"), mirrored(seen.stages.grey));
   return seen;
 }
 

@@ -5,6 +5,7 @@
 #include <png.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "tests/tools/render/render_program.h"
 #include "tests/tools/render/stage_folder.h"
@@ -43,6 +44,13 @@ std::vector<double> grey_levels(const fs::path& file) {
   return {bytes.begin(), bytes.end()};
 }
 
+// Stages have the probe's marker (+x) on the right, pictures for people on the left.
+std::vector<double> as_shown(Plane plane) {
+  for (int y = 0; y < plane.height; ++y)
+    for (int x = 0; x < plane.width / 2; ++x) std::swap(plane.at(x, y), plane.at(plane.width - 1 - x, y));
+  return plane.values;
+}
+
 }  // namespace
 
 TEST_CASE("the picture is what the stages end in, and the command line is above the settings file") {
@@ -53,7 +61,7 @@ TEST_CASE("the picture is what the stages end in, and the command line is above 
     INFO(outcome.errors);
     REQUIRE(outcome.code == 0);
     const StageFolder stages = read_stage_folder(scene.in("stages"));
-    CHECK(stages.planes.at("image").values == grey_levels(scene.in("image.png")));
+    CHECK(as_shown(stages.planes.at("image")) == grey_levels(scene.in("image.png")));
     CHECK(stages.planes.at("image").width == 70);
     const auto& settings = stages.description.at("settings");
     CHECK(settings.at("gain_db") == 7);
