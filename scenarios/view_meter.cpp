@@ -42,10 +42,8 @@ Probe probe_of(const Case& subject, const ReferenceView& view) {
     coarse.lines = ViewMeter::kLines;
     return coarse;
   }
-  std::vector<std::string> names;
-  for (const Probe& probe : probes()) names.push_back(probe.name);
   throw InputError(subject.name, "view '" + view.name + "'", "its probe '" + view.probe + "' does not exist",
-                   suggest(view.probe, names));
+                   suggest(view.probe, probe_names()));
 }
 
 }  // namespace

@@ -87,7 +87,7 @@ int main(int argc, char** argv) {
   arguments.add_option("--case,--ct", subject_path, "A case folder, CT file or DICOM folder (the built-in abdomen)");
   arguments.add_option("--view", view_name, "A view of the case by name (its first)");
   arguments.add_option("--pose", pose_file, "A file with 16 numbers, row-major patient_from_probe, instead of a view");
-  arguments.add_option("--probe", probe_name, "curvilinear or linear")->capture_default_str();
+  arguments.add_option("--probe", probe_name, "curvilinear, linear or phased")->capture_default_str();
   arguments.add_option("--depth", depth_mm, "Imaging depth, mm (the view's or the probe's)")
       ->check(CLI::Range(10.0, 400.0));
   arguments.add_option("--settings", settings_file,
@@ -105,7 +105,8 @@ int main(int argc, char** argv) {
   return run_program(arguments, argc, argv, [&] {
     const Probe* probe = find_probe(probe_name);
     if (!probe)
-      throw InputError("--probe", "", "there is no probe named '" + probe_name + "'", "take curvilinear or linear");
+      throw InputError("--probe", "", "there is no probe named '" + probe_name + "'",
+                       suggest(probe_name, probe_names()));
     if (!stages_folder.empty()) refuse_taken(stages_folder);
     const Case subject = open_subject(subject_path);
     Pose pose;

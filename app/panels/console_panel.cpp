@@ -1,5 +1,6 @@
 #include "app/panels/console_panel.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <string>
 
@@ -15,12 +16,15 @@ std::string formatted(const char* format, double value) {
 void draw_probe_choice(const Theme& theme, Rect where, Console& console) {
   draw_text(where.take_top(theme.px(20)), theme.small_text, colour::kMuted, "Probe");
   where.take_top(theme.px(4));
+  const float between = theme.px(5), count = float(probes().size());
+  const float height = std::min((where.h - (count - 1) * between) / count, theme.px(30));
   for (const Probe& probe : probes()) {
-    const Rect place = where.take_top(theme.px(30));
-    where.take_top(theme.px(6));
+    const Rect place = where.take_top(height);
+    where.take_top(between);
     const bool chosen = console.probe.name == probe.name;
-    const char* words = probe.kind == ProbeKind::linear ? "Linear" : "Curvilinear";
-    if (button(theme, probe.name.c_str(), place, words, chosen ? ButtonKind::chosen : ButtonKind::normal) && !chosen)
+    if (button(theme, probe.name.c_str(), place, probe.title.c_str(),
+               chosen ? ButtonKind::chosen : ButtonKind::normal) &&
+        !chosen)
       console.choose(probe);
   }
 }

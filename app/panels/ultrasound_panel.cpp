@@ -1,7 +1,5 @@
 #include "app/panels/ultrasound_panel.h"
 
-#include <glm/trigonometric.hpp>
-
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -63,12 +61,7 @@ void draw_grey_scale(const Theme& theme, const Rect& panel, double dynamic_range
 
 // The dot beside the face's edge that is on the marker's side.
 void draw_marker(const Theme& theme, const PlaneOnScreen& plane, const Probe& probe) {
-  glm::dvec2 edge(probe.width_mm / 2, 0);
-  if (probe.kind == ProbeKind::curvilinear) {
-    const double half = glm::radians(probe.field_of_view_deg / 2);
-    edge = {probe.radius_mm * std::sin(half), probe.radius_mm * (std::cos(half) - 1)};
-  }
-  const ImVec2 at = plane.at(edge);
+  const ImVec2 at = plane.at(face_edge(probe));
   const ImVec2 dot{at.x - theme.px(20), at.y + theme.px(4)};
   ImDrawList* list = ImGui::GetWindowDrawList();
   list->AddCircleFilled(dot, theme.px(6), colour::kAccent, 24);
@@ -82,8 +75,7 @@ void draw_annotations(const Theme& theme, const Rect& panel, const Session& sess
   line.y += line.h;
   line.h = theme.px(19);
   for (const std::string& text :
-       {std::string(console.probe.kind == ProbeKind::linear ? "Linear" : "Curvilinear") +
-            formatted(", %.1f MHz", console.frequency_mhz),
+       {console.probe.title + formatted(", %.1f MHz", console.frequency_mhz),
         formatted("Depth %.1f cm", console.depth_mm / 10), formatted("Gain %+.0f dB", console.gain_db),
         formatted("Range %.0f dB", console.dynamic_range_db)}) {
     draw_text(line, theme.small_text, colour::kMuted, text);

@@ -9,7 +9,7 @@
 namespace insonate {
 namespace {
 
-// Angle of a curvilinear line from the central beam, from -fov/2 to fov/2 at position 0 to 1 across the face.
+// Angle of a line from the central beam, from -fov/2 to fov/2 at position 0 to 1 across the field of view.
 double angle_at(const Probe& probe, double across) {
   return glm::radians(probe.field_of_view_deg) * (across - 0.5);
 }
@@ -21,6 +21,10 @@ struct Extent {
 Extent fan_extent(const Probe& probe, double depth_mm) {
   if (probe.kind == ProbeKind::linear) return {{-probe.width_mm / 2, 0}, {probe.width_mm / 2, depth_mm}};
   const double half = glm::radians(probe.field_of_view_deg) / 2;
+  if (probe.kind == ProbeKind::phased) {
+    const double half_width = probe.width_mm / 2 + depth_mm * std::sin(half);
+    return {{-half_width, 0}, {half_width, depth_mm}};
+  }
   const double reach = probe.radius_mm + depth_mm;
   // Beyond a half turn the fan is widest at its equator, not at its deep corners.
   const double half_width = reach * std::sin(std::min(half, glm::radians(90.0)));
@@ -34,12 +38,21 @@ const std::vector<Probe>& probes() {
   static const std::vector<Probe> all = [] {
     Probe curvilinear;  // as common abdominal arrays are: 60 mm radius, 60 degrees, 2 to 5 MHz
     curvilinear.name = "curvilinear";
+    curvilinear.title = "Curvilinear";
     Probe linear;  // as common vascular arrays are: 38 to 40 mm, 5 to 10 MHz
     linear.name = "linear";
+    linear.title = "Linear";
     linear.kind = ProbeKind::linear;
     linear.frequency_mhz = 7.5;
     linear.depth_mm = 50;
-    return std::vector<Probe>{curvilinear, linear};
+    Probe phased;  // as common cardiac arrays are: about 20 mm, 90 degrees, 1 to 5 MHz
+    phased.name = "phased";
+    phased.title = "Phased";
+    phased.kind = ProbeKind::phased;
+    phased.width_mm = 20;
+    phased.field_of_view_deg = 90;
+    phased.frequency_mhz = 2.5;
+    return std::vector<Probe>{curvilinear, linear, phased};
   }();
   return all;
 }
@@ -50,6 +63,23 @@ const Probe* find_probe(std::string_view name) {
   return found == all.end() ? nullptr : &*found;
 }
 
+std::vector<std::string> probe_names() {
+  std::vector<std::string> names;
+  for (const Probe& probe : probes()) names.push_back(probe.name);
+  return names;
+}
+
+double apex_behind_mm(const Probe& probe) {
+  if (probe.kind == ProbeKind::curvilinear) return probe.radius_mm;
+  return probe.width_mm / 2 / std::tan(glm::radians(probe.field_of_view_deg) / 2);
+}
+
+glm::dvec2 face_edge(const Probe& probe) {
+  if (probe.kind != ProbeKind::curvilinear) return {probe.width_mm / 2, 0};
+  const double half = glm::radians(probe.field_of_view_deg) / 2;
+  return probe.radius_mm * glm::dvec2(std::sin(half), std::cos(half) - 1);
+}
+
 ScanLines scan_lines(const Probe& probe, double depth_mm, int samples) {
   ScanLines set;
   set.samples = samples;
@@ -58,11 +88,14 @@ ScanLines scan_lines(const Probe& probe, double depth_mm, int samples) {
     const double across = (i + 0.5) / probe.lines;
     if (probe.kind == ProbeKind::linear) {
       set.lines.push_back({{probe.width_mm * (across - 0.5), 0, 0}, {0, 1, 0}});
-    } else {
-      const double angle = angle_at(probe, across);
-      const glm::dvec3 direction(std::sin(angle), std::cos(angle), 0);
-      set.lines.push_back({glm::dvec3(0, -probe.radius_mm, 0) + probe.radius_mm * direction, direction});
+      continue;
     }
+    const double angle = angle_at(probe, across);
+    const glm::dvec3 direction(std::sin(angle), std::cos(angle), 0);
+    const glm::dvec3 start = probe.kind == ProbeKind::phased
+                                 ? glm::dvec3(apex_behind_mm(probe) * std::tan(angle), 0, 0)
+                                 : glm::dvec3(0, -probe.radius_mm, 0) + probe.radius_mm * direction;
+    set.lines.push_back({start, direction});
   }
   return set;
 }
@@ -73,9 +106,12 @@ std::optional<LinePosition> line_position(const Probe& probe, double depth_mm, c
     across = xy_mm.x / probe.width_mm + 0.5;
     r = xy_mm.y;
   } else {
-    const double from_apex = xy_mm.y + probe.radius_mm;
-    across = std::atan2(xy_mm.x, from_apex) / glm::radians(probe.field_of_view_deg) + 0.5;
-    r = std::hypot(xy_mm.x, from_apex) - probe.radius_mm;
+    const bool phased = probe.kind == ProbeKind::phased;
+    if (phased && xy_mm.y < 0) return std::nullopt;
+    const double below_apex = xy_mm.y + apex_behind_mm(probe);
+    const double from_apex = std::hypot(xy_mm.x, below_apex);
+    across = std::atan2(xy_mm.x, below_apex) / glm::radians(probe.field_of_view_deg) + 0.5;
+    r = phased ? from_apex * xy_mm.y / below_apex : from_apex - probe.radius_mm;
   }
   if (across < 0 || across > 1 || r < 0 || r > depth_mm) return std::nullopt;
   return LinePosition{across * probe.lines - 0.5, r};

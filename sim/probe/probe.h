@@ -10,23 +10,38 @@
 
 namespace insonate {
 
-enum class ProbeKind { linear, curvilinear };
+/// Where scan lines leave a transducer's face and how they spread.
+enum class ProbeKind {
+  linear,       ///< straight into the depth from a flat face
+  curvilinear,  ///< square to a curved face
+  phased,       ///< steered from a small flat face, all as if from one point behind it, a sector
+};
 
 /// A transducer. Its frame is described in sim/core/pose.h.
 struct Probe {
-  std::string name;  ///< "curvilinear"
+  std::string name;   ///< "curvilinear"
+  std::string title;  ///< as people read it: "Curvilinear"
   ProbeKind kind = ProbeKind::curvilinear;
   double radius_mm = 60;          ///< curvilinear: of the face, 5 to 200
-  double field_of_view_deg = 60;  ///< curvilinear: between the outer lines' outer edges, 5 to 150
-  double width_mm = 40;           ///< linear: of the face, 5 to 200
+  double field_of_view_deg = 60;  ///< curvilinear and phased: between the outer lines' outer edges, 5 to 150
+  double width_mm = 40;           ///< linear and phased: of the face, 5 to 200
   double frequency_mhz = 3.5;     ///< centre frequency, 1 to 20
   double depth_mm = 160;          ///< default imaging depth
   int lines = 192;                ///< scan lines, 1 to 4096
 };
 
-/// The probes that ship: "curvilinear" (abdomen, 3.5 MHz) and "linear" (vessels and soft parts, 7.5 MHz).
+/// The probes that ship: "curvilinear" (abdomen, 3.5 MHz), "linear" (vessels and soft parts, 7.5 MHz) and "phased"
+/// (heart and between ribs, 2.5 MHz).
 const std::vector<Probe>& probes();
 const Probe* find_probe(std::string_view name);
+std::vector<std::string> probe_names();
+
+/// How far behind the face's middle the lines of a fan (curvilinear, phased) meet, mm; a phased array's outer lines
+/// leave at the face's edges.
+double apex_behind_mm(const Probe& probe);
+
+/// The face's edge on the marker's side, in the imaging plane (x lateral, y along the central beam), mm.
+glm::dvec2 face_edge(const Probe& probe);
 
 /// A line of sight: sample k sits at start + direction * r_k, r_k = r_min + (k + 1/2) dr. Probe frame, mm.
 struct ScanLine {
@@ -44,8 +59,9 @@ struct ScanLines {
   double dr_mm() const { return (r_max_mm - r_min_mm) / samples; }
 };
 
-/// The scan lines of a probe at a depth, from the edge opposite the marker (-x) to the marker's edge (+x), spread over
-/// the face at the middles of `probe.lines` equal parts.
+/// The scan lines of a probe at a depth, from the edge opposite the marker (-x) to the marker's edge (+x), at the
+/// middles of `probe.lines` equal parts of the face (linear) or of the field of view (curvilinear, phased).
+/// Each ends `depth_mm` along it from where it leaves the face.
 ScanLines scan_lines(const Probe& probe, double depth_mm, int samples);
 
 /// Where a point of the imaging plane (x lateral, y along the central beam, probe frame, mm) lies among the lines.

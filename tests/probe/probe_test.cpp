@@ -2,8 +2,31 @@
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <cmath>
 
 using namespace insonate;
+
+namespace {
+
+// The area of the fan, by integrating over its lines and depth: a curvilinear fan is a part of a ring; a phased line at
+// the angle a, `behind / cos a` from the apex to the face, sweeps (r + behind / cos a) da at the distance r.
+double fan_area_mm2(const Probe& probe, double depth_mm) {
+  const double angle = glm::radians(probe.field_of_view_deg);
+  switch (probe.kind) {
+    case ProbeKind::linear:
+      return probe.width_mm * depth_mm;
+    case ProbeKind::curvilinear:
+      return angle / 2 * depth_mm * (2 * probe.radius_mm + depth_mm);
+    case ProbeKind::phased:
+      const double behind = probe.width_mm / 2 / std::tan(angle / 2);
+      return angle / 2 * depth_mm * depth_mm + 2 * behind * depth_mm * std::asinh(std::tan(angle / 2));
+  }
+  return 0;
+}
+
+}  // namespace
 
 TEST_CASE("scan lines start on the face, point away from it, and run towards the marker") {
   for (const Probe& probe : probes()) {
@@ -11,25 +34,49 @@ TEST_CASE("scan lines start on the face, point away from it, and run towards the
     const ScanLines set = scan_lines(probe, 100, 256);
     REQUIRE(int(set.lines.size()) == probe.lines);
     CHECK(set.dr_mm() == Approx(100.0 / 256));
-    for (const ScanLine& line : set.lines) {
+    for (std::size_t i = 0; i < set.lines.size(); ++i) {
+      const ScanLine& line = set.lines[i];
       CHECK(glm::length(line.direction) == Approx(1));
       CHECK(line.direction.y > 0);
       CHECK(line.start.z == 0);
+      CHECK(std::abs(line.start.x) < face_edge(probe).x);
+      if (i > 0) CHECK(line.start.x > set.lines[i - 1].start.x);
       if (probe.kind == ProbeKind::curvilinear)
         CHECK(glm::distance(line.start, glm::dvec3(0, -probe.radius_mm, 0)) == Approx(probe.radius_mm));
       else
         CHECK(line.start.y == 0);
     }
-    CHECK(set.lines.front().start.x < 0);
-    CHECK(set.lines.back().start.x > 0);
     CHECK(set.lines.front().start.x == Approx(-set.lines.back().start.x));
+  }
+}
+
+TEST_CASE("the lines of a fan leave one point at equal angles, and their outer edges open the field of view") {
+  for (const char* name : {"curvilinear", "phased"}) {
+    Probe probe = *find_probe(name);
+    probe.field_of_view_deg = 80;
+    const ScanLines set = scan_lines(probe, 100, 16);
+    const double step = glm::radians(80.0) / probe.lines;
+    const auto angle = [](const ScanLine& line) { return std::atan2(line.direction.x, line.direction.y); };
+    INFO(name);
+    CHECK(angle(set.lines.front()) - step / 2 == Approx(glm::radians(-40.0)));
+    for (std::size_t i = 1; i < set.lines.size(); ++i)
+      CHECK(angle(set.lines[i]) - angle(set.lines[i - 1]) == Approx(step));
+
+    // Each line reaches back to where the first one crosses the middle.
+    const ScanLine& first = set.lines.front();
+    const glm::dvec3 apex = first.start - first.direction * (first.start.x / first.direction.x);
+    CHECK(apex.y < 0);
+    for (const ScanLine& line : set.lines) CHECK(glm::length(glm::cross(line.start - apex, line.direction)) < 1e-9);
+    // A line through the face's edge would leave the apex at half the field of view.
+    const glm::dvec2 edge = face_edge(probe) - glm::dvec2(apex);
+    CHECK(std::atan2(edge.x, edge.y) == Approx(glm::radians(40.0)));
   }
 }
 
 TEST_CASE("a point on a scan line is found among the lines where it lies") {
   for (const Probe& probe : probes()) {
     const ScanLines set = scan_lines(probe, 120, 64);
-    for (int i : {0, 1, probe.lines / 2, probe.lines - 1})
+    for (int i = 0; i < probe.lines; ++i)
       for (double r : {0.0, 0.5, 60.0, 120.0}) {
         const ScanLine& line = set.lines[std::size_t(i)];
         const glm::dvec3 p = line.start + r * line.direction;
@@ -51,6 +98,28 @@ TEST_CASE("outside the fan there is no line") {
   const Probe& linear = *find_probe("linear");
   CHECK_FALSE(line_position(linear, 50, {linear.width_mm / 2 + 0.1, 10}));
   CHECK(line_position(linear, 50, {linear.width_mm / 2 - 0.1, 10}));
+  const Probe& phased = *find_probe("phased");
+  CHECK_FALSE(line_position(phased, 160, {0, -0.1}));
+  CHECK_FALSE(line_position(phased, 160, {0, -25}));  // behind the apex
+  CHECK_FALSE(line_position(phased, 160, {10.1, 0}));
+  CHECK_FALSE(line_position(phased, 160, {20.1, 10}));
+  CHECK(line_position(phased, 160, {19.9, 10}));
+  CHECK(line_position(phased, 160, {-9.9, 0}));
+  CHECK_FALSE(line_position(phased, 160, {0, 160.1}));
+}
+
+TEST_CASE("the pixels inside the fan measure its area to 1 %") {
+  for (const Probe& probe : probes())
+    for (double depth_mm : {30.0, 160.0}) {
+      const ImageGeometry image = image_geometry(probe, depth_mm, 640, 480);
+      long inside = 0;
+      for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+          inside += line_position(probe, depth_mm, image.plane_mm(x, y)).has_value();
+      INFO(probe.name << " to " << depth_mm << " mm");
+      CHECK(double(inside) * image.mm_per_pixel * image.mm_per_pixel ==
+            Approx(fan_area_mm2(probe, depth_mm)).epsilon(0.01));
+    }
 }
 
 TEST_CASE("the picture shows the whole fan, centred, with square pixels") {
