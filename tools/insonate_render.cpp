@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <filesystem>
 #include <optional>
 #include <sstream>
 
@@ -13,18 +15,22 @@
 #include "sim/gl/upload.h"
 #include "sim/model/settings_file.h"
 #include "sim/reference/reference.h"
+#include "sim/volume/ct_reader.h"
 #include "tools/program.h"
 #include "tools/render_stages.h"
+#include "tools/render_sweep.h"
 #include "tools/subject.h"
 
 using namespace insonate;
 
 namespace {
 
-/// A pose file: 16 numbers, row-major patient_from_probe, as JSON (an array, or an object with the array under
+constexpr double kLinearPivot_mm = 30;  // its lines meet nowhere; as a hand rocks it
+
+/// A pose file: 16 numbers a pose, row-major patient_from_probe, as JSON (an array, or an object with the array under
 /// "patient_from_probe") or as plain text.
-Pose read_pose(const std::string& file) {
-  std::string text = read_file(file, 1u << 20);
+std::vector<Pose> read_poses(const std::string& file) {
+  std::string text = read_file(file, 1u << 24);
   std::vector<double> numbers;
   if (const auto json = nlohmann::json::parse(text, nullptr, false); !json.is_discarded()) {
     for (const auto& value : json.is_object() ? json.value("patient_from_probe", nlohmann::json::array()) : json)
@@ -34,14 +40,34 @@ Pose read_pose(const std::string& file) {
     for (double number; stream >> number;) numbers.push_back(number);
     if (!stream.eof()) numbers.clear();
   }
-  if (numbers.size() != 16)
+  std::vector<Pose> poses;
+  if (numbers.size() % 16 != 0) return poses;
+  for (std::size_t first = 0; first < numbers.size(); first += 16) {
+    glm::dmat4 matrix;
+    for (int i = 0; i < 16; ++i) matrix[i % 4][i / 4] = numbers[first + std::size_t(i)];
+    if (const auto why = why_not_rigid(matrix))
+      throw InputError(file, "", *why, "give a rotation and a translation in mm");
+    poses.push_back(pose_from_matrix(matrix));
+  }
+  return poses;
+}
+
+Pose read_pose(const std::string& file) {
+  const std::vector<Pose> poses = read_poses(file);
+  if (poses.size() != 1)
     throw InputError(file, "", "there are not 16 numbers",
                      "write the matrix patient_from_probe row by row, as text or JSON");
-  glm::dmat4 matrix;
-  for (int i = 0; i < 16; ++i) matrix[i % 4][i / 4] = numbers[std::size_t(i)];
-  if (const auto why = why_not_rigid(matrix))
-    throw InputError(file, "", *why, "give a rotation and a translation in mm");
-  return pose_from_matrix(matrix);
+  return poses.front();
+}
+
+/// The poses of a probe that was swept by hand.
+std::vector<Pose> read_sweep(const std::string& file) {
+  constexpr std::size_t kMostPlanes = 2048;
+  std::vector<Pose> poses = read_poses(file);
+  if (poses.size() < 2 || poses.size() > kMostPlanes)
+    throw InputError(file, "", "there are not 16 numbers for each of 2 to 2048 planes",
+                     "write each plane's matrix patient_from_probe row by row, in the order of the sweep");
+  return poses;
 }
 
 const ReferenceView& choose_view(const Case& subject, const std::string& path, const std::string& name) {
@@ -69,6 +95,19 @@ Rendered render(const std::string& file, const RenderedScene& scene) {
   return {simulator.read_stages(), gl::device_description()};
 }
 
+/// @param file  what the person who gave the CT calls it
+Volume<std::int16_t> render_volume(const std::string& file, const AcousticVolume& volume, const TissueTable& table,
+                                   const Sweep& sweep, const Settings& settings, double voxel_mm) {
+  constexpr int kLongestSide = 512;
+  const Grid grid = sweep_grid(sweep, voxel_mm);
+  if (std::max({grid.size.x, grid.size.y, grid.size.z}) > kLongestSide)
+    throw InputError("--voxel", "", "the volume would have more than 512 voxels along a side", "take larger voxels");
+  const gl::HeadlessContext context;
+  gl::Simulator simulator;
+  gl::upload_ct(file, volume.grid, [&] { simulator.set_volume(volume, table); });
+  return render_sweep(simulator, sweep, settings, grid);
+}
+
 Rendered render_by_reference(const RenderedScene& scene) {
   return {in_single_precision(simulate_reference(trilinear_field(scene.volume), scene.table, scene.probe,
                                                  scene.depth_mm, scene.settings, scene.patient_from_probe)),
@@ -78,9 +117,13 @@ Rendered render_by_reference(const RenderedScene& scene) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App arguments("Renders one ultrasound image of a patient to a PNG, without a window.", "insonate-render");
+  CLI::App arguments("Renders one ultrasound image of a patient to a PNG, or a sweep to a volume, without a window.",
+                     "insonate-render");
   std::string subject_path, view_name, pose_file, probe_name = "curvilinear", settings_file, stages_folder, out;
-  double depth_mm = 0;
+  std::string freehand_file;
+  double depth_mm = 0, sweep_deg = 0, voxel_mm = 1;
+  std::optional<double> pivot_mm;
+  int planes = 64;
   std::optional<double> gain_db;
   std::optional<int> width, height;
   bool by_reference = false;
@@ -95,11 +138,30 @@ int main(int argc, char** argv) {
   arguments.add_option("--gain", gain_db, "Gain, dB (the settings': 0)")->check(CLI::Range(-60.0, 60.0));
   arguments.add_option("--width", width, "Pixels (the settings': 640)")->check(CLI::Range(1, 8192));
   arguments.add_option("--height", height, "Pixels (the settings': 480)")->check(CLI::Range(1, 8192));
-  arguments.add_option(
+  CLI::Option* stages_option = arguments.add_option(
       "--stages", stages_folder,
       "A new folder for what crosses the stages: scanlines.json, and NRRD files that say what they hold");
-  arguments.add_flag("--reference", by_reference, "Compute by the double-precision reference, without OpenGL");
-  arguments.add_option("image", out, "The PNG to write; the probe's marker is on its left, as clinics show it")
+  CLI::Option* reference_flag =
+      arguments.add_flag("--reference", by_reference, "Compute by the double-precision reference, without OpenGL");
+  CLI::Option* sweep = arguments.add_option("--sweep", sweep_deg,
+                                            "Tilt the plane through so many degrees, as a 3D probe does, and write a "
+                                            "volume: an NRRD of grey levels in the patient's frame (LPS), -1 outside");
+  sweep->check(CLI::Range(1.0, 150.0));
+  CLI::Option* freehand = arguments.add_option("--freehand", freehand_file,
+                                               "The same of a file with the poses of a 2D probe in the order of a "
+                                               "sweep, 16 numbers each as in --pose");
+  arguments.add_option("--planes", planes, "Of --sweep")->check(CLI::Range(2, 2048))->capture_default_str();
+  arguments
+      .add_option("--pivot", pivot_mm,
+                  "How far behind the face the plane of --sweep turns, mm (where the lines meet; linear: 30)")
+      ->check(CLI::Range(0.0, 200.0));
+  arguments.add_option("--voxel", voxel_mm, "Of the volume, mm")->check(CLI::Range(0.1, 10.0))->capture_default_str();
+  for (CLI::Option* of_volume : {sweep, freehand})
+    for (CLI::Option* of_picture : {stages_option, reference_flag}) of_volume->excludes(of_picture);
+  freehand->excludes(sweep);
+  arguments
+      .add_option("image", out,
+                  "The PNG to write, with the probe's marker on its left, as clinics show it; for a sweep, the NRRD")
       ->required();
 
   return run_program(arguments, argc, argv, [&] {
@@ -108,9 +170,16 @@ int main(int argc, char** argv) {
       throw InputError("--probe", "", "there is no probe named '" + probe_name + "'",
                        suggest(probe_name, probe_names()));
     if (!stages_folder.empty()) refuse_taken(stages_folder);
+    const bool to_volume = *sweep || *freehand;
+    if (to_volume && std::filesystem::path(out).extension() != ".nrrd")
+      throw InputError(out, "", "a sweep is written as NRRD", "name a file that ends in .nrrd");
     const Case subject = open_subject(subject_path);
+    std::vector<Pose> by_hand;
+    if (*freehand) by_hand = read_sweep(freehand_file);
     Pose pose;
-    if (!pose_file.empty()) {
+    if (*freehand) {
+      pose = by_hand.front();
+    } else if (!pose_file.empty()) {
       pose = read_pose(pose_file);
     } else {
       const ReferenceView& view = choose_view(subject, subject_path, view_name);
@@ -127,6 +196,13 @@ int main(int argc, char** argv) {
 
     const TissueTable table = read_tissue_table(assets_folder() / "tissues.toml");
     const AcousticVolume volume = make_acoustic_volume(subject.ct, subject.labels, tissue_by_label(subject), table);
+    if (to_volume) {
+      const double pivot =
+          pivot_mm.value_or(probe->kind == ProbeKind::linear ? kLinearPivot_mm : apex_behind_mm(*probe));
+      const Sweep swept{*probe, depth_mm, *freehand ? by_hand : swept_planes(pose, planes, sweep_deg, pivot)};
+      write_ct(out, render_volume(subject_path, volume, table, swept, settings, voxel_mm));
+      return 0;
+    }
     const RenderedScene scene{volume, table, *probe, depth_mm, settings, pose};
     const auto [stages, made_by] = by_reference ? render_by_reference(scene) : render(subject_path, scene);
     if (!stages_folder.empty()) write_stages(stages_folder, scene, stages, made_by);

@@ -111,7 +111,7 @@ void Texture::read(GLenum layout, GLenum type, void* pixels, std::size_t bytes) 
 }
 
 void Texture::bind_image(GLuint unit, GLenum access) const {
-  glBindImageTexture(unit, object_.name(), 0, GL_FALSE, 0, access, format_);
+  glBindImageTexture(unit, object_.name(), 0, GL_TRUE, 0, access, format_);  // all slices of a 3D texture
 }
 
 Framebuffer::Framebuffer(const Texture& colour) : width_(colour.width()), height_(colour.height()) {

@@ -86,14 +86,6 @@ Image<double> smoothed(const Image<double>& image, const Image<std::uint8_t>& in
   return sum;
 }
 
-double time_gain(const Settings& settings, double depth_share) {
-  const double at = std::clamp(depth_share, 0.0, 1.0) * double(settings.tgc_db.size() - 1);
-  const std::size_t below = std::min(std::size_t(at), settings.tgc_db.size() - 2);
-  const double f = at - double(below);
-  const double db = (1 - f) * settings.tgc_db[below] + f * settings.tgc_db[below + 1] + settings.gain_db;
-  return std::pow(10.0, db / 10);
-}
-
 /// Of a share from 0 to 1 of the dynamic range.
 double grey_of(GreyMap map, double g) {
   switch (map) {
@@ -188,6 +180,20 @@ ReferenceScan traverse_reference(const MediumField& field, const TissueTable& ta
   return scan;
 }
 
+double time_gain(const Settings& settings, double depth_share) {
+  const double at = std::clamp(depth_share, 0.0, 1.0) * double(settings.tgc_db.size() - 1);
+  const std::size_t below = std::min(std::size_t(at), settings.tgc_db.size() - 2);
+  const double f = at - double(below);
+  const double db = (1 - f) * settings.tgc_db[below] + f * settings.tgc_db[below + 1] + settings.gain_db;
+  return std::pow(10.0, db / 10);
+}
+
+std::uint8_t grey_level(const Settings& settings, double echo, double level) {
+  if (echo <= 0) return 0;
+  const double grey = 1 + 10 * std::log10(echo / level) / settings.dynamic_range_db;
+  return std::uint8_t(std::lround(255 * grey_of(settings.grey_map, std::clamp(grey, 0.0, 1.0))));
+}
+
 Stages<double> simulate_reference(const MediumField& field, const TissueTable& table, const Probe& probe,
                                   double depth_mm, const Settings& settings, const Pose& patient_from_probe) {
   const ScanLines lines = scan_lines(probe, depth_mm, settings.samples);
@@ -274,9 +280,7 @@ Stages<double> simulate_reference(const MediumField& field, const TissueTable& t
   stages.grey = Image<std::uint8_t>(w, h);
   for (std::size_t i = 0; i < stages.fused.pixels.size(); ++i) {
     const double echo = stages.fused.pixels[i] * gain.pixels[i];
-    if (!stages.inside.pixels[i] || echo <= 0) continue;
-    const double grey = 1 + 10 * std::log10(echo / level) / settings.dynamic_range_db;  // (7)
-    stages.grey.pixels[i] = std::uint8_t(std::lround(255 * grey_of(settings.grey_map, std::clamp(grey, 0.0, 1.0))));
+    if (stages.inside.pixels[i]) stages.grey.pixels[i] = grey_level(settings, echo, level);
   }
   return stages;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 
 #include "sim/core/pose.h"
@@ -28,6 +29,12 @@ Medium with_gel(const Medium& medium, double r_mm, double gel_mm);
 
 /// The trilinear field of a volume, with air outside.
 MediumField trilinear_field(const AcousticVolume& volume);
+
+/// Gain and time gain at a share of the imaging depth, 0 to 1, as a factor on U.
+double time_gain(const Settings& settings, double depth_share);
+
+/// Log compression (7) and the grey map: 255 at `level`, 0 where `echo` is the dynamic range below it, or nothing.
+std::uint8_t grey_level(const Settings& settings, double echo, double level);
 
 /// Model S in double precision, as MODEL.md's formulas read, in plain loops: the measure of everything faster. Shares
 /// with the shaders the tissue table, the probes' geometry, the scatterers' bits and the beam's weights, and no code.

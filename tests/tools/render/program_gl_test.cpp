@@ -5,6 +5,9 @@
 #include <png.h>
 
 #include <algorithm>
+#include <array>
+#include <cstring>
+#include <sstream>
 #include <utility>
 
 #include "tests/tools/render/render_program.h"
@@ -50,6 +53,52 @@ std::vector<double> as_shown(Plane plane) {
     for (int x = 0; x < plane.width / 2; ++x) std::swap(plane.at(x, y), plane.at(plane.width - 1 - x, y));
   return plane.values;
 }
+
+// A volume as insonate-render writes it: shorts, in the patient's frame.
+struct GreyVolume {
+  std::array<int, 3> size{};
+  std::array<Vec3, 3> step{};  // from a voxel to the next along each axis, mm
+  Vec3 origin{};
+  std::vector<std::int16_t> voxels;
+
+  explicit GreyVolume(const fs::path& file) {
+    const std::string bytes = bytes_of(file);
+    const std::size_t end = bytes.find("\n\n");
+    REQUIRE(end != std::string::npos);
+    std::istringstream header(bytes.substr(0, end));
+    const auto vector = [](std::istream& from) {
+      char mark;
+      Vec3 v{};
+      from >> mark >> v[0] >> mark >> v[1] >> mark >> v[2] >> mark;
+      return v;
+    };
+    for (std::string line; std::getline(header, line);) {
+      std::istringstream value(line.substr(std::min(line.find(": ") + 2, line.size())));
+      if (line.starts_with("sizes:")) value >> size[0] >> size[1] >> size[2];
+      if (line.starts_with("space origin:")) origin = vector(value);
+      if (line.starts_with("space directions:"))
+        for (Vec3& axis : step) axis = vector(value);
+    }
+    CHECK(header.str().find("space: left-posterior-superior") != std::string::npos);
+    REQUIRE(bytes.size() - end - 2 == 2u * std::size_t(size[0]) * std::size_t(size[1]) * std::size_t(size[2]));
+    voxels.resize((bytes.size() - end - 2) / 2);
+    std::memcpy(voxels.data(), bytes.data() + end + 2, bytes.size() - end - 2);
+  }
+
+  /// The mean within 3 mm of a place.
+  double around(const Vec3& patient_mm) const {
+    double sum = 0, count = 0;
+    for (int k = 0; k < size[2]; ++k)
+      for (int j = 0; j < size[1]; ++j)
+        for (int i = 0; i < size[0]; ++i) {
+          const Vec3 away = origin + double(i) * step[0] + double(j) * step[1] + double(k) * step[2] - patient_mm;
+          if (dot(away, away) > 9) continue;
+          sum += voxels[std::size_t((k * size[1] + j) * size[0] + i)];
+          ++count;
+        }
+    return count > 0 ? sum / count : -1;
+  }
+};
 
 }  // namespace
 
@@ -113,4 +162,41 @@ TEST_CASE("the example of the library renders the picture that insonate-render r
   CHECK(*std::max_element(grey.begin(), grey.end()) > 100);
 
   CHECK(run(scene.folder, INSONATE_EXAMPLE_PROGRAM, scene.in("none.nrrd") + " " + scene.in("none.png")).code == 2);
+}
+
+TEST_CASE("a sweep becomes a volume in which the patient's parts lie where they are") {
+  const Scene scene;
+  std::string poses;
+  for (int plane = 0; plane < 8; ++plane)
+    poses += "1 0 0 0  0 1 0 9  0 0 1 " + std::to_string(2 * plane - 7) + "  0 0 0 1\n";
+  scene.folder.file("poses.txt", poses);
+  const std::string volume = scene.in("swept.nrrd");
+  for (const std::string& how :
+       {"--pose " + scene.in("pose.txt") + " --sweep 30 --planes 9", "--freehand " + scene.in("poses.txt")}) {
+    const Outcome outcome =
+        run(scene.folder, INSONATE_RENDER_PROGRAM,
+            "--ct " + scene.in("ct.nrrd") + " --probe phased --depth 60 --voxel 1.5 " + how + " " + volume);
+    INFO(how << ": " << outcome.errors);
+    REQUIRE(outcome.code == 0);
+    const GreyVolume swept(volume);
+    for (const double z : {-3.0, 3.0}) {
+      const double cyst = swept.around({12, 32, z}), tissue = swept.around({-12, 40, z});
+      CHECK(tissue > 60);
+      CHECK(cyst < tissue - 30);
+      CHECK(cyst >= 0);
+    }
+    CHECK(swept.around({0, 3, 0}) == -1);  // before the face
+    CHECK(swept.around({45, 20, 0}) == -1);
+
+    // The program's own reader of CTs takes it.
+    CHECK(run(scene.folder, INSONATE_RENDER_PROGRAM,
+              "--ct " + volume + " --pose " + scene.in("pose.txt") + " --settings " + scene.in("small.toml") + " " +
+                  scene.in("image.png"))
+              .code == 0);
+  }
+  const Outcome one_plane = run(scene.folder, INSONATE_RENDER_PROGRAM,
+                                "--ct " + scene.in("ct.nrrd") + " --freehand " + scene.in("pose.txt") + " " + volume);
+  CHECK(one_plane.code == 2);
+  CHECK(one_plane.errors.find("pose.txt: there are not 16 numbers for each of 2 to 2048 planes") != std::string::npos);
+  CHECK(scene.render("--sweep 30").errors.find("name a file that ends in .nrrd") != std::string::npos);
 }
