@@ -83,6 +83,13 @@ float incidence(float k, float along) {
   return abs(along) * inversesqrt(along * along + across * across + over * over);
 }
 
+// Complex amplitude of what scatters at a sample.
+vec2 scatterers_echo(float k, Medium here) {
+  vec2 echo = vec2(exp(here.echogenicity * (kLn10 / 1000.0)), 0.0);
+  if (SPECKLE == 1) echo = echo.x * scatterer(line.lattice_start.xyz + k * line.lattice_along.xyz);
+  return echo;
+}
+
 // The planes of the slice add up.
 void put(int plane, ivec2 at, vec4 value) {
 #if PLANES > 1
@@ -115,11 +122,8 @@ void walk(int plane, int index) {
       cosine = incidence(position, behind.hu - before.hu);
       ++normals;
     }
-    vec2 echo = vec2(exp(here.echogenicity * (kLn10 / 1000.0)), 0.0);
-    if (SPECKLE == 1) echo = echo.x * scatterer(line.lattice_start.xyz + position * line.lattice_along.xyz);
-
     float reflection = alpha * intensity * intensity * cosine;  // (3)
-    put(plane, ivec2(k, index), vec4(intensity, reflection, echo));
+    put(plane, ivec2(k, index), vec4(intensity, reflection, scatterers_echo(position, here)));
 
     log_intensity +=
         reflection_exponent * log_transmission(alpha, before.impedance, behind.impedance) - absorbed;  // (5)
@@ -129,7 +133,9 @@ void walk(int plane, int index) {
   }
   atomicAdd(samples_walked, uint(k));
   atomicAdd(normals_taken, normals);
-  for (; k < samples; ++k) put(plane, ivec2(k, index), vec4(0.0));
+  // What nothing is heard of still scatters in the apertures of the lines beside it.
+  for (; k < samples; ++k)
+    put(plane, ivec2(k, index), vec4(0.0, 0.0, scatterers_echo(float(k), medium(float(k)))));
 }
 
 void main() {
