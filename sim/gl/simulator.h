@@ -23,7 +23,8 @@ inline constexpr int kStageCount = 7;
 
 /// What the traversal did for the last picture.
 struct SampleCounts {
-  std::uint32_t walked = 0;   ///< samples evaluated, of planes x lines x samples: a line ends where it has lost its energy
+  std::uint32_t walked =
+      0;  ///< samples evaluated, of planes x lines x samples: a line ends where it has lost its energy
   std::uint32_t normals = 0;  ///< samples of these whose interface's normal was worked out
 };
 
