@@ -66,6 +66,7 @@ Table measure_frames(const Request& request) {
       probe.lines = c.lines;
       Settings settings = trainer_settings(probe.frequency_mhz, scene.depth_mm);
       settings.samples = c.samples;
+      settings.reflection_length_mm = 2 * scene.depth_mm / c.samples;  // two samples a length, as the trainer has
       settings.image_width = c.width;
       settings.image_height = c.height;
       simulator.set_probe(probe, scene.depth_mm);
