@@ -1,0 +1,91 @@
+// insonate-devices check: whether a recorded log is whole.
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "devices/log_report.h"
+#include "devices/sequence/probe_samples.h"
+#include "tools/devices_commands.h"
+
+namespace insonate::devices {
+namespace {
+
+nlohmann::ordered_json to_json(const std::string& log, const LogReport& report) {
+  nlohmann::ordered_json json = {{"log", log},
+                                 {"frames", report.frames},
+                                 {"usable_frames", report.usable},
+                                 {"begin_s", report.begin_s},
+                                 {"duration_s", report.duration_s},
+                                 {"rate_hz", report.rate_hz()},
+                                 {"jitter_ms", report.jitter_s * 1e3},
+                                 {"path_mm", report.path_mm}};
+  json["gaps"] = nlohmann::ordered_json::array();
+  for (const LogReport::Gap& gap : report.gaps)
+    json["gaps"].push_back({{"frame", gap.frame},
+                            {"time_s", gap.time_s},
+                            {"length_ms", gap.length_s * 1e3},
+                            {"missing_samples", gap.missing}});
+  json["dropouts"] = nlohmann::ordered_json::object();
+  for (const auto& [status, dropout] : report.dropouts)
+    json["dropouts"][std::string(to_string(status))] = {
+        {"frames", dropout.frames}, {"spells", dropout.spells}, {"longest_ms", dropout.longest_s * 1e3}};
+  json["jumps"] = nlohmann::ordered_json::array();
+  for (const LogReport::Jump& jump : report.jumps)
+    json["jumps"].push_back({{"frame", jump.frame}, {"time_s", jump.time_s}, {"mm", jump.mm}, {"deg", jump.deg}});
+  return json;
+}
+
+void print(const std::string& log, const LogReport& report) {
+  constexpr std::size_t kShown = 10;
+  std::printf("%s\n", log.c_str());
+  std::printf("  frames    %zu, %zu of them usable (%.1f %%)\n", report.frames, report.usable,
+              100.0 * double(report.usable) / double(report.frames));
+  std::printf("  duration  %.3f s from %.6f s on\n", report.duration_s, report.begin_s);
+  std::printf("  rate      %.2f Hz, jitter %.2f ms RMS\n", report.rate_hz(), report.jitter_s * 1e3);
+  std::printf("  path      %.0f mm\n", report.path_mm);
+  for (const auto& [status, dropout] : report.dropouts)
+    std::printf("  dropouts  %zu frames %s in %zu spells, the longest %.0f ms\n", dropout.frames,
+                std::string(to_string(status)).c_str(), dropout.spells, dropout.longest_s * 1e3);
+  std::printf("  gaps      %zu\n", report.gaps.size());
+  for (std::size_t i = 0; i < std::min(report.gaps.size(), kShown); ++i)
+    std::printf("            %.0f ms before frame %zu, room for %zu samples\n", report.gaps[i].length_s * 1e3,
+                report.gaps[i].frame, report.gaps[i].missing);
+  std::printf("  jumps     %zu\n", report.jumps.size());
+  for (std::size_t i = 0; i < std::min(report.jumps.size(), kShown); ++i)
+    std::printf("            %.0f mm and %.0f degrees at frame %zu\n", report.jumps[i].mm, report.jumps[i].deg,
+                report.jumps[i].frame);
+  if (std::max(report.gaps.size(), report.jumps.size()) > kShown)
+    std::printf("  of gaps and jumps the first %zu are shown; --json has all\n", kShown);
+}
+
+struct Request {
+  std::string log, transform;
+  bool json = false;
+};
+
+int check(const Request& request) {
+  const LogReport report = check_log(read_recorded_scan(request.log, request.transform).samples);
+  if (request.json)
+    std::printf("%s\n", to_json(request.log, report).dump(2).c_str());
+  else
+    print(request.log, report);
+  return 0;
+}
+
+}  // namespace
+
+Command check_command(CLI::App& program) {
+  const auto request = std::make_shared<Request>();
+  CLI::App* parser = program.add_subcommand("check", "Rate, gaps, dropouts and jumps of a recorded log");
+  parser->add_option("LOG", request->log, "A sequence file (.igs.mha or .seq.mha)")->required();
+  parser->add_option("--transform", request->transform,
+                     "The probe's transform, as ProbeToTracker; else the usual ones");
+  parser->add_flag("--json", request->json, "As JSON");
+  return {parser, [request] { return check(*request); }};
+}
+
+}  // namespace insonate::devices

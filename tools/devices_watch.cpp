@@ -1,0 +1,65 @@
+// insonate-devices watch: what a tracker says.
+
+#include <glm/gtc/quaternion.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "devices/registry.h"
+#include "tools/devices_commands.h"
+
+namespace insonate::devices {
+namespace {
+
+void print(const PoseSample& sample) {
+  std::printf("%.6f %-13s", sample.time_s, std::string(to_string(sample.status)).c_str());
+  if (sample.status == PoseStatus::ok) {
+    const glm::dvec3& p = sample.patient_from_probe.translation;
+    const glm::dquat q = glm::quat_cast(sample.patient_from_probe.rotation);
+    std::printf(" %9.3f %9.3f %9.3f mm  %8.5f %8.5f %8.5f %8.5f", p.x, p.y, p.z, q.w, q.x, q.y, q.z);
+  }
+  if (sample.buttons) std::printf("  buttons %x", unsigned(sample.buttons));
+  std::printf("\n");
+}
+
+int watch(const std::string& uri, double seconds) {
+  const auto tracker = open_tracker(uri);
+  const auto start = std::chrono::steady_clock::now();
+  std::vector<PoseSample> samples;
+  std::printf("time_s status x y z (probe's face in the patient, LPS) qw qx qy qz\n");
+  for (double now_s = 0;;) {
+    samples.clear();
+    tracker->poll(now_s, samples);
+    for (const PoseSample& sample : samples) print(sample);
+    std::fflush(stdout);
+    if (now_s >= seconds || tracker->state().condition == TrackerCondition::finished) break;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    now_s = std::min(seconds, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+  const TrackerState state = tracker->state();
+  std::fprintf(stderr, "%s: %s, %llu samples, %llu usable, %.1f Hz\n", state.name.c_str(),
+               std::string(to_string(state.condition)).c_str(), static_cast<unsigned long long>(state.delivered),
+               static_cast<unsigned long long>(state.usable), state.rate_hz);
+  return 0;
+}
+
+}  // namespace
+
+Command watch_command(CLI::App& program) {
+  struct Request {
+    std::string uri;
+    double seconds = 1e9;
+  };
+  const auto request = std::make_shared<Request>();
+  CLI::App* parser = program.add_subcommand("watch", "Print a tracker's samples as they come");
+  parser->add_option("URI", request->uri, "The tracker, as 'list' shows them")->required();
+  parser->add_option("--seconds", request->seconds, "Stop after so long")->check(CLI::PositiveNumber);
+  return {parser, [request] { return watch(request->uri, request->seconds); }};
+}
+
+}  // namespace insonate::devices
