@@ -2,18 +2,22 @@
 
 #include <imgui.h>
 
+#include <chrono>
 #include <cstdio>
 #include <optional>
+#include <thread>
 
 #include "app/panels/screen.h"
 #include "app/trainer.h"
+#include "devices/live/steady_clock.h"
 #include "scenarios/words.h"
 #include "sim/gl/headless_context.h"
 
 namespace insonate {
 namespace {
 
-/// The session's clock advances in steps as of a screen; scores do not depend on it.
+/// The session's clock advances in steps as of a screen; scores do not depend on it. Nobody waits for the time to pass,
+/// unless the tracker is live.
 constexpr double kStep_s = 1.0 / 30;
 /// How long a session without an exam runs when nobody says.
 constexpr double kFreeScan_s = 10;
@@ -55,6 +59,11 @@ private:
   gl::Framebuffer framebuffer_;
 };
 
+void sleep_until(double then_s) {
+  const double left_s = then_s - steady_now_s();
+  if (left_s > 0) std::this_thread::sleep_for(std::chrono::duration<double>(left_s));
+}
+
 void print_result(const ExamResult& result) {
   std::printf("%s: %s, %s %% (%.2f of %.2f points, %s %% are needed)\n", result.title.c_str(),
               result.passed ? "passed" : "not passed", percentage(result).c_str(), result.points,
@@ -78,9 +87,12 @@ int run_headless(const Options& options) {
   const Session& session = *trainer.session();
   const double end_s = options.seconds > 0 ? options.seconds : session.runner() ? 0 : kFreeScan_s;
   std::optional<Image<Rgba8>> held_screen;
+  const bool live = session.source().live();
+  const double start_s = live ? steady_now_s() : 0;
   for (long step = 0;; ++step) {
     const double now_s = double(step) * kStep_s;
-    trainer.update(now_s);
+    if (live) sleep_until(start_s + now_s);
+    trainer.update(live ? steady_now_s() : now_s);
     if (trainer.best_frame_due()) {
       const Image<Rgba8> now = screen.draw(trainer);
       if (!session.result()) held_screen = now;  // else the score sheet lies over it

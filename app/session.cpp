@@ -80,6 +80,11 @@ std::unique_ptr<Tracker> Session::open_fresh() const {
   return tracker;
 }
 
+void Session::restart_tracker() {
+  if (tracker_->live()) return;  // a device has no beginning, and opened twice it would be busy
+  tracker_ = open_fresh();
+}
+
 void Session::begin_attempt() {
   ++attempt_;
   runner_.reset();
@@ -95,7 +100,7 @@ void Session::start_over() {
   if (holder_ == Holder::learner)
     learner_ = std::make_unique<MouseTracker>(study_->surroundings.start);
   else
-    tracker_ = open_fresh();
+    restart_tracker();
   shown_pose_.reset();
   newest_pose_.reset();
   begin_attempt();
@@ -115,8 +120,7 @@ void Session::take_probe() {
 
 void Session::give_back_probe() {
   if (holder_ == Holder::tracker || only_learner_) return;
-  std::unique_ptr<Tracker> again = open_fresh();  // may throw: then the learner keeps the probe
-  tracker_ = std::move(again);
+  restart_tracker();  // may throw: then the learner keeps the probe
   holder_ = Holder::tracker;
   if (study_->scenario) activity_ = Activity::exam;
   begin_attempt();
@@ -137,7 +141,13 @@ void Session::take(const PoseSample& sample) {
 
 void Session::advance(double now_s) {
   now_s_ = now_s;
+  // A session that is made while the clock runs has not lost anything yet.
+  if (!std::exchange(advanced_, true)) last_usable_s_ = now_s;
   samples_.clear();
+  if (holder_ == Holder::learner && tracker_ && tracker_->live()) {
+    tracker_->poll(now_s, samples_);
+    samples_.clear();
+  }
   source().poll(now_s, samples_);
   for (const PoseSample& sample : samples_) take(sample);
   if (!console_.frozen) shown_pose_ = newest_pose_;

@@ -44,8 +44,8 @@ enum class Activity { exam, practice };
 /// An attempt at the exam is scored from one source only, from the first sample to the last. Who takes the probe out of
 /// a running exam practises from there on: nothing is scored, because what the tracker has found so far is not his own.
 /// An exam of the learner's own starts with the probe on the belly. Giving the probe back starts the exam, and a
-/// replayed log, from the beginning. Every sample of the source in charge is fed to the runner, in order, whatever the
-/// frame rate.
+/// replayed log, from the beginning; a live tracker just goes on, and what it said while the learner had the probe is
+/// past. Every sample of the source in charge is fed to the runner, in order, whatever the frame rate.
 class Session {
 public:
   using OpenTracker = std::function<std::unique_ptr<Tracker>()>;
@@ -55,7 +55,7 @@ public:
   /// and the tracker repeats itself: nobody could score such a log again.
   Session(std::shared_ptr<const Study> study, OpenTracker open);
 
-  /// Takes what has come from the source in charge up to `now_s`.
+  /// Takes what has come from the source in charge up to `now_s` (s, steady_now_s() when the tracker is live).
   void advance(double now_s);
 
   // The exam
@@ -101,6 +101,7 @@ public:
 
 private:
   std::unique_ptr<Tracker> open_fresh() const;
+  void restart_tracker();
   void begin_attempt();
   void take(const PoseSample& sample);
   Tracker& source();
@@ -120,6 +121,7 @@ private:
   std::optional<Pose> shown_pose_, newest_pose_;
   double now_s_ = 0;
   double last_usable_s_ = 0;
+  bool advanced_ = false;
   std::vector<PoseSample> samples_;
 };
 

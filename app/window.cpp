@@ -17,6 +17,7 @@
 #include "app/panels/screen.h"
 #include "app/state_file.h"
 #include "app/trainer.h"
+#include "devices/live/steady_clock.h"
 
 namespace insonate {
 namespace {
@@ -147,7 +148,7 @@ public:
     ImGui_ImplGlfw_InitForOpenGL(window, false);
     listen(window, events_);
     trainer_.open_from_options();
-    start_s_ = last_s_ = glfwGetTime();
+    start_s_ = last_s_ = steady_now_s();
   }
   ~Loop() { ImGui_ImplGlfw_Shutdown(); }
   Loop(const Loop&) = delete;
@@ -156,7 +157,7 @@ public:
   void run() {
     while (!glfwWindowShouldClose(window_)) {
       wait();
-      const double now_s = glfwGetTime();
+      const double now_s = steady_now_s();
       step(now_s);
       if (options_.seconds > 0 && now_s - start_s_ >= options_.seconds) break;
     }
@@ -170,8 +171,8 @@ public:
 
 private:
   void wait() {
-    const double since_s = glfwGetTime() - last_s_;
-    const bool lively = glfwGetTime() - changed_s_ < kLively_s;
+    const double since_s = steady_now_s() - last_s_;
+    const bool lively = steady_now_s() - changed_s_ < kLively_s;
     const double left_s = (lively ? kFrame_s : kIdle_s) - since_s;
     if (left_s > 0.0005 && !events_.any && !events_.keyboard.waiting() && !events_.mouse.waiting())
       glfwWaitEventsTimeout(left_s);
@@ -185,14 +186,14 @@ private:
     const bool moved = events_.keyboard.apply(trainer_, screen_, now_s - last_s_);
     const double previous_s = std::exchange(last_s_, now_s);
 
-    trainer_.update(now_s - start_s_);
+    trainer_.update(now_s);
     const long drawn_before = trainer_.pictures().drawn();
     draw();
     glfwSwapBuffers(window_);
     ++frames_;
     const bool changed = trainer_.pictures().drawn() != drawn_before;
     if (touched || moved || changed || trainer_.loading()) changed_s_ = now_s;
-    if (changed) governor_.see(glfwGetTime() - now_s);
+    if (changed) governor_.see(steady_now_s() - now_s);
     frame_s_ += 0.08 * (now_s - previous_s - frame_s_);
     screen_.set_frames_per_second(1 / frame_s_);
     if (trainer_.best_frame_due()) trainer_.keep_best_frame();

@@ -42,6 +42,8 @@ TrackerState Tracker::state() const {
   state.delivered = delivered_;
   state.usable = usable_;
   state.progress = progress();
+  state.problem = problem();
+  state.dropped = dropped();
 
   const std::uint64_t kept = std::min<std::uint64_t>(delivered_, recent_times_s_.size());
   if (kept >= 2) {

@@ -33,6 +33,8 @@ struct TrackerState {
   std::uint64_t delivered = 0;                   ///< samples handed over since the tracker was opened
   std::uint64_t usable = 0;                      ///< those of them whose status is ok
   std::optional<double> progress;                ///< from 0 to 1, for a tracker that has an end
+  std::string problem;        ///< what is wrong with the device now and what to do, as a sentence; empty for nothing
+  std::uint64_t dropped = 0;  ///< samples lost because nobody polled in time
 };
 
 /// A source of probe poses: a device, a log, a made-up hand.
@@ -47,8 +49,8 @@ public:
   Tracker(const Tracker&) = delete;
   Tracker& operator=(const Tracker&) = delete;
 
-  /// Appends the samples that have come up to `now_s` (s, any steady clock; the first call starts the tracker). A time
-  /// before that of the last call brings nothing.
+  /// Appends the samples that have come up to `now_s` (s, any steady clock, but steady_now_s() for a live tracker; the
+  /// first call starts the tracker). A time before that of the last call brings nothing.
   void poll(double now_s, std::vector<PoseSample>& samples);
 
   TrackerState state() const;
@@ -58,6 +60,9 @@ public:
 
   /// Whether samples come again that have come before, as of a log that begins anew at its end.
   virtual bool repeats() const { return false; }
+
+  /// Whether samples come in real time, as of a device: nobody can run ahead of it, and what was not polled is past.
+  virtual bool live() const { return false; }
 
   /// The tracker's own clock, which stamps its samples, at `now_s`: the time to ask a PoseHistory for. Meaningful from
   /// the first poll on.
@@ -71,6 +76,10 @@ protected:
 
   /// How much of what will ever come has come, from 0 to 1; 1 means finished. Empty where there is no end.
   virtual std::optional<double> progress() const { return std::nullopt; }
+
+  /// For TrackerState.
+  virtual std::string problem() const { return {}; }
+  virtual std::uint64_t dropped() const { return 0; }
 
 private:
   std::string name_;

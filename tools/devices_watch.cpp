@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "devices/live/steady_clock.h"
 #include "devices/registry.h"
 #include "tools/devices_commands.h"
 
@@ -29,22 +30,29 @@ void print(const PoseSample& sample) {
 
 int watch(const std::string& uri, double seconds) {
   const auto tracker = open_tracker(uri);
-  const auto start = std::chrono::steady_clock::now();
+  // Only a live tracker needs the true time; the others count from zero, exactly.
+  const double begin_s = steady_now_s(), start_s = tracker->live() ? begin_s : 0;
+  std::string problem;
   std::vector<PoseSample> samples;
   std::printf("time_s status x y z (probe's face in the patient, LPS) qw qx qy qz\n");
   for (double now_s = 0;;) {
     samples.clear();
-    tracker->poll(now_s, samples);
+    tracker->poll(start_s + now_s, samples);
     for (const PoseSample& sample : samples) print(sample);
     std::fflush(stdout);
+    if (std::string now = tracker->state().problem; now != problem) {
+      problem = std::move(now);
+      if (!problem.empty()) std::fprintf(stderr, "%s\n", problem.c_str());
+    }
     if (now_s >= seconds || tracker->state().condition == TrackerCondition::finished) break;
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    now_s = std::min(seconds, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    now_s = std::min(seconds, steady_now_s() - begin_s);
   }
   const TrackerState state = tracker->state();
-  std::fprintf(stderr, "%s: %s, %llu samples, %llu usable, %.1f Hz\n", state.name.c_str(),
+  std::fprintf(stderr, "%s: %s, %llu samples, %llu usable, %llu dropped, %.1f Hz\n", state.name.c_str(),
                std::string(to_string(state.condition)).c_str(), static_cast<unsigned long long>(state.delivered),
-               static_cast<unsigned long long>(state.usable), state.rate_hz);
+               static_cast<unsigned long long>(state.usable), static_cast<unsigned long long>(state.dropped),
+               state.rate_hz);
   return 0;
 }
 

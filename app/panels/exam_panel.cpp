@@ -40,7 +40,7 @@ void draw_tracker(const Theme& theme, const Rect& where, const Session& session)
     condition = "End of the recording";
     light = colour::kFaint;
   } else if (state.condition == TrackerCondition::waiting) {
-    condition = "Waiting for the first pose";
+    condition = state.problem.empty() ? "Waiting for the first pose" : "Waiting for the device";
     light = colour::kAmber;
   } else {
     condition = (session.lost_for_s() ? "Lost: " : "") + status_text(state.last_status);
@@ -56,8 +56,9 @@ void draw_tracker(const Theme& theme, const Rect& where, const Session& session)
   upper.take_left(theme.px(18));
   lower.take_left(theme.px(18));
   draw_text(upper, theme.strong, light == colour::kAmber ? colour::kAmber : colour::kText, condition);
+  const std::string& source = state.problem.empty() ? state.name : state.problem;
   draw_text(lower, theme.small_text, colour::kMuted,
-            session.holder() == Holder::learner ? "Mouse and keyboard; F1 shows the keys" : state.name);
+            session.holder() == Holder::learner ? "Mouse and keyboard; F1 shows the keys" : source);
 }
 
 void draw_hold(const Theme& theme, const Rect& where, const LiveExam& live) {

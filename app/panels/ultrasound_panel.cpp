@@ -1,5 +1,6 @@
 #include "app/panels/ultrasound_panel.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -99,6 +100,19 @@ void draw_banner(const Theme& theme, const Rect& panel, const Session& session) 
   draw_chip(theme, {panel.x + (panel.w - width) / 2, panel.y + panel.h - theme.px(46)}, background, ink, text);
 }
 
+// What is wrong with the tracker, at length; the tracker's own panel has room for its beginning.
+void draw_tracker_problem(const Theme& theme, const Rect& panel, const Session& session) {
+  const std::string problem = session.tracker_state().problem;
+  if (problem.empty()) return;
+  const float width = std::min(panel.w * 0.6f, theme.px(560)), margin = theme.px(12);
+  const ImVec2 text = theme.text->CalcTextSizeA(theme.text->FontSize, 3e38f, width - 2 * margin, problem.data(),
+                                                problem.data() + problem.size());
+  const float height = std::min(text.y + 2 * margin, panel.h * 0.5f);
+  const Rect plate{panel.x + (panel.w - width) / 2, panel.y + panel.h - theme.px(58) - height, width, height};
+  fill(plate, colour::kRaised, theme.px(4));
+  draw_paragraph(plate.inset(margin, margin), theme.text, colour::kText, problem);
+}
+
 void take_mouse(const Rect& area, Session& session, const PlaneOnScreen& plane) {
   ImGui::SetCursorScreenPos(area.min());
   ImGui::InvisibleButton("ultrasound", {area.w, area.h});
@@ -139,6 +153,7 @@ void UltrasoundPanel::draw(const Theme& theme, const Rect& panel, Session& sessi
   }
   draw_annotations(theme, panel, session);
   draw_banner(theme, panel, session);
+  draw_tracker_problem(theme, panel, session);
 }
 
 }  // namespace insonate::ui

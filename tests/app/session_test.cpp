@@ -146,6 +146,59 @@ TEST_CASE(
   }
 }
 
+namespace {
+
+/// A live tracker without its thread: hands over what the test puts into `coming`, and `coming` outlives it.
+class HandFed : public Tracker {
+public:
+  explicit HandFed(std::vector<PoseSample>& coming) : Tracker("a device"), coming_(coming) {}
+  bool live() const override { return true; }
+  double clock_s(double now_s) const override { return now_s; }
+
+protected:
+  void collect(double, std::vector<PoseSample>& samples) override {
+    samples.insert(samples.end(), coming_.begin(), coming_.end());
+    coming_.clear();
+  }
+
+private:
+  std::vector<PoseSample>& coming_;
+};
+
+}  // namespace
+
+TEST_CASE("a live tracker is opened once, and what it says while the learner has the probe is past") {
+  std::vector<PoseSample> coming;
+  int opened = 0;
+  Session session(tiny_study(), [&] {
+    ++opened;
+    return std::make_unique<HandFed>(coming);
+  });
+  const Pose first = turned(5, {1, 0, 0}, {1, 2, 3}), unseen = turned(50, {0, 1, 0}, {9, 9, 9});
+  session.advance(1000);
+  INFO("a session that begins while the clock runs has lost nothing yet");
+  CHECK_FALSE(session.lost_for_s());
+  coming = {sample_at(1000.1, first)};
+  session.advance(1000.2);
+  REQUIRE(session.shown_pose());
+  CHECK(*session.shown_pose() == first);
+  session.take_probe();
+  coming = {sample_at(1000.3, unseen)};
+  session.advance(1000.4);
+  CHECK(coming.empty());
+  CHECK_FALSE(*session.newest_pose() == unseen);
+  session.give_back_probe();
+  session.advance(1000.5);
+  CHECK_FALSE(*session.newest_pose() == unseen);
+  CHECK(session.tracker_state().delivered == 2);
+  session.start_over();
+  session.advance(1000.6);
+  CHECK_FALSE(session.newest_pose());
+  CHECK(session.activity() == Activity::exam);
+  CHECK(session.tracker_state().delivered == 2);
+  CHECK(opened == 1);
+}
+
 TEST_CASE("who takes the probe out of an exam practises, and giving it back starts exam and log over") {
   Session session(tiny_study(), replay(scan()));
   session.advance(0);

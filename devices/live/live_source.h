@@ -1,0 +1,45 @@
+#pragma once
+
+#include <chrono>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "sim/core/pose_sample.h"
+
+namespace insonate {
+
+/// A device cannot be used now, or no longer: what() is a sentence for people that says what to do ("The tracker is not
+/// plugged in.").
+class SourceGone : public std::runtime_error {
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/// What one read brought.
+struct LiveBatch {
+  std::vector<PoseSample> samples;  ///< time_s by steady_now_s(), taken as soon as the bytes were there
+  std::string note;                 ///< what people should know while the device is open, as a sentence; mostly empty
+};
+
+/// A device that gives poses in real time, as a LiveTracker's thread sees it: every call comes from that one thread.
+///
+/// A source that is gone is opened again, after a pause, for as long as the tracker lives; so a device that is plugged
+/// in late, pulled and plugged in again needs nothing more than to say that it is gone.
+class LiveSource {
+public:
+  virtual ~LiveSource() = default;
+
+  /// Looks for the device and starts it. Takes no longer than a read may: what needs longer goes on in read(). Throws
+  /// SourceGone when it is not there, busy or forbidden, and leaves nothing open then.
+  virtual void open() = 0;
+
+  /// Waits for samples, no longer than `timeout`, and appends to `batch` what came, which may be nothing. Equal or
+  /// falling times are the LiveTracker's to mend. Throws SourceGone when the device is lost.
+  virtual void read(std::chrono::milliseconds timeout, LiveBatch& batch) = 0;
+
+  /// Lets go of the device. Called after each open() that went well.
+  virtual void close() noexcept = 0;
+};
+
+}  // namespace insonate
