@@ -29,10 +29,16 @@ Defines traversal_of(const Settings& settings, double dr_mm) {
           {"PLANES", std::to_string(settings.slice_planes)}};
 }
 
-// What beam.comp is compiled for.
+bool reverberates(const Settings& settings) {
+  return settings.reverberation || settings.face_reflection > 0;
+}
+
+// What beam.comp is compiled for, and reverberation.comp.
 Defines beam_of(const Settings& settings) {
-  return {{"FOCUSED_BEAM", settings.focused_beam ? "1" : "0"},
-          {"REVERBERATION", settings.face_reflection > 0 ? "1" : "0"}};
+  return {{"FOCUSED_BEAM", settings.focused_beam ? "1" : "0"}, {"REVERBERATION", reverberates(settings) ? "1" : "0"}};
+}
+Defines reverberation_of(const Settings& settings) {
+  return {{"IN_TISSUE", settings.reverberation ? "1" : "0"}};
 }
 
 // What fuse.comp is compiled for.
@@ -121,6 +127,7 @@ struct Simulator::State {
   explicit State(const ShaderSources& shader_sources)
       : sources(shader_sources),
         traverse(sources, {"traverse.comp"}, traversal),
+        reverberation(sources, {"reverberation.comp"}, reverberation_of({})),
         beam(sources, {"beam.comp"}, beam_defines),
         scan_convert(sources, {"scan_convert.comp"}),
         smooth(sources, {"smooth.comp"}),
@@ -132,8 +139,9 @@ struct Simulator::State {
   ShaderSources sources;
   Defines traversal = traversal_of({}, 1);  // what `traverse` is compiled for
   Defines beam_defines = beam_of({});       // and `beam`
-  Defines fusion = fusion_of({});           // and `fuse`
-  Program traverse, beam, scan_convert, smooth, clutter, fuse, maximum, compress;
+  Defines reverberation_defines = reverberation_of({});
+  Defines fusion = fusion_of({});  // and `fuse`
+  Program traverse, reverberation, beam, scan_convert, smooth, clutter, fuse, maximum, compress;
 
   // What the user set.
   Probe probe;
@@ -155,7 +163,7 @@ struct Simulator::State {
   double noise_length_mm = 0;         // reflection length of the noise among the constants; 0 where there is none
 
   // What they write.
-  Texture scan, echoes, mean_echo, picture, half_smoothed, fused;
+  Texture scan, repeats, echoes, mean_echo, picture, half_smoothed, fused;
   Buffer maximum_buffer{sizeof(GLuint), nullptr};
   Buffer counters{sizeof(SampleCounts), nullptr};
   Texture image;
@@ -258,7 +266,6 @@ void Simulator::State::fill_parameters() {
   p.speckle = settings.speckle;
   p.beam_half = (settings.beam_lines - 1) / 2;
   p.face_reflection = float(settings.face_reflection);
-  p.repeats = kRepeats;
   p.two_way = settings.two_way;
   p.blend = float(settings.blend);
   p.clutter_share = float(clutter_share(settings));
@@ -286,6 +293,13 @@ void Simulator::State::prepare() {
     const Defines wanted = beam_of(settings);
     if (wanted != beam_defines) beam = Program(sources, {"beam.comp"}, wanted);
     beam_defines = wanted;
+    if (reverberates(settings)) {
+      if (const auto of = reverberation_of(settings); of != reverberation_defines) {
+        reverberation = Program(sources, {"reverberation.comp"}, of);
+        reverberation_defines = of;
+      }
+      repeats = Texture::make_2d(GL_R32F, lines.samples, int(lines.lines.size()), Filter::nearest);
+    }
     beam_window = window_of_four(beam_weights(settings));
     speckle_scale = storage(to_float(envelope_scale(lines, settings)));
     std::vector<glm::vec2> of_samples;
@@ -359,6 +373,12 @@ void Simulator::State::run(Stage stage) {
       traverse.dispatch(parameters.lines, 1);
       break;
     case Stage::beam:
+      if (reverberates(settings)) {
+        scan.bind(0);
+        repeats.bind_image(0, GL_READ_WRITE);
+        reverberation.dispatch(parameters.lines, 1);
+        repeats.bind(1);
+      }
       beam_window.bind_storage(0);
       speckle_scale.bind_storage(1);
       focused.bind_storage(2);
@@ -436,8 +456,8 @@ void Simulator::set_settings(const Settings& settings) {
     state_->layout_changed = true;
   if (!same(&Settings::speckle_seed)) state_->scatterers_changed = true;
   if (!same(&Settings::beam_window, &Settings::beam_lines, &Settings::focused_beam, &Settings::focus_mm,
-            &Settings::f_number, &Settings::frequency_mhz, &Settings::face_reflection, &Settings::speckle_cell_mm,
-            &Settings::slice_thickness_mm))
+            &Settings::f_number, &Settings::frequency_mhz, &Settings::reverberation, &Settings::face_reflection,
+            &Settings::speckle_cell_mm, &Settings::slice_thickness_mm))
     state_->beam_changed = true;
 
   using S = Settings;
@@ -445,8 +465,8 @@ void Simulator::set_settings(const Settings& settings) {
             &S::speckle_seed, &S::speckle_cell_mm, &S::slice_planes, &S::slice_thickness_mm, &S::image_width,
             &S::image_height, &S::skipping))
     state_->due_from(Stage::traverse);
-  else if (!same(&S::beam_window, &S::beam_lines, &S::focused_beam, &S::focus_mm, &S::f_number, &S::face_reflection,
-                 &S::clutter, &S::two_way))
+  else if (!same(&S::beam_window, &S::beam_lines, &S::focused_beam, &S::focus_mm, &S::f_number, &S::reverberation,
+                 &S::face_reflection, &S::clutter, &S::two_way))
     state_->due_from(Stage::beam);
   else if (!same(&S::reflection_sigma_mm, &S::transmission_sigma_mm))
     state_->due_from(Stage::smooth);
@@ -525,8 +545,8 @@ std::optional<std::string> Simulator::reload(const ShaderSources& sources) {
   State& s = *state_;
   std::string problems;
   s.sources = sources;
-  for (Program* program :
-       {&s.traverse, &s.beam, &s.scan_convert, &s.smooth, &s.clutter, &s.fuse, &s.maximum, &s.compress})
+  for (Program* program : {&s.traverse, &s.reverberation, &s.beam, &s.scan_convert, &s.smooth, &s.clutter, &s.fuse,
+                           &s.maximum, &s.compress})
     if (const auto problem = program->reload(sources)) problems += *problem;
   s.due_from(Stage::traverse);
   return problems.empty() ? std::nullopt : std::optional(problems);

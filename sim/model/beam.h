@@ -33,17 +33,6 @@ int focused_reach(double sigma_lines);
 /// @param sigma_lines  of the focused beam there
 std::vector<double> beam_weights_at(const Settings& settings, double sigma_lines);
 
-/// Reverberation between an interface and the probe's face: sound that has come back is reflected by the face, by a
-/// share rho, meets the interface again and returns from where n times its depth would be. Each trip is weakened as the
-/// first was, R, so that a line shows at r
-///
-///     V(r) = sum over n from 2 to kRepeats of rho^(n-1) R(r/n)^n
-///
-/// beside (6): U = (R + b T) S + V, because it is no scatterers' echo. R is that before the beam's width, at the sample
-/// that r/n lies in. Tissue's R to the second power cannot be seen; gas and bone show as the A-lines of lung ultrasound
-/// (Lichtenstein, Intensive Care Medicine 24, 1998; Baad et al., Radiographics 37, 2017: reverberation).
-inline constexpr int kRepeats = 4;
-
 /// A plane of lines beside the imaging plane, which sees its share of the sound.
 struct SlicePlane {
   double offset_mm;  ///< in elevation

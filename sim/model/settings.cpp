@@ -13,6 +13,7 @@ Settings paper_settings(double depth_mm, int samples) {
   settings.gel_mm = 0;
   settings.two_way = false;
   settings.focused_beam = false;
+  settings.reverberation = false;
   settings.face_reflection = 0;
   settings.clutter = settings.electronic_noise = false;
   settings.reference_level = ReferenceLevel::frame_maximum;

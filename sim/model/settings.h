@@ -48,8 +48,8 @@ struct Settings {
   int slice_planes = 1;           ///< planes that stand for the beam in elevation, odd, 1 (infinitely thin) to 31
   double slice_thickness_mm = 3;  ///< full width at half maximum in elevation, 0.1 to 20
 
-  double face_reflection = 0;  ///< of the sound that comes back, what the probe's face sends in again, see kRepeats; 0
-                               ///< (none) to 1
+  bool reverberation = false;  ///< between strong interfaces in the tissue, see reverberation.h
+  double face_reflection = 0;  ///< of the sound that comes back, what the probe's face sends in again, 0 (none) to 1
 
   // Speckle
   bool speckle = true;

@@ -116,6 +116,7 @@ const std::vector<Key>& keys() {
       number("f_number", &S::f_number, 0.5, 30),
       whole("slice_planes", &S::slice_planes, 1, 31, true),
       number("slice_thickness_mm", &S::slice_thickness_mm, 0.1, 20),
+      flag("reverberation", &S::reverberation),
       number("face_reflection", &S::face_reflection, 0, 1),
       flag("speckle", &S::speckle),
       whole("speckle_seed", &S::speckle_seed, 0u, std::numeric_limits<std::uint32_t>::max()),

@@ -11,6 +11,7 @@
 #include "sim/model/beam.h"
 #include "sim/model/noise.h"
 #include "sim/model/scatterers.h"
+#include "sim/reference/reverberation_reference.h"
 
 namespace insonate {
 namespace {
@@ -213,22 +214,26 @@ Stages<double> simulate_reference(const MediumField& field, const TissueTable& t
   stages.reflection_beam = Image<double>(n, d);
   stages.transmission = Image<double>(n, d);
   stages.speckle = Image<double>(n, d);
+  const Image<double> repeats = reverberation_reference(scan.intensity, scan.reflection, lines, settings);
+  Image<double> repeated(n, d);  // behind the beam
   const std::vector<double> sigma = focused_beam_sigma(lines, settings);
   const std::vector<double> scale = envelope_scale(lines, settings);
   for (int k = 0; k < d; ++k) {
     const std::vector<double> weights = beam_weights_at(settings, sigma[std::size_t(k)]);
     const int half = int(weights.size() / 2);
     for (int line = 0; line < n; ++line) {
-      double reflection = 0, total = 0;
+      double reflection = 0, repeat = 0, total = 0;
       std::complex<double> echo = 0;
       for (int j = -half; j <= half; ++j) {  // (4)
         if (line + j < 0 || line + j >= n) continue;
         const double weight = weights[std::size_t(j + half)];
         reflection += weight * scan.reflection.at(line + j, k);
+        repeat += weight * repeats.at(line + j, k);
         echo += weight * std::complex(scan.echo_re.at(line + j, k), scan.echo_im.at(line + j, k));
         total += weight;
       }
       stages.reflection_beam.at(line, k) = reflection / total;
+      repeated.at(line, k) = repeat / total;
       const double intensity = scan.intensity.at(line, k);
       stages.transmission.at(line, k) = settings.two_way ? intensity * intensity : intensity;
       stages.speckle.at(line, k) = std::abs(echo) / total * (settings.speckle ? scale[std::size_t(k)] : 1);
@@ -241,12 +246,6 @@ Stages<double> simulate_reference(const MediumField& field, const TissueTable& t
   const ImageGeometry geometry = image_geometry(probe, depth_mm, w, h);
   Image<double> reflection(w, h), transmission(w, h), speckle(w, h), beside(w, h), gain(w, h);
   stages.inside = Image<std::uint8_t>(w, h);
-  Image<double> repeated(n, d);  // by the face
-  for (int k = 0; k < d; ++k)
-    for (int line = 0; line < n; ++line)
-      for (int times = 2; times <= kRepeats; ++times)
-        repeated.at(line, k) += std::pow(settings.face_reflection, times - 1) *
-                                std::pow(stages.reflection.at(line, (2 * k + 1) / (2 * times)), times);
   Image<double> mean_echo(1, d);  // over the lines, for clutter
   for (int k = 0; k < d; ++k)
     for (int line = 0; line < n; ++line)

@@ -7,13 +7,14 @@ layout(local_size_x = 64) in;
 
 #include "shared/simulation_parameters.h"
 
-layout(binding = 0) uniform sampler2D scan;  // a row a line: I, R, scatterers' echo (re, im)
+layout(binding = 0) uniform sampler2D scan;     // a row a line: I, R, scatterers' echo (re, im)
+layout(binding = 1) uniform sampler2D repeats;  // a row a line: V before the window, with REVERBERATION
 layout(std430, binding = 0) readonly buffer Window { vec4 window[]; };  // of four lines, by place from the first's edge
 layout(std430, binding = 1) readonly buffer SpeckleScale { float envelope_scale[]; };  // a sample: mean envelope -> 1
 layout(std430, binding = 2) readonly buffer Focused { vec2 focused[]; };  // a sample: reach in lines, exponent
 layout(binding = 0, rgba32f) writeonly uniform image2D echoes;                         // a row a line: R, T, S, V
 
-vec4 reflection = vec4(0.0), re = vec4(0.0), im = vec4(0.0), total = vec4(0.0);
+vec4 reflection = vec4(0.0), re = vec4(0.0), im = vec4(0.0), repeated = vec4(0.0), total = vec4(0.0);
 
 // How much each of the four lines takes of line first + j. FOCUSED_BEAM: by a Gaussian instead of the window.
 int reach;
@@ -36,23 +37,11 @@ float add(int first, int j, int k) {
   reflection += weight * value.y;
   re += weight * value.z;
   im += weight * value.w;
+#if REVERBERATION == 1
+  repeated += weight * texelFetch(repeats, ivec2(k, clamp(at, 0, lines - 1)), 0).x;
+#endif
   total += weight;
   return value.x;
-}
-
-// Echoes that the face has sent in again.
-float repeated(int line, int k) {
-  float sum = 0.0;
-#if REVERBERATION == 1
-  float of_face = 1.0;
-  for (int n = 2; n <= repeats; ++n) {
-    of_face *= face_reflection;
-    float first = texelFetch(scan, ivec2((2 * k + 1) / (2 * n), min(line, lines - 1)), 0).y, share = of_face;
-    for (int i = 0; i < n; ++i) share *= first;
-    sum += share;
-  }
-#endif
-  return sum;
 }
 
 void main() {
@@ -71,9 +60,10 @@ void main() {
   for (int j = 4; j <= reach + 3; ++j) add(first, j, k);
 
   reflection /= total;
+  repeated /= total;
   vec4 transmission = two_way == 1 ? intensity * intensity : intensity;
   vec4 envelope = sqrt(re * re + im * im) / total * (speckle == 1 ? envelope_scale[k] : 1.0);
   for (int i = 0; i < 4; ++i)
     if (first + i < lines)
-      imageStore(echoes, ivec2(k, first + i), vec4(reflection[i], transmission[i], envelope[i], repeated(first + i, k)));
+      imageStore(echoes, ivec2(k, first + i), vec4(reflection[i], transmission[i], envelope[i], repeated[i]));
 }

@@ -156,6 +156,16 @@ TEST_CASE("GLSL agrees with the reference: a face that reflects everything over 
   check_parity(probe, 120, settings, test::on_the_skin(0, 9, 12));
 }
 
+TEST_CASE("GLSL agrees with the reference: reverberation between a rib's faces, gas and the skin") {
+  Probe probe = *find_probe("curvilinear");
+  probe.lines = 64;
+  Settings settings = small(trainer_settings(3.5, 120));
+  settings.reverberation = true;
+  settings.face_reflection = 0.3;
+  settings.gain_db = 20;
+  check_parity(probe, 120, settings, test::on_the_skin(0, 9, 12));
+}
+
 TEST_CASE("a frame without any echo is black, not NaN") {
   const gl::HeadlessContext context;
   AcousticVolume water;

@@ -10,6 +10,7 @@
 
 #include "sim/model/beam.h"
 #include "sim/model/noise.h"
+#include "sim/reference/reverberation_reference.h"
 #include "tests/accuracy/media.h"
 
 using namespace insonate;
@@ -263,6 +264,50 @@ TEST_CASE("speckle keeps its mean through a slice of several planes") {
   double mean = 0;
   for (double s : stages.speckle.pixels) mean += s / double(stages.speckle.pixels.size());
   CHECK(mean == Approx(1).margin(0.05));  // the correlation of planes turned against the lattice is known no better
+}
+
+TEST_CASE("a thin layer draws a tail behind it, an echo each time that sound has crossed it twice more") {
+  const TissueTable table{{{0, 1.0, 0, 0}, {1000, 11.0, 0, 0}}, {}};
+  const ScanLines lines = one_line(60, 600);
+  Settings settings = without_absorption(0.2);
+  settings.reverberation = true;
+  // Plates of 3 and 5 MRayl in 1 MRayl, at depths that samples meet in their middles; a strong one behind them.
+  const auto echoes = [&](double first_mm, double thick_mm, double hu, double absorption) {
+    TissueTable lossy = table;
+    for (TissueKnot& knot : lossy.knots) knot.absorption_db_cm_mhz = absorption;
+    settings.absorption = absorption > 0;
+    const ReferenceScan scan = traverse_reference(
+        [=](const glm::dvec3& p) {
+          return Medium{p.y > first_mm && p.y < first_mm + thick_mm ? hu : 0.0, 0};
+        },
+        lossy, lines, settings, {});
+    return std::pair(scan, reverberation_reference(scan.intensity, scan.reflection, lines, settings));
+  };
+  const auto area = [](const Image<double>& image, double depth_mm) {  // of what lies within 0.3 mm
+    double sum = 0;
+    for (int k = int((depth_mm - 0.3) / 0.1); k < int((depth_mm + 0.3) / 0.1); ++k) sum += image.at(0, k);
+    return sum;
+  };
+  const double alpha = plain_alpha(0, 400);  // there and back within the plate: alpha^2 a round
+  const auto [scan, tail] = echoes(20, 2, 400, 0);
+  const double first = area(scan.reflection, 22);
+  for (int n = 1; n <= 4; ++n)
+    // What is left out counts (kLeastRound/alpha^2)^2 a round, 3e-5.
+    CHECK(area(tail, 22 + 2 * n) == Approx(first * std::pow(alpha * alpha, n)).epsilon(1e-3));
+  CHECK(area(tail, 23) == 0);
+  CHECK(area(tail, 22) == 0);
+
+  // Sound that crosses a lossy plate: 1 dB/(cm MHz) at 3.5 MHz over 4 mm more in each round; but for the width of both
+  // echoes, l in all.
+  const auto [lossy_scan, lossy_tail] = echoes(20, 2, 400, 1);
+  const double loss = std::pow(10.0, -3.5 * 0.4 / 10);
+  CHECK(area(lossy_tail, 24) == Approx(area(lossy_scan.reflection, 22) * alpha * alpha * loss).epsilon(0.1));
+
+  // Weak plates ring, but nobody hears them; and the samples that show one interface do not ring with each other.
+  CHECK(area(echoes(20, 2, 20, 0).second, 24) == 0);
+  for (double echo : echoes(20, 100, 400, 0).second.pixels) CHECK(echo == 0);
+  settings.reverberation = false;
+  CHECK(area(echoes(20, 2, 400, 0).second, 24) == 0);
 }
 
 TEST_CASE("gas repeats at multiples of its depth, each time weaker by its echo and the face's reflection") {

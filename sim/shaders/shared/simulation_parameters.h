@@ -39,10 +39,10 @@ layout(std140, binding = 0) uniform SimulationParameters {
   int grey_map;       // as GreyMap
   float noise_level;  // mean of the electronic noise in units of U; 0 for none
 
-  float face_reflection;  // rho
-  int repeats;            // kRepeats, of sim/model/beam.h
-  int unused1;
-  int unused2;
+  float face_reflection;
+  float unused1;
+  float unused2;
+  float unused3;
 
   vec4 tgc_db[2];  // at 8 depths from the face to full depth
 #ifdef __cplusplus

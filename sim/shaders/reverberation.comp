@@ -1,0 +1,77 @@
+// Echoes of sound that goes to and fro between strong interfaces, and between them and the probe's face: the formula is
+// in sim/model/reverberation.h. An invocation takes a line: it lists the samples that reflect much, few as a rule, and
+// adds what each makes with those before it.
+
+layout(local_size_x = 8) in;
+
+#include "shared/simulation_parameters.h"
+
+layout(binding = 0) uniform sampler2D scan;        // a row a line: I, R, scatterers' echo (re, im)
+layout(binding = 0, r32f) uniform image2D repeats;  // a row a line: V
+
+const int kMostReflectors = 64, kMostRepeats = 16;  // as in sim/model/reverberation.h, with the next
+const float kLeastRound = 1e-3, kLeastReverberant = 1e-12;
+
+int line;
+float intensity(int k) { return texelFetch(scan, ivec2(clamp(k, 0, samples - 1), line), 0).x; }
+
+// A of a sample, and its R.
+vec2 reflected(int k) {
+  vec2 value = texelFetch(scan, ivec2(k, line), 0).xy;
+  return value.x > kLeastReverberant ? vec2(value.y / (value.x * value.x), value.y) : vec2(0.0);
+}
+
+// Adds `echo` between two samples.
+void add(float position, float echo) {
+  int low = int(floor(position));
+  float f = position - float(low);
+  if (low < samples) imageStore(repeats, ivec2(low, line), imageLoad(repeats, ivec2(low, line)) + (1.0 - f) * echo);
+  if (low + 1 < samples)
+    imageStore(repeats, ivec2(low + 1, line), imageLoad(repeats, ivec2(low + 1, line)) + f * echo);
+}
+
+// Sample k, which lies `apart` behind another reflector, with what a round between them leaves.
+void repeat(int k, float echo, float apart, float round_trip) {
+  float gain = max(round_trip - kLeastRound * kLeastRound / max(round_trip, kLeastRound), 0.0);
+  if (gain == 0.0) return;
+  float position = float(k) + apart;
+  for (int n = 0; n < kMostRepeats && position < float(samples); ++n, position += apart) {
+    echo *= gain;
+    add(position, echo);
+  }
+}
+
+void main() {
+  line = int(gl_GlobalInvocationID.x);
+  if (line >= lines) return;
+  for (int k = 0; k < samples; ++k) imageStore(repeats, ivec2(k, line), vec4(0.0));
+
+  float length_in_samples = 2.0 * half_reflection_length;
+  int near = max(int(ceil(length_in_samples - 1e-3)), 1);  // l in whole samples
+  float share = min(reflection_exponent, 1.0);
+  float strength[kMostReflectors], place[kMostReflectors], behind[kMostReflectors];
+  int count = 0;
+  for (int k = 0; k < samples && count < kMostReflectors; ++k) {
+    vec2 here = reflected(k);
+    if (here.x <= kLeastRound) continue;
+    float sum = 0.0, moment = 0.0;
+    for (int j = max(k - near + 1, 0); j <= min(k + near - 1, samples - 1); ++j) {
+      float other = reflected(j).x;
+      sum += other;
+      moment += other * float(j - k);
+    }
+    float c = float(k) + moment / sum, before = intensity(k - near + 1);
+    repeat(k, here.y, c + 0.5 + r_min_mm / dr_mm, face_reflection * here.x * before * before);
+#if IN_TISSUE == 1
+    for (int i = 0; i < count; ++i) {
+      float apart = c - place[i], between = min(before / behind[i], 1.0);
+      float separate = clamp(2.0 * apart / length_in_samples - 1.0, 0.0, 1.0);
+      repeat(k, here.y * share, apart, separate * strength[i] * here.x * between * between);
+    }
+    strength[count] = here.x;
+    place[count] = c;
+    behind[count] = max(intensity(k + near), 1e-30);
+#endif
+    ++count;
+  }
+}
