@@ -1,6 +1,7 @@
 #include "sim/gl/objects.h"
 
 #include <algorithm>
+#include <climits>
 #include <string>
 
 namespace insonate::gl {
@@ -49,9 +50,12 @@ void Buffer::clear() {
 }
 
 Texture Texture::make(GLenum target, GLenum format, int width, int height, int depth, Filter filter, Wrap wrap) {
-  GLint limit = 0;
+  GLint limit = 0, layers = INT_MAX;
   glGetIntegerv(target == GL_TEXTURE_3D ? GL_MAX_3D_TEXTURE_SIZE : GL_MAX_TEXTURE_SIZE, &limit);
-  if (std::max({width, height, depth}) > limit) throw TextureRefused(width, height, depth, limit);
+  if (target == GL_TEXTURE_2D_ARRAY) glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &layers);
+  if (std::max({width, height, target == GL_TEXTURE_2D_ARRAY ? 1 : depth}) > limit)
+    throw TextureRefused(width, height, depth, limit);
+  if (depth > layers) throw TextureRefused(width, height, depth, layers);
   Texture texture;
   GLuint name = 0;
   glCreateTextures(target, 1, &name);
@@ -61,7 +65,7 @@ Texture Texture::make(GLenum target, GLenum format, int width, int height, int d
   texture.height_ = height;
   texture.depth_ = depth;
   forget_errors();
-  if (target == GL_TEXTURE_3D)
+  if (target != GL_TEXTURE_2D)
     glTextureStorage3D(name, 1, format, width, height, depth);
   else
     glTextureStorage2D(name, 1, format, width, height);
@@ -83,6 +87,10 @@ Texture Texture::make_3d(GLenum format, int width, int height, int depth, Filter
   return make(GL_TEXTURE_3D, format, width, height, depth, filter, wrap);
 }
 
+Texture Texture::make_layers(GLenum format, int width, int height, int layers, Filter filter, Wrap wrap) {
+  return make(GL_TEXTURE_2D_ARRAY, format, width, height, layers, filter, wrap);
+}
+
 void Texture::set_border(float r, float g, float b, float a) {
   const float colour[] = {r, g, b, a};
   glTextureParameterfv(object_.name(), GL_TEXTURE_BORDER_COLOR, colour);
@@ -93,7 +101,7 @@ void Texture::write(GLenum layout, GLenum type, const void* pixels) {
   GLint target = 0;
   glGetTextureParameteriv(object_.name(), GL_TEXTURE_TARGET, &target);
   forget_errors();
-  if (GLenum(target) == GL_TEXTURE_3D)
+  if (GLenum(target) != GL_TEXTURE_2D)
     glTextureSubImage3D(object_.name(), 0, 0, 0, 0, width_, height_, depth_, layout, type, pixels);
   else
     glTextureSubImage2D(object_.name(), 0, 0, 0, width_, height_, layout, type, pixels);

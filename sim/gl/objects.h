@@ -75,7 +75,7 @@ enum class Filter { nearest, linear };
 /// What a texture gives outside [0, 1].
 enum class Wrap { edge, repeat, border };
 
-/// A 2D or 3D texture with one level and immutable storage.
+/// A 2D or 3D texture, or layers of 2D ones, with one level and immutable storage.
 class Texture {
 public:
   Texture() = default;
@@ -84,6 +84,7 @@ public:
   /// @param format  sized internal format, such as GL_RGBA32F
   static Texture make_2d(GLenum format, int width, int height, Filter filter, Wrap wrap = Wrap::edge);
   static Texture make_3d(GLenum format, int width, int height, int depth, Filter filter, Wrap wrap);
+  static Texture make_layers(GLenum format, int width, int height, int layers, Filter filter, Wrap wrap = Wrap::edge);
 
   /// The colour that Wrap::border gives outside.
   void set_border(float r, float g, float b, float a);

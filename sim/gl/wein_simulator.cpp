@@ -1,7 +1,8 @@
 #include "sim/gl/wein_simulator.h"
 
-#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
+#include <glm/vec4.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -16,140 +17,154 @@ namespace {
 
 // Of a chunk's scan lines: what a processor's second-level cache holds.
 constexpr std::size_t kChunkBytes = std::size_t(2) << 20;
-constexpr std::size_t kSampleBytes = 16;
+constexpr std::size_t kSampleBytes = 4;
 
-// As `Line` in wein_traverse.comp.
-struct GpuLine {
-  glm::vec4 start, along, direction;
-};
+// Below this no echo is left: with any compression it is less than half a step of what the scan holds.
+constexpr double kLeastIntensity = 1e-10;
 
-// Per row of a mask: the first pixel in it and the one behind the last; both 0 where there is none.
-Buffer rows_of(const Image<std::uint8_t>& mask) {
-  std::vector<glm::ivec2> rows(std::size_t(mask.height), glm::ivec2(0));
-  for (int y = 0; y < mask.height; ++y)
-    for (int x = 0; x < mask.width; ++x)
-      if (mask.at(x, y)) {
-        glm::ivec2& row = rows[std::size_t(y)];
-        if (row.y == 0) row.x = x;
-        row.y = x + 1;
-      }
-  return Buffer(rows.size() * sizeof(glm::ivec2), rows.data());
+constexpr std::size_t kGroup = 8;  // the shaders' local size
+
+// Pixels shared out to invocations, a column each; about 32 pixels a column, and no side above 16384.
+Texture shared_out(std::vector<glm::vec4> pixels, const glm::vec4& filler) {
+  if (pixels.empty()) return {};
+  const std::size_t groups = std::clamp<std::size_t>(pixels.size() / (32 * kGroup), 1, 512);
+  const std::size_t steps = (pixels.size() + groups * kGroup - 1) / (groups * kGroup);
+  pixels.resize(groups * kGroup * steps, filler);
+  std::vector<glm::vec4> table(pixels.size());  // an invocation's neighbours take a pixel's neighbours
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const std::size_t lane = i % kGroup, step = i / kGroup % steps, group = i / kGroup / steps;
+    table[step * groups * kGroup + group * kGroup + lane] = pixels[i];
+  }
+  Texture texture = Texture::make_2d(GL_RGBA32F, int(groups * kGroup), int(steps), Filter::nearest);
+  texture.write(GL_RGBA, GL_FLOAT, table.data());
+  return texture;
+}
+
+// What traverses lines; `tells`: the intensity too, which no picture needs.
+Program traverse_program(const ShaderSources& sources, bool tells) {
+  return Program(sources, {"wein_traverse.comp"}, tells ? Defines{{"INTENSITY", ""}} : Defines{});
 }
 
 }  // namespace
 
 struct WeinSimulator::State {
   State(const AcousticVolume& volume, const Probe& probe, double depth_mm, const WeinSettings& wanted,
-        const ShaderSources& sources);
+        const ShaderSources& given);
 
-  void begin(std::span<const Pose> chunk, std::size_t first);
+  void traverse(std::span<const Pose> chunk, std::size_t first, const Program& program);
   template <typename Work>
   void by_chunks(std::span<const Pose> poses, Work&& work);
-  void write_pixels(const std::vector<glm::vec2>& u_and_weight);
+  std::vector<glm::vec4> positions() const;
 
   WeinSettings settings;
+  ShaderSources sources;
   ScanLines lines;
   FanLayout fan;
   std::size_t chunk_images;
   glm::dmat4 texture_from_patient{1.0};
-  glm::dmat3 axes_from_patient{1.0};
   WeinParameters parameters{};
 
-  Program traverse, picture, rows, lc2;
-  Buffer parameter_buffer{sizeof(WeinParameters), nullptr};
-  Buffer line_buffer, fan_rows, counted_rows, similarities;
+  Program traverse_lines, picture, parts, lc2;
+  Buffer parameter_buffer{sizeof(WeinParameters), nullptr}, similarities;
   std::size_t similarities_held = 0;
-  Texture density, pixels, scan, sums, grid;
-  std::vector<GpuLine> placed;
+  Texture density, probe_lines, places, scan, fan_pixels, counted_pixels, sums, grid;
+  std::vector<glm::vec4> place_rows;
 };
 
 WeinSimulator::State::State(const AcousticVolume& volume, const Probe& probe, double depth_mm,
-                            const WeinSettings& wanted, const ShaderSources& sources)
+                            const WeinSettings& wanted, const ShaderSources& given)
     : settings(wanted),
+      sources(given),
       lines(scan_lines(probe, depth_mm, wanted.samples)),
       fan(probe, depth_mm, lines, wanted.image_width, wanted.image_height),
-      traverse(sources, {"wein_traverse.comp"}),
-      picture(sources, {"wein_picture.comp"}),
-      rows(sources, {"lc2_rows.comp"}),
-      lc2(sources, {"lc2.comp"}),
+      traverse_lines(traverse_program(given, false)),
+      picture(given, {"wein_picture.comp"}),
+      parts(given, {"lc2_parts.comp"}),
+      lc2(given, {"lc2.comp"}),
       density(density_volume(volume, wanted.reflection_length_mm)) {
-  const int n = int(lines.lines.size()), d = lines.samples, w = settings.image_width, h = settings.image_height;
+  const int n = int(lines.lines.size()), d = lines.samples;
+  const double dr = lines.dr_mm();
   const glm::dvec3 size(volume.grid.size);
   const glm::dmat4 index_from_patient = glm::inverse(volume.grid.matrix());
   for (int column = 0; column < 4; ++column)
     texture_from_patient[column] = index_from_patient[column] / glm::dvec4(size, 1);
   texture_from_patient[3] += glm::dvec4(0.5 / size, 0);  // voxel centres lie at (i + 1/2) / size
-  axes_from_patient = glm::inverse(volume.grid.direction);
 
-  GLint longest = 0;
-  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &longest);
-  chunk_images = std::clamp<std::size_t>(kChunkBytes / (std::size_t(n) * std::size_t(d) * kSampleBytes), 1,
-                                         std::size_t(std::max(longest / n, 1)));
-  const int scan_rows = n * int(chunk_images);
-  line_buffer = Buffer(std::size_t(scan_rows) * sizeof(GpuLine), nullptr);
-  scan = Texture::make_2d(GL_RGBA32F, d, scan_rows, Filter::nearest);
-  sums = Texture::make_2d(GL_RGBA32F, 3 * h, int(chunk_images), Filter::nearest);
-  pixels = Texture::make_2d(GL_RGBA32F, w, h, Filter::nearest);
-  fan_rows = rows_of(fan.inside);
-  write_pixels(std::vector<glm::vec2>(fan.inside.pixels.size(), glm::vec2(0)));
+  std::vector<glm::vec4> ways;
+  for (const ScanLine& line : lines.lines) {
+    ways.emplace_back(line.start + (lines.r_min_mm + dr / 2) * line.direction, 0);
+    ways.emplace_back(dr * line.direction, 0);
+  }
+  probe_lines = Texture::make_2d(GL_RGBA32F, 2, n, Filter::nearest);
+  probe_lines.write(GL_RGBA, GL_FLOAT, ways.data());
+
+  GLint most = 0;
+  glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &most);
+  chunk_images =
+      std::clamp<std::size_t>(kChunkBytes / (std::size_t(n) * std::size_t(d) * kSampleBytes), 1, std::size_t(most));
+  scan = Texture::make_layers(GL_RG16, d, n, int(chunk_images), Filter::linear);
+  places = Texture::make_2d(GL_RGBA32F, 3, int(chunk_images), Filter::nearest);
+  place_rows.resize(3 * chunk_images);
+
+  const int w = settings.image_width;
+  std::vector<glm::vec4> pixels = positions();
+  std::size_t inside = 0;
+  for (std::size_t i = 0; i < pixels.size(); ++i)
+    if (fan.inside.pixels[i]) pixels[inside++] = glm::vec4(pixels[i].x, pixels[i].y, int(i) % w, int(i) / w);
+  pixels.resize(inside);
+  if (inside > 0) fan_pixels = shared_out(pixels, pixels.back());
 
   WeinParameters& p = parameters;
   p.lines = n;
   p.samples = d;
   p.width = w;
-  p.height = h;
+  p.height = settings.image_height;
   p.columns = 1;
+  p.shadows = settings.shadows;
   // Sample k lies at (k + 1/2) dr behind r_min: the first one that is not nearer than the contact.
-  p.first_free_sample = float(std::ceil((settings.contact_mm - lines.r_min_mm) / lines.dr_mm() - 0.5));
-  p.dr_by_length = float(lines.dr_mm() / settings.reflection_length_mm);
+  p.first_free_sample = float(std::ceil((settings.contact_mm - lines.r_min_mm) / dr - 0.5));
+  p.dr_by_length = float(dr / settings.reflection_length_mm);
   p.compression = float(settings.compression);
   p.one_over_compressed_one = float(1 / std::log1p(settings.compression));
   p.dark_hu = float(settings.dark_hu);
   p.one_over_hu_range = float(1 / (settings.bright_hu - settings.dark_hu));
   p.reflection_share = float(settings.reflection_share);
-  p.shadows = settings.shadows;
+  p.last_log_intensity = settings.shadows ? float(std::log(kLeastIntensity)) : -INFINITY;
+  p.sides_by_dr = glm::vec4(size * volume.grid.spacing / dr, 0);
 }
 
-// Where each pixel lies among the lines, and what of the ultrasound image is there.
-void WeinSimulator::State::write_pixels(const std::vector<glm::vec2>& u_and_weight) {
-  std::vector<glm::vec4> texels;
-  for (std::size_t i = 0; i < u_and_weight.size(); ++i) texels.emplace_back(fan.line_and_sample[i], u_and_weight[i]);
-  pixels.write(GL_RGBA, GL_FLOAT, texels.data());
-  Image<std::uint8_t> counted = fan.inside;
-  for (std::size_t i = 0; i < texels.size(); ++i) counted.pixels[i] = texels[i].w > 0;
-  counted_rows = rows_of(counted);
+// Where each pixel lies in the scan's texture, in x and y.
+std::vector<glm::vec4> WeinSimulator::State::positions() const {
+  const glm::vec2 size(lines.samples, int(lines.lines.size()));
+  std::vector<glm::vec4> result;
+  for (const glm::vec2& at : fan.line_and_sample) result.emplace_back((glm::vec2(at.y, at.x) + 0.5f) / size, 0, 0);
+  return result;
 }
 
 // Places a chunk's lines and walks along them.
-void WeinSimulator::State::begin(std::span<const Pose> chunk, std::size_t first) {
-  const double dr = lines.dr_mm(), r0 = lines.r_min_mm + dr / 2;
-  placed.clear();
-  for (const Pose& pose : chunk) {
-    const glm::dmat4 texture_from_probe = texture_from_patient * pose.matrix();
-    const glm::dmat3 turn(texture_from_probe), axes_from_probe = axes_from_patient * pose.rotation;
-    const glm::dvec3 shift(texture_from_probe[3]);
-    for (const ScanLine& line : lines.lines)
-      placed.push_back({glm::vec4(turn * (line.start + r0 * line.direction) + shift, 0),
-                        glm::vec4(turn * (dr * line.direction), 0), glm::vec4(axes_from_probe * line.direction, 0)});
+void WeinSimulator::State::traverse(std::span<const Pose> chunk, std::size_t first, const Program& program) {
+  for (std::size_t i = 0; i < chunk.size(); ++i) {
+    const glm::dmat4 rows = glm::transpose(texture_from_patient * chunk[i].matrix());
+    for (int row = 0; row < 3; ++row) place_rows[3 * i + std::size_t(row)] = glm::vec4(rows[row]);
   }
-  line_buffer.write(placed.data(), placed.size() * sizeof(GpuLine));
+  places.write(GL_RGBA, GL_FLOAT, place_rows.data());
   parameters.images = int(chunk.size());
   parameters.first = int(first);
   parameter_buffer.write(&parameters, sizeof parameters);
   parameter_buffer.bind_uniform(0);
-  line_buffer.bind_storage(0);
   density.bind(0);
+  probe_lines.bind(1);
+  places.bind(2);
   scan.bind_image(0, GL_WRITE_ONLY);
-  traverse.dispatch(int(placed.size()), 1);
+  program.dispatch(parameters.lines, parameters.images);
 }
 
 template <typename Work>
 void WeinSimulator::State::by_chunks(std::span<const Pose> poses, Work&& work) {
   for (std::size_t first = 0; first < poses.size(); first += chunk_images) {
     const std::span<const Pose> chunk = poses.subspan(first, std::min(chunk_images, poses.size() - first));
-    begin(chunk, first);
+    traverse(chunk, first, traverse_lines);
     scan.bind(0);
-    pixels.bind(1);
     work(int(chunk.size()));
   }
 }
@@ -178,10 +193,11 @@ const Texture& WeinSimulator::simulate(std::span<const Pose> patient_from_probe)
   if (!fits) s.grid = Texture::make_2d(GL_R8, columns * w, rows * h, Filter::nearest);
   if (!fits || count < columns * rows) s.grid.clear();  // what no fan covers stays so
   s.parameters.columns = columns;
+  if (!s.fan_pixels) return s.grid;
   s.by_chunks(patient_from_probe, [&](int images) {
-    s.fan_rows.bind_storage(0);
+    s.fan_pixels.bind(1);
     s.grid.bind_image(0, GL_WRITE_ONLY);
-    s.picture.dispatch(images * h, 1);
+    s.picture.dispatch(s.fan_pixels.width(), images);
   });
   return s.grid;
 }
@@ -212,25 +228,29 @@ void WeinSimulator::set_ultrasound(const Image<float>& image) {
   for (std::size_t i = 0; i < fan.pixels.size(); ++i)
     if (counts(i)) squares += (image.pixels[i] - mean) * (image.pixels[i] - mean);
   const double scale = most > least ? 1 / std::sqrt(squares / count) : 0;  // of a flat image nothing is left
-  std::vector<glm::vec2> u_and_weight(fan.pixels.size(), glm::vec2(0));
-  for (std::size_t i = 0; i < fan.pixels.size(); ++i)
-    if (counts(i)) u_and_weight[i] = glm::vec2(float((image.pixels[i] - mean) * scale), 1);
-  s.write_pixels(u_and_weight);
+  std::vector<glm::vec4> pixels = s.positions();
+  std::size_t counted = 0;
+  for (std::size_t i = 0; i < pixels.size(); ++i)
+    if (counts(i)) pixels[counted++] = glm::vec4(pixels[i].x, pixels[i].y, (image.pixels[i] - mean) * scale, 1);
+  pixels.resize(counted);
+  s.counted_pixels = shared_out(pixels, glm::vec4(0));
+  if (counted > 0)
+    s.sums = Texture::make_2d(GL_RGBA32F, 3 * s.counted_pixels.width(), int(s.chunk_images), Filter::nearest);
 }
 
 std::vector<float> WeinSimulator::similarity(std::span<const Pose> patient_from_probe) {
   State& s = *state_;
   std::vector<float> result(patient_from_probe.size());
-  if (result.empty()) return result;
+  if (result.empty() || !s.counted_pixels) return result;
   const std::size_t bytes = result.size() * sizeof(float);
   if (s.similarities_held < result.size()) {
     s.similarities = Buffer(bytes, nullptr);
     s.similarities_held = result.size();
   }
   s.by_chunks(patient_from_probe, [&](int images) {
-    s.counted_rows.bind_storage(0);
+    s.counted_pixels.bind(1);
     s.sums.bind_image(0, GL_WRITE_ONLY);
-    s.rows.dispatch(images * s.settings.image_height, 1);
+    s.parts.dispatch(s.counted_pixels.width(), images);
     s.similarities.bind_storage(0);
     s.sums.bind(0);
     s.lc2.dispatch(images, 1);
@@ -243,16 +263,22 @@ WeinStages<float> WeinSimulator::read_stages(const Pose& patient_from_probe) {
   State& s = *state_;
   simulate({&patient_from_probe, 1});
   const int n = s.parameters.lines, d = s.parameters.samples;
-  std::vector<glm::vec4> values(std::size_t(s.scan.width()) * std::size_t(s.scan.height()));
-  s.scan.read(GL_RGBA, GL_FLOAT, values.data(), values.size() * sizeof(glm::vec4));
+  const Texture intensities = Texture::make_2d(GL_R32F, d, n, Filter::nearest);
+  intensities.bind_image(1, GL_WRITE_ONLY);
+  s.traverse({&patient_from_probe, 1}, 0, traverse_program(s.sources, true));
+  const std::size_t count = std::size_t(n) * std::size_t(d);
+  std::vector<glm::vec2> terms(count * s.chunk_images);
+  s.scan.read(GL_RG, GL_FLOAT, terms.data(), terms.size() * sizeof(glm::vec2));
+  std::vector<float> intensity(count);
+  intensities.read(GL_RED, GL_FLOAT, intensity.data(), count * sizeof(float));
   WeinStages<float> stages;
   stages.intensity = stages.scan_echogenicity = stages.scan_reflection = Image<float>(n, d);
   for (int line = 0; line < n; ++line)
     for (int k = 0; k < d; ++k) {
-      const glm::vec4& value = values[std::size_t(line) * std::size_t(d) + std::size_t(k)];
-      stages.scan_echogenicity.at(line, k) = value.x;
-      stages.scan_reflection.at(line, k) = value.y;
-      stages.intensity.at(line, k) = value.z;
+      const std::size_t i = std::size_t(line) * std::size_t(d) + std::size_t(k);
+      stages.scan_echogenicity.at(line, k) = terms[i].x;
+      stages.scan_reflection.at(line, k) = terms[i].y;
+      stages.intensity.at(line, k) = intensity[i];
     }
   stages.grey = Image<std::uint8_t>(s.settings.image_width, s.settings.image_height);
   s.grid.read(GL_RED, GL_UNSIGNED_BYTE, stages.grey.pixels.data(), stages.grey.pixels.size());

@@ -1,11 +1,11 @@
-// LC2 of an image: its rows' sums put together, then the share of the ultrasound image's variance that the two terms
+// LC2 of an image: its parts' sums put together, then the share of the ultrasound image's variance that the two terms
 // and a constant explain.
 
 layout(local_size_x = 8) in;
 
 #include "shared/wein_parameters.h"
 
-layout(binding = 0) uniform sampler2D sums;  // as lc2_rows.comp writes them
+layout(binding = 0) uniform sampler2D sums;  // as lc2_parts.comp writes them
 layout(std430, binding = 0) writeonly buffer Similarities { float similarity[]; };
 
 const float kLeastVariance = 1e-10;  // of a term: kLeastTermDeviation squared
@@ -15,17 +15,15 @@ void main() {
   if (image >= images) return;
   float count = 0.0;
   vec3 mean = vec3(0.0), squares = vec3(0.0), products = vec3(0.0);
-  for (int y = 0; y < height; ++y) {
-    vec4 row = texelFetch(sums, ivec2(3 * y, image), 0);
-    float both = count + row.w;
-    if (row.w > 0.0) {
-      vec3 apart = row.xyz - mean;
-      float weight = count * row.w / both;
-      squares += texelFetch(sums, ivec2(3 * y + 1, image), 0).xyz + weight * apart * apart;
-      products += texelFetch(sums, ivec2(3 * y + 2, image), 0).xyz + weight * apart * apart.yzx;
-      mean += apart * (row.w / both);
-      count = both;
-    }
+  int parts = textureSize(sums, 0).x / 3;
+  for (int i = 0; i < parts; ++i) {
+    vec4 part = texelFetch(sums, ivec2(3 * i, image), 0);
+    float both = max(count + part.w, 1.0), weight = count * part.w / both;
+    vec3 apart = part.xyz - mean;
+    squares += texelFetch(sums, ivec2(3 * i + 1, image), 0).xyz + weight * apart * apart;
+    products += texelFetch(sums, ivec2(3 * i + 2, image), 0).xyz + weight * apart * apart.yzx;
+    mean += apart * (part.w / both);
+    count += part.w;
   }
   float least = kLeastVariance * count;
   float uu = squares.x, ee = squares.y, rr = squares.z, ue = products.x, er = products.y, ru = products.z;

@@ -6,39 +6,52 @@ layout(local_size_x = 8) in;
 #include "shared/wein_parameters.h"
 
 layout(binding = 0) uniform sampler3D density;  // (HU, gradient along the CT's axes in eighths of HU) / 32767
-layout(binding = 0, rgba32f) writeonly uniform image2D scan;  // a row a line, image after image: E, R, I, 0
-
-// Worked out in double precision for each pose.
-struct Line {
-  vec4 start, along;  // in the texture: of sample 0, and to the next
-  vec4 direction;     // unit, along the CT's axes
-};
-layout(std430, binding = 0) readonly buffer ScanLines { Line scan_lines[]; };
+layout(binding = 1) uniform sampler2D probe_lines;  // a row a line, probe's frame, mm: sample 0, the way to the next
+layout(binding = 2) uniform sampler2D places;       // a row an image: the rows of texture_from_probe
+layout(binding = 0, rg16) writeonly uniform image2DArray scan;  // a layer an image, a row a line: E, R
+#ifdef INTENSITY
+layout(binding = 1, r32f) writeonly uniform image2D intensities;  // of the first image
+#endif
 
 const float kAirMu = 1.2;
 const float kContactAirHu = -300.0;
 const float kNothing = -1e6;  // the logarithm of what total reflection lets pass, in effect
 
+void tell(int k, int line, int image, float echogenicity, float reflection, float intensity) {
+  imageStore(scan, ivec3(k, line, image), vec4(echogenicity, reflection, 0.0, 0.0));
+#ifdef INTENSITY
+  imageStore(intensities, ivec2(k, line), vec4(intensity));
+#endif
+}
+
 void main() {
-  int index = int(gl_GlobalInvocationID.x);
-  if (index >= lines * images) return;
-  Line line = scan_lines[index];
+  int line = int(gl_GlobalInvocationID.x), image = int(gl_WorkGroupID.y);
+  if (line >= lines) return;
+  vec3 sample_0 = texelFetch(probe_lines, ivec2(0, line), 0).xyz, to_next = texelFetch(probe_lines, ivec2(1, line), 0).xyz;
+  vec4 x = texelFetch(places, ivec2(0, image), 0), y = texelFetch(places, ivec2(1, image), 0),
+       z = texelFetch(places, ivec2(2, image), 0);
+  vec3 start = vec3(dot(x.xyz, sample_0), dot(y.xyz, sample_0), dot(z.xyz, sample_0)) + vec3(x.w, y.w, z.w);
+  vec3 along = vec3(dot(x.xyz, to_next), dot(y.xyz, to_next), dot(z.xyz, to_next));
+  vec3 direction = along * sides_by_dr.xyz;  // unit, along the CT's axes
+
   float log_intensity = 0.0;
-  for (int k = 0; k < samples; ++k) {
-    vec4 here = textureLod(density, line.start.xyz + float(k) * line.along.xyz, 0.0) * 32767.0;
+  int k = 0;
+  for (; k < samples && log_intensity > last_log_intensity; ++k) {
+    vec4 here = textureLod(density, start + float(k) * along, 0.0) * 32767.0;
     bool contact = float(k) < first_free_sample;
     float hu = contact && here.x < kContactAirHu ? 0.0 : here.x;
     vec3 gradient = contact ? vec3(0.0) : here.yzw * 0.125;
     float squared = dot(gradient, gradient), steepness = sqrt(squared);
     float change = min(steepness / (2.0 * max(hu + 1000.0, kAirMu)), 1.0);
-    float cosine = abs(dot(line.direction.xyz, gradient)) / max(steepness, 1e-20);
+    float cosine = abs(dot(direction, gradient)) / max(steepness, 1e-20);
 
     float intensity = exp(log_intensity);
     float reflection = log(1.0 + compression * intensity * change * change * cosine) * one_over_compressed_one;
     float echogenicity = clamp((hu - dark_hu) * one_over_hu_range, 0.0, 1.0);
     if (shadows == 1) echogenicity *= intensity;
-    imageStore(scan, ivec2(k, index), vec4(echogenicity, reflection, intensity, 0.0));
+    tell(k, line, image, echogenicity, reflection, intensity);
 
     log_intensity += dr_by_length * (change < 1.0 ? log(1.0 - change * change) : kNothing / dr_by_length);
   }
+  for (; k < samples; ++k) tell(k, line, image, 0.0, 0.0, 0.0);
 }

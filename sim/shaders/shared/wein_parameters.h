@@ -2,7 +2,9 @@
 // std140: every group of four scalars below fills one 16-byte row.
 #ifdef __cplusplus
 #pragma once
+#include <glm/vec4.hpp>
 namespace insonate::gl {
+using glm::vec4;
 struct WeinParameters {
 #else
 layout(std140, binding = 0) uniform WeinParameters {
@@ -12,10 +14,10 @@ layout(std140, binding = 0) uniform WeinParameters {
   int width;    // of an image, pixels
   int height;
 
-  int images;      // of this chunk
-  int first;       // the chunk's first image among all
-  int columns;     // of images in the grid
-  int unused0;
+  int images;   // of this chunk
+  int first;    // the chunk's first image among all
+  int columns;  // of images in the grid
+  int shadows;  // 1: echogenicity is scaled by I
 
   float first_free_sample;  // those before lie in contact, where nothing reflects
   float dr_by_length;       // dr/l
@@ -25,7 +27,9 @@ layout(std140, binding = 0) uniform WeinParameters {
   float dark_hu;
   float one_over_hu_range;  // from dark to bright
   float reflection_share;
-  int shadows;  // 1: echogenicity is scaled by I
+  float last_log_intensity;  // ln I below which a line is left
+
+  vec4 sides_by_dr;  // of the volume, in sample distances
 #ifdef __cplusplus
 };
 }  // namespace insonate::gl
