@@ -4,8 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "devices/auto/best_source.h"
+#include "devices/hydra/hydra_tracker.h"
 #include "devices/mouse/mouse_tracker.h"
+#include "devices/osvr/osvr_tracker.h"
+#include "devices/polhemus/polhemus_tracker.h"
 #include "devices/replay/replay_tracker.h"
+#include "devices/spacemouse/spacemouse_tracker.h"
 #include "devices/synthetic/synthetic_tracker.h"
 #include "sim/core/input_error.h"
 #include "sim/core/suggest.h"
@@ -17,6 +22,13 @@ constexpr TrackerKind kKinds[] = {
     {"replay", "replay:FILE[?speed=2&loop=1&transform=ProbeToTracker]", "a recorded .igs.mha or .seq.mha file",
      open_replay},
     {"synthetic", "synthetic:[SEED][?rate=60]", "a made-up hand that scans the front of the abdomen", open_synthetic},
+    {"auto", "auto:", "the best of the following that is plugged in", open_best},
+    {"polhemus", "polhemus:[SERIAL][?sensor=1&distortion=20&raw=1]", "a Polhemus Patriot, Liberty HS or Viper",
+     open_polhemus},
+    {"hydra", "hydra:[SERIAL][?handset=2&raw=1]", "a Razer Hydra's handset", open_hydra},
+    {"osvr", "osvr:[SERIAL]", "an OSVR head tracker, which turns the probe on the spot", open_osvr},
+    {"spacemouse", "spacemouse:[SERIAL][?speed=1]", "a 3Dconnexion SpaceMouse, which moves the probe at a rate",
+     open_spacemouse},
     {"mouse", "mouse:", "the mouse and the keyboard, in the trainer's window", open_mouse},
 };
 

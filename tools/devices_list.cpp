@@ -4,10 +4,10 @@
 #include <memory>
 #include <string>
 
-#include "devices/hid/hid_devices.h"
+#include "devices/hid/hid_bus.h"
 #include "devices/known_trackers.h"
 #include "devices/registry.h"
-#include "devices/usb/usb_devices.h"
+#include "devices/usb/usb_bus.h"
 #include "tools/devices_commands.h"
 
 namespace insonate::devices {
@@ -35,7 +35,8 @@ int list(bool all) {
   for (const TrackerKind& kind : tracker_kinds())
     std::printf("  %-62s %s\n", std::string(kind.form).c_str(), std::string(kind.summary).c_str());
   std::printf("\nPlugged in:\n");
-  const int known = list_bus(Bus::hid, "HID", hid_devices(), all) + list_bus(Bus::usb, "USB", usb_devices(), all);
+  const int known =
+      list_bus(Bus::hid, "HID", HidBus().devices(), all) + list_bus(Bus::usb, "USB", UsbBus().devices(), all);
   if (known == 0) std::printf("  no tracker that is known here%s\n", all ? "" : " (--all lists every device)");
   return 0;
 }

@@ -10,9 +10,10 @@ namespace insonate {
 struct AttachedDevice {
   std::uint16_t vendor = 0;
   std::uint16_t product = 0;
-  std::string name;    ///< as the device calls itself; empty where only opening it would tell
-  std::string serial;  ///< likewise
-  std::string path;    ///< where the system has it: "/dev/hidraw2", "bus 1, address 4"
+  std::string name;           ///< as the device calls itself; empty where only opening it would tell
+  std::string serial;         ///< likewise
+  std::string path;           ///< where the system has it: "/dev/hidraw2", "bus 1, address 4"
+  int interface_number = -1;  ///< of a HID device's USB interface; -1 where there is none
 };
 
 /// The devices of one bus. Where the bus cannot be asked, `problem` says why and there are none.

@@ -1,0 +1,41 @@
+#include "devices/auto/best_source.h"
+
+#include <string>
+#include <utility>
+
+#include "devices/hydra/hydra_tracker.h"
+#include "devices/live/live_tracker.h"
+#include "devices/osvr/osvr_tracker.h"
+#include "devices/polhemus/polhemus_tracker.h"
+#include "devices/spacemouse/spacemouse_tracker.h"
+#include "devices/transport/transport.h"
+#include "sim/core/input_error.h"
+
+namespace insonate {
+
+void BestSource::open() {
+  std::string there_but_useless;
+  for (const auto& source : sources_) {
+    try {
+      source->open();
+      opened_ = source.get();
+      return;
+    } catch (const TransportError& error) {
+      if (error.fault() != TransportFault::absent && there_but_useless.empty()) there_but_useless = error.what();
+    }
+  }
+  throw SourceGone(there_but_useless.empty() ? "No tracker that is known here is plugged in." : there_but_useless);
+}
+
+std::unique_ptr<Tracker> open_best(const TrackerUri& uri, const TrackerContext& context) {
+  uri.allow_options({});
+  if (!uri.subject.empty())
+    throw InputError("tracker '" + uri.text + "'", "", "whatever is plugged in has no name to be given",
+                     "write just 'auto:', or name the kind of tracker");
+  std::vector<std::unique_ptr<LiveSource>> sources;
+  for (const auto make : {make_polhemus, make_hydra, make_osvr, make_spacemouse}) sources.push_back(make(uri, context));
+  return std::make_unique<LiveTracker>("the best tracker that is plugged in",
+                                       std::make_unique<BestSource>(std::move(sources)));
+}
+
+}  // namespace insonate

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <memory>
+
+#include "devices/live/device_source.h"
+#include "devices/live/placement.h"
+#include "devices/tracker.h"
+#include "devices/tracker_context.h"
+#include "devices/tracker_uri.h"
+
+namespace insonate {
+
+/// One handset of a Razer Hydra. The magnetic field has two sides that look the same: the handset must lie in its dock
+/// when the device is started, and one that comes close to the base later can come back mirrored.
+class HydraSource : public DeviceSource {
+public:
+  HydraSource(std::shared_ptr<DeviceBus> bus, const std::string& serial, std::size_t handset,
+              const Placement& placement, std::function<double()> clock_s = steady_now_s);
+
+protected:
+  void start(Transport& transport, const AttachedDevice& device) override;
+  void stop(Transport& transport) override;
+  bool take(Bytes bytes, double time_s, LiveBatch& batch, ReportTally& tally) override;
+
+private:
+  std::size_t handset_;  ///< 0 or 1
+  Placement placement_;
+  ReportNumbers numbers_{256};
+};
+
+/// hydra:[SERIAL][?handset=2&raw=1]. Throws InputError.
+std::unique_ptr<LiveSource> make_hydra(const TrackerUri& uri, const TrackerContext& context);
+std::unique_ptr<Tracker> open_hydra(const TrackerUri& uri, const TrackerContext& context);
+
+}  // namespace insonate

@@ -1,0 +1,112 @@
+#include "devices/live/device_source.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "devices/known_trackers.h"
+
+namespace insonate {
+namespace {
+
+/// More than any report: a HID's has 64 bytes, a Viper's largest frame 540.
+constexpr std::size_t kRoom = 4096;
+
+const DeviceKind::Model* model_of(const DeviceKind& kind, const AttachedDevice& device) {
+  for (const DeviceKind::Model& model : kind.models)
+    if (model.vendor == device.vendor && (model.product == kAnyProduct || model.product == device.product))
+      return &model;
+  return nullptr;
+}
+
+/// What people should know of a relative of the device that is plugged in but cannot be used yet.
+std::string waiting_relative(const DeviceKind& kind, const AttachedDevices& attached) {
+  for (const AttachedDevice& device : attached.devices) {
+    const bool relative = std::any_of(kind.models.begin(), kind.models.end(),
+                                      [&](const DeviceKind::Model& model) { return model.vendor == device.vendor; });
+    const KnownTracker* known = known_tracker(Bus::usb, device.vendor, device.product);
+    if (relative && known && !known->note.empty() && !model_of(kind, device))
+      return "The " + std::string(known->name) + " at " + device.path + " " + std::string(known->note) + ".";
+  }
+  return "";
+}
+
+}  // namespace
+
+AttachedDevice find_device(const DeviceKind& kind, const std::string& serial, const AttachedDevices& attached) {
+  const std::string name(kind.name);
+  std::string others;
+  for (const AttachedDevice& device : attached.devices) {
+    if (!model_of(kind, device)) continue;
+    const bool other_interface =
+        kind.interface_number >= 0 && device.interface_number >= 0 && device.interface_number != kind.interface_number;
+    if (other_interface) continue;
+    if (serial.empty() || device.serial == serial) return device;
+    others += (others.empty() ? "" : ", ") + (device.serial.empty() ? "one without a number" : device.serial);
+  }
+  std::string sentence = waiting_relative(kind, attached);
+  if (!others.empty())
+    sentence = "No " + name + " has the serial number " + serial + ": plugged in is " + others + ".";
+  else if (!attached.problem.empty())
+    sentence = "The " + name + " cannot be looked for: " + attached.problem + ".";
+  else if (sentence.empty())
+    sentence = "The " + name + " is not plugged in.";
+  throw TransportError(TransportFault::absent, sentence);
+}
+
+DeviceSource::DeviceSource(const DeviceKind& kind, std::shared_ptr<DeviceBus> bus, std::string serial,
+                           std::function<double()> clock_s)
+    : kind_(kind), bus_(std::move(bus)), serial_(std::move(serial)), clock_s_(std::move(clock_s)), buffer_(kRoom) {}
+
+void DeviceSource::open() {
+  device_ = find_device(kind_, serial_, bus_->devices());
+  std::unique_ptr<Transport> transport = bus_->open(device_, model_of(kind_, device_)->endpoints);
+  start(*transport, device_);
+  transport_ = std::move(transport);
+  asked_s_ = heard_s_ = clock_s_();
+  started_ = false;
+  starts_ = 1;
+  told_.clear();
+}
+
+void DeviceSource::read(std::chrono::milliseconds timeout, LiveBatch& batch) {
+  const std::size_t got = transport_->read(buffer_, timeout);
+  const double now_s = clock_s_();
+  if (take(Bytes(buffer_).first(got), now_s, batch, tally_)) {
+    started_ = true;
+    heard_s_ = now_s;
+  }
+  if (kind_.steady && now_s - std::max(asked_s_, heard_s_) >= kStartS) {
+    asked_s_ = now_s;
+    ++starts_;
+    start(*transport_, device_);
+  }
+  batch.note = note(now_s);
+}
+
+std::string DeviceSource::note(double now_s) {
+  const std::string name(kind_.name);
+  if (kind_.steady && now_s - heard_s_ >= kStartS)
+    return "The " + name + " is plugged in but sends no poses, and was started " + std::to_string(starts_) +
+           " times: unplug it and plug it in again.";
+  // Each change would be a new message, so the numbers are renewed only with the first incident after a pause.
+  if (started_ && tally_.incidents() != incidents_) {
+    if (told_.empty())
+      told_ = "Reports of the " + name + " were damaged or lost: " + tally_.incidents_in_words() + " so far.";
+    incident_s_ = now_s;
+  } else if (now_s - incident_s_ >= kToldS) {
+    told_.clear();
+  }
+  incidents_ = tally_.incidents();
+  return told_;
+}
+
+void DeviceSource::close() noexcept {
+  try {
+    stop(*transport_);
+  } catch (const std::exception&) {
+    // It is gone, or stays as it was: the next start finds out.
+  }
+  transport_.reset();
+}
+
+}  // namespace insonate

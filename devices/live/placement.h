@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+
+#include "sim/core/pose.h"
+
+namespace insonate {
+
+/// Brings a sensor's pose in its tracker's frame to the probe's in the patient, before anybody has calibrated: where
+/// the sensor first is, the probe is at its start, and the sensor's axes then are the probe's.
+class Placement {
+public:
+  /// `raw`: hand over the sensor's pose in the tracker's frame as it is, for who calibrates.
+  Placement(const Pose& start, bool raw) : start_(start), raw_(raw) {}
+
+  Pose patient_from_probe(const Pose& tracker_from_sensor) {
+    if (raw_) return tracker_from_sensor;
+    if (!patient_from_tracker_) patient_from_tracker_ = start_ * tracker_from_sensor.inverse();
+    return *patient_from_tracker_ * tracker_from_sensor;
+  }
+
+private:
+  Pose start_;
+  bool raw_;
+  std::optional<Pose> patient_from_tracker_;
+};
+
+}  // namespace insonate

@@ -1,0 +1,49 @@
+#include "devices/osvr/osvr_tracker.h"
+
+#include "devices/hid/hid_bus.h"
+#include "devices/live/live_tracker.h"
+
+namespace insonate {
+namespace {
+
+constexpr DeviceKind::Model kModels[] = {{0x1532, 0x0b00}, {0x03eb, 0x2421}};
+constexpr DeviceKind kKind{.name = "OSVR head tracker", .models = kModels};
+
+/// Half a turn about z: the sensor's x is right and its y up, the probe's x is to the marker, on the left, and its y
+/// down the beam.
+const glm::dquat kProbeFromSensor(0, 0, 0, 1);
+
+}  // namespace
+
+OsvrSource::OsvrSource(std::shared_ptr<DeviceBus> bus, const std::string& serial, const Pose& start,
+                       std::function<double()> clock_s)
+    : DeviceSource(kKind, std::move(bus), serial, std::move(clock_s)), start_(start) {}
+
+void OsvrSource::start(Transport&, const AttachedDevice&) {
+  numbers_.restart();
+}
+
+bool OsvrSource::take(Bytes bytes, double time_s, LiveBatch& batch, ReportTally& tally) {
+  if (bytes.empty()) return false;
+  const Parsed<OsvrReport> parsed = parse_osvr(bytes);
+  tally.count(parsed.fault);
+  if (parsed.fault != ReportFault::none) return false;
+  if (!numbers_.is_news(parsed.report.sequence, tally)) return true;
+  if (!sensor_from_world_) sensor_from_world_ = glm::conjugate(parsed.report.world_from_sensor);
+  const glm::dquat turned =
+      kProbeFromSensor * *sensor_from_world_ * parsed.report.world_from_sensor * glm::conjugate(kProbeFromSensor);
+  batch.samples.push_back(
+      {time_s, PoseStatus::ok, {start_.rotation * glm::mat3_cast(glm::normalize(turned)), start_.translation}, 0});
+  return true;
+}
+
+std::unique_ptr<LiveSource> make_osvr(const TrackerUri& uri, const TrackerContext& context) {
+  uri.allow_options({});
+  return std::make_unique<OsvrSource>(std::make_shared<HidBus>(), uri.subject, context.start);
+}
+
+std::unique_ptr<Tracker> open_osvr(const TrackerUri& uri, const TrackerContext& context) {
+  return std::make_unique<LiveTracker>("OSVR head tracker", make_osvr(uri, context));
+}
+
+}  // namespace insonate

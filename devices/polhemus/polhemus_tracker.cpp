@@ -1,0 +1,84 @@
+#include "devices/polhemus/polhemus_tracker.h"
+
+#include <string_view>
+
+#include "devices/live/live_tracker.h"
+#include "devices/live/probe_buttons.h"
+#include "devices/usb/usb_bus.h"
+
+namespace insonate {
+namespace {
+
+constexpr std::uint16_t kVendor = 0x0f44, kViper = 0xbf01;
+constexpr DeviceKind::Model kModels[] = {
+    {kVendor, 0xef12, {0x02, 0x82}},  // Patriot
+    {kVendor, 0xef20, {0x04, 0x88}},  // Patriot HS
+    {kVendor, 0xff20, {0x04, 0x88}},  // Liberty HS
+    {kVendor, kViper, {0x02, 0x81}},  // Viper
+};
+constexpr DeviceKind kKind{.name = "Polhemus tracker", .models = kModels};
+
+void send(Transport& transport, std::string_view text) {
+  transport.send({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}
+
+}  // namespace
+
+PolhemusSource::PolhemusSource(std::shared_ptr<DeviceBus> bus, const std::string& serial, const Options& options,
+                               const Placement& placement, std::function<double()> clock_s)
+    : DeviceSource(kKind, std::move(bus), serial, std::move(clock_s)), options_(options), placement_(placement) {}
+
+void PolhemusSource::start(Transport& transport, const AttachedDevice& device) {
+  viper_ = device.product == kViper;
+  if (viper_) {
+    constexpr std::uint32_t kCentimetres = 2, kQuaternions = 2;
+    transport.send(viper::command(viper::kUnits, viper::kSet, {kCentimetres, kQuaternions}));
+    transport.send(viper::command(viper::kContinuous, viper::kSet));
+  } else {
+    // Stop what runs; binary, centimetres; header, time, frame, distortion, place and quaternion; no waiting for full
+    // USB buffers; then without end.
+    for (const char* command : {"P\r", "F1\r", "U1\r", "O*,8,9,11,3,7\r", "@B0\r", "C\r"}) send(transport, command);
+  }
+  stream_.restart();
+  numbers_.restart();
+}
+
+void PolhemusSource::stop(Transport& transport) {
+  if (viper_)
+    transport.send(viper::command(viper::kContinuous, viper::kReset));
+  else
+    send(transport, "P\r");
+}
+
+bool PolhemusSource::take(Bytes bytes, double time_s, LiveBatch& batch, ReportTally& tally) {
+  records_.clear();
+  const std::uint64_t corrupt = stream_.corrupt();
+  stream_.add(bytes, records_);
+  tally.corrupt += stream_.corrupt() - corrupt;
+  tally.taken += records_.size();
+  for (const PolhemusRecord& record : records_) {
+    const SensorReading& reading = record.reading;
+    if (reading.sensor != options_.sensor || !numbers_.is_news(record.frame, tally)) continue;
+    PoseSample sample{time_s, reading.status, {}, probe_buttons(ButtonsOf::polhemus, reading.buttons)};
+    if (reading.distortion > options_.most_distortion) sample.status = PoseStatus::invalid;
+    if (sample.status == PoseStatus::ok)
+      sample.patient_from_probe = placement_.patient_from_probe(reading.tracker_from_sensor);
+    batch.samples.push_back(sample);
+  }
+  return !records_.empty();
+}
+
+std::unique_ptr<LiveSource> make_polhemus(const TrackerUri& uri, const TrackerContext& context) {
+  uri.allow_options({"sensor", "distortion", "raw"});
+  PolhemusSource::Options options;
+  options.sensor = std::uint32_t(uri.number("sensor", 1, 1, 16)) - 1;
+  if (uri.options.contains("distortion")) options.most_distortion = std::uint32_t(uri.number("distortion", 0, 0, 1e6));
+  return std::make_unique<PolhemusSource>(std::make_shared<UsbBus>(), uri.subject, options,
+                                          Placement(context.start, uri.flag("raw", false)));
+}
+
+std::unique_ptr<Tracker> open_polhemus(const TrackerUri& uri, const TrackerContext& context) {
+  return std::make_unique<LiveTracker>("Polhemus tracker", make_polhemus(uri, context));
+}
+
+}  // namespace insonate

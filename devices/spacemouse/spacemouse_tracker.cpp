@@ -1,0 +1,81 @@
+#include "devices/spacemouse/spacemouse_tracker.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+
+#include "devices/hid/hid_bus.h"
+#include "devices/known_trackers.h"
+#include "devices/live/live_tracker.h"
+#include "devices/live/probe_buttons.h"
+#include "devices/spacemouse/spacemouse_report.h"
+
+namespace insonate {
+namespace {
+
+constexpr DeviceKind::Model kModels[] = {{0x046d, 0xc626}, {0x256f, kAnyProduct}};
+constexpr DeviceKind kKind{.name = "SpaceMouse", .models = kModels, .steady = false};
+
+/// The cap's axes (right, to the user, down) in the probe's frame (marker, beam, elevation).
+glm::dvec3 probe_from_cap(const glm::dvec3& cap) {
+  return {-cap.x, cap.z, cap.y};
+}
+
+}  // namespace
+
+SpaceMouseSource::SpaceMouseSource(std::shared_ptr<DeviceBus> bus, const std::string& serial, const Pose& start,
+                                   double speed, std::function<double()> clock_s)
+    : DeviceSource(kKind, std::move(bus), serial, std::move(clock_s)),
+      speed_(speed),
+      rotation_(glm::normalize(glm::quat_cast(start.rotation))),
+      translation_(start.translation) {}
+
+void SpaceMouseSource::start(Transport&, const AttachedDevice&) {
+  push_ = turn_ = glm::dvec3(0);
+  buttons_ = 0;
+  now_s_ = 0;
+}
+
+void SpaceMouseSource::move(double elapsed_s) {
+  translation_ += rotation_ * (push_ * speed_ * kMmPerS * elapsed_s);
+  const glm::dvec3 turn = turn_ * speed_ * kRadPerS * elapsed_s;
+  if (const double angle = glm::length(turn); angle > 0)
+    rotation_ = glm::normalize(rotation_ * glm::angleAxis(angle, turn / angle));
+}
+
+bool SpaceMouseSource::take(Bytes bytes, double time_s, LiveBatch& batch, ReportTally& tally) {
+  // What the cap did until now, it did at the rate that it told last, but not after it fell silent.
+  if (now_s_ > 0) move(std::clamp(std::min(time_s, told_s_ + kLetGoS) - now_s_, 0.0, kLetGoS));
+  now_s_ = time_s;
+  bool understood = false;
+  if (!bytes.empty()) {
+    const Parsed<SpaceMouseReport> parsed = parse_spacemouse(bytes);
+    // Reports of the battery and the like are no incident.
+    if (parsed.fault != ReportFault::header) tally.count(parsed.fault);
+    understood = parsed.fault == ReportFault::none;
+    if (understood) {
+      const SpaceMouseReport& report = parsed.report;
+      if (report.push) push_ = probe_from_cap(*report.push);
+      if (report.turn) turn_ = probe_from_cap(*report.turn);
+      if (report.push || report.turn) told_s_ = time_s;
+      if (report.buttons) buttons_ = *report.buttons;
+    }
+  }
+  batch.samples.push_back({time_s,
+                           PoseStatus::ok,
+                           {glm::mat3_cast(rotation_), translation_},
+                           probe_buttons(ButtonsOf::spacemouse, buttons_)});
+  return understood;
+}
+
+std::unique_ptr<LiveSource> make_spacemouse(const TrackerUri& uri, const TrackerContext& context) {
+  uri.allow_options({"speed"});
+  return std::make_unique<SpaceMouseSource>(std::make_shared<HidBus>(), uri.subject, context.start,
+                                            uri.number("speed", 1, 0.1, 10));
+}
+
+std::unique_ptr<Tracker> open_spacemouse(const TrackerUri& uri, const TrackerContext& context) {
+  return std::make_unique<LiveTracker>("SpaceMouse", make_spacemouse(uri, context));
+}
+
+}  // namespace insonate
