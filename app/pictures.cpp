@@ -61,7 +61,7 @@ void Pictures::update(const Session& session, const PictureSizes& sizes, double 
 
   view::UltrasoundPlane plane;
   plane.image = ultrasound_;
-  plane.image_version = simulator_.runs().back();
+  plane.image_version = simulator_.image_version();
   plane.geometry = simulator_.geometry();
   plane.probe = console.probe;
   plane.patient_from_probe = *pose;

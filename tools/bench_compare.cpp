@@ -14,15 +14,14 @@ namespace insonate::bench {
 namespace {
 
 constexpr std::array<const char*, 3> kTimes = {"q1_ms", "median_ms", "q3_ms"};
-// What is measured or only told: everything else names the setting. Stages' shares end in _share.
+// What is measured or only told, as are all times: everything else names the setting.
 constexpr std::array<const char*, 10> kMeasured = {"device",     "frames",         "runs_still", "error_db",
                                                    "error_grey", "error_r_db",     "evaluated",  "possible",
                                                    "on_front",   "images_a_second"};
 
 bool names_setting(const std::string& column) {
   const auto is = [&](const char* name) { return column == name; };
-  return std::none_of(kTimes.begin(), kTimes.end(), is) && std::none_of(kMeasured.begin(), kMeasured.end(), is) &&
-         !column.ends_with("_share");
+  return std::none_of(kMeasured.begin(), kMeasured.end(), is) && !column.ends_with("_ms");
 }
 
 std::string setting_of(const Table& table, std::size_t row) {

@@ -14,22 +14,25 @@ constexpr int kFirstHu = -1024;  // as in acoustic_volume.glsl
 constexpr int kLookupSize = 4096;
 
 Texture upload(const AcousticVolume& volume) {
-  const glm::ivec3 size = volume.grid.size;
-  Texture texture = Texture::make_3d(GL_RG16_SNORM, size.x, size.y, size.z, Filter::linear, Wrap::border);
+  const glm::ivec3 size = volume.grid.size + 2 * kAirMargin;
+  Texture texture = Texture::make_3d(GL_RG16_SNORM, size.x, size.y, size.z, Filter::linear, Wrap::edge);
   const AcousticVoxel outside;
-  texture.set_border(float(outside.hu) / 32767.0f, float(outside.echogenicity_cdb) / 32767.0f, 0, 0);
-  texture.write(GL_RG, GL_SHORT, volume.voxels.data());
+  texture.write_inside(GL_RG, GL_SHORT, volume.voxels.data(),
+                       {float(outside.hu) / 32767.0f, float(outside.echogenicity_cdb) / 32767.0f, 0, 0});
   return texture;
 }
 
-Buffer tabulate(const TissueTable& table) {
-  std::vector<float> lookup;
+// What acoustic_volume.glsl reads between two whole HU: values at the first, and what they rise by to the next.
+Texture tabulate(const TissueTable& table) {
+  std::vector<glm::vec4> lookup;
   for (int i = 0; i < kLookupSize; ++i) {
-    const TissueKnot knot = table.at(kFirstHu + i);
-    lookup.push_back(float(knot.impedance_mrayl));
-    lookup.push_back(float(knot.absorption_db_cm_mhz));
+    const TissueKnot knot = table.at(kFirstHu + i), next = table.at(kFirstHu + i + 1);
+    lookup.emplace_back(knot.impedance_mrayl, knot.absorption_db_cm_mhz, next.impedance_mrayl - knot.impedance_mrayl,
+                        next.absorption_db_cm_mhz - knot.absorption_db_cm_mhz);
   }
-  return Buffer(lookup.size() * sizeof(float), lookup.data());
+  Texture texture = Texture::make_2d(GL_RGBA32F, kLookupSize, 1, Filter::nearest);
+  texture.write(GL_RGBA, GL_FLOAT, lookup.data());
+  return texture;
 }
 
 // The least box of indices around all voxels that sound can tell from the air outside.
@@ -64,15 +67,16 @@ std::pair<glm::ivec3, glm::ivec3> body_box(const AcousticVolume& volume, const T
 
 DeviceVolume::DeviceVolume(const AcousticVolume& volume, const TissueTable& table)
     : texture_(upload(volume)), tissue_lookup_(tabulate(table)) {
-  // Voxel centres lie at (i + 1/2) / size in a texture.
-  const glm::dvec3 size(volume.grid.size);
-  const glm::dmat4 texture_from_index = glm::translate(glm::scale(glm::dmat4(1.0), 1.0 / size), glm::dvec3(0.5));
+  // Texels' centres lie at (i + 1/2) / size.
+  const glm::dvec3 size(volume.grid.size + 2 * kAirMargin);
+  const glm::dmat4 texture_from_index =
+      glm::translate(glm::scale(glm::dmat4(1.0), 1.0 / size), glm::dvec3(kAirMargin + 0.5));
   texture_from_patient_ = texture_from_index * glm::inverse(volume.grid.matrix());
 
   // A voxel is felt up to its neighbours' centres.
   const auto [low, high] = body_box(volume, table);
-  body_low_ = (glm::dvec3(low) - 0.5) / size;
-  body_high_ = (glm::dvec3(high) + 1.5) / size;
+  body_low_ = (glm::dvec3(low + kAirMargin) - 0.5) / size;
+  body_high_ = (glm::dvec3(high + kAirMargin) + 1.5) / size;
 }
 
 std::pair<double, double> DeviceVolume::meets_body(const glm::dvec3& start, const glm::dvec3& step) const {

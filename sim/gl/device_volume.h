@@ -11,6 +11,9 @@
 
 namespace insonate::gl {
 
+/// Voxels of air around a volume on the card, so that sampling beyond it needs no look at where it ends.
+inline constexpr int kAirMargin = 1;
+
 /// A patient on the graphics card: the volume as sound meets it, and what its Hounsfield units mean.
 class DeviceVolume {
 public:
@@ -18,10 +21,10 @@ public:
   /// Throws TextureRefused when the device cannot hold it.
   DeviceVolume(const AcousticVolume& volume, const TissueTable& table);
 
-  /// (HU, echogenicity in hundredths of a dB) / 32767.
+  /// (HU, echogenicity in hundredths of a dB) / 32767, with the margin of air.
   const Texture& texture() const { return texture_; }
   /// Impedance and absorption at each whole HU, as acoustic_volume.glsl reads it.
-  const Buffer& tissue_lookup() const { return tissue_lookup_; }
+  const Texture& tissue_lookup() const { return tissue_lookup_; }
   /// Patient mm -> the texture's coordinates.
   const glm::dmat4& texture_from_patient() const { return texture_from_patient_; }
 
@@ -33,7 +36,7 @@ public:
 
 private:
   Texture texture_;
-  Buffer tissue_lookup_;
+  Texture tissue_lookup_;
   glm::dmat4 texture_from_patient_{1.0};
   glm::dvec3 body_low_{0.0}, body_high_{0.0};  ///< texture coordinates
 };

@@ -108,6 +108,22 @@ void Texture::write(GLenum layout, GLenum type, const void* pixels) {
   if (out_of_memory()) throw TextureRefused(width_, height_, depth_, 0);
 }
 
+void Texture::write_inside(GLenum layout, GLenum type, const void* pixels, const std::array<float, 4>& margin) {
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  forget_errors();
+  const auto fill = [&](int x, int y, int z, int width, int height, int depth) {
+    glClearTexSubImage(object_.name(), 0, x, y, z, width, height, depth, GL_RGBA, GL_FLOAT, margin.data());
+  };
+  fill(0, 0, 0, 1, height_, depth_);
+  fill(width_ - 1, 0, 0, 1, height_, depth_);
+  fill(0, 0, 0, width_, 1, depth_);
+  fill(0, height_ - 1, 0, width_, 1, depth_);
+  fill(0, 0, 0, width_, height_, 1);
+  fill(0, 0, depth_ - 1, width_, height_, 1);
+  glTextureSubImage3D(object_.name(), 0, 1, 1, 1, width_ - 2, height_ - 2, depth_ - 2, layout, type, pixels);
+  if (out_of_memory()) throw TextureRefused(width_, height_, depth_, 0);
+}
+
 void Texture::clear() {
   glClearTexImage(object_.name(), 0, GL_RED, GL_FLOAT, nullptr);
 }

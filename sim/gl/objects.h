@@ -2,6 +2,7 @@
 
 #include <epoxy/gl.h>
 
+#include <array>
 #include <cstddef>
 #include <stdexcept>
 #include <utility>
@@ -94,6 +95,8 @@ public:
   /// Uploads everything; `pixels` are tightly packed values of `type` in `layout` (GL_RG, GL_SHORT, ...). Throws
   /// TextureRefused: a device may look for memory no sooner than here.
   void write(GLenum layout, GLenum type, const void* pixels);
+  /// The same for all of a 3D texture but a margin of one texel on every side, which becomes `margin` (RGBA).
+  void write_inside(GLenum layout, GLenum type, const void* pixels, const std::array<float, 4>& margin);
   /// Reads everything back, tightly packed.
   void read(GLenum layout, GLenum type, void* pixels, std::size_t bytes) const;
 

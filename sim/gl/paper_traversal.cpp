@@ -78,7 +78,7 @@ void PaperTraversal::run(const Pose& patient_from_probe) {
   glUniform1i(kSamples, lines_.samples);
   volume_.texture().bind(0);
   line_buffer_.bind_storage(0);
-  volume_.tissue_lookup().bind_storage(1);
+  volume_.tissue_lookup().bind(7);
   glBindVertexArray(no_vertices_.name());
   glViewport(0, 0, scan_.width(), scan_.height());
   for (int k = 0; k < lines_.samples; ++k) {

@@ -17,9 +17,10 @@
 
 namespace insonate::gl {
 
-/// The stages of model S in the order they run; each reads what the one before it wrote.
-enum class Stage { traverse, beam, scan_convert, smooth, fuse, maximum, compress };
-inline constexpr int kStageCount = 7;
+/// The stages of model S in the order they run; each reads what the one before it wrote. Fusing goes on to grey by
+/// itself where white is a fixed level: compressing is a stage of its own only where each frame sets its own.
+enum class Stage { traverse, beam, scan_convert, smooth, fuse, compress };
+inline constexpr int kStageCount = 6;
 
 /// What the traversal did for the last picture.
 struct SampleCounts {
@@ -53,10 +54,13 @@ public:
 
   /// The picture: RGBA8, grey in red, green and blue, alpha 255 inside the fan; row 0 is the top.
   const Texture& image();
+  /// Another number whenever the picture has changed.
+  long image_version() const;
   /// How its pixels lie in the probe's plane.
   const ImageGeometry& geometry() const;
 
-  /// The volume as uploaded, (HU, echogenicity in hundredths of a dB) / 32767, for views of the same patient.
+  /// The volume as uploaded, (HU, echogenicity in hundredths of a dB) / 32767 with a voxel of air on every side, for
+  /// views of the same patient.
   const Texture& volume_texture() const;
   /// Patient mm -> that texture's coordinates.
   const glm::dmat4& texture_from_patient() const;

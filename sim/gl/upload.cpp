@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include "sim/gl/objects.h"
+#include "sim/gl/device_volume.h"
 
 namespace insonate::gl {
 
@@ -11,7 +11,7 @@ InputError too_large_for_device(const std::string& file, const Grid& grid, int l
   std::snprintf(voxels, sizeof voxels, "%d x %d x %d voxels of %.3g x %.3g x %.3g mm", grid.size.x, grid.size.y,
                 grid.size.z, grid.spacing.x, grid.spacing.y, grid.spacing.z);
   if (limit > 0) {
-    const std::string most = std::to_string(limit);
+    const std::string most = std::to_string(limit - 2 * kAirMargin);
     return {file, "", std::string(voxels) + " are more than the " + most + " a side that the graphics card takes",
             "resample it to at most " + most + " voxels along each axis, or crop it"};
   }

@@ -78,6 +78,8 @@ struct Settings {
 
   int image_width = 640;   ///< 1 to 8192
   int image_height = 480;  ///< 1 to 8192
+
+  bool operator==(const Settings&) const = default;
 };
 
 /// As in the paper: no absorption, reflection length = sample distance, one-way transmission, frame's maximum, no

@@ -1,39 +1,44 @@
 // Beam width (4): reflections and scatterers' echoes across the lines of the active aperture. Scatterers add up as
 // complex amplitudes before their envelope is taken, which is what makes speckle.
 //
-// An invocation serves four neighbouring lines, whose apertures overlap: a value is read once for all four.
+// An invocation serves four neighbouring lines, whose apertures overlap: a value is read once for all four. It is
+// compiled for the beam's half width BEAM_HALF, so that a narrow aperture needs no loop.
 
 layout(local_size_x = 64) in;
 
 #include "shared/simulation_parameters.h"
 
-layout(binding = 0) uniform sampler2D scan;     // a row a line: I, R, scatterers' echo (re, im)
-layout(binding = 1) uniform sampler2D repeats;  // a row a line: V before the window, with REVERBERATION
-layout(std430, binding = 0) readonly buffer Window { vec4 window[]; };  // of four lines, by place from the first's edge
-layout(std430, binding = 1) readonly buffer SpeckleScale { float envelope_scale[]; };  // a sample: mean envelope -> 1
-layout(std430, binding = 2) readonly buffer Focused { vec2 focused[]; };  // a sample: reach in lines, exponent
-layout(binding = 0, rgba32f) writeonly uniform image2D echoes;                         // a row a line: R, T, S, V
+layout(binding = 0) uniform sampler2D scan;      // a row a line: I, R, scatterers' echo (re, im)
+layout(binding = 1) uniform sampler2D at_depth;  // a sample: mean envelope -> 1, focused beam's reach in lines, exponent
+layout(binding = 2) uniform sampler2D repeats;   // a row a line: V before the window, with REVERBERATION
+layout(std140, binding = 1) uniform Window { vec4 window[32]; };  // weights from the middle line outwards
+layout(binding = 0, rgba32f) writeonly uniform image2D echoes;    // a row a line: R, T, S, V
 
-vec4 reflection = vec4(0.0), re = vec4(0.0), im = vec4(0.0), repeated = vec4(0.0), total = vec4(0.0);
-
-// How much each of the four lines takes of line first + j. FOCUSED_BEAM: by a Gaussian instead of the window.
-int reach;
-float exponent;
-vec4 weight_of(int j) {
 #if FOCUSED_BEAM == 1
-  vec4 away = float(j) - vec4(0.0, 1.0, 2.0, 3.0);
-  return vec4(lessThanEqual(abs(away), vec4(reach))) * exp(exponent * away * away);
+int reach;       // of the aperture at this sample, in lines to either side
+float exponent;  // of its Gaussian
 #else
-  return window[j + beam_half];
+const int reach = BEAM_HALF;
+#endif
+vec4 reflection = vec4(0.0), re = vec4(0.0), im = vec4(0.0), repeated = vec4(0.0), total = vec4(0.0);
+vec4 weights = vec4(0.0);  // each of the four lines' for the line that is being added
+
+// Of a line so many lines away from the aperture's middle.
+float weight_at(int away) {
+#if FOCUSED_BEAM == 1
+  return abs(away) <= reach ? exp(exponent * float(away * away)) : 0.0;
+#else
+  int place = abs(away);
+  return place <= reach ? window[place >> 2][place & 3] : 0.0;
 #endif
 }
 
-// Adds line first + j, and gives its intensity.
+// Adds line first + j, one behind the line added before, and gives its intensity.
 float add(int first, int j, int k) {
+  weights = vec4(weight_at(j), weights.xyz);
   int at = first + j;
-  bool exists = at >= 0 && at < lines;
   vec4 value = texelFetch(scan, ivec2(k, clamp(at, 0, lines - 1)), 0);
-  vec4 weight = exists ? weight_of(j) : vec4(0.0);
+  vec4 weight = at >= 0 && at < lines ? weights : vec4(0.0);
   reflection += weight * value.y;
   re += weight * value.z;
   im += weight * value.w;
@@ -48,11 +53,10 @@ void main() {
   int k = int(gl_GlobalInvocationID.x), first = 4 * int(gl_GlobalInvocationID.y);
   if (first >= lines || k >= samples) return;
 
+  vec4 here = texelFetch(at_depth, ivec2(k, 0), 0);
 #if FOCUSED_BEAM == 1
-  reach = int(focused[k].x);
-  exponent = focused[k].y;
-#else
-  reach = beam_half;
+  reach = int(here.y);
+  exponent = here.z;
 #endif
 
   for (int j = -reach; j < 0; ++j) add(first, j, k);
@@ -62,7 +66,7 @@ void main() {
   reflection /= total;
   repeated /= total;
   vec4 transmission = two_way == 1 ? intensity * intensity : intensity;
-  vec4 envelope = sqrt(re * re + im * im) / total * (speckle == 1 ? envelope_scale[k] : 1.0);
+  vec4 envelope = sqrt(re * re + im * im) / total * here.x;
   for (int i = 0; i < 4; ++i)
     if (first + i < lines)
       imageStore(echoes, ivec2(k, first + i), vec4(reflection[i], transmission[i], envelope[i], repeated[i]));

@@ -1,8 +1,8 @@
 // The CT in the ultrasound picture's plane, mixed with that picture, pixel by pixel.
 
 #include "shared/slice_parameters.h"
+#include "shared/hounsfield.glsl"
 
-layout(binding = 0) uniform sampler3D acoustic_volume;  // (HU, ...) / 32767
 layout(binding = 1) uniform sampler2D ultrasound_image;  // alpha 0 outside the fan
 layout(binding = 2) uniform usampler3D labels;
 
@@ -31,8 +31,7 @@ vec4 outline_at(vec2 pixel) {
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
-  float hu = textureLod(acoustic_volume, texture_position(vec2(pixel)), 0.0).x * 32767.0;
-  float ct = clamp((hu - level_hu) / window_hu + 0.5, 0.0, 1.0);
+  float ct = clamp((hounsfield(texture_position(vec2(pixel))) - level_hu) / window_hu + 0.5, 0.0, 1.0);
   vec4 echo = texelFetch(ultrasound_image, pixel, 0);
   vec3 shown = echo.a > 0.5 ? mix(vec3(ct), echo.rgb, ultrasound) : vec3(ct * outside_fan);
   vec4 edge = outline_at(vec2(pixel));

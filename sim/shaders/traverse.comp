@@ -114,7 +114,7 @@ void walk(int plane, int index) {
     float alpha = (behind.impedance - before.impedance) / (behind.impedance + before.impedance);  // (1)
     alpha *= alpha;
 
-    float absorbed = here.absorption * absorption_per_sample;
+    float absorbed = ABSORPTION == 1 ? here.absorption * absorption_per_sample : 0.0;
     if (k == 0) log_intensity = -0.5 * absorbed;  // the first sample lies half a step behind the face
     float intensity = exp(log_intensity);
     float cosine = kMeanCosine;

@@ -2,9 +2,9 @@
 // face and the probe where they lie in depth. VOXELS_PER_BLOCK is defined by whoever builds it.
 
 #include "shared/volume_view_parameters.h"
+#include "shared/hounsfield.glsl"
 #include "shared/probe_body.glsl"
 
-layout(binding = 0) uniform sampler3D acoustic_volume;   // (HU, ...) / 32767
 layout(binding = 1) uniform sampler2D ultrasound_image;  // alpha 0 outside the fan
 layout(binding = 2) uniform sampler3D tissue;            // colour times coverage, coverage
 layout(binding = 3) uniform sampler3D body;              // opacity of 1 mm times coverage, share of the patient's body
@@ -76,7 +76,7 @@ void composite_plane(vec3 patient, float t, float slant) {
   if (any(lessThan(at, vec3(0.0))) || any(greaterThan(at, vec3(1.0)))) return;
   float inside = smoothstep(0.4, 0.6, textureLod(body, at, 0.0).y);
   if (inside == 0.0) return;
-  float hu = textureLod(acoustic_volume, (texture_from_patient * vec4(patient, 1.0)).xyz, 0.0).x * 32767.0;
+  float hu = hounsfield((texture_from_patient * vec4(patient, 1.0)).xyz);
   float grey = clamp((hu - kCutLevel_hu) / kCutWindow_hu + 0.5, 0.0, 1.0);
   vec4 organ = textureLod(tissue, at, 0.0);
   vec3 shade = vec3(0.9 * grey);

@@ -10,7 +10,7 @@ namespace insonate::view {
 struct UltrasoundPlane {
   const gl::Texture* image =
       nullptr;             ///< null for none; as gl::Simulator::image() gives it; alpha is 0 outside the fan
-  long image_version = 0;  ///< another number whenever the pixels changed: gl::Simulator::runs().back()
+  long image_version = 0;  ///< another number whenever the pixels changed: gl::Simulator::image_version()
   ImageGeometry geometry;  ///< how its pixels lie in the probe's plane
   Probe probe;             ///< whose shape is drawn
   Pose patient_from_probe;

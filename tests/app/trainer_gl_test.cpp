@@ -201,7 +201,8 @@ TEST_CASE("a CT that the device cannot hold is told of, and the patient on the s
   REQUIRE(trainer.problems().size() == 1);
   const std::string told = trainer.problems().front();
   CAPTURE(told);
-  for (const std::string& words : {std::string("long.mha"), std::to_string(limit), std::string("crop")})
+  // The volume on the card has a voxel of air at either end.
+  for (const std::string& words : {std::string("long.mha"), std::to_string(limit - 2), std::string("crop")})
     CHECK(told.find(words) != std::string::npos);
   CHECK(trainer.session() == session);
   REQUIRE(pictures.ultrasound());

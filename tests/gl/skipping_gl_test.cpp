@@ -52,18 +52,36 @@ TEST_CASE("an unchanged frame runs nothing") {
 
 TEST_CASE("a change runs the first stage it reaches and those behind it") {
   Fixture f;
-  CHECK(f.after([&] { f.simulator.set_pose(test::on_the_skin(1, 9, 0)); }) == "012346");
-  CHECK(f.after([&] { f.settings.beam_lines = 9; }) == "12346");
-  CHECK(f.after([&] { f.settings.reflection_sigma_mm = 2; }) == "346");
-  CHECK(f.after([&] { f.settings.blend *= 2; }) == "46");
-  CHECK(f.after([&] { f.settings.gain_db = 6; }) == "6");
-  CHECK(f.after([&] { f.settings.tgc_db[3] += 6; }) == "6");
-  CHECK(f.after([&] { f.settings.dynamic_range_db = 50; }) == "6");
+  CHECK(f.after([&] { f.simulator.set_pose(test::on_the_skin(1, 9, 0)); }) == "01234");
+  CHECK(f.after([&] { f.settings.beam_lines = 9; }) == "1234");
+  CHECK(f.after([&] { f.settings.reflection_sigma_mm = 2; }) == "34");
+  CHECK(f.after([&] { f.settings.blend *= 2; }) == "4");
+  CHECK(f.after([&] { f.settings.gain_db = 6; }) == "4");
+  CHECK(f.after([&] { f.settings.tgc_db[3] += 6; }) == "4");
+  CHECK(f.after([&] { f.settings.dynamic_range_db = 50; }) == "4");
 }
 
-TEST_CASE("smoothing that is off and a maximum that nobody asks for do not run") {
+TEST_CASE("smoothing that is off does not run") {
   Fixture f;
-  CHECK(f.after([&] { f.settings.reflection_sigma_mm = 0; }) == "46");
-  CHECK(f.after([&] { f.simulator.set_pose(test::on_the_skin(2, 9, 0)); }) == "01246");
-  CHECK(f.after([&] { f.settings.reference_level = ReferenceLevel::frame_maximum; }) == "56");
+  CHECK(f.after([&] { f.settings.reflection_sigma_mm = 0; }) == "4");
+  CHECK(f.after([&] { f.simulator.set_pose(test::on_the_skin(2, 9, 0)); }) == "0124");
+}
+
+TEST_CASE("where each frame sets what is white, compressing is a stage of its own") {
+  Fixture f;
+  CHECK(f.after([&] { f.settings.reference_level = ReferenceLevel::frame_maximum; }) == "45");
+  CHECK(f.after([&] { f.settings.gain_db = 6; }) == "45");
+  CHECK(f.after([&] { f.settings.dynamic_range_db = 50; }) == "5");
+  CHECK(f.after([&] { f.settings.grey_map = GreyMap::soft; }) == "5");
+}
+
+TEST_CASE("the picture's version changes with the picture alone") {
+  Fixture f;
+  const long before = f.simulator.image_version();
+  f.simulator.image();
+  CHECK(f.simulator.image_version() == before);
+  f.settings.gain_db = 6;
+  f.simulator.set_settings(f.settings);
+  f.simulator.image();
+  CHECK(f.simulator.image_version() > before);
 }

@@ -58,7 +58,7 @@ TEST_CASE("a volume that the device refuses leaves the simulator with the one be
   wide.voxels.resize(wide.grid.count());
   CHECK_THROWS_AS(simulator.set_volume(wide, table), TextureRefused);
   CHECK(simulator.volume_texture().name() == before);
-  CHECK(simulator.volume_texture().width() == test::test_body().grid.size.x);
+  CHECK(simulator.volume_texture().width() == test::test_body().grid.size.x + 2);
   CHECK(simulator.texture_from_patient() == place);
   simulator.image();
   CHECK(simulator.runs().front() == runs);
@@ -76,7 +76,8 @@ TEST_CASE("whoever gave a CT that does not fit is told the file, the limit and w
     }
     return std::string("nothing");
   };
-  CHECK(told(512) ==
+  // The volume has a voxel of air on either side of each axis.
+  CHECK(told(514) ==
         "thorax.nii.gz: 600 x 512 x 512 voxels of 0.4 x 0.4 x 0.45 mm are more than the 512 a side that the graphics "
         "card takes; resample it to at most 512 voxels along each axis, or crop it.");
   CHECK(told(0) ==

@@ -1,10 +1,11 @@
 // The volume as sound meets it, and what its Hounsfield units mean.
 
-layout(binding = 0) uniform sampler3D acoustic_volume;  // (HU, echogenicity in hundredths of a dB) / 32767
+// (HU, echogenicity in hundredths of a dB) / 32767, with a voxel of air all around
+layout(binding = 0) uniform sampler3D acoustic_volume;
 
-// Impedance (MRayl) and absorption (dB/(cm MHz)) at each whole HU from -1024 on; linear between, which is exact because
-// the tissue table's knots sit at whole HU.
-layout(std430, binding = 1) readonly buffer TissueLookup { vec2 tissue_at_hu[4096]; };
+// Impedance (MRayl) and absorption (dB/(cm MHz)) at each whole HU from -1024 on, and what they rise by to the next; linear
+// between, which is exact because the tissue table's knots sit at whole HU.
+layout(binding = 7) uniform sampler2D tissue_at_hu;
 
 const float kFirstHu = -1024.0;
 const float kCouplingAirHu = -300.0;         // below this, what lies within the gel layer is gel
@@ -13,6 +14,7 @@ const vec2 kOutside = vec2(-1000.0, -6000.0);  // beyond the volume, and all aro
 
 vec2 impedance_and_absorption(float hu) {
   float position = clamp(hu - kFirstHu, 0.0, 4095.0);
-  int below = min(int(position), 4094);
-  return mix(tissue_at_hu[below], tissue_at_hu[below + 1], position - float(below));
+  int below = int(position);
+  vec4 known = texelFetch(tissue_at_hu, ivec2(below, 0), 0);
+  return known.xy + (position - float(below)) * known.zw;
 }

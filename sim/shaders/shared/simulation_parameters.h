@@ -24,25 +24,19 @@ layout(std140, binding = 0) uniform SimulationParameters {
   float least_alpha_with_normal;  // a weaker interface's tilt is not looked at
   float clutter_share;            // of the mean echo from the same depth; 0 for none
 
-  int speckle;    // 1 draws scatterers, 0 leaves their mean
-  int beam_half;  // (n_a - 1)/2
-  int two_way;    // 1: T = I^2
-  float blend;    // b
-
-  int reflection_radius_px;    // half width of the smoothing windows; 0 for none
-  int transmission_radius_px;
-  float gain_db;
-  float dynamic_range_db;      // beta
-
-  float fixed_level;
-  int frame_maximum;  // 1: the brightest pixel is white
-  int grey_map;       // as GreyMap
-  float noise_level;  // mean of the electronic noise in units of U; 0 for none
-
   float face_reflection;
-  float unused1;
-  float unused2;
-  float unused3;
+  int two_way;  // 1: T = I^2
+  float blend;  // b
+  float fixed_level;
+
+  float reflection_exponent_px;  // -1/(2 s^2) of the smoothing's Gaussians, s in pixels
+  float transmission_exponent_px;
+  float noise_level;  // mean of the electronic noise in units of U; 0 for none
+  float gain_db;
+
+  float dynamic_range_db;  // beta
+  int grey_map;            // as GreyMap
+  int unused1, unused2;
 
   vec4 tgc_db[2];  // at 8 depths from the face to full depth
 #ifdef __cplusplus

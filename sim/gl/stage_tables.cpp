@@ -1,0 +1,111 @@
+#include "sim/gl/stage_tables.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/model/beam.h"
+#include "sim/model/noise.h"
+#include "sim/model/scatterers.h"
+
+namespace insonate::gl {
+namespace {
+
+// What x line, y sample holds at a continuous place inside the fan, as scan_convert.comp reads it.
+double bilinear(const Image<double>& image, const glm::vec2& line_and_sample) {
+  const glm::dvec2 last(image.width - 1, image.height - 1);
+  const glm::dvec2 position = glm::clamp(glm::dvec2(line_and_sample), glm::dvec2(0), last);
+  const glm::ivec2 low(position), high = glm::min(low + 1, glm::ivec2(last));
+  const glm::dvec2 f = position - glm::dvec2(low);
+  return glm::mix(glm::mix(image.at(low.x, low.y), image.at(high.x, low.y), f.x),
+                  glm::mix(image.at(low.x, high.y), image.at(high.x, high.y), f.x), f.y);
+}
+
+std::vector<double> window_of(const Gaussian& gaussian) {
+  std::vector<double> weights;
+  for (int i = -gaussian.radius; i <= gaussian.radius; ++i) weights.push_back(std::exp(gaussian.exponent * i * i));
+  return weights;
+}
+
+}  // namespace
+
+std::vector<PlacedLine> placed_lines(const DeviceVolume& volume, const Pose& patient_from_probe, const ScanLines& lines,
+                                     const Settings& settings) {
+  const glm::dmat4 texture_from_probe = volume.texture_from_patient() * patient_from_probe.matrix();
+  glm::dmat4 lattice_from_probe = lattice_from_patient(settings.speckle_cell_mm) * patient_from_probe.matrix();
+  // Whole periods of the translation change nothing but cost the shader's single precision digits.
+  for (int axis = 0; axis < 3; ++axis) lattice_from_probe[3][axis] -= std::floor(lattice_from_probe[3][axis]);
+
+  const auto point = [](const glm::dmat4& map, const glm::dvec3& p) { return glm::dvec3(map * glm::dvec4(p, 1)); };
+  const auto step = [](const glm::dmat4& map, const glm::dvec3& d) { return glm::dvec3(map * glm::dvec4(d, 0)); };
+  const double dr = lines.dr_mm(), half_length = settings.reflection_length_mm / 2;
+  std::vector<PlacedLine> placed;
+  placed.reserve(std::size_t(settings.slice_planes) * lines.lines.size());
+  for (const SlicePlane& plane : slice_planes(settings))
+    for (const ScanLine& line : lines.lines) {
+      const glm::dvec3 d = line.direction, lateral(d.y, -d.x, 0), elevation = glm::cross(d, lateral);
+      const glm::dvec3 first = line.start + glm::dvec3(0, 0, plane.offset_mm) + (lines.r_min_mm + dr / 2) * d;
+      const glm::dvec3 start = point(texture_from_probe, first), along = step(texture_from_probe, dr * d);
+      // A sample's width to spare, for the rounding of the shader's own positions.
+      const auto [enters, leaves] = settings.skipping ? volume.meets_body(start, along) : std::pair(-1e9, 1e9);
+      placed.push_back({{start, enters - 1},
+                        {along, leaves + 1},
+                        {step(texture_from_probe, half_length * lateral), plane.weight},
+                        {step(texture_from_probe, half_length * elevation), 0},
+                        {point(lattice_from_probe, first), 0},
+                        {step(lattice_from_probe, dr * d), 0}});
+    }
+  return placed;
+}
+
+Buffer half_beam_window(const Settings& settings) {
+  constexpr std::size_t kWeights = 128;
+  const std::vector<double> window = beam_weights(settings);
+  std::vector<float> half(window.begin() + std::ptrdiff_t(window.size() / 2), window.end());
+  half.resize(kWeights);
+  return Buffer(half.size() * sizeof(float), half.data());
+}
+
+Texture beam_by_depth(const ScanLines& lines, const Settings& settings) {
+  std::vector<glm::vec4> depths(std::size_t(lines.samples), glm::vec4(1, 0, 0, 0));
+  if (settings.speckle) {
+    const std::vector<double> scale = envelope_scale(lines, settings);
+    for (std::size_t k = 0; k < depths.size(); ++k) depths[k].x = float(scale[k]);
+  }
+  if (settings.focused_beam) {
+    const std::vector<double> sigma = focused_beam_sigma(lines, settings);
+    for (std::size_t k = 0; k < depths.size(); ++k) {
+      depths[k].y = float(focused_reach(sigma[k]));
+      depths[k].z = depths[k].y > 0 ? float(-0.5 / (sigma[k] * sigma[k])) : 0;
+    }
+  }
+  Texture texture = Texture::make_2d(GL_RGBA32F, lines.samples, 1, Filter::nearest);
+  texture.write(GL_RGBA, GL_FLOAT, depths.data());
+  return texture;
+}
+
+Gaussian::Gaussian(double sigma_px, int limit_px) {
+  if (sigma_px < 0.05) return;
+  radius = std::min(int(std::ceil(3 * sigma_px)), limit_px);
+  exponent = -0.5 / (sigma_px * sigma_px);
+}
+
+Texture pixel_constants(const FanLayout& fan, const ScanLines& lines, const Settings& settings,
+                        const Gaussian& reflection, const Gaussian& transmission) {
+  const Image<float> of_reflection = one_over_window_inside(fan.inside, window_of(reflection));
+  const Image<float> of_transmission = one_over_window_inside(fan.inside, window_of(transmission));
+  const bool noisy = settings.electronic_noise || settings.clutter;
+  const Image<double> noise = noisy ? electronic_noise(lines, settings) : Image<double>(1, 1);
+  std::vector<glm::vec4> constants;
+  for (std::size_t i = 0; i < fan.inside.pixels.size(); ++i)
+    constants.emplace_back(of_reflection.pixels[i], of_transmission.pixels[i],
+                           fan.inside.pixels[i] ? bilinear(noise, fan.line_and_sample[i]) : 0,
+                           fan.line_and_sample[i].y);
+  Texture texture = Texture::make_2d(GL_RGBA32F, fan.inside.width, fan.inside.height, Filter::nearest);
+  texture.write(GL_RGBA, GL_FLOAT, constants.data());
+  return texture;
+}
+
+}  // namespace insonate::gl

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <glm/vec4.hpp>
+
+#include <vector>
+
+#include "sim/core/pose.h"
+#include "sim/gl/device_volume.h"
+#include "sim/gl/fan_layout.h"
+#include "sim/gl/objects.h"
+#include "sim/model/settings.h"
+#include "sim/probe/probe.h"
+
+/// What model S's stages read that no stage writes, worked out on the processor.
+namespace insonate::gl {
+
+/// A scan line as `Line` in traverse.comp: in the volume's texture and in the scatterers' lattice.
+struct PlacedLine {
+  glm::vec4 start, along;
+  glm::vec4 lateral, elevation;
+  glm::vec4 lattice_start, lattice_along;
+};
+
+/// The lines of all slice planes where the probe now is.
+std::vector<PlacedLine> placed_lines(const DeviceVolume& volume, const Pose& patient_from_probe, const ScanLines& lines,
+                                     const Settings& settings);
+
+/// The beam's window from the middle line outwards, 128 weights, as beam.comp takes it.
+Buffer half_beam_window(const Settings& settings);
+
+/// What beam.comp asks of each depth, samples x 1: the factor that makes the envelope's mean 1, and of a focused beam
+/// the reach in lines and the Gaussian's exponent.
+Texture beam_by_depth(const ScanLines& lines, const Settings& settings);
+
+/// A smoothing window out to three sigma or the picture's size, in pixels.
+struct Gaussian {
+  int radius = 0;       ///< 0 for none
+  double exponent = 0;  ///< -1/(2 sigma^2)
+
+  Gaussian() = default;
+  Gaussian(double sigma_px, int limit_px);
+  bool operator==(const Gaussian&) const = default;
+};
+
+/// What fuse.comp asks of each pixel: 1 / (what of either window lies inside the fan), noise of mean 1 or 0 where the
+/// settings have none, and the sample.
+Texture pixel_constants(const FanLayout& fan, const ScanLines& lines, const Settings& settings,
+                        const Gaussian& reflection, const Gaussian& transmission);
+
+}  // namespace insonate::gl
