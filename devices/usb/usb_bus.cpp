@@ -138,18 +138,22 @@ AttachedDevices UsbBus::devices() {
 std::unique_ptr<Transport> UsbBus::open(const AttachedDevice& device, Endpoints endpoints) {
   auto context = std::make_unique<Context>();
   if (context->problem() != LIBUSB_SUCCESS) throw gone(device, libusb_strerror(context->problem()));
-  const List list(*context);
-  for (libusb_device* candidate : list.devices()) {
-    if (place(candidate) != device.path) continue;
-    libusb_device_handle* handle = nullptr;
-    const int error = libusb_open(candidate, &handle);
-    if (error == LIBUSB_ERROR_ACCESS) throw forbidden(device);
-    if (error != LIBUSB_SUCCESS) throw gone(device, libusb_strerror(error));
-    auto transport = std::make_unique<UsbTransport>(std::move(context), device, handle, endpoints);
-    transport->claim();
-    return transport;
+  libusb_device_handle* handle = nullptr;
+  {
+    // Given back before the transport is made, because a transport that fails takes the context with it.
+    const List list(*context);
+    for (libusb_device* candidate : list.devices()) {
+      if (place(candidate) != device.path) continue;
+      const int error = libusb_open(candidate, &handle);
+      if (error == LIBUSB_ERROR_ACCESS) throw forbidden(device);
+      if (error != LIBUSB_SUCCESS) throw gone(device, libusb_strerror(error));
+      break;
+    }
   }
-  throw gone(device, "it is no longer there");
+  if (!handle) throw gone(device, "it is no longer there");
+  auto transport = std::make_unique<UsbTransport>(std::move(context), device, handle, endpoints);
+  transport->claim();
+  return transport;
 }
 
 }  // namespace insonate

@@ -1,0 +1,53 @@
+#pragma once
+
+#include "testbed.h"
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <string>
+#include <vector>
+
+struct _UMockdevIoctlBase;
+struct _UMockdevIoctlClient;
+
+namespace insonate {
+
+/// A HID that is plugged into a test bed for as long as it lives.
+class MockedHid {
+public:
+  using Report = std::vector<unsigned char>;
+
+  struct Identity {
+    std::uint16_t vendor, product;
+    std::string name, serial;
+  };
+
+  /// `number` is that of /dev/hidrawN. One that was used before cannot be used again in the same test bed.
+  MockedHid(Testbed& testbed, const Identity& identity, int number);
+  ~MockedHid();
+  MockedHid(const MockedHid&) = delete;
+  MockedHid& operator=(const MockedHid&) = delete;
+
+  /// Sends what fits of `reports`, and takes it out of there.
+  void send(std::deque<Report>& reports);
+
+  /// Who has it open is told that it is gone; it stays in the lists until it is destroyed.
+  void pull();
+
+  Node& node() { return *node_; }
+  const std::vector<Report>& features() const { return features_; }  ///< the feature reports that it was sent
+
+private:
+  static int on_ioctl(_UMockdevIoctlBase*, _UMockdevIoctlClient* client, void* self);
+  static int on_read(_UMockdevIoctlBase*, _UMockdevIoctlClient* client, void* self);
+
+  Testbed& testbed_;
+  std::string dev_, usb_path_;
+  std::unique_ptr<Node> node_;
+  _UMockdevIoctlBase* kernel_;
+  std::vector<Report> features_;
+  bool pulled_ = false;
+};
+
+}  // namespace insonate

@@ -1,0 +1,279 @@
+// insonate-devices with the real hidapi and libusb, on a machine whose devices the test makes up.
+#include "mocked_hid.h"
+#include "mocked_usb.h"
+#include "testbed.h"
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <string>
+
+#include "devices/crc16.h"
+#include "devices/hydra/hydra_report.h"
+#include "devices/polhemus/polhemus_stream.h"
+#include "tests/devices/golden_reports.h"
+
+using namespace insonate;
+using Report = MockedHid::Report;
+
+namespace {
+
+const MockedHid::Identity kHydra{0x1532, 0x0300, "Razer Hydra", "A1"};
+const MockedUsb::Identity kViper{0x0f44, 0xbf01, "V7", 0x02, 0x81};
+
+bool contains(const std::string& text, const std::string& words) {
+  return text.find(words) != std::string::npos;
+}
+
+/// Whether this machine can have a test bed; says why not.
+bool possible() {
+  static const std::string why_not = Testbed::why_not();
+  if (!why_not.empty()) std::printf("skipped: %s\n", why_not.c_str());
+  return why_not.empty();
+}
+
+std::string output_of(const std::vector<std::string>& arguments) {
+  std::vector<std::string> command{INSONATE_DEVICES_PROGRAM};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  Child child(command);
+  CHECK(pump([&] {
+    child.listen();
+    return child.ended();
+  }));
+  child.listen();
+  return child.out;
+}
+
+/// The golden report, with its place along x and a sequence number to go with it.
+Report hydra_report(int x) {
+  Report report(std::begin(golden::kHydra), std::end(golden::kHydra));
+  report[7] = std::uint8_t(x);
+  report[8] = std::uint8_t(x);
+  report[9] = std::uint8_t(x >> 8);
+  const std::uint16_t crc = crc16_1021(Bytes(report).first(50), 0x1d0f);
+  report[50] = std::uint8_t(crc);
+  report[51] = std::uint8_t(crc >> 8);
+  return report;
+}
+
+/// The golden frame, with its place along x (mm) and a frame number to go with it.
+Report viper_frame(int x) {
+  Report frame(std::begin(golden::kViper), std::end(golden::kViper));
+  frame[12] = std::uint8_t(x);
+  frame[13] = std::uint8_t(x >> 8);
+  const float centimetres = float(x) / 10;
+  std::memcpy(&frame[28], &centimetres, sizeof centimetres);
+  const std::uint16_t crc = crc16_arc(Bytes(frame).first(56));
+  frame[56] = std::uint8_t(crc);
+  frame[57] = std::uint8_t(crc >> 8);
+  return frame;
+}
+
+/// The places along x (mm) of the samples that a watch has printed as ok, whole lines only.
+std::vector<int> places(const std::string& out) {
+  std::vector<int> places;
+  std::size_t begin = 0;
+  for (std::size_t end = 0; (end = out.find('\n', begin)) != std::string::npos; begin = end + 1) {
+    double time_s = 0, x = 0;
+    if (std::sscanf(out.substr(begin, end - begin).c_str(), "%lf ok %lf", &time_s, &x) == 2)
+      places.push_back(int(std::lround(x)));
+  }
+  return places;
+}
+
+/// `watch` of a tracker, in a test bed.
+struct Watch {
+  explicit Watch(const std::string& uri) : child({INSONATE_DEVICES_PROGRAM, "watch", uri}) {}
+
+  bool until(
+      const std::function<bool()>& done, const std::function<void()>& each_time = [] {}) {
+    const bool came = pump(
+        [&] {
+          child.listen();
+          return done();
+        },
+        each_time);
+    CAPTURE(child.out, child.err);
+    CHECK(came);
+    return came;
+  }
+  bool until_told(const std::string& words) {
+    return until([&] { return contains(child.err, words); });
+  }
+
+  Child child;
+};
+
+std::vector<int> counted(int first, int last) {
+  std::vector<int> numbers;
+  for (int number = first; number <= last; ++number) numbers.push_back(number);
+  return numbers;
+}
+
+}  // namespace
+
+TEST_CASE("a Hydra is listed with its serial number") {
+  if (!possible()) return;
+  Testbed testbed;
+  CHECK(contains(output_of({"list"}), "no tracker that is known here"));
+  MockedHid hydra(testbed, kHydra, 0);
+  const std::string listed = output_of({"list"});
+  CHECK(contains(listed, "Razer Hydra"));
+  CHECK(contains(listed, "1532:0300"));
+  CHECK(contains(listed, "/dev/hidraw0"));
+  CHECK(contains(listed, "serial A1"));
+}
+
+TEST_CASE("a Hydra that is plugged in late is started, and each of its reports comes once and in order") {
+  if (!possible()) return;
+  Testbed testbed;
+  Watch watch("hydra:?raw=1");
+  REQUIRE(watch.until_told("The Razer Hydra is not plugged in."));
+  MockedHid hydra(testbed, kHydra, 0);
+  REQUIRE(watch.until([&] { return !hydra.features().empty(); }));
+  const auto start = hydra_mode(true);
+  CHECK(hydra.features()[0] == Report(start.begin(), start.end()));
+
+  std::deque<Report> reports;
+  for (int x = 1; x <= 400; ++x) reports.push_back(hydra_report(x));
+  REQUIRE(watch.until([&] { return places(watch.child.out).size() >= 400; }, [&] { hydra.send(reports); }));
+  CHECK(places(watch.child.out) == counted(1, 400));
+
+  // Corrupt, cut and repeated: none becomes a sample, and people are told.
+  Report corrupt = hydra_report(401), cut = hydra_report(402);
+  corrupt[8] ^= 1;
+  cut.resize(30);
+  reports = {corrupt, cut, hydra_report(400), hydra_report(403)};
+  REQUIRE(watch.until([&] { return places(watch.child.out).size() >= 401; }, [&] { hydra.send(reports); }));
+  CHECK(places(watch.child.out).back() == 403);
+  watch.until_told("were damaged or lost");
+}
+
+TEST_CASE("a Hydra that is pulled out is missed, and goes on when it is plugged in again") {
+  if (!possible()) return;
+  Testbed testbed;
+  auto hydra = std::make_unique<MockedHid>(testbed, kHydra, 0);
+  Watch watch("hydra:?raw=1");
+  std::deque<Report> reports = {hydra_report(1), hydra_report(2)};
+  REQUIRE(watch.until([&] { return places(watch.child.out).size() == 2; }, [&] { hydra->send(reports); }));
+  hydra->pull();
+  REQUIRE(watch.until_told("was lost"));
+  hydra.reset();
+  REQUIRE(watch.until_told("The Razer Hydra is not plugged in."));
+  REQUIRE(watch.until([&] { return contains(watch.child.out, "missing"); }));
+
+  hydra = std::make_unique<MockedHid>(testbed, kHydra, 1);
+  REQUIRE(watch.until([&] { return !hydra->features().empty(); }));
+  reports = {hydra_report(3)};
+  REQUIRE(watch.until([&] { return places(watch.child.out).size() == 3; }, [&] { hydra->send(reports); }));
+  CHECK(places(watch.child.out) == counted(1, 3));
+}
+
+TEST_CASE("a Hydra that may not be opened is told with the rule, and used as soon as it may") {
+  if (!possible()) return;
+  Testbed testbed;
+  MockedHid hydra(testbed, kHydra, 0);
+  hydra.node().allow(false);
+  Watch watch("hydra:?raw=1");
+  REQUIRE(watch.until_told(R"(ATTRS{idVendor}=="1532", ATTRS{idProduct}=="0300")"));
+  CHECK(contains(watch.child.err, "tools/install-udev-rule"));
+  hydra.node().allow(true);
+  REQUIRE(watch.until([&] { return !hydra.features().empty(); }));
+}
+
+TEST_CASE("of two Hydras the one with the serial number is used") {
+  if (!possible()) return;
+  Testbed testbed;
+  MockedHid first(testbed, kHydra, 0), second(testbed, {0x1532, 0x0300, "Razer Hydra", "B2"}, 1);
+  Watch watch("hydra:B2?raw=1");
+  REQUIRE(watch.until([&] { return !second.features().empty(); }));
+  CHECK(first.features().empty());
+  Watch other("hydra:C3");
+  other.until_told("No Razer Hydra has the serial number C3: plugged in is A1, B2.");
+}
+
+TEST_CASE("a Viper is listed, set up, and its frames come whole however the transfers cut them") {
+  if (!possible()) return;
+  Testbed testbed;
+  Watch watch("polhemus:?sensor=2&raw=1");
+  REQUIRE(watch.until_told("The Polhemus tracker is not plugged in."));
+  MockedUsb viper(testbed, kViper, 4);
+  REQUIRE(watch.until([&] { return viper.received().size() == 2; }));
+  CHECK(viper.received()[0] == viper::command(viper::kUnits, viper::kSet, {2, 2}));
+  CHECK(viper.received()[1] == viper::command(viper::kContinuous, viper::kSet));
+
+  Report stream;
+  for (int x = 1; x <= 100; ++x) {
+    const Report frame = viper_frame(x);
+    stream.insert(stream.end(), frame.begin(), frame.end());
+  }
+  Report corrupt = viper_frame(101);
+  corrupt[30] ^= 1;
+  stream.insert(stream.end(), corrupt.begin(), corrupt.end());
+  const Report last = viper_frame(102);
+  stream.insert(stream.end(), last.begin(), last.end());
+  for (std::size_t begin = 0; begin < stream.size(); begin += 37)
+    viper.send(
+        {stream.begin() + std::ptrdiff_t(begin), stream.begin() + std::ptrdiff_t(std::min(begin + 37, stream.size()))});
+  REQUIRE(watch.until([&] { return places(watch.child.out).size() >= 101; }));
+  std::vector<int> expected = counted(1, 100);
+  expected.push_back(102);
+  CHECK(places(watch.child.out) == expected);
+  watch.until_told("were damaged or lost");
+
+  const std::string listed = output_of({"list"});
+  CHECK(contains(listed, "Polhemus Viper"));
+  CHECK(contains(listed, "serial V7"));
+}
+
+TEST_CASE("a Viper that is pulled out in mid-transfer is missed, and goes on when it is plugged in again") {
+  if (!possible()) return;
+  Testbed testbed;
+  auto viper = std::make_unique<MockedUsb>(testbed, kViper, 4);
+  Watch watch("polhemus:V7?sensor=2&raw=1");
+  viper->send(viper_frame(1));
+  REQUIRE(watch.until([&] { return places(watch.child.out).size() == 1; }));
+  viper->pull();
+  REQUIRE(watch.until_told("was lost"));
+  viper.reset();
+  REQUIRE(watch.until_told("The Polhemus tracker is not plugged in."));
+  viper = std::make_unique<MockedUsb>(testbed, kViper, 5);
+  viper->send(viper_frame(2));
+  REQUIRE(watch.until([&] { return places(watch.child.out).size() == 2; }));
+  CHECK(places(watch.child.out) == counted(1, 2));
+}
+
+TEST_CASE("a Viper that may not be opened, and one that waits for its firmware, are told as such") {
+  if (!possible()) return;
+  Testbed testbed;
+  {
+    MockedUsb viper(testbed, kViper, 4);
+    viper.node().allow(false);
+    Watch watch("polhemus:");
+    watch.until_told(R"(SUBSYSTEM=="usb", ATTR{idVendor}=="0f44", ATTR{idProduct}=="bf01")");
+    viper.node().allow(true);
+    watch.until([&] { return viper.received().size() == 2; });
+  }
+  MockedUsb waiting(testbed, {0x0f44, 0x0001, "", 0x02, 0x81}, 5);
+  Watch watch("polhemus:");
+  watch.until_told("waits for its firmware");
+}
+
+TEST_CASE("a SpaceMouse moves the probe when it is there, and is taken when nothing better is") {
+  if (!possible()) return;
+  Testbed testbed;
+  Watch watch("auto:");
+  REQUIRE(watch.until_told("No tracker that is known here is plugged in."));
+  MockedHid mouse(testbed, {0x256f, 0xc635, "SpaceMouse Compact", ""}, 0);
+  // Pushed left at full travel, again and again, as a cap that is held there.
+  std::deque<Report> reports;
+  const auto push = [&] {
+    if (reports.empty()) reports.push_back({1, 0xa2, 0xfe, 0, 0, 0, 0});
+    mouse.send(reports);
+  };
+  REQUIRE(watch.until([&] { return !places(watch.child.out).empty() && places(watch.child.out).back() >= 20; }, push));
+  // Every sample is at most the longest that a push lasts after the one before: 6 mm.
+  const std::vector<int> path = places(watch.child.out);
+  for (std::size_t i = 1; i < path.size(); ++i) CHECK(path[i] - path[i - 1] <= 7);
+}

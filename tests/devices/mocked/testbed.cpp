@@ -1,0 +1,159 @@
+#include "testbed.h"
+
+#include <fcntl.h>
+#include <linux/capability.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <umockdev.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cstdlib>
+#include <stdexcept>
+#include <thread>
+
+extern char** environ;
+
+// GLib keeps what it has made once; that is no leak of this project's.
+extern "C" const char* __lsan_default_suppressions();
+extern "C" const char* __lsan_default_suppressions() {
+  return "leak:libglib\nleak:libgobject\nleak:libgio\nleak:libumockdev\n";
+}
+
+namespace insonate {
+namespace {
+
+constexpr const char* kPreload = "libumockdev-preload.so.0";
+
+}  // namespace
+
+Testbed::Testbed() : testbed_(umockdev_testbed_new()) {
+  gchar* root = umockdev_testbed_get_root_dir(testbed_);
+  root_ = root;
+  g_free(root);
+  // hidapi and libusb look into these before anything is plugged in.
+  for (const char* folder : {"/dev", "/dev/bus", "/dev/bus/usb", "/dev/bus/usb/001", "/sys/class", "/sys/class/hidraw",
+                             "/sys/bus", "/sys/bus/usb", "/sys/bus/usb/devices"})
+    mkdir(real_path(folder).c_str(), 0755);
+}
+
+Testbed::~Testbed() {
+  g_object_unref(testbed_);
+}
+
+std::string Testbed::why_not() {
+  Testbed testbed;
+  gchar* path =
+      umockdev_testbed_add_device(testbed.get(), "misc", "greeter", nullptr, "greeting", "welcome", nullptr, nullptr);
+  Child cat({"/bin/cat", std::string(path) + "/greeting"});
+  g_free(path);
+  const bool ended = pump([&] {
+    cat.listen();
+    return cat.ended();
+  });
+  cat.listen();
+  if (ended && cat.out == "welcome") return "";
+  return "a program in umockdev's test bed does not see its devices: " + (cat.err.empty() ? cat.out : cat.err);
+}
+
+Node::Node(const std::string& path, bool packets) : path_(path) {
+  if (mkfifo(path.c_str(), 0600) != 0) throw std::runtime_error("no pipe can be made at " + path);
+  fd_ = open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
+  if (packets) fcntl(fd_, F_SETFL, O_NONBLOCK | O_DIRECT);
+  if (!packets) fcntl(fd_, F_SETPIPE_SZ, 4096);
+}
+
+Node::~Node() {
+  close(fd_);
+  unlink(path_.c_str());
+}
+
+bool Node::write(const std::vector<unsigned char>& bytes) {
+  return ::write(fd_, bytes.data(), bytes.size()) == ssize_t(bytes.size());
+}
+
+void Node::make_writable(bool writable) {
+  std::array<unsigned char, 4096> page{};
+  if (writable)
+    while (::read(fd_, page.data(), page.size()) > 0) continue;
+  else
+    while (::write(fd_, page.data(), page.size()) > 0) continue;
+}
+
+void Node::allow(bool allowed) {
+  chmod(path_.c_str(), allowed ? 0600 : 0);
+}
+
+Child::Child(const std::vector<std::string>& command) {
+  std::vector<std::string> settings;
+  for (char** setting = environ; *setting; ++setting) settings.emplace_back(*setting);
+  settings.push_back(std::string("LD_PRELOAD=") + kPreload);
+  // The preloaded library comes before AddressSanitizer's, where there is one.
+  const char* asan = std::getenv("ASAN_OPTIONS");
+  settings.push_back(std::string("ASAN_OPTIONS=") + (asan ? std::string(asan) + ":" : "") +
+                     "verify_asan_link_order=0:detect_leaks=0");
+  std::vector<char*> arguments, variables;
+  for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
+  // The last of two equal names would not be the one that counts.
+  for (auto setting = settings.rbegin(); setting != settings.rend(); ++setting)
+    variables.push_back(const_cast<char*>(setting->c_str()));
+  arguments.push_back(nullptr);
+  variables.push_back(nullptr);
+
+  int out_pipe[2], err_pipe[2];
+  if (pipe2(out_pipe, O_CLOEXEC) != 0 || pipe2(err_pipe, O_CLOEXEC) != 0)
+    throw std::runtime_error("no pipe can be made");
+  pid_ = fork();
+  if (pid_ == 0) {
+    dup2(out_pipe[1], STDOUT_FILENO);
+    dup2(err_pipe[1], STDERR_FILENO);
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    prctl(PR_CAPBSET_DROP, CAP_DAC_OVERRIDE);
+    prctl(PR_CAPBSET_DROP, CAP_DAC_READ_SEARCH);
+    execve(arguments[0], arguments.data(), variables.data());
+    _exit(127);
+  }
+  close(out_pipe[1]);
+  close(err_pipe[1]);
+  out_fd_ = out_pipe[0];
+  err_fd_ = err_pipe[0];
+  for (const int fd : {out_fd_, err_fd_}) fcntl(fd, F_SETFL, O_NONBLOCK);
+}
+
+Child::~Child() {
+  if (pid_ > 0) {
+    kill(pid_, SIGKILL);
+    waitpid(pid_, nullptr, 0);
+  }
+  close(out_fd_);
+  close(err_fd_);
+}
+
+void Child::listen() {
+  std::array<char, 4096> part;
+  for (const auto& [fd, text] : {std::pair{out_fd_, &out}, std::pair{err_fd_, &err}})
+    for (ssize_t got = 0; (got = read(fd, part.data(), part.size())) > 0;) text->append(part.data(), std::size_t(got));
+}
+
+bool Child::ended() {
+  if (pid_ > 0 && waitpid(pid_, nullptr, WNOHANG) == pid_) pid_ = -1;
+  return pid_ < 0;
+}
+
+bool pump(const std::function<bool()>& done, const std::function<void()>& each_time) {
+  const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(3);
+  while (std::chrono::steady_clock::now() < limit) {
+    each_time();
+    bool worked = false;
+    while (g_main_context_iteration(nullptr, FALSE)) worked = true;
+    if (done()) return true;
+    if (!worked) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return false;
+}
+
+}  // namespace insonate
