@@ -6,6 +6,7 @@
 
 #include "devices/auto/best_source.h"
 #include "devices/hydra/hydra_tracker.h"
+#include "devices/igtl/igtl_source.h"
 #include "devices/mouse/mouse_tracker.h"
 #include "devices/osvr/osvr_tracker.h"
 #include "devices/polhemus/polhemus_tracker.h"
@@ -29,6 +30,8 @@ constexpr TrackerKind kKinds[] = {
     {"osvr", "osvr:[SERIAL]", "an OSVR head tracker, which turns the probe on the spot", open_osvr},
     {"spacemouse", "spacemouse:[SERIAL][?speed=1]", "a 3Dconnexion SpaceMouse, which moves the probe at a rate",
      open_spacemouse},
+    {"igtl", "igtl://HOST[:18944][/NAME][?frame=ras&time=sender]", "TRANSFORM messages of an OpenIGTLink server",
+     igtl::open_igtl},
     {"mouse", "mouse:", "the mouse and the keyboard, in the trainer's window", open_mouse},
 };
 

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "devices/igtl/host_lookup.h"
+#include "devices/igtl/igtl_reader.h"
+#include "devices/igtl/net_socket.h"
+#include "devices/live/live_source.h"
+#include "devices/tracker.h"
+#include "devices/tracker_context.h"
+#include "devices/tracker_uri.h"
+
+namespace insonate::igtl {
+
+/// Where a client connects to and what it takes from there.
+struct ClientRequest {
+  std::string host;
+  std::uint16_t port = kDefaultPort;
+  std::string name;           ///< of the transform; empty: the first that comes
+  bool ras = false;           ///< transforms lead to RAS instead of LPS
+  bool sender_times = false;  ///< steps between samples are those of the messages' own times
+  double most_drift_s = 2.0;  ///< a sender's clock that is further from ours than when it was set counts as set anew
+};
+
+/// Poses from an OpenIGTLink server: its TRANSFORM messages. Reading never waits longer than asked, and what the server
+/// sends is bounded by MessageReader, whatever it is.
+///
+/// Samples are stamped when their bytes arrive. With `sender_times` the first one is, and the others follow at the
+/// steps of their messages' stamps; when those run backwards or away from ours by more than most_drift_s, they are
+/// tied to the arrival anew.
+class ClientSource : public LiveSource {
+public:
+  static constexpr double kConnect_s = 3.0;      ///< a host that has not answered by then is asked again later
+  static constexpr double kNameMissing_s = 2.0;  ///< after so long without the transform that was named, say so
+
+  explicit ClientSource(ClientRequest request);
+
+  void open() override;
+  void read(std::chrono::milliseconds timeout, LiveBatch& batch) override;
+  void close() noexcept override;
+
+private:
+  void connect_next();
+  bool connected(std::chrono::milliseconds timeout);
+  void receive(LiveBatch& batch);
+  bool wants(const Header& header);
+  void take(const Header& header, ByteView body, LiveBatch& batch);
+  double time_of(const Header& header, double arrival_s);
+  std::string note(double now_s) const;
+  [[noreturn]] void give_up(const std::string& problem);
+
+  ClientRequest request_;
+  std::string where_;  ///< "host:port"
+  std::optional<HostLookup> lookup_;
+  std::vector<Address> untried_;
+  Socket socket_;
+  bool connected_ = false;
+  double since_s_ = 0;  ///< of the lookup, then of the try to connect, then of the connection or the newest sample
+  std::unique_ptr<MessageReader> reader_;
+  LiveBatch* batch_ = nullptr;  ///< where the message goes that is being read
+  double arrival_s_ = 0;
+
+  std::string followed_;             ///< the transform that is taken
+  std::vector<std::string> others_;  ///< names that came but are not taken, some of them
+  std::string status_;               ///< what the server's last STATUS complained of
+  std::uint64_t damaged_ = 0;        ///< messages whose CRC was wrong
+  std::string failure_;              ///< why the last connection failed, until a sample comes
+  std::optional<double> offset_s_;   ///< from the sender's clock to ours
+};
+
+/// igtl://host[:port][/name][?frame=ras&time=sender]. Opens nothing yet. Throws InputError.
+std::unique_ptr<Tracker> open_igtl(const TrackerUri& uri, const TrackerContext& context);
+
+/// Takes the URI apart. Throws InputError.
+ClientRequest client_request(const TrackerUri& uri);
+
+}  // namespace insonate::igtl
