@@ -14,11 +14,13 @@
 #include "sim/gl/simulator.h"
 #include "sim/gl/upload.h"
 #include "sim/model/settings_file.h"
+#include "sim/model/wein_settings_file.h"
 #include "sim/reference/reference.h"
 #include "sim/volume/ct_reader.h"
 #include "tools/program.h"
 #include "tools/render_stages.h"
 #include "tools/render_sweep.h"
+#include "tools/render_wein.h"
 #include "tools/subject.h"
 
 using namespace insonate;
@@ -119,7 +121,8 @@ Rendered render_by_reference(const RenderedScene& scene) {
 int main(int argc, char** argv) {
   CLI::App arguments("Renders one ultrasound image of a patient to a PNG, or a sweep to a volume, without a window.",
                      "insonate-render");
-  std::string subject_path, view_name, pose_file, probe_name = "curvilinear", settings_file, stages_folder, out;
+  std::string subject_path, view_name, pose_file, probe_name = "curvilinear", model = "S", settings_file, stages_folder,
+                                                  out;
   std::string freehand_file;
   double depth_mm = 0, sweep_deg = 0, voxel_mm = 1;
   std::optional<double> pivot_mm;
@@ -133,11 +136,16 @@ int main(int argc, char** argv) {
   arguments.add_option("--probe", probe_name, "curvilinear, linear or phased")->capture_default_str();
   arguments.add_option("--depth", depth_mm, "Imaging depth, mm (the view's or the probe's)")
       ->check(CLI::Range(10.0, 400.0));
+  arguments.add_option("--model", model, "S, for training (Shams, Kutter), or W, for registration (Wein)")
+      ->check(CLI::IsMember({"S", "W"}))
+      ->capture_default_str();
   arguments.add_option("--settings", settings_file,
-                       "A TOML file: preset = \"paper\" or \"trainer\", and names of sim/model/settings.h over it");
-  arguments.add_option("--gain", gain_db, "Gain, dB (the settings': 0)")->check(CLI::Range(-60.0, 60.0));
-  arguments.add_option("--width", width, "Pixels (the settings': 640)")->check(CLI::Range(1, 8192));
-  arguments.add_option("--height", height, "Pixels (the settings': 480)")->check(CLI::Range(1, 8192));
+                       "A TOML file: preset = \"paper\" or \"trainer\", and names of sim/model/settings.h over it; of "
+                       "model W, names of sim/model/wein_settings.h");
+  CLI::Option* gain =
+      arguments.add_option("--gain", gain_db, "Gain, dB (the settings': 0)")->check(CLI::Range(-60.0, 60.0));
+  arguments.add_option("--width", width, "Pixels (the settings': 640, of model W 128)")->check(CLI::Range(1, 8192));
+  arguments.add_option("--height", height, "Pixels (the settings': 480, of model W 96)")->check(CLI::Range(1, 8192));
   CLI::Option* stages_option = arguments.add_option(
       "--stages", stages_folder,
       "A new folder for what crosses the stages: scanlines.json, and NRRD files that say what they hold");
@@ -170,6 +178,9 @@ int main(int argc, char** argv) {
       throw InputError("--probe", "", "there is no probe named '" + probe_name + "'",
                        suggest(probe_name, probe_names()));
     if (!stages_folder.empty()) refuse_taken(stages_folder);
+    for (const CLI::Option* of_model_s : {gain, stages_option, sweep, freehand})
+      if (model == "W" && *of_model_s)
+        throw InputError(of_model_s->get_name(), "", "model W has no such thing", "leave it out or take --model S");
     const bool to_volume = *sweep || *freehand;
     if (to_volume && std::filesystem::path(out).extension() != ".nrrd")
       throw InputError(out, "", "a sweep is written as NRRD", "name a file that ends in .nrrd");
@@ -188,14 +199,24 @@ int main(int argc, char** argv) {
     }
     if (depth_mm == 0) depth_mm = probe->depth_mm;
 
+    const TissueTable table = read_tissue_table(assets_folder() / "tissues.toml");
+    const auto volume_of = [&] {
+      return make_acoustic_volume(subject.ct, subject.labels, tissue_by_label(subject), table);
+    };
+    if (model == "W") {
+      WeinSettings settings = settings_file.empty() ? WeinSettings{} : read_wein_settings(settings_file);
+      settings.image_width = width.value_or(settings.image_width);
+      settings.image_height = height.value_or(settings.image_height);
+      write_png(out, mirrored(render_wein(subject_path, volume_of(), *probe, depth_mm, settings, pose, by_reference)));
+      return 0;
+    }
     Settings settings = settings_file.empty() ? trainer_settings(probe->frequency_mhz, depth_mm)
                                               : read_settings(settings_file, probe->frequency_mhz, depth_mm);
     settings.gain_db = gain_db.value_or(settings.gain_db);
     settings.image_width = width.value_or(settings.image_width);
     settings.image_height = height.value_or(settings.image_height);
 
-    const TissueTable table = read_tissue_table(assets_folder() / "tissues.toml");
-    const AcousticVolume volume = make_acoustic_volume(subject.ct, subject.labels, tissue_by_label(subject), table);
+    const AcousticVolume volume = volume_of();
     if (to_volume) {
       const double pivot =
           pivot_mm.value_or(probe->kind == ProbeKind::linear ? kLinearPivot_mm : apex_behind_mm(*probe));

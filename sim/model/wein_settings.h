@@ -21,14 +21,16 @@ struct WeinSettings {
   double contact_mm = 6;  ///< nearer to the face than this, air counts as water and nothing reflects: 0 (none) to 100
 
   double compression = 1000;      ///< a of the reflection's logarithm, 0.001 to 1e6
-  double dark_hu = -50;           ///< soft tissue's range, between fat ...
-  double bright_hu = 150;         ///< ... and enhanced parenchyma; above dark_hu
+  double dark_hu = -50;           ///< soft tissue's range, between fat, -1000 to 3000 ...
+  double bright_hu = 150;         ///< ... and enhanced parenchyma, as much; kLeastHuRange or more above dark_hu
   bool shadows = true;            ///< E too is scaled by I, so that a shadow holds no echo; the paper leaves E as it is
   double reflection_share = 0.5;  ///< s in the image, s R + (1 - s) E, 0 to 1
 
   int image_width = 128;  ///< 1 to 8192
   int image_height = 96;  ///< 1 to 8192
 };
+
+inline constexpr double kLeastHuRange = 1;
 
 /// The mu of air, below which none counts: its density is 1.2e-3 of water's, whose mu is 1000.
 inline constexpr double kAirMu = 1.2;

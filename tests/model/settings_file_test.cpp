@@ -9,6 +9,7 @@
 
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/model/wein_settings_file.h"
 
 using namespace insonate;
 
@@ -27,9 +28,14 @@ Settings read(const std::string& text) {
   return read_settings(SettingsFile(text).path, kFrequency, kDepth);
 }
 
-std::string why_refused(const std::string& text) {
+WeinSettings read_wein(const std::string& text) {
+  return read_wein_settings(SettingsFile(text).path);
+}
+
+template <typename Read>
+std::string why_refused(const std::string& text, Read&& read_text) {
   try {
-    read(text);
+    read_text(text);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -73,7 +79,7 @@ std::string as_toml(const SettingValue& value) {
 }  // namespace
 
 TEST_CASE("every field of Settings is a key of settings files") {
-  CHECK(named_settings({}).size() == fields_of<Settings>());
+  CHECK(named_settings(Settings{}).size() == fields_of<Settings>());
 }
 
 TEST_CASE("a settings file is a preset and what is written over it") {
@@ -141,7 +147,7 @@ TEST_CASE("a settings file that cannot be used is refused with every place and r
       {"sampels = 3\nblend = 1\nblend_ = 2\ngain_db = 99\n", "line 4, column 11", "'gain_db' is 99"},
   };
   for (const auto& bad : cases) {
-    const std::string why = why_refused(bad.text);
+    const std::string why = why_refused(bad.text, [](const std::string& text) { return read(text); });
     INFO(bad.text << " -> " << why);
     CHECK(why.find(bad.place) != std::string::npos);
     CHECK(why.find(bad.problem) != std::string::npos);
@@ -149,7 +155,7 @@ TEST_CASE("a settings file that cannot be used is refused with every place and r
 }
 
 TEST_CASE("settings that no file could hold are told of by name") {
-  CHECK_FALSE(why_not_valid({}));
+  CHECK_FALSE(why_not_valid(Settings{}));
   CHECK_FALSE(why_not_valid(paper_settings(160, 512)));
   CHECK_FALSE(why_not_valid(trainer_settings(30, 400)));  // whose absorption no gain makes up for
   Settings settings;
@@ -164,4 +170,45 @@ TEST_CASE("settings that no file could hold are told of by name") {
   settings = {};
   settings.tgc_db[3] = 1e9;
   CHECK(why_not_valid(settings).value_or("").find("'tgc_db' is [0, 0, 0, 1e+09") == 0);
+}
+
+TEST_CASE("model W's settings: every field is a key, and what is not written stays as it is") {
+  CHECK(named_settings(WeinSettings{}).size() == fields_of<WeinSettings>());
+  CHECK(named_settings(read_wein("# nothing")) == named_settings(WeinSettings{}));
+  const WeinSettings own = read_wein("samples = 300\ndark_hu = -20\nshadows = false\nreflection_share = 0.25");
+  CHECK(own.samples == 300);
+  CHECK(own.dark_hu == -20);
+  CHECK_FALSE(own.shadows);
+  CHECK(own.reflection_share == 0.25);
+  CHECK(own.bright_hu == WeinSettings{}.bright_hu);
+  std::string text;
+  for (const auto& [name, value] : named_settings(own)) text += name + " = " + as_toml(value) + "\n";
+  CHECK(named_settings(read_wein(text)) == named_settings(own));
+}
+
+TEST_CASE("model W's settings that cannot be used are refused with place and reason") {
+  const struct {
+    std::string text, place, problem;
+  } cases[] = {
+      {"\ngel_mm = 3\n", "line 2, column 10", "the key 'gel_mm' is unknown here"},  // which is model S's
+      {"contact_mm = -1\n", "line 1, column 14", "'contact_mm' is -1; give a number from 0 to 100"},
+      {"compression = 0\n", "line 1", "'compression' is 0; give a number from 0.001 to 1e+06"},
+      {"samples = 2.5\n", "line 1", "'samples' is of another kind; give a whole number"},
+      {"dark_hu = 149.5\n", "line 1, column 11", "'bright_hu' is 150, not 1 or more above 'dark_hu', which is 149.5"},
+      {"dark_hu = 20\nbright_hu = 20\n", "line 2, column 13", "'bright_hu' is 20, not 1 or more above 'dark_hu'"},
+      {"image_width = 0\nshadows = 1\n", "line 2", "give true or false"},
+  };
+  for (const auto& bad : cases) {
+    const std::string why = why_refused(bad.text, read_wein);
+    INFO(bad.text << " -> " << why);
+    CHECK(why.find(bad.place) != std::string::npos);
+    CHECK(why.find(bad.problem) != std::string::npos);
+  }
+  CHECK_FALSE(why_not_valid(WeinSettings{}));
+  WeinSettings settings;
+  settings.reflection_share = std::numeric_limits<double>::quiet_NaN();
+  CHECK(why_not_valid(settings) == "'reflection_share' is nan, not a number from 0 to 1");
+  settings = {};
+  settings.dark_hu = 200;
+  CHECK(why_not_valid(settings) == "'bright_hu' is 150, not 1 or more above 'dark_hu', which is 200");
 }

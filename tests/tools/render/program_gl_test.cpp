@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <sstream>
 #include <utility>
@@ -148,6 +149,31 @@ TEST_CASE("what insonate-render cannot do it says in a sentence, and leaves noth
   std::vector<std::string> after = scene.names();
   after.erase(std::remove(after.begin(), after.end(), "errors"), after.end());
   CHECK(after == before);
+}
+
+TEST_CASE("model W has its own settings file and picture, alike from the graphics card and from the reference") {
+  const Scene scene;
+  scene.folder.file("wein.toml", "samples = 80\nimage_width = 60\nimage_height = 50\nreflection_share = 0.3\n");
+  const std::string common = "--model W --pose " + scene.in("pose.txt") + " --settings ";
+  REQUIRE(scene.render(common + scene.in("wein.toml")).code == 0);
+  const std::vector<double> drawn = grey_levels(scene.in("image.png"));
+  CHECK(drawn.size() == 60 * 50);
+  CHECK(*std::max_element(drawn.begin(), drawn.end()) > 60);
+  REQUIRE(scene.render(common + scene.in("wein.toml") + " --reference").code == 0);
+  const std::vector<double> reference = grey_levels(scene.in("image.png"));
+  REQUIRE(reference.size() == drawn.size());
+  double worst = 0;
+  for (std::size_t i = 0; i < drawn.size(); ++i) worst = std::max(worst, std::abs(drawn[i] - reference[i]));
+  CHECK(worst <= 1);  // as tests/gl/wein_gl_test.cpp
+
+  REQUIRE(scene.render("--model W --pose " + scene.in("pose.txt")).code == 0);
+  CHECK(grey_levels(scene.in("image.png")).size() == 128 * 96);
+  Outcome outcome = scene.render(common + scene.in("small.toml"));
+  CHECK(outcome.code == 2);
+  CHECK(outcome.errors.find("small.toml: line 4, column 11: the key 'gain_db' is unknown here") != std::string::npos);
+  outcome = scene.render("--model W --gain 3");
+  CHECK(outcome.code == 2);
+  CHECK(outcome.errors.find("--gain: model W has no such thing; leave it out or take --model S.") != std::string::npos);
 }
 
 TEST_CASE("the example of the library renders the picture that insonate-render renders") {
