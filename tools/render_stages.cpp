@@ -11,6 +11,7 @@
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
 #include "sim/model/beam.h"
+#include "sim/model/noise.h"
 #include "sim/model/settings_file.h"
 #include "sim/reference/reference.h"
 
@@ -128,6 +129,9 @@ Json description(const RenderedScene& scene, const ScanLines& lines, const Image
                                {"echogenicity_db", knot.echogenicity_db}});
   text["beam_weights"] = beam_weights(scene.settings);
   if (scene.settings.focused_beam) text["beam_sigma_lines"] = focused_beam_sigma(lines, scene.settings);
+  text["noise_level"] = noise_level(scene.settings);
+  text["clutter_share"] = clutter_share(scene.settings);
+  text["clutter_tail_mm"] = kClutterTail_mm;
   text["envelope_scale"] = envelope_scale(lines, scene.settings);
   for (const ScanLine& line : lines.lines)
     text["scan_lines"].push_back({{"start_mm", json(scene.patient_from_probe.point(line.start))},
@@ -170,6 +174,11 @@ void write_files(const fs::path& folder, const RenderedScene& scene, const Stage
   among_lines("reflection", stages.reflection, "R (3) before the beam's width");
   among_lines("reflection_beam", stages.reflection_beam, "R behind the beam's width (4)");
   among_lines("speckle", stages.speckle, "S: envelope of the scatterers' echo behind the beam's width");
+  if (settings.reverberation || settings.face_reflection > 0)
+    among_lines("repeated", stages.repeated, "V behind the beam's width, as sim/model/reverberation.h says");
+  if (settings.electronic_noise || settings.clutter)
+    among_lines("noise", in_single_precision(electronic_noise(lines, settings)),
+                "of mean 1: times noise_level, and the scatterers' mean echo at the depth times clutter_share, in U");
 
   const auto as_picture = [&](const char* name, const Image<float>& image, const char* content) {
     write_nrrd(folder / (std::string(name) + ".nrrd"), image, "\"x\" \"y\"", content);
@@ -194,6 +203,7 @@ Stages<float> in_single_precision(const Stages<double>& stages) {
           in_single_precision(stages.reflection),
           in_single_precision(stages.reflection_beam),
           in_single_precision(stages.transmission),
+          in_single_precision(stages.repeated),
           in_single_precision(stages.speckle),
           in_single_precision(stages.fused),
           stages.inside,

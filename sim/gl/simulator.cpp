@@ -10,6 +10,7 @@
 #include "sim/gl/stage_tables.h"
 #include "sim/model/beam.h"
 #include "sim/model/noise.h"
+#include "sim/model/refraction.h"
 #include "sim/model/scatterers.h"
 #include "sim/model/settings_file.h"
 #include "sim/shaders/shared/simulation_parameters.h"
@@ -26,6 +27,8 @@ Defines traversal_of(const Settings& settings, double dr_mm) {
                                : "kEdgesAnywhere"},
           {"ABSORPTION", settings.absorption ? "1" : "0"},
           {"SPECKLE", settings.speckle ? "1" : "0"},
+          {"EDGE_SHADOW", settings.edge_shadow ? "1" : "0"},
+          {"ELEVATION_FOCUS", slice_bends(settings) ? "1" : "0"},
           {"PLANES", std::to_string(settings.slice_planes)}};
 }
 
@@ -79,6 +82,7 @@ struct Simulator::State {
         scan_convert(sources, {"scan_convert.comp"}),
         smooth(sources, {"smooth.comp"}, smoothing),
         clutter(sources, {"clutter.comp"}),
+        clutter_tail(sources, {"clutter_tail.comp"}),
         fuse(sources, {"fuse.comp"}, fusion),
         maximum(sources, {"maximum.comp"}),
         compress(sources, {"compress.comp"}) {}
@@ -91,7 +95,7 @@ struct Simulator::State {
   Defines reverberation_defines = reverberation_of({});
   Defines smoothing = smoothing_defines();  // what `smooth` is compiled for
   Defines fusion = fusion_defines();        // and `fuse`
-  Program traverse, reverberation, beam, scan_convert, smooth, clutter, fuse, maximum, compress;
+  Program traverse, reverberation, beam, scan_convert, smooth, clutter, clutter_tail, fuse, maximum, compress;
 
   // What the user set.
   Probe probe;
@@ -196,6 +200,13 @@ void Simulator::State::fill_parameters() {
   p.reflection_exponent_px = float(reflection_gaussian.exponent);
   p.transmission_exponent_px = float(transmission_gaussian.exponent);
   p.face_reflection = float(settings.face_reflection);
+  p.turn_kept = float(std::exp(-dr / kTurn_mm));
+  p.turn_per_step = float(dr / (settings.reflection_length_mm * kTurn_rad));
+  p.turn_loss = float(dr / kTurn_mm);
+  p.slice_thickness_mm = float(settings.slice_thickness_mm);
+  p.elevation_focus_mm = float(settings.elevation_focus_mm);
+  p.clutter_kept = float(std::exp(-dr / kClutterTail_mm));
+  p.slice_spread = float(slice_spread(settings));
   p.two_way = settings.two_way;
   p.blend = float(settings.blend);
   p.clutter_share = float(clutter_share(settings));
@@ -306,8 +317,9 @@ void Simulator::State::run(Stage stage) {
       beam.dispatch(parameters.samples, (parameters.lines + 3) / 4);
       if (settings.clutter) {
         echoes.bind(0);
-        mean_echo.bind_image(0, GL_WRITE_ONLY);
+        mean_echo.bind_image(0, GL_READ_WRITE);
         clutter.dispatch(parameters.samples, 1);
+        clutter_tail.dispatch(1, 1);
       }
       break;
     case Stage::scan_convert:
@@ -372,13 +384,13 @@ void Simulator::set_settings(const Settings& settings) {
   if (!same(&Settings::speckle_seed)) state_->scatterers_changed = true;
   if (!same(&Settings::beam_window, &Settings::beam_lines, &Settings::focused_beam, &Settings::focus_mm,
             &Settings::f_number, &Settings::frequency_mhz, &Settings::reverberation, &Settings::face_reflection,
-            &Settings::speckle_cell_mm, &Settings::slice_thickness_mm))
+            &Settings::speckle_cell_mm, &Settings::slice_thickness_mm, &Settings::elevation_focus_mm))
     state_->beam_changed = true;
 
   using S = Settings;
   if (!same(&S::samples, &S::reflection_length_mm, &S::frequency_mhz, &S::absorption, &S::gel_mm, &S::speckle,
-            &S::speckle_seed, &S::speckle_cell_mm, &S::slice_planes, &S::slice_thickness_mm, &S::image_width,
-            &S::image_height, &S::skipping))
+            &S::speckle_seed, &S::speckle_cell_mm, &S::slice_planes, &S::slice_thickness_mm, &S::elevation_focus_mm,
+            &S::edge_shadow, &S::image_width, &S::image_height, &S::skipping))
     state_->due_from(Stage::traverse);
   else if (!same(&S::beam_window, &S::beam_lines, &S::focused_beam, &S::focus_mm, &S::f_number, &S::reverberation,
                  &S::face_reflection, &S::clutter, &S::two_way))
@@ -443,6 +455,7 @@ Stages<float> Simulator::read_stages() {
   stages.reflection_beam = transposed(echoes[0]);
   stages.transmission = transposed(echoes[1]);
   stages.speckle = transposed(echoes[2]);
+  stages.repeated = transposed(echoes[3]);
   stages.fused = read_channels(s.fused, 1)[0];
   const int w = s.image.width(), h = s.image.height();
   Image<Rgba8> rgba(w, h);
@@ -461,8 +474,8 @@ std::optional<std::string> Simulator::reload(const ShaderSources& sources) {
   State& s = *state_;
   std::string problems;
   s.sources = sources;
-  for (Program* program : {&s.traverse, &s.reverberation, &s.beam, &s.scan_convert, &s.smooth, &s.clutter, &s.fuse,
-                           &s.maximum, &s.compress})
+  for (Program* program : {&s.traverse, &s.reverberation, &s.beam, &s.scan_convert, &s.smooth, &s.clutter,
+                           &s.clutter_tail, &s.fuse, &s.maximum, &s.compress})
     if (const auto problem = program->reload(sources)) problems += *problem;
   s.due_from(Stage::traverse);
   return problems.empty() ? std::nullopt : std::optional(problems);

@@ -46,16 +46,20 @@ std::vector<PlacedLine> placed_lines(const DeviceVolume& volume, const Pose& pat
   for (const SlicePlane& plane : slice_planes(settings))
     for (const ScanLine& line : lines.lines) {
       const glm::dvec3 d = line.direction, lateral(d.y, -d.x, 0), elevation = glm::cross(d, lateral);
-      const glm::dvec3 first = line.start + glm::dvec3(0, 0, plane.offset_mm) + (lines.r_min_mm + dr / 2) * d;
+      const double beside = slice_bends(settings) ? 0 : plane.offset * settings.slice_thickness_mm;
+      const glm::dvec3 first = line.start + glm::dvec3(0, 0, beside) + (lines.r_min_mm + dr / 2) * d;
       const glm::dvec3 start = point(texture_from_probe, first), along = step(texture_from_probe, dr * d);
       // A sample's width to spare, for the rounding of the shader's own positions.
-      const auto [enters, leaves] = settings.skipping ? volume.meets_body(start, along) : std::pair(-1e9, 1e9);
+      const auto [enters, leaves] =
+          settings.skipping && !slice_bends(settings) ? volume.meets_body(start, along) : std::pair(-1e9, 1e9);
       placed.push_back({{start, enters - 1},
                         {along, leaves + 1},
                         {step(texture_from_probe, half_length * lateral), plane.weight},
                         {step(texture_from_probe, half_length * elevation), 0},
                         {point(lattice_from_probe, first), 0},
-                        {step(lattice_from_probe, dr * d), 0}});
+                        {step(lattice_from_probe, dr * d), 0},
+                        {step(texture_from_probe, {0, 0, plane.offset}), 0},
+                        {step(lattice_from_probe, {0, 0, plane.offset}), 0}});
     }
   return placed;
 }

@@ -19,6 +19,7 @@ struct PlacedLine {
   glm::vec4 start, along;
   glm::vec4 lateral, elevation;
   glm::vec4 lattice_start, lattice_along;
+  glm::vec4 beside, lattice_beside;
 };
 
 /// The lines of all slice planes where the probe now is.

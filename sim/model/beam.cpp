@@ -90,9 +90,22 @@ std::vector<double> beam_weights_at(const Settings& settings, double sigma_lines
   return with_sum_1(std::move(weights));
 }
 
+bool slice_bends(const Settings& settings) {
+  return settings.slice_planes > 1 && settings.elevation_focus_mm > 0;
+}
+
+double slice_spread(const Settings& settings) {
+  if (settings.elevation_focus_mm == 0) return 0;
+  return std::log(2.0) * 1.54 / settings.frequency_mhz / (glm::pi<double>() * settings.slice_thickness_mm);
+}
+
+double slice_thickness_at_mm(const Settings& settings, double r_mm) {
+  return std::hypot(settings.slice_thickness_mm, (r_mm - settings.elevation_focus_mm) * slice_spread(settings));
+}
+
 std::vector<SlicePlane> slice_planes(const Settings& settings) {
   const int count = settings.slice_planes;
-  const double sigma = settings.slice_thickness_mm / std::sqrt(8 * std::log(2.0));
+  const double sigma = 1 / std::sqrt(8 * std::log(2.0));
   std::vector<SlicePlane> planes;
   double sum = 0;
   for (int i = 0; i < count; ++i) {
@@ -107,15 +120,19 @@ std::vector<SlicePlane> slice_planes(const Settings& settings) {
 std::vector<double> envelope_scale(const ScanLines& lines, const Settings& settings) {
   const std::vector<double> sigma = focused_beam_sigma(lines, settings);
   std::vector<double> weights = beam_weights(settings);
-  double of_planes = 0;  // variance that their sum leaves
-  for (const SlicePlane& a : slice_planes(settings))
-    for (const SlicePlane& b : slice_planes(settings))
-      of_planes +=
-          a.weight * b.weight * interpolation_correlation((a.offset_mm - b.offset_mm) / settings.speckle_cell_mm);
+  const std::vector<SlicePlane> planes = slice_planes(settings);
+  const auto of_planes = [&](double r) {  // variance that their sum leaves
+    const double cells = slice_thickness_at_mm(settings, r) / settings.speckle_cell_mm;
+    double variance = 0;
+    for (const SlicePlane& a : planes)
+      for (const SlicePlane& b : planes)
+        variance += a.weight * b.weight * interpolation_correlation((a.offset - b.offset) * cells);
+    return variance;
+  };
   std::vector<double> scale;
   for (int k = 0; k < lines.samples; ++k) {
     if (settings.focused_beam) weights = beam_weights_at(settings, sigma[std::size_t(k)]);
-    const double spacing = line_spacing_mm(lines, lines.r_min_mm + (k + 0.5) * lines.dr_mm());
+    const double r = lines.r_min_mm + (k + 0.5) * lines.dr_mm(), spacing = line_spacing_mm(lines, r);
     double variance = 0;
     for (std::size_t d = 0; d < weights.size(); ++d) {
       const double correlation = interpolation_correlation(double(d) * spacing / settings.speckle_cell_mm);
@@ -124,7 +141,7 @@ std::vector<double> envelope_scale(const ScanLines& lines, const Settings& setti
       for (std::size_t i = d; i < weights.size(); ++i) overlap += weights[i] * weights[i - d];
       variance += (d == 0 ? 1 : 2) * overlap * correlation;
     }
-    scale.push_back(1.0 / (kRayleighMean * std::sqrt(variance * of_planes)));
+    scale.push_back(1.0 / (kRayleighMean * std::sqrt(variance * of_planes(r))));
   }
   return scale;
 }

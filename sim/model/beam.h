@@ -33,15 +33,28 @@ int focused_reach(double sigma_lines);
 /// @param sigma_lines  of the focused beam there
 std::vector<double> beam_weights_at(const Settings& settings, double sigma_lines);
 
+/// Full width at half maximum of the slice in elevation, mm, at a distance r from the face: slice_thickness_mm, where
+/// there is an elevation focus F that of a Gaussian beam about its waist, sent and received by one lens,
+///
+///     hypot(slice_thickness_mm, (r - F) ln 2 lambda / (pi slice_thickness_mm))      lambda = 1.54 mm MHz / frequency
+///
+/// (Siegman, Lasers, 17.1, both ways; Goldstein, Ultrasound in Medicine and Biology 14, 1988: slice thickness).
+double slice_thickness_at_mm(const Settings& settings, double r_mm);
+
+/// Whether there are several planes, and they lie further apart away from a focus.
+bool slice_bends(const Settings& settings);
+
+/// How much thicker the slice is far from its focus, a mm; 0 where there is none.
+double slice_spread(const Settings& settings);
+
 /// A plane of lines beside the imaging plane, which sees its share of the sound.
 struct SlicePlane {
-  double offset_mm;  ///< in elevation
-  double weight;     ///< of I, R and the scatterers' amplitudes; all sum to 1
+  double offset;  ///< in elevation, in thicknesses of the slice
+  double weight;  ///< of I, R and the scatterers' amplitudes; all sum to 1
 };
 
 /// The slice's thickness as `slice_planes` planes: the middles of equal parts of four standard deviations, weighted by
-/// the Gaussian across a lens's beam at its focus (Goldstein, Ultrasound in Medicine and Biology 14, 1988: slice
-/// thickness). The thickness is that of the focus at every depth.
+/// the Gaussian across the beam. With an elevation focus they bend as the thickness does.
 std::vector<SlicePlane> slice_planes(const Settings& settings);
 
 /// What the speckle's envelope is multiplied by at each sample so that fully developed speckle has a mean of 1.

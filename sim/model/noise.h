@@ -24,6 +24,12 @@ double noise_level(const Settings& settings);
 /// Imaging, 7: side lobes; Lediju et al., IEEE UFFC 55, 2008: clutter of 0 to -30 dB in the abdomen). It is scatterers'
 /// echo alone: an interface that a side lobe meets aslant sends the sound elsewhere. Speckled as the noise is, it keeps
 /// fluid beside bright tissue from being perfectly black.
+///
+/// Some of it has gone to and fro on its way and is late, so that it fades behind tissue that ends instead of stopping:
+/// the mean m of each sample goes with
+///
+///     M(k + 1) = m(k + 1) + (M(k) - m(k + 1)) e^(-dr/kClutterTail_mm),  M(0) = m(0)
 double clutter_share(const Settings& settings);
+inline constexpr double kClutterTail_mm = 5;  ///< estimate: 0.9 dB a mm, faster than any tissue's echo falls
 
 }  // namespace insonate

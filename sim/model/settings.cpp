@@ -14,6 +14,7 @@ Settings paper_settings(double depth_mm, int samples) {
   settings.two_way = false;
   settings.focused_beam = false;
   settings.reverberation = false;
+  settings.edge_shadow = false;
   settings.face_reflection = 0;
   settings.clutter = settings.electronic_noise = false;
   settings.reference_level = ReferenceLevel::frame_maximum;

@@ -33,6 +33,7 @@ struct Settings {
   int samples = 512;                  ///< a line, 1 to 8192
   double reflection_length_mm = 0.6;  ///< l: the distance over which two media count as one interface, 0.01 to 20 (1)
   double frequency_mhz = 3.5;         ///< 0.5 to 30
+  bool edge_shadow = false;           ///< what refraction at grazing incidence takes from a line, see refraction.h
   bool absorption = true;             ///< frequency-dependent absorption in (5); off in the paper's own mode
   double gel_mm = 6;  ///< coupling gel: air nearer to the face than this counts as water; 0 (none) to 100
 
@@ -47,6 +48,7 @@ struct Settings {
 
   int slice_planes = 1;           ///< planes that stand for the beam in elevation, odd, 1 (infinitely thin) to 31
   double slice_thickness_mm = 3;  ///< full width at half maximum in elevation, 0.1 to 20
+  double elevation_focus_mm = 0;  ///< where it is so, see slice_thickness_at_mm(), to 400; 0: at every depth
 
   bool reverberation = false;  ///< between strong interfaces in the tissue, see reverberation.h
   double face_reflection = 0;  ///< of the sound that comes back, what the probe's face sends in again, 0 (none) to 1

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <complex>
 
-#include "sim/model/beam.h"
 #include "sim/model/noise.h"
+#include "sim/model/refraction.h"
 #include "sim/model/scatterers.h"
 #include "sim/reference/reverberation_reference.h"
 
@@ -131,7 +131,7 @@ MediumField trilinear_field(const AcousticVolume& volume) {
 }
 
 ReferenceScan traverse_reference(const MediumField& field, const TissueTable& table, const ScanLines& lines,
-                                 const Settings& settings, const Pose& patient_from_probe) {
+                                 const Settings& settings, const Pose& patient_from_probe, const SlicePlane& plane) {
   const int count = int(lines.lines.size());
   const double dr = lines.dr_mm(), l = settings.reflection_length_mm;
   const Scatterers scatterers(settings);
@@ -145,25 +145,32 @@ ReferenceScan traverse_reference(const MediumField& field, const TissueTable& ta
     const glm::dvec3 lateral = patient_from_probe.direction({d.y, -d.x, 0});
     const glm::dvec3 elevation = glm::cross(along, lateral);
 
+    const glm::dvec3 out_of_plane = patient_from_probe.direction({0, 0, 1});
+    const auto place = [&](double r) {
+      return start + r * along + plane.offset * slice_thickness_at_mm(settings, r) * out_of_plane;
+    };
+
     double intensity = 1;
+    glm::dvec2 turn(0);
     for (int k = 0; k < lines.samples; ++k) {
       const double r = lines.r_min_mm + (k + 0.5) * dr;
-      const glm::dvec3 p = start + r * along;
+      const glm::dvec3 p = place(r);
       const Medium here = with_gel(field(p), r, settings.gel_mm);
-      const auto hu = [&](const glm::dvec3& offset, double depth) {
-        return with_gel(field(p + offset), depth, settings.gel_mm).hu;
+      const auto hu = [&](const glm::dvec3& at, double depth) {
+        return with_gel(field(at), depth, settings.gel_mm).hu;
       };
       const double a = settings.absorption ? table.at(here.hu).absorption_db_cm_mhz : 0;
       const auto absorbed = [&](double distance_mm) {
         return std::pow(10.0, -a * settings.frequency_mhz * distance_mm / 100);
       };
 
-      const double hu_before = hu(-l / 2 * along, r - l / 2), hu_behind = hu(l / 2 * along, r + l / 2);
+      const double hu_before = hu(place(r - l / 2), r - l / 2), hu_behind = hu(place(r + l / 2), r + l / 2);
       const double before = table.at(hu_before).impedance_mrayl, behind = table.at(hu_behind).impedance_mrayl;
       const double alpha = std::pow((behind - before) / (behind + before), 2);  // (1)
       // Impedance is a function of density, so their gradients have one direction.
-      const glm::dvec3 gradient(hu(l / 2 * lateral, r) - hu(-l / 2 * lateral, r), hu_behind - hu_before,
-                                hu(l / 2 * elevation, r) - hu(-l / 2 * elevation, r));
+      const double left = hu(p - l / 2 * lateral, r), right = hu(p + l / 2 * lateral, r);
+      const double below = hu(p - l / 2 * elevation, r), above = hu(p + l / 2 * elevation, r);
+      const glm::dvec3 gradient(right - left, hu_behind - hu_before, above - below);
       const double steepness = glm::length(gradient);
       const double cosine = steepness > 0 ? std::abs(gradient.y) / steepness : 0;
 
@@ -176,6 +183,14 @@ ReferenceScan traverse_reference(const MediumField& field, const TissueTable& ta
       scan.echo_im.at(line, k) = echo.imag();
 
       intensity *= std::pow(1 - alpha, dr / l) * absorbed(dr);  // (5)
+      if (settings.edge_shadow) {
+        const auto log_speed = [](double density) {
+          return std::clamp(density, kLeastHu, kMostHu) * (density < 0 ? kLogSpeedBelowWater : kLogSpeedAboveWater);
+        };
+        const glm::dvec2 rise(log_speed(right) - log_speed(left), log_speed(above) - log_speed(below));
+        turn = std::exp(-dr / kTurn_mm) * turn + dr / l * rise;
+        intensity *= std::exp(-std::pow(glm::length(turn) / kTurn_rad, 4) * dr / kTurn_mm);
+      }
     }
   }
   return scan;
@@ -201,9 +216,7 @@ Stages<double> simulate_reference(const MediumField& field, const TissueTable& t
   const int n = int(lines.lines.size()), d = lines.samples;
   ReferenceScan scan{Image<double>(n, d), Image<double>(n, d), Image<double>(n, d), Image<double>(n, d)};
   for (const SlicePlane& plane : slice_planes(settings)) {
-    ScanLines beside = lines;
-    for (ScanLine& line : beside.lines) line.start.z += plane.offset_mm;
-    const ReferenceScan one = traverse_reference(field, table, beside, settings, patient_from_probe);
+    const ReferenceScan one = traverse_reference(field, table, lines, settings, patient_from_probe, plane);
     for (Image<double> ReferenceScan::*part :
          {&ReferenceScan::intensity, &ReferenceScan::reflection, &ReferenceScan::echo_re, &ReferenceScan::echo_im})
       for (std::size_t i = 0; i < (one.*part).pixels.size(); ++i)
@@ -215,7 +228,7 @@ Stages<double> simulate_reference(const MediumField& field, const TissueTable& t
   stages.transmission = Image<double>(n, d);
   stages.speckle = Image<double>(n, d);
   const Image<double> repeats = reverberation_reference(scan.intensity, scan.reflection, lines, settings);
-  Image<double> repeated(n, d);  // behind the beam
+  stages.repeated = Image<double>(n, d);
   const std::vector<double> sigma = focused_beam_sigma(lines, settings);
   const std::vector<double> scale = envelope_scale(lines, settings);
   for (int k = 0; k < d; ++k) {
@@ -233,7 +246,7 @@ Stages<double> simulate_reference(const MediumField& field, const TissueTable& t
         total += weight;
       }
       stages.reflection_beam.at(line, k) = reflection / total;
-      repeated.at(line, k) = repeat / total;
+      stages.repeated.at(line, k) = repeat / total;
       const double intensity = scan.intensity.at(line, k);
       stages.transmission.at(line, k) = settings.two_way ? intensity * intensity : intensity;
       stages.speckle.at(line, k) = std::abs(echo) / total * (settings.speckle ? scale[std::size_t(k)] : 1);
@@ -250,6 +263,8 @@ Stages<double> simulate_reference(const MediumField& field, const TissueTable& t
   for (int k = 0; k < d; ++k)
     for (int line = 0; line < n; ++line)
       mean_echo.at(0, k) += settings.blend * stages.transmission.at(line, k) * stages.speckle.at(line, k) / n;
+  for (int k = 1; k < d; ++k)
+    mean_echo.at(0, k) += (mean_echo.at(0, k - 1) - mean_echo.at(0, k)) * std::exp(-lines.dr_mm() / kClutterTail_mm);
   const Image<double> noise_of_lines = electronic_noise(lines, settings);
   for (int y = 0; y < h; ++y)
     for (int x = 0; x < w; ++x) {
@@ -260,7 +275,7 @@ Stages<double> simulate_reference(const MediumField& field, const TissueTable& t
       reflection.at(x, y) = bilinear(stages.reflection_beam, position->line, sample);
       transmission.at(x, y) = bilinear(stages.transmission, position->line, sample);
       speckle.at(x, y) = bilinear(stages.speckle, position->line, sample);
-      beside.at(x, y) = bilinear(repeated, position->line, sample) +
+      beside.at(x, y) = bilinear(stages.repeated, position->line, sample) +
                         (noise_level(settings) + clutter_share(settings) * bilinear(mean_echo, 0, sample)) *
                             bilinear(noise_of_lines, position->line, sample);
       gain.at(x, y) = time_gain(settings, position->r_mm / depth_mm);

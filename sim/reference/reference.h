@@ -5,6 +5,7 @@
 
 #include "sim/core/pose.h"
 #include "sim/model/acoustic_volume.h"
+#include "sim/model/beam.h"
 #include "sim/model/settings.h"
 #include "sim/model/stages.h"
 #include "sim/model/tissue.h"
@@ -41,12 +42,13 @@ std::uint8_t grey_level(const Settings& settings, double echo, double level);
 Stages<double> simulate_reference(const MediumField& field, const TissueTable& table, const Probe& probe,
                                   double depth_mm, const Settings& settings, const Pose& patient_from_probe);
 
-/// The first step alone: I and R along given lines (the other stages are left empty), and the scatterers' echo.
+/// The first step alone: I and R along given lines, and the scatterers' echo.
 struct ReferenceScan {
   Image<double> intensity, reflection;  ///< x line, y sample
   Image<double> echo_re, echo_im;
 };
 ReferenceScan traverse_reference(const MediumField& field, const TissueTable& table, const ScanLines& lines,
-                                 const Settings& settings, const Pose& patient_from_probe);
+                                 const Settings& settings, const Pose& patient_from_probe,
+                                 const SlicePlane& plane = {0, 1});
 
 }  // namespace insonate

@@ -22,6 +22,7 @@ struct Line {
                             // the last sample that may lie in the body
   vec4 lateral, elevation;  // half the reflection length to either side; lateral.w: the plane's weight
   vec4 lattice_start, lattice_along;  // in the scatterers' lattice
+  vec4 beside, lattice_beside;        // with ELEVATION_FOCUS, the way to the plane for each mm of the slice's thickness
 };
 layout(std430, binding = 0) readonly buffer ScanLines { Line scan_lines[]; };  // plane by plane
 layout(std430, binding = 2) buffer Counters { uint samples_walked, normals_taken; };
@@ -32,25 +33,41 @@ const int kEdgesAtMiddles = 1;  // l = dr: halfway between samples, as in the pa
 const int kEdgesAnywhere = 0;
 
 const float kMeanCosine = 0.5;           // |d . n| over all directions, for interfaces too weak to be looked at
+// As in sim/model/refraction.h.
+const float kLeastHu = -150.0, kMostHu = 150.0, kLogSpeedBelowWater = 5e-4, kLogSpeedAboveWater = 7.6e-4;
 const float kScattererScale = 4.0;     // the lattice stores a quarter of its normally distributed numbers
 const float kLn10 = 2.302585093;
 const float kSpentLogIntensity = -46.0;  // 10^-20: 200 dB down nothing can be heard
 
 Line line;
 
+// Where a place along the line lies, counted in samples. With ELEVATION_FOCUS planes bend as the slice's thickness does.
+float depth(float k) { return r_min_mm + (k + 0.5) * dr_mm; }
+#if ELEVATION_FOCUS == 1
+float thickness_mm(float k) {
+  float spread = slice_spread * (depth(k) - elevation_focus_mm);
+  return sqrt(slice_thickness_mm * slice_thickness_mm + spread * spread);
+}
+vec3 place(float k) { return line.start.xyz + k * line.along.xyz + thickness_mm(k) * line.beside.xyz; }
+vec3 lattice_place(float k) {
+  return line.lattice_start.xyz + k * line.lattice_along.xyz + thickness_mm(k) * line.lattice_beside.xyz;
+}
+#else
+vec3 place(float k) { return line.start.xyz + k * line.along.xyz; }
+vec3 lattice_place(float k) { return line.lattice_start.xyz + k * line.lattice_along.xyz; }
+#endif
+
 vec2 voxel(vec3 at) { return textureLod(acoustic_volume, at, 0.0).rg * 32767.0; }
 
 // Coupling gel fills what air there is between the face and the skin, up to its thickness.
 vec2 with_gel(vec2 voxel, float r) { return r < gel_mm && voxel.x < kCouplingAirHu ? kGel : voxel; }
-
-float depth(float k) { return r_min_mm + (k + 0.5) * dr_mm; }
 
 struct Medium { float hu, impedance, absorption, echogenicity; };
 
 // At a place along the line, counted in samples.
 Medium medium(float k) {
   vec2 here = kOutside;
-  if (k >= line.start.w && k <= line.along.w) here = voxel(line.start.xyz + k * line.along.xyz);
+  if (k >= line.start.w && k <= line.along.w) here = voxel(place(k));
   here = with_gel(here, depth(k));
   vec2 known = impedance_and_absorption(here.x);
   return Medium(here.x, known.x, known.y, here.y);
@@ -73,20 +90,25 @@ vec2 scatterer(vec3 lattice) {
   return textureLod(scatterers, lattice, 0.0).rg * (kScattererScale * inversesqrt(kept.x * kept.y * kept.z));
 }
 
+// Densities half the reflection length beside a sample: to both sides in the plane, and in elevation.
+vec4 beside(float k) {
+  vec3 at = place(k);
+  float r = depth(k);
+  return vec4(hu_at(at + line.lateral.xyz, r), hu_at(at - line.lateral.xyz, r),
+              hu_at(at + line.elevation.xyz, r), hu_at(at - line.elevation.xyz, r));
+}
+
 // |cos| of the angle between the beam and the normal of the interface, from differences over the reflection length:
 // of density, whose gradient is that of impedance in direction and needs no look at the tissue table.
-float incidence(float k, float along) {
-  vec3 at = line.start.xyz + k * line.along.xyz;
-  float r = depth(k);
-  float across = hu_at(at + line.lateral.xyz, r) - hu_at(at - line.lateral.xyz, r);
-  float over = hu_at(at + line.elevation.xyz, r) - hu_at(at - line.elevation.xyz, r);
-  return abs(along) * inversesqrt(along * along + across * across + over * over);
+float incidence(vec4 around, float along) {
+  vec2 across = around.xz - around.yw;
+  return abs(along) * inversesqrt(along * along + dot(across, across));
 }
 
 // Complex amplitude of what scatters at a sample.
 vec2 scatterers_echo(float k, Medium here) {
   vec2 echo = vec2(exp(here.echogenicity * (kLn10 / 1000.0)), 0.0);
-  if (SPECKLE == 1) echo = echo.x * scatterer(line.lattice_start.xyz + k * line.lattice_along.xyz);
+  if (SPECKLE == 1) echo = echo.x * scatterer(lattice_place(k));
   return echo;
 }
 
@@ -104,6 +126,9 @@ void walk(int plane, int index) {
 
   float log_intensity = 0.0;
   uint normals = 0u;
+#if EDGE_SHADOW == 1
+  vec2 turn = vec2(0.0);  // of the sound, in units of kTurn_rad
+#endif
   Medium here = medium(0.0), before = medium(-half_reflection_length);
   int k = 0;
   for (; k < samples && log_intensity > kSpentLogIntensity; ++k) {
@@ -118,8 +143,14 @@ void walk(int plane, int index) {
     if (k == 0) log_intensity = -0.5 * absorbed;  // the first sample lies half a step behind the face
     float intensity = exp(log_intensity);
     float cosine = kMeanCosine;
+#if EDGE_SHADOW == 1
+    vec4 around = beside(position);
+#endif
     if (alpha > least_alpha_with_normal) {
-      cosine = incidence(position, behind.hu - before.hu);
+#if EDGE_SHADOW == 0
+      vec4 around = beside(position);
+#endif
+      cosine = incidence(around, behind.hu - before.hu);
       ++normals;
     }
     float reflection = alpha * intensity * intensity * cosine;  // (3)
@@ -127,6 +158,13 @@ void walk(int plane, int index) {
 
     log_intensity +=
         reflection_exponent * log_transmission(alpha, before.impedance, behind.impedance) - absorbed;  // (5)
+#if EDGE_SHADOW == 1
+    vec4 soft = clamp(around, kLeastHu, kMostHu);
+    vec4 log_speed = kLogSpeedBelowWater * min(soft, 0.0) + kLogSpeedAboveWater * max(soft, 0.0);
+    turn = turn * turn_kept + (log_speed.xz - log_speed.yw) * turn_per_step;
+    float turned = dot(turn, turn);
+    log_intensity -= turned * turned * turn_loss;
+#endif
     before = behind;
     if (EDGES_AT == kEdgesAtSamples) before = here;
     here = next;

@@ -50,6 +50,7 @@ std::string out_of_bounds(const Stages<Real>& stages) {
   if (const auto fault = outside("I", stages.intensity, 1)) return *fault;
   if (const auto fault = outside("R", stages.reflection, kOne)) return *fault;
   if (const auto fault = outside("R behind the beam", stages.reflection_beam, kOne)) return *fault;
+  if (const auto fault = outside("V", stages.repeated, kFinite)) return *fault;
   if (const auto fault = outside("T", stages.transmission, 1)) return *fault;
   if (const auto fault = outside("S", stages.speckle, kFinite)) return *fault;
   if (const auto fault = outside("U", stages.fused, kFinite)) return *fault;

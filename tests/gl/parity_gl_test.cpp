@@ -63,6 +63,10 @@ void check_parity(const Probe& probe, double depth_mm, const Settings& settings,
   INFO(told("R behind the beam", beam));
   CHECK(beam.error < 1);
 
+  const Worst repeated = worst(expected.repeated, got.repeated, tolerance(&Stages<double>::repeated, of_brightest));
+  INFO(told("V", repeated));
+  CHECK(repeated.error < 1);
+
   // The envelope of speckle passes through 0, so its error is measured against its mean of 1.
   const Worst speckle =
       worst(expected.speckle, got.speckle, tolerance(&Stages<double>::speckle, [](double) { return 1e-3; }));
@@ -163,6 +167,24 @@ TEST_CASE("GLSL agrees with the reference: reverberation between a rib's faces, 
   settings.reverberation = true;
   settings.face_reflection = 0.3;
   settings.gain_db = 20;
+  check_parity(probe, 120, settings, test::on_the_skin(0, 9, 12));
+}
+
+TEST_CASE("GLSL agrees with the reference: a slice that is thinnest at its focus") {
+  Probe probe = *find_probe("curvilinear");
+  probe.lines = 64;
+  Settings settings = small(trainer_settings(3.5, 120));
+  settings.slice_planes = 5;
+  settings.slice_thickness_mm = 2;
+  settings.elevation_focus_mm = 40;
+  check_parity(probe, 120, settings, test::on_the_skin(0, 9, 12));
+}
+
+TEST_CASE("GLSL agrees with the reference: shadows at the edges of a rib, a cyst and gas") {
+  Probe probe = *find_probe("curvilinear");
+  probe.lines = 64;
+  Settings settings = small(trainer_settings(3.5, 120));
+  settings.edge_shadow = true;
   check_parity(probe, 120, settings, test::on_the_skin(0, 9, 12));
 }
 

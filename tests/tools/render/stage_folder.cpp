@@ -335,7 +335,26 @@ private:
     return from;
   }
 
-  /// (6) from R behind the beam, I and S.
+  static void add(Plane& to, const Plane& what, double factor) {
+    for (std::size_t i = 0; i < to.values.size(); ++i) to.values[i] += factor * what.values[i];
+  }
+
+  /// The scatterers' echo at each depth as all lines have it in the mean, fading into the depths behind.
+  Plane mean_echo(const Plane& transmission) const {
+    Plane mean = transmission;
+    double before = 0;
+    const double kept = std::exp(-dr_ / value("clutter_tail_mm"));
+    for (int k = 0; k < d_; ++k) {
+      double sum = 0;
+      for (int line = 0; line < n_; ++line) sum += transmission.at(line, k) * plane("speckle").at(line, k);
+      const double here = setting("blend") * sum / n_;
+      before = k == 0 ? here : kept * before + (1 - kept) * here;
+      for (int line = 0; line < n_; ++line) mean.at(line, k) = before;
+    }
+    return mean;
+  }
+
+  /// (6) from R behind the beam, I, S and what adds to them.
   void fusion() {
     Plane transmission = plane("transmission");
     if (on("two_way"))
@@ -346,6 +365,14 @@ private:
     Plane expected = r;
     for (std::size_t i = 0; i < r.values.size(); ++i)
       expected.values[i] = (r.values[i] + setting("blend") * t.values[i]) * s.values[i];
+    if (planes_.count("repeated")) add(expected, converted(plane("repeated")), 1);
+    if (on("electronic_noise")) add(expected, converted(plane("noise")), value("noise_level"));
+    if (on("clutter")) {
+      Plane beside = converted(mean_echo(transmission));
+      const Plane noise = converted(plane("noise"));
+      for (std::size_t i = 0; i < noise.values.size(); ++i) beside.values[i] *= noise.values[i];
+      add(expected, beside, value("clutter_share"));
+    }
     for (int y = 0; y < r.height; ++y)
       for (int x = 0; x < r.width; ++x) {
         double brightest = 1e-20;

@@ -24,7 +24,12 @@ const View kFan = {
     "0.96 0 0.28 -4  0 1 0 9  -0.28 0 0.96 1  0 0 0 1",
     "preset = 'paper'\nsamples = 240\nreflection_length_mm = 1.0\nfrequency_mhz = 3.5\nabsorption = true\n"
     "two_way = true\ngel_mm = 3.1\nbeam_lines = 9\nreference_level = 'fixed'\n"
-    "tgc_db = [0, 2, 5, 9, 14, 20, 27, 35]\ngain_db = 4\nimage_width = 160\nimage_height = 120\n"};
+    "tgc_db = [0, 2, 5, 9, 14, 20, 27, 35]\ngain_db = 4\nimage_width = 160\nimage_height = 120\n"
+    // loud enough that a wrong number among them shows in the picture
+    "electronic_noise = true\nnoise_db = -30\nclutter = true\nclutter_db = -10\n"};
+
+// The same with echoes of echoes.
+const View kRinging = {kFan.arguments, kFan.pose, kFan.settings + "reverberation = true\nface_reflection = 1\n"};
 
 // The paper's own model but for the reflection length, gel before a face that stands off the skin, and a wide box beam.
 const View kLinear = {"--probe linear --depth 40", "-1 0 0 3  0 0.96 -0.28 -2  0 -0.28 -0.96 0  0 0 0 1",
@@ -71,6 +76,12 @@ TEST_CASE("every stage of the graphics card's pictures follows from the stages b
   SECTION("a linear array") {
     check(render(ct, kLinear, ""), ct, kGraphicsCard);
   }
+  SECTION("with reverberation") {
+    const StageFolder ringing = render(ct, kRinging, "");
+    const std::vector<double>& repeated = ringing.planes.at("repeated").values;
+    CHECK(*std::max_element(repeated.begin(), repeated.end()) > 1e-6);
+    check(ringing, ct, kGraphicsCard);
+  }
 }
 
 TEST_CASE("every stage of the reference's pictures follows from the stages before it, the first from the CT") {
@@ -96,8 +107,8 @@ TEST_CASE("one wrong number in any of the files is found") {
     double largest = 0;
     for (double value : changed.values) largest = std::max(largest, std::abs(value));
     // Where the picture is not black: off by two levels in the picture, by what single precision leaves no room for in
-    // the others, where scatterers are told apart least.
-    const bool of_scatterers = name == "speckle" || name.rfind("echo_", 0) == 0;
+    // the others, where scatterers are told apart least, and noise, which only pixels near by know.
+    const bool of_scatterers = name == "speckle" || name == "noise" || name.rfind("echo_", 0) == 0;
     changed.at(changed.width / 2, changed.height / 3) += name == "image" ? 2 : (of_scatterers ? 0.05 : 1e-3) * largest;
     bool found = false;
     for (const auto& [stage, misfit] : misfits(wrong, ct, kGraphicsCard))
