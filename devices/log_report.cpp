@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "devices/pose_history.h"
+
 namespace insonate {
 namespace {
 
@@ -22,6 +24,7 @@ void count_gaps(const std::vector<PoseSample>& samples, LogReport& report) {
   for (std::size_t i = 1; i < samples.size(); ++i) steps.push_back(samples[i].time_s - samples[i - 1].time_s);
   if (steps.empty()) return;
   report.interval_s = median(steps);
+  report.longest_step_s = *std::max_element(steps.begin(), steps.end());
   double squares = 0;
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const double intervals = steps[i] / report.interval_s;
@@ -65,7 +68,29 @@ void follow_path(const std::vector<PoseSample>& samples, LogReport& report) {
   }
 }
 
+std::string count_of(std::size_t count, const char* what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+std::string milliseconds(double seconds) {
+  return std::to_string(std::llround(std::min(seconds, 1e9) * 1e3)) + " ms";
+}
+
 }  // namespace
+
+std::vector<std::string> LogReport::findings() const {
+  std::vector<std::string> found;
+  if (usable == 0) found.emplace_back("No frame is usable.");
+  if (!gaps.empty())
+    found.push_back(count_of(gaps.size(), "gap") + " in the samples, the longest step " + milliseconds(longest_step_s) +
+                    ".");
+  if (!jumps.empty()) found.push_back(count_of(jumps.size(), "jump") + " that no hand makes.");
+  for (const auto& [status, dropout] : dropouts)
+    if (dropout.longest_s > PoseHistory::kStaleS)
+      found.push_back("A dropout (" + std::string(to_string(status)) + ") of " + milliseconds(dropout.longest_s) +
+                      ", in which the picture stands still.");
+  return found;
+}
 
 LogReport check_log(const std::vector<PoseSample>& samples) {
   LogReport report;

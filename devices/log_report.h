@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <map>
+#include <string>
 #include <vector>
 
 #include "sim/core/pose_sample.h"
@@ -37,12 +38,18 @@ struct LogReport {
   double duration_s = 0;  ///< from the first sample to the last
   double interval_s = 0;  ///< median of the steps between samples; 0 for a single sample
   double jitter_s = 0;    ///< RMS difference from it, of the steps that are no gaps
-  double path_mm = 0;     ///< of the probe's face between neighbouring usable samples
+  double longest_step_s = 0;
+  double path_mm = 0;  ///< of the probe's face between neighbouring usable samples
   std::vector<Gap> gaps;
   std::vector<Jump> jumps;
   std::map<PoseStatus, Dropout> dropouts;
 
   double rate_hz() const { return interval_s > 0 ? 1 / interval_s : 0; }
+
+  /// What somebody should look at before the run is scored, a sentence each: samples that are missing, jumps, and
+  /// dropouts that made the picture stand still (PoseHistory::kStaleS). A short dropout is no finding: every tracker
+  /// has some.
+  std::vector<std::string> findings() const;
 };
 
 /// Steps of more than this many median intervals are gaps: the next sample was due at one.

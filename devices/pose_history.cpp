@@ -6,21 +6,13 @@
 
 #include <algorithm>
 
+#include "devices/rotation.h"
+
 namespace insonate {
 namespace {
 
 // The velocity is a line fitted through the newest samples, as many as DEVICES found best.
 constexpr std::size_t kFitted = 13;
-
-/// Axis times angle of the turn from `a` to `b`, in the frame of `a`.
-glm::dvec3 rotation_vector(const glm::dmat3& a, const glm::dmat3& b) {
-  glm::dquat turn = glm::quat_cast(glm::transpose(a) * b);
-  if (turn.w < 0) turn = -turn;
-  const glm::dvec3 half(turn.x, turn.y, turn.z);
-  const double sine = glm::length(half);
-  // Near no turn the sine is the angle, and dividing by it would lose the axis.
-  return sine > 1e-12 ? half * (2 * std::atan2(sine, turn.w) / sine) : half * 2.0;
-}
 
 }  // namespace
 
@@ -95,14 +87,12 @@ Pose PoseHistory::predict(std::size_t index, double ahead_s) const {
     const double t = usable_[i].time_s - last.time_s - mean_s;
     spread += t * t;
     mm += (usable_[i].pose.translation - last.pose.translation) * t;
-    rad += rotation_vector(last.pose.rotation, usable_[i].pose.rotation) * t;
+    rad += rotation_vector(glm::quat_cast(glm::transpose(last.pose.rotation) * usable_[i].pose.rotation)) * t;
   }
   if (!(spread > 0)) return last.pose;
   mm *= ahead_s / spread;
   rad *= ahead_s / spread;
-  const double angle = glm::length(rad);
-  const glm::dquat turn = angle > 0 ? glm::angleAxis(angle, rad / angle) : glm::dquat(1, 0, 0, 0);
-  return {last.pose.rotation * glm::mat3_cast(turn), last.pose.translation + mm};
+  return {last.pose.rotation * glm::mat3_cast(turn_by(rad)), last.pose.translation + mm};
 }
 
 }  // namespace insonate

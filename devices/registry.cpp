@@ -20,8 +20,8 @@ namespace insonate {
 namespace {
 
 constexpr TrackerKind kKinds[] = {
-    {"replay", "replay:FILE[?speed=2&loop=1&transform=ProbeToTracker]", "a recorded .igs.mha or .seq.mha file",
-     open_replay},
+    {"replay", "replay:FILE[?speed=2&loop=1&transform=ProbeToTracker]",
+     "a recorded .igs.mha, .seq.mha or .seq.nrrd file", open_replay},
     {"synthetic", "synthetic:[SEED][?rate=60]", "a made-up hand that scans the front of the abdomen", open_synthetic},
     {"auto", "auto:", "the best of the following that is plugged in", open_best},
     {"polhemus", "polhemus:[SERIAL][?sensor=1&distortion=20&raw=1]", "a Polhemus Patriot, Liberty HS or Viper",

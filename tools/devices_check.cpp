@@ -22,7 +22,9 @@ nlohmann::ordered_json to_json(const std::string& log, const LogReport& report) 
                                  {"duration_s", report.duration_s},
                                  {"rate_hz", report.rate_hz()},
                                  {"jitter_ms", report.jitter_s * 1e3},
-                                 {"path_mm", report.path_mm}};
+                                 {"longest_step_ms", report.longest_step_s * 1e3},
+                                 {"path_mm", report.path_mm},
+                                 {"findings", report.findings()}};
   json["gaps"] = nlohmann::ordered_json::array();
   for (const LogReport::Gap& gap : report.gaps)
     json["gaps"].push_back({{"frame", gap.frame},
@@ -60,7 +62,12 @@ void print(const std::string& log, const LogReport& report) {
                 report.jumps[i].frame);
   if (std::max(report.gaps.size(), report.jumps.size()) > kShown)
     std::printf("  of gaps and jumps the first %zu are shown; --json has all\n", kShown);
+  for (const std::string& finding : report.findings()) std::printf("  look at   %s\n", finding.c_str());
+  if (report.findings().empty()) std::printf("  whole: nothing to look at\n");
 }
+
+/// As the exit code: the log can be read, and somebody should look at it.
+constexpr int kSomethingFound = 1;
 
 struct Request {
   std::string log, transform;
@@ -73,7 +80,7 @@ int check(const Request& request) {
     std::printf("%s\n", to_json(request.log, report).dump(2).c_str());
   else
     print(request.log, report);
-  return 0;
+  return report.findings().empty() ? 0 : kSomethingFound;
 }
 
 }  // namespace
@@ -81,10 +88,12 @@ int check(const Request& request) {
 Command check_command(CLI::App& program) {
   const auto request = std::make_shared<Request>();
   CLI::App* parser = program.add_subcommand("check", "Rate, gaps, dropouts and jumps of a recorded log");
-  parser->add_option("LOG", request->log, "A sequence file (.igs.mha or .seq.mha)")->required();
+  parser->add_option("LOG", request->log, "A sequence file (.igs.mha, .seq.mha or .seq.nrrd)")->required();
   parser->add_option("--transform", request->transform,
                      "The probe's transform, as ProbeToTracker; else the usual ones");
   parser->add_flag("--json", request->json, "As JSON");
+  parser->footer(
+      "Exit codes: 0 whole, 1 something to look at (samples missing, jumps, dropouts over 250 ms), 2 not a log.");
   return {parser, [request] { return check(*request); }};
 }
 

@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
   const std::vector<devices::Command> commands = {
       devices::list_command(arguments),
       devices::check_command(arguments),
+      devices::recover_command(arguments),
       devices::watch_command(arguments),
   };
   return run_program(arguments, argc, argv, [&] {

@@ -1,20 +1,11 @@
 #include "devices/mouse/mouse_tracker.h"
 
-#include <glm/geometric.hpp>
-
 #include <cmath>
 
+#include "devices/rotation.h"
 #include "sim/core/input_error.h"
 
 namespace insonate {
-namespace {
-
-glm::dquat quaternion(const glm::dvec3& rotation_vector) {
-  const double angle = glm::length(rotation_vector);
-  return angle > 0 ? glm::angleAxis(angle, rotation_vector / angle) : glm::dquat(1, 0, 0, 0);
-}
-
-}  // namespace
 
 MouseTracker::MouseTracker(const Pose& patient_from_probe) : Tracker("mouse and keyboard") {
   place(patient_from_probe);
@@ -46,7 +37,7 @@ void MouseTracker::collect(double now_s, std::vector<PoseSample>& samples) {
   if (due <= next_) return;
   const double share = 1.0 / double(due - next_);
   const glm::dvec3 step_mm = pending_mm_ * share + mm_per_s_ / kRateHz;
-  const glm::dquat step_turn = quaternion(pending_rad_ * share + rad_per_s_ / kRateHz);
+  const glm::dquat step_turn = turn_by(pending_rad_ * share + rad_per_s_ / kRateHz);
   pending_mm_ = pending_rad_ = glm::dvec3(0);
   for (; next_ < due; ++next_) {
     translation_ += rotation_ * step_mm;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <charconv>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -9,6 +10,12 @@
 // The words and numbers of a text header, whatever the locale.
 
 namespace insonate {
+
+/// Header fields by name, as they stand in the file's bytes.
+using HeaderFields = std::map<std::string_view, std::string_view>;
+
+/// The remedy for a header that its writer got wrong.
+inline constexpr const char* kExportAgain = "record or export the file again";
 
 /// Without blanks and carriage returns at both ends.
 std::string_view trimmed(std::string_view text);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -27,41 +28,29 @@ constexpr std::pair<std::string_view, std::uint64_t> kElementBytes[] = {
     {"MET_INT", 4},   {"MET_UINT", 4},   {"MET_LONG", 4},       {"MET_ULONG", 4}, {"MET_LONG_LONG", 8},
     {"MET_FLOAT", 4}, {"MET_DOUBLE", 8}, {"MET_ULONG_LONG", 8}, {"MET_OTHER", 1}, {"MET_NONE", 1}};
 
-constexpr const char* kExportAgain = "record or export the file again";
-
 /// The fields of one header, with the errors that name its file.
 class Layout {
 public:
-  Layout(const MetaImageFields& fields, const std::string& file) : fields_(fields), file_(file) {}
+  Layout(const HeaderFields& fields, const std::string& file) : fields_(fields), file_(file) {}
 
-  MetaImageLayout read(std::uint64_t bytes_after) const {
+  SequenceLayout read(std::uint64_t bytes_after) const {
     if (has("ObjectType") && value("ObjectType") != "Image")
       fail("the object is " + quoted(value("ObjectType")) + " instead of an Image",
-           "give a sequence file (.igs.mha or .seq.mha)");
+           "give a sequence file (.igs.mha, .seq.mha or .seq.nrrd)");
     if (!flag("BinaryData", true)) fail("the image data is text", "export the file with BinaryData = True");
 
-    std::vector<std::uint64_t> sizes = dimensions();
-    const std::size_t frame_axis = list_axis(sizes.size());
-    MetaImageLayout layout;
-    layout.frames = sizes[frame_axis];
-    if (layout.frames == 0) fail("DimSize says that there are no frames", "record the scan again");
-    sizes.erase(sizes.begin() + std::ptrdiff_t(frame_axis));
-
-    const bool compressed = flag("CompressedData", false);
-    const std::uint64_t raw_bytes =
-        product({sizes[0], sizes[1], sizes.size() > 2 ? sizes[2] : 1, element_bytes(), channels(), layout.frames});
-    const bool single_pixel = std::all_of(sizes.begin(), sizes.end(), [](std::uint64_t size) { return size == 1; });
-    layout.has_images = raw_bytes > 0 && !single_pixel;
-    if (raw_bytes == 0) return layout;
-    // Transform-only files of PLUS say 1 x 1 and carry a pixel a frame; others say so and carry none, or a line end.
-    if (single_pixel && (compressed || bytes_after <= 2)) return layout;
-    layout.image_bytes = compressed ? compressed_bytes() : raw_bytes;
-    if (bytes_after < layout.image_bytes)
-      throw InputError(file_, "image data",
-                       "it is truncated: " + std::to_string(bytes_after) + " bytes of " +
-                           std::to_string(layout.image_bytes) + " are there",
-                       "copy or record the file again");
-    return layout;
+    ClaimedImages claimed;
+    claimed.sizes = dimensions();
+    claimed.sizes_name = "DimSize";
+    claimed.sizes_text = value("DimSize");
+    claimed.kinds_name = "Kinds";
+    claimed.kinds_text = value("Kinds");
+    claimed.kinds = words(claimed.kinds_text);
+    claimed.element_bytes = element_bytes();
+    claimed.channels = channels();
+    claimed.compressed = flag("CompressedData", false);
+    if (claimed.compressed) claimed.compressed_bytes = compressed_bytes();
+    return sequence_layout(claimed, bytes_after, file_);
   }
 
 private:
@@ -93,20 +82,6 @@ private:
     return sizes;
   }
 
-  /// Which dimension counts the frames: the one whose kind says so, else the last.
-  std::size_t list_axis(std::size_t dimensions) const {
-    if (!has("Kinds")) return dimensions - 1;
-    const std::vector<std::string_view> kinds = words(value("Kinds"));
-    const auto is_list = [](std::string_view kind) {
-      return same_ignoring_case(kind, "list") || same_ignoring_case(kind, "time");
-    };
-    if (kinds.size() != dimensions || std::count_if(kinds.begin(), kinds.end(), is_list) != 1)
-      fail("Kinds is " + quoted(value("Kinds")) + ", where each of the " + std::to_string(dimensions) +
-               " dimensions has a kind and one of them is 'list'",
-           kExportAgain);
-    return std::size_t(std::find_if(kinds.begin(), kinds.end(), is_list) - kinds.begin());
-  }
-
   std::uint64_t element_bytes() const {
     if (!has("ElementType")) return 1;
     for (const auto& [type, bytes] : kElementBytes)
@@ -123,27 +98,15 @@ private:
     return *channels;
   }
 
-  std::uint64_t product(std::initializer_list<std::uint64_t> factors) const {
-    if (std::find(factors.begin(), factors.end(), 0u) != factors.end()) return 0;
-    std::uint64_t product = 1;
-    for (const std::uint64_t factor : factors) {
-      if (product > std::numeric_limits<std::uint64_t>::max() / factor)
-        fail("DimSize " + quoted(value("DimSize")) + " is more than any file holds", kExportAgain);
-      product *= factor;
-    }
-    return product;
-  }
-
-  std::uint64_t compressed_bytes() const {
+  std::optional<std::uint64_t> compressed_bytes() const {
     const auto size = to_number<std::uint64_t>(value("CompressedDataSize"));
     if (has("CompressedDataSize") && !size)
       fail("CompressedDataSize is " + quoted(value("CompressedDataSize")) + " instead of a number of bytes",
            kExportAgain);
-    // Writers that fill the size in at the end leave a 0 behind when they are stopped before.
-    return std::max<std::uint64_t>(size.value_or(1), 1);
+    return size;
   }
 
-  const MetaImageFields& fields_;
+  const HeaderFields& fields_;
   const std::string& file_;
 };
 
@@ -152,9 +115,6 @@ private:
 std::size_t read_metaimage_header(
     std::string_view bytes, const std::string& file,
     const std::function<void(std::string_view name, std::string_view value, std::size_t line)>& field) {
-  if (bytes.starts_with("NRRD"))
-    throw InputError(file, "", "this is a NRRD file, which is not read yet",
-                     "save the sequence as .igs.mha or .seq.mha");
   std::size_t line = 0;
   for (std::size_t at = 0; at < bytes.size();) {
     const std::size_t end = std::min(bytes.find('\n', at), bytes.size());
@@ -165,7 +125,7 @@ std::size_t read_metaimage_header(
     const std::string_view name = trimmed(text.substr(0, equals));
     if (line == 1 && name != "ObjectType" && name != "NDims")
       throw InputError(file, "line 1", "it names neither ObjectType nor NDims, with which a MetaImage begins",
-                       "give a sequence file (.igs.mha or .seq.mha)");
+                       "give a sequence file (.igs.mha, .seq.mha or .seq.nrrd)");
     if (text.empty()) continue;
     const std::string place = "line " + std::to_string(line);
     const bool is_text = std::none_of(name.begin(), name.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; });
@@ -189,7 +149,7 @@ bool is_layout_field(std::string_view name) {
   return std::find(std::begin(kLayoutFields), std::end(kLayoutFields), name) != std::end(kLayoutFields);
 }
 
-MetaImageLayout metaimage_layout(const MetaImageFields& fields, std::uint64_t bytes_after, const std::string& file) {
+SequenceLayout metaimage_layout(const HeaderFields& fields, std::uint64_t bytes_after, const std::string& file) {
   return Layout(fields, file).read(bytes_after);
 }
 

@@ -28,7 +28,8 @@ struct SequenceFrame {
   const SequenceTransform* find(int name) const;
 };
 
-/// What an IGSIO/PLUS sequence file (.igs.mha, .seq.mha, .mha) says of its frames; the images are left where they are.
+/// What an IGSIO/PLUS sequence file (.igs.mha, .seq.mha, .seq.nrrd) says of its frames; the images are left where they
+/// are.
 struct Sequence {
   std::string file;                             ///< for messages
   std::vector<std::string> transform_names;     ///< of all frames, without "Transform": "ProbeToTracker"
@@ -43,14 +44,15 @@ struct Sequence {
 };
 
 /// Reads the header of a sequence file as PLUS, IGSIO and 3D Slicer write it: a MetaImage header with a line
-/// `Seq_Frame0000_Field = value` for each field of each frame. Understood are, of a frame, `...Transform` (16 numbers
-/// by rows), `...TransformStatus` (absent: unknown), `Timestamp` and `Buttons`; of the header the fields that tell size
-/// and kind, and `...Transform` fields. All else that is well formed is skipped, images too: they are only checked to
-/// be there. `file` names it in messages.
+/// `Seq_Frame0000_Field = value` for each field of each frame, or a NRRD header with `Seq_Frame0000_Field:=value`.
+/// Understood are, of a frame, `...Transform` (16 numbers by rows), `...TransformStatus` (absent: unknown),
+/// `Timestamp` and `Buttons`; of the header the fields that tell size and kind, and `...Transform`
+/// fields. All else that is well formed is skipped, images too: they are only checked to be there. `file` names it in
+/// messages.
 ///
 /// A pure function of the bytes. Takes memory and time in proportion to them, whatever they claim. Throws InputError
-/// for whatever is truncated, malformed, contradictory, or a sequence of a kind that is not read here (NRRD, a separate
-/// data file).
+/// for whatever is truncated, malformed, contradictory, or a sequence of a kind that is not read here (a separate data
+/// file, bzip2).
 Sequence parse_sequence(std::string_view bytes, const std::string& file);
 
 /// A transform-only sequence file that parse_sequence and probe_samples read back to the same bits, under the name

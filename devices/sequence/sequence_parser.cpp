@@ -10,6 +10,7 @@
 
 #include "devices/sequence/header_text.h"
 #include "devices/sequence/metaimage.h"
+#include "devices/sequence/nrrd.h"
 #include "devices/sequence/sequence.h"
 #include "sim/core/input_error.h"
 
@@ -49,17 +50,22 @@ std::uint32_t buttons_of(std::string_view status) {
 
 class Parser {
 public:
-  Parser(std::string_view bytes, const std::string& file) : bytes_(bytes) { sequence_.file = file; }
+  Parser(std::string_view bytes, const std::string& file) : bytes_(bytes), is_nrrd_(is_nrrd(bytes)) {
+    sequence_.file = file;
+  }
 
   Sequence parse() {
-    sequence_.image_offset = read_metaimage_header(
-        bytes_, sequence_.file, [this](std::string_view name, std::string_view value, std::size_t line) {
-          if (name.starts_with(kFramePrefix))
-            keep_frame_field(name, value, line);
-          else
-            keep_header_field(name, value, line);
-        });
-    const MetaImageLayout layout = metaimage_layout(header_, bytes_.size() - sequence_.image_offset, sequence_.file);
+    const auto keep = [this](std::string_view name, std::string_view value, std::size_t line) {
+      if (name.starts_with(kFramePrefix))
+        keep_frame_field(name, value, line);
+      else
+        keep_header_field(name, value, line);
+    };
+    sequence_.image_offset =
+        is_nrrd_ ? read_nrrd_header(bytes_, sequence_.file, keep) : read_metaimage_header(bytes_, sequence_.file, keep);
+    const std::string_view data = bytes_.substr(sequence_.image_offset);
+    const SequenceLayout layout =
+        is_nrrd_ ? nrrd_layout(header_, data, sequence_.file) : metaimage_layout(header_, data.size(), sequence_.file);
     sequence_.has_images = layout.has_images;
     sequence_.image_bytes = std::size_t(layout.image_bytes);
     make_frames(layout.frames);
@@ -97,10 +103,9 @@ private:
 
   void keep_header_field(std::string_view name, std::string_view value, std::size_t line) {
     const bool transform = name.size() > kTransform.size() && name.ends_with(kTransform);
-    if (!transform && !is_layout_field(name)) return;
+    if (!transform && !(is_nrrd_ ? is_nrrd_layout_field(name) : is_layout_field(name))) return;
     const std::string place = "line " + std::to_string(line);
-    if (!header_.emplace(name, value).second)
-      fail(place, std::string(name) + " is given a second time", "record or export the file again");
+    if (!header_.emplace(name, value).second) fail(place, std::string(name) + " is given a second time", kExportAgain);
     if (!transform) return;
     const auto matrix = to_matrix(value);
     if (!matrix) fail(place, quoted(name) + " is not 16 finite numbers", "correct it in the header");
@@ -113,7 +118,7 @@ private:
     const auto frame = to_number<std::uint32_t>(name.substr(kFramePrefix.size(), underscore - kFramePrefix.size()));
     if (!frame || underscore + 1 >= name.size())
       fail("line " + std::to_string(line), quoted(name) + " names no frame and field, as in 'Seq_Frame0000_Timestamp'",
-           "record or export the file again");
+           kExportAgain);
     highest_frame_ = std::max<std::size_t>(highest_frame_, *frame);
     name.remove_prefix(underscore + 1);
     // Of the many fields a frame may have only these are kept; the others are the writer's own business.
@@ -124,7 +129,7 @@ private:
   void make_frames(std::uint64_t frames) {
     if (fields_.empty())
       fail("header", "no frame is described (there are no 'Seq_Frame0000_...' fields): it is a plain image",
-           "give a tracked sequence (.igs.mha or .seq.mha)");
+           "give a tracked sequence (.igs.mha, .seq.mha or .seq.nrrd)");
     if (frames > bytes_.size() / kLeastFrameBytes || highest_frame_ >= frames)
       fail("header",
            "DimSize says " + std::to_string(frames) + " frames, but the last one described is frame " +
@@ -226,8 +231,9 @@ private:
   }
 
   std::string_view bytes_;
+  bool is_nrrd_;
   Sequence sequence_;
-  MetaImageFields header_;
+  HeaderFields header_;
   std::vector<FrameField> fields_;
   std::unordered_map<std::string_view, int> name_indices_;
   std::size_t highest_frame_ = 0;

@@ -60,7 +60,7 @@ TEST_CASE("every sequence file that is damaged in a way people meet is refused w
   const std::vector<Damage> damages = {
       {"ObjectType = Image\n", "", {}},  // what else is said first is still a MetaImage
       {"ObjectType = Image", "\x89PNG\r\n\x1a", {"line 1", "MetaImage", "give a sequence file"}},
-      {"ObjectType = Image", "NRRD0004", {"NRRD", "save the sequence as .igs.mha"}},
+      {"ObjectType = Image", "NRRD0004", {"line 2", "'name: value'"}},
       {"ObjectType = Image", "ObjectType = Mesh", {"header", "'Mesh' instead of an Image"}},
       {"ObjectType = Image", "", {"line 1"}},
       {"NDims = 3\n", "", {"NDims is ''"}},

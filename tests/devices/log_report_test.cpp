@@ -30,6 +30,22 @@ TEST_CASE("the report of a steady log has its rate and path and nothing to compl
   CHECK(report.gaps.empty());
   CHECK(report.jumps.empty());
   CHECK(report.dropouts.empty());
+  CHECK(report.findings().empty());
+  CHECK(report.longest_step_s == Approx(0.01).epsilon(1e-4));
+}
+
+TEST_CASE("gaps, jumps and long dropouts are findings, short dropouts are none") {
+  auto samples = steady();
+  for (int i = 100; i < 120; ++i) samples[std::size_t(i)].status = PoseStatus::missing;
+  CHECK(check_log(samples).findings().empty());
+  for (int i = 300; i < 326; ++i) samples[std::size_t(i)].status = PoseStatus::out_of_view;
+  for (std::size_t i = 700; i < samples.size(); ++i) samples[i].patient_from_probe.translation.y += 40;
+  samples.erase(samples.begin() + 500, samples.begin() + 503);
+  const LogReport report = check_log(samples);
+  CHECK(report.findings() ==
+        std::vector<std::string>{"1 gap in the samples, the longest step 40 ms.", "1 jump that no hand makes.",
+                                 "A dropout (out of view) of 260 ms, in which the picture stands still."});
+  CHECK(check_log({PoseSample{5, PoseStatus::missing, {}, 0}}).findings().front() == "No frame is usable.");
 }
 
 TEST_CASE("jitter is the spread of the steps") {

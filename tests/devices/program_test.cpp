@@ -2,13 +2,20 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <filesystem>
 #include <string>
+#include <vector>
 
 #include "devices/known_trackers.h"
+#include "devices/record/recording_files.h"
+#include "devices/sequence/sequence.h"
+#include "devices/sequence/sequence_text.h"
+#include "sim/core/files.h"
 
 using namespace insonate;
 
@@ -59,7 +66,46 @@ TEST_CASE("insonate-devices check reports a log in words and in JSON") {
   CHECK(report["rate_hz"].get<double>() == Approx(20));
   CHECK(report["dropouts"]["missing"]["frames"] == 1);
   CHECK(report["jumps"].empty());
+  CHECK(report["findings"].empty());
   CHECK(nlohmann::json::parse(run("check --json --transform ReferenceToTracker " + kLog).output)["usable_frames"] == 5);
+}
+
+TEST_CASE("insonate-devices check exits with 1 when there is something to look at") {
+  const std::string log =
+      std::filesystem::temp_directory_path() / ("insonate_gap_" + std::to_string(getpid()) + ".igs.mha");
+  std::vector<PoseSample> samples;
+  for (int i = 0; i < 50; ++i)
+    if (i < 20 || i > 30) samples.push_back({i / 60.0, PoseStatus::ok, Pose{}, 0});
+  write_file(log, write_sequence(samples));
+  const Run words = run("check " + log);
+  CHECK(words.exit_code == 1);
+  CHECK(contains(words.output, "look at   1 gap in the samples"));
+  const Run json = run("check --json " + log);
+  CHECK(json.exit_code == 1);
+  CHECK(nlohmann::json::parse(json.output)["findings"].size() == 1);
+  std::filesystem::remove(log);
+}
+
+TEST_CASE("insonate-devices recover finishes a recording, and says what there is none of") {
+  const std::string log =
+      std::filesystem::temp_directory_path() / ("insonate_cut_" + std::to_string(getpid()) + ".igs.mha");
+  const auto leave = [&] {
+    std::filesystem::remove(log);
+    std::string text = working_head(0, 0);
+    append_frame(text, 0, {1.5, PoseStatus::ok, Pose{}, 0});
+    write_file(working_file(log), text + frame_end(0, 1) + "Seq_Frame0001_Probe");
+  };
+  for (const std::string& named : {log, working_file(log).string()}) {
+    leave();
+    const Run recovered = run("recover " + named);
+    CHECK(recovered.exit_code == 0);
+    CHECK(recovered.output == "wrote " + log + " with 1 frames\n");
+    CHECK(read_file(log) == write_sequence({{1.5, PoseStatus::ok, Pose{}, 0}}));
+  }
+  const Run none = run("recover " + log + " 2>&1");
+  CHECK(none.exit_code == 2);
+  CHECK(contains(none.output, "such a file already"));
+  std::filesystem::remove(log);
 }
 
 TEST_CASE("insonate-devices watch prints every sample of a log, once and in order") {

@@ -1,0 +1,143 @@
+#include "devices/filter/filter_figures.h"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "devices/pose_history.h"
+#include "sim/core/hash.h"
+
+namespace insonate {
+namespace {
+
+constexpr double kNoise_mm = 0.1, kSeconds = 30, kPi = glm::pi<double>();
+/// The filters' own beginning is no part of what they do.
+constexpr double kFrom_s = 1;
+
+/// From 0 to 1, never 0.
+double uniform(std::uint32_t index, std::uint32_t purpose) {
+  return (hash(index, purpose) + 1.0) / 4294967296.0;
+}
+
+/// Of a normal distribution, by Box and Muller.
+double normal(std::uint32_t index, std::uint32_t purpose) {
+  return std::sqrt(-2 * std::log(uniform(index, 2 * purpose))) * std::cos(2 * kPi * uniform(index, 2 * purpose + 1));
+}
+
+using Way = std::function<glm::dvec3(double time_s)>;
+
+glm::dvec3 resting(double) {
+  return {300, 50, -80};
+}
+
+/// 100 mm/s at the middle, to and fro every two seconds.
+glm::dvec3 sweeping(double time_s) {
+  return {300 + 100 / kPi * std::sin(kPi * time_s), 50, -80};
+}
+
+/// Smooth, never the same twice, 90 mm/s RMS.
+glm::dvec3 scanning(double time_s) {
+  return {300 + 34 * std::sin(2.1 * time_s) + 12 * std::sin(5.3 * time_s), 50 + 27 * std::sin(2.7 * time_s + 1),
+          -80 + 11 * std::sin(4.1 * time_s + 2)};
+}
+
+std::vector<PoseSample> noisy(const Way& way, double rate_hz) {
+  std::vector<PoseSample> samples;
+  for (std::uint32_t i = 0; i < kSeconds * rate_hz; ++i) {
+    const glm::dvec3 noise(normal(i, 1), normal(i, 2), normal(i, 3));
+    const double time_s = i / rate_hz;
+    samples.push_back({time_s, PoseStatus::ok, Pose{glm::dmat3(1), way(time_s) + kNoise_mm * noise}, 0});
+  }
+  return samples;
+}
+
+std::vector<PoseSample> filtered(std::vector<PoseSample> samples, const FilterSettings& settings) {
+  SampleFilters filters(settings);
+  for (PoseSample& sample : samples) filters.apply(sample);
+  return samples;
+}
+
+/// RMS along the first axis, off a way that is taken `lag_s` late.
+double off_mm(const std::vector<PoseSample>& samples, const Way& way, double lag_s) {
+  double squares = 0;
+  std::size_t count = 0;
+  for (const PoseSample& sample : samples) {
+    if (sample.time_s < kFrom_s || sample.status != PoseStatus::ok) continue;
+    const double off = sample.patient_from_probe.translation.x - way(sample.time_s - lag_s).x;
+    squares += off * off;
+    ++count;
+  }
+  return std::sqrt(squares / double(count));
+}
+
+}  // namespace
+
+SmoothingFigures measure_smoothing(const FilterSettings& settings, double rate_hz) {
+  SmoothingFigures figures;
+  const std::vector<PoseSample> rest = noisy(resting, rate_hz);
+  figures.rest_before_mm = off_mm(rest, resting, 0);
+  figures.rest_after_mm = off_mm(filtered(rest, settings), resting, 0);
+  const std::vector<PoseSample> moved = filtered(noisy(sweeping, rate_hz), settings);
+  double least = HUGE_VAL;
+  for (int quarter_ms = 0; quarter_ms < 400; ++quarter_ms) {
+    const double lag_s = quarter_ms * 0.00025, off = off_mm(moved, sweeping, lag_s);
+    if (off >= least) continue;
+    least = off;
+    figures.lag_s = lag_s;
+  }
+  return figures;
+}
+
+PredictionFigures measure_prediction(double rate_hz, double ahead_s) {
+  PoseHistory history;
+  PredictionFigures figures;
+  std::size_t count = 0;
+  for (const PoseSample& sample : noisy(scanning, rate_hz)) {
+    history.add(sample);
+    if (sample.time_s < kFrom_s) continue;
+    const glm::dvec3 there = scanning(sample.time_s + ahead_s);
+    const glm::dvec3 held = sample.patient_from_probe.translation - there;
+    const glm::dvec3 predicted = history.at(sample.time_s + ahead_s).patient_from_probe.translation - there;
+    figures.held_mm += glm::dot(held, held);
+    figures.predicted_mm += glm::dot(predicted, predicted);
+    ++count;
+  }
+  figures.held_mm = std::sqrt(figures.held_mm / double(count));
+  figures.predicted_mm = std::sqrt(figures.predicted_mm / double(count));
+  return figures;
+}
+
+RejectionFigures measure_rejection(const FilterSettings& settings, double rate_hz) {
+  enum class Made { good, stray, mirrored };
+  std::vector<PoseSample> samples = noisy(scanning, rate_hz);
+  std::vector<Made> made(samples.size(), Made::good);
+  for (std::uint32_t i = 0; i < samples.size(); ++i) {
+    glm::dvec3& mm = samples[i].patient_from_probe.translation;
+    if (std::fmod(samples[i].time_s, 5) > 4.2) {
+      mm = -mm;
+      made[i] = Made::mirrored;
+    } else if (uniform(i, 40) < 0.02) {
+      // Somewhere from 30 to 500 mm away.
+      const glm::dvec3 to = glm::normalize(glm::dvec3(normal(i, 5), normal(i, 6), normal(i, 7)));
+      mm += to * (30 + 470 * uniform(i, 41));
+      made[i] = Made::stray;
+    }
+  }
+  RejectionFigures figures;
+  const std::vector<PoseSample> out = filtered(samples, settings);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const bool gone = out[i].status != PoseStatus::ok;
+    ++(made[i] == Made::good ? figures.good : made[i] == Made::stray ? figures.strays : figures.mirrored);
+    if (!gone) continue;
+    ++(made[i] == Made::good    ? figures.good_rejected
+       : made[i] == Made::stray ? figures.strays_rejected
+                                : figures.mirrored_rejected);
+  }
+  return figures;
+}
+
+}  // namespace insonate

@@ -1,0 +1,63 @@
+#include "devices/filter/outlier_gate.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+
+namespace insonate {
+namespace {
+
+/// A velocity tells where a hand is for no longer (PoseHistory::kPredictS), and how far it can have gone is no limit
+/// any more after a quarter of a second.
+constexpr double kCarry_s = 0.030, kReach_s = 0.250;
+
+/// The pose as a tracker tells it that has the hemisphere wrong: the position mirrored through its origin.
+Pose mirror_image(const Pose& pose) {
+  return {pose.rotation, -pose.translation};
+}
+
+}  // namespace
+
+bool OutlierGate::follows(const Track& track, double time_s, const Pose& pose) const {
+  const double step_s = std::min(time_s - track.time_s, kReach_s);
+  const glm::dvec3 expected = track.pose.translation + track.mm_per_s * std::min(step_s, kCarry_s);
+  return glm::distance(pose.translation, expected) <= std::max(kNear_mm, kNear_mm_per_s * step_s) &&
+         angle_between_deg(pose, track.pose) <= std::max(kNear_deg, kNear_deg_per_s * step_s);
+}
+
+OutlierGate::Track OutlierGate::carried_on(const Track& track, double time_s, const Pose& pose) {
+  const double step_s = time_s - track.time_s;
+  // A step over a longer gap tells no velocity, and the noise of a single step must not carry far.
+  if (step_s > kReach_s) return {time_s, pose};
+  glm::dvec3 mm_per_s = (pose.translation - track.pose.translation) / step_s;
+  mm_per_s = 0.5 * (mm_per_s + track.mm_per_s);
+  const double speed = glm::length(mm_per_s);
+  if (speed > kNear_mm_per_s) mm_per_s *= kNear_mm_per_s / speed;
+  return {time_s, pose, mm_per_s};
+}
+
+bool OutlierGate::accepts(double time_s, const Pose& pose) {
+  if (!accepted_) {
+    accepted_ = Track{time_s, pose};
+    return true;
+  }
+  if (follows(*accepted_, time_s, pose)) {
+    accepted_ = carried_on(*accepted_, time_s, pose);
+    elsewhere_.reset();
+    return true;
+  }
+  if (const Pose image = mirror_image(pose); follows(*accepted_, time_s, image)) {
+    accepted_ = carried_on(*accepted_, time_s, image);
+    elsewhere_.reset();
+    return false;
+  }
+  const bool together = elsewhere_ && follows(*elsewhere_, time_s, pose);
+  if (!together) elsewhere_since_s_ = time_s;
+  elsewhere_ = together ? carried_on(*elsewhere_, time_s, pose) : Track{time_s, pose};
+  if (time_s - elsewhere_since_s_ < kBelieved_s) return false;
+  accepted_ = elsewhere_;
+  elsewhere_.reset();
+  return true;
+}
+
+}  // namespace insonate

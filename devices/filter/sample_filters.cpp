@@ -1,0 +1,68 @@
+#include "devices/filter/sample_filters.h"
+
+#include <string_view>
+#include <vector>
+
+#include "sim/core/input_error.h"
+#include "sim/core/suggest.h"
+
+namespace insonate {
+namespace {
+
+struct Named {
+  std::string_view name;
+  bool FilterSettings::*on;
+};
+
+constexpr Named kFilters[] = {
+    {"1euro", &FilterSettings::one_euro}, {"outlier", &FilterSettings::outlier}, {"predict", &FilterSettings::predict}};
+
+void switch_on(FilterSettings& settings, std::string_view name, const TrackerUri& uri) {
+  std::vector<std::string> names;
+  for (const Named& filter : kFilters) {
+    if (filter.name == name) {
+      settings.*filter.on = true;
+      return;
+    }
+    names.emplace_back(filter.name);
+  }
+  names.emplace_back("off");
+  throw InputError("tracker '" + uri.text + "'", "option 'filter'", "there is no filter '" + std::string(name) + "'",
+                   suggest(name, names));
+}
+
+}  // namespace
+
+std::string to_string(const FilterSettings& settings) {
+  std::string names;
+  for (const Named& filter : kFilters)
+    if (settings.*filter.on) names += (names.empty() ? "" : ",") + std::string(filter.name);
+  return names.empty() ? "off" : names;
+}
+
+FilterSettings take_filter_options(TrackerUri& uri, bool live) {
+  FilterSettings settings = live ? FilterSettings::all() : FilterSettings();
+  const auto given = uri.options.extract("filter");
+  if (given.empty()) return settings;
+  for (const Named& filter : kFilters) settings.*filter.on = false;
+  if (given.mapped() == "off") return settings;
+  for (std::string_view rest = given.mapped();;) {
+    const std::string_view name = rest.substr(0, rest.find(','));
+    switch_on(settings, name, uri);
+    if (name.size() == rest.size()) return settings;
+    rest.remove_prefix(name.size() + 1);
+  }
+}
+
+void SampleFilters::apply(PoseSample& sample) {
+  if (sample.status != PoseStatus::ok) return;
+  if (settings_.outlier && !outliers_.accepts(sample.time_s, sample.patient_from_probe)) {
+    sample.status = PoseStatus::invalid;
+    sample.patient_from_probe = Pose{};
+    ++rejected_;
+    return;
+  }
+  if (settings_.one_euro) sample.patient_from_probe = one_euro_.smooth(sample.time_s, sample.patient_from_probe);
+}
+
+}  // namespace insonate

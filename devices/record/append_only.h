@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string_view>
+
+namespace insonate {
+
+/// A file that is made new and only ever appended to. What append() has returned from is the operating system's: the
+/// program may be killed then.
+class AppendOnlyFile {
+public:
+  /// Throws InputError when the file is there already or cannot be made. Makes the parent folders.
+  explicit AppendOnlyFile(std::filesystem::path file);
+  ~AppendOnlyFile();
+  AppendOnlyFile(const AppendOnlyFile&) = delete;
+  AppendOnlyFile& operator=(const AppendOnlyFile&) = delete;
+
+  /// Throws InputError when not all of it can be written.
+  void append(std::string_view bytes);
+
+  std::uint64_t size() const { return size_; }
+  const std::filesystem::path& path() const { return file_; }
+
+private:
+  std::filesystem::path file_;
+  int descriptor_;
+  std::uint64_t size_ = 0;
+};
+
+}  // namespace insonate

@@ -1,0 +1,173 @@
+#include "devices/sequence/nrrd.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "sim/core/input_error.h"
+
+namespace insonate {
+namespace {
+
+constexpr std::string_view kMagic = "NRRD000";
+constexpr std::string_view kLayoutFields[] = {"type",      "dimension", "sizes",     "kinds",   "encoding",
+                                              "byte skip", "byteskip",  "line skip", "lineskip"};
+
+// Bytes an element takes, by every name that the format has for it (teem.sourceforge.net/nrrd/format.html).
+constexpr std::pair<std::string_view, std::uint64_t> kTypeBytes[] = {{"signed char", 1},
+                                                                     {"int8", 1},
+                                                                     {"int8_t", 1},
+                                                                     {"uchar", 1},
+                                                                     {"unsigned char", 1},
+                                                                     {"uint8", 1},
+                                                                     {"uint8_t", 1},
+                                                                     {"short", 2},
+                                                                     {"short int", 2},
+                                                                     {"signed short", 2},
+                                                                     {"signed short int", 2},
+                                                                     {"int16", 2},
+                                                                     {"int16_t", 2},
+                                                                     {"ushort", 2},
+                                                                     {"unsigned short", 2},
+                                                                     {"unsigned short int", 2},
+                                                                     {"uint16", 2},
+                                                                     {"uint16_t", 2},
+                                                                     {"int", 4},
+                                                                     {"signed int", 4},
+                                                                     {"int32", 4},
+                                                                     {"int32_t", 4},
+                                                                     {"uint", 4},
+                                                                     {"unsigned int", 4},
+                                                                     {"uint32", 4},
+                                                                     {"uint32_t", 4},
+                                                                     {"longlong", 8},
+                                                                     {"long long", 8},
+                                                                     {"long long int", 8},
+                                                                     {"signed long long", 8},
+                                                                     {"signed long long int", 8},
+                                                                     {"int64", 8},
+                                                                     {"int64_t", 8},
+                                                                     {"ulonglong", 8},
+                                                                     {"unsigned long long", 8},
+                                                                     {"unsigned long long int", 8},
+                                                                     {"uint64", 8},
+                                                                     {"uint64_t", 8},
+                                                                     {"float", 4},
+                                                                     {"double", 8}};
+
+[[noreturn]] void fail(const std::string& file, const std::string& problem, const std::string& remedy = kExportAgain) {
+  throw InputError(file, "header", problem, remedy);
+}
+
+std::string_view value(const HeaderFields& fields, std::string_view name) {
+  const auto found = fields.find(name);
+  return found == fields.end() ? std::string_view{} : found->second;
+}
+
+std::vector<std::uint64_t> sizes_of(const HeaderFields& fields, const std::string& file) {
+  std::vector<std::uint64_t> sizes;
+  bool numbers = true;
+  for (const std::string_view word : words(value(fields, "sizes"))) {
+    const auto size = to_number<std::uint64_t>(word);
+    numbers = numbers && size;
+    sizes.push_back(size.value_or(0));
+  }
+  const auto dimensions = to_number<std::size_t>(value(fields, "dimension"));
+  // Columns and rows, perhaps slices and colours, and the frames.
+  if (!numbers || dimensions != sizes.size() || sizes.size() < 3 || sizes.size() > 5)
+    fail(file, "dimension is " + quoted(value(fields, "dimension")) + " and sizes " + quoted(value(fields, "sizes")) +
+                   ", where a sequence has 3 to 5 sizes, one of them its number of frames");
+  return sizes;
+}
+
+std::uint64_t element_bytes(const HeaderFields& fields, const std::string& file) {
+  for (const auto& [type, bytes] : kTypeBytes)
+    if (same_ignoring_case(type, value(fields, "type"))) return bytes;
+  fail(file, "type is " + quoted(value(fields, "type")) + ", which NRRD does not know");
+}
+
+bool is_compressed(const HeaderFields& fields, const std::string& file) {
+  const std::string_view encoding = value(fields, "encoding");
+  if (same_ignoring_case(encoding, "raw")) return false;
+  if (same_ignoring_case(encoding, "gzip") || same_ignoring_case(encoding, "gz")) return true;
+  fail(file, "encoding is " + quoted(encoding) + ", which is not read", "save the sequence as gzip or raw");
+}
+
+/// Whether the bytes begin as gzip does and end with that size of what they hold (RFC 1952: modulo 2^32).
+bool is_whole_gzip(std::string_view data, std::uint64_t raw_bytes) {
+  constexpr std::size_t kLeast = 18;  // head and tail
+  if (data.size() < kLeast || !data.starts_with("\x1f\x8b")) return false;
+  std::uint32_t size = 0;
+  for (int i = 0; i < 4; ++i) size |= std::uint32_t(std::uint8_t(data[data.size() - 4 + std::size_t(i)])) << (8 * i);
+  return size == std::uint32_t(raw_bytes);
+}
+
+}  // namespace
+
+bool is_nrrd(std::string_view bytes) {
+  return bytes.starts_with("NRRD");
+}
+
+std::size_t read_nrrd_header(
+    std::string_view bytes, const std::string& file,
+    const std::function<void(std::string_view name, std::string_view value, std::size_t line)>& field) {
+  std::size_t line = 0;
+  for (std::size_t at = 0; at < bytes.size();) {
+    const std::size_t end = bytes.find('\n', at);
+    if (end == std::string_view::npos) break;
+    const std::string_view text = trimmed(bytes.substr(at, end - at));
+    at = end + 1;
+    ++line;
+    const std::string place = "line " + std::to_string(line);
+    if (line == 1) {
+      if (!text.starts_with(kMagic) || text.size() != kMagic.size() + 1 || text.back() < '1' || text.back() > '5')
+        throw InputError(file, place, quoted(text) + " is no NRRD version from NRRD0001 to NRRD0005", kExportAgain);
+      continue;
+    }
+    if (text.empty()) return at;
+    if (text.front() == '#') continue;
+    const std::size_t colon = text.find(':');
+    const std::string_view name = trimmed(text.substr(0, std::min(colon, text.size())));
+    const bool is_text = std::none_of(name.begin(), name.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; });
+    if (colon == std::string_view::npos || name.empty() || !is_text)
+      throw InputError(file, place, quoted(text) + " is not of the form 'name: value' or 'key:=value'", kExportAgain);
+    const bool is_key = text.substr(colon).starts_with(":=");
+    const std::string_view value = trimmed(text.substr(colon + (is_key ? 2 : 1)));
+    if (same_ignoring_case(name, "data file") || same_ignoring_case(name, "datafile"))
+      throw InputError(file, place, "the image data is said to lie in " + quoted(value) + " instead of in this file",
+                       "save the sequence as one .seq.nrrd file");
+    field(name, value, line);
+  }
+  throw InputError(file, "header", "it ends without the empty line behind it: the file is truncated",
+                   "copy or record it again");
+}
+
+bool is_nrrd_layout_field(std::string_view name) {
+  return std::find(std::begin(kLayoutFields), std::end(kLayoutFields), name) != std::end(kLayoutFields);
+}
+
+SequenceLayout nrrd_layout(const HeaderFields& fields, std::string_view data, const std::string& file) {
+  for (const std::string_view skip : {"byte skip", "byteskip", "line skip", "lineskip"})
+    if (fields.contains(skip) && value(fields, skip) != "0")
+      fail(file, std::string(skip) + " is " + quoted(value(fields, skip)) + ", which is not read");
+  ClaimedImages claimed;
+  claimed.sizes = sizes_of(fields, file);
+  claimed.kinds_name = "kinds";
+  claimed.kinds_text = value(fields, "kinds");
+  claimed.kinds = words(claimed.kinds_text);
+  claimed.sizes_name = "sizes";
+  claimed.sizes_text = value(fields, "sizes");
+  claimed.element_bytes = element_bytes(fields, file);
+  claimed.compressed = is_compressed(fields, file);
+  const SequenceLayout layout = sequence_layout(claimed, data.size(), file);
+  if (!claimed.compressed || !layout.has_images) return layout;
+
+  std::uint64_t raw = claimed.element_bytes;
+  for (const std::uint64_t size : claimed.sizes) raw *= size;
+  if (!is_whole_gzip(data, raw))
+    throw InputError(file, "image data", "it is no gzip stream of " + std::to_string(raw) + " bytes, or truncated",
+                     "copy or record the file again");
+  return {layout.frames, true, data.size()};
+}
+
+}  // namespace insonate

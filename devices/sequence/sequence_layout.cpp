@@ -1,0 +1,72 @@
+#include "devices/sequence/sequence_layout.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "devices/sequence/header_text.h"
+#include "sim/core/input_error.h"
+
+namespace insonate {
+namespace {
+
+/// Which dimension counts the frames: the one whose kind says so, else the last.
+std::size_t list_axis(const ClaimedImages& claimed, const std::string& file) {
+  if (claimed.kinds.empty()) return claimed.sizes.size() - 1;
+  const auto is_list = [](std::string_view kind) {
+    return same_ignoring_case(kind, "list") || same_ignoring_case(kind, "time");
+  };
+  if (claimed.kinds.size() != claimed.sizes.size() ||
+      std::count_if(claimed.kinds.begin(), claimed.kinds.end(), is_list) != 1)
+    throw InputError(file, "header",
+                     std::string(claimed.kinds_name) + " is " + quoted(claimed.kinds_text) + ", where each of the " +
+                         std::to_string(claimed.sizes.size()) + " dimensions has a kind and one of them is 'list'",
+                     kExportAgain);
+  return std::size_t(std::find_if(claimed.kinds.begin(), claimed.kinds.end(), is_list) - claimed.kinds.begin());
+}
+
+/// Bytes of all images; 0 when a dimension is 0.
+std::uint64_t raw_bytes(const ClaimedImages& claimed, const std::string& file) {
+  std::vector<std::uint64_t> factors = claimed.sizes;
+  factors.push_back(claimed.element_bytes);
+  factors.push_back(claimed.channels);
+  if (std::find(factors.begin(), factors.end(), 0u) != factors.end()) return 0;
+  std::uint64_t product = 1;
+  for (const std::uint64_t factor : factors) {
+    if (product > std::numeric_limits<std::uint64_t>::max() / factor)
+      throw InputError(
+          file, "header",
+          std::string(claimed.sizes_name) + " " + quoted(claimed.sizes_text) + " is more than any file holds",
+          kExportAgain);
+    product *= factor;
+  }
+  return product;
+}
+
+}  // namespace
+
+SequenceLayout sequence_layout(const ClaimedImages& claimed, std::uint64_t bytes_after, const std::string& file) {
+  const std::size_t frame_axis = list_axis(claimed, file);
+  SequenceLayout layout;
+  layout.frames = claimed.sizes[frame_axis];
+  if (layout.frames == 0)
+    throw InputError(file, "header", std::string(claimed.sizes_name) + " says that there are no frames",
+                     "record the scan again");
+  const std::uint64_t raw = raw_bytes(claimed, file);
+  bool single_pixel = true;
+  for (std::size_t i = 0; i < claimed.sizes.size(); ++i)
+    if (i != frame_axis) single_pixel = single_pixel && claimed.sizes[i] == 1;
+  layout.has_images = raw > 0 && !single_pixel;
+  if (raw == 0) return layout;
+  // Transform-only files of PLUS say 1 x 1 and carry a pixel a frame; others say so and carry none, or a line end.
+  if (single_pixel && (claimed.compressed || bytes_after <= 2)) return layout;
+  // Writers that fill the compressed size in at the end leave a 0 behind when they are stopped before.
+  layout.image_bytes = claimed.compressed ? std::max<std::uint64_t>(claimed.compressed_bytes.value_or(1), 1) : raw;
+  if (bytes_after < layout.image_bytes)
+    throw InputError(file, "image data",
+                     "it is truncated: " + std::to_string(bytes_after) + " bytes of " +
+                         std::to_string(layout.image_bytes) + " are there",
+                     "copy or record the file again");
+  return layout;
+}
+
+}  // namespace insonate

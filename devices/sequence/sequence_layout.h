@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+// The size of a sequence as its header claims it, whatever the format.
+
+namespace insonate {
+
+/// How many frames there are, and where their images end.
+struct SequenceLayout {
+  std::uint64_t frames = 0;       ///< at least 1; only claimed, so nothing may be allocated by it alone
+  bool has_images = false;        ///< false for transform-only files, whose images have no pixel or one
+  std::uint64_t image_bytes = 0;  ///< of all frames, as stored; no more than there are
+};
+
+/// What a header says of its images.
+struct ClaimedImages {
+  std::vector<std::uint64_t> sizes;     ///< of each dimension
+  std::vector<std::string_view> kinds;  ///< of each dimension; none: the last one counts the frames
+  std::uint64_t element_bytes = 1;
+  std::uint64_t channels = 1;
+  bool compressed = false;
+  std::optional<std::uint64_t> compressed_bytes;  ///< where the header tells
+  std::string_view sizes_name, sizes_text;        ///< for messages: "DimSize", "640 480 30"
+  std::string_view kinds_name, kinds_text;
+};
+
+/// Finds the dimension that counts the frames and checks that the images, of `bytes_after` bytes at most, are there.
+/// Throws InputError when they are not, or when what is claimed contradicts itself or is more than any file holds.
+SequenceLayout sequence_layout(const ClaimedImages& claimed, std::uint64_t bytes_after, const std::string& file);
+
+}  // namespace insonate

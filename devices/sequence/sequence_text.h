@@ -1,0 +1,30 @@
+#pragma once
+
+#include <glm/mat4x4.hpp>
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "sim/core/pose_sample.h"
+
+// A sequence file's text piece by piece, for those that write one at once and those that write one as it grows.
+
+namespace insonate {
+
+/// The header's lines in front of the frames'. `size` is that of a frame's picture in pixels and of how many frames
+/// there are, as "640 480 30"; "0 0 30" for transforms only.
+std::string sequence_head(const std::string& size, bool compressed);
+
+/// Appends the lines of a frame: the pose as ProbeToPatient, to the last bit, its status, buttons, times. Of a sample
+/// that is not ok the pose is not kept. With `probe_from_pixel` also where its picture lies, as ImageToProbe.
+void append_frame(std::string& text, std::size_t index, const PoseSample& sample,
+                  const glm::dmat4* probe_from_pixel = nullptr);
+
+/// The line behind the frames', after which the pictures' bytes follow.
+inline constexpr std::string_view kSequenceEnd = "ElementDataFile = LOCAL\n";
+
+/// Why no one could read `sample` back after one of the time `before_s`; empty when one can.
+std::string why_not_recordable(const PoseSample& sample, double before_s);
+
+}  // namespace insonate

@@ -1,0 +1,248 @@
+// Recordings: what comes back of them, when the run ends and when it is killed.
+#include <catch2/catch.hpp>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "devices/record/recording_files.h"
+#include "devices/record/sequence_recorder.h"
+#include "devices/sequence/probe_samples.h"
+#include "devices/synthetic/synthetic_tracker.h"
+#include "sim/core/files.h"
+#include "sim/core/hash.h"
+#include "sim/core/input_error.h"
+#include "tests/devices/test_samples.h"
+
+using namespace insonate;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A folder of its own for a test.
+struct Folder {
+  fs::path path = fs::temp_directory_path() / ("insonate_recorder_" + std::to_string(getpid()));
+  Folder() {
+    fs::remove_all(path);
+    fs::create_directories(path);
+  }
+  ~Folder() { fs::remove_all(path); }
+  std::size_t files() const {
+    return std::size_t(std::distance(fs::directory_iterator(path), fs::directory_iterator()));
+  }
+};
+
+/// A hand's samples; some are not ok, and some have buttons held.
+std::vector<PoseSample> hand(double seconds = 10) {
+  SyntheticTracker tracker(7, 60, {});
+  std::vector<PoseSample> samples = poll_until(tracker, seconds, 30);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (i % 50 == 7) samples[i].buttons = 5;
+    if (i % 97 == 5) samples[i].status = PoseStatus::out_of_view;
+    if (samples[i].status != PoseStatus::ok) samples[i].patient_from_probe = Pose{};
+  }
+  return samples;
+}
+
+constexpr int kWidth = 12, kHeight = 7;
+
+Image<std::uint8_t> picture(std::size_t index) {
+  Image<std::uint8_t> made(kWidth, kHeight);
+  for (std::size_t i = 0; i < made.pixels.size(); ++i)
+    made.pixels[i] = std::uint8_t(hash(std::uint32_t(index), std::uint32_t(i)));
+  return made;
+}
+
+const glm::dmat4 kProbeFromPixel(0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 0.5, 0, -3, 0.25, 0, 1);
+
+std::vector<PoseSample> read_samples(const fs::path& file) {
+  return probe_samples(parse_sequence(read_file(file), file.string()));
+}
+
+/// All pictures of a file one after the other.
+std::vector<std::uint8_t> read_pictures(const fs::path& file) {
+  const std::string bytes = read_file(file);
+  const Sequence sequence = parse_sequence(bytes, file.string());
+  REQUIRE(sequence.has_images);
+  std::vector<std::uint8_t> pixels(sequence.frames.size() * kWidth * kHeight + 1);
+  uLongf size = pixels.size();
+  // Z_OK also says that the stream's own checksum holds.
+  REQUIRE(uncompress(pixels.data(), &size, reinterpret_cast<const Bytef*>(bytes.data() + sequence.image_offset),
+                     uLong(bytes.size() - sequence.image_offset)) == Z_OK);
+  REQUIRE(sequence.image_offset + sequence.image_bytes == bytes.size());
+  pixels.resize(size);
+  return pixels;
+}
+
+std::vector<std::uint8_t> pictures(std::size_t count) {
+  std::vector<std::uint8_t> pixels;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto one = picture(i).pixels;
+    pixels.insert(pixels.end(), one.begin(), one.end());
+  }
+  return pixels;
+}
+
+void record(const fs::path& file, const std::vector<PoseSample>& samples, bool with_pictures) {
+  SequenceRecorder recorder(file, with_pictures ? kWidth : 0, with_pictures ? kHeight : 0);
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    with_pictures ? recorder.add(samples[i], picture(i), kProbeFromPixel) : recorder.add(samples[i]);
+  recorder.finish();
+}
+
+void cut(const fs::path& file, std::size_t bytes) {
+  fs::resize_file(file, bytes);
+}
+
+/// The working files of a recording that was never finished: a child process is killed once it has flushed `flushed`
+/// samples and added a few more.
+void record_and_be_killed(const fs::path& file, const std::vector<PoseSample>& samples, std::size_t flushed,
+                          bool with_pictures) {
+  int ready[2];
+  REQUIRE(pipe(ready) == 0);
+  const pid_t child = fork();
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    SequenceRecorder recorder(file, with_pictures ? kWidth : 0, with_pictures ? kHeight : 0);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      if (i == flushed) {
+        recorder.flush();
+        if (write(ready[1], "x", 1) != 1) _exit(1);
+      }
+      with_pictures ? recorder.add(samples[i], picture(i), kProbeFromPixel) : recorder.add(samples[i]);
+    }
+    for (;;) pause();
+  }
+  char byte;
+  REQUIRE(read(ready[0], &byte, 1) == 1);
+  kill(child, SIGKILL);
+  int status = 0;
+  waitpid(child, &status, 0);
+  REQUIRE(WIFSIGNALED(status));
+  close(ready[0]);
+  close(ready[1]);
+}
+
+}  // namespace
+
+TEST_CASE("a recording of poses is the file that would be written at once") {
+  const Folder folder;
+  const auto samples = hand();
+  record(folder.path / "a" / "scan.igs.mha", samples, false);  // in a folder that is not there yet
+  CHECK(read_file(folder.path / "a" / "scan.igs.mha") == write_sequence(samples));
+  CHECK(same_bits(read_samples(folder.path / "a" / "scan.igs.mha"), samples));
+  CHECK(std::distance(fs::directory_iterator(folder.path / "a"), fs::directory_iterator()) == 1);
+}
+
+TEST_CASE("a recording with pictures gives back poses and pixels to the bit, and where the pixels lie") {
+  const Folder folder;
+  const auto samples = hand(3);
+  const fs::path file = folder.path / "scan.igs.mha";
+  record(file, samples, true);
+  CHECK(same_bits(read_samples(file), samples));
+  CHECK(read_pictures(file) == pictures(samples.size()));
+  const Sequence sequence = parse_sequence(read_file(file), "scan");
+  const SequenceTransform* place = sequence.frames[3].find(sequence.find("ImageToProbe"));
+  REQUIRE(place);
+  CHECK(place->status == PoseStatus::ok);
+  CHECK(place->matrix == kProbeFromPixel);
+  CHECK(folder.files() == 1);
+}
+
+TEST_CASE("a recording that is killed keeps everything it had flushed") {
+  const Folder folder;
+  const auto samples = hand(3);
+  for (const bool with_pictures : {false, true}) {
+    CAPTURE(with_pictures);
+    const fs::path file = folder.path / (with_pictures ? "pictures.igs.mha" : "poses.igs.mha");
+    record_and_be_killed(file, samples, 100, with_pictures);
+    CHECK_FALSE(fs::exists(file));
+    CHECK_THROWS_WITH(SequenceRecorder(file), Catch::Contains("insonate-devices recover"));
+    CHECK(recover_recording(file) == 100);
+    CHECK(same_bits(read_samples(file), {samples.begin(), samples.begin() + 100}));
+    if (with_pictures) CHECK(read_pictures(file) == pictures(100));
+  }
+  CHECK(folder.files() == 2);
+}
+
+TEST_CASE("working files that end anywhere are read up to their last whole frame") {
+  const Folder folder;
+  const auto all = hand(1);
+  const std::vector<PoseSample> samples(all.begin(), all.begin() + 4);
+  const fs::path file = folder.path / "scan.igs.mha";
+  record_and_be_killed(file, all, 4, true);
+  const std::string text = read_file(working_file(file)), images = read_file(images_file(file));
+  std::size_t recovered[5] = {};
+  const auto recover = [&](std::size_t text_bytes, std::size_t image_bytes) {
+    CAPTURE(text_bytes, image_bytes);
+    fs::remove(file);
+    write_file(working_file(file), text);
+    write_file(images_file(file), images);
+    cut(working_file(file), text_bytes);
+    cut(images_file(file), image_bytes);
+    std::size_t frames = 0;
+    try {
+      frames = recover_recording(file);
+    } catch (const InputError&) {
+      CHECK(fs::exists(working_file(file)));
+      CHECK_FALSE(fs::exists(file));
+    }
+    ++recovered[frames];
+    if (frames == 0) return;
+    CHECK(same_bits(read_samples(file), {samples.begin(), samples.begin() + std::ptrdiff_t(frames)}));
+    CHECK(read_pictures(file) == pictures(frames));
+  };
+  for (std::size_t bytes = 0; bytes <= text.size(); bytes += 5) recover(bytes, images.size());
+  for (std::size_t bytes = 0; bytes <= images.size(); ++bytes) recover(text.size(), bytes);
+  recover(text.size(), images.size());
+  for (const std::size_t count : recovered) CHECK(count > 0);
+}
+
+TEST_CASE("a working file that is none, or was tampered with, is refused") {
+  const Folder folder;
+  const fs::path file = folder.path / "scan.igs.mha";
+  const auto refusal = [&](const std::string& text) {
+    write_file(working_file(file), text);
+    try {
+      recover_recording(file);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("taken");
+  };
+  CHECK_THROWS_WITH(recover_recording(file), Catch::Contains("there is no such file"));
+  for (const char* text : {"x", "insonate recording 1\nframe 0 1\n", "insonate recording 1 -3 4\nframe 0 1\n",
+                           "insonate recording 1 99999999 99999999\nframe 0 1\n", "insonate recording 2 0 0\n"})
+    CHECK_THAT(refusal(text), Catch::Contains("not the working file"));
+  for (const char* text : {"insonate recording 1 0 0\n", "insonate recording 1 0 0\nframe 7 1\n",
+                           "insonate recording 1 0 0\nframe 0 99999999999\n", "insonate recording 1 4 4\nframe 9 1\n"})
+    CHECK_THAT(refusal(text), Catch::Contains("no whole frame"));
+}
+
+TEST_CASE(
+    "a recording overwrites nothing, takes no name that nobody would read, and leaves nothing when it was empty") {
+  const Folder folder;
+  const fs::path file = folder.path / "scan.igs.mha";
+  CHECK_THROWS_WITH(SequenceRecorder(folder.path / "scan.txt"), Catch::Contains(".igs.mha"));
+  { const SequenceRecorder nothing(file); }
+  CHECK(folder.files() == 0);
+  {
+    SequenceRecorder recorder(file);
+    recorder.add(hand(1)[0]);
+    CHECK_THROWS_AS(recorder.add(hand(1)[0]), std::invalid_argument);  // the same time again
+    PoseSample crooked = hand(1)[1];
+    crooked.status = PoseStatus::ok;
+    crooked.patient_from_probe.rotation[0] *= 2;
+    CHECK_THROWS_AS(recorder.add(crooked), std::invalid_argument);
+    CHECK_THROWS_AS(recorder.add(hand(1)[1], picture(0), kProbeFromPixel), std::invalid_argument);
+  }
+  CHECK(read_samples(file).size() == 1);
+  CHECK_THROWS_WITH(SequenceRecorder(file), Catch::Contains("already"));
+  CHECK(read_samples(file).size() == 1);
+  CHECK_THROWS_WITH(SequenceRecorder("/proc/none/scan.igs.mha"), Catch::Contains("cannot be written"));
+}
