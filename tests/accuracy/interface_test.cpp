@@ -66,6 +66,7 @@ TEST_CASE("sharp interface: 1 - alpha is transmitted, and the echo lies at its d
           weighted += r * echo;
         }
         CHECK(std::abs((first + last) / 2 - depth) <= dr / 2 + 1e-12);
+        CHECK(std::abs(last - first + dr - l) <= dr + 1e-12);  // axial width: the reflection length, in whole samples
         const double centre = weighted / sum(scan.reflection);
         CHECK(std::abs(centre - (depth - forward_pull(alpha) * l)) <= dr / 2 + 1e-12);
       }
