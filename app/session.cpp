@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "devices/live/probe_buttons.h"
 #include "sim/core/input_error.h"
 
 namespace insonate {
@@ -134,6 +135,11 @@ void Session::move_probe(const std::function<Pose(const ProbeHand&, const Pose&)
 
 void Session::take(const PoseSample& sample) {
   if (runner_) runner_->feed(sample);
+  // A tracker that says nothing does not say that the button was let go either.
+  if (sample.status != PoseStatus::missing) {
+    if (sample.buttons & ~buttons_ & kFreezeButton) console_.frozen = !console_.frozen;
+    buttons_ = sample.buttons;
+  }
   if (sample.status != PoseStatus::ok) return;
   newest_pose_ = sample.patient_from_probe;
   last_usable_s_ = now_s_;

@@ -45,7 +45,8 @@ enum class Activity { exam, practice };
 /// a running exam practises from there on: nothing is scored, because what the tracker has found so far is not his own.
 /// An exam of the learner's own starts with the probe on the belly. Giving the probe back starts the exam, and a
 /// replayed log, from the beginning; a live tracker just goes on, and what it said while the learner had the probe is
-/// past. Every sample of the source in charge is fed to the runner, in order, whatever the frame rate.
+/// past. Every sample of the source in charge is fed to the runner, in order, whatever the frame rate. A probe's freeze
+/// button (probe_buttons.h) freezes the picture when it is pressed, and thaws it when it is pressed again.
 class Session {
 public:
   using OpenTracker = std::function<std::unique_ptr<Tracker>()>;
@@ -121,6 +122,7 @@ private:
   std::optional<Pose> shown_pose_, newest_pose_;
   double now_s_ = 0;
   double last_usable_s_ = 0;
+  std::uint32_t buttons_ = 0;  ///< of the newest sample
   bool advanced_ = false;
   std::vector<PoseSample> samples_;
 };

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 
+#include "devices/live/probe_buttons.h"
 #include "devices/registry.h"
 #include "devices/replay/replay_tracker.h"
 #include "devices/sequence/probe_samples.h"
@@ -279,6 +280,32 @@ TEST_CASE("a frozen picture stays while the exam goes on") {
   CHECK(session.runner()->live().elapsed_s == Approx(2).margin(0.02));
   session.console().frozen = false;
   run_until(session, now_s, 2.1);
+  CHECK_FALSE(*session.shown_pose() == frozen);
+}
+
+TEST_CASE("the probe's freeze button freezes the picture and thaws it, once each time that it is pressed") {
+  auto samples = scan();
+  for (PoseSample& sample : samples) {
+    const bool freezes = std::abs(sample.time_s - 1.25) < 0.25, thaws = std::abs(sample.time_s - 3.15) < 0.15;
+    sample.status = PoseStatus::ok;
+    sample.buttons = freezes || thaws ? kFreezeButton | kMarkButton : kMarkButton;
+    // While the button is held the tracker is lost for a moment.
+    if (std::abs(sample.time_s - 1.25) < 0.05) {
+      sample.status = PoseStatus::missing;
+      sample.buttons = 0;
+    }
+  }
+  Session session(tiny_study(), replay(samples));
+  session.advance(0);
+  double now_s = run_until(session, 0, 0.9);
+  CHECK_FALSE(session.console().frozen);
+  now_s = run_until(session, now_s, 2);
+  CHECK(session.console().frozen);
+  const Pose frozen = *session.shown_pose();
+  now_s = run_until(session, now_s, 2.9);
+  CHECK(*session.shown_pose() == frozen);
+  run_until(session, now_s, 4);
+  CHECK_FALSE(session.console().frozen);
   CHECK_FALSE(*session.shown_pose() == frozen);
 }
 
