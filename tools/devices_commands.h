@@ -13,6 +13,7 @@ struct Command {
 };
 
 /// Each adds its arguments to the program's.
+Command calibrate_command(CLI::App& program);
 Command list_command(CLI::App& program);
 Command check_command(CLI::App& program);
 Command recover_command(CLI::App& program);

@@ -1,0 +1,44 @@
+#include "devices/calibration/calibration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <initializer_list>
+#include <limits>
+
+namespace insonate {
+
+std::string TrackerIdentity::words() const {
+  return serial.empty() ? kind : kind + ", serial " + serial;
+}
+
+Pose Calibration::patient_from_probe(const Pose& raw) const {
+  return mannequin->value.ct_from_mannequin * mannequin->value.mannequin_from_tracker * tracker_from_sensor(raw) *
+         face->value.fit.sensor_from_face;
+}
+
+std::string why_incomplete(const Calibration& calibration) {
+  return !calibration.face ? "face" : !calibration.mannequin ? "landmarks" : "";
+}
+
+std::vector<std::string> calibration_warnings(const Calibration& calibration, const TrackerIdentity& tracker,
+                                              std::int64_t now_s, double days) {
+  std::vector<std::string> warnings;
+  // A recording does not tell which tracker it came from.
+  if (calibration.tracker != tracker && tracker.kind != "replay")
+    warnings.push_back("The calibration was made with another tracker (" + calibration.tracker.words() + "); this is " +
+                       tracker.words() + ".");
+  std::int64_t oldest_s = std::numeric_limits<std::int64_t>::max();
+  if (calibration.face) oldest_s = std::min(oldest_s, calibration.face->made_s);
+  if (calibration.mannequin) oldest_s = std::min(oldest_s, calibration.mannequin->made_s);
+  const double age_days = (double(now_s) - double(oldest_s)) / 86400;
+  if (age_days > days) {
+    char text[120];
+    std::snprintf(text, sizeof text, "The calibration is %.0f days old; check it, or calibrate again.",
+                  std::floor(age_days));
+    warnings.emplace_back(text);
+  }
+  return warnings;
+}
+
+}  // namespace insonate

@@ -1,0 +1,82 @@
+#include "devices/calibration/given.h"
+
+#include <glm/geometric.hpp>
+
+#include <cstdio>
+#include <set>
+
+#include "sim/core/files.h"
+#include "sim/core/toml_table.h"
+
+namespace insonate {
+namespace {
+
+constexpr std::size_t kMostBytes = 1u << 20, kMostLandmarks = 64;
+constexpr double kReachMm = 1e5;
+
+glm::dvec3 read_point(const TomlTable& table, const char* key) {
+  const std::vector<double> v = table.numbers(key, 3);
+  const glm::dvec3 point(v[0], v[1], v[2]);
+  if (!(glm::length(point) <= kReachMm)) table.fail(key, "the point lies 100 m away or farther", "give it in mm");
+  return point;
+}
+
+}  // namespace
+
+LandmarkList read_landmark_list(const std::filesystem::path& file) {
+  const toml::table parsed = parse_toml(file.string(), read_file(file, kMostBytes));
+  const TomlTable top(file.string(), "", parsed);
+  top.allow_only({"patient", "landmark"});
+  LandmarkList list{top.text("patient"), {}};
+  std::set<std::string> names;
+  std::size_t held_out = 0;
+  for (const TomlTable& table : top.tables("landmark")) {
+    table.allow_only({"name", "ct_mm", "held_out"});
+    list.landmarks.push_back(
+        {table.text("name"), {}, read_point(table, "ct_mm"), table.has("held_out") && table.boolean("held_out")});
+    held_out += list.landmarks.back().held_out;
+    if (!names.insert(list.landmarks.back().name).second)
+      table.fail("name", "a landmark before it has that name too", "name each of them differently");
+  }
+  const std::size_t fitted = list.landmarks.size() - held_out;
+  if (fitted < kLeastLandmarks || held_out == 0 || list.landmarks.size() > kMostLandmarks)
+    top.fail(
+        "",
+        "there are " + std::to_string(fitted) + " landmarks to fit and " + std::to_string(held_out) + " to check by",
+        "give " + std::to_string(kLeastLandmarks) + " to " + std::to_string(kMostLandmarks - 1) +
+            ", and one or more with held_out = true");
+  return list;
+}
+
+ProbeDrawing read_probe_drawing(const std::filesystem::path& file) {
+  const toml::table parsed = parse_toml(file.string(), read_file(file, kMostBytes));
+  const TomlTable top(file.string(), "", parsed);
+  top.allow_only({"name", "middle_mm", "marker_end_mm", "other_end_mm", "tail_mm", "tip_mm"});
+  ProbeDrawing drawing;
+  drawing.name = top.text("name");
+  drawing.face = {read_point(top, "middle_mm"), read_point(top, "marker_end_mm"), read_point(top, "other_end_mm"),
+                  read_point(top, "tail_mm")};
+  if (top.has("tip_mm")) drawing.tip_mm = read_point(top, "tip_mm");
+  if (const auto fit = fit_face(drawing.face); !fit) top.fail("", fit.refusal(), "correct the points");
+  return drawing;
+}
+
+Outcome<FaceSetup> face_from_drawing(const ProbeDrawing& drawing, const std::optional<TipFit>& tip) {
+  const Outcome<FaceFit> fit = fit_face(drawing.face);
+  if (!fit) return Refusal{fit.refusal()};
+  FaceSetup face{*fit, "drawing", 0};
+  if (!tip || !drawing.tip_mm) return face;
+  const glm::dvec3 off = tip->tip_mm - *drawing.tip_mm;
+  face.tip_off_mm = glm::length(off);
+  face.fit.sensor_from_face.translation += off;
+  if (face.tip_off_mm <= kMostTipOffMm) return face;
+  char text[200];
+  std::snprintf(
+      text, sizeof text,
+      "The tip was found %.0f mm from where the drawing has it; give the points along the sensor's own axes, or "
+      "touch them.",
+      face.tip_off_mm);
+  return Refusal{text};
+}
+
+}  // namespace insonate

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "devices/calibration/still_point.h"
+#include "sim/core/pose_sample.h"
+
+namespace insonate {
+
+/// Reads a point of the probe that is held still after a mark.
+class HeldPoint {
+public:
+  static constexpr double kReadS = 0.5;
+
+  /// @param point_of  the point (mm) that a usable pose puts somewhere
+  void begin(double time_s, std::function<glm::dvec3(const Pose&)> point_of) {
+    end_s_ = time_s + kReadS;
+    point_of_ = std::move(point_of);
+    readings_.clear();
+    reading_ = true;
+  }
+  void stop() { reading_ = false; }
+  bool reading() const { return reading_; }
+
+  /// The point, or why there is none, once it was read long enough.
+  std::optional<Outcome<StillPoint>> take(const PoseSample& sample) {
+    if (!reading_) return std::nullopt;
+    if (sample.time_s < end_s_) {
+      if (sample.status == PoseStatus::ok) readings_.push_back(point_of_(sample.patient_from_probe));
+      return std::nullopt;
+    }
+    reading_ = false;
+    return still_point(readings_);
+  }
+
+private:
+  double end_s_ = -std::numeric_limits<double>::infinity();
+  std::function<glm::dvec3(const Pose&)> point_of_;
+  std::vector<glm::dvec3> readings_;
+  bool reading_ = false;
+};
+
+}  // namespace insonate
