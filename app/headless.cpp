@@ -17,7 +17,7 @@ namespace insonate {
 namespace {
 
 /// The session's clock advances in steps as of a screen; scores do not depend on it. Nobody waits for the time to pass,
-/// unless the tracker is live.
+/// unless the tracker is live or somebody watches over OpenIGTLink.
 constexpr double kStep_s = 1.0 / 30;
 /// How long a session without an exam runs when nobody says.
 constexpr double kFreeScan_s = 10;
@@ -31,14 +31,18 @@ public:
         colour_(gl::Texture::make_2d(GL_RGBA8, width, height, gl::Filter::nearest)),
         framebuffer_(colour_) {}
 
+  /// Only what the session shows, not the screen around it.
+  void draw_pictures(Trainer& trainer) {
+    trainer.draw(screen_.picture_sizes(float(width_), float(height_)), 1.0, std::numeric_limits<double>::infinity());
+  }
+
   Image<Rgba8> draw(Trainer& trainer) {
     ImGuiIO& io = ImGui::GetIO();
     io.DisplaySize = ImVec2(float(width_), float(height_));
     io.DeltaTime = float(kStep_s);
     // The first frame of a window that appears is laid out but not shown.
     for (int frame = 0; frame < 3; ++frame) {
-      trainer.draw(screen_.picture_sizes(io.DisplaySize.x, io.DisplaySize.y), 1.0,
-                   std::numeric_limits<double>::infinity());
+      draw_pictures(trainer);
       framebuffer_.bind();
       screen_.render(trainer);
     }
@@ -87,12 +91,13 @@ int run_headless(const Options& options) {
   const Session& session = *trainer.session();
   const double end_s = options.seconds > 0 ? options.seconds : session.runner() ? 0 : kFreeScan_s;
   std::optional<Image<Rgba8>> held_screen;
-  const bool live = session.source().live();
-  const double start_s = live ? steady_now_s() : 0;
+  const bool live = session.source().live(), watched = !options.igtl_server.empty();
+  const double start_s = steady_now_s();
   for (long step = 0;; ++step) {
     const double now_s = double(step) * kStep_s;
-    if (live) sleep_until(start_s + now_s);
+    if (live || watched) sleep_until(start_s + now_s);
     trainer.update(live ? steady_now_s() : now_s);
+    if (watched) screen.draw_pictures(trainer);
     if (trainer.best_frame_due()) {
       const Image<Rgba8> now = screen.draw(trainer);
       if (!session.result()) held_screen = now;  // else the score sheet lies over it

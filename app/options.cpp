@@ -1,5 +1,6 @@
 #include "app/options.h"
 
+#include "app/igtl_feed.h"
 #include "devices/registry.h"
 #include "sim/core/input_error.h"
 
@@ -33,6 +34,11 @@ void declare(CLI::App& arguments, Options& options) {
       ->capture_default_str();
   arguments.add_option("--shader-dir", options.shader_folder, "Take shaders from this folder and reload what changes")
       ->type_name("FOLDER");
+  arguments
+      .add_option("--igtl-server", options.igtl_server,
+                  "Send picture, pose and events to OpenIGTLink clients such as 3D Slicer;\n"
+                  "only to this computer's own unless an address is given, as in 0.0.0.0:18944")
+      ->type_name("[ADDRESS:]PORT");
   arguments.add_option("--state-file", options.state_file, "Keep a JSON file that says what the trainer is doing")
       ->type_name("FILE");
   arguments.footer(
@@ -46,6 +52,7 @@ void declare(CLI::App& arguments, Options& options) {
 }
 
 void check(const Options& options) {
+  if (!options.igtl_server.empty()) parse_server_address(options.igtl_server);
   if (!options.case_folder.empty() && !options.ct.empty())
     throw InputError("command line", "--ct", "--case and --ct both name a patient", "give one of them");
   std::error_code error;

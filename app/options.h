@@ -20,6 +20,7 @@ struct Options {
   std::filesystem::path shader_folder;
   int width = 1280;
   int height = 800;
+  std::string igtl_server;           ///< "[ADDRESS:]PORT" to tell OpenIGTLink clients at; empty: nobody is told
   std::filesystem::path state_file;  ///< what the trainer is doing, for programs that drive it
 };
 

@@ -35,6 +35,8 @@ public:
 
   /// Null until update() had a pose to draw. Row 0 is the top; the marker's side is on the right.
   const gl::Texture* ultrasound() const { return ultrasound_; }
+  /// Another number whenever its pixels changed.
+  long ultrasound_version() const { return simulator_.image_version(); }
   const gl::Texture* slice() const { return slice_; }
   const gl::Texture* blend() const { return blend_; }
   const gl::Texture* volume() const { return volume_; }

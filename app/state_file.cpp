@@ -25,6 +25,9 @@ void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::
     state["activity"] = session->activity() == Activity::exam ? "exam" : "practice";
     state["holder"] = session->holder() == Holder::learner ? "learner" : "tracker";
     state["frozen"] = session->console().frozen;
+    state["tracker"] = to_string(session->tracker_state().condition);
+    state["tracker_problem"] = session->tracker_state().problem;
+    state["lost"] = session->lost_for_s().has_value();
     state["depth_mm"] = session->console().depth_mm;
     state["gain_db"] = session->console().gain_db;
     if (const auto& pose = session->shown_pose()) {

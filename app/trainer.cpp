@@ -21,6 +21,14 @@ std::string patient_of(const StudySource& source) {
   return "the built-in patient";
 }
 
+std::optional<FeedPicture> grey_picture(const Pictures& pictures) {
+  if (!pictures.ultrasound()) return std::nullopt;
+  const Image<Rgba8> colours = read_back(*pictures.ultrasound());
+  FeedPicture picture{Image<std::uint8_t>(colours.width, colours.height), pictures.geometry()};
+  for (std::size_t i = 0; i < colours.pixels.size(); ++i) picture.grey.pixels[i] = colours.pixels[i][0];
+  return picture;
+}
+
 gl::ShaderSources shaders_of(const Options& options) {
   return options.shader_folder.empty() ? gl::ShaderSources() : gl::ShaderSources(options.shader_folder);
 }
@@ -31,7 +39,9 @@ Trainer::Trainer(Options options)
     : options_(std::move(options)),
       shaders_(shaders_of(options_)),
       shaders_changed_(shaders_.last_change()),
-      pictures_(shaders_) {}
+      pictures_(shaders_) {
+  if (!options_.igtl_server.empty()) feed_ = std::make_unique<IgtlFeed>(parse_server_address(options_.igtl_server));
+}
 
 void Trainer::open_from_options() {
   load({{options_.case_folder, options_.ct, options_.scenario}, options_.tracker});
@@ -123,6 +133,7 @@ void Trainer::update(double now_s) {
 void Trainer::draw(const PictureSizes& sizes, double quality, double budget_ms) {
   if (!session_) return;
   pictures_.update(*session_, sizes, quality, budget_ms);
+  if (feed_) feed_->tell(*session_, pictures_.ultrasound_version(), [this] { return grey_picture(pictures_); });
 }
 
 bool Trainer::best_frame_due() const {

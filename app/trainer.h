@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "app/igtl_feed.h"
 #include "app/loading.h"
 #include "app/options.h"
 #include "app/pictures.h"
@@ -20,6 +21,7 @@ namespace insonate {
 /// construction to destruction, on the one thread that uses it.
 class Trainer {
 public:
+  /// Throws InputError when OpenIGTLink clients are asked for where nobody can listen.
   explicit Trainer(Options options);
 
   /// Opens what the command line names, without waiting for it.
@@ -37,7 +39,7 @@ public:
 
   /// Takes over what was loaded and advances the session to `now_s`.
   void update(double now_s);
-  /// Draws the pictures of the session.
+  /// Draws the pictures of the session, and tells OpenIGTLink clients.
   void draw(const PictureSizes& sizes, double quality, double budget_ms);
   /// Whether the view is held longer than when the best frame was kept: draw, then keep it.
   bool best_frame_due() const;
@@ -85,6 +87,7 @@ private:
   std::shared_ptr<const Study> study_;
   std::unique_ptr<Session> session_;
   Pictures pictures_;
+  std::unique_ptr<IgtlFeed> feed_;  ///< nullptr when no clients are asked for
   std::optional<ResultFiles> result_files_;
   bool results_due_ = false;
   std::optional<Image<Rgba8>> best_frame_;
