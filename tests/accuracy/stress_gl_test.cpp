@@ -248,6 +248,19 @@ TEST_CASE("settings at the ends of their ranges") {
       {"scatterers 10 mm apart", set(&S::speckle_cell_mm, 10.0)},
       {"reflections smoothed by 1000 mm", set(&S::reflection_sigma_mm, 1000.0)},
       {"transmission smoothed by 1000 mm", set(&S::transmission_sigma_mm, 1000.0)},
+      {"shadows at every edge", set(&S::edge_shadow, true)},
+      {"a face that reflects everything", set(&S::face_reflection, 1.0)},
+      {"every pair of interfaces rings",
+       [](Scene& scene) {
+         scene.settings.reverberation = true;
+         scene.settings.face_reflection = 1;
+       }},
+      {"a slice thin at the far end of what is seen, wide before",
+       [](Scene& scene) {
+         scene.settings.slice_planes = 31;
+         scene.settings.slice_thickness_mm = 0.1;
+         scene.settings.elevation_focus_mm = 400;
+       }},
       {"1 pixel", [](Scene& scene) { scene.settings.image_width = scene.settings.image_height = 1; }},
       {"8192 x 16 pixels",
        [](Scene& scene) {
