@@ -43,7 +43,7 @@ Defines beam_of(const Settings& settings) {
           {"REVERBERATION", reverberates(settings) ? "1" : "0"}};
 }
 Defines reverberation_of(const Settings& settings) {
-  return {{"IN_TISSUE", settings.reverberation ? "1" : "0"}};
+  return {{"IN_TISSUE", settings.reverberation ? "1" : "0"}, {"AT_FACE", settings.face_reflection > 0 ? "1" : "0"}};
 }
 
 constexpr double kLn10 = 2.302585092994046;
@@ -305,6 +305,7 @@ void Simulator::State::run(Stage stage) {
       break;
     case Stage::beam:
       if (reverberates(settings)) {
+        repeats.clear();
         scan.bind(0);
         repeats.bind_image(0, GL_READ_WRITE);
         reverberation.dispatch(parameters.lines, 1);

@@ -10,10 +10,11 @@ namespace insonate {
 /// line, rad, in two components, I of (5) takes
 ///
 ///     b(r + dr) = b(r) e^(-dr/kTurn_mm) + grad(ln c) dr               across the line, by differences over l
-///     I(r + dr) = I(r) ... e^(-(|b(r + dr)|/kTurn_rad)^4 dr/kTurn_mm)
+///     I(r + dr) = I(r) ... e^(-s dr/kTurn_mm),  s = 2 q/(2 + q),  q = (|b(r + dr)|/kTurn_rad)^4
 ///
-/// so that a plane interface costs e^(-(turn/kTurn_rad)^4/4), 0.1 dB at 30 degrees between fat and liver, and the limb
-/// of a cyst, of a vessel or of a kidney casts a thin shadow. ln c is linear in density below and above water, between
+/// so that a plane interface costs the root of 1 + q/2, 0.1 dB at 30 degrees between fat and liver, and the limb of a
+/// cyst, of a vessel or of a kidney casts a thin shadow; no more than s = 2, because a beam of some width passes a limb
+/// in part. ln c is linear in density below and above water, between
 /// kLeastHu and kMostHu; gas and bone count as those, because they reflect what they meet anyway.
 inline constexpr double kLogSpeedBelowWater = 5e-4;    ///< a HU: fat (-100 HU) 1450 m/s (Szabo), water 1524 (Duck)
 inline constexpr double kLogSpeedAboveWater = 7.6e-4;  ///< a HU: water, liver (60 HU) 1595 m/s (Mast, ARLO 1, 2000)

@@ -189,7 +189,8 @@ ReferenceScan traverse_reference(const MediumField& field, const TissueTable& ta
         };
         const glm::dvec2 rise(log_speed(right) - log_speed(left), log_speed(above) - log_speed(below));
         turn = std::exp(-dr / kTurn_mm) * turn + dr / l * rise;
-        intensity *= std::exp(-std::pow(glm::length(turn) / kTurn_rad, 4) * dr / kTurn_mm);
+        const double q = std::pow(glm::length(turn) / kTurn_rad, 4);
+        intensity *= std::exp(-2 * q / (2 + q) * dr / kTurn_mm);
       }
     }
   }

@@ -7,7 +7,7 @@ layout(local_size_x = 8) in;
 #include "shared/simulation_parameters.h"
 
 layout(binding = 0) uniform sampler2D scan;        // a row a line: I, R, scatterers' echo (re, im)
-layout(binding = 0, r32f) uniform image2D repeats;  // a row a line: V
+layout(binding = 0, r32f) uniform image2D repeats;  // a row a line: V, 0 before
 
 const int kMostReflectors = 64, kMostRepeats = 16;  // as in sim/model/reverberation.h, with the next
 const float kLeastRound = 1e-3, kLeastReverberant = 1e-12;
@@ -30,10 +30,13 @@ void add(float position, float echo) {
     imageStore(repeats, ivec2(low + 1, line), imageLoad(repeats, ivec2(low + 1, line)) + f * echo);
 }
 
+// What counts of a round that leaves so much.
+float seen(float round_trip) {
+  return max(round_trip - kLeastRound * kLeastRound / max(round_trip, kLeastRound), 0.0);
+}
+
 // Sample k, which lies `apart` behind another reflector, with what a round between them leaves.
-void repeat(int k, float echo, float apart, float round_trip) {
-  float gain = max(round_trip - kLeastRound * kLeastRound / max(round_trip, kLeastRound), 0.0);
-  if (gain == 0.0) return;
+void repeat(int k, float echo, float apart, float gain) {
   float position = float(k) + apart;
   for (int n = 0; n < kMostRepeats && position < float(samples); ++n, position += apart) {
     echo *= gain;
@@ -44,34 +47,46 @@ void repeat(int k, float echo, float apart, float round_trip) {
 void main() {
   line = int(gl_GlobalInvocationID.x);
   if (line >= lines) return;
-  for (int k = 0; k < samples; ++k) imageStore(repeats, ivec2(k, line), vec4(0.0));
+
+  // Listed first: renderers that run lanes in step would spend on every sample what only these need.
+  int at[kMostReflectors];
+  int count = 0;
+  for (int k = 0; k < samples && count < kMostReflectors; ++k)
+    if (reflected(k).x > kLeastRound) at[count++] = k;
 
   float length_in_samples = 2.0 * half_reflection_length;
   int near = max(int(ceil(length_in_samples - 1e-3)), 1);  // l in whole samples
   float share = min(reflection_exponent, 1.0);
   float strength[kMostReflectors], place[kMostReflectors], behind[kMostReflectors];
-  int count = 0;
-  for (int k = 0; k < samples && count < kMostReflectors; ++k) {
+  for (int j = 0; j < count; ++j) {
+    int k = at[j];
     vec2 here = reflected(k);
-    if (here.x <= kLeastRound) continue;
     float sum = 0.0, moment = 0.0;
-    for (int j = max(k - near + 1, 0); j <= min(k + near - 1, samples - 1); ++j) {
-      float other = reflected(j).x;
-      sum += other;
-      moment += other * float(j - k);
+    for (int other = max(k - near + 1, 0); other <= min(k + near - 1, samples - 1); ++other) {
+      float weight = reflected(other).x;
+      sum += weight;
+      moment += weight * float(other - k);
     }
     float c = float(k) + moment / sum, before = intensity(k - near + 1);
-    repeat(k, here.y, c + 0.5 + r_min_mm / dr_mm, face_reflection * here.x * before * before);
-#if IN_TISSUE == 1
-    for (int i = 0; i < count; ++i) {
-      float apart = c - place[i], between = min(before / behind[i], 1.0);
-      float separate = clamp(2.0 * apart / length_in_samples - 1.0, 0.0, 1.0);
-      repeat(k, here.y * share, apart, separate * strength[i] * here.x * between * between);
-    }
-    strength[count] = here.x;
-    place[count] = c;
-    behind[count] = max(intensity(k + near), 1e-30);
+#if AT_FACE == 1
+    float of_face = seen(face_reflection * here.x * before * before);
+    if (of_face > 0.0) repeat(k, here.y, c + 0.5 + r_min_mm / dr_mm, of_face);
 #endif
-    ++count;
+#if IN_TISSUE == 1
+    for (int i = 0;;) {
+      float apart = 0.0, gain = 0.0;
+      for (; i < j && gain == 0.0; ++i) {  // most pairs leave nothing, and only what is found is worth a repeat
+        apart = c - place[i];
+        float between = min(before / behind[i], 1.0);
+        float separate = clamp(2.0 * apart / length_in_samples - 1.0, 0.0, 1.0);
+        gain = seen(separate * strength[i] * here.x * between * between);
+      }
+      if (gain == 0.0) break;
+      repeat(k, here.y * share, apart, gain);
+    }
+    strength[j] = here.x;
+    place[j] = c;
+    behind[j] = max(intensity(k + near), 1e-30);
+#endif
   }
 }

@@ -162,8 +162,8 @@ void walk(int plane, int index) {
     vec4 soft = clamp(around, kLeastHu, kMostHu);
     vec4 log_speed = kLogSpeedBelowWater * min(soft, 0.0) + kLogSpeedAboveWater * max(soft, 0.0);
     turn = turn * turn_kept + (log_speed.xz - log_speed.yw) * turn_per_step;
-    float turned = dot(turn, turn);
-    log_intensity -= turned * turned * turn_loss;
+    float turned = dot(turn, turn), to_the_fourth = turned * turned;
+    log_intensity -= 2.0 * to_the_fourth / (2.0 + to_the_fourth) * turn_loss;
 #endif
     before = behind;
     if (EDGES_AT == kEdgesAtSamples) before = here;

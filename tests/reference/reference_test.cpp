@@ -293,12 +293,12 @@ TEST_CASE("sound that grazes the limb of a cyst is lost, sound that meets an int
     lines.lines.front().start.x = x;
     return traverse_reference(field, table, lines, settings, {}).intensity.at(0, lines.samples - 1);
   };
-  // A plane turns the sound by ln(1595 / 1450) tan(tilt), and the loss is the turn's share of 0.1 rad to the power of
-  // four, over four where the interface is thin beside 5 mm; at 60 degrees it takes up 0.3 mm.
+  // A plane turns the sound by ln(1595 / 1450) tan(tilt); q is that in units of 0.1 rad to the power of four, and the
+  // loss the root of 1 + q/2 where the interface is thin beside 5 mm; at 60 degrees it takes up 0.3 mm.
   settings.reflection_length_mm = 0.1;
   for (double tilt : {0.0, 30.0, 45.0, 60.0}) {
     const double turn = std::log(1595.0 / 1450) * std::tan(glm::radians(tilt));
-    const double lost = std::pow(turn / 0.1, 4) / 4;
+    const double lost = std::log(1 + std::pow(turn / 0.1, 4) / 2) / 2;
     INFO(tilt << " degrees");
     CHECK(-std::log(left_behind(interface_at(30, -100, 60, tilt, 0.05), 0)) == Approx(lost).epsilon(0.15).margin(1e-9));
   }
@@ -311,7 +311,7 @@ TEST_CASE("sound that grazes the limb of a cyst is lost, sound that meets an int
   CHECK(left_behind(cyst, 0) > 0.9999);
   CHECK(left_behind(cyst, 7.5) > 0.995);
   CHECK(left_behind(cyst, 17) > 0.9999);
-  CHECK(left_behind(cyst, 15) < 0.5);
+  CHECK(left_behind(cyst, 15) < 0.7);
   CHECK(left_behind(cyst, -15) == Approx(left_behind(cyst, 15)));
   settings.edge_shadow = false;
   CHECK(left_behind(cyst, 15) == 1);
