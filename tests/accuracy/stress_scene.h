@@ -13,6 +13,7 @@
 #include "sim/core/pose.h"
 #include "sim/model/acoustic_volume.h"
 #include "sim/model/settings.h"
+#include "sim/model/wein_settings.h"
 #include "sim/probe/probe.h"
 
 /// What the pipeline is strained with: everything that a picture depends on, at the ends of its range.
@@ -156,6 +157,43 @@ inline Scene random_scene(std::uint32_t seed) {
   const double away = draw.one_of({0.0, 1.0, 30.0, 300.0, 99999.0});
   scene.pose.translation = scene.pose.rotation * glm::dvec3(0, -away, 0);
   return scene;
+}
+
+/// The same with all that the receiver and the beam can do, and any probe.
+inline Scene random_scene_of_everything(std::uint32_t seed) {
+  Scene scene = random_scene(seed);
+  Draw draw(hash(seed, 0xeffec7u));
+  scene.probe.kind = draw.one_of({ProbeKind::linear, ProbeKind::curvilinear, ProbeKind::phased});
+  Settings& s = scene.settings;
+  s.focused_beam = draw.chance(0.5);
+  s.focus_mm = draw.within(5, 400);
+  s.f_number = draw.within(0.5, 30);
+  s.slice_planes = draw.one_of({1, 1, 3, 7, 31});
+  s.slice_thickness_mm = draw.within(0.1, 20);
+  s.reverberation = draw.chance(0.5);
+  s.face_reflection = draw.chance(0.5) ? 0 : draw.within(0, 1);
+  s.clutter = draw.chance(0.5);
+  s.clutter_db = draw.within(-100, -0.01);
+  s.grey_map = draw.one_of({GreyMap::linear, GreyMap::soft, GreyMap::contrast, GreyMap::s_curve});
+  s.skipping = draw.chance(0.5);
+  return scene;
+}
+
+/// Model W's settings to go with a scene of the same seed.
+inline WeinSettings random_wein_settings(std::uint32_t seed) {
+  Draw draw(hash(seed, 0x77u));
+  WeinSettings s;
+  s.samples = draw.whole(1, 150);
+  s.reflection_length_mm = draw.within(0.01, 20);
+  s.contact_mm = draw.within(0, 100);
+  s.compression = draw.within(0.001, 1e6);
+  s.dark_hu = draw.one_of({-1000.0, -200.0, -50.0, 2999.0});
+  s.bright_hu = std::min(s.dark_hu + draw.within(1, 4000), 3000.0);
+  s.shadows = draw.chance(0.7);
+  s.reflection_share = draw.within(0, 1);
+  s.image_width = draw.whole(1, 48);
+  s.image_height = draw.whole(1, 48);
+  return s;
 }
 
 }  // namespace insonate::test
