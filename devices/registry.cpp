@@ -7,6 +7,7 @@
 #include "devices/auto/best_source.h"
 #include "devices/hydra/hydra_tracker.h"
 #include "devices/igtl/igtl_source.h"
+#include "devices/live/live_tracker.h"
 #include "devices/mouse/mouse_tracker.h"
 #include "devices/osvr/osvr_tracker.h"
 #include "devices/polhemus/polhemus_tracker.h"
@@ -22,7 +23,8 @@ namespace {
 constexpr TrackerKind kKinds[] = {
     {"replay", "replay:FILE[?speed=2&loop=1&transform=ProbeToTracker]",
      "a recorded .igs.mha, .seq.mha or .seq.nrrd file", open_replay},
-    {"synthetic", "synthetic:[SEED][?rate=60]", "a made-up hand that scans the front of the abdomen", open_synthetic},
+    {"synthetic", "synthetic:[SEED][?rate=60&live=1]",
+     "a made-up hand that scans the front of the abdomen, also as from a device", open_synthetic},
     {"auto", "auto:", "the best of the following that is plugged in", open_best},
     {"polhemus", "polhemus:[SERIAL][?sensor=1&distortion=20&raw=1]", "a Polhemus Patriot, Liberty HS or Viper",
      open_polhemus},
@@ -34,6 +36,18 @@ constexpr TrackerKind kKinds[] = {
      igtl::open_igtl},
     {"mouse", "mouse:", "the mouse and the keyboard, in the trainer's window", open_mouse},
 };
+
+std::unique_ptr<Tracker> open_kind(const TrackerKind& kind, const TrackerUri& uri, const TrackerContext& context) {
+  TrackerUri plain = uri;
+  const FilterSettings filters = take_filter_option(plain);
+  std::unique_ptr<Tracker> tracker = kind.open(plain, context);
+  if (auto* live = dynamic_cast<LiveTracker*>(tracker.get()))
+    live->set_filters(filters);
+  else if (uri.options.contains("filter"))
+    throw InputError("tracker '" + uri.text + "'", "option 'filter'", "only a live tracker's samples are filtered",
+                     "leave it out");
+  return tracker;
+}
 
 }  // namespace
 
@@ -49,7 +63,7 @@ std::unique_ptr<Tracker> open_tracker(std::string_view text, const TrackerContex
   const TrackerUri uri = parse_tracker_uri(text);
   std::vector<std::string> schemes;
   for (const TrackerKind& kind : kKinds) {
-    if (kind.scheme == uri.scheme) return kind.open(uri, context);
+    if (kind.scheme == uri.scheme) return open_kind(kind, uri, context);
     schemes.emplace_back(kind.scheme);
   }
   throw InputError("tracker '" + uri.text + "'", "", "there is no kind of tracker '" + uri.scheme + "'",

@@ -15,6 +15,7 @@ struct Command {
 /// Each adds its arguments to the program's.
 Command calibrate_command(CLI::App& program);
 Command list_command(CLI::App& program);
+Command bench_command(CLI::App& program);
 Command check_command(CLI::App& program);
 Command recover_command(CLI::App& program);
 Command watch_command(CLI::App& program);

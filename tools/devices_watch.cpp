@@ -4,13 +4,16 @@
 
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "devices/live/steady_clock.h"
+#include "devices/record/sequence_recorder.h"
 #include "devices/registry.h"
 #include "tools/devices_commands.h"
 
@@ -28,8 +31,22 @@ void print(const PoseSample& sample) {
   std::printf("\n");
 }
 
-int watch(const std::string& uri, double seconds) {
-  const auto tracker = open_tracker(uri);
+/// Ctrl C ends a recording as the end of its time does: its file is made.
+volatile std::sig_atomic_t stopped = 0;
+
+struct Request {
+  std::string uri, record;
+  double seconds = 1e9;
+};
+
+int watch(const Request& request) {
+  const double seconds = request.seconds;
+  const auto tracker = open_tracker(request.uri);
+  std::optional<SequenceRecorder> recorder;
+  if (!request.record.empty()) {
+    recorder.emplace(request.record);
+    std::signal(SIGINT, [](int) { stopped = 1; });
+  }
   // Only a live tracker needs the true time; the others count from zero, exactly.
   const double begin_s = steady_now_s(), start_s = tracker->live() ? begin_s : 0;
   std::string problem;
@@ -38,13 +55,17 @@ int watch(const std::string& uri, double seconds) {
   for (double now_s = 0;;) {
     samples.clear();
     tracker->poll(start_s + now_s, samples);
-    for (const PoseSample& sample : samples) print(sample);
+    for (const PoseSample& sample : samples) {
+      print(sample);
+      if (recorder) recorder->add(sample);
+    }
+    if (recorder) recorder->flush();
     std::fflush(stdout);
     if (std::string now = tracker->state().problem; now != problem) {
       problem = std::move(now);
       if (!problem.empty()) std::fprintf(stderr, "%s\n", problem.c_str());
     }
-    if (now_s >= seconds || tracker->state().condition == TrackerCondition::finished) break;
+    if (stopped || now_s >= seconds || tracker->state().condition == TrackerCondition::finished) break;
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
     now_s = std::min(seconds, steady_now_s() - begin_s);
   }
@@ -53,21 +74,23 @@ int watch(const std::string& uri, double seconds) {
                std::string(to_string(state.condition)).c_str(), static_cast<unsigned long long>(state.delivered),
                static_cast<unsigned long long>(state.usable), static_cast<unsigned long long>(state.dropped),
                state.rate_hz);
+  if (recorder) {
+    const std::size_t frames = recorder->frames();
+    recorder->finish();
+    std::fprintf(stderr, "recorded %zu samples to %s\n", frames, request.record.c_str());
+  }
   return 0;
 }
 
 }  // namespace
 
 Command watch_command(CLI::App& program) {
-  struct Request {
-    std::string uri;
-    double seconds = 1e9;
-  };
   const auto request = std::make_shared<Request>();
   CLI::App* parser = program.add_subcommand("watch", "Print a tracker's samples as they come");
   parser->add_option("URI", request->uri, "The tracker, as 'list' shows them")->required();
   parser->add_option("--seconds", request->seconds, "Stop after so long")->check(CLI::PositiveNumber);
-  return {parser, [request] { return watch(request->uri, request->seconds); }};
+  parser->add_option("--record", request->record, "Record them as a sequence file too (.igs.mha)")->type_name("FILE");
+  return {parser, [request] { return watch(*request); }};
 }
 
 }  // namespace insonate::devices

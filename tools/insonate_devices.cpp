@@ -17,8 +17,8 @@ int main(int argc, char** argv) {
       "  insonate-devices watch 'replay:scan.igs.mha?speed=4'\n"
       "  insonate-devices calibrate pivot --tracker hydra: --out lab.toml");
   const std::vector<devices::Command> commands = {
-      devices::list_command(arguments),    devices::calibrate_command(arguments), devices::check_command(arguments),
-      devices::recover_command(arguments), devices::watch_command(arguments),
+      devices::list_command(arguments),  devices::bench_command(arguments),   devices::calibrate_command(arguments),
+      devices::check_command(arguments), devices::recover_command(arguments), devices::watch_command(arguments),
   };
   return run_program(arguments, argc, argv, [&] {
     for (const devices::Command& command : commands)

@@ -18,6 +18,7 @@ public:
 
   void open() override;
   void read(std::chrono::milliseconds timeout, LiveBatch& batch) override { opened_->read(timeout, batch); }
+  glm::dvec3 origin() const override { return opened_ ? opened_->origin() : glm::dvec3(0); }
   void close() noexcept override { opened_->close(); }
 
 private:

@@ -10,10 +10,12 @@ namespace {
 /// A velocity tells where a hand is for no longer (PoseHistory::kPredictS), and how far it can have gone is no limit
 /// any more after a quarter of a second.
 constexpr double kCarry_s = 0.030, kReach_s = 0.250;
+/// Samples that were read in one go have stamps that tell nothing of how quick they followed each other.
+constexpr double kLeastStep_s = 0.0005;
 
 /// The pose as a tracker tells it that has the hemisphere wrong: the position mirrored through its origin.
-Pose mirror_image(const Pose& pose) {
-  return {pose.rotation, -pose.translation};
+Pose mirror_image(const Pose& pose, const glm::dvec3& origin) {
+  return {pose.rotation, 2.0 * origin - pose.translation};
 }
 
 }  // namespace
@@ -27,6 +29,7 @@ bool OutlierGate::follows(const Track& track, double time_s, const Pose& pose) c
 
 OutlierGate::Track OutlierGate::carried_on(const Track& track, double time_s, const Pose& pose) {
   const double step_s = time_s - track.time_s;
+  if (step_s < kLeastStep_s) return {time_s, pose, track.mm_per_s};
   // A step over a longer gap tells no velocity, and the noise of a single step must not carry far.
   if (step_s > kReach_s) return {time_s, pose};
   glm::dvec3 mm_per_s = (pose.translation - track.pose.translation) / step_s;
@@ -36,7 +39,7 @@ OutlierGate::Track OutlierGate::carried_on(const Track& track, double time_s, co
   return {time_s, pose, mm_per_s};
 }
 
-bool OutlierGate::accepts(double time_s, const Pose& pose) {
+bool OutlierGate::accepts(double time_s, const Pose& pose, const glm::dvec3& origin) {
   if (!accepted_) {
     accepted_ = Track{time_s, pose};
     return true;
@@ -46,7 +49,7 @@ bool OutlierGate::accepts(double time_s, const Pose& pose) {
     elsewhere_.reset();
     return true;
   }
-  if (const Pose image = mirror_image(pose); follows(*accepted_, time_s, image)) {
+  if (const Pose image = mirror_image(pose, origin); follows(*accepted_, time_s, image)) {
     accepted_ = carried_on(*accepted_, time_s, image);
     elsewhere_.reset();
     return false;

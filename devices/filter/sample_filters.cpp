@@ -14,8 +14,7 @@ struct Named {
   bool FilterSettings::*on;
 };
 
-constexpr Named kFilters[] = {
-    {"1euro", &FilterSettings::one_euro}, {"outlier", &FilterSettings::outlier}, {"predict", &FilterSettings::predict}};
+constexpr Named kFilters[] = {{"1euro", &FilterSettings::one_euro}, {"outlier", &FilterSettings::outlier}};
 
 void switch_on(FilterSettings& settings, std::string_view name, const TrackerUri& uri) {
   std::vector<std::string> names;
@@ -40,8 +39,9 @@ std::string to_string(const FilterSettings& settings) {
   return names.empty() ? "off" : names;
 }
 
-FilterSettings take_filter_options(TrackerUri& uri, bool live) {
-  FilterSettings settings = live ? FilterSettings::all() : FilterSettings();
+FilterSettings take_filter_option(TrackerUri& uri) {
+  const auto raw = uri.options.find("raw");
+  FilterSettings settings = raw != uri.options.end() && raw->second == "1" ? FilterSettings() : FilterSettings::all();
   const auto given = uri.options.extract("filter");
   if (given.empty()) return settings;
   for (const Named& filter : kFilters) settings.*filter.on = false;
@@ -54,12 +54,11 @@ FilterSettings take_filter_options(TrackerUri& uri, bool live) {
   }
 }
 
-void SampleFilters::apply(PoseSample& sample) {
+void SampleFilters::apply(PoseSample& sample, const glm::dvec3& origin) {
   if (sample.status != PoseStatus::ok) return;
-  if (settings_.outlier && !outliers_.accepts(sample.time_s, sample.patient_from_probe)) {
+  if (settings_.outlier && !outliers_.accepts(sample.time_s, sample.patient_from_probe, origin)) {
     sample.status = PoseStatus::invalid;
     sample.patient_from_probe = Pose{};
-    ++rejected_;
     return;
   }
   if (settings_.one_euro) sample.patient_from_probe = one_euro_.smooth(sample.time_s, sample.patient_from_probe);

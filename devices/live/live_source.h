@@ -1,5 +1,7 @@
 #pragma once
 
+#include <glm/vec3.hpp>
+
 #include <chrono>
 #include <stdexcept>
 #include <string>
@@ -37,6 +39,9 @@ public:
   /// Waits for samples, no longer than `timeout`, and appends to `batch` what came, which may be nothing. Equal or
   /// falling times are the LiveTracker's to mend. Throws SourceGone when the device is lost.
   virtual void read(std::chrono::milliseconds timeout, LiveBatch& batch) = 0;
+
+  /// Where the device's own origin lies in the frame of its samples.
+  virtual glm::dvec3 origin() const { return glm::dvec3(0); }
 
   /// Lets go of the device. Called after each open() that went well.
   virtual void close() noexcept = 0;

@@ -82,6 +82,7 @@ void LiveTracker::hand_over(PoseSample sample) {
   // Samples of one report share a time, and a clock may be read in another order than they are handed over.
   sample.time_s = std::max(sample.time_s, std::nextafter(last_time_s_, HUGE_VAL));
   last_time_s_ = sample.time_s;
+  filters_.apply(sample, source_->origin());
   ring_.push(sample);
 }
 

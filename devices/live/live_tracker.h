@@ -7,6 +7,7 @@
 #include <string>
 #include <thread>
 
+#include "devices/filter/sample_filters.h"
 #include "devices/live/live_source.h"
 #include "devices/live/sample_ring.h"
 #include "devices/tracker.h"
@@ -38,6 +39,11 @@ public:
       : LiveTracker(std::move(name), std::move(source), Options()) {}
   ~LiveTracker() override;
 
+  /// What is done to the samples, on the thread, before anybody sees them: nothing until told. To be set before the
+  /// first poll.
+  void set_filters(const FilterSettings& settings) { filters_ = SampleFilters(settings); }
+  const FilterSettings& filters() const { return filters_.settings(); }
+
   bool live() const override { return true; }
   double clock_s(double now_s) const override { return now_s; }
 
@@ -59,6 +65,7 @@ private:
   Options options_;
   std::unique_ptr<LiveSource> source_;
   LiveBatch batch_;
+  SampleFilters filters_;
   double last_time_s_;        ///< of the newest sample that was handed over
   double heard_s_ = 0;        ///< when the source last brought a sample
   bool heard_ = false;        ///< whether it ever did

@@ -19,6 +19,9 @@ public:
     return *patient_from_tracker_ * tracker_from_sensor;
   }
 
+  /// The tracker's own origin in the frame that the poses come in.
+  glm::dvec3 origin() const { return patient_from_tracker_ ? patient_from_tracker_->translation : glm::dvec3(0); }
+
 private:
   Pose start_;
   bool raw_;

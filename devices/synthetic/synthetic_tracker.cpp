@@ -10,6 +10,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "devices/live/live_tracker.h"
+#include "devices/live/paced_source.h"
 #include "sim/core/hash.h"
 #include "sim/core/input_error.h"
 
@@ -147,14 +149,26 @@ void SyntheticTracker::collect(double now_s, std::vector<PoseSample>& samples) {
 }
 
 std::unique_ptr<Tracker> open_synthetic(const TrackerUri& uri, const TrackerContext& context) {
-  uri.allow_options({"rate"});
+  uri.allow_options({"rate", "live"});
   std::uint32_t seed = 1;
   const char* const end = uri.subject.data() + uri.subject.size();
   if (!uri.subject.empty())
     if (const auto read = std::from_chars(uri.subject.data(), end, seed); read.ec != std::errc() || read.ptr != end)
       throw InputError("tracker '" + uri.text + "'", "", "the seed '" + uri.subject + "' is no whole number below 2^32",
                        "write it as in 'synthetic:7'");
-  return std::make_unique<SyntheticTracker>(seed, uri.number("rate", 60, 1, 1000), context);
+  const double rate_hz = uri.number("rate", 60, 1, 1000);
+  auto hand = std::make_unique<SyntheticTracker>(seed, rate_hz, context);
+  if (!uri.flag("live", false)) return hand;
+  return std::make_unique<LiveTracker>(
+      "made-up hand, live",
+      std::make_unique<PacedSource>(
+          [hand = std::shared_ptr<SyntheticTracker>(std::move(hand)), rate_hz](std::uint64_t index) {
+            // Polled in the middle between two samples, so that rounding neither skips nor doubles one.
+            std::vector<PoseSample> one;
+            hand->poll(index == 0 ? 0 : (double(index) + 0.5) / rate_hz, one);
+            return one.at(0);
+          },
+          rate_hz));
 }
 
 }  // namespace insonate

@@ -195,23 +195,48 @@ TEST_CASE("a jump to the mirrored hemisphere is rejected for as long as it lasts
   CHECK(rejected(passing, settings).empty());
 }
 
-TEST_CASE("filters are chosen by the tracker's options: all of a live tracker's, none of another's, or as told") {
-  const auto taken = [](const std::string& text, bool live) {
+TEST_CASE("the mirror image is one through the tracker's origin, wherever that lies") {
+  const glm::dvec3 origin(40, -500, 900);
+  OutlierGate gate, elsewhere;
+  int kept = 0, believed = 0;
+  for (const PoseSample& sample : straight()) {
+    Pose pose = sample.patient_from_probe;
+    if (sample.time_s > 0.3) pose.translation = 2.0 * origin - pose.translation;
+    kept += gate.accepts(sample.time_s, pose, origin);
+    believed += elsewhere.accepts(sample.time_s, pose);
+  }
+  CHECK(kept == 31);
+  CHECK(believed > 80);
+}
+
+TEST_CASE("samples that were read in one go are no quicker for it") {
+  OutlierGate gate;
+  for (int i = 0; i < 200; ++i) {
+    const double time_s = i / 2 / 50.0 + (i % 2) * 1e-9;
+    CHECK(gate.accepts(time_s, Pose{glm::dmat3(1), {i * 1.0 + (i % 3), 0, 300}}));
+  }
+}
+
+TEST_CASE("a live tracker's filters are chosen by its option: all, none, or as told") {
+  const auto taken = [](const std::string& text) {
     TrackerUri uri = parse_tracker_uri(text);
-    const FilterSettings settings = take_filter_options(uri, live);
+    const FilterSettings settings = take_filter_option(uri);
     CHECK_FALSE(uri.options.contains("filter"));
     CHECK(uri.options.size() == (text.find("rate") != text.npos ? 1 : 0));
     return to_string(settings);
   };
-  CHECK(taken("hydra:", true) == "1euro,outlier,predict");
-  CHECK(taken("replay:x", false) == "off");
-  CHECK(taken("hydra:?filter=off", true) == "off");
-  CHECK(taken("replay:x?filter=outlier,1euro&rate=3", false) == "1euro,outlier");
-  for (const char* wrong : {"a:?filter=1eurp", "a:?filter=off,predict", "a:?filter=1euro,"}) {
+  CHECK(taken("hydra:") == "1euro,outlier");
+  CHECK(taken("hydra:?filter=off") == "off");
+  for (const auto& [text, names] : {std::pair{"hydra:?raw=1", "off"}, {"hydra:?raw=0", "1euro,outlier"}}) {
+    TrackerUri uri = parse_tracker_uri(text);
+    CHECK(to_string(take_filter_option(uri)) == names);
+  }
+  CHECK(taken("hydra:?filter=outlier,1euro&rate=3") == "1euro,outlier");
+  for (const char* wrong : {"a:?filter=1eurp", "a:?filter=off,1euro", "a:?filter=1euro,"}) {
     CAPTURE(wrong);
     TrackerUri uri = parse_tracker_uri(wrong);
-    CHECK_THROWS_AS(take_filter_options(uri, true), InputError);
+    CHECK_THROWS_AS(take_filter_option(uri), InputError);
   }
   TrackerUri typo = parse_tracker_uri("a:?filter=outlyer");
-  CHECK_THROWS_WITH(take_filter_options(typo, true), Catch::Contains("did you mean 'outlier'?"));
+  CHECK_THROWS_WITH(take_filter_option(typo), Catch::Contains("did you mean 'outlier'?"));
 }

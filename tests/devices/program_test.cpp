@@ -13,9 +13,11 @@
 
 #include "devices/known_trackers.h"
 #include "devices/record/recording_files.h"
+#include "devices/sequence/probe_samples.h"
 #include "devices/sequence/sequence.h"
 #include "devices/sequence/sequence_text.h"
 #include "sim/core/files.h"
+#include "tests/devices/test_samples.h"
 
 using namespace insonate;
 
@@ -84,6 +86,36 @@ TEST_CASE("insonate-devices check exits with 1 when there is something to look a
   CHECK(json.exit_code == 1);
   CHECK(nlohmann::json::parse(json.output)["findings"].size() == 1);
   std::filesystem::remove(log);
+}
+
+TEST_CASE("insonate-devices watch records what it prints, to the bit, and overwrites nothing") {
+  const std::string file =
+      std::filesystem::temp_directory_path() / ("insonate_watch_" + std::to_string(getpid()) + ".igs.mha");
+  std::filesystem::remove(file);
+  const std::string command = "watch 'replay:" + kLog + "?speed=4' --record " + file + " 2>&1";
+  CHECK(run(command).exit_code == 0);
+  const auto samples = [](const std::string& log) { return read_recorded_scan(log).samples; };
+  CHECK(same_bits(samples(file), samples(kLog)));
+  const Run again = run(command);
+  CHECK(again.exit_code == 2);
+  CHECK(contains(again.output, "such a file already"));
+  std::filesystem::remove(file);
+}
+
+TEST_CASE("insonate-devices bench prints its figures and writes them and the latency's histogram as CSV") {
+  const std::string csv =
+      std::filesystem::temp_directory_path() / ("insonate_bench_" + std::to_string(getpid()) + ".csv");
+  const Run bench = run("bench --seconds 0.5 --csv " + csv + " --histogram " + csv + ".steps");
+  CHECK(bench.exit_code == 0);
+  const std::string figures = read_file(csv), steps = read_file(csv + ".steps");
+  for (const char* row :
+       {"measure,setting,figure,value,unit\n", "smoothing,60 Hz,lag,", "prediction,20 ms ahead,",
+        "rejection,240 Hz,strays rejected,", "throughput,8 x 1000 Hz,samples lost,", "latency,1000 Hz,median,"})
+    CHECK(contains(figures, row));
+  CHECK(contains(bench.output, "samples delivered"));
+  CHECK(contains(steps, "from_ms,reports_60_hz,reports_240_hz,reports_1000_hz\n0,"));
+  std::filesystem::remove(csv);
+  std::filesystem::remove(csv + ".steps");
 }
 
 TEST_CASE("insonate-devices recover finishes a recording, and says what there is none of") {

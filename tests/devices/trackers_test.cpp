@@ -9,6 +9,8 @@
 #include <filesystem>
 #include <map>
 
+#include "devices/live/live_tracker.h"
+#include "devices/live/steady_clock.h"
 #include "devices/mouse/mouse_tracker.h"
 #include "devices/registry.h"
 #include "devices/sequence/probe_samples.h"
@@ -278,4 +280,34 @@ TEST_CASE("a steady rate moves the mouse's probe as far whatever the polls, and 
     mouse.poll(601, samples);
     CHECK(samples.back().patient_from_probe.translation.z == Approx(7200));
   }
+}
+
+TEST_CASE("a made-up hand can be had live: its own samples, stamped as they come, through a live tracker's filters") {
+  const auto live = open_tracker("synthetic:3?rate=500&live=1&filter=off");
+  CHECK(live->live());
+  std::vector<PoseSample> samples;
+  while (samples.size() < 40) live->poll(steady_now_s(), samples);
+  const auto hand = open_tracker("synthetic:3?rate=500");
+  CHECK_FALSE(hand->live());
+  std::vector<PoseSample> same;
+  hand->poll(0, same);
+  hand->poll(1, same);
+  for (std::size_t i = 0; i < 40; ++i) {
+    CHECK(samples[i].patient_from_probe == same[i].patient_from_probe);
+    if (i > 0) CHECK(samples[i].time_s > samples[i - 1].time_s);
+  }
+  const auto filters = [](const std::string& uri) {
+    const auto tracker = open_tracker(uri);
+    return to_string(dynamic_cast<const LiveTracker&>(*tracker).filters());
+  };
+  CHECK(filters("synthetic:3?live=1") == "1euro,outlier");
+  CHECK(filters("synthetic:3?live=1&filter=outlier") == "outlier");
+  CHECK_THROWS_WITH(open_tracker("synthetic:3?filter=outlier"), Catch::Contains("only a live tracker"));
+
+  INFO("and the filters do their work");
+  const auto smooth = open_tracker("synthetic:3?rate=500&live=1&filter=1euro");
+  std::vector<PoseSample> smoothed;
+  while (smoothed.size() < 40) smooth->poll(steady_now_s(), smoothed);
+  CHECK(smoothed[0].patient_from_probe == same[0].patient_from_probe);
+  CHECK_FALSE(smoothed[20].patient_from_probe == same[20].patient_from_probe);
 }

@@ -16,7 +16,8 @@ Pose at_x(double x) {
 /// A client of a listener of the test, polled until something holds.
 struct Client {
   explicit Client(const Socket& listener, const std::string& rest = "")
-      : tracker(open_tracker("igtl://127.0.0.1:" + std::to_string(bound_address(listener).port()) + rest)) {
+      : tracker(open_tracker("igtl://127.0.0.1:" + std::to_string(bound_address(listener).port()) + rest +
+                             (rest.find('?') == rest.npos ? "?" : "&") + "filter=off")) {
     tracker->poll(steady_now_s(), samples);
   }
   bool until(const std::function<bool()>& done) { return poll_until(*tracker, samples, done); }
