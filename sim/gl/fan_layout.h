@@ -23,9 +23,4 @@ struct FanLayout {
   FanLayout(const Probe& probe, double depth_mm, const ScanLines& lines, int width, int height);
 };
 
-/// Per pixel, 1 over what of a separable window lies inside the fan, taken along the rows and then, over the pixels
-/// inside, along the columns; 0 outside. Times it, a sum over the pixels inside is their weighted mean.
-/// @param window  weights, odd in number, the middle one at the pixel
-Image<float> one_over_window_inside(const Image<std::uint8_t>& inside, const std::vector<double>& window);
-
 }  // namespace insonate::gl

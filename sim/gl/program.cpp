@@ -132,6 +132,10 @@ std::optional<std::string> Program::reload(const ShaderSources& sources) {
   }
 }
 
+void Program::define(const ShaderSources& sources, const Defines& defines) {
+  if (defines != defines_) *this = Program(sources, shaders_, defines);
+}
+
 void Program::dispatch(int x, int y) const {
   dispatch_groups((x + group_x_ - 1) / group_x_, (y + group_y_ - 1) / group_y_);
 }

@@ -54,6 +54,9 @@ public:
   /// Builds again. When that fails the program goes on as it was, and the compiler's words are returned.
   std::optional<std::string> reload(const ShaderSources& sources);
 
+  /// Builds for other defines; does nothing when they are those it was built for. Throws as the constructor does.
+  void define(const ShaderSources& sources, const Defines& defines);
+
   void use() const { glUseProgram(object_.name()); }
   GLint uniform(const char* name) const { return glGetUniformLocation(object_.name(), name); }
   GLuint name() const { return object_.name(); }

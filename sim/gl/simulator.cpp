@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "sim/gl/device_volume.h"
@@ -76,26 +77,21 @@ Image<float> transposed(const Image<float>& rows) {
 struct Simulator::State {
   explicit State(const ShaderSources& shader_sources)
       : sources(shader_sources),
-        traverse(sources, {"traverse.comp"}, traversal),
+        traverse(sources, {"traverse.comp"}, traversal_of({}, 1)),
         reverberation(sources, {"reverberation.comp"}, reverberation_of({})),
-        beam(sources, {"beam.comp"}, beam_defines),
-        scan_convert(sources, {"scan_convert.comp"}),
-        smooth(sources, {"smooth.comp"}, smoothing),
+        beam(sources, {"beam.comp"}, beam_of({})),
         clutter(sources, {"clutter.comp"}),
         clutter_tail(sources, {"clutter_tail.comp"}),
-        fuse(sources, {"fuse.comp"}, fusion),
+        scan_convert(sources, {"scan_convert.comp"}, conversion()),
+        smooth(sources, {"smooth.comp"}, smoothing()),
+        fuse(sources, {"fuse.comp"}, fusion()),
         maximum(sources, {"maximum.comp"}),
-        compress(sources, {"compress.comp"}) {}
+        compress(sources, {"compress.comp"}, display()) {}
 
   ShaderSources sources;
   Settings settings;
   Gaussian reflection_gaussian, transmission_gaussian;
-  Defines traversal = traversal_of({}, 1);  // what `traverse` is compiled for
-  Defines beam_defines = beam_of({});       // and `beam`
-  Defines reverberation_defines = reverberation_of({});
-  Defines smoothing = smoothing_defines();  // what `smooth` is compiled for
-  Defines fusion = fusion_defines();        // and `fuse`
-  Program traverse, reverberation, beam, scan_convert, smooth, clutter, clutter_tail, fuse, maximum, compress;
+  Program traverse, reverberation, beam, clutter, clutter_tail, scan_convert, smooth, fuse, maximum, compress;
 
   // What the user set.
   Probe probe;
@@ -109,13 +105,12 @@ struct Simulator::State {
   SimulationParameters parameters{};
   Buffer parameter_buffer{sizeof(SimulationParameters), nullptr};
   Texture scatterers, line_and_sample;
-  Texture constants;  // of the pixels
-  Texture beam_at_depth;
+  Texture beam_at_depth, noise;
   Buffer line_buffer, beam_window, fan_blocks;
-  double noise_length_mm = 0;  // of the noise among the constants; 0 where there is none
+  double noise_length_mm = 0;  // the noise's grain
 
   // What they write.
-  Texture scan, repeats, echoes, mean_echo, picture, half_smoothed, fused;
+  Texture scan, repeats, echoes, mean_echo, picture, transmission, half_smoothed, fused;
   Buffer brightest;  // a block of the fan
   Buffer maximum_buffer{sizeof(GLuint), nullptr};
   Buffer counters{sizeof(SampleCounts), nullptr};
@@ -124,18 +119,31 @@ struct Simulator::State {
   bool layout_changed = true;      // probe, depth, sample count or picture size
   bool beam_changed = true;        // layout, or what the beam's windows hang on
   bool scatterers_changed = true;  // seed
+  bool stages_are_read = false;    // by read_stages(), which asks for U where grey is all that a picture needs
   std::optional<Stage> first_due = Stage::traverse;
   std::array<long, kStageCount> runs{};
 
-  // What smooth.comp and fuse.comp are compiled for.
-  Defines smoothing_defines() const {
-    return {{"REFLECTION_RADIUS", std::to_string(reflection_gaussian.radius)},
-            {"TRANSMISSION_RADIUS", std::to_string(transmission_gaussian.radius)}};
+  bool noisy() const { return settings.electronic_noise || settings.clutter; }
+  bool frame_sets_white() const { return settings.reference_level == ReferenceLevel::frame_maximum; }
+
+  // What the picture's stages are compiled for.
+  Defines conversion() const {
+    return {{"REFLECTION_SMOOTHED", reflection_gaussian.radius > 0 ? "1" : "0"},
+            {"TRANSMISSION_SMOOTHED", transmission_gaussian.radius > 0 ? "1" : "0"},
+            {"NOISE", noisy() ? "1" : "0"},
+            {"CLUTTER", settings.clutter ? "1" : "0"}};
   }
-  Defines fusion_defines() const {
-    Defines defines = smoothing_defines();
-    defines.emplace_back("CLUTTER", settings.clutter ? "1" : "0");
-    defines.emplace_back("FRAME_MAXIMUM", settings.reference_level == ReferenceLevel::frame_maximum ? "1" : "0");
+  Defines smoothing() const {
+    return {{"REFLECTION_RADIUS", std::to_string(reflection_gaussian.radius)},
+            {"TRANSMISSION_RADIUS", std::to_string(transmission_gaussian.radius)},
+            {"SUMS_FORMAT", transmission_gaussian.radius > 0 ? "rgba32f" : "rg32f"}};
+  }
+  Defines display() const { return {{"GREY_MAP", std::to_string(int(settings.grey_map))}}; }
+  Defines fusion() const {
+    Defines defines = smoothing();
+    defines.push_back(display().front());
+    defines.emplace_back("FRAME_MAXIMUM", frame_sets_white() ? "1" : "0");
+    defines.emplace_back("KEEP_FUSED", frame_sets_white() || stages_are_read ? "1" : "0");
     return defines;
   }
 
@@ -148,7 +156,8 @@ struct Simulator::State {
   void run_through(Stage last);
   void run(Stage stage);
   bool needed(Stage stage) const;
-  void place_pixel_constants();
+  void prepare_smoothing();
+  void prepare_noise();
 };
 
 // Allocates what depends on the number of lines, samples and pixels, and works out where each pixel lies.
@@ -162,16 +171,17 @@ void Simulator::State::lay_out() {
 
   const int w = settings.image_width, h = settings.image_height;
   fan = FanLayout(probe, depth_mm, lines, w, h);
-  constants = Texture();
+  noise = Texture();
   line_and_sample = Texture::make_2d(GL_RG32F, w, h, Filter::nearest);
   line_and_sample.write(GL_RG, GL_FLOAT, fan.line_and_sample.data());
   fan_blocks = Buffer(fan.blocks.size() * sizeof(glm::ivec2), fan.blocks.data());
   brightest = Buffer(fan.blocks.size() * sizeof(GLuint), nullptr);
   picture = Texture::make_2d(GL_RGBA32F, w, h, Filter::nearest);
-  half_smoothed = Texture::make_2d(GL_RG32F, w, h, Filter::nearest);
+  transmission = Texture();
+  half_smoothed = Texture();
   fused = Texture::make_2d(GL_RG32F, w, h, Filter::nearest);
   image = Texture::make_2d(GL_RGBA8, w, h, Filter::linear);
-  for (Texture* texture : {&picture, &half_smoothed, &fused, &image}) texture->clear();
+  for (Texture* texture : {&picture, &fused, &image}) texture->clear();
   layout_changed = false;
   beam_changed = true;
 }
@@ -211,7 +221,6 @@ void Simulator::State::fill_parameters() {
   p.blend = float(settings.blend);
   p.clutter_share = float(clutter_share(settings));
   p.noise_level = float(noise_level(settings));
-  p.grey_map = int(settings.grey_map);
   p.gain_db = float(settings.gain_db);
   p.dynamic_range_db = float(settings.dynamic_range_db);
   p.fixed_level = float(settings.fixed_level);
@@ -224,56 +233,51 @@ void Simulator::State::prepare() {
   if (layout_changed) lay_out();
   if (scatterers_changed) upload_scatterers();
   if (*first_due == Stage::traverse) {
-    const Defines wanted = traversal_of(settings, lines.dr_mm());
-    if (wanted != traversal) traverse = Program(sources, {"traverse.comp"}, wanted);
-    traversal = wanted;
+    traverse.define(sources, traversal_of(settings, lines.dr_mm()));
     const std::vector<PlacedLine> placed = placed_lines(volume, patient_from_probe, lines, settings);
     line_buffer.write(placed.data(), placed.size() * sizeof(PlacedLine));
   }
   if (beam_changed) {
-    const Defines wanted = beam_of(settings);
-    if (wanted != beam_defines) beam = Program(sources, {"beam.comp"}, wanted);
-    beam_defines = wanted;
+    beam.define(sources, beam_of(settings));
     if (reverberates(settings)) {
-      if (const auto of = reverberation_of(settings); of != reverberation_defines) {
-        reverberation = Program(sources, {"reverberation.comp"}, of);
-        reverberation_defines = of;
-      }
+      reverberation.define(sources, reverberation_of(settings));
       repeats = Texture::make_2d(GL_R32F, lines.samples, int(lines.lines.size()), Filter::nearest);
     }
     beam_window = half_beam_window(settings);
     beam_at_depth = beam_by_depth(lines, settings);
     beam_changed = false;
   }
-  if (*first_due <= Stage::fuse) {
-    place_pixel_constants();
-    if (smoothing != smoothing_defines()) smooth = Program(sources, {"smooth.comp"}, smoothing_defines());
-    if (fusion != fusion_defines()) fuse = Program(sources, {"fuse.comp"}, fusion_defines());
-    smoothing = smoothing_defines();
-    fusion = fusion_defines();
+  if (*first_due <= Stage::scan_convert) {
+    prepare_smoothing();
+    if (noisy()) prepare_noise();
+    scan_convert.define(sources, conversion());
+    smooth.define(sources, smoothing());
   }
+  fuse.define(sources, fusion());
+  compress.define(sources, display());
   fill_parameters();
 }
 
-void Simulator::State::place_pixel_constants() {
-  const int limit = std::max(settings.image_width, settings.image_height) - 1;
-  const double mm_per_pixel = fan.geometry.mm_per_pixel;
-  const Gaussian reflection(settings.reflection_sigma_mm / mm_per_pixel, limit);
-  const Gaussian transmission(settings.transmission_sigma_mm / mm_per_pixel, limit);
-  // The noise's grain is a reflection length.
-  const double length_mm = settings.electronic_noise || settings.clutter ? settings.reflection_length_mm : 0;
-  if (constants && reflection == reflection_gaussian && transmission == transmission_gaussian &&
-      length_mm == noise_length_mm)
-    return;
-  reflection_gaussian = reflection;
-  transmission_gaussian = transmission;
-  noise_length_mm = length_mm;
-  constants = pixel_constants(fan, lines, settings, reflection, transmission);
+void Simulator::State::prepare_smoothing() {
+  const int w = settings.image_width, h = settings.image_height, limit = std::max(w, h) - 1;
+  reflection_gaussian = Gaussian(settings.reflection_sigma_mm / fan.geometry.mm_per_pixel, limit);
+  transmission_gaussian = Gaussian(settings.transmission_sigma_mm / fan.geometry.mm_per_pixel, limit);
+  const bool both = transmission_gaussian.radius > 0;
+  if (half_smoothed && bool(transmission) == both) return;
+  transmission = both ? Texture::make_2d(GL_R32F, w, h, Filter::nearest) : Texture();
+  half_smoothed = Texture::make_2d(both ? GL_RGBA32F : GL_RG32F, w, h, Filter::nearest);
+  half_smoothed.clear();
+}
+
+void Simulator::State::prepare_noise() {
+  if (noise && noise_length_mm == settings.reflection_length_mm) return;
+  noise_length_mm = settings.reflection_length_mm;
+  noise = noise_of_pixels(fan, lines, settings);
 }
 
 bool Simulator::State::needed(Stage stage) const {
   if (stage == Stage::smooth) return reflection_gaussian.radius > 0 || transmission_gaussian.radius > 0;
-  if (stage == Stage::compress) return settings.reference_level == ReferenceLevel::frame_maximum;
+  if (stage == Stage::compress) return frame_sets_white();
   return true;
 }
 
@@ -326,19 +330,21 @@ void Simulator::State::run(Stage stage) {
     case Stage::scan_convert:
       echoes.bind(0);
       line_and_sample.bind(1);
+      noise.bind(2);
+      mean_echo.bind(3);
       picture.bind_image(0, GL_WRITE_ONLY);
+      if (transmission) transmission.bind_image(1, GL_WRITE_ONLY);
       over_fan(scan_convert);
       break;
     case Stage::smooth:
       picture.bind(0);
+      transmission.bind(1);
       half_smoothed.bind_image(0, GL_WRITE_ONLY);
       over_fan(smooth);
       break;
     case Stage::fuse:
       picture.bind(0);
       half_smoothed.bind(1);
-      constants.bind(2);
-      mean_echo.bind(3);
       brightest.clear();
       brightest.bind_storage(0);
       fused.bind_image(0, GL_WRITE_ONLY);
@@ -396,13 +402,13 @@ void Simulator::set_settings(const Settings& settings) {
   else if (!same(&S::beam_window, &S::beam_lines, &S::focused_beam, &S::focus_mm, &S::f_number, &S::reverberation,
                  &S::face_reflection, &S::clutter, &S::two_way))
     state_->due_from(Stage::beam);
-  else if (!same(&S::reflection_sigma_mm, &S::transmission_sigma_mm))
-    state_->due_from(Stage::smooth);
-  else if (!same(&S::blend))
-    // Beside weaker scatterers, interfaces may be seen that were not.
-    state_->due_from(settings.skipping && settings.blend < old.blend ? Stage::traverse : Stage::fuse);
-  else if (!same(&S::clutter_db, &S::electronic_noise, &S::noise_db, &S::gain_db, &S::tgc_db, &S::reference_level,
-                 &S::fixed_level))
+  else if (settings.skipping && settings.blend < old.blend)
+    state_->due_from(Stage::traverse);  // beside weaker scatterers, interfaces may be seen that were not
+  else if (!same(&S::reflection_sigma_mm, &S::transmission_sigma_mm, &S::blend, &S::clutter_db, &S::electronic_noise,
+                 &S::noise_db) ||
+           (settings.electronic_noise && !same(&S::fixed_level)))
+    state_->due_from(Stage::scan_convert);
+  else if (!same(&S::gain_db, &S::tgc_db, &S::reference_level, &S::fixed_level))
     state_->due_from(Stage::fuse);
   else if (!same(&S::dynamic_range_db, &S::grey_map))
     state_->due_from(settings.reference_level == ReferenceLevel::fixed ? Stage::fuse : Stage::compress);
@@ -447,6 +453,7 @@ SampleCounts Simulator::sample_counts() const {
 }
 
 Stages<float> Simulator::read_stages() {
+  if (!std::exchange(state_->stages_are_read, true)) state_->due_from(Stage::fuse);
   run_through(Stage::compress);
   const State& s = *state_;
   Stages<float> stages;

@@ -23,12 +23,6 @@ double bilinear(const Image<double>& image, const glm::vec2& line_and_sample) {
                   glm::mix(image.at(low.x, high.y), image.at(high.x, high.y), f.x), f.y);
 }
 
-std::vector<double> window_of(const Gaussian& gaussian) {
-  std::vector<double> weights;
-  for (int i = -gaussian.radius; i <= gaussian.radius; ++i) weights.push_back(std::exp(gaussian.exponent * i * i));
-  return weights;
-}
-
 }  // namespace
 
 std::vector<PlacedLine> placed_lines(const DeviceVolume& volume, const Pose& patient_from_probe, const ScanLines& lines,
@@ -96,19 +90,13 @@ Gaussian::Gaussian(double sigma_px, int limit_px) {
   exponent = -0.5 / (sigma_px * sigma_px);
 }
 
-Texture pixel_constants(const FanLayout& fan, const ScanLines& lines, const Settings& settings,
-                        const Gaussian& reflection, const Gaussian& transmission) {
-  const Image<float> of_reflection = one_over_window_inside(fan.inside, window_of(reflection));
-  const Image<float> of_transmission = one_over_window_inside(fan.inside, window_of(transmission));
-  const bool noisy = settings.electronic_noise || settings.clutter;
-  const Image<double> noise = noisy ? electronic_noise(lines, settings) : Image<double>(1, 1);
-  std::vector<glm::vec4> constants;
+Texture noise_of_pixels(const FanLayout& fan, const ScanLines& lines, const Settings& settings) {
+  const Image<double> of_samples = electronic_noise(lines, settings);
+  std::vector<float> of_pixels;
   for (std::size_t i = 0; i < fan.inside.pixels.size(); ++i)
-    constants.emplace_back(of_reflection.pixels[i], of_transmission.pixels[i],
-                           fan.inside.pixels[i] ? bilinear(noise, fan.line_and_sample[i]) : 0,
-                           fan.line_and_sample[i].y);
-  Texture texture = Texture::make_2d(GL_RGBA32F, fan.inside.width, fan.inside.height, Filter::nearest);
-  texture.write(GL_RGBA, GL_FLOAT, constants.data());
+    of_pixels.push_back(fan.inside.pixels[i] ? float(bilinear(of_samples, fan.line_and_sample[i])) : 0);
+  Texture texture = Texture::make_2d(GL_R32F, fan.inside.width, fan.inside.height, Filter::nearest);
+  texture.write(GL_RED, GL_FLOAT, of_pixels.data());
   return texture;
 }
 

@@ -43,9 +43,7 @@ struct Gaussian {
   bool operator==(const Gaussian&) const = default;
 };
 
-/// What fuse.comp asks of each pixel: 1 / (what of either window lies inside the fan), noise of mean 1 or 0 where the
-/// settings have none, and the sample.
-Texture pixel_constants(const FanLayout& fan, const ScanLines& lines, const Settings& settings,
-                        const Gaussian& reflection, const Gaussian& transmission);
+/// The receiver's noise, mean 1, as scan conversion brings it to each pixel of the fan; 0 outside.
+Texture noise_of_pixels(const FanLayout& fan, const ScanLines& lines, const Settings& settings);
 
 }  // namespace insonate::gl

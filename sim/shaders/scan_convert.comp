@@ -1,5 +1,7 @@
-// Backward warp from the lines to the picture, bilinear. Where each pixel lies among the lines is worked out once per
-// probe and depth, so this stage knows no probe.
+// Backward warp from the lines to the picture, bilinear, and what of the fusion (6) needs no smoothing. Where each pixel
+// lies among the lines is worked out once per probe and depth, so this stage knows no probe.
+//
+// U = X + S (R + b T), with R and T as they are smoothed: X is all the rest, and holds what of R and T is not smoothed.
 
 layout(local_size_x = 32, local_size_y = 2) in;
 
@@ -8,18 +10,48 @@ layout(local_size_x = 32, local_size_y = 2) in;
 
 layout(binding = 0) uniform sampler2D echoes;           // a row a line: R, T, S, V
 layout(binding = 1) uniform sampler2D line_and_sample;  // per pixel; line below -1 outside the fan
-layout(binding = 0, rgba32f) writeonly uniform image2D picture;  // R, T, S, V; 0, 0, 0, -1 outside the fan
+layout(binding = 2) uniform sampler2D noise;            // per pixel, of mean 1
+layout(binding = 3) uniform sampler2D mean_echo;        // a sample: mean of T S over the lines
+layout(binding = 0, rgba32f) writeonly uniform image2D picture;     // R, X, S, sample + 1; 0 outside the fan
+layout(binding = 1, r32f) writeonly uniform image2D transmission;  // T, if it is smoothed
+
+// The noise's mean at a place along the lines: of the electronics, and with CLUTTER what the side lobes bring.
+float noise_at(float sample_position) {
+#if CLUTTER == 1
+  float position = clamp(sample_position, 0.0, float(samples - 1));
+  int low = int(position), high = min(low + 1, samples - 1);
+  float mean = mix(texelFetch(mean_echo, ivec2(low, 0), 0).x, texelFetch(mean_echo, ivec2(high, 0), 0).x,
+                  position - float(low));
+  return noise_level + clutter_share * blend * mean;
+#else
+  return noise_level;
+#endif
+}
 
 void convert(ivec2 pixel) {
-  vec2 position = texelFetch(line_and_sample, pixel, 0).xy;
-  bool inside = position.x > -1.0;
+  vec2 place = texelFetch(line_and_sample, pixel, 0).xy;
+  bool inside = place.x > -1.0;
   ivec2 last = ivec2(samples, lines) - 1;
-  position = clamp(position.yx, vec2(0.0), vec2(last));
+  vec2 position = clamp(place.yx, vec2(0.0), vec2(last));
   ivec2 low = min(ivec2(position), max(last - 1, 0)), high = min(low + 1, last);
   vec2 f = position - vec2(low);
   vec4 value = mix(mix(texelFetch(echoes, low, 0), texelFetch(echoes, ivec2(high.x, low.y), 0), f.x),
                    mix(texelFetch(echoes, ivec2(low.x, high.y), 0), texelFetch(echoes, high, 0), f.x), f.y);
-  imageStore(picture, pixel, inside ? value : vec4(0.0, 0.0, 0.0, -1.0));
+
+  float rest = value.w;
+#if REFLECTION_SMOOTHED == 0
+  rest += value.z * value.x;
+#endif
+#if TRANSMISSION_SMOOTHED == 0
+  rest += value.z * blend * value.y;
+#endif
+#if NOISE == 1
+  rest += noise_at(place.y) * texelFetch(noise, pixel, 0).x;
+#endif
+  imageStore(picture, pixel, inside ? vec4(value.x, rest, value.z, place.y + 1.0) : vec4(0.0));
+#if TRANSMISSION_SMOOTHED == 1
+  imageStore(transmission, pixel, vec4(value.y));
+#endif
 }
 
 void main() {

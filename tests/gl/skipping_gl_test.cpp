@@ -54,8 +54,8 @@ TEST_CASE("a change runs the first stage it reaches and those behind it") {
   Fixture f;
   CHECK(f.after([&] { f.simulator.set_pose(test::on_the_skin(1, 9, 0)); }) == "01234");
   CHECK(f.after([&] { f.settings.beam_lines = 9; }) == "1234");
-  CHECK(f.after([&] { f.settings.reflection_sigma_mm = 2; }) == "34");
-  CHECK(f.after([&] { f.settings.blend *= 2; }) == "4");
+  CHECK(f.after([&] { f.settings.reflection_sigma_mm = 2; }) == "234");
+  CHECK(f.after([&] { f.settings.blend *= 2; }) == "234");
   CHECK(f.after([&] { f.settings.gain_db = 6; }) == "4");
   CHECK(f.after([&] { f.settings.tgc_db[3] += 6; }) == "4");
   CHECK(f.after([&] { f.settings.dynamic_range_db = 50; }) == "4");
@@ -63,7 +63,7 @@ TEST_CASE("a change runs the first stage it reaches and those behind it") {
 
 TEST_CASE("smoothing that is off does not run") {
   Fixture f;
-  CHECK(f.after([&] { f.settings.reflection_sigma_mm = 0; }) == "4");
+  CHECK(f.after([&] { f.settings.reflection_sigma_mm = 0; }) == "24");
   CHECK(f.after([&] { f.simulator.set_pose(test::on_the_skin(2, 9, 0)); }) == "0124");
 }
 

@@ -1,12 +1,13 @@
-// From echo to grey: time gain, gain, log compression (7) and the grey map.
+// From echo to grey: time gain, gain, log compression (7) and the grey map, which is known when a shader is compiled.
 
-// Time gain compensation and gain, dB: linear between eight depths.
+// Time gain compensation and gain, dB: linear between eight depths, as what each stretch between two of them adds.
+// Looking the two up would be a load for each pixel.
 float time_gain_db(float sample_position) {
-  float depth = clamp((sample_position + 0.5) / float(samples), 0.0, 1.0) * 7.0;
-  int below = min(int(depth), 6);
-  float low = tgc_db[below >> 2][below & 3];
-  float high = tgc_db[(below + 1) >> 2][(below + 1) & 3];
-  return gain_db + mix(low, high, depth - float(below));
+  float depth = 7.0 * (sample_position + 0.5) / float(samples);
+  vec4 first = clamp(depth - vec4(0.0, 1.0, 2.0, 3.0), 0.0, 1.0);
+  vec3 second = clamp(depth - vec3(4.0, 5.0, 6.0), 0.0, 1.0);
+  return gain_db + tgc_db[0].x + dot(first, vec4(tgc_db[0].yzw, tgc_db[1].x) - tgc_db[0]) +
+         dot(second, tgc_db[1].yzw - tgc_db[1].xyz);
 }
 
 const float kSilent = -1e30;       // level of a pixel without any echo
@@ -17,9 +18,9 @@ float level_db(float echo) { return echo > 0.0 ? 4.342944819 * log(echo) : kSile
 
 // Exponents and curve as GreyMap says.
 float mapped(float g) {
-  if (grey_map == 1) return pow(g, 0.75);
-  if (grey_map == 2) return pow(g, 1.5);
-  if (grey_map == 3) return g * g * (3.0 - 2.0 * g);
+  if (GREY_MAP == 1) return pow(g, 0.75);
+  if (GREY_MAP == 2) return pow(g, 1.5);
+  if (GREY_MAP == 3) return g * g * (3.0 - 2.0 * g);
   return g;
 }
 

@@ -35,17 +35,14 @@ layout(std140, binding = 0) uniform SimulationParameters {
   float gain_db;
 
   float dynamic_range_db;  // beta
-  int grey_map;            // as GreyMap
   float clutter_kept;      // e^(-dr/kClutterTail_mm), see sim/model/noise.h
   float turn_kept;         // e^(-dr/kTurn_mm), see sim/model/refraction.h
+  float turn_per_step;     // dr/(l kTurn_rad)
 
-  float turn_per_step;  // dr/(l kTurn_rad)
-  float turn_loss;      // dr/kTurn_mm
+  float turn_loss;  // dr/kTurn_mm
   float slice_thickness_mm;
   float slice_spread;  // of the slice's thickness, a mm from its focus
-
   float elevation_focus_mm;
-  int unused1, unused2, unused3;
 
   vec4 tgc_db[2];  // at 8 depths from the face to full depth
 #ifdef __cplusplus
