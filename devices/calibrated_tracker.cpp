@@ -20,6 +20,9 @@ void check_can_be_calibrated(std::string_view uri) {
   if (std::find(std::begin(kPlaced), std::end(kPlaced), scheme) != std::end(kPlaced))
     throw InputError("tracker '" + std::string(uri) + "'", "", "it moves the probe in the patient and has no sensor",
                      "leave the calibration out");
+  if (scheme == "auto")
+    throw InputError("tracker '" + std::string(uri) + "'", "", "a calibration belongs to one tracker, not to the best",
+                     "name it, with its serial number if there are two of a kind");
 }
 
 Calibration calibration_to_go_on(const std::filesystem::path& file, const TrackerIdentity& tracker) {

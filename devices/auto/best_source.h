@@ -18,7 +18,7 @@ public:
 
   void open() override;
   void read(std::chrono::milliseconds timeout, LiveBatch& batch) override { opened_->read(timeout, batch); }
-  glm::dvec3 origin() const override { return opened_ ? opened_->origin() : glm::dvec3(0); }
+  std::optional<glm::dvec3> origin() const override { return opened_ ? opened_->origin() : std::nullopt; }
   void close() noexcept override { opened_->close(); }
 
 private:

@@ -57,7 +57,7 @@ std::vector<PoseSample> noisy(const Way& way, double rate_hz) {
 
 std::vector<PoseSample> filtered(std::vector<PoseSample> samples, const FilterSettings& settings) {
   SampleFilters filters(settings);
-  for (PoseSample& sample : samples) filters.apply(sample);
+  for (PoseSample& sample : samples) filters.apply(sample, glm::dvec3(0));
   return samples;
 }
 

@@ -39,7 +39,7 @@ OutlierGate::Track OutlierGate::carried_on(const Track& track, double time_s, co
   return {time_s, pose, mm_per_s};
 }
 
-bool OutlierGate::accepts(double time_s, const Pose& pose, const glm::dvec3& origin) {
+bool OutlierGate::accepts(double time_s, const Pose& pose, const std::optional<glm::dvec3>& origin) {
   if (!accepted_) {
     accepted_ = Track{time_s, pose};
     return true;
@@ -49,10 +49,12 @@ bool OutlierGate::accepts(double time_s, const Pose& pose, const glm::dvec3& ori
     elsewhere_.reset();
     return true;
   }
-  if (const Pose image = mirror_image(pose, origin); follows(*accepted_, time_s, image)) {
-    accepted_ = carried_on(*accepted_, time_s, image);
-    elsewhere_.reset();
-    return false;
+  if (origin) {
+    if (const Pose image = mirror_image(pose, *origin); follows(*accepted_, time_s, image)) {
+      accepted_ = carried_on(*accepted_, time_s, image);
+      elsewhere_.reset();
+      return false;
+    }
   }
   const bool together = elsewhere_ && follows(*elsewhere_, time_s, pose);
   if (!together) elsewhere_since_s_ = time_s;

@@ -15,18 +15,18 @@ namespace insonate {
 /// believed within 10 mm or 1 m/s of that, whichever is more, and within 15 degrees or 1080 degrees a second of the
 /// last orientation. Others are rejected until as many of them as fill 100 ms lie together: then the probe is there.
 ///
-/// A sample whose position is the mirror image, through the tracker's origin, of where it was expected is rejected for
-/// as long as the samples stay on that side, however steady they are: the tracker does not find back by itself, the
-/// sensor has to be brought near its base.
+/// A sample whose position is the mirror image, through a magnetic tracker's origin, of where it was expected is
+/// rejected for as long as the samples stay on that side, however steady they are: the tracker does not find back by
+/// itself, the sensor has to be brought near its base.
 class OutlierGate {
 public:
   static constexpr double kNear_mm = 10, kNear_mm_per_s = 1000;
   static constexpr double kNear_deg = 15, kNear_deg_per_s = 1080;
   static constexpr double kBelieved_s = 0.100;
 
-  /// Whether a usable sample is one that a hand has made; times rise from call to call. `origin` is where the tracker's
-  /// own origin lies in the samples' frame.
-  bool accepts(double time_s, const Pose& pose, const glm::dvec3& origin = glm::dvec3(0));
+  /// Whether a usable sample is one that a hand has made; times rise from call to call. `origin` is that of
+  /// a magnetic tracker in the samples' frame; others mirror nothing.
+  bool accepts(double time_s, const Pose& pose, const std::optional<glm::dvec3>& origin = {});
 
 private:
   struct Track {

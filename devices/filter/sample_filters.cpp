@@ -54,7 +54,7 @@ FilterSettings take_filter_option(TrackerUri& uri) {
   }
 }
 
-void SampleFilters::apply(PoseSample& sample, const glm::dvec3& origin) {
+void SampleFilters::apply(PoseSample& sample, const std::optional<glm::dvec3>& origin) {
   if (sample.status != PoseStatus::ok) return;
   if (settings_.outlier && !outliers_.accepts(sample.time_s, sample.patient_from_probe, origin)) {
     sample.status = PoseStatus::invalid;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "devices/filter/one_euro.h"
@@ -32,8 +33,8 @@ public:
   explicit SampleFilters(const FilterSettings& settings) : settings_(settings) {}
   SampleFilters() : SampleFilters(FilterSettings()) {}
 
-  /// To be called for each sample, in order. `origin` is where the tracker's own origin lies in the samples' frame.
-  void apply(PoseSample& sample, const glm::dvec3& origin = glm::dvec3(0));
+  /// To be called for each sample, in order. `origin` is that of a magnetic tracker in the samples' frame.
+  void apply(PoseSample& sample, const std::optional<glm::dvec3>& origin = {});
 
   const FilterSettings& settings() const { return settings_; }
 

@@ -3,6 +3,7 @@
 #include <glm/vec3.hpp>
 
 #include <chrono>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -40,8 +41,9 @@ public:
   /// falling times are the LiveTracker's to mend. Throws SourceGone when the device is lost.
   virtual void read(std::chrono::milliseconds timeout, LiveBatch& batch) = 0;
 
-  /// Where the device's own origin lies in the frame of its samples.
-  virtual glm::dvec3 origin() const { return glm::dvec3(0); }
+  /// Of a magnetic tracker, where its own origin lies in the frame of its samples: it may take a sensor for its mirror
+  /// image through that point.
+  virtual std::optional<glm::dvec3> origin() const { return std::nullopt; }
 
   /// Lets go of the device. Called after each open() that went well.
   virtual void close() noexcept = 0;

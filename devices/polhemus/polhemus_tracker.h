@@ -25,7 +25,7 @@ public:
   PolhemusSource(std::shared_ptr<DeviceBus> bus, const std::string& serial, const Options& options,
                  const Placement& placement, std::function<double()> clock_s = steady_now_s);
 
-  glm::dvec3 origin() const override { return placement_.origin(); }
+  std::optional<glm::dvec3> origin() const override { return placement_.origin(); }
 
 protected:
   void start(Transport& transport, const AttachedDevice& device) override;

@@ -390,20 +390,20 @@ void Simulator::set_settings(const Settings& settings) {
     state_->layout_changed = true;
   if (!same(&Settings::speckle_seed)) state_->scatterers_changed = true;
   if (!same(&Settings::beam_window, &Settings::beam_lines, &Settings::focused_beam, &Settings::focus_mm,
-            &Settings::f_number, &Settings::frequency_mhz, &Settings::reverberation, &Settings::face_reflection,
-            &Settings::speckle_cell_mm, &Settings::slice_thickness_mm, &Settings::elevation_focus_mm))
+            &Settings::f_number, &Settings::frequency_mhz, &Settings::speckle, &Settings::reverberation,
+            &Settings::face_reflection, &Settings::speckle_cell_mm, &Settings::slice_thickness_mm,
+            &Settings::elevation_focus_mm))
     state_->beam_changed = true;
 
   using S = Settings;
   if (!same(&S::samples, &S::reflection_length_mm, &S::frequency_mhz, &S::absorption, &S::gel_mm, &S::speckle,
             &S::speckle_seed, &S::speckle_cell_mm, &S::slice_planes, &S::slice_thickness_mm, &S::elevation_focus_mm,
-            &S::edge_shadow, &S::image_width, &S::image_height, &S::skipping))
+            &S::edge_shadow, &S::image_width, &S::image_height, &S::skipping) ||
+      (settings.skipping && settings.blend < old.blend))  // interfaces may be seen that were not beside more echo
     state_->due_from(Stage::traverse);
   else if (!same(&S::beam_window, &S::beam_lines, &S::focused_beam, &S::focus_mm, &S::f_number, &S::reverberation,
                  &S::face_reflection, &S::clutter, &S::two_way))
     state_->due_from(Stage::beam);
-  else if (settings.skipping && settings.blend < old.blend)
-    state_->due_from(Stage::traverse);  // beside weaker scatterers, interfaces may be seen that were not
   else if (!same(&S::reflection_sigma_mm, &S::transmission_sigma_mm, &S::blend, &S::clutter_db, &S::electronic_noise,
                  &S::noise_db) ||
            (settings.electronic_noise && !same(&S::fixed_level)))
@@ -481,10 +481,10 @@ Stages<float> Simulator::read_stages() {
 std::optional<std::string> Simulator::reload(const ShaderSources& sources) {
   State& s = *state_;
   std::string problems;
-  s.sources = sources;
   for (Program* program : {&s.traverse, &s.reverberation, &s.beam, &s.scan_convert, &s.smooth, &s.clutter,
                            &s.clutter_tail, &s.fuse, &s.maximum, &s.compress})
     if (const auto problem = program->reload(sources)) problems += *problem;
+  if (problems.empty()) s.sources = sources;  // others would fail when a program is built for other settings
   s.due_from(Stage::traverse);
   return problems.empty() ? std::nullopt : std::optional(problems);
 }

@@ -5,7 +5,7 @@ layout(local_size_x = 8) in;
 
 #include "shared/simulation_parameters.h"
 
-layout(binding = 0) uniform sampler2D echoes;                    // a row a line: R, T, S, 0
+layout(binding = 0) uniform sampler2D echoes;                    // a row a line: R, T, S, V
 layout(binding = 0, r32f) writeonly uniform image2D mean_echo;  // a sample: mean of T S
 
 void main() {

@@ -11,7 +11,7 @@ layout(local_size_x = 32, local_size_y = 2) in;
 layout(binding = 0) uniform sampler2D echoes;           // a row a line: R, T, S, V
 layout(binding = 1) uniform sampler2D line_and_sample;  // per pixel; line below -1 outside the fan
 layout(binding = 2) uniform sampler2D noise;            // per pixel, of mean 1
-layout(binding = 3) uniform sampler2D mean_echo;        // a sample: mean of T S over the lines
+layout(binding = 3) uniform sampler2D mean_echo;        // a sample: mean of T S over the lines, with its tail
 layout(binding = 0, rgba32f) writeonly uniform image2D picture;     // R, X, S, sample + 1; 0 outside the fan
 layout(binding = 1, r32f) writeonly uniform image2D transmission;  // T, if it is smoothed
 

@@ -86,9 +86,9 @@ still() {
 await "the picture stands still" still
 shot "$work/before.png" ultrasound 20
 shot "$work/console.png" console
-echo 'this is no GLSL' >>"$work/shaders/compress.comp"
+echo 'this is no GLSL' >>"$work/shaders/shared/grey.glsl"
 await "a broken shader is told of" does_not_build
-grep -q 'compress.comp' "$state" || fail "the broken shader is not named"
+grep -q 'shared/grey.glsl' "$state" || fail "the broken shader is not named"
 await "the picture stands still" still
 shot "$work/broken.png" ultrasound 20
 shot "$work/console_broken.png" console
@@ -97,8 +97,8 @@ pixels=$(different "$work/console.png" "$work/console_broken.png")
 pixels=$(different "$work/before.png" "$work/broken.png")
 [ "$pixels" = 0 ] || fail "a shader that does not build changed $pixels pixels"
 import -window root "$work/broken_screen.png"
-sed 's/vec3(mapped(grey))/vec3(1.0 - mapped(grey))/' "$shaders/compress.comp" >"$work/shaders/compress.comp"
-! cmp -s "$shaders/compress.comp" "$work/shaders/compress.comp" || fail "compress.comp reads differently: edit it elsewhere"
+sed 's/vec3(mapped(grey))/vec3(1.0 - mapped(grey))/' "$shaders/shared/grey.glsl" >"$work/shaders/shared/grey.glsl"
+! cmp -s "$shaders/shared/grey.glsl" "$work/shaders/shared/grey.glsl" || fail "shared/grey.glsl reads differently: edit it elsewhere"
 await "a shader that builds is taken" builds
 await "the picture stands still" still
 shot "$work/after.png" ultrasound 20

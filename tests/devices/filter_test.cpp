@@ -17,7 +17,7 @@ namespace {
 
 std::vector<PoseSample> filtered(std::vector<PoseSample> samples, const FilterSettings& settings) {
   SampleFilters filters(settings);
-  for (PoseSample& sample : samples) filters.apply(sample);
+  for (PoseSample& sample : samples) filters.apply(sample, glm::dvec3(0));
   return samples;
 }
 
@@ -197,16 +197,18 @@ TEST_CASE("a jump to the mirrored hemisphere is rejected for as long as it lasts
 
 TEST_CASE("the mirror image is one through the tracker's origin, wherever that lies") {
   const glm::dvec3 origin(40, -500, 900);
-  OutlierGate gate, elsewhere;
-  int kept = 0, believed = 0;
+  OutlierGate gate, elsewhere, not_magnetic;
+  int kept = 0, believed = 0, believed_without = 0;
   for (const PoseSample& sample : straight()) {
     Pose pose = sample.patient_from_probe;
     if (sample.time_s > 0.3) pose.translation = 2.0 * origin - pose.translation;
     kept += gate.accepts(sample.time_s, pose, origin);
-    believed += elsewhere.accepts(sample.time_s, pose);
+    believed += elsewhere.accepts(sample.time_s, pose, glm::dvec3(0));
+    believed_without += not_magnetic.accepts(sample.time_s, pose);
   }
   CHECK(kept == 31);
   CHECK(believed > 80);
+  CHECK(believed_without == believed);
 }
 
 TEST_CASE("samples that were read in one go are no quicker for it") {
