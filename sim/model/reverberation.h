@@ -14,8 +14,8 @@ namespace insonate {
 ///
 ///     V(c_j + k (c_j - c_i)) gets s R_j g^k,  k from 1 to kMostRepeats,     g = w A_i A_j T^2
 ///
-/// for each round of which the sound passes what lies between twice, T = I(j - l + dr) / I(i + l), at most 1; w rises from 0
-/// to 1 while c_j - c_i rises from l/2 to l, because what is nearer is one interface; s = dr/l shares a sharp
+/// for each round of which the sound passes what lies between twice, T = I(j - l + dr) / I(i + l), at most 1; w rises
+/// from 0 to 1 while c_j - c_i rises from l/2 to l, because what is nearer is one interface; s = dr/l shares a sharp
 /// interface's R among the samples that show it, and is 1 for the face. An echo has R_j's shape: sample k of it lies as
 /// far from its place as j does from c_j. Rounds of less than kLeastRound cannot be seen and are left out without a
 /// step: g counts as g - kLeastRound^2/g, and as 0 below.
