@@ -91,6 +91,7 @@ struct Simulator::State {
   ShaderSources sources;
   Settings settings;
   Gaussian reflection_gaussian, transmission_gaussian;
+  bool stages_are_read = false;  // by read_stages(), which asks for U where grey is all that a picture needs
   Program traverse, reverberation, beam, clutter, clutter_tail, scan_convert, smooth, fuse, maximum, compress;
 
   // What the user set.
@@ -119,7 +120,6 @@ struct Simulator::State {
   bool layout_changed = true;      // probe, depth, sample count or picture size
   bool beam_changed = true;        // layout, or what the beam's windows hang on
   bool scatterers_changed = true;  // seed
-  bool stages_are_read = false;    // by read_stages(), which asks for U where grey is all that a picture needs
   std::optional<Stage> first_due = Stage::traverse;
   std::array<long, kStageCount> runs{};
 
