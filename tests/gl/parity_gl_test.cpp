@@ -98,6 +98,13 @@ Settings small(Settings settings) {
   return settings;
 }
 
+/// The same where a rib, a cyst and gas lie in the picture.
+void check_parity_over_rib_and_gas(const Settings& settings) {
+  Probe probe = *find_probe("curvilinear");
+  probe.lines = 64;
+  check_parity(probe, 120, settings, test::on_the_skin(0, 9, 12));
+}
+
 }  // namespace
 
 TEST_CASE("GLSL agrees with the reference: curvilinear probe, everything on") {
@@ -125,13 +132,11 @@ TEST_CASE("GLSL agrees with the reference: the paper's own mode") {
 }
 
 TEST_CASE("GLSL agrees with the reference: loud receiver's noise, every grey map") {
-  Probe probe = *find_probe("curvilinear");
-  probe.lines = 64;
   Settings settings = small(trainer_settings(3.5, 120));
   settings.noise_db = -75;  // shows from the middle of the picture on
   settings.clutter_db = -15;
   settings.grey_map = GENERATE(GreyMap::linear, GreyMap::soft, GreyMap::contrast, GreyMap::s_curve);
-  check_parity(probe, 120, settings, test::on_the_skin(0, 9, 12));
+  check_parity_over_rib_and_gas(settings);
 }
 
 TEST_CASE("GLSL agrees with the reference: a beam focused near the face, wider than the array's edge allows") {
@@ -144,48 +149,38 @@ TEST_CASE("GLSL agrees with the reference: a beam focused near the face, wider t
 }
 
 TEST_CASE("GLSL agrees with the reference: a slice of three planes") {
-  Probe probe = *find_probe("curvilinear");
-  probe.lines = 64;
   Settings settings = small(trainer_settings(3.5, 120));
   settings.slice_planes = 3;
   settings.slice_thickness_mm = 5;
-  check_parity(probe, 120, settings, test::on_the_skin(0, 9, 12));
+  check_parity_over_rib_and_gas(settings);
 }
 
 TEST_CASE("GLSL agrees with the reference: a face that reflects everything over a rib and gas") {
-  Probe probe = *find_probe("curvilinear");
-  probe.lines = 64;
   Settings settings = small(trainer_settings(3.5, 120));
   settings.face_reflection = 1;
-  check_parity(probe, 120, settings, test::on_the_skin(0, 9, 12));
+  check_parity_over_rib_and_gas(settings);
 }
 
 TEST_CASE("GLSL agrees with the reference: reverberation between a rib's faces, gas and the skin") {
-  Probe probe = *find_probe("curvilinear");
-  probe.lines = 64;
   Settings settings = small(trainer_settings(3.5, 120));
   settings.reverberation = true;
   settings.face_reflection = 0.3;
   settings.gain_db = 20;
-  check_parity(probe, 120, settings, test::on_the_skin(0, 9, 12));
+  check_parity_over_rib_and_gas(settings);
 }
 
 TEST_CASE("GLSL agrees with the reference: a slice that is thinnest at its focus") {
-  Probe probe = *find_probe("curvilinear");
-  probe.lines = 64;
   Settings settings = small(trainer_settings(3.5, 120));
   settings.slice_planes = 5;
   settings.slice_thickness_mm = 2;
   settings.elevation_focus_mm = 40;
-  check_parity(probe, 120, settings, test::on_the_skin(0, 9, 12));
+  check_parity_over_rib_and_gas(settings);
 }
 
 TEST_CASE("GLSL agrees with the reference: shadows at the edges of a rib, a cyst and gas") {
-  Probe probe = *find_probe("curvilinear");
-  probe.lines = 64;
   Settings settings = small(trainer_settings(3.5, 120));
   settings.edge_shadow = true;
-  check_parity(probe, 120, settings, test::on_the_skin(0, 9, 12));
+  check_parity_over_rib_and_gas(settings);
 }
 
 TEST_CASE("a frame without any echo is black, not NaN") {
