@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <memory>
 
 #include "sim/model/noise.h"
 #include "sim/model/refraction.h"
@@ -16,11 +17,22 @@
 namespace insonate {
 namespace {
 
+/// The one asked for last is kept: drawing it takes longer than a small picture.
+std::shared_ptr<const ScattererLattice> lattice_of(std::uint32_t seed) {
+  thread_local std::uint32_t kept_seed = 0;
+  thread_local std::shared_ptr<const ScattererLattice> kept;
+  if (!kept || kept_seed != seed) {
+    kept = std::make_shared<ScattererLattice>(make_scatterers(seed));
+    kept_seed = seed;
+  }
+  return kept;
+}
+
 /// The lattice's complex amplitude at a patient position: trilinear, brought back to variance 1.
 class Scatterers {
 public:
   explicit Scatterers(const Settings& settings)
-      : lattice_(make_scatterers(settings.speckle_seed)),
+      : lattice_(lattice_of(settings.speckle_seed)),
         lattice_from_patient_(lattice_from_patient(settings.speckle_cell_mm)) {}
 
   std::complex<double> at(const glm::dvec3& patient_mm) const {
@@ -44,11 +56,11 @@ private:
     constexpr int side = ScattererLattice::kSide;
     const auto wrapped = [](int a) { return std::size_t((a % side + side) % side); };
     const std::size_t offset = 2 * ((wrapped(i.z) * side + wrapped(i.y)) * side + wrapped(i.x));
-    return std::complex<double>(lattice_.stored[offset], lattice_.stored[offset + 1]) *
+    return std::complex<double>(lattice_->stored[offset], lattice_->stored[offset + 1]) *
            (ScattererLattice::kScale / 32767.0);
   }
 
-  ScattererLattice lattice_;
+  std::shared_ptr<const ScattererLattice> lattice_;
   glm::dmat4 lattice_from_patient_;
 };
 

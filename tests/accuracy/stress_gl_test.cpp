@@ -64,10 +64,12 @@ public:
   }
 
   /// Bounds alone.
-  void check_shaders(const Scene& scene) {
+  Stages<float> check_shaders(const Scene& scene) {
     const auto refused = why_not_valid(scene.settings);
     REQUIRE(refused.value_or("") == "");
-    CHECK(out_of_bounds(shaders(scene)) == "");
+    Stages<float> got = shaders(scene);
+    CHECK(out_of_bounds(got) == "");
+    return got;
   }
 
   /// Bounds of both, and agreement.
@@ -80,8 +82,7 @@ private:
 };
 
 void Stressed::check(const Scene& scene) {
-  check_shaders(scene);
-  const Stages<float> got = shaders(scene);
+  const Stages<float> got = check_shaders(scene);
   // The card's normalised integers have no -32768.
   AcousticVolume volume = scene.volume;
   for (AcousticVoxel& voxel : volume.voxels) voxel.hu = std::max(voxel.hu, std::int16_t(-32767));
@@ -412,14 +413,43 @@ TEST_CASE("random scenes, each from its seed") {
   }
 }
 
-// Hidden, as it takes an hour: build/dev/tests/stress_test "[many]".
-TEST_CASE("many random scenes, bounds alone", "[.][many]") {
-  const long frames = from_environment("INSONATE_STRESS_FRAMES", 100000);
+namespace {
+
+/// The scenes of `frames` seeds, in groups of which each has programs of its own.
+void for_many_scenes(long frames, Scene (*drawn)(std::uint32_t), const std::function<void(const Scene&)>& check) {
+  constexpr long kGroup = 250;
   const long first = from_environment("INSONATE_STRESS_SEED", 1);
-  Stressed stressed;
+  Scene leader;
   for (long seed = first; seed < first + frames; ++seed) {
     INFO("seed " << seed);
-    stressed.check_shaders(random_scene_of_everything(std::uint32_t(seed)));
+    Scene scene = drawn(std::uint32_t(seed));
+    if (seed == first || seed % kGroup == 0) leader = drawn(std::uint32_t(seed / kGroup * kGroup));
+    check(compiled_as(leader, std::move(scene)));
     if ((seed - first + 1) % 1000 == 0) std::printf("seeds %ld to %ld\n", first, seed), std::fflush(stdout);
   }
+}
+
+}  // namespace
+
+TEST_CASE("random scenes in groups that share their programs, bounds alone") {
+  Stressed stressed;
+  for_many_scenes(500, random_scene_of_everything, [&](const Scene& scene) { stressed.check_shaders(scene); });
+}
+
+TEST_CASE("random scenes in groups that share their programs, against the reference") {
+  Stressed stressed;
+  for_many_scenes(100, random_scene, [&](const Scene& scene) { stressed.check(scene); });
+}
+
+// Hidden, as they take an hour or more: build/dev/tests/stress_test "[many]".
+TEST_CASE("many random scenes, bounds alone", "[.][many]") {
+  Stressed stressed;
+  for_many_scenes(from_environment("INSONATE_STRESS_FRAMES", 100000), random_scene_of_everything,
+                  [&](const Scene& scene) { stressed.check_shaders(scene); });
+}
+
+TEST_CASE("many random scenes against the reference", "[.][many]") {
+  Stressed stressed;
+  for_many_scenes(from_environment("INSONATE_STRESS_FRAMES", 100000), random_scene,
+                  [&](const Scene& scene) { stressed.check(scene); });
 }

@@ -176,6 +176,42 @@ inline Scene random_scene_of_everything(std::uint32_t seed) {
   s.clutter_db = draw.within(-100, -0.01);
   s.grey_map = draw.one_of({GreyMap::linear, GreyMap::soft, GreyMap::contrast, GreyMap::s_curve});
   s.skipping = draw.chance(0.5);
+  s.edge_shadow = draw.chance(0.3);
+  s.elevation_focus_mm = draw.chance(0.5) ? 0 : draw.within(5, 400);
+  return scene;
+}
+
+/// `scene` changed where it would have to be compiled for anew behind `first`: compiling takes as long as hundreds of
+/// small pictures. What is left to itself: volume, probe, depth, pose and all other settings.
+inline Scene compiled_as(const Scene& first, Scene scene) {
+  const Settings& as = first.settings;
+  Settings& s = scene.settings;
+  const auto take = [&](auto... members) { ((s.*members = as.*members), ...); };
+  using S = Settings;
+  take(&S::absorption, &S::speckle, &S::edge_shadow, &S::slice_planes, &S::focused_beam, &S::beam_lines,
+       &S::reverberation, &S::electronic_noise, &S::clutter, &S::grey_map, &S::reference_level, &S::image_width,
+       &S::image_height);
+  if (as.elevation_focus_mm == 0) s.elevation_focus_mm = 0;
+  if (as.elevation_focus_mm > 0 && s.elevation_focus_mm == 0) s.elevation_focus_mm = as.elevation_focus_mm;
+  if (as.face_reflection == 0) s.face_reflection = 0;
+  if (as.face_reflection > 0 && s.face_reflection == 0) s.face_reflection = as.face_reflection;
+
+  // One, two or any number of samples a reflection length, and what of it the ends of the range leave.
+  const auto samples_a_length = [](const Scene& of) {
+    return of.settings.reflection_length_mm * of.settings.samples / of.depth_mm;
+  };
+  const auto one_or_two = [](double n) { return std::abs(n - 1) < 1e-6 || std::abs(n - 2) < 1e-6; };
+  double wanted = samples_a_length(one_or_two(samples_a_length(first)) ? first : scene);
+  if (one_or_two(wanted) && !one_or_two(samples_a_length(first))) wanted *= 1.25;
+  s.reflection_length_mm = std::clamp(wanted * scene.depth_mm / s.samples, 0.01, 20.0);
+
+  // Smoothed over as many pixels.
+  const auto mm_per_pixel = [](const Scene& of) {
+    return image_geometry(of.probe, of.depth_mm, of.settings.image_width, of.settings.image_height).mm_per_pixel;
+  };
+  const double larger = mm_per_pixel(scene) / mm_per_pixel(first);
+  s.reflection_sigma_mm = std::min(as.reflection_sigma_mm * larger, 1000.0);
+  s.transmission_sigma_mm = std::min(as.transmission_sigma_mm * larger, 1000.0);
   return scene;
 }
 
