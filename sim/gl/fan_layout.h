@@ -12,7 +12,7 @@ namespace insonate::gl {
 
 /// Where the pixels of the picture lie among the scan lines; changes with probe, depth and size, not with the pose.
 struct FanLayout {
-  static constexpr glm::ivec2 kBlock{32, 8};  ///< pixels that one work group serves, as in fan_blocks.glsl
+  static constexpr glm::ivec2 kBlock{64, 4};  ///< pixels that one work group serves, as in fan_blocks.glsl
 
   ImageGeometry geometry;
   Image<std::uint8_t> inside;              ///< 1 inside the fan

@@ -134,8 +134,8 @@ void Texture::read(GLenum layout, GLenum type, void* pixels, std::size_t bytes) 
   glGetTextureImage(object_.name(), 0, layout, type, GLsizei(bytes), pixels);
 }
 
-void Texture::bind_image(GLuint unit, GLenum access) const {
-  glBindImageTexture(unit, object_.name(), 0, GL_TRUE, 0, access, format_);  // all slices of a 3D texture
+void Texture::bind_image_as(GLuint unit, GLenum access, GLenum format) const {
+  glBindImageTexture(unit, object_.name(), 0, GL_TRUE, 0, access, format);  // all slices of a 3D texture
 }
 
 Framebuffer::Framebuffer(const Texture& colour) : width_(colour.width()), height_(colour.height()) {

@@ -101,7 +101,9 @@ public:
   void read(GLenum layout, GLenum type, void* pixels, std::size_t bytes) const;
 
   void bind(GLuint unit) const { glBindTextureUnit(unit, object_.name()); }
-  void bind_image(GLuint unit, GLenum access) const;
+  void bind_image(GLuint unit, GLenum access) const { bind_image_as(unit, access, format_); }
+  /// @param format  another one of as many bytes, in which the shader has its texels: GL_R32UI for packed GL_RGBA8
+  void bind_image_as(GLuint unit, GLenum access, GLenum format) const;
 
   int width() const { return width_; }
   int height() const { return height_; }

@@ -106,12 +106,12 @@ struct Simulator::State {
   SimulationParameters parameters{};
   Buffer parameter_buffer{sizeof(SimulationParameters), nullptr};
   Texture scatterers, line_and_sample;
-  Texture beam_at_depth, noise;
+  Texture beam_at_depth, noise, fan_weights;
   Buffer line_buffer, beam_window, fan_blocks;
   double noise_length_mm = 0;  // the noise's grain
 
   // What they write.
-  Texture scan, repeats, echoes, mean_echo, picture, transmission, half_smoothed, fused;
+  Texture scan, repeats, echoes, mean_echo, picture, sharp, half_smoothed, fused, levels;
   Buffer brightest;  // a block of the fan
   Buffer maximum_buffer{sizeof(GLuint), nullptr};
   Buffer counters{sizeof(SampleCounts), nullptr};
@@ -130,20 +130,23 @@ struct Simulator::State {
   Defines conversion() const {
     return {{"REFLECTION_SMOOTHED", reflection_gaussian.radius > 0 ? "1" : "0"},
             {"TRANSMISSION_SMOOTHED", transmission_gaussian.radius > 0 ? "1" : "0"},
+            {"SMOOTHED_FORMAT", transmission_gaussian.radius > 0 ? "rg32f" : "r32f"},
             {"NOISE", noisy() ? "1" : "0"},
             {"CLUTTER", settings.clutter ? "1" : "0"}};
   }
   Defines smoothing() const {
     return {{"REFLECTION_RADIUS", std::to_string(reflection_gaussian.radius)},
             {"TRANSMISSION_RADIUS", std::to_string(transmission_gaussian.radius)},
-            {"SUMS_FORMAT", transmission_gaussian.radius > 0 ? "rgba32f" : "rg32f"}};
+            {"SMOOTHED_FORMAT", transmission_gaussian.radius > 0 ? "rg32f" : "r32f"}};
   }
   Defines display() const { return {{"GREY_MAP", std::to_string(int(settings.grey_map))}}; }
   Defines fusion() const {
     Defines defines = smoothing();
     defines.push_back(display().front());
+    const auto none = [](double db) { return db == 0; };
+    defines.emplace_back("TIME_GAIN", std::ranges::all_of(settings.tgc_db, none) ? "0" : "1");
     defines.emplace_back("FRAME_MAXIMUM", frame_sets_white() ? "1" : "0");
-    defines.emplace_back("KEEP_FUSED", frame_sets_white() || stages_are_read ? "1" : "0");
+    defines.emplace_back("KEEP_FUSED", stages_are_read ? "1" : "0");
     return defines;
   }
 
@@ -157,6 +160,7 @@ struct Simulator::State {
   void run(Stage stage);
   bool needed(Stage stage) const;
   void prepare_smoothing();
+  void prepare_fusion();
   void prepare_noise();
 };
 
@@ -176,12 +180,12 @@ void Simulator::State::lay_out() {
   line_and_sample.write(GL_RG, GL_FLOAT, fan.line_and_sample.data());
   fan_blocks = Buffer(fan.blocks.size() * sizeof(glm::ivec2), fan.blocks.data());
   brightest = Buffer(fan.blocks.size() * sizeof(GLuint), nullptr);
-  picture = Texture::make_2d(GL_RGBA32F, w, h, Filter::nearest);
-  transmission = Texture();
-  half_smoothed = Texture();
-  fused = Texture::make_2d(GL_RG32F, w, h, Filter::nearest);
+  picture = Texture::make_2d(GL_RG32F, w, h, Filter::nearest);
+  fan_weights = Texture();
+  fused = Texture();
+  levels = Texture();
   image = Texture::make_2d(GL_RGBA8, w, h, Filter::linear);
-  for (Texture* texture : {&picture, &fused, &image}) texture->clear();
+  image.clear();
   layout_changed = false;
   beam_changed = true;
 }
@@ -254,19 +258,30 @@ void Simulator::State::prepare() {
     smooth.define(sources, smoothing());
   }
   fuse.define(sources, fusion());
+  prepare_fusion();
   compress.define(sources, display());
   fill_parameters();
 }
 
 void Simulator::State::prepare_smoothing() {
   const int w = settings.image_width, h = settings.image_height, limit = std::max(w, h) - 1;
-  reflection_gaussian = Gaussian(settings.reflection_sigma_mm / fan.geometry.mm_per_pixel, limit);
-  transmission_gaussian = Gaussian(settings.transmission_sigma_mm / fan.geometry.mm_per_pixel, limit);
-  const bool both = transmission_gaussian.radius > 0;
-  if (half_smoothed && bool(transmission) == both) return;
-  transmission = both ? Texture::make_2d(GL_R32F, w, h, Filter::nearest) : Texture();
-  half_smoothed = Texture::make_2d(both ? GL_RGBA32F : GL_RG32F, w, h, Filter::nearest);
+  const Gaussian reflection(settings.reflection_sigma_mm / fan.geometry.mm_per_pixel, limit);
+  const Gaussian transmission(settings.transmission_sigma_mm / fan.geometry.mm_per_pixel, limit);
+  if (fan_weights && reflection == reflection_gaussian && transmission == transmission_gaussian) return;
+  reflection_gaussian = reflection;
+  transmission_gaussian = transmission;
+  fan_weights = weights_of_pixels(fan, reflection, transmission);
+  const GLenum format = transmission.radius > 0 ? GL_RG32F : GL_R32F;
+  sharp = Texture::make_2d(format, w, h, Filter::nearest);
+  half_smoothed = Texture::make_2d(format, w, h, Filter::nearest);
+  sharp.clear();
   half_smoothed.clear();
+}
+
+void Simulator::State::prepare_fusion() {
+  const int w = settings.image_width, h = settings.image_height;
+  if (stages_are_read && !fused) (fused = Texture::make_2d(GL_R32F, w, h, Filter::nearest)).clear();
+  if (frame_sets_white() && !levels) levels = Texture::make_2d(GL_R32F, w, h, Filter::nearest);
 }
 
 void Simulator::State::prepare_noise() {
@@ -333,22 +348,25 @@ void Simulator::State::run(Stage stage) {
       noise.bind(2);
       mean_echo.bind(3);
       picture.bind_image(0, GL_WRITE_ONLY);
-      if (transmission) transmission.bind_image(1, GL_WRITE_ONLY);
+      sharp.bind_image(1, GL_WRITE_ONLY);
       over_fan(scan_convert);
       break;
     case Stage::smooth:
-      picture.bind(0);
-      transmission.bind(1);
+      sharp.bind(0);
       half_smoothed.bind_image(0, GL_WRITE_ONLY);
       over_fan(smooth);
       break;
     case Stage::fuse:
       picture.bind(0);
       half_smoothed.bind(1);
+      fan_weights.bind(2);
       brightest.clear();
       brightest.bind_storage(0);
-      fused.bind_image(0, GL_WRITE_ONLY);
-      image.bind_image(1, GL_WRITE_ONLY);
+      if (fused) fused.bind_image(0, GL_WRITE_ONLY);
+      if (frame_sets_white())
+        levels.bind_image(1, GL_WRITE_ONLY);
+      else
+        image.bind_image_as(1, GL_WRITE_ONLY, GL_R32UI);
       over_fan(fuse);
       break;
     case Stage::compress:
@@ -357,8 +375,8 @@ void Simulator::State::run(Stage stage) {
       maximum_buffer.bind_storage(1);
       maximum.dispatch_groups(1);
       maximum_buffer.bind_storage(0);
-      fused.bind(0);
-      image.bind_image(0, GL_WRITE_ONLY);
+      levels.bind(0);
+      image.bind_image_as(0, GL_WRITE_ONLY, GL_R32UI);
       over_fan(compress);
       break;
   }

@@ -23,6 +23,24 @@ double bilinear(const Image<double>& image, const glm::vec2& line_and_sample) {
                   glm::mix(image.at(low.x, high.y), image.at(high.x, high.y), f.x), f.y);
 }
 
+// What of each pixel's window lies inside the fan, its rows first as smooth.comp and fuse.comp go.
+Image<float> inside_window(const Image<std::uint8_t>& inside, const Gaussian& gaussian) {
+  const int w = inside.width, h = inside.height, reach = gaussian.radius;
+  std::vector<float> weights;
+  for (int j = -reach; j <= reach; ++j) weights.push_back(float(std::exp(gaussian.exponent * j * j)));
+  const auto weight = [&](int j) { return weights[std::size_t(j + reach)]; };
+  Image<float> along_rows(w, h), whole(w, h);
+  for (int y = 0; y < h; ++y)
+    for (int x = 0; x < w; ++x)
+      if (inside.at(x, y))
+        for (int i = std::max(x - reach, 0); i <= std::min(x + reach, w - 1); ++i)
+          if (inside.at(i, y)) along_rows.at(x, y) += weight(i - x);
+  for (int y = 0; y < h; ++y)
+    for (int i = std::max(y - reach, 0); i <= std::min(y + reach, h - 1); ++i)
+      for (int x = 0; x < w; ++x) whole.at(x, y) += weight(i - y) * along_rows.at(x, i);
+  return whole;
+}
+
 }  // namespace
 
 std::vector<PlacedLine> placed_lines(const DeviceVolume& volume, const Pose& patient_from_probe, const ScanLines& lines,
@@ -88,6 +106,24 @@ Gaussian::Gaussian(double sigma_px, int limit_px) {
   if (sigma_px < 0.05) return;
   radius = std::min(int(std::ceil(3 * sigma_px)), limit_px);
   exponent = -0.5 / (sigma_px * sigma_px);
+}
+
+Texture weights_of_pixels(const FanLayout& fan, const Gaussian& reflection, const Gaussian& transmission) {
+  const Image<float> of_reflection = inside_window(fan.inside, reflection);
+  const int channels = transmission.radius > 0 ? 4 : 2;
+  const Image<float> of_transmission = channels == 4 ? inside_window(fan.inside, transmission) : Image<float>();
+  std::vector<float> values;
+  values.reserve(std::size_t(channels) * fan.inside.pixels.size());
+  for (std::size_t i = 0; i < fan.inside.pixels.size(); ++i) {
+    const bool inside = fan.inside.pixels[i];
+    values.push_back(inside ? fan.line_and_sample[i].y + 1 : 0);
+    values.push_back(inside ? 1 / of_reflection.pixels[i] : 0);
+    if (channels == 4) values.insert(values.end(), {inside ? 1 / of_transmission.pixels[i] : 0, 0});
+  }
+  Texture texture =
+      Texture::make_2d(channels == 4 ? GL_RGBA32F : GL_RG32F, fan.inside.width, fan.inside.height, Filter::nearest);
+  texture.write(channels == 4 ? GL_RGBA : GL_RG, GL_FLOAT, values.data());
+  return texture;
 }
 
 Texture noise_of_pixels(const FanLayout& fan, const ScanLines& lines, const Settings& settings) {

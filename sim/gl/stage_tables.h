@@ -43,6 +43,10 @@ struct Gaussian {
   bool operator==(const Gaussian&) const = default;
 };
 
+/// What fuse.comp asks of each pixel: its sample + 1, or 0 outside the fan, and 1 over what of its windows of R and of
+/// T lies inside the fan; RG32F when there is no window of T, else RGBA32F.
+Texture weights_of_pixels(const FanLayout& fan, const Gaussian& reflection, const Gaussian& transmission);
+
 /// The receiver's noise, mean 1, as scan conversion brings it to each pixel of the fan; 0 outside.
 Texture noise_of_pixels(const FanLayout& fan, const ScanLines& lines, const Settings& settings);
 

@@ -1,14 +1,14 @@
 // Log compression (7) where each frame's brightest pixel is white; fuse.comp does it where white is a fixed level.
 
-layout(local_size_x = 32, local_size_y = 2) in;
+layout(local_size_x = 64, local_size_y = 1) in;
 
 #include "shared/simulation_parameters.h"
 #include "shared/fan_blocks.glsl"
 #include "shared/grey.glsl"
 
-layout(binding = 0) uniform sampler2D fused;                           // U, its level in dB
+layout(binding = 0) uniform sampler2D levels;                          // of U behind the gains, dB
 layout(std430, binding = 0) readonly buffer Maximum { uint maximum; };  // as ordered() gives it
-layout(binding = 0, rgba8) writeonly uniform image2D image;            // grey, grey, grey, 1 inside the fan
+layout(binding = 0, r32ui) writeonly uniform uimage2D image;           // grey, grey, grey, 1 inside the fan; packed
 
 void main() {
   ivec2 first = first_of_column();
@@ -16,6 +16,6 @@ void main() {
   for (int i = 0; i < 4; ++i) {
     ivec2 pixel = first + ivec2(0, i);
     if (pixel.x < width && pixel.y < height)
-      imageStore(image, pixel, grey_pixel(texelFetch(fused, pixel, 0).y, white_db));
+      imageStore(image, pixel, uvec4(grey_pixel(texelFetch(levels, pixel, 0).x, white_db)));
   }
 }

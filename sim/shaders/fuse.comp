@@ -4,67 +4,82 @@
 // An invocation serves four pixels of a column, whose windows overlap: a value is read once for all four. Where white
 // is a fixed level it goes on to grey; where each frame sets its own, to the brightest level of its block.
 
-layout(local_size_x = 32, local_size_y = 2) in;
+layout(local_size_x = 64, local_size_y = 1) in;
 
 #include "shared/simulation_parameters.h"
 #include "shared/fan_blocks.glsl"
 #include "shared/gaussian.glsl"
 #include "shared/grey.glsl"
 
-layout(binding = 0) uniform sampler2D picture;        // R, X, S, sample + 1; 0 outside the fan
-layout(binding = 1) uniform sampler2D half_smoothed;  // of R: sum, weight; of T: sum, weight
-layout(binding = 0, rg32f) writeonly uniform image2D fused;  // U, its level in dB
+layout(binding = 0) uniform sampler2D picture;        // X, S
+layout(binding = 1) uniform sampler2D half_smoothed;  // of R, T: the sums of their windows along the rows
+layout(binding = 2) uniform sampler2D fan;  // per pixel: sample + 1, or 0 outside; of R's and of T's window, 1 / its sum
+#if KEEP_FUSED == 1
+layout(binding = 0, r32f) writeonly uniform image2D fused;  // U
+#endif
 #if FRAME_MAXIMUM == 1
+layout(binding = 1, r32f) writeonly uniform image2D levels;  // of U behind the gains, dB
 layout(std430, binding = 0) buffer Brightest { uint brightest[]; };  // a block, as ordered() gives it; 0 for none
 #else
-layout(binding = 1, rgba8) writeonly uniform image2D image;
+layout(binding = 1, r32ui) writeonly uniform uimage2D image;  // grey, grey, grey, 1 inside the fan; packed
 #endif
 
-vec4 half_smoothed_at(ivec2 at) {
-  return at.y >= 0 && at.y < height ? texelFetch(half_smoothed, at, 0) : vec4(0.0);
+// Gain and time gain, dB: linear between eight depths, as what each stretch between two of them adds. Looking the two up
+// would be a load for each pixel.
+float gain_at_db(float sample_position) {
+#if TIME_GAIN == 1
+  float depth = 7.0 * (sample_position + 0.5) / float(samples);
+  vec4 first = clamp(depth - vec4(0.0, 1.0, 2.0, 3.0), 0.0, 1.0);
+  vec3 second = clamp(depth - vec3(4.0, 5.0, 6.0), 0.0, 1.0);
+  return gain_db + tgc_db[0].x + dot(first, vec4(tgc_db[0].yzw, tgc_db[1].x) - tgc_db[0]) +
+         dot(second, tgc_db[1].yzw - tgc_db[1].xyz);
+#else
+  return gain_db;
+#endif
+}
+
+vec2 half_smoothed_at(ivec2 at) {
+  vec2 value = texelFetch(half_smoothed, ivec2(at.x, clamp(at.y, 0, height - 1)), 0).xy;
+  return at.y >= 0 && at.y < height ? value : vec2(0.0);
 }
 
 void main() {
   ivec2 first = first_of_column();
   if (first.x >= width || first.y >= height) return;
 
-  vec4 smoothed = vec4(0.0);  // R + b T of the four pixels
+  vec4 reflection = vec4(0.0), transmission = vec4(0.0), weights = vec4(0.0);
 #if REFLECTION_RADIUS > 0
-  vec4 reflection = vec4(0.0), reflection_weight = vec4(0.0), of_reflection = vec4(0.0);
   for (int j = -REFLECTION_RADIUS; j <= REFLECTION_RADIUS + 3; ++j) {
-    of_reflection = vec4(gaussian(j, REFLECTION_RADIUS, reflection_exponent_px), of_reflection.xyz);
-    vec4 value = half_smoothed_at(first + ivec2(0, j));
-    reflection += of_reflection * value.x;
-    reflection_weight += of_reflection * value.y;
+    weights = vec4(gaussian(j, REFLECTION_RADIUS, reflection_exponent_px), weights.xyz);
+    reflection += weights * half_smoothed_at(first + ivec2(0, j)).x;
   }
-  smoothed += reflection / reflection_weight;
 #endif
 #if TRANSMISSION_RADIUS > 0
-  vec4 transmission = vec4(0.0), transmission_weight = vec4(0.0), of_transmission = vec4(0.0);
+  weights = vec4(0.0);
   for (int j = -TRANSMISSION_RADIUS; j <= TRANSMISSION_RADIUS + 3; ++j) {
-    of_transmission = vec4(gaussian(j, TRANSMISSION_RADIUS, transmission_exponent_px), of_transmission.xyz);
-    vec4 value = half_smoothed_at(first + ivec2(0, j));
-    transmission += of_transmission * value.z;
-    transmission_weight += of_transmission * value.w;
+    weights = vec4(gaussian(j, TRANSMISSION_RADIUS, transmission_exponent_px), weights.xyz);
+    transmission += weights * half_smoothed_at(first + ivec2(0, j)).y;
   }
-  smoothed += blend * (transmission / transmission_weight);
 #endif
 
   uint brightest_here = 0u;
   for (int i = 0; i < 4; ++i) {
     ivec2 pixel = first + ivec2(0, i);
     if (pixel.y >= height) break;
-    vec4 value = texelFetch(picture, pixel, 0);
-    bool inside = value.w > 0.0;
-    float echo = inside ? value.y + value.z * smoothed[i] : 0.0;
-    float level = inside ? level_db(echo) + time_gain_db(value.w - 1.0) : kOutsideFan;
+    vec2 value = texelFetch(picture, pixel, 0).xy;
+    vec3 place = texelFetch(fan, pixel, 0).xyz;
+    bool inside = place.x > 0.0;
+    float smoothed = reflection[i] * place.y + blend * transmission[i] * place.z;
+    float echo = inside ? value.x + value.y * smoothed : 0.0;
+    float level = inside ? level_db(echo) + gain_at_db(place.x - 1.0) : kOutsideFan;
 #if KEEP_FUSED == 1
-    imageStore(fused, pixel, vec4(echo, level, 0.0, 0.0));
+    imageStore(fused, pixel, vec4(echo));
 #endif
 #if FRAME_MAXIMUM == 1
+    imageStore(levels, pixel, vec4(level));
     if (inside) brightest_here = max(brightest_here, ordered(level));
 #else
-    imageStore(image, pixel, grey_pixel(level, level_db(fixed_level)));
+    imageStore(image, pixel, uvec4(grey_pixel(level, level_db(fixed_level))));
 #endif
   }
 #if FRAME_MAXIMUM == 1

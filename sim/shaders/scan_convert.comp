@@ -3,7 +3,7 @@
 //
 // U = X + S (R + b T), with R and T as they are smoothed: X is all the rest, and holds what of R and T is not smoothed.
 
-layout(local_size_x = 32, local_size_y = 2) in;
+layout(local_size_x = 64, local_size_y = 1) in;
 
 #include "shared/simulation_parameters.h"
 #include "shared/fan_blocks.glsl"
@@ -12,8 +12,10 @@ layout(binding = 0) uniform sampler2D echoes;           // a row a line: R, T, S
 layout(binding = 1) uniform sampler2D line_and_sample;  // per pixel; line below -1 outside the fan
 layout(binding = 2) uniform sampler2D noise;            // per pixel, of mean 1
 layout(binding = 3) uniform sampler2D mean_echo;        // a sample: mean of T S over the lines, with its tail
-layout(binding = 0, rgba32f) writeonly uniform image2D picture;     // R, X, S, sample + 1; 0 outside the fan
-layout(binding = 1, r32f) writeonly uniform image2D transmission;  // T, if it is smoothed
+layout(binding = 0, rg32f) writeonly uniform image2D picture;  // X, S
+#if REFLECTION_SMOOTHED == 1 || TRANSMISSION_SMOOTHED == 1
+layout(binding = 1, SMOOTHED_FORMAT) writeonly uniform image2D sharp;  // R, and T if it is smoothed; -1 outside the fan
+#endif
 
 // The noise's mean at a place along the lines: of the electronics, and with CLUTTER what the side lobes bring.
 float noise_at(float sample_position) {
@@ -48,9 +50,9 @@ void convert(ivec2 pixel) {
 #if NOISE == 1
   rest += noise_at(place.y) * texelFetch(noise, pixel, 0).x;
 #endif
-  imageStore(picture, pixel, inside ? vec4(value.x, rest, value.z, place.y + 1.0) : vec4(0.0));
-#if TRANSMISSION_SMOOTHED == 1
-  imageStore(transmission, pixel, vec4(value.y));
+  imageStore(picture, pixel, vec4(rest, value.z, 0.0, 0.0));
+#if REFLECTION_SMOOTHED == 1 || TRANSMISSION_SMOOTHED == 1
+  imageStore(sharp, pixel, inside ? vec4(value.xy, 0.0, 0.0) : vec4(-1.0));
 #endif
 }
 

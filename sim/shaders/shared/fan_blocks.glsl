@@ -1,9 +1,9 @@
 // The picture's stages run over the blocks of pixels that the fan touches, a work group each; what lies outside stays as
 // it was cleared. An invocation serves four pixels: starting one costs a software renderer as much as a pixel does.
-const ivec2 kBlock = ivec2(32, 8);
+const ivec2 kBlock = ivec2(64, 4);
 layout(std430, binding = 7) readonly buffer FanBlocks { ivec2 fan_block[]; };
 
-// The first of an invocation's four pixels, in a work group of 8 x 8 that goes along rows ...
+// The first of an invocation's four pixels, in a work group of 16 x 4 that goes along rows ...
 ivec2 first_of_row() { return fan_block[gl_WorkGroupID.x] * kBlock + ivec2(gl_LocalInvocationID.xy) * ivec2(4, 1); }
-// ... or in one of 32 x 2 that goes down columns.
+// ... or in one of 64 x 1 that goes down columns.
 ivec2 first_of_column() { return fan_block[gl_WorkGroupID.x] * kBlock + ivec2(gl_LocalInvocationID.xy) * ivec2(1, 4); }

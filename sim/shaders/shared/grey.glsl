@@ -1,14 +1,4 @@
-// From echo to grey: time gain, gain, log compression (7) and the grey map, which is known when a shader is compiled.
-
-// Time gain compensation and gain, dB: linear between eight depths, as what each stretch between two of them adds.
-// Looking the two up would be a load for each pixel.
-float time_gain_db(float sample_position) {
-  float depth = 7.0 * (sample_position + 0.5) / float(samples);
-  vec4 first = clamp(depth - vec4(0.0, 1.0, 2.0, 3.0), 0.0, 1.0);
-  vec3 second = clamp(depth - vec3(4.0, 5.0, 6.0), 0.0, 1.0);
-  return gain_db + tgc_db[0].x + dot(first, vec4(tgc_db[0].yzw, tgc_db[1].x) - tgc_db[0]) +
-         dot(second, tgc_db[1].yzw - tgc_db[1].xyz);
-}
+// From level to grey: log compression (7) and the grey map, which is known when a shader is compiled.
 
 const float kSilent = -1e30;       // level of a pixel without any echo
 const float kOutsideFan = 1e30;    // and of one outside the fan
@@ -24,9 +14,10 @@ float mapped(float g) {
   return g;
 }
 
-vec4 grey_pixel(float level, float white_db) {
+// Four bytes as one number: a software renderer stores it in half the time of four channels.
+uint grey_pixel(float level, float white_db) {
   float grey = level > kSilent ? 1.0 - clamp((white_db - level) / dynamic_range_db, 0.0, 1.0) : 0.0;
-  return level == kOutsideFan ? vec4(0.0) : vec4(vec3(mapped(grey)), 1.0);
+  return level == kOutsideFan ? 0u : packUnorm4x8(vec4(vec3(mapped(grey)), 1.0));
 }
 
 // Levels as whole numbers in the same order, which is what a maximum over invocations takes.
