@@ -1,22 +1,15 @@
 #include "testbed.h"
 
 #include <fcntl.h>
-#include <linux/capability.h>
-#include <signal.h>
-#include <sys/prctl.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <umockdev.h>
 #include <unistd.h>
 
 #include <array>
-#include <cerrno>
 #include <chrono>
 #include <cstdlib>
 #include <stdexcept>
 #include <thread>
-
-extern char** environ;
 
 // GLib keeps what it has made once; that is no leak of this project's.
 extern "C" const char* __lsan_default_suppressions();
@@ -27,7 +20,12 @@ extern "C" const char* __lsan_default_suppressions() {
 namespace insonate {
 namespace {
 
-constexpr const char* kPreload = "libumockdev-preload.so.0";
+// The preloaded library comes before AddressSanitizer's, where there is one.
+std::vector<std::string> settings() {
+  const char* asan = std::getenv("ASAN_OPTIONS");
+  return {"LD_PRELOAD=libumockdev-preload.so.0",
+          "ASAN_OPTIONS=" + (asan ? std::string(asan) + ":" : "") + "verify_asan_link_order=0:detect_leaks=0"};
+}
 
 }  // namespace
 
@@ -88,61 +86,7 @@ void Node::allow(bool allowed) {
   chmod(path_.c_str(), allowed ? 0600 : 0);
 }
 
-Child::Child(const std::vector<std::string>& command) {
-  std::vector<std::string> settings;
-  for (char** setting = environ; *setting; ++setting) settings.emplace_back(*setting);
-  settings.push_back(std::string("LD_PRELOAD=") + kPreload);
-  // The preloaded library comes before AddressSanitizer's, where there is one.
-  const char* asan = std::getenv("ASAN_OPTIONS");
-  settings.push_back(std::string("ASAN_OPTIONS=") + (asan ? std::string(asan) + ":" : "") +
-                     "verify_asan_link_order=0:detect_leaks=0");
-  std::vector<char*> arguments, variables;
-  for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
-  // The last of two equal names would not be the one that counts.
-  for (auto setting = settings.rbegin(); setting != settings.rend(); ++setting)
-    variables.push_back(const_cast<char*>(setting->c_str()));
-  arguments.push_back(nullptr);
-  variables.push_back(nullptr);
-
-  int out_pipe[2], err_pipe[2];
-  if (pipe2(out_pipe, O_CLOEXEC) != 0 || pipe2(err_pipe, O_CLOEXEC) != 0)
-    throw std::runtime_error("no pipe can be made");
-  pid_ = fork();
-  if (pid_ == 0) {
-    dup2(out_pipe[1], STDOUT_FILENO);
-    dup2(err_pipe[1], STDERR_FILENO);
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
-    prctl(PR_CAPBSET_DROP, CAP_DAC_OVERRIDE);
-    prctl(PR_CAPBSET_DROP, CAP_DAC_READ_SEARCH);
-    execve(arguments[0], arguments.data(), variables.data());
-    _exit(127);
-  }
-  close(out_pipe[1]);
-  close(err_pipe[1]);
-  out_fd_ = out_pipe[0];
-  err_fd_ = err_pipe[0];
-  for (const int fd : {out_fd_, err_fd_}) fcntl(fd, F_SETFL, O_NONBLOCK);
-}
-
-Child::~Child() {
-  if (pid_ > 0) {
-    kill(pid_, SIGKILL);
-    waitpid(pid_, nullptr, 0);
-  }
-  close(out_fd_);
-  close(err_fd_);
-}
-
-void Child::listen() {
-  std::array<char, 4096> part;
-  for (const auto& [fd, text] : {std::pair{out_fd_, &out}, std::pair{err_fd_, &err}})
-    for (ssize_t got = 0; (got = read(fd, part.data(), part.size())) > 0;) text->append(part.data(), std::size_t(got));
-}
-
-bool Child::ended() {
-  if (pid_ > 0 && waitpid(pid_, nullptr, WNOHANG) == pid_) pid_ = -1;
-  return pid_ < 0;
-}
+Child::Child(const std::vector<std::string>& command) : ChildProcess(command, settings()) {}
 
 bool pump(const std::function<bool()>& done, const std::function<void()>& each_time) {
   const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(3);

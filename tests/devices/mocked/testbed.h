@@ -1,11 +1,11 @@
 #pragma once
 
-#include <sys/types.h>
-
 #include <functional>
 #include <memory>
 #include <string>
 #include <vector>
+
+#include "tests/devices/child_process.h"
 
 struct _UMockdevTestbed;
 
@@ -53,23 +53,10 @@ private:
   int fd_;
 };
 
-/// A program started in the test bed, without the privileges that would open what its user may not.
-class Child {
+/// A program started in the test bed.
+class Child : public ChildProcess {
 public:
   explicit Child(const std::vector<std::string>& command);
-  ~Child();
-  Child(const Child&) = delete;
-  Child& operator=(const Child&) = delete;
-
-  /// Takes what was written since the last call.
-  void listen();
-  bool ended();
-
-  std::string out, err;
-
-private:
-  pid_t pid_ = -1;
-  int out_fd_ = -1, err_fd_ = -1;
 };
 
 /// Lets the mocked kernel work, and `each_time` besides, until `done`. False when that takes longer than the slowest
