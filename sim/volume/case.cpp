@@ -182,6 +182,20 @@ std::string exactly(double value) {
   return text;
 }
 
+std::string view_table(const ReferenceView& view) {
+  std::string out = "\n[[view]]\nname = " + quoted(view.name) + "\ntitle = " + quoted(view.title) +
+                    "\nprobe = " + quoted(view.probe) + "\ndepth_mm = " + exactly(view.depth_mm) +
+                    "\nlandmarks = " + quoted_list(view.landmarks) + "\ntargets = " + quoted_list(view.targets) +
+                    "\npatient_from_probe = [\n";
+  const glm::dmat4 m = view.patient_from_probe.matrix();
+  for (int r = 0; r < 4; ++r) {
+    out += " ";
+    for (int c = 0; c < 4; ++c) out += " " + exactly(m[c][r]) + ",";
+    out += "\n";
+  }
+  return out + "]\n";
+}
+
 std::string case_table(const Case& subject) {
   std::string out = "# A case of Insonate: lengths in mm, positions in the patient's frame (LPS).\n";
   out += "format = " + std::to_string(kFormat) + "\n";
@@ -196,19 +210,7 @@ std::string case_table(const Case& subject) {
     out += "\n[[landmark]]\nname = " + quoted(landmark.name) + "\nposition = [" + exactly(p.x) + ", " + exactly(p.y) +
            ", " + exactly(p.z) + "]\n";
   }
-  for (const ReferenceView& view : subject.views) {
-    out += "\n[[view]]\nname = " + quoted(view.name) + "\ntitle = " + quoted(view.title) +
-           "\nprobe = " + quoted(view.probe) + "\ndepth_mm = " + exactly(view.depth_mm) +
-           "\nlandmarks = " + quoted_list(view.landmarks) + "\ntargets = " + quoted_list(view.targets) +
-           "\npatient_from_probe = [\n";
-    const glm::dmat4 m = view.patient_from_probe.matrix();
-    for (int r = 0; r < 4; ++r) {
-      out += " ";
-      for (int c = 0; c < 4; ++c) out += " " + exactly(m[c][r]) + ",";
-      out += "\n";
-    }
-    out += "]\n";
-  }
+  for (const ReferenceView& view : subject.views) out += view_table(view);
   return out;
 }
 
@@ -296,6 +298,16 @@ Case read_case(const fs::path& folder) {
   if (root.has("labels")) subject.labels = read_labels(read_file_name(root, "labels", folder));
   check_volumes(root, subject);
   return subject;
+}
+
+void append_view(const fs::path& folder, const ReferenceView& view) {
+  const fs::path file = folder / kTableFile;
+  std::string text = read_file(file, kLargestTable);
+  if (text.back() != '\n') text += '\n';
+  text += view_table(view);
+  const toml::table parsed = parse_toml(file.string(), text);
+  read_table(TomlTable(file.string(), "", parsed));
+  write_file(file, text);
 }
 
 void check_case_can_be_written(const fs::path& folder) {

@@ -88,4 +88,9 @@ void check_case_can_be_written(const std::filesystem::path& folder);
 /// that read_case() would refuse.
 void write_case(const std::filesystem::path& folder, const Case& subject);
 
+/// Writes a view to the end of a case folder's case.toml, which is replaced as a whole and keeps all that is in it,
+/// remarks too. Throws InputError for a view that read_case() would refuse, and for a file that lists its views in
+/// one `view = [...]`.
+void append_view(const std::filesystem::path& folder, const ReferenceView& view);
+
 }  // namespace insonate

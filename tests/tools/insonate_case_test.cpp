@@ -1,81 +1,15 @@
 // insonate-case as a person runs it.
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <cstdlib>
 
-#include "sim/core/files.h"
 #include "sim/volume/case.h"
+#include "tests/tools/case_workplace.h"
 #include "tests/volume/dicom_files.h"
-#include "tests/volume/temporary_folder.h"
 
 using namespace insonate;
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
-
-namespace {
-
-const std::string kRecipe = R"(name = "Ball"
-grid = { from = [0, 0, 0], to = [24, 20, 16], voxel_mm = 1 }
-options.radius_mm = { default = 6, least = 1, most = 9, about = "a radius" }
-labels = [{ name = "ball", tissue = "liver", hu = 60 }]
-shapes = [{ name = "ball", kind = "ellipsoid", centre = [12, 10, 8], radii = [7, 7, "radius_mm"], label = "ball" }]
-landmarks = [{ name = "middle", at = [12, 10, 8] }]
-views = [{ name = "front", title = "From the front", probe = "curvilinear", aim = "middle", from = [9, 0, 7], marker = [1, 0, 0], press_mm = 1, landmarks = ["middle"], targets = ["ball"] }]
-)";
-
-struct Outcome {
-  int code;
-  std::string output, errors;
-};
-
-std::string text_of(const fs::path& file) {
-  return fs::file_size(file) > 0 ? read_file(file) : "";
-}
-
-bool contains(const std::string& text, const std::string& words) {
-  return text.find(words) != std::string::npos;
-}
-
-// A folder with a recipe, and the program run with what it prints caught in it.
-struct Workplace {
-  TemporaryFolder folder;
-  fs::path recipe = folder.put("ball.toml", kRecipe);
-  fs::path made = folder.path / "ball";
-
-  Outcome run(const std::string& arguments) const {
-    const fs::path output = folder.path / "output", errors = folder.path / "errors";
-    const std::string line = std::string(INSONATE_CASE_PROGRAM) + " " + arguments;
-    const int status = std::system((line + " >" + output.string() + " 2>" + errors.string()).c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(output), text_of(errors)};
-  }
-
-  Outcome make(const fs::path& to, const std::string& more = "") const {
-    return run("phantom --recipe " + recipe.string() + " " + more + " " + to.string());
-  }
-
-  Json inspect(const fs::path& what) const {
-    const Outcome told = run("inspect --json " + what.string());
-    INFO(told.errors);
-    REQUIRE(told.code == 0);
-    CHECK(told.errors.empty());
-    return Json::parse(told.output);
-  }
-
-  // Exit code 2, nothing on standard output, and one sentence that holds each of the words.
-  void refused(const std::string& arguments, const std::vector<std::string>& words) const {
-    const Outcome outcome = run(arguments);
-    INFO(arguments << "\n" << outcome.output << outcome.errors);
-    CHECK(outcome.code == 2);
-    CHECK(outcome.output.empty());
-    CHECK(std::count(outcome.errors.begin(), outcome.errors.end(), '\n') == 1);
-    for (const std::string& word : words) CHECK(contains(outcome.errors, word));
-  }
-};
-
-}  // namespace
 
 TEST_CASE("insonate-case phantom makes the recipe's case and says how far it is") {
   const Workplace place;

@@ -1,0 +1,66 @@
+#include "scenarios/cases/add_view.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "scenarios/skin_contact.h"
+#include "scenarios/view_meter.h"
+#include "sim/core/input_error.h"
+#include "sim/core/suggest.h"
+
+namespace insonate {
+namespace {
+
+template <typename Named>
+std::vector<std::string> names_of(const std::vector<Named>& all) {
+  std::vector<std::string> names;
+  for (const Named& one : all) names.push_back(one.name);
+  return names;
+}
+
+/// Why a landmark is not in a view's picture; empty when it is.
+std::string why_not_seen(const Landmark& landmark, const ReferenceView& view, const Probe& probe) {
+  const glm::dvec3 p = view.patient_from_probe.inverse().point(landmark.position);
+  if (std::abs(p.z) > ViewMeter::kLandmarkDistance_mm) {
+    char text[64];
+    std::snprintf(text, sizeof text, "lies %.0f mm beside its plane", std::abs(p.z));
+    return text;
+  }
+  return line_position(probe, view.depth_mm, glm::dvec2(p)) ? "" : "lies outside its fan";
+}
+
+}  // namespace
+
+void add_view(const std::filesystem::path& case_folder, const ReferenceView& view, const TissueTable& tissues) {
+  Case subject = read_case(case_folder);
+  const auto refuse = [&](const std::string& problem, const std::string& remedy) {
+    throw InputError(case_folder.string(), "view '" + view.name + "'", problem, remedy);
+  };
+  if (subject.find_view(view.name)) refuse("the case has a view of this name", "choose another name");
+  const Probe* probe = find_probe(view.probe);
+  if (!probe) refuse("there is no probe '" + view.probe + "'", suggest(view.probe, probe_names()));
+  for (const std::string& name : view.targets)
+    if (!subject.find_label(name))
+      refuse("no label is called '" + name + "'", suggest(name, names_of(subject.label_table)));
+  for (const std::string& name : view.landmarks) {
+    const Landmark* landmark = subject.find_landmark(name);
+    if (!landmark) refuse("no landmark is called '" + name + "'", suggest(name, names_of(subject.landmarks)));
+    if (const std::string why = why_not_seen(*landmark, view, *probe); !why.empty())
+      refuse("the landmark '" + name + "' " + why, "hold the probe so that it is in the picture, or leave it out");
+  }
+  if (!SkinContact(subject.ct, *probe).at(view.patient_from_probe))
+    refuse("the probe's face is not on the skin", "take a moment at which the probe touches the patient");
+  for (const std::string& target : view.targets) {
+    // One target at a time: ViewMeter asks for any of them.
+    ReferenceView alone = view;
+    alone.targets = {target};
+    try {
+      ViewMeter(subject, alone, tissues);
+    } catch (const InputError&) {
+      refuse("the target '" + target + "' is not in its picture", "hold the probe so that it is, or leave it out");
+    }
+  }
+  append_view(case_folder, view);
+}
+
+}  // namespace insonate

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scenarios/cases/structure_shape.h"
+
+namespace insonate {
+
+/// A place along a vessel.
+struct VesselLevel {
+  std::string landmark;   ///< "aorta_l2"
+  std::string name;       ///< "l2"
+  std::string title;      ///< "at L2"
+  glm::dvec3 point{0.0};  ///< the middle of its section there
+  glm::dvec3 along{0.0};  ///< its course there, unit, to the head
+};
+
+/// A vessel's course through the abdomen.
+struct Vessel {
+  const StructureShape* shape;
+  std::vector<VesselLevel> levels;  ///< from below
+};
+
+/// Two organs with a recess between them in which fluid gathers.
+struct Recess {
+  std::string name;  ///< "hepatorenal"
+  const StructureShape* organ;
+  const StructureShape* kidney;
+  glm::dvec3 point{0.0};
+};
+
+/// What of a patient's anatomy landmarks and views are made from; see import_case(). Points into `shapes`.
+struct Anatomy {
+  std::vector<const StructureShape*> organs;
+  std::vector<Vessel> vessels;
+  std::vector<Recess> recesses;
+};
+
+Anatomy find_anatomy(const Case& subject, const std::vector<StructureShape>& shapes);
+
+std::vector<Landmark> landmarks_of(const Anatomy& anatomy);
+
+/// The two names that landmarks_of() gives the ends of an organ's long axis, first_pole's first.
+std::string first_pole_name(const StructureShape& organ);
+std::string second_pole_name(const StructureShape& organ);
+
+}  // namespace insonate

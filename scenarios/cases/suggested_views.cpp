@@ -1,0 +1,166 @@
+#include "scenarios/cases/suggested_views.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "scenarios/cases/acoustic_window.h"
+#include "scenarios/cases/structures.h"
+#include "scenarios/view_meter.h"
+
+namespace insonate {
+namespace {
+
+constexpr double kBehind_mm = 20;  // of the picture, beyond the deepest that is seen: what lies there tells the place
+constexpr double kLeastDepth_mm = 80, kMostDepth_mm = 240, kDepthStep_mm = 10;
+const glm::dvec3 kHead(0, 0, 1);
+
+/// A view to look for.
+struct Plan {
+  std::string name, title;
+  std::vector<std::string> targets;
+  WantedPicture wanted;
+};
+
+std::string percent(double share) {
+  return std::to_string(std::lround(100 * share)) + " %";
+}
+
+std::string lower_first(std::string text) {
+  text[0] = char(std::tolower(static_cast<unsigned char>(text[0])));
+  return text;
+}
+
+void plan_organ(const StructureShape& organ, std::vector<Plan>& plans) {
+  const std::string& name = organ.label.name;
+  // Bladder and prostate change their shape from hour to hour; they are looked at along and across the body.
+  const bool by_body = name == "urinary_bladder" || name == "prostate";
+  const glm::dvec3 axis = by_body ? kHead : organ.axes[0];
+  const std::string title = title_of_structure(name);
+  plans.push_back({name + "_long", title + ", long axis", {name}, {organ.centre, axis, true, {organ.label.value}}});
+  plans.push_back({name + "_short", title + ", short axis", {name}, {organ.centre, axis, false, {organ.label.value}}});
+}
+
+Plan plan_across(const Vessel& vessel, const VesselLevel& level) {
+  const Label& label = vessel.shape->label;
+  return {label.name + "_transverse_" + level.name,
+          title_of_structure(label.name) + " across, " + level.title,
+          {label.name},
+          {level.point, level.along, false, {label.value}}};
+}
+
+Plan plan_along(const Vessel& vessel, const VesselLevel& level) {
+  const Label& label = vessel.shape->label;
+  return {label.name + "_long",
+          title_of_structure(label.name) + ", long axis",
+          {label.name},
+          {level.point, level.along, true, {label.value}}};
+}
+
+Plan plan_recess(const Recess& recess) {
+  const Label &organ = recess.organ->label, &kidney = recess.kidney->label;
+  return {recess.name,
+          title_of_structure(recess.name) + " recess, between " + lower_first(title_of_structure(organ.name)) +
+              " and " + lower_first(title_of_structure(kidney.name)),
+          {organ.name, kidney.name},
+          {recess.point, recess.kidney->axes[0], true, {organ.value, kidney.value}}};
+}
+
+/// The landmarks that belong to the view's targets, or to the view itself, and lie in its picture.
+std::vector<std::string> landmarks_in(const Case& subject, const Probe& probe, const ReferenceView& view) {
+  constexpr double kOnPlane_mm = 0.8 * ViewMeter::kLandmarkDistance_mm;  // not at the limit of what counts
+  const Pose probe_from_patient = view.patient_from_probe.inverse();
+  std::vector<std::string> names;
+  for (const Landmark& landmark : subject.landmarks) {
+    const auto belongs_to = [&](const std::string& owner) { return landmark.name.starts_with(owner + "_"); };
+    if (!belongs_to(view.name) && std::none_of(view.targets.begin(), view.targets.end(), belongs_to)) continue;
+    const glm::dvec3 p = probe_from_patient.point(landmark.position);
+    if (std::abs(p.z) <= kOnPlane_mm && line_position(probe, view.depth_mm, glm::dvec2(p)))
+      names.push_back(landmark.name);
+  }
+  return names;
+}
+
+class Suggestions {
+public:
+  Suggestions(const Case& subject, const BodyMask& body, const TissueTable& tissues)
+      : subject_(subject),
+        tissues_(tissues),
+        probe_(*find_probe("curvilinear")),
+        search_(subject, body, tissues, probe_) {}
+
+  /// The first of plans for one view that shows most; they differ in their aim alone.
+  void add_best(const std::vector<Plan>& plans) {
+    const Plan* chosen = nullptr;
+    std::optional<Window> window;
+    for (const Plan& plan : plans) {
+      const auto found = search_.best(plan.wanted);
+      if (!found ||
+          (window && found->section_share * found->clear_share <= window->section_share * window->clear_share))
+        continue;
+      window = found;
+      chosen = &plan;
+    }
+    if (!window) {
+      made_.notes.push_back("No view '" + plans.front().name + "': no place on the skin shows it.");
+      return;
+    }
+    const std::string shows = percent(window->section_share) + " of the section, " + percent(window->clear_share) +
+                              " of it clear of bone and gas";
+    if (window->clear_share < kLeastClear || window->section_share < kLeastSection) {
+      made_.notes.push_back("No view '" + chosen->name + "': the best place on the skin shows " + shows + ".");
+      return;
+    }
+    ReferenceView view;
+    view.name = chosen->name;
+    view.title = chosen->title;
+    view.probe = probe_.name;
+    view.depth_mm = std::clamp(std::ceil((window->depth_mm + kBehind_mm) / kDepthStep_mm) * kDepthStep_mm,
+                               kLeastDepth_mm, kMostDepth_mm);
+    view.targets = chosen->targets;
+    view.patient_from_probe = window->patient_from_probe;
+    view.landmarks = landmarks_in(subject_, probe_, view);
+    ViewMeter(subject_, view, tissues_);  // as a scenario will
+    made_.views.push_back(std::move(view));
+    made_.notes.push_back("View '" + chosen->name + "' shows " + shows + ".");
+  }
+
+  SuggestedViews finish() { return std::move(made_); }
+
+private:
+  const Case& subject_;
+  const TissueTable& tissues_;
+  const Probe& probe_;
+  WindowSearch search_;
+  SuggestedViews made_;
+};
+
+}  // namespace
+
+SuggestedViews suggest_views(const Case& subject, const Anatomy& anatomy, const BodyMask& body,
+                             const TissueTable& tissues, const Progress& progress) {
+  std::vector<std::vector<Plan>> all;
+  for (const StructureShape* organ : anatomy.organs) {
+    std::vector<Plan> plans;
+    plan_organ(*organ, plans);
+    for (Plan& plan : plans) all.push_back({std::move(plan)});
+  }
+  for (const Vessel& vessel : anatomy.vessels) {
+    std::vector<Plan> along;
+    for (const VesselLevel& level : vessel.levels) {
+      all.push_back({plan_across(vessel, level)});
+      along.push_back(plan_along(vessel, level));
+    }
+    all.push_back(std::move(along));
+  }
+  for (const Recess& recess : anatomy.recesses) all.push_back({plan_recess(recess)});
+
+  Suggestions suggestions(subject, body, tissues);
+  for (std::size_t p = 0; p < all.size(); ++p) {
+    suggestions.add_best(all[p]);
+    if (progress) progress(double(p + 1) / double(all.size()));
+  }
+  return suggestions.finish();
+}
+
+}  // namespace insonate
