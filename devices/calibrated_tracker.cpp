@@ -11,7 +11,8 @@ namespace insonate {
 
 TrackerIdentity tracker_identity(std::string_view uri) {
   const TrackerUri parsed = parse_tracker_uri(uri);
-  return {parsed.scheme, parsed.scheme == "replay" ? "" : parsed.subject};
+  const bool recorded = parsed.scheme == "replay" || parsed.scheme == "raw";
+  return {parsed.scheme, recorded ? "" : parsed.subject};
 }
 
 void check_can_be_calibrated(std::string_view uri) {

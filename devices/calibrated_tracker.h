@@ -31,6 +31,7 @@ public:
   const Recording* recording() const override { return recording_ ? &*recording_ : nullptr; }
   bool repeats() const override { return sensor_->repeats(); }
   bool live() const override { return sensor_->live(); }
+  bool record_raw(const std::shared_ptr<RawTap>& tap) override { return sensor_->record_raw(tap); }
   double clock_s(double now_s) const override { return sensor_->clock_s(now_s); }
 
 protected:

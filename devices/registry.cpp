@@ -11,6 +11,7 @@
 #include "devices/mouse/mouse_tracker.h"
 #include "devices/osvr/osvr_tracker.h"
 #include "devices/polhemus/polhemus_tracker.h"
+#include "devices/replay/raw_replay.h"
 #include "devices/replay/replay_tracker.h"
 #include "devices/spacemouse/spacemouse_tracker.h"
 #include "devices/synthetic/synthetic_tracker.h"
@@ -23,30 +24,34 @@ namespace {
 constexpr TrackerKind kKinds[] = {
     {"replay", "replay:FILE[?speed=2&loop=1&transform=ProbeToTracker]",
      "a recorded .igs.mha, .seq.mha or .seq.nrrd file", open_replay},
+    {"raw", "raw:FILE[?speed=2&loop=1]", "what a tracker's device sent, recorded with --record-raw", open_raw},
     {"synthetic", "synthetic:[SEED][?rate=60&live=1]",
      "a made-up hand that scans the front of the abdomen, also as from a device", open_synthetic},
-    {"auto", "auto:", "the best of the following that is plugged in", open_best},
-    {"polhemus", "polhemus:[SERIAL][?sensor=1&distortion=20&raw=1]", "a Polhemus Patriot, Liberty HS or Viper",
-     open_polhemus},
-    {"hydra", "hydra:[SERIAL][?handset=2&raw=1]", "a Razer Hydra's handset", open_hydra},
-    {"osvr", "osvr:[SERIAL]", "an OSVR head tracker, which turns the probe on the spot", open_osvr},
+    {"auto", "auto:", "of Polhemus, Hydra, OSVR and SpaceMouse the first that can be opened", nullptr, make_best},
+    {"polhemus", "polhemus:[SERIAL][?sensor=1&distortion=20&raw=1]", "a Polhemus Patriot, Liberty HS or Viper", nullptr,
+     make_polhemus},
+    {"hydra", "hydra:[SERIAL][?handset=2&raw=1]", "a Razer Hydra's handset", nullptr, make_hydra},
+    {"osvr", "osvr:[SERIAL]", "an OSVR head tracker, which turns the probe on the spot", nullptr, make_osvr},
     {"spacemouse", "spacemouse:[SERIAL][?speed=1]", "a 3Dconnexion SpaceMouse, which moves the probe at a rate",
-     open_spacemouse},
+     nullptr, make_spacemouse},
     {"igtl", "igtl://HOST[:18944][/NAME][?frame=ras&time=sender]", "TRANSFORM messages of an OpenIGTLink server",
-     igtl::open_igtl},
+     nullptr, igtl::make_igtl},
     {"mouse", "mouse:", "the mouse and the keyboard, in the trainer's window", open_mouse},
 };
 
+const TrackerKind& kind_of(const TrackerUri& uri) {
+  std::vector<std::string> schemes;
+  for (const TrackerKind& kind : kKinds) {
+    if (kind.scheme == uri.scheme) return kind;
+    schemes.emplace_back(kind.scheme);
+  }
+  throw InputError("tracker '" + uri.text + "'", "", "there is no kind of tracker '" + uri.scheme + "'",
+                   suggest(uri.scheme, schemes));
+}
+
 std::unique_ptr<Tracker> open_kind(const TrackerKind& kind, const TrackerUri& uri, const TrackerContext& context) {
-  TrackerUri plain = uri;
-  const FilterSettings filters = take_filter_option(plain);
-  std::unique_ptr<Tracker> tracker = kind.open(plain, context);
-  if (auto* live = dynamic_cast<LiveTracker*>(tracker.get()))
-    live->set_filters(filters);
-  else if (uri.options.contains("filter"))
-    throw InputError("tracker '" + uri.text + "'", "option 'filter'", "only a live tracker's samples are filtered",
-                     "leave it out");
-  return tracker;
+  if (kind.open) return kind.open(uri, context);
+  return std::make_unique<LiveTracker>(kind.make(uri, context));
 }
 
 }  // namespace
@@ -61,13 +66,23 @@ std::unique_ptr<Tracker> open_tracker(std::string_view text, const TrackerContex
     throw InputError("tracker '" + std::string(text) + "'", "", "a file alone does not say what to do with it",
                      "did you mean 'replay:" + std::string(text) + "'?");
   const TrackerUri uri = parse_tracker_uri(text);
-  std::vector<std::string> schemes;
-  for (const TrackerKind& kind : kKinds) {
-    if (kind.scheme == uri.scheme) return open_kind(kind, uri, context);
-    schemes.emplace_back(kind.scheme);
-  }
-  throw InputError("tracker '" + uri.text + "'", "", "there is no kind of tracker '" + uri.scheme + "'",
-                   suggest(uri.scheme, schemes));
+  TrackerUri plain = uri;
+  const FilterSettings filters = take_filter_option(plain);
+  std::unique_ptr<Tracker> tracker = open_kind(kind_of(uri), plain, context);
+  if (auto* live = dynamic_cast<LiveTracker*>(tracker.get()))
+    live->set_filters(filters);
+  else if (uri.options.contains("filter"))
+    throw InputError("tracker '" + uri.text + "'", "option 'filter'", "only a live tracker's samples are filtered",
+                     "leave it out");
+  return tracker;
+}
+
+std::unique_ptr<RawSource> make_raw_source(const TrackerUri& uri, const TrackerContext& context) {
+  const TrackerKind& kind = kind_of(uri);
+  if (!kind.make)
+    throw InputError("tracker '" + uri.text + "'", "", "its samples do not come of a device's bytes",
+                     "name a tracker on a bus or on the network");
+  return kind.make(uri, context);
 }
 
 }  // namespace insonate

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,8 @@
 #include "sim/core/pose_sample.h"
 
 namespace insonate {
+
+class RawTap;
 
 enum class TrackerCondition {
   waiting,   ///< open, but no sample has come yet
@@ -63,6 +66,10 @@ public:
 
   /// Whether samples come in real time, as of a device: nobody can run ahead of it, and what was not polled is past.
   virtual bool live() const { return false; }
+
+  /// Tells `tap` from the first poll on what comes from the device, before it is parsed (raw_recorder.h writes it
+  /// down); null for nobody. To be called before the first poll. False, and nothing is told, when there is no device.
+  virtual bool record_raw(const std::shared_ptr<RawTap>&) { return false; }
 
   /// The tracker's own clock, which stamps its samples, at `now_s`: the time to ask a PoseHistory for. Meaningful from
   /// the first poll on.

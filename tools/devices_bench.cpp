@@ -74,12 +74,12 @@ void bench_filters(Figures& figures) {
 
 std::unique_ptr<LiveTracker> paced_tracker(double rate_hz) {
   // The number of a sample travels as its buttons, so that a lost one shows.
-  return std::make_unique<LiveTracker>("bench",
-                                       std::make_unique<PacedSource>(
-                                           [](std::uint64_t index) {
-                                             return PoseSample{0, PoseStatus::ok, Pose{}, std::uint32_t(index)};
-                                           },
-                                           rate_hz));
+  return std::make_unique<LiveTracker>(std::make_unique<PacedSource>(
+      "bench",
+      [](std::uint64_t index) {
+        return PoseSample{0, PoseStatus::ok, Pose{}, std::uint32_t(index)};
+      },
+      rate_hz));
 }
 
 /// Calls `frame` with the time at 60 Hz, for so long.

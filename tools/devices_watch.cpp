@@ -13,8 +13,10 @@
 #include <vector>
 
 #include "devices/live/steady_clock.h"
+#include "devices/record/raw_recorder.h"
 #include "devices/record/sequence_recorder.h"
 #include "devices/registry.h"
+#include "sim/core/input_error.h"
 #include "tools/devices_commands.h"
 
 namespace insonate::devices {
@@ -35,7 +37,7 @@ void print(const PoseSample& sample) {
 volatile std::sig_atomic_t stopped = 0;
 
 struct Request {
-  std::string uri, record;
+  std::string uri, record, record_raw;
   double seconds = 1e9;
 };
 
@@ -43,10 +45,10 @@ int watch(const Request& request) {
   const double seconds = request.seconds;
   const auto tracker = open_tracker(request.uri);
   std::optional<SequenceRecorder> recorder;
-  if (!request.record.empty()) {
-    recorder.emplace(request.record);
-    std::signal(SIGINT, [](int) { stopped = 1; });
-  }
+  if (!request.record.empty()) recorder.emplace(request.record);
+  std::shared_ptr<const RawRecorder> raw;
+  if (!request.record_raw.empty()) raw = record_raw(*tracker, request.record_raw, request.uri);
+  if (recorder || raw) std::signal(SIGINT, [](int) { stopped = 1; });
   // Only a live tracker needs the true time; the others count from zero, exactly.
   const double begin_s = steady_now_s(), start_s = tracker->live() ? begin_s : 0;
   std::string problem;
@@ -65,6 +67,7 @@ int watch(const Request& request) {
       problem = std::move(now);
       if (!problem.empty()) std::fprintf(stderr, "%s\n", problem.c_str());
     }
+    if (raw && !raw->problem().empty()) throw InputError(raw->problem());
     if (stopped || now_s >= seconds || tracker->state().condition == TrackerCondition::finished) break;
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
     now_s = std::min(seconds, steady_now_s() - begin_s);
@@ -79,6 +82,7 @@ int watch(const Request& request) {
     recorder->finish();
     std::fprintf(stderr, "recorded %zu samples to %s\n", frames, request.record.c_str());
   }
+  if (raw) std::fprintf(stderr, "recorded what its device sent to %s\n", request.record_raw.c_str());
   return 0;
 }
 
@@ -90,6 +94,10 @@ Command watch_command(CLI::App& program) {
   parser->add_option("URI", request->uri, "The tracker, as 'list' shows them")->required();
   parser->add_option("--seconds", request->seconds, "Stop after so long")->check(CLI::PositiveNumber);
   parser->add_option("--record", request->record, "Record them as a sequence file too (.igs.mha)")->type_name("FILE");
+  parser
+      ->add_option("--record-raw", request->record_raw,
+                   "Record what the device sends, byte for byte; 'raw:FILE' replays it")
+      ->type_name("FILE");
   return {parser, [request] { return watch(*request); }};
 }
 

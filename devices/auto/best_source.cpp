@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "devices/hydra/hydra_tracker.h"
-#include "devices/live/live_tracker.h"
 #include "devices/osvr/osvr_tracker.h"
 #include "devices/polhemus/polhemus_tracker.h"
 #include "devices/spacemouse/spacemouse_tracker.h"
@@ -27,15 +26,27 @@ void BestSource::open() {
   throw SourceGone(there_but_useless.empty() ? "No tracker that is known here is plugged in." : there_but_useless);
 }
 
-std::unique_ptr<Tracker> open_best(const TrackerUri& uri, const TrackerContext& context) {
+void BestSource::record_raw(std::shared_ptr<RawTap> tap) {
+  for (const auto& source : sources_) source->record_raw(tap);
+}
+
+bool BestSource::replay_open(const AttachedDevice& device, double time_s) {
+  for (const auto& source : sources_) {
+    if (!source->replay_open(device, time_s)) continue;
+    opened_ = source.get();
+    return true;
+  }
+  return false;
+}
+
+std::unique_ptr<RawSource> make_best(const TrackerUri& uri, const TrackerContext& context) {
   uri.allow_options({});
   if (!uri.subject.empty())
     throw InputError("tracker '" + uri.text + "'", "", "whatever is plugged in has no name to be given",
                      "write just 'auto:', or name the kind of tracker");
-  std::vector<std::unique_ptr<LiveSource>> sources;
+  std::vector<std::unique_ptr<RawSource>> sources;
   for (const auto make : {make_polhemus, make_hydra, make_osvr, make_spacemouse}) sources.push_back(make(uri, context));
-  return std::make_unique<LiveTracker>("the best tracker that is plugged in",
-                                       std::make_unique<BestSource>(std::move(sources)));
+  return std::make_unique<BestSource>(std::move(sources));
 }
 
 }  // namespace insonate

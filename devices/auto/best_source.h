@@ -3,31 +3,37 @@
 #include <memory>
 #include <vector>
 
-#include "devices/live/live_source.h"
-#include "devices/tracker.h"
+#include "devices/live/raw_source.h"
 #include "devices/tracker_context.h"
 #include "devices/tracker_uri.h"
 
 namespace insonate {
 
 /// The first of several devices that can be opened, looked for again each time it is lost.
-class BestSource : public LiveSource {
+class BestSource : public RawSource {
 public:
   /// From the best to the worst.
-  explicit BestSource(std::vector<std::unique_ptr<LiveSource>> sources) : sources_(std::move(sources)) {}
+  explicit BestSource(std::vector<std::unique_ptr<RawSource>> sources) : sources_(std::move(sources)) {}
 
+  std::string name() const override { return "the best tracker that is plugged in"; }
   void open() override;
   void read(std::chrono::milliseconds timeout, LiveBatch& batch) override { opened_->read(timeout, batch); }
   std::optional<glm::dvec3> origin() const override { return opened_ ? opened_->origin() : std::nullopt; }
   void close() noexcept override { opened_->close(); }
 
+  void record_raw(std::shared_ptr<RawTap> tap) override;
+  bool replay_open(const AttachedDevice& device, double time_s) override;
+  void replay_read(Bytes bytes, double time_s, LiveBatch& batch) override {
+    opened_->replay_read(bytes, time_s, batch);
+  }
+
 private:
-  std::vector<std::unique_ptr<LiveSource>> sources_;
-  LiveSource* opened_ = nullptr;
+  std::vector<std::unique_ptr<RawSource>> sources_;
+  RawSource* opened_ = nullptr;
 };
 
 /// auto: those that tell place and direction before the one that tells direction and the one that tells speed. Throws
 /// InputError.
-std::unique_ptr<Tracker> open_best(const TrackerUri& uri, const TrackerContext& context);
+std::unique_ptr<RawSource> make_best(const TrackerUri& uri, const TrackerContext& context);
 
 }  // namespace insonate

@@ -2,7 +2,6 @@
 
 #include "devices/hid/hid_bus.h"
 #include "devices/hydra/hydra_report.h"
-#include "devices/live/live_tracker.h"
 #include "devices/live/probe_buttons.h"
 
 namespace insonate {
@@ -40,15 +39,11 @@ bool HydraSource::take(Bytes bytes, double time_s, LiveBatch& batch, ReportTally
   return true;
 }
 
-std::unique_ptr<LiveSource> make_hydra(const TrackerUri& uri, const TrackerContext& context) {
+std::unique_ptr<RawSource> make_hydra(const TrackerUri& uri, const TrackerContext& context) {
   uri.allow_options({"handset", "raw"});
   const auto handset = std::size_t(uri.number("handset", 1, 1, 2)) - 1;
   return std::make_unique<HydraSource>(std::make_shared<HidBus>(), uri.subject, handset,
                                        Placement(context.start, uri.flag("raw", false)));
-}
-
-std::unique_ptr<Tracker> open_hydra(const TrackerUri& uri, const TrackerContext& context) {
-  return std::make_unique<LiveTracker>("Razer Hydra", make_hydra(uri, context));
 }
 
 }  // namespace insonate

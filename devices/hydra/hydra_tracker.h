@@ -4,7 +4,6 @@
 
 #include "devices/live/device_source.h"
 #include "devices/live/placement.h"
-#include "devices/tracker.h"
 #include "devices/tracker_context.h"
 #include "devices/tracker_uri.h"
 
@@ -31,7 +30,6 @@ private:
 };
 
 /// hydra:[SERIAL][?handset=2&raw=1]. Throws InputError.
-std::unique_ptr<LiveSource> make_hydra(const TrackerUri& uri, const TrackerContext& context);
-std::unique_ptr<Tracker> open_hydra(const TrackerUri& uri, const TrackerContext& context);
+std::unique_ptr<RawSource> make_hydra(const TrackerUri& uri, const TrackerContext& context);
 
 }  // namespace insonate

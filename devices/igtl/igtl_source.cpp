@@ -9,8 +9,8 @@
 #include <cmath>
 #include <cstring>
 #include <system_error>
+#include <thread>
 
-#include "devices/live/live_tracker.h"
 #include "devices/live/steady_clock.h"
 #include "devices/sequence/sequence.h"
 #include "sim/core/input_error.h"
@@ -47,7 +47,13 @@ void ClientSource::open() {
   lookup_.emplace(request_.host, request_.port);
   untried_.clear();
   connected_ = false;
-  since_s_ = steady_now_s();
+  const double now_s = steady_now_s();
+  if (tap()) tap()->opened({}, now_s);
+  begin(now_s);
+}
+
+void ClientSource::begin(double time_s) {
+  since_s_ = time_s;
   followed_ = request_.name;
   others_.clear();
   status_.clear();
@@ -56,6 +62,12 @@ void ClientSource::open() {
   reader_ =
       std::make_unique<MessageReader>([this](const Header& header) { return wants(header); },
                                       [this](const Header& header, ByteView body) { take(header, body, *batch_); });
+}
+
+bool ClientSource::replay_open(const AttachedDevice& device, double time_s) {
+  if (device.vendor != 0 || device.product != 0) return false;
+  begin(time_s);
+  return true;
 }
 
 void ClientSource::close() noexcept {
@@ -128,20 +140,27 @@ void ClientSource::receive(LiveBatch& batch) {
   std::array<std::uint8_t, 16384> bytes;
   for (int piece = 0; piece < 16; ++piece) {
     const ssize_t count = ::recv(socket_.get(), bytes.data(), bytes.size(), 0);
-    arrival_s_ = steady_now_s();
+    const double arrival_s = steady_now_s();
     if (count < 0 && (errno == EAGAIN || errno == EINTR)) return;
     if (count < 0) give_up("The connection to " + where_ + " broke: " + std::generic_category().message(errno) + ".");
     if (count == 0) give_up(where_ + " has closed the connection.");
-    batch_ = &batch;
-    switch (reader_->feed(ByteView(bytes.data(), std::size_t(count)))) {
-      case MessageReader::Damage::none:
-        break;
-      case MessageReader::Damage::crc:
-        ++damaged_;
-        break;
-      case MessageReader::Damage::not_igtl:
-        give_up("What " + where_ + " sends is not OpenIGTLink: check the port.");
-    }
+    const ByteView came(bytes.data(), std::size_t(count));
+    if (tap()) tap()->came(came, arrival_s);
+    replay_read(came, arrival_s, batch);
+  }
+}
+
+void ClientSource::replay_read(insonate::Bytes bytes, double time_s, LiveBatch& batch) {
+  batch_ = &batch;
+  arrival_s_ = time_s;
+  switch (reader_->feed(bytes)) {
+    case MessageReader::Damage::none:
+      break;
+    case MessageReader::Damage::crc:
+      ++damaged_;
+      break;
+    case MessageReader::Damage::not_igtl:
+      give_up("What " + where_ + " sends is not OpenIGTLink: check the port.");
   }
 }
 
@@ -238,10 +257,8 @@ ClientRequest client_request(const TrackerUri& uri) {
   return request;
 }
 
-std::unique_ptr<Tracker> open_igtl(const TrackerUri& uri, const TrackerContext&) {
-  ClientRequest request = client_request(uri);
-  const std::string name = "OpenIGTLink from " + request.host + ":" + std::to_string(request.port);
-  return std::make_unique<LiveTracker>(name, std::make_unique<ClientSource>(std::move(request)));
+std::unique_ptr<RawSource> make_igtl(const TrackerUri& uri, const TrackerContext&) {
+  return std::make_unique<ClientSource>(client_request(uri));
 }
 
 }  // namespace insonate::igtl

@@ -9,8 +9,7 @@
 #include "devices/igtl/host_lookup.h"
 #include "devices/igtl/igtl_reader.h"
 #include "devices/igtl/net_socket.h"
-#include "devices/live/live_source.h"
-#include "devices/tracker.h"
+#include "devices/live/raw_source.h"
 #include "devices/tracker_context.h"
 #include "devices/tracker_uri.h"
 
@@ -32,18 +31,22 @@ struct ClientRequest {
 /// Samples are stamped when their bytes arrive. With `sender_times` the first one is, and the others follow at the
 /// steps of their messages' stamps; when those run backwards or away from ours by more than most_drift_s, they are
 /// tied to the arrival anew.
-class ClientSource : public LiveSource {
+class ClientSource : public RawSource {
 public:
   static constexpr double kConnect_s = 3.0;      ///< a host that has not answered by then is asked again later
   static constexpr double kNameMissing_s = 2.0;  ///< after so long without the transform that was named, say so
 
   explicit ClientSource(ClientRequest request);
 
+  std::string name() const override { return "OpenIGTLink from " + where_; }
   void open() override;
   void read(std::chrono::milliseconds timeout, LiveBatch& batch) override;
   void close() noexcept override;
+  bool replay_open(const AttachedDevice& device, double time_s) override;
+  void replay_read(insonate::Bytes bytes, double time_s, LiveBatch& batch) override;
 
 private:
+  void begin(double time_s);
   void connect_next();
   bool connected(std::chrono::milliseconds timeout);
   void receive(LiveBatch& batch);
@@ -73,7 +76,7 @@ private:
 };
 
 /// igtl://host[:port][/name][?frame=ras&time=sender]. Opens nothing yet. Throws InputError.
-std::unique_ptr<Tracker> open_igtl(const TrackerUri& uri, const TrackerContext& context);
+std::unique_ptr<RawSource> make_igtl(const TrackerUri& uri, const TrackerContext& context);
 
 /// Takes the URI apart. Throws InputError.
 ClientRequest client_request(const TrackerUri& uri);

@@ -30,6 +30,13 @@ std::string waiting_relative(const DeviceKind& kind, const AttachedDevices& atta
   return "";
 }
 
+/// What a recorded device is sent to and read from: nothing.
+class NoTransport : public Transport {
+public:
+  std::size_t read(std::span<std::uint8_t>, std::chrono::milliseconds) override { return 0; }
+  void send(std::span<const std::uint8_t>) override {}
+};
+
 }  // namespace
 
 AttachedDevice find_device(const DeviceKind& kind, const std::string& serial, const AttachedDevices& attached) {
@@ -58,29 +65,50 @@ DeviceSource::DeviceSource(const DeviceKind& kind, std::shared_ptr<DeviceBus> bu
     : kind_(kind), bus_(std::move(bus)), serial_(std::move(serial)), clock_s_(std::move(clock_s)), buffer_(kRoom) {}
 
 void DeviceSource::open() {
-  device_ = find_device(kind_, serial_, bus_->devices());
-  std::unique_ptr<Transport> transport = bus_->open(device_, model_of(kind_, device_)->endpoints);
-  start(*transport, device_);
+  const AttachedDevice device = find_device(kind_, serial_, bus_->devices());
+  std::unique_ptr<Transport> transport = bus_->open(device, model_of(kind_, device)->endpoints);
+  start(*transport, device);
+  const double now_s = clock_s_();
+  if (tap()) tap()->opened(device, now_s);
+  begin(device, std::move(transport), now_s);
+}
+
+void DeviceSource::begin(const AttachedDevice& device, std::unique_ptr<Transport> transport, double time_s) {
+  device_ = device;
   transport_ = std::move(transport);
-  asked_s_ = heard_s_ = clock_s_();
+  asked_s_ = heard_s_ = time_s;
   started_ = false;
   starts_ = 1;
   told_.clear();
 }
 
+bool DeviceSource::replay_open(const AttachedDevice& device, double time_s) {
+  if (!model_of(kind_, device)) return false;
+  auto transport = std::make_unique<NoTransport>();
+  start(*transport, device);
+  begin(device, std::move(transport), time_s);
+  return true;
+}
+
 void DeviceSource::read(std::chrono::milliseconds timeout, LiveBatch& batch) {
   const std::size_t got = transport_->read(buffer_, timeout);
   const double now_s = clock_s_();
-  if (take(Bytes(buffer_).first(got), now_s, batch, tally_)) {
+  const Bytes bytes = Bytes(buffer_).first(got);
+  if (tap()) tap()->came(bytes, now_s);
+  replay_read(bytes, now_s, batch);
+}
+
+void DeviceSource::replay_read(Bytes bytes, double time_s, LiveBatch& batch) {
+  if (take(bytes, time_s, batch, tally_)) {
     started_ = true;
-    heard_s_ = now_s;
+    heard_s_ = time_s;
   }
-  if (kind_.steady && now_s - std::max(asked_s_, heard_s_) >= kStartS) {
-    asked_s_ = now_s;
+  if (kind_.steady && time_s - std::max(asked_s_, heard_s_) >= kStartS) {
+    asked_s_ = time_s;
     ++starts_;
     start(*transport_, device_);
   }
-  batch.note = note(now_s);
+  batch.note = note(time_s);
 }
 
 std::string DeviceSource::note(double now_s) {

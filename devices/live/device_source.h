@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "devices/bytes.h"
-#include "devices/live/live_source.h"
+#include "devices/live/raw_source.h"
 #include "devices/live/report_tally.h"
 #include "devices/live/steady_clock.h"
 #include "devices/transport/transport.h"
@@ -35,7 +35,7 @@ AttachedDevice find_device(const DeviceKind& kind, const std::string& serial, co
 
 /// The policy that all trackers on a bus share: find the device, start it, start it again when it says nothing, count
 /// what it sends, and let go of it when it is lost. What its bytes mean is for the class that derives.
-class DeviceSource : public LiveSource {
+class DeviceSource : public RawSource {
 public:
   /// A device that was told to send and does not is told again after so long. The Hydra needs this long.
   static constexpr double kStartS = 5;
@@ -46,9 +46,12 @@ public:
   DeviceSource(const DeviceKind& kind, std::shared_ptr<DeviceBus> bus, std::string serial,
                std::function<double()> clock_s = steady_now_s);
 
+  std::string name() const final { return std::string(kind_.name); }
   void open() final;
   void read(std::chrono::milliseconds timeout, LiveBatch& batch) final;
   void close() noexcept final;
+  bool replay_open(const AttachedDevice& device, double time_s) final;
+  void replay_read(Bytes bytes, double time_s, LiveBatch& batch) final;
 
   const ReportTally& tally() const { return tally_; }
 
@@ -65,6 +68,7 @@ protected:
   virtual bool take(Bytes bytes, double time_s, LiveBatch& batch, ReportTally& tally) = 0;
 
 private:
+  void begin(const AttachedDevice& device, std::unique_ptr<Transport> transport, double time_s);
   std::string note(double now_s);
 
   DeviceKind kind_;

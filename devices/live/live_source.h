@@ -33,6 +33,9 @@ class LiveSource {
 public:
   virtual ~LiveSource() = default;
 
+  /// What people call it: "Razer Hydra".
+  virtual std::string name() const = 0;
+
   /// Looks for the device and starts it. Takes no longer than a read may: what needs longer goes on in read(). Throws
   /// SourceGone when it is not there, busy or forbidden, and leaves nothing open then.
   virtual void open() = 0;

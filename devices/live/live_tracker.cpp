@@ -1,9 +1,7 @@
 #include "devices/live/live_tracker.h"
 
 #include <algorithm>
-#include <cmath>
 #include <condition_variable>
-#include <limits>
 #include <utility>
 
 #include "devices/live/steady_clock.h"
@@ -17,14 +15,18 @@ double seconds(std::chrono::milliseconds duration) {
 
 }  // namespace
 
-LiveTracker::LiveTracker(std::string name, std::unique_ptr<LiveSource> source, const Options& options)
-    : Tracker(std::move(name)),
-      options_(options),
-      source_(std::move(source)),
-      last_time_s_(-std::numeric_limits<double>::infinity()),
-      ring_(options.capacity) {}
+LiveTracker::LiveTracker(std::unique_ptr<LiveSource> source, const Options& options)
+    : Tracker(source->name()), options_(options), source_(std::move(source)), ring_(options.capacity) {}
 
 LiveTracker::~LiveTracker() = default;  // the thread, last of the members, is stopped and joined first
+
+bool LiveTracker::record_raw(const std::shared_ptr<RawTap>& tap) {
+  auto* raw = dynamic_cast<RawSource*>(source_.get());
+  if (!raw) return false;
+  raw->record_raw(tap);
+  tap_ = tap;
+  return true;
+}
 
 void LiveTracker::collect(double, std::vector<PoseSample>& samples) {
   if (!thread_.joinable()) thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
@@ -79,21 +81,17 @@ bool LiveTracker::read_source() {
 }
 
 void LiveTracker::hand_over(PoseSample sample) {
-  // Samples of one report share a time, and a clock may be read in another order than they are handed over.
-  sample.time_s = std::max(sample.time_s, std::nextafter(last_time_s_, HUGE_VAL));
-  last_time_s_ = sample.time_s;
-  filters_.apply(sample, source_->origin());
+  hand_over_.apply(sample, source_->origin());
   ring_.push(sample);
 }
 
 void LiveTracker::tell_silence() {
   if (!heard_) return;
   const double now_s = steady_now_s();
-  if (now_s - heard_s_ < seconds(options_.silence) || now_s - last_time_s_ < seconds(options_.heartbeat)) return;
-  PoseSample silence;
-  silence.time_s = now_s;
-  silence.status = PoseStatus::missing;
-  hand_over(silence);
+  const double last_s = hand_over_.last_time_s();
+  if (now_s - heard_s_ < seconds(options_.silence) || now_s - last_s < seconds(options_.heartbeat)) return;
+  if (tap_) tap_->silent(now_s);
+  hand_over(silence_at(now_s));
 }
 
 void LiveTracker::tell(const std::string& problem) {

@@ -7,8 +7,9 @@
 #include <string>
 #include <thread>
 
-#include "devices/filter/sample_filters.h"
+#include "devices/live/hand_over.h"
 #include "devices/live/live_source.h"
+#include "devices/live/raw_source.h"
 #include "devices/live/sample_ring.h"
 #include "devices/tracker.h"
 
@@ -34,16 +35,16 @@ public:
     std::chrono::milliseconds heartbeat{100};
   };
 
-  LiveTracker(std::string name, std::unique_ptr<LiveSource> source, const Options& options);
-  LiveTracker(std::string name, std::unique_ptr<LiveSource> source)
-      : LiveTracker(std::move(name), std::move(source), Options()) {}
+  LiveTracker(std::unique_ptr<LiveSource> source, const Options& options);
+  explicit LiveTracker(std::unique_ptr<LiveSource> source) : LiveTracker(std::move(source), Options()) {}
   ~LiveTracker() override;
 
   /// What is done to the samples, on the thread, before anybody sees them: nothing until told. To be set before the
   /// first poll.
-  void set_filters(const FilterSettings& settings) { filters_ = SampleFilters(settings); }
-  const FilterSettings& filters() const { return filters_.settings(); }
+  void set_filters(const FilterSettings& settings) { hand_over_ = HandOver(settings); }
+  const FilterSettings& filters() const { return hand_over_.filters(); }
 
+  bool record_raw(const std::shared_ptr<RawTap>& tap) override;
   bool live() const override { return true; }
   double clock_s(double now_s) const override { return now_s; }
 
@@ -65,8 +66,8 @@ private:
   Options options_;
   std::unique_ptr<LiveSource> source_;
   LiveBatch batch_;
-  SampleFilters filters_;
-  double last_time_s_;        ///< of the newest sample that was handed over
+  HandOver hand_over_;
+  std::shared_ptr<RawTap> tap_;
   double heard_s_ = 0;        ///< when the source last brought a sample
   bool heard_ = false;        ///< whether it ever did
   bool brought_any_ = false;  ///< whether it did since it was opened

@@ -8,8 +8,8 @@
 
 namespace insonate {
 
-PacedSource::PacedSource(std::function<PoseSample(std::uint64_t)> sample, double rate_hz)
-    : sample_(std::move(sample)), rate_hz_(rate_hz) {}
+PacedSource::PacedSource(std::string name, std::function<PoseSample(std::uint64_t)> sample, double rate_hz)
+    : name_(std::move(name)), sample_(std::move(sample)), rate_hz_(rate_hz) {}
 
 void PacedSource::read(std::chrono::milliseconds timeout, LiveBatch& batch) {
   if (!start_s_) start_s_ = steady_now_s();

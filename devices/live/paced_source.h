@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 
 #include "devices/live/live_source.h"
 
@@ -14,8 +15,9 @@ namespace insonate {
 class PacedSource : public LiveSource {
 public:
   /// `sample` is called with 0, 1, 2... on the thread that reads; the time of what it returns is replaced.
-  PacedSource(std::function<PoseSample(std::uint64_t index)> sample, double rate_hz);
+  PacedSource(std::string name, std::function<PoseSample(std::uint64_t index)> sample, double rate_hz);
 
+  std::string name() const override { return name_; }
   void open() override {}
   void read(std::chrono::milliseconds timeout, LiveBatch& batch) override;
   void close() noexcept override {}
@@ -24,6 +26,7 @@ public:
   std::uint64_t given() const { return given_.load(std::memory_order_relaxed); }
 
 private:
+  std::string name_;
   std::function<PoseSample(std::uint64_t)> sample_;
   double rate_hz_;
   std::optional<double> start_s_;

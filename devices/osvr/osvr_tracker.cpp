@@ -1,7 +1,6 @@
 #include "devices/osvr/osvr_tracker.h"
 
 #include "devices/hid/hid_bus.h"
-#include "devices/live/live_tracker.h"
 
 namespace insonate {
 namespace {
@@ -37,13 +36,9 @@ bool OsvrSource::take(Bytes bytes, double time_s, LiveBatch& batch, ReportTally&
   return true;
 }
 
-std::unique_ptr<LiveSource> make_osvr(const TrackerUri& uri, const TrackerContext& context) {
+std::unique_ptr<RawSource> make_osvr(const TrackerUri& uri, const TrackerContext& context) {
   uri.allow_options({});
   return std::make_unique<OsvrSource>(std::make_shared<HidBus>(), uri.subject, context.start);
-}
-
-std::unique_ptr<Tracker> open_osvr(const TrackerUri& uri, const TrackerContext& context) {
-  return std::make_unique<LiveTracker>("OSVR head tracker", make_osvr(uri, context));
 }
 
 }  // namespace insonate

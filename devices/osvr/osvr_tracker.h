@@ -5,7 +5,6 @@
 
 #include "devices/live/device_source.h"
 #include "devices/osvr/osvr_report.h"
-#include "devices/tracker.h"
 #include "devices/tracker_context.h"
 #include "devices/tracker_uri.h"
 
@@ -30,7 +29,6 @@ private:
 };
 
 /// osvr:[SERIAL]. Throws InputError.
-std::unique_ptr<LiveSource> make_osvr(const TrackerUri& uri, const TrackerContext& context);
-std::unique_ptr<Tracker> open_osvr(const TrackerUri& uri, const TrackerContext& context);
+std::unique_ptr<RawSource> make_osvr(const TrackerUri& uri, const TrackerContext& context);
 
 }  // namespace insonate

@@ -2,7 +2,6 @@
 
 #include <string_view>
 
-#include "devices/live/live_tracker.h"
 #include "devices/live/probe_buttons.h"
 #include "devices/usb/usb_bus.h"
 
@@ -68,17 +67,13 @@ bool PolhemusSource::take(Bytes bytes, double time_s, LiveBatch& batch, ReportTa
   return !records_.empty();
 }
 
-std::unique_ptr<LiveSource> make_polhemus(const TrackerUri& uri, const TrackerContext& context) {
+std::unique_ptr<RawSource> make_polhemus(const TrackerUri& uri, const TrackerContext& context) {
   uri.allow_options({"sensor", "distortion", "raw"});
   PolhemusSource::Options options;
   options.sensor = std::uint32_t(uri.number("sensor", 1, 1, 16)) - 1;
   if (uri.options.contains("distortion")) options.most_distortion = std::uint32_t(uri.number("distortion", 0, 0, 1e6));
   return std::make_unique<PolhemusSource>(std::make_shared<UsbBus>(), uri.subject, options,
                                           Placement(context.start, uri.flag("raw", false)));
-}
-
-std::unique_ptr<Tracker> open_polhemus(const TrackerUri& uri, const TrackerContext& context) {
-  return std::make_unique<LiveTracker>("Polhemus tracker", make_polhemus(uri, context));
 }
 
 }  // namespace insonate

@@ -6,7 +6,6 @@
 #include "devices/live/device_source.h"
 #include "devices/live/placement.h"
 #include "devices/polhemus/polhemus_stream.h"
-#include "devices/tracker.h"
 #include "devices/tracker_context.h"
 #include "devices/tracker_uri.h"
 
@@ -42,7 +41,6 @@ private:
 };
 
 /// polhemus:[SERIAL][?sensor=1&distortion=20&raw=1]. Throws InputError.
-std::unique_ptr<LiveSource> make_polhemus(const TrackerUri& uri, const TrackerContext& context);
-std::unique_ptr<Tracker> open_polhemus(const TrackerUri& uri, const TrackerContext& context);
+std::unique_ptr<RawSource> make_polhemus(const TrackerUri& uri, const TrackerContext& context);
 
 }  // namespace insonate

@@ -54,11 +54,16 @@ std::optional<double> ReplayTracker::progress() const {
   return double(next_) / double(log_.size());
 }
 
-std::unique_ptr<Tracker> open_replay(const TrackerUri& uri, const TrackerContext&) {
-  uri.allow_options({"speed", "loop", "transform"});
+ReplayTracker::Options replay_options(const TrackerUri& uri, std::initializer_list<std::string_view> allowed) {
+  uri.allow_options(allowed);
   if (uri.subject.empty())
-    throw InputError("tracker '" + uri.text + "'", "", "it names no file", "write it as in 'replay:scan.igs.mha'");
-  const ReplayTracker::Options options{uri.number("speed", 1.0, 0.01, 1000.0), uri.flag("loop", false)};
+    throw InputError("tracker '" + uri.text + "'", "", "it names no file",
+                     "write it as in '" + uri.scheme + ":" + (uri.scheme == "raw" ? "scan.raw'" : "scan.igs.mha'"));
+  return {uri.number("speed", 1.0, 0.01, 1000.0), uri.flag("loop", false)};
+}
+
+std::unique_ptr<Tracker> open_replay(const TrackerUri& uri, const TrackerContext&) {
+  const ReplayTracker::Options options = replay_options(uri, {"speed", "loop", "transform"});
   const auto transform = uri.options.find("transform");
   RecordedScan scan = read_recorded_scan(uri.subject, transform == uri.options.end() ? "" : transform->second);
   return std::make_unique<ReplayTracker>("replay of " + scan.recording.file, std::move(scan.samples), options,

@@ -44,6 +44,10 @@ private:
   double last_time_s_ = 0;
 };
 
+/// The speed and loop of a replay's URI, which may have no other options than `allowed`, and which names a file. Throws
+/// InputError.
+ReplayTracker::Options replay_options(const TrackerUri& uri, std::initializer_list<std::string_view> allowed);
+
 /// replay:FILE[?speed=2&loop=1&transform=ProbeToTracker], with speeds from 0.01 to 1000; for the transform see
 /// probe_samples(). Throws InputError.
 std::unique_ptr<Tracker> open_replay(const TrackerUri& uri, const TrackerContext& context);

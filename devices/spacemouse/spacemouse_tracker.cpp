@@ -6,7 +6,6 @@
 
 #include "devices/hid/hid_bus.h"
 #include "devices/known_trackers.h"
-#include "devices/live/live_tracker.h"
 #include "devices/live/probe_buttons.h"
 #include "devices/spacemouse/spacemouse_report.h"
 
@@ -68,14 +67,10 @@ bool SpaceMouseSource::take(Bytes bytes, double time_s, LiveBatch& batch, Report
   return understood;
 }
 
-std::unique_ptr<LiveSource> make_spacemouse(const TrackerUri& uri, const TrackerContext& context) {
+std::unique_ptr<RawSource> make_spacemouse(const TrackerUri& uri, const TrackerContext& context) {
   uri.allow_options({"speed"});
   return std::make_unique<SpaceMouseSource>(std::make_shared<HidBus>(), uri.subject, context.start,
                                             uri.number("speed", 1, 0.1, 10));
-}
-
-std::unique_ptr<Tracker> open_spacemouse(const TrackerUri& uri, const TrackerContext& context) {
-  return std::make_unique<LiveTracker>("SpaceMouse", make_spacemouse(uri, context));
 }
 
 }  // namespace insonate

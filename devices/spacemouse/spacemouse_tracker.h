@@ -5,7 +5,6 @@
 #include <memory>
 
 #include "devices/live/device_source.h"
-#include "devices/tracker.h"
 #include "devices/tracker_context.h"
 #include "devices/tracker_uri.h"
 
@@ -42,7 +41,6 @@ private:
 };
 
 /// spacemouse:[SERIAL][?speed=1], with speeds from 0.1 to 10. Throws InputError.
-std::unique_ptr<LiveSource> make_spacemouse(const TrackerUri& uri, const TrackerContext& context);
-std::unique_ptr<Tracker> open_spacemouse(const TrackerUri& uri, const TrackerContext& context);
+std::unique_ptr<RawSource> make_spacemouse(const TrackerUri& uri, const TrackerContext& context);
 
 }  // namespace insonate

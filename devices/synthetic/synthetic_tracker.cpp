@@ -159,16 +159,15 @@ std::unique_ptr<Tracker> open_synthetic(const TrackerUri& uri, const TrackerCont
   const double rate_hz = uri.number("rate", 60, 1, 1000);
   auto hand = std::make_unique<SyntheticTracker>(seed, rate_hz, context);
   if (!uri.flag("live", false)) return hand;
-  return std::make_unique<LiveTracker>(
+  return std::make_unique<LiveTracker>(std::make_unique<PacedSource>(
       "made-up hand, live",
-      std::make_unique<PacedSource>(
-          [hand = std::shared_ptr<SyntheticTracker>(std::move(hand)), rate_hz](std::uint64_t index) {
-            // Polled in the middle between two samples, so that rounding neither skips nor doubles one.
-            std::vector<PoseSample> one;
-            hand->poll(index == 0 ? 0 : (double(index) + 0.5) / rate_hz, one);
-            return one.at(0);
-          },
-          rate_hz));
+      [hand = std::shared_ptr<SyntheticTracker>(std::move(hand)), rate_hz](std::uint64_t index) {
+        // Polled in the middle between two samples, so that rounding neither skips nor doubles one.
+        std::vector<PoseSample> one;
+        hand->poll(index == 0 ? 0 : (double(index) + 0.5) / rate_hz, one);
+        return one.at(0);
+      },
+      rate_hz));
 }
 
 }  // namespace insonate

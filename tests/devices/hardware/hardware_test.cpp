@@ -358,7 +358,7 @@ TEST_CASE("an OSVR tracker turns the probe on the spot") {
 TEST_CASE("the best of several devices is the first that opens, and what keeps one from opening is said") {
   const auto first = std::make_shared<ScriptedBus>(), second = std::make_shared<ScriptedBus>();
   const auto best = [&] {
-    std::vector<std::unique_ptr<LiveSource>> sources;
+    std::vector<std::unique_ptr<RawSource>> sources;
     sources.push_back(std::make_unique<HydraSource>(first, "", 0, Placement({}, true)));
     sources.push_back(std::make_unique<SpaceMouseSource>(second, "", Pose{}, 1.0));
     return BestSource(std::move(sources));

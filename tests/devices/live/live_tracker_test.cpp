@@ -20,7 +20,7 @@ LiveTracker::Options hasty() {
 }
 
 std::unique_ptr<LiveTracker> tracker_of(ScriptedDevice& device, const LiveTracker::Options& options = hasty()) {
-  return std::make_unique<LiveTracker>("a scripted device", std::make_unique<ScriptedSource>(device), options);
+  return std::make_unique<LiveTracker>(std::make_unique<ScriptedSource>(device), options);
 }
 
 std::size_t count(const std::vector<PoseSample>& samples, PoseStatus status) {

@@ -39,6 +39,8 @@ class ScriptedSource : public LiveSource {
 public:
   explicit ScriptedSource(ScriptedDevice& device) : device_(device) {}
 
+  std::string name() const override { return "a scripted device"; }
+
   void open() override {
     if (!device_.plugged_in) throw SourceGone("The scripted device is not plugged in.");
     ++device_.opened;

@@ -3,15 +3,23 @@
 #include "mocked_usb.h"
 #include "testbed.h"
 #include <catch2/catch.hpp>
+#include <unistd.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <string>
 
 #include "devices/hydra/hydra_report.h"
 #include "devices/polhemus/polhemus_stream.h"
+#include "devices/record/recording_files.h"
+#include "devices/replay/raw_replay.h"
+#include "devices/sequence/probe_samples.h"
+#include "sim/core/files.h"
 #include "tests/devices/numbered_reports.h"
+#include "tests/devices/test_samples.h"
 
 using namespace insonate;
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -44,6 +52,8 @@ std::string output_of(const std::vector<std::string>& arguments) {
 /// `watch` of a tracker, in a test bed.
 struct Watch {
   explicit Watch(const std::string& uri) : child({INSONATE_DEVICES_PROGRAM, "watch", uri}) {}
+  Watch(const std::string& uri, const std::string& record, const std::string& record_raw)
+      : child({INSONATE_DEVICES_PROGRAM, "watch", uri, "--record", record, "--record-raw", record_raw}) {}
 
   bool until(
       const std::function<bool()>& done, const std::function<void()>& each_time = [] {}) {
@@ -121,6 +131,38 @@ TEST_CASE("a Hydra that is pulled out is missed, and goes on when it is plugged 
   reports = {hydra_report(3)};
   REQUIRE(watch.until([&] { return places(watch.child.out).size() == 3; }, [&] { hydra->send(reports); }));
   CHECK(places(watch.child.out) == counted(1, 3));
+}
+
+TEST_CASE("what a Hydra sent until the program was killed replays to the samples that were recorded, to the bit") {
+  if (!possible()) return;
+  const fs::path folder = fs::temp_directory_path() / ("insonate_mocked_" + std::to_string(getpid()));
+  fs::create_directories(folder);
+  const fs::path poses = folder / "run.igs.mha", raw = folder / "run.raw";
+  {
+    Testbed testbed;
+    auto hydra = std::make_unique<MockedHid>(testbed, kHydra, 0);
+    Watch watch("hydra:", poses, raw);
+    Report corrupt = hydra_report(7);
+    corrupt[8] ^= 1;
+    std::deque<Report> reports;
+    for (int x = 1; x <= 100; ++x) reports.push_back(x == 7 ? corrupt : hydra_report(x));
+    REQUIRE(watch.until([&] { return places(watch.child.out).size() >= 99; }, [&] { hydra->send(reports); }));
+    hydra->pull();
+    REQUIRE(watch.until([&] { return contains(watch.child.out, "missing"); }));
+    hydra = std::make_unique<MockedHid>(testbed, kHydra, 1);
+    reports = {hydra_report(120)};
+    REQUIRE(watch.until([&] { return places(watch.child.out).size() >= 100; }, [&] { hydra->send(reports); }));
+    // Its file is appended to behind the line that it printed.
+    REQUIRE(watch.until([&] { return contains(read_file(working_file(poses)), "Seq_Frame0101_"); }));
+  }
+  const std::size_t recorded = recover_recording(poses);
+  CHECK(recorded >= 101);
+  const std::vector<PoseSample> came = read_recorded_scan(poses).samples;
+  std::vector<PoseSample> replayed = parse_raw(read_file(raw), raw).samples;
+  REQUIRE(replayed.size() >= recorded);
+  replayed.resize(recorded);
+  CHECK(same_bits(replayed, came));
+  fs::remove_all(folder);
 }
 
 TEST_CASE("a Hydra that may not be opened is told with the rule, and used as soon as it may") {
