@@ -12,7 +12,9 @@ namespace insonate {
 TrackerIdentity tracker_identity(std::string_view uri) {
   const TrackerUri parsed = parse_tracker_uri(uri);
   const bool recorded = parsed.scheme == "replay" || parsed.scheme == "raw";
-  return {parsed.scheme, recorded ? "" : parsed.subject};
+  if (recorded) return {parsed.scheme, ""};
+  const char* const part = parsed.options.contains("handset") ? "handset" : "sensor";
+  return {parsed.scheme, parsed.subject, int(parsed.number(part, 1, 1, 16))};
 }
 
 void check_can_be_calibrated(std::string_view uri) {

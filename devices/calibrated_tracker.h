@@ -9,8 +9,9 @@
 
 namespace insonate {
 
-/// What a calibration calls the tracker of a URI: its kind, and what the URI names (a serial number, a host). Of a
-/// recording nothing, as a file's name says nothing of the tracker that it came from.
+/// What a calibration calls the tracker of a URI: its kind, what the URI names (a serial number, a host), and its
+/// option `sensor` or `handset`. Of a recording nothing but the kind, as a file's name says nothing of the tracker that
+/// it came from. Throws InputError when the URI is none.
 TrackerIdentity tracker_identity(std::string_view uri);
 
 /// Throws InputError for a URI whose tracker places the probe in the patient by itself, such as 'mouse:'.

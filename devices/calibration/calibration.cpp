@@ -9,7 +9,8 @@
 namespace insonate {
 
 std::string TrackerIdentity::words() const {
-  return serial.empty() ? kind : kind + ", serial " + serial;
+  return kind + (serial.empty() ? "" : ", serial " + serial) +
+         (sensor == 1 ? "" : ", sensor " + std::to_string(sensor));
 }
 
 Pose Calibration::patient_from_probe(const Pose& raw) const {
@@ -25,7 +26,7 @@ std::vector<std::string> calibration_warnings(const Calibration& calibration, co
                                               std::int64_t now_s, double days) {
   std::vector<std::string> warnings;
   // A recording does not tell which tracker it came from.
-  if (calibration.tracker != tracker && tracker.kind != "replay")
+  if (calibration.tracker != tracker && tracker.kind != "replay" && tracker.kind != "raw")
     warnings.push_back("The calibration was made with another tracker (" + calibration.tracker.words() + "); this is " +
                        tracker.words() + ".");
   std::int64_t oldest_s = std::numeric_limits<std::int64_t>::max();

@@ -15,12 +15,14 @@
 
 namespace insonate {
 
-/// Which tracker: its URI's scheme, and its serial number where it tells one.
+/// Which sensor of which tracker: its URI's scheme, its serial number where it tells one, and which of its sensors or
+/// handsets, as each sits on the probe in a way of its own.
 struct TrackerIdentity {
   std::string kind;
   std::string serial;
+  int sensor = 1;  ///< from 1
   bool operator==(const TrackerIdentity&) const = default;
-  std::string words() const;  ///< "hydra, serial 1234"
+  std::string words() const;  ///< "hydra, serial 1234, sensor 2"
 };
 
 /// A step of the set-up and when it was made, in seconds since 1970 (UTC).

@@ -14,6 +14,8 @@ namespace {
 constexpr std::size_t kMostBytes = 1u << 20;
 /// Beyond that nothing of a set-up lies (why_not_rigid has the same reach).
 constexpr double kReachMm = 1e5;
+/// A Viper has as many.
+constexpr int kMostSensors = 16;
 
 class Writer {
 public:
@@ -162,6 +164,7 @@ std::string to_toml(const Calibration& calibration) {
   out.line("[tracker]");
   out.text("kind", calibration.tracker.kind);
   if (!calibration.tracker.serial.empty()) out.text("serial", calibration.tracker.serial);
+  if (calibration.tracker.sensor != 1) out.whole("sensor", std::size_t(calibration.tracker.sensor));
   if (const auto& axes = calibration.axes) {
     out.section("[axes]", axes->made_s);
     out.point("position_signs", axes->value.signs.position);
@@ -218,9 +221,10 @@ Calibration parse_calibration(std::string_view text, const std::string& file) {
   top.allow_only({"tracker", "axes", "tip", "face", "mannequin", "lag"});
   Calibration calibration;
   const TomlTable tracker = top.table("tracker");
-  tracker.allow_only({"kind", "serial"});
+  tracker.allow_only({"kind", "serial", "sensor"});
   calibration.tracker.kind = tracker.text("kind");
   if (tracker.has("serial")) calibration.tracker.serial = tracker.text("serial");
+  if (tracker.has("sensor")) calibration.tracker.sensor = tracker.whole_number("sensor", 1, kMostSensors);
   if (top.has("axes")) calibration.axes = read_axes(top.table("axes"));
   if (top.has("tip")) calibration.tip = read_tip(top.table("tip"));
   if (top.has("face")) calibration.face = read_face(top.table("face"));

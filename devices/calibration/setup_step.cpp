@@ -1,5 +1,7 @@
 #include "devices/calibration/setup_step.h"
 
+#include <cstdarg>
+#include <cstdio>
 #include <stdexcept>
 
 #include "devices/calibration/steps.h"
@@ -7,10 +9,21 @@
 namespace insonate {
 
 void SetupStep::feed(const PoseSample& sample) {
-  const bool pressed = (sample.buttons & ~buttons_) != 0;
-  buttons_ = sample.buttons;
+  // Where nothing came, nothing is known of the buttons either: one that is held is not pressed again behind it.
+  const std::uint32_t held = sample.status == PoseStatus::missing ? buttons_ : sample.buttons;
+  const bool pressed = (held & ~buttons_) != 0;
+  buttons_ = held;
   if (pressed) mark(sample.time_s);
   take(sample);
+}
+
+std::string worded(const char* format, ...) {
+  char text[300];
+  std::va_list values;
+  va_start(values, format);
+  std::vsnprintf(text, sizeof text, format, values);
+  va_end(values);
+  return text;
 }
 
 std::string why_not_yet(std::string_view step, const Calibration& base, const SetupGiven& given) {
@@ -23,13 +36,13 @@ std::string why_not_yet(std::string_view step, const Calibration& base, const Se
 }
 
 std::unique_ptr<SetupStep> begin_setup_step(std::string_view step, const Calibration& base, const SetupGiven& given) {
-  if (step == "axes") return std::make_unique<AxesStep>(base);
-  if (step == "pivot") return std::make_unique<PivotStep>(base);
-  if (step == "face" && given.drawing) return std::make_unique<DrawnFaceStep>(base, *given.drawing);
-  if (step == "face") return std::make_unique<FaceStep>(base);
-  if (step == "landmarks" && given.moved) return std::make_unique<LandmarkStep>(base);
-  if (step == "landmarks") return std::make_unique<LandmarkStep>(base, *given.landmarks);
-  if (step == "lag") return std::make_unique<LagStep>(base);
+  if (step == "axes") return axes_step(base);
+  if (step == "pivot") return pivot_step(base);
+  if (step == "face" && given.drawing) return drawn_face_step(base, *given.drawing);
+  if (step == "face") return face_step(base);
+  if (step == "landmarks" && given.moved) return moved_landmark_step(base);
+  if (step == "landmarks") return landmark_step(base, *given.landmarks);
+  if (step == "lag") return lag_step(base);
   throw std::invalid_argument("there is no such step of the set-up");
 }
 

@@ -170,6 +170,11 @@ TEST_CASE("insonate-devices calibrate refuses what it cannot use in a sentence, 
 
 TEST_CASE("trackers are told apart by kind and by what their URI names, recordings are not") {
   CHECK(tracker_identity("hydra:17") == TrackerIdentity{"hydra", "17"});
+  CHECK(tracker_identity("hydra:17?handset=2") == TrackerIdentity{"hydra", "17", 2});
+  CHECK(tracker_identity("polhemus:?sensor=3&raw=1") == TrackerIdentity{"polhemus", "", 3});
+  CHECK(tracker_identity("polhemus:?sensor=1") == tracker_identity("polhemus:"));
+  CHECK(tracker_identity("polhemus:V7?sensor=3").words() == "polhemus, serial V7, sensor 3");
+  CHECK_THROWS_AS(tracker_identity("polhemus:?sensor=0"), InputError);
   CHECK(tracker_identity("replay:a.igs.mha?speed=2") == tracker_identity("replay:b.igs.mha"));
   CHECK_THROWS_AS(check_can_be_calibrated("mouse:"), InputError);
   CHECK_NOTHROW(check_can_be_calibrated("replay:a.igs.mha"));

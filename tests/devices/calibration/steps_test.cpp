@@ -196,3 +196,25 @@ TEST_CASE("other axes than before make what was measured with them worthless, th
   CHECK_FALSE(calibration.tip);
   CHECK(why_incomplete(calibration) == "face");
 }
+
+TEST_CASE("a button that is held over a dropout marks once, and again when it was let go") {
+  struct Counting : SetupStep {
+    Counting() : SetupStep({}) {}
+    void mark(double) override { ++marks; }
+    void undo() override {}
+    SetupView view() const override { return {}; }
+    void store(Calibration&, std::int64_t) const override {}
+    void take(const PoseSample&) override {}
+    int marks = 0;
+  } step;
+  const auto feed = [&](PoseStatus status, std::uint32_t buttons) { step.feed({0, status, {}, buttons}); };
+  feed(PoseStatus::ok, 2);
+  feed(PoseStatus::missing, 0);
+  feed(PoseStatus::ok, 2);
+  feed(PoseStatus::invalid, 2);
+  CHECK(step.marks == 1);
+  // A sample that is no pose tells its buttons all the same.
+  feed(PoseStatus::invalid, 0);
+  feed(PoseStatus::ok, 2);
+  CHECK(step.marks == 2);
+}
