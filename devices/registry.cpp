@@ -67,13 +67,15 @@ std::unique_ptr<Tracker> open_tracker(std::string_view text, const TrackerContex
                      "did you mean 'replay:" + std::string(text) + "'?");
   const TrackerUri uri = parse_tracker_uri(text);
   TrackerUri plain = uri;
-  const FilterSettings filters = take_filter_option(plain);
+  const FilterSettings filters = take_filter_options(plain);
   std::unique_ptr<Tracker> tracker = open_kind(kind_of(uri), plain, context);
   if (auto* live = dynamic_cast<LiveTracker*>(tracker.get()))
     live->set_filters(filters);
-  else if (uri.options.contains("filter"))
-    throw InputError("tracker '" + uri.text + "'", "option 'filter'", "only a live tracker's samples are filtered",
-                     "leave it out");
+  else
+    for (const char* option : {"filter", "distortion"})
+      if (uri.options.contains(option))
+        throw InputError("tracker '" + uri.text + "'", "option '" + std::string(option) + "'",
+                         "only a live tracker's samples are filtered", "leave it out");
   return tracker;
 }
 

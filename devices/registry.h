@@ -25,7 +25,8 @@ struct TrackerKind {
 /// Every kind this build has.
 std::span<const TrackerKind> tracker_kinds();
 
-/// Opens the tracker that `uri` names. `filter` is an option of every live tracker (take_filter_option). Throws
+/// Opens the tracker that `uri` names. `filter` and `distortion`
+/// are options of every live tracker (take_filter_options). Throws
 /// InputError when there is no such kind, an option or its value is not allowed, or what it names (a file) cannot be
 /// used.
 std::unique_ptr<Tracker> open_tracker(std::string_view uri, const TrackerContext& context = {});

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 #include "devices/bytes.h"
@@ -30,9 +31,9 @@ struct SensorReading {
   std::uint32_t sensor = 0;  ///< from 0
   /// ok, or `invalid` when the device flags an error or gives numbers that are no pose; then the pose means nothing.
   PoseStatus status = PoseStatus::invalid;
-  Pose tracker_from_sensor;      ///< mm
-  std::uint32_t buttons = 0;     ///< as the device numbers them
-  std::uint32_t distortion = 0;  ///< as the device grades it; 0 is a clean field or a device that does not say
+  Pose tracker_from_sensor;                 ///< mm
+  std::uint32_t buttons = 0;                ///< as the device numbers them
+  std::optional<std::uint32_t> distortion;  ///< as the device grades it; empty of one that does not say
 };
 
 /// Sets pose and status from millimetres and a quaternion, which is normalised. `invalid` when a number is not finite,

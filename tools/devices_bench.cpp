@@ -70,6 +70,17 @@ void bench_filters(Figures& figures) {
                 percent(measured.mirrored_rejected, measured.mirrored), "%");
     figures.add("rejection", hertz(rate_hz), "others rejected", percent(measured.good_rejected, measured.good), "%");
   }
+  figures.heading(
+      "Distortion: a hand that passes steel, which draws the readings by up to 100 mm; a grade a millimetre");
+  for (const std::uint32_t limit : {50u, 20u, 5u}) {
+    const DistortionFigures measured = measure_distortion(limit);
+    const std::string setting = "limit " + std::to_string(limit);
+    figures.add("distortion", setting, "worst before", measured.worst_before_mm, "mm");
+    figures.add("distortion", setting, "worst after", measured.worst_after_mm, "mm");
+    figures.add("distortion", setting, "RMS before", measured.rms_before_mm, "mm");
+    figures.add("distortion", setting, "RMS after", measured.rms_after_mm, "mm");
+    figures.add("distortion", setting, "rejected", 100 * measured.rejected, "%");
+  }
 }
 
 std::unique_ptr<LiveTracker> paced_tracker(double rate_hz) {

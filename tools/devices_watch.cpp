@@ -29,6 +29,7 @@ void print(const PoseSample& sample) {
     const glm::dquat q = glm::quat_cast(sample.patient_from_probe.rotation);
     std::printf(" %9.3f %9.3f %9.3f mm  %8.5f %8.5f %8.5f %8.5f", p.x, p.y, p.z, q.w, q.x, q.y, q.z);
   }
+  if (sample.distortion) std::printf("  distortion %u", unsigned(*sample.distortion));
   if (sample.buttons) std::printf("  buttons %x", unsigned(sample.buttons));
   std::printf("\n");
 }
@@ -53,6 +54,7 @@ int watch(const Request& request) {
   const double begin_s = steady_now_s(), start_s = tracker->live() ? begin_s : 0;
   std::string problem;
   std::vector<PoseSample> samples;
+  std::fprintf(stderr, "%s\n", tracker->state().name.c_str());
   std::printf("time_s status x y z (probe's face in the patient, LPS) qw qx qy qz\n");
   for (double now_s = 0;;) {
     samples.clear();

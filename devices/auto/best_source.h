@@ -15,7 +15,7 @@ public:
   /// From the best to the worst.
   explicit BestSource(std::vector<std::unique_ptr<RawSource>> sources) : sources_(std::move(sources)) {}
 
-  std::string name() const override { return "the best tracker that is plugged in"; }
+  std::string name() const override { return "the best tracker that is plugged in, without a calibration"; }
   void open() override;
   void read(std::chrono::milliseconds timeout, LiveBatch& batch) override { opened_->read(timeout, batch); }
   std::optional<glm::dvec3> origin() const override { return opened_ ? opened_->origin() : std::nullopt; }

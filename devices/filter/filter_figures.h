@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include "devices/filter/sample_filters.h"
 
@@ -32,5 +33,15 @@ struct RejectionFigures {
   std::size_t mirrored = 0, mirrored_rejected = 0;
 };
 RejectionFigures measure_rejection(const FilterSettings& settings, double rate_hz);
+
+/// A hand that passes a piece of steel again and again, which draws the readings towards it by up to 100 mm, and a
+/// tracker that grades each reading by how far it is off. How well a real one does that, only it can tell.
+struct DistortionFigures {
+  double worst_before_mm = 0, worst_after_mm = 0;  ///< off where the probe is, among the samples that are handed over
+  double rms_before_mm = 0, rms_after_mm = 0;
+  double rejected = 0;  ///< share of the samples
+};
+/// At 60 Hz, with the gate's limit on a scale where a millimetre is one grade.
+DistortionFigures measure_distortion(std::uint32_t most_distortion);
 
 }  // namespace insonate

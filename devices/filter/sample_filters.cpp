@@ -1,5 +1,6 @@
 #include "devices/filter/sample_filters.h"
 
+#include <cmath>
 #include <string_view>
 #include <vector>
 
@@ -14,7 +15,9 @@ struct Named {
   bool FilterSettings::*on;
 };
 
-constexpr Named kFilters[] = {{"1euro", &FilterSettings::one_euro}, {"outlier", &FilterSettings::outlier}};
+constexpr Named kFilters[] = {{"1euro", &FilterSettings::one_euro},
+                              {"outlier", &FilterSettings::outlier},
+                              {"distortion", &FilterSettings::distortion}};
 
 void switch_on(FilterSettings& settings, std::string_view name, const TrackerUri& uri) {
   std::vector<std::string> names;
@@ -39,9 +42,16 @@ std::string to_string(const FilterSettings& settings) {
   return names.empty() ? "off" : names;
 }
 
-FilterSettings take_filter_option(TrackerUri& uri) {
+FilterSettings take_filter_options(TrackerUri& uri) {
   const auto raw = uri.options.find("raw");
-  FilterSettings settings = raw != uri.options.end() && raw->second == "1" ? FilterSettings() : FilterSettings::all();
+  FilterSettings settings = raw != uri.options.end() && raw->second == "1" ? FilterSettings() : FilterSettings::usual();
+  constexpr double kWorst = 4294967295;  // a grade has 32 bits at most
+  const double limit = uri.number("distortion", 0, 0, kWorst);
+  if (limit != std::floor(limit))
+    throw InputError("tracker '" + uri.text + "'", "option 'distortion'", "the limit is no whole number", "change it");
+  settings.most_distortion = std::uint32_t(limit);
+  settings.distortion = !uri.options.extract("distortion").empty();
+  const bool has_limit = settings.distortion;
   const auto given = uri.options.extract("filter");
   if (given.empty()) return settings;
   for (const Named& filter : kFilters) settings.*filter.on = false;
@@ -49,14 +59,20 @@ FilterSettings take_filter_option(TrackerUri& uri) {
   for (std::string_view rest = given.mapped();;) {
     const std::string_view name = rest.substr(0, rest.find(','));
     switch_on(settings, name, uri);
-    if (name.size() == rest.size()) return settings;
+    if (name.size() == rest.size()) break;
     rest.remove_prefix(name.size() + 1);
   }
+  if (settings.distortion && !has_limit)
+    throw InputError("tracker '" + uri.text + "'", "option 'filter'", "'distortion' has no limit",
+                     "give it, as in '&distortion=20'");
+  return settings;
 }
 
 void SampleFilters::apply(PoseSample& sample, const std::optional<glm::dvec3>& origin) {
   if (sample.status != PoseStatus::ok) return;
-  if (settings_.outlier && !outliers_.accepts(sample.time_s, sample.patient_from_probe, origin)) {
+  // What is bent is no reading for the others to learn from.
+  const bool bent = settings_.distortion && sample.distortion.value_or(0) > settings_.most_distortion;
+  if (bent || (settings_.outlier && !outliers_.accepts(sample.time_s, sample.patient_from_probe, origin))) {
     sample.status = PoseStatus::invalid;
     sample.patient_from_probe = Pose{};
     return;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -12,19 +13,25 @@ namespace insonate {
 
 /// What is done to a tracker's samples between the device and whoever uses them.
 struct FilterSettings {
-  bool outlier = false;   ///< OutlierGate
-  bool one_euro = false;  ///< OneEuroFilter
+  bool outlier = false;     ///< OutlierGate
+  bool one_euro = false;    ///< OneEuroFilter
+  bool distortion = false;  ///< rejects what the tracker itself grades worse than most_distortion
+  /// On the tracker's own scale (PoseSample::distortion); samples without a grade pass.
+  std::uint32_t most_distortion = 0;
 
-  static FilterSettings all() { return {true, true}; }
+  /// Those that need no figure from a person.
+  static FilterSettings usual() { return {.outlier = true, .one_euro = true}; }
   bool operator==(const FilterSettings&) const = default;
 };
 
 /// The settings as a person writes them: "1euro,outlier", or "off".
 std::string to_string(const FilterSettings& settings);
 
-/// Takes `filter` out of a tracker's options: `?filter=off`, `?filter=1euro,outlier`. When it is not given they are
-/// all on, or all off where `?raw=1` asks for the poses as they come. Throws InputError when a filter is unknown.
-FilterSettings take_filter_option(TrackerUri& uri);
+/// Takes `filter` and `distortion` out of a tracker's options: `?filter=off`, `?filter=1euro,outlier`,
+/// `?distortion=20`. When `filter` is not given the usual ones are on, or none where `?raw=1` asks for the poses as
+/// they come, and `distortion` is where its limit is given. Throws InputError when a filter is unknown, or when
+/// `distortion` has no limit or none that is a whole number.
+FilterSettings take_filter_options(TrackerUri& uri);
 
 /// The filters of one tracker. A rejected sample becomes `invalid` and loses its pose: the others see that the tracker
 /// said something at that time, and nothing moves. Those that are not ok pass untouched.

@@ -3,6 +3,7 @@
 #include <hidapi.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <utility>
@@ -22,7 +23,9 @@ public:
   HidTransport(AttachedDevice device, hid_device* handle) : device_(std::move(device)), handle_(handle, &hid_close) {}
 
   std::size_t read(std::span<std::uint8_t> into, std::chrono::milliseconds timeout) override {
-    const int got = hid_read_timeout(handle_.get(), into.data(), into.size(), int(timeout.count()));
+    // Below 0 is none to hidapi: it would wait for ever.
+    const auto wait_ms = int(std::max<std::chrono::milliseconds::rep>(timeout.count(), 1));
+    const int got = hid_read_timeout(handle_.get(), into.data(), into.size(), wait_ms);
     if (got < 0) throw gone(device_, narrow(hid_error(handle_.get())));
     return std::size_t(got);
   }

@@ -14,7 +14,7 @@ constexpr DeviceKind kKind{.name = "Razer Hydra", .models = kModels, .interface_
 
 HydraSource::HydraSource(std::shared_ptr<DeviceBus> bus, const std::string& serial, std::size_t handset,
                          const Placement& placement, std::function<double()> clock_s)
-    : DeviceSource(kKind, std::move(bus), serial, std::move(clock_s)), handset_(handset), placement_(placement) {}
+    : MagneticSource(kKind, std::move(bus), serial, placement, std::move(clock_s)), handset_(handset) {}
 
 void HydraSource::start(Transport& transport, const AttachedDevice&) {
   transport.send(hydra_mode(true));

@@ -2,8 +2,7 @@
 
 #include <memory>
 
-#include "devices/live/device_source.h"
-#include "devices/live/placement.h"
+#include "devices/live/magnetic_source.h"
 #include "devices/tracker_context.h"
 #include "devices/tracker_uri.h"
 
@@ -11,12 +10,10 @@ namespace insonate {
 
 /// One handset of a Razer Hydra. The magnetic field has two sides that look the same: the handset must lie in its dock
 /// when the device is started, and one that comes close to the base later can come back mirrored.
-class HydraSource : public DeviceSource {
+class HydraSource : public MagneticSource {
 public:
   HydraSource(std::shared_ptr<DeviceBus> bus, const std::string& serial, std::size_t handset,
               const Placement& placement, std::function<double()> clock_s = steady_now_s);
-
-  std::optional<glm::dvec3> origin() const override { return placement_.origin(); }
 
 protected:
   void start(Transport& transport, const AttachedDevice& device) override;
@@ -25,7 +22,6 @@ protected:
 
 private:
   std::size_t handset_;  ///< 0 or 1
-  Placement placement_;
   ReportNumbers numbers_{256};
 };
 

@@ -6,7 +6,6 @@
 #include <array>
 #include <cerrno>
 #include <charconv>
-#include <cmath>
 #include <cstring>
 #include <system_error>
 #include <thread>
@@ -58,7 +57,7 @@ void ClientSource::begin(double time_s) {
   others_.clear();
   status_.clear();
   damaged_ = 0;
-  offset_s_.reset();
+  clock_ = request_.clock;
   reader_ =
       std::make_unique<MessageReader>([this](const Header& header) { return wants(header); },
                                       [this](const Header& header, ByteView body) { take(header, body, *batch_); });
@@ -162,6 +161,7 @@ void ClientSource::replay_read(insonate::Bytes bytes, double time_s, LiveBatch& 
     case MessageReader::Damage::not_igtl:
       give_up("What " + where_ + " sends is not OpenIGTLink: check the port.");
   }
+  batch.note = note(time_s);
 }
 
 bool ClientSource::wants(const Header& header) {
@@ -180,6 +180,7 @@ void ClientSource::take(const Header& header, ByteView body, LiveBatch& batch) {
   if (header.type == "STATUS") {
     const auto status = parse_status(parts->content);
     if (status) status_ = status->code == kStatusOk ? "" : status->text;
+    status_s_ = arrival_s_;
     return;
   }
   const auto matrix = parse_transform(parts->content);
@@ -197,13 +198,11 @@ void ClientSource::take(const Header& header, ByteView body, LiveBatch& batch) {
 
 double ClientSource::time_of(const Header& header, double arrival_s) {
   if (!request_.sender_times || header.stamp == 0) return arrival_s;
-  const double sent_s = seconds_of(header.stamp);
-  if (!offset_s_ || std::abs(sent_s + *offset_s_ - arrival_s) > request_.most_drift_s) offset_s_ = arrival_s - sent_s;
-  return sent_s + *offset_s_;
+  return clock_.time_of(seconds_of(header.stamp), arrival_s);
 }
 
 std::string ClientSource::note(double now_s) const {
-  if (!status_.empty()) return where_ + " reports: " + status_;
+  if (!status_.empty() && now_s - status_s_ < kStatusTold_s) return where_ + " reports: " + status_;
   if (now_s - since_s_ > kNameMissing_s) {
     if (others_.empty()) return where_ + " is connected but sends no transform.";
     std::string names;

@@ -9,6 +9,7 @@
 #include "devices/igtl/host_lookup.h"
 #include "devices/igtl/igtl_reader.h"
 #include "devices/igtl/net_socket.h"
+#include "devices/igtl/sender_clock.h"
 #include "devices/live/raw_source.h"
 #include "devices/tracker_context.h"
 #include "devices/tracker_uri.h"
@@ -22,19 +23,18 @@ struct ClientRequest {
   std::string name;           ///< of the transform; empty: the first that comes
   bool ras = false;           ///< transforms lead to RAS instead of LPS
   bool sender_times = false;  ///< steps between samples are those of the messages' own times
-  double most_drift_s = 2.0;  ///< a sender's clock that is further from ours than when it was set counts as set anew
+  SenderClock clock;          ///< that takes them to ours
 };
 
 /// Poses from an OpenIGTLink server: its TRANSFORM messages. Reading never waits longer than asked, and what the server
 /// sends is bounded by MessageReader, whatever it is.
 ///
-/// Samples are stamped when their bytes arrive. With `sender_times` the first one is, and the others follow at the
-/// steps of their messages' stamps; when those run backwards or away from ours by more than most_drift_s, they are
-/// tied to the arrival anew.
+/// Samples are stamped when their bytes arrive, or with `sender_times` by their messages' own stamps (SenderClock).
 class ClientSource : public RawSource {
 public:
   static constexpr double kConnect_s = 3.0;      ///< a host that has not answered by then is asked again later
   static constexpr double kNameMissing_s = 2.0;  ///< after so long without the transform that was named, say so
+  static constexpr double kStatusTold_s = 5.0;   ///< for so long a STATUS is told that nothing has revoked
 
   explicit ClientSource(ClientRequest request);
 
@@ -70,9 +70,10 @@ private:
   std::string followed_;             ///< the transform that is taken
   std::vector<std::string> others_;  ///< names that came but are not taken, some of them
   std::string status_;               ///< what the server's last STATUS complained of
+  double status_s_ = 0;              ///< when that came
   std::uint64_t damaged_ = 0;        ///< messages whose CRC was wrong
   std::string failure_;              ///< why the last connection failed, until a sample comes
-  std::optional<double> offset_s_;   ///< from the sender's clock to ours
+  SenderClock clock_;
 };
 
 /// igtl://host[:port][/name][?frame=ras&time=sender]. Opens nothing yet. Throws InputError.

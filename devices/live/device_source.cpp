@@ -108,7 +108,7 @@ void DeviceSource::replay_read(Bytes bytes, double time_s, LiveBatch& batch) {
     ++starts_;
     start(*transport_, device_);
   }
-  batch.note = note(time_s);
+  if (const std::string told = note(time_s); !told.empty()) batch.note = told;
 }
 
 std::string DeviceSource::note(double now_s) {

@@ -46,7 +46,7 @@ public:
   DeviceSource(const DeviceKind& kind, std::shared_ptr<DeviceBus> bus, std::string serial,
                std::function<double()> clock_s = steady_now_s);
 
-  std::string name() const final { return std::string(kind_.name); }
+  std::string name() const final { return std::string(kind_.name) + std::string(remark()); }
   void open() final;
   void read(std::chrono::milliseconds timeout, LiveBatch& batch) final;
   void close() noexcept final;
@@ -56,6 +56,9 @@ public:
   const ReportTally& tally() const { return tally_; }
 
 protected:
+  /// What follows the device's name, for people.
+  virtual std::string_view remark() const { return ""; }
+
   /// Sends what makes the device send poses. Called when it was opened, and again whenever it has been silent for
   /// kStartS. Throws TransportError.
   virtual void start(Transport& transport, const AttachedDevice& device) = 0;
@@ -64,7 +67,8 @@ protected:
   virtual void stop(Transport&) {}
 
   /// Takes what one read brought, which is nothing when the time ran out; `time_s` is when it came. Appends samples and
-  /// counts in `tally`. Returns whether it was what the device sends once it has started.
+  /// counts in `tally`; what else people should know goes into the batch's note. Returns whether it was what the device
+  /// sends once it has started.
   virtual bool take(Bytes bytes, double time_s, LiveBatch& batch, ReportTally& tally) = 0;
 
 private:

@@ -4,20 +4,13 @@
 
 #include <chrono>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "devices/transport/source_gone.h"
 #include "sim/core/pose_sample.h"
 
 namespace insonate {
-
-/// A device cannot be used now, or no longer: what() is a sentence for people that says what to do ("The tracker is not
-/// plugged in.").
-class SourceGone : public std::runtime_error {
-public:
-  using std::runtime_error::runtime_error;
-};
 
 /// What one read brought.
 struct LiveBatch {
@@ -36,8 +29,9 @@ public:
   /// What people call it: "Razer Hydra".
   virtual std::string name() const = 0;
 
-  /// Looks for the device and starts it. Takes no longer than a read may: what needs longer goes on in read(). Throws
-  /// SourceGone when it is not there, busy or forbidden, and leaves nothing open then.
+  /// Looks for the device and starts it, which may take a second or two: a bus is listed, a device has to answer. Only
+  /// the tracker's thread waits. Throws SourceGone when it is not there, busy or forbidden, and leaves nothing open
+  /// then.
   virtual void open() = 0;
 
   /// Waits for samples, no longer than `timeout`, and appends to `batch` what came, which may be nothing. Equal or
@@ -48,7 +42,7 @@ public:
   /// image through that point.
   virtual std::optional<glm::dvec3> origin() const { return std::nullopt; }
 
-  /// Lets go of the device. Called after each open() that went well.
+  /// Lets go of the device, which may take as long. Called after each open() that went well.
   virtual void close() noexcept = 0;
 };
 

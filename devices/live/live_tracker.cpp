@@ -2,8 +2,14 @@
 
 #include <algorithm>
 #include <condition_variable>
+#include <mutex>
+#include <stop_token>
 #include <utility>
 
+#include "devices/live/hand_over.h"
+#include "devices/live/left_threads.h"
+#include "devices/live/raw_source.h"
+#include "devices/live/sample_ring.h"
 #include "devices/live/steady_clock.h"
 
 namespace insonate {
@@ -15,100 +21,163 @@ double seconds(std::chrono::milliseconds duration) {
 
 }  // namespace
 
-LiveTracker::LiveTracker(std::unique_ptr<LiveSource> source, const Options& options)
-    : Tracker(source->name()), options_(options), source_(std::move(source)), ring_(options.capacity) {}
+/// What the thread does, and all that it needs.
+class LiveTracker::Reader {
+public:
+  Reader(std::unique_ptr<LiveSource> source, const Options& options)
+      : options_(options), source_(std::move(source)), ring_(options.capacity) {}
 
-LiveTracker::~LiveTracker() = default;  // the thread, last of the members, is stopped and joined first
+  // Before the thread begins
+  void set_filters(const FilterSettings& settings) { hand_over_ = HandOver(settings); }
+  const FilterSettings& filters() const { return hand_over_.filters(); }
+  bool record_raw(const std::shared_ptr<RawTap>& tap) {
+    auto* raw = dynamic_cast<RawSource*>(source_.get());
+    if (!raw) return false;
+    raw->record_raw(tap);
+    tap_ = tap;
+    return true;
+  }
+
+  // On the thread
+  void run(const std::stop_token& stop) {
+    join_left_threads(stop);
+    auto wait = options_.first_pause;
+    while (!stop.stop_requested()) {
+      if (open_source()) {
+        brought_any_ = false;
+        while (!stop.stop_requested() && read_source()) tell_silence();
+        source_->close();
+        if (brought_any_) wait = options_.first_pause;
+      }
+      pause(stop, wait);
+      wait = std::min(2 * wait, options_.longest_pause);
+    }
+    const std::lock_guard lock(mutex_);
+    ended_ = true;
+    end_.notify_all();
+  }
+
+  // On the polling thread
+  void drain(std::vector<PoseSample>& samples, std::string& problem) {
+    ring_.drain(samples);
+    // Who cannot have it now keeps what it knew.
+    if (const std::unique_lock lock(mutex_, std::try_to_lock); lock) problem = told_;
+  }
+  std::uint64_t dropped() const { return ring_.dropped(); }
+  bool ends_within(std::chrono::milliseconds how_long) {
+    std::unique_lock lock(mutex_);
+    return end_.wait_for(lock, how_long, [this] { return ended_; });
+  }
+
+private:
+  bool open_source() {
+    try {
+      source_->open();
+      return true;
+    } catch (const std::exception& error) {
+      tell(error.what());
+      return false;
+    }
+  }
+
+  bool read_source() {
+    batch_.samples.clear();
+    batch_.note.clear();
+    std::string problem;
+    bool there = true;
+    try {
+      source_->read(options_.read, batch_);
+      problem = batch_.note;
+    } catch (const std::exception& error) {
+      problem = error.what();
+      there = false;
+    }
+    // What came before the source was lost counts.
+    for (const PoseSample& sample : batch_.samples) hand_over(sample);
+    if (!batch_.samples.empty()) {
+      heard_s_ = steady_now_s();
+      heard_ = brought_any_ = true;
+    }
+    tell(problem);
+    return there;
+  }
+
+  void hand_over(PoseSample sample) {
+    hand_over_.apply(sample, source_->origin());
+    ring_.push(sample);
+  }
+
+  void tell_silence() {
+    if (!heard_) return;
+    const double now_s = steady_now_s(), last_s = hand_over_.last_time_s();
+    if (now_s - heard_s_ < seconds(options_.silence) || now_s - last_s < seconds(options_.heartbeat)) return;
+    if (tap_) tap_->silent(now_s);
+    hand_over(silence_at(now_s));
+  }
+
+  void tell(const std::string& problem) {
+    const std::lock_guard lock(mutex_);
+    if (told_ != problem) told_ = problem;
+  }
+
+  void pause(const std::stop_token& stop, std::chrono::milliseconds how_long) {
+    std::mutex mutex;
+    std::condition_variable_any stopped;
+    std::unique_lock lock(mutex);
+    const auto end = std::chrono::steady_clock::now() + how_long;
+    while (!stop.stop_requested() && std::chrono::steady_clock::now() < end) {
+      const auto beat = std::min(end, std::chrono::steady_clock::now() + options_.heartbeat);
+      stopped.wait_until(lock, stop, beat, [] { return false; });
+      tell_silence();
+    }
+  }
+
+  const Options options_;
+  const std::unique_ptr<LiveSource> source_;
+  LiveBatch batch_;
+  HandOver hand_over_;
+  std::shared_ptr<RawTap> tap_;
+  double heard_s_ = 0;        ///< when the source last brought a sample
+  bool heard_ = false;        ///< whether it ever did
+  bool brought_any_ = false;  ///< whether it did since it was opened
+
+  // Between the threads
+  SampleRing<PoseSample> ring_;
+  std::mutex mutex_;
+  std::string told_;
+  bool ended_ = false;
+  std::condition_variable end_;
+};
+
+LiveTracker::LiveTracker(std::unique_ptr<LiveSource> source, const Options& options)
+    : Tracker(source->name()), reader_(std::make_shared<Reader>(std::move(source), options)), ending_(options.ending) {}
+
+LiveTracker::~LiveTracker() {
+  if (!thread_.joinable()) return;
+  thread_.request_stop();
+  if (!reader_->ends_within(ending_)) leave_thread(std::move(thread_));
+}
+
+void LiveTracker::set_filters(const FilterSettings& settings) {
+  reader_->set_filters(settings);
+}
+
+const FilterSettings& LiveTracker::filters() const {
+  return reader_->filters();
+}
 
 bool LiveTracker::record_raw(const std::shared_ptr<RawTap>& tap) {
-  auto* raw = dynamic_cast<RawSource*>(source_.get());
-  if (!raw) return false;
-  raw->record_raw(tap);
-  tap_ = tap;
-  return true;
+  return reader_->record_raw(tap);
+}
+
+std::uint64_t LiveTracker::dropped() const {
+  return reader_->dropped();
 }
 
 void LiveTracker::collect(double, std::vector<PoseSample>& samples) {
-  if (!thread_.joinable()) thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
-  ring_.drain(samples);
-  if (const std::unique_lock lock(told_mutex_, std::try_to_lock); lock) problem_ = told_;
-}
-
-void LiveTracker::run(const std::stop_token& stop) {
-  auto wait = options_.first_pause;
-  while (!stop.stop_requested()) {
-    if (open_source()) {
-      brought_any_ = false;
-      while (!stop.stop_requested() && read_source()) tell_silence();
-      source_->close();
-      if (brought_any_) wait = options_.first_pause;
-    }
-    pause(stop, wait);
-    wait = std::min(2 * wait, options_.longest_pause);
-  }
-}
-
-bool LiveTracker::open_source() {
-  try {
-    source_->open();
-    return true;
-  } catch (const std::exception& error) {
-    tell(error.what());
-    return false;
-  }
-}
-
-bool LiveTracker::read_source() {
-  batch_.samples.clear();
-  batch_.note.clear();
-  std::string problem;
-  bool there = true;
-  try {
-    source_->read(options_.read, batch_);
-    problem = batch_.note;
-  } catch (const std::exception& error) {
-    problem = error.what();
-    there = false;
-  }
-  // What came before the source was lost counts.
-  for (const PoseSample& sample : batch_.samples) hand_over(sample);
-  if (!batch_.samples.empty()) {
-    heard_s_ = steady_now_s();
-    heard_ = brought_any_ = true;
-  }
-  tell(problem);
-  return there;
-}
-
-void LiveTracker::hand_over(PoseSample sample) {
-  hand_over_.apply(sample, source_->origin());
-  ring_.push(sample);
-}
-
-void LiveTracker::tell_silence() {
-  if (!heard_) return;
-  const double now_s = steady_now_s();
-  const double last_s = hand_over_.last_time_s();
-  if (now_s - heard_s_ < seconds(options_.silence) || now_s - last_s < seconds(options_.heartbeat)) return;
-  if (tap_) tap_->silent(now_s);
-  hand_over(silence_at(now_s));
-}
-
-void LiveTracker::tell(const std::string& problem) {
-  const std::lock_guard lock(told_mutex_);
-  if (told_ != problem) told_ = problem;
-}
-
-void LiveTracker::pause(const std::stop_token& stop, std::chrono::milliseconds how_long) {
-  std::mutex mutex;
-  std::condition_variable_any stopped;
-  std::unique_lock lock(mutex);
-  const auto end = std::chrono::steady_clock::now() + how_long;
-  while (!stop.stop_requested() && std::chrono::steady_clock::now() < end) {
-    const auto beat = std::min(end, std::chrono::steady_clock::now() + options_.heartbeat);
-    stopped.wait_until(lock, stop, beat, [] { return false; });
-    tell_silence();
-  }
+  if (!thread_.joinable())
+    thread_ = std::jthread([reader = reader_](const std::stop_token& stop) { reader->run(stop); });
+  reader_->drain(samples, problem_);
 }
 
 }  // namespace insonate

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 
 #include "sim/core/pose.h"
 
@@ -17,6 +18,11 @@ public:
     if (raw_) return tracker_from_sensor;
     if (!patient_from_tracker_) patient_from_tracker_ = start_ * tracker_from_sensor.inverse();
     return *patient_from_tracker_ * tracker_from_sensor;
+  }
+
+  /// What people have to know of how the probe got where it is; empty for the sensor's own pose.
+  std::string_view remark() const {
+    return raw_ ? "" : ", not calibrated: the probe began where the sensor was first seen";
   }
 
   /// The tracker's own origin in the frame that the poses come in.

@@ -19,7 +19,7 @@ struct ReportTally {
 
   void count(ReportFault fault);
   std::uint64_t incidents() const { return cut + foreign + corrupt + repeated + late + missed; }
-  /// "3 corrupt and 5 missed"; empty without incidents.
+  /// "3 corrupt, 5 missed"; empty without incidents.
   std::string incidents_in_words() const;
 };
 

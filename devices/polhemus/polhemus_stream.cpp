@@ -90,7 +90,8 @@ void PolhemusStream::add(Bytes bytes, std::vector<PolhemusRecord>& records) {
     const Front front = look(Bytes(kept_).subspan(done), records);
     if (front.what == Front::begun) break;
     corrupt_ += front.what == Front::damaged;
-    if (front.what != Front::complete) ++passed_over_;
+    foreign_ += front.what == Front::nothing && in_order_;
+    in_order_ = front.what == Front::complete;
     done += front.what == Front::complete ? front.length : 1;
   }
   kept_.erase(kept_.begin(), kept_.begin() + std::ptrdiff_t(done));

@@ -27,15 +27,20 @@ public:
 
   /// Frames that began as one and then failed their checksum, or held no pose where only a pose can be.
   std::uint64_t corrupt() const { return corrupt_; }
-  /// Bytes that belonged to no record.
-  std::uint64_t passed_over() const { return passed_over_; }
+  /// Stretches of bytes behind a record that belonged to none: replies, text, noise. Not those of a corrupt frame, nor
+  /// those that come before the first record.
+  std::uint64_t foreign() const { return foreign_; }
   /// Forgets a record begun: the connection was made anew.
-  void restart() { kept_.clear(); }
+  void restart() {
+    kept_.clear();
+    in_order_ = false;
+  }
 
 private:
   std::vector<std::uint8_t> kept_;
   std::uint64_t corrupt_ = 0;
-  std::uint64_t passed_over_ = 0;
+  std::uint64_t foreign_ = 0;
+  bool in_order_ = false;  ///< what came last was a record
 };
 
 /// What is sent to a Viper: its command's number, an action, and a payload if it takes one.

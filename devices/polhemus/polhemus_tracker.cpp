@@ -15,6 +15,7 @@ constexpr DeviceKind::Model kModels[] = {
     {kVendor, 0xff20, {0x04, 0x88}},  // Liberty HS
     {kVendor, kViper, {0x02, 0x81}},  // Viper
 };
+constexpr std::uint32_t kMostSensors = 16;
 constexpr DeviceKind kKind{.name = "Polhemus tracker", .models = kModels};
 
 void send(Transport& transport, std::string_view text) {
@@ -23,9 +24,9 @@ void send(Transport& transport, std::string_view text) {
 
 }  // namespace
 
-PolhemusSource::PolhemusSource(std::shared_ptr<DeviceBus> bus, const std::string& serial, const Options& options,
+PolhemusSource::PolhemusSource(std::shared_ptr<DeviceBus> bus, const std::string& serial, std::uint32_t sensor,
                                const Placement& placement, std::function<double()> clock_s)
-    : DeviceSource(kKind, std::move(bus), serial, std::move(clock_s)), options_(options), placement_(placement) {}
+    : MagneticSource(kKind, std::move(bus), serial, placement, std::move(clock_s)), sensor_(sensor) {}
 
 void PolhemusSource::start(Transport& transport, const AttachedDevice& device) {
   viper_ = device.product == kViper;
@@ -40,6 +41,8 @@ void PolhemusSource::start(Transport& transport, const AttachedDevice& device) {
   }
   stream_.restart();
   numbers_.restart();
+  others_ = 0;
+  sensor_s_.reset();
 }
 
 void PolhemusSource::stop(Transport& transport) {
@@ -51,28 +54,42 @@ void PolhemusSource::stop(Transport& transport) {
 
 bool PolhemusSource::take(Bytes bytes, double time_s, LiveBatch& batch, ReportTally& tally) {
   records_.clear();
-  const std::uint64_t corrupt = stream_.corrupt();
+  const std::uint64_t corrupt = stream_.corrupt(), foreign = stream_.foreign();
   stream_.add(bytes, records_);
   tally.corrupt += stream_.corrupt() - corrupt;
+  tally.foreign += stream_.foreign() - foreign;
   tally.taken += records_.size();
   for (const PolhemusRecord& record : records_) {
     const SensorReading& reading = record.reading;
-    if (reading.sensor != options_.sensor || !numbers_.is_news(record.frame, tally)) continue;
-    PoseSample sample{time_s, reading.status, {}, probe_buttons(ButtonsOf::polhemus, reading.buttons)};
-    if (reading.distortion > options_.most_distortion) sample.status = PoseStatus::invalid;
+    if (reading.sensor == sensor_ || !sensor_s_) sensor_s_ = time_s;
+    if (reading.sensor != sensor_) {
+      if (reading.sensor < kMostSensors) others_ |= 1u << reading.sensor;
+      continue;
+    }
+    if (!numbers_.is_news(record.frame, tally)) continue;
+    PoseSample sample{
+        time_s, reading.status, {}, probe_buttons(ButtonsOf::polhemus, reading.buttons), reading.distortion};
     if (sample.status == PoseStatus::ok)
       sample.patient_from_probe = placement_.patient_from_probe(reading.tracker_from_sensor);
     batch.samples.push_back(sample);
   }
+  if (others_ != 0 && time_s - sensor_s_.value_or(time_s) > kSensorMissingS) batch.note = missing_sensor();
   return !records_.empty();
 }
 
+std::string PolhemusSource::missing_sensor() const {
+  std::string others;
+  for (std::uint32_t i = 0; i < kMostSensors; ++i)
+    if ((others_ >> i & 1) != 0) others += (others.empty() ? "" : ", ") + std::to_string(i + 1);
+  const std::string wanted = std::to_string(sensor_ + 1);
+  return "The Polhemus tracker sends sensor " + others + " but not sensor " + wanted +
+         ": plug that in, or follow another, as in 'polhemus:?sensor=" + others.substr(0, others.find(',')) + "'.";
+}
+
 std::unique_ptr<RawSource> make_polhemus(const TrackerUri& uri, const TrackerContext& context) {
-  uri.allow_options({"sensor", "distortion", "raw"});
-  PolhemusSource::Options options;
-  options.sensor = std::uint32_t(uri.number("sensor", 1, 1, 16)) - 1;
-  if (uri.options.contains("distortion")) options.most_distortion = std::uint32_t(uri.number("distortion", 0, 0, 1e6));
-  return std::make_unique<PolhemusSource>(std::make_shared<UsbBus>(), uri.subject, options,
+  uri.allow_options({"sensor", "raw"});
+  const auto sensor = std::uint32_t(uri.number("sensor", 1, 1, kMostSensors)) - 1;
+  return std::make_unique<PolhemusSource>(std::make_shared<UsbBus>(), uri.subject, sensor,
                                           Placement(context.start, uri.flag("raw", false)));
 }
 

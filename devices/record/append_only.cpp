@@ -1,6 +1,7 @@
 #include "devices/record/append_only.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -18,6 +19,8 @@ AppendOnlyFile::AppendOnlyFile(std::filesystem::path file) : file_(std::move(fil
   if (descriptor_ < 0)
     throw InputError(file_.string(), "", std::string("it cannot be written (") + std::strerror(errno) + ")",
                      "name a new file in a folder that may be written");
+  // Only a sign for others, and not every file system has it.
+  ::flock(descriptor_, LOCK_EX | LOCK_NB);
 }
 
 AppendOnlyFile::~AppendOnlyFile() {
@@ -34,6 +37,14 @@ void AppendOnlyFile::append(std::string_view bytes) {
     bytes.remove_prefix(std::size_t(written));
     size_ += std::uint64_t(written);
   }
+}
+
+bool is_being_written(const std::filesystem::path& file) {
+  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  const bool locked = ::flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  ::close(descriptor);
+  return locked;
 }
 
 }  // namespace insonate

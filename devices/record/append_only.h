@@ -6,8 +6,8 @@
 
 namespace insonate {
 
-/// A file that is made new and only ever appended to. What append() has returned from is the operating system's: the
-/// program may be killed then.
+/// A file that is made new and only ever appended to, by one: others can tell while it is (is_being_written). What
+/// append() has returned from is the operating system's: the program may be killed then.
 class AppendOnlyFile {
 public:
   /// Throws InputError when the file is there already or cannot be made. Makes the parent folders.
@@ -27,5 +27,8 @@ private:
   int descriptor_;
   std::uint64_t size_ = 0;
 };
+
+/// Whether an AppendOnlyFile has it open, of this program or another.
+bool is_being_written(const std::filesystem::path& file);
 
 }  // namespace insonate

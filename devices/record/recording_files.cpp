@@ -4,7 +4,9 @@
 #include <array>
 #include <fstream>
 #include <string_view>
+#include <vector>
 
+#include "devices/record/append_only.h"
 #include "devices/sequence/header_text.h"
 #include "devices/sequence/sequence_text.h"
 #include "sim/core/files.h"
@@ -17,38 +19,75 @@ constexpr std::string_view kHead = "insonate recording 1 ", kFrameEnd = "frame "
 /// No screen is wider.
 constexpr int kLargestPicture = 16384;
 
-/// What of a recording is there as a whole.
-struct Whole {
-  std::size_t frames = 0;
-  std::uint64_t image_bytes = 0;
-  std::uint32_t adler = 1;
-  std::string lines;  ///< of those frames
+/// No line of a recording is longer: a frame's has 16 numbers.
+constexpr std::size_t kLongestLine = 4096;
+
+/// The lines of a working file, one after the other, so that it may be larger than the memory.
+class Lines {
+public:
+  explicit Lines(const std::filesystem::path& file) : stream_(file, std::ios::binary), buffer_(kLongestLine) {}
+
+  /// False when there is no further line that is whole.
+  bool next() {
+    stream_.getline(buffer_.data(), std::streamsize(buffer_.size()));
+    if (!stream_ || stream_.eof()) return false;
+    line_ = std::string_view(buffer_.data(), std::size_t(stream_.gcount()) - 1);
+    return true;
+  }
+  std::string_view line() const { return line_; }
+
+private:
+  std::ifstream stream_;
+  std::vector<char> buffer_;
+  std::string_view line_;
 };
 
-/// Reads the frames whose lines are all there, and whose pictures lie within `images` bytes.
-Whole whole_frames(std::string_view text, std::uint64_t images) {
+/// The first line's: the size of a picture.
+struct Head {
+  int width = 0, height = 0;
+  bool with_images() const { return width > 0 && height > 0; }
+};
+
+/// Throws InputError when the file does not begin as a working file.
+Head read_head(Lines& lines, const std::filesystem::path& working) {
+  const bool any = lines.next();
+  const auto parts = words(any ? lines.line() : std::string_view());
+  const auto width = parts.size() == 5 ? to_number<int>(parts[3]) : std::nullopt;
+  const auto height = parts.size() == 5 ? to_number<int>(parts[4]) : std::nullopt;
+  const auto is_size = [](std::optional<int> number) { return number && *number >= 0 && *number <= kLargestPicture; };
+  if (!any || !lines.line().starts_with(kHead) || !is_size(width) || !is_size(height))
+    throw InputError(working.string(), "line 1", "it is not the working file of a recording", "name the recording");
+  return {*width, *height};
+}
+
+/// What of a recording is there as a whole.
+struct Whole {
+  std::size_t frames = 0, lines = 0;  ///< the frames' lines, their ends among them
+  std::uint64_t image_bytes = 0;
+  std::uint32_t adler = 1;
+};
+
+/// Counts the frames whose lines are all there, and whose pictures lie within `images` bytes.
+Whole whole_frames(Lines& lines, std::uint64_t images) {
   Whole whole;
-  std::string lines;
-  while (!text.empty()) {
-    const std::size_t end = text.find('\n');
-    if (end == std::string_view::npos) break;
-    const std::string_view line = text.substr(0, end + 1);
-    text.remove_prefix(end + 1);
-    if (!line.starts_with(kFrameEnd)) {
-      lines += line;
-      continue;
-    }
-    const auto parts = words(line.substr(0, end));
+  for (std::size_t count = 1; lines.next(); ++count) {
+    if (!lines.line().starts_with(kFrameEnd)) continue;
+    const auto parts = words(lines.line());
     const auto bytes = parts.size() == 3 ? to_number<std::uint64_t>(parts[1]) : std::nullopt;
     const auto adler = parts.size() == 3 ? to_number<std::uint32_t>(parts[2]) : std::nullopt;
     if (!bytes || !adler || *bytes > images || *bytes < whole.image_bytes) break;
-    whole.lines += lines;
-    lines.clear();
-    whole.image_bytes = *bytes;
-    whole.adler = *adler;
-    ++whole.frames;
+    whole = {whole.frames + 1, count, *bytes, *adler};
   }
   return whole;
+}
+
+/// The lines that whole_frames() has counted, without the frames' ends.
+void copy_lines(const std::filesystem::path& working, std::size_t count, std::ofstream& to) {
+  Lines lines(working);
+  bool there = lines.next();
+  for (std::size_t i = 0; i < count && (there = there && lines.next()); ++i)
+    if (!lines.line().starts_with(kFrameEnd)) to << lines.line() << '\n';
+  if (!there) throw InputError(working.string(), "", "it has changed while it was read", "try again");
 }
 
 /// The last bytes of a zlib stream that is cut where a picture ends: an empty last block, and the checksum.
@@ -98,7 +137,9 @@ void refuse_existing(const std::filesystem::path& file) {
     throw InputError(file.string(), "", "there is such a file already", "name another, or move that one away");
   for (const std::filesystem::path& working : {working_file(file), images_file(file)})
     if (std::filesystem::exists(working, error))
-      throw InputError(working.string(), "", "a recording that was not finished has left it behind",
+      throw is_being_written(working)
+          ? InputError(working.string(), "", "another recording is under way to it", "name another file")
+          : InputError(working.string(), "", "a recording that was not finished has left it behind",
                        "run 'insonate-devices recover " + file.string() + "' or remove it");
 }
 
@@ -113,30 +154,27 @@ std::size_t recover_recording(const std::filesystem::path& file) {
   if (std::filesystem::exists(file, error))
     throw InputError(file.string(), "", "there is such a file already", "move it away");
   const std::filesystem::path working = working_file(file), images = images_file(file);
-  const std::string text = read_file(working);
-  const std::size_t first = std::min(text.find('\n'), text.size());
-  const auto size = words(std::string_view(text).substr(0, first));
-  const auto width = size.size() == 5 ? to_number<int>(size[3]) : std::nullopt;
-  const auto height = size.size() == 5 ? to_number<int>(size[4]) : std::nullopt;
-  const auto is_size = [](std::optional<int> number) { return number && *number >= 0 && *number <= kLargestPicture; };
-  if (!text.starts_with(kHead) || first == text.size() || !is_size(width) || !is_size(height))
-    throw InputError(working.string(), "line 1", "it is not the working file of a recording", "name the recording");
-
-  const bool with_images = *width > 0 && *height > 0;
+  check_is_file(working);
+  if (is_being_written(working))
+    throw InputError(working.string(), "", "it is still being recorded to", "end the recording, which makes its file");
+  Lines lines(working);
+  const Head head = read_head(lines, working);
+  const bool with_images = head.with_images();
   std::uintmax_t image_bytes = with_images ? std::filesystem::file_size(images, error) : 0;
   if (error) image_bytes = 0;
-  const Whole whole = whole_frames(std::string_view(text).substr(first + 1), image_bytes);
+  const Whole whole = whole_frames(lines, image_bytes);
   if (whole.frames == 0)
     throw InputError(working.string(), "", "it holds no whole frame", "record again, and remove this one");
 
   const std::string dimensions =
-      std::to_string(*width) + " " + std::to_string(*height) + " " + std::to_string(whole.frames);
+      std::to_string(head.width) + " " + std::to_string(head.height) + " " + std::to_string(whole.frames);
   const std::string tail = with_images ? stream_end(whole.adler) : "";
   write_atomically(file, [&](const std::filesystem::path& temporary) {
     std::ofstream stream(temporary, std::ios::binary);
     stream << sequence_head(dimensions, with_images);
     if (with_images) stream << "CompressedDataSize = " << whole.image_bytes + tail.size() << "\n";
-    stream << whole.lines << kSequenceEnd;
+    copy_lines(working, whole.lines, stream);
+    stream << kSequenceEnd;
     if (with_images) copy(images, whole.image_bytes, stream);
     stream << tail;
     stream.close();

@@ -27,9 +27,9 @@ void refuse_existing(const std::filesystem::path& file);
 void remove_working_files(const std::filesystem::path& file);
 
 /// Makes the sequence file `file` of the working files that lie beside it, up to the last frame that is there as a
-/// whole, removes those and returns how many frames it has. Takes memory for the frames' lines, not for the pictures.
-/// Throws InputError when there is no such working file, when it is none, when it holds no whole frame (it stays then),
-/// or when `file` is there already.
+/// whole, removes those and returns how many frames it has. Takes the same memory however long the recording is. Throws
+/// InputError when there is no such working file, when it is none, when it is still being recorded to, when it holds no
+/// whole frame (it stays then), or when `file` is there already.
 std::size_t recover_recording(const std::filesystem::path& file);
 
 }  // namespace insonate

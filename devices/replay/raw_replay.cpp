@@ -111,7 +111,7 @@ private:
     line_ = 2;
     try {
       TrackerUri uri = parse_tracker_uri(scan_.tracker);
-      hand_over_ = HandOver(take_filter_option(uri));
+      hand_over_ = HandOver(take_filter_options(uri));
       source_ = make_raw_source(uri, context);
     } catch (const InputError& error) {
       fail(std::string("its tracker cannot be made again (") + error.what() + ")", kRecordAgain);

@@ -40,14 +40,16 @@ public:
     if (!flag("BinaryData", true)) fail("the image data is text", "export the file with BinaryData = True");
 
     ClaimedImages claimed;
-    claimed.sizes = dimensions();
     claimed.sizes_name = "DimSize";
     claimed.sizes_text = value("DimSize");
     claimed.kinds_name = "Kinds";
     claimed.kinds_text = value("Kinds");
     claimed.kinds = words(claimed.kinds_text);
+    read_sizes(claimed);
     claimed.element_bytes = element_bytes();
-    claimed.channels = channels();
+    // Where the colours are a dimension, they are no further channels.
+    const bool coloured = !claimed.kinds.empty() && same_ignoring_case(claimed.kinds.front(), "vector");
+    claimed.channels = coloured ? 1 : channels();
     claimed.compressed = flag("CompressedData", false);
     if (claimed.compressed) claimed.compressed_bytes = compressed_bytes();
     return sequence_layout(claimed, bytes_after, file_);
@@ -68,18 +70,17 @@ private:
     fail(std::string(name) + " is " + quoted(value(name)) + " instead of True or False", kExportAgain);
   }
 
-  std::vector<std::uint64_t> dimensions() const {
-    std::vector<std::uint64_t> sizes;
-    for (const std::string_view word : words(value("DimSize")))
-      sizes.push_back(to_number<std::uint64_t>(word).value_or(std::numeric_limits<std::uint64_t>::max()));
-    const auto count = to_number<std::size_t>(value("NDims"));
-    const bool numbers =
-        std::find(sizes.begin(), sizes.end(), std::numeric_limits<std::uint64_t>::max()) == sizes.end();
-    if (!numbers || count != sizes.size() || sizes.size() < 3 || sizes.size() > 4)
+  void read_sizes(ClaimedImages& claimed) const {
+    bool numbers = true;
+    for (const std::string_view word : words(claimed.sizes_text)) {
+      const auto size = to_number<std::uint64_t>(word);
+      numbers = numbers && size;
+      claimed.sizes.push_back(size.value_or(0));
+    }
+    if (!numbers || claimed.sizes.size() > 5 || !dimensions_agree(to_number<std::size_t>(value("NDims")), claimed))
       fail("NDims is " + quoted(value("NDims")) + " and DimSize " + quoted(value("DimSize")) +
-               ", where a sequence has 3 or 4 sizes, one of them its number of frames",
+               ", where a sequence has 3 to 5 sizes, one of them its number of frames",
            kExportAgain);
-    return sizes;
   }
 
   std::uint64_t element_bytes() const {

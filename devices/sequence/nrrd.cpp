@@ -64,20 +64,18 @@ std::string_view value(const HeaderFields& fields, std::string_view name) {
   return found == fields.end() ? std::string_view{} : found->second;
 }
 
-std::vector<std::uint64_t> sizes_of(const HeaderFields& fields, const std::string& file) {
-  std::vector<std::uint64_t> sizes;
+void read_sizes(const HeaderFields& fields, ClaimedImages& claimed, const std::string& file) {
   bool numbers = true;
-  for (const std::string_view word : words(value(fields, "sizes"))) {
+  for (const std::string_view word : words(claimed.sizes_text)) {
     const auto size = to_number<std::uint64_t>(word);
     numbers = numbers && size;
-    sizes.push_back(size.value_or(0));
+    claimed.sizes.push_back(size.value_or(0));
   }
-  const auto dimensions = to_number<std::size_t>(value(fields, "dimension"));
   // Columns and rows, perhaps slices and colours, and the frames.
-  if (!numbers || dimensions != sizes.size() || sizes.size() < 3 || sizes.size() > 5)
+  if (!numbers || claimed.sizes.size() > 5 ||
+      !dimensions_agree(to_number<std::size_t>(value(fields, "dimension")), claimed))
     fail(file, "dimension is " + quoted(value(fields, "dimension")) + " and sizes " + quoted(value(fields, "sizes")) +
                    ", where a sequence has 3 to 5 sizes, one of them its number of frames");
-  return sizes;
 }
 
 std::uint64_t element_bytes(const HeaderFields& fields, const std::string& file) {
@@ -94,11 +92,12 @@ bool is_compressed(const HeaderFields& fields, const std::string& file) {
 }
 
 /// Whether the bytes begin as gzip does and end with that size of what they hold (RFC 1952: modulo 2^32).
-bool is_whole_gzip(std::string_view data, std::uint64_t raw_bytes) {
+bool is_whole_gzip(const CutBytes& data, std::uint64_t raw_bytes) {
   constexpr std::size_t kLeast = 18;  // head and tail
-  if (data.size() < kLeast || !data.starts_with("\x1f\x8b")) return false;
+  if (data.size < kLeast || !data.front.starts_with("\x1f\x8b")) return false;
   std::uint32_t size = 0;
-  for (int i = 0; i < 4; ++i) size |= std::uint32_t(std::uint8_t(data[data.size() - 4 + std::size_t(i)])) << (8 * i);
+  for (int i = 0; i < 4; ++i)
+    size |= std::uint32_t(std::uint8_t(data.back[data.back.size() - 4 + std::size_t(i)])) << (8 * i);
   return size == std::uint32_t(raw_bytes);
 }
 
@@ -108,9 +107,8 @@ bool is_nrrd(std::string_view bytes) {
   return bytes.starts_with("NRRD");
 }
 
-std::size_t read_nrrd_header(
-    std::string_view bytes, const std::string& file,
-    const std::function<void(std::string_view name, std::string_view value, std::size_t line)>& field) {
+std::size_t read_nrrd_header(std::string_view bytes, const std::string& file, const HeaderLine& field,
+                             const HeaderLine& key) {
   std::size_t line = 0;
   for (std::size_t at = 0; at < bytes.size();) {
     const std::size_t end = bytes.find('\n', at);
@@ -133,10 +131,10 @@ std::size_t read_nrrd_header(
       throw InputError(file, place, quoted(text) + " is not of the form 'name: value' or 'key:=value'", kExportAgain);
     const bool is_key = text.substr(colon).starts_with(":=");
     const std::string_view value = trimmed(text.substr(colon + (is_key ? 2 : 1)));
-    if (same_ignoring_case(name, "data file") || same_ignoring_case(name, "datafile"))
+    if (!is_key && (same_ignoring_case(name, "data file") || same_ignoring_case(name, "datafile")))
       throw InputError(file, place, "the image data is said to lie in " + quoted(value) + " instead of in this file",
                        "save the sequence as one .seq.nrrd file");
-    field(name, value, line);
+    (is_key ? key : field)(name, value, line);
   }
   throw InputError(file, "header", "it ends without the empty line behind it: the file is truncated",
                    "copy or record it again");
@@ -146,20 +144,20 @@ bool is_nrrd_layout_field(std::string_view name) {
   return std::find(std::begin(kLayoutFields), std::end(kLayoutFields), name) != std::end(kLayoutFields);
 }
 
-SequenceLayout nrrd_layout(const HeaderFields& fields, std::string_view data, const std::string& file) {
+SequenceLayout nrrd_layout(const HeaderFields& fields, const CutBytes& data, const std::string& file) {
   for (const std::string_view skip : {"byte skip", "byteskip", "line skip", "lineskip"})
     if (fields.contains(skip) && value(fields, skip) != "0")
       fail(file, std::string(skip) + " is " + quoted(value(fields, skip)) + ", which is not read");
   ClaimedImages claimed;
-  claimed.sizes = sizes_of(fields, file);
   claimed.kinds_name = "kinds";
   claimed.kinds_text = value(fields, "kinds");
   claimed.kinds = words(claimed.kinds_text);
   claimed.sizes_name = "sizes";
   claimed.sizes_text = value(fields, "sizes");
+  read_sizes(fields, claimed, file);
   claimed.element_bytes = element_bytes(fields, file);
   claimed.compressed = is_compressed(fields, file);
-  const SequenceLayout layout = sequence_layout(claimed, data.size(), file);
+  const SequenceLayout layout = sequence_layout(claimed, data.size, file);
   if (!claimed.compressed || !layout.has_images) return layout;
 
   std::uint64_t raw = claimed.element_bytes;
@@ -167,7 +165,7 @@ SequenceLayout nrrd_layout(const HeaderFields& fields, std::string_view data, co
   if (!is_whole_gzip(data, raw))
     throw InputError(file, "image data", "it is no gzip stream of " + std::to_string(raw) + " bytes, or truncated",
                      "copy or record the file again");
-  return {layout.frames, true, data.size()};
+  return {layout.frames, true, data.size};
 }
 
 }  // namespace insonate

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include "sim/core/digest.h"
-#include "sim/core/files.h"
+#include "devices/sequence/sequence_file.h"
 #include "sim/core/input_error.h"
 #include "sim/core/suggest.h"
 
@@ -89,6 +88,7 @@ std::vector<PoseSample> probe_samples(const Sequence& sequence, std::string_view
     PoseSample& sample = samples[f];
     sample.time_s = sequence.frames[f].time_s;
     sample.buttons = sequence.frames[f].buttons;
+    sample.distortion = sequence.frames[f].distortion;
     const Pose base_from_probe = pose_in(sequence, f, probe, sample.status);
     if (sample.status != PoseStatus::ok) continue;
     if (!chained) {
@@ -106,9 +106,9 @@ std::string probe_transform(const Sequence& sequence, std::string_view transform
 }
 
 RecordedScan read_recorded_scan(const std::filesystem::path& file, std::string_view transform) {
-  const std::string bytes = read_file(file);
-  const Sequence sequence = parse_sequence(bytes, file.string());
-  return {{file.filename().string(), digest_of(bytes), probe_transform(sequence, transform)},
+  const SequenceFile read = read_sequence_file(file);
+  const Sequence sequence = parse_sequence(read.bytes(), file.string());
+  return {{file.filename().string(), read.digest, probe_transform(sequence, transform)},
           probe_samples(sequence, transform)};
 }
 

@@ -33,7 +33,8 @@ struct RecordedScan {
   std::vector<PoseSample> samples;
 };
 
-/// Reads a file once, parses it and picks. Throws InputError.
+/// Reads a file once, parses it and picks. Keeps its header and samples; its images may have any size. Throws
+/// InputError.
 RecordedScan read_recorded_scan(const std::filesystem::path& file, std::string_view transform = {});
 
 }  // namespace insonate

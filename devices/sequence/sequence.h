@@ -5,10 +5,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "devices/sequence/cut_bytes.h"
 #include "sim/core/pose_sample.h"
 
 namespace insonate {
@@ -23,6 +25,7 @@ struct SequenceTransform {
 struct SequenceFrame {
   double time_s = 0;                          ///< the file's Timestamp: since some start or since 1970
   std::uint32_t buttons = 0;                  ///< bit b is set while button b is held
+  std::optional<std::uint32_t> distortion;    ///< as the tracker graded it, where it did
   std::vector<SequenceTransform> transforms;  ///< in no particular order, none twice
 
   const SequenceTransform* find(int name) const;
@@ -46,7 +49,7 @@ struct Sequence {
 /// Reads the header of a sequence file as PLUS, IGSIO and 3D Slicer write it: a MetaImage header with a line
 /// `Seq_Frame0000_Field = value` for each field of each frame, or a NRRD header with `Seq_Frame0000_Field:=value`.
 /// Understood are, of a frame, `...Transform` (16 numbers by rows), `...TransformStatus` (absent: unknown),
-/// `Timestamp` and `Buttons`; of the header the fields that tell size and kind, and `...Transform`
+/// `Timestamp`, `Buttons` and `Distortion`; of the header the fields that tell size and kind, and `...Transform`
 /// fields. All else that is well formed is skipped, images too: they are only checked to be there. `file` names it in
 /// messages.
 ///
@@ -54,6 +57,8 @@ struct Sequence {
 /// for whatever is truncated, malformed, contradictory, or a sequence of a kind that is not read here (a separate data
 /// file, bzip2).
 Sequence parse_sequence(std::string_view bytes, const std::string& file);
+/// The same of a file whose header is in front, with some bytes of the images to either end (sequence_file.h).
+Sequence parse_sequence(const CutBytes& bytes, const std::string& file);
 
 /// A transform-only sequence file that parse_sequence and probe_samples read back to the same bits, under the name
 /// ProbeToPatient. Of samples that are not ok the pose is not kept. Throws std::invalid_argument when there are none,

@@ -1,6 +1,7 @@
 #include "devices/sequence/sequence_layout.h"
 
 #include <algorithm>
+#include <initializer_list>
 #include <limits>
 
 #include "devices/sequence/header_text.h"
@@ -9,14 +10,28 @@
 namespace insonate {
 namespace {
 
-/// Which dimension counts the frames: the one whose kind says so, else the last.
-std::size_t list_axis(const ClaimedImages& claimed, const std::string& file) {
+std::size_t count_kinds(const ClaimedImages& claimed, std::initializer_list<std::string_view> names) {
+  return std::size_t(std::count_if(claimed.kinds.begin(), claimed.kinds.end(), [&](std::string_view kind) {
+    return std::any_of(names.begin(), names.end(),
+                       [&](std::string_view name) { return same_ignoring_case(kind, name); });
+  }));
+}
+
+/// A picture alone, perhaps in colour: a file of PLUS with one frame.
+bool is_single(const ClaimedImages& claimed) {
+  const std::size_t domains = count_kinds(claimed, {"domain"});
+  return domains == 2 && domains + count_kinds(claimed, {"vector"}) == claimed.kinds.size();
+}
+
+/// Which dimension counts the frames: the one whose kind says so, else the last. Nothing where there is but one frame.
+std::optional<std::size_t> list_axis(const ClaimedImages& claimed, const std::string& file) {
   if (claimed.kinds.empty()) return claimed.sizes.size() - 1;
+  const bool each = claimed.kinds.size() == claimed.sizes.size();
+  if (each && is_single(claimed)) return std::nullopt;
   const auto is_list = [](std::string_view kind) {
     return same_ignoring_case(kind, "list") || same_ignoring_case(kind, "time");
   };
-  if (claimed.kinds.size() != claimed.sizes.size() ||
-      std::count_if(claimed.kinds.begin(), claimed.kinds.end(), is_list) != 1)
+  if (!each || count_kinds(claimed, {"list", "time"}) != 1)
     throw InputError(file, "header",
                      std::string(claimed.kinds_name) + " is " + quoted(claimed.kinds_text) + ", where each of the " +
                          std::to_string(claimed.sizes.size()) + " dimensions has a kind and one of them is 'list'",
@@ -44,10 +59,15 @@ std::uint64_t raw_bytes(const ClaimedImages& claimed, const std::string& file) {
 
 }  // namespace
 
+bool dimensions_agree(std::optional<std::size_t> dimensions, const ClaimedImages& claimed) {
+  const std::size_t sizes = claimed.sizes.size(), most = is_single(claimed) ? sizes + 1 : sizes;
+  return dimensions && most >= 3 && *dimensions + count_kinds(claimed, {"vector"}) >= sizes && *dimensions <= most;
+}
+
 SequenceLayout sequence_layout(const ClaimedImages& claimed, std::uint64_t bytes_after, const std::string& file) {
-  const std::size_t frame_axis = list_axis(claimed, file);
+  const std::optional<std::size_t> frame_axis = list_axis(claimed, file);
   SequenceLayout layout;
-  layout.frames = claimed.sizes[frame_axis];
+  layout.frames = frame_axis ? claimed.sizes[*frame_axis] : 1;
   if (layout.frames == 0)
     throw InputError(file, "header", std::string(claimed.sizes_name) + " says that there are no frames",
                      "record the scan again");

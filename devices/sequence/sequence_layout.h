@@ -29,8 +29,13 @@ struct ClaimedImages {
   std::string_view kinds_name, kinds_text;
 };
 
-/// Finds the dimension that counts the frames and checks that the images, of `bytes_after` bytes at most, are there.
-/// Throws InputError when they are not, or when what is claimed contradicts itself or is more than any file holds.
+/// Whether the number of dimensions that a header tells goes with its sizes and their kinds. PLUS counts the frames
+/// also where it leaves their size out, as there is but one, and does not count the colours of a MetaImage.
+bool dimensions_agree(std::optional<std::size_t> dimensions, const ClaimedImages& claimed);
+
+/// Finds the dimension that counts the frames, which is missing in a file of PLUS with a single one, and checks that
+/// the images, of `bytes_after` bytes at most, are there. Throws InputError when they are not, or when what is claimed
+/// contradicts itself or is more than any file holds.
 SequenceLayout sequence_layout(const ClaimedImages& claimed, std::uint64_t bytes_after, const std::string& file);
 
 }  // namespace insonate

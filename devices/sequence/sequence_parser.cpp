@@ -12,6 +12,7 @@
 #include "devices/sequence/metaimage.h"
 #include "devices/sequence/nrrd.h"
 #include "devices/sequence/sequence.h"
+#include "devices/sequence/sequence_text.h"
 #include "sim/core/input_error.h"
 
 namespace insonate {
@@ -24,9 +25,6 @@ constexpr std::string_view kTransformStatus = "TransformStatus";
 constexpr std::size_t kMostTransforms = 256;
 // The shortest line a frame needs, "Seq_Frame0_Timestamp=0\n": a file cannot hold more frames than such lines.
 constexpr std::size_t kLeastFrameBytes = 23;
-
-// No scan pauses for longer: a clock that was set while it ran, which would keep whoever replays it waiting.
-constexpr double kLongestGap_s = 3600;
 
 constexpr const char* kRecordAgain = "record the scan again";
 
@@ -50,22 +48,30 @@ std::uint32_t buttons_of(std::string_view status) {
 
 class Parser {
 public:
-  Parser(std::string_view bytes, const std::string& file) : bytes_(bytes), is_nrrd_(is_nrrd(bytes)) {
+  Parser(const CutBytes& bytes, const std::string& file) : bytes_(bytes), is_nrrd_(is_nrrd(bytes.front)) {
     sequence_.file = file;
   }
 
   Sequence parse() {
-    const auto keep = [this](std::string_view name, std::string_view value, std::size_t line) {
+    const auto keep_layout = [this](std::string_view name, std::string_view value, std::size_t line) {
+      if (is_nrrd_ ? is_nrrd_layout_field(name) : is_layout_field(name)) keep_once(name, value, line);
+    };
+    const auto keep_key = [this](std::string_view name, std::string_view value, std::size_t line) {
       if (name.starts_with(kFramePrefix))
         keep_frame_field(name, value, line);
       else
-        keep_header_field(name, value, line);
+        keep_constant(name, value, line);
     };
-    sequence_.image_offset =
-        is_nrrd_ ? read_nrrd_header(bytes_, sequence_.file, keep) : read_metaimage_header(bytes_, sequence_.file, keep);
-    const std::string_view data = bytes_.substr(sequence_.image_offset);
+    // PLUS writes the transforms of a NRRD's header as fields, other writers as keys.
+    const auto keep_field = [&](std::string_view name, std::string_view value, std::size_t line) {
+      keep_layout(name, value, line);
+      keep_key(name, value, line);
+    };
+    sequence_.image_offset = is_nrrd_ ? read_nrrd_header(bytes_.front, sequence_.file, keep_field, keep_key)
+                                      : read_metaimage_header(bytes_.front, sequence_.file, keep_field);
+    const CutBytes data = bytes_.from(sequence_.image_offset);
     const SequenceLayout layout =
-        is_nrrd_ ? nrrd_layout(header_, data, sequence_.file) : metaimage_layout(header_, data.size(), sequence_.file);
+        is_nrrd_ ? nrrd_layout(header_, data, sequence_.file) : metaimage_layout(header_, data.size, sequence_.file);
     sequence_.has_images = layout.has_images;
     sequence_.image_bytes = std::size_t(layout.image_bytes);
     make_frames(layout.frames);
@@ -87,6 +93,7 @@ private:
   struct Seen {
     bool time = false;
     bool buttons = false;
+    bool distortion = false;
     std::vector<int> statuses;  ///< transforms, by index of name
     std::vector<int> matrices;
   };
@@ -101,14 +108,17 @@ private:
     fail(field.frame, quoted(field.name) + " is given a second time, in line " + std::to_string(field.line));
   }
 
-  void keep_header_field(std::string_view name, std::string_view value, std::size_t line) {
-    const bool transform = name.size() > kTransform.size() && name.ends_with(kTransform);
-    if (!transform && !(is_nrrd_ ? is_nrrd_layout_field(name) : is_layout_field(name))) return;
-    const std::string place = "line " + std::to_string(line);
-    if (!header_.emplace(name, value).second) fail(place, std::string(name) + " is given a second time", kExportAgain);
-    if (!transform) return;
+  void keep_once(std::string_view name, std::string_view value, std::size_t line) {
+    if (!header_.emplace(name, value).second)
+      fail("line " + std::to_string(line), std::string(name) + " is given a second time", kExportAgain);
+  }
+
+  void keep_constant(std::string_view name, std::string_view value, std::size_t line) {
+    if (name.size() <= kTransform.size() || !name.ends_with(kTransform)) return;
+    keep_once(name, value, line);
     const auto matrix = to_matrix(value);
-    if (!matrix) fail(place, quoted(name) + " is not 16 finite numbers", "correct it in the header");
+    if (!matrix)
+      fail("line " + std::to_string(line), quoted(name) + " is not 16 finite numbers", "correct it in the header");
     sequence_.constants.emplace(name.substr(0, name.size() - kTransform.size()), *matrix);
   }
 
@@ -122,7 +132,8 @@ private:
     highest_frame_ = std::max<std::size_t>(highest_frame_, *frame);
     name.remove_prefix(underscore + 1);
     // Of the many fields a frame may have only these are kept; the others are the writer's own business.
-    if (name == "Timestamp" || name == "Buttons" || name.ends_with(kTransform) || name.ends_with(kTransformStatus))
+    if (name == "Timestamp" || name == "Buttons" || name == "Distortion" || name.ends_with(kTransform) ||
+        name.ends_with(kTransformStatus))
       fields_.push_back({*frame, name, value, line});
   }
 
@@ -130,7 +141,7 @@ private:
     if (fields_.empty())
       fail("header", "no frame is described (there are no 'Seq_Frame0000_...' fields): it is a plain image",
            "give a tracked sequence (.igs.mha, .seq.mha or .seq.nrrd)");
-    if (frames > bytes_.size() / kLeastFrameBytes || highest_frame_ >= frames)
+    if (frames > bytes_.front.size() / kLeastFrameBytes || highest_frame_ >= frames)
       fail("header",
            "DimSize says " + std::to_string(frames) + " frames, but the last one described is frame " +
                std::to_string(highest_frame_),
@@ -176,7 +187,9 @@ private:
       if (field.name == "Timestamp")
         read_time(field);
       else if (field.name == "Buttons")
-        read_buttons(field);
+        sequence_.frames[field.frame].buttons = read_whole(field, seen_[field.frame].buttons);
+      else if (field.name == "Distortion")
+        sequence_.frames[field.frame].distortion = read_whole(field, seen_[field.frame].distortion);
       else if (field.name.ends_with(kTransform))
         read_matrix(field);
     }
@@ -190,11 +203,12 @@ private:
     sequence_.frames[field.frame].time_s = *time;
   }
 
-  void read_buttons(const FrameField& field) {
-    if (std::exchange(seen_[field.frame].buttons, true)) fail_twice(field);
-    const auto buttons = to_number<std::uint32_t>(field.value);
-    if (!buttons) fail(field.frame, "Buttons is " + quoted(field.value) + " instead of a whole number");
-    sequence_.frames[field.frame].buttons = *buttons;
+  std::uint32_t read_whole(const FrameField& field, bool& seen) const {
+    if (std::exchange(seen, true)) fail_twice(field);
+    const auto number = to_number<std::uint32_t>(field.value);
+    if (!number)
+      fail(field.frame, std::string(field.name) + " is " + quoted(field.value) + " instead of a whole number");
+    return *number;
   }
 
   void read_matrix(const FrameField& field) {
@@ -219,18 +233,18 @@ private:
   void check_times() const {
     for (std::size_t f = 1; f < sequence_.frames.size(); ++f) {
       const double before = sequence_.frames[f - 1].time_s, now = sequence_.frames[f].time_s;
-      if (now > before && now - before <= kLongestGap_s) continue;
+      if (now > before && now - before <= kLongestStepS) continue;
       char times[80];
       std::snprintf(times, sizeof times, "%.17g s after %.17g s", now, before);
       fail(f, std::string("its Timestamp ") +
                   (now == before  ? "repeats that"
                    : now < before ? "lies before that"
-                                  : "lies more than an hour behind that") +
+                                  : "lies more than a day behind that") +
                   " of the frame before it (" + times + ")");
     }
   }
 
-  std::string_view bytes_;
+  CutBytes bytes_;
   bool is_nrrd_;
   Sequence sequence_;
   HeaderFields header_;
@@ -254,6 +268,10 @@ int Sequence::find(std::string_view transform) const {
 }
 
 Sequence parse_sequence(std::string_view bytes, const std::string& file) {
+  return Parser(CutBytes::whole(bytes), file).parse();
+}
+
+Sequence parse_sequence(const CutBytes& bytes, const std::string& file) {
   return Parser(bytes, file).parse();
 }
 

@@ -76,6 +76,7 @@ void append_frame(std::string& text, std::size_t index, const PoseSample& sample
   }
   if (sample.buttons != 0 || sample.status == PoseStatus::switched)
     field("Buttons = ").append(std::to_string(sample.buttons)) += '\n';
+  if (sample.distortion) field("Distortion = ").append(std::to_string(*sample.distortion)) += '\n';
   field("FrameNumber = ").append(number) += '\n';
   append(field("Timestamp = "), sample.time_s);
   text += '\n';
@@ -85,6 +86,8 @@ void append_frame(std::string& text, std::size_t index, const PoseSample& sample
 
 std::string why_not_recordable(const PoseSample& sample, double before_s) {
   if (!std::isfinite(sample.time_s) || !(sample.time_s > before_s)) return "its time is not after the one before";
+  if (sample.time_s - before_s > kLongestStepS && std::isfinite(before_s))
+    return "its time is more than a day after the one before";
   if (sample.status != PoseStatus::ok) return "";
   return why_not_rigid(sample.patient_from_probe.matrix()).value_or("");
 }

@@ -16,13 +16,17 @@ namespace insonate {
 /// there are, as "640 480 30"; "0 0 30" for transforms only.
 std::string sequence_head(const std::string& size, bool compressed);
 
-/// Appends the lines of a frame: the pose as ProbeToPatient, to the last bit, its status, buttons, times. Of a sample
+/// Appends the lines of a frame: the pose as ProbeToPatient, to the last bit, its status, buttons, distortion,
+/// times. Of a sample
 /// that is not ok the pose is not kept. With `probe_from_pixel` also where its picture lies, as ImageToProbe.
 void append_frame(std::string& text, std::size_t index, const PoseSample& sample,
                   const glm::dmat4* probe_from_pixel = nullptr);
 
 /// The line behind the frames', after which the pictures' bytes follow.
 inline constexpr std::string_view kSequenceEnd = "ElementDataFile = LOCAL\n";
+
+/// No scan pauses for longer. More is a clock that was set while it ran, and would keep whoever replays it waiting.
+inline constexpr double kLongestStepS = 24 * 3600;
 
 /// Why no one could read `sample` back after one of the time `before_s`; empty when one can.
 std::string why_not_recordable(const PoseSample& sample, double before_s);

@@ -57,7 +57,8 @@ private:
   std::optional<double> start_s_;
 };
 
-/// synthetic:[SEED][?rate=60], the seed a whole number (1 unless given), the rate from 1 to 1000 Hz. Throws InputError.
+/// synthetic:[SEED][?rate=60&live=1], the seed a whole number (1 unless given), the rate from 1 to 1000 Hz. With live=1
+/// a LiveTracker that gives the same samples in real time, stamped as they come. Throws InputError.
 std::unique_ptr<Tracker> open_synthetic(const TrackerUri& uri, const TrackerContext& context);
 
 }  // namespace insonate

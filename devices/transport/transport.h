@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <stdexcept>
 #include <string>
 
 #include "devices/transport/attached_device.h"
+#include "devices/transport/source_gone.h"
 
 namespace insonate {
 
@@ -19,10 +19,10 @@ enum class TransportFault {
   refused,    ///< there, but it does not do what was asked
 };
 
-/// What is wrong with a device; what() is a sentence for people that says what to do.
-class TransportError : public std::runtime_error {
+/// What is wrong with a device on a bus.
+class TransportError : public SourceGone {
 public:
-  TransportError(TransportFault fault, const std::string& sentence) : std::runtime_error(sentence), fault_(fault) {}
+  TransportError(TransportFault fault, const std::string& sentence) : SourceGone(sentence), fault_(fault) {}
   TransportFault fault() const { return fault_; }
 
 private:
@@ -34,8 +34,9 @@ class Transport {
 public:
   virtual ~Transport() = default;
 
-  /// Waits for bytes, no longer than `timeout`, and returns how many came: of a HID one report, cut to the room there
-  /// is. 0 means that none came in time. Throws TransportError, `gone` also where it is only possible that it is.
+  /// Waits for bytes, no longer than `timeout` but always for a moment, and returns how many came: of a HID one report,
+  /// cut to the room there is. 0 means that none came in time. Throws TransportError, `gone` also where it is only
+  /// possible that it is.
   virtual std::size_t read(std::span<std::uint8_t> into, std::chrono::milliseconds timeout) = 0;
 
   /// Sends bytes: to a HID a feature report with its number first, to another device on its way out. Throws

@@ -2,6 +2,7 @@
 
 #include <libusb.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <utility>
@@ -85,8 +86,9 @@ public:
 
   std::size_t read(std::span<std::uint8_t> into, std::chrono::milliseconds timeout) override {
     int got = 0;
-    const int error = libusb_bulk_transfer(handle_.get(), endpoints_.in, into.data(), int(into.size()), &got,
-                                           unsigned(timeout.count()));
+    // A timeout of 0 is none to libusb: it would wait for ever.
+    const auto wait_ms = unsigned(std::max<std::chrono::milliseconds::rep>(timeout.count(), 1));
+    const int error = libusb_bulk_transfer(handle_.get(), endpoints_.in, into.data(), int(into.size()), &got, wait_ms);
     if (error == LIBUSB_ERROR_PIPE)
       libusb_clear_halt(handle_.get(), endpoints_.in);
     else if (error != LIBUSB_SUCCESS && error != LIBUSB_ERROR_TIMEOUT && error != LIBUSB_ERROR_OVERFLOW)

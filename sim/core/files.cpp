@@ -12,7 +12,7 @@ namespace insonate {
 
 namespace fs = std::filesystem;
 
-std::string read_file(const fs::path& file, std::size_t limit) {
+std::uintmax_t check_is_file(const fs::path& file) {
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
   if (!fs::exists(status)) throw InputError(file.string(), "", "there is no such file", "check the name");
@@ -20,6 +20,11 @@ std::string read_file(const fs::path& file, std::size_t limit) {
   const std::uintmax_t size = fs::file_size(file, error);
   if (error) throw InputError(file.string(), "", "it is no ordinary file", "name a file on disk");
   if (size == 0) throw InputError(file.string(), "", "the file is empty", "write or copy it again");
+  return size;
+}
+
+std::string read_file(const fs::path& file, std::size_t limit) {
+  const std::uintmax_t size = check_is_file(file);
   if (size > limit)
     throw InputError(file.string(), "",
                      "the file has " + std::to_string(size) + " bytes, above the limit of " + std::to_string(limit),

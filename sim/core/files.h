@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -9,6 +10,9 @@ namespace insonate {
 
 /// A whole file as bytes. Throws InputError when it is missing, a folder, unreadable, empty or above `limit` bytes.
 std::string read_file(const std::filesystem::path& file, std::size_t limit = 1u << 30);
+
+/// Throws InputError when a file is missing, a folder, no file on a disk, or empty; returns how many bytes it has.
+std::uintmax_t check_is_file(const std::filesystem::path& file);
 
 /// Lets `write` fill a temporary name beside `file` and renames it into place when `write` returned, so that whoever
 /// looks sees the old file or the whole new one. Makes the parent folders. The temporary name keeps the extension, for

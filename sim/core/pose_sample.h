@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 #include "sim/core/pose.h"
@@ -18,6 +19,9 @@ struct PoseSample {
   PoseStatus status = PoseStatus::unknown;
   Pose patient_from_probe;    ///< meaningful only when status is ok
   std::uint32_t buttons = 0;  ///< bit b is set while button b is held
+  /// How badly metal bends a magnetic tracker's field where the sensor is, as the tracker itself grades it: 0 is a
+  /// clean field, a Viper goes up to 255. Empty where the tracker does not say.
+  std::optional<std::uint32_t> distortion{};
 };
 
 }  // namespace insonate

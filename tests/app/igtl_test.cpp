@@ -61,7 +61,7 @@ TEST_CASE("an exam over OpenIGTLink gets the score of its log") {
   request.host = "127.0.0.1";
   request.port = igtl::bound_address(listener).port();
   request.sender_times = true;
-  request.most_drift_s = 1e9;  // the log is sent faster than it was recorded
+  request.clock = igtl::SenderClock(1e9, 1e9);  // the log is sent faster than it was recorded
   Session session(study, [&] { return std::make_unique<LiveTracker>(std::make_unique<igtl::ClientSource>(request)); });
   session.advance(steady_now_s());
   igtl::RawPeer sender = igtl::RawPeer::accepted_by(listener);

@@ -1,4 +1,5 @@
 // What happens to sequence files that are damaged, cut short or made up: a sentence, never a crash.
+#include "sequence_promises.h"
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -87,7 +88,7 @@ TEST_CASE("every sequence file that is damaged in a way people meet is refused w
       {"Kinds = domain domain list", "Kinds = domain domain domain", {"one of them is 'list'"}},
       {"Seq_Frame0001_Timestamp = 2.5", "Seq_Frame0001_Timestamp = 1.5", {"frame 1", "Timestamp repeats", "1.5 s"}},
       {"Seq_Frame0001_Timestamp = 2.5", "Seq_Frame0001_Timestamp = 0.5", {"frame 1", "Timestamp lies before"}},
-      {"Seq_Frame0001_Timestamp = 2.5", "Seq_Frame0001_Timestamp = 1.7e9", {"frame 1", "more than an hour behind"}},
+      {"Seq_Frame0001_Timestamp = 2.5", "Seq_Frame0001_Timestamp = 1.7e9", {"frame 1", "more than a day behind"}},
       {"Seq_Frame0001_Timestamp = 2.5", "Seq_Frame0001_Timestamp = nan", {"frame 1", "'nan' instead of a finite"}},
       {"Seq_Frame0001_Timestamp = 2.5", "Seq_Frame0001_Timestamp = inf", {"frame 1", "finite"}},
       {"Seq_Frame0001_Timestamp = 2.5", "Seq_Frame0001_Timestamp = 1e999", {"frame 1", "finite"}},
@@ -122,6 +123,12 @@ TEST_CASE("every sequence file that is damaged in a way people meet is refused w
       {"Seq_Frame0001_Timestamp",
        "Seq_Frame0001_Buttons = -1\nSeq_Frame0001_Timestamp",
        {"frame 1", "Buttons is '-1'"}},
+      {"Seq_Frame0001_Timestamp",
+       "Seq_Frame0001_Distortion = 2.5\nSeq_Frame0001_Timestamp",
+       {"frame 1", "Distortion is '2.5'"}},
+      {"Seq_Frame0001_Timestamp",
+       "Seq_Frame0001_Distortion = 2\nSeq_Frame0001_Distortion = 2\nSeq_Frame0001_Timestamp",
+       {"frame 1", "'Distortion' is given a second time"}},
       {"Kinds", "TrackerToPatientTransform = 1 2 3\nKinds", {"line 7", "'TrackerToPatientTransform' is not 16"}},
       {"Kinds",
        "TrackerToPatientTransform = 2 0 0 0 0 2 0 0 0 0 2 0 0 0 0 1\nKinds",
@@ -195,6 +202,7 @@ TEST_CASE("flipped bits are taken or refused, with rigid poses at rising times w
       for (std::uint32_t i = 1; i <= flips; ++i)
         flipped[hash(trial, i) % flipped.size()] ^= char(1 + hash(trial, i + 100) % 255);
       CAPTURE(name, trial);
+      REQUIRE(broken_sequence_promise(flipped) == "");
       try {
         const auto samples = probe_samples(parse_sequence(flipped, name));
         ++taken;

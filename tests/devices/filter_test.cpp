@@ -222,7 +222,7 @@ TEST_CASE("samples that were read in one go are no quicker for it") {
 TEST_CASE("a live tracker's filters are chosen by its option: all, none, or as told") {
   const auto taken = [](const std::string& text) {
     TrackerUri uri = parse_tracker_uri(text);
-    const FilterSettings settings = take_filter_option(uri);
+    const FilterSettings settings = take_filter_options(uri);
     CHECK_FALSE(uri.options.contains("filter"));
     CHECK(uri.options.size() == (text.find("rate") != text.npos ? 1 : 0));
     return to_string(settings);
@@ -231,14 +231,54 @@ TEST_CASE("a live tracker's filters are chosen by its option: all, none, or as t
   CHECK(taken("hydra:?filter=off") == "off");
   for (const auto& [text, names] : {std::pair{"hydra:?raw=1", "off"}, {"hydra:?raw=0", "1euro,outlier"}}) {
     TrackerUri uri = parse_tracker_uri(text);
-    CHECK(to_string(take_filter_option(uri)) == names);
+    CHECK(to_string(take_filter_options(uri)) == names);
   }
   CHECK(taken("hydra:?filter=outlier,1euro&rate=3") == "1euro,outlier");
-  for (const char* wrong : {"a:?filter=1eurp", "a:?filter=off,1euro", "a:?filter=1euro,"}) {
+  CHECK(taken("hydra:?distortion=20") == "1euro,outlier,distortion");
+  CHECK(taken("hydra:?distortion=20&filter=1euro") == "1euro");
+  CHECK(taken("hydra:?distortion=20&filter=distortion") == "distortion");
+  for (const char* wrong : {"a:?filter=1eurp", "a:?filter=off,1euro", "a:?filter=1euro,", "a:?filter=distortion",
+                            "a:?distortion=2.5", "a:?distortion=-1", "a:?distortion=x"}) {
     CAPTURE(wrong);
     TrackerUri uri = parse_tracker_uri(wrong);
-    CHECK_THROWS_AS(take_filter_option(uri), InputError);
+    CHECK_THROWS_AS(take_filter_options(uri), InputError);
   }
   TrackerUri typo = parse_tracker_uri("a:?filter=outlyer");
-  CHECK_THROWS_WITH(take_filter_option(typo), Catch::Contains("did you mean 'outlier'?"));
+  CHECK_THROWS_WITH(take_filter_options(typo), Catch::Contains("did you mean 'outlier'?"));
+}
+
+TEST_CASE(
+    "what the tracker grades worse than the limit is rejected with its grade kept, and what it does not grade passes") {
+  SampleFilters filters({.distortion = true, .most_distortion = 20});
+  PoseSample sample{1, PoseStatus::ok, Pose{glm::dmat3(1), {1, 2, 3}}, 5, 20};
+  filters.apply(sample);
+  CHECK(sample.status == PoseStatus::ok);
+  sample.distortion = 21;
+  filters.apply(sample);
+  CHECK(sample.status == PoseStatus::invalid);
+  CHECK(sample.patient_from_probe == Pose{});
+  CHECK(sample.distortion == 21u);
+  CHECK(sample.buttons == 5);
+  PoseSample ungraded{2, PoseStatus::ok, Pose{glm::dmat3(1), {1, 2, 3}}, 0, {}};
+  filters.apply(ungraded);
+  CHECK(ungraded.status == PoseStatus::ok);
+  PoseSample bent{3, PoseStatus::ok, Pose{}, 0, 200};
+  SampleFilters(FilterSettings::usual()).apply(bent);
+  CHECK(bent.status == PoseStatus::ok);
+}
+
+TEST_CASE("beside steel the distortion gate leaves out what is far off, and the more the lower its limit") {
+  const DistortionFigures none = measure_distortion(1000), wide = measure_distortion(20),
+                          narrow = measure_distortion(5);
+  CHECK(none.rejected == 0);
+  CHECK(none.worst_after_mm == none.worst_before_mm);
+  CHECK(none.worst_before_mm > 50);
+  // A grade is the error times 0.75 to 1.25, cut to a whole number.
+  CHECK(wide.worst_after_mm < 21 / 0.75);
+  CHECK(narrow.worst_after_mm < 6 / 0.75);
+  CHECK(narrow.rms_after_mm < wide.rms_after_mm);
+  CHECK(wide.rms_after_mm < none.rms_after_mm);
+  CHECK(wide.rejected > 0);
+  CHECK(narrow.rejected > wide.rejected);
+  CHECK(narrow.rejected < 0.5);
 }

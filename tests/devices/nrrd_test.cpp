@@ -63,6 +63,16 @@ TEST_CASE("a raw NRRD of 3D Slicer with transforms alone, from zero on") {
   CHECK(samples[2].patient_from_probe.translation == glm::dvec3(2, -4, 3));
 }
 
+TEST_CASE("a NRRD's key says nothing of the field that is called the same") {
+  const auto samples = probe_samples(parse_sequence(golden(kTransforms), kTransforms));
+  std::string both = golden(kTransforms);
+  const std::size_t second = both.find('\n') + 1;
+  both.insert(second, "type:=a sequence\nsizes:=9 9 9\nencoding:=none\ndata file:=elsewhere.raw\n");
+  const auto same = probe_samples(parse_sequence(both, kTransforms));
+  REQUIRE(same.size() == samples.size());
+  for (std::size_t i = 0; i < samples.size(); ++i) CHECK(same[i].time_s == samples[i].time_s);
+}
+
 TEST_CASE("a NRRD and a MetaImage of the same frames give the same samples") {
   std::string header = golden(kTransforms);
   std::string meta = "ObjectType = Image\nNDims = 3\nDimSize = 0 0 3\nKinds = domain domain list\n";

@@ -182,3 +182,19 @@ TEST_CASE("trackers are known by their numbers, the more particular name first")
   CHECK(known_tracker(Bus::usb, 0x1532, 0x0300) == nullptr);
   CHECK(known_tracker(Bus::hid, 0x1234, 0x5678) == nullptr);
 }
+
+TEST_CASE("insonate-devices watch says whose pose it shows, and that only a device can be recorded raw") {
+  const Run watched = run("watch synthetic:1 --seconds 0.1 2>&1");
+  CHECK(watched.exit_code == 0);
+  CHECK(watched.output.find("synthetic hand 1\n") == 0);
+  const auto file = std::filesystem::temp_directory_path() / ("insonate_program_" + std::to_string(getpid()) + ".raw");
+  const Run refused = run("watch synthetic:1 --seconds 0.1 --record-raw " + file.string() + " 2>&1");
+  CHECK(refused.exit_code == 2);
+  CHECK(contains(refused.output, "no device that sends bytes"));
+  CHECK_FALSE(std::filesystem::exists(file));
+  CHECK(run("watch hydra: --seconds 0.1 --record-raw " + file.string() + " 2>&1").exit_code == 0);
+  const Run replayed = run("watch raw:" + file.string() + " 2>&1");
+  CHECK(replayed.exit_code == 2);
+  CHECK(contains(replayed.output, "nothing in it became a sample"));
+  std::filesystem::remove(file);
+}

@@ -13,7 +13,9 @@
 #include "devices/record/recording_files.h"
 #include "devices/record/sequence_recorder.h"
 #include "devices/sequence/probe_samples.h"
+#include "devices/sequence/sequence_file.h"
 #include "devices/synthetic/synthetic_tracker.h"
+#include "sim/core/digest.h"
 #include "sim/core/files.h"
 #include "sim/core/hash.h"
 #include "sim/core/input_error.h"
@@ -43,6 +45,7 @@ std::vector<PoseSample> hand(double seconds = 10) {
   std::vector<PoseSample> samples = poll_until(tracker, seconds, 30);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     if (i % 50 == 7) samples[i].buttons = 5;
+    if (i % 3 > 0) samples[i].distortion = std::uint32_t(i);
     if (i % 97 == 5) samples[i].status = PoseStatus::out_of_view;
     if (samples[i].status != PoseStatus::ok) samples[i].patient_from_probe = Pose{};
   }
@@ -168,6 +171,58 @@ TEST_CASE("a recording that is killed keeps everything it had flushed") {
     if (with_pictures) CHECK(read_pictures(file) == pictures(100));
   }
   CHECK(folder.files() == 2);
+}
+
+TEST_CASE("a recording that is still running is not recovered, nor recorded over") {
+  const Folder folder;
+  const fs::path file = folder.path / "scan.igs.mha";
+  SequenceRecorder recorder(file);
+  recorder.add(hand(1)[0]);
+  recorder.flush();
+  CHECK_THROWS_WITH(recover_recording(file), Catch::Contains("still being recorded to"));
+  CHECK_THROWS_WITH(SequenceRecorder(file), Catch::Contains("another recording is under way"));
+  CHECK_FALSE(fs::exists(file));
+  recorder.add(hand(1)[1]);
+  recorder.finish();
+  CHECK(read_samples(file).size() == 2);
+}
+
+TEST_CASE("a pause of hours is recorded and read back; a clock that was set is not recorded") {
+  const Folder folder;
+  const fs::path file = folder.path / "scan.igs.mha";
+  std::vector<PoseSample> samples = hand(1);
+  for (std::size_t i = 30; i < samples.size(); ++i) samples[i].time_s += 5 * 3600;
+  record(file, samples, false);
+  CHECK(same_bits(read_samples(file), samples));
+  SequenceRecorder recorder(folder.path / "set.igs.mha");
+  recorder.add(samples[0]);
+  samples[1].time_s = 1.7e9;
+  CHECK_THROWS_AS(recorder.add(samples[1]), std::invalid_argument);
+}
+
+TEST_CASE("of a file with pictures only the header is kept, wherever its end falls among the pieces that are read") {
+  const Folder folder;
+  const auto samples = hand(1);
+  const fs::path file = folder.path / "scan.igs.mha";
+  record(file, samples, true);
+  const std::string text = read_file(file);
+  const std::size_t end = text.find("ElementDataFile");
+  // Blank lines of a header mean nothing, so that it can be made any length; pieces have 1 MiB.
+  for (const std::size_t header :
+       {end + 24, std::size_t(1 << 20) - 5, std::size_t(1 << 20), std::size_t(1 << 20) + 9}) {
+    CAPTURE(header);
+    std::string longer = text;
+    longer.insert(end, header - (end + 24), '\n');
+    write_file(folder.path / "longer.igs.mha", longer);
+    const SequenceFile read = read_sequence_file(folder.path / "longer.igs.mha");
+    CHECK(read.size == longer.size());
+    CHECK(read.digest == digest_of(longer));
+    CHECK(read.front == longer.substr(0, read.front.size()));
+    const Sequence sequence = parse_sequence(read.bytes(), "longer");
+    CHECK(sequence.image_offset == header);
+    CHECK(sequence.image_bytes == longer.size() - header);
+    CHECK(same_bits(probe_samples(sequence), samples));
+  }
 }
 
 TEST_CASE("working files that end anywhere are read up to their last whole frame") {

@@ -43,10 +43,9 @@ std::string broken_by_stream(Bytes bytes) {
   }
   if (!std::equal(whole.begin(), whole.end(), in_portions.begin(), in_portions.end(), equal))
     return "the records depend on the portions";
-  if (one.corrupt() != other.corrupt() || one.passed_over() != other.passed_over())
-    return "the counts depend on the portions";
+  if (one.corrupt() != other.corrupt() || one.foreign() != other.foreign()) return "the counts depend on the portions";
   // 32 bytes is the least that a sensor takes.
-  if (whole.size() * 32 > bytes.size() || one.passed_over() > bytes.size()) return "more came out than went in";
+  if (whole.size() * 32 > bytes.size() || one.foreign() > whole.size()) return "more came out than went in";
   for (const PolhemusRecord& record : whole)
     if (!is_pose(record.reading) || record.reading.sensor > 127) return "a record is no pose";
   return "";

@@ -185,7 +185,11 @@ TEST_CASE("Polhemus records come whole however the bytes are cut, with anything 
   again.restart();
   again.add(golden::kLiberty, records);
   CHECK(records.size() == 1);
-  CHECK(again.passed_over() == 0);
+  CHECK(again.foreign() == 0);
+  again.add(Bytes(golden::kViperStart), records);
+  again.add(golden::kLiberty, records);
+  CHECK(records.size() == 2);
+  CHECK(again.foreign() == 1);
 }
 
 TEST_CASE("a Viper's commands carry their size and checksum") {

@@ -172,6 +172,34 @@ TEST_CASE("the probe's transform is the one named, else to the patient, the refe
   CHECK(x(all, "StylusToTrackerTransform") == 4);
 }
 
+TEST_CASE(
+    "PLUS's single frame, whose header counts it but does not list it, and its colours, which it lists but does not "
+    "count") {
+  const std::string frame =
+      "Seq_Frame0000_ProbeToTrackerTransform = 1 0 0 7 0 1 0 0 0 0 1 0 0 0 0 1\n"
+      "Seq_Frame0000_ProbeToTrackerTransformStatus = OK\nSeq_Frame0000_Timestamp = 1109.6\n"
+      "Seq_Frame0000_ImageStatus = OK\nElementDataFile = LOCAL\n";
+  const auto samples_of = [&](const std::string& head, const std::string& rest) {
+    return probe_samples(parse_sequence("ObjectType = Image\n" + head + rest, "log"));
+  };
+  const std::string grey = "NDims = 3\nDimSize = 4                      3\nKinds = domain                  domain\n";
+  const auto single = samples_of(grey, frame + std::string(12, 'x'));
+  REQUIRE(single.size() == 1);
+  CHECK(single[0].patient_from_probe.translation.x == 7);
+  CHECK_THROWS_WITH(samples_of(grey, frame + std::string(11, 'x')), Catch::Contains("11 bytes of 12"));
+  std::string second = frame;
+  second.insert(0, "Seq_Frame0001_Timestamp = 1109.7\n");
+  CHECK_THROWS_WITH(samples_of(grey, second + std::string(12, 'x')), Catch::Contains("1 frames"));
+
+  const std::string colour =
+      "NDims = 3\nElementNumberOfChannels = 3\nDimSize = 3 4 3      2\nKinds = vector domain domain list\n";
+  std::string two = frame;
+  two.insert(0, "Seq_Frame0001_Timestamp = 1109.7\n");
+  CHECK(samples_of(colour, two + std::string(72, 'x')).size() == 2);
+  CHECK_THROWS_WITH(samples_of(colour, two + std::string(71, 'x')), Catch::Contains("71 bytes of 72"));
+  CHECK_THROWS_WITH(samples_of("NDims = 2\nDimSize = 4 3\n", frame), Catch::Contains("NDims is '2'"));
+}
+
 TEST_CASE("a chain is as good as its worse link") {
   const std::string text = sequence_of(
       3, "",

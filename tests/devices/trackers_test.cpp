@@ -55,7 +55,7 @@ TEST_CASE("a tracker that cannot be opened is refused with what to write instead
       {":x", {"no kind before a colon"}},
       {"mouse", {"no kind before a colon"}},
       {"replai:x", {"no kind of tracker 'replai'", "did you mean 'replay'?"}},
-      {"zzzzzz:x", {"use one of 'replay', 'synthetic', 'auto', 'polhemus'"}},
+      {"zzzzzz:x", {"use one of 'replay', 'raw', 'synthetic', 'auto', 'polhemus'"}},
       {kLog, {"did you mean 'replay:"}},
       {"replay:", {"names no file"}},
       {"replay:/nowhere/scan.igs.mha", {"/nowhere/scan.igs.mha", "no such file"}},

@@ -253,7 +253,7 @@ TEST_CASE("a device that is pulled out is lost with a sentence, and comes back w
 }
 
 TEST_CASE("a Liberty is set up in its own words, and one of its sensors is followed") {
-  Bench<PolhemusSource> bench(PolhemusSource::Options{.sensor = 1, .most_distortion = 20}, Placement({}, true));
+  Bench<PolhemusSource> bench(1u, Placement({}, true));
   bench.bus->attached.devices = {kLiberty};
   bench.source.open();
   CHECK(bench.bus->endpoints.out == 0x04);
@@ -269,15 +269,43 @@ TEST_CASE("a Liberty is set up in its own words, and one of its sensors is follo
   REQUIRE(batch.samples.size() == 3);
   CHECK(batch.samples[0].status == PoseStatus::ok);
   CHECK(glm::distance(batch.samples[0].patient_from_probe.translation, glm::dvec3(105, -22.5, 310)) < 1e-9);
-  CHECK(batch.samples[1].status == PoseStatus::invalid);
-  CHECK(batch.samples[2].status == PoseStatus::ok);
+  CHECK(batch.samples[0].distortion == 20u);
+  CHECK(batch.samples[1].distortion == 21u);
+  CHECK(batch.samples[2].distortion == 0u);
   CHECK(bench.source.tally().missed == 2);
   bench.source.close();
   CHECK(bench.bus->sent.back() == Report{'P', '\r'});
 }
 
+TEST_CASE("a Polhemus sensor that is not plugged in is told with those that are, and text between records is counted") {
+  Bench<PolhemusSource> bench(2u, Placement({}, true));
+  bench.bus->attached.devices = {kLiberty};
+  bench.source.open();
+  bench.bus->reports = {{'o', 'k', '\r'}, liberty_record(1, 5, 0), liberty_record(4, 5, 0)};
+  CHECK(bench.read_all().note.empty());
+  bench.now_s += PolhemusSource::kSensorMissingS + 0.1;
+  bench.bus->reports = {liberty_record(1, 6, 0)};
+  CHECK(bench.read_all().note ==
+        "The Polhemus tracker sends sensor 1, 4 but not sensor 3: plug that in, or follow another, as in "
+        "'polhemus:?sensor=1'.");
+  bench.bus->reports = {liberty_record(3, 7, 0)};
+  CHECK(bench.read_all().note.empty());
+  CHECK(bench.source.tally().incidents() == 0);
+  bench.bus->reports = {{'o', 'k'}, {'\r'}, liberty_record(3, 8, 0)};
+  CHECK(contains(bench.read_all().note, "1 foreign"));
+  CHECK(bench.source.tally().foreign == 1);
+}
+
+TEST_CASE("a tracker that nobody has calibrated says so in its name") {
+  CHECK(open_tracker("hydra:")->state().name ==
+        "Razer Hydra, not calibrated: the probe began where the sensor was first seen");
+  CHECK(contains(open_tracker("polhemus:")->state().name, "not calibrated"));
+  CHECK(open_tracker("hydra:?raw=1")->state().name == "Razer Hydra");
+  CHECK(open_tracker("spacemouse:")->state().name == "SpaceMouse");
+}
+
 TEST_CASE("a Viper is told its units and to send, and a frame that fails its checksum is counted") {
-  Bench<PolhemusSource> bench(PolhemusSource::Options{.sensor = 1}, Placement({}, true));
+  Bench<PolhemusSource> bench(1u, Placement({}, true));
   bench.bus->attached.devices = {kViper};
   bench.source.open();
   CHECK(bench.bus->endpoints.in == 0x81);
@@ -289,6 +317,7 @@ TEST_CASE("a Viper is told its units and to send, and a frame that fails its che
   bench.bus->reports = {bytes(golden::kViper), corrupt};
   const LiveBatch batch = bench.read_all();
   REQUIRE(batch.samples.size() == 1);
+  CHECK(bench.source.tally().foreign == 0);
   CHECK(batch.samples[0].buttons == kFreezeButton);
   CHECK(bench.source.tally().corrupt == 1);
   bench.source.close();
@@ -387,6 +416,6 @@ TEST_CASE("trackers on a bus open by their URI, with or without the device") {
     CHECK(tracker->state().condition == TrackerCondition::waiting);
   }
   for (const char* uri : {"hydra:?handset=3", "hydra:?sensor=1", "polhemus:?sensor=0", "polhemus:?distortion=x",
-                          "spacemouse:?speed=0", "osvr:?raw=1", "auto:x", "auto:?raw=1"})
+                          "replay:x?distortion=3", "spacemouse:?speed=0", "osvr:?raw=1", "auto:x", "auto:?raw=1"})
     CHECK_THROWS_AS(open_tracker(uri), InputError);
 }

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -22,6 +23,7 @@
 #include "devices/replay/raw_replay.h"
 #include "devices/spacemouse/spacemouse_tracker.h"
 #include "sim/core/files.h"
+#include "sim/core/hash.h"
 #include "sim/core/input_error.h"
 #include "tests/devices/golden_reports.h"
 #include "tests/devices/test_samples.h"
@@ -125,7 +127,7 @@ std::string refusal(const std::string& text) {
 
 TEST_CASE("a raw recording replays to the samples that came, to the bit, whatever was sent") {
   const File file;
-  Recorded run(file, "hydra:A1", FilterSettings::all(), kHydra, [](auto bus, auto clock) {
+  Recorded run(file, "hydra:A1", FilterSettings::usual(), kHydra, [](auto bus, auto clock) {
     return std::make_unique<HydraSource>(bus, "A1", 0, Placement(kStart, false), clock);
   });
   Report corrupt = hydra_report(5), cut = hydra_report(6);
@@ -171,8 +173,7 @@ TEST_CASE("a rate and a stream that is cut anywhere replay to the bit too") {
   }
   const File file;
   Recorded run(file, "polhemus:?sensor=2&filter=off", FilterSettings(), kViper, [](auto bus, auto clock) {
-    return std::make_unique<PolhemusSource>(bus, "", PolhemusSource::Options{.sensor = 1}, Placement(kStart, false),
-                                            clock);
+    return std::make_unique<PolhemusSource>(bus, "", 1u, Placement(kStart, false), clock);
   });
   const Report frame = bytes(golden::kViper);
   run.read({{frame.begin(), frame.begin() + 11}, {frame.begin() + 11, frame.end()}, {'o', 'k'}});
@@ -250,6 +251,30 @@ TEST_CASE("a raw recording that is damaged is refused with the place and the rea
     CAPTURE(length);
     CHECK(refusal(kGood.substr(0, length)).empty() == any);
   }
+}
+
+TEST_CASE("a raw recording with any bytes changed is refused or gives samples that can be recorded") {
+  int taken = 0, refused = 0;
+  for (std::uint32_t trial = 0; trial < 3000; ++trial) {
+    std::string text = kGood;
+    for (std::uint32_t i = 1; i <= 1 + hash(trial, 0) % 3; ++i)
+      text[hash(trial, i) % text.size()] = "0123456789abcdef .:\n"[hash(trial, i + 100) % 20];
+    CAPTURE(text);
+    try {
+      double before_s = -HUGE_VAL;
+      for (const PoseSample& sample : parse_raw(text, "scan.raw").samples) {
+        REQUIRE(sample.time_s > before_s);
+        REQUIRE_FALSE(why_not_rigid(sample.patient_from_probe.matrix()));
+        before_s = sample.time_s;
+      }
+      ++taken;
+    } catch (const InputError&) {
+      ++refused;
+    }
+  }
+  // Either would mean that the trials do not try anything.
+  CHECK(taken > 100);
+  CHECK(refused > 1000);
 }
 
 TEST_CASE("only what has a device is recorded raw, and into a new file") {

@@ -1,6 +1,7 @@
 // libFuzzer over the reader of OpenIGTLink; the first byte is the size of the portions. The test igtl_test runs the
 // same promises over messages with a few changes each.
-//   build/dev/tests/fuzz_igtl -max_len=4096 -max_total_time=600
+//   build/dev/tests/fuzz_igtl -max_len=4096 -max_total_time=600 FOLDER tests/devices/igtl/corpus
+// puts what it finds into FOLDER.
 #include "igtl_promises.h"
 
 #include <cstdio>

@@ -9,8 +9,10 @@
 #include <igtlTransformMessage.h>
 
 #include <cstring>
+#include <filesystem>
 
 #include "devices/igtl/igtl_reader.h"
+#include "sim/core/files.h"
 #include "sim/core/hash.h"
 
 namespace insonate::igtl {
@@ -160,6 +162,19 @@ TEST_CASE("bodies that nobody wants or that are too large are passed over, and t
   REQUIRE(messages.size() == 3);
   CHECK(messages[2].first.type == "TRANSFORM");
   for (const std::size_t portion : {1, 7, 57, 58, 59, 4096}) CHECK(broken_promise(stream, portion) == "");
+}
+
+TEST_CASE("what the fuzzer has found keeps the promises too") {
+  std::size_t count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(INSONATE_IGTL_CORPUS_FOLDER)) {
+    if (entry.path().filename().string().starts_with(".")) continue;
+    const std::string text = read_file(entry.path());
+    const Bytes bytes(text.begin(), text.end());
+    CAPTURE(entry.path());
+    CHECK(broken_promise(ByteView(bytes).subspan(1), 1 + std::size_t(bytes[0])) == "");
+    ++count;
+  }
+  CHECK(count > 50);
 }
 
 TEST_CASE("a stream of anything else is told from OpenIGTLink") {

@@ -2,6 +2,9 @@
 
 #include <catch2/catch.hpp>
 
+#include <atomic>
+#include <memory>
+
 #include "tests/devices/live/scripted_source.h"
 
 using namespace insonate;
@@ -16,6 +19,7 @@ LiveTracker::Options hasty() {
   options.longest_pause = milliseconds(20);
   options.silence = milliseconds(100);
   options.heartbeat = milliseconds(20);
+  options.ending = milliseconds(60000);  // the devices are the tests' own and end with them
   return options;
 }
 
@@ -142,4 +146,43 @@ TEST_CASE("a tracker ends while its device is open, absent, or was never asked f
     REQUIRE(poll_until(*tracker, samples, [&] { return !tracker->state().problem.empty(); }));
   }
   CHECK(device.closed == 1);
+}
+
+TEST_CASE("a device that does not let go keeps nobody waiting but the next that opens one") {
+  struct Door {
+    std::atomic<int> opened{0}, closing{0};
+    std::atomic<bool> may_close{false};
+  };
+  struct Slow : LiveSource {
+    explicit Slow(std::shared_ptr<Door> its) : door(std::move(its)) {}
+    std::string name() const override { return "a slow device"; }
+    void open() override { ++door->opened; }
+    void read(milliseconds, LiveBatch& batch) override {
+      std::this_thread::sleep_for(milliseconds(1));
+      batch.samples.push_back({steady_now_s(), PoseStatus::ok, {}, 0});
+    }
+    void close() noexcept override {
+      ++door->closing;
+      while (!door->may_close) std::this_thread::sleep_for(milliseconds(1));
+    }
+    std::shared_ptr<Door> door;
+  };
+  LiveTracker::Options options;
+  options.ending = milliseconds(10);
+  const auto first = std::make_shared<Door>(), second = std::make_shared<Door>();
+  second->may_close = true;
+  std::vector<PoseSample> samples;
+  {
+    LiveTracker tracker(std::make_unique<Slow>(first), options);
+    REQUIRE(poll_until(tracker, samples, [&] { return !samples.empty(); }));
+  }
+  CHECK(first->opened == 1);
+  LiveTracker next(std::make_unique<Slow>(second), options);
+  samples.clear();
+  next.poll(steady_now_s(), samples);
+  while (first->closing == 0) std::this_thread::sleep_for(milliseconds(1));
+  std::this_thread::sleep_for(milliseconds(20));
+  CHECK(second->opened == 0);
+  first->may_close = true;
+  CHECK(poll_until(next, samples, [&] { return !samples.empty(); }));
 }

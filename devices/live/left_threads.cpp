@@ -1,0 +1,34 @@
+#include "devices/live/left_threads.h"
+
+#include <mutex>
+#include <utility>
+#include <vector>
+
+namespace insonate {
+namespace {
+
+struct Left {
+  std::mutex mutex;
+  std::vector<std::jthread> threads;  // joined when they are destroyed
+};
+
+Left& left() {
+  static Left all;
+  return all;
+}
+
+}  // namespace
+
+void leave_thread(std::jthread thread) {
+  const std::lock_guard lock(left().mutex);
+  left().threads.push_back(std::move(thread));
+}
+
+void join_left_threads(const std::stop_token& stop) {
+  std::vector<std::jthread> threads;  // joined after the lock is given back
+  const std::lock_guard lock(left().mutex);
+  // Asked under the lock: who is among the threads has been asked to end before it was put there.
+  if (!stop.stop_requested()) threads.swap(left().threads);
+}
+
+}  // namespace insonate
