@@ -24,20 +24,29 @@ constexpr double kLeastIntensity = 1e-10;
 
 constexpr std::size_t kGroup = 8;  // the shaders' local size
 
-// Pixels shared out to invocations, a column each; about 32 pixels a column, and no side above 16384.
-Texture shared_out(std::vector<glm::vec4> pixels, const glm::vec4& filler) {
+// Columns of pixels, one an invocation, as a table with a row a step; as many columns as whole groups have.
+Texture as_table(const std::vector<std::vector<glm::vec4>>& columns, const glm::vec4& filler) {
+  std::size_t steps = 0;
+  for (const auto& column : columns) steps = std::max(steps, column.size());
+  const std::size_t width = (columns.size() + kGroup - 1) / kGroup * kGroup;
+  std::vector<glm::vec4> table(width * steps, filler);
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    for (std::size_t step = 0; step < columns[i].size(); ++step) table[step * width + i] = columns[i][step];
+  Texture texture = Texture::make_2d(GL_RGBA32F, int(width), int(steps), Filter::nearest);
+  texture.write(GL_RGBA, GL_FLOAT, table.data());
+  return texture;
+}
+
+// Pixels shared out to invocations, a column each, so that a group takes neighbours at a step; about 32 pixels a
+// column, and no side above 16384.
+Texture shared_out(const std::vector<glm::vec4>& pixels, const glm::vec4& filler) {
   if (pixels.empty()) return {};
   const std::size_t groups = std::clamp<std::size_t>(pixels.size() / (32 * kGroup), 1, 512);
   const std::size_t steps = (pixels.size() + groups * kGroup - 1) / (groups * kGroup);
-  pixels.resize(groups * kGroup * steps, filler);
-  std::vector<glm::vec4> table(pixels.size());  // an invocation's neighbours take a pixel's neighbours
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
-    const std::size_t lane = i % kGroup, step = i / kGroup % steps, group = i / kGroup / steps;
-    table[step * groups * kGroup + group * kGroup + lane] = pixels[i];
-  }
-  Texture texture = Texture::make_2d(GL_RGBA32F, int(groups * kGroup), int(steps), Filter::nearest);
-  texture.write(GL_RGBA, GL_FLOAT, table.data());
-  return texture;
+  std::vector<std::vector<glm::vec4>> columns(groups * kGroup);
+  for (std::size_t i = 0; i < pixels.size(); ++i)
+    columns[i / kGroup / steps * kGroup + i % kGroup].push_back(pixels[i]);
+  return as_table(columns, filler);
 }
 
 // What traverses lines; `tells`: the intensity too, which no picture needs.
@@ -123,6 +132,7 @@ WeinSimulator::State::State(const AcousticVolume& volume, const Probe& probe, do
   p.shadows = settings.shadows;
   // Sample k lies at (k + 1/2) dr behind r_min: the first one that is not nearer than the contact.
   p.first_free_sample = float(std::ceil((settings.contact_mm - lines.r_min_mm) / dr - 0.5));
+  p.patches = settings.similarity_patch > 0;
   p.dr_by_length = float(dr / settings.reflection_length_mm);
   p.compression = float(settings.compression);
   p.one_over_compressed_one = float(1 / std::log1p(settings.compression));
@@ -228,13 +238,20 @@ void WeinSimulator::set_ultrasound(const Image<float>& image) {
   for (std::size_t i = 0; i < fan.pixels.size(); ++i)
     if (counts(i)) squares += (image.pixels[i] - mean) * (image.pixels[i] - mean);
   const double scale = most > least ? 1 / std::sqrt(squares / count) : 0;  // of a flat image nothing is left
-  std::vector<glm::vec4> pixels = s.positions();
-  std::size_t counted = 0;
-  for (std::size_t i = 0; i < pixels.size(); ++i)
-    if (counts(i)) pixels[counted++] = glm::vec4(pixels[i].x, pixels[i].y, (image.pixels[i] - mean) * scale, 1);
-  pixels.resize(counted);
-  s.counted_pixels = shared_out(pixels, glm::vec4(0));
-  if (counted > 0)
+  const int width = fan.width, patch = s.settings.similarity_patch, across = patch ? (width + patch - 1) / patch : 0;
+  const std::vector<glm::vec4> positions = s.positions();
+  std::vector<glm::vec4> pixels;
+  std::vector<std::vector<glm::vec4>> patches;
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    if (counts(i)) {
+      pixels.emplace_back(positions[i].x, positions[i].y, (image.pixels[i] - mean) * scale, 1);
+      if (!patch) continue;
+      const std::size_t in = std::size_t(int(i) / width / patch * across + int(i) % width / patch);
+      patches.resize(std::max(patches.size(), in + 1));
+      patches[in].push_back(pixels.back());
+    }
+  s.counted_pixels = patches.empty() ? shared_out(pixels, glm::vec4(0)) : as_table(patches, glm::vec4(0));
+  if (s.counted_pixels)
     s.sums = Texture::make_2d(GL_RGBA32F, 3 * s.counted_pixels.width(), int(s.chunk_images), Filter::nearest);
 }
 

@@ -49,8 +49,9 @@ public:
   /// NaN where a pixel is not to count. Pixels outside the fan never do. Throws std::invalid_argument for another size.
   void set_ultrasound(const Image<float>& image);
 
-  /// LC2 of the image at each pose with the ultrasound image, 0 to 1, as sim/reference/wein_reference.h defines it: the
-  /// images stay on the device, a number each is read back. 0 without an ultrasound image. Waits for the device.
+  /// LC2 of the image at each pose with the ultrasound image, 0 to 1, as sim/reference/wein_reference.h defines it, by
+  /// patches if the settings say so: the images stay on the device, a number each is read back. 0 without an ultrasound
+  /// image. Waits for the device.
   std::vector<float> similarity(std::span<const Pose> patient_from_probe);
 
   /// What crosses the stages of one image but its terms behind scan conversion, read back; for those who check.

@@ -26,11 +26,17 @@ struct WeinSettings {
   bool shadows = true;            ///< E too is scaled by I, so that a shadow holds no echo; the paper leaves E as it is
   double reflection_share = 0.5;  ///< s in the image, s R + (1 - s) E, 0 to 1
 
+  int similarity_patch = 0;  ///< pixels: LC2 of patches of so many squared, weighted by the ultrasound's variance in
+                             ///< them; 0 (of the whole picture), or kLeastPatch to kMostPatch with at
+                             ///< most kMostPatches in a picture
+
   int image_width = 128;  ///< 1 to 8192
   int image_height = 96;  ///< 1 to 8192
 };
 
 inline constexpr double kLeastHuRange = 1;
+inline constexpr int kLeastPatch = 4, kMostPatch = 128;
+inline constexpr int kMostPatches = 5456;  ///< what textures 16384 wide, as every device has, hold the sums of
 
 /// The mu of air, below which none counts: its density is 1.2e-3 of water's, whose mu is 1000.
 inline constexpr double kAirMu = 1.2;

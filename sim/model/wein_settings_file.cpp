@@ -20,10 +20,21 @@ const std::vector<Key<WeinSettings>>& all_keys() {
       number("bright_hu", &W::bright_hu, -1000, 3000),
       flag("shadows", &W::shadows),
       number("reflection_share", &W::reflection_share, 0, 1),
+      whole("similarity_patch", &W::similarity_patch, 0, kMostPatch),
       whole("image_width", &W::image_width, 1, 8192),
       whole("image_height", &W::image_height, 1, 8192),
   };
   return all;
+}
+
+std::optional<std::string> why_no_patch(const WeinSettings& settings) {
+  const int patch = settings.similarity_patch;
+  if (patch == 0) return std::nullopt;
+  const auto along = [&](int pixels) { return std::int64_t((pixels + patch - 1) / patch); };
+  if (patch >= kLeastPatch && along(settings.image_width) * along(settings.image_height) <= kMostPatches)
+    return std::nullopt;
+  return "'similarity_patch' is " + std::to_string(patch) + ", neither 0 nor 4 or more with at most " +
+         std::to_string(kMostPatches) + " patches in the picture";
 }
 
 std::optional<std::string> why_no_range(const WeinSettings& settings) {
@@ -42,12 +53,15 @@ WeinSettings read_wein_settings(const std::filesystem::path& toml_file) {
   problems.throw_any();
   if (const auto why = why_no_range(settings))
     root.fail(root.has("bright_hu") ? "bright_hu" : "dark_hu", *why, "move them apart");
+  if (const auto why = why_no_patch(settings)) root.fail("similarity_patch", *why, "make it larger");
   return settings;
 }
 
 std::optional<std::string> why_not_valid(const WeinSettings& settings) {
   const auto why = first_not_valid(all_keys(), settings);
-  return why ? why : why_no_range(settings);
+  if (why) return why;
+  const auto no_range = why_no_range(settings);
+  return no_range ? no_range : why_no_patch(settings);
 }
 
 std::vector<std::pair<std::string, SettingValue>> named_settings(const WeinSettings& settings) {

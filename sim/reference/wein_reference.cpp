@@ -46,6 +46,37 @@ double dot(const std::vector<double>& a, const std::vector<double>& b) {
   return sum;
 }
 
+struct Explained {
+  double explained = 0, variance = 0;  ///< sums of squares
+};
+
+/// How much of what u varies by the best sum of the terms and a constant explains.
+Explained explained_by(std::vector<double> u, std::vector<std::vector<double>> terms) {
+  if (u.empty() || *std::max_element(u.begin(), u.end()) == *std::min_element(u.begin(), u.end())) return {};
+  const auto centre = [](std::vector<double>& values) {
+    const double mean = mean_of(values);
+    for (double& value : values) value -= mean;
+  };
+  centre(u);
+  const double variance = dot(u, u);
+
+  // The constant goes with the means. What is left is made orthogonal, term by term, and taken out of the image.
+  std::vector<std::vector<double>> basis;
+  for (std::vector<double>& term : terms) {
+    centre(term);
+    for (const std::vector<double>& known : basis) {
+      const double share = dot(term, known) / dot(known, known);
+      for (std::size_t i = 0; i < term.size(); ++i) term[i] -= share * known[i];
+    }
+    if (std::sqrt(dot(term, term) / double(term.size())) >= kLeastTermDeviation) basis.push_back(term);
+  }
+  for (const std::vector<double>& term : basis) {
+    const double share = dot(u, term) / dot(term, term);
+    for (std::size_t i = 0; i < u.size(); ++i) u[i] -= share * term[i];
+  }
+  return {variance - dot(u, u), variance};
+}
+
 }  // namespace
 
 WeinField wein_field(const AcousticVolume& volume, double reflection_length_mm) {
@@ -129,37 +160,24 @@ WeinStages<double> wein_reference(const WeinField& field, const Probe& probe, do
 }
 
 double lc2_reference(const Image<double>& ultrasound, const Image<std::uint8_t>& counts,
-                     const Image<double>& echogenicity, const Image<double>& reflection) {
-  std::vector<double> u, terms[2];
-  for (std::size_t i = 0; i < counts.pixels.size(); ++i) {
-    if (!counts.pixels[i]) continue;
-    u.push_back(ultrasound.pixels[i]);
-    terms[0].push_back(echogenicity.pixels[i]);
-    terms[1].push_back(reflection.pixels[i]);
-  }
-  if (u.empty() || *std::max_element(u.begin(), u.end()) == *std::min_element(u.begin(), u.end())) return 0;
-  const auto centre = [](std::vector<double>& values) {
-    const double mean = mean_of(values);
-    for (double& value : values) value -= mean;
-  };
-  centre(u);
-  const double variance = dot(u, u);
-
-  // The constant goes with the means. What is left is made orthogonal, term by term, and taken out of the image.
-  std::vector<std::vector<double>> basis;
-  for (std::vector<double>& term : terms) {
-    centre(term);
-    for (const std::vector<double>& known : basis) {
-      const double share = dot(term, known) / dot(known, known);
-      for (std::size_t i = 0; i < term.size(); ++i) term[i] -= share * known[i];
+                     const Image<double>& echogenicity, const Image<double>& reflection, int patch) {
+  const int side = patch > 0 ? patch : std::max({counts.width, counts.height, 1});
+  double explained = 0, variance = 0;
+  for (int y0 = 0; y0 < counts.height; y0 += side)
+    for (int x0 = 0; x0 < counts.width; x0 += side) {
+      std::vector<double> u, terms[2];
+      for (int y = y0; y < std::min(y0 + side, counts.height); ++y)
+        for (int x = x0; x < std::min(x0 + side, counts.width); ++x) {
+          if (!counts.at(x, y)) continue;
+          u.push_back(ultrasound.at(x, y));
+          terms[0].push_back(echogenicity.at(x, y));
+          terms[1].push_back(reflection.at(x, y));
+        }
+      const Explained of_patch = explained_by(u, {terms[0], terms[1]});
+      explained += of_patch.explained;
+      variance += of_patch.variance;
     }
-    if (std::sqrt(dot(term, term) / double(term.size())) >= kLeastTermDeviation) basis.push_back(term);
-  }
-  for (const std::vector<double>& term : basis) {
-    const double share = dot(u, term) / dot(term, term);
-    for (std::size_t i = 0; i < u.size(); ++i) u[i] -= share * term[i];
-  }
-  return 1 - dot(u, u) / variance;
+  return variance > 0 ? explained / variance : 0;
 }
 
 }  // namespace insonate

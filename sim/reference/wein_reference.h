@@ -33,9 +33,15 @@ WeinStages<double> wein_reference(const WeinField& field, const Probe& probe, do
 /// variance that the best a E + b R + c explains, 1 - sum (u - a E - b R - c)^2 / sum (u - mean u)^2.
 /// 0 for an ultrasound image without variance and where no pixel counts. A term whose standard deviation is below
 /// kLeastTermDeviation is constant to single precision, and takes no part.
+///
+/// By patches (Fuerst, Wein, Mueller, Navab, "Automatic ultrasound-MRI registration for neurosurgery using the 2D and
+/// 3D LC2 metric", Medical Image Analysis 18, 2014) the picture is cut into squares side by side from its top left,
+/// each with its own a, b and c; their LC2 are averaged with the ultrasound's variance times the pixels that count as
+/// weights.
 /// @param counts  1 where a pixel counts; all images of one size
+/// @param patch   pixels along a patch's side; 0: the whole picture is one
 double lc2_reference(const Image<double>& ultrasound, const Image<std::uint8_t>& counts,
-                     const Image<double>& echogenicity, const Image<double>& reflection);
+                     const Image<double>& echogenicity, const Image<double>& reflection, int patch = 0);
 
 inline constexpr double kLeastTermDeviation = 1e-5;
 

@@ -1,5 +1,5 @@
-// LC2 of an image: its parts' sums put together, then the share of the ultrasound image's variance that the two terms
-// and a constant explain.
+// LC2 of an image: the share of the ultrasound image's variance that the two terms and a constant explain, of its parts'
+// sums put together, or of each part by itself where the parts are patches.
 
 layout(local_size_x = 8) in;
 
@@ -10,23 +10,10 @@ layout(std430, binding = 0) writeonly buffer Similarities { float similarity[]; 
 
 const float kLeastVariance = 1e-10;  // of a term: kLeastTermDeviation squared
 
-void main() {
-  int image = int(gl_GlobalInvocationID.x);
-  if (image >= images) return;
-  float count = 0.0;
-  vec3 mean = vec3(0.0), squares = vec3(0.0), products = vec3(0.0);
-  int parts = textureSize(sums, 0).x / 3;
-  for (int i = 0; i < parts; ++i) {
-    vec4 part = texelFetch(sums, ivec2(3 * i, image), 0);
-    float both = max(count + part.w, 1.0), weight = count * part.w / both;
-    vec3 apart = part.xyz - mean;
-    squares += texelFetch(sums, ivec2(3 * i + 1, image), 0).xyz + weight * apart * apart;
-    products += texelFetch(sums, ivec2(3 * i + 2, image), 0).xyz + weight * apart * apart.yzx;
-    mean += apart * (part.w / both);
-    count += part.w;
-  }
+// Sums of squares and products of u, E and R: how much of uu is explained.
+float explained_by(vec3 squares, vec3 products, float count) {
   float least = kLeastVariance * count;
-  float uu = squares.x, ee = squares.y, rr = squares.z, ue = products.x, er = products.y, ru = products.z;
+  float ee = squares.y, rr = squares.z, ue = products.x, er = products.y, ru = products.z;
   float explained = 0.0;
   if (ee >= least) {  // E, and what of R is not E's
     explained = ue * ue / ee;
@@ -34,5 +21,34 @@ void main() {
     rr -= er * er / ee;
   }
   if (rr >= least) explained += ru * ru / rr;
-  similarity[first + image] = uu > 0.0 ? clamp(explained / uu, 0.0, 1.0) : 0.0;
+  return clamp(explained, 0.0, squares.x);
+}
+
+void main() {
+  int image = int(gl_GlobalInvocationID.x);
+  if (image >= images) return;
+  float count = 0.0, explained = 0.0, variance = 0.0;
+  vec3 mean = vec3(0.0), squares = vec3(0.0), products = vec3(0.0);
+  int parts = textureSize(sums, 0).x / 3;
+  for (int i = 0; i < parts; ++i) {
+    vec4 part = texelFetch(sums, ivec2(3 * i, image), 0);
+    vec3 part_squares = texelFetch(sums, ivec2(3 * i + 1, image), 0).xyz;
+    vec3 part_products = texelFetch(sums, ivec2(3 * i + 2, image), 0).xyz;
+    if (patches == 1) {
+      if (part.w > 0.0) explained += explained_by(part_squares, part_products, part.w);
+      variance += part_squares.x;
+      continue;
+    }
+    float both = max(count + part.w, 1.0), weight = count * part.w / both;
+    vec3 apart = part.xyz - mean;
+    squares += part_squares + weight * apart * apart;
+    products += part_products + weight * apart * apart.yzx;
+    mean += apart * (part.w / both);
+    count += part.w;
+  }
+  if (patches == 0) {
+    explained = explained_by(squares, products, count);
+    variance = squares.x;
+  }
+  similarity[first + image] = variance > 0.0 ? clamp(explained / variance, 0.0, 1.0) : 0.0;
 }

@@ -229,6 +229,7 @@ inline WeinSettings random_wein_settings(std::uint32_t seed) {
   s.reflection_share = draw.within(0, 1);
   s.image_width = draw.whole(1, 48);
   s.image_height = draw.whole(1, 48);
+  s.similarity_patch = draw.one_of({0, 0, kLeastPatch, 17, kMostPatch});
   return s;
 }
 

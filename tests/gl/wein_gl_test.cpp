@@ -162,6 +162,36 @@ TEST_CASE("LC2: GLSL agrees with the reference for every image of a call") {
   }
 }
 
+TEST_CASE("LC2 by patches: GLSL agrees with the reference, and feels no gain that varies over the picture") {
+  Fixture f;
+  WeinSettings settings = small();
+  settings.similarity_patch = 12;  // which divides neither side
+  gl::WeinSimulator by_patches(f.body, f.probe, kDepthMm, settings);
+  const WeinStages<double> stages = f.expected(f.pose);
+  Image<float> ultrasound = f.ultrasound_like(stages, 90, 30, 0.4);
+  const auto check = [&](bool fading) {
+    if (fading)
+      for (int y = 0; y < ultrasound.height; ++y)
+        for (int x = 0; x < ultrasound.width; ++x)
+          ultrasound.at(x, y) *= float(std::exp(-0.07 * y)) * (x < ultrasound.width / 2 ? 1.0f : 0.3f);
+    by_patches.set_ultrasound(ultrasound);
+    Image<double> u(ultrasound.width, ultrasound.height);
+    std::copy(ultrasound.pixels.begin(), ultrasound.pixels.end(), u.pixels.begin());
+    const std::vector<Pose> all = poses(40);
+    const std::vector<float> got = by_patches.similarity(all);
+    for (const std::size_t i : {0, 3, 11, 39}) {
+      const WeinStages<double> at = f.expected(all[i]);
+      CAPTURE(i, fading);
+      CHECK(got[i] == Approx(lc2_reference(u, by_patches.inside(), at.echogenicity, at.reflection, 12)).margin(1e-3));
+    }
+    f.simulator.set_ultrasound(ultrasound);
+    return std::pair(by_patches.similarity({&f.pose, 1}).front(), f.simulator.similarity({&f.pose, 1}).front());
+  };
+  const auto even = check(false), faded = check(true);
+  CHECK(faded.first > even.first - 0.1);
+  CHECK(faded.second < even.second - 0.15);
+}
+
 TEST_CASE("LC2 is 1 for an affine map of the image's own terms, and feels neither gain nor offset") {
   Fixture f;
   const WeinStages<double> stages = f.expected(f.pose);

@@ -165,6 +165,30 @@ TEST_CASE("LC2 is 1 for an affine map of its terms, and does not feel the ultras
   CHECK(lc2_reference(other, kEverywhere, e, r) < 0.05);  // 2 of 300 degrees of freedom fit by chance
 }
 
+TEST_CASE("LC2 by patches is the mean of the patches' own, weighted by what the ultrasound image varies by in them") {
+  const Image<double> e = noise(1), r = noise(2);
+  Image<double> u = mix(1, e, 1, r, 0);
+  const Image<double> other = noise(3);
+  for (int y = 0; y < 15; ++y)
+    for (int x = 10; x < 20; ++x) u.at(x, y) = 3 * other.at(x, y) + 5;  // the right half: something else, and louder
+  // What counts are 20 x 10 pixels, of which patches of 10 are the halves.
+  Image<std::uint8_t> both(20, 15), left = both, right = both;
+  for (int y = 0; y < 10; ++y)
+    for (int x = 0; x < 20; ++x) both.at(x, y) = (x < 10 ? left : right).at(x, y) = 1;
+  const auto variance = [&](const Image<std::uint8_t>& mask) {
+    double sum = 0, squares = 0;
+    for (std::size_t i = 0; i < 300; ++i)
+      if (mask.pixels[i]) sum += u.pixels[i], squares += u.pixels[i] * u.pixels[i];
+    return squares - sum * sum / 100;
+  };
+  const double in_left = lc2_reference(u, left, e, r), in_right = lc2_reference(u, right, e, r);
+  CHECK(in_left == Approx(1));
+  CHECK(in_right < 0.1);
+  CHECK(lc2_reference(u, both, e, r, 10) ==
+        Approx((variance(left) * in_left + variance(right) * in_right) / (variance(left) + variance(right))));
+  CHECK(lc2_reference(u, kEverywhere, e, r, 20) == Approx(lc2_reference(u, kEverywhere, e, r)));
+}
+
 TEST_CASE("LC2 of one term alone is the square of Pearson's correlation") {
   const Image<double> e = noise(1), u = mix(1, e, 0.8, noise(3), 0);
   double me = 0, mu = 0, ee = 0, uu = 0, eu = 0;

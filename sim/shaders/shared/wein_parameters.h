@@ -29,6 +29,9 @@ layout(std140, binding = 0) uniform WeinParameters {
   float reflection_share;
   float last_log_intensity;  // ln I below which a line is left
 
+  int patches;  // 1: LC2's parts are patches, each compared by itself
+  int unused0, unused1, unused2;
+
   vec4 sides_by_dr;  // of the volume, in sample distances
 #ifdef __cplusplus
 };
