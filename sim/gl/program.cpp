@@ -103,29 +103,37 @@ std::optional<std::filesystem::file_time_type> ShaderSources::last_change() cons
   return newest;
 }
 
-Program::Program(const ShaderSources& sources, std::vector<std::string> shaders, Defines defines)
-    : object_(glCreateProgram()), shaders_(std::move(shaders)), defines_(std::move(defines)) {
-  for (const std::string& name : shaders_) {
-    const Object<ShaderKind> shader = compile(sources, name, defines_);
-    glAttachShader(object_.name(), shader.name());  // stays alive with the program
+Program::Variant Program::build(const ShaderSources& sources, const std::vector<std::string>& shaders,
+                                Defines defines) {
+  Variant variant{std::move(defines), Object<ProgramKind>(glCreateProgram())};
+  const GLuint program = variant.object.name();
+  for (const std::string& name : shaders) {
+    const Object<ShaderKind> shader = compile(sources, name, variant.defines);
+    glAttachShader(program, shader.name());  // stays alive with the program
   }
-  glLinkProgram(object_.name());
+  glLinkProgram(program);
   GLint linked = 0;
-  glGetProgramiv(object_.name(), GL_LINK_STATUS, &linked);
+  glGetProgramiv(program, GL_LINK_STATUS, &linked);
   if (!linked)
-    throw std::runtime_error(shaders_.front() + " does not link:\n" +
-                             log_of(object_.name(), glGetProgramiv, glGetProgramInfoLog));
-  if (shaders_.front().ends_with(".comp")) {
+    throw std::runtime_error(shaders.front() + " does not link:\n" +
+                             log_of(program, glGetProgramiv, glGetProgramInfoLog));
+  if (shaders.front().ends_with(".comp")) {
     GLint group[3] = {1, 1, 1};
-    glGetProgramiv(object_.name(), GL_COMPUTE_WORK_GROUP_SIZE, group);
-    group_x_ = group[0];
-    group_y_ = group[1];
+    glGetProgramiv(program, GL_COMPUTE_WORK_GROUP_SIZE, group);
+    variant.group_x = group[0];
+    variant.group_y = group[1];
   }
+  return variant;
+}
+
+Program::Program(const ShaderSources& sources, std::vector<std::string> shaders, Defines defines)
+    : shaders_(std::move(shaders)) {
+  variants_.push_back(build(sources, shaders_, std::move(defines)));
 }
 
 std::optional<std::string> Program::reload(const ShaderSources& sources) {
   try {
-    *this = Program(sources, shaders_, defines_);
+    *this = Program(sources, shaders_, variants_.front().defines);
     return std::nullopt;
   } catch (const std::runtime_error& error) {
     return error.what();
@@ -133,11 +141,19 @@ std::optional<std::string> Program::reload(const ShaderSources& sources) {
 }
 
 void Program::define(const ShaderSources& sources, const Defines& defines) {
-  if (defines != defines_) *this = Program(sources, shaders_, defines);
+  auto found = std::find_if(variants_.begin(), variants_.end(),
+                            [&](const Variant& variant) { return variant.defines == defines; });
+  if (found == variants_.end()) {
+    Variant built = build(sources, shaders_, defines);
+    if (variants_.size() == kMostKept) variants_.pop_back();
+    found = variants_.insert(variants_.end(), std::move(built));
+  }
+  std::rotate(variants_.begin(), found, found + 1);
 }
 
 void Program::dispatch(int x, int y) const {
-  dispatch_groups((x + group_x_ - 1) / group_x_, (y + group_y_ - 1) / group_y_);
+  const Variant& in_use = variants_.front();
+  dispatch_groups((x + in_use.group_x - 1) / in_use.group_x, (y + in_use.group_y - 1) / in_use.group_y);
 }
 
 void Program::dispatch_groups(int x, int y) const {

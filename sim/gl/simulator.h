@@ -44,6 +44,9 @@ public:
   void set_volume(const AcousticVolume& volume, const TissueTable& table);
   /// @param depth_mm  10 to 400
   void set_probe(const Probe& probe, double depth_mm);
+  /// What shaders are compiled for (effects that are on or off, numbers of lines and planes, a smoothing's radius in
+  /// pixels) is compiled when the next picture is due: 50 to 200 ms a stage with llvmpipe, 0.7 s if it is all of them,
+  /// and nothing for what one of the last sixteen pictures of other settings had.
   /// Throws std::invalid_argument on settings that why_not_valid() (sim/model/settings_file.h) finds fault with.
   void set_settings(const Settings& settings);
   /// @param patient_from_probe  rigid and finite; checked where poses enter the program
