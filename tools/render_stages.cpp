@@ -12,6 +12,8 @@
 #include "sim/core/input_error.h"
 #include "sim/model/beam.h"
 #include "sim/model/noise.h"
+#include "sim/model/refraction.h"
+#include "sim/model/reverberation.h"
 #include "sim/model/settings_file.h"
 #include "sim/reference/reference.h"
 
@@ -132,6 +134,16 @@ Json description(const RenderedScene& scene, const ScanLines& lines, const Image
   text["noise_level"] = noise_level(scene.settings);
   text["clutter_share"] = clutter_share(scene.settings);
   text["clutter_tail_mm"] = kClutterTail_mm;
+  text["reverberation"] = {{"least_round", kLeastRound},
+                           {"least_reverberant", kLeastReverberant},
+                           {"most_repeats", kMostRepeats},
+                           {"most_reflectors", kMostReflectors}};
+  text["refraction"] = {{"log_speed_below_water", kLogSpeedBelowWater},
+                        {"log_speed_above_water", kLogSpeedAboveWater},
+                        {"least_hu", kLeastHu},
+                        {"most_hu", kMostHu},
+                        {"turn_rad", kTurn_rad},
+                        {"turn_mm", kTurn_mm}};
   text["envelope_scale"] = envelope_scale(lines, scene.settings);
   for (const ScanLine& line : lines.lines)
     text["scan_lines"].push_back({{"start_mm", json(scene.patient_from_probe.point(line.start))},

@@ -10,20 +10,32 @@
 namespace insonate {
 namespace {
 
-// U (6) behind gain, of one plane at a time.
+// U (6) behind gain, of one plane at a time; not smoothed, as that is the picture's.
 SweepValues echoes_on_lines(gl::Simulator& simulator, const Sweep& sweep, const Settings& settings) {
   const Image<double> noise = electronic_noise(scan_lines(sweep.probe, sweep.depth_mm, settings.samples), settings);
-  const double noise_share = noise_level(settings);
+  const double noise_share = noise_level(settings), beside_share = clutter_share(settings);
+  const double late = std::exp(-sweep.depth_mm / settings.samples / kClutterTail_mm);
   SweepValues echoes{settings.samples, sweep.probe.lines, {}};
-  for (const Pose& patient_from_plane : sweep.patient_from_plane) {
-    simulator.set_pose(patient_from_plane);
+  const std::size_t n = std::size_t(echoes.lines), d = std::size_t(echoes.samples);
+  echoes.values.resize(sweep.patient_from_plane.size() * n * d);
+  for (std::size_t plane = 0; plane < sweep.patient_from_plane.size(); ++plane) {
+    simulator.set_pose(sweep.patient_from_plane[plane]);
     const Stages<float> stages = simulator.read_stages();
-    for (int line = 0; line < echoes.lines; ++line)
-      for (int k = 0; k < echoes.samples; ++k) {
-        const double echo = stages.reflection_beam.at(line, k) + settings.blend * stages.transmission.at(line, k);
-        const double heard = echo * stages.speckle.at(line, k) + noise_share * noise.at(line, k);
-        echoes.values.push_back(float(heard * time_gain(settings, (k + 0.5) / echoes.samples)));
+    const auto scattered = [&](int line, int k) {
+      return settings.blend * stages.transmission.at(line, k) * stages.speckle.at(line, k);
+    };
+    double beside = 0;  // the scatterers' mean echo, as clutter_share() has it
+    for (int k = 0; k < echoes.samples; ++k) {
+      double mean = 0;
+      for (int line = 0; line < echoes.lines; ++line) mean += scattered(line, k) / echoes.lines;
+      beside = k == 0 ? mean : mean + (beside - mean) * late;
+      for (int line = 0; line < echoes.lines; ++line) {
+        const double heard = stages.reflection_beam.at(line, k) * stages.speckle.at(line, k) + scattered(line, k) +
+                             stages.repeated.at(line, k) + (noise_share + beside_share * beside) * noise.at(line, k);
+        echoes.values[(plane * n + std::size_t(line)) * d + std::size_t(k)] =
+            float(heard * time_gain(settings, (k + 0.5) / echoes.samples));
       }
+    }
   }
   return echoes;
 }

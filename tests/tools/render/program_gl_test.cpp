@@ -226,3 +226,31 @@ TEST_CASE("a sweep becomes a volume in which the patient's parts lie where they 
   CHECK(one_plane.errors.find("pose.txt: there are not 16 numbers for each of 2 to 2048 planes") != std::string::npos);
   CHECK(scene.render("--sweep 30").errors.find("name a file that ends in .nrrd") != std::string::npos);
 }
+
+TEST_CASE("a sweep's volume holds echoes of echoes, and clutter") {
+  const Scene scene;
+  const std::string volume = scene.in("swept.nrrd");
+  const auto swept = [&](const std::string& more) {
+    scene.folder.file("sweep.toml", "samples = 200\nelectronic_noise = false\ngain_db = 15\n" + more);
+    const Outcome outcome = run(scene.folder, INSONATE_RENDER_PROGRAM,
+                                "--ct " + scene.in("ct.nrrd") + " --pose " + scene.in("pose.txt") + " --settings " +
+                                    scene.in("sweep.toml") + " --depth 60 --voxel 2 --sweep 20 --planes 5 " + volume);
+    INFO(outcome.errors);
+    REQUIRE(outcome.code == 0);
+    return GreyVolume(volume).voxels;
+  };
+  const std::vector<std::int16_t> without = swept("clutter = false\n");
+  for (const std::string what :
+       {"clutter = false\nreverberation = true\nface_reflection = 1\n", "clutter_db = -10\n"}) {
+    const std::vector<std::int16_t> with = swept(what);
+    REQUIRE(with.size() == without.size());
+    long brighter = 0, darker = 0;
+    for (std::size_t i = 0; i < with.size(); ++i) {
+      brighter += with[i] > without[i] + 10;
+      darker += with[i] < without[i];
+    }
+    INFO(what);
+    CHECK(brighter > 100);
+    CHECK(darker == 0);  // what adds takes nothing away
+  }
+}

@@ -68,6 +68,7 @@ public:
     intensity();
     reflection();
     beam();
+    if (planes_.count("repeated")) reverberation();
     speckle();
     pixels();
     fusion();
@@ -120,11 +121,7 @@ private:
   void tissue() {
     for (int line = 0; line < n_; ++line) {
       const Vec3 along = directions_[std::size_t(line)];
-      // Beside the line, in the imaging plane: lines of a fan part in it, those of a linear array stand side by side.
-      Vec3 lateral = starts_.back() - starts_.front();
-      lateral = lateral - dot(lateral, along) * along;
-      lateral = 1 / length(lateral) * lateral;
-      const Vec3 elevation = cross(along, lateral);
+      const Vec3 lateral = beside(along), elevation = cross(along, lateral);
       for (int k = 0; k < d_; ++k) {
         const double r = r_min_ + (k + 0.5) * dr_;
         const Vec3 p = starts_[std::size_t(line)] + r * along;
@@ -163,23 +160,60 @@ private:
     }
   }
 
-  /// (5) along each line, from alpha and the absorption.
+  /// How much sound turns in a step, as rad across the line: the speed of sound's logarithm is linear in density below
+  /// and above water, and its slope is taken over a reflection length.
+  double rise_of_speed(const Vec3& p, const Vec3& across, double r) const {
+    const auto& refraction = about_.at("refraction");
+    const auto log_speed = [&](double hu) {
+      hu = std::clamp(hu, refraction.at("least_hu").get<double>(), refraction.at("most_hu").get<double>());
+      return hu * refraction.at(hu < 0 ? "log_speed_below_water" : "log_speed_above_water").get<double>();
+    };
+    const Vec3 half = l_ / 2 * across;
+    return (log_speed(hu_at(p + half, r)) - log_speed(hu_at(p - half, r))) * dr_ / l_;
+  }
+
+  /// (5) along each line, from alpha and the absorption, and from the CT what is refracted out of the line.
   void intensity() {
     const double f = on("absorption") ? setting("frequency_mhz") : 0;
+    const bool refracts = on("edge_shadow");
+    const auto& refraction = about_.at("refraction");
+    const double turn_mm = refraction.at("turn_mm"), turn_rad = refraction.at("turn_rad");
+    double most_refracted_db = 0;
     for (int line = 0; line < n_; ++line) {
       double db = 0;        // of what is left of I
       double rounding = 0;  // relative, of 1 - alpha in all steps so far
+      double turn[] = {0, 0}, refracted_db = 0;
+      const Vec3 along = directions_[std::size_t(line)], lateral = beside(along), elevation = cross(along, lateral);
       for (int k = 0; k < d_; ++k) {
         const double step_db = plane("absorption").at(line, k) * f * dr_ / 10;
         if (k == 0) db = -step_db / 2;
         const double expected = std::pow(10, db / 10);
         compare("transmission", expected, plane("transmission").at(line, k),
                 (tolerances_.intensity + rounding) * std::max(expected, 1e-6));
+        most_refracted_db = std::max(most_refracted_db, refracted_db);
         const double alpha = plane("alpha").at(line, k);
         db += 10 * std::log10(1 - alpha) * dr_ / l_ - step_db;
         rounding += kFloat * alpha / (1 - alpha) * dr_ / l_;
+        if (!refracts) continue;
+        const double r = r_min_ + (k + 0.5) * dr_;
+        const Vec3 p = starts_[std::size_t(line)] + r * along;
+        const double kept = std::exp(-dr_ / turn_mm);
+        turn[0] = kept * turn[0] + rise_of_speed(p, lateral, r);
+        turn[1] = kept * turn[1] + rise_of_speed(p, elevation, r);
+        const double q = std::pow(std::hypot(turn[0], turn[1]) / turn_rad, 4);
+        const double lost_db = 10 * std::log10(std::exp(1)) * 2 * q / (2 + q) * dr_ / turn_mm;
+        db -= lost_db;
+        refracted_db += lost_db;
       }
     }
+    if (refracts) compare("refracted", 1, most_refracted_db > 1, 0.5);  // so that it shows
+  }
+
+  /// Across a line in the imaging plane: lines of a fan part in it, those of a linear array stand side by side.
+  Vec3 beside(const Vec3& along) const {
+    Vec3 lateral = starts_.back() - starts_.front();
+    lateral = lateral - dot(lateral, along) * along;
+    return 1 / length(lateral) * lateral;
   }
 
   /// (3) from alpha, I and the angle.
@@ -230,6 +264,61 @@ private:
         compare("reflection_beam", expected, plane("reflection_beam").at(line, k),
                 4 * kFloat * double(weights_.size()) * expected + 1e-30);
       }
+  }
+
+  /// Echoes of echoes, from I and R of each line, and behind the same window as R.
+  void reverberation() {
+    const auto& about = about_.at("reverberation");
+    const double least_round = about.at("least_round"), least_reverberant = about.at("least_reverberant");
+    const int most_repeats = about.at("most_repeats"), most_reflectors = about.at("most_reflectors");
+    const double share = std::min(dr_ / l_, 1.0);
+    const int near = std::max(int(std::ceil(l_ / dr_ - 1e-3)), 1);  // samples nearer than this are of one interface
+    const auto counted = [&](double round) {
+      return round > least_round ? round - least_round * least_round / round : 0;
+    };
+    Plane repeats = plane("repeated");
+    for (double& v : repeats.values) v = 0;
+    for (int line = 0; line < n_; ++line) {
+      const auto i_at = [&](int k) { return plane("transmission").at(line, std::clamp(k, 0, d_ - 1)); };
+      const auto reflects = [&](int k) {
+        return i_at(k) > least_reverberant ? plane("reflection").at(line, k) / (i_at(k) * i_at(k)) : 0;
+      };
+      // Sound that goes to and fro over `way` shows sample k again and again.
+      const auto ring = [&](int k, double way, double echo, double round) {
+        for (int n = 1; n <= most_repeats && counted(round) > 0; ++n) {
+          echo *= counted(round);
+          const double at = k + n * way / dr_;
+          const int low = int(std::floor(at));
+          if (low < d_) repeats.at(line, low) += (low + 1 - at) * echo;
+          if (low + 1 < d_) repeats.at(line, low + 1) += (at - low) * echo;
+        }
+      };
+      std::vector<int> found;
+      std::vector<double> place;
+      for (int k = 0; k < d_ && int(found.size()) < most_reflectors; ++k) {
+        if (reflects(k) <= least_round) continue;
+        double sum = 0, moment = 0;
+        for (int j = std::max(0, k - near + 1); j <= std::min(d_ - 1, k + near - 1); ++j) {
+          sum += reflects(j);
+          moment += reflects(j) * (r_min_ + (j + 0.5) * dr_);
+        }
+        const double here = moment / sum, echo = plane("reflection").at(line, k), before = i_at(k - near + 1);
+        ring(k, here, echo, setting("face_reflection") * reflects(k) * before * before);
+        for (std::size_t i = 0; i < found.size() && on("reverberation"); ++i) {
+          const double way = here - place[i], between = std::min(1.0, before / i_at(found[i] + near));
+          const double apart = std::clamp((way - l_ / 2) / (l_ / 2), 0.0, 1.0);
+          ring(k, way, share * echo, apart * reflects(found[i]) * reflects(k) * between * between);
+        }
+        found.push_back(k);
+        place.push_back(here);
+      }
+    }
+    const double loudest = *std::max_element(plane("repeated").values.begin(), plane("repeated").values.end());
+    compare("loudest repeat", 1, loudest > 1e-6, 0.5);  // silence would agree with anything
+    for (int line = 0; line < n_; ++line)
+      for (int k = 0; k < d_; ++k)
+        compare("repeated", across_lines(repeats, line, k), plane("repeated").at(line, k),
+                tolerances_.reflection * loudest);
   }
 
   /// The envelope of the scatterers' echo behind the same window.
