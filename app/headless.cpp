@@ -112,14 +112,14 @@ int run_headless(const Options& options) {
   if (session.result()) {
     trainer.write_results_if_due();
     print_result(*session.result());
-    print_file(trainer.result_files()->report);
-    print_file(trainer.result_files()->score);
+    for (const std::filesystem::path& file : trainer.result_files()->all()) print_file(file);
     write_png(sheet_png, screen.draw(trainer));
     print_file(sheet_png);
   } else {
     std::printf("ended after %.1f s, before there was anything to score\n", end_s);
   }
-  std::optional<Image<Rgba8>> picture = trainer.best_frame();
+  std::optional<Image<Rgba8>> picture;
+  if (const Image<Rgba8>* best = trainer.best_frame()) picture = *best;
   if (!picture && trainer.pictures().ultrasound()) picture = mirrored(read_back(*trainer.pictures().ultrasound()));
   if (picture) {
     write_png(picture_png, *picture);

@@ -4,8 +4,8 @@
 
 namespace insonate {
 
-/// Runs the session without a window, in simulated time as fast as it goes, and writes to options.out: report.html and
-/// score.json when the exam ended, ultrasound.png and trainer.png of the moment when the view was held best (or of the
+/// Runs the session without a window, in simulated time as fast as it goes, and writes to options.out: the
+/// ResultFiles when the exam ended, ultrasound.png and trainer.png of the moment when the view was held best (or of the
 /// end), and score_sheet.png. Prints the score and the paths. Returns the exit code; throws InputError.
 int run_headless(const Options& options);
 

@@ -24,6 +24,14 @@ void declare(CLI::App& arguments, Options& options) {
   arguments.add_option("--out", options.out, "Folder for report, score and pictures")
       ->type_name("FOLDER")
       ->capture_default_str();
+  arguments
+      .add_option("--results", options.results,
+                  "Keep the attempts at exams in this database, replayed logs too; without it a window keeps those\n"
+                  "that are no replays in ~/.local/share/insonate/results.db")
+      ->type_name("FILE");
+  arguments.add_option("--learner", options.learner, "Whose attempts they are: an opaque id, no name")
+      ->type_name("ID")
+      ->capture_default_str();
   arguments.add_option("--screenshot", options.screenshot, "Write the whole screen as a PNG when the session ends")
       ->type_name("FILE");
   arguments.add_option("--width", options.width, "Of the screen, pixels")
@@ -55,6 +63,7 @@ void check(const Options& options) {
   if (!options.igtl_server.empty()) parse_server_address(options.igtl_server);
   if (!options.case_folder.empty() && !options.ct.empty())
     throw InputError("command line", "--ct", "--case and --ct both name a patient", "give one of them");
+  check_learner_id(options.learner, "command line", "--learner");
   std::error_code error;
   if (!options.shader_folder.empty() && !std::filesystem::is_directory(options.shader_folder, error))
     throw InputError(options.shader_folder.string(), "--shader-dir", "it is not a folder",

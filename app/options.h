@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <string>
 
+#include "scenarios/results/learner_id.h"
+
 namespace insonate {
 
 /// What the command line asks of the trainer. Empty paths mean: what is built in.
@@ -20,6 +22,8 @@ struct Options {
   std::filesystem::path shader_folder;
   int width = 1280;
   int height = 800;
+  std::filesystem::path results;  ///< database of results; empty: the user's own in a window, none without
+  std::string learner = kNobodyInParticular;
   std::string igtl_server;           ///< "[ADDRESS:]PORT" to tell OpenIGTLink clients at; empty: nobody is told
   std::filesystem::path state_file;  ///< what the trainer is doing, for programs that drive it
 };

@@ -77,6 +77,22 @@ void Pictures::update(const Session& session, const PictureSizes& sizes, double 
                                  plane, body, budget_ms);
 }
 
+std::optional<Image<Rgba8>> Pictures::reference_picture(const ReferenceView& view) {
+  const Probe* probe = find_probe(view.probe);
+  if (!ultrasound_ || !probe) return std::nullopt;
+  Console untouched;
+  untouched.choose(*probe);
+  untouched.depth_mm = std::clamp(view.depth_mm, Console::kLeastDepth_mm, Console::kMostDepth_mm);
+  Settings settings = untouched.settings();
+  settings.image_width = ultrasound_->width();
+  settings.image_height = ultrasound_->height();
+  simulator_.set_probe(*probe, untouched.depth_mm);
+  simulator_.set_settings(settings);
+  simulator_.set_pose(view.patient_from_probe);
+  probe_name_.clear();  // the session's probe has to be set again
+  return read_back(simulator_.image());
+}
+
 long Pictures::simulator_runs() const {
   long sum = 0;
   for (const long runs : simulator_.runs()) sum += runs;

@@ -33,6 +33,11 @@ public:
   /// @param budget_ms  for the volume view, which gets coarser while things move to stay within it
   void update(const Session& session, const PictureSizes& sizes, double quality, double budget_ms);
 
+  /// The ultrasound of a reference view as the machine shows it before anything on it was changed, in the size of the
+  /// last picture; row 0 is the top, the marker's side on the right. To be called between two frames: what ultrasound()
+  /// shows is right again after the next update(). Empty until update() had a pose to draw, and for an unknown probe.
+  std::optional<Image<Rgba8>> reference_picture(const ReferenceView& view);
+
   /// Null until update() had a pose to draw. Row 0 is the top; the marker's side is on the right.
   const gl::Texture* ultrasound() const { return ultrasound_; }
   /// Another number whenever its pixels changed.

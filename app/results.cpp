@@ -1,44 +1,43 @@
 #include "app/results.h"
 
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
 #include <stdexcept>
-#include <string>
-#include <string_view>
-#include <vector>
+#include <utility>
 
-#include "scenarios/report.h"
-#include "scenarios/result_json.h"
-#include "sim/core/files.h"
+#include "devices/sequence/sequence.h"
+#include "sim/core/input_error.h"
+#include "sim/core/png_bytes.h"
 
 namespace insonate {
-namespace {
 
-std::string base64(std::string_view bytes) {
-  static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    unsigned group = 0;
-    for (std::size_t j = 0; j < 3; ++j)
-      group = group << 8 | (i + j < bytes.size() ? static_cast<unsigned char>(bytes[i + j]) : 0u);
-    for (std::size_t j = 0; j < 4; ++j) text += i + j <= bytes.size() ? kDigits[group >> (18 - 6 * j) & 63u] : '=';
-  }
-  return text;
+Attempt finished_attempt(const Session& session, const StudySource& source, const std::string& learner,
+                         std::vector<ReportPicture> pictures) {
+  if (!session.result() || !session.runner()) throw std::logic_error("the exam is not finished");
+  Attempt attempt = attempt_of(*session.runner(), *session.result(), write_sequence(session.exam_samples()));
+  attempt.learner = learner;
+  const auto since_1970 = std::chrono::system_clock::now().time_since_epoch();
+  attempt.finished_ms = std::chrono::duration_cast<std::chrono::milliseconds>(since_1970).count();
+  for (const std::filesystem::path& patient : {source.case_folder, source.ct})
+    if (!patient.empty()) attempt.patient = std::filesystem::absolute(patient).string();
+  attempt.pictures = std::move(pictures);
+  return attempt;
 }
 
-}  // namespace
+ReportPicture report_picture(std::size_t step, ReportPicture::Kind kind, const Image<Rgba8>& ultrasound) {
+  Image<std::uint8_t> grey(ultrasound.width, ultrasound.height);
+  std::transform(ultrasound.pixels.begin(), ultrasound.pixels.end(), grey.pixels.begin(),
+                 [](const Rgba8& pixel) { return pixel[0]; });
+  return {step, kind, png_bytes(grey)};
+}
 
-ResultFiles write_results(const std::filesystem::path& folder, const Session& session,
-                          const std::optional<Image<Rgba8>>& best_frame) {
-  if (!session.result() || !session.runner()) throw std::logic_error("the exam is not finished");
-  ResultFiles files{folder / "report.html", folder / "score.json"};
-  std::vector<ReportPicture> pictures;
-  if (best_frame) {
-    const std::filesystem::path png = folder / "ultrasound.png";
-    write_png(png, *best_frame);
-    pictures.push_back({"The picture while the view was held best", "data:image/png;base64," + base64(read_file(png))});
-  }
-  write_file(files.report, report_html(*session.result(), session.runner()->trace(), pictures));
-  write_file(files.score, to_json(*session.result()));
-  return files;
+std::filesystem::path own_results() {
+  for (const auto& [variable, folder] : {std::pair{"XDG_DATA_HOME", "insonate"}, {"HOME", ".local/share/insonate"}})
+    if (const char* base = std::getenv(variable); base && *base)
+      return std::filesystem::path(base) / folder / "results.db";
+  throw InputError("environment", "", "neither XDG_DATA_HOME nor HOME says where to keep results",
+                   "set HOME, or name a database with --results");
 }
 
 }  // namespace insonate

@@ -1,23 +1,25 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
+#include <string>
+#include <vector>
 
 #include "app/session.h"
+#include "scenarios/results/attempt.h"
 #include "sim/core/image.h"
 
 namespace insonate {
 
-/// Where the results of an attempt lie.
-struct ResultFiles {
-  std::filesystem::path report;  ///< HTML
-  std::filesystem::path score;   ///< JSON
-};
+/// The finished exam of a session as an attempt of the learner's, finished now. `source` says where the patient came
+/// from. Throws std::logic_error when the exam is not finished.
+Attempt finished_attempt(const Session& session, const StudySource& source, const std::string& learner,
+                         std::vector<ReportPicture> pictures);
 
-/// Writes the report and the score of a finished exam to a folder. Throws InputError when it cannot be written to, and
-/// std::logic_error when the exam is not finished.
-/// @param best_frame  the picture while the view was held best, if there was one; marker on the left
-ResultFiles write_results(const std::filesystem::path& folder, const Session& session,
-                          const std::optional<Image<Rgba8>>& best_frame);
+/// A picture of the ultrasound, whose colours are greys, as a report keeps it.
+ReportPicture report_picture(std::size_t step, ReportPicture::Kind kind, const Image<Rgba8>& ultrasound);
+
+/// The user's own database of results: $XDG_DATA_HOME/insonate/results.db, else
+/// $HOME/.local/share/insonate/results.db. Throws InputError when neither is set.
+std::filesystem::path own_results();
 
 }  // namespace insonate

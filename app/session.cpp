@@ -89,6 +89,7 @@ void Session::restart_tracker() {
 void Session::begin_attempt() {
   ++attempt_;
   runner_.reset();
+  exam_samples_.clear();
   result_.reset();
   if (activity_ == Activity::exam && study_->scenario)
     runner_ = std::make_unique<Runner>(*study_->scenario, study_->subject, study_->tissues);
@@ -134,7 +135,10 @@ void Session::move_probe(const std::function<Pose(const ProbeHand&, const Pose&)
 }
 
 void Session::take(const PoseSample& sample) {
-  if (runner_) runner_->feed(sample);
+  if (runner_ && !result_) {
+    runner_->feed(sample);
+    exam_samples_.push_back(sample);
+  }
   // A tracker that says nothing does not say that the button was let go either.
   if (sample.status != PoseStatus::missing) {
     if (sample.buttons & ~buttons_ & kFreezeButton) console_.frozen = !console_.frozen;

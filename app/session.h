@@ -69,6 +69,8 @@ public:
   int attempt() const { return attempt_; }
   /// The runner of the exam; nullptr in free practice.
   const Runner* runner() const { return runner_.get(); }
+  /// What the runner has been fed with.
+  const std::vector<PoseSample>& exam_samples() const { return exam_samples_; }
   /// Complete marks with their provenance; empty until the exam is finished.
   const std::optional<ExamResult>& result() const { return result_; }
 
@@ -117,6 +119,7 @@ private:
   Holder holder_ = Holder::tracker;
   Activity activity_ = Activity::practice;
   std::unique_ptr<Runner> runner_;
+  std::vector<PoseSample> exam_samples_;
   std::optional<ExamResult> result_;
   Console console_;
   std::optional<Pose> shown_pose_, newest_pose_;

@@ -1,10 +1,12 @@
 #include "app/trainer.h"
 
 #include <cstdio>
+#include <exception>
 #include <utility>
 
 #include "devices/registry.h"
 #include "sim/core/files.h"
+#include "sim/core/input_error.h"
 #include "sim/gl/upload.h"
 
 namespace insonate {
@@ -41,6 +43,15 @@ Trainer::Trainer(Options options)
       shaders_changed_(shaders_.last_change()),
       pictures_(shaders_) {
   if (!options_.igtl_server.empty()) feed_ = std::make_unique<IgtlFeed>(parse_server_address(options_.igtl_server));
+  open_results();
+}
+
+void Trainer::open_results() {
+  if (!options_.results.empty()) {
+    results_ = ResultsDatabase::open_or_make(options_.results);
+  } else if (!options_.headless) {
+    attempt([&] { results_ = ResultsDatabase::open_or_make(own_results()); });
+  }
 }
 
 void Trainer::open_from_options() {
@@ -147,16 +158,51 @@ bool Trainer::best_frame_due() const {
 void Trainer::keep_best_frame() {
   if (!pictures_.ultrasound()) return;
   const LiveExam& live = session_->runner()->live();
+  if (best_frame_of_ != session_->attempt()) best_frames_.clear();
   best_frame_of_ = session_->attempt();
   best_step_ = live.step;
   best_share_ = live.hold_share;
-  best_frame_ = mirrored(read_back(*pictures_.ultrasound()));
+  best_frames_[live.step] = mirrored(read_back(*pictures_.ultrasound()));
+}
+
+const Image<Rgba8>* Trainer::best_frame() const {
+  return best_frames_.empty() ? nullptr : &best_frames_.rbegin()->second;
 }
 
 void Trainer::write_results_if_due() {
   if (!std::exchange(results_due_, false)) return;
-  if (best_frame_of_ != session_->attempt()) best_frame_.reset();
-  attempt([&] { result_files_ = write_results(options_.out, *session_, best_frame_); });
+  if (best_frame_of_ != session_->attempt()) best_frames_.clear();
+  attempt([&] { keep_and_report(); });
+}
+
+/// Each step's best picture and what it should look like.
+std::vector<ReportPicture> Trainer::report_pictures() {
+  std::vector<ReportPicture> pictures;
+  for (const auto& [step, frame] : best_frames_)
+    pictures.push_back(report_picture(step, ReportPicture::Kind::best, frame));
+  const std::vector<StepResult>& steps = session_->result()->steps;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const ReferenceView* view = study_->subject.find_view(steps[i].view);
+    if (const auto picture = view ? pictures_.reference_picture(*view) : std::nullopt)
+      pictures.push_back(report_picture(i, ReportPicture::Kind::reference, mirrored(*picture)));
+  }
+  return pictures;
+}
+
+void Trainer::keep_and_report() {
+  Attempt finished = finished_attempt(*session_, current_.source, options_.learner, report_pictures());
+  // A log that is only watched, as when the trainer starts, is nobody's attempt.
+  const bool replayed = std::as_const(*session_).source().recording() != nullptr;
+  std::exception_ptr not_kept;
+  if (results_ && (!replayed || !options_.results.empty())) {
+    try {
+      results_->add(finished);
+    } catch (const InputError&) {
+      not_kept = std::current_exception();  // the report is wanted all the more
+    }
+  }
+  result_files_ = write_report_files(options_.out, finished);
+  if (not_kept) std::rethrow_exception(not_kept);
 }
 
 void Trainer::reload_shaders() {

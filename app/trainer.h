@@ -2,6 +2,7 @@
 
 #include <deque>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,6 +14,8 @@
 #include "app/results.h"
 #include "app/session.h"
 #include "app/study.h"
+#include "scenarios/results/report_files.h"
+#include "scenarios/results/results_database.h"
 
 namespace insonate {
 
@@ -21,7 +24,8 @@ namespace insonate {
 /// construction to destruction, on the one thread that uses it.
 class Trainer {
 public:
-  /// Throws InputError when OpenIGTLink clients are asked for where nobody can listen.
+  /// Throws InputError when OpenIGTLink clients are asked for where nobody can listen, and when a database of results
+  /// is that cannot be used.
   explicit Trainer(Options options);
 
   /// Opens what the command line names, without waiting for it.
@@ -44,7 +48,7 @@ public:
   /// Whether the view is held longer than when the best frame was kept: draw, then keep it.
   bool best_frame_due() const;
   void keep_best_frame();
-  /// Writes report and score of an exam that has ended, once.
+  /// Keeps the attempt when an exam has ended, and writes its report and score, once.
   void write_results_if_due();
 
   Session* session() { return session_.get(); }
@@ -52,8 +56,9 @@ public:
   Pictures& pictures() { return pictures_; }
   const Options& options() const { return options_; }
   const std::optional<ResultFiles>& result_files() const { return result_files_; }
-  /// The ultrasound, marker on the left, when the exam's view was held best.
-  const std::optional<Image<Rgba8>>& best_frame() const { return best_frame_; }
+  /// The ultrasound, marker on the left, when the view of the last step that was held for any time was held best;
+  /// nullptr when none was.
+  const Image<Rgba8>* best_frame() const;
 
   /// What went wrong and nobody has acknowledged yet, the oldest first.
   std::deque<std::string>& problems() { return problems_; }
@@ -74,6 +79,9 @@ private:
   void take_over_loaded();
   void begin(std::shared_ptr<const Study> study, const Request& request);
   void reload_shaders();
+  void open_results();
+  std::vector<ReportPicture> report_pictures();
+  void keep_and_report();
 
   Options options_;
   gl::ShaderSources shaders_;
@@ -90,8 +98,9 @@ private:
   std::unique_ptr<IgtlFeed> feed_;  ///< nullptr when no clients are asked for
   std::optional<ResultFiles> result_files_;
   bool results_due_ = false;
-  std::optional<Image<Rgba8>> best_frame_;
-  int best_frame_of_ = 0;  ///< the session's attempt; 0 for none
+  std::optional<ResultsDatabase> results_;
+  std::map<std::size_t, Image<Rgba8>> best_frames_;  ///< by step
+  int best_frame_of_ = 0;                            ///< the session's attempt; 0 for none
   std::size_t best_step_ = 0;
   double best_share_ = 0;
   std::deque<std::string> problems_;

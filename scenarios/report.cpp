@@ -1,6 +1,10 @@
 #include "scenarios/report.h"
 
+#include <string_view>
+#include <utility>
+
 #include "scenarios/report_charts.h"
+#include "scenarios/report_path.h"
 #include "scenarios/report_style.h"
 #include "scenarios/words.h"
 
@@ -47,8 +51,14 @@ const char* in_words(StepOutcome outcome) {
   return "";
 }
 
+std::string outcome_chip(StepOutcome outcome) {
+  return "<span class='outcome " + std::string(outcome == StepOutcome::held ? "good" : "bad") + "'>" +
+         in_words(outcome) + "</span>";
+}
+
 std::string bar(double share) {
-  return "<div class='bar'><i style='width:" + fixed(100 * share, 1) + "%'></i></div>";
+  return std::string("<div class='bar") + (share >= 1 ? " all" : "") + "'><i style='width:" + fixed(100 * share, 1) +
+         "%'></i></div>";
 }
 
 std::string row(const Mark& m) {
@@ -74,10 +84,44 @@ std::string table(const std::vector<Mark>& marks) {
   return html + "</tbody></table>";
 }
 
-std::string section(const StepResult& step, std::size_t index) {
-  std::string html = "<section><h2>" + std::to_string(index + 1) + ". " + escaped(step.title) +
-                     "<span class='outcome " + (step.outcome == StepOutcome::held ? "good" : "bad") + "'>" +
-                     in_words(step.outcome) + "</span></h2>";
+std::string base64(std::string_view bytes) {
+  static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    unsigned group = 0;
+    for (std::size_t j = 0; j < 3; ++j)
+      group = group << 8 | (i + j < bytes.size() ? static_cast<unsigned char>(bytes[i + j]) : 0u);
+    for (std::size_t j = 0; j < 4; ++j) text += i + j <= bytes.size() ? kDigits[group >> (18 - 6 * j) & 63u] : '=';
+  }
+  return text;
+}
+
+/// The learner's picture on the left, the one to compare it with on the right.
+std::string pictures_of(std::size_t step, const std::vector<ReportPicture>& pictures) {
+  struct Place {
+    ReportPicture::Kind kind;
+    const char* caption;
+    const char* missing;
+  };
+  std::string html;
+  bool any = false;
+  for (const Place& place : {Place{ReportPicture::Kind::best, "While the view was held best", "The view was not held"},
+                             Place{ReportPicture::Kind::reference, "Reference view", "No picture"}}) {
+    const ReportPicture* shown = nullptr;
+    for (const ReportPicture& picture : pictures)
+      if (picture.step == step && picture.kind == place.kind) shown = &picture;
+    html += "<figure>";
+    html += shown ? "<img alt='' src='data:image/png;base64," + base64(shown->png) + "'>"
+                  : "<div class='missing'>" + std::string(place.missing) + "</div>";
+    html += "<figcaption>" + std::string(place.caption) + "</figcaption></figure>";
+    any = any || shown;
+  }
+  return any ? "<div class='pictures'>" + html + "</div>" : "";
+}
+
+std::string section(const StepResult& step, std::size_t index, const std::vector<ReportPicture>& pictures) {
+  std::string html =
+      "<section><h2>" + std::to_string(index + 1) + ". " + escaped(step.title) + outcome_chip(step.outcome) + "</h2>";
   if (step.outcome != StepOutcome::not_reached) {
     html += "<p class='quiet'>From " + fixed(step.start_s, 1) + " s to " + fixed(step.end_s, 1) + " s. ";
     if (step.judged_from_s)
@@ -86,7 +130,31 @@ std::string section(const StepResult& step, std::size_t index) {
           " from " + fixed(*step.judged_from_s, 1) + " s to " + fixed(*step.judged_to_s, 1) + " s.";
     html += "</p>";
   }
-  return html + table(step.marks) + "</section>\n";
+  return html + table(step.marks) + pictures_of(index, pictures) + "</section>\n";
+}
+
+/// A line for each step: what an examiner looks at first.
+std::string overview(const ExamResult& result) {
+  const auto line = [](const std::string& name, const std::string& outcome, double time_s,
+                       const std::vector<Mark>& marks) {
+    double points = 0, possible = 0;
+    for (const Mark& m : marks) {
+      points += m.points;
+      possible += m.weight;
+    }
+    return "<tr><td>" + name + "</td><td>" + outcome + "</td><td class='number'>" + fixed(time_s, 1) +
+           " s</td><td class='number'>" +
+           (possible > 0 ? short_number(points) + " of " + short_number(possible) + bar(points / possible)
+                         : std::string("does not count")) +
+           "</td></tr>\n";
+  };
+  std::string html = "<table class='overview'><tbody>\n";
+  for (std::size_t i = 0; i < result.steps.size(); ++i) {
+    const StepResult& step = result.steps[i];
+    html += line(std::to_string(i + 1) + ". " + escaped(step.title), outcome_chip(step.outcome),
+                 step.end_s - step.start_s, step.marks);
+  }
+  return html + line("Whole exam", "", result.motion.time_s, result.marks) + "</tbody></table>";
 }
 
 std::string verdict(const ExamResult& result) {
@@ -103,7 +171,16 @@ std::string verdict(const ExamResult& result) {
     for (const std::string& reason : result.reasons) html += "<li>" + escaped(reason) + "</li>";
     html += "</ul>";
   }
-  return html + "</div>\n";
+  return html + overview(result) + "</div>\n";
+}
+
+std::string whose(const ReportSubject& subject) {
+  std::string rows;
+  for (const auto& [name, value] :
+       {std::pair{"Learner", &subject.learner}, {"Attempt", &subject.attempt}, {"Finished", &subject.finished}})
+    if (!value->empty())
+      rows.append("<tr><td>").append(name).append("</td><td>").append(escaped(*value)) += "</td></tr>";
+  return rows.empty() ? "" : "<table class='whose'>" + rows + "</table>";
 }
 
 std::string made_from(const ExamResult& result) {
@@ -119,34 +196,26 @@ std::string made_from(const ExamResult& result) {
   return "<section class='origin'><h2>Made from</h2><table>" + line("Scenario", p.scenario, p.scenario_digest) +
          line("Case", p.case_name, p.case_digest) + line("Phantom options", options) +
          line("Log", p.log, p.log_digest) + line("Transform", p.log_transform) +
-         line("Insonate", p.program_version + ", scoring " + std::to_string(ExamResult::kScoringVersion)) +
+         line("Insonate", p.program_version + ", scoring " + std::to_string(p.scoring_version)) +
          "</table></section>\n";
 }
 
 }  // namespace
 
-std::string report_html(const ExamResult& result, std::span<const TracePoint> trace,
-                        std::span<const ReportPicture> pictures) {
+std::string report_html(const ExamResult& result, std::span<const TracePoint> trace, const ReportSubject& subject) {
   std::string html =
       "<!doctype html>\n<html lang='en'><head><meta charset='utf-8'>"
       "<meta name='viewport' content='width=device-width, initial-scale=1'><title>" +
       escaped(result.title) + "</title><style>" + kReportStyle + "</style></head>\n<body><main>\n";
-  html += "<header><p class='quiet'>Insonate score report</p><h1>" + escaped(result.title) + "</h1><p class='quiet'>" +
-          escaped(result.provenance.case_name) + "</p></header>\n" + verdict(result);
-  if (!pictures.empty()) {
-    html += "<section class='pictures'>";
-    for (const ReportPicture& picture : pictures)
-      html += "<figure><img alt='' src='" + escaped(picture.data_uri) + "'><figcaption>" + escaped(picture.caption) +
-              "</figcaption></figure>";
-    html += "</section>\n";
-  }
-  for (std::size_t i = 0; i < result.steps.size(); ++i) html += section(result.steps[i], i);
+  html += "<header><div><p class='quiet'>Score report</p><h1>" + escaped(result.title) + "</h1><p class='quiet'>" +
+          escaped(result.provenance.case_name) + "</p></div>" + whose(subject) + "</header>\n" + verdict(result);
+  for (std::size_t i = 0; i < result.steps.size(); ++i) html += section(result.steps[i], i, subject.pictures);
   html += "<section><h2>Whole exam</h2>" + table(result.marks) + "</section>\n";
   if (!trace.empty()) {
     html += "<section><h2>Over time</h2>" + time_charts_svg(result, trace) +
             "<p class='legend'><i class='key held'></i>held <i class='key judged'></i>judged without a hold "
             "<i class='key lost'></i>no tracking <i class='key full'></i>full points</p></section>\n";
-    html += "<section><h2>Way of the probe</h2>" + path_charts_svg(result, trace) + "<p class='legend'>";
+    html += "<section><h2>Way of the probe</h2>" + path_html(result, trace) + "<p class='legend'>";
     for (std::size_t i = 0; i < result.steps.size(); ++i)
       html += "<i class='key way" + std::to_string(i % 4) + "'></i>" + escaped(result.steps[i].title) + " ";
     html += "</p></section>\n";

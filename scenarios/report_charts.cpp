@@ -1,26 +1,14 @@
 #include "scenarios/report_charts.h"
 
-#include <glm/geometric.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <functional>
+
+#include "scenarios/report_svg.h"
 
 namespace insonate {
 namespace {
-
-/// printf into a string: numbers in SVG want a fixed, short form.
-std::string print(const char* format, ...) {
-  va_list arguments;
-  va_start(arguments, format);
-  char text[512];
-  std::vsnprintf(text, sizeof text, format, arguments);
-  va_end(arguments);
-  return text;
-}
 
 // All lengths in the drawing's own units, which are pixels on a screen.
 constexpr double kWidth = 760;
@@ -48,14 +36,6 @@ struct Axes {
   double x(double time_s) const { return kLeft + (kWidth - kLeft - kRight) * time_s / duration_s; }
   double y(double value) const { return top + kChartHeight * (1 - std::clamp(value / most, 0.0, 1.0)); }
 };
-
-/// A round number of about a fifth of the span: 1, 2 or 5 times a power of ten.
-double round_step(double span) {
-  const double power = std::pow(10.0, std::floor(std::log10(span / 5)));
-  for (const double factor : {1.0, 2.0, 5.0})
-    if (span / (factor * power) <= 7) return factor * power;
-  return 10 * power;
-}
 
 std::string curve(const Quantity& quantity, const Axes& axes, std::span<const TracePoint> trace) {
   std::string path;
@@ -125,61 +105,6 @@ std::string time_axis(const Axes& axes) {
   return svg;
 }
 
-/// One of the two projections of the probe's way.
-struct Projection {
-  const char* title;
-  const char* left_side;  ///< what is seen at the drawing's left
-  glm::dvec3 right;       ///< patient direction that runs to the right
-  glm::dvec3 up;
-};
-
-constexpr double kPathSize = 300;
-constexpr double kPathMargin = 24;
-
-std::string projected_path(const Projection& projection, double left, const ExamResult& result,
-                           std::span<const TracePoint> trace, double mm_across, const glm::dvec3& middle) {
-  const double scale = (kPathSize - 2 * kPathMargin) / mm_across;
-  const auto x = [&](const glm::dvec3& p) {
-    return left + kPathSize / 2 + scale * glm::dot(p - middle, projection.right);
-  };
-  const auto y = [&](const glm::dvec3& p) {
-    return kTop + kPathSize / 2 - scale * glm::dot(p - middle, projection.up);
-  };
-
-  std::string svg =
-      print("<rect class='frame' x='%.0f' y='%.0f' width='%.0f' height='%.0f'/>", left, kTop, kPathSize, kPathSize);
-  svg += print("<text class='name' x='%.0f' y='%.0f'>%s</text>", left, kTop - 8, projection.title);
-  svg +=
-      print("<text class='tick' x='%.0f' y='%.0f'>%s</text>", left + 6, kTop + kPathSize / 2 + 4, projection.left_side);
-  for (std::size_t step = 0; step < result.steps.size(); ++step) {
-    std::string path;
-    bool drawing = false;
-    for (const TracePoint& point : trace) {
-      if (point.step != step) continue;
-      if (point.valid) path += print("%c%.1f %.1f", drawing ? 'L' : 'M', x(point.face), y(point.face));
-      drawing = point.valid;
-    }
-    svg += print("<path class='way way%d' d='", int(step % 4)) + path + "'/>";
-  }
-  const auto first = std::find_if(trace.begin(), trace.end(), [](const TracePoint& p) { return p.valid; });
-  if (first != trace.end())
-    svg += print("<circle class='start' cx='%.1f' cy='%.1f' r='4'/><text class='tick' x='%.1f' y='%.1f'>start</text>",
-                 x(first->face), y(first->face), x(first->face) + 7, y(first->face) - 5);
-  for (const StepResult& step : result.steps) {
-    if (!step.judged_to_s) continue;
-    const auto judged = std::find_if(trace.begin(), trace.end(),
-                                     [&](const TracePoint& p) { return p.valid && p.time_s >= *step.judged_from_s; });
-    if (judged != trace.end())
-      svg += print("<circle class='%s' cx='%.1f' cy='%.1f' r='5'/>",
-                   step.outcome == StepOutcome::held ? "spot good" : "spot bad", x(judged->face), y(judged->face));
-  }
-  const double ruler_mm = round_step(mm_across * 1.5);
-  svg += print("<line class='ruler' x1='%.1f' x2='%.1f' y1='%.1f' y2='%.1f'/>", left + 10, left + 10 + ruler_mm * scale,
-               kTop + kPathSize - 12, kTop + kPathSize - 12);
-  svg += print("<text class='tick' x='%.1f' y='%.1f'>%g mm</text>", left + 10, kTop + kPathSize - 18, ruler_mm);
-  return svg;
-}
-
 }  // namespace
 
 std::string time_charts_svg(const ExamResult& result, std::span<const TracePoint> trace) {
@@ -207,28 +132,6 @@ std::string time_charts_svg(const ExamResult& result, std::span<const TracePoint
   }
   axes.top -= kChartHeight + kChartGap;
   return svg + time_axis(axes) + "</svg>";
-}
-
-std::string path_charts_svg(const ExamResult& result, std::span<const TracePoint> trace) {
-  glm::dvec3 least(1e9);
-  glm::dvec3 most(-1e9);
-  for (const TracePoint& point : trace) {
-    if (!point.valid) continue;
-    for (int c = 0; c < 3; ++c) {
-      least[c] = std::min(least[c], point.face[c]);
-      most[c] = std::max(most[c], point.face[c]);
-    }
-  }
-  if (!(most.x >= least.x)) return "";
-  const glm::dvec3 middle = (least + most) / 2.0;
-  const double across = std::max({most.x - least.x, most.y - least.y, most.z - least.z, 20.0});
-  // LPS: +x to the patient's left, which is at the right of both drawings, as on a CT.
-  const Projection front{"From the front", "R", {1, 0, 0}, {0, 0, 1}};
-  const Projection feet{"From the feet", "R", {1, 0, 0}, {0, -1, 0}};
-  std::string svg = print("<svg class='chart' viewBox='0 0 %.0f %.0f' role='img'>", kWidth, kTop + kPathSize + 10);
-  svg += projected_path(front, kLeft, result, trace, across, middle);
-  svg += projected_path(feet, kLeft + kPathSize + 60, result, trace, across, middle);
-  return svg + "</svg>";
 }
 
 }  // namespace insonate

@@ -10,6 +10,10 @@ inline constexpr char kReportStyle[] = R"css(
 body { margin: 0; background: #f5f7f9; color: var(--ink); font: 15px/1.5 Inter, system-ui, sans-serif;
   -webkit-print-color-adjust: exact; print-color-adjust: exact; }
 main { max-width: 860px; margin: 0 auto; padding: 40px 24px 64px; }
+header { display: flex; justify-content: space-between; gap: 24px; align-items: flex-end; }
+.whose { width: auto; font-size: 13px; }
+.whose td { border: 0; padding: 1px 0 1px 16px; white-space: nowrap; }
+.whose td:first-child { color: var(--quiet); }
 header h1 { margin: 2px 0; font-size: 28px; line-height: 1.25; letter-spacing: -0.01em; }
 header p { margin: 0; }
 h2 { margin: 0 0 6px; font-size: 18px; display: flex; align-items: center; gap: 10px; }
@@ -49,11 +53,18 @@ td small { display: block; color: var(--quiet); font-size: 13px; max-width: 30em
 .critical { font-size: 11px; color: var(--bad); border: 1px solid currentColor; border-radius: 8px; padding: 0 7px; }
 .bar { width: 84px; height: 4px; margin: 5px 0 0 auto; border-radius: 2px; background: #e9edf1; }
 .bar i { display: block; height: 100%; border-radius: 2px; background: var(--some); }
-tr.all .bar i { background: var(--good); }
+.bar.all i { background: var(--good); }
 tr.none td.number:last-child { color: var(--bad); }
-.pictures { display: flex; gap: 16px; flex-wrap: wrap; }
-figure { margin: 0; flex: 1 1 300px; }
+.overview { margin-top: 14px; font-size: 14px; }
+.overview td { padding: 6px 0; vertical-align: middle; }
+.overview td:nth-child(2) { text-align: right; }
+.overview td:nth-child(3) { width: 90px; }
+.overview td:nth-child(4) { width: 130px; }
+.pictures { display: flex; gap: 16px; margin-top: 14px; break-inside: avoid; }
+figure { margin: 0; flex: 1 1 0; }
 figure img { width: 100%; border-radius: 6px; background: #000; display: block; }
+.missing { aspect-ratio: 10 / 7; display: flex; align-items: center; justify-content: center; border-radius: 6px;
+  border: 1px dashed var(--quiet); color: var(--quiet); font-size: 13px; }
 figcaption { color: var(--quiet); font-size: 13px; margin-top: 6px; }
 .chart { width: 100%; height: auto; display: block; }
 .chart text { font: 11px Inter, system-ui, sans-serif; fill: var(--quiet); }
@@ -72,6 +83,10 @@ figcaption { color: var(--quiet); font-size: 13px; margin-top: 6px; }
 .spot { stroke: #fff; stroke-width: 1.5; }
 .spot.good { fill: var(--good); }
 .spot.bad { fill: var(--bad); }
+.paths { display: flex; gap: 2%; }
+.paths .chart { flex: 622 1 0; min-width: 0; } /* as wide as they draw, so that both come out equally high */
+.paths .turn { flex: 302 1 0; cursor: grab; touch-action: none; user-select: none; }
+.edge { fill: none; stroke: var(--line); }
 .ruler { stroke: var(--quiet); stroke-width: 2; }
 .legend { margin: 10px 0 0; }
 .key { display: inline-block; width: 14px; height: 10px; margin: 0 6px 0 12px; border-radius: 2px; }
@@ -87,7 +102,13 @@ code { font: 12px ui-monospace, monospace; }
   body { background: #fff; font-size: 12px; }
   main { padding: 0; max-width: none; }
   section, .verdict { margin-top: 10px; padding: 12px 16px; }
-  @page { margin: 16mm; }
+  header h1 { font-size: 22px; }
+  td { padding: 5px 0; }
+  .pictures figure img { max-height: 62mm; object-fit: contain; }
+  section > .chart { width: 80%; margin: 0 auto; }
+  .origin td { padding: 2px 0; }
+  .hint { display: none; }
+  @page { size: A4; margin: 12mm; }
 }
 )css";
 

@@ -49,7 +49,8 @@ struct StepResult {
 /// What a score was made from, so that it can be made again.
 struct Provenance {
   std::string program_version;
-  std::string scenario;  ///< file name
+  int scoring_version = 0;  ///< ExamResult::kScoringVersion of that program
+  std::string scenario;     ///< file name
   std::string scenario_digest;
   std::string case_name;
   std::string case_digest;

@@ -244,6 +244,7 @@ ExamResult Runner::result() const {
   result.provenance.case_name = case_name_;
   result.provenance.case_digest = case_digest_;
   result.provenance.program_version = INSONATE_VERSION;
+  result.provenance.scoring_version = ExamResult::kScoringVersion;
   result.pass_mark_percent = scenario_.pass_mark_percent;
   result.complete = live_.finished;
   result.motion = motion_.values();

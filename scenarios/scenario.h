@@ -69,7 +69,8 @@ struct Scenario {
   std::vector<Criterion> criteria;  ///< of the whole exam; may be empty
 
   std::filesystem::path file;  ///< where it was read from, for messages and for relative case folders
-  std::string digest;          ///< of the file's bytes (sim/core/digest.h)
+  std::string text;            ///< the file's bytes
+  std::string digest;          ///< of them (sim/core/digest.h)
 };
 
 /// Something wrong in a scenario file, in words: "step 2 names the view 'hepatorenl', which the case does not have",

@@ -364,6 +364,7 @@ Scenario parse_scenario(std::string_view text, const std::filesystem::path& name
   Scenario scenario = read_tables(root, problems);
   if (!problems.empty()) throw ScenarioError(name.string(), std::move(problems));
   scenario.file = name;
+  scenario.text = text;
   scenario.digest = digest_of(text);
   return scenario;
 }

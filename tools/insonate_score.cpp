@@ -5,11 +5,14 @@
 #include "devices/sequence/probe_samples.h"
 #include "scenarios/report.h"
 #include "scenarios/result_json.h"
+#include "scenarios/results/learner_id.h"
+#include "scenarios/results/results_database.h"
 #include "scenarios/runner.h"
 #include "scenarios/scenario.h"
 #include "sim/core/files.h"
 #include "sim/model/tissue.h"
 #include "tools/program.h"
+#include "tools/score_commands.h"
 #include "tools/subject.h"
 
 namespace {
@@ -26,9 +29,19 @@ struct Arguments {
   std::filesystem::path case_folder;
   std::filesystem::path report;
   std::string transform;
+  std::filesystem::path results;
+  std::string learner = kNobodyInParticular;
 };
 
+void keep(const Arguments& given, Attempt attempt) {
+  attempt.learner = given.learner;
+  attempt.finished_ms = now_ms();
+  if (!given.case_folder.empty()) attempt.patient = std::filesystem::absolute(given.case_folder).string();
+  ResultsDatabase::open_or_make(given.results).add(attempt);
+}
+
 int score(const Arguments& given) {
+  check_learner_id(given.learner, "command line", "--learner");
   const Scenario scenario = read_scenario(given.scenario);
   const RecordedScan scan = read_recorded_scan(given.log, given.transform);
   const Case subject = case_for(scenario, given.case_folder);
@@ -41,6 +54,7 @@ int score(const Arguments& given) {
   result.provenance.log_digest = scan.recording.digest;
   result.provenance.log_transform = scan.recording.transform;
 
+  if (!given.results.empty()) keep(given, attempt_of(runner, result, write_sequence(scan.samples)));
   if (!given.report.empty()) write_file(given.report, report_html(result, runner.trace()));
   std::fputs(to_json(result).c_str(), stdout);
   return 0;
@@ -65,6 +79,10 @@ int main(int argc, char** argv) {
       "Scores a recorded scan against a scenario and prints the result as JSON. A failed exam is a result too: the "
       "exit code is 0 for it, and 2 for input that cannot be used.\n\n"
       "  insonate-score --log scan.igs.mha --scenario exam.toml --report scan.html\n"
+      "  insonate-score --log scan.igs.mha --scenario exam.toml --results lab.db --learner L-07\n"
+      "  insonate-score attempts lab.db\n"
+      "  insonate-score report lab.db --attempt 12 --out reports\n"
+      "  insonate-score pass-mark lab.db --novices novices.csv --experts experts.csv\n"
       "  insonate-score check exam.toml",
       "insonate-score");
   Arguments given;
@@ -76,6 +94,8 @@ int main(int argc, char** argv) {
                        "The probe's transform in the log, as in replay:FILE?transform=... (ProbeToPatient, "
                        "ProbeToReference or ProbeToTracker, the first that is there)");
   arguments.add_option("--report", given.report, "Also writes a report as one HTML page");
+  arguments.add_option("--results", given.results, "Also keeps the attempt in this database of results");
+  arguments.add_option("--learner", given.learner, "Whose attempt it is: an opaque id")->capture_default_str();
 
   bool without_case = false;
   CLI::App* check_command = arguments.add_subcommand("check", "Checks a scenario file and lists all its problems");
@@ -83,7 +103,14 @@ int main(int argc, char** argv) {
   check_command->add_option("--case", given.case_folder, "A case folder to take instead of the scenario's own case");
   check_command->add_flag("--without-case", without_case, "Checks the text alone, not its names against the case");
 
+  CommandRun run_command;
+  add_list_commands(arguments, run_command);
+  add_report_command(arguments, run_command);
+  add_rescore_command(arguments, run_command);
+  add_pass_mark_command(arguments, run_command);
+
   return run_program(arguments, argc, argv, [&] {
+    if (run_command) return run_command();
     if (*check_command) return check(given, without_case);
     if (given.log.empty()) throw CLI::RequiredError("--log");
     if (given.scenario.empty()) throw CLI::RequiredError("--scenario");

@@ -5,8 +5,8 @@
 
 #include "app/panels/theme.h"
 #include "app/panels/widgets.h"
-#include "app/results.h"
 #include "scenarios/result.h"
+#include "scenarios/results/report_files.h"
 
 namespace insonate::ui {
 

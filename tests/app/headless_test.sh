@@ -18,12 +18,18 @@ for scan in good poor; do
   log="$INSONATE_ASSETS/logs/ruq_$scan.igs.mha"
   "$score" --log "$log" --scenario "$scenario" >"$work/$scan.json" 2>"$work/log" || fail "$(cat "$work/log")"
   "$trainer" --headless --tracker "replay:$log" --scenario "$scenario" --out "$work/$scan" \
-    --screenshot "$work/$scan.png" >"$work/$scan.txt" 2>&1 || fail "$(cat "$work/$scan.txt")"
+    --results "$work/results.db" --learner "L-$scan" --screenshot "$work/$scan.png" >"$work/$scan.txt" 2>&1 || fail "$(cat "$work/$scan.txt")"
   cmp "$work/$scan.json" "$work/$scan/score.json" || fail "the trainer's score of the $scan scan is another"
   for file in report.html ultrasound.png trainer.png score_sheet.png; do
     [ -s "$work/$scan/$file" ] || fail "$file is missing"
   done
 done
+"$score" rescore "$work/results.db" >"$work/log" 2>&1 || fail "$(cat "$work/log")"
+"$score" report "$work/results.db" --out "$work/reports" >"$work/log" 2>&1 || fail "$(cat "$work/log")"
+for file in report.html score.json score.csv xapi.json; do
+  cmp "$work/good/$file" "$work/reports/attempt-1/$file" || fail "$file out of the database is another"
+done
+[ "$(grep -c '<img' "$work/good/report.html")" -gt 0 ] || fail "the report has no pictures"
 grep -q '"passed": true' "$work/good.json" || fail "the good scan does not pass"
 grep -q '"passed": false' "$work/poor.json" || fail "the poor scan passes"
 grep -q 'not passed' "$work/poor.txt" || fail "the trainer does not say that the poor scan failed"

@@ -24,6 +24,7 @@ class Folder {
 public:
   Folder() : path(fs::temp_directory_path() / ("insonate-trainer-" + std::to_string(getpid()))) {
     fs::create_directories(path);
+    setenv("XDG_DATA_HOME", (path / "data").c_str(), 1);  // not the user's own results
     write_case(path / "tiny", tiny_case());
     write_file(path / "exam.toml", kTinyScenario);
     write_file(path / "scan.igs.mha", write_sequence(samples_of(4, 60, [](double t) {
@@ -103,6 +104,79 @@ TEST_CASE("the trainer replays a log, draws it, and leaves a report and the runn
   const Image<Rgba8>& frame = *trainer.best_frame();
   CHECK(frame.at(frame.width / 2, frame.height / 3)[0] > 20);
   CHECK(frame.at(1, 1)[3] == 0);
+}
+
+TEST_CASE("the trainer keeps attempts in the database it was given, and of the user's own accord only those by hand") {
+  const gl::HeadlessContext context;
+  const Folder folder;
+  const auto finish = [](Trainer& trainer) {
+    trainer.open_from_options();
+    trainer.finish_loading();
+    for (int i = 0; i < 1000 && !trainer.result_files(); ++i) {
+      trainer.update(i / 30.0);
+      if (trainer.best_frame_due()) {
+        trainer.draw(kSizes, 1, kNoBudget);
+        trainer.keep_best_frame();
+      }
+      trainer.write_results_if_due();
+    }
+    REQUIRE(trainer.result_files());
+    CHECK(trainer.problems().empty());
+  };
+  SECTION("a replayed log in a database that was named") {
+    Options options = folder.options();
+    options.results = folder.path / "lab.db";
+    options.learner = "L-07";
+    Trainer trainer(options);
+    finish(trainer);
+    ResultsDatabase database = ResultsDatabase::open(options.results);
+    REQUIRE(database.attempts().size() == 1);
+    const Attempt attempt = database.read(1);
+    CHECK(attempt.learner == "L-07");
+    CHECK(attempt.scenario_text == kTinyScenario);
+    CHECK(attempt.patient == (folder.path / "tiny").string());
+    CHECK(attempt.score_json == read_file(trainer.result_files()->score));
+    REQUIRE(attempt.pictures.size() == 4);  // of two steps, the learner's and the reference
+    for (const ReportPicture& picture : attempt.pictures) CHECK(picture.png.starts_with("\x89PNG"));
+    CHECK(attempt.pictures[0].png != attempt.pictures[1].png);
+    // The same picture as the machine shows at the reference view, and the screen is right again afterwards.
+    CHECK(attempt.pictures[1].png == attempt.pictures[3].png);
+    write_report_files(folder.path / "again", attempt);
+    for (const fs::path& file : trainer.result_files()->all())
+      CHECK(read_file(file) == read_file(folder.path / "again" / file.filename()));
+    CHECK_FALSE(fs::exists(folder.path / "data"));
+  }
+  SECTION("by default a replayed log in none, an exam by hand in the user's own") {
+    Options options = folder.options();
+    {
+      Trainer trainer(options);
+      finish(trainer);
+    }
+    CHECK(ResultsDatabase::open(folder.path / "data/insonate/results.db").attempts().empty());
+    options.tracker = "mouse:";
+    Trainer trainer(options);
+    finish(trainer);
+    const auto attempts = ResultsDatabase::open(folder.path / "data/insonate/results.db").attempts();
+    REQUIRE(attempts.size() == 1);
+    CHECK(attempts[0].learner == kNobodyInParticular);
+  }
+  SECTION("without a window none unless one was named") {
+    Options options = folder.options();
+    options.headless = true;
+    options.tracker = "mouse:";
+    Trainer trainer(options);
+    finish(trainer);
+    CHECK_FALSE(fs::exists(folder.path / "data"));
+  }
+  SECTION("a database that cannot be used is said at the start, and one's own does not stop a session") {
+    Options options = folder.options();
+    options.results = folder.file("text.db", "no database");
+    CHECK_THROWS_AS(Trainer(options), InputError);
+    fs::create_directories(folder.path / "data/insonate/results.db");
+    Trainer trainer(folder.options());
+    REQUIRE(trainer.problems().size() == 1);
+    CHECK(trainer.problems().front().find("results.db") != std::string::npos);
+  }
 }
 
 TEST_CASE("where nothing changes nothing is drawn, and each change draws what it reaches") {

@@ -5,6 +5,7 @@ set -euo pipefail
 program=$1
 export INSONATE_ASSETS=$2
 work=$(mktemp -d)
+export XDG_DATA_HOME="$work/data"  # not the user's own results
 state="$work/state.json"
 server="" trainer="" helpers=()
 finish() {

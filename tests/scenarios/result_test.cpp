@@ -52,6 +52,14 @@ TEST_CASE("a result goes to JSON and back without losing a bit") {
   }
 }
 
+TEST_CASE("a result of another scoring version reads, and says so") {
+  ExamResult result = scan(1).result;
+  CHECK(result.provenance.scoring_version == ExamResult::kScoringVersion);
+  result.provenance.scoring_version = 99;
+  CHECK(result_from_json(to_json(result), "x").provenance.scoring_version == 99);
+  CHECK(report_html(result, {}).find("scoring 99") != std::string::npos);
+}
+
 TEST_CASE("JSON that is no result is refused") {
   const std::string json = to_json(scan(1).result);
   CHECK_THROWS_AS(result_from_json("", "x"), InputError);
@@ -64,7 +72,7 @@ TEST_CASE("JSON that is no result is refused") {
     CHECK_THROWS_AS(result_from_json(text, "x"), InputError);
   };
   spoiled("\"format\": 1", "\"format\": 2");
-  spoiled("\"scoring_version\": 2", "\"scoring_version\": 99");
+  spoiled("\"scoring_version\": 2", "\"scoring_version\": \"2\"");
   spoiled("\"plane_distance_mm\",", "\"plane_distance_km\",");
   spoiled("\"held\"", "\"dropped\"");
   spoiled("\"percent\": ", "\"percent\": \"\", \"x\": ");
@@ -94,7 +102,7 @@ TEST_CASE("the report names the verdict, its reasons, and each criterion with va
 TEST_CASE("the report draws the scan over time and in space, and needs no other file") {
   const Scan one = scan(0);
   const std::string html = report_html(one.result, one.trace);
-  CHECK(count(html, "<svg") == 2);
+  CHECK(count(html, "<svg") == 3);
   CHECK(count(html, "class='curve'") == 4);
   CHECK(count(html, "class='held'") == 4 * 2);
   CHECK(count(html, "class='lost'") >= 4);
@@ -102,10 +110,22 @@ TEST_CASE("the report draws the scan over time and in space, and needs no other 
   CHECK(html.find("src=") == std::string::npos);
   CHECK(report_html(one.result, one.trace) == html);
 
-  const ReportPicture picture{"Best frame", "data:image/png;base64,AAAA"};
-  CHECK(report_html(one.result, one.trace, {&picture, 1}).find("src='data:image/png;base64,AAAA'") !=
-        std::string::npos);
   CHECK(count(report_html(one.result, {}), "<svg") == 0);
+}
+
+TEST_CASE("the report shows the best picture of a step beside its reference view, and says whose attempt it was") {
+  const Scan one = scan(0);
+  ReportSubject subject{"L-07", "12", "2026-11-21", {{1, ReportPicture::Kind::reference, "ref"}}};
+  std::string html = report_html(one.result, one.trace, subject);
+  CHECK(count(html, "<figure>") == 2);
+  CHECK(html.find("The view was not held") < html.find("data:image/png;base64,cmVm'"));
+  CHECK(html.find("class='missing'") > html.find("2. Ball again</td>"));
+  for (const char* text : {">L-07<", ">12<", ">2026-11-21<"}) CHECK(html.find(text) != std::string::npos);
+
+  subject.pictures.push_back({1, ReportPicture::Kind::best, "best1"});
+  html = report_html(one.result, one.trace, subject);
+  CHECK(html.find("base64,YmVzdDE='") < html.find("base64,cmVm'"));
+  CHECK(count(html, "class='missing'") == 0);
 }
 
 TEST_CASE("text from a scenario stays text in the report") {
@@ -113,6 +133,6 @@ TEST_CASE("text from a scenario stays text in the report") {
   text.replace(text.find("Find the ball"), 13, "<script>alert('x')</script> & co");
   const Scan one = scan(0, text);
   const std::string html = report_html(one.result, one.trace);
-  CHECK(html.find("<script") == std::string::npos);
+  CHECK(html.find("<script>alert") == std::string::npos);
   CHECK(html.find("&lt;script&gt;alert(&#39;x&#39;)&lt;/script&gt; &amp; co") != std::string::npos);
 }

@@ -5,6 +5,7 @@
 
 #include "devices/sequence/probe_samples.h"
 #include "scenarios/result_json.h"
+#include "scenarios/results/results_database.h"
 #include "scenarios/runner.h"
 #include "sim/core/digest.h"
 #include "sim/core/files.h"
@@ -122,4 +123,112 @@ TEST_CASE("insonate-score check passes the bundled exam") {
   INFO(outcome.errors);
   CHECK(outcome.code == 0);
   CHECK(outcome.output.find("no problems found") != std::string::npos);
+}
+
+TEST_CASE(
+    "insonate-score keeps attempts, lists them, scores them again to the same bits, and makes their reports again") {
+  const Folder folder;
+  const auto exam = folder.file("exam.toml", coarse_exam());
+  const std::string database = (folder.path / "lab.db").string();
+  std::string scores[2];
+  for (const char* scan : {"good", "poor"}) {
+    const auto log = kAssets / "logs" / ("ruq_" + std::string(scan) + ".igs.mha");
+    const Outcome outcome = run(folder, "--log " + log.string() + " --scenario " + exam.string() + " --results " +
+                                            database + " --learner L-" + scan);
+    INFO(outcome.errors);
+    REQUIRE(outcome.code == 0);
+    scores[scan == std::string("poor")] = outcome.output;
+  }
+
+  const std::string attempts = run(folder, "attempts " + database).output;
+  CHECK(attempts.find("L-good") < attempts.find("L-poor"));
+  CHECK(attempts.find(" passed ") < attempts.find("not passed"));
+  CHECK(run(folder, "attempts " + database + " --learner L-poor").output.find("L-good") == std::string::npos);
+  CHECK(run(folder, "learners " + database).output.find("L-poor") != std::string::npos);
+
+  const Outcome again = run(folder, "rescore " + database);
+  INFO(again.output << again.errors);
+  CHECK(again.code == 0);
+  CHECK(again.output == "attempt 1: the same\nattempt 2: the same\n2 the same, 0 not\n");
+
+  REQUIRE(run(folder, "report " + database + " --attempt 2 --out " + folder.path.string()).code == 0);
+  CHECK(read_file(folder.path / "attempt-2" / "score.json") == scores[1]);
+  CHECK(read_file(folder.path / "attempt-2" / "report.html").find("L-poor") != std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(folder.path / "attempt-1"));
+
+  // Another case in its place: the same scenario text, but the folder it names has gone.
+  ResultsDatabase opened = ResultsDatabase::open(database);
+  Attempt moved = opened.read(1);
+  moved.patient = (folder.path / "gone").string();
+  opened.add(moved);
+  Attempt other = opened.read(1);
+  const std::string points = "\"passed\": true";
+  other.score_json.replace(other.score_json.find(points), points.size(), "\"passed\": false");
+  opened.add(other);
+  const Outcome different = run(folder, "rescore " + database);
+  CHECK(different.code == 1);
+  CHECK(different.output.find("attempt 3: it cannot be scored: ") != std::string::npos);
+  CHECK(different.output.find("attempt 4: passed: false then, true now\n") != std::string::npos);
+}
+
+TEST_CASE("insonate-score sets a pass mark from two lists of learners") {
+  const Folder folder;
+  const std::string database = (folder.path / "lab.db").string();
+  ResultsDatabase opened = ResultsDatabase::open_or_make(database);
+  const auto add = [&](const char* learner, double percent, const char* scenario = "exam") {
+    ExamResult result;
+    result.complete = true;
+    result.percent = percent;
+    Attempt attempt;
+    attempt.learner = learner;
+    attempt.scenario_text = scenario;
+    attempt.score_json = to_json(result);
+    opened.add(attempt);
+  };
+  // Means 40 and 80, equal deviations; the second attempt of a novice does not count.
+  for (const auto& [learner, percent] : {std::pair{"n1", 10.0},
+                                         {"n2", 40.0},
+                                         {"n3", 70.0},
+                                         {"e1", 50.0},
+                                         {"e2", 80.0},
+                                         {"e3", 110.0},
+                                         {"n1", 100.0},
+                                         {"other", 5.0}})
+    add(learner, percent);
+  const std::string lists = " --novices " + folder.file("n.csv", "learner\nn1\nn2\nn3\nn4\n").string() + " --experts " +
+                            folder.file("e.toml", "format = 1\nlearners = [\"e1\", \"e2\", \"e3\"]\n").string();
+  const Outcome outcome = run(folder, "pass-mark " + database + lists);
+  INFO(outcome.errors);
+  CHECK(outcome.code == 0);
+  CHECK(outcome.output.find("pass mark: 60.00 %\nnovices: 3 of 4 took it, mean 40.00 %") == 0);
+  CHECK(outcome.output.find("false passes: 33.3 % observed, 25.2 % by the normal") != std::string::npos);
+
+  add("n4", 20, "another exam");
+  const Outcome several = run(folder, "pass-mark " + database + lists);
+  CHECK(several.code == 2);
+  CHECK(several.errors.find("2 different scenarios") != std::string::npos);
+  CHECK(run(folder, "pass-mark " + database + lists + " --scenario " + folder.file("exam.toml", "exam").string())
+            .output == outcome.output);
+}
+
+TEST_CASE("insonate-score refuses databases and lists that it cannot use in one sentence") {
+  const Folder folder;
+  const std::string text = folder.file("text.db", "no database").string();
+  const std::string ids = folder.file("ids.csv", "learner\na\n").string();
+  const auto refused = [&](const std::string& arguments, const std::string& words) {
+    const Outcome outcome = run(folder, arguments);
+    INFO(arguments << "\n" << outcome.errors);
+    CHECK(outcome.code == 2);
+    CHECK(outcome.errors.find(words) != std::string::npos);
+    CHECK(outcome.errors.find('\n') == outcome.errors.size() - 1);
+  };
+  for (const char* command : {"attempts ", "learners ", "rescore ", "report "}) {
+    refused(command + text, "no database of results");
+    refused(command + (folder.path / "none.db").string(), "no such file");
+  }
+  refused("pass-mark " + text + " --novices " + ids + " --experts " + ids, "'a' is a novice as well");
+  refused("--log x --scenario y --learner 'Ada Lovelace'", "no opaque id");
+  ResultsDatabase::open_or_make(folder.path / "lab.db");
+  refused("report " + (folder.path / "lab.db").string() + " --attempt 3", "no attempt 3");
+  refused("report " + (folder.path / "lab.db").string() + " --home-page lab", "no web address");
 }

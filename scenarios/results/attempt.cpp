@@ -1,0 +1,32 @@
+#include "scenarios/results/attempt.h"
+
+#include <cstdio>
+#include <ctime>
+#include <utility>
+
+#include "scenarios/result_json.h"
+#include "scenarios/results/trace_json.h"
+
+namespace insonate {
+
+Attempt attempt_of(const Runner& runner, const ExamResult& result, std::string log) {
+  Attempt attempt;
+  attempt.scenario_text = runner.scenario().text;
+  attempt.scenario_file = runner.scenario().file.string();
+  attempt.log = std::move(log);
+  attempt.score_json = to_json(result);
+  attempt.trace_json = to_json(runner.trace());
+  return attempt;
+}
+
+std::string utc_time(std::int64_t since_1970_ms) {
+  const std::time_t seconds = std::time_t(since_1970_ms / 1000);
+  std::tm parts{};
+  gmtime_r(&seconds, &parts);
+  char date[32], text[48];
+  std::strftime(date, sizeof date, "%Y-%m-%dT%H:%M:%S", &parts);
+  std::snprintf(text, sizeof text, "%s.%03dZ", date, int(since_1970_ms % 1000));
+  return text;
+}
+
+}  // namespace insonate

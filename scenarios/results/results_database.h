@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scenarios/results/attempt.h"
+#include "scenarios/results/sqlite.h"
+
+namespace insonate {
+
+/// An attempt in a list.
+struct AttemptSummary {
+  std::int64_t number = 0;
+  std::string learner;
+  std::int64_t finished_ms = 0;
+  std::string title;  ///< of the scenario
+  std::string scenario_digest;
+  bool complete = false;
+  double percent = 0;
+  bool passed = false;
+};
+
+struct LearnerSummary {
+  std::string id;
+  int attempts = 0;
+  int passed = 0;
+  double best_percent = 0;
+  std::int64_t last_ms = 0;  ///< when the last attempt finished
+};
+
+/// The results of a lab, in one SQLite file. An attempt is in it whole, or not at all, whenever a program or the power
+/// ends: add() returns when the attempt is on the disk. Several programs of one computer may have it open at once; one
+/// waits for the other to write, up to sqlite::Connection::kPatience_ms.
+///
+/// Whatever is wrong with the file throws an InputError: it is missing, damaged, of another program or of a newer
+/// version, locked for too long, or cannot be written. Opening one of an older version brings its tables up to date.
+class ResultsDatabase {
+public:
+  /// Opens a database that is there.
+  static ResultsDatabase open(const std::filesystem::path& file);
+  /// Opens one, or makes it, and the folders it is to lie in.
+  static ResultsDatabase open_or_make(const std::filesystem::path& file);
+
+  /// Keeps an attempt and sets its number and uuid. Throws InputError when the learner's id is none, or the score does
+  /// not read back.
+  void add(Attempt& attempt);
+
+  /// Throws InputError when there is no attempt of that number, or when it is damaged.
+  Attempt read(std::int64_t number);
+
+  /// In the order in which they were added.
+  std::vector<AttemptSummary> attempts();
+  /// In the order of their ids.
+  std::vector<LearnerSummary> learners();
+
+  /// 32 hexadecimal digits that no other database has.
+  std::string identity();
+
+  /// Reads all of the file and throws InputError when any of it is damaged.
+  void check();
+
+private:
+  ResultsDatabase(const std::filesystem::path& file, bool make);
+  [[noreturn]] void fail(std::int64_t number, const std::string& problem) const;
+
+  sqlite::Connection connection_;
+};
+
+}  // namespace insonate

@@ -1,0 +1,128 @@
+#include "scenarios/results/results_schema.h"
+
+#include <array>
+#include <chrono>
+#include <thread>
+
+#include "sim/core/input_error.h"
+
+namespace insonate {
+namespace {
+
+/// "INSO": what the file's header says of whose it is (PRAGMA application_id).
+constexpr std::int64_t kApplication = 0x494e534f;
+
+/// What leads from each schema to the next. Never changed, only added to: databases of every age are out there.
+/// docs/results.md explains the tables.
+constexpr std::array kSteps{R"sql(
+CREATE TABLE identity (
+  id TEXT NOT NULL                      -- 32 random hexadecimal digits: tells this database from all others
+) STRICT;
+INSERT INTO identity VALUES (lower(hex(randomblob(16))));
+
+CREATE TABLE learner (
+  id TEXT PRIMARY KEY NOT NULL
+) STRICT;
+
+CREATE TABLE attempt (
+  number INTEGER PRIMARY KEY AUTOINCREMENT,
+  uuid TEXT NOT NULL UNIQUE,
+  learner TEXT NOT NULL REFERENCES learner (id) ON DELETE CASCADE,
+  finished_ms INTEGER NOT NULL,         -- since 1970 UTC
+  title TEXT NOT NULL,                  -- title to passed: out of the score, for lists
+  complete INTEGER NOT NULL,
+  percent REAL NOT NULL,
+  passed INTEGER NOT NULL,
+  scenario_digest TEXT NOT NULL,
+  scenario_file TEXT NOT NULL,
+  scenario TEXT NOT NULL,
+  patient TEXT NOT NULL,
+  log_digest TEXT NOT NULL,
+  log_size INTEGER NOT NULL,            -- in bytes, before zlib
+  log BLOB NOT NULL,
+  trace_size INTEGER NOT NULL,
+  trace BLOB NOT NULL,
+  score TEXT NOT NULL                   -- JSON
+) STRICT;
+CREATE INDEX attempt_by_learner ON attempt (learner, number);
+)sql",
+                            R"sql(
+CREATE TABLE picture (
+  attempt INTEGER NOT NULL REFERENCES attempt (number) ON DELETE CASCADE,
+  step INTEGER NOT NULL,                -- from 0
+  kind TEXT NOT NULL,                   -- 'best' or 'reference'
+  png BLOB NOT NULL,
+  PRIMARY KEY (attempt, step, kind)
+) STRICT;
+)sql"};
+
+struct Header {
+  std::int64_t application;
+  std::int64_t schema;
+  std::int64_t tables;
+  std::int64_t programs;  ///< triggers and views
+};
+
+Header header_of(sqlite::Connection& connection) {
+  return {connection.number("PRAGMA application_id"), connection.number("PRAGMA user_version"),
+          connection.number("SELECT count(*) FROM sqlite_schema"),
+          connection.number("SELECT count(*) FROM sqlite_schema WHERE type IN ('trigger', 'view')")};
+}
+
+/// Whether the tables still have to be made, or made newer.
+bool behind(sqlite::Connection& connection, bool make, int schema) {
+  const auto refuse = [&](const std::string& problem, const std::string& remedy) {
+    throw InputError(connection.file().string(), "", problem, remedy);
+  };
+  const Header header = header_of(connection);
+  if (header.application == 0 && header.schema == 0 && header.tables == 0) {
+    if (!make) refuse("there are no results in it", "name a database that the trainer has written");
+    return true;
+  }
+  if (header.application != kApplication)
+    refuse("this is the database of another program", "name one that the trainer has written");
+  if (header.schema > newest_results_schema())
+    refuse("its schema is " + std::to_string(header.schema) + ", and this program knows them up to " +
+               std::to_string(newest_results_schema()),
+           "use the newer version of Insonate that wrote it");
+  if (header.schema < 1 || header.tables == 0 || header.programs > 0)
+    refuse("its tables are not those of results", "go back to a copy of it from before");
+  return header.schema < schema;
+}
+
+/// Readers go on while somebody writes. The file remembers; until it does, two processes may be at it at once, and
+/// SQLite does not wait for the other here.
+void use_write_ahead_log(sqlite::Connection& connection) {
+  const auto give_up = std::chrono::steady_clock::now() + std::chrono::milliseconds(sqlite::Connection::kPatience_ms);
+  for (;;) {
+    try {
+      if (connection.text("PRAGMA journal_mode = WAL") == "wal") return;
+    } catch (const InputError&) {
+      if (std::chrono::steady_clock::now() > give_up) throw;
+    }
+    if (std::chrono::steady_clock::now() > give_up)
+      throw InputError(connection.file().string(), "", "its folder does not allow a write-ahead log",
+                       "keep the database on a disk of this computer, not on the network");
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+}
+
+}  // namespace
+
+int newest_results_schema() {
+  return int(kSteps.size());
+}
+
+void bring_up_to_date(sqlite::Connection& connection, bool make, int schema) {
+  if (!behind(connection, make, schema)) return;
+  use_write_ahead_log(connection);
+  sqlite::Transaction transaction(connection);
+  if (!behind(connection, make, schema)) return;  // another process was faster
+  for (std::int64_t step = connection.number("PRAGMA user_version"); step < schema; ++step)
+    connection.run(kSteps[std::size_t(step)]);
+  connection.run("PRAGMA application_id = " + std::to_string(kApplication));
+  connection.run("PRAGMA user_version = " + std::to_string(schema));
+  transaction.commit();
+}
+
+}  // namespace insonate

@@ -1,0 +1,70 @@
+#include "scenarios/results/trace_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <stdexcept>
+
+#include "sim/core/input_error.h"
+
+namespace insonate {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kFormat = 1;
+constexpr std::array kFace{"face_x_mm", "face_y_mm", "face_z_mm"};
+
+/// Each list once, for writing and for reading: `visit` is called with its key, whether it is known of invalid points
+/// too, and a function that gives the field.
+template <typename Visit>
+void each_list(Visit&& visit) {
+  visit(
+      "time_s", true, [](auto& p) -> auto& { return p.time_s; });
+  visit(
+      "step", true, [](auto& p) -> auto& { return p.step; });
+  visit(
+      "valid", true, [](auto& p) -> auto& { return p.valid; });
+  visit(
+      "on_skin", true, [](auto& p) -> auto& { return p.on_skin; });
+  visit(
+      "within_tolerance", true, [](auto& p) -> auto& { return p.within_tolerance; });
+  visit(
+      "speed_mm_s", true, [](auto& p) -> auto& { return p.speed_mm_s; });
+  for (int axis = 0; axis < 3; ++axis)
+    visit(
+        kFace[std::size_t(axis)], false, [axis](auto& p) -> auto& { return p.face[axis]; });
+  for (const ViewValues::Field& field : ViewValues::fields())
+    visit(
+        std::string(info(field.metric).name).c_str(), false, [field](auto& p) -> auto& { return p.view.*field.value; });
+}
+
+}  // namespace
+
+std::string to_json(std::span<const TracePoint> trace) {
+  Json json = {{"format", kFormat}, {"points", trace.size()}};
+  each_list([&](const char* key, bool always, auto&& field) {
+    Json& list = json[key] = Json::array();
+    for (const TracePoint& point : trace) list.push_back(always || point.valid ? Json(field(point)) : Json(nullptr));
+  });
+  return json.dump() + "\n";
+}
+
+std::vector<TracePoint> trace_from_json(std::string_view text, const std::string& name) {
+  try {
+    const Json json = Json::parse(text);
+    if (json.at("format") != kFormat) throw std::runtime_error("a format that this program does not read");
+    std::vector<TracePoint> trace(json.at("time_s").size());
+    each_list([&](const char* key, bool, auto&& field) {
+      const Json& list = json.at(key);
+      if (!list.is_array() || list.size() != trace.size()) throw std::runtime_error("lists of different lengths");
+      for (std::size_t i = 0; i < trace.size(); ++i)
+        if (!list[i].is_null()) list[i].get_to(field(trace[i]));
+    });
+    return trace;
+  } catch (const std::exception& error) {
+    throw InputError(name, "", std::string("this is no trace of insonate: ") + error.what(), "score the log again");
+  }
+}
+
+}  // namespace insonate

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "scenarios/results/results_database.h"
+
+// The commands of insonate-score that work on a database of results.
+
+namespace insonate {
+
+/// What the command that was given does; returns the exit code. Empty when none of them was.
+using CommandRun = std::function<int()>;
+
+/// Each declares its commands on `arguments` and sets `run` when one of them is parsed.
+void add_list_commands(CLI::App& arguments, CommandRun& run);
+void add_pass_mark_command(CLI::App& arguments, CommandRun& run);
+void add_report_command(CLI::App& arguments, CommandRun& run);
+void add_rescore_command(CLI::App& arguments, CommandRun& run);
+
+/// The numbers of all attempts, or `only` that one when it is not 0.
+inline std::vector<std::int64_t> chosen_attempts(ResultsDatabase& database, std::int64_t only) {
+  if (only != 0) return {only};
+  std::vector<std::int64_t> numbers;
+  for (const AttemptSummary& attempt : database.attempts()) numbers.push_back(attempt.number);
+  return numbers;
+}
+
+inline std::int64_t now_ms() {
+  return std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
+}  // namespace insonate

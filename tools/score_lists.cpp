@@ -1,0 +1,53 @@
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "scenarios/results/results_database.h"
+#include "tools/score_commands.h"
+
+namespace insonate {
+namespace {
+
+struct Listed {
+  std::filesystem::path database;
+  std::string learner;
+};
+
+/// To the second: more would only widen the list.
+std::string shown_time(std::int64_t since_1970_ms) {
+  return utc_time(since_1970_ms).substr(0, 19) + "Z";
+}
+
+int list_attempts(const Listed& given) {
+  std::printf("%7s  %-20s  %-20s  %-10s %9s  %s\n", "attempt", "learner", "finished", "", "percent", "scenario");
+  for (const AttemptSummary& a : ResultsDatabase::open(given.database).attempts())
+    if (given.learner.empty() || a.learner == given.learner)
+      std::printf("%7lld  %-20s  %-20s  %-10s %9.2f  %s\n", static_cast<long long>(a.number), a.learner.c_str(),
+                  shown_time(a.finished_ms).c_str(), a.passed ? "passed" : "not passed", a.percent, a.title.c_str());
+  return 0;
+}
+
+int list_learners(const Listed& given) {
+  std::printf("%-20s  %8s  %6s  %12s  %s\n", "learner", "attempts", "passed", "best percent", "last attempt");
+  for (const LearnerSummary& l : ResultsDatabase::open(given.database).learners())
+    std::printf("%-20s  %8d  %6d  %12.2f  %s\n", l.id.c_str(), l.attempts, l.passed, l.best_percent,
+                shown_time(l.last_ms).c_str());
+  return 0;
+}
+
+}  // namespace
+
+void add_list_commands(CLI::App& arguments, CommandRun& run) {
+  const auto given = std::make_shared<Listed>();
+  CLI::App* attempts = arguments.add_subcommand("attempts", "Lists the attempts in a database of results");
+  attempts->add_option("database", given->database, "The database")->required();
+  attempts->add_option("--learner", given->learner, "Only this learner's");
+  attempts->callback([given, &run] { run = [given] { return list_attempts(*given); }; });
+
+  CLI::App* learners = arguments.add_subcommand("learners", "Lists the learners in a database of results");
+  learners->add_option("database", given->database, "The database")->required();
+  learners->callback([given, &run] { run = [given] { return list_learners(*given); }; });
+}
+
+}  // namespace insonate

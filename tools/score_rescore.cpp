@@ -1,0 +1,86 @@
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "devices/sequence/probe_samples.h"
+#include "scenarios/results/rescoring.h"
+#include "scenarios/results/results_database.h"
+#include "scenarios/runner.h"
+#include "sim/core/files.h"
+#include "tools/score_commands.h"
+#include "tools/subject.h"
+
+namespace insonate {
+namespace {
+
+/// The cases that attempts were taken on, the last one kept: attempts at one exam often come one after the other.
+class Cases {
+public:
+  const Case& of(const Attempt& attempt, const Scenario& scenario) {
+    std::string key = attempt.patient + '\n' + scenario.case_name + '\n' + scenario.file.parent_path().string();
+    for (const auto& [name, value] : scenario.phantom_options) key.append("\n").append(name).append("=").append(value);
+    if (!case_ || key != key_) {
+      case_.reset();  // two would take twice the memory
+      case_ = attempt.patient.empty() ? load_case(scenario, assets_folder(), cache_folder(), show_progress)
+                                      : open_case(attempt.patient);
+      key_ = key;
+    }
+    return *case_;
+  }
+
+private:
+  std::string key_;
+  std::optional<Case> case_;
+};
+
+/// Empty when the attempt comes out the same, else why not.
+std::string compare(ResultsDatabase& database, std::int64_t number, Cases& cases, const TissueTable& tissues) {
+  const std::string name = "attempt " + std::to_string(number);
+  try {
+    const Attempt attempt = database.read(number);
+    Scenario scenario = parse_scenario(attempt.scenario_text, attempt.scenario_file);
+    Runner runner(scenario, cases.of(attempt, scenario), tissues);
+    runner.feed(probe_samples(parse_sequence(attempt.log, name)));
+    runner.end();
+    return why_different(attempt.score_json, runner.result(), name);
+  } catch (const InputError& error) {
+    return std::string("it cannot be scored: ") + error.what();
+  }
+}
+
+struct Given {
+  std::filesystem::path database;
+  std::int64_t attempt = 0;
+};
+
+int rescore(const Given& given) {
+  ResultsDatabase database = ResultsDatabase::open(given.database);
+  const TissueTable tissues = read_tissue_table(assets_folder() / "tissues.toml");
+  Cases cases;
+  int same = 0, other = 0;
+  for (const std::int64_t number : chosen_attempts(database, given.attempt)) {
+    const std::string why = compare(database, number, cases, tissues);
+    std::printf("attempt %lld: %s\n", static_cast<long long>(number), why.empty() ? "the same" : why.c_str());
+    ++(why.empty() ? same : other);
+  }
+  std::printf("%d the same, %d not\n", same, other);
+  return other > 0 ? 1 : 0;
+}
+
+}  // namespace
+
+void add_rescore_command(CLI::App& arguments, CommandRun& run) {
+  const auto given = std::make_shared<Given>();
+  CLI::App* command = arguments.add_subcommand(
+      "rescore",
+      "Scores the attempts in a database again, each from its own log and scenario, and says which come out the same "
+      "to "
+      "the bit and why others do not. The database stays as it is. The exit code is 1 when any is not the same");
+  command->add_option("database", given->database, "The database")->required();
+  command->add_option("--attempt", given->attempt, "Only this one, by its number")->check(CLI::PositiveNumber);
+  command->callback([given, &run] { run = [given] { return rescore(*given); }; });
+}
+
+}  // namespace insonate
