@@ -1,6 +1,7 @@
 #include "app/options.h"
 
 #include "app/igtl_feed.h"
+#include "devices/calibrated_tracker.h"
 #include "devices/registry.h"
 #include "sim/core/input_error.h"
 
@@ -18,6 +19,13 @@ void declare(CLI::App& arguments, Options& options) {
   for (const TrackerKind& kind : tracker_kinds())
     trackers += "\n  " + std::string(kind.form) + "\n      " + std::string(kind.summary);
   arguments.add_option("--tracker", options.tracker, trackers)->type_name("URI");
+  arguments
+      .add_option("--calibration", options.calibration,
+                  "What 'insonate-devices calibrate' found: the tracker tells where its sensor is, not the probe")
+      ->type_name("FILE");
+  arguments.add_option("--calibration-days", options.calibration_days, "Warn of a calibration that is older")
+      ->check(CLI::Range(0.0, 3650.0))
+      ->capture_default_str();
   arguments.add_flag("--headless", options.headless, "Run without a window, as fast as it goes, and write the results");
   arguments.add_option("--seconds", options.seconds, "End after so many seconds of the session")
       ->check(CLI::Range(0.0, 86400.0));
@@ -64,6 +72,12 @@ void check(const Options& options) {
   if (!options.case_folder.empty() && !options.ct.empty())
     throw InputError("command line", "--ct", "--case and --ct both name a patient", "give one of them");
   check_learner_id(options.learner, "command line", "--learner");
+  if (!options.calibration.empty()) {
+    if (options.tracker.empty())
+      throw InputError("command line", "--calibration", "no tracker is named",
+                       "name the one it was made with: --tracker");
+    check_can_be_calibrated(options.tracker);
+  }
   std::error_code error;
   if (!options.shader_folder.empty() && !std::filesystem::is_directory(options.shader_folder, error))
     throw InputError(options.shader_folder.string(), "--shader-dir", "it is not a folder",

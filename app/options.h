@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 
+#include "devices/calibration/calibration.h"
 #include "scenarios/results/learner_id.h"
 
 namespace insonate {
@@ -14,7 +15,9 @@ struct Options {
   std::filesystem::path case_folder;
   std::filesystem::path ct;  ///< a file or a DICOM folder
   std::filesystem::path scenario;
-  std::string tracker;  ///< a tracker's URI
+  std::string tracker;                ///< a tracker's URI
+  std::filesystem::path calibration;  ///< of that tracker, whose samples are its sensor's; empty: they are the probe's
+  double calibration_days = kCalibrationDays;  ///< older ones bring a warning
   bool headless = false;
   std::filesystem::path screenshot;  ///< a PNG of the whole screen, taken at the end
   double seconds = 0;                ///< end after so long; 0: at the exam's end (headless), never (window)

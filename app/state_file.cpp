@@ -11,6 +11,7 @@ void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::
   state["overlay"] = screen.overlay(trainer);
   state["problem"] = trainer.problems().empty() ? "" : trainer.problems().front();
   state["shader_problem"] = trainer.shader_problem();
+  state["calibration_warning"] = trainer.calibration_warning();
   state["frames"] = frames;
   state["pictures_drawn"] = trainer.pictures().drawn();
   state["simulator_runs"] = trainer.pictures().simulator_runs();

@@ -1,9 +1,11 @@
 #include "app/trainer.h"
 
 #include <cstdio>
+#include <ctime>
 #include <exception>
 #include <utility>
 
+#include "devices/calibrated_tracker.h"
 #include "devices/registry.h"
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
@@ -29,6 +31,12 @@ std::optional<FeedPicture> grey_picture(const Pictures& pictures) {
   FeedPicture picture{Image<std::uint8_t>(colours.width, colours.height), pictures.geometry()};
   for (std::size_t i = 0; i < colours.pixels.size(); ++i) picture.grey.pixels[i] = colours.pixels[i][0];
   return picture;
+}
+
+std::string joined(const std::vector<std::string>& sentences) {
+  std::string text;
+  for (const std::string& sentence : sentences) text += (text.empty() ? "" : " ") + sentence;
+  return text;
 }
 
 gl::ShaderSources shaders_of(const Options& options) {
@@ -117,12 +125,24 @@ void Trainer::take_over_loaded() {
 void Trainer::begin(std::shared_ptr<const Study> study, const Request& request) {
   std::string uri = request.tracker;
   if (uri.empty()) uri = request.source.is_bundled() ? bundled_log() : "mouse:";
-  auto open = [uri, surroundings = study->surroundings] { return open_tracker(uri, surroundings); };
+  Session::OpenTracker open = [uri, surroundings = study->surroundings] { return open_tracker(uri, surroundings); };
+  std::string warning;
+  // What is dropped on the window is no tracker of the command line's.
+  if (!options_.calibration.empty() && request.tracker == options_.tracker) {
+    const Calibration calibration = read_complete_calibration(options_.calibration);
+    warning = joined(calibration_warnings(calibration, tracker_identity(uri), std::int64_t(std::time(nullptr)),
+                                          options_.calibration_days));
+    open = [sensor = sensor_uri(uri, true), calibration, name = options_.calibration.filename().string()] {
+      return std::make_unique<CalibratedTracker>(open_tracker(sensor), calibration, name);
+    };
+  }
   auto session = std::make_unique<Session>(study, open);
   if (study != study_)
     gl::upload_ct(patient_of(request.source), study->subject.ct.grid, [&] { pictures_.show(*study); });
   session_ = std::move(session);
   study_ = std::move(study);
+  calibration_warning_ = std::move(warning);
+  if (!calibration_warning_.empty()) std::fprintf(stderr, "insonate: %s\n", calibration_warning_.c_str());
   current_ = request;
   result_files_.reset();
   best_frame_of_ = 0;

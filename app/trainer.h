@@ -63,6 +63,8 @@ public:
   /// What went wrong and nobody has acknowledged yet, the oldest first.
   std::deque<std::string>& problems() { return problems_; }
   const std::deque<std::string>& problems() const { return problems_; }
+  /// What makes the tracker's calibration doubtful, as sentences; empty when nothing does.
+  const std::string& calibration_warning() const { return calibration_warning_; }
   /// What shaders being edited do not build with; empty when they do.
   const std::string& shader_problem() const { return shader_problem_; }
 
@@ -87,7 +89,7 @@ private:
   gl::ShaderSources shaders_;
   std::optional<std::filesystem::file_time_type> shaders_changed_;
   double shaders_looked_at_s_ = 0;
-  std::string shader_problem_;
+  std::string shader_problem_, calibration_warning_;
 
   Request current_, requested_;
   std::unique_ptr<Loading> loading_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "devices/filter/sample_filters.h"
 #include "devices/tracker_uri.h"
 #include "sim/core/digest.h"
 #include "sim/core/input_error.h"
@@ -26,6 +27,18 @@ void check_can_be_calibrated(std::string_view uri) {
   if (scheme == "auto")
     throw InputError("tracker '" + std::string(uri) + "'", "", "a calibration belongs to one tracker, not to the best",
                      "name it, with its serial number if there are two of a kind");
+}
+
+std::string sensor_uri(std::string_view uri, bool filtered) {
+  const TrackerUri parsed = parse_tracker_uri(uri);
+  const bool places = parsed.scheme == "hydra" || parsed.scheme == "polhemus";
+  std::string text(uri);
+  if (!places || parsed.options.contains("raw")) return text;
+  text += parsed.options.empty() ? "?raw=1" : "&raw=1";
+  if (!filtered || parsed.options.contains("filter")) return text;
+  FilterSettings filters = FilterSettings::usual();
+  filters.distortion = parsed.options.contains("distortion");
+  return text + "&filter=" + to_string(filters);
 }
 
 Calibration calibration_to_go_on(const std::filesystem::path& file, const TrackerIdentity& tracker) {

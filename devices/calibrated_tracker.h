@@ -17,6 +17,10 @@ TrackerIdentity tracker_identity(std::string_view uri);
 /// Throws InputError for a URI whose tracker places the probe in the patient by itself, such as 'mouse:'.
 void check_can_be_calibrated(std::string_view uri);
 
+/// The tracker of a URI as its sensor tells of itself, not placed on the patient: as it comes, to calibrate it, or
+/// through the filters, to scan with it, unless the URI says itself which.
+std::string sensor_uri(std::string_view uri, bool filtered);
+
 /// What a set-up of a tracker goes on with: the file's calibration, or an empty one when there is no file. Throws
 /// InputError when the file is unusable or another tracker's.
 Calibration calibration_to_go_on(const std::filesystem::path& file, const TrackerIdentity& tracker);

@@ -15,7 +15,6 @@
 #include "devices/calibration/setup_step.h"
 #include "devices/live/steady_clock.h"
 #include "devices/registry.h"
-#include "devices/tracker_uri.h"
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
 #include "tools/devices_commands.h"
@@ -74,19 +73,11 @@ private:
   SetupView shown_;
 };
 
-/// The tracker as its sensor tells of itself: not placed on the patient, and not filtered.
-std::string unplaced(const std::string& text) {
-  const TrackerUri uri = parse_tracker_uri(text);
-  const bool places = uri.scheme == "hydra" || uri.scheme == "polhemus";
-  if (!places || uri.options.count("raw")) return text;
-  return text + (uri.options.empty() ? "?raw=1" : "&raw=1");
-}
-
 /// The tracker, polled in true time, and the person's marks.
 class Bench {
 public:
   explicit Bench(const std::string& uri)
-      : uri_(uri), tracker_(open_tracker(unplaced(uri))), offset_s_(tracker_->live() ? 0 : steady_now_s()) {}
+      : uri_(uri), tracker_(open_tracker(sensor_uri(uri, false))), offset_s_(tracker_->live() ? 0 : steady_now_s()) {}
 
   void run(SetupStep& step) {
     Page page;

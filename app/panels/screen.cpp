@@ -134,6 +134,10 @@ void Screen::draw_status(Trainer& trainer) {
     draw_text(line, theme_.small_text, colour::kAmber, problem);
     return;
   }
+  if (!trainer.calibration_warning().empty()) {
+    draw_text(line, theme_.small_text, colour::kAmber, trainer.calibration_warning());
+    return;
+  }
   const std::string keys = "F1 keys    Tab probe    Space freeze";
   draw_text(line.take_left(text_width(theme_.small_text, keys) + theme_.px(24)), theme_.small_text, colour::kMuted,
             keys);

@@ -56,5 +56,9 @@ refuses "leave loop=1 out" --headless --tracker "replay:$INSONATE_ASSETS/logs/ru
 refuses mouse --headless --tracker mousse:
 refuses both --headless --case a --ct b
 refuses width --headless --width 3
+refuses "no tracker is named" --headless --calibration a.toml
+refuses "has no sensor" --headless --tracker mouse: --calibration a.toml
+printf '[tracker]\nkind = "hydra"\n' >"$work/begun.toml"
+refuses "the step 'face' has not been made" --headless --tracker synthetic: --calibration "$work/begun.toml"
 refuses shader-dir --headless --shader-dir "$work/missing"
 echo "passed"

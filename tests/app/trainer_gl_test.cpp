@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "app/trainer.h"
+#include "devices/calibration/calibration.h"
 #include "devices/sequence/sequence.h"
 #include "scenarios/result_json.h"
 #include "sim/core/files.h"
@@ -204,6 +205,40 @@ TEST_CASE("where nothing changes nothing is drawn, and each change draws what it
   trainer.draw(kSizes, 1, kNoBudget);
   CHECK(pictures.simulator_runs() == before_camera);
   CHECK(pictures.drawn() == all + 1);
+}
+
+TEST_CASE("a tracker with a calibration tells the probe's pose, and an old calibration warns") {
+  const gl::HeadlessContext context;
+  const Folder folder;
+  Calibration calibration;
+  calibration.tracker = {"replay", ""};
+  // A sensor 5 mm behind the face, and a mannequin that lies as the patient does.
+  calibration.tip = Dated<TipFit>{{}, 1767225600};
+  calibration.face = Dated<FaceSetup>{{{Pose{glm::dmat3(1.0), {0, 5, 0}}, 0, 0}, "touch", 0}, 1767225600};
+  MannequinSetup mannequin;
+  mannequin.patient = mannequin.worst = "tiny";
+  mannequin.landmarks.resize(7, {"a place", {}, {}, false});
+  calibration.mannequin = Dated<MannequinSetup>{mannequin, 1767225600};
+  Options options = folder.options();
+  options.calibration = folder.path / "lab.toml";
+  write_calibration(options.calibration, calibration);
+  Trainer trainer(options);
+  trainer.open_from_options();
+  trainer.finish_loading();
+  REQUIRE(trainer.session());
+  trainer.update(0);
+  trainer.update(0.001);
+  REQUIRE(trainer.session()->shown_pose());
+  CHECK(trainer.session()->shown_pose()->translation == glm::dvec3(0, 6, 20));
+  CHECK(trainer.calibration_warning().find("days old") != std::string::npos);
+
+  // A recording that is opened meanwhile is of the probe already.
+  fs::copy_file(folder.path / "scan.igs.mha", folder.path / "other.igs.mha");
+  open_and_wait(trainer, folder.path / "other.igs.mha");
+  trainer.update(0);
+  trainer.update(0.001);
+  CHECK(trainer.session()->shown_pose()->translation == glm::dvec3(0, 1, 20));
+  CHECK(trainer.calibration_warning().empty());
 }
 
 TEST_CASE("what cannot be opened is told of, and the session goes on as it was") {

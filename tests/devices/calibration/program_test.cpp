@@ -179,3 +179,12 @@ TEST_CASE("trackers are told apart by kind and by what their URI names, recordin
   CHECK_THROWS_AS(check_can_be_calibrated("mouse:"), InputError);
   CHECK_NOTHROW(check_can_be_calibrated("replay:a.igs.mha"));
 }
+
+TEST_CASE("a tracker that places the probe by itself is asked for its sensor, filtered only to scan with") {
+  CHECK(sensor_uri("hydra:17", false) == "hydra:17?raw=1");
+  CHECK(sensor_uri("hydra:17?handset=2", true) == "hydra:17?handset=2&raw=1&filter=1euro,outlier");
+  CHECK(sensor_uri("polhemus:?distortion=20", true) == "polhemus:?distortion=20&raw=1&filter=1euro,outlier,distortion");
+  CHECK(sensor_uri("polhemus:?filter=off", true) == "polhemus:?filter=off&raw=1");
+  CHECK(sensor_uri("hydra:?raw=1", true) == "hydra:?raw=1");
+  CHECK(sensor_uri("igtl://localhost", true) == "igtl://localhost");
+}
