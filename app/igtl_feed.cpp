@@ -63,13 +63,14 @@ igtl::Address parse_server_address(const std::string& text) {
   return address;
 }
 
-FeedPicture thinned(const FeedPicture& picture, int most) {
+DrawnPicture thinned(const DrawnPicture& picture, int most) {
   const Image<std::uint8_t>& from = picture.grey;
   int stride = 1;
   const auto left = [&](int pixels) { return (pixels + stride - 1) / stride; };
   while (left(from.width) * left(from.height) > most) ++stride;
   if (stride == 1) return picture;
-  FeedPicture out{Image<std::uint8_t>(left(from.width), left(from.height)), picture.geometry};
+  DrawnPicture out = picture;
+  out.grey = Image<std::uint8_t>(left(from.width), left(from.height));
   for (int y = 0; y < out.grey.height; ++y)
     for (int x = 0; x < out.grey.width; ++x) out.grey.at(x, y) = from.at(x * stride, y * stride);
   out.geometry.width = out.grey.width;
@@ -78,9 +79,9 @@ FeedPicture thinned(const FeedPicture& picture, int most) {
   return out;
 }
 
-Pose ras_from_picture(const Pose& patient_from_probe, const FeedPicture& picture) {
+Pose ras_from_picture(const DrawnPicture& picture) {
   const glm::dvec2 middle = picture.geometry.plane_mm((picture.grey.width - 1) / 2.0, (picture.grey.height - 1) / 2.0);
-  return ras_from(patient_from_probe * Pose{glm::dmat3(1.0), glm::dvec3(middle, 0.0)});
+  return ras_from(picture.patient_from_probe * Pose{glm::dmat3(1.0), glm::dvec3(middle, 0.0)});
 }
 
 void IgtlFeed::announce(const std::string& text, std::uint64_t stamp) {
@@ -115,8 +116,7 @@ void IgtlFeed::tell_events(const Session& session, std::uint64_t stamp) {
   }
 }
 
-void IgtlFeed::tell(const Session& session, long picture_version,
-                    const std::function<std::optional<FeedPicture>()>& read_picture) {
+void IgtlFeed::tell(const Session& session) {
   const std::uint64_t stamp = stamp_now();
   tell_events(session, stamp);
   const std::string status = lost_ ? "no usable pose" : status_text(session);
@@ -124,24 +124,19 @@ void IgtlFeed::tell(const Session& session, long picture_version,
     sent_status_ = status;
     server_.publish(Stream::status, igtl::make_status("Insonate", stamp, {lost_ ? kLost : igtl::kStatusOk, status}));
   }
-  if (server_.clients() == 0 || !session.shown_pose()) {
-    // Who connects later is not to get what is long past.
-    server_.forget(Stream::pose);
-    server_.forget(Stream::image);
-    sent_version_ = -1;
-    return;
-  }
-  const Pose& pose = *session.shown_pose();
-  if (lost_)
+  // Who connects later is not to get what is long past.
+  const bool seen = wants_pictures() && session.shown_pose();
+  if (!seen) server_.forget(Stream::image);
+  if (!seen || lost_)
     server_.forget(Stream::pose);
   else
-    server_.publish(Stream::pose, igtl::make_transform("ProbeToRas", stamp, ras_from(pose)));
-  if (picture_version == sent_version_) return;
-  const auto picture = read_picture();
-  if (!picture) return;
-  sent_version_ = picture_version;
-  const FeedPicture small = thinned(*picture, kMostPixels);
-  server_.publish(Stream::image, igtl::make_image("Ultrasound", stamp, small.grey, ras_from_picture(pose, small),
+    server_.publish(Stream::pose, igtl::make_transform("ProbeToRas", stamp, ras_from(*session.shown_pose())));
+}
+
+void IgtlFeed::show(const DrawnPicture& picture) {
+  if (!wants_pictures()) return;
+  const DrawnPicture small = thinned(picture, kMostPixels);
+  server_.publish(Stream::image, igtl::make_image("Ultrasound", stamp_now(), small.grey, ras_from_picture(small),
                                                   small.geometry.mm_per_pixel));
 }
 

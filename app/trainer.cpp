@@ -25,14 +25,6 @@ std::string patient_of(const StudySource& source) {
   return "the built-in patient";
 }
 
-std::optional<FeedPicture> grey_picture(const Pictures& pictures) {
-  if (!pictures.ultrasound()) return std::nullopt;
-  const Image<Rgba8> colours = read_back(*pictures.ultrasound());
-  FeedPicture picture{Image<std::uint8_t>(colours.width, colours.height), pictures.geometry()};
-  for (std::size_t i = 0; i < colours.pixels.size(); ++i) picture.grey.pixels[i] = colours.pixels[i][0];
-  return picture;
-}
-
 std::string joined(const std::vector<std::string>& sentences) {
   std::string text;
   for (const std::string& sentence : sentences) text += (text.empty() ? "" : " ") + sentence;
@@ -140,6 +132,7 @@ void Trainer::begin(std::shared_ptr<const Study> study, const Request& request) 
   if (study != study_)
     gl::upload_ct(patient_of(request.source), study->subject.ct.grid, [&] { pictures_.show(*study); });
   session_ = std::move(session);
+  reader_.forget();
   study_ = std::move(study);
   calibration_warning_ = std::move(warning);
   if (!calibration_warning_.empty()) std::fprintf(stderr, "insonate: %s\n", calibration_warning_.c_str());
@@ -164,7 +157,18 @@ void Trainer::update(double now_s) {
 void Trainer::draw(const PictureSizes& sizes, double quality, double budget_ms) {
   if (!session_) return;
   pictures_.update(*session_, sizes, quality, budget_ms);
-  if (feed_) feed_->tell(*session_, pictures_.ultrasound_version(), [this] { return grey_picture(pictures_); });
+  if (feed_) feed_->tell(*session_);
+  show_pictures();
+}
+
+void Trainer::show_pictures() {
+  const bool clients = feed_ && feed_->wants_pictures();
+  if (clients && !clients_) reader_.ask_again();
+  clients_ = clients;
+  if (!clients) return reader_.forget();
+  reader_.ask(*session_, pictures_);
+  // Without a window nobody sees a frame that takes longer, and every picture counts.
+  while (const std::optional<DrawnPicture> picture = reader_.take(options_.headless)) feed_->show(*picture);
 }
 
 bool Trainer::best_frame_due() const {

@@ -10,6 +10,7 @@
 #include "app/igtl_feed.h"
 #include "app/loading.h"
 #include "app/options.h"
+#include "app/picture_reader.h"
 #include "app/pictures.h"
 #include "app/results.h"
 #include "app/session.h"
@@ -84,6 +85,7 @@ private:
   void open_results();
   std::vector<ReportPicture> report_pictures();
   void keep_and_report();
+  void show_pictures();
 
   Options options_;
   gl::ShaderSources shaders_;
@@ -97,6 +99,8 @@ private:
   std::shared_ptr<const Study> study_;
   std::unique_ptr<Session> session_;
   Pictures pictures_;
+  PictureReader reader_;
+  bool clients_ = false;            ///< whether there were any at the last frame
   std::unique_ptr<IgtlFeed> feed_;  ///< nullptr when no clients are asked for
   std::optional<ResultFiles> result_files_;
   bool results_due_ = false;

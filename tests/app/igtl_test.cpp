@@ -111,29 +111,23 @@ TEST_CASE("a session's picture stands still while its OpenIGTLink server is gone
   CHECK_FALSE(session.lost_for_s());
 }
 
-TEST_CASE("clients are told of pose, picture and events, and without clients no picture is asked for") {
+TEST_CASE("clients are told of pose, picture and events, and without clients no picture is wanted") {
   Session session(tiny_study(), [] { return open_tracker("mouse:"); });
   session.advance(0);
   IgtlFeed feed(igtl::numeric_address("127.0.0.1", 0));
-  int asked = 0;
-  const auto picture = [&]() -> std::optional<FeedPicture> {
-    ++asked;
-    FeedPicture made;
-    made.grey = Image<std::uint8_t>(6, 4, 9);
-    made.geometry.mm_per_pixel = 0.5;
-    return made;
-  };
-  feed.tell(session, 1, picture);
-  CHECK(asked == 0);
+  feed.tell(session);
+  CHECK_FALSE(feed.wants_pictures());
 
   igtl::RawPeer client = igtl::RawPeer::connected_to(feed.server().address());
-  while (feed.server().clients() == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  feed.tell(session, 1, picture);
-  feed.tell(session, 1, picture);
-  CHECK(asked == 1);
+  while (!feed.wants_pictures()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  feed.tell(session);
+  DrawnPicture picture;
+  picture.grey = Image<std::uint8_t>(6, 4, 9);
+  picture.geometry.mm_per_pixel = 0.5;
+  feed.show(picture);
   session.console().frozen = true;
   session.advance(0.1);
-  feed.tell(session, 1, picture);
+  feed.tell(session);
   std::vector<std::string> seen;
   bool frozen = false, image = false, pose = false;
   igtl::MessageReader reader([](const igtl::Header&) { return true; },
@@ -158,18 +152,18 @@ TEST_CASE("clients are told of pose, picture and events, and without clients no 
 }
 
 TEST_CASE("a large picture is thinned and stays where it is") {
-  FeedPicture picture;
+  DrawnPicture picture;
   picture.grey = Image<std::uint8_t>(7, 5);
   for (int y = 0; y < 5; ++y)
     for (int x = 0; x < 7; ++x) picture.grey.at(x, y) = std::uint8_t(10 * y + x);
   picture.geometry = {7, 5, 0.5, {-1.5, 2.0}};
-  const FeedPicture thin = thinned(picture, 12);
+  const DrawnPicture thin = thinned(picture, 12);
   CHECK(thin.grey.width == 4);
   CHECK(thin.grey.height == 3);
   CHECK(thin.grey.at(3, 2) == 46);
   CHECK(thin.geometry.mm_per_pixel == 1.0);
-  CHECK(ras_from_picture(Pose(), picture).translation == glm::dvec3(-0.0, -3.0, 0));
-  CHECK(ras_from_picture(Pose(), thin).translation == glm::dvec3(-0.0, -3.0, 0));
+  CHECK(ras_from_picture(picture).translation == glm::dvec3(-0.0, -3.0, 0));
+  CHECK(ras_from_picture(thin).translation == glm::dvec3(-0.0, -3.0, 0));
 }
 
 TEST_CASE("a server listens on loopback unless it is told otherwise") {

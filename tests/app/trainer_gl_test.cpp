@@ -7,12 +7,14 @@
 
 #include "app/trainer.h"
 #include "devices/calibration/calibration.h"
+#include "devices/igtl/igtl_reader.h"
 #include "devices/sequence/sequence.h"
 #include "scenarios/result_json.h"
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
 #include "sim/gl/headless_context.h"
 #include "sim/volume/volume_checks.h"
+#include "tests/devices/igtl/raw_peer.h"
 #include "tests/scenarios/tiny_case.h"
 
 using namespace insonate;
@@ -239,6 +241,48 @@ TEST_CASE("a tracker with a calibration tells the probe's pose, and an old calib
   trainer.update(0.001);
   CHECK(trainer.session()->shown_pose()->translation == glm::dvec3(0, 1, 20));
   CHECK(trainer.calibration_warning().empty());
+}
+
+TEST_CASE("an OpenIGTLink client gets the picture that is on the screen, also one that stands when it connects") {
+  const gl::HeadlessContext context;
+  const Folder folder;
+  constexpr PictureSizes small{240, 160, 160, 120};  // what the reader of messages keeps
+  Options options = folder.options();
+  {
+    const igtl::Socket free_one = igtl::loopback_listener();
+    options.igtl_server = std::to_string(igtl::bound_address(free_one).port());
+  }
+  Trainer trainer(options);
+  trainer.open_from_options();
+  trainer.finish_loading();
+  trainer.update(0);
+  trainer.update(1);
+  trainer.draw(small, 1, kNoBudget);
+  igtl::RawPeer client = igtl::RawPeer::connected_to(parse_server_address(options.igtl_server));
+  std::vector<std::uint8_t> grey;
+  igtl::MessageReader reader([](const igtl::Header&) { return true; },
+                             [&](const igtl::Header& header, igtl::ByteView body) {
+                               constexpr std::size_t kHead = 72;  // of an IMAGE
+                               if (header.type == "IMAGE") grey.assign(body.begin() + kHead, body.end());
+                             });
+  const auto draw_until_seen = [&] {
+    for (grey.clear(); grey.empty();) {
+      trainer.draw(small, 1, kNoBudget);
+      reader.feed(client.receive());
+    }
+  };
+  const auto on_screen = [&] {
+    std::vector<std::uint8_t> pixels;
+    for (const Rgba8& pixel : read_back(*trainer.pictures().ultrasound()).pixels) pixels.push_back(pixel[0]);
+    return pixels;
+  };
+  draw_until_seen();
+  CHECK(grey == on_screen());
+  const std::vector<std::uint8_t> before = grey;
+  trainer.session()->console().gain_db = 9;
+  draw_until_seen();
+  CHECK(grey == on_screen());
+  CHECK(grey != before);
 }
 
 TEST_CASE("what cannot be opened is told of, and the session goes on as it was") {
