@@ -91,13 +91,14 @@ int run_headless(const Options& options) {
   const Session& session = *trainer.session();
   const double end_s = options.seconds > 0 ? options.seconds : session.runner() ? 0 : kFreeScan_s;
   std::optional<Image<Rgba8>> held_screen;
-  const bool live = session.source().live(), watched = !options.igtl_server.empty();
+  const bool live = session.source().live(), watched = !options.igtl_server.empty(),
+             seen = watched || options.record_images;
   const double start_s = steady_now_s();
   for (long step = 0;; ++step) {
     const double now_s = double(step) * kStep_s;
     if (live || watched) sleep_until(start_s + now_s);
     trainer.update(live ? steady_now_s() : now_s);
-    if (watched) screen.draw_pictures(trainer);
+    if (seen) screen.draw_pictures(trainer);
     if (trainer.best_frame_due()) {
       const Image<Rgba8> now = screen.draw(trainer);
       if (!session.result()) held_screen = now;  // else the score sheet lies over it
@@ -107,6 +108,10 @@ int run_headless(const Options& options) {
   }
 
   const Image<Rgba8> last_screen = screen.draw(trainer);
+  if (trainer.recorder().running()) {
+    trainer.finish_recording();
+    print_file(trainer.recorder().file());
+  }
   const std::filesystem::path trainer_png = options.out / "trainer.png", sheet_png = options.out / "score_sheet.png",
                               picture_png = options.out / "ultrasound.png";
   if (session.result()) {

@@ -150,6 +150,9 @@ void Keyboard::press(const KeyEvent& pressed, Trainer& trainer, ui::Screen& scre
     case GLFW_KEY_SPACE:
       if (!repeated) console.frozen = !console.frozen;
       break;
+    case GLFW_KEY_R:
+      if (!repeated) trainer.recorder().running() ? trainer.stop_recording() : trainer.start_recording();
+      break;
     case GLFW_KEY_EQUAL:
     case GLFW_KEY_KP_ADD:
       console.gain_db = std::min(console.gain_db + 1, 30.0);

@@ -2,6 +2,7 @@
 
 #include "app/igtl_feed.h"
 #include "devices/calibrated_tracker.h"
+#include "devices/record/recording_files.h"
 #include "devices/registry.h"
 #include "sim/core/input_error.h"
 
@@ -26,6 +27,10 @@ void declare(CLI::App& arguments, Options& options) {
   arguments.add_option("--calibration-days", options.calibration_days, "Warn of a calibration that is older")
       ->check(CLI::Range(0.0, 3650.0))
       ->capture_default_str();
+  arguments.add_option("--record", options.record, "Record every sample of the run as a sequence file (.igs.mha)")
+      ->type_name("FILE");
+  arguments.add_flag("--record-images", options.record_images,
+                     "Record the ultrasound too, to a second file: FILE-images.igs.mha");
   arguments.add_flag("--headless", options.headless, "Run without a window, as fast as it goes, and write the results");
   arguments.add_option("--seconds", options.seconds, "End after so many seconds of the session")
       ->check(CLI::Range(0.0, 86400.0));
@@ -78,6 +83,10 @@ void check(const Options& options) {
                        "name the one it was made with: --tracker");
     check_can_be_calibrated(options.tracker);
   }
+  if (options.record_images && options.headless && options.record.empty())
+    throw InputError("command line", "--record-images", "it says that pictures are recorded, but not where",
+                     "give --record FILE too");
+  if (!options.record.empty()) refuse_existing(options.record);
   std::error_code error;
   if (!options.shader_folder.empty() && !std::filesystem::is_directory(options.shader_folder, error))
     throw InputError(options.shader_folder.string(), "--shader-dir", "it is not a folder",

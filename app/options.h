@@ -18,6 +18,8 @@ struct Options {
   std::string tracker;                ///< a tracker's URI
   std::filesystem::path calibration;  ///< of that tracker, whose samples are its sensor's; empty: they are the probe's
   double calibration_days = kCalibrationDays;  ///< older ones bring a warning
+  std::filesystem::path record;                ///< where the run is recorded; empty: it is not
+  bool record_images = false;                  ///< what is recorded is so with the ultrasound, in a second file
   bool headless = false;
   std::filesystem::path screenshot;  ///< a PNG of the whole screen, taken at the end
   double seconds = 0;                ///< end after so long; 0: at the exam's end (headless), never (window)

@@ -94,6 +94,9 @@ public:
   std::optional<double> lost_for_s() const;
   static constexpr double kStale_s = 0.25;
 
+  /// What came with the last advance(), from the source that was in charge then.
+  const std::vector<PoseSample>& latest_samples() const { return samples_; }
+
   const Tracker& source() const;
   TrackerState tracker_state() const { return source().state(); }
 

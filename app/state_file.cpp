@@ -15,6 +15,7 @@ void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::
   state["frames"] = frames;
   state["pictures_drawn"] = trainer.pictures().drawn();
   state["simulator_runs"] = trainer.pictures().simulator_runs();
+  state["recording"] = trainer.recorder().running() ? trainer.recorder().file().string() : "";
   for (const auto& [name, rect] : screen.places()) {
     state[name + "_x"] = int(rect.x);
     state[name + "_y"] = int(rect.y);

@@ -82,7 +82,7 @@ Material kind_of_material(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path, error))
     return std::filesystem::exists(path / "case.toml", error) ? Material::case_folder : Material::ct;
   if (ends_with(name, ".toml")) return Material::scenario;
-  for (const std::string_view ending : {".igs.mha", ".seq.mha"})
+  for (const std::string_view ending : {".igs.mha", ".seq.mha", ".seq.nrrd"})
     if (ends_with(name, ending)) return Material::tracker_log;
   for (const std::string_view ending : {".nii", ".nii.gz", ".nrrd", ".nhdr", ".mha", ".mhd"})
     if (ends_with(name, ending)) return Material::ct;

@@ -41,7 +41,8 @@ Trainer::Trainer(Options options)
     : options_(std::move(options)),
       shaders_(shaders_of(options_)),
       shaders_changed_(shaders_.last_change()),
-      pictures_(shaders_) {
+      pictures_(shaders_),
+      recorder_(options_.record_images) {
   if (!options_.igtl_server.empty()) feed_ = std::make_unique<IgtlFeed>(parse_server_address(options_.igtl_server));
   open_results();
 }
@@ -133,6 +134,7 @@ void Trainer::begin(std::shared_ptr<const Study> study, const Request& request) 
     gl::upload_ct(patient_of(request.source), study->subject.ct.grid, [&] { pictures_.show(*study); });
   session_ = std::move(session);
   reader_.forget();
+  recorder_.begin_anew();
   study_ = std::move(study);
   calibration_warning_ = std::move(warning);
   if (!calibration_warning_.empty()) std::fprintf(stderr, "insonate: %s\n", calibration_warning_.c_str());
@@ -148,8 +150,11 @@ void Trainer::update(double now_s) {
     reload_shaders();
   }
   if (!session_) return;
+  if (!options_.record.empty() && !recorded_) start_recording();
   const bool had_result = session_->result().has_value();
   session_->advance(now_s);
+  recorder_.take(*session_);
+  attempt([&] { recorder_.check(); });
   if (!session_->result()) result_files_.reset();
   results_due_ = results_due_ || (!had_result && session_->result());
 }
@@ -162,13 +167,29 @@ void Trainer::draw(const PictureSizes& sizes, double quality, double budget_ms) 
 }
 
 void Trainer::show_pictures() {
-  const bool clients = feed_ && feed_->wants_pictures();
-  if (clients && !clients_) reader_.ask_again();
+  const bool clients = feed_ && feed_->wants_pictures(), recording = recorder_.wants_pictures();
+  if ((clients && !clients_) || (recording && !records_pictures_)) reader_.ask_again();
   clients_ = clients;
-  if (!clients) return reader_.forget();
+  records_pictures_ = recording;
+  if (!clients && !recording) return reader_.forget();
   reader_.ask(*session_, pictures_);
   // Without a window nobody sees a frame that takes longer, and every picture counts.
-  while (const std::optional<DrawnPicture> picture = reader_.take(options_.headless)) feed_->show(*picture);
+  while (const std::optional<DrawnPicture> picture = reader_.take(options_.headless)) {
+    if (clients) feed_->show(*picture);
+    recorder_.take(*picture);
+  }
+}
+
+void Trainer::start_recording() {
+  // What the command line names is taken once; later recordings lie beside it.
+  const bool named = !options_.record.empty() && !std::exchange(recorded_, true);
+  recorder_.start(options_.record.empty() ? options_.out / "recording.igs.mha" : options_.record, named);
+}
+
+void Trainer::finish_recording() {
+  recorder_.stop();
+  recorder_.wait();
+  attempt([&] { recorder_.check(); });
 }
 
 bool Trainer::best_frame_due() const {

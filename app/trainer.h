@@ -13,6 +13,7 @@
 #include "app/picture_reader.h"
 #include "app/pictures.h"
 #include "app/results.h"
+#include "app/run_recorder.h"
 #include "app/session.h"
 #include "app/study.h"
 #include "scenarios/results/report_files.h"
@@ -51,6 +52,15 @@ public:
   void keep_best_frame();
   /// Keeps the attempt when an exam has ended, and writes its report and score, once.
   void write_results_if_due();
+
+  /// Starts recording, to the file of the command line, or else to the next free name beside it or in the folder of the
+  /// results: recording.igs.mha.
+  void start_recording();
+  /// Ends it; the files are made meanwhile.
+  void stop_recording() { recorder_.stop(); }
+  /// Ends it and waits for the files.
+  void finish_recording();
+  const RunRecorder& recorder() const { return recorder_; }
 
   Session* session() { return session_.get(); }
   const Session* session() const { return session_.get(); }
@@ -100,8 +110,10 @@ private:
   std::unique_ptr<Session> session_;
   Pictures pictures_;
   PictureReader reader_;
-  bool clients_ = false;            ///< whether there were any at the last frame
-  std::unique_ptr<IgtlFeed> feed_;  ///< nullptr when no clients are asked for
+  RunRecorder recorder_;
+  bool recorded_ = false;                            ///< to the command line's file
+  bool clients_ = false, records_pictures_ = false;  ///< who wanted pictures at the last frame
+  std::unique_ptr<IgtlFeed> feed_;                   ///< nullptr when no clients are asked for
   std::optional<ResultFiles> result_files_;
   bool results_due_ = false;
   std::optional<ResultsDatabase> results_;

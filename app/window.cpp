@@ -161,6 +161,7 @@ public:
       step(now_s);
       if (options_.seconds > 0 && now_s - start_s_ >= options_.seconds) break;
     }
+    trainer_.finish_recording();
     if (!options_.screenshot.empty()) {
       draw();
       int width = 0, height = 0;

@@ -121,6 +121,16 @@ void Screen::draw_panels(Trainer& trainer) {
   ImGui::End();
 }
 
+void Screen::draw_record_button(Trainer& trainer, const Rect& where) {
+  const RunRecorder& recorder = trainer.recorder();
+  const bool running = recorder.running();
+  const std::string text = running ? "Recording " + clock_text(recorder.duration_s()) : "Record";
+  if (!button(theme_, "record", where, text, running ? ButtonKind::recording : ButtonKind::normal,
+              trainer.session() != nullptr))
+    return;
+  running ? trainer.stop_recording() : trainer.start_recording();
+}
+
 void Screen::draw_status(Trainer& trainer) {
   Rect line = status_.inset(theme_.px(16), 0);
   if (frames_per_second_ > 0) {
@@ -128,6 +138,9 @@ void Screen::draw_status(Trainer& trainer) {
     std::snprintf(text, sizeof text, "%.0f frames/s", frames_per_second_);
     draw_text(line.take_right(theme_.px(100)), theme_.small_text, colour::kFaint, text, Align::right);
   }
+  places_["record"] = line.take_left(theme_.px(124)).inset(0, theme_.px(2));
+  draw_record_button(trainer, places_["record"]);
+  line.take_left(theme_.px(16));
   if (!trainer.shader_problem().empty()) {
     std::string problem = "Shaders kept as they were: " + trainer.shader_problem();
     std::replace(problem.begin(), problem.end(), '\n', ' ');
@@ -138,7 +151,7 @@ void Screen::draw_status(Trainer& trainer) {
     draw_text(line, theme_.small_text, colour::kAmber, trainer.calibration_warning());
     return;
   }
-  const std::string keys = "F1 keys    Tab probe    Space freeze";
+  const std::string keys = "F1 keys    Tab probe    Space freeze    R record";
   draw_text(line.take_left(text_width(theme_.small_text, keys) + theme_.px(24)), theme_.small_text, colour::kMuted,
             keys);
   draw_text(line, theme_.small_text, colour::kFaint, device_, Align::right);

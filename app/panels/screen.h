@@ -51,6 +51,7 @@ private:
   void lay_out(float width, float height);
   void draw_panels(Trainer& trainer);
   void draw_overlay(Trainer& trainer);
+  void draw_record_button(Trainer& trainer, const Rect& where);
   void draw_status(Trainer& trainer);
   void stop_asking();
   void answer_score(Trainer& trainer, ScoreAnswer answer);

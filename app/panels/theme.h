@@ -6,7 +6,8 @@
 
 namespace insonate::ui {
 
-/// Colours: near black, greys, and one accent. Amber and red mean that something is wrong, and nothing else.
+/// Colours: near black, greys, and one accent. Amber and red mean that something is wrong, and nothing else but that a
+/// recording runs, which is red.
 namespace colour {
 inline constexpr ImU32 kBackground = IM_COL32(10, 12, 15, 255);
 inline constexpr ImU32 kPanel = IM_COL32(18, 22, 27, 255);

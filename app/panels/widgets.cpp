@@ -130,6 +130,10 @@ bool button(const Theme& theme, const char* id, const Rect& where, std::string_v
     background = colour::kAmber;
     ink = colour::kBackground;
   }
+  if (kind == ButtonKind::recording) {
+    background = colour::kRed;
+    ink = colour::kBackground;
+  }
   if (!enabled) ink = colour::kFaint;
   fill(where, background, theme.px(4));
   if (hovered) outline(where, colour::kFaint, theme.px(4));

@@ -40,7 +40,7 @@ void outline(const Rect& where, ImU32 colour, float rounding = 0, float thicknes
 /// A small plate with a line of text on it, its top left at `at`; returns its width.
 float draw_chip(const Theme& theme, const ImVec2& at, ImU32 background, ImU32 colour, std::string_view text);
 
-enum class ButtonKind { normal, chosen, primary, warning };
+enum class ButtonKind { normal, chosen, primary, warning, recording };
 
 /// True when it was clicked.
 bool button(const Theme& theme, const char* id, const Rect& where, std::string_view text,

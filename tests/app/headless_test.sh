@@ -35,6 +35,16 @@ grep -q '"passed": false' "$work/poor.json" || fail "the poor scan passes"
 grep -q 'not passed' "$work/poor.txt" || fail "the trainer does not say that the poor scan failed"
 [ "$(identify -format '%wx%h' "$work/good.png")" = 1280x800 ] || fail "the screenshot has another size"
 
+echo "a recorded run is scored as the run itself, and its pictures are a file of their own"
+"$trainer" --headless --record "$work/run.igs.mha" --out "$work/recorded" >"$work/log" 2>&1 || fail "$(cat "$work/log")"
+"$score" --log "$work/run.igs.mha" --scenario "$scenario" >"$work/run.json" 2>"$work/log" || fail "$(cat "$work/log")"
+without_log() { grep -v '"log' "$1"; }
+cmp <(without_log "$work/good.json") <(without_log "$work/run.json") || fail "the recorded run has another score"
+"$trainer" --headless --record "$work/seen.igs.mha" --record-images --seconds 1 --out "$work/recorded" >"$work/log" 2>&1 ||
+  fail "$(cat "$work/log")"
+head -c 1000 "$work/seen-images.igs.mha" | grep -aq '^DimSize = [1-9][0-9]* [1-9][0-9]* [1-9]' || fail "there are no pictures"
+[ -z "$(find "$work" -name '*.recording*')" ] || fail "working files are left"
+
 # `refuses ARGUMENTS...`: exit code 2 and one line that names what is wrong.
 refuses() {
   local words=$1 code=0
@@ -60,5 +70,8 @@ refuses "no tracker is named" --headless --calibration a.toml
 refuses "has no sensor" --headless --tracker mouse: --calibration a.toml
 printf '[tracker]\nkind = "hydra"\n' >"$work/begun.toml"
 refuses "the step 'face' has not been made" --headless --tracker synthetic: --calibration "$work/begun.toml"
+refuses "such a file already" --headless --record "$work/run.igs.mha"
+refuses "igs.mha" --headless --record "$work/run.txt"
+refuses "not where" --headless --record-images
 refuses shader-dir --headless --shader-dir "$work/missing"
 echo "passed"

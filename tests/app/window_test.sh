@@ -59,6 +59,16 @@ await "space freezes" is frozen true
 xdotool key space
 await "space lets go" is frozen false
 
+echo "R records, a click ends it, and the file can be read"
+xdotool key r
+await "R records" is_not recording ""
+sleep 0.5
+recording=$(value recording)
+click "$(middle_x record)" "$(middle_y record)"
+await "a click ends the recording" is recording ""
+written() { [ -s "$recording" ]; }
+await "the file is made" written
+
 echo "the console's buttons are clicked"
 click "$(freeze_x)" "$(freeze_y)"
 await "a click on Freeze freezes" is frozen true
