@@ -92,7 +92,7 @@ int run_headless(const Options& options) {
   const double end_s = options.seconds > 0 ? options.seconds : session.runner() ? 0 : kFreeScan_s;
   std::optional<Image<Rgba8>> held_screen;
   const bool live = session.source().live(), watched = !options.igtl_server.empty(),
-             seen = watched || options.record_images;
+             seen = watched || options.record_images || !options.latency.empty();
   const double start_s = steady_now_s();
   for (long step = 0;; ++step) {
     const double now_s = double(step) * kStep_s;
@@ -111,6 +111,11 @@ int run_headless(const Options& options) {
   if (trainer.recorder().running()) {
     trainer.finish_recording();
     print_file(trainer.recorder().file());
+  }
+  if (!options.latency.empty()) {
+    trainer.latency().write(options.latency);
+    std::printf("%s", trainer.latency().text().c_str());
+    print_file(options.latency);
   }
   const std::filesystem::path trainer_png = options.out / "trainer.png", sheet_png = options.out / "score_sheet.png",
                               picture_png = options.out / "ultrasound.png";

@@ -31,6 +31,17 @@ void declare(CLI::App& arguments, Options& options) {
       ->type_name("FILE");
   arguments.add_flag("--record-images", options.record_images,
                      "Record the ultrasound too, to a second file: FILE-images.igs.mha");
+  arguments
+      .add_option(
+          "--predict", options.predict_ms,
+          "Carry a live tracker's pose on to the time of the picture, for so long at most; 0: show it as it came")
+      ->check(CLI::Range(0.0, 1e3 * PoseHistory::kPredictS))
+      ->type_name("MS")
+      ->capture_default_str();
+  arguments
+      .add_option("--latency", options.latency,
+                  "Write a histogram of how long a live tracker's reports take to the picture (CSV)")
+      ->type_name("FILE");
   arguments.add_flag("--headless", options.headless, "Run without a window, as fast as it goes, and write the results");
   arguments.add_option("--seconds", options.seconds, "End after so many seconds of the session")
       ->check(CLI::Range(0.0, 86400.0));

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "devices/calibration/calibration.h"
+#include "devices/pose_history.h"
 #include "scenarios/results/learner_id.h"
 
 namespace insonate {
@@ -17,9 +18,11 @@ struct Options {
   std::filesystem::path scenario;
   std::string tracker;                ///< a tracker's URI
   std::filesystem::path calibration;  ///< of that tracker, whose samples are its sensor's; empty: they are the probe's
-  double calibration_days = kCalibrationDays;  ///< older ones bring a warning
-  std::filesystem::path record;                ///< where the run is recorded; empty: it is not
-  bool record_images = false;                  ///< what is recorded is so with the ultrasound, in a second file
+  double calibration_days = kCalibrationDays;        ///< older ones bring a warning
+  std::filesystem::path record;                      ///< where the run is recorded; empty: it is not
+  bool record_images = false;                        ///< what is recorded is so with the ultrasound, in a second file
+  double predict_ms = 1e3 * PoseHistory::kPredictS;  ///< how far a live tracker's pose is carried on, at most
+  std::filesystem::path latency;  ///< where it is told how long a live tracker's reports take to the picture
   bool headless = false;
   std::filesystem::path screenshot;  ///< a PNG of the whole screen, taken at the end
   double seconds = 0;                ///< end after so long; 0: at the exam's end (headless), never (window)

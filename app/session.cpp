@@ -42,8 +42,8 @@ bool Console::operator==(const Console& other) const {
          frozen == other.frozen;
 }
 
-Session::Session(std::shared_ptr<const Study> study, OpenTracker open)
-    : study_(std::move(study)), open_(std::move(open)), hand_(study_->subject.ct) {
+Session::Session(std::shared_ptr<const Study> study, OpenTracker open, double predict_s)
+    : study_(std::move(study)), open_(std::move(open)), predict_s_(predict_s), hand_(study_->subject.ct) {
   tracker_ = open_fresh();
   only_learner_ = dynamic_cast<MouseTracker*>(tracker_.get()) != nullptr;
   if (only_learner_) {
@@ -94,6 +94,7 @@ void Session::begin_attempt() {
   if (activity_ == Activity::exam && study_->scenario)
     runner_ = std::make_unique<Runner>(*study_->scenario, study_->subject, study_->tissues);
   last_usable_s_ = now_s_;
+  history_.clear();
   console_.frozen = false;
 }
 
@@ -149,6 +150,17 @@ void Session::take(const PoseSample& sample) {
   last_usable_s_ = now_s_;
 }
 
+void Session::find_pose() {
+  answer_.reset();
+  std::optional<Pose> pose = newest_pose_;
+  if (source().live()) {
+    for (const PoseSample& sample : samples_) history_.add(sample);
+    answer_ = history_.at(source().clock_s(now_s_), predict_s_);
+    if (answer_->how != PoseAnswer::none) pose = answer_->patient_from_probe;
+  }
+  if (!console_.frozen) shown_pose_ = pose;
+}
+
 void Session::advance(double now_s) {
   now_s_ = now_s;
   // A session that is made while the clock runs has not lost anything yet.
@@ -160,7 +172,7 @@ void Session::advance(double now_s) {
   }
   source().poll(now_s, samples_);
   for (const PoseSample& sample : samples_) take(sample);
-  if (!console_.frozen) shown_pose_ = newest_pose_;
+  find_pose();
 
   if (!runner_ || result_) return;
   if (source().state().condition == TrackerCondition::finished) runner_->end();

@@ -9,6 +9,7 @@
 #include "app/probe_hand.h"
 #include "app/study.h"
 #include "devices/mouse/mouse_tracker.h"
+#include "devices/pose_history.h"
 #include "devices/tracker.h"
 #include "scenarios/runner.h"
 #include "sim/model/settings.h"
@@ -54,7 +55,8 @@ public:
   /// Keeps the study. `open` is called at once, and again when a log is to start over; what it throws passes through.
   /// Throws ScenarioError or InputError when the scenario does not fit the case, and InputError when there is an exam
   /// and the tracker repeats itself: nobody could score such a log again.
-  Session(std::shared_ptr<const Study> study, OpenTracker open);
+  /// @param predict_s  how far a live tracker's pose is carried on to the time of the picture, at most
+  Session(std::shared_ptr<const Study> study, OpenTracker open, double predict_s = PoseHistory::kPredictS);
 
   /// Takes what has come from the source in charge up to `now_s` (s, steady_now_s() when the tracker is live).
   void advance(double now_s);
@@ -85,11 +87,15 @@ public:
   /// Moves the probe to where a motion leads from where it is; takes it first if need be.
   void move_probe(const std::function<Pose(const ProbeHand&, const Pose&)>& motion);
 
-  /// Where the picture is taken: the newest usable pose, or an older one while the picture is frozen. Empty until the
-  /// first usable pose came.
+  /// Where the picture is taken: of a live tracker the pose at the very time of the picture, of others the newest
+  /// usable one, so that what is replayed looks the same every time; an older one while the picture is frozen. Empty
+  /// until the first usable pose came.
   const std::optional<Pose>& shown_pose() const { return shown_pose_; }
   /// The newest usable pose, which a frozen picture does not show.
   const std::optional<Pose>& newest_pose() const { return newest_pose_; }
+  /// How the pose was found that would be shown if the picture were not frozen; empty unless a live tracker is in
+  /// charge.
+  const std::optional<PoseEstimate>& answer() const { return answer_; }
   /// How long no usable pose has come (s), once that is longer than kStale_s; the picture stands still then.
   std::optional<double> lost_for_s() const;
   static constexpr double kStale_s = 0.25;
@@ -110,10 +116,12 @@ private:
   void restart_tracker();
   void begin_attempt();
   void take(const PoseSample& sample);
+  void find_pose();
   Tracker& source();
 
   std::shared_ptr<const Study> study_;
   OpenTracker open_;
+  double predict_s_;
   int attempt_ = 0;
   std::unique_ptr<Tracker> tracker_;
   std::unique_ptr<MouseTracker> learner_;
@@ -126,6 +134,8 @@ private:
   std::optional<ExamResult> result_;
   Console console_;
   std::optional<Pose> shown_pose_, newest_pose_;
+  PoseHistory history_;  ///< of a live tracker
+  std::optional<PoseEstimate> answer_;
   double now_s_ = 0;
   double last_usable_s_ = 0;
   std::uint32_t buttons_ = 0;  ///< of the newest sample

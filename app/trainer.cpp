@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "devices/calibrated_tracker.h"
+#include "devices/live/steady_clock.h"
 #include "devices/registry.h"
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
@@ -129,7 +130,7 @@ void Trainer::begin(std::shared_ptr<const Study> study, const Request& request) 
       return std::make_unique<CalibratedTracker>(open_tracker(sensor), calibration, name);
     };
   }
-  auto session = std::make_unique<Session>(study, open);
+  auto session = std::make_unique<Session>(study, open, options_.predict_ms / 1e3);
   if (study != study_)
     gl::upload_ct(patient_of(request.source), study->subject.ct.grid, [&] { pictures_.show(*study); });
   session_ = std::move(session);
@@ -162,6 +163,10 @@ void Trainer::update(double now_s) {
 void Trainer::draw(const PictureSizes& sizes, double quality, double budget_ms) {
   if (!session_) return;
   pictures_.update(*session_, sizes, quality, budget_ms);
+  if (!options_.latency.empty()) {
+    glFinish();
+    latency_.add(*session_, steady_now_s());
+  }
   if (feed_) feed_->tell(*session_);
   show_pictures();
 }

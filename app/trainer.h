@@ -10,6 +10,7 @@
 #include "app/igtl_feed.h"
 #include "app/loading.h"
 #include "app/options.h"
+#include "app/picture_latency.h"
 #include "app/picture_reader.h"
 #include "app/pictures.h"
 #include "app/results.h"
@@ -62,6 +63,9 @@ public:
   void finish_recording();
   const RunRecorder& recorder() const { return recorder_; }
 
+  /// Measured while options().latency says where it is to be told.
+  const PictureLatency& latency() const { return latency_; }
+
   Session* session() { return session_.get(); }
   const Session* session() const { return session_.get(); }
   Pictures& pictures() { return pictures_; }
@@ -109,6 +113,7 @@ private:
   std::shared_ptr<const Study> study_;
   std::unique_ptr<Session> session_;
   Pictures pictures_;
+  PictureLatency latency_;
   PictureReader reader_;
   RunRecorder recorder_;
   bool recorded_ = false;                            ///< to the command line's file

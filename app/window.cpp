@@ -162,6 +162,7 @@ public:
       if (options_.seconds > 0 && now_s - start_s_ >= options_.seconds) break;
     }
     trainer_.finish_recording();
+    if (!options_.latency.empty()) trainer_.latency().write(options_.latency);
     if (!options_.screenshot.empty()) {
       draw();
       int width = 0, height = 0;

@@ -50,22 +50,22 @@ void PoseHistory::clear() {
   newest_s_ = -std::numeric_limits<double>::infinity();
 }
 
-PoseEstimate PoseHistory::at(double time_s) const {
+PoseEstimate PoseHistory::at(double time_s, double predict_s) const {
   const auto next = std::lower_bound(usable_.begin(), usable_.end(), time_s,
                                      [](const Entry& entry, double time) { return entry.time_s < time; });
   if (next != usable_.end() && next->time_s == time_s) return {PoseAnswer::exact, next->pose, 0};
   if (next == usable_.begin()) return {};
   const Entry& last = *(next - 1);
   if (next == usable_.end() || next->time_s - last.time_s > kBridgeS)
-    return after(std::size_t(next - 1 - usable_.begin()), time_s);
+    return after(std::size_t(next - 1 - usable_.begin()), time_s, predict_s);
   const double t = (time_s - last.time_s) / (next->time_s - last.time_s);
   return {PoseAnswer::interpolated, interpolate(last.pose, next->pose, t), time_s - last.time_s};
 }
 
-PoseEstimate PoseHistory::after(std::size_t index, double time_s) const {
+PoseEstimate PoseHistory::after(std::size_t index, double time_s, double predict_s) const {
   const Entry& last = usable_[index];
   const double age_s = time_s - last.time_s;
-  const double horizon_s = std::min(kPredictS, last.unusable_from_s - last.time_s);
+  const double horizon_s = std::min({predict_s, kPredictS, last.unusable_from_s - last.time_s});
   const PoseAnswer how = age_s <= horizon_s ? PoseAnswer::predicted
                          : age_s <= kStaleS ? PoseAnswer::held
                                             : PoseAnswer::stale;

@@ -43,7 +43,9 @@ public:
   void add(const PoseSample& sample);
   void clear();
 
-  PoseEstimate at(double time_s) const;
+  /// The pose at a time on the tracker's clock. Behind the last usable sample it is predicted for `predict_s`, which
+  /// counts up to kPredictS; 0 leaves it where it was.
+  PoseEstimate at(double time_s, double predict_s = kPredictS) const;
 
 private:
   struct Entry {
@@ -53,7 +55,7 @@ private:
     double unusable_from_s = std::numeric_limits<double>::infinity();
   };
 
-  PoseEstimate after(std::size_t index, double time_s) const;
+  PoseEstimate after(std::size_t index, double time_s, double predict_s) const;
   Pose predict(std::size_t index, double ahead_s) const;
 
   std::deque<Entry> usable_;  ///< by rising time

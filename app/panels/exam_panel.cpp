@@ -49,6 +49,8 @@ void draw_tracker(const Theme& theme, const Rect& where, const Session& session)
     char rate[32];
     std::snprintf(rate, sizeof rate, ", %.0f Hz", state.rate_hz);
     if (state.rate_hz > 0) condition += rate;
+    if (const auto& answer = session.answer(); answer && !session.lost_for_s())
+      condition += ", " + std::string(to_string(answer->how));
   }
   Rect upper{where.x, where.y + theme.px(11), where.w, theme.px(21)};
   Rect lower{where.x, upper.y + upper.h, where.w, theme.px(20)};

@@ -45,6 +45,12 @@ cmp <(without_log "$work/good.json") <(without_log "$work/run.json") || fail "th
 head -c 1000 "$work/seen-images.igs.mha" | grep -aq '^DimSize = [1-9][0-9]* [1-9][0-9]* [1-9]' || fail "there are no pictures"
 [ -z "$(find "$work" -name '*.recording*')" ] || fail "working files are left"
 
+echo "how long a live tracker's reports take to the picture is told"
+"$trainer" --headless --tracker "synthetic:1?live=1" --seconds 2 --latency "$work/latency.csv" --out "$work/live" \
+  >"$work/log" 2>&1 || fail "$(cat "$work/log")"
+grep -q '^from_ms,report_to_frame,report_to_picture$' "$work/latency.csv" || fail "$(cat "$work/latency.csv")"
+grep -q '^report to picture: median' "$work/log" || fail "$(cat "$work/log")"
+
 # `refuses ARGUMENTS...`: exit code 2 and one line that names what is wrong.
 refuses() {
   local words=$1 code=0

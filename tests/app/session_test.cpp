@@ -200,6 +200,62 @@ TEST_CASE("a live tracker is opened once, and what it says while the learner has
   CHECK(opened == 1);
 }
 
+TEST_CASE("of a live tracker the pose at the time of the picture is shown, and how it was found is told") {
+  // 100 mm/s along x, at 60 Hz for a second.
+  std::vector<PoseSample> steady;
+  for (int i = 0; i <= 60; ++i) steady.push_back(sample_at(i / 60.0, turned(0, {1, 0, 0}, {100 * i / 60.0, 0, 30})));
+  const auto after = [&](double ahead_s, double predict_s) {
+    std::vector<PoseSample> coming = steady;
+    Session session(
+        tiny_study(), [&] { return std::make_unique<HandFed>(coming); }, predict_s);
+    session.advance(0);
+    session.advance(1 + ahead_s);
+    REQUIRE(session.answer());
+    CHECK(session.newest_pose()->translation.x == 100);
+    return std::pair{session.answer()->how, session.shown_pose()->translation.x};
+  };
+  CHECK(after(0, 0.03) == std::pair{PoseAnswer::exact, 100.0});
+  CHECK(after(-0.5 / 60, 0.03).first == PoseAnswer::interpolated);
+  CHECK(after(-0.5 / 60, 0.03).second == Approx(100 - 50 / 60.0));
+  CHECK(after(0.02, 0.03).first == PoseAnswer::predicted);
+  CHECK(after(0.02, 0.03).second == Approx(102));
+  CHECK(after(0.02, 0) == std::pair{PoseAnswer::held, 100.0});
+  CHECK(after(0.2, 0.01).second == Approx(101));
+  CHECK(after(0.2, 5).first == PoseAnswer::held);  // no more than PoseHistory allows
+  CHECK(after(0.2, 5).second == Approx(103));
+  CHECK(after(0.3, 0.03).first == PoseAnswer::stale);
+
+  INFO("what is replayed shows its newest sample");
+  Session replayed(tiny_study(), replay(steady));
+  replayed.advance(0);
+  replayed.advance(0.51);
+  CHECK_FALSE(replayed.answer());
+  CHECK(replayed.shown_pose()->translation.x == steady[30].patient_from_probe.translation.x);
+}
+
+TEST_CASE("an exam of a live tracker is scored from its samples, not from the poses that are shown") {
+  const auto study = tiny_study();
+  std::vector<PoseSample> log = scan();
+  // The device goes silent, and the exam's time runs out.
+  for (double time_s = 9.1; time_s < 60; time_s += 0.1) log.push_back({time_s, PoseStatus::missing, Pose{}, 0});
+  Runner runner(*study->scenario, study->subject, study->tissues);
+  runner.feed(log);
+  REQUIRE(runner.live().finished);
+  const std::string expected = to_json(runner.result());
+  for (const double frames_per_s : {7.0, 60.0}) {
+    CAPTURE(frames_per_s);
+    std::vector<PoseSample> coming;
+    Session session(study, [&] { return std::make_unique<HandFed>(coming); });
+    std::size_t next = 0;
+    for (double now_s = 0; next < log.size() && !session.result(); now_s += 1 / frames_per_s) {
+      while (next < log.size() && log[next].time_s <= now_s) coming.push_back(log[next++]);
+      session.advance(now_s + 0.004);
+    }
+    REQUIRE(session.result());
+    CHECK(to_json(*session.result()) == expected);
+  }
+}
+
 TEST_CASE("who takes the probe out of an exam practises, and giving it back starts exam and log over") {
   Session session(tiny_study(), replay(scan()));
   session.advance(0);
