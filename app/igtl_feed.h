@@ -18,7 +18,7 @@ igtl::Address parse_server_address(const std::string& text);
 ///   IMAGE "Ultrasound"      the picture, when there is another; at most kMostPixels, coarser if need be
 ///   STATUS "Insonate"       what is going on, when that has changed
 ///   STRING "Event"          "exam started: ...", "step 2 of 3: ...", "exam finished: 84 %, passed", "frozen", "live",
-///                           "tracking lost", "tracking"
+///                           "mark 1", "tracking lost", "tracking"
 /// While nobody is connected it wants no picture, so that none has to be read back from the graphics card.
 class IgtlFeed {
 public:
@@ -42,7 +42,7 @@ private:
   std::string sent_status_;
   int attempt_ = 0;
   bool exam_ = false, finished_ = false, frozen_ = false, lost_ = false;
-  std::size_t step_ = 0;
+  std::size_t step_ = 0, marks_ = 0;
 };
 
 /// With every `stride`-th pixel, the smallest stride that leaves at most `most` pixels; how it lies is told anew.

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "devices/live/probe_buttons.h"
+
 namespace insonate {
 namespace {
 
@@ -149,6 +151,9 @@ void Keyboard::press(const KeyEvent& pressed, Trainer& trainer, ui::Screen& scre
       break;
     case GLFW_KEY_SPACE:
       if (!repeated) console.frozen = !console.frozen;
+      break;
+    case GLFW_KEY_M:
+      if (!repeated) session.press(kMarkButton);
       break;
     case GLFW_KEY_R:
       if (!repeated) trainer.recorder().running() ? trainer.stop_recording() : trainer.start_recording();

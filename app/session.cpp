@@ -93,7 +93,8 @@ void Session::begin_attempt() {
   result_.reset();
   if (activity_ == Activity::exam && study_->scenario)
     runner_ = std::make_unique<Runner>(*study_->scenario, study_->subject, study_->tissues);
-  last_usable_s_ = now_s_;
+  last_usable_s_ = attempt_began_s_ = now_s_;
+  marks_s_.clear();
   history_.clear();
   console_.frozen = false;
 }
@@ -140,11 +141,10 @@ void Session::take(const PoseSample& sample) {
     runner_->feed(sample);
     exam_samples_.push_back(sample);
   }
-  // A tracker that says nothing does not say that the button was let go either.
-  if (sample.status != PoseStatus::missing) {
-    if (sample.buttons & ~buttons_ & kFreezeButton) console_.frozen = !console_.frozen;
-    buttons_ = sample.buttons;
-  }
+  const std::uint32_t pressed = presses_.see(sample);
+  if (pressed & kFreezeButton) console_.frozen = !console_.frozen;
+  if (pressed & kMarkButton) marks_s_.push_back(attempt_for_s());
+  if (pressed & kGoOnButton) go_on_ = true;
   if (sample.status != PoseStatus::ok) return;
   newest_pose_ = sample.patient_from_probe;
   last_usable_s_ = now_s_;
@@ -164,13 +164,17 @@ void Session::find_pose() {
 void Session::advance(double now_s) {
   now_s_ = now_s;
   // A session that is made while the clock runs has not lost anything yet.
-  if (!std::exchange(advanced_, true)) last_usable_s_ = now_s;
+  if (!std::exchange(advanced_, true)) last_usable_s_ = attempt_began_s_ = now_s;
   samples_.clear();
   if (holder_ == Holder::learner && tracker_ && tracker_->live()) {
     tracker_->poll(now_s, samples_);
     samples_.clear();
   }
   source().poll(now_s, samples_);
+  // One that says nothing presses nothing.
+  const auto pressing = std::find_if(samples_.begin(), samples_.end(),
+                                     [](const PoseSample& sample) { return sample.status != PoseStatus::missing; });
+  if (pressing != samples_.end()) pressing->buttons |= std::exchange(pressed_, 0);
   for (const PoseSample& sample : samples_) take(sample);
   find_pose();
 

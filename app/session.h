@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/probe_hand.h"
@@ -12,6 +13,7 @@
 #include "devices/pose_history.h"
 #include "devices/tracker.h"
 #include "scenarios/runner.h"
+#include "sim/core/button_presses.h"
 #include "sim/model/settings.h"
 #include "sim/probe/probe.h"
 
@@ -46,8 +48,10 @@ enum class Activity { exam, practice };
 /// a running exam practises from there on: nothing is scored, because what the tracker has found so far is not his own.
 /// An exam of the learner's own starts with the probe on the belly. Giving the probe back starts the exam, and a
 /// replayed log, from the beginning; a live tracker just goes on, and what it said while the learner had the probe is
-/// past. Every sample of the source in charge is fed to the runner, in order, whatever the frame rate. A probe's freeze
-/// button (probe_buttons.h) freezes the picture when it is pressed, and thaws it when it is pressed again.
+/// past. Every sample of the source in charge is fed to the runner, in order, whatever the frame rate.
+///
+/// The probe's buttons (probe_buttons.h) act when they are pressed, once however long they are held: freeze freezes the
+/// picture or thaws it, mark marks the moment, and go on is handed on to whoever shows the session.
 class Session {
 public:
   using OpenTracker = std::function<std::unique_ptr<Tracker>()>;
@@ -103,6 +107,15 @@ public:
   /// What came with the last advance(), from the source that was in charge then.
   const std::vector<PoseSample>& latest_samples() const { return samples_; }
 
+  /// Moments that were marked during this attempt, in seconds since it began.
+  const std::vector<double>& marks_s() const { return marks_s_; }
+  /// As if these buttons (ProbeButton) were pressed on the probe: the next sample has them.
+  void press(std::uint32_t buttons) { pressed_ |= buttons; }
+  /// Whether to go on was asked for since the last call.
+  bool take_go_on() { return std::exchange(go_on_, false); }
+  /// How long this attempt has lasted (s).
+  double attempt_for_s() const { return now_s_ - attempt_began_s_; }
+
   const Tracker& source() const;
   TrackerState tracker_state() const { return source().state(); }
 
@@ -137,8 +150,11 @@ private:
   PoseHistory history_;  ///< of a live tracker
   std::optional<PoseEstimate> answer_;
   double now_s_ = 0;
-  double last_usable_s_ = 0;
-  std::uint32_t buttons_ = 0;  ///< of the newest sample
+  double last_usable_s_ = 0, attempt_began_s_ = 0;
+  ButtonPresses presses_;
+  std::uint32_t pressed_ = 0;  ///< for the next sample
+  bool go_on_ = false;
+  std::vector<double> marks_s_;
   bool advanced_ = false;
   std::vector<PoseSample> samples_;
 };

@@ -189,6 +189,7 @@ private:
     const double previous_s = std::exchange(last_s_, now_s);
 
     trainer_.update(now_s);
+    if (trainer_.session() && trainer_.session()->take_go_on()) screen_.go_on(trainer_);
     const long drawn_before = trainer_.pictures().drawn();
     draw();
     glfwSwapBuffers(window_);

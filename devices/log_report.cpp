@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "devices/live/probe_buttons.h"
 #include "devices/pose_history.h"
+#include "sim/core/button_presses.h"
 
 namespace insonate {
 namespace {
@@ -101,6 +103,9 @@ LogReport check_log(const std::vector<PoseSample>& samples) {
   count_gaps(samples, report);
   count_dropouts(samples, report);
   follow_path(samples, report);
+  ButtonPresses presses;
+  for (const PoseSample& sample : samples)
+    if (presses.see(sample) & kMarkButton) report.marks_s.push_back(sample.time_s);
   return report;
 }
 

@@ -43,6 +43,7 @@ struct LogReport {
   std::vector<Gap> gaps;
   std::vector<Jump> jumps;
   std::map<PoseStatus, Dropout> dropouts;
+  std::vector<double> marks_s;  ///< times at which the button that marks was pressed
 
   double rate_hz() const { return interval_s > 0 ? 1 / interval_s : 0; }
 

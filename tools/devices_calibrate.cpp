@@ -87,7 +87,7 @@ public:
       if (next_ == samples_.size()) wait(step, problem);
       // Samples that are left over belong to the next step.
       while (next_ < samples_.size() && !step.view().done) {
-        step.feed(samples_[next_++]);
+        step.feed(presses_.only_pressed(samples_[next_++]));
         page.show(step.view());
       }
       page.show(step.view());
@@ -115,6 +115,7 @@ private:
   std::unique_ptr<Tracker> tracker_;
   double offset_s_;
   Lines lines_;
+  ButtonPresses presses_{0};  ///< over all steps: what ends one, and is still held, does not mark in the next
   std::vector<PoseSample> samples_;
   std::size_t next_ = 0;
 };

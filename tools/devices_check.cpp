@@ -25,6 +25,7 @@ nlohmann::ordered_json to_json(const std::string& log, const LogReport& report) 
                                  {"longest_step_ms", report.longest_step_s * 1e3},
                                  {"path_mm", report.path_mm},
                                  {"findings", report.findings()}};
+  json["marks_s"] = report.marks_s;
   json["gaps"] = nlohmann::ordered_json::array();
   for (const LogReport::Gap& gap : report.gaps)
     json["gaps"].push_back({{"frame", gap.frame},
@@ -49,6 +50,7 @@ void print(const std::string& log, const LogReport& report) {
   std::printf("  duration  %.3f s from %.6f s on\n", report.duration_s, report.begin_s);
   std::printf("  rate      %.2f Hz, jitter %.2f ms RMS\n", report.rate_hz(), report.jitter_s * 1e3);
   std::printf("  path      %.0f mm\n", report.path_mm);
+  for (const double time_s : report.marks_s) std::printf("  marked    at %.3f s\n", time_s);
   for (const auto& [status, dropout] : report.dropouts)
     std::printf("  dropouts  %zu frames %s in %zu spells, the longest %.0f ms\n", dropout.frames,
                 std::string(to_string(status)).c_str(), dropout.spells, dropout.longest_s * 1e3);

@@ -62,7 +62,7 @@ bool draw_problem(const Theme& theme, const Rect& screen, const std::string& pro
 }
 
 bool draw_key_help(const Theme& theme, const Rect& screen) {
-  static constexpr std::array<std::array<const char*, 2>, 15> kKeys{{
+  static constexpr std::array<std::array<const char*, 2>, 16> kKeys{{
       {"Arrow keys", "slide over the skin"},
       {"Page up, Page down", "lift, press"},
       {"Q, E", "rotate about the beam"},
@@ -75,6 +75,7 @@ bool draw_key_help(const Theme& theme, const Rect& screen) {
       {"Tab", "take the probe, give it back to the tracker"},
       {"Space", "freeze the picture"},
       {"+, \u2212 and [, ]", "gain; depth"},
+      {"M", "mark this moment, in the recording too"},
       {"R", "record the run; end the recording"},
       {"Ctrl O", "open a case, CT, scenario or recorded scan"},
       {"F1", "this page"},

@@ -182,6 +182,13 @@ void Screen::confirm(Trainer& trainer) {
   if (shown == "problem" || shown == "help") dismiss(trainer);
 }
 
+void Screen::go_on(Trainer& trainer) {
+  const std::string shown = overlay(trainer);
+  if (shown == "problem" || shown == "help" || shown == "open") return dismiss(trainer);
+  const bool over = trainer.session() && trainer.session()->result();
+  if (over && (shown.empty() || shown == "score")) answer_score(trainer, ScoreAnswer::again);
+}
+
 void Screen::stop_asking() {
   asking_ = false;
   open_dialog_.close();

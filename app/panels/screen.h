@@ -34,6 +34,9 @@ public:
   void dismiss(Trainer& trainer);
   /// Answers it as Enter does.
   void confirm(Trainer& trainer);
+  /// Moves on from what the screen waits with, as the probe's button does: acknowledges what lies over it, and after an
+  /// exam begins the next attempt.
+  void go_on(Trainer& trainer);
   /// Something lies over the screen: keys do not move the probe.
   bool takes_keys(const Trainer& trainer) const { return !overlay(trainer).empty(); }
   /// There is a field that text is typed into.

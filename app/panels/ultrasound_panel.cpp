@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <string>
 
+#include "app/panels/exam_panel.h"
+
 namespace insonate::ui {
 namespace {
 
@@ -69,6 +71,20 @@ void draw_marker(const Theme& theme, const PlaneOnScreen& plane, const Probe& pr
   list->AddCircle(dot, theme.px(9), colour::kAccent, 24, 1.2f);
 }
 
+std::string mark_text(const Session& session) {
+  return "Mark " + std::to_string(session.marks_s().size()) + " at " + clock_text(session.marks_s().back());
+}
+
+// A moment that has just been marked.
+void draw_mark(const Theme& theme, const Rect& panel, const Session& session) {
+  constexpr double kShown_s = 2;
+  if (session.marks_s().empty() || session.attempt_for_s() - session.marks_s().back() > kShown_s) return;
+  const std::string text = mark_text(session);
+  const float width = text_width(theme.strong, text) + theme.px(24);
+  draw_chip(theme, {panel.x + (panel.w - width) / 2, panel.y + theme.px(14)}, colour::kAccent, colour::kBackground,
+            text);
+}
+
 void draw_annotations(const Theme& theme, const Rect& panel, const Session& session) {
   const Console& console = session.console();
   Rect line{panel.x + theme.px(16), panel.y + theme.px(12), panel.w * 0.27f, theme.px(24)};
@@ -82,6 +98,8 @@ void draw_annotations(const Theme& theme, const Rect& panel, const Session& sess
     draw_text(line, theme.small_text, colour::kMuted, text);
     line.y += line.h;
   }
+  if (session.marks_s().empty()) return;
+  draw_text(line, theme.small_text, colour::kAccent, mark_text(session));
 }
 
 void draw_banner(const Theme& theme, const Rect& panel, const Session& session) {
@@ -152,6 +170,7 @@ void UltrasoundPanel::draw(const Theme& theme, const Rect& panel, Session& sessi
     draw_text(panel, theme.text, colour::kFaint, "Waiting for the probe", Align::centre);
   }
   draw_annotations(theme, panel, session);
+  draw_mark(theme, panel, session);
   draw_banner(theme, panel, session);
   draw_tracker_problem(theme, panel, session);
 }

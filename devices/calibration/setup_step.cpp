@@ -9,11 +9,7 @@
 namespace insonate {
 
 void SetupStep::feed(const PoseSample& sample) {
-  // Where nothing came, nothing is known of the buttons either: one that is held is not pressed again behind it.
-  const std::uint32_t held = sample.status == PoseStatus::missing ? buttons_ : sample.buttons;
-  const bool pressed = (held & ~buttons_) != 0;
-  buttons_ = held;
-  if (pressed) mark(sample.time_s);
+  if (presses_.see(sample) != 0) mark(sample.time_s);
   take(sample);
 }
 

@@ -9,6 +9,7 @@
 
 #include "devices/calibration/calibration.h"
 #include "devices/calibration/given.h"
+#include "sim/core/button_presses.h"
 #include "sim/core/pose_sample.h"
 
 namespace insonate {
@@ -51,7 +52,7 @@ protected:
   const Calibration base_;
 
 private:
-  std::uint32_t buttons_ = 0;
+  ButtonPresses presses_{0};  // a step may begin with a mark
 };
 
 /// What the steps may need beside the tracker.

@@ -365,6 +365,55 @@ TEST_CASE("the probe's freeze button freezes the picture and thaws it, once each
   CHECK_FALSE(*session.shown_pose() == frozen);
 }
 
+TEST_CASE("the probe's mark and go-on buttons act once each time they are pressed, also across a dropout") {
+  auto samples = scan();
+  for (PoseSample& sample : samples) {
+    sample.status = PoseStatus::ok;
+    const bool first = std::abs(sample.time_s - 1.25) < 0.25, second = std::abs(sample.time_s - 3) < 0.1;
+    sample.buttons = first || second ? std::uint32_t(kMarkButton) : 0;
+    if (std::abs(sample.time_s - 2) < 0.2) sample.buttons = kGoOnButton;
+    if (std::abs(sample.time_s - 1.25) < 0.1) sample = {sample.time_s, PoseStatus::missing, Pose{}, 0};
+  }
+  Session session(tiny_study(), replay(samples));
+  session.advance(100);
+  double now_s = run_until(session, 100, 101.9);
+  CHECK(session.marks_s().size() == 1);
+  now_s = run_until(session, now_s, 104);
+  REQUIRE(session.marks_s().size() == 2);
+  // The first sample behind that time, and a frame until it is polled.
+  CHECK(session.marks_s()[0] == Approx(1).margin(0.04));
+  CHECK(session.marks_s()[1] == Approx(2.9).margin(0.04));
+  CHECK(session.take_go_on());
+  CHECK_FALSE(session.take_go_on());
+  CHECK_FALSE(session.console().frozen);
+
+  INFO("a mark of the keyboard is in one sample, for the record");
+  session.press(kMarkButton);
+  std::size_t marked = 0;
+  for (int i = 1; i <= 30; ++i) {
+    session.advance(now_s + i / 60.0);
+    for (const PoseSample& sample : session.latest_samples()) marked += sample.buttons == kMarkButton;
+  }
+  CHECK(session.marks_s().size() == 3);
+  CHECK(marked == 1);
+  session.start_over();
+  CHECK(session.marks_s().empty());
+}
+
+TEST_CASE("a button that is held when a session begins was pressed for somebody else") {
+  auto samples = scan();
+  for (PoseSample& sample : samples)
+    sample.buttons = sample.time_s < 1 || sample.time_s > 2 ? kFreezeButton | kMarkButton : 0;
+  Session session(tiny_study(), replay(samples));
+  session.advance(0);
+  const double now_s = run_until(session, 0, 1.5);
+  CHECK_FALSE(session.console().frozen);
+  CHECK(session.marks_s().empty());
+  run_until(session, now_s, 3);
+  CHECK(session.console().frozen);
+  CHECK(session.marks_s().size() == 1);
+}
+
 TEST_CASE("free practice has no exam, and an exam can be started from it") {
   Session session(tiny_study(), replay(scan()));
   session.advance(0);

@@ -54,6 +54,8 @@ xdotool keyup d
 depth=$(value depth_mm)
 xdotool key bracketright
 await "the bracket changes the depth" is_not depth_mm "$depth"
+xdotool key m
+await "M marks the moment" is marks 1
 xdotool key space
 await "space freezes" is frozen true
 xdotool key space

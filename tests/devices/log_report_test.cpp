@@ -3,6 +3,8 @@
 #include <catch2/catch.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "devices/live/probe_buttons.h"
+
 using namespace insonate;
 
 namespace {
@@ -99,6 +101,14 @@ TEST_CASE("a jump is a step that no hand makes, in place or in turn") {
   CHECK(report.jumps[0].mm == Approx(std::hypot(40, 1)));
   CHECK(report.jumps[1].frame == 600);
   CHECK(report.jumps[1].deg == Approx(20));
+}
+
+TEST_CASE("marks are told, each once, also when tracking is lost while the button is held") {
+  auto samples = steady();
+  for (std::size_t i = 300; i < 340; ++i) samples[i].buttons = kMarkButton | kFreezeButton;
+  for (std::size_t i = 310; i < 320; ++i) samples[i] = {samples[i].time_s, PoseStatus::missing, Pose{}, 0};
+  for (std::size_t i = 500; i < 510; ++i) samples[i].buttons = kMarkButton;
+  CHECK(check_log(samples).marks_s == std::vector{samples[300].time_s, samples[500].time_s});
 }
 
 TEST_CASE("a log of a single sample has a report without a rate") {
