@@ -128,8 +128,18 @@ bool Keyboard::type(const KeyEvent& event, Trainer& trainer, ui::Screen& screen)
   return true;
 }
 
+void Keyboard::set_up(const KeyEvent& pressed, Trainer& trainer) {
+  if (pressed.key == GLFW_KEY_SPACE || is_enter(pressed)) trainer.setup()->mark(pressed.time_s);
+  if (pressed.key == GLFW_KEY_BACKSPACE) trainer.setup()->undo();
+  if (pressed.key == GLFW_KEY_ESCAPE) trainer.end_setup();
+}
+
 void Keyboard::press(const KeyEvent& pressed, Trainer& trainer, ui::Screen& screen) {
   const bool repeated = pressed.kind == KeyEvent::Kind::repeated;
+  if (screen.overlay(trainer) == "setup") {
+    if (!repeated) set_up(pressed, trainer);
+    return;
+  }
   if (pressed.key == GLFW_KEY_ESCAPE || (is_enter(pressed) && screen.takes_keys(trainer))) {
     if (!repeated) is_enter(pressed) ? screen.confirm(trainer) : screen.dismiss(trainer);
     return;
@@ -138,6 +148,7 @@ void Keyboard::press(const KeyEvent& pressed, Trainer& trainer, ui::Screen& scre
   if (pressed.key == GLFW_KEY_F1 && overlay != "problem" && !repeated) return screen.toggle_help();
   if (!overlay.empty()) return;
   if (!(pressed.modifiers & GLFW_MOD_CONTROL)) tapped_.insert(pressed.key);
+  if (pressed.key == GLFW_KEY_F2 && !repeated) return trainer.begin_setup();
   if (pressed.key == GLFW_KEY_SLASH && (pressed.modifiers & GLFW_MOD_SHIFT)) return screen.toggle_help();
   if (pressed.key == GLFW_KEY_O && (pressed.modifiers & GLFW_MOD_CONTROL)) return screen.ask_for_path();
   if (!trainer.session()) return;

@@ -17,6 +17,7 @@ struct KeyEvent {
   int key = 0;             ///< as GLFW numbers it
   int modifiers = 0;       ///< GLFW's bits
   unsigned character = 0;  ///< of what was typed, Unicode
+  double time_s = 0;       ///< steady_now_s()
 };
 
 /// What keys do: those held move the probe as long as they are held, those pressed do something once, and what is
@@ -43,6 +44,7 @@ private:
   void hand_on(Trainer& trainer, ui::Screen& screen);
   bool type(const KeyEvent& event, Trainer& trainer, ui::Screen& screen);
   void press(const KeyEvent& event, Trainer& trainer, ui::Screen& screen);
+  static void set_up(const KeyEvent& pressed, Trainer& trainer);
 
   GLFWwindow* window_;
   std::deque<KeyEvent> events_;

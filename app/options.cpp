@@ -21,8 +21,17 @@ void declare(CLI::App& arguments, Options& options) {
     trackers += "\n  " + std::string(kind.form) + "\n      " + std::string(kind.summary);
   arguments.add_option("--tracker", options.tracker, trackers)->type_name("URI");
   arguments
-      .add_option("--calibration", options.calibration,
-                  "What 'insonate-devices calibrate' found: the tracker tells where its sensor is, not the probe")
+      .add_option(
+          "--calibration", options.calibration,
+          "The tracker's calibration: it tells where its sensor is, not the probe. Key F2 makes it, step by step;\n"
+          "that begins by itself while there is none")
+      ->type_name("FILE");
+  arguments
+      .add_option("--landmarks", options.landmarks,
+                  "For the set-up: the patient's landmarks, if not the built-in one's")
+      ->type_name("FILE");
+  arguments
+      .add_option("--drawing", options.drawing, "For the set-up: the probe's drawing; its face need not be touched")
       ->type_name("FILE");
   arguments.add_option("--calibration-days", options.calibration_days, "Warn of a calibration that is older")
       ->check(CLI::Range(0.0, 3650.0))

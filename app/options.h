@@ -18,6 +18,8 @@ struct Options {
   std::filesystem::path scenario;
   std::string tracker;                ///< a tracker's URI
   std::filesystem::path calibration;  ///< of that tracker, whose samples are its sensor's; empty: they are the probe's
+  std::filesystem::path landmarks;    ///< of the patient, for the set-up; empty: the built-in patient's
+  std::filesystem::path drawing;      ///< of the probe, for the set-up; empty: its face is touched
   double calibration_days = kCalibrationDays;        ///< older ones bring a warning
   std::filesystem::path record;                      ///< where the run is recorded; empty: it is not
   bool record_images = false;                        ///< what is recorded is so with the ultrasound, in a second file

@@ -93,6 +93,14 @@ std::optional<Image<Rgba8>> Pictures::reference_picture(const ReferenceView& vie
   return read_back(simulator_.image());
 }
 
+const gl::Texture* Pictures::draw_body(const view::OrbitCamera& from, int width, int height, double budget_ms) {
+  if (!patient_) return nullptr;
+  view::VolumeStyle body;
+  body.cut = body.plane = body.probe = false;
+  body.skin = 0.35;
+  return volume_ = &volume_view_.render(width, height, *patient_, from, {}, body, budget_ms);
+}
+
 long Pictures::simulator_runs() const {
   long sum = 0;
   for (const long runs : simulator_.runs()) sum += runs;

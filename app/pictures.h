@@ -37,6 +37,9 @@ public:
   /// last picture; row 0 is the top, the marker's side on the right. To be called between two frames: what ultrasound()
   /// shows is right again after the next update(). Empty until update() had a pose to draw, and for an unknown probe.
   std::optional<Image<Rgba8>> reference_picture(const ReferenceView& view);
+  /// The body alone, without probe and picture, from any side; null without a patient. Takes the place of volume().
+  const gl::Texture* draw_body(const view::OrbitCamera& from, int width, int height, double budget_ms);
+  const Grid& grid() const { return grid_; }
 
   /// Null until update() had a pose to draw. Row 0 is the top; the marker's side is on the right.
   const gl::Texture* ultrasound() const { return ultrasound_; }

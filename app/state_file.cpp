@@ -22,6 +22,17 @@ void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::
     state[name + "_w"] = int(rect.w);
     state[name + "_h"] = int(rect.h);
   }
+  if (const SetupWizard* setup = trainer.setup()) {
+    const SetupView view = setup->view();
+    state["setup_step"] = kSetupSteps[setup->current()];
+    state["setup_done"] = view.done;
+    state["setup_reading"] = view.reading;
+    state["setup_part"] = view.part;
+    state["setup_task"] = view.task;
+    state["setup_feedback"] = view.feedback;
+    state["setup_refusal"] = view.refusal;
+    state["setup_result"] = view.result;
+  }
   if (const Session* session = trainer.session()) {
     state["patient"] = session->study().subject.name;
     state["activity"] = session->activity() == Activity::exam ? "exam" : "practice";

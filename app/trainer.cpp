@@ -1,13 +1,10 @@
 #include "app/trainer.h"
 
 #include <cstdio>
-#include <ctime>
 #include <exception>
 #include <utility>
 
-#include "devices/calibrated_tracker.h"
 #include "devices/live/steady_clock.h"
-#include "devices/registry.h"
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
 #include "sim/gl/upload.h"
@@ -24,12 +21,6 @@ std::string patient_of(const StudySource& source) {
   for (const std::filesystem::path& named : {source.ct, source.case_folder, source.scenario})
     if (!named.empty()) return named.string();
   return "the built-in patient";
-}
-
-std::string joined(const std::vector<std::string>& sentences) {
-  std::string text;
-  for (const std::string& sentence : sentences) text += (text.empty() ? "" : " ") + sentence;
-  return text;
 }
 
 gl::ShaderSources shaders_of(const Options& options) {
@@ -105,7 +96,7 @@ void Trainer::finish_loading() {
 }
 
 void Trainer::stop_loading() {
-  if (session_) loading_.reset();
+  if (session_ || setup_) loading_.reset();
 }
 
 void Trainer::take_over_loaded() {
@@ -113,35 +104,34 @@ void Trainer::take_over_loaded() {
   attempt([&] { begin(loaded->take(), requested_); });
   // A trainer whose command line names something unusable goes on with what is built in.
   const bool asked_for_more = !requested_.source.is_bundled() || !requested_.tracker.empty();
-  if (!session_ && asked_for_more) load({});
+  if (!session_ && !setup_ && asked_for_more) load({});
 }
 
 void Trainer::begin(std::shared_ptr<const Study> study, const Request& request) {
   std::string uri = request.tracker;
   if (uri.empty()) uri = request.source.is_bundled() ? bundled_log() : "mouse:";
-  Session::OpenTracker open = [uri, surroundings = study->surroundings] { return open_tracker(uri, surroundings); };
-  std::string warning;
-  // What is dropped on the window is no tracker of the command line's.
-  if (!options_.calibration.empty() && request.tracker == options_.tracker) {
-    const Calibration calibration = read_complete_calibration(options_.calibration);
-    warning = joined(calibration_warnings(calibration, tracker_identity(uri), std::int64_t(std::time(nullptr)),
-                                          options_.calibration_days));
-    open = [sensor = sensor_uri(uri, true), calibration, name = options_.calibration.filename().string()] {
-      return std::make_unique<CalibratedTracker>(open_tracker(sensor), calibration, name);
-    };
+  if (needs_setup(request)) {
+    setup_.reset();
+    session_.reset();
+    show(std::move(study), request);
+    return open_setup();
   }
+  const Session::OpenTracker open = opener(uri, *study, uses_calibration(request) && !setup_left_);
   auto session = std::make_unique<Session>(study, open, options_.predict_ms / 1e3);
-  if (study != study_)
-    gl::upload_ct(patient_of(request.source), study->subject.ct.grid, [&] { pictures_.show(*study); });
+  show(std::move(study), request);
+  setup_.reset();
   session_ = std::move(session);
   reader_.forget();
   recorder_.begin_anew();
-  study_ = std::move(study);
-  calibration_warning_ = std::move(warning);
-  if (!calibration_warning_.empty()) std::fprintf(stderr, "insonate: %s\n", calibration_warning_.c_str());
-  current_ = request;
   result_files_.reset();
   best_frame_of_ = 0;
+}
+
+void Trainer::show(std::shared_ptr<const Study> study, const Request& request) {
+  if (study != study_)
+    gl::upload_ct(patient_of(request.source), study->subject.ct.grid, [&] { pictures_.show(*study); });
+  study_ = std::move(study);
+  current_ = request;
 }
 
 void Trainer::update(double now_s) {
@@ -150,6 +140,8 @@ void Trainer::update(double now_s) {
     shaders_looked_at_s_ = now_s;
     reload_shaders();
   }
+  if (setup_) attempt([&] { setup_->update(now_s); });
+  if (setup_ && setup_->finished()) end_setup();
   if (!session_) return;
   if (!options_.record.empty() && !recorded_) start_recording();
   const bool had_result = session_->result().has_value();
@@ -220,7 +212,7 @@ const Image<Rgba8>* Trainer::best_frame() const {
 }
 
 void Trainer::write_results_if_due() {
-  if (!std::exchange(results_due_, false)) return;
+  if (!std::exchange(results_due_, false) || !session_) return;
   if (best_frame_of_ != session_->attempt()) best_frames_.clear();
   attempt([&] { keep_and_report(); });
 }

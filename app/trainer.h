@@ -16,6 +16,7 @@
 #include "app/results.h"
 #include "app/run_recorder.h"
 #include "app/session.h"
+#include "app/setup_wizard.h"
 #include "app/study.h"
 #include "scenarios/results/report_files.h"
 #include "scenarios/results/results_database.h"
@@ -63,6 +64,15 @@ public:
   void finish_recording();
   const RunRecorder& recorder() const { return recorder_; }
 
+  /// The set-up of the tracker, while it is being made: there is no session then, as the tracker is the set-up's.
+  SetupWizard* setup() { return setup_.get(); }
+  const SetupWizard* setup() const { return setup_.get(); }
+  /// Begins it, with the session's tracker; where that has no sensor, that is a problem to acknowledge. It begins by
+  /// itself where the command line names a calibration that is still to be made.
+  void begin_setup();
+  /// Goes on with the session, through the calibration if it is complete.
+  void end_setup();
+
   /// Measured while options().latency says where it is to be told.
   const PictureLatency& latency() const { return latency_; }
 
@@ -95,6 +105,11 @@ private:
   void load(Request request);
   void take_over_loaded();
   void begin(std::shared_ptr<const Study> study, const Request& request);
+  void show(std::shared_ptr<const Study> study, const Request& request);
+  bool uses_calibration(const Request& request) const;
+  bool needs_setup(const Request& request) const;
+  Session::OpenTracker opener(const std::string& uri, const Study& study, bool calibrated);
+  void open_setup();
   void reload_shaders();
   void open_results();
   std::vector<ReportPicture> report_pictures();
@@ -112,6 +127,8 @@ private:
 
   std::shared_ptr<const Study> study_;
   std::unique_ptr<Session> session_;
+  std::unique_ptr<SetupWizard> setup_;
+  bool setup_left_ = false;  ///< before it was complete: the tracker is used without
   Pictures pictures_;
   PictureLatency latency_;
   PictureReader reader_;

@@ -84,11 +84,11 @@ void listen(GLFWwindow* window, Events& events) {
   glfwSetWindowUserPointer(window, &events);
   glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int mods) {
     events_of(w).any = true;
-    if (key != GLFW_KEY_UNKNOWN) events_of(w).keyboard.note({kind_of(action), key, mods, 0});
+    if (key != GLFW_KEY_UNKNOWN) events_of(w).keyboard.note({kind_of(action), key, mods, 0, steady_now_s()});
   });
   glfwSetCharCallback(window, [](GLFWwindow* w, unsigned character) {
     events_of(w).any = true;
-    events_of(w).keyboard.note({KeyEvent::Kind::typed, GLFW_KEY_UNKNOWN, 0, character});
+    events_of(w).keyboard.note({KeyEvent::Kind::typed, GLFW_KEY_UNKNOWN, 0, character, steady_now_s()});
   });
   // Asked for its pointer, GLFW tells where that is now, not where it was at an event.
   glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
@@ -195,7 +195,7 @@ private:
     glfwSwapBuffers(window_);
     ++frames_;
     const bool changed = trainer_.pictures().drawn() != drawn_before;
-    if (touched || moved || changed || trainer_.loading()) changed_s_ = now_s;
+    if (touched || moved || changed || trainer_.loading() || trainer_.setup()) changed_s_ = now_s;
     if (changed) governor_.see(steady_now_s() - now_s);
     frame_s_ += 0.08 * (now_s - previous_s - frame_s_);
     screen_.set_frames_per_second(1 / frame_s_);

@@ -62,7 +62,7 @@ bool draw_problem(const Theme& theme, const Rect& screen, const std::string& pro
 }
 
 bool draw_key_help(const Theme& theme, const Rect& screen) {
-  static constexpr std::array<std::array<const char*, 2>, 16> kKeys{{
+  static constexpr std::array<std::array<const char*, 2>, 17> kKeys{{
       {"Arrow keys", "slide over the skin"},
       {"Page up, Page down", "lift, press"},
       {"Q, E", "rotate about the beam"},
@@ -78,6 +78,7 @@ bool draw_key_help(const Theme& theme, const Rect& screen) {
       {"M", "mark this moment, in the recording too"},
       {"R", "record the run; end the recording"},
       {"Ctrl O", "open a case, CT, scenario or recorded scan"},
+      {"F2", "set up the tracker: how probe, sensor and mannequin lie to each other"},
       {"F1", "this page"},
   }};
   const float row = theme.px(27);

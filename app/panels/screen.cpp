@@ -140,6 +140,10 @@ void Screen::draw_status(Trainer& trainer) {
   }
   places_["record"] = line.take_left(theme_.px(124)).inset(0, theme_.px(2));
   draw_record_button(trainer, places_["record"]);
+  line.take_left(theme_.px(8));
+  places_["setup"] = line.take_left(theme_.px(90)).inset(0, theme_.px(2));
+  if (button(theme_, "setup", places_["setup"], "Set up", ButtonKind::normal, trainer.session() != nullptr))
+    trainer.begin_setup();
   line.take_left(theme_.px(16));
   if (!trainer.shader_problem().empty()) {
     std::string problem = "Shaders kept as they were: " + trainer.shader_problem();
@@ -151,7 +155,7 @@ void Screen::draw_status(Trainer& trainer) {
     draw_text(line, theme_.small_text, colour::kAmber, trainer.calibration_warning());
     return;
   }
-  const std::string keys = "F1 keys    Tab probe    Space freeze    R record";
+  const std::string keys = "F1 keys    Tab probe    Space freeze    R record    F2 set up";
   draw_text(line.take_left(text_width(theme_.small_text, keys) + theme_.px(24)), theme_.small_text, colour::kMuted,
             keys);
   draw_text(line, theme_.small_text, colour::kFaint, device_, Align::right);
@@ -160,6 +164,7 @@ void Screen::draw_status(Trainer& trainer) {
 std::string Screen::overlay(const Trainer& trainer) const {
   if (!trainer.problems().empty()) return "problem";
   if (trainer.loading()) return "loading";
+  if (trainer.setup()) return "setup";
   if (help_) return "help";
   if (asking_) return "open";
   const Session* session = trainer.session();
@@ -201,7 +206,10 @@ void Screen::draw_overlay(Trainer& trainer) {
   if (shown == "problem") {
     if (draw_problem(theme_, screen_, trainer.problems().front())) trainer.problems().pop_front();
   } else if (shown == "loading") {
-    if (draw_loading(theme_, screen_, trainer.loading()->progress(), session != nullptr)) trainer.stop_loading();
+    if (draw_loading(theme_, screen_, trainer.loading()->progress(), session || trainer.setup()))
+      trainer.stop_loading();
+  } else if (shown == "setup") {
+    if (draw_setup_page(theme_, screen_, *trainer.setup(), trainer.pictures(), places_)) trainer.end_setup();
   } else if (shown == "help") {
     if (draw_key_help(theme_, screen_)) help_ = false;
   } else if (shown == "open") {

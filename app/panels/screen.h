@@ -6,6 +6,7 @@
 
 #include "app/panels/overlays.h"
 #include "app/panels/score_sheet.h"
+#include "app/panels/setup_page.h"
 #include "app/panels/theme.h"
 #include "app/panels/views_panel.h"
 #include "app/panels/widgets.h"
@@ -44,7 +45,7 @@ public:
   /// There will be one, which takes text from one of the next frames on.
   bool opens_text_field(const Trainer& trainer) const { return types_text(trainer) && !open_dialog_.ready(); }
 
-  /// What lies over the screen: "problem", "loading", "help", "open", "score", or "" for nothing.
+  /// What lies over the screen: "problem", "loading", "setup", "help", "open", "score", or "" for nothing.
   std::string overlay(const Trainer& trainer) const;
   void set_frames_per_second(double fps) { frames_per_second_ = fps; }
   /// Where the panels are, by name.

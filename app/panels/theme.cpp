@@ -57,6 +57,8 @@ bool Theme::fit(float width, float height) {
   text = load(regular, px(16));
   small_text = load(regular, px(13.5f));
   strong = load(bold, px(16));
+  large = load(regular, px(24));
+  title = load(bold, px(32));
   heading = load(bold, px(20));
   huge = load(bold, px(46));
   atlas.Build();

@@ -41,6 +41,8 @@ public:
   ImFont* small_text = nullptr;
   ImFont* text = nullptr;
   ImFont* strong = nullptr;
+  ImFont* large = nullptr;  ///< regular, to be read from a step away
+  ImFont* title = nullptr;
   ImFont* heading = nullptr;
   ImFont* huge = nullptr;
 

@@ -81,6 +81,7 @@ SetupView AxesStep::view() const {
   view.refusal = refusal_;
   view.done = found_.has_value();
   view.share = view.done ? 1 : double(ends_.size()) / 8;
+  view.part = ends_.size();
   if (found_) {
     view.result = found_->signs.words() + worded("; the moves agree to %.0f degrees", found_->misfit_deg);
     if (!found_->signs.none()) view.result += "; what is mirrored is put right from here on";

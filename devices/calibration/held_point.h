@@ -24,6 +24,8 @@ public:
   }
   void stop() { reading_ = false; }
   bool reading() const { return reading_; }
+  /// Of what was read so far; refused when that is too little or wandered too far.
+  Outcome<StillPoint> so_far() const { return still_point(readings_); }
 
   /// The point, or why there is none, once it was read long enough.
   std::optional<Outcome<StillPoint>> take(const PoseSample& sample) {

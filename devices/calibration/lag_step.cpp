@@ -60,6 +60,7 @@ SetupView LagStep::view() const {
   view.refusal = refusal_;
   view.done = found_.has_value();
   view.share = found_ ? 1 : std::min(1.0, double(blows_s_.size()) / double(kBlows));
+  view.part = blows_s_.size();
   if (found_) {
     view.result = worded("the tracker lags by %.0f ms, single blows within %.0f ms of it", found_->lag_s * 1e3,
                          found_->spread_s * 1e3);

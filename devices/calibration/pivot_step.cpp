@@ -8,6 +8,16 @@ namespace {
 
 constexpr double kLongestPivotS = 60;
 constexpr double kPivotS = 10;
+/// So many poses are fitted again and again while they come: some milliseconds each time.
+constexpr std::size_t kFittedOnTheWay = 150;
+
+/// That many of the poses, or all, evenly spread.
+std::vector<Pose> some_of(const std::vector<Pose>& poses, std::size_t count) {
+  if (poses.size() <= count) return poses;
+  std::vector<Pose> picked;
+  for (std::size_t i = 0; i < count; ++i) picked.push_back(poses[i * poses.size() / count]);
+  return picked;
+}
 
 /// Pivoting between two marks.
 class PivotStep : public SetupStep {
@@ -24,6 +34,7 @@ protected:
 private:
   std::vector<Pose> poses_;
   double spread_deg_ = 0, began_s_ = 0, lasted_s_ = 0, told_s_ = 0;
+  std::optional<double> residual_mm_;  ///< of a fit to what came so far, once there is one
   bool reading_ = false;
   std::optional<TipFit> found_;
   std::string refusal_;
@@ -36,6 +47,7 @@ void PivotStep::mark(double time_s) {
     reading_ = true;
     poses_.clear();
     spread_deg_ = lasted_s_ = 0;
+    residual_mm_.reset();
     began_s_ = told_s_ = time_s;
     return;
   }
@@ -53,6 +65,8 @@ void PivotStep::take(const PoseSample& sample) {
   if (sample.time_s - told_s_ > 0.25) {
     told_s_ = sample.time_s;
     spread_deg_ = pivot_spread_deg(poses_);
+    const auto fit = fit_tip(some_of(poses_, kFittedOnTheWay));
+    residual_mm_ = fit ? std::optional(fit->residual_mm) : std::nullopt;
   }
   const bool enough = lasted_s_ > kPivotS && spread_deg_ > 1.3 * kLeastPivotSpreadDeg;
   if (enough || poses_.size() >= kMostStepPoses || lasted_s_ > kLongestPivotS) mark(sample.time_s);
@@ -85,6 +99,7 @@ SetupView PivotStep::view() const {
   view.share = std::min({1.0, lasted_s_ / kPivotS, spread_deg_ / (1.3 * kLeastPivotSpreadDeg)});
   view.feedback = worded("%.0f s, %zu poses, turned by %.0f of %.0f degrees", lasted_s_, poses_.size(), spread_deg_,
                          1.3 * kLeastPivotSpreadDeg);
+  if (residual_mm_) view.feedback += worded(", residual %.2f mm", *residual_mm_);
   return view;
 }
 

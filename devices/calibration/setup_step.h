@@ -22,6 +22,7 @@ struct SetupView {
   std::string refusal;   ///< why the last try did not count; empty when it did
   std::string result;    ///< what was found, once done
   double share = 0;      ///< of the step, from 0 to 1
+  std::size_t part = 0;  ///< which of its moves, touches or blows is the next, from 0; where it has such
   bool reading = false;  ///< samples are being taken: hold still, or pivot
   bool done = false;
 };

@@ -44,13 +44,15 @@ SetupView TouchingStep::view() const {
   view.reading = held_.reading();
   view.done = done_;
   view.share = double(points_.size()) / double(touches_);
+  view.part = points_.size();
   if (done_) {
     view.result = result();
     return view;
   }
   view.task = worded("%zu of %zu: ", points_.size() + 1, touches_) + task(points_.size());
+  const auto read = held_.so_far();
   if (view.reading)
-    view.feedback = "Hold still.";
+    view.feedback = read ? worded("Hold still: within %.1f mm.", read->wander_mm) : "Hold still.";
   else if (!points_.empty())
     view.feedback = worded("Read; the hand and the tracker wandered by %.1f mm.", wander_mm_);
   return view;

@@ -39,9 +39,19 @@ await() {
   fail "$what"
 }
 is() { [ "$(value "$1")" = "$2" ]; }
+# Whether the line of a value holds a pattern, for values with commas.
+contains() { grep "^ \"$1\": " "$state" 2>/dev/null | grep -q -- "$2"; }
 is_not() { [ "$(value "$1")" != "$2" ]; }
 # Whether a number of the state moved away from another by more than a distance.
 moved() { awk -v a="$(value "$1")" -v b="$2" -v d="$3" 'BEGIN { exit !((a - b > d) || (b - a > d)) }'; }
+
+# Whether nothing is computed: a slow machine takes a while to draw in full what it showed coarsely while the probe moved.
+at_rest() {
+  local runs
+  runs=$(value simulator_runs)
+  sleep 2
+  is simulator_runs "$runs"
+}
 
 # What is on the screen, cut to a panel: `shot FILE PANEL [MARGIN]`.
 shot() {
@@ -54,6 +64,21 @@ shot() {
 brightness() { convert "$1" -colorspace Gray -format '%[fx:mean] %[fx:standard_deviation]' info:; }
 # Pixels that differ between two pictures by more than 5 %.
 different() { compare -metric AE -fuzz 5% "$1" "$2" null: 2>&1 || true; }
+
+# Whether a panel shows the amber of warnings.
+amber_in() {
+  shot "$work/amber.png" "$1"
+  [ "$(convert "$work/amber.png" -fill black +opaque 'rgb(236,172,62)' -fill white -opaque 'rgb(236,172,62)' \
+    -format '%[fx:mean*w*h>200]' info:)" = 1 ]
+}
+# A CT: a block of water, 160 mm wide.
+water() {
+  {
+    printf 'ObjectType = Image\nNDims = 3\nDimSize = 80 80 80\nElementSpacing = 2 2 2\nOffset = -80 -80 -80\n'
+    printf 'ElementType = MET_SHORT\nElementDataFile = LOCAL\n'
+    head -c 1024000 /dev/zero
+  } >"$1"
+}
 
 pointer_to() { xdotool mousemove "$1" "$2"; }
 middle_x() { echo $(($(value "$1_x") + $(value "$1_w") / 2)); }

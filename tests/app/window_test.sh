@@ -37,13 +37,6 @@ pixels=$(different "$work/before.png" "$work/after.png")
 awk -v n="$pixels" 'BEGIN { exit !(n > 2000) }' || fail "the picture did not follow the probe: $pixels pixels changed"
 
 echo "where nothing changes nothing is computed"
-# A slow machine takes a while to draw in full what it showed coarsely while the probe moved.
-at_rest() {
-  local runs
-  runs=$(value simulator_runs)
-  sleep 2
-  is simulator_runs "$runs"
-}
 await "the simulator rests where nothing changes" at_rest
 
 echo "keys turn the probe and the console's knobs"

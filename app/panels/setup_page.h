@@ -1,0 +1,19 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "app/panels/theme.h"
+#include "app/panels/widgets.h"
+#include "app/pictures.h"
+#include "app/setup_wizard.h"
+
+namespace insonate::ui {
+
+/// The set-up's page, over the whole screen: its steps, what to do now, what comes of it, and buttons. A click on a
+/// step goes to it. True when the page is to be closed.
+/// @param places  where the buttons are, by name, for programs that drive the window
+bool draw_setup_page(const Theme& theme, const Rect& screen, SetupWizard& wizard, Pictures& pictures,
+                     std::map<std::string, Rect>& places);
+
+}  // namespace insonate::ui
