@@ -8,6 +8,7 @@
 #include "sim/gl/headless_context.h"
 #include "sim/gl/simulator.h"
 #include "sim/gl/upload.h"
+#include "sim/model/quality.h"
 #include "sim/reference/reference.h"
 #include "tools/bench_commands.h"
 #include "tools/bench_converged.h"
@@ -31,6 +32,13 @@ struct Setting {
 std::string size_name(const Settings& settings) {
   return std::to_string(settings.samples) + " samples, " + std::to_string(settings.image_width) + " x " +
          std::to_string(settings.image_height);
+}
+
+/// The level of quality that a setting is; "" for none.
+std::string quality_of(const Settings& settings, const Settings& balanced) {
+  for (const Quality quality : kQualities)
+    if (settings == at_quality(balanced, quality)) return name_of(quality);
+  return "";
 }
 
 /// What is tried, the defaults first.
@@ -75,9 +83,14 @@ void print(const Scene& scene, const Panel& panel, const std::vector<Spread>& ti
   for (const std::size_t i : order)
     std::printf("%8.2f  (%.2f to %.2f)  %8.3f   %8.2f   %-6s %s%s\n", times[i].median, times[i].first_quartile,
                 times[i].third_quartile, errors[i].db, errors[i].grey, panel.points[i].on_front ? "front" : "",
-                panel.points[i].name.c_str(), panel.points[i].standard ? " (the default)" : "");
+                panel.points[i].name.c_str(),
+                panel.points[i].quality.empty() ? "" : (" (" + panel.points[i].quality + ")").c_str());
+  for (const std::size_t i : order)
+    if (i != 0 && !panel.points[i].quality.empty())
+      std::printf("%s %s on the front.\n", panel.points[i].quality.c_str(),
+                  panel.points[i].on_front ? "lies" : "does not lie");
   if (panel.points.front().on_front) {
-    std::printf("The default lies on the front.\n");
+    std::printf("balanced, the default, lies on the front.\n");
     return;
   }
   std::vector<std::size_t> better;
@@ -86,7 +99,7 @@ void print(const Scene& scene, const Panel& panel, const std::vector<Spread>& ti
   });
   const bool beyond_spread = std::any_of(
       better.begin(), better.end(), [&](std::size_t i) { return times[i].third_quartile < times[0].first_quartile; });
-  std::printf("The default %s; no slower by the median and no less exact:\n",
+  std::printf("balanced, the default, %s; no slower by the median and no less exact:\n",
               beyond_spread ? "does not lie on the front" : "lies on the front within the spread of the times");
   for (const std::size_t i : better)
     std::printf("  %s: %+.1f %% of time, %+.1f %% of error\n", panel.points[i].name.c_str(),
@@ -158,7 +171,8 @@ Table measure_front(const Request& request, const std::string& svg) {
     Panel panel{scene.name + ", view " + scene.view, {}};
     for (std::size_t i = 0; i < tried.size(); ++i) {
       table.rows[table.rows.size() - tried.size() + i].push_back(front[i] ? "1" : "0");
-      panel.points.push_back({tried[i].name, costs[i].time, costs[i].error, bool(front[i]), i == 0});
+      panel.points.push_back({tried[i].name, costs[i].time, costs[i].error, bool(front[i]),
+                              quality_of(tried[i].settings, tried.front().settings)});
     }
     print(scene, panel, times, errors);
     panels.push_back(std::move(panel));

@@ -9,8 +9,8 @@ namespace insonate::bench {
 namespace {
 
 // All lengths in the drawing's own units, which are pixels on a screen.
-constexpr double kWidth = 860, kPanelHeight = 400;
-constexpr double kLeft = 60, kRight = 300, kTop = 42, kBottom = 46;
+constexpr double kWidth = 880, kPanelHeight = 400;
+constexpr double kLeft = 60, kRight = 320, kTop = 42, kBottom = 46;
 constexpr double kHead = 30;
 constexpr double kLegend = kWidth - kRight + 16, kLegendLine = 16;
 
@@ -92,17 +92,17 @@ std::string drawn(const Panel& panel, double top) {
   int named = 0;
   for (const Point& p : points) {
     svg += print("<circle class='%s%s' cx='%.1f' cy='%.1f' r='4'><title>", p.on_front ? "best" : "",
-                 p.standard ? " standard" : "", x.at(p.time_ms), y.at(p.error_db)) +
+                 p.quality.empty() ? "" : " standard", x.at(p.time_ms), y.at(p.error_db)) +
            escaped(p.name) + print(": %.2f ms, %.3f dB</title></circle>\n", p.time_ms, p.error_db);
-    if (!p.on_front && !p.standard) continue;
+    if (!p.on_front && p.quality.empty()) continue;
     // The number left and below, where no setting lies; what it stands for beside the panel.
     ++named;
     svg += print(
                "<text class='label' x='%.1f' y='%.1f' text-anchor='end'>%d</text>"
                "<text class='label' x='%.0f' y='%.1f'><tspan>%d</tspan>  ",
                x.at(p.time_ms) - 5, y.at(p.error_db) + 11, named, kLegend, top + kTop + kLegendLine * named, named) +
-           escaped(p.name) +
-           print("%s: %.1f ms, %.2f dB</text>\n", p.standard ? " (default)" : "", p.time_ms, p.error_db);
+           escaped(p.name + (p.quality.empty() ? "" : " (" + p.quality + ")")) +
+           print(": %.1f ms, %.2f dB</text>\n", p.time_ms, p.error_db);
   }
   return svg;
 }

@@ -10,7 +10,7 @@ struct Point {
   std::string name;
   double time_ms = 0, error_db = 0;  ///< > 0 to be drawn
   bool on_front = false;
-  bool standard = false;  ///< what the trainer starts with
+  std::string quality = {};  ///< the level of quality that it is, if any, which is named and ringed
 };
 
 struct Panel {

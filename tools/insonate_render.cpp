@@ -12,6 +12,7 @@
 #include "sim/gl/headless_context.h"
 #include "sim/gl/simulator.h"
 #include "sim/gl/upload.h"
+#include "sim/model/quality.h"
 #include "sim/model/settings_file.h"
 #include "sim/model/wein_settings_file.h"
 #include "sim/reference/reference.h"
@@ -90,7 +91,7 @@ int main(int argc, char** argv) {
                      "insonate-render");
   std::string subject_path, view_name, pose_file, probe_name = "curvilinear", model = "S", settings_file, stages_folder,
                                                   out;
-  std::string freehand_file;
+  std::string freehand_file, quality_name = name_of(Quality::balanced);
   double depth_mm = 0, sweep_deg = 0, voxel_mm = 1;
   std::optional<double> pivot_mm;
   int planes = 64;
@@ -109,6 +110,13 @@ int main(int argc, char** argv) {
   arguments.add_option("--settings", settings_file,
                        "A TOML file: preset = \"paper\" or \"trainer\", and names of sim/model/settings.h over it; of "
                        "model W, names of sim/model/wein_settings.h");
+  CLI::Option* quality =
+      arguments
+          .add_option("--quality", quality_name,
+                      "fast, balanced or exact: what a picture may cost; other numbers of samples and pixels than the "
+                      "settings'")
+          ->check(CLI::IsMember(quality_names()))
+          ->capture_default_str();
   CLI::Option* gain =
       arguments.add_option("--gain", gain_db, "Gain, dB (the settings': 0)")->check(CLI::Range(-60.0, 60.0));
   arguments.add_option("--width", width, "Pixels (the settings': 640, of model W 128)")->check(CLI::Range(1, 8192));
@@ -145,7 +153,7 @@ int main(int argc, char** argv) {
       throw InputError("--probe", "", "there is no probe named '" + probe_name + "'",
                        suggest(probe_name, probe_names()));
     if (!stages_folder.empty()) refuse_taken(stages_folder);
-    for (const CLI::Option* of_model_s : {gain, stages_option, sweep, freehand})
+    for (const CLI::Option* of_model_s : {quality, gain, stages_option, sweep, freehand})
       if (model == "W" && *of_model_s)
         throw InputError(of_model_s->get_name(), "", "model W has no such thing", "leave it out or take --model S");
     const bool to_volume = *sweep || *freehand;
@@ -179,6 +187,7 @@ int main(int argc, char** argv) {
     }
     Settings settings = settings_file.empty() ? trainer_settings(probe->frequency_mhz, depth_mm)
                                               : read_settings(settings_file, probe->frequency_mhz, depth_mm);
+    settings = at_quality(settings, quality_named(quality_name));
     settings.gain_db = gain_db.value_or(settings.gain_db);
     settings.image_width = width.value_or(settings.image_width);
     settings.image_height = height.value_or(settings.image_height);

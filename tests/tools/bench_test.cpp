@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/model/quality.h"
 #include "tests/scenarios/tiny_case.h"
 #include "tools/bench_compare.h"
 #include "tools/bench_converged.h"
@@ -99,17 +101,35 @@ TEST_CASE("runs that cannot be compared are refused") {
   CHECK_THROWS_WITH(changes("old", {{"a"}, {{"1"}}}, "new", other), Catch::Contains("no column 'q1_ms'"));
 }
 
-TEST_CASE("the plot names the front's settings and the default alone, and takes any name") {
+TEST_CASE("the plot names the front's settings and the levels of quality alone, and takes any name") {
   const std::string svg = front_svg("a < b", {{"P & Q",
-                                               {{"quick", 1, 5, true, false},
-                                                {"exact", 8, 0.1, true, false},
-                                                {"beaten", 9, 6, false, false},
-                                                {"usual", 3, 6, false, true}}}});
+                                               {{"quick", 1, 5, true, ""},
+                                                {"slow", 8, 0.1, true, ""},
+                                                {"beaten", 9, 6, false, ""},
+                                                {"usual", 3, 6, false, "balanced"}}}});
   CHECK(svg.find("a &lt; b") != std::string::npos);
   CHECK(svg.find("P &amp; Q") != std::string::npos);
   CHECK(svg.find("quick: 1.0 ms") != std::string::npos);
-  CHECK(svg.find("usual (default): 3.0 ms") != std::string::npos);
+  CHECK(svg.find("usual (balanced): 3.0 ms") != std::string::npos);
   CHECK(svg.find("beaten: 9.0 ms") == std::string::npos);
+}
+
+TEST_CASE("the levels of quality are points of the measured front") {
+  const std::string file = INSONATE_DOCS_FOLDER "/benchmarks/epyc-2-cores/front.csv";
+  const Table table = Table::parse(file, read_file(file));
+  for (const Quality quality : kQualities) {
+    const Settings settings = at_quality(trainer_settings(3.5, 160), quality);
+    const std::string name = std::to_string(settings.samples) + " samples, " + std::to_string(settings.image_width) +
+                             " x " + std::to_string(settings.image_height);
+    INFO(name);
+    int patients = 0;
+    for (std::size_t row = 0; row < table.rows.size(); ++row)
+      if (table.cell(row, "setting") == name) {
+        ++patients;
+        CHECK(table.cell(row, "on_front") == "1");
+      }
+    CHECK(patients == 2);
+  }
 }
 
 TEST_CASE("the converged reference tells of the places that the fewer samples have") {

@@ -124,6 +124,18 @@ TEST_CASE("the picture is what the stages end in, and the command line is above 
   }
 }
 
+TEST_CASE("a level of quality takes its share of the settings' samples and pixels") {
+  const Scene scene;
+  const std::string common = "--pose " + scene.in("pose.txt") + " --settings " + scene.in("small.toml");
+  const Outcome outcome = scene.render(common + " --quality exact --height 40 --stages " + scene.in("stages"));
+  INFO(outcome.errors);
+  REQUIRE(outcome.code == 0);
+  const auto settings = read_stage_folder(scene.in("stages")).description.at("settings");
+  CHECK(settings.at("samples") == 4 * 64);
+  CHECK(settings.at("image_height") == 40);
+  CHECK(scene.render(common + " --quality best").code == 2);
+}
+
 TEST_CASE("what insonate-render cannot do it says in a sentence, and leaves nothing behind") {
   const Scene scene;
   scene.folder.file("bad.toml", "presett = 'paper'\ngain_db = 99\n");
