@@ -15,7 +15,8 @@ namespace insonate {
 Attempt finished_attempt(const Session& session, const StudySource& source, const std::string& learner,
                          std::vector<ReportPicture> pictures) {
   if (!session.result() || !session.runner()) throw std::logic_error("the exam is not finished");
-  Attempt attempt = attempt_of(*session.runner(), *session.result(), write_sequence(session.exam_samples()));
+  Attempt attempt = attempt_of(*session.runner(), *session.result(),
+                               write_sequence(session.exam_samples(), to_texts(session.actions())));
   attempt.learner = learner;
   const auto since_1970 = std::chrono::system_clock::now().time_since_epoch();
   attempt.finished_ms = std::chrono::duration_cast<std::chrono::milliseconds>(since_1970).count();

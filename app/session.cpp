@@ -20,6 +20,40 @@ void push(MouseTracker& mouse, const Pose& from, const Pose& to) {
   mouse.move(step.translation, angle > 1e-12 ? angle * glm::axis(turn) : glm::dvec3(0.0));
 }
 
+Machine machine_of(const Console& console) {
+  Machine machine;
+  machine.probe = console.probe.name;
+  machine.depth_mm = console.depth_mm;
+  machine.frequency_mhz = console.frequency_mhz;
+  machine.gain_db = console.gain_db;
+  machine.frozen = console.frozen;
+  return machine;
+}
+
+void set_console(Console& console, const Machine& machine) {
+  if (const Probe* probe = find_probe(machine.probe)) console.probe = *probe;
+  console.depth_mm = std::clamp(machine.depth_mm, Console::kLeastDepth_mm, Console::kMostDepth_mm);
+  console.frequency_mhz = machine.frequency_mhz;
+  console.gain_db = machine.gain_db;
+  console.frozen = machine.frozen;
+}
+
+/// What the learner has set on the console since the machine was as it is.
+std::vector<Action> settings_since(const Machine& before, const Console& console) {
+  std::vector<Action> actions;
+  Machine machine = before;
+  const auto set = [&](ActionKind kind, double value) { actions.push_back({kind, {value}}); };
+  if (machine.probe != console.probe.name) {
+    actions.push_back({ActionKind::probe, {}, console.probe.name});
+    machine.choose(console.probe.name);
+  }
+  if (machine.depth_mm != console.depth_mm) set(ActionKind::depth, console.depth_mm);
+  if (machine.frequency_mhz != console.frequency_mhz) set(ActionKind::frequency, console.frequency_mhz);
+  if (machine.gain_db != console.gain_db) set(ActionKind::gain, console.gain_db);
+  if (machine.frozen != console.frozen) actions.push_back({console.frozen ? ActionKind::freeze : ActionKind::unfreeze});
+  return actions;
+}
+
 }  // namespace
 
 void Console::choose(const Probe& chosen) {
@@ -50,16 +84,11 @@ Session::Session(std::shared_ptr<const Study> study, OpenTracker open, double pr
     learner_.reset(static_cast<MouseTracker*>(tracker_.release()));
     holder_ = Holder::learner;
   }
-  Probe probe = probes().front();
+  console_.choose(probes().front());
   if (study_->scenario) {
-    const ReferenceView* view = study_->subject.find_view(study_->scenario->steps.front().view);
-    if (view && find_probe(view->probe)) {
-      probe = *find_probe(view->probe);
-      probe.depth_mm = std::clamp(view->depth_mm, Console::kLeastDepth_mm, Console::kMostDepth_mm);
-    }
+    set_console(console_, starting_machine(*study_->scenario, study_->subject));
     activity_ = Activity::exam;
   }
-  console_.choose(probe);
   begin_attempt();
 }
 
@@ -97,6 +126,11 @@ void Session::begin_attempt() {
   marks_s_.clear();
   history_.clear();
   console_.frozen = false;
+  acts_.clear();
+  actions_.clear();
+  log_actions_.clear();
+  if (const Recording* recording = source().recording())
+    log_actions_ = parse_action_log(recording->actions, recording->file);
 }
 
 void Session::start_over() {
@@ -136,15 +170,43 @@ void Session::move_probe(const std::function<Pose(const ProbeHand&, const Pose&)
   push(*learner_, from, motion(hand_, from));
 }
 
-void Session::take(const PoseSample& sample) {
-  if (runner_ && !result_) {
-    runner_->feed(sample);
-    exam_samples_.push_back(sample);
+void Session::act(const Action& action) {
+  if (!source().recording()) acts_.push_back(action);
+}
+
+std::vector<Action> Session::actions_before(const PoseSample& sample) {
+  if (source().recording()) {
+    const auto found = log_actions_.find(sample.time_s);
+    return found == log_actions_.end() ? std::vector<Action>() : found->second;
   }
+  if (!runner_) return {};
+  std::vector<Action> actions = settings_since(runner_->machine(), console_);
+  actions.insert(actions.end(), acts_.begin(), acts_.end());
+  acts_.clear();
+  return actions;
+}
+
+void Session::take(const PoseSample& sample) {
+  const bool was_frozen = console_.frozen;
   const std::uint32_t pressed = presses_.see(sample);
-  if (pressed & kFreezeButton) console_.frozen = !console_.frozen;
+  // A log with actions tells itself when the picture froze.
+  if ((pressed & kFreezeButton) && log_actions_.empty()) console_.frozen = !console_.frozen;
   if (pressed & kMarkButton) marks_s_.push_back(attempt_for_s());
   if (pressed & kGoOnButton) go_on_ = true;
+  const std::vector<Action> actions = actions_before(sample);
+  if (source().recording() && !actions.empty()) {
+    Machine machine = machine_of(console_);
+    for (const Action& action : actions) machine.apply(action, newest_pose_);
+    set_console(console_, machine);
+  }
+  if (console_.frozen && !was_frozen) shown_pose_ = newest_pose_;
+  if (runner_ && !result_) {
+    runner_->feed(sample, actions);
+    exam_samples_.push_back(sample);
+    if (!actions.empty()) actions_[sample.time_s] = actions;
+    // What is measured in is what was sampled, not what was predicted of it.
+    if (console_.frozen && runner_->machine().frozen_at) shown_pose_ = runner_->machine().frozen_at;
+  }
   if (sample.status != PoseStatus::ok) return;
   newest_pose_ = sample.patient_from_probe;
   last_usable_s_ = now_s_;

@@ -29,7 +29,7 @@ struct Console {
   std::array<double, 8> tgc_db{};  ///< on top of what the machine gives by itself; the sliders' middle is 0
   bool frozen = false;
 
-  static constexpr double kLeastDepth_mm = 30, kMostDepth_mm = 240;
+  static constexpr double kLeastDepth_mm = Machine::kLeastDepth_mm, kMostDepth_mm = Machine::kMostDepth_mm;
 
   /// Takes a probe with its own depth and frequency.
   void choose(const Probe& chosen);
@@ -48,7 +48,8 @@ enum class Activity { exam, practice };
 /// a running exam practises from there on: nothing is scored, because what the tracker has found so far is not his own.
 /// An exam of the learner's own starts with the probe on the belly. Giving the probe back starts the exam, and a
 /// replayed log, from the beginning; a live tracker just goes on, and what it said while the learner had the probe is
-/// past. Every sample of the source in charge is fed to the runner, in order, whatever the frame rate.
+/// past. Every sample of the source in charge is fed to the runner, in order, whatever the frame rate, with what the
+/// learner did before it: what he set on the console, and act(). A log that keeps such actions sets the console itself.
 ///
 /// The probe's buttons (probe_buttons.h) act when they are pressed, once however long they are held: freeze freezes the
 /// picture or thaws it, mark marks the moment, and go on is handed on to whoever shows the session.
@@ -77,6 +78,11 @@ public:
   const Runner* runner() const { return runner_.get(); }
   /// What the runner has been fed with.
   const std::vector<PoseSample>& exam_samples() const { return exam_samples_; }
+  /// Does something besides moving the probe: a caliper, an answer. Knobs and freezing need no call, the session sees
+  /// them on the console. Nothing happens when the source is a log, which brings its own actions.
+  void act(const Action& action);
+  /// All that the exam under way has been handed, for whoever records it with the samples.
+  const ActionLog& actions() const { return actions_; }
   /// Complete marks with their provenance; empty until the exam is finished.
   const std::optional<ExamResult>& result() const { return result_; }
 
@@ -130,6 +136,7 @@ private:
   void begin_attempt();
   void take(const PoseSample& sample);
   void find_pose();
+  std::vector<Action> actions_before(const PoseSample& sample);
   Tracker& source();
 
   std::shared_ptr<const Study> study_;
@@ -155,6 +162,9 @@ private:
   std::uint32_t pressed_ = 0;  ///< for the next sample
   bool go_on_ = false;
   std::vector<double> marks_s_;
+  ActionLog log_actions_;     ///< of the log that is replayed
+  std::vector<Action> acts_;  ///< the learner's own, until the next sample
+  ActionLog actions_;         ///< of this attempt
   bool advanced_ = false;
   std::vector<PoseSample> samples_;
 };

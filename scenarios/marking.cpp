@@ -15,15 +15,25 @@ std::string name_of(const StepResult& step, std::size_t index) {
 }
 
 /// Why a step was not done, as a sentence; empty when it was.
-std::string why_not_held(const StepResult& step, std::size_t index) {
-  const std::string longest = " (longest: " + fixed(step.longest_hold_s, 1) + " s)";
+std::string why_not_done(const StepResult& step, std::size_t index) {
+  const bool holds = step.kind == "find_view";
+  const std::string longest = holds ? " (longest: " + fixed(step.longest_hold_s, 1) + " s)" : "";
   switch (step.outcome) {
     case StepOutcome::held:
+    case StepOutcome::done:
       return "";
+    case StepOutcome::went_on:
+      return name_of(step, index) + ": the learner went on before it was done.";
     case StepOutcome::timed_out:
-      return name_of(step, index) + ": the view was not held long enough before the time ran out" + longest + ".";
+      return name_of(step, index) +
+             (holds ? ": the view was not held long enough before the time ran out" + longest
+                    : ": it was not done before the time ran out") +
+             ".";
     case StepOutcome::scan_ended:
-      return name_of(step, index) + ": the scan ended before the view was held long enough" + longest + ".";
+      return name_of(step, index) + ": the scan ended before " +
+             (holds ? "the view was held long enough" + longest : "it was done") + ".";
+    case StepOutcome::skipped:
+      return "";
     case StepOutcome::not_reached:
       return name_of(step, index) + " was not reached.";
   }
@@ -39,6 +49,18 @@ void add_failed(const std::vector<Mark>& marks, const std::string& where, bool c
 }
 
 }  // namespace
+
+double StepResult::earned() const {
+  double sum = 0;
+  for (const Mark& m : marks) sum += m.points;
+  return std::max(0.0, sum - hint_cost);
+}
+
+double StepResult::lost_to_hints() const {
+  double sum = 0;
+  for (const Mark& m : marks) sum += m.points;
+  return std::min(hint_cost, sum);
+}
 
 Mark mark(const Criterion& criterion, std::optional<double> value, const std::string& why_no_value) {
   Mark m{criterion.metric, criterion.full, criterion.zero, criterion.weight, criterion.critical, value, 0, ""};
@@ -71,8 +93,11 @@ void decide(ExamResult& result) {
       critical_failed = critical_failed || m.fails_exam();
     }
   };
-  for (const StepResult& step : result.steps) add(step.marks);
+  for (const StepResult& step : result.steps)
+    if (step.counts) add(step.marks);
   add(result.marks);
+  for (const StepResult& step : result.steps)
+    if (step.counts) result.points -= step.lost_to_hints();
   result.percent = result.points_possible > 0 ? 100 * result.points / result.points_possible : 0;
   const bool enough = result.percent >= result.pass_mark_percent - kRounding_percent;
   result.passed = enough && !critical_failed;
@@ -85,8 +110,8 @@ void decide(ExamResult& result) {
   for (const bool critical : {true, false}) {
     for (std::size_t i = 0; i < result.steps.size(); ++i) {
       const StepResult& step = result.steps[i];
-      if (critical && !step.marks.empty() && step.outcome != StepOutcome::held)
-        result.reasons.push_back(why_not_held(step, i));
+      if (!step.counts || step.outcome == StepOutcome::skipped) continue;
+      if (critical && !step.marks.empty() && !is_done(step.outcome)) result.reasons.push_back(why_not_done(step, i));
       if (step.outcome != StepOutcome::not_reached) add_failed(step.marks, name_of(step, i), critical, result.reasons);
     }
     add_failed(result.marks, "Whole exam", critical, result.reasons);

@@ -20,8 +20,19 @@ enum class Metric {
   target_in_view_percent,
   target_insonated_percent,
   landmarks_in_view_percent,
-  // Of a step.
+  depth_use_percent,
+  // Of a step, by its kind (scenarios/steps).
   longest_hold_s,
+  coverage_percent,
+  kept_in_view_percent,
+  knobs_right_percent,
+  measurement_error_mm,
+  measurement_error_percent,
+  measurement_offset_mm,
+  point_error_mm,
+  labels_right_percent,
+  answer_right_percent,
+  answer_error,
   // Of a step or of the whole exam.
   time_s,
   path_length_mm,
@@ -31,12 +42,14 @@ enum class Metric {
   skin_contact_percent,
   dropout_percent,
   dropouts,
+  log_dimensionless_jerk,
+  spectral_arc_length,
 };
 
 /// What a metric needs to be measurable.
 enum class MetricScope {
   picture,  ///< one sample and a reference view: also usable as a tolerance
-  step,     ///< one step with a reference view
+  step,     ///< one step of a kind that measures it
   motion    ///< any stretch of samples: also usable for the whole exam
 };
 

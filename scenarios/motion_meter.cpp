@@ -28,6 +28,10 @@ std::optional<double> MotionValues::of(Metric motion_metric) const {
       return translational_movements;
     case Metric::rotational_movements:
       return rotational_movements;
+    case Metric::log_dimensionless_jerk:
+      return log_dimensionless_jerk;
+    case Metric::spectral_arc_length:
+      return spectral_arc_length;
     case Metric::skin_contact_percent:
       return 100 * on_skin_s / tracked_s;
     default:
@@ -49,14 +53,14 @@ void MotionMeter::feed(const PoseSample& sample, bool on_skin) {
   if (!any_) {
     any_ = true;
     start_s_ = last_s_ = sample.time_s;
+    path_ = PathGrid(start_s_);
   } else {
     pass(sample.time_s, valid && last_valid_ && bridges(sample.time_s - last_s_), on_skin);
     in_dropout_ = !valid;
   }
-  if (valid) {
-    interpolate_to(sample);
-    last_ok_ = sample;
-  }
+  if (valid)
+    path_.feed(sample.time_s, sample.patient_from_probe,
+               [this](long grid, const Pose& pose, bool follows) { grid_pose(grid, pose, follows); });
   last_valid_ = valid;
   last_on_skin_ = on_skin;
 }
@@ -71,7 +75,7 @@ MotionMeter MotionMeter::following(double time_s) const {
   next.start_s_ = next.last_s_ = time_s;
   next.last_valid_ = last_valid_;
   next.last_on_skin_ = last_on_skin_;
-  next.last_ok_ = last_ok_;
+  next.path_ = path_.following(time_s);
   return next;
 }
 
@@ -89,34 +93,27 @@ void MotionMeter::pass(double time_s, bool tracked, bool on_skin_at_end) {
   last_s_ = time_s;
 }
 
-void MotionMeter::interpolate_to(const PoseSample& sample) {
-  const double now = sample.time_s - start_s_;
-  const auto time_of = [](long grid) { return double(grid) / kRate_hz; };
-  if (!last_ok_ || !bridges(sample.time_s - last_ok_->time_s)) {
-    last_grid_pose_.reset();
-    next_grid_ = long(std::ceil((now - kTimeRounding_s) * kRate_hz));
-  }
-  const double before = last_ok_ ? last_ok_->time_s - start_s_ : now;
-  for (; time_of(next_grid_) <= now + kTimeRounding_s; ++next_grid_) {
-    const double share = now > before ? std::min(1.0, (time_of(next_grid_) - before) / (now - before)) : 1;
-    grid_pose(last_ok_ ? interpolate(last_ok_->patient_from_probe, sample.patient_from_probe, share)
-                       : sample.patient_from_probe);
-  }
-}
-
-void MotionMeter::grid_pose(const Pose& pose) {
-  if (last_grid_pose_) {
-    const double shift = glm::distance(pose.translation, last_grid_pose_->translation);
-    const double turn = angle_between_deg(*last_grid_pose_, pose);
+void MotionMeter::grid_pose(long grid, const Pose& pose, bool follows) {
+  smoothness_.feed(pose.translation, follows);
+  if (follows) {
+    const double shift = glm::distance(pose.translation, last_grid_pose_.translation);
+    const double turn = angle_between_deg(last_grid_pose_, pose);
     values_.path_length_mm += shift;
     values_.angular_path_deg += turn;
     speed_mm_s_ = shift * kRate_hz;
-    shifts_.see(next_grid_, shift * kRate_hz, kMoving_mm_s);
-    turns_.see(next_grid_, turn * kRate_hz, kMoving_deg_s);
+    shifts_.see(grid, shift * kRate_hz, kMoving_mm_s);
+    turns_.see(grid, turn * kRate_hz, kMoving_deg_s);
     values_.translational_movements = shifts_.count;
     values_.rotational_movements = turns_.count;
   }
   last_grid_pose_ = pose;
+}
+
+MotionValues MotionMeter::values() const {
+  MotionValues values = values_;
+  values.log_dimensionless_jerk = smoothness_.log_dimensionless_jerk();
+  values.spectral_arc_length = smoothness_.spectral_arc_length();
+  return values;
 }
 
 }  // namespace insonate

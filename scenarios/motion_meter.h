@@ -5,25 +5,25 @@
 #include <optional>
 
 #include "scenarios/metric.h"
+#include "scenarios/path_grid.h"
+#include "scenarios/smoothness.h"
 #include "sim/core/pose_sample.h"
 
 namespace insonate {
 
-/// What differences of times may be off by rounding: a double holds seconds since 1970 to a quarter of a microsecond.
-/// Whoever compares one with a limit allows for it, or the score would depend on where time begins.
-inline constexpr double kTimeRounding_s = 1e-6;
-
 /// How a probe was moved during a stretch of samples.
 struct MotionValues {
   double time_s = 0;
-  double path_length_mm = 0;        ///< of the middle of the face
-  double angular_path_deg = 0;      ///< of the whole orientation
-  int translational_movements = 0;  ///< stretches faster than kMoving_mm_s
-  int rotational_movements = 0;     ///< stretches faster than kMoving_deg_s
-  double tracked_s = 0;             ///< between valid samples that follow each other
-  double on_skin_s = 0;             ///< of tracked_s
-  double untracked_s = 0;           ///< the rest
-  int dropouts = 0;                 ///< stretches of untracked time
+  double path_length_mm = 0;                     ///< of the middle of the face
+  double angular_path_deg = 0;                   ///< of the whole orientation
+  int translational_movements = 0;               ///< stretches faster than kMoving_mm_s
+  int rotational_movements = 0;                  ///< stretches faster than kMoving_deg_s
+  double tracked_s = 0;                          ///< between valid samples that follow each other
+  double on_skin_s = 0;                          ///< of tracked_s
+  double untracked_s = 0;                        ///< the rest
+  int dropouts = 0;                              ///< stretches of untracked time
+  std::optional<double> log_dimensionless_jerk;  ///< of smoothness.h; empty without motion
+  std::optional<double> spectral_arc_length;
 
   /// Empty for what cannot be said of a stretch without tracked time.
   std::optional<double> of(Metric motion_metric) const;
@@ -39,14 +39,14 @@ struct MotionValues {
 /// interpolated, over longer ones it is unknown and left out.
 class MotionMeter {
 public:
-  static constexpr double kRate_hz = 20;
+  static constexpr double kRate_hz = PathGrid::kRate_hz;
   static constexpr double kMoving_mm_s = 50;
   static constexpr double kMoving_deg_s = 50;
-  static constexpr double kJoined_s = 0.2;    ///< a shorter rest does not end a movement
-  static constexpr double kBridged_s = 0.25;  ///< when a picture freezes with a banner, too
+  static constexpr double kJoined_s = 0.2;  ///< a shorter rest does not end a movement
+  static constexpr double kBridged_s = PathGrid::kBridged_s;
 
   /// Whether the time between two valid samples counts as tracked.
-  static bool bridges(double gap_s) { return gap_s <= kBridged_s + kTimeRounding_s; }
+  static bool bridges(double gap_s) { return PathGrid::bridges(gap_s); }
 
   /// @param on_skin  whether the sample's face is on the skin; only looked at for valid samples
   void feed(const PoseSample& sample, bool on_skin);
@@ -58,7 +58,8 @@ public:
   /// two stretches is lost.
   MotionMeter following(double time_s) const;
 
-  const MotionValues& values() const { return values_; }
+  /// The smoothness is worked out here: some milliseconds for an exam of minutes.
+  MotionValues values() const;
 
   /// Speed over the last step of the grid; 0 before there is one.
   double speed_mm_s() const { return speed_mm_s_; }
@@ -71,8 +72,7 @@ private:
     void see(long grid, double speed, double limit);
   };
   void pass(double time_s, bool tracked, bool on_skin_at_end);
-  void interpolate_to(const PoseSample& sample);
-  void grid_pose(const Pose& pose);
+  void grid_pose(long grid, const Pose& pose, bool follows);
 
   MotionValues values_;
   double start_s_ = 0;
@@ -81,9 +81,9 @@ private:
   bool last_on_skin_ = false;
   bool in_dropout_ = false;
   bool any_ = false;
-  std::optional<PoseSample> last_ok_;
-  long next_grid_ = 0;  ///< counts poses at kRate_hz since start_s_
-  std::optional<Pose> last_grid_pose_;
+  PathGrid path_;
+  Pose last_grid_pose_;
+  Smoothness smoothness_{kRate_hz};
   double speed_mm_s_ = 0;
   Movements shifts_;
   Movements turns_;

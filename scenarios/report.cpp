@@ -41,10 +41,16 @@ const char* in_words(StepOutcome outcome) {
   switch (outcome) {
     case StepOutcome::held:
       return "view held";
+    case StepOutcome::done:
+      return "done";
+    case StepOutcome::went_on:
+      return "left by the learner";
     case StepOutcome::timed_out:
       return "time ran out";
     case StepOutcome::scan_ended:
       return "scan ended first";
+    case StepOutcome::skipped:
+      return "left out";
     case StepOutcome::not_reached:
       return "not reached";
   }
@@ -52,8 +58,8 @@ const char* in_words(StepOutcome outcome) {
 }
 
 std::string outcome_chip(StepOutcome outcome) {
-  return "<span class='outcome " + std::string(outcome == StepOutcome::held ? "good" : "bad") + "'>" +
-         in_words(outcome) + "</span>";
+  return "<span class='outcome " + std::string(is_done(outcome) ? "good" : "bad") + "'>" + in_words(outcome) +
+         "</span>";
 }
 
 std::string bar(double share) {
@@ -122,6 +128,7 @@ std::string pictures_of(std::size_t step, const std::vector<ReportPicture>& pict
 std::string section(const StepResult& step, std::size_t index, const std::vector<ReportPicture>& pictures) {
   std::string html =
       "<section><h2>" + std::to_string(index + 1) + ". " + escaped(step.title) + outcome_chip(step.outcome) + "</h2>";
+  if (step.outcome == StepOutcome::skipped) return html + "</section>\n";
   if (step.outcome != StepOutcome::not_reached) {
     html += "<p class='quiet'>From " + fixed(step.start_s, 1) + " s to " + fixed(step.end_s, 1) + " s. ";
     if (step.judged_from_s)
@@ -130,6 +137,12 @@ std::string section(const StepResult& step, std::size_t index, const std::vector
           " from " + fixed(*step.judged_from_s, 1) + " s to " + fixed(*step.judged_to_s, 1) + " s.";
     html += "</p>";
   }
+  if (!step.counts) html += "<p class='quiet'>A warm-up, which does not count.</p>";
+  if (step.hints_taken > 0)
+    html += "<p class='quiet'>Hints taken: " + std::to_string(step.hints_taken) + ", for " +
+            short_number(step.lost_to_hints()) + " points.</p>";
+  for (const auto& [what, fact] : step.facts)
+    html += "<p class='quiet'>" + escaped(what) + ": " + escaped(fact) + "</p>";
   return html + table(step.marks) + pictures_of(index, pictures) + "</section>\n";
 }
 
@@ -195,6 +208,7 @@ std::string made_from(const ExamResult& result) {
     options.append(options.empty() ? "" : ", ").append(name).append(" = ").append(value);
   return "<section class='origin'><h2>Made from</h2><table>" + line("Scenario", p.scenario, p.scenario_digest) +
          line("Case", p.case_name, p.case_digest) + line("Phantom options", options) +
+         line("Variant", p.variant.empty() ? "" : p.variant + ", drawn by seed " + std::to_string(p.seed)) +
          line("Log", p.log, p.log_digest) + line("Transform", p.log_transform) +
          line("Insonate", p.program_version + ", scoring " + std::to_string(p.scoring_version)) +
          "</table></section>\n";

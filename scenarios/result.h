@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -27,13 +28,23 @@ struct Mark {
 
 enum class StepOutcome {
   held,        ///< the view was held for the time asked
+  done,        ///< what a step of another kind asks for was done
+  went_on,     ///< the learner ended it before that
   timed_out,   ///< its time limit, or the exam's, came first
   scan_ended,  ///< there were no more samples
+  skipped,     ///< the exam went on past it, because of how another step went
   not_reached  ///< the exam ended before it
 };
 
+/// Whether what the step asks for was done.
+inline bool is_done(StepOutcome outcome) {
+  return outcome == StepOutcome::held || outcome == StepOutcome::done;
+}
+
 struct StepResult {
   std::string title;
+  std::string kind;
+  bool counts = true;  ///< false for a warm-up: its marks earn nothing
   std::string view;
   StepOutcome outcome = StepOutcome::not_reached;
   double start_s = 0;  ///< since the start of the exam
@@ -42,8 +53,21 @@ struct StepResult {
   std::optional<double> judged_to_s;
   std::optional<ViewValues> judged;  ///< means of the unsigned values over that time; empty without a valid sample
   double longest_hold_s = 0;
+  std::vector<std::pair<Metric, double>> values;  ///< what the step's kind measures besides, as far as it could
+  std::vector<std::pair<std::string, std::string>> facts;  ///< what else is to be known: "answer", "a stone"
   MotionValues motion;
   std::vector<Mark> marks;
+  int hints_taken = 0;
+  double hint_cost = 0;  ///< taken from what the marks earn, which does not go below 0
+
+  double earned() const;         ///< points of the marks without what the hints cost
+  double lost_to_hints() const;  ///< no more than the marks earned
+  /// What `values` has of a metric.
+  std::optional<double> value(Metric step_metric) const {
+    for (const auto& [metric, measured] : values)
+      if (metric == step_metric) return measured;
+    return std::nullopt;
+  }
 };
 
 /// What a score was made from, so that it can be made again.
@@ -55,7 +79,9 @@ struct Provenance {
   std::string case_name;
   std::string case_digest;
   std::vector<std::pair<std::string, std::string>> phantom_options;
-  std::string log;  ///< file name; empty for a live scan that was not recorded
+  std::uint32_t seed = 0;  ///< which drew the variant
+  std::string variant;     ///< empty when the scenario has none
+  std::string log;         ///< file name; empty for a live scan that was not recorded
   std::string log_digest;
   std::string log_transform;  ///< the one that was taken for the probe's: "ProbeToPatient"
 };

@@ -11,14 +11,18 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kFormat = 1;
+constexpr int kFormat = 2;
 
 struct OutcomeName {
   StepOutcome outcome;
   const char* name;
 };
-constexpr std::array kOutcomes{OutcomeName{StepOutcome::held, "held"}, OutcomeName{StepOutcome::timed_out, "timed_out"},
+constexpr std::array kOutcomes{OutcomeName{StepOutcome::held, "held"},
+                               OutcomeName{StepOutcome::done, "done"},
+                               OutcomeName{StepOutcome::went_on, "went_on"},
+                               OutcomeName{StepOutcome::timed_out, "timed_out"},
                                OutcomeName{StepOutcome::scan_ended, "scan_ended"},
+                               OutcomeName{StepOutcome::skipped, "skipped"},
                                OutcomeName{StepOutcome::not_reached, "not_reached"}};
 
 /// Each field once, for writing and for reading: `Visit` is called with a key and the field.
@@ -40,11 +44,19 @@ void each_field_of_provenance(Values& v, Visit&& visit) {
   visit("program_version", v.program_version);
   visit("scenario", v.scenario);
   visit("scenario_digest", v.scenario_digest);
+  visit("variant", v.variant);
   visit("case", v.case_name);
   visit("case_digest", v.case_digest);
   visit("log", v.log);
   visit("log_digest", v.log_digest);
   visit("log_transform", v.log_transform);
+}
+
+/// Those that cannot always be said.
+template <typename Values, typename Visit>
+void each_optional_field_of_motion(Values& v, Visit&& visit) {
+  visit("log_dimensionless_jerk", v.log_dimensionless_jerk);
+  visit("spectral_arc_length", v.spectral_arc_length);
 }
 
 template <typename T>
@@ -66,12 +78,14 @@ Json json_of(const ViewValues& view) {
 Json json_of(const MotionValues& motion) {
   Json json;
   each_field_of_motion(motion, [&](const char* key, const auto& value) { json[key] = value; });
+  each_optional_field_of_motion(motion, [&](const char* key, const auto& value) { json[key] = or_null(value); });
   return json;
 }
 
 MotionValues motion_from(const Json& json) {
   MotionValues motion;
   each_field_of_motion(motion, [&](const char* key, auto& value) { json.at(key).get_to(value); });
+  each_optional_field_of_motion(motion, [&](const char* key, auto& value) { value = number_or_null(json, key); });
   return motion;
 }
 
@@ -89,13 +103,17 @@ Json json_of(const std::vector<Mark>& marks) {
   return list;
 }
 
+Metric metric_named(const std::string& name) {
+  const auto metric = find_metric(name);
+  if (!metric) throw std::runtime_error("an unknown metric");
+  return *metric;
+}
+
 std::vector<Mark> marks_from(const Json& list) {
   std::vector<Mark> marks;
   for (const Json& json : list) {
     Mark m;
-    const auto metric = find_metric(json.at("metric").get<std::string>());
-    if (!metric) throw std::runtime_error("an unknown metric");
-    m.metric = *metric;
+    m.metric = metric_named(json.at("metric").get<std::string>());
     m.value = number_or_null(json, "value");
     json.at("full").get_to(m.full);
     json.at("zero").get_to(m.zero);
@@ -112,7 +130,12 @@ Json json_of(const StepResult& step) {
   const char* outcome = "";
   for (const OutcomeName& o : kOutcomes)
     if (o.outcome == step.outcome) outcome = o.name;
+  Json values = Json::object(), facts = Json::object();
+  for (const auto& [metric, value] : step.values) values[std::string(info(metric).name)] = value;
+  for (const auto& [what, fact] : step.facts) facts[what] = fact;
   return {{"title", step.title},
+          {"kind", step.kind},
+          {"counts", step.counts},
           {"view", step.view},
           {"outcome", outcome},
           {"start_s", step.start_s},
@@ -121,6 +144,10 @@ Json json_of(const StepResult& step) {
           {"judged_from_s", or_null(step.judged_from_s)},
           {"judged_to_s", or_null(step.judged_to_s)},
           {"judged", step.judged ? json_of(*step.judged) : Json(nullptr)},
+          {"hints_taken", step.hints_taken},
+          {"hint_cost", step.hint_cost},
+          {"values", values},
+          {"facts", facts},
           {"motion", json_of(step.motion)},
           {"criteria", json_of(step.marks)}};
 }
@@ -128,6 +155,10 @@ Json json_of(const StepResult& step) {
 StepResult step_from(const Json& json) {
   StepResult step;
   json.at("title").get_to(step.title);
+  json.at("kind").get_to(step.kind);
+  json.at("counts").get_to(step.counts);
+  json.at("hints_taken").get_to(step.hints_taken);
+  json.at("hint_cost").get_to(step.hint_cost);
   json.at("view").get_to(step.view);
   const OutcomeName* outcome = nullptr;
   for (const OutcomeName& o : kOutcomes)
@@ -144,6 +175,8 @@ StepResult step_from(const Json& json) {
     for (const auto& [metric, value] : ViewValues::fields())
       judged.at(std::string(info(metric).name)).get_to((*step.judged).*value);
   }
+  for (const auto& [name, value] : json.at("values").items()) step.values.emplace_back(metric_named(name), value);
+  for (const auto& [what, fact] : json.at("facts").items()) step.facts.emplace_back(what, fact);
   step.motion = motion_from(json.at("motion"));
   step.marks = marks_from(json.at("criteria"));
   return step;
@@ -167,6 +200,7 @@ ExamResult result_from(const Json& json) {
   const Json& made_from = json.at("made_from");
   each_field_of_provenance(result.provenance,
                            [&](const char* key, std::string& value) { made_from.at(key).get_to(value); });
+  made_from.at("seed").get_to(result.provenance.seed);
   for (const auto& [name, value] : made_from.at("phantom_options").items())
     result.provenance.phantom_options.emplace_back(name, value.get<std::string>());
   return result;
@@ -178,6 +212,7 @@ std::string to_json(const ExamResult& result) {
   Json made_from;
   each_field_of_provenance(result.provenance,
                            [&](const char* key, const std::string& value) { made_from[key] = value; });
+  made_from["seed"] = result.provenance.seed;
   made_from["phantom_options"] = Json::object();
   for (const auto& [name, value] : result.provenance.phantom_options) made_from["phantom_options"][name] = value;
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "scenarios/case_digest.h"
 #include "scenarios/marking.h"
@@ -32,68 +34,79 @@ bool usable(const PoseSample& sample) {
   return std::isfinite(sum);
 }
 
-ViewValues all_zero() {
-  ViewValues values;
-  values.off_centre_percent = 0;
-  return values;
-}
-
-/// Adds a picture's values, without their signs, times a weight.
-void add(ViewValues& sum, const ViewValues& view, double weight) {
-  for (const auto& [metric, value] : ViewValues::fields()) sum.*value += weight * std::abs(view.*value);
-}
-
 }  // namespace
 
 Runner::Runner(Scenario scenario, const Case& subject, const TissueTable& tissues)
-    : scenario_(std::move(scenario)), case_name_(subject.name) {
+    : scenario_(std::move(scenario)), subject_(subject), tissues_(tissues) {
   check_against_case(scenario_, subject);
   case_digest_ = digest_of(subject);
+  machine_ = starting_machine(scenario_, subject);
   for (const Step& step : scenario_.steps) {
-    const ReferenceView& view = *subject.find_view(step.view);
-    meters_.push_back(std::make_unique<ViewMeter>(subject, view, tissues));
-    contacts_.emplace_back(subject.ct, *find_probe(view.probe));
+    const ReferenceView* view = subject.find_view(step.view);
+    meters_.push_back(view ? std::make_unique<ViewMeter>(subject, *view, tissues) : nullptr);
   }
+  ended_.resize(scenario_.steps.size());
+  spent_s_.resize(scenario_.steps.size());
+  hints_taken_.resize(scenario_.steps.size());
   live_.step_remaining_s = scenario_.steps.front().time_limit_s;
   live_.exam_remaining_s = scenario_.time_limit_s;
 }
 
-void Runner::feed(std::span<const PoseSample> samples) {
-  for (const PoseSample& sample : samples) feed(sample);
+void Runner::feed(std::span<const PoseSample> samples, const ActionLog& actions) {
+  for (const PoseSample& sample : samples) {
+    const auto before = actions.find(sample.time_s);
+    feed(sample, before == actions.end() ? std::span<const Action>() : before->second);
+  }
 }
 
-void Runner::feed(const PoseSample& sample) {
-  if (live_.finished || !std::isfinite(sample.time_s) || !usable(sample)) return;
+void Runner::feed(const PoseSample& sample, std::span<const Action> before) {
+  if (live_.finished) return;
+  waiting_.insert(waiting_.end(), before.begin(), before.end());
+  if (!std::isfinite(sample.time_s) || !usable(sample)) return;
   if (!live_.started) {
     live_.started = true;
     first_s_ = sample.time_s;
-    begin_step(0);
+    begin_step(0, 0);
   } else if (sample.time_s - first_s_ <= last_s_) {
     return;
   }
   double now = sample.time_s - first_s_;
   pass_limits(now);
   if (live_.finished) return;
-  now = std::max(now, run_.start_s);  // a step may have begun at a limit that lies a rounding later
+  now = std::max(now, step_start_s_);  // a step may have begun at a limit that lies a rounding later
   last_s_ = now;
-  look(sample, now);
+  for (const Action& action : std::exchange(waiting_, {}))
+    if (!live_.finished) act(action, now);
+  if (!live_.finished) look(sample, now);
 }
 
 void Runner::end() {
   if (live_.finished || !live_.started) return;
-  end_step(StepOutcome::scan_ended, last_s_);
-  finish(last_s_);
+  end_step(run_->enough() ? StepOutcome::done : StepOutcome::scan_ended, last_s_, Then::finish);
 }
 
 /// Ends whatever had to end by `now`.
 void Runner::pass_limits(double now) {
   while (!live_.finished) {
-    const double step_limit = run_.start_s + step().time_limit_s;
-    const double limit = std::min(step_limit, scenario_.time_limit_s);
+    const double limit = std::min(step_limit_s(), exam_limit_s());
     if (now < limit - kTimeRounding_s) return;
-    end_step(StepOutcome::timed_out, limit);
-    if (scenario_.time_limit_s <= limit) finish(limit);
+    end_step(run_->enough() ? StepOutcome::done : StepOutcome::timed_out, limit,
+             exam_limit_s() <= limit ? Then::finish : Then::go_on);
   }
+}
+
+void Runner::act(const Action& given, double now) {
+  Action action = given;
+  if (action.text.size() > Action::kLongestText) action.text.resize(Action::kLongestText);  // as a log would keep it
+  machine_.apply(action, last_valid_);
+  if (action.kind == ActionKind::go_on) return end_step(run_->enough() ? StepOutcome::done : StepOutcome::went_on, now);
+  if (action.kind == ActionKind::go_to) return go_to(action.text, now);
+  if (action.kind == ActionKind::hint && live_.hints_left > 0) {
+    live_.hints.push_back(step().hints[hints_taken_[live_.step]++].text);
+    --live_.hints_left;
+  }
+  run_->act(action, {now, last_valid_.has_value(), last_valid_.value_or(Pose{}), nullptr, machine_});
+  if (run_->done()) end_step(StepOutcome::done, now);
 }
 
 void Runner::look(const PoseSample& raw, double now) {
@@ -102,79 +115,116 @@ void Runner::look(const PoseSample& raw, double now) {
   const bool valid = sample.status == PoseStatus::ok;
   live_.tracking = sample.status;
   live_.elapsed_s = now;
-  live_.on_skin = valid && contacts_[live_.step].at(sample.patient_from_probe);
-  live_.within_tolerance = false;
-  live_.view.reset();
+  live_.on_skin = valid && contact().at(sample.patient_from_probe);
   motion_.feed(sample, live_.on_skin);
-  run_.motion.feed(sample, live_.on_skin);
+  step_motion_.feed(sample, live_.on_skin);
+  if (valid) last_valid_ = sample.patient_from_probe;
 
-  if (valid) see(sample.patient_from_probe, now);
-  const bool held = update_hold(valid, now);
+  show(sample, now);
   record(sample, now);
-  if (held) {
-    end_step(StepOutcome::held, now);
-    if (!live_.finished) {
-      see(sample.patient_from_probe, now);
-      update_hold(true, now);
-    }
+  if (run_->done()) {
+    end_step(step().kind == "find_view" ? StepOutcome::held : StepOutcome::done, now);
+    if (!live_.finished) show(sample, now);
   }
-  live_.step_remaining_s = std::max(0.0, run_.start_s + step().time_limit_s - now);
-  live_.exam_remaining_s = std::max(0.0, scenario_.time_limit_s - now);
+  live_.step_remaining_s = std::max(0.0, step_limit_s() - now);
+  live_.exam_remaining_s = counts_from_s_ ? std::max(0.0, exam_limit_s() - now) : scenario_.time_limit_s;
 }
 
-/// Measures the picture of a valid sample and keeps it as long as it may be judged.
-void Runner::see(const Pose& patient_from_probe, double now) {
-  const bool bridged = !run_.recent.empty() && MotionMeter::bridges(now - run_.recent.back().time_s);
-  if (!bridged) run_.holding_from.reset();
-  live_.view = meters_[live_.step]->measure(patient_from_probe);
-  live_.within_tolerance = within_tolerance(*live_.view);
-  run_.recent.push_back({now, *live_.view});
-  while (run_.recent.front().time_s < now - step().hold_s - MotionMeter::kBridged_s) run_.recent.pop_front();
+/// Measures the picture of a sample and shows it to the step under way.
+void Runner::show(const PoseSample& sample, double now) {
+  const bool valid = sample.status == PoseStatus::ok;
+  const ViewMeter* meter = meters_[live_.step].get();
+  live_.view.reset();
+  if (valid && meter) live_.view = meter->measure(sample.patient_from_probe, machine_.depth_mm);
+  run_->see({now, valid, sample.patient_from_probe, live_.view ? &*live_.view : nullptr, machine_});
+  live_.within_tolerance = run_->on_target();
+  live_.hold_share = run_->share_done();
 }
 
-/// Whether the view has now been held for as long as the step asks.
-bool Runner::update_hold(bool valid, double now) {
-  const bool lost = run_.recent.empty() || !MotionMeter::bridges(now - run_.recent.back().time_s);
-  if (lost || (valid && !live_.within_tolerance))
-    run_.holding_from.reset();
-  else if (valid && !run_.holding_from)
-    run_.holding_from = now;
-
-  const double holding_s = run_.holding_from ? now - *run_.holding_from : 0;
-  const bool held = valid && holding_s >= step().hold_s - kTimeRounding_s;
-  if (valid) run_.longest_hold_s = std::max(run_.longest_hold_s, held ? step().hold_s : holding_s);
-  live_.hold_share = std::min(1.0, holding_s / step().hold_s);
-  return held;
+/// Of the probe that the step's view asks for, or else that the learner took.
+const SkinContact& Runner::contact() {
+  const ReferenceView* view = subject_.find_view(step().view);
+  const std::string& probe = view ? view->probe : machine_.probe;
+  return contacts_.try_emplace(probe, subject_.ct, *find_probe(probe)).first->second;
 }
 
-bool Runner::within_tolerance(const ViewValues& view) const {
-  return std::all_of(step().tolerance.begin(), step().tolerance.end(), [&](const Tolerance& t) {
-    const double value = view.of(t.metric);
-    return info(t.metric).less_is_better ? value <= t.limit : value >= t.limit;
-  });
+double Runner::exam_limit_s() const {
+  return counts_from_s_ ? *counts_from_s_ + scenario_.time_limit_s : std::numeric_limits<double>::infinity();
 }
 
-void Runner::begin_step(double now) {
-  StepRun next;
-  next.start_s = now;
-  next.motion = run_.motion.following(now);
-  run_ = std::move(next);
+void Runner::begin_step(std::size_t index, double now) {
+  live_.step = index;
+  step_start_s_ = now;
+  step_motion_ = step_motion_.following(now);
+  const Step& asked = step();
+  if (asked.counts && !counts_from_s_) {
+    counts_from_s_ = now;
+    if (now > 0) motion_ = motion_.following(now);
+  }
+  run_ = asked.task->begin({asked, subject_, tissues_, meters_[index].get()}, now);
   live_.hold_share = 0;
+  live_.within_tolerance = false;
+  live_.hints.clear();
+  for (std::size_t i = 0; i < hints_taken_[index]; ++i) live_.hints.push_back(asked.hints[i].text);
+  live_.hints_left = asked.hints.size() - hints_taken_[index];
 }
 
-void Runner::end_step(StepOutcome outcome, double now) {
-  run_.motion.end(now);
-  done_.push_back(judge(outcome, now));
-  for (const Mark& m : done_.back().marks) {
-    live_.points += m.points;
-    live_.points_possible += m.weight;
+void Runner::go_to(const std::string& name, double now) {
+  if (scenario_.order != Scenario::Order::free) return;
+  for (std::size_t i = 0; i < scenario_.steps.size(); ++i) {
+    const Step& other = scenario_.steps[i];
+    if (other.name != name || name.empty() || i == live_.step || ended_[i] || other.counts != step().counts) continue;
+    spent_s_[live_.step] += now - step_start_s_;
+    return begin_step(i, now);
   }
-  if (done_.size() == scenario_.steps.size()) {
+}
+
+void Runner::skip(std::size_t from, std::size_t to, double now) {
+  for (std::size_t i = from; i < to; ++i) {
+    StepResult skipped;
+    skipped.title = scenario_.steps[i].title;
+    skipped.kind = scenario_.steps[i].kind;
+    skipped.counts = scenario_.steps[i].counts;
+    skipped.view = scenario_.steps[i].view;
+    skipped.outcome = StepOutcome::skipped;
+    skipped.start_s = skipped.end_s = now;
+    ended_[i] = std::move(skipped);
+  }
+}
+
+/// Which step follows the one that has ended just now; none when the exam is over.
+std::optional<std::size_t> Runner::step_after(const StepResult& ended, double now) {
+  double possible = 0;
+  for (const Mark& m : ended.marks) possible += m.weight;
+  const bool good = possible > 0 ? ended.earned() >= possible / 2 : is_done(ended.outcome);
+  const std::string& next = good ? step().if_good : step().if_poor;
+  const std::size_t after = live_.step + 1, end = scenario_.steps.size();
+  if (!next.empty()) {
+    std::size_t goal = after;
+    while (goal < end && scenario_.steps[goal].name != next) ++goal;
+    skip(after, goal, now);
+    return goal < end ? std::optional(goal) : std::nullopt;
+  }
+  for (std::size_t i = 0; i < end; ++i)
+    if (!ended_[i]) return i;
+  return std::nullopt;
+}
+
+void Runner::end_step(StepOutcome outcome, double now, Then then) {
+  step_motion_.end(now);
+  const StepResult& ended = ended_[live_.step].emplace(judge(outcome, now));
+  if (ended.counts) {
+    for (const Mark& m : ended.marks) {
+      live_.points += m.points;
+      live_.points_possible += m.weight;
+    }
+    live_.points -= ended.lost_to_hints();
+  }
+  const auto next = then == Then::go_on ? step_after(ended, now) : std::nullopt;
+  if (next)
+    begin_step(*next, now);
+  else
     finish(now);
-  } else {
-    live_.step = done_.size();
-    begin_step(now);
-  }
 }
 
 void Runner::finish(double now) {
@@ -188,49 +238,26 @@ StepResult Runner::judge(StepOutcome outcome, double now) const {
   const Step& asked = step();
   StepResult result;
   result.title = asked.title;
+  result.kind = asked.kind;
+  result.counts = asked.counts;
   result.view = asked.view;
   result.outcome = outcome;
-  result.start_s = run_.start_s;
+  result.hints_taken = int(hints_taken_[live_.step]);
+  for (std::size_t i = 0; i < hints_taken_[live_.step]; ++i) result.hint_cost += asked.hints[i].cost;
+  result.start_s = step_start_s_;
   result.end_s = now;
-  result.longest_hold_s = run_.longest_hold_s;
-  result.motion = run_.motion.values();
-
-  if (!run_.recent.empty()) {
-    const double to = run_.recent.back().time_s;
-    const double from = outcome == StepOutcome::held ? *run_.holding_from : to - asked.hold_s;
-    ViewValues integral = all_zero(), mean = all_zero();
-    double weight = 0;
-    const Seen* before = nullptr;
-    for (const Seen& seen : run_.recent) {
-      if (seen.time_s < from - kTimeRounding_s) continue;
-      if (!result.judged_from_s) result.judged_from_s = seen.time_s;
-      if (before && MotionMeter::bridges(seen.time_s - before->time_s)) {
-        const double dt = seen.time_s - before->time_s;
-        add(integral, before->view, dt / 2);
-        add(integral, seen.view, dt / 2);
-        weight += dt;
-      }
-      before = &seen;
-    }
-    result.judged_to_s = to;
-    if (weight > 0)
-      add(mean, integral, 1 / weight);
-    else
-      add(mean, run_.recent.back().view, 1);
-    result.judged = mean;
-  }
+  result.motion = step_motion_.values();
+  run_->finish(outcome, now, result);
 
   for (const Criterion& criterion : asked.criteria) {
-    std::optional<double> value;
-    if (info(criterion.metric).scope == MetricScope::motion) {
-      result.marks.push_back(mark_motion(criterion, result.motion, outcome == StepOutcome::held));
+    const MetricScope scope = info(criterion.metric).scope;
+    if (scope == MetricScope::motion) {
+      result.marks.push_back(mark_motion(criterion, result.motion, is_done(outcome)));
       continue;
     }
-    if (criterion.metric == Metric::longest_hold_s)
-      value = result.longest_hold_s;
-    else if (result.judged)
-      value = result.judged->of(criterion.metric);
-    result.marks.push_back(mark(criterion, value, kNothingValid));
+    std::optional<double> value = result.value(criterion.metric);
+    if (scope == MetricScope::picture && result.judged) value = result.judged->of(criterion.metric);
+    result.marks.push_back(mark(criterion, value, asked.task->why_no_value()));
   }
   return result;
 }
@@ -241,27 +268,35 @@ ExamResult Runner::result() const {
   result.provenance.scenario = scenario_.file.filename().string();
   result.provenance.scenario_digest = scenario_.digest;
   result.provenance.phantom_options = scenario_.phantom_options;
-  result.provenance.case_name = case_name_;
+  result.provenance.case_name = subject_.name;
   result.provenance.case_digest = case_digest_;
+  result.provenance.seed = scenario_.seed;
+  result.provenance.variant = scenario_.variant;
   result.provenance.program_version = INSONATE_VERSION;
   result.provenance.scoring_version = ExamResult::kScoringVersion;
   result.pass_mark_percent = scenario_.pass_mark_percent;
   result.complete = live_.finished;
   result.motion = motion_.values();
-  result.steps = done_;
-  for (std::size_t i = done_.size(); i < scenario_.steps.size(); ++i) {
+  for (std::size_t i = 0; i < scenario_.steps.size(); ++i) {
+    if (ended_[i]) {
+      result.steps.push_back(*ended_[i]);
+      continue;
+    }
     StepResult missed;
     missed.title = scenario_.steps[i].title;
+    missed.kind = scenario_.steps[i].kind;
+    missed.counts = scenario_.steps[i].counts;
     missed.view = scenario_.steps[i].view;
     missed.start_s = missed.end_s = last_s_;
     for (const Criterion& criterion : scenario_.steps[i].criteria)
       missed.marks.push_back(mark(criterion, std::nullopt, "the step was not reached."));
     result.steps.push_back(std::move(missed));
   }
-  const bool all_held = std::all_of(result.steps.begin(), result.steps.end(),
-                                    [](const StepResult& s) { return s.outcome == StepOutcome::held; });
+  const bool all_done = std::all_of(result.steps.begin(), result.steps.end(), [](const StepResult& s) {
+    return !s.counts || s.outcome == StepOutcome::skipped || is_done(s.outcome);
+  });
   for (const Criterion& criterion : scenario_.criteria)
-    result.marks.push_back(mark_motion(criterion, result.motion, all_held));
+    result.marks.push_back(mark_motion(criterion, result.motion, all_done));
   decide(result);
   return result;
 }
@@ -274,7 +309,7 @@ void Runner::record(const PoseSample& sample, double now) {
   point.valid = sample.status == PoseStatus::ok;
   point.on_skin = live_.on_skin;
   point.within_tolerance = live_.within_tolerance;
-  point.speed_mm_s = run_.motion.speed_mm_s();
+  point.speed_mm_s = step_motion_.speed_mm_s();
   point.face = sample.patient_from_probe.translation;
   if (live_.view) point.view = *live_.view;
   trace_.push_back(point);

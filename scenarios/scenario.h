@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -33,6 +35,8 @@ struct Criterion {
   SourcePlace place;
 };
 
+class StepTask;
+
 /// `[step.tolerance]`: a picture metric and the limit it has to keep while the view is held.
 /// plane_distance_mm = 5 asks for 5 mm or less, target_in_view_percent = 60 for 60 % or more.
 struct Tolerance {
@@ -41,33 +45,60 @@ struct Tolerance {
   SourcePlace place;
 };
 
-/// `[[step]]`: what the learner is asked to do, in the order of the file.
+/// `[[step.hint]]`: help that the learner may ask for, one after the other, at a cost.
+struct Hint {
+  std::string text;  ///< text = "Look along the twelfth rib."
+  /// cost = 1, or cost = [0, 1, 2] for the difficulties easy, medium and hard: taken from the step's points, 0 to 1000.
+  double cost = 0;
+};
+
+/// `[[step]]`: what the learner is asked to do, in the order of the file. These are the keys that all kinds of steps
+/// have; the kinds and their own keys are in scenarios/steps.
 struct Step {
-  std::string kind;         ///< kind = "find_view": show the named view and hold it; more kinds will follow
+  std::string kind;         ///< kind = "find_view": one of step_kinds()
+  std::string name;         ///< name = "recess": what other steps and go_to call it; may be left out
   std::string title;        ///< title = "Hepatorenal recess"
   std::string instruction;  ///< instruction = "Show the recess between liver and right kidney and hold it."
-  std::string view;         ///< view = "hepatorenal": one of the case's reference views
+  std::string view;         ///< view = "hepatorenal": one of the case's reference views; not for all kinds
   SourcePlace view_place;
-  double hold_s = 1;        ///< hold_s = 1.0: how long all tolerances have to hold together, 0.1 to 60; default 1
-  double time_limit_s = 0;  ///< time_limit_s = 60: 1 to 3600; the step ends there, held or not
-  std::vector<Tolerance> tolerance;  ///< one or more
-  std::vector<Criterion> criteria;   ///< none makes the step a warm-up that does not count
+  double time_limit_s = 0;  ///< time_limit_s = 60: 1 to 3600; the step ends there, done or not
+  /// counts = false: a warm-up, which is marked and shown but earns nothing; neither its time nor its motion are the
+  /// exam's. Warm-ups come first. Default true.
+  bool counts = true;
+  std::vector<Hint> hints;  ///< up to 10
+  /// `[step.next]` good = "diameter", poor = "end": where to go on when the step earned at least half of its points
+  /// (without criteria: when it was done), and when not: a later step's name, or "end". What lies between is skipped
+  /// and does not count. Default: the next step.
+  std::string if_good, if_poor;
+  std::vector<Criterion> criteria;       ///< none makes the step a warm-up that does not count
+  std::shared_ptr<const StepTask> task;  ///< what this kind asks for; never null
 };
 
 struct Scenario {
-  static constexpr int kFormat = 1;  ///< format = 1: the version of these rules that the file is written for
+  /// format = 2: the version of these rules that the file is written for. All that format 1 allows, format 2 does.
+  static constexpr int kFormat = 2;
+
+  enum class Order { fixed, free };
+  enum class Difficulty { easy, medium, hard };
 
   std::string title;              ///< title = "FAST: right upper quadrant"
   std::string case_name;          ///< case = "abdomen", the built-in phantom, or a case folder relative to the file
   std::string briefing;           ///< briefing = """...""": what the learner reads before the start; may be left out
   double pass_mark_percent = 80;  ///< pass_mark_percent = 80: 0 to 100
   double time_limit_s = 0;        ///< time_limit_s = 180: of the whole exam, 1 to 36000
+  /// order = "fixed" (default), or "free": the learner turns to any step that is not ended, by its name; what he leaves
+  /// begins anew when he comes back, with the time that is left of its limit.
+  Order order = Order::fixed;
+  Difficulty difficulty = Difficulty::medium;  ///< difficulty = "easy", "medium" (default) or "hard": what hints cost
   /// `[phantom]`: options of the built-in phantom's recipe, by name (free_fluid = true); only with
   /// case = "abdomen".
   std::vector<std::pair<std::string, std::string>> phantom_options;
   std::vector<Step> steps;          ///< 1 to 100
   std::vector<Criterion> criteria;  ///< of the whole exam; may be empty
 
+  std::uint32_t seed = 0;      ///< draws one of the file's [[variant]] tables (variants.h)
+  std::string variant;         ///< the name of the one that was drawn; empty when the file has none
+  std::size_t variants = 0;    ///< how many there are
   std::filesystem::path file;  ///< where it was read from, for messages and for relative case folders
   std::string text;            ///< the file's bytes
   std::string digest;          ///< of them (sim/core/digest.h)
@@ -91,16 +122,20 @@ private:
   std::vector<ScenarioProblem> problems_;
 };
 
-/// Reads and checks all that can be checked without the case. Throws ScenarioError, or InputError when there is no
-/// such file.
-Scenario read_scenario(const std::filesystem::path& file);
+/// Reads the variant that the seed draws, and checks of all of them what can be checked without the case. Throws
+/// ScenarioError, or InputError when there is no such file.
+Scenario read_scenario(const std::filesystem::path& file, std::uint32_t seed = 0);
 
 /// The same for a text at hand; `name` stands for the file in messages.
-Scenario parse_scenario(std::string_view text, const std::filesystem::path& name);
+Scenario parse_scenario(std::string_view text, const std::filesystem::path& name, std::uint32_t seed = 0);
 
 /// Checks what the scenario says of the case: views, and that their targets and landmarks are there for the metrics
 /// that need them. Throws ScenarioError.
 void check_against_case(const Scenario& scenario, const Case& subject);
+
+/// The same for one metric that a step asks for at `place`.
+void check_metric(Metric metric, const SourcePlace& place, const Step& step, const Case& subject,
+                  const std::string& where, std::vector<ScenarioProblem>& problems);
 
 /// The case that the scenario names: the built-in phantom out of `assets`, kept in `cache`, or a case folder. Throws
 /// InputError.

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "scenarios/scenario.h"
+#include "scenarios/steps/step_task.h"
 #include "sim/core/suggest.h"
 
 namespace insonate {
@@ -26,25 +27,28 @@ std::string lacking(const MetricInfo& metric, const ReferenceView& view, const C
 
 void check_step(const Step& step, const std::string& where, const Case& subject,
                 std::vector<ScenarioProblem>& problems) {
-  const ReferenceView* view = subject.find_view(step.view);
-  if (!view) {
+  if (!step.view.empty() && !subject.find_view(step.view)) {
     problems.push_back(
         {step.view_place,
          where + " names the view '" + step.view + "', which the case '" + subject.name + "' does not have",
          suggest(step.view, names_of(subject.views))});
     return;
   }
-  const auto check = [&](Metric metric, const SourcePlace& place) {
-    const std::string lack = lacking(info(metric), *view, subject);
-    if (!lack.empty())
-      problems.push_back({place, where + " asks for " + std::string(info(metric).name) + ", " + lack,
-                          "add them to the case or remove the metric"});
-  };
-  for (const Tolerance& tolerance : step.tolerance) check(tolerance.metric, tolerance.place);
-  for (const Criterion& criterion : step.criteria) check(criterion.metric, criterion.place);
+  for (const Criterion& criterion : step.criteria)
+    check_metric(criterion.metric, criterion.place, step, subject, where, problems);
+  step.task->check(step, subject, where, problems);
 }
 
 }  // namespace
+
+void check_metric(Metric metric, const SourcePlace& place, const Step& step, const Case& subject,
+                  const std::string& where, std::vector<ScenarioProblem>& problems) {
+  const ReferenceView* view = subject.find_view(step.view);
+  const std::string lack = view ? lacking(info(metric), *view, subject) : "";
+  if (!lack.empty())
+    problems.push_back({place, where + " asks for " + std::string(info(metric).name) + ", " + lack,
+                        "add them to the case or remove the metric"});
+}
 
 void check_against_case(const Scenario& scenario, const Case& subject) {
   std::vector<ScenarioProblem> problems;

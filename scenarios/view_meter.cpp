@@ -36,10 +36,10 @@ std::vector<double> cell_areas(const ScanLines& set) {
   return areas;
 }
 
-Probe probe_of(const Case& subject, const ReferenceView& view) {
+Probe probe_of(const Case& subject, const ReferenceView& view, int lines) {
   if (const Probe* probe = find_probe(view.probe)) {
     Probe coarse = *probe;
-    coarse.lines = ViewMeter::kLines;
+    coarse.lines = lines;
     return coarse;
   }
   throw InputError(subject.name, "view '" + view.name + "'", "its probe '" + view.probe + "' does not exist",
@@ -60,6 +60,7 @@ std::span<const ViewValues::Field> ViewValues::fields() {
       Field{Metric::target_in_view_percent, &ViewValues::target_in_view_percent},
       Field{Metric::target_insonated_percent, &ViewValues::target_insonated_percent},
       Field{Metric::landmarks_in_view_percent, &ViewValues::landmarks_in_view_percent},
+      Field{Metric::depth_use_percent, &ViewValues::depth_use_percent},
   };
   return kFields;
 }
@@ -70,10 +71,10 @@ double ViewValues::of(Metric picture_metric) const {
   return 0;  // no metric of a picture
 }
 
-ViewMeter::ViewMeter(const Case& subject, const ReferenceView& view, const TissueTable& tissues)
+ViewMeter::ViewMeter(const Case& subject, const ReferenceView& view, const TissueTable& tissues, int lines)
     : case_(&subject),
       view_(&view),
-      probe_(probe_of(subject, view)),
+      probe_(probe_of(subject, view, lines)),
       lines_(scan_lines(probe_, view.depth_mm, int(std::ceil(view.depth_mm / kSampleDistance_mm)))),
       transmission_(subject.ct, tissues, lines_.dr_mm(), probe_.frequency_mhz),
       cell_mm2_(cell_areas(lines_)) {
@@ -126,6 +127,9 @@ ViewMeter::TargetArea ViewMeter::target_area(const Pose& patient_from_probe, dou
       if (!is_target_[sample_nearest(case_->labels, way.at(k + 0.5))]) continue;
       const double r_mm = lines_.r_min_mm + (k + 0.5) * lines_.dr_mm();
       const double cell = cell_mm2_[std::size_t(i) * std::size_t(lines_.samples) + std::size_t(k)];
+      if (area.seen_mm2 == 0) area.nearest_mm = r_mm;
+      area.nearest_mm = std::min(area.nearest_mm, r_mm);
+      area.furthest_mm = std::max(area.furthest_mm, r_mm);
       area.seen_mm2 += cell;
       area.transmission_mm2 += cell * intensity[std::size_t(k)];
       if (intensity[std::size_t(k)] >= least_transmission) area.insonated_mm2 += cell;
@@ -146,7 +150,7 @@ double ViewMeter::landmarks_in_view_percent(const Pose& probe_from_patient) cons
   return 100.0 * seen / double(landmarks_.size());
 }
 
-ViewValues ViewMeter::measure(const Pose& patient_from_probe) const {
+ViewValues ViewMeter::measure(const Pose& patient_from_probe, double depth_mm) const {
   ViewValues values;
   const Pose probe_from_patient = patient_from_probe.inverse();
   const glm::dvec3 target = probe_from_patient.point(target_point_);
@@ -170,6 +174,8 @@ ViewValues ViewMeter::measure(const Pose& patient_from_probe) const {
   if (area.seen_mm2 > 0) {
     values.target_in_view_percent = 100 * area.seen_mm2 / reference_.seen_mm2;
     values.off_centre_percent = 100 * std::abs(area.off_centre_mm2 / area.seen_mm2);
+    values.depth_use_percent =
+        100 * (std::min(area.furthest_mm, depth_mm) - std::min(area.nearest_mm, depth_mm)) / depth_mm;
     if (reference_.insonated_mm2 > 0)
       values.target_insonated_percent = 100 * area.insonated_mm2 / reference_.insonated_mm2;
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "tools/bench_scene.h"
 #include "tools/bench_table.h"
@@ -20,6 +21,9 @@ Table measure_batch(const Request& request);
 
 /// Run time against error over the settings. Scenes' plots go into one SVG unless `svg` is empty.
 Table measure_front(const Request& request, const std::string& svg);
+
+/// What a sample costs the runner of an exam, on one core: scenarios and recorded scans in turn.
+Table measure_scoring(const std::vector<std::string>& exams);
 
 /// Prints how the run times of two CSVs differ, setting by setting. Throws InputError.
 void compare_runs(const std::string& old_file, const std::string& new_file);

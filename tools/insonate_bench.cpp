@@ -43,6 +43,10 @@ int main(int argc, char** argv) {
       arguments, "batch", "Model W for registration: many images in one call against one a call", request, csv);
   CLI::App* front = add_measurement(arguments, "front", "Run time against error over the settings", request, csv);
   front->add_option("--svg", svg, "Draw the plot too");
+  std::vector<std::string> exams;
+  CLI::App* scoring = arguments.add_subcommand("scoring", "What a sample costs the runner of an exam, on one core");
+  scoring->add_option("exams", exams, "Scenarios and recorded scans in turn (the bundled exam and its good scan)");
+  scoring->add_option("--csv", csv, "Write the table as CSV too");
   CLI::App* compare = arguments.add_subcommand("compare", "How the run times of two CSVs differ, setting by setting");
   compare->add_option("old", old_file, "CSV of the earlier run")->required();
   compare->add_option("new", new_file, "CSV of the later run, of the same command")->required();
@@ -52,10 +56,14 @@ int main(int argc, char** argv) {
       bench::compare_runs(old_file, new_file);
       return 0;
     }
-    const bench::Table table = frames->parsed()  ? bench::measure_frames(request)
-                               : paper->parsed() ? bench::measure_paper(request)
-                               : batch->parsed() ? bench::measure_batch(request)
-                                                 : bench::measure_front(request, svg);
+    if (exams.size() % 2 != 0) throw CLI::ValidationError("exams", "a scenario comes without a recorded scan");
+    if (exams.empty())
+      exams = {assets_folder() / "scenarios" / "ruq_hepatorenal.toml", assets_folder() / "logs" / "ruq_good.igs.mha"};
+    const bench::Table table = frames->parsed()    ? bench::measure_frames(request)
+                               : paper->parsed()   ? bench::measure_paper(request)
+                               : batch->parsed()   ? bench::measure_batch(request)
+                               : scoring->parsed() ? bench::measure_scoring(exams)
+                                                   : bench::measure_front(request, svg);
     if (!csv.empty()) write_file(csv, table.csv());
     return 0;
   });

@@ -51,7 +51,8 @@ const char* plus_word(PoseStatus status) {
 
 /// A sequence file as PLUS records it from a tracker that knows nothing of the patient: poses in the tracker's frame,
 /// and where the tracker is. A lost probe keeps its last pose, as many trackers do; its status says not to use it.
-std::string plus_sequence(const std::vector<PoseSample>& samples) {
+std::string plus_sequence(const MadeLog& made) {
+  const std::vector<PoseSample>& samples = made.samples;
   const Pose tracker_from_patient = patient_from_tracker().inverse();
   std::string text =
       "ObjectType = Image\nNDims = 3\nAnatomicalOrientation = RAI\nBinaryData = True\n"
@@ -72,6 +73,8 @@ std::string plus_sequence(const std::vector<PoseSample>& samples) {
     text += std::string(frame) + "ProbeToTrackerTransform = " + numbers(last) + "\n";
     text += std::string(frame) + "ProbeToTrackerTransformStatus = " + plus_word(samples[i].status) + "\n";
     text += std::string(frame) + "Timestamp = " + time + "\n";
+    if (const auto done = made.actions.find(samples[i].time_s); done != made.actions.end())
+      text += std::string(frame) + "Actions = " + to_text(done->second) + "\n";
     text += std::string(frame) + "ImageStatus = INVALID\n";
   }
   return text + "ElementDataFile = LOCAL\n";
@@ -91,10 +94,10 @@ int main(int argc, char** argv) {
 
   return run_program(arguments, argc, argv, [&] {
     const LogPlan plan = read_log_plan(plan_file);
-    const Case subject = load_case(read_scenario(plan.scenario), assets_folder(), cache_folder());
-    const std::vector<PoseSample> samples = move_by_hand(plan, subject);
-    write_file(log, plus_sequence(samples));
-    std::printf("%s: %zu frames, %.1f s\n", log.string().c_str(), samples.size(), samples.back().time_s);
+    const Case subject = load_case(read_scenario(plan.scenario, plan.scenario_seed), assets_folder(), cache_folder());
+    const MadeLog made = move_by_hand(plan, subject);
+    write_file(log, plus_sequence(made));
+    std::printf("%s: %zu frames, %.1f s\n", log.string().c_str(), made.samples.size(), made.samples.back().time_s);
     return 0;
   });
 }

@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <set>
 #include <string>
 
 #include "devices/sequence/probe_samples.h"
@@ -31,6 +33,7 @@ struct Arguments {
   std::string transform;
   std::filesystem::path results;
   std::string learner = kNobodyInParticular;
+  std::uint32_t seed = 0;
 };
 
 void keep(const Arguments& given, Attempt attempt) {
@@ -42,19 +45,20 @@ void keep(const Arguments& given, Attempt attempt) {
 
 int score(const Arguments& given) {
   check_learner_id(given.learner, "command line", "--learner");
-  const Scenario scenario = read_scenario(given.scenario);
+  const Scenario scenario = read_scenario(given.scenario, given.seed);
   const RecordedScan scan = read_recorded_scan(given.log, given.transform);
   const Case subject = case_for(scenario, given.case_folder);
 
   Runner runner(scenario, subject, read_tissue_table(assets_folder() / "tissues.toml"));
-  runner.feed(scan.samples);
+  runner.feed(scan.samples, parse_action_log(scan.recording.actions, given.log.string()));
   runner.end();
   ExamResult result = runner.result();
   result.provenance.log = scan.recording.file;
   result.provenance.log_digest = scan.recording.digest;
   result.provenance.log_transform = scan.recording.transform;
 
-  if (!given.results.empty()) keep(given, attempt_of(runner, result, write_sequence(scan.samples)));
+  if (!given.results.empty())
+    keep(given, attempt_of(runner, result, write_sequence(scan.samples, scan.recording.actions)));
   if (!given.report.empty()) write_file(given.report, report_html(result, runner.trace()));
   std::fputs(to_json(result).c_str(), stdout);
   return 0;
@@ -62,10 +66,14 @@ int score(const Arguments& given) {
 
 int check(const Arguments& given, bool without_case) {
   const Scenario scenario = read_scenario(given.scenario);
-  if (!without_case) {
+  std::set<std::string> checked;
+  // Each variant that a seed may draw, on its own patient.
+  for (std::uint32_t seed = 0; !without_case && checked.size() < std::max<std::size_t>(scenario.variants, 1); ++seed) {
+    const Scenario variant = read_scenario(given.scenario, seed);
+    if (!checked.insert(variant.variant).second) continue;
     // Building the runner checks the names against the case, and the case's views against themselves.
-    const Case subject = case_for(scenario, given.case_folder);
-    Runner(scenario, subject, read_tissue_table(assets_folder() / "tissues.toml"));
+    const Case subject = case_for(variant, given.case_folder);
+    Runner(variant, subject, read_tissue_table(assets_folder() / "tissues.toml"));
   }
   std::printf("%s: \"%s\", %zu steps: no problems found\n", given.scenario.string().c_str(), scenario.title.c_str(),
               scenario.steps.size());
@@ -93,6 +101,7 @@ int main(int argc, char** argv) {
   arguments.add_option("--transform", given.transform,
                        "The probe's transform in the log, as in replay:FILE?transform=... (ProbeToPatient, "
                        "ProbeToReference or ProbeToTracker, the first that is there)");
+  arguments.add_option("--seed", given.seed, "Draws the scenario's variant, as in the result of the live run (0)");
   arguments.add_option("--report", given.report, "Also writes a report as one HTML page");
   arguments.add_option("--results", given.results, "Also keeps the attempt in this database of results");
   arguments.add_option("--learner", given.learner, "Whose attempt it is: an opaque id")->capture_default_str();

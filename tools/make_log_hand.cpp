@@ -13,6 +13,7 @@
 #include "sim/core/hash.h"
 #include "sim/core/input_error.h"
 #include "sim/core/suggest.h"
+#include "tools/make_log_act.h"
 
 namespace insonate {
 namespace {
@@ -84,6 +85,7 @@ struct Stretch {
   Aim from;
   Aim to;
   double fan_deg = 0;
+  std::string then{};  ///< what is done at its end
 
   Aim at(double time_s) const {
     const double share = std::clamp(time_s / seconds, 0.0, 1.0);
@@ -129,7 +131,12 @@ std::vector<Stretch> stretches_of(const LogPlan& plan, const Case& subject, Rand
     }
     here = reached;
     if (move.search_s > 0) stretches.push_back({move.search_s, here, here, move.search_deg});
-    if (move.rest_s > 0) stretches.push_back({move.rest_s, here, here});
+    double rested_s = 0;
+    for (const std::string& doing : move.doing) {
+      stretches.push_back({move.pause_s, here, here, 0, doing});
+      rested_s += move.pause_s;
+    }
+    if (move.rest_s > rested_s) stretches.push_back({move.rest_s - rested_s, here, here});
   }
   return stretches;
 }
@@ -197,7 +204,7 @@ Pose measured(const LogPlan& plan, Pose pose, Random& random) {
 
 }  // namespace
 
-std::vector<PoseSample> move_by_hand(const LogPlan& plan, const Case& subject) {
+MadeLog move_by_hand(const LogPlan& plan, const Case& subject) {
   Random moves(hash(plan.seed, 1));
   Random hand(hash(plan.seed, 2));
   Random tracker(hash(plan.seed, 3));
@@ -205,12 +212,24 @@ std::vector<PoseSample> move_by_hand(const LogPlan& plan, const Case& subject) {
   const Unsteadiness unsteadiness(plan, hand);
 
   std::vector<PoseSample> samples;
+  ActionLog actions;
   double begin_s = 0;
   std::size_t current = 0;
+  Pose picture;  // that is on the screen: the last valid one, or the one it was frozen at
+  bool frozen = false;
   for (std::size_t i = 0; current < stretches.size(); ++i) {
     const double time_s = double(i) / plan.rate_hz;
-    while (current < stretches.size() && time_s >= begin_s + stretches[current].seconds)
-      begin_s += stretches[current++].seconds;
+    while (current < stretches.size() && time_s >= begin_s + stretches[current].seconds) {
+      begin_s += stretches[current].seconds;
+      const std::string& then = stretches[current++].then;
+      if (then.empty()) continue;
+      const auto seen = std::find_if(samples.rbegin(), samples.rend(),
+                                     [](const PoseSample& sample) { return sample.status == PoseStatus::ok; });
+      if (then == "freeze" || !frozen) picture = seen == samples.rend() ? Pose{} : seen->patient_from_probe;
+      frozen = then == "freeze" || (frozen && then.find("unfreeze") == std::string::npos);
+      const std::vector<Action> done = made_of(then, subject, picture);
+      actions[time_s].insert(actions[time_s].end(), done.begin(), done.end());
+    }
     if (current == stretches.size()) break;
     const Aim aim = unsteadiness.on(stretches[current].at(time_s - begin_s), time_s);
     PoseSample sample;
@@ -219,7 +238,7 @@ std::vector<PoseSample> move_by_hand(const LogPlan& plan, const Case& subject) {
     sample.patient_from_probe = measured(plan, on_skin(aim, subject, plan.press_mm, time_s), tracker);
     samples.push_back(sample);
   }
-  return samples;
+  return {std::move(samples), std::move(actions)};
 }
 
 }  // namespace insonate

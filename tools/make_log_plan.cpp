@@ -15,7 +15,7 @@ double number_or(const TomlTable& table, const char* key, double least, double m
 
 PlannedMove read_move(const TomlTable& table) {
   table.allow_only({"view", "lateral_mm", "elevation_mm", "tilt_deg", "rock_deg", "rotation_deg", "lift_mm", "seconds",
-                    "overshoot", "corrections", "search_deg", "search_s", "rest_s"});
+                    "overshoot", "corrections", "search_deg", "search_s", "rest_s", "do", "pause_s"});
   PlannedMove move;
   move.view = table.text("view");
   move.lateral_mm = number_or(table, "lateral_mm", -300, 300, move.lateral_mm);
@@ -30,6 +30,8 @@ PlannedMove read_move(const TomlTable& table) {
   move.search_deg = number_or(table, "search_deg", 0, 60, move.search_deg);
   move.search_s = number_or(table, "search_s", 0, 60, move.search_s);
   move.rest_s = number_or(table, "rest_s", 0, 60, move.rest_s);
+  move.doing = table.texts("do");
+  move.pause_s = number_or(table, "pause_s", 0.1, 20, move.pause_s);
   return move;
 }
 
@@ -63,10 +65,11 @@ PlannedLoss read_loss(const TomlTable& table) {
 LogPlan read_log_plan(const std::filesystem::path& file) {
   const toml::table parsed = parse_toml(file.string(), read_file(file, 1 << 20));
   const TomlTable root(file.string(), "", parsed);
-  root.allow_only({"scenario", "seed", "rate_hz", "press_mm", "unsteadiness_mm", "unsteadiness_deg", "tremor_mm",
-                   "noise_mm", "noise_deg", "move", "loss"});
+  root.allow_only({"scenario", "scenario_seed", "seed", "rate_hz", "press_mm", "unsteadiness_mm", "unsteadiness_deg",
+                   "tremor_mm", "noise_mm", "noise_deg", "move", "loss"});
   LogPlan plan;
   plan.scenario = file.parent_path() / root.text("scenario");
+  plan.scenario_seed = root.has("scenario_seed") ? std::uint32_t(root.whole_number("scenario_seed", 0, 2147483647)) : 0;
   plan.seed = std::uint32_t(root.whole_number("seed", 0, 2147483647));
   plan.rate_hz = number_or(root, "rate_hz", 10, 250, plan.rate_hz);
   plan.press_mm = number_or(root, "press_mm", 0, 20, plan.press_mm);

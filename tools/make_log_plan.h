@@ -28,6 +28,14 @@ struct PlannedMove {
   double search_deg = 0;  ///< fanning to both sides before the rest, 0 to 60
   double search_s = 0;    ///< how long the fanning takes, 0 to 60
   double rest_s = 0.5;    ///< 0 to 60
+  /// What the hand does while it rests, a pause before each. Actions as a log keeps them ("freeze", "depth 120",
+  /// "answer :yes"; scenarios/action.h), or one that needs the picture:
+  ///   "caliper_on SLOT STRUCTURES ALONG ERROR_MM [LANDMARK]"  from edge to edge of structures (joined by '+') in the
+  ///       picture, along "depth", "lateral" or "longest", too long by the error; of the part at its middle or landmark
+  ///   "point_at LANDMARK ERROR_MM"                            at where the landmark lies, too far to the marker's side
+  ///   "label_at STRUCTURE"                                    its name, on it
+  std::vector<std::string> doing;  ///< do = [...]
+  double pause_s = 0.7;            ///< 0.1 to 20
 };
 
 /// `[[loss]]`: the tracker does not see the probe.
@@ -38,16 +46,17 @@ struct PlannedLoss {
 };
 
 struct LogPlan {
-  std::filesystem::path scenario;  ///< gives the case; relative to the plan
-  std::uint32_t seed = 1;
-  double rate_hz = 40;             ///< of the tracker, 10 to 250
-  double press_mm = 7;             ///< how deep the face is pressed in, 0 to 20
-  double unsteadiness_mm = 0.8;    ///< slow wandering of a hand that rests, 0 to 20
-  double unsteadiness_deg = 0.8;   ///< 0 to 20
-  double tremor_mm = 0.15;         ///< amplitude at 8 to 12 Hz, 0 to 5
-  double noise_mm = 0.08;          ///< of the tracker, standard deviation along each axis, 0 to 5
-  double noise_deg = 0.05;         ///< 0 to 5
-  std::vector<PlannedMove> moves;  ///< the first is where the log begins
+  std::filesystem::path scenario;   ///< gives the case; relative to the plan
+  std::uint32_t scenario_seed = 0;  ///< draws the scenario's variant
+  std::uint32_t seed = 1;           ///< of the hand
+  double rate_hz = 40;              ///< of the tracker, 10 to 250
+  double press_mm = 7;              ///< how deep the face is pressed in, 0 to 20
+  double unsteadiness_mm = 0.8;     ///< slow wandering of a hand that rests, 0 to 20
+  double unsteadiness_deg = 0.8;    ///< 0 to 20
+  double tremor_mm = 0.15;          ///< amplitude at 8 to 12 Hz, 0 to 5
+  double noise_mm = 0.08;           ///< of the tracker, standard deviation along each axis, 0 to 5
+  double noise_deg = 0.05;          ///< 0 to 5
+  std::vector<PlannedMove> moves;   ///< the first is where the log begins
   std::vector<PlannedLoss> losses;
 };
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "devices/sequence/probe_samples.h"
+#include "scenarios/result_json.h"
 #include "scenarios/results/rescoring.h"
 #include "scenarios/results/results_database.h"
 #include "scenarios/runner.h"
@@ -40,9 +41,11 @@ std::string compare(ResultsDatabase& database, std::int64_t number, Cases& cases
   const std::string name = "attempt " + std::to_string(number);
   try {
     const Attempt attempt = database.read(number);
-    Scenario scenario = parse_scenario(attempt.scenario_text, attempt.scenario_file);
+    const std::uint32_t seed = result_from_json(attempt.score_json, name).provenance.seed;
+    Scenario scenario = parse_scenario(attempt.scenario_text, attempt.scenario_file, seed);
     Runner runner(scenario, cases.of(attempt, scenario), tissues);
-    runner.feed(probe_samples(parse_sequence(attempt.log, name)));
+    const Sequence log = parse_sequence(attempt.log, name);
+    runner.feed(probe_samples(log), parse_action_log(recorded_actions(log), name));
     runner.end();
     return why_different(attempt.score_json, runner.result(), name);
   } catch (const InputError& error) {

@@ -16,10 +16,17 @@ std::string outcome_text(const StepResult& step) {
     case StepOutcome::held:
       std::snprintf(text, sizeof text, "held after %.1f s", step.end_s - step.start_s);
       return text;
+    case StepOutcome::done:
+      std::snprintf(text, sizeof text, "done after %.1f s", step.end_s - step.start_s);
+      return text;
+    case StepOutcome::went_on:
+      return "left undone";
     case StepOutcome::timed_out:
       return "time ran out";
     case StepOutcome::scan_ended:
       return "the scan ended first";
+    case StepOutcome::skipped:
+      return "left out";
     case StepOutcome::not_reached:
       return "not reached";
   }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "devices/record/append_only.h"
 #include "sim/core/image.h"
@@ -41,11 +42,13 @@ public:
 
   /// A frame without a picture. Throws std::invalid_argument when nobody could read the sample back: its time is not
   /// after the one before, or its pose is ok but not rigid.
-  void add(const PoseSample& sample);
+  /// @param actions  what was done since the sample before (SequenceFrame::actions); one line of printable characters
+  void add(const PoseSample& sample, std::string_view actions = {});
 
   /// A frame with its picture of the recorder's size, grey, row 0 nearest to the probe and the columns towards the
   /// marker. `probe_from_pixel` takes (column, row, 0), which is that pixel's centre, to mm in the probe's frame.
-  void add(const PoseSample& sample, const Image<std::uint8_t>& picture, const glm::dmat4& probe_from_pixel);
+  void add(const PoseSample& sample, const Image<std::uint8_t>& picture, const glm::dmat4& probe_from_pixel,
+           std::string_view actions = {});
 
   /// Hands what was added over to the operating system. Throws InputError when the disk is full.
   void flush();
@@ -58,7 +61,7 @@ public:
 
 private:
   class Pictures;
-  void append(const PoseSample& sample, const glm::dmat4* probe_from_pixel);
+  void append(const PoseSample& sample, const glm::dmat4* probe_from_pixel, std::string_view actions);
 
   std::filesystem::path file_;
   int width_, height_;

@@ -105,10 +105,17 @@ std::string probe_transform(const Sequence& sequence, std::string_view transform
   return sequence.transform_names[std::size_t(choose(sequence, transform))];
 }
 
+std::map<double, std::string> recorded_actions(const Sequence& sequence) {
+  std::map<double, std::string> actions;
+  for (const SequenceFrame& frame : sequence.frames)
+    if (!frame.actions.empty()) actions.emplace(frame.time_s, frame.actions);
+  return actions;
+}
+
 RecordedScan read_recorded_scan(const std::filesystem::path& file, std::string_view transform) {
   const SequenceFile read = read_sequence_file(file);
   const Sequence sequence = parse_sequence(read.bytes(), file.string());
-  return {{file.filename().string(), read.digest, probe_transform(sequence, transform)},
+  return {{file.filename().string(), read.digest, probe_transform(sequence, transform), recorded_actions(sequence)},
           probe_samples(sequence, transform)};
 }
 

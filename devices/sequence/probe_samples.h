@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,6 +28,9 @@ std::vector<PoseSample> probe_samples(const Sequence& sequence, std::string_view
 
 /// The name of the transform that probe_samples() takes, without "Transform" at its end. Throws as that does.
 std::string probe_transform(const Sequence& sequence, std::string_view transform = {});
+
+/// What was done besides moving, by the times of the frames that tell of it.
+std::map<double, std::string> recorded_actions(const Sequence& sequence);
 
 struct RecordedScan {
   Recording recording;

@@ -27,6 +27,7 @@ struct SequenceFrame {
   std::uint32_t buttons = 0;                  ///< bit b is set while button b is held
   std::optional<std::uint32_t> distortion;    ///< as the tracker graded it, where it did
   std::vector<SequenceTransform> transforms;  ///< in no particular order, none twice
+  std::string actions;  ///< what was done besides moving since the frame before, in the recording program's words
 
   const SequenceTransform* find(int name) const;
 };
@@ -49,9 +50,9 @@ struct Sequence {
 /// Reads the header of a sequence file as PLUS, IGSIO and 3D Slicer write it: a MetaImage header with a line
 /// `Seq_Frame0000_Field = value` for each field of each frame, or a NRRD header with `Seq_Frame0000_Field:=value`.
 /// Understood are, of a frame, `...Transform` (16 numbers by rows), `...TransformStatus` (absent: unknown),
-/// `Timestamp`, `Buttons` and `Distortion`; of the header the fields that tell size and kind, and `...Transform`
-/// fields. All else that is well formed is skipped, images too: they are only checked to be there. `file` names it in
-/// messages.
+/// `Timestamp`, `Buttons`, `Distortion` and `Actions` (Insonate's own, which others skip); of the header the fields
+/// that tell size and kind, and `...Transform` fields. All else that is well formed is skipped, images too: they are
+/// only checked to be there. `file` names it in messages.
 ///
 /// A pure function of the bytes. Takes memory and time in proportion to them, whatever they claim. Throws InputError
 /// for whatever is truncated, malformed, contradictory, or a sequence of a kind that is not read here (a separate data
@@ -63,7 +64,8 @@ Sequence parse_sequence(const CutBytes& bytes, const std::string& file);
 /// A transform-only sequence file that parse_sequence and probe_samples read back to the same bits, under the name
 /// ProbeToPatient. Of samples that are not ok the pose is not kept. Throws std::invalid_argument when there are none,
 /// or when their times do not strictly rise or an ok pose is not rigid, as then nobody could read them back.
-std::string write_sequence(const std::vector<PoseSample>& samples);
+/// @param actions  SequenceFrame::actions by the samples' times
+std::string write_sequence(const std::vector<PoseSample>& samples, const std::map<double, std::string>& actions = {});
 
 /// The status words of IGSIO's writers ("OK", "OUT_OF_VIEW", "SWITCH1_IS_ON"...); any case, and with the prefixes of
 /// older versions ("TOOL_MISSING"). A word nobody knows is PoseStatus::unknown.

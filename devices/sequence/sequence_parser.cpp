@@ -94,6 +94,7 @@ private:
     bool time = false;
     bool buttons = false;
     bool distortion = false;
+    bool actions = false;
     std::vector<int> statuses;  ///< transforms, by index of name
     std::vector<int> matrices;
   };
@@ -132,8 +133,8 @@ private:
     highest_frame_ = std::max<std::size_t>(highest_frame_, *frame);
     name.remove_prefix(underscore + 1);
     // Of the many fields a frame may have only these are kept; the others are the writer's own business.
-    if (name == "Timestamp" || name == "Buttons" || name == "Distortion" || name.ends_with(kTransform) ||
-        name.ends_with(kTransformStatus))
+    if (name == "Timestamp" || name == "Buttons" || name == "Distortion" || name == "Actions" ||
+        name.ends_with(kTransform) || name.ends_with(kTransformStatus))
       fields_.push_back({*frame, name, value, line});
   }
 
@@ -190,6 +191,8 @@ private:
         sequence_.frames[field.frame].buttons = read_whole(field, seen_[field.frame].buttons);
       else if (field.name == "Distortion")
         sequence_.frames[field.frame].distortion = read_whole(field, seen_[field.frame].distortion);
+      else if (field.name == "Actions")
+        read_actions(field);
       else if (field.name.ends_with(kTransform))
         read_matrix(field);
     }
@@ -209,6 +212,11 @@ private:
     if (!number)
       fail(field.frame, std::string(field.name) + " is " + quoted(field.value) + " instead of a whole number");
     return *number;
+  }
+
+  void read_actions(const FrameField& field) {
+    if (std::exchange(seen_[field.frame].actions, true)) fail_twice(field);
+    sequence_.frames[field.frame].actions = field.value;
   }
 
   void read_matrix(const FrameField& field) {

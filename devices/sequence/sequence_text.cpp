@@ -61,7 +61,8 @@ std::string sequence_head(const std::string& size, bool compressed) {
          "UltrasoundImageType = BRIGHTNESS\n";
 }
 
-void append_frame(std::string& text, std::size_t index, const PoseSample& sample, const glm::dmat4* probe_from_pixel) {
+void append_frame(std::string& text, std::size_t index, const PoseSample& sample, const glm::dmat4* probe_from_pixel,
+                  std::string_view actions) {
   const std::string number = std::to_string(index);
   const std::string frame = "Seq_Frame" + std::string(number.size() < 4 ? 4 - number.size() : 0, '0') + number + "_";
   const auto field = [&](std::string_view name) -> std::string& { return text.append(frame).append(name); };
@@ -77,6 +78,7 @@ void append_frame(std::string& text, std::size_t index, const PoseSample& sample
   if (sample.buttons != 0 || sample.status == PoseStatus::switched)
     field("Buttons = ").append(std::to_string(sample.buttons)) += '\n';
   if (sample.distortion) field("Distortion = ").append(std::to_string(*sample.distortion)) += '\n';
+  if (!actions.empty()) field("Actions = ").append(actions) += '\n';
   field("FrameNumber = ").append(number) += '\n';
   append(field("Timestamp = "), sample.time_s);
   text += '\n';

@@ -16,11 +16,12 @@ namespace insonate {
 /// there are, as "640 480 30"; "0 0 30" for transforms only.
 std::string sequence_head(const std::string& size, bool compressed);
 
-/// Appends the lines of a frame: the pose as ProbeToPatient, to the last bit, its status, buttons, distortion,
-/// times. Of a sample
-/// that is not ok the pose is not kept. With `probe_from_pixel` also where its picture lies, as ImageToProbe.
+/// Appends the lines of a frame: the pose as ProbeToPatient, to the last bit, its status, buttons, distortion, times.
+/// Of a sample that is not ok the pose is not kept. With `probe_from_pixel` also where its picture lies, as
+/// ImageToProbe; with `actions`, one line of printable characters, what was done since the frame before. IGSIO reads
+/// lines of at most 1000 characters, the field's name among them.
 void append_frame(std::string& text, std::size_t index, const PoseSample& sample,
-                  const glm::dmat4* probe_from_pixel = nullptr);
+                  const glm::dmat4* probe_from_pixel = nullptr, std::string_view actions = {});
 
 /// The line behind the frames', after which the pictures' bytes follow.
 inline constexpr std::string_view kSequenceEnd = "ElementDataFile = LOCAL\n";

@@ -6,14 +6,15 @@
 
 namespace insonate {
 
-std::string write_sequence(const std::vector<PoseSample>& samples) {
+std::string write_sequence(const std::vector<PoseSample>& samples, const std::map<double, std::string>& actions) {
   if (samples.empty()) throw std::invalid_argument("a sequence file needs at least one sample");
   std::string text = sequence_head("0 0 " + std::to_string(samples.size()), false);
   double before_s = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < samples.size(); ++i) {
     if (const std::string why = why_not_recordable(samples[i], before_s); !why.empty())
       throw std::invalid_argument("sample " + std::to_string(i) + ": " + why);
-    append_frame(text, i, samples[i]);
+    const auto done = actions.find(samples[i].time_s);
+    append_frame(text, i, samples[i], nullptr, done == actions.end() ? std::string_view() : done->second);
     before_s = samples[i].time_s;
   }
   return text.append(kSequenceEnd);

@@ -15,8 +15,7 @@ std::optional<double> value_of(const StepResult& step, const MetricInfo& metric)
     case MetricScope::picture:
       return step.judged ? std::optional(step.judged->of(metric.metric)) : std::nullopt;
     case MetricScope::step:
-      // Of other metrics of a step only what was judged is known.
-      return metric.metric == Metric::longest_hold_s ? std::optional(step.longest_hold_s) : std::nullopt;
+      return step.value(metric.metric);
     case MetricScope::motion:
       return step.motion.of(metric.metric);
   }

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "devices/live/probe_buttons.h"
+#include "devices/record/sequence_recorder.h"
 #include "devices/registry.h"
 #include "devices/replay/replay_tracker.h"
 #include "devices/sequence/probe_samples.h"
@@ -412,6 +413,49 @@ TEST_CASE("a button that is held when a session begins was pressed for somebody 
   run_until(session, now_s, 3);
   CHECK(session.console().frozen);
   CHECK(session.marks_s().size() == 1);
+}
+
+TEST_CASE("what the learner does reaches the exam, and again when the exam is scored from a log that keeps it") {
+  const auto study = tiny_study();
+  Session session(study, replay(scan()));
+  session.advance(0);
+  double now_s = run_until(session, 0, 0.5);
+  session.console().depth_mm = 120;
+  session.console().gain_db = 4;
+  now_s = run_until(session, now_s, 0.7);
+  CHECK(session.runner()->machine().depth_mm == 120);
+  CHECK(session.runner()->machine().gain_db == 4);
+  session.console().frozen = true;
+  now_s = run_until(session, now_s, 0.8);
+  REQUIRE(session.runner()->machine().frozen_at);
+  CHECK(*session.runner()->machine().frozen_at == *session.shown_pose());
+  session.act({ActionKind::go_on});
+  run_until(session, now_s, 10);
+  REQUIRE(session.result());
+  CHECK(session.result()->steps[0].outcome == StepOutcome::went_on);
+
+  const auto file = std::filesystem::temp_directory_path() / ("insonate_acts_" + std::to_string(getpid()) + ".igs.mha");
+  {
+    SequenceRecorder recorder(file);
+    for (const PoseSample& sample : scan()) {
+      const auto done = session.actions().find(sample.time_s);
+      recorder.add(sample, done == session.actions().end() ? "" : to_text(done->second));
+    }
+    recorder.finish();
+  }
+  Session again(study, [&] { return open_tracker("replay:" + file.string()); });
+  again.advance(0);
+  now_s = run_until(again, 0, 0.9, 23);
+  CHECK(again.console().depth_mm == 120);
+  CHECK(again.console().frozen);
+  CHECK(*again.shown_pose() == *again.runner()->machine().frozen_at);
+  again.console().depth_mm = 50;  // a log's score is its own, whatever the one who watches sets
+  run_until(again, now_s, 10, 23);
+  std::filesystem::remove(file);
+  REQUIRE(again.result());
+  ExamResult replayed = *again.result();
+  replayed.provenance = session.result()->provenance;
+  CHECK(to_json(replayed) == to_json(*session.result()));
 }
 
 TEST_CASE("free practice has no exam, and an exam can be started from it") {

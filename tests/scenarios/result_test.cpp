@@ -71,7 +71,7 @@ TEST_CASE("JSON that is no result is refused") {
     text.replace(text.find(from), from.size(), to);
     CHECK_THROWS_AS(result_from_json(text, "x"), InputError);
   };
-  spoiled("\"format\": 1", "\"format\": 2");
+  spoiled("\"format\": 2", "\"format\": 3");
   spoiled("\"scoring_version\": 2", "\"scoring_version\": \"2\"");
   spoiled("\"plane_distance_mm\",", "\"plane_distance_km\",");
   spoiled("\"held\"", "\"dropped\"");

@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "scenarios/scenario.h"
+#include "scenarios/steps/find_view.h"
 #include "sim/core/hash.h"
 #include "tests/scenarios/tiny_case.h"
 
@@ -35,10 +36,11 @@ TEST_CASE("a scenario is read with its defaults") {
   REQUIRE(scenario.steps.size() == 2);
   const Step& step = scenario.steps[0];
   CHECK(step.view == "ball");
-  CHECK(step.hold_s == 1.0);
-  REQUIRE(step.tolerance.size() == 2);
-  CHECK(step.tolerance[0].metric == Metric::plane_distance_mm);
-  CHECK(step.tolerance[0].limit == 8);
+  const auto& asked = dynamic_cast<const FindView&>(*step.task);
+  CHECK(asked.hold_s == 1.0);
+  REQUIRE(asked.tolerance.size() == 2);
+  CHECK(asked.tolerance[0].metric == Metric::plane_distance_mm);
+  CHECK(asked.tolerance[0].limit == 8);
   REQUIRE(step.criteria.size() == 2);
   CHECK(step.criteria[1].metric == Metric::target_insonated_percent);
   CHECK(step.criteria[1].full == 80);
@@ -70,7 +72,7 @@ TEST_CASE("what is wrong in a scenario is said in words") {
     std::vector<const char*> words;
   };
   const std::vector<Row> rows{
-      {"format = 1", "format = 2", {"line 2, column 10", "format 2", "format 1"}},
+      {"format = 1", "format = 3", {"line 2, column 10", "format 3", "formats 1 and 2"}},
       {"format = 1\n", "", {"lacks the key 'format'"}},
       {"title = \"Find the ball\"", "title = 7", {"line 3", "no text"}},
       {"title = \"Find the ball\"", "title = \"  \"", {"empty 'title'"}},

@@ -1,0 +1,154 @@
+#include "scenarios/steps/find_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+
+#include "scenarios/motion_meter.h"
+#include "scenarios/table_reader.h"
+#include "scenarios/view_meter.h"
+#include "sim/core/suggest.h"
+
+namespace insonate {
+namespace {
+
+constexpr double kLargestLimit = 1000;
+
+std::vector<Tolerance> read_tolerance(TableReader& table) {
+  std::vector<std::string> usable;
+  for (const MetricInfo& m : metrics())
+    if (m.scope == MetricScope::picture) usable.emplace_back(m.name);
+
+  const std::vector<TableReader::Entry> entries = table.entries();
+  std::vector<Tolerance> tolerance;
+  for (const auto& entry : entries) {
+    const auto metric = find_metric(entry.key);
+    const double limit = entry.number.value_or(-1);
+    if (!metric || info(*metric).scope != MetricScope::picture)
+      table.problem(entry.key_place, "has what is no metric of a picture, '" + entry.key + "'",
+                    suggest(entry.key, usable));
+    else if (!(limit >= 0 && limit <= kLargestLimit))
+      table.problem(entry.value_place, "has no usable limit for '" + entry.key + "'",
+                    "write a number from 0 to " + plain(kLargestLimit));
+    else
+      tolerance.push_back({*metric, limit, entry.key_place});
+  }
+  if (entries.empty()) table.problem(table.place(""), "is empty", "add a limit, for example plane_distance_mm = 5");
+  return tolerance;
+}
+
+ViewValues all_zero() {
+  ViewValues values;
+  values.off_centre_percent = 0;
+  return values;
+}
+
+/// Adds a picture's values, without their signs, times a weight.
+void add(ViewValues& sum, const ViewValues& view, double weight) {
+  for (const auto& [metric, value] : ViewValues::fields()) sum.*value += weight * std::abs(view.*value);
+}
+
+class Run : public StepRun {
+public:
+  explicit Run(const FindView& asked) : asked_(asked) {}
+
+  void see(const Moment& moment) override {
+    const double now = moment.now_s;
+    if (moment.valid) {
+      if (!bridged(now)) holding_from_.reset();
+      within_tolerance_ = within_tolerance(*moment.view);
+      recent_.push_back({now, *moment.view});
+      while (recent_.front().time_s < now - asked_.hold_s - MotionMeter::kBridged_s) recent_.pop_front();
+    } else {
+      within_tolerance_ = false;
+    }
+    if (!bridged(now) || (moment.valid && !within_tolerance_))
+      holding_from_.reset();
+    else if (moment.valid && !holding_from_)
+      holding_from_ = now;
+
+    const double holding_s = holding_from_ ? now - *holding_from_ : 0;
+    held_ = moment.valid && holding_s >= asked_.hold_s - kTimeRounding_s;
+    if (moment.valid) longest_hold_s_ = std::max(longest_hold_s_, held_ ? asked_.hold_s : holding_s);
+    share_ = std::min(1.0, holding_s / asked_.hold_s);
+  }
+
+  bool done() const override { return held_; }
+  double share_done() const override { return share_; }
+  bool on_target() const override { return within_tolerance_; }
+
+  void finish(StepOutcome outcome, double, StepResult& result) const override {
+    result.longest_hold_s = longest_hold_s_;
+    result.values.emplace_back(Metric::longest_hold_s, longest_hold_s_);
+    if (recent_.empty()) return;
+    const double to = recent_.back().time_s;
+    const double from = outcome == StepOutcome::held ? *holding_from_ : to - asked_.hold_s;
+    ViewValues integral = all_zero(), mean = all_zero();
+    double weight = 0;
+    const Seen* before = nullptr;
+    for (const Seen& seen : recent_) {
+      if (seen.time_s < from - kTimeRounding_s) continue;
+      if (!result.judged_from_s) result.judged_from_s = seen.time_s;
+      if (before && MotionMeter::bridges(seen.time_s - before->time_s)) {
+        const double dt = seen.time_s - before->time_s;
+        add(integral, before->view, dt / 2);
+        add(integral, seen.view, dt / 2);
+        weight += dt;
+      }
+      before = &seen;
+    }
+    result.judged_to_s = to;
+    if (weight > 0)
+      add(mean, integral, 1 / weight);
+    else
+      add(mean, recent_.back().view, 1);
+    result.judged = mean;
+  }
+
+private:
+  struct Seen {
+    double time_s;
+    ViewValues view;
+  };
+
+  bool bridged(double now) const { return !recent_.empty() && MotionMeter::bridges(now - recent_.back().time_s); }
+
+  bool within_tolerance(const ViewValues& view) const {
+    return std::all_of(asked_.tolerance.begin(), asked_.tolerance.end(), [&](const Tolerance& t) {
+      const double value = view.of(t.metric);
+      return info(t.metric).less_is_better ? value <= t.limit : value >= t.limit;
+    });
+  }
+
+  const FindView& asked_;
+  std::deque<Seen> recent_;             ///< valid samples, as far back as judging may ask for
+  std::optional<double> holding_from_;  ///< since when all tolerances are kept
+  double longest_hold_s_ = 0;
+  double share_ = 0;
+  bool held_ = false;
+  bool within_tolerance_ = false;
+};
+
+}  // namespace
+
+std::shared_ptr<const StepTask> FindView::read(TableReader& table, const Step& step) {
+  auto task = std::make_shared<FindView>();
+  task->hold_s = table.number("hold_s", {0.1, 60}, 1.0);
+  if (table.has("hold_s") && table.has("time_limit_s") && task->hold_s >= step.time_limit_s)
+    table.problem(table.place("hold_s"), "has to be held longer than its time limit allows",
+                  "shorten hold_s or raise time_limit_s");
+  if (const auto limits = table.table("tolerance", true, "the tolerance of " + table.where()))
+    task->tolerance = read_tolerance(*limits);
+  return task;
+}
+
+void FindView::check(const Step& step, const Case& subject, const std::string& where,
+                     std::vector<ScenarioProblem>& problems) const {
+  for (const Tolerance& limit : tolerance) check_metric(limit.metric, limit.place, step, subject, where, problems);
+}
+
+std::unique_ptr<StepRun> FindView::begin(const StepWorld&, double) const {
+  return std::make_unique<Run>(*this);
+}
+
+}  // namespace insonate

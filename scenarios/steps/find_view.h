@@ -1,0 +1,25 @@
+#pragma once
+
+#include "scenarios/scenario.h"
+#include "scenarios/steps/step_task.h"
+
+namespace insonate {
+
+class TableReader;
+
+/// kind = "find_view": show the step's view and hold it.
+struct FindView : StepTask {
+  double hold_s = 1;                 ///< hold_s = 1.0: how long all tolerances have to hold together, 0.1 to 60
+  std::vector<Tolerance> tolerance;  ///< `[step.tolerance]`, one or more
+
+  static std::shared_ptr<const StepTask> read(TableReader& table, const Step& step);
+
+  const char* kind() const override { return "find_view"; }
+  std::vector<Metric> metrics() const override { return {Metric::longest_hold_s}; }
+  bool judges_picture() const override { return true; }
+  void check(const Step& step, const Case& subject, const std::string& where,
+             std::vector<ScenarioProblem>& problems) const override;
+  std::unique_ptr<StepRun> begin(const StepWorld& world, double now_s) const override;
+};
+
+}  // namespace insonate

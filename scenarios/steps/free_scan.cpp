@@ -1,0 +1,22 @@
+#include "scenarios/steps/free_scan.h"
+
+namespace insonate {
+namespace {
+
+class Run : public StepRun {
+public:
+  bool enough() const override { return true; }
+  void finish(StepOutcome, double, StepResult&) const override {}
+};
+
+}  // namespace
+
+std::shared_ptr<const StepTask> FreeScan::read(TableReader&, const Step&) {
+  return std::make_shared<FreeScan>();
+}
+
+std::unique_ptr<StepRun> FreeScan::begin(const StepWorld&, double) const {
+  return std::make_unique<Run>();
+}
+
+}  // namespace insonate

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "scenarios/steps/step_task.h"
+
+namespace insonate {
+
+class TableReader;
+
+/// kind = "free_scan": scan as you like until you go on or the time runs out; either way it is done. Only the motion is
+/// measured. It has no keys of its own.
+struct FreeScan : StepTask {
+  static std::shared_ptr<const StepTask> read(TableReader& table, const Step& step);
+
+  const char* kind() const override { return "free_scan"; }
+  std::unique_ptr<StepRun> begin(const StepWorld& world, double now_s) const override;
+};
+
+}  // namespace insonate

@@ -1,0 +1,127 @@
+#include "scenarios/steps/mark_point.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <map>
+
+#include "scenarios/steps/structures.h"
+#include "scenarios/table_reader.h"
+#include "scenarios/words.h"
+#include "sim/core/suggest.h"
+
+namespace insonate {
+namespace {
+
+/// Where in the patient an action's point lies: in the frozen picture, or else in that of the last valid sample.
+std::optional<glm::dvec3> place_in_patient(const Action& action, const Moment& moment) {
+  const glm::dvec3 in_plane(action.point(0), 0);
+  if (moment.machine.frozen_at) return moment.machine.frozen_at->point(in_plane);
+  if (!moment.valid) return std::nullopt;
+  return moment.patient_from_probe.point(in_plane);
+}
+
+class PointRun : public StepRun {
+public:
+  PointRun(const MarkPoint& asked, const Case& subject) : asked_(asked), subject_(subject) {}
+
+  void act(const Action& action, const Moment& moment) override {
+    if (action.kind != ActionKind::point) return;
+    if (const auto place = place_in_patient(action, moment)) point_ = place;
+  }
+  bool enough() const override { return point_.has_value(); }
+  double share_done() const override { return point_ ? 1 : 0; }
+
+  void finish(StepOutcome, double, StepResult& result) const override {
+    if (!point_) return;
+    const Landmark* landmark = subject_.find_landmark(asked_.landmark);
+    const auto error = landmark ? std::optional(glm::distance(*point_, landmark->position))
+                                : StructureSet(subject_, asked_.structures).distance_mm(*point_);
+    if (error) result.values.emplace_back(Metric::point_error_mm, *error);
+  }
+
+private:
+  const MarkPoint& asked_;
+  const Case& subject_;
+  std::optional<glm::dvec3> point_;
+};
+
+class LabelRun : public StepRun {
+public:
+  LabelRun(const LabelStructures& asked, const Case& subject) : asked_(asked), subject_(subject) {}
+
+  void act(const Action& action, const Moment& moment) override {
+    if (action.kind != ActionKind::label) return;
+    if (std::find(asked_.structures.begin(), asked_.structures.end(), action.text) == asked_.structures.end()) return;
+    if (const auto place = place_in_patient(action, moment)) places_[action.text] = *place;
+  }
+  bool enough() const override { return places_.size() == asked_.structures.size(); }
+  double share_done() const override { return double(places_.size()) / double(asked_.structures.size()); }
+
+  void finish(StepOutcome, double, StepResult& result) const override {
+    int right = 0;
+    for (const auto& [name, place] : places_) {
+      const auto off = StructureSet(subject_, {name}).distance_mm(place);
+      const bool hit = off && *off <= asked_.tolerance_mm;
+      right += hit;
+      result.facts.emplace_back(name, hit ? "right" : off ? fixed(*off, 1) + " mm off" : "not in this patient");
+    }
+    result.values.emplace_back(Metric::labels_right_percent, 100.0 * right / double(asked_.structures.size()));
+  }
+
+private:
+  const LabelStructures& asked_;
+  const Case& subject_;
+  std::map<std::string, glm::dvec3> places_;
+};
+
+}  // namespace
+
+std::shared_ptr<const StepTask> MarkPoint::read(TableReader& table, const Step&) {
+  auto task = std::make_shared<MarkPoint>();
+  if (table.has("landmark") == table.has("structures"))
+    table.problem(table.place(""), table.has("landmark") ? "names a landmark and structures" : "names nothing to mark",
+                  "give either landmark = \"...\" or structures = [\"...\"]");
+  task->landmark = table.text("landmark", false);
+  task->structures = table.texts("structures", 20, false);
+  task->place = table.place(table.has("landmark") ? "landmark" : "structures");
+  return task;
+}
+
+void MarkPoint::check(const Step&, const Case& subject, const std::string& where,
+                      std::vector<ScenarioProblem>& problems) const {
+  check_structures(structures, place, subject, where, problems);
+  if (landmark.empty() || subject.find_landmark(landmark)) return;
+  std::vector<std::string> known;
+  for (const Landmark& one : subject.landmarks) known.push_back(one.name);
+  problems.push_back(
+      {place, where + " names the landmark '" + landmark + "', which the case '" + subject.name + "' does not have",
+       known.empty() ? "take a case with landmarks" : suggest(landmark, known)});
+}
+
+std::unique_ptr<StepRun> MarkPoint::begin(const StepWorld& world, double) const {
+  return std::make_unique<PointRun>(*this, world.subject);
+}
+
+std::shared_ptr<const StepTask> LabelStructures::read(TableReader& table, const Step&) {
+  auto task = std::make_shared<LabelStructures>();
+  task->structures = table.texts("structures", 20);
+  std::vector<std::string> sorted = task->structures;
+  std::sort(sorted.begin(), sorted.end());
+  if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
+    table.problem(table.place("structures"), "names a structure twice", "name each once");
+  task->tolerance_mm = table.number("tolerance_mm", {0, 20}, 2.0);
+  task->place = table.place("structures");
+  return task;
+}
+
+void LabelStructures::check(const Step&, const Case& subject, const std::string& where,
+                            std::vector<ScenarioProblem>& problems) const {
+  check_structures(structures, place, subject, where, problems);
+}
+
+std::unique_ptr<StepRun> LabelStructures::begin(const StepWorld& world, double) const {
+  return std::make_unique<LabelRun>(*this, world.subject);
+}
+
+}  // namespace insonate

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "scenarios/scenario.h"
+#include "scenarios/steps/step_task.h"
+
+namespace insonate {
+
+class TableReader;
+
+/// kind = "mark_point": point at a landmark or a structure in the picture. The last point before going on counts; the
+/// picture may be frozen. Its error is the distance in space from what it had to hit: the landmark, or the structure's
+/// nearest voxel, 0 inside.
+struct MarkPoint : StepTask {
+  std::string landmark;                 ///< landmark = "hepatorenal_recess"; either this
+  std::vector<std::string> structures;  ///< structures = ["gallbladder"]; or this
+  SourcePlace place{};
+
+  static std::shared_ptr<const StepTask> read(TableReader& table, const Step& step);
+
+  const char* kind() const override { return "mark_point"; }
+  std::vector<Metric> metrics() const override { return {Metric::point_error_mm}; }
+  const char* why_no_value() const override { return "nothing was pointed at."; }
+  void check(const Step& step, const Case& subject, const std::string& where,
+             std::vector<ScenarioProblem>& problems) const override;
+  std::unique_ptr<StepRun> begin(const StepWorld& world, double now_s) const override;
+};
+
+/// kind = "label_structures": put names on structures in the picture. Of each name the last place before going on
+/// counts; it is right where a voxel of the structure lies within tolerance_mm.
+struct LabelStructures : StepTask {
+  std::vector<std::string> structures;  ///< structures = ["liver", "right_kidney_cortex"]: labels of the case, up to 20
+  double tolerance_mm = 2;              ///< tolerance_mm = 2: 0 to 20; default 2
+  SourcePlace place{};
+
+  static std::shared_ptr<const StepTask> read(TableReader& table, const Step& step);
+
+  const char* kind() const override { return "label_structures"; }
+  std::vector<Metric> metrics() const override { return {Metric::labels_right_percent}; }
+  void check(const Step& step, const Case& subject, const std::string& where,
+             std::vector<ScenarioProblem>& problems) const override;
+  std::unique_ptr<StepRun> begin(const StepWorld& world, double now_s) const override;
+};
+
+}  // namespace insonate

@@ -1,0 +1,228 @@
+#include "scenarios/steps/measure.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+
+#include "scenarios/steps/plane_region.h"
+#include "scenarios/steps/structures.h"
+#include "scenarios/table_reader.h"
+#include "scenarios/view_meter.h"
+#include "scenarios/words.h"
+#include "sim/core/suggest.h"
+
+namespace insonate {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kWindow_mm = 100;  // to each side of the point that is looked around: further than organs reach
+
+const ReferenceView* view_of(const MeasureTarget& target, const Step& step, const Case& subject) {
+  return subject.find_view(target.view.empty() ? step.view : target.view);
+}
+
+/// The target's part in its view's plane; empty when the structures do not cross it.
+std::optional<PlaneRegion> region_of(const MeasureTarget& target, const Step& step, const Case& subject) {
+  const ReferenceView& view = *view_of(target, step, subject);
+  std::optional<glm::dvec2> near;
+  if (const Landmark* landmark = subject.find_landmark(target.through))
+    near = glm::dvec2(view.patient_from_probe.inverse().point(landmark->position));
+  return plane_region(StructureSet(subject, target.structures), view.patient_from_probe, near, kWindow_mm,
+                      Measure::kPitch_mm);
+}
+
+double extent_of(const PlaneRegion& region, MeasureTarget::Along along) {
+  switch (along) {
+    case MeasureTarget::Along::depth:
+      return region.extent_mm({0, 1});
+    case MeasureTarget::Along::lateral:
+      return region.extent_mm({1, 0});
+    case MeasureTarget::Along::longest:
+      break;
+  }
+  return region.longest_extent_mm();
+}
+
+/// What is true of the patient, and where in him the (first) target's middle lies.
+struct Truth {
+  std::optional<double> value;  ///< mm, mm2, none, ml by tool
+  std::optional<glm::dvec3> middle;
+};
+
+Truth truth_of(const Measure& asked, const Step& step, const Case& subject) {
+  Truth truth;
+  if (asked.tool == Measure::Tool::volume) {
+    const double volume_mm3 = StructureSet(subject, asked.targets[0].structures).volume_mm3();
+    if (volume_mm3 > 0) truth.value = volume_mm3 / 1000;
+    return truth;
+  }
+  std::vector<PlaneRegion> regions;
+  for (const MeasureTarget& target : asked.targets) {
+    auto region = region_of(target, step, subject);
+    if (!region) return truth;
+    regions.push_back(std::move(*region));
+  }
+  const ReferenceView& view = *view_of(asked.targets[0], step, subject);
+  truth.middle = view.patient_from_probe.point(glm::dvec3(regions[0].middle(), 0));
+  if (asked.tool == Measure::Tool::ellipse) {
+    truth.value = regions[0].area_mm2();
+  } else {
+    truth.value = extent_of(regions[0], asked.targets[0].along);
+    if (asked.tool == Measure::Tool::ratio) *truth.value /= extent_of(regions[1], asked.targets[1].along);
+  }
+  return truth;
+}
+
+class Run : public StepRun {
+public:
+  Run(const Measure& asked, const StepWorld& world) : asked_(asked), world_(world) {}
+
+  void act(const Action& action, const Moment& moment) override {
+    const ActionKind wanted = asked_.tool == Measure::Tool::ellipse ? ActionKind::ellipse : ActionKind::caliper;
+    if (action.kind != wanted || !moment.machine.frozen_at || action.slot() < 1 || action.slot() > slots()) return;
+    placed_[std::size_t(action.slot() - 1)] = Placed{action, *moment.machine.frozen_at};
+    frozen_at_ = moment.machine.frozen_at;
+    time_s_ = moment.now_s;
+    depth_mm_ = moment.machine.depth_mm;
+  }
+  bool enough() const override { return count() == slots(); }
+  double share_done() const override { return double(count()) / slots(); }
+
+  void finish(StepOutcome, double, StepResult& result) const override {
+    if (frozen_at_ && world_.meter) {
+      result.judged = world_.meter->measure(*frozen_at_, depth_mm_);
+      result.judged_from_s = result.judged_to_s = time_s_;
+    }
+    if (!enough()) return;
+    const double measured = value();
+    const Truth truth = truth_of(asked_, world_.step, world_.subject);
+    result.facts.emplace_back("measured", with_unit(measured));
+    if (!truth.value) return;
+    result.facts.emplace_back("truth", with_unit(*truth.value) + ", " + asked_.walls);
+    if (asked_.tool == Measure::Tool::distance)
+      result.values.emplace_back(Metric::measurement_error_mm, std::abs(measured - *truth.value));
+    result.values.emplace_back(Metric::measurement_error_percent,
+                               100 * std::abs(measured - *truth.value) / *truth.value);
+    if (truth.middle)
+      result.values.emplace_back(Metric::measurement_offset_mm, glm::distance(middle_of(*placed_[0]), *truth.middle));
+  }
+
+private:
+  struct Placed {
+    Action action;
+    Pose patient_from_probe;
+  };
+
+  int slots() const { return asked_.tool == Measure::Tool::volume ? 3 : asked_.tool == Measure::Tool::ratio ? 2 : 1; }
+  int count() const {
+    return int(std::count_if(placed_.begin(), placed_.end(), [](const auto& p) { return p.has_value(); }));
+  }
+  double length(std::size_t slot) const {
+    const Action& action = placed_[slot]->action;
+    return glm::distance(action.point(1), action.point(3));
+  }
+  double value() const {
+    switch (asked_.tool) {
+      case Measure::Tool::distance:
+        break;
+      case Measure::Tool::ellipse:
+        return kPi * length(0) / 2 * std::abs(placed_[0]->action.numbers[5]);
+      case Measure::Tool::ratio:
+        return length(1) > 0 ? length(0) / length(1) : 0;
+      case Measure::Tool::volume:
+        return kPi / 6 * length(0) * length(1) * length(2) / 1000;
+    }
+    return length(0);
+  }
+  std::string with_unit(double value) const {
+    switch (asked_.tool) {
+      case Measure::Tool::distance:
+        break;
+      case Measure::Tool::ellipse:
+        return fixed(value / 100, 2) + " cm\u00b2";
+      case Measure::Tool::ratio:
+        return fixed(value, 2);
+      case Measure::Tool::volume:
+        return fixed(value, 0) + " ml";
+    }
+    return fixed(value, 1) + " mm";
+  }
+  static glm::dvec3 middle_of(const Placed& placed) {
+    return placed.patient_from_probe.point(glm::dvec3((placed.action.point(1) + placed.action.point(3)) / 2.0, 0));
+  }
+
+  const Measure& asked_;
+  StepWorld world_;
+  std::array<std::optional<Placed>, 3> placed_;
+  std::optional<Pose> frozen_at_;  ///< the picture that was measured in last
+  double time_s_ = 0;
+  double depth_mm_ = 0;
+};
+
+MeasureTarget read_target(TableReader& table, const Step& step, Measure::Tool tool) {
+  MeasureTarget target;
+  target.structures = table.texts("structures", 20);
+  target.place = table.place("structures");
+  if (tool == Measure::Tool::volume) return target;
+  target.view = table.text("view", step.view.empty());
+  if (table.has("view")) target.place = table.place("view");
+  target.through = table.text("through", false);
+  if (tool == Measure::Tool::ellipse) return target;
+  const std::string along = table.choice("along", {"longest", "depth", "lateral"}, false);
+  target.along = along == "depth"     ? MeasureTarget::Along::depth
+                 : along == "lateral" ? MeasureTarget::Along::lateral
+                                      : MeasureTarget::Along::longest;
+  return target;
+}
+
+}  // namespace
+
+std::shared_ptr<const StepTask> Measure::read(TableReader& table, const Step& step) {
+  auto task = std::make_shared<Measure>();
+  const std::vector<std::string> tools{"distance", "ellipse", "ratio", "volume"};
+  task->tool = Tool(std::find(tools.begin(), tools.end(), table.choice("tool", tools)) - tools.begin());
+  task->walls = table.text("walls");
+  const std::size_t wanted = task->tool == Tool::ratio ? 2 : 1;
+  for (const auto& target : table.tables("target", wanted, "target ", " of " + table.where()))
+    task->targets.push_back(read_target(*target, step, task->tool));
+  if (task->targets.size() < wanted)
+    table.problem(table.place(""), "has too few targets for what it measures",
+                  "add " + std::string(wanted == 2 ? "two" : "a") + " [[step.target]]");
+  return task;
+}
+
+std::vector<Metric> Measure::metrics() const {
+  std::vector<Metric> measured{Metric::measurement_error_percent};
+  if (tool == Tool::distance) measured.push_back(Metric::measurement_error_mm);
+  if (tool != Tool::volume) measured.push_back(Metric::measurement_offset_mm);
+  return measured;
+}
+
+void Measure::check(const Step& step, const Case& subject, const std::string& where,
+                    std::vector<ScenarioProblem>& problems) const {
+  const std::size_t before = problems.size();
+  for (const MeasureTarget& target : targets) {
+    check_structures(target.structures, target.place, subject, where, problems);
+    if (tool == Tool::volume) continue;
+    std::vector<std::string> views, landmarks;
+    for (const ReferenceView& view : subject.views) views.push_back(view.name);
+    for (const Landmark& landmark : subject.landmarks) landmarks.push_back(landmark.name);
+    if (!view_of(target, step, subject))
+      problems.push_back({target.place, where + " measures in the view '" + target.view + "', which is not there",
+                          views.empty() ? "take a case with views" : suggest(target.view, views)});
+    if (!target.through.empty() && !subject.find_landmark(target.through))
+      problems.push_back({target.place,
+                          where + " measures at the landmark '" + target.through + "', which is not there",
+                          landmarks.empty() ? "take a case with landmarks" : suggest(target.through, landmarks)});
+  }
+  if (problems.size() == before && !truth_of(*this, step, subject).value)
+    problems.push_back({targets[0].place, where + " measures what this patient does not have there",
+                        "name structures that cross the view's picture"});
+}
+
+std::unique_ptr<StepRun> Measure::begin(const StepWorld& world, double) const {
+  return std::make_unique<Run>(*this, world);
+}
+
+}  // namespace insonate

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "scenarios/scenario.h"
+#include "scenarios/steps/step_task.h"
+
+namespace insonate {
+
+class TableReader;
+
+/// kind = "question": answer it. The first answer counts and ends the step. The question is the step's instruction.
+///
+/// A choice is right by name, or by what is in the label map: with `finding` it is `if_present` that is right where one
+/// of those structures has a voxel, and `if_absent` where none has. So one file serves patients with and without.
+struct Question : StepTask {
+  enum class Answer { choice, number, text };
+
+  Answer answer = Answer::choice;     ///< answer = "choice" (default), "number", or "text" for the examiner
+  std::vector<std::string> choices;   ///< choices = ["yes", "no"]: 2 to 10, of a choice
+  std::string right;                  ///< right = "yes": of a choice, unless `finding` tells
+  std::vector<std::string> findings;  ///< finding = ["gallstone"]: labels of the case
+  std::string if_present, if_absent;  ///< if_present = "yes", if_absent = "no": two of the choices
+  double right_number = 0;            ///< right_number = 30: of a number
+  double within = 0;                  ///< within = 2: how far off a number may be and be right; default 0
+  SourcePlace finding_place{};
+
+  static std::shared_ptr<const StepTask> read(TableReader& table, const Step& step);
+
+  const char* kind() const override { return "question"; }
+  std::vector<Metric> metrics() const override;
+  const char* why_no_value() const override { return "there was no answer."; }
+  void check(const Step& step, const Case& subject, const std::string& where,
+             std::vector<ScenarioProblem>& problems) const override;
+  std::unique_ptr<StepRun> begin(const StepWorld& world, double now_s) const override;
+};
+
+}  // namespace insonate

@@ -1,0 +1,74 @@
+#include "scenarios/steps/set_knobs.h"
+
+#include <algorithm>
+
+#include "scenarios/motion_meter.h"
+#include "sim/core/suggest.h"
+#include "sim/probe/probe.h"
+
+namespace insonate {
+namespace {
+
+class Run : public StepRun {
+public:
+  Run(const SetKnobs& asked, double now_s) : asked_(asked), wrong_until_s_(now_s) {}
+
+  void see(const Moment& moment) override {
+    right_percent_ = right_percent(moment.machine);
+    if (right_percent_ < 100) wrong_until_s_ = moment.now_s;
+    held_s_ = moment.now_s - wrong_until_s_;
+  }
+  bool done() const override { return right_percent_ >= 100 && held_s_ >= asked_.hold_s - kTimeRounding_s; }
+  bool on_target() const override { return right_percent_ >= 100; }
+  double share_done() const override { return std::min(1.0, held_s_ / asked_.hold_s); }
+
+  void finish(StepOutcome, double, StepResult& result) const override {
+    result.values.emplace_back(Metric::knobs_right_percent, right_percent_);
+  }
+
+private:
+  double right_percent(const Machine& machine) const {
+    int wanted = 0, right = 0;
+    const auto see = [&](const std::optional<Range>& range, double value) {
+      if (!range) return;
+      ++wanted;
+      right += value >= range->least && value <= range->most;
+    };
+    see(asked_.depth_mm, machine.depth_mm);
+    see(asked_.gain_db, machine.gain_db);
+    see(asked_.frequency_mhz, machine.frequency_mhz);
+    if (!asked_.probe.empty()) {
+      ++wanted;
+      right += machine.probe == asked_.probe;
+    }
+    return 100.0 * right / wanted;
+  }
+
+  const SetKnobs& asked_;
+  double right_percent_ = 0;
+  double wrong_until_s_;
+  double held_s_ = 0;
+};
+
+}  // namespace
+
+std::shared_ptr<const StepTask> SetKnobs::read(TableReader& table, const Step&) {
+  auto task = std::make_shared<SetKnobs>();
+  task->depth_mm = table.interval("depth_mm", {1, 1000});
+  task->gain_db = table.interval("gain_db", {-100, 100});
+  task->frequency_mhz = table.interval("frequency_mhz", {0.1, 100});
+  task->probe = table.text("probe", false);
+  task->hold_s = table.number("hold_s", {0.1, 60}, 1.0);
+  if (table.has("probe") && !find_probe(task->probe))
+    table.problem(table.place("probe"), "asks for the probe '" + task->probe + "', which does not exist",
+                  suggest(task->probe, probe_names()));
+  if (!table.has("depth_mm") && !table.has("gain_db") && !table.has("frequency_mhz") && !table.has("probe"))
+    table.problem(table.place(""), "asks for no knob", "add depth_mm, gain_db, frequency_mhz or probe");
+  return task;
+}
+
+std::unique_ptr<StepRun> SetKnobs::begin(const StepWorld&, double now_s) const {
+  return std::make_unique<Run>(*this, now_s);
+}
+
+}  // namespace insonate

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "scenarios/steps/step_task.h"
+#include "scenarios/table_reader.h"
+
+namespace insonate {
+
+/// kind = "set_knobs": set the machine as asked. The step is done when all of it has been so for hold_s; at least one
+/// of the four is asked for.
+struct SetKnobs : StepTask {
+  std::optional<Range> depth_mm;       ///< depth_mm = [90, 120]: the least and the most, 1 to 1000
+  std::optional<Range> gain_db;        ///< gain_db = [-3, 3]: -100 to 100
+  std::optional<Range> frequency_mhz;  ///< frequency_mhz = [5, 8]: 0.1 to 100
+  std::string probe;                   ///< probe = "linear"
+  double hold_s = 1;                   ///< hold_s = 1.0: 0.1 to 60; default 1
+
+  static std::shared_ptr<const StepTask> read(TableReader& table, const Step& step);
+
+  const char* kind() const override { return "set_knobs"; }
+  std::vector<Metric> metrics() const override { return {Metric::knobs_right_percent}; }
+  std::unique_ptr<StepRun> begin(const StepWorld& world, double now_s) const override;
+};
+
+}  // namespace insonate

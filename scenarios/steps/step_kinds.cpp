@@ -1,0 +1,29 @@
+#include "scenarios/steps/step_kinds.h"
+
+#include <array>
+
+#include "scenarios/steps/find_view.h"
+#include "scenarios/steps/free_scan.h"
+#include "scenarios/steps/mark_point.h"
+#include "scenarios/steps/measure.h"
+#include "scenarios/steps/question.h"
+#include "scenarios/steps/set_knobs.h"
+#include "scenarios/steps/sweep.h"
+
+namespace insonate {
+
+std::span<const StepKind> step_kinds() {
+  static constexpr std::array kKinds{
+      StepKind{"find_view", ViewUse::required, FindView::read},
+      StepKind{"sweep", ViewUse::none, Sweep::read},
+      StepKind{"set_knobs", ViewUse::none, SetKnobs::read},
+      StepKind{"measure", ViewUse::optional, Measure::read},
+      StepKind{"mark_point", ViewUse::none, MarkPoint::read},
+      StepKind{"label_structures", ViewUse::none, LabelStructures::read},
+      StepKind{"question", ViewUse::none, Question::read},
+      StepKind{"free_scan", ViewUse::none, FreeScan::read},
+  };
+  return kKinds;
+}
+
+}  // namespace insonate

@@ -1,0 +1,126 @@
+#include "scenarios/steps/sweep.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scenarios/insonation.h"
+#include "scenarios/path_grid.h"
+#include "scenarios/steps/structures.h"
+#include "scenarios/table_reader.h"
+#include "scenarios/view_meter.h"
+#include "sim/core/suggest.h"
+
+namespace insonate {
+namespace {
+
+/// The middles of the organ's cells: every so many voxels along each axis, where the organ is.
+std::vector<glm::dvec3> cells_of(const Case& subject, const std::vector<std::string>& organ) {
+  const StructureSet structures(subject, organ);
+  const Grid& grid = subject.labels.grid;
+  const auto stride = [](double spacing) { return std::max(1, int(std::lround(Sweep::kCell_mm / spacing))); };
+  const glm::ivec3 step(stride(grid.spacing.x), stride(grid.spacing.y), stride(grid.spacing.z));
+  std::vector<glm::dvec3> cells;
+  for (int k = step.z / 2; k < grid.size.z; k += step.z)
+    for (int j = step.y / 2; j < grid.size.y; j += step.y)
+      for (int i = step.x / 2; i < grid.size.x; i += step.x)
+        if (structures.holds(subject.labels.at({i, j, k}))) cells.push_back(grid.patient_from_index({i, j, k}));
+  return cells;
+}
+
+class Run : public StepRun {
+public:
+  Run(const Sweep& asked, const StepWorld& world, double now_s)
+      : asked_(asked), world_(world), path_(now_s), cells_(cells_of(world.subject, asked.organ)) {
+    for (const std::string& name : asked.keep) landmarks_.push_back(world.subject.find_landmark(name)->position);
+    total_ = cells_.size();
+  }
+
+  void see(const Moment& moment) override {
+    if (!moment.valid || moment.machine.frozen) return;
+    const Probe* probe = find_probe(moment.machine.probe);
+    if (!insonation_ || insonation_->probe().name != moment.machine.probe ||
+        insonation_->depth_mm() != moment.machine.depth_mm)
+      insonation_.emplace(world_.subject, *probe, moment.machine.depth_mm, world_.tissues);
+    path_.feed(moment.now_s, moment.patient_from_probe, [&](long, const Pose& pose, bool) { look_from(pose); });
+  }
+
+  bool done() const override { return coverage_percent() >= asked_.enough_percent; }
+  bool on_target() const override { return on_target_; }
+  double share_done() const override { return std::min(1.0, coverage_percent() / asked_.enough_percent); }
+  /// Without a number to reach, it is the learner who says when the organ was swept.
+  bool enough() const override { return asked_.enough_percent >= 100 && coverage_percent() > 0; }
+
+  void finish(StepOutcome, double, StepResult& result) const override {
+    result.values.emplace_back(Metric::coverage_percent, coverage_percent());
+    if (!landmarks_.empty() && looks_ > 0)
+      result.values.emplace_back(Metric::kept_in_view_percent, 100.0 * double(kept_) / double(looks_));
+  }
+
+private:
+  double coverage_percent() const { return total_ > 0 ? 100.0 * double(total_ - cells_.size()) / double(total_) : 0; }
+
+  void look_from(const Pose& pose) {
+    insonation_->look_from(pose);
+    const std::size_t before = cells_.size();
+    std::erase_if(cells_, [&](const glm::dvec3& cell) { return insonation_->reaches(cell); });
+    on_target_ = cells_.size() < before;
+    ++looks_;
+    const Pose probe_from_patient = pose.inverse();
+    kept_ += std::all_of(landmarks_.begin(), landmarks_.end(), [&](const glm::dvec3& landmark) {
+      const glm::dvec3 p = probe_from_patient.point(landmark);
+      return std::abs(p.z) <= ViewMeter::kLandmarkDistance_mm &&
+             line_position(insonation_->probe(), insonation_->depth_mm(), glm::dvec2(p));
+    });
+  }
+
+  const Sweep& asked_;
+  StepWorld world_;
+  PathGrid path_;
+  std::vector<glm::dvec3> cells_;  ///< not seen yet
+  std::size_t total_ = 0;
+  std::vector<glm::dvec3> landmarks_;
+  std::optional<Insonation> insonation_;
+  long looks_ = 0;
+  long kept_ = 0;
+  bool on_target_ = false;  ///< the last look showed something new
+};
+
+}  // namespace
+
+std::shared_ptr<const StepTask> Sweep::read(TableReader& table, const Step&) {
+  auto task = std::make_shared<Sweep>();
+  task->organ = table.texts("organ", 20);
+  task->keep = table.texts("keep", 20, false);
+  task->enough_percent = table.number("coverage_percent", {1, 100}, 100.0);
+  task->organ_place = table.place("organ");
+  task->keep_place = table.place("keep");
+  return task;
+}
+
+std::vector<Metric> Sweep::metrics() const {
+  std::vector<Metric> measured{Metric::coverage_percent};
+  if (!keep.empty()) measured.push_back(Metric::kept_in_view_percent);
+  return measured;
+}
+
+void Sweep::check(const Step&, const Case& subject, const std::string& where,
+                  std::vector<ScenarioProblem>& problems) const {
+  const std::size_t before = problems.size();
+  check_structures(organ, organ_place, subject, where, problems);
+  if (problems.size() == before && cells_of(subject, organ).empty())
+    problems.push_back({organ_place, where + " sweeps an organ that this patient does not have", "name another"});
+  std::vector<std::string> known;
+  for (const Landmark& landmark : subject.landmarks) known.push_back(landmark.name);
+  for (const std::string& name : keep)
+    if (!subject.find_landmark(name))
+      problems.push_back(
+          {keep_place,
+           where + " names the landmark '" + name + "', which the case '" + subject.name + "' does not have",
+           known.empty() ? "take a case with landmarks" : suggest(name, known)});
+}
+
+std::unique_ptr<StepRun> Sweep::begin(const StepWorld& world, double now_s) const {
+  return std::make_unique<Run>(*this, world, now_s);
+}
+
+}  // namespace insonate

@@ -1,0 +1,275 @@
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+
+#include "scenarios/scenario.h"
+#include "sim/core/files.h"
+#include "sim/core/hash.h"
+#include "tests/scenarios/tiny_case.h"
+
+using namespace insonate;
+
+namespace {
+
+/// A scenario with a step of every kind and all that may stand around them.
+const char* const kEverything = R"(
+format = 2
+title = "Everything"
+case = "abdomen"
+time_limit_s = 300
+difficulty = "hard"
+order = "fixed"
+
+[[variant]]
+name = "right"
+phantom = { gallstone = true }
+words = { side = "right" }
+
+[[variant]]
+name = "left"
+words = { side = "left" }
+
+[[step]]
+kind = "set_knobs"
+title = "Knobs"
+instruction = "Set them."
+counts = false
+depth_mm = [90, 120]
+probe = "linear"
+
+[[step]]
+kind = "sweep"
+title = "Sweep"
+instruction = "Through the ${side} one."
+organ = ["ball"]
+keep = ["centre"]
+coverage_percent = 80
+
+[[step.criterion]]
+metric = "coverage_percent"
+full = 80
+zero = 10
+
+[[step.hint]]
+text = "Slower."
+cost = [0, 1, 2]
+
+[step.next]
+good = "measuring"
+poor = "end"
+
+[[step]]
+kind = "measure"
+name = "measuring"
+title = "Measure"
+instruction = "Its width."
+view = "ball"
+tool = "distance"
+walls = "outer to outer"
+
+[[step.target]]
+structures = ["ball"]
+through = "centre"
+along = "lateral"
+
+[[step.criterion]]
+metric = "measurement_error_mm"
+full = 3
+zero = 9
+
+[[step]]
+kind = "mark_point"
+title = "Point"
+instruction = "At its top."
+landmark = "top"
+
+[[step]]
+kind = "label_structures"
+title = "Name"
+instruction = "Both."
+structures = ["ball", "rib"]
+
+[[step]]
+kind = "question"
+title = "Question"
+instruction = "Is there a ball?"
+choices = ["yes", "no"]
+finding = ["ball"]
+if_present = "yes"
+if_absent = "no"
+
+[[step]]
+kind = "free_scan"
+title = "Free"
+instruction = "As you like."
+)";
+
+std::string with(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, from.size(), to);
+}
+
+std::string refusal(const std::string& text) {
+  try {
+    parse_scenario(text, "exam.toml");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::string misfit(const std::string& text) {
+  try {
+    check_against_case(parse_scenario(text, "exam.toml"), tiny_case());
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+struct Row {
+  const char* from;
+  const char* to;
+  std::vector<const char*> words;
+};
+
+void check_rows(const std::vector<Row>& rows, std::string (*message_of)(const std::string&)) {
+  for (const Row& row : rows) {
+    const std::string message = message_of(with(kEverything, row.from, row.to));
+    INFO(row.from << " -> " << row.to << "\n" << message);
+    CHECK(message.find("exam.toml: ") == 0);
+    for (const char* word : row.words) {
+      INFO(word);
+      CHECK(message.find(word) != std::string::npos);
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a scenario with every kind of step is read and fits its case") {
+  CHECK(refusal(kEverything) == "");
+  CHECK(misfit(kEverything) == "");
+}
+
+TEST_CASE("what is wrong in a step of any kind is said in words") {
+  check_rows(
+      {
+          {"format = 2", "format = 3", {"line 2, column 10", "format 3", "formats 1 and 2"}},
+          {"difficulty = \"hard\"", "difficulty = \"herd\"", {"line 6", "'herd'", "did you mean 'hard'?"}},
+          {"order = \"fixed\"", "order = 3", {"'order' that is no text"}},
+          {"order = \"fixed\"", "order = \"free\"", {"step 2", "the order is free"}},
+          {"name = \"left\"", "name = \"right\"", {"variant 2", "a name that is taken"}},
+          {"words = { side = \"left\" }", "words = { sid = \"left\" }", {"line 29", "'${side}'", "'left'", "'sid'"}},
+          {"words = { side = \"left\" }", "words = 3", {"'words' that is no table"}},
+          {"words = { side = \"left\" }", "wirds = { side = \"left\" }", {"unknown key 'wirds'", "'words'"}},
+          {"phantom = { gallstone = true }", "phantom = { gallstone = [1] }", {"no single value"}},
+          {"phantom = { gallstone = true }", "case = \"tiny\"\nphantom = { gallstone = true }", {"'tiny'"}},
+          {"depth_mm = [90, 120]\nprobe = \"linear\"", "", {"step 1", "asks for no knob"}},
+          {"depth_mm = [90, 120]", "depth_mm = [120, 90]", {"step 1", "no range"}},
+          {"depth_mm = [90, 120]", "depth_mm = 100", {"no range", "from 1 to 1000"}},
+          {"depth_mm = [90, 120]", "depth_mm = [90, 120]\nview = \"ball\"", {"unknown key 'view'"}},
+          {"probe = \"linear\"", "probe = \"linaer\"", {"'linaer'", "did you mean 'linear'?"}},
+          {"organ = [\"ball\"]", "organ = []", {"step 2", "'organ' that is empty"}},
+          {"organ = [\"ball\"]", "organ = \"ball\"", {"no list", "organ = [\"...\"]"}},
+          {"organ = [\"ball\"]", "organ = [7]", {"no text"}},
+          {"coverage_percent = 80", "coverage_percent = 0", {"1 to 100"}},
+          {"metric = \"coverage_percent\"",
+           "metric = \"longest_hold_s\"",
+           {"step 2 asks for longest_hold_s", "kind sweep does not measure", "coverage_percent"}},
+          {"metric = \"coverage_percent\"", "metric = \"target_in_view_percent\"", {"does not measure"}},
+          {"cost = [0, 1, 2]", "cost = [0, 1]", {"hint 1 of step 2", "not three numbers"}},
+          {"cost = [0, 1, 2]", "cost = -1", {"cost = -1"}},
+          {"cost = [0, 1, 2]", "", {"lacks the key 'cost'"}},
+          {"good = \"measuring\"", "good = \"mesuring\"", {"'mesuring'", "did you mean 'measuring'?"}},
+          {"name = \"measuring\"", "name = \"end\"", {"'end', which is taken"}},
+          {"tool = \"distance\"", "tool = \"distanz\"", {"step 3", "did you mean 'distance'?"}},
+          {"tool = \"distance\"", "tool = \"ratio\"", {"too few targets", "add two"}},
+          {"walls = \"outer to outer\"", "", {"lacks the key 'walls'"}},
+          {"along = \"lateral\"", "along = \"sideways\"", {"target 1 of step 3", "'sideways'"}},
+          {"landmark = \"top\"", "", {"step 4", "names nothing to mark"}},
+          {"landmark = \"top\"", "landmark = \"top\"\nstructures = [\"ball\"]", {"a landmark and structures"}},
+          {"structures = [\"ball\", \"rib\"]", "structures = [\"rib\", \"rib\"]", {"step 5", "twice"}},
+          {"choices = [\"yes\", \"no\"]", "choices = [\"yes\"]", {"step 6", "one choice"}},
+          {"if_absent = \"no\"", "if_absent = \"non\"", {"none of its choices", "did you mean 'no'?"}},
+          {"if_absent = \"no\"", "", {"lacks the key 'if_absent'"}},
+          {"finding = [\"ball\"]", "", {"lacks the key 'right'", "unknown key 'if_present'"}},
+          {"instruction = \"As you like.\"",
+           "instruction = \"As you like.\"\ncounts = false",
+           {"step 7", "warm-up behind a step that counts"}},
+      },
+      refusal);
+}
+
+TEST_CASE("names in steps of any kind are checked against the case") {
+  check_rows(
+      {
+          {"organ = [\"ball\"]", "organ = [\"bal\"]", {"line 30, column 9", "'bal'", "did you mean 'ball'?"}},
+          {"keep = [\"centre\"]", "keep = [\"center\"]", {"step 2", "did you mean 'centre'?"}},
+          {"view = \"ball\"", "view = \"bal\"", {"step 3", "did you mean 'ball'?"}},
+          {"through = \"centre\"", "through = \"middle\"", {"step 3", "'middle'"}},
+          {"landmark = \"top\"", "landmark = \"tip\"", {"step 4", "did you mean 'top'?"}},
+          {"structures = [\"ball\", \"rib\"]", "structures = [\"ball\", \"ribs\"]", {"step 5", "did you mean 'rib'?"}},
+          {"finding = [\"ball\"]", "finding = [\"stone\"]", {"step 6", "'stone'"}},
+      },
+      misfit);
+}
+
+TEST_CASE("all problems of all variants come at once, each of them once") {
+  std::string text = with(kEverything, "walls = \"outer to outer\"\n", "");
+  text = with(text, "probe = \"linear\"", "probe = \"lin\"");
+  text = with(text, "words = { side = \"left\" }", "words = { sid = \"left\" }");
+  try {
+    parse_scenario(text, "exam.toml");
+    FAIL("it was read");
+  } catch (const ScenarioError& error) {
+    INFO(error.what());
+    CHECK(error.problems().size() == 3);
+  }
+}
+
+TEST_CASE("whatever becomes of a shipped scenario, it is read or refused in words") {
+  int files = 0, refused = 0;
+  std::vector<std::string> texts{kEverything};
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::filesystem::path(INSONATE_ASSETS_FOLDER) / "scenarios"))
+    texts.push_back(read_file(entry.path()));
+  std::sort(texts.begin(), texts.end());  // a folder's order is nobody's to know
+  const std::vector<std::string> scraps{"\"",   "[[step]]\n",    "[",
+                                        "]",    " = ",           "1e999",
+                                        "-1",   "nan",           "${side}",
+                                        "\n",   "true",          "{ a = 1 }",
+                                        "\xff", "[[variant]]\n", "kind = \"sweep\"\n"};
+  for (std::uint32_t f = 0; f < texts.size(); ++f) {
+    ++files;
+    for (std::uint32_t i = 0; i < 120; ++i) {
+      std::string text = texts[f];
+      for (std::uint32_t k = 0; k < 1 + hash(f, i, 1, 0) % 4; ++k) {
+        const std::size_t at = hash(f, i, 2, k) % text.size(), length = hash(f, i, 3, k) % 40;
+        switch (hash(f, i, 4, k) % 4) {
+          case 0:
+            text[at] = char(hash(f, i, 5, k));
+            break;
+          case 1:
+            text.erase(at, length);
+            break;
+          case 2:
+            text.insert(at, text.substr(hash(f, i, 6, k) % text.size(), length));
+            break;
+          default:
+            text.insert(at, scraps[hash(f, i, 7, k) % scraps.size()]);
+        }
+        if (text.empty()) text = " ";
+      }
+      try {
+        check_against_case(parse_scenario(text, "exam.toml"), tiny_case());
+      } catch (const InputError& error) {
+        ++refused;
+        CHECK(std::string(error.what()).rfind("exam.toml: ", 0) == 0);
+      }
+    }
+  }
+  CHECK(files > 1);
+  CHECK(refused > 60 * files);
+}
