@@ -201,7 +201,7 @@ void draw_landmarks(const Theme& theme, const Rect& area, const SetupWizard& wiz
   if (landmarks.empty() || width < 1 || height < 1) return;
   view::OrbitCamera camera = view::OrbitCamera::framing(pictures.grid());
   camera.yaw_deg = camera.pitch_deg = 0;
-  camera.zoom(1.15);
+  camera.zoom(0.92);  // landmarks lie at the edges of the body
   const gl::Texture* body = pictures.draw_body(camera, width, height, std::numeric_limits<double>::infinity());
   if (!body) return;
   ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(std::uintptr_t(body->name())), area.min(),
