@@ -20,7 +20,7 @@ constexpr double kDeepest_mm = 240;  // a curvilinear probe's reach
 constexpr double kLiverHu = 60;
 constexpr double kLost_db = 20;         // as ViewMeter's limit of what arrives
 constexpr double kHalfOff = 0.5;        // what the rating loses when the targets lie at the fan's edge
-constexpr double kTypicalWay_mm = 300;  // over which the rating falls to 1/e
+constexpr double kTypicalWay_mm = 100;  // over which the rating falls to 1/e
 
 constexpr double kMostToBack = 0.5;   // sine of 30 degrees: the couch
 constexpr double kMostAlong = 0.766;  // sine of 50 degrees
@@ -44,7 +44,7 @@ struct WindowSearch::Choice {
 struct WindowSearch::View {
   std::vector<double> seen_mm2, clear_mm2;  ///< a target each
   double off_centre_mm2 = 0;                ///< integral of the clear area's place across the fan, -1 to 1
-  double deepest_mm = 0;                    ///< along its line, of what is clear
+  double deepest_mm = 0;                    ///< along its line, of what is clear of the last target
 
   double seen() const;
   double clear() const;
@@ -123,12 +123,12 @@ std::optional<Pose> WindowSearch::place(const WantedPicture& wanted, const Choic
   const auto skin = skin_from(wanted.aim, outwards);
   if (!skin) return std::nullopt;
 
-  glm::dvec3 marker = glm::normalize(wanted.along ? a * std::cos(lean) - level * std::sin(lean) : glm::cross(a, level));
-  marker = marker_side(marker);
+  const glm::dvec3 lateral =
+      glm::normalize(wanted.along ? a * std::cos(lean) - level * std::sin(lean) : glm::cross(a, level));
   const double rock = glm::radians(choice.rock_deg);
   const glm::dvec3 face = *skin + beam * choice.press_mm;
-  const glm::dvec3 turned = beam * std::cos(rock) + marker * std::sin(rock);
-  marker = marker * std::cos(rock) - beam * std::sin(rock);
+  const glm::dvec3 turned = beam * std::cos(rock) + lateral * std::sin(rock);
+  const glm::dvec3 marker = marker_side(lateral * std::cos(rock) - beam * std::sin(rock));
   const Pose pose{glm::dmat3(marker, turned, glm::cross(marker, turned)), face};
   if (!face_fits(pose, choice.press_mm)) return std::nullopt;
   return pose;
@@ -160,7 +160,7 @@ WindowSearch::View WindowSearch::look(const WantedPicture& wanted, const Pose& p
         view.seen_mm2[t] += cell;
         view.clear_mm2[t] += cell * weight;
         view.off_centre_mm2 += cell * weight * across;
-        if (weight > 0) view.deepest_mm = std::max(view.deepest_mm, r);
+        if (weight > 0 && t + 1 == wanted.targets.size()) view.deepest_mm = std::max(view.deepest_mm, r);
       }
     }
   }

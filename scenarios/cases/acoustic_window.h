@@ -14,13 +14,13 @@ struct WantedPicture {
   glm::dvec3 aim{0.0};                ///< patient, mm; inside the body
   glm::dvec3 axis{0, 0, 1};           ///< unit
   bool along = true;                  ///< the plane holds the axis, or else is square to it, to within 20 degrees
-  std::vector<std::uint8_t> targets;  ///< label values; each of them counts
+  std::vector<std::uint8_t> targets;  ///< label values; each of them counts, and the last sets how deep is looked
 };
 
 /// A place on the skin from which a picture is had.
 struct Window {
   Pose patient_from_probe;
-  double depth_mm = 0;       ///< to the deepest of the targets that is seen
+  double depth_mm = 0;       ///< to the deepest that is seen of the last target
   double clear_share = 0;    ///< of the targets' area in the fan, that which sound reaches as through soft tissue
   double section_share = 0;  ///< of the targets' whole section in this plane, that which is in the fan and clear
 };

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kBehind_mm = 20;  // of the picture, beyond the deepest that is seen: what lies there tells the place
 constexpr double kLeastDepth_mm = 80, kMostDepth_mm = 240, kDepthStep_mm = 10;
-const glm::dvec3 kHead(0, 0, 1);
+const glm::dvec3 kHead(0, 0, 1), kRight(-1, 0, 0);
 
 /// A view to look for.
 struct Plan {
@@ -33,12 +33,16 @@ std::string lower_first(std::string text) {
 
 void plan_organ(const StructureShape& organ, std::vector<Plan>& plans) {
   const std::string& name = organ.label.name;
-  // Bladder and prostate change their shape from hour to hour; they are looked at along and across the body.
-  const bool by_body = name == "urinary_bladder" || name == "prostate";
-  const glm::dvec3 axis = by_body ? kHead : organ.axes[0];
   const std::string title = title_of_structure(name);
-  plans.push_back({name + "_long", title + ", long axis", {name}, {organ.centre, axis, true, {organ.label.value}}});
-  plans.push_back({name + "_short", title + ", short axis", {name}, {organ.centre, axis, false, {organ.label.value}}});
+  const auto add = [&](const char* which, const glm::dvec3& axis, bool along) {
+    plans.push_back(
+        {name + "_" + which, title + ", " + which + " axis", {name}, {organ.centre, axis, along, {organ.label.value}}});
+  };
+  // Bladder and prostate lie in the midline and change their shape from hour to hour: they are looked at in the planes
+  // of the body.
+  const bool by_body = name == "urinary_bladder" || name == "prostate";
+  add("long", by_body ? kRight : organ.axes[0], !by_body);
+  add("short", by_body ? kHead : organ.axes[0], false);
 }
 
 Plan plan_across(const Vessel& vessel, const VesselLevel& level) {

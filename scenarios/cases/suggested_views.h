@@ -21,7 +21,7 @@ struct SuggestedViews {
 
 /// Views with the curvilinear probe that the anatomy gives and an acoustic window (acoustic_window.h) lets through:
 ///   liver_long, liver_short, ...          the plane along the organ's long axis, or square to it, through its centre;
-///                                         of bladder and prostate along and square to the body's
+///                                         of bladder and prostate sagittal and transverse
 ///   aorta_transverse_l2, ..., aorta_long  square to the vessel at each of its levels, and along it at the level that
 ///                                         shows best
 ///   hepatorenal, splenorenal              along the kidney's long axis through the recess
