@@ -41,8 +41,9 @@ void PoseHistory::add(const PoseSample& sample) {
     usable_.push_back({sample.time_s, sample.patient_from_probe});
   else if (!usable_.empty())
     usable_.back().unusable_from_s = std::min(usable_.back().unusable_from_s, sample.time_s);
-  // The newest usable sample stays however old it is: the picture is frozen at it.
-  while (usable_.size() > 1 && usable_.front().time_s < newest_s_ - kKeptS) usable_.pop_front();
+  // The newest usable sample stays however old it is, with those that say where it was going: the picture is frozen
+  // there.
+  while (!usable_.empty() && usable_.front().time_s < usable_.back().time_s - kKeptS) usable_.pop_front();
 }
 
 void PoseHistory::clear() {

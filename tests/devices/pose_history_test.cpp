@@ -119,6 +119,16 @@ TEST_CASE("samples that are not ok never move the probe") {
   }
 }
 
+TEST_CASE("the pose stands still for as long as a tracker says that it has nothing") {
+  PoseHistory poses = history(30);
+  const Pose held = poses.at(1.0).patient_from_probe;
+  CHECK(distance_mm(poses.at(1.0), moving(0.5)) > 1);  // it had been on its way
+  for (double time_s = 1; time_s < 10; time_s += 0.1) {
+    poses.add(unusable(time_s));
+    CHECK(distance_mm(poses.at(time_s), held) == 0);
+  }
+}
+
 TEST_CASE("a long gap is not bridged by a straight line") {
   PoseHistory poses = history(60);
   poses.add(usable(1.5));
