@@ -47,7 +47,7 @@ void Screen::lay_out(float width, float height) {
   const float gap = theme_.px(8);
   Rect rest = screen_.inset(gap, gap);
   rest.h += gap;
-  status_ = rest.take_bottom(theme_.px(26));
+  status_ = rest.take_bottom(theme_.px(38));
   top_ = rest.take_top(theme_.px(66));
   rest.take_top(gap);
   console_ = rest.take_bottom(theme_.px(120));
@@ -138,10 +138,10 @@ void Screen::draw_status(Trainer& trainer) {
     std::snprintf(text, sizeof text, "%.0f frames/s", frames_per_second_);
     draw_text(line.take_right(theme_.px(100)), theme_.small_text, colour::kFaint, text, Align::right);
   }
-  places_["record"] = line.take_left(theme_.px(124)).inset(0, theme_.px(2));
+  places_["record"] = line.take_left(theme_.px(124)).inset(0, theme_.px(6));
   draw_record_button(trainer, places_["record"]);
   line.take_left(theme_.px(8));
-  places_["setup"] = line.take_left(theme_.px(90)).inset(0, theme_.px(2));
+  places_["setup"] = line.take_left(theme_.px(90)).inset(0, theme_.px(6));
   if (button(theme_, "setup", places_["setup"], "Set up", ButtonKind::normal, trainer.session() != nullptr))
     trainer.begin_setup();
   line.take_left(theme_.px(16));
