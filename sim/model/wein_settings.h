@@ -41,7 +41,8 @@ inline constexpr int kMostPatches = 5456;  ///< what textures 16384 wide, as eve
 /// The mu of air, below which none counts: its density is 1.2e-3 of water's, whose mu is 1000.
 inline constexpr double kAirMu = 1.2;
 
-/// Nearer to the face than WeinSettings::contact_mm, what is less dense than this counts as water: HU.
-inline constexpr double kContactAirHu = -300;
+/// Nearer to the face than WeinSettings::contact_mm, what is less dense than this counts as water: HU. Not a whole
+/// number, as voxels are: in a volume of one density the last place of a sum would decide.
+inline constexpr double kContactAirHu = -300.5;
 
 }  // namespace insonate

@@ -14,7 +14,7 @@ layout(binding = 1, r32f) writeonly uniform image2D intensities;  // of the firs
 #endif
 
 const float kAirMu = 1.2;
-const float kContactAirHu = -300.0;
+const float kContactAirHu = -300.5;
 const float kNothing = -1e6;  // the logarithm of what total reflection lets pass, in effect
 
 void tell(int k, int line, int image, float echogenicity, float reflection, float intensity) {

@@ -8,7 +8,7 @@ layout(binding = 0) uniform sampler3D acoustic_volume;
 layout(binding = 7) uniform sampler2D tissue_at_hu;
 
 const float kFirstHu = -1024.0;
-const float kCouplingAirHu = -300.0;         // below this, what lies within the gel layer is gel
+const float kCouplingAirHu = -300.5;         // below this, what lies within the gel layer is gel
 const vec2 kGel = vec2(0.0, -6000.0);         // water's density, and no echo
 const vec2 kOutside = vec2(-1000.0, -6000.0);  // beyond the volume, and all around the body
 
