@@ -1,57 +1,21 @@
 #include "sim/gl/simulator.h"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "sim/gl/device_volume.h"
 #include "sim/gl/fan_layout.h"
+#include "sim/gl/settings_reach.h"
+#include "sim/gl/stage_programs.h"
 #include "sim/gl/stage_tables.h"
-#include "sim/model/beam.h"
-#include "sim/model/noise.h"
-#include "sim/model/refraction.h"
 #include "sim/model/scatterers.h"
 #include "sim/model/settings_file.h"
 #include "sim/shaders/shared/simulation_parameters.h"
 
 namespace insonate::gl {
 namespace {
-
-// What traverse.comp is compiled for.
-Defines traversal_of(const Settings& settings, double dr_mm) {
-  const double samples_a_length = settings.reflection_length_mm / dr_mm;
-  const auto is = [&](double whole) { return std::abs(samples_a_length - whole) < 1e-9; };
-  return {{"EDGES_AT", is(2)   ? "kEdgesAtSamples"
-                       : is(1) ? "kEdgesAtMiddles"
-                               : "kEdgesAnywhere"},
-          {"ABSORPTION", settings.absorption ? "1" : "0"},
-          {"SPECKLE", settings.speckle ? "1" : "0"},
-          {"EDGE_SHADOW", settings.edge_shadow ? "1" : "0"},
-          {"ELEVATION_FOCUS", slice_bends(settings) ? "1" : "0"},
-          {"PLANES", std::to_string(settings.slice_planes)}};
-}
-
-bool reverberates(const Settings& settings) {
-  return settings.reverberation || settings.face_reflection > 0;
-}
-
-// What beam.comp is compiled for, and reverberation.comp.
-Defines beam_of(const Settings& settings) {
-  return {{"FOCUSED_BEAM", settings.focused_beam ? "1" : "0"},
-          {"BEAM_HALF", settings.focused_beam ? "0" : std::to_string(settings.beam_lines / 2)},
-          {"REVERBERATION", reverberates(settings) ? "1" : "0"}};
-}
-Defines reverberation_of(const Settings& settings) {
-  return {{"IN_TISSUE", settings.reverberation ? "1" : "0"}, {"AT_FACE", settings.face_reflection > 0 ? "1" : "0"}};
-}
-
-constexpr double kLn10 = 2.302585092994046;
-
-// An interface counts as too weak for its tilt to be seen where it echoes this share of what the scatterers do: 0.004
-// dB. A tenth of that would show where a beam's width carries it from beside a shadow into it, and nowhere else.
-constexpr double kUnseenShare = 0.001;
 
 // The channels of a texture, each as an image.
 std::vector<Image<float>> read_channels(const Texture& texture, int channels) {
@@ -75,31 +39,21 @@ Image<float> transposed(const Image<float>& rows) {
 }  // namespace
 
 struct Simulator::State {
-  explicit State(const ShaderSources& shader_sources)
-      : sources(shader_sources),
-        traverse(sources, {"traverse.comp"}, traversal_of({}, 1)),
-        reverberation(sources, {"reverberation.comp"}, reverberation_of({})),
-        beam(sources, {"beam.comp"}, beam_of({})),
-        clutter(sources, {"clutter.comp"}),
-        clutter_tail(sources, {"clutter_tail.comp"}),
-        scan_convert(sources, {"scan_convert.comp"}, conversion()),
-        smooth(sources, {"smooth.comp"}, smoothing()),
-        fuse(sources, {"fuse.comp"}, fusion()),
-        maximum(sources, {"maximum.comp"}),
-        compress(sources, {"compress.comp"}, display()) {}
+  explicit State(const ShaderSources& sources) : programs(sources) {}
 
-  ShaderSources sources;
-  Settings settings;
-  Gaussian reflection_gaussian, transmission_gaussian;
-  bool stages_are_read = false;  // by read_stages(), which asks for U where grey is all that a picture needs
-  Program traverse, reverberation, beam, clutter, clutter_tail, scan_convert, smooth, fuse, maximum, compress;
+  StagePrograms programs;
 
   // What the user set.
+  Settings settings;
   Probe probe;
   double depth_mm = 160;
   Pose patient_from_probe;
+  bool stages_are_read = false;  // by read_stages(), which asks for U where grey is all that a picture needs
+
+  // What follows from that.
   ScanLines lines;
   FanLayout fan;
+  Gaussian reflection_gaussian, transmission_gaussian;
 
   // What the stages read.
   DeviceVolume volume;
@@ -123,38 +77,12 @@ struct Simulator::State {
   std::optional<Stage> first_due = Stage::traverse;
   std::array<long, kStageCount> runs{};
 
-  bool noisy() const { return settings.electronic_noise || settings.clutter; }
   bool frame_sets_white() const { return settings.reference_level == ReferenceLevel::frame_maximum; }
-
-  // What the picture's stages are compiled for.
-  Defines conversion() const {
-    return {{"REFLECTION_SMOOTHED", reflection_gaussian.radius > 0 ? "1" : "0"},
-            {"TRANSMISSION_SMOOTHED", transmission_gaussian.radius > 0 ? "1" : "0"},
-            {"SMOOTHED_FORMAT", transmission_gaussian.radius > 0 ? "rg32f" : "r32f"},
-            {"NOISE", noisy() ? "1" : "0"},
-            {"CLUTTER", settings.clutter ? "1" : "0"}};
-  }
-  Defines smoothing() const {
-    return {{"REFLECTION_RADIUS", std::to_string(reflection_gaussian.radius)},
-            {"TRANSMISSION_RADIUS", std::to_string(transmission_gaussian.radius)},
-            {"SMOOTHED_FORMAT", transmission_gaussian.radius > 0 ? "rg32f" : "r32f"}};
-  }
-  Defines display() const { return {{"GREY_MAP", std::to_string(int(settings.grey_map))}}; }
-  Defines fusion() const {
-    Defines defines = smoothing();
-    defines.push_back(display().front());
-    const auto none = [](double db) { return db == 0; };
-    defines.emplace_back("TIME_GAIN", std::ranges::all_of(settings.tgc_db, none) ? "0" : "1");
-    defines.emplace_back("FRAME_MAXIMUM", frame_sets_white() ? "1" : "0");
-    defines.emplace_back("KEEP_FUSED", stages_are_read ? "1" : "0");
-    return defines;
-  }
 
   void due_from(Stage stage) { first_due = std::min(first_due.value_or(stage), stage); }
 
   void lay_out();
   void upload_scatterers();
-  void fill_parameters();
   void prepare();
   void run_through(Stage last);
   void run(Stage stage);
@@ -197,70 +125,30 @@ void Simulator::State::upload_scatterers() {
   scatterers_changed = false;
 }
 
-void Simulator::State::fill_parameters() {
-  const double dr = lines.dr_mm(), samples_a_length = settings.reflection_length_mm / dr;
-  SimulationParameters& p = parameters;
-  p.lines = int(lines.lines.size());
-  p.samples = lines.samples;
-  p.width = settings.image_width;
-  p.height = settings.image_height;
-  p.r_min_mm = float(lines.r_min_mm);
-  p.dr_mm = float(dr);
-  p.half_reflection_length = float(samples_a_length / 2);
-  p.reflection_exponent = float(1 / samples_a_length);
-  p.absorption_per_sample = float(settings.frequency_mhz * dr / 100 * kLn10);
-  p.gel_mm = float(settings.gel_mm);
-  p.least_alpha_with_normal = float(settings.skipping ? kUnseenShare * settings.blend : 0);
-  p.reflection_exponent_px = float(reflection_gaussian.exponent);
-  p.transmission_exponent_px = float(transmission_gaussian.exponent);
-  p.face_reflection = float(settings.face_reflection);
-  p.turn_kept = float(std::exp(-dr / kTurn_mm));
-  p.turn_per_step = float(dr / (settings.reflection_length_mm * kTurn_rad));
-  p.turn_loss = float(dr / kTurn_mm);
-  p.slice_thickness_mm = float(settings.slice_thickness_mm);
-  p.elevation_focus_mm = float(settings.elevation_focus_mm);
-  p.clutter_kept = float(std::exp(-dr / kClutterTail_mm));
-  p.slice_spread = float(slice_spread(settings));
-  p.two_way = settings.two_way;
-  p.blend = float(settings.blend);
-  p.clutter_share = float(clutter_share(settings));
-  p.noise_level = float(noise_level(settings));
-  p.gain_db = float(settings.gain_db);
-  p.dynamic_range_db = float(settings.dynamic_range_db);
-  p.fixed_level = float(settings.fixed_level);
-  for (int i = 0; i < 8; ++i) p.tgc_db[i / 4][i % 4] = float(settings.tgc_db[std::size_t(i)]);
-  parameter_buffer.write(&parameters, sizeof parameters);
-}
-
 // Everything that the stages due read and that is not another stage's.
 void Simulator::State::prepare() {
   if (layout_changed) lay_out();
   if (scatterers_changed) upload_scatterers();
   if (*first_due == Stage::traverse) {
-    traverse.define(sources, traversal_of(settings, lines.dr_mm()));
     const std::vector<PlacedLine> placed = placed_lines(volume, patient_from_probe, lines, settings);
     line_buffer.write(placed.data(), placed.size() * sizeof(PlacedLine));
   }
   if (beam_changed) {
-    beam.define(sources, beam_of(settings));
-    if (reverberates(settings)) {
-      reverberation.define(sources, reverberation_of(settings));
+    if (reverberates(settings))
       repeats = Texture::make_2d(GL_R32F, lines.samples, int(lines.lines.size()), Filter::nearest);
-    }
     beam_window = half_beam_window(settings);
     beam_at_depth = beam_by_depth(lines, settings);
     beam_changed = false;
   }
   if (*first_due <= Stage::scan_convert) {
     prepare_smoothing();
-    if (noisy()) prepare_noise();
-    scan_convert.define(sources, conversion());
-    smooth.define(sources, smoothing());
+    if (is_noisy(settings)) prepare_noise();
   }
-  fuse.define(sources, fusion());
   prepare_fusion();
-  compress.define(sources, display());
-  fill_parameters();
+  programs.build_from(
+      *first_due, {settings, lines.dr_mm(), reflection_gaussian.radius, transmission_gaussian.radius, stages_are_read});
+  parameters = parameters_of(settings, lines, reflection_gaussian, transmission_gaussian);
+  parameter_buffer.write(&parameters, sizeof parameters);
 }
 
 void Simulator::State::prepare_smoothing() {
@@ -320,26 +208,26 @@ void Simulator::State::run(Stage stage) {
       volume.texture().bind(0);
       scatterers.bind(1);
       scan.bind_image(0, GL_READ_WRITE);
-      traverse.dispatch(parameters.lines, 1);
+      programs.traverse.dispatch(parameters.lines, 1);
       break;
     case Stage::beam:
       if (reverberates(settings)) {
         repeats.clear();
         scan.bind(0);
         repeats.bind_image(0, GL_READ_WRITE);
-        reverberation.dispatch(parameters.lines, 1);
+        programs.reverberation.dispatch(parameters.lines, 1);
         repeats.bind(2);
       }
       beam_window.bind_uniform(1);
       scan.bind(0);
       beam_at_depth.bind(1);
       echoes.bind_image(0, GL_WRITE_ONLY);
-      beam.dispatch(parameters.samples, (parameters.lines + 3) / 4);
+      programs.beam.dispatch(parameters.samples, (parameters.lines + 3) / 4);
       if (settings.clutter) {
         echoes.bind(0);
         mean_echo.bind_image(0, GL_READ_WRITE);
-        clutter.dispatch(parameters.samples, 1);
-        clutter_tail.dispatch(1, 1);
+        programs.clutter.dispatch(parameters.samples, 1);
+        programs.clutter_tail.dispatch(1, 1);
       }
       break;
     case Stage::scan_convert:
@@ -349,12 +237,12 @@ void Simulator::State::run(Stage stage) {
       mean_echo.bind(3);
       picture.bind_image(0, GL_WRITE_ONLY);
       sharp.bind_image(1, GL_WRITE_ONLY);
-      over_fan(scan_convert);
+      over_fan(programs.scan_convert);
       break;
     case Stage::smooth:
       sharp.bind(0);
       half_smoothed.bind_image(0, GL_WRITE_ONLY);
-      over_fan(smooth);
+      over_fan(programs.smooth);
       break;
     case Stage::fuse:
       picture.bind(0);
@@ -367,17 +255,17 @@ void Simulator::State::run(Stage stage) {
         levels.bind_image(1, GL_WRITE_ONLY);
       else
         image.bind_image_as(1, GL_WRITE_ONLY, GL_R32UI);
-      over_fan(fuse);
+      over_fan(programs.fuse);
       break;
     case Stage::compress:
       maximum_buffer.clear();
       brightest.bind_storage(0);
       maximum_buffer.bind_storage(1);
-      maximum.dispatch_groups(1);
+      programs.maximum.dispatch_groups(1);
       maximum_buffer.bind_storage(0);
       levels.bind(0);
       image.bind_image_as(0, GL_WRITE_ONLY, GL_R32UI);
-      over_fan(compress);
+      over_fan(programs.compress);
       break;
   }
 }
@@ -402,34 +290,11 @@ void Simulator::set_probe(const Probe& probe, double depth_mm) {
 void Simulator::set_settings(const Settings& settings) {
   if (settings == state_->settings) return;
   if (const auto why = why_not_valid(settings)) throw std::invalid_argument("simulator: " + *why);
-  const Settings& old = state_->settings;
-  const auto same = [&](auto... members) { return ((old.*members == settings.*members) && ...); };
-  if (!same(&Settings::samples, &Settings::slice_planes, &Settings::image_width, &Settings::image_height))
-    state_->layout_changed = true;
-  if (!same(&Settings::speckle_seed)) state_->scatterers_changed = true;
-  if (!same(&Settings::beam_window, &Settings::beam_lines, &Settings::focused_beam, &Settings::focus_mm,
-            &Settings::f_number, &Settings::frequency_mhz, &Settings::speckle, &Settings::reverberation,
-            &Settings::face_reflection, &Settings::speckle_cell_mm, &Settings::slice_thickness_mm,
-            &Settings::elevation_focus_mm))
-    state_->beam_changed = true;
-
-  using S = Settings;
-  if (!same(&S::samples, &S::reflection_length_mm, &S::frequency_mhz, &S::absorption, &S::gel_mm, &S::speckle,
-            &S::speckle_seed, &S::speckle_cell_mm, &S::slice_planes, &S::slice_thickness_mm, &S::elevation_focus_mm,
-            &S::edge_shadow, &S::image_width, &S::image_height, &S::skipping) ||
-      (settings.skipping && settings.blend < old.blend))  // interfaces may be seen that were not beside more echo
-    state_->due_from(Stage::traverse);
-  else if (!same(&S::beam_window, &S::beam_lines, &S::focused_beam, &S::focus_mm, &S::f_number, &S::reverberation,
-                 &S::face_reflection, &S::clutter, &S::two_way))
-    state_->due_from(Stage::beam);
-  else if (!same(&S::reflection_sigma_mm, &S::transmission_sigma_mm, &S::blend, &S::clutter_db, &S::electronic_noise,
-                 &S::noise_db) ||
-           (settings.electronic_noise && !same(&S::fixed_level)))
-    state_->due_from(Stage::scan_convert);
-  else if (!same(&S::gain_db, &S::tgc_db, &S::reference_level, &S::fixed_level))
-    state_->due_from(Stage::fuse);
-  else if (!same(&S::dynamic_range_db, &S::grey_map))
-    state_->due_from(settings.reference_level == ReferenceLevel::fixed ? Stage::fuse : Stage::compress);
+  const Reach reach = reach_of_change(state_->settings, settings);
+  state_->layout_changed |= reach.layout;
+  state_->scatterers_changed |= reach.scatterers;
+  state_->beam_changed |= reach.beam;
+  if (reach.first) state_->due_from(*reach.first);
   state_->settings = settings;
 }
 
@@ -497,14 +362,8 @@ Stages<float> Simulator::read_stages() {
 }
 
 std::optional<std::string> Simulator::reload(const ShaderSources& sources) {
-  State& s = *state_;
-  std::string problems;
-  for (Program* program : {&s.traverse, &s.reverberation, &s.beam, &s.scan_convert, &s.smooth, &s.clutter,
-                           &s.clutter_tail, &s.fuse, &s.maximum, &s.compress})
-    if (const auto problem = program->reload(sources)) problems += *problem;
-  if (problems.empty()) s.sources = sources;  // others would fail when a program is built for other settings
-  s.due_from(Stage::traverse);
-  return problems.empty() ? std::nullopt : std::optional(problems);
+  state_->due_from(Stage::traverse);
+  return state_->programs.reload(sources);
 }
 
 }  // namespace insonate::gl

@@ -9,6 +9,7 @@
 #include "sim/core/pose.h"
 #include "sim/gl/objects.h"
 #include "sim/gl/program.h"
+#include "sim/gl/stage.h"
 #include "sim/model/acoustic_volume.h"
 #include "sim/model/settings.h"
 #include "sim/model/stages.h"
@@ -17,15 +18,9 @@
 
 namespace insonate::gl {
 
-/// The stages of model S in the order they run; each reads what the one before it wrote. Fusing goes on to grey by
-/// itself where white is a fixed level: compressing is a stage of its own only where each frame sets its own.
-enum class Stage { traverse, beam, scan_convert, smooth, fuse, compress };
-inline constexpr int kStageCount = 6;
-
 /// What the traversal did for the last picture.
 struct SampleCounts {
-  std::uint32_t walked =
-      0;  ///< samples evaluated, of planes x lines x samples: a line ends where it has lost its energy
+  std::uint32_t walked = 0;   ///< samples, of planes x lines x samples: a line ends where it has lost its energy
   std::uint32_t normals = 0;  ///< samples of these whose interface's normal was worked out
 };
 

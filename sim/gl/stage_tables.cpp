@@ -8,10 +8,17 @@
 
 #include "sim/model/beam.h"
 #include "sim/model/noise.h"
+#include "sim/model/refraction.h"
 #include "sim/model/scatterers.h"
 
 namespace insonate::gl {
 namespace {
+
+constexpr double kLn10 = 2.302585092994046;
+
+// An interface counts as too weak for its tilt to be seen where it echoes this share of what the scatterers do: 0.004
+// dB. A tenth of that would show where a beam's width carries it from beside a shadow into it, and nowhere else.
+constexpr double kUnseenShare = 0.001;
 
 // What x line, y sample holds at a continuous place inside the fan, as scan_convert.comp reads it.
 double bilinear(const Image<double>& image, const glm::vec2& line_and_sample) {
@@ -106,6 +113,42 @@ Gaussian::Gaussian(double sigma_px, int limit_px) {
   if (sigma_px < 0.05) return;
   radius = std::min(int(std::ceil(3 * sigma_px)), limit_px);
   exponent = -0.5 / (sigma_px * sigma_px);
+}
+
+SimulationParameters parameters_of(const Settings& settings, const ScanLines& lines, const Gaussian& reflection,
+                                   const Gaussian& transmission) {
+  const double dr = lines.dr_mm(), samples_a_length = settings.reflection_length_mm / dr;
+  SimulationParameters p{};
+  p.lines = int(lines.lines.size());
+  p.samples = lines.samples;
+  p.width = settings.image_width;
+  p.height = settings.image_height;
+  p.r_min_mm = float(lines.r_min_mm);
+  p.dr_mm = float(dr);
+  p.half_reflection_length = float(samples_a_length / 2);
+  p.reflection_exponent = float(1 / samples_a_length);
+  p.absorption_per_sample = float(settings.frequency_mhz * dr / 100 * kLn10);
+  p.gel_mm = float(settings.gel_mm);
+  p.least_alpha_with_normal = float(settings.skipping ? kUnseenShare * settings.blend : 0);
+  p.reflection_exponent_px = float(reflection.exponent);
+  p.transmission_exponent_px = float(transmission.exponent);
+  p.face_reflection = float(settings.face_reflection);
+  p.turn_kept = float(std::exp(-dr / kTurn_mm));
+  p.turn_per_step = float(dr / (settings.reflection_length_mm * kTurn_rad));
+  p.turn_loss = float(dr / kTurn_mm);
+  p.slice_thickness_mm = float(settings.slice_thickness_mm);
+  p.elevation_focus_mm = float(settings.elevation_focus_mm);
+  p.clutter_kept = float(std::exp(-dr / kClutterTail_mm));
+  p.slice_spread = float(slice_spread(settings));
+  p.two_way = settings.two_way;
+  p.blend = float(settings.blend);
+  p.clutter_share = float(clutter_share(settings));
+  p.noise_level = float(noise_level(settings));
+  p.gain_db = float(settings.gain_db);
+  p.dynamic_range_db = float(settings.dynamic_range_db);
+  p.fixed_level = float(settings.fixed_level);
+  for (int i = 0; i < 8; ++i) p.tgc_db[i / 4][i % 4] = float(settings.tgc_db[std::size_t(i)]);
+  return p;
 }
 
 Texture weights_of_pixels(const FanLayout& fan, const Gaussian& reflection, const Gaussian& transmission) {

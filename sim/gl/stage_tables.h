@@ -10,6 +10,7 @@
 #include "sim/gl/objects.h"
 #include "sim/model/settings.h"
 #include "sim/probe/probe.h"
+#include "sim/shaders/shared/simulation_parameters.h"
 
 /// What model S's stages read that no stage writes, worked out on the processor.
 namespace insonate::gl {
@@ -42,6 +43,10 @@ struct Gaussian {
   Gaussian(double sigma_px, int limit_px);
   bool operator==(const Gaussian&) const = default;
 };
+
+/// The block of parameters that all shaders read.
+SimulationParameters parameters_of(const Settings& settings, const ScanLines& lines, const Gaussian& reflection,
+                                   const Gaussian& transmission);
 
 /// What fuse.comp asks of each pixel: its sample + 1, or 0 outside the fan, and 1 over what of its windows of R and of
 /// T lies inside the fan; RG32F when there is no window of T, else RGBA32F.

@@ -1,0 +1,35 @@
+#include "sim/gl/settings_reach.h"
+
+namespace insonate::gl {
+
+Reach reach_of_change(const Settings& from, const Settings& to) {
+  using S = Settings;
+  const auto differ = [&](auto... members) { return ((from.*members != to.*members) || ...); };
+
+  Reach reach;
+  reach.layout = differ(&S::samples, &S::slice_planes, &S::image_width, &S::image_height);
+  reach.scatterers = differ(&S::speckle_seed);
+  reach.beam = differ(&S::beam_window, &S::beam_lines, &S::focused_beam, &S::focus_mm, &S::f_number, &S::frequency_mhz,
+                      &S::speckle, &S::reverberation, &S::face_reflection, &S::speckle_cell_mm, &S::slice_thickness_mm,
+                      &S::elevation_focus_mm);
+
+  if (differ(&S::samples, &S::reflection_length_mm, &S::frequency_mhz, &S::absorption, &S::gel_mm, &S::speckle,
+             &S::speckle_seed, &S::speckle_cell_mm, &S::slice_planes, &S::slice_thickness_mm, &S::elevation_focus_mm,
+             &S::edge_shadow, &S::image_width, &S::image_height, &S::skipping) ||
+      (to.skipping && to.blend < from.blend))  // interfaces may be seen that were not beside more echo
+    reach.first = Stage::traverse;
+  else if (differ(&S::beam_window, &S::beam_lines, &S::focused_beam, &S::focus_mm, &S::f_number, &S::reverberation,
+                  &S::face_reflection, &S::clutter, &S::two_way))
+    reach.first = Stage::beam;
+  else if (differ(&S::reflection_sigma_mm, &S::transmission_sigma_mm, &S::blend, &S::clutter_db, &S::electronic_noise,
+                  &S::noise_db) ||
+           (to.electronic_noise && differ(&S::fixed_level)))
+    reach.first = Stage::scan_convert;
+  else if (differ(&S::gain_db, &S::tgc_db, &S::reference_level, &S::fixed_level))
+    reach.first = Stage::fuse;
+  else if (differ(&S::dynamic_range_db, &S::grey_map))
+    reach.first = to.reference_level == ReferenceLevel::fixed ? Stage::fuse : Stage::compress;
+  return reach;
+}
+
+}  // namespace insonate::gl

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <optional>
+
+#include "sim/gl/stage.h"
+#include "sim/model/settings.h"
+
+namespace insonate::gl {
+
+/// What a change of settings reaches.
+struct Reach {
+  std::optional<Stage> first;  ///< stage to run again, with those behind it; none when the picture stays as it is
+  bool layout = false;         ///< the number of samples, planes or pixels
+  bool scatterers = false;     ///< the lattice of scatterers
+  bool beam = false;           ///< what the beam's windows hang on
+};
+
+Reach reach_of_change(const Settings& from, const Settings& to);
+
+}  // namespace insonate::gl
