@@ -1,0 +1,69 @@
+// Scenes drawn from seeds, through the shaders and through the reference. INSONATE_STRESS_FRAMES and
+// INSONATE_STRESS_SEED ask for more, or for others.
+
+#include <catch2/catch.hpp>
+
+#include <cstdio>
+#include <functional>
+
+#include "tests/accuracy/stress_bounds.h"
+#include "tests/accuracy/stressed.h"
+
+using namespace insonate;
+using namespace insonate::test;
+
+TEST_CASE("random scenes, each from its seed") {
+  const long frames = from_environment("INSONATE_STRESS_FRAMES", 25);
+  const long first = from_environment("INSONATE_STRESS_SEED", 1);
+  Stressed stressed;
+  for (long seed = first; seed < first + frames; ++seed) {
+    INFO("seed " << seed);
+    Scene scene = random_scene(std::uint32_t(seed));
+    stressed.check(scene);
+    scene.settings.skipping = true;
+    scene.settings.grey_map = GreyMap(seed % 4);
+    stressed.check_shaders(scene);
+    stressed.check_shaders(random_scene_of_everything(std::uint32_t(seed)));
+  }
+}
+
+namespace {
+
+/// The scenes of `frames` seeds, in groups of which each has programs of its own.
+void for_many_scenes(long frames, Scene (*drawn)(std::uint32_t), const std::function<void(const Scene&)>& check) {
+  constexpr long kGroup = 250;
+  const long first = from_environment("INSONATE_STRESS_SEED", 1);
+  Scene leader;
+  for (long seed = first; seed < first + frames; ++seed) {
+    INFO("seed " << seed);
+    Scene scene = drawn(std::uint32_t(seed));
+    if (seed == first || seed % kGroup == 0) leader = drawn(std::uint32_t(seed / kGroup * kGroup));
+    check(compiled_as(leader, std::move(scene)));
+    if ((seed - first + 1) % 1000 == 0) std::printf("seeds %ld to %ld\n", first, seed), std::fflush(stdout);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("random scenes in groups that share their programs, bounds alone") {
+  Stressed stressed;
+  for_many_scenes(500, random_scene_of_everything, [&](const Scene& scene) { stressed.check_shaders(scene); });
+}
+
+TEST_CASE("random scenes in groups that share their programs, against the reference") {
+  Stressed stressed;
+  for_many_scenes(100, random_scene, [&](const Scene& scene) { stressed.check(scene); });
+}
+
+// Hidden, as they take an hour or more: build/dev/tests/stress_test "[many]".
+TEST_CASE("many random scenes, bounds alone", "[.][many]") {
+  Stressed stressed;
+  for_many_scenes(from_environment("INSONATE_STRESS_FRAMES", 100000), random_scene_of_everything,
+                  [&](const Scene& scene) { stressed.check_shaders(scene); });
+}
+
+TEST_CASE("many random scenes against the reference", "[.][many]") {
+  Stressed stressed;
+  for_many_scenes(from_environment("INSONATE_STRESS_FRAMES", 100000), random_scene,
+                  [&](const Scene& scene) { stressed.check(scene); });
+}

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "sim/gl/headless_context.h"
+#include "sim/gl/simulator.h"
+#include "sim/reference/reference.h"
+#include "tests/accuracy/stress_scene.h"
+
+namespace insonate::test {
+
+/// Draws scenes with the shaders and with the reference, and checks that no stage lets out what is not a number or out
+/// of its bounds, and that both agree wherever single precision can.
+class Stressed {
+public:
+  Stages<float> shaders(const Scene& scene);
+  Stages<double> reference(const Scene& scene, const MediumField& field) const;
+
+  /// Bounds alone.
+  Stages<float> check_shaders(const Scene& scene);
+  /// Bounds of both, and agreement.
+  void check(const Scene& scene);
+
+private:
+  gl::HeadlessContext context_;
+  gl::Simulator simulator_;
+  TissueTable table_ = read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml");
+};
+
+}  // namespace insonate::test
