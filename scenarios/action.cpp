@@ -27,6 +27,7 @@ constexpr std::array kKinds{
     KindOfAction{ActionKind::ellipse, "ellipse", 6, false},
     KindOfAction{ActionKind::point, "point", 2, false},
     KindOfAction{ActionKind::label, "label", 2, true},
+    KindOfAction{ActionKind::take_back, "take_back", 1, true},
     KindOfAction{ActionKind::answer, "answer", 0, true},
     KindOfAction{ActionKind::hint, "hint", 0, false},
     KindOfAction{ActionKind::go_to, "go_to", 0, true},
@@ -82,8 +83,11 @@ public:
              " words instead of " + std::to_string(wanted - 1));
     Action action{kind.kind};
     for (std::size_t i = 0; i < kind.numbers; ++i) action.numbers[i] = number(words[1 + i]);
-    const bool has_slot = kind.kind == ActionKind::caliper || kind.kind == ActionKind::ellipse;
-    if (has_slot && !(action.numbers[0] >= 1 && action.numbers[0] <= 9 && action.numbers[0] == action.slot()))
+    const bool takes_back = kind.kind == ActionKind::take_back;
+    const bool has_slot = takes_back || kind.kind == ActionKind::caliper || kind.kind == ActionKind::ellipse;
+    const double least = takes_back ? 0 : 1;
+    if (has_slot &&
+        !(action.numbers[0] >= least && action.numbers[0] <= Action::kMostSlots && action.numbers[0] == action.slot()))
       refuse("a slot is no whole number from 1 to 9");
     if (kind.has_text && words.back().front() != ':') refuse("an action's text does not begin with ':'");
     if (kind.has_text) action.text = unescaped(words.back().substr(1));

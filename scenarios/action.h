@@ -19,20 +19,23 @@ enum class ActionKind {
   gain,       ///< [dB]
   freeze,     ///< the picture stands still: that of the last valid sample before the action
   unfreeze,
-  caliper,  ///< puts a caliper [slot from 1 on, x1, y1, x2, y2]; a slot put again has moved
-  ellipse,  ///< [slot, x1, y1, x2, y2 of one axis' ends, half the other axis]
-  point,    ///< points at something [x, y]
-  label,    ///< names what lies there [x, y; the structure's name]
-  answer,   ///< answers the question [the choice, number or text]
-  hint,     ///< asks for the next hint
-  go_to,    ///< turns to another step [its name]
-  go_on     ///< says that the step is done
+  caliper,    ///< puts a caliper [slot from 1 on, x1, y1, x2, y2]; a slot put again has moved
+  ellipse,    ///< [slot, x1, y1, x2, y2 of one axis' ends, half the other axis]
+  point,      ///< points at something [x, y]
+  label,      ///< names what lies there [x, y; the structure's name]
+  take_back,  ///< as if it had not been placed [slot of a caliper or ellipse, or 0; then the label's name, or "" for
+              ///< the point]
+  answer,  ///< answers the question [the choice, number or text]
+  hint,    ///< asks for the next hint
+  go_to,   ///< turns to another step [its name]
+  go_on    ///< says that the step is done
 };
 
 /// Positions are mm in the probe's imaging plane: x lateral towards the marker, y along the central beam.
 struct Action {
   static constexpr std::size_t kMostNumbers = 6;
   static constexpr double kLargestNumber = 1e6;
+  static constexpr int kMostSlots = 9;
   static constexpr std::size_t kLongestText = 240;  ///< bytes; more is cut when it is written
 
   ActionKind kind{};

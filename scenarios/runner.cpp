@@ -139,6 +139,7 @@ void Runner::show(const PoseSample& sample, double now) {
   run_->see({now, valid, sample.patient_from_probe, live_.view ? &*live_.view : nullptr, machine_});
   live_.within_tolerance = run_->on_target();
   live_.hold_share = run_->share_done();
+  live_.enough = run_->enough();
 }
 
 /// Of the probe that the step's view asks for, or else that the learner took.
@@ -164,16 +165,21 @@ void Runner::begin_step(std::size_t index, double now) {
   run_ = asked.task->begin({asked, subject_, tissues_, meters_[index].get()}, now);
   live_.hold_share = 0;
   live_.within_tolerance = false;
+  live_.enough = run_->enough();
   live_.hints.clear();
   for (std::size_t i = 0; i < hints_taken_[index]; ++i) live_.hints.push_back(asked.hints[i].text);
   live_.hints_left = asked.hints.size() - hints_taken_[index];
 }
 
+bool Runner::can_go_to(std::size_t index) const {
+  const Step& other = scenario_.steps[index];
+  return scenario_.order == Scenario::Order::free && !live_.finished && index != live_.step && !other.name.empty() &&
+         !ended_[index] && other.counts == step().counts;
+}
+
 void Runner::go_to(const std::string& name, double now) {
-  if (scenario_.order != Scenario::Order::free) return;
   for (std::size_t i = 0; i < scenario_.steps.size(); ++i) {
-    const Step& other = scenario_.steps[i];
-    if (other.name != name || name.empty() || i == live_.step || ended_[i] || other.counts != step().counts) continue;
+    if (scenario_.steps[i].name != name || !can_go_to(i)) continue;
     spent_s_[live_.step] += now - step_start_s_;
     return begin_step(i, now);
   }

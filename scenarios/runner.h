@@ -34,6 +34,7 @@ struct LiveExam {
   std::optional<ViewValues> view;  ///< of the last sample, when it was valid and the step names a view
   bool within_tolerance = false;   ///< the last sample's picture is as the step asks for
   double hold_share = 0;           ///< 0 to 1: how much of the step, as of a hold, is done
+  bool enough = false;             ///< going on now would end the step as done
   std::vector<std::string> hints;  ///< that the learner has taken in this step
   std::size_t hints_left = 0;
   double points = 0;           ///< of the steps done
@@ -88,6 +89,10 @@ public:
 
   const Scenario& scenario() const { return scenario_; }
   const LiveExam& live() const { return live_; }
+  /// Whether a step is over, or was skipped: nobody turns to it any more.
+  bool has_ended(std::size_t step) const { return ended_[step].has_value(); }
+  /// Whether the learner may turn to a step now (ActionKind::go_to).
+  bool can_go_to(std::size_t step) const;
   const std::vector<TracePoint>& trace() const { return trace_; }
   /// As the actions have set it.
   const Machine& machine() const { return machine_; }

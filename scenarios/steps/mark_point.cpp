@@ -26,6 +26,7 @@ public:
   PointRun(const MarkPoint& asked, const Case& subject) : asked_(asked), subject_(subject) {}
 
   void act(const Action& action, const Moment& moment) override {
+    if (action.kind == ActionKind::take_back && action.slot() == 0 && action.text.empty()) point_.reset();
     if (action.kind != ActionKind::point) return;
     if (const auto place = place_in_patient(action, moment)) point_ = place;
   }
@@ -51,6 +52,7 @@ public:
   LabelRun(const LabelStructures& asked, const Case& subject) : asked_(asked), subject_(subject) {}
 
   void act(const Action& action, const Moment& moment) override {
+    if (action.kind == ActionKind::take_back && action.slot() == 0) places_.erase(action.text);
     if (action.kind != ActionKind::label) return;
     if (std::find(asked_.structures.begin(), asked_.structures.end(), action.text) == asked_.structures.end()) return;
     if (const auto place = place_in_patient(action, moment)) places_[action.text] = *place;

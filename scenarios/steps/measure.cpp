@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "scenarios/caliper.h"
 #include "scenarios/steps/plane_region.h"
 #include "scenarios/steps/structures.h"
 #include "scenarios/table_reader.h"
@@ -15,7 +16,6 @@
 namespace insonate {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kWindow_mm = 100;  // to each side of the point that is looked around: further than organs reach
 
 const ReferenceView* view_of(const MeasureTarget& target, const Step& step, const Case& subject) {
@@ -79,23 +79,25 @@ public:
   Run(const Measure& asked, const StepWorld& world) : asked_(asked), world_(world) {}
 
   void act(const Action& action, const Moment& moment) override {
-    const ActionKind wanted = asked_.tool == Measure::Tool::ellipse ? ActionKind::ellipse : ActionKind::caliper;
-    if (action.kind != wanted || !moment.machine.frozen_at || action.slot() < 1 || action.slot() > slots()) return;
-    placed_[std::size_t(action.slot() - 1)] = Placed{action, *moment.machine.frozen_at};
-    frozen_at_ = moment.machine.frozen_at;
-    time_s_ = moment.now_s;
-    depth_mm_ = moment.machine.depth_mm;
+    const bool has_slot = action.slot() >= 1 && action.slot() <= asked_.slots();
+    if (action.kind == ActionKind::take_back && has_slot) placed_[std::size_t(action.slot() - 1)].reset();
+    if (action.kind != asked_.places() || !moment.machine.frozen_at || !has_slot) return;
+    placed_[std::size_t(action.slot() - 1)] =
+        Placed{action, *moment.machine.frozen_at, moment.now_s, moment.machine.depth_mm, ++order_};
   }
-  bool enough() const override { return count() == slots(); }
-  double share_done() const override { return double(count()) / slots(); }
+  bool enough() const override { return count() == asked_.slots(); }
+  double share_done() const override { return double(count()) / asked_.slots(); }
 
   void finish(StepOutcome, double, StepResult& result) const override {
-    if (frozen_at_ && world_.meter) {
-      result.judged = world_.meter->measure(*frozen_at_, depth_mm_);
-      result.judged_from_s = result.judged_to_s = time_s_;
+    const Placed* last = last_placed();
+    if (last && world_.meter) {
+      result.judged = world_.meter->measure(last->patient_from_probe, last->depth_mm);
+      result.judged_from_s = result.judged_to_s = last->time_s;
     }
     if (!enough()) return;
-    const double measured = value();
+    std::vector<Action> placed;
+    for (int i = 0; i < asked_.slots(); ++i) placed.push_back(placed_[std::size_t(i)]->action);
+    const double measured = asked_.value(placed);
     const Truth truth = truth_of(asked_, world_.step, world_.subject);
     result.facts.emplace_back("measured", with_unit(measured));
     if (!truth.value) return;
@@ -111,42 +113,25 @@ public:
 private:
   struct Placed {
     Action action;
-    Pose patient_from_probe;
+    Pose patient_from_probe;  ///< of the frozen picture
+    double time_s;
+    double depth_mm;
+    int order;
   };
 
-  int slots() const { return asked_.tool == Measure::Tool::volume ? 3 : asked_.tool == Measure::Tool::ratio ? 2 : 1; }
   int count() const {
     return int(std::count_if(placed_.begin(), placed_.end(), [](const auto& p) { return p.has_value(); }));
   }
-  double length(std::size_t slot) const {
-    const Action& action = placed_[slot]->action;
-    return glm::distance(action.point(1), action.point(3));
-  }
-  double value() const {
-    switch (asked_.tool) {
-      case Measure::Tool::distance:
-        break;
-      case Measure::Tool::ellipse:
-        return kPi * length(0) / 2 * std::abs(placed_[0]->action.numbers[5]);
-      case Measure::Tool::ratio:
-        return length(1) > 0 ? length(0) / length(1) : 0;
-      case Measure::Tool::volume:
-        return kPi / 6 * length(0) * length(1) * length(2) / 1000;
-    }
-    return length(0);
+  /// Whose picture is judged.
+  const Placed* last_placed() const {
+    const Placed* last = nullptr;
+    for (const auto& placed : placed_)
+      if (placed && (!last || placed->order > last->order)) last = &*placed;
+    return last;
   }
   std::string with_unit(double value) const {
-    switch (asked_.tool) {
-      case Measure::Tool::distance:
-        break;
-      case Measure::Tool::ellipse:
-        return fixed(value / 100, 2) + " cm\u00b2";
-      case Measure::Tool::ratio:
-        return fixed(value, 2);
-      case Measure::Tool::volume:
-        return fixed(value, 0) + " ml";
-    }
-    return fixed(value, 1) + " mm";
+    // Of a distance the same unit for what was measured and for the truth, however long they are.
+    return asked_.tool == Measure::Tool::distance ? fixed(value, 1) + " mm" : asked_.value_text(value);
   }
   static glm::dvec3 middle_of(const Placed& placed) {
     return placed.patient_from_probe.point(glm::dvec3((placed.action.point(1) + placed.action.point(3)) / 2.0, 0));
@@ -155,9 +140,7 @@ private:
   const Measure& asked_;
   StepWorld world_;
   std::array<std::optional<Placed>, 3> placed_;
-  std::optional<Pose> frozen_at_;  ///< the picture that was measured in last
-  double time_s_ = 0;
-  double depth_mm_ = 0;
+  int order_ = 0;
 };
 
 MeasureTarget read_target(TableReader& table, const Step& step, Measure::Tool tool) {
@@ -177,6 +160,39 @@ MeasureTarget read_target(TableReader& table, const Step& step, Measure::Tool to
 }
 
 }  // namespace
+
+int Measure::slots() const {
+  return tool == Tool::volume ? 3 : tool == Tool::ratio ? 2 : 1;
+}
+
+double Measure::value(const std::vector<Action>& placed) const {
+  const auto length = [&](std::size_t slot) { return caliper_length_mm(placed[slot]); };
+  switch (tool) {
+    case Tool::distance:
+      break;
+    case Tool::ellipse:
+      return ellipse_area_mm2(placed[0]);
+    case Tool::ratio:
+      return length(1) > 0 ? length(0) / length(1) : 0;
+    case Tool::volume:
+      return ellipsoid_volume_ml(length(0), length(1), length(2));
+  }
+  return length(0);
+}
+
+std::string Measure::value_text(double value) const {
+  switch (tool) {
+    case Tool::distance:
+      break;
+    case Tool::ellipse:
+      return area_text(value);
+    case Tool::ratio:
+      return fixed(value, 2);
+    case Tool::volume:
+      return volume_text(value);
+  }
+  return length_text(value);
+}
 
 std::shared_ptr<const StepTask> Measure::read(TableReader& table, const Step& step) {
   auto task = std::make_shared<Measure>();

@@ -38,6 +38,14 @@ struct Measure : StepTask {
   std::string walls;                   ///< walls = "outer to outer": the convention, in words; it is shown
   std::vector<MeasureTarget> targets;  ///< two of a ratio, else one
 
+  /// What is placed, and how many of it.
+  ActionKind places() const { return tool == Tool::ellipse ? ActionKind::ellipse : ActionKind::caliper; }
+  int slots() const;
+  /// What all of them come to, in the order of their slots: mm, mm2, none or ml by tool.
+  double value(const std::vector<Action>& placed) const;
+  /// "23.4 mm", "4.56 cm²", "1.25", "123 ml"
+  std::string value_text(double value) const;
+
   static std::shared_ptr<const StepTask> read(TableReader& table, const Step& step);
 
   const char* kind() const override { return "measure"; }

@@ -12,16 +12,6 @@
 namespace insonate {
 namespace {
 
-std::optional<double> number_in(const std::string& text) {
-  const std::size_t first = text.find_first_not_of(" \t");
-  if (first == std::string::npos) return std::nullopt;
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data() + first, text.data() + text.size(), value);
-  const bool rest = std::any_of(end, text.data() + text.size(), [](char c) { return c != ' ' && c != '\t'; });
-  if (error != std::errc() || rest || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
 class Run : public StepRun {
 public:
   Run(const Question& asked, const Case& subject) : asked_(asked) {
@@ -44,7 +34,7 @@ public:
     result.facts.emplace_back("right answer", right_);
     bool right = *answer_ == right_;
     if (asked_.answer == Question::Answer::number) {
-      const auto number = number_in(*answer_);
+      const auto number = Question::number_in(*answer_);
       if (number) result.values.emplace_back(Metric::answer_error, std::abs(*number - asked_.right_number));
       right = number && std::abs(*number - asked_.right_number) <= asked_.within;
     }
@@ -68,6 +58,16 @@ std::string choice_of(TableReader& table, const char* key, const std::vector<std
 
 }  // namespace
 
+std::optional<double> Question::number_in(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(" \t");
+  if (first == std::string::npos) return std::nullopt;
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data() + first, text.data() + text.size(), value);
+  const bool rest = std::any_of(end, text.data() + text.size(), [](char c) { return c != ' ' && c != '\t'; });
+  if (error != std::errc() || rest || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
 std::shared_ptr<const StepTask> Question::read(TableReader& table, const Step&) {
   auto task = std::make_shared<Question>();
   const std::string answer = table.choice("answer", {"choice", "number", "text"}, false);
@@ -77,6 +77,7 @@ std::shared_ptr<const StepTask> Question::read(TableReader& table, const Step&) 
     task->answer = Answer::number;
     task->right_number = table.number("right_number", {-1e6, 1e6});
     task->within = table.number("within", {0, 1e6}, 0.0);
+    task->unit = table.text("unit", false);
   } else {
     task->choices = table.texts("choices", 10);
     if (task->choices.size() == 1) table.problem(table.place("choices"), "has one choice", "offer two or more");

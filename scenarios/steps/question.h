@@ -1,5 +1,9 @@
 #pragma once
 
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "scenarios/scenario.h"
 #include "scenarios/steps/step_task.h"
 
@@ -21,7 +25,11 @@ struct Question : StepTask {
   std::string if_present, if_absent;  ///< if_present = "yes", if_absent = "no": two of the choices
   double right_number = 0;            ///< right_number = 30: of a number
   double within = 0;                  ///< within = 2: how far off a number may be and be right; default 0
+  std::string unit;                   ///< unit = "mm": of a number, as it is shown beside it; may be left out
   SourcePlace finding_place{};
+
+  /// What an answer says as a number; empty when it is none.
+  static std::optional<double> number_in(const std::string& answer);
 
   static std::shared_ptr<const StepTask> read(TableReader& table, const Step& step);
 

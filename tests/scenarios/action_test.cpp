@@ -25,6 +25,8 @@ std::vector<Action> one_of_each() {
           {ActionKind::ellipse, {1, -10, 40, 10, 40, 7.25}},
           {ActionKind::point, {1e-9, 80}},
           {ActionKind::label, {3, 4}, "liver"},
+          {ActionKind::take_back, {2}},
+          {ActionKind::take_back, {0}, "liver"},
           {ActionKind::answer, {}, "50 % sure; \xc3\xa9\n"},
           {ActionKind::answer, {}, ""},
           {ActionKind::hint},

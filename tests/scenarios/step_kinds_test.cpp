@@ -113,6 +113,36 @@ TEST_CASE("a distance is measured between calipers in a frozen picture, against 
   CHECK(*moved.steps[0].value(Metric::measurement_error_mm) == *right.value(Metric::measurement_error_mm));
 }
 
+TEST_CASE("what is taken back was never placed") {
+  const std::string measure =
+      "view = \"ball\"\ntool = \"volume\"\nwalls = \"outer\"\n[[step.target]]\nstructures = [\"ball\"]\n";
+  const Scenario exam = exam_of(step("measure", measure, "measurement_error_percent", "full = 5\nzero = 50"));
+  const Action back{ActionKind::take_back, {2}}, slide{ActionKind::unfreeze};
+  const std::vector<Action> all{caliper(1, 0, 40, 0, 80), caliper(3, -20, 60, 20, 60), caliper(2, -20, 60, 20, 60)};
+  const auto pose = [](double t) { return at_z(t < 1.55 ? 0 : 8); };
+  const auto judged = [&](const std::vector<Action>& later) {
+    return scored(exam, 4, {{1.0, {kFreeze}}, {1.5, all}, {1.6, {slide}}, {2.0, later}, {2.5, {kGoOn}}}, pose);
+  };
+  CHECK(judged({}).steps[0].outcome == StepOutcome::done);
+  CHECK(judged({back}).steps[0].outcome == StepOutcome::went_on);
+  CHECK(judged({back}).steps[0].judged);
+  CHECK(judged({back, kFreeze, caliper(2, -20, 60, 20, 60)}).steps[0].outcome == StepOutcome::done);
+  INFO("judged is the picture of what is left and was placed last");
+  const std::vector<Action> moved{kFreeze, caliper(2, -20, 60, 20, 60)};
+  CHECK(judged(moved).steps[0].judged->plane_distance_mm == Approx(-8).margin(1e-9));
+  CHECK(judged({moved[0], moved[1], back}).steps[0].judged->plane_distance_mm == Approx(0).margin(1e-9));
+
+  const Action taken{ActionKind::take_back}, ball{ActionKind::take_back, {}, "ball"};
+  const Scenario point = exam_of(step("mark_point", "landmark = \"top\"", "point_error_mm", "full = 2\nzero = 20"));
+  const Action top{ActionKind::point, {0, 45}};
+  CHECK(scored(point, 3, {{1.0, {top, ball}}, {2.0, {kGoOn}}}).steps[0].outcome == StepOutcome::done);
+  CHECK(scored(point, 3, {{1.0, {top, taken}}, {2.0, {kGoOn}}}).steps[0].outcome == StepOutcome::went_on);
+  const Scenario names = exam_of(step("label_structures", "structures = [\"ball\"]", "labels_right_percent"));
+  const Action label{ActionKind::label, {0, 60}, "ball"};
+  CHECK(scored(names, 3, {{1.0, {label, taken}}, {2.0, {kGoOn}}}).steps[0].outcome == StepOutcome::done);
+  CHECK(scored(names, 3, {{1.0, {label, ball}}, {2.0, {kGoOn}}}).steps[0].outcome == StepOutcome::went_on);
+}
+
 TEST_CASE("areas, ratios and volumes are measured against the label map") {
   const std::string target = "[[step.target]]\nstructures = [\"ball\"]\n";
   const auto relative_error = [&](const std::string& tool, const std::string& targets,
