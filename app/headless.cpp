@@ -33,7 +33,8 @@ public:
 
   /// Only what the session shows, not the screen around it.
   void draw_pictures(Trainer& trainer) {
-    trainer.draw(screen_.picture_sizes(float(width_), float(height_)), 1.0, std::numeric_limits<double>::infinity());
+    trainer.draw(screen_.picture_sizes(trainer, float(width_), float(height_)), 1.0,
+                 std::numeric_limits<double>::infinity());
   }
 
   Image<Rgba8> draw(Trainer& trainer) {

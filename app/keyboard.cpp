@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "devices/live/probe_buttons.h"
+#include "scenarios/steps/question.h"
 
 namespace insonate {
 namespace {
@@ -134,6 +135,19 @@ void Keyboard::set_up(const KeyEvent& pressed, Trainer& trainer) {
   if (pressed.key == GLFW_KEY_ESCAPE) trainer.end_setup();
 }
 
+/// What the step lets choose from, by its number from 0 on.
+void Keyboard::choose(int index, Trainer& trainer) {
+  const auto which = std::size_t(index);
+  PictureTools& tools = trainer.picture_tools();
+  if (const Question* question = trainer.step_controls().question()) {
+    if (which < question->choices.size()) trainer.step_controls().draft(question->choices[which]);
+  } else if (tools.labelling()) {
+    if (which < tools.names().size()) tools.name_place(*trainer.session(), tools.names()[which]);
+  } else {
+    tools.choose_slot(index + 1);
+  }
+}
+
 void Keyboard::press(const KeyEvent& pressed, Trainer& trainer, ui::Screen& screen) {
   const bool repeated = pressed.kind == KeyEvent::Kind::repeated;
   if (screen.overlay(trainer) == "setup") {
@@ -154,7 +168,24 @@ void Keyboard::press(const KeyEvent& pressed, Trainer& trainer, ui::Screen& scre
   if (!trainer.session()) return;
   Session& session = *trainer.session();
   Console& console = session.console();
+  if (!repeated && pressed.key >= GLFW_KEY_1 && pressed.key <= GLFW_KEY_9)
+    return choose(pressed.key - GLFW_KEY_1, trainer);
   switch (pressed.key) {
+    case GLFW_KEY_ENTER:
+    case GLFW_KEY_KP_ENTER:
+      if (!repeated && StepControls::active(session)) screen.go_on(trainer);
+      break;
+    case GLFW_KEY_BACKSPACE:
+      trainer.picture_tools().undo(session);
+      break;
+    case GLFW_KEY_DELETE:
+      trainer.picture_tools().clear(session);
+      break;
+    case GLFW_KEY_C:
+      trainer.picture_tools().choose(trainer.picture_tools().tool() == PictureTools::Tool::distance
+                                         ? PictureTools::Tool::ellipse
+                                         : PictureTools::Tool::distance);
+      break;
     case GLFW_KEY_TAB:
       if (!repeated)
         trainer.attempt(

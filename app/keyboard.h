@@ -44,6 +44,7 @@ private:
   void hand_on(Trainer& trainer, ui::Screen& screen);
   bool type(const KeyEvent& event, Trainer& trainer, ui::Screen& screen);
   void press(const KeyEvent& event, Trainer& trainer, ui::Screen& screen);
+  static void choose(int index, Trainer& trainer);
   static void set_up(const KeyEvent& pressed, Trainer& trainer);
 
   GLFWwindow* window_;

@@ -6,15 +6,16 @@
 
 #include "app/picture_reader.h"
 #include "devices/record/sequence_recorder.h"
+#include "scenarios/action.h"
 #include "sim/core/pose_sample.h"
 
 namespace insonate {
 
 /// The files of one recorded run.
 ///
-/// FILE has the samples, to the bit. With pictures there is a second file, FILE-images: a frame for each picture, with
-/// the pose it was drawn at and the time on the source's clock. Its pictures all have the size of the first one; one of
-/// another size, as of a window that was resized, is sampled anew.
+/// FILE has the samples, to the bit, with what the learner did before each. With pictures there is a second file,
+/// FILE-images: a frame for each picture, with the pose it was drawn at and the time on the source's clock. Its
+/// pictures all have the size of the first one; one of another size, as of a window that was resized, is sampled anew.
 ///
 /// A file's times rise, so whatever begins anew begins a file of its own: scan.igs.mha is followed by scan-2.igs.mha.
 /// What has been added is safe from a crash of the program when add() has returned (SequenceRecorder). Whatever is
@@ -26,7 +27,8 @@ public:
 
   /// Makes the files so far and begins others.
   void begin_next();
-  void add(const std::vector<PoseSample>& samples);
+  /// @param actions  what was done before them, by their times
+  void add(const std::vector<PoseSample>& samples, const ActionLog& actions);
   void add(const DrawnPicture& picture);
   /// Makes the files.
   void finish();

@@ -30,9 +30,11 @@ public:
   void operator()(const Next&) {
     if (files_) files_->begin_next();
   }
-  template <typename What>
-  void operator()(const What& what) {
-    if (files_) files_->add(what);
+  void operator()(const Samples& said) {
+    if (files_) files_->add(said.samples, said.actions);
+  }
+  void operator()(const DrawnPicture& picture) {
+    if (files_) files_->add(picture);
   }
 
   /// What is written by then stays.
@@ -56,7 +58,7 @@ RunRecorder::~RunRecorder() {
 void RunRecorder::start(const std::filesystem::path& file, bool exactly) {
   if (std::exchange(running_, true)) return;
   attempt_ = 0;
-  begun_ = false;
+  begun_ = has_samples_ = false;
   start_s_ = last_s_ = 0;
   left_out_ = 0;
   if (!thread_.joinable()) thread_ = std::jthread([this] { run(); });
@@ -75,7 +77,15 @@ void RunRecorder::take(const Session& session) {
     hand_over(Next{});
   attempt_ = session.attempt();
   last_s_ = session.now_s();
-  if (!session.latest_samples().empty()) hand_over(session.latest_samples());
+  const std::vector<PoseSample>& samples = session.latest_samples();
+  if (samples.empty()) return;
+  ActionLog actions = session.latest_actions();
+  if (!std::exchange(has_samples_, true) && !session.latest_begin_attempt()) {
+    const std::vector<Action> settings = session.settings();
+    std::vector<Action>& first = actions[samples.front().time_s];
+    first.insert(first.begin(), settings.begin(), settings.end());
+  }
+  hand_over(Samples{samples, std::move(actions)});
 }
 
 void RunRecorder::take(const DrawnPicture& picture) {

@@ -20,7 +20,8 @@ namespace insonate {
 /// thread of its own writes: whoever draws never waits for a disk. When the exam starts over, the probe changes hands
 /// or another session begins, other files follow.
 ///
-/// Samples are handed over all; of pictures those that the disk keeps up with.
+/// Samples are handed over all, with the actions that go with them; of pictures those that the disk keeps up with. A
+/// recording that begins in the middle of a run begins with how the machine is set then.
 class RunRecorder {
 public:
   /// @param with_pictures  each run is recorded with its pictures
@@ -62,7 +63,11 @@ private:
   };
   struct Stop {};
   struct Next {};
-  using Job = std::variant<Start, Stop, Next, std::vector<PoseSample>, DrawnPicture>;
+  struct Samples {
+    std::vector<PoseSample> samples;
+    ActionLog actions;
+  };
+  using Job = std::variant<Start, Stop, Next, Samples, DrawnPicture>;
   class Writer;
 
   void hand_over(Job job);
@@ -71,7 +76,7 @@ private:
   const bool with_pictures_;
   bool running_ = false;
   int attempt_ = 0;  ///< of the session, that the current file is of; 0: of none yet
-  bool begun_ = false;
+  bool begun_ = false, has_samples_ = false;
   double start_s_ = 0, last_s_ = 0;
   std::size_t left_out_ = 0;
 

@@ -128,6 +128,9 @@ void Session::begin_attempt() {
   console_.frozen = false;
   acts_.clear();
   actions_.clear();
+  latest_actions_.clear();
+  machine_ = acted_ = runner_ ? runner_->machine() : Machine();
+  attempt_is_fresh_ = true;
   log_actions_.clear();
   if (const Recording* recording = source().recording())
     log_actions_ = parse_action_log(recording->actions, recording->file);
@@ -171,7 +174,26 @@ void Session::move_probe(const std::function<Pose(const ProbeHand&, const Pose&)
 }
 
 void Session::act(const Action& action) {
-  if (!source().recording()) acts_.push_back(action);
+  if (source().recording()) return;
+  note_settings();
+  acts_.push_back(action);
+}
+
+std::vector<Action> Session::settings() const {
+  return settings_since(Machine(), console_);
+}
+
+std::optional<Pose> Session::frozen_picture() const {
+  if (!console_.frozen) return std::nullopt;
+  return source().recording() ? shown_pose_ : machine_.frozen_at;
+}
+
+/// What is on the console comes before what is done next.
+void Session::note_settings() {
+  for (Action& setting : settings_since(acted_, console_)) {
+    acted_.apply(setting, newest_pose_);
+    acts_.push_back(std::move(setting));
+  }
 }
 
 std::vector<Action> Session::actions_before(const PoseSample& sample) {
@@ -179,11 +201,8 @@ std::vector<Action> Session::actions_before(const PoseSample& sample) {
     const auto found = log_actions_.find(sample.time_s);
     return found == log_actions_.end() ? std::vector<Action>() : found->second;
   }
-  if (!runner_) return {};
-  std::vector<Action> actions = settings_since(runner_->machine(), console_);
-  actions.insert(actions.end(), acts_.begin(), acts_.end());
-  acts_.clear();
-  return actions;
+  note_settings();
+  return std::exchange(acts_, {});
 }
 
 void Session::take(const PoseSample& sample) {
@@ -200,13 +219,16 @@ void Session::take(const PoseSample& sample) {
     set_console(console_, machine);
   }
   if (console_.frozen && !was_frozen) shown_pose_ = newest_pose_;
+  for (const Action& action : actions) machine_.apply(action, newest_pose_);
+  if (!actions.empty()) latest_actions_[sample.time_s] = actions;
   if (runner_ && !result_) {
     runner_->feed(sample, actions);
     exam_samples_.push_back(sample);
     if (!actions.empty()) actions_[sample.time_s] = actions;
-    // What is measured in is what was sampled, not what was predicted of it.
-    if (console_.frozen && runner_->machine().frozen_at) shown_pose_ = runner_->machine().frozen_at;
+    machine_ = runner_->machine();
   }
+  // What is measured in is what was sampled, not what was predicted of it.
+  if (console_.frozen && machine_.frozen_at) shown_pose_ = machine_.frozen_at;
   if (sample.status != PoseStatus::ok) return;
   newest_pose_ = sample.patient_from_probe;
   last_usable_s_ = now_s_;
@@ -228,6 +250,7 @@ void Session::advance(double now_s) {
   // A session that is made while the clock runs has not lost anything yet.
   if (!std::exchange(advanced_, true)) last_usable_s_ = attempt_began_s_ = now_s;
   samples_.clear();
+  latest_actions_.clear();
   if (holder_ == Holder::learner && tracker_ && tracker_->live()) {
     tracker_->poll(now_s, samples_);
     samples_.clear();
@@ -237,6 +260,7 @@ void Session::advance(double now_s) {
   const auto pressing = std::find_if(samples_.begin(), samples_.end(),
                                      [](const PoseSample& sample) { return sample.status != PoseStatus::missing; });
   if (pressing != samples_.end()) pressing->buttons |= std::exchange(pressed_, 0);
+  if (!samples_.empty()) samples_begin_attempt_ = std::exchange(attempt_is_fresh_, false);
   for (const PoseSample& sample : samples_) take(sample);
   find_pose();
 

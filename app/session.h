@@ -79,10 +79,15 @@ public:
   /// What the runner has been fed with.
   const std::vector<PoseSample>& exam_samples() const { return exam_samples_; }
   /// Does something besides moving the probe: a caliper, an answer. Knobs and freezing need no call, the session sees
-  /// them on the console. Nothing happens when the source is a log, which brings its own actions.
+  /// them on the console, in their order with what is done here. Nothing happens when the source is a log, which brings
+  /// its own actions.
   void act(const Action& action);
-  /// All that the exam under way has been handed, for whoever records it with the samples.
+  /// All that the exam under way has been handed, for whoever keeps it with the samples.
   const ActionLog& actions() const { return actions_; }
+  /// What was done before the samples of the last advance(), in practice too.
+  const ActionLog& latest_actions() const { return latest_actions_; }
+  /// What brings a machine that was never touched to where the console is now: for whoever records from the middle on.
+  std::vector<Action> settings() const;
   /// Complete marks with their provenance; empty until the exam is finished.
   const std::optional<ExamResult>& result() const { return result_; }
 
@@ -103,6 +108,9 @@ public:
   const std::optional<Pose>& shown_pose() const { return shown_pose_; }
   /// The newest usable pose, which a frozen picture does not show.
   const std::optional<Pose>& newest_pose() const { return newest_pose_; }
+  /// The pose of the frozen picture that is shown, as whoever judges calipers in it knows it: once a sample has told
+  /// him of the freezing.
+  std::optional<Pose> frozen_picture() const;
   /// How the pose was found that would be shown if the picture were not frozen; empty unless a live tracker is in
   /// charge.
   const std::optional<PoseEstimate>& answer() const { return answer_; }
@@ -112,6 +120,8 @@ public:
 
   /// What came with the last advance(), from the source that was in charge then.
   const std::vector<PoseSample>& latest_samples() const { return samples_; }
+  /// Whether they are the first of this attempt.
+  bool latest_begin_attempt() const { return samples_begin_attempt_; }
 
   /// Moments that were marked during this attempt, in seconds since it began.
   const std::vector<double>& marks_s() const { return marks_s_; }
@@ -136,6 +146,7 @@ private:
   void begin_attempt();
   void take(const PoseSample& sample);
   void find_pose();
+  void note_settings();
   std::vector<Action> actions_before(const PoseSample& sample);
   Tracker& source();
 
@@ -164,9 +175,13 @@ private:
   std::vector<double> marks_s_;
   ActionLog log_actions_;     ///< of the log that is replayed
   std::vector<Action> acts_;  ///< the learner's own, until the next sample
+  Machine acted_;             ///< as they leave it
+  Machine machine_;           ///< as it was at the last sample; of a log the console says it
   ActionLog actions_;         ///< of this attempt
   bool advanced_ = false;
   std::vector<PoseSample> samples_;
+  ActionLog latest_actions_;  ///< by the times of samples_
+  bool samples_begin_attempt_ = false, attempt_is_fresh_ = true;
 };
 
 }  // namespace insonate

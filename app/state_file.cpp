@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "scenarios/caliper.h"
 #include "sim/core/files.h"
 
 namespace insonate {
@@ -56,8 +57,24 @@ void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::
         state[std::string("marker_") + "xyz"[axis]] = pose->rotation[0][axis];
       }
     }
+    const PlaneOnScreen plane = screen.plane_on_screen(trainer);
+    for (const auto& [name, mm] : {std::pair{"origin", glm::dvec2(0.0)}, {"at_10_10_mm", glm::dvec2(10.0)}}) {
+      state[std::string("plane_") + name + "_x"] = plane.screen(mm).x;
+      state[std::string("plane_") + name + "_y"] = plane.screen(mm).y;
+    }
+    std::string placed;
+    const PictureMarks& marks = trainer.picture_tools().marks();
+    for (const auto& [slot, mark] : marks.measured())
+      placed += std::to_string(slot) + " " + value_text(mark.action) + "; ";
+    if (marks.point()) placed += "point; ";
+    for (const auto& [name, mark] : marks.labels()) placed += name + "; ";
+    state["placed"] = placed;
+    state["can_measure"] = PictureTools::ready(*session);
+    state["draft"] = trainer.step_controls().draft();
+    state["typing"] = screen.types_text(trainer);
     if (const Runner* runner = session->runner()) {
       state["step"] = runner->live().step;
+      state["hints"] = runner->live().hints.size();
       state["elapsed_s"] = runner->live().elapsed_s;
       state["hold_share"] = runner->live().hold_share;
       state["finished"] = runner->live().finished;

@@ -121,6 +121,8 @@ void Trainer::begin(std::shared_ptr<const Study> study, const Request& request) 
   show(std::move(study), request);
   setup_.reset();
   session_ = std::move(session);
+  picture_tools_ = {};
+  step_controls_ = {};
   reader_.forget();
   recorder_.begin_anew();
   result_files_.reset();
@@ -146,6 +148,8 @@ void Trainer::update(double now_s) {
   if (!options_.record.empty() && !recorded_) start_recording();
   const bool had_result = session_->result().has_value();
   session_->advance(now_s);
+  picture_tools_.see(*session_);
+  step_controls_.see(*session_);
   recorder_.take(*session_);
   attempt([&] { recorder_.check(); });
   if (!session_->result()) result_files_.reset();

@@ -12,11 +12,13 @@
 #include "app/options.h"
 #include "app/picture_latency.h"
 #include "app/picture_reader.h"
+#include "app/picture_tools.h"
 #include "app/pictures.h"
 #include "app/results.h"
 #include "app/run_recorder.h"
 #include "app/session.h"
 #include "app/setup_wizard.h"
+#include "app/step_controls.h"
 #include "app/study.h"
 #include "scenarios/results/report_files.h"
 #include "scenarios/results/results_database.h"
@@ -78,7 +80,12 @@ public:
 
   Session* session() { return session_.get(); }
   const Session* session() const { return session_.get(); }
+  PictureTools& picture_tools() { return picture_tools_; }
+  const PictureTools& picture_tools() const { return picture_tools_; }
+  StepControls& step_controls() { return step_controls_; }
+  const StepControls& step_controls() const { return step_controls_; }
   Pictures& pictures() { return pictures_; }
+  const Pictures& pictures() const { return pictures_; }
   const Options& options() const { return options_; }
   const std::optional<ResultFiles>& result_files() const { return result_files_; }
   /// The ultrasound, marker on the left, when the view of the last step that was held for any time was held best;
@@ -127,6 +134,8 @@ private:
 
   std::shared_ptr<const Study> study_;
   std::unique_ptr<Session> session_;
+  PictureTools picture_tools_;
+  StepControls step_controls_;
   std::unique_ptr<SetupWizard> setup_;
   bool setup_left_ = false;  ///< before it was complete: the tracker is used without
   Pictures pictures_;

@@ -220,7 +220,7 @@ private:
     events_.mouse.apply();
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     if (size.x <= 0 || size.y <= 0) return;  // minimised
-    trainer_.draw(screen_.picture_sizes(size.x, size.y), governor_.quality(), kVolumeBudget_ms);
+    trainer_.draw(screen_.picture_sizes(trainer_, size.x, size.y), governor_.quality(), kVolumeBudget_ms);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     screen_.render(trainer_);
   }

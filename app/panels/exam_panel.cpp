@@ -63,31 +63,56 @@ void draw_tracker(const Theme& theme, const Rect& where, const Session& session)
             session.holder() == Holder::learner ? "Mouse and keyboard; F1 shows the keys" : source);
 }
 
-void draw_hold(const Theme& theme, const Rect& where, const LiveExam& live) {
+/// How far the step is, in a word or two.
+std::string progress_text(const LiveExam& live, const std::string& kind) {
+  if (live.finished) return "Done";
+  if (kind == "find_view") return live.within_tolerance ? "Hold still" : "Searching";
+  if (live.within_tolerance) return "As asked";
+  if (live.enough && kind != "free_scan") return "Go on when ready";
+  if (live.hold_share > 0) return std::to_string(int(100 * live.hold_share)) + " % done";
+  return kind == "sweep" ? "Searching" : kind == "free_scan" ? "Looking around" : "To be done";
+}
+
+void draw_hold(const Theme& theme, const Rect& where, const LiveExam& live, const std::string& kind) {
   const ImVec2 centre{where.x + theme.px(28), where.y + where.h / 2};
   const bool on_target = live.within_tolerance && !live.finished;
   draw_ring(centre, theme.px(19), theme.px(5), live.finished ? 1.0 : live.hold_share, colour::kAccent, colour::kRaised);
   const Rect upper{where.x + theme.px(60), where.y + theme.px(11), where.w - theme.px(60), theme.px(21)};
   const Rect lower{upper.x, upper.y + upper.h, upper.w, theme.px(20)};
-  draw_text(upper, theme.strong, on_target ? colour::kAccent : colour::kText,
-            live.finished ? "Done"
-            : on_target   ? "Hold still"
-                          : "Searching");
+  draw_text(upper, theme.strong, on_target ? colour::kAccent : colour::kText, progress_text(live, kind));
   draw_text(lower, theme.small_text, colour::kMuted,
-            live.finished           ? "see the score sheet"
-            : !live.started         ? "not started"
-            : live.on_skin          ? "probe on the skin"
-            : live.view.has_value() ? "probe off the skin"
-                                    : "no pose");
+            live.finished                     ? "see the score sheet"
+            : !live.started                   ? "not started"
+            : live.on_skin                    ? "probe on the skin"
+            : live.tracking == PoseStatus::ok ? "probe off the skin"
+                                              : "no pose");
 }
 
-void draw_time(const Theme& theme, const Rect& where, const LiveExam& live) {
-  const bool hurry = !live.finished && live.started && live.step_remaining_s < kHurry_s;
-  const Rect upper{where.x, where.y + theme.px(11), where.w, theme.px(21)};
-  const Rect lower{where.x, upper.y + upper.h, where.w, theme.px(20)};
-  draw_text(upper, theme.strong, colour::kText, clock_text(live.elapsed_s));
-  draw_text(lower, theme.small_text, hurry ? colour::kAmber : colour::kMuted,
-            live.finished ? "in all" : clock_text(live.step_remaining_s) + " left");
+/// What is left of the step and of the exam, whose clock stands still during warm-ups.
+void draw_time(const Theme& theme, const Rect& where, const LiveExam& live, bool counts) {
+  Rect lines[] = {{where.x, where.y + theme.px(11), where.w, theme.px(21)},
+                  {where.x, where.y + theme.px(32), where.w, theme.px(20)}};
+  if (live.finished) {
+    draw_text(lines[0], theme.strong, colour::kText, clock_text(live.elapsed_s));
+    return draw_text(lines[1], theme.small_text, colour::kMuted, "in all");
+  }
+  const auto draw = [&](Rect line, ImFont* font, const char* name, double left_s, bool runs) {
+    draw_text(line.take_left(theme.px(44)), theme.small_text, colour::kMuted, name);
+    draw_text(line, font,
+              runs && left_s < kHurry_s ? colour::kAmber
+              : runs                    ? colour::kText
+                                        : colour::kFaint,
+              clock_text(left_s));
+  };
+  draw(lines[0], theme.strong, "Step", live.step_remaining_s, true);
+  draw(lines[1], theme.text, "Exam", live.exam_remaining_s, counts);
+}
+
+/// What is special about a step.
+std::string status_of(const Scenario& scenario, const Step& step) {
+  if (!step.counts) return "Warm-up: does not count";
+  if (!step.if_good.empty() || !step.if_poor.empty()) return "What comes next depends on this";
+  return scenario.order == Scenario::Order::free ? "In any order" : "";
 }
 
 }  // namespace
@@ -115,19 +140,25 @@ void draw_exam_panel(const Theme& theme, const Rect& panel, const Session& sessi
     return;
   }
   const LiveExam& live = runner->live();
-  draw_time(theme, rest.take_right(theme.px(80)), live);
-  rest.take_right(theme.px(12));
-  draw_hold(theme, rest.take_right(theme.px(190)), live);
-  rest.take_right(theme.px(12));
-
   const Scenario& scenario = runner->scenario();
   const Step& step = scenario.steps[live.step];
+  draw_time(theme, rest.take_right(theme.px(92)), live, step.counts);
+  rest.take_right(theme.px(12));
+  draw_hold(theme, rest.take_right(theme.px(190)), live, step.kind);
+  rest.take_right(theme.px(12));
+
   const std::string number = std::to_string(live.step + 1) + " / " + std::to_string(scenario.steps.size());
   Rect title{rest.x, upper.y, rest.w, upper.h};
   const Rect plate = title.take_left(text_width(theme.strong, number) + theme.px(16));
   fill(plate.inset(0, theme.px(1)), colour::kAccentDark, theme.px(4));
   draw_text(plate, theme.strong, colour::kText, number, Align::centre);
   title.take_left(theme.px(10));
+  if (const std::string status = status_of(scenario, step); !status.empty()) {
+    const Rect chip = title.take_right(text_width(theme.small_text, status) + theme.px(20));
+    title.take_right(theme.px(10));
+    fill(chip.inset(0, theme.px(2)), colour::kRaised, theme.px(4));
+    draw_text(chip, theme.small_text, colour::kAccent, status, Align::centre);
+  }
   draw_text(title, theme.heading, colour::kText, step.title);
   ImFont* font = text_width(theme.text, step.instruction) <= rest.w ? theme.text : theme.small_text;
   draw_text({rest.x, upper.y + upper.h, rest.w, theme.px(22)}, font, colour::kMuted, step.instruction);

@@ -62,7 +62,7 @@ bool draw_problem(const Theme& theme, const Rect& screen, const std::string& pro
 }
 
 bool draw_key_help(const Theme& theme, const Rect& screen) {
-  static constexpr std::array<std::array<const char*, 2>, 17> kKeys{{
+  static constexpr std::array<std::array<const char*, 2>, 23> kKeys{{
       {"Arrow keys", "slide over the skin"},
       {"Page up, Page down", "lift, press"},
       {"Q, E", "rotate about the beam"},
@@ -74,14 +74,20 @@ bool draw_key_help(const Theme& theme, const Rect& screen) {
       {"Drag the patient", "turn; right button shifts, the wheel zooms"},
       {"Tab", "take the probe, give it back to the tracker"},
       {"Space", "freeze the picture"},
+      {"Click the frozen picture", "measure from end to end; drag an end to move it"},
+      {"C", "calipers or ellipse, where both may be used"},
+      {"Backspace, Delete", "take back the last thing placed; all of it"},
+      {"1 to 9", "choose an answer, a name, or which caliper comes next"},
+      {"Enter", "answer; go on to the next step of an exam"},
+      {"Escape", "give up what is being placed or typed"},
       {"+, \u2212 and [, ]", "gain; depth"},
       {"M", "mark this moment, in the recording too"},
       {"R", "record the run; end the recording"},
       {"Ctrl O", "open a case, CT, scenario or recorded scan"},
-      {"F2", "set up the tracker: how probe, sensor and mannequin lie to each other"},
+      {"F2", "set up the tracker: probe, sensor and mannequin"},
       {"F1", "this page"},
   }};
-  const float row = theme.px(27);
+  const float row = theme.px(25);
   Rect sheet = begin_overlay(theme, screen, {theme.px(660), row * float(kKeys.size()) + theme.px(146)});
   draw_text(sheet.take_top(theme.px(28)), theme.heading, colour::kText, "Keys and mouse");
   sheet.take_top(theme.px(12));

@@ -7,10 +7,12 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <utility>
 
 #include "app/panels/console_panel.h"
 #include "app/panels/exam_panel.h"
 #include "app/panels/ultrasound_panel.h"
+#include "scenarios/steps/question.h"
 #include "sim/core/files.h"
 #include "sim/gl/headless_context.h"
 
@@ -42,7 +44,7 @@ Screen::ImGuiOwner::~ImGuiOwner() {
 Screen::Screen() : theme_(assets_folder() / "fonts"), device_(gl::device_description()) {}
 Screen::~Screen() = default;
 
-void Screen::lay_out(float width, float height) {
+void Screen::lay_out(const Trainer& trainer, float width, float height) {
   screen_ = {0, 0, width, height};
   const float gap = theme_.px(8);
   Rect rest = screen_.inset(gap, gap);
@@ -50,6 +52,11 @@ void Screen::lay_out(float width, float height) {
   status_ = rest.take_bottom(theme_.px(38));
   top_ = rest.take_top(theme_.px(66));
   rest.take_top(gap);
+  task_ = {};
+  if (const Session* session = trainer.session(); session && has_task_panel(*session)) {
+    task_ = rest.take_top(task_panel_height(theme_, *session, rest.w));
+    rest.take_top(gap);
+  }
   console_ = rest.take_bottom(theme_.px(120));
   rest.take_bottom(gap);
   // The image first: the views get a third, and no more than makes them square.
@@ -65,19 +72,20 @@ void Screen::lay_out(float width, float height) {
              {"blend", blend_},           {"console", console_}, {"exam", top_}};
 }
 
-PictureSizes Screen::picture_sizes(float width, float height) {
-  lay_out(width, height);
+PictureSizes Screen::picture_sizes(const Trainer& trainer, float width, float height) {
+  if (theme_.fit(width, height)) fonts_are_new_ = true;
+  lay_out(trainer, width, height);
   const Rect ultrasound = UltrasoundPanel::picture_area(theme_, ultrasound_);
   return {int(ultrasound.w), int(ultrasound.h), int(volume_.w), int(volume_.h)};
 }
 
 void Screen::render(Trainer& trainer) {
   const ImVec2 size = ImGui::GetIO().DisplaySize;
-  if (theme_.fit(size.x, size.y)) ImGui_ImplOpenGL3_DestroyFontsTexture();
+  if (theme_.fit(size.x, size.y) || std::exchange(fonts_are_new_, false)) ImGui_ImplOpenGL3_DestroyFontsTexture();
   if (!ImGui::GetIO().Fonts->TexID) ImGui_ImplOpenGL3_CreateFontsTexture();
   ImGui_ImplOpenGL3_NewFrame();
   ImGui::NewFrame();
-  lay_out(size.x, size.y);
+  lay_out(trainer, size.x, size.y);
   draw_panels(trainer);
   draw_overlay(trainer);
   ImGui::Render();
@@ -98,7 +106,10 @@ void Screen::draw_panels(Trainer& trainer) {
   if (Session* session = trainer.session()) {
     Pictures& pictures = trainer.pictures();
     draw_exam_panel(theme_, top_, *session);
-    UltrasoundPanel::draw(theme_, ultrasound_, *session, pictures);
+    if (task_.h > 0)
+      draw_task_panel(theme_, task_, *session, trainer.picture_tools(), trainer.step_controls(), answer_field_,
+                      places_);
+    UltrasoundPanel::draw(theme_, ultrasound_, *session, pictures, trainer.picture_tools(), places_);
     space_.draw(theme_, volume_, *session, pictures);
     draw_slice_panel(theme_, slice_, pictures);
     draw_blend_panel(theme_, blend_, pictures);
@@ -179,19 +190,33 @@ void Screen::dismiss(Trainer& trainer) {
   if (shown == "help") help_ = false;
   if (shown == "open") stop_asking();
   if (shown == "score") closed_sheet_of_ = &*trainer.session()->result();
+  if (shown.empty() && !answer_field_.is_open()) trainer.picture_tools().cancel();
+  answer_field_.close();
 }
 
 void Screen::confirm(Trainer& trainer) {
   const std::string shown = overlay(trainer);
   if (shown == "open") open_dialog_.confirm();
   if (shown == "problem" || shown == "help") dismiss(trainer);
+  if (shown.empty()) step_on(trainer);
 }
 
 void Screen::go_on(Trainer& trainer) {
   const std::string shown = overlay(trainer);
   if (shown == "problem" || shown == "help" || shown == "open") return dismiss(trainer);
+  if (shown.empty()) step_on(trainer);
   const bool over = trainer.session() && trainer.session()->result();
   if (over && (shown.empty() || shown == "score")) answer_score(trainer, ScoreAnswer::again);
+}
+
+/// Goes on with the exam. A question that waits for something typed gets its field opened first.
+void Screen::step_on(Trainer& trainer) {
+  if (!trainer.session()) return;
+  StepControls& controls = trainer.step_controls();
+  const Question* question = controls.question();
+  if (question && question->answer != Question::Answer::choice && !controls.can_answer()) return answer_field_.open();
+  answer_field_.close();
+  controls.go_on(*trainer.session());
 }
 
 void Screen::stop_asking() {

@@ -4,10 +4,13 @@
 #include <optional>
 #include <string>
 
+#include "app/panels/answer_field.h"
 #include "app/panels/overlays.h"
 #include "app/panels/score_sheet.h"
 #include "app/panels/setup_page.h"
+#include "app/panels/task_panel.h"
 #include "app/panels/theme.h"
+#include "app/panels/ultrasound_panel.h"
 #include "app/panels/views_panel.h"
 #include "app/panels/widgets.h"
 #include "app/trainer.h"
@@ -27,7 +30,11 @@ public:
   void render(Trainer& trainer);
 
   /// How many pixels the pictures have on a screen of that size.
-  PictureSizes picture_sizes(float width, float height);
+  PictureSizes picture_sizes(const Trainer& trainer, float width, float height);
+  /// Where the ultrasound's plane is on the screen, as it was drawn last.
+  PlaneOnScreen plane_on_screen(const Trainer& trainer) const {
+    return UltrasoundPanel::plane(theme_, ultrasound_, trainer.pictures());
+  }
 
   void toggle_help() { help_ = !help_; }
   void ask_for_path() { asking_ = true; }
@@ -35,15 +42,17 @@ public:
   void dismiss(Trainer& trainer);
   /// Answers it as Enter does.
   void confirm(Trainer& trainer);
-  /// Moves on from what the screen waits with, as the probe's button does: acknowledges what lies over it, and after an
-  /// exam begins the next attempt.
+  /// Moves on from what the screen waits with, as the probe's button does: acknowledges what lies over it, goes on to
+  /// the next step of an exam, and after the exam begins the next attempt.
   void go_on(Trainer& trainer);
   /// Something lies over the screen: keys do not move the probe.
-  bool takes_keys(const Trainer& trainer) const { return !overlay(trainer).empty(); }
+  bool takes_keys(const Trainer& trainer) const { return !overlay(trainer).empty() || types_text(trainer); }
   /// There is a field that text is typed into.
-  bool types_text(const Trainer& trainer) const { return overlay(trainer) == "open"; }
+  bool types_text(const Trainer& trainer) const { return overlay(trainer) == "open" || types_answer(trainer); }
   /// There will be one, which takes text from one of the next frames on.
-  bool opens_text_field(const Trainer& trainer) const { return types_text(trainer) && !open_dialog_.ready(); }
+  bool opens_text_field(const Trainer& trainer) const {
+    return types_text(trainer) && !(types_answer(trainer) ? answer_field_.ready() : open_dialog_.ready());
+  }
 
   /// What lies over the screen: "problem", "loading", "setup", "help", "open", "score", or "" for nothing.
   std::string overlay(const Trainer& trainer) const;
@@ -52,7 +61,9 @@ public:
   const std::map<std::string, Rect>& places() const { return places_; }
 
 private:
-  void lay_out(float width, float height);
+  bool types_answer(const Trainer& trainer) const { return answer_field_.is_open() && overlay(trainer).empty(); }
+  void step_on(Trainer& trainer);
+  void lay_out(const Trainer& trainer, float width, float height);
   void draw_panels(Trainer& trainer);
   void draw_overlay(Trainer& trainer);
   void draw_record_button(Trainer& trainer, const Rect& where);
@@ -68,10 +79,11 @@ private:
   std::string device_;
   SpacePanel space_;
   OpenDialog open_dialog_;
-  bool help_ = false, asking_ = false;
+  AnswerField answer_field_;
+  bool help_ = false, asking_ = false, fonts_are_new_ = false;
   const ExamResult* closed_sheet_of_ = nullptr;
   double frames_per_second_ = 0;
-  Rect screen_, top_, ultrasound_, volume_, slice_, blend_, console_, status_;
+  Rect screen_, top_, task_, ultrasound_, volume_, slice_, blend_, console_, status_;
   std::map<std::string, Rect> places_;
 };
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "app/panels/exam_panel.h"
+#include "app/panels/marks_layer.h"
 
 namespace insonate::ui {
 namespace {
@@ -17,22 +18,10 @@ std::string formatted(const char* format, Values... values) {
   return text;
 }
 
-// From the probe's plane to the screen, mirrored so that the marker's side (+x) is on the left.
-class PlaneOnScreen {
-public:
-  PlaneOnScreen(const Rect& area, const ImageGeometry& geometry)
-      : area_(area), geometry_(geometry), scale_(area.w / float(geometry.width)) {}
-  ImVec2 at(const glm::dvec2& plane_mm) const {
-    const glm::dvec2 p = geometry_.pixel(plane_mm) + 0.5;
-    return {area_.x + area_.w - float(p.x) * scale_, area_.y + float(p.y) * scale_};
-  }
-  double pixels_per_mm() const { return scale_ / geometry_.mm_per_pixel; }
-
-private:
-  Rect area_;
-  ImageGeometry geometry_;
-  float scale_;
-};
+ImVec2 at(const PlaneOnScreen& plane, const glm::dvec2& plane_mm) {
+  const glm::dvec2 p = plane.screen(plane_mm);
+  return {float(p.x), float(p.y)};
+}
 
 // A tick every centimetre; longer and numbered every five, or every one when there is room.
 void draw_depth_scale(const Theme& theme, const Rect& panel, const PlaneOnScreen& plane, double depth_mm) {
@@ -40,14 +29,14 @@ void draw_depth_scale(const Theme& theme, const Rect& panel, const PlaneOnScreen
   const float right = panel.x + panel.w - theme.px(14);
   const int numbered_cm = plane.pixels_per_mm() * 10 > theme.px(34) ? 1 : 5;
   for (int cm = 0; 10 * cm <= depth_mm + 0.5; ++cm) {
-    const float y = std::round(plane.at({0, 10.0 * cm}).y);
+    const float y = std::round(at(plane, {0, 10.0 * cm}).y);
     const bool major = cm % 5 == 0;
     list->AddLine({right - theme.px(major ? 12 : 6), y}, {right, y}, major ? colour::kText : colour::kMuted, 1);
     if (cm % numbered_cm == 0 && cm > 0)
       draw_text({right - theme.px(52), y - theme.px(10), theme.px(34), theme.px(20)}, theme.small_text, colour::kMuted,
                 std::to_string(cm), Align::right);
   }
-  draw_text({right - theme.px(52), plane.at({0, 0}).y - theme.px(10), theme.px(34), theme.px(20)}, theme.small_text,
+  draw_text({right - theme.px(52), at(plane, {0, 0}).y - theme.px(10), theme.px(34), theme.px(20)}, theme.small_text,
             colour::kFaint, "cm", Align::right);
 }
 
@@ -64,8 +53,8 @@ void draw_grey_scale(const Theme& theme, const Rect& panel, double dynamic_range
 
 // The dot beside the face's edge that is on the marker's side.
 void draw_marker(const Theme& theme, const PlaneOnScreen& plane, const Probe& probe) {
-  const ImVec2 at = plane.at(face_edge(probe));
-  const ImVec2 dot{at.x - theme.px(20), at.y + theme.px(4)};
+  const ImVec2 edge = at(plane, face_edge(probe));
+  const ImVec2 dot{edge.x - theme.px(20), edge.y + theme.px(4)};
   ImDrawList* list = ImGui::GetWindowDrawList();
   list->AddCircleFilled(dot, theme.px(6), colour::kAccent, 24);
   list->AddCircle(dot, theme.px(9), colour::kAccent, 24, 1.2f);
@@ -102,13 +91,13 @@ void draw_annotations(const Theme& theme, const Rect& panel, const Session& sess
   draw_text(line, theme.small_text, colour::kAccent, mark_text(session));
 }
 
-void draw_banner(const Theme& theme, const Rect& panel, const Session& session) {
+void draw_banner(const Theme& theme, const Rect& panel, const Session& session, const PictureTools& tools) {
   std::string text;
   ImU32 background = colour::kAmber, ink = colour::kBackground;
   if (const auto lost_s = session.lost_for_s()) {
     text = formatted("No usable pose for %.1f s: the picture stands still", *lost_s);
   } else if (session.console().frozen) {
-    text = "Frozen";
+    text = PictureTools::ready(session) ? "Frozen:  " + tool_prompt(tools) : "Frozen";
     background = colour::kAccentDark;
     ink = colour::kText;
   } else {
@@ -131,9 +120,11 @@ void draw_tracker_problem(const Theme& theme, const Rect& panel, const Session& 
   draw_paragraph(plate.inset(margin, margin), theme.text, colour::kText, problem);
 }
 
-void take_mouse(const Rect& area, Session& session, const PlaneOnScreen& plane) {
+void take_mouse(const Theme& theme, const Rect& area, Session& session, const PlaneOnScreen& plane,
+                PictureTools& tools) {
   ImGui::SetCursorScreenPos(area.min());
   ImGui::InvisibleButton("ultrasound", {area.w, area.h});
+  if (PictureTools::ready(session)) return take_pointer(theme, plane, session, tools);
   const ImGuiIO& io = ImGui::GetIO();
   if (ImGui::IsItemHovered() && io.MouseWheel != 0) {
     const double turn_deg = 3.0 * io.MouseWheel;
@@ -155,23 +146,31 @@ Rect UltrasoundPanel::picture_area(const Theme& theme, const Rect& panel) {
   return panel.inset(theme.px(16), theme.px(12));
 }
 
-void UltrasoundPanel::draw(const Theme& theme, const Rect& panel, Session& session, const Pictures& pictures) {
+PlaneOnScreen UltrasoundPanel::plane(const Theme& theme, const Rect& panel, const Pictures& pictures) {
+  const Rect area = picture_area(theme, panel);
+  return {{area.x, area.y}, {area.w, area.h}, pictures.geometry()};
+}
+
+void UltrasoundPanel::draw(const Theme& theme, const Rect& panel, Session& session, const Pictures& pictures,
+                           PictureTools& tools, std::map<std::string, Rect>& places) {
   fill(panel, colour::kImage, theme.px(4));
   const Rect area = picture_area(theme, panel);
   if (const gl::Texture* picture = pictures.ultrasound()) {
-    const PlaneOnScreen plane(area, pictures.geometry());
+    const PlaneOnScreen plane = UltrasoundPanel::plane(theme, panel, pictures);
     ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(std::uintptr_t(picture->name())), area.min(),
                                          area.max(), {1, 0}, {0, 1});
     draw_depth_scale(theme, panel, plane, session.console().depth_mm);
     draw_grey_scale(theme, panel, session.console().dynamic_range_db);
     draw_marker(theme, plane, session.console().probe);
-    take_mouse(area, session, plane);
+    draw_marks(theme, panel, plane, session, tools);
+    draw_picture_tools(theme, panel, session, tools, places);  // before the picture's own item, which lies under them
+    take_mouse(theme, area, session, plane, tools);
   } else {
     draw_text(panel, theme.text, colour::kFaint, "Waiting for the probe", Align::centre);
   }
   draw_annotations(theme, panel, session);
   draw_mark(theme, panel, session);
-  draw_banner(theme, panel, session);
+  draw_banner(theme, panel, session, tools);
   draw_tracker_problem(theme, panel, session);
 }
 

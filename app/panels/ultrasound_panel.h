@@ -1,19 +1,30 @@
 #pragma once
 
+#include <map>
+#include <string>
+
 #include "app/panels/theme.h"
 #include "app/panels/widgets.h"
+#include "app/picture_tools.h"
 #include "app/pictures.h"
+#include "app/plane_on_screen.h"
 
 namespace insonate::ui {
 
 /// The live ultrasound with what a machine writes around it. The marker's side is on the left, as abdominal imaging
-/// has it. Dragging on it slides the probe, with shift it tilts and rocks, the wheel turns it.
+/// has it. Dragging on it slides the probe, with shift it tilts and rocks, the wheel turns it; a frozen picture is
+/// measured in.
 class UltrasoundPanel {
 public:
   /// Where the picture itself goes in the panel, margins for scales left free: its size decides what is computed.
   static Rect picture_area(const Theme& theme, const Rect& panel);
 
-  static void draw(const Theme& theme, const Rect& panel, Session& session, const Pictures& pictures);
+  /// The picture's plane on the screen.
+  static PlaneOnScreen plane(const Theme& theme, const Rect& panel, const Pictures& pictures);
+
+  /// Adds to `places` where its buttons are.
+  static void draw(const Theme& theme, const Rect& panel, Session& session, const Pictures& pictures,
+                   PictureTools& tools, std::map<std::string, Rect>& places);
 };
 
 }  // namespace insonate::ui

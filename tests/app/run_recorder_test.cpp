@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "devices/mouse/mouse_tracker.h"
 #include "devices/replay/replay_tracker.h"
 #include "devices/sequence/probe_samples.h"
 #include "scenarios/result_json.h"
@@ -104,6 +105,36 @@ TEST_CASE("a recorded exam is the samples to the bit, and another attempt is ano
   recorder.stop();
   recorder.wait();
   CHECK(fs::exists(folder.path / "run-3.igs.mha"));
+}
+
+TEST_CASE("what the learner does is recorded with the samples, and from the middle on how the machine was set") {
+  const Folder folder;
+  Session session(tiny_study(), [] { return std::make_unique<MouseTracker>(Pose{}); });
+  RunRecorder recorder(false);
+  recorder.start(folder.path / "whole.igs.mha", true);
+  run(session, recorder, 0, 0.2);
+  session.console().depth_mm = 95;
+  session.act({ActionKind::answer, {}, "a stone"});
+  run(session, recorder, 0.2, 0.4);
+  recorder.stop();
+  recorder.wait();
+  const auto recorded = [&](const char* name) {
+    return parse_action_log(read_recorded_scan(folder.path / name).recording.actions, name);
+  };
+  CHECK(recorded("whole.igs.mha") == session.actions());
+
+  recorder.start(folder.path / "rest.igs.mha", true);
+  run(session, recorder, 0.4, 0.6);
+  recorder.stop();
+  recorder.wait();
+  CHECK_NOTHROW(recorder.check());
+  const ActionLog rest = recorded("rest.igs.mha");
+  REQUIRE(rest.size() == 1);
+  Machine machine;
+  for (const Action& action : rest.begin()->second) machine.apply(action, std::nullopt);
+  CHECK(machine.depth_mm == 95);
+  CHECK(machine.probe == session.console().probe.name);
+  CHECK(machine.frequency_mhz == session.console().frequency_mhz);
 }
 
 TEST_CASE("pictures lie beside the samples, all of the first one's size and where they were") {

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "devices/live/probe_buttons.h"
+#include "devices/mouse/mouse_tracker.h"
 #include "devices/record/sequence_recorder.h"
 #include "devices/registry.h"
 #include "devices/replay/replay_tracker.h"
@@ -456,6 +457,34 @@ TEST_CASE("what the learner does reaches the exam, and again when the exam is sc
   ExamResult replayed = *again.result();
   replayed.provenance = session.result()->provenance;
   CHECK(to_json(replayed) == to_json(*session.result()));
+}
+
+TEST_CASE("knobs and acts between two samples keep their order, in practice too") {
+  for (const bool with_exam : {true, false}) {
+    CAPTURE(with_exam);
+    Session session(tiny_study(with_exam), [] { return std::make_unique<MouseTracker>(Pose{}); });
+    session.advance(0);
+    session.advance(0.1);
+    CHECK_FALSE(session.frozen_picture());
+    session.console().frozen = true;
+    CHECK_FALSE(session.frozen_picture());  // nobody has been told yet
+    session.act({ActionKind::point, {1, 2}});
+    session.console().depth_mm = 95;
+    session.act({ActionKind::point, {3, 4}});
+    session.console().frozen = false;
+    session.advance(0.2);
+    REQUIRE(session.latest_actions().size() == 1);
+    const std::vector<Action> expected{{ActionKind::freeze},
+                                       {ActionKind::point, {1, 2}},
+                                       {ActionKind::depth, {95}},
+                                       {ActionKind::point, {3, 4}},
+                                       {ActionKind::unfreeze}};
+    CHECK(session.latest_actions().begin()->second == expected);
+    session.console().frozen = true;
+    session.advance(0.3);
+    CHECK(session.frozen_picture() == session.newest_pose());
+    CHECK(session.latest_actions().begin()->second == std::vector<Action>{{ActionKind::freeze}});
+  }
 }
 
 TEST_CASE("free practice has no exam, and an exam can be started from it") {

@@ -1,0 +1,51 @@
+#include "app/panels/answer_field.h"
+
+#include <utility>
+
+#include "scenarios/steps/question.h"
+
+namespace insonate::ui {
+
+void AnswerField::draw(const Theme& theme, const Rect& given, StepControls& controls) {
+  Rect where = given;
+  const std::string& unit = controls.question()->unit;
+  if (!unit.empty()) {
+    const float width = text_width(theme.text, unit);
+    draw_text(where.take_right(width), theme.text, colour::kMuted, unit);
+    where.take_right(theme.px(8));
+  }
+  fill(where, colour::kRaised, theme.px(4));
+  outline(where, open_ ? colour::kAccent : colour::kLine, theme.px(4));
+  const float margin = theme.px(10);
+  if (!open_) {
+    filled_ = false;
+    ImGui::SetCursorScreenPos(where.min());
+    open_ = ImGui::InvisibleButton("answer_field", {where.w, where.h});
+    const bool empty = controls.draft().empty();
+    const bool number = controls.question()->answer == Question::Answer::number;
+    draw_text(where.inset(margin, 0), theme.text, empty ? colour::kFaint : colour::kText,
+              !empty   ? controls.draft()
+              : number ? "Type a number"
+                       : "Type your answer");
+    return;
+  }
+  if (!std::exchange(filled_, true)) typed_[controls.draft().copy(typed_.data(), typed_.size() - 1)] = 0;
+  ImGui::SetCursorScreenPos({where.x, where.y + (where.h - theme.text->FontSize) / 2 - theme.px(4)});
+  ImGui::PushFont(theme.text);
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {margin, theme.px(4)});
+  ImGui::PushStyleColor(ImGuiCol_FrameBg, 0);
+  ImGui::PushStyleColor(ImGuiCol_FrameBgHovered, 0);
+  ImGui::PushStyleColor(ImGuiCol_FrameBgActive, 0);
+  ImGui::SetNextItemWidth(where.w);
+  if (!ready_) ImGui::SetKeyboardFocusHere();
+  ImGui::InputText("##answer", typed_.data(), typed_.size(), ImGuiInputTextFlags_AutoSelectAll);
+  const bool active = ImGui::IsItemActive();
+  ImGui::PopStyleColor(3);
+  ImGui::PopStyleVar();
+  ImGui::PopFont();
+  controls.draft(typed_.data());
+  if (ready_ && !active) close();  // something else was clicked
+  ready_ = open_ && (ready_ || active);
+}
+
+}  // namespace insonate::ui

@@ -1,0 +1,251 @@
+#include "app/panels/task_panel.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "app/panels/marks_layer.h"
+#include "scenarios/caliper.h"
+#include "scenarios/steps/mark_point.h"
+#include "scenarios/steps/measure.h"
+#include "scenarios/steps/question.h"
+#include "scenarios/words.h"
+
+namespace insonate::ui {
+namespace {
+
+constexpr float kMargin = 8, kControls = 34, kLine = 24, kTurns = 36, kSecondRow = 40;
+constexpr float kRight = 320;  ///< of hint and going on
+
+struct Choice {
+  std::string id, text;
+  ButtonKind kind = ButtonKind::normal;
+  bool enabled = true;
+};
+
+/// Buttons side by side, narrower where they would not fit; which one was clicked.
+std::optional<std::size_t> row_of_buttons(const Theme& theme, Rect row, const std::vector<Choice>& choices,
+                                          std::map<std::string, Rect>& places) {
+  const float gap = theme.px(8);
+  std::vector<float> widths;
+  float sum = -gap;
+  for (const Choice& choice : choices) {
+    widths.push_back(std::max(text_width(theme.text, choice.text) + theme.px(28), theme.px(64)));
+    sum += widths.back() + gap;
+  }
+  const float gaps = gap * float(choices.size() - 1);
+  const float shrink = std::min(1.0f, (row.w - gaps) / (sum - gaps));
+  std::optional<std::size_t> clicked;
+  for (std::size_t i = 0; i < choices.size(); ++i) {
+    const Rect where = row.take_left(widths[i] * shrink);
+    row.take_left(gap);
+    places[choices[i].id] = where;
+    if (button(theme, choices[i].id.c_str(), where, choices[i].text, choices[i].kind, choices[i].enabled)) clicked = i;
+  }
+  return clicked;
+}
+
+/// What a step lets choose from, as it is shown.
+std::vector<std::string> choice_texts(const Step& step) {
+  if (const auto* question = dynamic_cast<const Question*>(step.task.get())) return question->choices;
+  std::vector<std::string> texts;
+  if (const auto* labels = dynamic_cast<const LabelStructures*>(step.task.get()))
+    for (const std::string& name : labels->structures) texts.push_back(in_words(name));
+  return texts;
+}
+
+/// Whether a step has more to show in its row than what to do.
+bool has_controls(const Step& step) {
+  return step.kind == "question" || step.kind == "measure" || step.kind == "label_structures" ||
+         step.kind == "set_knobs";
+}
+
+/// Whether texts are too long for buttons in one row.
+bool need_two_rows(const Theme& theme, float width, const std::vector<std::string>& texts) {
+  float sum = 0;
+  for (const std::string& text : texts) sum += text_width(theme.text, text) + theme.px(36);
+  return texts.size() > 1 && sum > width;
+}
+
+/// In one row, or in two where one is too short for all of them to be read.
+std::optional<std::size_t> choices_in(const Theme& theme, Rect where, const std::vector<Choice>& choices,
+                                      std::map<std::string, Rect>& places) {
+  std::vector<std::string> texts;
+  for (const Choice& choice : choices) texts.push_back(choice.text);
+  const Rect upper_row = where.take_top(theme.px(kControls));
+  if (!need_two_rows(theme, where.w, texts)) return row_of_buttons(theme, upper_row, choices, places);
+  const auto half = std::ptrdiff_t(choices.size() + 1) / 2;
+  const auto upper = row_of_buttons(theme, upper_row, {choices.begin(), choices.begin() + half}, places);
+  where.take_top(theme.px(kSecondRow - kControls));
+  const Rect lower_row = where.take_top(theme.px(kControls));
+  const auto lower = row_of_buttons(theme, lower_row, {choices.begin() + half, choices.end()}, places);
+  if (lower) return *lower + std::size_t(half);
+  return upper;
+}
+
+void draw_slots(const Theme& theme, Rect where, PictureTools& tools, std::map<std::string, Rect>& places) {
+  const Measure& measure = *tools.measuring();
+  std::vector<Choice> choices;
+  for (int slot = 1; slot <= measure.slots(); ++slot) {
+    const auto placed = tools.marks().measured().find(slot);
+    const std::string value = placed == tools.marks().measured().end() ? "\u2013" : value_text(placed->second.action);
+    choices.push_back({"slot_" + std::to_string(slot), tools.slot_name(slot) + "   " + value,
+                       slot == tools.slot() ? ButtonKind::chosen : ButtonKind::normal});
+  }
+  const float walls = text_width(theme.text, measure.walls);
+  draw_text(where.take_left(walls), theme.text, colour::kMuted, measure.walls);
+  where.take_left(theme.px(16));
+  if (const auto clicked = row_of_buttons(theme, where, choices, places)) tools.choose_slot(int(*clicked) + 1);
+}
+
+void draw_knobs(const Theme& theme, Rect where, const std::vector<StepControls::Knob>& knobs) {
+  const float gap = theme.px(8);
+  for (const StepControls::Knob& knob : knobs) {
+    const std::string is = knob.name + "  " + knob.is, asked = "asked: " + knob.asked;
+    const float width = text_width(theme.strong, is) + text_width(theme.small_text, asked) + theme.px(40);
+    Rect plate = where.take_left(std::min(width, (where.w - gap)));
+    where.take_left(gap);
+    fill(plate, knob.right ? colour::kAccentDark : colour::kRaised, theme.px(4));
+    Rect text = plate.inset(theme.px(12), 0);
+    draw_text(text.take_left(text_width(theme.strong, is) + theme.px(14)), theme.strong, colour::kText, is);
+    draw_text(text, theme.small_text, knob.right ? colour::kText : colour::kMuted, knob.right ? "as asked" : asked);
+  }
+}
+
+void draw_question(const Theme& theme, Rect where, StepControls& controls, AnswerField& field,
+                   std::map<std::string, Rect>& places) {
+  const Question& question = *controls.question();
+  if (question.answer != Question::Answer::choice) {
+    const bool number = question.answer == Question::Answer::number;
+    const float unit = question.unit.empty() ? 0 : text_width(theme.text, question.unit) + theme.px(8);
+    const Rect row = where.take_top(theme.px(kControls));
+    const Rect box{row.x, row.y, std::min(row.w, number ? theme.px(180) + unit : theme.px(700)), row.h};
+    places["answer_field"] = box;
+    return field.draw(theme, box, controls);
+  }
+  std::vector<Choice> choices;
+  for (const std::string& choice : question.choices)
+    choices.push_back({"choice_" + std::to_string(choices.size() + 1), choice,
+                       choice == controls.draft() ? ButtonKind::chosen : ButtonKind::normal});
+  if (const auto clicked = choices_in(theme, where, choices, places)) controls.draft(question.choices[*clicked]);
+}
+
+void draw_names(const Theme& theme, const Rect& where, Session& session, PictureTools& tools,
+                std::map<std::string, Rect>& places) {
+  std::vector<Choice> choices;
+  for (const std::string& name : tools.names())
+    choices.push_back({"name_" + name, in_words(name),
+                       tools.marks().labels().contains(name) ? ButtonKind::chosen : ButtonKind::normal,
+                       tools.unnamed_place().has_value()});
+  if (const auto clicked = choices_in(theme, where, choices, places))
+    tools.name_place(session, tools.names()[*clicked]);
+}
+
+void draw_turns(const Theme& theme, Rect where, Session& session, StepControls& controls,
+                const std::vector<StepControls::Turn>& turns, std::map<std::string, Rect>& places) {
+  draw_text(where.take_left(theme.px(56)), theme.small_text, colour::kMuted, "Steps");
+  std::vector<Choice> choices;
+  for (const StepControls::Turn& turn : turns)
+    choices.push_back({"turn_" + std::to_string(turn.step + 1), turn.title + (turn.ended ? " (over)" : ""),
+                       turn.current ? ButtonKind::chosen : ButtonKind::normal, turn.can_turn || turn.current});
+  if (const auto clicked = row_of_buttons(theme, where, choices, places))
+    controls.turn_to(session, turns[*clicked].step);
+}
+
+/// What to do now, where the instruction does not say it.
+std::string prompt(const Session& session, const PictureTools& tools, const StepControls& controls,
+                   const std::string& kind) {
+  if (const Question* question = controls.question())
+    return question->answer == Question::Answer::choice ? "Choose, then answer. The first answer counts."
+                                                        : "Type, then answer. The first answer counts.";
+  if (kind == "find_view") return "Held long enough, the view is taken by itself.";
+  if (kind == "sweep") return "Go on when you have seen all of it.";
+  if (kind == "set_knobs") return "Set right and left so for a moment, the knobs are taken by themselves.";
+  if (kind == "free_scan") return "Go on when you are ready.";
+  if (!PictureTools::ready(session)) return "Freeze the picture (Space) first.";
+  return tool_prompt(tools) + ". Drag moves what is placed, Backspace takes it back.";
+}
+
+std::string hint_text(double cost) {
+  if (cost == 0) return "Hint (free)";
+  return "Hint (\u2212" + short_number(cost) + (cost == 1 ? " point)" : " points)");
+}
+
+void draw_line(const Theme& theme, const Rect& where, const LiveExam& live, const StepControls& controls,
+               const std::string& prompt) {
+  if (controls.asks_again())
+    return draw_text(where, theme.small_text, colour::kAmber,
+                     "This step is not done yet. Going on leaves it as it is, for good.");
+  if (live.hints.empty()) return draw_text(where, theme.small_text, colour::kMuted, prompt);
+  std::string hints;
+  for (const std::string& hint : live.hints) hints += (hints.empty() ? "Hint: " : "  ") + hint;
+  draw_text(where, theme.small_text, colour::kAccent, hints);
+}
+
+}  // namespace
+
+bool has_task_panel(const Session& session) {
+  return session.runner() && !session.source().recording();
+}
+
+float task_panel_height(const Theme& theme, const Session& session, float width) {
+  const Scenario& scenario = session.runner()->scenario();
+  const bool free = scenario.order == Scenario::Order::free;
+  const float for_choices = width - theme.px(2 * 16 + kRight + 16);
+  const bool two_rows = std::any_of(scenario.steps.begin(), scenario.steps.end(), [&](const Step& step) {
+    return need_two_rows(theme, for_choices, choice_texts(step));
+  });
+  return theme.px(2 * kMargin + kControls + kLine + (free ? kTurns : 0) + (two_rows ? kSecondRow : 0));
+}
+
+void draw_task_panel(const Theme& theme, const Rect& panel, Session& session, PictureTools& tools,
+                     StepControls& controls, AnswerField& field, std::map<std::string, Rect>& places) {
+  fill(panel, colour::kPanel, theme.px(4));
+  const bool typed = controls.question() && controls.question()->answer != Question::Answer::choice;
+  if (!typed) field.close();
+  Rect rest = panel.inset(theme.px(16), theme.px(kMargin));
+  if (!StepControls::active(session))
+    return draw_text(rest, theme.text, colour::kMuted, "The exam is over. Measuring goes on, and counts no more.");
+  const LiveExam& live = session.runner()->live();
+  const Step& step = session.runner()->scenario().steps[live.step];
+
+  if (const auto turns = StepControls::turns(session); !turns.empty()) {
+    draw_turns(theme, rest.take_bottom(theme.px(kTurns - 6)), session, controls, turns, places);
+    rest.take_bottom(theme.px(6));
+  }
+  Rect right = rest.take_right(theme.px(kRight));
+  right.h = theme.px(kControls);
+  places["go_on"] = right.take_right(theme.px(150));
+  const bool ready = controls.question() ? controls.can_answer() : live.enough;
+  const char* text = controls.question() ? "Answer (Enter)" : controls.asks_again() ? "Go on anyway" : "Go on (Enter)";
+  if (button(theme, "go_on", places["go_on"], text,
+             controls.asks_again() ? ButtonKind::warning
+             : ready               ? ButtonKind::primary
+                                   : ButtonKind::normal,
+             !controls.question() || ready))
+    controls.go_on(session);
+  right.take_right(theme.px(8));
+  if (const auto cost = StepControls::hint_cost(session)) {
+    places["hint"] = right;
+    if (button(theme, "hint", right, hint_text(*cost))) controls.take_hint(session);
+  }
+  rest.take_right(theme.px(16));
+
+  draw_line(theme, rest.take_bottom(theme.px(kLine)), live, controls,
+            has_controls(step) ? prompt(session, tools, controls, step.kind) : "");
+  Rect row = rest;
+  row.h = theme.px(kControls);
+  if (controls.question())
+    draw_question(theme, rest, controls, field, places);
+  else if (tools.measuring())
+    draw_slots(theme, row, tools, places);
+  else if (tools.labelling())
+    draw_names(theme, rest, session, tools, places);
+  else if (has_controls(step))
+    draw_knobs(theme, row, StepControls::knobs(session));
+  else
+    draw_text(row, theme.text, colour::kText, prompt(session, tools, controls, step.kind));
+}
+
+}  // namespace insonate::ui

@@ -1,0 +1,169 @@
+#!/usr/bin/env bash
+# An exam done in the window by clicks and keys: a question, a measurement, a point and a number, with a hint and
+# something taken back on the way. What was recorded of it scores as the exam did, to the byte.
+#   window_exam_test.sh PROGRAM ASSETS_FOLDER SCORE_PROGRAM
+score=$3
+. "$(dirname "$0")/window_session.sh"
+
+cat >"$work/exam.toml" <<'EOF'
+format = 2
+title = "Tools"
+case = "abdomen"
+pass_mark_percent = 50
+time_limit_s = 900
+
+[[step]]
+kind = "question"
+title = "Judgement"
+instruction = "Is this a test?"
+choices = ["yes", "no"]
+right = "yes"
+
+[[step.hint]]
+text = "It is."
+cost = 0.25
+
+[[step.criterion]]
+metric = "answer_right_percent"
+full = 100
+zero = 0
+
+[[step]]
+kind = "measure"
+title = "Length"
+instruction = "Freeze and measure."
+view = "pelvis"
+tool = "distance"
+walls = "inner to inner"
+
+[[step.target]]
+structures = ["bladder"]
+
+[[step.criterion]]
+metric = "measurement_error_mm"
+full = 5
+zero = 1000
+
+[[step]]
+kind = "mark_point"
+title = "Point"
+instruction = "Point at the bladder."
+structures = ["bladder"]
+
+[[step.criterion]]
+metric = "point_error_mm"
+full = 5
+zero = 1000
+
+[[step]]
+kind = "question"
+title = "Number"
+instruction = "How long was it?"
+answer = "number"
+right_number = 41.5
+within = 1
+unit = "mm"
+
+[[step.criterion]]
+metric = "answer_right_percent"
+full = 100
+zero = 0
+EOF
+
+click_on() { click "$(middle_x "$1")" "$(middle_y "$1")"; }
+# Where a point of the imaging plane is on the screen, to the nearest pixel.
+plane_x() { awk -v o="$(value plane_origin_x)" -v t="$(value plane_at_10_10_mm_x)" -v mm="$1" 'BEGIN { printf "%.0f", o + (t - o) * mm / 10 }'; }
+plane_y() { awk -v o="$(value plane_origin_y)" -v t="$(value plane_at_10_10_mm_y)" -v mm="$1" 'BEGIN { printf "%.0f", o + (t - o) * mm / 10 }'; }
+click_plane() { click "$(plane_x "$1")" "$(plane_y "$2")"; }
+
+start_trainer --scenario "$work/exam.toml" --tracker mouse: --record "$work/run.igs.mha"
+await "the exam starts" is activity exam
+await "the probe is seen" is_not face_x ""
+
+echo "a hint is taken by its button, an answer chosen by a click and given by Enter"
+await "the hint's button is there" is_not hint_x ""
+click_on hint
+await "the hint is taken" is hints 1
+click_on choice_2
+await "a choice is drafted" is draft no
+xdotool key 1
+await "a key chooses another" is draft yes
+xdotool key Return
+await "the answer ends the step" is step 1
+
+echo "calipers are placed in the frozen picture, dragged, taken back and placed again"
+is can_measure false || fail "a running picture is measured in"
+remember_probe
+xdotool key space
+await "the picture is frozen" is can_measure true
+depth=$(value depth_mm)
+click_plane -20 60
+click_plane 20 60
+placed() { [ -n "$(value placed)" ]; }
+await "two clicks place a caliper" placed
+awk -v p="$(value placed)" 'BEGIN { split(p, a, " "); exit !(a[1] == 1 && a[2] > 39 && a[2] < 41) }' ||
+  fail "40 mm were measured as: $(value placed)"
+# From the end towards the marker 1.5 mm on.
+pointer_to "$(plane_x 20)" "$(plane_y 60)"
+xdotool mousedown 1
+pointer_to "$(plane_x 30)" "$(plane_y 60)"
+xdotool mouseup 1
+longer() { awk -v p="$(value placed)" 'BEGIN { split(p, a, " "); exit !(a[2] > 49 && a[2] < 51) }'; }
+await "an end is dragged" longer
+! far_enough || fail "the probe moved while its picture was measured in"
+xdotool key BackSpace
+shorter() { awk -v p="$(value placed)" 'BEGIN { split(p, a, " "); exit !(a[2] > 39 && a[2] < 41) }'; }
+await "Backspace takes it back" shorter
+xdotool key Delete
+await "Delete takes all back" is placed ""
+xdotool key bracketright bracketright
+await "the picture is drawn deeper" is_not depth_mm "$depth"
+sleep 1
+click_plane -20.75 70
+click_plane 20.75 70
+measured() { awk -v p="$(value placed)" 'BEGIN { split(p, a, " "); exit !(a[2] > 41 && a[2] < 42) }'; }
+await "41.5 mm are 41.5 mm at another scale too" measured
+import -window root "$work/measured.png"
+shown=$(value placed)
+click_on go_on
+await "the button goes on" is step 2
+
+echo "a step that is not done is left at the second asking only; a point is placed by a click"
+xdotool key Return
+sleep 1
+is step 2 || fail "one Return left a step that was not done"
+click_plane 0 70
+await "a click places the point" is placed "point; "
+xdotool key Return
+await "Return goes on" is step 3
+
+echo "a number is typed into its field; keys that are typed do not move the probe"
+xdotool key space
+await "the picture runs" is frozen false
+remember_probe
+xdotool key Return
+await "Return opens the field" is typing true
+xdotool type "ad41.7"
+xdotool key Home Delete Delete
+await "it is typed" is draft 41.7
+! far_enough || fail "what was typed moved the probe"
+xdotool key Return
+await "the exam ends" is overlay score
+kill -0 "$trainer" || fail "the trainer ended by itself"
+xdotool key Escape
+xdotool key r
+await "the recording ends" is recording ""
+written() { [ -s "$work/run.igs.mha" ]; }
+await "the file is made" written
+
+echo "the recording scores as the exam did"
+[ -s "$work/out/score.json" ] || fail "there is no score"
+"$score" --log "$work/run.igs.mha" --scenario "$work/exam.toml" >"$work/again.json" 2>"$work/score.log" || fail "$(cat "$work/score.log")"
+without_log() { grep -v '"log' "$1"; }
+cmp <(without_log "$work/out/score.json") <(without_log "$work/again.json") || fail "the recording has another score"
+for what in '"answer"' '"yes"' '"measured"' '"41.7"' '"point_error_mm"'; do
+  grep -q -- "$what" "$work/again.json" || fail "the score does not say $what"
+done
+grep -q -- "$(echo "$shown" | sed 's/^1 \(.*\); $/\1/')" "$work/again.json" || fail "what was shown, '$shown', was not scored"
+grep -q '"passed": true' "$work/again.json" || fail "the exam was not passed"
+echo "passed"
