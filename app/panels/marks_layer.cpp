@@ -54,9 +54,10 @@ void draw_measured(const Theme& theme, const PlaneOnScreen& plane, const Action&
   const std::vector<glm::dvec2> ends = handles(placed);
   const bool slanted = placed.slot() % 2 == 0;
   if (placed.kind == ActionKind::ellipse && placed.numbers[5] > 0) {
-    const std::vector<glm::dvec2> around = outline(placed, 72);
-    for (std::size_t i = 0; i < around.size(); ++i)
-      ImGui::GetWindowDrawList()->AddCircleFilled(on_screen(plane, around[i]), theme.px(1.1f), colour, 8);
+    // A dot every 6 pixels or so, were it a circle of the two axes' mean.
+    const double around_px = 3.14 * (caliper_length_mm(placed) / 2 + placed.numbers[5]) * plane.pixels_per_mm();
+    for (const glm::dvec2& dot : outline(placed, std::size_t(std::clamp(around_px / theme.px(6), 12.0, 400.0))))
+      ImGui::GetWindowDrawList()->AddCircleFilled(on_screen(plane, dot), theme.px(1.1f), colour, 8);
   } else {
     draw_dotted(theme, on_screen(plane, ends[0]), on_screen(plane, ends[1]), colour);
   }
@@ -116,7 +117,7 @@ void draw_values(const Theme& theme, const Rect& panel, const std::vector<Value>
   const Rect box{panel.x + theme.px(16), 0, names + texts + theme.px(18) + 2 * margin,
                  height * float(rows.size()) + margin};
   const Rect placed{box.x, panel.y + panel.h - theme.px(16) - box.h, box.w, box.h};
-  fill(placed, colour::kDim, theme.px(4));
+  fill(placed, colour::kPanel, theme.px(4));
   outline(placed, colour::kLine, theme.px(4));
   Rect rest = placed.inset(margin, margin / 2);
   for (const Value& row : rows) {
