@@ -177,6 +177,7 @@ std::string quoted_list(const std::vector<std::string>& texts) {
 }
 
 std::string exactly(double value) {
+  if (value == 0 && std::signbit(value)) return "-0.0";  // "-0" would be a whole number, which has no such sign
   char text[40];
   std::snprintf(text, sizeof text, "%.17g", value);
   return text;

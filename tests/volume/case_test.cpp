@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include <cstring>
 #include <fstream>
 #include <functional>
 
@@ -91,6 +92,22 @@ TEST_CASE("a case comes back from its folder as it was written") {
   CHECK(view.depth_mm == 160);
   CHECK(most_apart(view.patient_from_probe.matrix(), written.views[0].patient_from_probe.matrix()) < 1e-12);
   CHECK(read.find_view("other") == nullptr);
+}
+
+TEST_CASE("a case's numbers come back to the bit, the sign of zero too") {
+  const TemporaryFolder folder;
+  Case written = small_case();
+  Pose& pose = written.views[0].patient_from_probe;
+  pose = {glm::dmat3(1.0), {-0.0, 1.0 / 3, 160}};
+  pose.rotation[0].y = -0.0;
+  written.landmarks[0].position.z = -0.0;
+  write_case(folder.path / "case", written);
+  const Case read = read_case(folder.path / "case");
+  const Pose& back = read.views[0].patient_from_probe;
+  const auto same = [](const glm::dvec3& a, const glm::dvec3& b) { return std::memcmp(&a, &b, sizeof a) == 0; };
+  CHECK(same(back.translation, pose.translation));
+  for (int c = 0; c < 3; ++c) CHECK(same(back.rotation[c], pose.rotation[c]));
+  CHECK(same(read.landmarks[0].position, written.landmarks[0].position));
 }
 
 TEST_CASE("a case without labels is a case") {
