@@ -23,8 +23,9 @@ using Progress = std::function<void(double share)>;
 Case make_phantom(const std::string& recipe_name, const std::string& recipe_text,
                   const std::vector<std::pair<std::string, std::string>>& options = {}, const Progress& progress = {});
 
-/// How many phantoms a cache keeps: those used last, about 100 MB each for the built-in one at 1 mm.
-inline constexpr std::size_t kKeptPhantoms = 8;
+/// How many phantoms a cache keeps: those used last, about 100 MB each for the built-in one at 1 mm. The bundled exams
+/// have ten patients between them.
+inline constexpr std::size_t kKeptPhantoms = 16;
 
 /// The same, kept under `cache` in a folder named after a digest of the recipe, the options and the maker's version. A
 /// cached case whose files do not match the digests written beside them is thrown away and made again; a cache that

@@ -148,11 +148,16 @@ fs::file_time_type hours_ago(int hours) {
   return fs::file_time_type::clock::now() - std::chrono::hours(hours);
 }
 
-// As many phantoms as a cache keeps, numbered by their radius from 1 up, each an hour older than the one before it.
+/// Another one for each number, and none of them as large as the recipe's own.
+std::string radius_mm(std::size_t number) {
+  return std::to_string(1 + 0.25 * double(number));
+}
+
+// As many phantoms as a cache keeps, numbered from 1 up, each an hour older than the one before it.
 std::vector<fs::path> fill(Workplace& place) {
   std::vector<fs::path> folders;
   for (std::size_t n = 1; n <= kKeptPhantoms; ++n) {
-    place.get({{"radius_mm", std::to_string(n)}});
+    place.get({{"radius_mm", radius_mm(n)}});
     for (const fs::path& folder : place.folders())
       if (std::find(folders.begin(), folders.end(), folder) == folders.end()) folders.push_back(folder);
     REQUIRE(folders.size() == n);
@@ -166,7 +171,7 @@ std::vector<fs::path> fill(Workplace& place) {
 TEST_CASE("a cache keeps the phantoms that were used last") {
   Workplace place;
   const std::vector<fs::path> folders = fill(place);
-  place.get({{"radius_mm", std::to_string(kKeptPhantoms)}});  // the oldest, just used
+  place.get({{"radius_mm", radius_mm(kKeptPhantoms)}});  // the oldest, just used
   CHECK(place.made == int(kKeptPhantoms));
   place.get({{"radius_mm", "8.5"}});
   CHECK(place.folders().size() == kKeptPhantoms);
