@@ -2,6 +2,10 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+
+#include "sim/core/hash.h"
+
 using namespace insonate;
 
 namespace {
@@ -37,6 +41,24 @@ TEST_CASE("points fall on a straight line from full to zero") {
   CHECK(mark(more, 55).points == Approx(1));
   CHECK(mark(more, 30).points == 0);
   CHECK(mark(more, 0).points == 0);
+}
+
+TEST_CASE("of no metric does a worse value ever earn more than a better one") {
+  std::uint32_t draw = 0;
+  const auto uniform = [&] { return 200 * (hash(11, ++draw) / 4294967296.0) - 100; };
+  for (const MetricInfo& m : metrics())
+    for (int trial = 0; trial < 40; ++trial) {
+      const double one = uniform(), other = uniform(), a = uniform(), b = uniform();
+      const bool less = m.less_is_better;
+      const Criterion asked = criterion(m.metric, less ? std::min(one, other) : std::max(one, other),
+                                        less ? std::max(one, other) : std::min(one, other), 3);
+      CAPTURE(m.name, asked.full, asked.zero, a, b);
+      const double better = mark(asked, less ? std::min(a, b) : std::max(a, b)).points;
+      const double worse = mark(asked, less ? std::max(a, b) : std::min(a, b)).points;
+      CHECK(worse <= better);
+      CHECK(worse >= 0);
+      CHECK(better <= 3);
+    }
 }
 
 TEST_CASE("a mark says why") {

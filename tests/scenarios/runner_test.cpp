@@ -343,13 +343,7 @@ TEST_CASE("the score hardly depends on the sampling rate") {
 
 TEST_CASE("the score does not depend on where the patient lies") {
   const Pose moved = turned(121, {0.3, 1, -2}, {-300, 1250, 90});
-  Case elsewhere = shared_case();
-  for (Grid* grid : {&elsewhere.ct.grid, &elsewhere.labels.grid}) {
-    grid->origin = moved.point(grid->origin);
-    grid->direction = moved.rotation * grid->direction;
-  }
-  for (Landmark& landmark : elsewhere.landmarks) landmark.position = moved.point(landmark.position);
-  for (ReferenceView& view : elsewhere.views) view.patient_from_probe = moved * view.patient_from_probe;
+  const Case elsewhere = moved_case(shared_case(), moved);
   std::vector<PoseSample> samples = wandering(60);
   const ExamResult here = scored(samples);
   for (PoseSample& sample : samples) sample.patient_from_probe = moved * sample.patient_from_probe;

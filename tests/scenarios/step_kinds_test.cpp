@@ -1,57 +1,10 @@
 #include <catch2/catch.hpp>
 
-#include <functional>
-
 #include "scenarios/result_json.h"
 #include "scenarios/runner.h"
-#include "tests/scenarios/tiny_case.h"
+#include "tests/scenarios/tiny_exam.h"
 
 using namespace insonate;
-
-namespace {
-
-const Case& shared_case() {
-  static const Case subject = tiny_case();
-  return subject;
-}
-
-Scenario exam_of(const std::string& steps, const std::string& head = "", std::uint32_t seed = 0) {
-  return parse_scenario(
-      "format = 2\ntitle = \"Kinds\"\ncase = \"tiny\"\npass_mark_percent = 50\ntime_limit_s = 60\n" + head + steps,
-      "exam.toml", seed);
-}
-
-std::string step(const std::string& kind, const std::string& keys, const std::string& metric = "",
-                 const std::string& full_zero = "full = 100\nzero = 0") {
-  return "[[step]]\nkind = \"" + kind + "\"\ntitle = \"A step\"\ninstruction = \"Do it.\"\n" + keys + "\n" +
-         (metric.empty() ? "" : "[[step.criterion]]\nmetric = \"" + metric + "\"\n" + full_zero + "\n");
-}
-
-Pose at_z(double z) {
-  return {glm::dmat3(1.0), {0, 0, z}};
-}
-
-/// The score of a scan of ten samples a second whose actions go with the samples of those times.
-ExamResult scored(
-    const Scenario& scenario, double duration_s, const ActionLog& actions,
-    const std::function<Pose(double)>& pose = [](double) { return at_z(0); }) {
-  Runner runner(scenario, shared_case(), tiny_tissues());
-  runner.feed(samples_of(duration_s, 10, pose), actions);
-  runner.end();
-  return runner.result();
-}
-
-const Action kFreeze{ActionKind::freeze};
-const Action kGoOn{ActionKind::go_on};
-
-Action caliper(int slot, double x1, double y1, double x2, double y2) {
-  return {ActionKind::caliper, {double(slot), x1, y1, x2, y2}};
-}
-Action answer(const std::string& text) {
-  return {ActionKind::answer, {}, text};
-}
-
-}  // namespace
 
 TEST_CASE("knobs are set when all of them are as asked for long enough") {
   const Scenario exam = exam_of(step(

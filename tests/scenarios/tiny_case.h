@@ -57,6 +57,17 @@ inline Pose turned(double degrees, const glm::dvec3& axis, const glm::dvec3& tra
   return {glm::dmat3(glm::rotate(glm::dmat4(1.0), glm::radians(degrees), glm::normalize(axis))), translation};
 }
 
+/// The same patient lying elsewhere.
+inline Case moved_case(Case subject, const Pose& moved) {
+  for (Grid* grid : {&subject.ct.grid, &subject.labels.grid}) {
+    grid->origin = moved.point(grid->origin);
+    grid->direction = moved.rotation * grid->direction;
+  }
+  for (Landmark& landmark : subject.landmarks) landmark.position = moved.point(landmark.position);
+  for (ReferenceView& view : subject.views) view.patient_from_probe = moved * view.patient_from_probe;
+  return subject;
+}
+
 inline PoseSample sample_at(double time_s, const Pose& pose, PoseStatus status = PoseStatus::ok) {
   PoseSample sample;
   sample.time_s = time_s;

@@ -142,13 +142,7 @@ TEST_CASE("depth is used by as much of it as the target takes") {
 TEST_CASE("moving patient and probe together changes nothing") {
   const Bench bench;
   const Pose moved = turned(73, {1, -2, 0.5}, {412, -95, 1300});
-  Case elsewhere = bench.subject;
-  for (Grid* grid : {&elsewhere.ct.grid, &elsewhere.labels.grid}) {
-    grid->origin = moved.point(grid->origin);
-    grid->direction = moved.rotation * grid->direction;
-  }
-  for (Landmark& landmark : elsewhere.landmarks) landmark.position = moved.point(landmark.position);
-  for (ReferenceView& view : elsewhere.views) view.patient_from_probe = moved * view.patient_from_probe;
+  const Case elsewhere = moved_case(bench.subject, moved);
   const ViewMeter meter(elsewhere, *elsewhere.find_view("ball"), tiny_tissues());
 
   for (const Pose& pose : {turned(12, {1, 0, 0}, {3, 1, 4}), turned(-30, {1, 1, 1}, {-5, 0, 7})}) {
