@@ -28,6 +28,10 @@ bool is_measured(const Action& action) {
   return action.kind == ActionKind::caliper || action.kind == ActionKind::ellipse;
 }
 
+bool is_exam_of_log(const Session& session) {
+  return session.runner() && !session.result() && session.source().recording();
+}
+
 bool ends_step(const Action& action) {
   return action.kind == ActionKind::go_on || action.kind == ActionKind::go_to || action.kind == ActionKind::answer;
 }
@@ -37,6 +41,10 @@ bool ends_step(const Action& action) {
 std::string in_words(std::string name) {
   std::replace(name.begin(), name.end(), '_', ' ');
   return name;
+}
+
+bool PictureTools::ready(const Session& session) {
+  return session.frozen_picture() && !is_exam_of_log(session);
 }
 
 void PictureTools::see(const Session& session) {
@@ -166,8 +174,8 @@ void PictureTools::begin(const glm::dvec2& at) {
 }
 
 void PictureTools::press(Session& session, const glm::dvec2& at, double reach_mm) {
+  if (!ready(session)) return;
   const auto picture = session.frozen_picture();
-  if (!picture) return;
   picture_ = picture;
   if (drawing_) return move(at);
   if (!grab(*picture, at, reach_mm)) begin(at);
@@ -225,7 +233,7 @@ bool PictureTools::cancel() {
 }
 
 void PictureTools::undo(Session& session) {
-  if (cancel() || done_.empty()) return;
+  if (is_exam_of_log(session) || cancel() || done_.empty()) return;
   const Undo last = done_.back();
   done_.pop_back();
   const auto picture = session.frozen_picture();
@@ -236,6 +244,7 @@ void PictureTools::undo(Session& session) {
 }
 
 void PictureTools::clear(Session& session) {
+  if (is_exam_of_log(session)) return;
   drop();
   const auto remove = [&](const Action& placed) {
     session.act(take_back(placed));

@@ -29,8 +29,8 @@ public:
   /// To be called after each Session::advance().
   void see(const Session& session);
 
-  /// There is a frozen picture that takes the pointer.
-  static bool ready(const Session& session) { return session.frozen_picture().has_value(); }
+  /// There is a frozen picture that takes the pointer: none of an exam that a log does, which places what it placed.
+  static bool ready(const Session& session);
   Tool tool() const { return tool_; }
   /// Whether the learner chooses what to measure with, as no step says it.
   bool free_choice() const { return !measure_ && tool_ != Tool::point && tool_ != Tool::label; }

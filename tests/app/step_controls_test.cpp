@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "app/picture_tools.h"
 #include "devices/mouse/mouse_tracker.h"
 #include "devices/replay/replay_tracker.h"
 #include "scenarios/steps/question.h"
@@ -162,6 +163,13 @@ TEST_CASE("a log takes nothing from who watches it") {
   controls.see(session);
   CHECK_FALSE(StepControls::active(session));
   controls.go_on(session);
+  session.console().frozen = true;
   session.advance(2);
   CHECK_FALSE(session.runner()->live().finished);
+  CHECK(session.frozen_picture());
+  CHECK_FALSE(PictureTools::ready(session));
+  session.practise();
+  session.console().frozen = true;
+  session.advance(2.1);
+  CHECK(PictureTools::ready(session));
 }
