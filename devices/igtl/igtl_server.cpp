@@ -14,7 +14,8 @@
 
 namespace insonate::igtl {
 
-Server::Server(const Address& address, const std::string& what) : woken_(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
+Server::Server(const Address& address, const std::string& what, double stuck_s)
+    : stuck_s_(stuck_s), woken_(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
   try {
     listener_ = listen_on(address);
     address_ = bound_address(listener_);
@@ -85,7 +86,7 @@ bool Server::send_to(Client& client) {
     }
     const ssize_t count = ::send(client.socket.get(), client.sending->data() + client.sent,
                                  client.sending->size() - client.sent, MSG_NOSIGNAL | MSG_DONTWAIT);
-    if (count < 0) return (errno == EAGAIN || errno == EINTR) && steady_now_s() - client.progress_s < kStuck_s;
+    if (count < 0) return (errno == EAGAIN || errno == EINTR) && steady_now_s() - client.progress_s < stuck_s_;
     client.progress_s = steady_now_s();
     client.sent += std::size_t(count);
     if (client.sent == client.sending->size()) client.sending = nullptr;

@@ -19,8 +19,8 @@ namespace insonate::igtl {
 /// for the network, and a slow client slows nobody: of each stream it gets the latest message when it is ready for one,
 /// and of events the last kMostEvents.
 ///
-/// What clients send is read and thrown away. A client that takes nothing for kStuck_s while something waits for it is
-/// let go.
+/// What clients send is read and thrown away. A client that takes nothing for long (kStuck_s unless told) while
+/// something waits for it is let go.
 class Server {
 public:
   /// Of these the latest message counts, and a new client gets it at once.
@@ -32,7 +32,7 @@ public:
 
   /// Listens at once. Throws InputError when the address is not this computer's or the port is taken; `what` names the
   /// option in it.
-  Server(const Address& address, const std::string& what);
+  Server(const Address& address, const std::string& what, double stuck_s = kStuck_s);
   ~Server();
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
@@ -65,6 +65,7 @@ private:
   bool send_to(Client& client);
   static bool ignore_what_it_says(const Client& client);
 
+  const double stuck_s_;
   Address address_;
   Socket listener_;
   Socket woken_;  ///< an eventfd

@@ -1,5 +1,6 @@
 #include "devices/live/left_threads.h"
 
+#include <atomic>
 #include <mutex>
 #include <utility>
 #include <vector>
@@ -10,6 +11,7 @@ namespace {
 struct Left {
   std::mutex mutex;
   std::vector<std::jthread> threads;  // joined when they are destroyed
+  std::atomic<int> waiting{0};
 };
 
 Left& left() {
@@ -25,10 +27,20 @@ void leave_thread(std::jthread thread) {
 }
 
 void join_left_threads(const std::stop_token& stop) {
-  std::vector<std::jthread> threads;  // joined after the lock is given back
-  const std::lock_guard lock(left().mutex);
-  // Asked under the lock: who is among the threads has been asked to end before it was put there.
-  if (!stop.stop_requested()) threads.swap(left().threads);
+  std::vector<std::jthread> threads;
+  {
+    const std::lock_guard lock(left().mutex);
+    // Asked under the lock: who is among the threads has been asked to end before it was put there.
+    if (!stop.stop_requested()) threads.swap(left().threads);
+  }
+  if (threads.empty()) return;
+  ++left().waiting;
+  threads.clear();
+  --left().waiting;
+}
+
+int waiting_for_left_threads() {
+  return left().waiting;
 }
 
 }  // namespace insonate

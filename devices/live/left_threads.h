@@ -12,4 +12,7 @@ void leave_thread(std::jthread thread);
 /// is, was itself asked to end, so that no two ever wait for each other.
 void join_left_threads(const std::stop_token& stop);
 
+/// How many threads wait in join_left_threads() now, for a thread that was left.
+int waiting_for_left_threads();
+
 }  // namespace insonate

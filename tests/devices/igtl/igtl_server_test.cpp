@@ -111,7 +111,8 @@ TEST_CASE("a client of Debian's library and our own receive the pose") {
 }
 
 TEST_CASE("a client that never reads and clients that send anything slow nobody") {
-  Server server(numeric_address("127.0.0.1", 0), "--igtl-server");
+  // Nobody is let go meanwhile, however long this machine takes.
+  Server server(numeric_address("127.0.0.1", 0), "--igtl-server", 3600);
   const RawPeer sleeper = RawPeer::connected_to(server.address());
   RawPeer shouter = RawPeer::connected_to(server.address());
   Listening listener(server.address());
@@ -125,6 +126,19 @@ TEST_CASE("a client that never reads and clients that send anything slow nobody"
     REQUIRE(listener.until(pose_at(float(i))));
   }
   CHECK(server.clients() == 3);
+}
+
+TEST_CASE("a client that takes nothing for too long is let go") {
+  Server server(numeric_address("127.0.0.1", 0), "--igtl-server", 0.05);
+  const RawPeer sleeper = RawPeer::connected_to(server.address());
+  REQUIRE(eventually([&] { return server.clients() == 1; }));
+  const Image<std::uint8_t> picture(1000, 1000);
+  REQUIRE(eventually([&] {
+    server.publish(Server::Stream::image, make_image("Ultrasound", 0, picture, at_x(1), 1));
+    return server.clients() == 0;
+  }));
+  server.publish(Server::Stream::pose, make_transform("ProbeToRas", 0, at_x(3)));
+  CHECK(Listening(server.address()).until(pose_at(3)));
 }
 
 TEST_CASE("who is late gets the latest pose, not all that were before") {
