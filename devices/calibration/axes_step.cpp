@@ -3,69 +3,57 @@
 #include <utility>
 #include <vector>
 
+#include "devices/calibration/finding_step.h"
 #include "devices/calibration/steps.h"
 
 namespace insonate {
 namespace {
 
 /// Four straight moves, each between two marks.
-class AxesStep : public SetupStep {
+class AxesStep : public FindingStep {
 public:
-  explicit AxesStep(const Calibration& base) : SetupStep(base) {}
-  void mark(double time_s) override;
-  void undo() override;
-  SetupView view() const override;
+  explicit AxesStep(const Calibration& base) : FindingStep(base, "Which way is which") {}
   void store(Calibration& calibration, std::int64_t now_s) const override;
 
 protected:
+  void marked(double) override { waiting_ = true; }
+  void taken_back(bool all) override;
   void take(const PoseSample& sample) override;
+  void ask(SetupView& view) const override;
+  std::size_t part() const override { return ends_.size(); }
+  std::string result() const override;
 
 private:
   std::vector<Pose> ends_;  ///< two a move, raw
   std::optional<Pose> newest_;
   bool waiting_ = false;  ///< for the pose of the last mark
-  std::optional<AxesFinding> found_;
-  std::string refusal_;
+  AxesFinding found_;
 };
-
-void AxesStep::mark(double) {
-  if (!found_) waiting_ = true;
-}
 
 void AxesStep::take(const PoseSample& sample) {
   if (sample.status != PoseStatus::ok) return;
   newest_ = sample.patient_from_probe;
   if (!std::exchange(waiting_, false)) return;
-  refusal_.clear();
   ends_.push_back(*newest_);
   const std::size_t count = ends_.size();
   if (count % 2 == 0 && glm::distance(ends_[count - 2].translation, ends_[count - 1].translation) < kLeastMoveMm) {
-    refusal_ = "That was too short; begin this move again and move by 100 mm or more.";
+    refuse("That was too short; begin this move again and move by 100 mm or more.");
     ends_.resize(count - 2);
   }
   if (count < 8) return;
   const auto move = [&](std::size_t i) { return StraightMove{ends_[2 * i], ends_[2 * i + 1]}; };
-  const auto found = check_axes({move(0), move(1), move(2), move(3)});
-  if (found) {
-    found_ = *found;
-  } else {
-    refusal_ = found.refusal();
-    ends_.clear();
-  }
+  if (!settle(check_axes({move(0), move(1), move(2), move(3)}), found_)) ends_.clear();
 }
 
-void AxesStep::undo() {
-  refusal_.clear();
+void AxesStep::taken_back(bool all) {
   waiting_ = false;
-  if (found_) {
-    found_.reset();
+  if (all)
     ends_.clear();
-  } else if (!ends_.empty()) {
+  else if (!ends_.empty())
     ends_.pop_back();
-  }
 }
 
-SetupView AxesStep::view() const {
+void AxesStep::ask(SetupView& view) const {
   static constexpr const char* kBegin[] = {
       "Hold the probe upright on the mannequin's belly, its marker to the patient's right. Mark.",
       "Hold it upright as before, marker to the right. Mark.",
@@ -76,30 +64,24 @@ SetupView AxesStep::view() const {
       "Move it straight up, a hand's length, without turning. Mark.",
       "Move it straight to the head, a hand's length, without turning. Mark.",
       "Move it straight up, a hand's length, without turning. Mark."};
-  SetupView view;
-  view.title = "Which way is which";
-  view.refusal = refusal_;
-  view.done = found_.has_value();
-  view.share = view.done ? 1 : double(ends_.size()) / 8;
-  view.part = ends_.size();
-  if (found_) {
-    view.result = found_->signs.words() + worded("; the moves agree to %.0f degrees", found_->misfit_deg);
-    if (!found_->signs.none()) view.result += "; what is mirrored is put right from here on";
-    return view;
-  }
+  view.share = double(ends_.size()) / 8;
   const std::size_t move = ends_.size() / 2;
   view.reading = ends_.size() % 2 == 1;
   view.task = worded("%zu of 4: ", move + 1) + (view.reading ? kEnd[move] : kBegin[move]);
   if (view.reading && newest_)
     view.feedback = worded("%.0f mm from the beginning", glm::distance(ends_.back().translation, newest_->translation));
-  return view;
+}
+
+std::string AxesStep::result() const {
+  return found_.signs.words() + worded("; the moves agree to %.0f degrees", found_.misfit_deg) +
+         (found_.signs.none() ? "" : "; what is mirrored is put right from here on");
 }
 
 void AxesStep::store(Calibration& calibration, std::int64_t now_s) const {
-  const bool other = !calibration.axes || calibration.axes->value.signs.position != found_->signs.position ||
-                     calibration.axes->value.signs.quaternion != found_->signs.quaternion;
-  const bool had_signs = calibration.axes || !found_->signs.none();
-  calibration.axes = Dated<AxesFinding>{*found_, now_s};
+  const bool other = !calibration.axes || calibration.axes->value.signs.position != found_.signs.position ||
+                     calibration.axes->value.signs.quaternion != found_.signs.quaternion;
+  const bool had_signs = calibration.axes || !found_.signs.none();
+  calibration.axes = Dated<AxesFinding>{found_, now_s};
   if (!other || !had_signs) return;
   // What was measured with other axes is worth nothing.
   calibration.tip.reset();

@@ -13,7 +13,7 @@ public:
 protected:
   std::string task(std::size_t touch) const override;
   glm::dvec3 point(std::size_t touch, const Pose& tracker_from_sensor) const override;
-  std::string finish() override;
+  void finish() override;
   std::string result() const override;
 
 private:
@@ -52,10 +52,8 @@ glm::dvec3 FaceStep::point(std::size_t touch, const Pose& tracker_from_sensor) c
   return tracker_from_sensor.inverse().point(points_[0]);
 }
 
-std::string FaceStep::finish() {
-  const auto fit = fit_face({points_[1], points_[2], points_[3], points_[4]});
-  if (fit) found_ = *fit;
-  return fit.refusal();
+void FaceStep::finish() {
+  settle(fit_face({points_[1], points_[2], points_[3], points_[4]}), found_);
 }
 
 std::string FaceStep::result() const {

@@ -24,7 +24,7 @@ public:
 protected:
   std::string task(std::size_t touch) const override;
   glm::dvec3 point(std::size_t touch, const Pose& tracker_from_sensor) const override;
-  std::string finish() override;
+  void finish() override;
   std::string result() const override;
 
 private:
@@ -42,11 +42,9 @@ glm::dvec3 LandmarkStep::point(std::size_t, const Pose& tracker_from_sensor) con
   return tracker_from_sensor.point(base_.tip->value.tip_mm);
 }
 
-std::string LandmarkStep::finish() {
+void LandmarkStep::finish() {
   for (std::size_t i = 0; i < pairs_.size(); ++i) pairs_[i].touched_mm = points_[i];
-  const auto found = register_landmarks(pairs_);
-  if (found) found_ = *found;
-  return found.refusal();
+  settle(register_landmarks(pairs_), found_);
 }
 
 std::string LandmarkStep::result() const {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "devices/calibration/finding_step.h"
 #include "devices/calibration/steps.h"
 
 namespace insonate {
@@ -20,29 +21,27 @@ std::vector<Pose> some_of(const std::vector<Pose>& poses, std::size_t count) {
 }
 
 /// Pivoting between two marks.
-class PivotStep : public SetupStep {
+class PivotStep : public FindingStep {
 public:
-  explicit PivotStep(const Calibration& base) : SetupStep(base) {}
-  void mark(double time_s) override;
-  void undo() override;
-  SetupView view() const override;
+  explicit PivotStep(const Calibration& base) : FindingStep(base, "Probe tip") {}
   void store(Calibration& calibration, std::int64_t now_s) const override;
 
 protected:
+  void marked(double time_s) override;
+  void taken_back(bool) override { reading_ = false; }
   void take(const PoseSample& sample) override;
+  void ask(SetupView& view) const override;
+  std::string result() const override;
 
 private:
   std::vector<Pose> poses_;
   double spread_deg_ = 0, began_s_ = 0, lasted_s_ = 0, told_s_ = 0;
   std::optional<double> residual_mm_;  ///< of a fit to what came so far, once there is one
   bool reading_ = false;
-  std::optional<TipFit> found_;
-  std::string refusal_;
+  TipFit found_;
 };
 
-void PivotStep::mark(double time_s) {
-  if (found_) return;
-  refusal_.clear();
+void PivotStep::marked(double time_s) {
   if (!reading_) {
     reading_ = true;
     poses_.clear();
@@ -52,10 +51,7 @@ void PivotStep::mark(double time_s) {
     return;
   }
   reading_ = false;
-  if (const auto fit = fit_tip(poses_))
-    found_ = *fit;
-  else
-    refusal_ = fit.refusal();
+  settle(fit_tip(poses_), found_);
 }
 
 void PivotStep::take(const PoseSample& sample) {
@@ -72,39 +68,27 @@ void PivotStep::take(const PoseSample& sample) {
   if (enough || poses_.size() >= kMostStepPoses || lasted_s_ > kLongestPivotS) mark(sample.time_s);
 }
 
-void PivotStep::undo() {
-  reading_ = false;
-  found_.reset();
-  refusal_.clear();
-}
-
-SetupView PivotStep::view() const {
-  SetupView view;
-  view.title = "Probe tip";
-  view.refusal = refusal_;
+void PivotStep::ask(SetupView& view) const {
   view.reading = reading_;
-  view.done = found_.has_value();
-  if (found_) {
-    view.share = 1;
-    view.result = worded("residual %.2f mm over %zu poses (%zu rejected); the tip is known to %.2f mm",
-                         found_->residual_mm, found_->used, found_->rejected, found_->tip_sd_mm);
-    return view;
-  }
   view.task = reading_
                   ? "Keep the tip in the dimple. Tilt the probe by 30 degrees to all sides, and turn it about its "
                     "length."
                   : "Put the probe's pointed tip into a dimple that stands fast, away from metal. Mark, then pivot "
                     "for ten seconds.";
-  if (!reading_) return view;
+  if (!reading_) return;
   view.share = std::min({1.0, lasted_s_ / kPivotS, spread_deg_ / (1.3 * kLeastPivotSpreadDeg)});
   view.feedback = worded("%.0f s, %zu poses, turned by %.0f of %.0f degrees", lasted_s_, poses_.size(), spread_deg_,
                          1.3 * kLeastPivotSpreadDeg);
   if (residual_mm_) view.feedback += worded(", residual %.2f mm", *residual_mm_);
-  return view;
+}
+
+std::string PivotStep::result() const {
+  return worded("residual %.2f mm over %zu poses (%zu rejected); the tip is known to %.2f mm", found_.residual_mm,
+                found_.used, found_.rejected, found_.tip_sd_mm);
 }
 
 void PivotStep::store(Calibration& calibration, std::int64_t now_s) const {
-  calibration.tip = Dated<TipFit>{*found_, now_s};
+  calibration.tip = Dated<TipFit>{found_, now_s};
 }
 
 }  // namespace
