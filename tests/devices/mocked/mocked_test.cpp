@@ -255,6 +255,18 @@ TEST_CASE("a Viper that may not be opened, and one that waits for its firmware, 
   watch.until_told("waits for its firmware");
 }
 
+TEST_CASE("a Viper that another program has is told as busy, and used as soon as it is free") {
+  if (!possible()) return;
+  Testbed testbed;
+  MockedUsb viper(testbed, kViper, 4);
+  viper.claim_elsewhere(true);
+  Watch watch("polhemus:");
+  REQUIRE(watch.until_told("is in use: close the other program that has it"));
+  CHECK(viper.received().empty());
+  viper.claim_elsewhere(false);
+  REQUIRE(watch.until([&] { return viper.received().size() == 2; }));
+}
+
 TEST_CASE("a SpaceMouse moves the probe when it is there, and is taken when nothing better is") {
   if (!possible()) return;
   Testbed testbed;

@@ -200,6 +200,8 @@ int MockedUsb::on_ioctl(_UMockdevIoctlBase*, _UMockdevIoctlClient* client, void*
       usb.discard(client);
       break;
     case USBDEVFS_CLAIMINTERFACE:
+      umockdev_ioctl_client_complete(client, usb.claimed_ ? -1 : 0, usb.claimed_ ? EBUSY : 0);
+      break;
     case USBDEVFS_RELEASEINTERFACE:
     case USBDEVFS_CLEAR_HALT:
       umockdev_ioctl_client_complete(client, 0, 0);

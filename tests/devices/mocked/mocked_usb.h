@@ -39,6 +39,9 @@ public:
   /// Who has it open is told that it is gone: transfers under way fail, further ones find no device.
   void pull();
 
+  /// Whether another program has claimed it.
+  void claim_elsewhere(bool claimed) { claimed_ = claimed; }
+
   Node& node() { return *node_; }
   const std::vector<Packet>& received() const { return received_; }
 
@@ -58,7 +61,7 @@ private:
   std::deque<Packet> to_send_;
   std::vector<Packet> received_;
   std::list<Transfer> transfers_;
-  bool pulled_ = false;
+  bool pulled_ = false, claimed_ = false;
 };
 
 }  // namespace insonate
