@@ -41,6 +41,7 @@ void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::
     state["frozen"] = session->console().frozen;
     state["tracker"] = to_string(session->tracker_state().condition);
     state["tracker_problem"] = session->tracker_state().problem;
+    state["tracker_rejected"] = to_string(session->tracker_state().rejected);
     state["marks"] = session->marks_s().size();
     state["pose_answer"] = session->answer() ? to_string(session->answer()->how) : "";
     state["lost"] = session->lost_for_s().has_value();

@@ -29,6 +29,11 @@ void Tracker::poll(double now_s, std::vector<PoseSample>& samples) {
     recent_times_s_[delivered_ % recent_times_s_.size()] = sample.time_s;
     ++delivered_;
     last_status_ = sample.status;
+    if (sample.distortion) distortion_ = sample.distortion;
+    if (sample.rejected != Rejection::none) {
+      rejected_ = sample.rejected;
+      rejected_s_ = sample.time_s;
+    }
     if (sample.status != PoseStatus::ok) continue;
     ++usable_;
     last_usable_s_ = sample.time_s;
@@ -39,6 +44,8 @@ TrackerState Tracker::state() const {
   TrackerState state;
   state.name = name_;
   state.last_status = last_status_;
+  state.distortion = distortion_;
+  if (rejected_ != Rejection::none && clock_s(now_s_) - rejected_s_ <= kToldRejectedS) state.rejected = rejected_;
   state.delivered = delivered_;
   state.usable = usable_;
   state.progress = progress();

@@ -27,6 +27,9 @@ std::string_view to_string(TrackerCondition condition);
 /// After so long without a usable sample a tracker counts as lost.
 inline constexpr double kLostAfterS = 1.0;
 
+/// For so long it is told why a sample was rejected, so that a person can read it.
+inline constexpr double kToldRejectedS = 0.5;
+
 /// What the screen shows of a tracker.
 struct TrackerState {
   std::string name;  ///< in words: "replay of good_scan.igs.mha at twice the speed"
@@ -36,6 +39,8 @@ struct TrackerState {
   std::uint64_t delivered = 0;                   ///< samples handed over since the tracker was opened
   std::uint64_t usable = 0;                      ///< those of them whose status is ok
   std::optional<double> progress;                ///< from 0 to 1, for a tracker that has an end
+  std::optional<std::uint32_t> distortion;       ///< as the tracker last graded it; empty of one that does not
+  Rejection rejected = Rejection::none;  ///< why the newest sample was that was rejected in the last kToldRejectedS
   std::string problem;        ///< what is wrong with the device now and what to do, as a sentence; empty for nothing
   std::uint64_t dropped = 0;  ///< samples lost because nobody polled in time
 };
@@ -67,6 +72,10 @@ public:
   /// Whether samples come in real time, as of a device: nobody can run ahead of it, and what was not polled is past.
   virtual bool live() const { return false; }
 
+  /// Whether the samples tell how the probe turns or moves but not where it is, as of a sensor that knows its
+  /// orientation alone: then it may be put anywhere, and goes on from there.
+  virtual bool relative() const { return false; }
+
   /// Tells `tap` from the first poll on what comes from the device, before it is parsed (raw_recorder.h writes it
   /// down); null for nobody. To be called before the first poll. False, and nothing is told, when there is no device.
   virtual bool record_raw(const std::shared_ptr<RawTap>&) { return false; }
@@ -96,6 +105,9 @@ private:
   std::uint64_t usable_ = 0;
   double last_usable_s_ = 0;  ///< on the tracker's clock; its start until a usable sample comes
   PoseStatus last_status_ = PoseStatus::unknown;
+  std::optional<std::uint32_t> distortion_;
+  Rejection rejected_ = Rejection::none;
+  double rejected_s_ = 0;  ///< on the tracker's clock
 };
 
 }  // namespace insonate

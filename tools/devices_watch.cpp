@@ -30,6 +30,8 @@ void print(const PoseSample& sample) {
     std::printf(" %9.3f %9.3f %9.3f mm  %8.5f %8.5f %8.5f %8.5f", p.x, p.y, p.z, q.w, q.x, q.y, q.z);
   }
   if (sample.distortion) std::printf("  distortion %u", unsigned(*sample.distortion));
+  if (sample.rejected != Rejection::none)
+    std::printf("  rejected: %s", std::string(to_string(sample.rejected)).c_str());
   if (sample.buttons) std::printf("  buttons %x", unsigned(sample.buttons));
   std::printf("\n");
 }

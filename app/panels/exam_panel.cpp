@@ -30,6 +30,12 @@ std::string status_text(PoseStatus status) {
   return "state unknown";
 }
 
+std::string rejection_text(Rejection rejected) {
+  return rejected == Rejection::distortion ? "Rejected: metal near"
+         : rejected == Rejection::mirror   ? "Rejected: mirrored"
+                                           : "Rejected: a jump";
+}
+
 void draw_tracker(const Theme& theme, const Rect& where, const Session& session) {
   const TrackerState state = session.tracker_state();
   std::string condition;
@@ -45,12 +51,14 @@ void draw_tracker(const Theme& theme, const Rect& where, const Session& session)
   } else {
     condition = (session.lost_for_s() ? "Lost: " : "") + status_text(state.last_status);
     if (!session.lost_for_s() && !condition.empty()) condition[0] = char(std::toupper(condition[0]));
-    if (session.lost_for_s() || state.last_status != PoseStatus::ok) light = colour::kAmber;
+    if (state.rejected != Rejection::none) condition = rejection_text(state.rejected);
+    if (session.lost_for_s() || state.rejected != Rejection::none || state.last_status != PoseStatus::ok)
+      light = colour::kAmber;
     char rate[32];
     std::snprintf(rate, sizeof rate, ", %.0f Hz", state.rate_hz);
     if (state.rate_hz > 0) condition += rate;
-    if (const auto& answer = session.answer(); answer && !session.lost_for_s())
-      condition += ", " + std::string(to_string(answer->how));
+    const bool calm = !session.lost_for_s() && state.rejected == Rejection::none;
+    if (const auto& answer = session.answer(); answer && calm) condition += ", " + std::string(to_string(answer->how));
   }
   Rect upper{where.x, where.y + theme.px(11), where.w, theme.px(21)};
   Rect lower{where.x, upper.y + upper.h, where.w, theme.px(20)};
@@ -59,6 +67,13 @@ void draw_tracker(const Theme& theme, const Rect& where, const Session& session)
   lower.take_left(theme.px(18));
   draw_text(upper, theme.strong, light == colour::kAmber ? colour::kAmber : colour::kText, condition);
   const std::string& source = state.problem.empty() ? state.name : state.problem;
+  if (state.distortion && session.holder() == Holder::tracker) {
+    const std::string grade = "distortion " + std::to_string(*state.distortion);
+    const bool bad = state.rejected == Rejection::distortion;
+    draw_text(lower.take_right(text_width(theme.small_text, grade)), theme.small_text,
+              bad ? colour::kAmber : colour::kMuted, grade);
+    lower.take_right(theme.px(10));
+  }
   draw_text(lower, theme.small_text, colour::kMuted,
             session.holder() == Holder::learner ? "Mouse and keyboard; F1 shows the keys" : source);
 }
@@ -116,6 +131,25 @@ std::string status_of(const Scenario& scenario, const Step& step) {
 }
 
 }  // namespace
+
+std::string rejection_advice(const TrackerState& state) {
+  const std::string begin = "The tracker's poses are rejected: ";
+  switch (state.rejected) {
+    case Rejection::none:
+      return "";
+    case Rejection::jump:
+      return begin + "they jump as no hand does. Keep steel and mains adapters away from the sensor and the base.";
+    case Rejection::mirror:
+      return begin +
+             "it takes the sensor for its mirror image on the base's other side. Bring the probe close to the "
+             "base for a moment.";
+    case Rejection::distortion:
+      return begin + "it says that metal bends its field where the sensor is (distortion " +
+             std::to_string(state.distortion.value_or(0)) +
+             "). Keep steel away from the sensor and the base, or bring the probe nearer to the base.";
+  }
+  return "";
+}
 
 std::string clock_text(double seconds) {
   const int whole = int(std::floor(seconds));

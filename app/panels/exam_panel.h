@@ -9,6 +9,9 @@ namespace insonate::ui {
 /// The strip on top: what is asked for now, how far the hold is, the time, and where the poses come from.
 void draw_exam_panel(const Theme& theme, const Rect& panel, const Session& session);
 
+/// What to do about a tracker whose samples are being rejected, as sentences; empty while none are.
+std::string rejection_advice(const TrackerState& state);
+
 /// "1:04"
 std::string clock_text(double seconds);
 

@@ -109,7 +109,11 @@ void draw_banner(const Theme& theme, const Rect& panel, const Session& session, 
 
 // What is wrong with the tracker, at length; the tracker's own panel has room for its beginning.
 void draw_tracker_problem(const Theme& theme, const Rect& panel, const Session& session) {
-  const std::string problem = session.tracker_state().problem;
+  const TrackerState state = session.tracker_state();
+  const bool stands_still = session.lost_for_s().has_value() && session.holder() == Holder::tracker;
+  const std::string problem = !state.problem.empty() ? state.problem
+                              : stands_still         ? rejection_advice(state)
+                                                     : std::string();
   if (problem.empty()) return;
   const float width = std::min(panel.w * 0.6f, theme.px(560)), margin = theme.px(12);
   const ImVec2 text = theme.text->CalcTextSizeA(theme.text->FontSize, 3e38f, width - 2 * margin, problem.data(),

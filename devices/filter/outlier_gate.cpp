@@ -40,6 +40,7 @@ OutlierGate::Track OutlierGate::carried_on(const Track& track, double time_s, co
 }
 
 bool OutlierGate::accepts(double time_s, const Pose& pose, const std::optional<glm::dvec3>& origin) {
+  mirrored_ = false;
   if (!accepted_) {
     accepted_ = Track{time_s, pose};
     return true;
@@ -53,6 +54,7 @@ bool OutlierGate::accepts(double time_s, const Pose& pose, const std::optional<g
     if (const Pose image = mirror_image(pose, *origin); follows(*accepted_, time_s, image)) {
       accepted_ = carried_on(*accepted_, time_s, image);
       elsewhere_.reset();
+      mirrored_ = true;
       return false;
     }
   }

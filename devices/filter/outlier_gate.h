@@ -28,6 +28,9 @@ public:
   /// a magnetic tracker in the samples' frame; others mirror nothing.
   bool accepts(double time_s, const Pose& pose, const std::optional<glm::dvec3>& origin = {});
 
+  /// Whether the last sample was rejected as a mirror image.
+  bool mirrored() const { return mirrored_; }
+
 private:
   struct Track {
     double time_s;
@@ -40,6 +43,7 @@ private:
   std::optional<Track> accepted_;   ///< while the samples are mirrored, where the sensor really is
   std::optional<Track> elsewhere_;  ///< rejected samples that lie together
   double elsewhere_since_s_ = 0;
+  bool mirrored_ = false;
 };
 
 }  // namespace insonate

@@ -71,8 +71,11 @@ FilterSettings take_filter_options(TrackerUri& uri) {
 void SampleFilters::apply(PoseSample& sample, const std::optional<glm::dvec3>& origin) {
   if (sample.status != PoseStatus::ok) return;
   // What is bent is no reading for the others to learn from.
-  const bool bent = settings_.distortion && sample.distortion.value_or(0) > settings_.most_distortion;
-  if (bent || (settings_.outlier && !outliers_.accepts(sample.time_s, sample.patient_from_probe, origin))) {
+  if (settings_.distortion && sample.distortion.value_or(0) > settings_.most_distortion)
+    sample.rejected = Rejection::distortion;
+  else if (settings_.outlier && !outliers_.accepts(sample.time_s, sample.patient_from_probe, origin))
+    sample.rejected = outliers_.mirrored() ? Rejection::mirror : Rejection::jump;
+  if (sample.rejected != Rejection::none) {
     sample.status = PoseStatus::invalid;
     sample.patient_from_probe = Pose{};
     return;

@@ -33,8 +33,9 @@ std::string to_string(const FilterSettings& settings);
 /// `distortion` has no limit or none that is a whole number.
 FilterSettings take_filter_options(TrackerUri& uri);
 
-/// The filters of one tracker. A rejected sample becomes `invalid` and loses its pose: the others see that the tracker
-/// said something at that time, and nothing moves. Those that are not ok pass untouched.
+/// The filters of one tracker. A rejected sample becomes `invalid`, loses its pose and says why (PoseSample::rejected):
+/// the others see that the tracker said something at that time, and nothing moves. Those that are not ok pass
+/// untouched.
 class SampleFilters {
 public:
   explicit SampleFilters(const FilterSettings& settings) : settings_(settings) {}

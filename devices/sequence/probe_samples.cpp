@@ -89,6 +89,7 @@ std::vector<PoseSample> probe_samples(const Sequence& sequence, std::string_view
     sample.time_s = sequence.frames[f].time_s;
     sample.buttons = sequence.frames[f].buttons;
     sample.distortion = sequence.frames[f].distortion;
+    sample.rejected = sequence.frames[f].rejected;
     const Pose base_from_probe = pose_in(sequence, f, probe, sample.status);
     if (sample.status != PoseStatus::ok) continue;
     if (!chained) {

@@ -26,6 +26,7 @@ struct SequenceFrame {
   double time_s = 0;                          ///< the file's Timestamp: since some start or since 1970
   std::uint32_t buttons = 0;                  ///< bit b is set while button b is held
   std::optional<std::uint32_t> distortion;    ///< as the tracker graded it, where it did
+  Rejection rejected = Rejection::none;       ///< why a filter took its pose away, where one did
   std::vector<SequenceTransform> transforms;  ///< in no particular order, none twice
   std::string actions;  ///< what was done besides moving since the frame before, in the recording program's words
 
@@ -50,9 +51,9 @@ struct Sequence {
 /// Reads the header of a sequence file as PLUS, IGSIO and 3D Slicer write it: a MetaImage header with a line
 /// `Seq_Frame0000_Field = value` for each field of each frame, or a NRRD header with `Seq_Frame0000_Field:=value`.
 /// Understood are, of a frame, `...Transform` (16 numbers by rows), `...TransformStatus` (absent: unknown),
-/// `Timestamp`, `Buttons`, `Distortion` and `Actions` (Insonate's own, which others skip); of the header the fields
-/// that tell size and kind, and `...Transform` fields. All else that is well formed is skipped, images too: they are
-/// only checked to be there. `file` names it in messages.
+/// `Timestamp`, `Buttons`, `Distortion`, `Rejected` and `Actions` (Insonate's own, which others skip); of the header
+/// the fields that tell size and kind, and `...Transform` fields. All else that is well formed is skipped, images too:
+/// they are only checked to be there. `file` names it in messages.
 ///
 /// A pure function of the bytes. Takes memory and time in proportion to them, whatever they claim. Throws InputError
 /// for whatever is truncated, malformed, contradictory, or a sequence of a kind that is not read here (a separate data

@@ -94,6 +94,7 @@ private:
     bool time = false;
     bool buttons = false;
     bool distortion = false;
+    bool rejected = false;
     bool actions = false;
     std::vector<int> statuses;  ///< transforms, by index of name
     std::vector<int> matrices;
@@ -133,7 +134,7 @@ private:
     highest_frame_ = std::max<std::size_t>(highest_frame_, *frame);
     name.remove_prefix(underscore + 1);
     // Of the many fields a frame may have only these are kept; the others are the writer's own business.
-    if (name == "Timestamp" || name == "Buttons" || name == "Distortion" || name == "Actions" ||
+    if (name == "Timestamp" || name == "Buttons" || name == "Distortion" || name == "Rejected" || name == "Actions" ||
         name.ends_with(kTransform) || name.ends_with(kTransformStatus))
       fields_.push_back({*frame, name, value, line});
   }
@@ -191,6 +192,8 @@ private:
         sequence_.frames[field.frame].buttons = read_whole(field, seen_[field.frame].buttons);
       else if (field.name == "Distortion")
         sequence_.frames[field.frame].distortion = read_whole(field, seen_[field.frame].distortion);
+      else if (field.name == "Rejected")
+        read_rejected(field);
       else if (field.name == "Actions")
         read_actions(field);
       else if (field.name.ends_with(kTransform))
@@ -212,6 +215,12 @@ private:
     if (!number)
       fail(field.frame, std::string(field.name) + " is " + quoted(field.value) + " instead of a whole number");
     return *number;
+  }
+
+  void read_rejected(const FrameField& field) {
+    if (std::exchange(seen_[field.frame].rejected, true)) fail_twice(field);
+    for (const Rejection why : {Rejection::jump, Rejection::mirror, Rejection::distortion})
+      if (field.value == to_string(why)) sequence_.frames[field.frame].rejected = why;
   }
 
   void read_actions(const FrameField& field) {

@@ -78,6 +78,7 @@ void append_frame(std::string& text, std::size_t index, const PoseSample& sample
   if (sample.buttons != 0 || sample.status == PoseStatus::switched)
     field("Buttons = ").append(std::to_string(sample.buttons)) += '\n';
   if (sample.distortion) field("Distortion = ").append(std::to_string(*sample.distortion)) += '\n';
+  if (sample.rejected != Rejection::none) field("Rejected = ").append(to_string(sample.rejected)) += '\n';
   if (!actions.empty()) field("Actions = ").append(actions) += '\n';
   field("FrameNumber = ").append(number) += '\n';
   append(field("Timestamp = "), sample.time_s);

@@ -16,7 +16,8 @@ namespace insonate {
 /// there are, as "640 480 30"; "0 0 30" for transforms only.
 std::string sequence_head(const std::string& size, bool compressed);
 
-/// Appends the lines of a frame: the pose as ProbeToPatient, to the last bit, its status, buttons, distortion, times.
+/// Appends the lines of a frame: the pose as ProbeToPatient, to the last bit, its status, buttons,
+/// distortion, rejection, times.
 /// Of a sample that is not ok the pose is not kept. With `probe_from_pixel` also where its picture lies, as
 /// ImageToProbe; with `actions`, one line of printable characters, what was done since the frame before. IGSIO reads
 /// lines of at most 1000 characters, the field's name among them.

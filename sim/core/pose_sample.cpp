@@ -22,4 +22,18 @@ std::string_view to_string(PoseStatus status) {
   return "unknown";
 }
 
+std::string_view to_string(Rejection rejection) {
+  switch (rejection) {
+    case Rejection::none:
+      return "none";
+    case Rejection::jump:
+      return "jump";
+    case Rejection::mirror:
+      return "mirror";
+    case Rejection::distortion:
+      return "distortion";
+  }
+  return "none";
+}
+
 }  // namespace insonate

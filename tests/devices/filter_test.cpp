@@ -211,6 +211,21 @@ TEST_CASE("the mirror image is one through the tracker's origin, wherever that l
   CHECK(believed_without == believed);
 }
 
+TEST_CASE("a rejected sample says why, and those that pass say nothing") {
+  SampleFilters filters(FilterSettings::usual());
+  const glm::dvec3 origin(0);
+  for (const PoseSample& sample : straight()) {
+    PoseSample seen = sample;
+    if (sample.time_s > 0.50 && sample.time_s < 0.55) seen.patient_from_probe.translation.y += 80;
+    if (sample.time_s > 0.75) seen.patient_from_probe.translation *= -1.0;
+    const bool jumps = seen.patient_from_probe.translation.y > 60, mirrored = sample.time_s > 0.75;
+    filters.apply(seen, origin);
+    CAPTURE(sample.time_s);
+    CHECK(seen.rejected == (mirrored ? Rejection::mirror : jumps ? Rejection::jump : Rejection::none));
+    CHECK((seen.status == PoseStatus::invalid) == (seen.rejected != Rejection::none));
+  }
+}
+
 TEST_CASE("samples that were read in one go are no quicker for it") {
   OutlierGate gate;
   for (int i = 0; i < 200; ++i) {
@@ -257,6 +272,7 @@ TEST_CASE(
   filters.apply(sample);
   CHECK(sample.status == PoseStatus::invalid);
   CHECK(sample.patient_from_probe == Pose{});
+  CHECK(sample.rejected == Rejection::distortion);
   CHECK(sample.distortion == 21u);
   CHECK(sample.buttons == 5);
   PoseSample ungraded{2, PoseStatus::ok, Pose{glm::dmat3(1), {1, 2, 3}}, 0, {}};

@@ -47,6 +47,10 @@ std::vector<PoseSample> hand(double seconds = 10) {
     if (i % 50 == 7) samples[i].buttons = 5;
     if (i % 3 > 0) samples[i].distortion = std::uint32_t(i);
     if (i % 97 == 5) samples[i].status = PoseStatus::out_of_view;
+    if (i % 41 == 9) {
+      samples[i].status = PoseStatus::invalid;
+      samples[i].rejected = Rejection(i % 4);
+    }
     if (samples[i].status != PoseStatus::ok) samples[i].patient_from_probe = Pose{};
   }
   return samples;

@@ -14,7 +14,8 @@ inline bool same_bits(double a, double b) {
 
 /// Whether two samples are the same to the last bit.
 inline bool same_bits(const PoseSample& a, const PoseSample& b) {
-  if (!same_bits(a.time_s, b.time_s) || a.status != b.status || a.buttons != b.buttons || a.distortion != b.distortion)
+  if (!same_bits(a.time_s, b.time_s) || a.status != b.status || a.buttons != b.buttons ||
+      a.distortion != b.distortion || a.rejected != b.rejected)
     return false;
   const glm::dmat4 x = a.patient_from_probe.matrix(), y = b.patient_from_probe.matrix();
   for (int column = 0; column < 4; ++column)
