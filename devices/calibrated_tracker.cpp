@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
+#include "devices/calibration/utc.h"
 #include "devices/filter/sample_filters.h"
 #include "devices/tracker_uri.h"
 #include "sim/core/digest.h"
@@ -16,6 +18,11 @@ TrackerIdentity tracker_identity(std::string_view uri) {
   if (recorded) return {parsed.scheme, ""};
   const char* const part = parsed.options.contains("handset") ? "handset" : "sensor";
   return {parsed.scheme, parsed.subject, int(parsed.number(part, 1, 1, 16))};
+}
+
+bool is_a_labs_own(std::string_view uri) {
+  const std::string_view scheme = uri.substr(0, uri.find(':'));
+  return scheme == "hydra" || scheme == "polhemus" || scheme == "igtl";
 }
 
 void check_can_be_calibrated(std::string_view uri) {
@@ -54,20 +61,49 @@ Calibration calibration_to_go_on(const std::filesystem::path& file, const Tracke
   return calibration;
 }
 
+namespace {
+
+void check_complete(const Calibration& calibration) {
+  if (!why_incomplete(calibration).empty()) throw std::invalid_argument("the calibration is not complete");
+}
+
+/// "2026-03-01"
+std::string day_of(const Calibration& calibration) {
+  return why_incomplete(calibration).empty() ? utc_text(made_s(calibration)).substr(0, 10) : "";
+}
+
+Recording calibrated(Recording recording, const Calibration& calibration, const std::string& name) {
+  recording.transform += " through " + name + " (" + digest_of(to_toml(calibration)) + ")";
+  recording.of_sensor = false;
+  return recording;
+}
+
+void place_probe(PoseSample& sample, const Calibration& calibration) {
+  if (sample.status == PoseStatus::ok)
+    sample.patient_from_probe = calibration.patient_from_probe(sample.patient_from_probe);
+}
+
+}  // namespace
+
+RecordedScan calibrated(RecordedScan scan, const Calibration& calibration, const std::string& name) {
+  check_complete(calibration);
+  for (PoseSample& sample : scan.samples) place_probe(sample, calibration);
+  scan.recording = calibrated(std::move(scan.recording), calibration, name);
+  return scan;
+}
+
 CalibratedTracker::CalibratedTracker(std::unique_ptr<Tracker> sensor, Calibration calibration, const std::string& name)
-    : Tracker(sensor->state().name + ", calibrated"), sensor_(std::move(sensor)), calibration_(std::move(calibration)) {
-  if (!why_incomplete(calibration_).empty()) throw std::invalid_argument("the calibration is not complete");
-  if (!sensor_->recording()) return;
-  recording_ = *sensor_->recording();
-  recording_->transform += " through " + name + " (" + digest_of(to_toml(calibration_)) + ")";
+    : Tracker(sensor->state().name + ", calibrated " + day_of(calibration)),
+      sensor_(std::move(sensor)),
+      calibration_(std::move(calibration)) {
+  check_complete(calibration_);
+  if (sensor_->recording()) recording_ = calibrated(*sensor_->recording(), calibration_, name);
 }
 
 void CalibratedTracker::collect(double now_s, std::vector<PoseSample>& samples) {
   const std::size_t before = samples.size();
   sensor_->poll(now_s, samples);
-  for (std::size_t i = before; i < samples.size(); ++i)
-    if (samples[i].status == PoseStatus::ok)
-      samples[i].patient_from_probe = calibration_.patient_from_probe(samples[i].patient_from_probe);
+  for (std::size_t i = before; i < samples.size(); ++i) place_probe(samples[i], calibration_);
 }
 
 }  // namespace insonate

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "devices/calibration/calibration.h"
+#include "devices/sequence/probe_samples.h"
 #include "devices/tracker.h"
 
 namespace insonate {
@@ -13,6 +14,10 @@ namespace insonate {
 /// option `sensor` or `handset`. Of a recording nothing but the kind, as a file's name says nothing of the tracker that
 /// it came from. Throws InputError when the URI is none.
 TrackerIdentity tracker_identity(std::string_view uri);
+
+/// Whether a URI names a tracker as a lab's own set-up may be kept for it: a device whose sensor sits on a probe. A
+/// recording or a made-up hand is another one each time.
+bool is_a_labs_own(std::string_view uri);
 
 /// Throws InputError for a URI whose tracker places the probe in the patient by itself, such as 'mouse:'.
 void check_can_be_calibrated(std::string_view uri);
@@ -24,6 +29,10 @@ std::string sensor_uri(std::string_view uri, bool filtered);
 /// What a set-up of a tracker goes on with: the file's calibration, or an empty one when there is no file. Throws
 /// InputError when the file is unusable or another tracker's.
 Calibration calibration_to_go_on(const std::filesystem::path& file, const TrackerIdentity& tracker);
+
+/// A recorded scan of a sensor's poses as the probe's in the patient. `name` is the calibration's, for the scan's
+/// provenance. Throws std::invalid_argument when the calibration is not complete.
+RecordedScan calibrated(RecordedScan scan, const Calibration& calibration, const std::string& name);
 
 /// A tracker whose samples hold the pose of its sensor, and which so becomes one of the probe's in the patient. Times,
 /// statuses and buttons stay as they are.

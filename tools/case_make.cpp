@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "devices/sequence/probe_samples.h"
+#include "devices/replay/read_log.h"
 #include "scenarios/cases/add_view.h"
 #include "scenarios/cases/structures.h"
 #include "sim/core/files.h"
@@ -54,7 +54,8 @@ private:
 /// The probe's pose in a log at a moment.
 Pose pose_in_log(const RecordedMoment& moment) {
   constexpr double kNear_s = 0.1;  // a few frames of the slowest tracker
-  const RecordedScan scan = read_recorded_scan(moment.log, moment.transform);
+  const RecordedScan scan = read_log(moment.log, moment.transform);
+  check_is_of_probe(scan.recording);
   const PoseSample* nearest = nullptr;
   const double wanted_s = scan.samples.front().time_s + moment.at_s;
   for (const PoseSample& sample : scan.samples)

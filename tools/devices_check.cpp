@@ -8,7 +8,7 @@
 #include <string>
 
 #include "devices/log_report.h"
-#include "devices/sequence/probe_samples.h"
+#include "devices/replay/read_log.h"
 #include "tools/devices_commands.h"
 
 namespace insonate::devices {
@@ -50,7 +50,8 @@ void print(const std::string& log, const LogReport& report) {
   std::printf("  duration  %.3f s from %.6f s on\n", report.duration_s, report.begin_s);
   std::printf("  rate      %.2f Hz, jitter %.2f ms RMS\n", report.rate_hz(), report.jitter_s * 1e3);
   std::printf("  path      %.0f mm\n", report.path_mm);
-  for (const double time_s : report.marks_s) std::printf("  marked    at %.3f s\n", time_s);
+  for (const double time_s : report.marks_s)
+    std::printf("  marked    %.3f s after the first frame\n", time_s - report.begin_s);
   for (const auto& [status, dropout] : report.dropouts)
     std::printf("  dropouts  %zu frames %s in %zu spells, the longest %.0f ms\n", dropout.frames,
                 std::string(to_string(status)).c_str(), dropout.spells, dropout.longest_s * 1e3);
@@ -77,7 +78,7 @@ struct Request {
 };
 
 int check(const Request& request) {
-  const LogReport report = check_log(read_recorded_scan(request.log, request.transform).samples);
+  const LogReport report = check_log(read_log(request.log, request.transform).samples);
   if (request.json)
     std::printf("%s\n", to_json(request.log, report).dump(2).c_str());
   else
@@ -90,7 +91,10 @@ int check(const Request& request) {
 Command check_command(CLI::App& program) {
   const auto request = std::make_shared<Request>();
   CLI::App* parser = program.add_subcommand("check", "Rate, gaps, dropouts and jumps of a recorded log");
-  parser->add_option("LOG", request->log, "A sequence file (.igs.mha, .seq.mha or .seq.nrrd)")->required();
+  parser
+      ->add_option("LOG", request->log,
+                   "A sequence file (.igs.mha, .seq.mha or .seq.nrrd), or what --record-raw has written")
+      ->required();
   parser->add_option("--transform", request->transform,
                      "The probe's transform, as ProbeToTracker; else the usual ones");
   parser->add_flag("--json", request->json, "As JSON");

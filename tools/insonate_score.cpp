@@ -4,7 +4,8 @@
 #include <set>
 #include <string>
 
-#include "devices/sequence/probe_samples.h"
+#include "devices/calibrated_tracker.h"
+#include "devices/replay/read_log.h"
 #include "scenarios/report.h"
 #include "scenarios/result_json.h"
 #include "scenarios/results/learner_id.h"
@@ -31,6 +32,7 @@ struct Arguments {
   std::filesystem::path case_folder;
   std::filesystem::path report;
   std::string transform;
+  std::filesystem::path calibration;
   std::filesystem::path results;
   std::string learner = kNobodyInParticular;
   std::uint32_t seed = 0;
@@ -43,10 +45,19 @@ void keep(const Arguments& given, Attempt attempt) {
   ResultsDatabase::open_or_make(given.results).add(attempt);
 }
 
+RecordedScan scan_of_probe(const Arguments& given) {
+  RecordedScan scan = read_log(given.log, given.transform);
+  if (!given.calibration.empty())
+    scan = calibrated(std::move(scan), read_complete_calibration(given.calibration),
+                      given.calibration.filename().string());
+  check_is_of_probe(scan.recording);
+  return scan;
+}
+
 int score(const Arguments& given) {
   check_learner_id(given.learner, "command line", "--learner");
   const Scenario scenario = read_scenario(given.scenario, given.seed);
-  const RecordedScan scan = read_recorded_scan(given.log, given.transform);
+  const RecordedScan scan = scan_of_probe(given);
   const Case subject = case_for(scenario, given.case_folder);
 
   Runner runner(scenario, subject, read_tissue_table(assets_folder() / "tissues.toml"));
@@ -94,13 +105,16 @@ int main(int argc, char** argv) {
       "  insonate-score check exam.toml",
       "insonate-score");
   Arguments given;
-  arguments.add_option("--log", given.log, "The recorded scan, a PLUS/IGSIO sequence file (.igs.mha)");
+  arguments.add_option("--log", given.log,
+                       "The recorded scan: a PLUS/IGSIO sequence file (.igs.mha), or what --record-raw has written");
   arguments.add_option("--scenario", given.scenario, "The scenario, a TOML file");
   arguments.add_option("--case,--ct", given.case_folder,
                        "A case folder, CT file or DICOM folder to take instead of the scenario's own case");
   arguments.add_option("--transform", given.transform,
                        "The probe's transform in the log, as in replay:FILE?transform=... (ProbeToPatient, "
                        "ProbeToReference or ProbeToTracker, the first that is there)");
+  arguments.add_option("--calibration", given.calibration,
+                       "The tracker's calibration, where the log holds its sensor's poses and not the probe's");
   arguments.add_option("--seed", given.seed, "Draws the scenario's variant, as in the result of the live run (0)");
   arguments.add_option("--report", given.report, "Also writes a report as one HTML page");
   arguments.add_option("--results", given.results, "Also keeps the attempt in this database of results");

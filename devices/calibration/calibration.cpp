@@ -22,6 +22,13 @@ std::string why_incomplete(const Calibration& calibration) {
   return !calibration.face ? "face" : !calibration.mannequin ? "landmarks" : "";
 }
 
+std::int64_t made_s(const Calibration& calibration) {
+  std::int64_t oldest_s = std::numeric_limits<std::int64_t>::max();
+  if (calibration.face) oldest_s = std::min(oldest_s, calibration.face->made_s);
+  if (calibration.mannequin) oldest_s = std::min(oldest_s, calibration.mannequin->made_s);
+  return oldest_s;
+}
+
 std::vector<std::string> calibration_warnings(const Calibration& calibration, const TrackerIdentity& tracker,
                                               std::int64_t now_s, double days) {
   std::vector<std::string> warnings;
@@ -29,10 +36,7 @@ std::vector<std::string> calibration_warnings(const Calibration& calibration, co
   if (calibration.tracker != tracker && tracker.kind != "replay" && tracker.kind != "raw")
     warnings.push_back("The calibration was made with another tracker (" + calibration.tracker.words() + "); this is " +
                        tracker.words() + ".");
-  std::int64_t oldest_s = std::numeric_limits<std::int64_t>::max();
-  if (calibration.face) oldest_s = std::min(oldest_s, calibration.face->made_s);
-  if (calibration.mannequin) oldest_s = std::min(oldest_s, calibration.mannequin->made_s);
-  const double age_days = (double(now_s) - double(oldest_s)) / 86400;
+  const double age_days = (double(now_s) - double(made_s(calibration))) / 86400;
   if (age_days > days) {
     char text[120];
     std::snprintf(text, sizeof text, "The calibration is %.0f days old; check it, or calibrate again.",

@@ -69,6 +69,10 @@ struct Calibration {
 /// The step that a trainer cannot do without and that is missing: "face" or "landmarks"; empty when none is.
 std::string why_incomplete(const Calibration& calibration);
 
+/// When the older of the two was made that a trainer cannot do without, in seconds since 1970. Meaningful when
+/// why_incomplete() is empty.
+std::int64_t made_s(const Calibration& calibration);
+
 /// After so long a set-up is checked again: sensors slip and mannequins are moved, and a week is a course.
 inline constexpr double kCalibrationDays = 7;
 

@@ -176,14 +176,23 @@ RawScan parse_raw(std::string_view bytes, const std::string& file) {
   return Replay(bytes, file).run();
 }
 
-std::unique_ptr<Tracker> open_raw(const TrackerUri& uri, const TrackerContext&) {
-  const ReplayTracker::Options options = replay_options(uri, {"speed", "loop"});
-  const std::filesystem::path file = uri.subject;
+bool is_raw_recording(std::string_view bytes) {
+  return bytes.starts_with(kMagic);
+}
+
+RecordedScan read_raw_scan(const std::filesystem::path& file) {
   const std::string bytes = read_file(file);
   RawScan scan = parse_raw(bytes, file.string());
-  const std::string name = file.filename().string();
-  return std::make_unique<ReplayTracker>("raw replay of " + name, std::move(scan.samples), options,
-                                         Recording{name, digest_of(bytes), "reports of " + scan.tracker});
+  Recording recording{file.filename().string(), digest_of(bytes), "reports of " + scan.tracker};
+  recording.of_sensor = parse_tracker_uri(scan.tracker).flag("raw", false);
+  return {std::move(recording), std::move(scan.samples)};
+}
+
+std::unique_ptr<Tracker> open_raw(const TrackerUri& uri, const TrackerContext&) {
+  const ReplayTracker::Options options = replay_options(uri, {"speed", "loop"});
+  RecordedScan scan = read_raw_scan(uri.subject);
+  return std::make_unique<ReplayTracker>("raw replay of " + scan.recording.file, std::move(scan.samples), options,
+                                         scan.recording);
 }
 
 }  // namespace insonate

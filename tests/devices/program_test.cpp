@@ -192,6 +192,18 @@ TEST_CASE("insonate-devices watch says whose pose it shows, and that only a devi
   CHECK(refused.exit_code == 2);
   CHECK(contains(refused.output, "no device that sends bytes"));
   CHECK_FALSE(std::filesystem::exists(file));
+  write_file(file,
+             "insonate raw 1\ntracker spacemouse:\nstart 1 0 0 0 1 0 0 0 1 0 0 0\nopen 1 256f:c635\n"
+             "read 1.5 015e0151ff0000\nread 1.52\nread 1.54\n");
+  for (const char* as : {"", "raw:"}) {
+    const Run checked = run("check " + (as + file.string()) + " 2>&1");
+    CHECK(checked.exit_code == 0);
+    CHECK(contains(checked.output, "frames    3, 3 of them usable"));
+  }
+  const Run with_transform = run("check raw:" + file.string() + " --transform ProbeToTracker 2>&1");
+  CHECK(with_transform.exit_code == 2);
+  CHECK(contains(with_transform.output, "no transforms to choose from"));
+  std::filesystem::remove(file);
   CHECK(run("watch hydra: --seconds 0.1 --record-raw " + file.string() + " 2>&1").exit_code == 0);
   const Run replayed = run("watch raw:" + file.string() + " 2>&1");
   CHECK(replayed.exit_code == 2);

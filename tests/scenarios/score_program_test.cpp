@@ -3,12 +3,15 @@
 
 #include <cstdlib>
 
-#include "devices/sequence/probe_samples.h"
+#include "devices/igtl/igtl_message.h"
+#include "devices/replay/read_log.h"
 #include "scenarios/result_json.h"
 #include "scenarios/results/results_database.h"
 #include "scenarios/runner.h"
 #include "sim/core/digest.h"
 #include "sim/core/files.h"
+#include "tests/devices/golden_reports.h"
+#include "tests/devices/raw_text.h"
 
 using namespace insonate;
 
@@ -78,6 +81,35 @@ TEST_CASE("insonate-score prints the very score that the trainer comes to, and a
   CHECK(outcome.output == to_json(expected));
   CHECK_FALSE(result_from_json(outcome.output, "output").passed);
   CHECK(read_file(report).find("Not passed") != std::string::npos);
+}
+
+TEST_CASE("insonate-score scores what a tracker's device sent as the log of its samples") {
+  const Folder folder;
+  const auto exam = folder.file("exam.toml", coarse_exam());
+  const std::vector<PoseSample> log = read_recorded_scan(kAssets / "logs" / "ruq_good.igs.mha").samples;
+  std::string raw = raw_igtl_head("igtl://lab?filter=off", log.front().time_s);
+  for (const PoseSample& sample : log) {
+    const bool ok = sample.status == PoseStatus::ok;
+    raw += (ok ? "read " : "silent ") + shortest(sample.time_s);
+    raw += ok ? " " + hex(igtl::make_transform("Probe", 0, sample.patient_from_probe)) + "\n" : "\n";
+  }
+  const std::string file = folder.file("run.raw", raw).string(), to = " --scenario " + exam.string();
+  const std::string same = folder.file("same.igs.mha", write_sequence(read_log(file).samples)).string();
+  const Outcome of_log = run(folder, "--log " + same + to);
+  REQUIRE(of_log.code == 0);
+  ExamResult expected = result_from_json(of_log.output, "output");
+  expected.provenance.log = "run.raw";
+  expected.provenance.log_digest = digest_of(raw);
+  expected.provenance.log_transform = "reports of igtl://lab?filter=off";
+  for (const char* as : {"", "raw:"}) CHECK(run(folder, "--log " + (as + file) + to).output == to_json(expected));
+
+  const auto sensor = folder.file("sensor.raw",
+                                  "insonate raw 1\ntracker hydra:?raw=1\nstart 1 0 0 0 1 0 0 0 1 0 0 0\n"
+                                  "open 1 1532:0300\nread 2 " +
+                                      hex(golden::kHydra) + "\n");
+  const Outcome refused = run(folder, "--log " + sensor.string() + to);
+  CHECK(refused.code == 2);
+  CHECK(refused.errors.find("--calibration") != std::string::npos);
 }
 
 TEST_CASE("insonate-score says in one sentence what is wrong with its input, and exits with 2") {

@@ -7,6 +7,7 @@
 
 #include "devices/calibrated_tracker.h"
 #include "devices/calibration/given.h"
+#include "devices/calibration/utc.h"
 #include "devices/replay/replay_tracker.h"
 #include "devices/sequence/sequence.h"
 #include "sim/core/input_error.h"
@@ -93,7 +94,7 @@ TEST_CASE("insonate-devices calibrate makes the whole set-up from a recording, a
     CHECK(angle_between_deg(samples[i].patient_from_probe, truth[i].patient_from_probe) < 0.6);
   }
   CHECK(tracker.state().condition == TrackerCondition::finished);
-  CHECK(tracker.state().name == "a scan, calibrated");
+  CHECK(tracker.state().name == "a scan, calibrated " + utc_text(made_s(calibration)).substr(0, 10));
   CHECK_THAT(tracker.recording()->transform, Contains("SensorToTracker through lab.toml"));
   CHECK_THROWS_AS(
       CalibratedTracker(std::make_unique<ReplayTracker>("x", scan, ReplayTracker::Options{}), Calibration{}, "x"),

@@ -21,11 +21,15 @@
 #include "devices/record/raw_recorder.h"
 #include "devices/registry.h"
 #include "devices/replay/raw_replay.h"
+#include "devices/replay/read_log.h"
+#include "devices/sequence/sequence.h"
 #include "devices/spacemouse/spacemouse_tracker.h"
+#include "sim/core/digest.h"
 #include "sim/core/files.h"
 #include "sim/core/hash.h"
 #include "sim/core/input_error.h"
 #include "tests/devices/golden_reports.h"
+#include "tests/devices/raw_text.h"
 #include "tests/devices/test_samples.h"
 
 using namespace insonate;
@@ -158,6 +162,54 @@ TEST_CASE("a raw recording replays to the samples that came, to the bit, whateve
   CHECK(tracker_identity("raw:" + file.path.string()) == TrackerIdentity{"raw", ""});
 }
 
+TEST_CASE("a raw recording is read wherever a log is, by its name or as a URI") {
+  const File file;
+  write_file(file.path, kGood);
+  const std::vector<PoseSample> samples = parse_raw(kGood, "scan.raw").samples;
+  for (const std::string& named : {file.path.string(), "raw:" + file.path.string()}) {
+    const RecordedScan scan = read_log(named);
+    CHECK(same_bits(scan.samples, samples));
+    CHECK(scan.recording.transform == "reports of spacemouse:");
+    CHECK(scan.recording.digest == digest_of(kGood));
+    CHECK_NOTHROW(check_is_of_probe(scan.recording));
+    CHECK_THROWS_WITH(read_log(named, "ProbeToTracker"), Catch::Contains("has no transforms to choose from"));
+  }
+  CHECK(is_raw_log(file.path));
+  CHECK_THROWS_WITH(read_log("replay:" + file.path.string()), Catch::Contains(file.path.string()));
+
+  const std::string sequence = write_sequence(samples);
+  write_file(file.path, sequence);
+  CHECK_FALSE(is_raw_log(file.path));
+  for (const std::string& named : {file.path.string(), "replay:" + file.path.string()})
+    CHECK(same_bits(read_log(named).samples, samples));
+  CHECK_THROWS_WITH(read_log("raw:" + file.path.string()), Catch::Contains("does not begin with 'insonate raw 1'"));
+  CHECK_THROWS_WITH(read_log("raw:/nowhere"), Catch::Contains("there is no such file"));
+}
+
+TEST_CASE("what was recorded through a calibration is the sensor's, and scored only through it") {
+  const File file;
+  Recorded run(file, "hydra:A1?raw=1&filter=off", FilterSettings(), kHydra, [](auto bus, auto clock) {
+    return std::make_unique<HydraSource>(bus, "A1", 0, Placement(kStart, true), clock);
+  });
+  run.read({hydra_report(1), hydra_report(2)});
+  const RecordedScan scan = read_log(file.path);
+  CHECK_THROWS_WITH(check_is_of_probe(scan.recording), Catch::Contains("--calibration"));
+
+  Calibration calibration;
+  calibration.face = Dated<FaceSetup>{{{Pose{glm::dmat3(1.0), {0, 5, 0}}, 0, 0}, "touch", 0}, 0};
+  calibration.mannequin = Dated<MannequinSetup>{{}, 0};
+  calibration.mannequin->value.ct_from_mannequin = kStart;
+  const RecordedScan of_probe = calibrated(scan, calibration, "lab.toml");
+  CHECK_NOTHROW(check_is_of_probe(of_probe.recording));
+  CHECK_THAT(of_probe.recording.transform, Catch::Contains("through lab.toml"));
+  CalibratedTracker tracker(open_tracker("raw:" + file.path.string()), calibration, "lab.toml");
+  CHECK(tracker.recording()->transform == of_probe.recording.transform);
+  CHECK_FALSE(tracker.recording()->of_sensor);
+  CHECK(same_bits(poll_until(tracker, 60, 10), of_probe.samples));
+  CHECK_FALSE(same_bits(of_probe.samples, scan.samples));
+  CHECK_THROWS_AS(calibrated(scan, Calibration{}, "x"), std::invalid_argument);
+}
+
 TEST_CASE("a rate and a stream that is cut anywhere replay to the bit too") {
   {
     const File file;
@@ -183,17 +235,8 @@ TEST_CASE("a rate and a stream that is cut anywhere replay to the bit too") {
 
 TEST_CASE("a raw recording of OpenIGTLink holds the stream, and ends a connection where it ended") {
   const Pose there{glm::dmat3(1.0), {1, 2, 3}};
-  const auto hex = [](const igtl::Bytes& message) {
-    std::string digits;
-    for (const std::uint8_t byte : message) {
-      digits += "0123456789abcdef"[byte >> 4];
-      digits += "0123456789abcdef"[byte & 15];
-    }
-    return digits;
-  };
   const std::string transform = hex(igtl::make_transform("Probe", 0, there));
-  const std::string head =
-      "insonate raw 1\ntracker igtl://somewhere?filter=off\nstart 1 0 0 0 1 0 0 0 1 0 0 0\nopen 1 0000:0000\n";
+  const std::string head = raw_igtl_head("igtl://somewhere?filter=off", 1);
   const RawScan scan =
       parse_raw(head + "read 2 " + transform.substr(0, 60) + "\nread 3 " + transform.substr(60) + transform +
                     "\nread 4 " + std::string(200, '7') + "\nopen 5 0000:0000\nread 6 " + transform + "\n",
