@@ -31,7 +31,7 @@ constexpr TrackerKind kKinds[] = {
     {"polhemus", "polhemus:[SERIAL][?sensor=1&distortion=20&raw=1]", "a Polhemus Patriot, Liberty HS or Viper", nullptr,
      make_polhemus},
     {"hydra", "hydra:[SERIAL][?handset=2&raw=1]", "a Razer Hydra's handset", nullptr, make_hydra},
-    {"osvr", "osvr:[SERIAL]", "an OSVR head tracker, which turns the probe on the spot", nullptr, make_osvr},
+    {"osvr", "osvr:[SERIAL]", "an OSVR head tracker, which turns the probe where it was put", nullptr, make_osvr},
     {"spacemouse", "spacemouse:[SERIAL][?speed=1]", "a 3Dconnexion SpaceMouse, which moves the probe at a rate",
      nullptr, make_spacemouse},
     {"igtl", "igtl://HOST[:18944][/NAME][?frame=ras&time=sender]", "TRANSFORM messages of an OpenIGTLink server",

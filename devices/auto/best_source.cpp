@@ -18,6 +18,7 @@ void BestSource::open() {
     try {
       source->open();
       opened_ = source.get();
+      relative_ = opened_->relative();
       return;
     } catch (const TransportError& error) {
       if (error.fault() != TransportFault::absent && there_but_useless.empty()) there_but_useless = error.what();

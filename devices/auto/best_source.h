@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <vector>
 
@@ -20,6 +21,7 @@ public:
   void read(std::chrono::milliseconds timeout, LiveBatch& batch) override { opened_->read(timeout, batch); }
   std::optional<glm::dvec3> origin() const override { return opened_ ? opened_->origin() : std::nullopt; }
   void close() noexcept override { opened_->close(); }
+  bool relative() const override { return relative_; }
 
   void record_raw(std::shared_ptr<RawTap> tap) override;
   bool replay_open(const AttachedDevice& device, double time_s) override;
@@ -30,6 +32,7 @@ public:
 private:
   std::vector<std::unique_ptr<RawSource>> sources_;
   RawSource* opened_ = nullptr;
+  std::atomic<bool> relative_{false};  ///< of the one that is or was open
 };
 
 /// auto: those that tell place and direction before the one that tells direction and the one that tells speed. Throws

@@ -18,7 +18,8 @@ struct LiveBatch {
   std::string note;                 ///< what people should know while the device is open, as a sentence; mostly empty
 };
 
-/// A device that gives poses in real time, as a LiveTracker's thread sees it: every call comes from that one thread.
+/// A device that gives poses in real time, as a LiveTracker's thread sees it: every call comes from that one thread,
+/// but name() and relative().
 ///
 /// A source that is gone is opened again, after a pause, for as long as the tracker lives; so a device that is plugged
 /// in late, pulled and plugged in again needs nothing more than to say that it is gone.
@@ -41,6 +42,9 @@ public:
   /// Of a magnetic tracker, where its own origin lies in the frame of its samples: it may take a sensor for its mirror
   /// image through that point.
   virtual std::optional<glm::dvec3> origin() const { return std::nullopt; }
+
+  /// Tracker::relative(). By any thread.
+  virtual bool relative() const { return false; }
 
   /// Lets go of the device, which may take as long. Called after each open() that went well.
   virtual void close() noexcept = 0;

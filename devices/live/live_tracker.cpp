@@ -38,6 +38,8 @@ public:
     return true;
   }
 
+  bool relative() const { return source_->relative(); }
+
   // On the thread
   void run(const std::stop_token& stop) {
     join_left_threads(stop);
@@ -168,6 +170,10 @@ const FilterSettings& LiveTracker::filters() const {
 
 bool LiveTracker::record_raw(const std::shared_ptr<RawTap>& tap) {
   return reader_->record_raw(tap);
+}
+
+bool LiveTracker::relative() const {
+  return reader_->relative();
 }
 
 std::uint64_t LiveTracker::dropped() const {

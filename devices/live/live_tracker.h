@@ -45,6 +45,7 @@ public:
 
   bool record_raw(const std::shared_ptr<RawTap>& tap) override;
   bool live() const override { return true; }
+  bool relative() const override;
   double clock_s(double now_s) const override { return now_s; }
 
 protected:

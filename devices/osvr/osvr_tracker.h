@@ -10,13 +10,16 @@
 
 namespace insonate {
 
-/// The head tracker of an OSVR HDK as a probe that turns on the spot, the start's: it tells no place. Held with its y
+/// The head tracker of an OSVR HDK as a probe that turns on the spot, the start's or where it is put
+/// (Tracker::relative): it tells no place. Held with its y
 /// axis up and its z axis towards the user when it is opened, it is the probe at its start; from there its turns are
 /// the probe's. About the vertical it drifts, as nothing but gravity corrects it.
 class OsvrSource : public DeviceSource {
 public:
   OsvrSource(std::shared_ptr<DeviceBus> bus, const std::string& serial, const Pose& start,
              std::function<double()> clock_s = steady_now_s);
+
+  bool relative() const override { return true; }
 
 protected:
   void start(Transport& transport, const AttachedDevice& device) override;

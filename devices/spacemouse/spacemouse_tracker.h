@@ -24,6 +24,8 @@ public:
   SpaceMouseSource(std::shared_ptr<DeviceBus> bus, const std::string& serial, const Pose& start, double speed,
                    std::function<double()> clock_s = steady_now_s);
 
+  bool relative() const override { return true; }
+
 protected:
   void start(Transport& transport, const AttachedDevice& device) override;
   bool take(Bytes bytes, double time_s, LiveBatch& batch, ReportTally& tally) override;
