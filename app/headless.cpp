@@ -113,6 +113,7 @@ int run_headless(const Options& options) {
     trainer.finish_recording();
     print_file(trainer.recorder().file());
   }
+  if (!trainer.raw_file().empty()) print_file(trainer.raw_file());
   if (!options.latency.empty()) {
     trainer.latency().write(options.latency);
     std::printf("%s", trainer.latency().text().c_str());

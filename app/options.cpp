@@ -2,6 +2,7 @@
 
 #include "app/igtl_feed.h"
 #include "devices/calibrated_tracker.h"
+#include "devices/record/raw_recorder.h"
 #include "devices/record/recording_files.h"
 #include "devices/registry.h"
 #include "sim/core/input_error.h"
@@ -40,6 +41,10 @@ void declare(CLI::App& arguments, Options& options) {
       ->type_name("FILE");
   arguments.add_flag("--record-images", options.record_images,
                      "Record the ultrasound too, to a second file: FILE-images.igs.mha");
+  arguments
+      .add_option("--record-raw", options.record_raw,
+                  "Record what a live tracker's device sends, byte for byte; '--tracker raw:FILE' replays it")
+      ->type_name("FILE");
   arguments
       .add_option(
           "--predict", options.predict_ms,
@@ -92,6 +97,19 @@ void declare(CLI::App& arguments, Options& options) {
       "\nExit codes: 0 done, 2 input that cannot be used, 3 any other failure.");
 }
 
+/// Before anything is loaded: a dialog later would leave a run that nobody has recorded.
+static void check_record_raw(const Options& options) {
+  if (options.record_raw.empty()) return;
+  if (options.tracker.empty())
+    throw InputError("command line", "--record-raw", "no tracker is named",
+                     "name the one whose bytes are to be recorded: --tracker");
+  check_sends_bytes(*open_tracker(options.tracker), options.tracker);
+  std::error_code error;
+  if (std::filesystem::exists(options.record_raw, error))
+    throw InputError(options.record_raw.string(), "--record-raw", "there is such a file already",
+                     "name another, or remove it");
+}
+
 void check(const Options& options) {
   if (!options.igtl_server.empty()) parse_server_address(options.igtl_server);
   if (!options.case_folder.empty() && !options.ct.empty())
@@ -107,6 +125,7 @@ void check(const Options& options) {
     throw InputError("command line", "--record-images", "it says that pictures are recorded, but not where",
                      "give --record FILE too");
   if (!options.record.empty()) refuse_existing(options.record);
+  check_record_raw(options);
   std::error_code error;
   if (!options.shader_folder.empty() && !std::filesystem::is_directory(options.shader_folder, error))
     throw InputError(options.shader_folder.string(), "--shader-dir", "it is not a folder",

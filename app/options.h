@@ -20,9 +20,10 @@ struct Options {
   std::filesystem::path calibration;  ///< of that tracker, whose samples are its sensor's; empty: they are the probe's
   std::filesystem::path landmarks;    ///< of the patient, for the set-up; empty: the built-in patient's
   std::filesystem::path drawing;      ///< of the probe, for the set-up; empty: its face is touched
-  double calibration_days = kCalibrationDays;        ///< older ones bring a warning
-  std::filesystem::path record;                      ///< where the run is recorded; empty: it is not
-  bool record_images = false;                        ///< what is recorded is so with the ultrasound, in a second file
+  double calibration_days = kCalibrationDays;  ///< older ones bring a warning
+  std::filesystem::path record;                ///< where the run is recorded; empty: it is not
+  bool record_images = false;                  ///< what is recorded is so with the ultrasound, in a second file
+  std::filesystem::path record_raw;            ///< where the live tracker's bytes are recorded; empty: they are not
   double predict_ms = 1e3 * PoseHistory::kPredictS;  ///< how far a live tracker's pose is carried on, at most
   std::filesystem::path latency;  ///< where it is told how long a live tracker's reports take to the picture
   bool headless = false;

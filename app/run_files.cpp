@@ -13,7 +13,7 @@ namespace {
 /// The file's name with `addition` in front of its ending.
 std::filesystem::path with_addition(const std::filesystem::path& file, const std::string& addition) {
   std::string name = file.filename().string();
-  std::size_t ending = name.size();
+  std::size_t ending = file.stem().string().size();
   for (const std::string_view known : {".igs.mha", ".seq.mha", ".mha"})
     if (name.ends_with(known)) ending = std::min(ending, name.size() - known.size());
   std::filesystem::path named = file;
@@ -34,7 +34,7 @@ bool is_unused(const std::filesystem::path& file) {
 /// The first of FILE, FILE-2, FILE-3... of which there is nothing yet.
 std::filesystem::path next_unused(const std::filesystem::path& file) {
   for (int part = 1;; ++part) {
-    const std::filesystem::path candidate = part == 1 ? file : with_addition(file, "-" + std::to_string(part));
+    const std::filesystem::path candidate = part_of(file, part);
     if (is_unused(candidate) && is_unused(images_of(candidate))) return candidate;
   }
 }
@@ -60,6 +60,10 @@ glm::dmat4 probe_from_pixel(const ImageGeometry& geometry, int width, int height
 }
 
 }  // namespace
+
+std::filesystem::path part_of(const std::filesystem::path& file, int part) {
+  return part == 1 ? file : with_addition(file, "-" + std::to_string(part));
+}
 
 RunFiles::RunFiles(std::filesystem::path file, bool exactly, bool with_pictures)
     : file_(std::move(file)), with_pictures_(with_pictures) {

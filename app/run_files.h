@@ -11,6 +11,9 @@
 
 namespace insonate {
 
+/// What the `part`-th of several files is called, from 1 on: scan.igs.mha, scan-2.igs.mha, scan-3.igs.mha...
+std::filesystem::path part_of(const std::filesystem::path& file, int part);
+
 /// The files of one recorded run.
 ///
 /// FILE has the samples, to the bit, with what the learner did before each. With pictures there is a second file,

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "devices/live/probe_buttons.h"
+#include "devices/replay/read_log.h"
 #include "sim/core/input_error.h"
 
 namespace insonate {
@@ -107,6 +108,7 @@ std::unique_ptr<Tracker> Session::open_fresh() const {
   if (study_->scenario && tracker->repeats())
     throw InputError(tracker->state().name, "option 'loop'", "an exam is scored from a log that comes once",
                      "leave loop=1 out, or practise on a patient of your own, without a scenario");
+  if (tracker->recording()) check_is_of_probe(*tracker->recording());
   return tracker;
 }
 
@@ -152,17 +154,24 @@ void Session::practise() {
   begin_attempt();
 }
 
+void Session::hold(Holder holder) {
+  holder_ = holder;
+  // The learner's hand has no buttons of its own, and knows nothing of those that are held on the tracker.
+  presses_ = holder == Holder::learner ? ButtonPresses(0) : ButtonPresses();
+}
+
 void Session::take_probe() {
   if (holder_ == Holder::learner) return;
   learner_ = std::make_unique<MouseTracker>(newest_pose_.value_or(study_->surroundings.start));
-  holder_ = Holder::learner;
+  hold(Holder::learner);
   practise();
 }
 
 void Session::give_back_probe() {
   if (holder_ == Holder::tracker || only_learner_) return;
   restart_tracker();  // may throw: then the learner keeps the probe
-  holder_ = Holder::tracker;
+  if (tracker_->relative()) left_place_.leave_at(learner_->pose());
+  hold(Holder::tracker);
   if (study_->scenario) activity_ = Activity::exam;
   begin_attempt();
 }
@@ -256,9 +265,9 @@ void Session::advance(double now_s) {
     samples_.clear();
   }
   source().poll(now_s, samples_);
-  // One that says nothing presses nothing.
-  const auto pressing = std::find_if(samples_.begin(), samples_.end(),
-                                     [](const PoseSample& sample) { return sample.status != PoseStatus::missing; });
+  if (holder_ == Holder::tracker) left_place_.move(samples_);
+  // One that does not tell of buttons would not tell that they are let go again.
+  const auto pressing = std::find_if(samples_.begin(), samples_.end(), tells_of_buttons);
   if (pressing != samples_.end()) pressing->buttons |= std::exchange(pressed_, 0);
   if (!samples_.empty()) samples_begin_attempt_ = std::exchange(attempt_is_fresh_, false);
   for (const PoseSample& sample : samples_) take(sample);

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/left_place.h"
 #include "app/probe_hand.h"
 #include "app/study.h"
 #include "devices/mouse/mouse_tracker.h"
@@ -48,8 +49,9 @@ enum class Activity { exam, practice };
 /// a running exam practises from there on: nothing is scored, because what the tracker has found so far is not his own.
 /// An exam of the learner's own starts with the probe on the belly. Giving the probe back starts the exam, and a
 /// replayed log, from the beginning; a live tracker just goes on, and what it said while the learner had the probe is
-/// past. Every sample of the source in charge is fed to the runner, in order, whatever the frame rate, with what the
-/// learner did before it: what he set on the console, and act(). A log that keeps such actions sets the console itself.
+/// past; one that tells no place (Tracker::relative) goes on from where the learner has left the probe. Every sample of
+/// the source in charge is fed to the runner, in order, whatever the frame rate, with what the learner did before it:
+/// what he set on the console, and act(). A log that keeps such actions sets the console itself.
 ///
 /// The probe's buttons (probe_buttons.h) act when they are pressed, once however long they are held: freeze freezes the
 /// picture or thaws it, mark marks the moment, and go on is handed on to whoever shows the session.
@@ -133,6 +135,8 @@ public:
   double attempt_for_s() const { return now_s_ - attempt_began_s_; }
 
   const Tracker& source() const;
+  /// The tracker, for whoever records its bytes from its beginning; nullptr when only the learner's hand is there.
+  Tracker* tracker() { return tracker_.get(); }
   TrackerState tracker_state() const { return source().state(); }
 
   Console& console() { return console_; }
@@ -144,6 +148,7 @@ private:
   std::unique_ptr<Tracker> open_fresh() const;
   void restart_tracker();
   void begin_attempt();
+  void hold(Holder holder);
   void take(const PoseSample& sample);
   void find_pose();
   void note_settings();
@@ -155,6 +160,7 @@ private:
   double predict_s_;
   int attempt_ = 0;
   std::unique_ptr<Tracker> tracker_;
+  LeftPlace left_place_;
   std::unique_ptr<MouseTracker> learner_;
   bool only_learner_ = false;
   ProbeHand hand_;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "devices/replay/read_log.h"
 #include "scenarios/skin_contact.h"
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
@@ -86,6 +87,7 @@ Material kind_of_material(const std::filesystem::path& path) {
     if (ends_with(name, ending)) return Material::tracker_log;
   for (const std::string_view ending : {".nii", ".nii.gz", ".nrrd", ".nhdr", ".mha", ".mhd"})
     if (ends_with(name, ending)) return Material::ct;
+  if (is_raw_log(path)) return Material::raw_log;
   throw InputError(path.string(), "", "the trainer does not open files of this kind",
                    "give a case or DICOM folder, a CT (.nii, .nii.gz, .nrrd, .mha, .mhd), a scenario (.toml) or a "
                    "recorded scan (.igs.mha)");

@@ -39,9 +39,10 @@ using LoadProgress = std::function<void(const std::string& what, double share)>;
 Study load_study(const StudySource& source, const LoadProgress& progress);
 
 /// What a path that a person drops on the trainer turns out to be.
-enum class Material { case_folder, ct, scenario, tracker_log };
+enum class Material { case_folder, ct, scenario, tracker_log, raw_log };
 
-/// By its ending, or by what is in it when it is a folder. Throws InputError when it is none of them.
+/// By its ending, by what is in it when it is a folder, or by its beginning when it is a raw recording. Throws
+/// InputError when it is none of them.
 Material kind_of_material(const std::filesystem::path& path);
 
 }  // namespace insonate

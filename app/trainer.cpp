@@ -48,13 +48,15 @@ void Trainer::open_results() {
 }
 
 void Trainer::open_from_options() {
+  find_calibration();
   load({{options_.case_folder, options_.ct, options_.scenario}, options_.tracker});
 }
 
 void Trainer::open(const std::filesystem::path& path) {
   attempt([&] {
     Request next;
-    switch (kind_of_material(path)) {
+    const Material kind = kind_of_material(path);
+    switch (kind) {
       case Material::case_folder:
         next.source.case_folder = path;
         break;
@@ -65,8 +67,9 @@ void Trainer::open(const std::filesystem::path& path) {
         next.source.scenario = path;
         break;
       case Material::tracker_log:
+      case Material::raw_log:
         next = loading_ ? requested_ : current_;
-        next.tracker = "replay:" + path.string();
+        next.tracker = (kind == Material::raw_log ? "raw:" : "replay:") + path.string();
         if (study_ && !loading_) return begin(study_, next);
         break;
     }
@@ -118,6 +121,7 @@ void Trainer::begin(std::shared_ptr<const Study> study, const Request& request) 
   }
   const Session::OpenTracker open = opener(uri, *study, uses_calibration(request) && !setup_left_);
   auto session = std::make_unique<Session>(study, open, options_.predict_ms / 1e3);
+  record_raw(*session, request);
   show(std::move(study), request);
   setup_.reset();
   session_ = std::move(session);
@@ -152,6 +156,7 @@ void Trainer::update(double now_s) {
   step_controls_.see(*session_);
   recorder_.take(*session_);
   attempt([&] { recorder_.check(); });
+  attempt([&] { check_raw(); });
   if (!session_->result()) result_files_.reset();
   results_due_ = results_due_ || (!had_result && session_->result());
 }

@@ -20,6 +20,7 @@
 #include "app/setup_wizard.h"
 #include "app/step_controls.h"
 #include "app/study.h"
+#include "devices/record/raw_recorder.h"
 #include "scenarios/results/report_files.h"
 #include "scenarios/results/results_database.h"
 
@@ -65,6 +66,8 @@ public:
   /// Ends it and waits for the files.
   void finish_recording();
   const RunRecorder& recorder() const { return recorder_; }
+  /// The last file that the tracker's bytes went to; empty when they are not recorded.
+  std::filesystem::path raw_file() const { return raw_ ? raw_->file() : std::filesystem::path(); }
 
   /// The set-up of the tracker, while it is being made: there is no session then, as the tracker is the set-up's.
   SetupWizard* setup() { return setup_.get(); }
@@ -74,6 +77,9 @@ public:
   void begin_setup();
   /// Goes on with the session, through the calibration if it is complete.
   void end_setup();
+
+  /// How to start the trainer so that it uses the calibration that is being made, as a sentence.
+  std::string next_start() const;
 
   /// Measured while options().latency says where it is to be told.
   const PictureLatency& latency() const { return latency_; }
@@ -113,9 +119,13 @@ private:
   void take_over_loaded();
   void begin(std::shared_ptr<const Study> study, const Request& request);
   void show(std::shared_ptr<const Study> study, const Request& request);
+  std::filesystem::path own_calibration() const;
+  void find_calibration();
   bool uses_calibration(const Request& request) const;
   bool needs_setup(const Request& request) const;
   Session::OpenTracker opener(const std::string& uri, const Study& study, bool calibrated);
+  void record_raw(Session& session, const Request& request);
+  void check_raw();
   void open_setup();
   void reload_shaders();
   void open_results();
@@ -128,6 +138,7 @@ private:
   std::optional<std::filesystem::file_time_type> shaders_changed_;
   double shaders_looked_at_s_ = 0;
   std::string shader_problem_, calibration_warning_;
+  std::string why_not_calibrated_;  ///< by what an earlier set-up has left; a sentence, mostly empty
 
   Request current_, requested_;
   std::unique_ptr<Loading> loading_;
@@ -143,6 +154,7 @@ private:
   PictureReader reader_;
   RunRecorder recorder_;
   bool recorded_ = false;                            ///< to the command line's file
+  std::shared_ptr<const RawRecorder> raw_;           ///< of the newest session; nullptr when nobody asked for it
   bool clients_ = false, records_pictures_ = false;  ///< who wanted pictures at the last frame
   std::unique_ptr<IgtlFeed> feed_;                   ///< nullptr when no clients are asked for
   std::optional<ResultFiles> result_files_;

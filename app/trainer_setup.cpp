@@ -4,6 +4,7 @@
 #include <ctime>
 #include <utility>
 
+#include "app/run_files.h"
 #include "app/trainer.h"
 #include "devices/calibrated_tracker.h"
 #include "devices/registry.h"
@@ -28,13 +29,50 @@ std::string joined(const std::vector<std::string>& sentences) {
 
 }  // namespace
 
+std::filesystem::path Trainer::own_calibration() const {
+  return options_.out / "calibration.toml";
+}
+
+void Trainer::find_calibration() {
+  const std::filesystem::path file = own_calibration();
+  std::error_code error;
+  if (!options_.calibration.empty() || options_.tracker.empty() || !is_a_labs_own(options_.tracker)) return;
+  if (!std::filesystem::exists(file, error)) return;
+  // Nobody has named the file, so that nothing about it stops a session.
+  try {
+    const Calibration calibration = read_complete_calibration(file);
+    if (calibration.tracker == tracker_identity(options_.tracker)) {
+      options_.calibration = file;
+      std::fprintf(stderr, "insonate: the probe is placed by the set-up in %s, which --calibration would name\n",
+                   file.c_str());
+      return;
+    }
+    why_not_calibrated_ =
+        "The set-up in " + file.string() + " is of another tracker (" + calibration.tracker.words() + ").";
+  } catch (const InputError& unusable) {
+    why_not_calibrated_ = std::string("The last set-up is not used: ") + unusable.what();
+  }
+  std::fprintf(stderr, "insonate: %s\n", why_not_calibrated_.c_str());
+}
+
+std::string Trainer::next_start() const {
+  const std::string& uri = current_.tracker;
+  const bool plain = uri.find_first_of("?&* '\"$;") == std::string::npos;
+  const std::string command = "insonate --tracker " + (plain ? uri : "'" + uri + "'");
+  const std::filesystem::path file = options_.calibration.empty() ? own_calibration() : options_.calibration;
+  if (file == own_calibration() && is_a_labs_own(uri))
+    return "From the next start on it is used by itself, as long as you start in the same folder: " + command +
+           (options_.out == Options().out ? "" : " --out " + options_.out.string());
+  return "To use it from the next start on: " + command + " --calibration " + file.string();
+}
+
 bool Trainer::uses_calibration(const Request& request) const {
   // What is dropped on the window is no tracker of the command line's.
   return !options_.calibration.empty() && !request.tracker.empty() && request.tracker == options_.tracker;
 }
 
 Session::OpenTracker Trainer::opener(const std::string& uri, const Study& study, bool calibrated) {
-  calibration_warning_.clear();
+  calibration_warning_ = !calibrated && uri == options_.tracker ? why_not_calibrated_ : "";
   if (!calibrated) return [uri, surroundings = study.surroundings] { return open_tracker(uri, surroundings); };
   const Calibration calibration = read_complete_calibration(options_.calibration);
   calibration_warning_ = joined(calibration_warnings(calibration, tracker_identity(uri),
@@ -43,6 +81,26 @@ Session::OpenTracker Trainer::opener(const std::string& uri, const Study& study,
   return [sensor = sensor_uri(uri, true), calibration, name = options_.calibration.filename().string()] {
     return std::make_unique<CalibratedTracker>(open_tracker(sensor), calibration, name);
   };
+}
+
+void Trainer::record_raw(Session& session, const Request& request) {
+  // What is dropped on the window is no tracker of the command line's.
+  if (options_.record_raw.empty() || request.tracker != options_.tracker || !session.tracker()) return;
+  const bool calibrated = uses_calibration(request) && !setup_left_;
+  const std::string uri = calibrated ? sensor_uri(request.tracker, true) : request.tracker;
+  // Each session begins a file of its own, as its recording does.
+  std::error_code error;
+  int part = 1;
+  while (std::filesystem::exists(part_of(options_.record_raw, part), error)) ++part;
+  const std::filesystem::path file = part_of(options_.record_raw, part);
+  raw_ = insonate::record_raw(*session.tracker(), file, uri, session.study().surroundings.start);
+}
+
+void Trainer::check_raw() {
+  if (!raw_ || raw_->problem().empty()) return;
+  const std::string problem = raw_->problem();
+  raw_.reset();
+  throw InputError(problem);
 }
 
 bool Trainer::needs_setup(const Request& request) const {
@@ -65,8 +123,7 @@ void Trainer::open_setup() {
     throw InputError("set-up", "", "no tracker with a sensor is used",
                      "start the trainer with one, as in 'insonate --tracker hydra:'");
   check_can_be_calibrated(uri);
-  const std::filesystem::path file =
-      options_.calibration.empty() ? options_.out / "calibration.toml" : options_.calibration;
+  const std::filesystem::path file = options_.calibration.empty() ? own_calibration() : options_.calibration;
   Calibration base = calibration_to_go_on(file, tracker_identity(uri));
   SetupGiven given;
   given.landmarks = landmarks_for(study_->subject.name, options_.landmarks);
@@ -82,6 +139,7 @@ void Trainer::end_setup() {
   const std::string missing = why_incomplete(setup_->calibration());
   options_.tracker = current_.tracker;
   if (missing.empty()) options_.calibration = setup_->file();
+  why_not_calibrated_.clear();
   setup_left_ = !missing.empty();
   setup_.reset();
   const Request again = current_;

@@ -234,7 +234,8 @@ void Screen::draw_overlay(Trainer& trainer) {
     if (draw_loading(theme_, screen_, trainer.loading()->progress(), session || trainer.setup()))
       trainer.stop_loading();
   } else if (shown == "setup") {
-    if (draw_setup_page(theme_, screen_, *trainer.setup(), trainer.pictures(), places_)) trainer.end_setup();
+    if (draw_setup_page(theme_, screen_, *trainer.setup(), trainer.next_start(), trainer.pictures(), places_))
+      trainer.end_setup();
   } else if (shown == "help") {
     if (draw_key_help(theme_, screen_)) help_ = false;
   } else if (shown == "open") {

@@ -60,7 +60,17 @@ void draw_progress(const Theme& theme, const Rect& bar, double share) {
   if (done > bar.h) fill({bar.x, bar.y, done, bar.h}, colour::kAccent, theme.px(5));
 }
 
-void draw_task(const Theme& theme, const Rect& panel, const SetupWizard& wizard, Pictures& pictures) {
+/// A plate with a coloured edge at the bottom of what is left.
+void draw_plate(const Theme& theme, Rect& rest, ImU32 edge, ImU32 ink, ImFont* font, std::string_view text) {
+  Rect plate = rest.take_bottom(theme.px(84));
+  fill(plate, colour::kRaised, theme.px(4));
+  fill(plate.take_left(theme.px(6)), edge, theme.px(3));
+  draw_paragraph(plate.inset(theme.px(16), theme.px(10)), font, ink, text);
+  rest.take_bottom(theme.px(8));
+}
+
+void draw_task(const Theme& theme, const Rect& panel, const SetupWizard& wizard, const std::string& next_start,
+               Pictures& pictures) {
   fill(panel, colour::kPanel, theme.px(8));
   Rect rest = panel.inset(theme.px(30), theme.px(24));
   const SetupView view = wizard.view();
@@ -75,20 +85,17 @@ void draw_task(const Theme& theme, const Rect& panel, const SetupWizard& wizard,
   draw_text(rest.take_bottom(theme.px(28)), theme.heading, view.reading ? colour::kAccent : colour::kMuted,
             view.feedback);
   rest.take_bottom(theme.px(8));
-  if (const std::string why = complaint(wizard, view); !why.empty()) {
-    Rect plate = rest.take_bottom(theme.px(84));
-    fill(plate, colour::kRaised, theme.px(4));
-    fill(plate.take_left(theme.px(6)), colour::kAmber, theme.px(3));
-    draw_paragraph(plate.inset(theme.px(16), theme.px(10)), theme.large, colour::kAmber, why);
-    rest.take_bottom(theme.px(8));
-  }
+  if (const std::string why = complaint(wizard, view); !why.empty())
+    draw_plate(theme, rest, colour::kAmber, colour::kAmber, theme.large, why);
+  else if (view.done && why_incomplete(wizard.calibration()).empty())
+    draw_plate(theme, rest, colour::kAccent, colour::kText, theme.large, "The probe can be used. " + next_start);
   draw_setup_sketch(theme, rest, wizard, pictures);
 }
 
 }  // namespace
 
-bool draw_setup_page(const Theme& theme, const Rect& screen, SetupWizard& wizard, Pictures& pictures,
-                     std::map<std::string, Rect>& places) {
+bool draw_setup_page(const Theme& theme, const Rect& screen, SetupWizard& wizard, const std::string& next_start,
+                     Pictures& pictures, std::map<std::string, Rect>& places) {
   ImGui::SetNextWindowPos(screen.min());
   ImGui::SetNextWindowSize({screen.w, screen.h});
   ImGui::SetNextWindowFocus();
@@ -123,7 +130,7 @@ bool draw_setup_page(const Theme& theme, const Rect& screen, SetupWizard& wizard
 
   draw_steps(theme, page.take_left(theme.px(270)), wizard, places);
   page.take_left(theme.px(18));
-  draw_task(theme, page, wizard, pictures);
+  draw_task(theme, page, wizard, next_start, pictures);
   ImGui::End();
   return close;
 }

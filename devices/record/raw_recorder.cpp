@@ -64,11 +64,15 @@ void RawRecorder::append(std::string_view text) noexcept {
   }
 }
 
-std::shared_ptr<const RawRecorder> record_raw(Tracker& tracker, const std::filesystem::path& file, std::string_view uri,
-                                              const Pose& start) {
+void check_sends_bytes(Tracker& tracker, std::string_view uri) {
   if (!tracker.record_raw(nullptr))
     throw InputError("tracker '" + std::string(uri) + "'", "", "it has no device that sends bytes",
-                     "record its samples instead");
+                     "record its samples instead, with --record");
+}
+
+std::shared_ptr<const RawRecorder> record_raw(Tracker& tracker, const std::filesystem::path& file, std::string_view uri,
+                                              const Pose& start) {
+  check_sends_bytes(tracker, uri);
   auto recorder = std::make_shared<RawRecorder>(file, uri, start);
   tracker.record_raw(recorder);
   return recorder;

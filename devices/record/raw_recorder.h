@@ -44,6 +44,7 @@ public:
 
   /// Why nothing is recorded any more, as a sentence; empty while all is well. By any thread.
   std::string problem() const;
+  const std::filesystem::path& file() const { return file_.path(); }
 
 private:
   void append(std::string_view text) noexcept;
@@ -53,8 +54,12 @@ private:
   std::string problem_;
 };
 
-/// Records what the tracker of `uri` gets, from its first poll on; to be called before that. Throws InputError when the
-/// tracker has no device whose bytes could be recorded, and as RawRecorder does.
+/// Throws InputError when the tracker of `uri` has no device whose bytes could be recorded. To be called before its
+/// first poll.
+void check_sends_bytes(Tracker& tracker, std::string_view uri);
+
+/// Records what the tracker of `uri` gets, from its first poll on; to be called before that. Throws InputError as
+/// check_sends_bytes() and RawRecorder do.
 std::shared_ptr<const RawRecorder> record_raw(Tracker& tracker, const std::filesystem::path& file, std::string_view uri,
                                               const Pose& start = {});
 

@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
 # The trainer without a window, as a whole program: the bundled scans get the scores that insonate-score gives them, the
 # good one passes, the poor one fails, and bad input ends in one sentence and exit code 2.
-#   headless_test.sh INSONATE INSONATE_SCORE ASSETS_FOLDER
+#   headless_test.sh INSONATE INSONATE_SCORE ASSETS_FOLDER INSONATE_DEVICES
 set -euo pipefail
-trainer=$1 score=$2
+trainer=$1 score=$2 devices=$4
 export INSONATE_ASSETS=$3
 unset DISPLAY WAYLAND_DISPLAY
 work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+killed=""
+trap '[ -z "$killed" ] || kill -9 "$killed" 2>/dev/null; rm -rf "$work"' EXIT
 fail() {
   echo "FAILED: $*" >&2
   exit 1
@@ -45,6 +46,29 @@ cmp <(without_log "$work/good.json") <(without_log "$work/run.json") || fail "th
 head -c 1000 "$work/seen-images.igs.mha" | grep -aq '^DimSize = [1-9][0-9]* [1-9][0-9]* [1-9]' || fail "there are no pictures"
 [ -z "$(find "$work" -name '*.recording*')" ] || fail "working files are left"
 
+echo "a trainer that is killed has recorded all that it was seen to write"
+"$trainer" --headless --tracker "synthetic:1?live=1" --seconds 3600 --record "$work/killed.igs.mha" --out "$work/killed" \
+  >"$work/log" 2>&1 &
+killed=$!
+frames() {
+  local count
+  count=$(grep -c '^frame ' "$work/killed.igs.mha.recording" 2>/dev/null) || true
+  echo "${count:-0}"
+}
+for _ in $(seq 1 600); do
+  [ "$(frames)" -lt 200 ] || break
+  sleep 0.2
+done
+written=$(frames)
+kill -9 "$killed"
+wait "$killed" 2>/dev/null || true
+[ "$written" -ge 200 ] || fail "only $written frames were written ($(cat "$work/log"))"
+[ ! -e "$work/killed.igs.mha" ] || fail "half a recording looks whole"
+"$devices" recover "$work/killed.igs.mha" >"$work/log" || fail "$(cat "$work/log")"
+recovered=$(sed -n 's/.* with \([0-9]*\) frames$/\1/p' "$work/log")
+[ "$recovered" -ge "$written" ] || fail "of $written frames $recovered came back"
+"$devices" check "$work/killed.igs.mha" >"$work/log" || [ $? = 1 ] || fail "$(cat "$work/log")"
+
 echo "how long a live tracker's reports take to the picture is told"
 "$trainer" --headless --tracker "synthetic:1?live=1" --seconds 2 --latency "$work/latency.csv" --out "$work/live" \
   >"$work/log" 2>&1 || fail "$(cat "$work/log")"
@@ -79,5 +103,8 @@ refuses "the step 'face' has not been made" --headless --tracker synthetic: --ca
 refuses "such a file already" --headless --record "$work/run.igs.mha"
 refuses "igs.mha" --headless --record "$work/run.txt"
 refuses "not where" --headless --record-images
+refuses "no device that sends bytes" --headless --tracker synthetic: --record-raw "$work/run.raw"
+refuses "no device that sends bytes" --headless --tracker "replay:$INSONATE_ASSETS/logs/ruq_good.igs.mha" --record-raw "$work/run.raw"
+refuses "no tracker is named" --headless --record-raw "$work/run.raw"
 refuses shader-dir --headless --shader-dir "$work/missing"
 echo "passed"

@@ -154,8 +154,10 @@ namespace {
 /// A live tracker without its thread: hands over what the test puts into `coming`, and `coming` outlives it.
 class HandFed : public Tracker {
 public:
-  explicit HandFed(std::vector<PoseSample>& coming) : Tracker("a device"), coming_(coming) {}
+  explicit HandFed(std::vector<PoseSample>& coming, bool relative = false)
+      : Tracker("a device"), coming_(coming), relative_(relative) {}
   bool live() const override { return true; }
+  bool relative() const override { return relative_; }
   double clock_s(double now_s) const override { return now_s; }
 
 protected:
@@ -166,6 +168,7 @@ protected:
 
 private:
   std::vector<PoseSample>& coming_;
+  bool relative_;
 };
 
 }  // namespace
@@ -200,6 +203,36 @@ TEST_CASE("a live tracker is opened once, and what it says while the learner has
   CHECK(session.activity() == Activity::exam);
   CHECK(session.tracker_state().delivered == 2);
   CHECK(opened == 1);
+}
+
+TEST_CASE("a tracker that tells no place goes on from where the learner has put the probe, any other from its own") {
+  const Pose before = turned(0, {1, 0, 0}, {1, 2, 3}), after = turned(30, {0, 1, 0}, {1, 2, 3});
+  const glm::dvec3 chosen(40, -20, 7);
+  for (const bool relative : {true, false}) {
+    CAPTURE(relative);
+    std::vector<PoseSample> coming;
+    Session session(tiny_study(false), [&] { return std::make_unique<HandFed>(coming, relative); });
+    double now_s = 100;
+    const auto say = [&](const Pose& pose) {
+      coming = {sample_at(now_s, pose)};
+      session.advance(now_s += 0.1);
+    };
+    session.advance(now_s);
+    say(before);
+    session.move_probe([&](const ProbeHand&, const Pose& pose) { return Pose{pose.rotation, chosen}; });
+    say(before);
+    session.give_back_probe();
+    coming = {{now_s, PoseStatus::missing, Pose{}, 0}};
+    session.advance(now_s += 0.1);
+    say(before);
+    const Pose there = *session.newest_pose();
+    say(after);
+    const Pose turned_there = *session.newest_pose();
+    CHECK(glm::distance(there.translation, relative ? chosen : before.translation) < 1e-9);
+    CHECK(glm::distance(turned_there.translation, there.translation) < 1e-9);
+    CHECK(angle_between_deg(there, turned_there) == Approx(30));
+    CHECK(session.latest_samples().back().patient_from_probe == turned_there);
+  }
 }
 
 TEST_CASE("of a live tracker the pose at the time of the picture is shown, and how it was found is told") {
@@ -413,6 +446,34 @@ TEST_CASE("a button that is held when a session begins was pressed for somebody 
   CHECK(session.marks_s().empty());
   run_until(session, now_s, 3);
   CHECK(session.console().frozen);
+  CHECK(session.marks_s().size() == 1);
+}
+
+TEST_CASE("a button that is held on the tracker while the probe changes hands was pressed once") {
+  std::vector<PoseSample> coming;
+  Session session(tiny_study(), [&] { return std::make_unique<HandFed>(coming); });
+  double now_s = 100;
+  const auto hold = [&](std::uint32_t buttons) {
+    coming = {sample_at(now_s, turned(0, {1, 0, 0}, {0, 1, 3}))};
+    coming[0].buttons = buttons;
+    session.advance(now_s += 0.1);
+  };
+  session.advance(now_s);
+  hold(0);
+  hold(kMarkButton | kFreezeButton);
+  CHECK(session.console().frozen);
+  CHECK(session.marks_s().size() == 1);
+  session.take_probe();
+  hold(kMarkButton | kFreezeButton);
+  session.press(kMarkButton);  // the keyboard's own
+  hold(kMarkButton | kFreezeButton);
+  CHECK(session.marks_s().size() == 1);
+  session.give_back_probe();
+  hold(kMarkButton | kFreezeButton);
+  CHECK_FALSE(session.console().frozen);
+  CHECK(session.marks_s().empty());
+  hold(0);
+  hold(kMarkButton);
   CHECK(session.marks_s().size() == 1);
 }
 
