@@ -80,6 +80,16 @@ void print_file(const std::filesystem::path& file) {
   std::printf("wrote %s\n", file.string().c_str());
 }
 
+/// Leaves the screen as it is at the time of the run that was asked for, or at its end.
+int show_replay(Trainer& trainer, OffScreen& screen, const Options& options) {
+  Replay& replay = *trainer.replay();
+  replay.seek(options.seconds > 0 ? options.seconds : replay.run().duration_s());
+  const std::filesystem::path file = options.screenshot.empty() ? options.out / "trainer.png" : options.screenshot;
+  write_png(file, screen.draw(trainer));
+  print_file(file);
+  return 0;
+}
+
 }  // namespace
 
 int run_headless(const Options& options) {
@@ -88,6 +98,7 @@ int run_headless(const Options& options) {
   trainer.open_from_options();
   trainer.finish_loading();
   OffScreen screen(options.width, options.height);
+  if (trainer.replay()) return show_replay(trainer, screen, options);
 
   const Session& session = *trainer.session();
   const double end_s = options.seconds > 0 ? options.seconds : session.runner() ? 0 : kFreeScan_s;
@@ -107,6 +118,7 @@ int run_headless(const Options& options) {
     }
     if (session.result() || (end_s > 0 && now_s >= end_s)) break;
   }
+  trainer.hand_in_exam();
 
   const Image<Rgba8> last_screen = screen.draw(trainer);
   if (trainer.recorder().running()) {

@@ -148,6 +148,39 @@ void Keyboard::choose(int index, Trainer& trainer) {
   }
 }
 
+void Keyboard::replay(const KeyEvent& pressed, Trainer& trainer, ui::Screen& screen) {
+  Replay& replay = *trainer.replay();
+  const bool repeated = pressed.kind == KeyEvent::Kind::repeated;
+  switch (pressed.key) {
+    case GLFW_KEY_SPACE:
+      if (!repeated) replay.toggle();
+      break;
+    case GLFW_KEY_LEFT:
+      replay.step(-1);
+      break;
+    case GLFW_KEY_RIGHT:
+      replay.step(+1);
+      break;
+    case GLFW_KEY_UP:
+      replay.change_speed(+1);
+      break;
+    case GLFW_KEY_DOWN:
+      replay.change_speed(-1);
+      break;
+    case GLFW_KEY_HOME:
+      replay.seek(0);
+      break;
+    case GLFW_KEY_END:
+      replay.seek(replay.run().duration_s());
+      break;
+    case GLFW_KEY_O:
+      if (pressed.modifiers & GLFW_MOD_CONTROL) screen.ask_for_path();
+      break;
+    default:
+      break;
+  }
+}
+
 void Keyboard::press(const KeyEvent& pressed, Trainer& trainer, ui::Screen& screen) {
   const bool repeated = pressed.kind == KeyEvent::Kind::repeated;
   if (screen.overlay(trainer) == "setup") {
@@ -159,8 +192,9 @@ void Keyboard::press(const KeyEvent& pressed, Trainer& trainer, ui::Screen& scre
     return;
   }
   const std::string overlay = screen.overlay(trainer);
-  if (pressed.key == GLFW_KEY_F1 && overlay != "problem" && !repeated) return screen.toggle_help();
+  if (pressed.key == GLFW_KEY_F1 && overlay != "problem" && !repeated && !trainer.replay()) return screen.toggle_help();
   if (!overlay.empty()) return;
+  if (trainer.replay()) return replay(pressed, trainer, screen);
   if (!(pressed.modifiers & GLFW_MOD_CONTROL)) tapped_.insert(pressed.key);
   if (pressed.key == GLFW_KEY_F2 && !repeated) return trainer.begin_setup();
   if (pressed.key == GLFW_KEY_SLASH && (pressed.modifiers & GLFW_MOD_SHIFT)) return screen.toggle_help();
@@ -193,6 +227,9 @@ void Keyboard::press(const KeyEvent& pressed, Trainer& trainer, ui::Screen& scre
       break;
     case GLFW_KEY_SPACE:
       if (!repeated) console.frozen = !console.frozen;
+      break;
+    case GLFW_KEY_G:
+      if (!repeated) trainer.guide().next(session);
       break;
     case GLFW_KEY_M:
       if (!repeated) session.press(kMarkButton);

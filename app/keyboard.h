@@ -45,6 +45,7 @@ private:
   bool type(const KeyEvent& event, Trainer& trainer, ui::Screen& screen);
   void press(const KeyEvent& event, Trainer& trainer, ui::Screen& screen);
   static void choose(int index, Trainer& trainer);
+  static void replay(const KeyEvent& pressed, Trainer& trainer, ui::Screen& screen);
   static void set_up(const KeyEvent& pressed, Trainer& trainer);
 
   GLFWwindow* window_;

@@ -33,12 +33,11 @@ struct Loading::Shared {
     progress = {what, share};
   }
 
-  void run(const std::function<Study(const LoadProgress&)>& load) {
+  void run(const Load& load) {
     std::shared_ptr<const Study> loaded;
     std::exception_ptr thrown;
     try {
-      loaded =
-          std::make_shared<const Study>(load([this](const std::string& what, double share) { report(what, share); }));
+      loaded = load([this](const std::string& what, double share) { report(what, share); });
     } catch (...) {
       thrown = std::current_exception();
     }
@@ -51,7 +50,7 @@ struct Loading::Shared {
   }
 };
 
-Loading::Loading(std::function<Study(const LoadProgress&)> load) : shared_(std::make_shared<Shared>()) {
+Loading::Loading(Load load) : shared_(std::make_shared<Shared>()) {
   std::thread([shared = shared_, load = std::move(load)]() mutable {
     shared->run(load);
     load = nullptr;

@@ -12,7 +12,8 @@ namespace insonate {
 /// the next progress it reports, and what it had so far goes with it.
 class Loading {
 public:
-  explicit Loading(std::function<Study(const LoadProgress&)> load);
+  using Load = std::function<std::shared_ptr<const Study>(const LoadProgress&)>;
+  explicit Loading(Load load);
   ~Loading();
   Loading(const Loading&) = delete;
   Loading& operator=(const Loading&) = delete;

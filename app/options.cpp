@@ -17,6 +17,11 @@ void declare(CLI::App& arguments, Options& options) {
   arguments.add_option("--ct", options.ct, "The patient: a CT (NIfTI, NRRD, MetaImage, or a folder of DICOM files)")
       ->type_name("PATH");
   arguments.add_option("--scenario", options.scenario, "The exam: a scenario file (TOML)")->type_name("FILE");
+  arguments.add_option("--seed", options.seed, "Draws the scenario's variant, where it has any");
+  arguments.add_flag(
+      "--exam", options.exam,
+      "An exam that counts: once for a learner, without hints, practice or a second beginning, and what\n"
+      "is left unfinished is scored as it is; the variant is drawn unless --seed says which");
   std::string trackers = "Where the probe's poses come from:";
   for (const TrackerKind& kind : tracker_kinds())
     trackers += "\n  " + std::string(kind.form) + "\n      " + std::string(kind.summary);
@@ -56,6 +61,19 @@ void declare(CLI::App& arguments, Options& options) {
       .add_option("--latency", options.latency,
                   "Write a histogram of how long a live tracker's reports take to the picture (CSV)")
       ->type_name("FILE");
+  arguments
+      .add_option("--replay", options.replay.log,
+                  "Look at a recorded scan again, at any time of it and at any speed; nothing of it is scored or kept")
+      ->type_name("LOG");
+  arguments
+      .add_option("--replay-attempt", options.replay.attempt, "The same of an attempt in the database of --results")
+      ->check(CLI::PositiveNumber)
+      ->type_name("NUMBER");
+  arguments.add_option("--beside", options.replay.beside_log, "For a replay: an expert's scan, to compare with")
+      ->type_name("LOG");
+  arguments.add_option("--beside-attempt", options.replay.beside_attempt, "The same of an attempt in that database")
+      ->check(CLI::PositiveNumber)
+      ->type_name("NUMBER");
   arguments.add_flag("--headless", options.headless, "Run without a window, as fast as it goes, and write the results");
   arguments.add_option("--seconds", options.seconds, "End after so many seconds of the session")
       ->check(CLI::Range(0.0, 86400.0));
@@ -93,12 +111,15 @@ void declare(CLI::App& arguments, Options& options) {
       "  insonate --tracker mouse:                         the same exam, the probe in your hands\n"
       "  insonate --ct abdomen.nii.gz                      free practice on a CT of your own\n"
       "  insonate --scenario exam.toml --tracker replay:scan.igs.mha\n"
+      "  insonate --replay scan.igs.mha --beside expert.igs.mha --scenario exam.toml\n"
       "  insonate --headless --out results                 score the bundled scan without a window\n"
       "\nExit codes: 0 done, 2 input that cannot be used, 3 any other failure.");
 }
 
+namespace {
+
 /// Before anything is loaded: a dialog later would leave a run that nobody has recorded.
-static void check_record_raw(const Options& options) {
+void check_record_raw(const Options& options) {
   if (options.record_raw.empty()) return;
   if (options.tracker.empty())
     throw InputError("command line", "--record-raw", "no tracker is named",
@@ -110,7 +131,52 @@ static void check_record_raw(const Options& options) {
                      "name another, or remove it");
 }
 
+void refuse(const std::string& option, const std::string& problem, const std::string& remedy) {
+  throw InputError("command line", option, problem, remedy);
+}
+
+void check_replay(const Options& options) {
+  const ReplaySource& replay = options.replay;
+  const bool kept = replay.attempt > 0 || replay.beside_attempt > 0;
+  if (!replay.log.empty() && replay.attempt > 0)
+    refuse("--replay-attempt", "--replay names a run already", "give one of them");
+  if (!replay.beside_log.empty() && replay.beside_attempt > 0)
+    refuse("--beside-attempt", "--beside names a run already", "give one of them");
+  if (!replay.any() && (kept || !replay.beside_log.empty()))
+    refuse("--beside", "there is no run to lay it beside", "name one with --replay or --replay-attempt");
+  if (!replay.any()) return;
+  if (kept && options.results.empty())
+    refuse(replay.attempt > 0 ? "--replay-attempt" : "--beside-attempt", "no database of results is named",
+           "name the one that the attempt is in: --results");
+  if (!kept && !options.results.empty())
+    refuse("--results", "nothing of a replay is kept", "leave it out, or name an attempt with --replay-attempt");
+  if (!options.tracker.empty()) refuse("--tracker", "a replay has no use for a tracker", "leave it out");
+  if (!options.record.empty() || options.record_images)
+    refuse("--record", "a replay is not recorded again", "leave it out");
+  const bool named = !options.scenario.empty() || !options.case_folder.empty() || !options.ct.empty();
+  if (replay.attempt > 0 && named)
+    refuse("--replay-attempt", "the attempt brings its scenario and patient along",
+           "leave --scenario, --case and --ct out");
+}
+
+void check_exam(const Options& options) {
+  if (!options.exam) return;
+  if (options.learner == kNobodyInParticular)
+    refuse("--exam", "it does not say who takes it", "name the learner's id with --learner");
+  if (options.replay.any()) refuse("--exam", "a replay is no exam", "leave it out");
+  if (options.scenario.empty() && !(options.case_folder.empty() && options.ct.empty()))
+    refuse("--exam", "there is no scenario to be taken", "name it with --scenario");
+  if (options.headless && options.results.empty())
+    refuse("--exam", "it is not said where it is kept", "name a database with --results");
+  if (options.tracker.empty())
+    refuse("--exam", "it does not say what the learner scans with", "name a tracker, as in --tracker mouse:");
+}
+
+}  // namespace
+
 void check(const Options& options) {
+  check_replay(options);
+  check_exam(options);
   if (!options.igtl_server.empty()) parse_server_address(options.igtl_server);
   if (!options.case_folder.empty() && !options.ct.empty())
     throw InputError("command line", "--ct", "--case and --ct both name a patient", "give one of them");

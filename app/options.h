@@ -2,9 +2,12 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 
+#include "app/replay_source.h"
 #include "devices/calibration/calibration.h"
 #include "devices/pose_history.h"
 #include "scenarios/results/learner_id.h"
@@ -16,11 +19,14 @@ struct Options {
   std::filesystem::path case_folder;
   std::filesystem::path ct;  ///< a file or a DICOM folder
   std::filesystem::path scenario;
+  std::optional<std::uint32_t> seed;  ///< draws the scenario's variant; empty: 0, and of an exam that counts any
+  bool exam = false;                  ///< an exam that counts: taken once, under strict rules
   std::string tracker;                ///< a tracker's URI
   std::filesystem::path calibration;  ///< of that tracker, whose samples are its sensor's; empty: they are the probe's
   std::filesystem::path landmarks;    ///< of the patient, for the set-up; empty: the built-in patient's
   std::filesystem::path drawing;      ///< of the probe, for the set-up; empty: its face is touched
   double calibration_days = kCalibrationDays;  ///< older ones bring a warning
+  ReplaySource replay;                         ///< what is looked at again, in place of a session
   std::filesystem::path record;                ///< where the run is recorded; empty: it is not
   bool record_images = false;                  ///< what is recorded is so with the ultrasound, in a second file
   std::filesystem::path record_raw;            ///< where the live tracker's bytes are recorded; empty: they are not

@@ -42,10 +42,9 @@ void Pictures::show(const Study& study) {
   camera_placed_ = false;
 }
 
-void Pictures::update(const Session& session, const PictureSizes& sizes, double quality, double budget_ms) {
-  const std::optional<Pose>& pose = session.shown_pose();
+void Pictures::update(const std::optional<Pose>& pose, const Console& console, const PictureSizes& sizes,
+                      double quality, double budget_ms) {
   if (!patient_ || !pose) return;
-  const Console& console = session.console();
   if (console.probe.name != probe_name_ || console.depth_mm != depth_mm_) {
     simulator_.set_probe(console.probe, console.depth_mm);
     probe_name_ = console.probe.name;

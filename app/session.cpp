@@ -77,8 +77,12 @@ bool Console::operator==(const Console& other) const {
          frozen == other.frozen;
 }
 
-Session::Session(std::shared_ptr<const Study> study, OpenTracker open, double predict_s)
-    : study_(std::move(study)), open_(std::move(open)), predict_s_(predict_s), hand_(study_->subject.ct) {
+Session::Session(std::shared_ptr<const Study> study, OpenTracker open, double predict_s, ExamRules rules)
+    : study_(std::move(study)),
+      open_(std::move(open)),
+      predict_s_(predict_s),
+      rules_(rules),
+      hand_(study_->subject.ct) {
   tracker_ = open_fresh();
   only_learner_ = dynamic_cast<MouseTracker*>(tracker_.get()) != nullptr;
   if (only_learner_) {
@@ -139,6 +143,7 @@ void Session::begin_attempt() {
 }
 
 void Session::start_over() {
+  if (strict() && runner_ && runner_->live().started) return;
   activity_ = study_->scenario ? Activity::exam : Activity::practice;
   if (holder_ == Holder::learner)
     learner_ = std::make_unique<MouseTracker>(study_->surroundings.start);
@@ -150,6 +155,7 @@ void Session::start_over() {
 }
 
 void Session::practise() {
+  if (strict()) return;
   activity_ = Activity::practice;
   begin_attempt();
 }
@@ -161,7 +167,7 @@ void Session::hold(Holder holder) {
 }
 
 void Session::take_probe() {
-  if (holder_ == Holder::learner) return;
+  if (holder_ == Holder::learner || strict()) return;
   learner_ = std::make_unique<MouseTracker>(newest_pose_.value_or(study_->surroundings.start));
   hold(Holder::learner);
   practise();
@@ -178,12 +184,14 @@ void Session::give_back_probe() {
 
 void Session::move_probe(const std::function<Pose(const ProbeHand&, const Pose&)>& motion) {
   take_probe();
+  if (holder_ != Holder::learner) return;
   const Pose from = learner_->pose();
   push(*learner_, from, motion(hand_, from));
 }
 
 void Session::act(const Action& action) {
   if (source().recording()) return;
+  if (strict() && action.kind == ActionKind::hint) return;
   note_settings();
   acts_.push_back(action);
 }
@@ -273,9 +281,17 @@ void Session::advance(double now_s) {
   for (const PoseSample& sample : samples_) take(sample);
   find_pose();
 
-  if (!runner_ || result_) return;
-  if (source().state().condition == TrackerCondition::finished) runner_->end();
-  if (!runner_->live().finished) return;
+  if (runner_ && source().state().condition == TrackerCondition::finished) runner_->end();
+  keep_result();
+}
+
+void Session::hand_in() {
+  if (runner_) runner_->end();
+  keep_result();
+}
+
+void Session::keep_result() {
+  if (!runner_ || result_ || !runner_->live().finished) return;
   result_ = runner_->result();
   if (const Recording* recording = source().recording()) {
     result_->provenance.log = recording->file;

@@ -41,6 +41,8 @@ struct Console {
 
 enum class Holder { tracker, learner };
 enum class Activity { exam, practice };
+/// Whether an exam may be left, begun again and helped with, or is taken once and as it is.
+enum class ExamRules { open, strict };
 
 /// One person's time with one patient: where poses come from, the attempt at the exam that they make, and the machine.
 /// Knows no window and no graphics, so that a run looks the same with and without. Time is passed in.
@@ -53,6 +55,9 @@ enum class Activity { exam, practice };
 /// the source in charge is fed to the runner, in order, whatever the frame rate, with what the learner did before it:
 /// what he set on the console, and act(). A log that keeps such actions sets the console itself.
 ///
+/// Under strict rules an exam is not left for practice, its probe does not change hands, it is not begun again once its
+/// first sample has come, and there are no hints: what asks for any of that does nothing.
+///
 /// The probe's buttons (probe_buttons.h) act when they are pressed, once however long they are held: freeze freezes the
 /// picture or thaws it, mark marks the moment, and go on is handed on to whoever shows the session.
 class Session {
@@ -63,17 +68,23 @@ public:
   /// Throws ScenarioError or InputError when the scenario does not fit the case, and InputError when there is an exam
   /// and the tracker repeats itself: nobody could score such a log again.
   /// @param predict_s  how far a live tracker's pose is carried on to the time of the picture, at most
-  Session(std::shared_ptr<const Study> study, OpenTracker open, double predict_s = PoseHistory::kPredictS);
+  Session(std::shared_ptr<const Study> study, OpenTracker open, double predict_s = PoseHistory::kPredictS,
+          ExamRules rules = ExamRules::open);
 
   /// Takes what has come from the source in charge up to `now_s` (s, steady_now_s() when the tracker is live).
   void advance(double now_s);
 
   // The exam
   Activity activity() const { return activity_; }
+  /// Whether the exam is taken under strict rules.
+  bool strict() const { return rules_ == ExamRules::strict; }
   /// Starts the exam from its beginning with whoever holds the probe, or without a scenario just the scan.
   void start_over();
   /// Ends the exam without a score: whoever holds the probe goes on with it.
   void practise();
+  /// Ends the exam under way here, as a scan that ends does: what there is of it is scored. Nothing without one, and
+  /// before its first sample.
+  void hand_in();
   /// Counts from 1 each time that the exam or practice starts from its beginning.
   int attempt() const { return attempt_; }
   /// The runner of the exam; nullptr in free practice.
@@ -149,6 +160,7 @@ private:
   void restart_tracker();
   void begin_attempt();
   void hold(Holder holder);
+  void keep_result();
   void take(const PoseSample& sample);
   void find_pose();
   void note_settings();
@@ -158,6 +170,7 @@ private:
   std::shared_ptr<const Study> study_;
   OpenTracker open_;
   double predict_s_;
+  ExamRules rules_;
   int attempt_ = 0;
   std::unique_ptr<Tracker> tracker_;
   LeftPlace left_place_;

@@ -6,9 +6,28 @@
 #include "sim/core/files.h"
 
 namespace insonate {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+void write_console(Json& state, const Console& console) {
+  state["frozen"] = console.frozen;
+  state["depth_mm"] = console.depth_mm;
+  state["gain_db"] = console.gain_db;
+}
+
+void write_pose(Json& state, const Pose& pose) {
+  for (int axis = 0; axis < 3; ++axis) {
+    state[std::string("face_") + "xyz"[axis]] = pose.translation[axis];
+    state[std::string("beam_") + "xyz"[axis]] = pose.rotation[1][axis];
+    state[std::string("marker_") + "xyz"[axis]] = pose.rotation[0][axis];
+  }
+}
+
+}  // namespace
 
 void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::Screen& screen, long frames) {
-  nlohmann::ordered_json state;
+  Json state;
   state["overlay"] = screen.overlay(trainer);
   state["problem"] = trainer.problems().empty() ? "" : trainer.problems().front();
   state["shader_problem"] = trainer.shader_problem();
@@ -34,29 +53,33 @@ void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::
     state["setup_refusal"] = view.refusal;
     state["setup_result"] = view.result;
   }
+  if (const Replay* replay = trainer.replay()) {
+    state["replay_run"] = replay->run().name;
+    state["replay_s"] = replay->time_s();
+    state["replay_duration_s"] = replay->run().duration_s();
+    state["replay_playing"] = replay->playing();
+    state["replay_speed"] = replay->speed();
+    state["step"] = replay->moment().step;
+    write_console(state, replay->console());
+    if (const auto& pose = replay->moment().shown_pose) write_pose(state, *pose);
+  }
   if (const Session* session = trainer.session()) {
     state["patient"] = session->study().subject.name;
     state["activity"] = session->activity() == Activity::exam ? "exam" : "practice";
     state["holder"] = session->holder() == Holder::learner ? "learner" : "tracker";
-    state["frozen"] = session->console().frozen;
     state["tracker"] = to_string(session->tracker_state().condition);
     state["tracker_problem"] = session->tracker_state().problem;
     state["tracker_rejected"] = to_string(session->tracker_state().rejected);
     state["marks"] = session->marks_s().size();
     state["pose_answer"] = session->answer() ? to_string(session->answer()->how) : "";
     state["lost"] = session->lost_for_s().has_value();
-    state["depth_mm"] = session->console().depth_mm;
-    state["gain_db"] = session->console().gain_db;
+    write_console(state, session->console());
     if (const auto& pose = session->shown_pose()) {
       const ui::Rect& space = screen.places().at("space");
       const glm::dvec2 face = trainer.pictures().camera.project(pose->translation, int(space.w), int(space.h));
       state["probe_on_screen_x"] = int(face.x + space.x);
       state["probe_on_screen_y"] = int(face.y + space.y);
-      for (int axis = 0; axis < 3; ++axis) {
-        state[std::string("face_") + "xyz"[axis]] = pose->translation[axis];
-        state[std::string("beam_") + "xyz"[axis]] = pose->rotation[1][axis];
-        state[std::string("marker_") + "xyz"[axis]] = pose->rotation[0][axis];
-      }
+      write_pose(state, *pose);
     }
     const PlaneOnScreen plane = screen.plane_on_screen(trainer);
     for (const auto& [name, mm] : {std::pair{"origin", glm::dvec2(0.0)}, {"at_10_10_mm", glm::dvec2(10.0)}}) {
@@ -79,6 +102,11 @@ void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::
       state["elapsed_s"] = runner->live().elapsed_s;
       state["hold_share"] = runner->live().hold_share;
       state["finished"] = runner->live().finished;
+    }
+    state["strict"] = session->strict();
+    if (const std::optional<Guiding> guiding = trainer.guide().now(*session)) {
+      state["guided_to"] = guiding->view->name;
+      state["advice"] = guiding->advice.empty() ? "" : guiding->advice.front();
     }
     if (session->result()) state["percent"] = session->result()->percent;
   }

@@ -58,7 +58,7 @@ void StepControls::go_on(Session& session) {
 }
 
 std::optional<double> StepControls::hint_cost(const Session& session) {
-  if (!active(session) || session.runner()->live().hints_left == 0) return std::nullopt;
+  if (!active(session) || session.strict() || session.runner()->live().hints_left == 0) return std::nullopt;
   const Step& step = step_of(session);
   return step.counts ? step.hints[session.runner()->live().hints.size()].cost : 0;
 }

@@ -49,10 +49,12 @@ Study load_study(const StudySource& source, const LoadProgress& progress) {
   Study study;
   const std::filesystem::path assets = assets_folder();
   study.tissues = read_tissue_table(assets / "tissues.toml");
-  if (!source.scenario.empty())
-    study.scenario = read_scenario(source.scenario);
+  if (source.kept)
+    study.scenario = source.kept;
+  else if (!source.scenario.empty())
+    study.scenario = read_scenario(source.scenario, source.seed);
   else if (source.is_bundled())
-    study.scenario = read_scenario(assets / "scenarios" / "ruq_hepatorenal.toml");
+    study.scenario = read_scenario(assets / "scenarios" / "ruq_hepatorenal.toml", source.seed);
 
   if (!source.ct.empty()) {
     progress("Reading the CT", 0);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -18,9 +19,11 @@ struct StudySource {
   std::filesystem::path case_folder;
   std::filesystem::path ct;  ///< a file or a DICOM folder
   std::filesystem::path scenario;
+  std::optional<Scenario> kept;  ///< that of an attempt that was kept, in place of a file's
+  std::uint32_t seed = 0;        ///< draws the scenario's variant
 
   /// Whether this is the bundled exam on the built-in patient.
-  bool is_bundled() const { return case_folder.empty() && ct.empty() && scenario.empty(); }
+  bool is_bundled() const { return case_folder.empty() && ct.empty() && scenario.empty() && !kept; }
 };
 
 /// A patient ready to be scanned, and the exam if there is one. Sessions and their runners keep references to it.

@@ -40,6 +40,7 @@ Trainer::Trainer(Options options)
 }
 
 void Trainer::open_results() {
+  if (options_.replay.any()) return;  // nothing of a replay is kept
   if (!options_.results.empty()) {
     results_ = ResultsDatabase::open_or_make(options_.results);
   } else if (!options_.headless) {
@@ -49,11 +50,17 @@ void Trainer::open_results() {
 
 void Trainer::open_from_options() {
   find_calibration();
-  load({{options_.case_folder, options_.ct, options_.scenario}, options_.tracker});
+  ReplaySource replay = options_.replay;
+  replay.database = options_.results;
+  load({{options_.case_folder, options_.ct, options_.scenario, std::nullopt, seed()},
+        options_.tracker,
+        std::move(replay)});
 }
 
 void Trainer::open(const std::filesystem::path& path) {
   attempt([&] {
+    if (options_.exam)
+      throw InputError(path.string(), "--exam", "an exam that counts is taken as it is", "open it without --exam");
     Request next;
     const Material kind = kind_of_material(path);
     switch (kind) {
@@ -69,6 +76,7 @@ void Trainer::open(const std::filesystem::path& path) {
       case Material::tracker_log:
       case Material::raw_log:
         next = loading_ ? requested_ : current_;
+        next.replay = {};
         next.tracker = (kind == Material::raw_log ? "raw:" : "replay:") + path.string();
         if (study_ && !loading_) return begin(study_, next);
         break;
@@ -90,8 +98,19 @@ bool Trainer::attempt(const std::function<void()>& action) {
 
 void Trainer::load(Request request) {
   requested_ = std::move(request);
-  loading_ = std::make_unique<Loading>(
-      [source = requested_.source](const LoadProgress& progress) { return load_study(source, progress); });
+  loaded_replay_.reset();
+  if (!requested_.replay.any()) {
+    loading_ = std::make_unique<Loading>([source = requested_.source](const LoadProgress& progress) {
+      return std::make_shared<const Study>(load_study(source, progress));
+    });
+    return;
+  }
+  loaded_replay_ = std::make_shared<std::unique_ptr<Replay>>();
+  loading_ = std::make_unique<Loading>([request = requested_, replay = loaded_replay_](const LoadProgress& progress) {
+    LoadedReplay loaded = load_replay(request.replay, request.source, progress);
+    *replay = std::move(loaded.replay);
+    return loaded.study;
+  });
 }
 
 void Trainer::finish_loading() {
@@ -99,34 +118,42 @@ void Trainer::finish_loading() {
 }
 
 void Trainer::stop_loading() {
-  if (session_ || setup_) loading_.reset();
+  if (session_ || setup_ || replay_) loading_.reset();
 }
 
 void Trainer::take_over_loaded() {
   const std::unique_ptr<Loading> loaded = std::move(loading_);
   attempt([&] { begin(loaded->take(), requested_); });
   // A trainer whose command line names something unusable goes on with what is built in.
-  const bool asked_for_more = !requested_.source.is_bundled() || !requested_.tracker.empty();
-  if (!session_ && !setup_ && asked_for_more) load({});
+  if (options_.exam) return;  // and never to anything but the exam that was asked for
+  const bool asked_for_more = !requested_.source.is_bundled() || !requested_.tracker.empty() || requested_.replay.any();
+  if (!session_ && !setup_ && !replay_ && asked_for_more) load({});
 }
 
 void Trainer::begin(std::shared_ptr<const Study> study, const Request& request) {
+  if (request.replay.any()) return begin_replay(std::move(study), request);
   std::string uri = request.tracker;
   if (uri.empty()) uri = request.source.is_bundled() ? bundled_log() : "mouse:";
   if (needs_setup(request)) {
     setup_.reset();
     session_.reset();
+    replay_.reset();
     show(std::move(study), request);
     return open_setup();
   }
   const Session::OpenTracker open = opener(uri, *study, uses_calibration(request) && !setup_left_);
-  auto session = std::make_unique<Session>(study, open, options_.predict_ms / 1e3);
+  if (options_.exam) refuse_second_exam(*study);
+  auto session = std::make_unique<Session>(study, open, options_.predict_ms / 1e3,
+                                           options_.exam ? ExamRules::strict : ExamRules::open);
+  if (options_.exam && std::as_const(*session).source().recording())
+    throw InputError(uri, "--exam", "a recorded scan is nobody's exam", "name the tracker that the learner holds");
   record_raw(*session, request);
   show(std::move(study), request);
   setup_.reset();
   session_ = std::move(session);
   picture_tools_ = {};
   step_controls_ = {};
+  replay_.reset();
   reader_.forget();
   recorder_.begin_anew();
   result_files_.reset();
@@ -148,6 +175,7 @@ void Trainer::update(double now_s) {
   }
   if (setup_) attempt([&] { setup_->update(now_s); });
   if (setup_ && setup_->finished()) end_setup();
+  if (replay_) replay_->advance(now_s);
   if (!session_) return;
   if (!options_.record.empty() && !recorded_) start_recording();
   const bool had_result = session_->result().has_value();
@@ -162,6 +190,7 @@ void Trainer::update(double now_s) {
 }
 
 void Trainer::draw(const PictureSizes& sizes, double quality, double budget_ms) {
+  if (replay_) pictures_.update(replay_->moment().shown_pose, replay_->console(), sizes, quality, budget_ms);
   if (!session_) return;
   pictures_.update(*session_, sizes, quality, budget_ms);
   if (!options_.latency.empty()) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "app/guide.h"
 #include "app/igtl_feed.h"
 #include "app/loading.h"
 #include "app/options.h"
@@ -14,6 +15,7 @@
 #include "app/picture_reader.h"
 #include "app/picture_tools.h"
 #include "app/pictures.h"
+#include "app/replay_source.h"
 #include "app/results.h"
 #include "app/run_recorder.h"
 #include "app/session.h"
@@ -58,6 +60,9 @@ public:
   /// Keeps the attempt when an exam has ended, and writes its report and score, once.
   void write_results_if_due();
 
+  /// Ends an exam that counts and is left before its end: what there is of it is scored and kept.
+  void hand_in_exam();
+
   /// Starts recording, to the file of the command line, or else to the next free name beside it or in the folder of the
   /// results: recording.igs.mha.
   void start_recording();
@@ -83,6 +88,16 @@ public:
 
   /// Measured while options().latency says where it is to be told.
   const PictureLatency& latency() const { return latency_; }
+
+  /// The run that is looked at again; there is no session then, and nothing is scored or kept.
+  Replay* replay() { return replay_.get(); }
+  const Replay* replay() const { return replay_.get(); }
+  /// The patient that is shown, with the exam if there is one; nullptr before the first is loaded.
+  const Study* study() const { return study_.get(); }
+
+  /// Help for practice.
+  Guide& guide() { return guide_; }
+  const Guide& guide() const { return guide_; }
 
   Session* session() { return session_.get(); }
   const Session* session() const { return session_.get(); }
@@ -114,10 +129,14 @@ private:
   struct Request {
     StudySource source;
     std::string tracker;  ///< URI; empty: the bundled log with the bundled exam, else the learner's own hand
+    ReplaySource replay;  ///< what is looked at again, in place of a session
   };
   void load(Request request);
   void take_over_loaded();
   void begin(std::shared_ptr<const Study> study, const Request& request);
+  std::uint32_t seed() const;
+  void refuse_second_exam(const Study& study);
+  void begin_replay(std::shared_ptr<const Study> study, const Request& request);
   void show(std::shared_ptr<const Study> study, const Request& request);
   std::filesystem::path own_calibration() const;
   void find_calibration();
@@ -147,6 +166,9 @@ private:
   std::unique_ptr<Session> session_;
   PictureTools picture_tools_;
   StepControls step_controls_;
+  std::shared_ptr<std::unique_ptr<Replay>> loaded_replay_;  ///< filled in by loading_; nullptr when it is of a session
+  std::unique_ptr<Replay> replay_;
+  Guide guide_;
   std::unique_ptr<SetupWizard> setup_;
   bool setup_left_ = false;  ///< before it was complete: the tracker is used without
   Pictures pictures_;

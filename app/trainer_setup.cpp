@@ -111,7 +111,7 @@ bool Trainer::needs_setup(const Request& request) const {
 }
 
 void Trainer::begin_setup() {
-  if (setup_ || !study_) return;
+  if (setup_ || !study_ || replay_ || options_.exam) return;
   attempt([&] { open_setup(); });
   if (!setup_ && !session_) load({});
 }

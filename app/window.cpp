@@ -161,6 +161,7 @@ public:
       step(now_s);
       if (options_.seconds > 0 && now_s - start_s_ >= options_.seconds) break;
     }
+    trainer_.hand_in_exam();
     trainer_.finish_recording();
     if (!options_.latency.empty()) trainer_.latency().write(options_.latency);
     if (!options_.screenshot.empty()) {

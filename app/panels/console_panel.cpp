@@ -86,10 +86,11 @@ ConsoleRequest draw_console_panel(const Theme& theme, const Rect& panel, Session
   upper.take_left(between);
   const bool learner = session.holder() == Holder::learner;
   if (session.only_learner()) {
-    if (button(theme, "restart", upper, session.study().scenario ? "Start over" : "Back to the start"))
+    if (button(theme, "restart", upper, session.study().scenario ? "Start over" : "Back to the start",
+               ButtonKind::normal, !session.strict()))
       attempt([&] { session.start_over(); });
   } else if (button(theme, "hands", upper, learner ? "Give the probe back" : "Take the probe",
-                    learner ? ButtonKind::chosen : ButtonKind::normal)) {
+                    learner ? ButtonKind::chosen : ButtonKind::normal, !session.strict())) {
     attempt([&] { learner ? session.give_back_probe() : session.take_probe(); });
   }
   if (button(theme, "help", lower.take_left(theme.px(86)), "Keys")) request = ConsoleRequest::help;
@@ -99,11 +100,12 @@ ConsoleRequest draw_console_panel(const Theme& theme, const Rect& panel, Session
   lower.take_left(between);
   if (practising) {
     if (button(theme, "exam", first, "Exam")) attempt([&] { session.start_over(); });
-  } else if (button(theme, "practice", first, "Practice", ButtonKind::normal, session.study().scenario.has_value())) {
+  } else if (button(theme, "practice", first, "Practice", ButtonKind::normal,
+                    session.study().scenario.has_value() && !session.strict())) {
     session.take_probe();
     session.practise();
   }
-  if (button(theme, "open", lower, "Open")) request = ConsoleRequest::open;
+  if (button(theme, "open", lower, "Open", ButtonKind::normal, !session.strict())) request = ConsoleRequest::open;
   return request;
 }
 

@@ -62,7 +62,7 @@ bool draw_problem(const Theme& theme, const Rect& screen, const std::string& pro
 }
 
 bool draw_key_help(const Theme& theme, const Rect& screen) {
-  static constexpr std::array<std::array<const char*, 2>, 23> kKeys{{
+  static constexpr std::array<std::array<const char*, 2>, 24> kKeys{{
       {"Arrow keys", "slide over the skin"},
       {"Page up, Page down", "lift, press"},
       {"Q, E", "rotate about the beam"},
@@ -81,6 +81,7 @@ bool draw_key_help(const Theme& theme, const Rect& screen) {
       {"Enter", "answer; go on to the next step of an exam"},
       {"Escape", "give up what is being placed or typed"},
       {"+, \u2212 and [, ]", "gain; depth"},
+      {"G", "practice: the way to a reference view, the next one, none"},
       {"M", "mark this moment, in the recording too"},
       {"R", "record the run; end the recording"},
       {"Ctrl O", "open a case, CT, scenario or recorded scan"},

@@ -118,7 +118,7 @@ void draw_rows(const Theme& theme, Rect rows, float height, const ExamResult& re
 }  // namespace
 
 ScoreAnswer draw_score_sheet(const Theme& theme, const Rect& screen, const ExamResult& result,
-                             const std::optional<ResultFiles>& files, bool learner_scanned) {
+                             const std::optional<ResultFiles>& files, bool learner_scanned, bool once) {
   const float row = theme.px(26), head_height = theme.px(74), reason_height = theme.px(22);
   const std::size_t reasons = std::min<std::size_t>(result.reasons.size(), 3);
   const float rows_height = row * float(row_count(result));
@@ -157,6 +157,10 @@ ScoreAnswer draw_score_sheet(const Theme& theme, const Rect& screen, const ExamR
   if (button(theme, "close_sheet", next(), "Close")) answer = ScoreAnswer::close;
   if (button(theme, "open_report", next(), "Open the report", ButtonKind::normal, files.has_value()))
     answer = ScoreAnswer::open_report;
+  if (once) {
+    end_overlay();
+    return answer;
+  }
   if (button(theme, "practice_after", next(), "Free practice")) answer = ScoreAnswer::practice;
   if (!learner_scanned) {
     if (button(theme, "again", next(), "Watch again")) answer = ScoreAnswer::again;

@@ -11,6 +11,8 @@
 
 #include "app/panels/console_panel.h"
 #include "app/panels/exam_panel.h"
+#include "app/panels/guide_layer.h"
+#include "app/panels/replay_page.h"
 #include "app/panels/ultrasound_panel.h"
 #include "scenarios/steps/question.h"
 #include "sim/core/files.h"
@@ -57,10 +59,11 @@ void Screen::lay_out(const Trainer& trainer, float width, float height) {
     task_ = rest.take_top(task_panel_height(theme_, *session, rest.w));
     rest.take_top(gap);
   }
-  console_ = rest.take_bottom(theme_.px(120));
+  console_ = rest.take_bottom(theme_.px(trainer.replay() ? 272 : 120));  // charts below a replay's time line
   rest.take_bottom(gap);
   // The image first: the views get a third, and no more than makes them square.
-  Rect side = rest.take_right(std::min(std::round(rest.w * 0.35f), std::round(rest.h * 0.82f)));
+  Rect side =
+      rest.take_right(std::min(std::round(rest.w * 0.35f), std::round(rest.h * (trainer.replay() ? 1.0f : 0.82f))));
   rest.take_right(gap);
   ultrasound_ = rest;
   volume_ = side.take_top(std::round(side.h * 0.58f));
@@ -110,7 +113,11 @@ void Screen::draw_panels(Trainer& trainer) {
       draw_task_panel(theme_, task_, *session, trainer.picture_tools(), trainer.step_controls(), answer_field_,
                       places_);
     UltrasoundPanel::draw(theme_, ultrasound_, *session, pictures, trainer.picture_tools(), places_);
-    space_.draw(theme_, volume_, *session, pictures);
+    space_.draw(theme_, volume_, session, pictures);
+    if (const std::optional<Guiding> guiding = trainer.guide().now(*session)) {
+      draw_ghost(theme_, volume_, *guiding, pictures.camera);
+      places_["guide"] = draw_advice(theme_, ultrasound_, *guiding);
+    }
     draw_slice_panel(theme_, slice_, pictures);
     draw_blend_panel(theme_, blend_, pictures);
     const auto attempt = [&](const std::function<void()>& action) { trainer.attempt(action); };
@@ -124,6 +131,10 @@ void Screen::draw_panels(Trainer& trainer) {
       case ConsoleRequest::none:
         break;
     }
+  } else if (trainer.replay()) {
+    draw_replay_page(theme_, {top_, ultrasound_, volume_, console_}, trainer, space_, places_);
+    draw_slice_panel(theme_, slice_, trainer.pictures());
+    draw_blend_panel(theme_, blend_, trainer.pictures());
   } else {
     for (const Rect& panel : {top_, console_}) fill(panel, colour::kPanel, theme_.px(4));
     for (const Rect& panel : {ultrasound_, volume_, slice_, blend_}) fill(panel, colour::kImage, theme_.px(4));
@@ -149,13 +160,16 @@ void Screen::draw_status(Trainer& trainer) {
     std::snprintf(text, sizeof text, "%.0f frames/s", frames_per_second_);
     draw_text(line.take_right(theme_.px(100)), theme_.small_text, colour::kFaint, text, Align::right);
   }
-  places_["record"] = line.take_left(theme_.px(124)).inset(0, theme_.px(6));
-  draw_record_button(trainer, places_["record"]);
-  line.take_left(theme_.px(8));
-  places_["setup"] = line.take_left(theme_.px(90)).inset(0, theme_.px(6));
-  if (button(theme_, "setup", places_["setup"], "Set up", ButtonKind::normal, trainer.session() != nullptr))
-    trainer.begin_setup();
-  line.take_left(theme_.px(16));
+  if (!trainer.replay()) {
+    places_["record"] = line.take_left(theme_.px(124)).inset(0, theme_.px(6));
+    draw_record_button(trainer, places_["record"]);
+    line.take_left(theme_.px(8));
+    places_["setup"] = line.take_left(theme_.px(90)).inset(0, theme_.px(6));
+    if (button(theme_, "setup", places_["setup"], "Set up", ButtonKind::normal,
+               trainer.session() && !trainer.session()->strict()))
+      trainer.begin_setup();
+    line.take_left(theme_.px(16));
+  }
   if (!trainer.shader_problem().empty()) {
     std::string problem = "Shaders kept as they were: " + trainer.shader_problem();
     std::replace(problem.begin(), problem.end(), '\n', ' ');
@@ -166,7 +180,10 @@ void Screen::draw_status(Trainer& trainer) {
     draw_text(line, theme_.small_text, colour::kAmber, trainer.calibration_warning());
     return;
   }
-  const std::string keys = "F1 keys    Tab probe    Space freeze    R record    F2 set up";
+  const std::string keys =
+      trainer.replay()
+          ? "Space play    \u2190 \u2192 sample by sample    \u2191 \u2193 speed    Home End    Ctrl O open"
+          : "F1 keys    Tab probe    Space freeze    R record    F2 set up";
   draw_text(line.take_left(text_width(theme_.small_text, keys) + theme_.px(24)), theme_.small_text, colour::kMuted,
             keys);
   draw_text(line, theme_.small_text, colour::kFaint, device_, Align::right);
@@ -231,7 +248,7 @@ void Screen::draw_overlay(Trainer& trainer) {
   if (shown == "problem") {
     if (draw_problem(theme_, screen_, trainer.problems().front())) trainer.problems().pop_front();
   } else if (shown == "loading") {
-    if (draw_loading(theme_, screen_, trainer.loading()->progress(), session || trainer.setup()))
+    if (draw_loading(theme_, screen_, trainer.loading()->progress(), session || trainer.setup() || trainer.replay()))
       trainer.stop_loading();
   } else if (shown == "setup") {
     if (draw_setup_page(theme_, screen_, *trainer.setup(), trainer.next_start(), trainer.pictures(), places_))
@@ -244,7 +261,7 @@ void Screen::draw_overlay(Trainer& trainer) {
     if (answer == OpenDialog::Answer::chosen) trainer.open(open_dialog_.path());
   } else if (shown == "score") {
     answer_score(trainer, draw_score_sheet(theme_, screen_, *session->result(), trainer.result_files(),
-                                           session->holder() == Holder::learner));
+                                           session->holder() == Holder::learner, session->strict()));
   }
 }
 

@@ -74,10 +74,10 @@ void draw_mark(const Theme& theme, const Rect& panel, const Session& session) {
             text);
 }
 
-void draw_annotations(const Theme& theme, const Rect& panel, const Session& session) {
-  const Console& console = session.console();
+/// Returns where the next line goes.
+Rect draw_annotations(const Theme& theme, const Rect& panel, const std::string& patient, const Console& console) {
   Rect line{panel.x + theme.px(16), panel.y + theme.px(12), panel.w * 0.27f, theme.px(24)};
-  draw_text(line, theme.strong, colour::kText, session.study().subject.name);
+  draw_text(line, theme.strong, colour::kText, patient);
   line.y += line.h;
   line.h = theme.px(19);
   for (const std::string& text :
@@ -87,17 +87,16 @@ void draw_annotations(const Theme& theme, const Rect& panel, const Session& sess
     draw_text(line, theme.small_text, colour::kMuted, text);
     line.y += line.h;
   }
-  if (session.marks_s().empty()) return;
-  draw_text(line, theme.small_text, colour::kAccent, mark_text(session));
+  return line;
 }
 
-void draw_banner(const Theme& theme, const Rect& panel, const Session& session, const PictureTools& tools) {
+void draw_banner(const Theme& theme, const Rect& panel, std::optional<double> lost_for_s, const std::string& frozen) {
   std::string text;
   ImU32 background = colour::kAmber, ink = colour::kBackground;
-  if (const auto lost_s = session.lost_for_s()) {
-    text = formatted("No usable pose for %.1f s: the picture stands still", *lost_s);
-  } else if (session.console().frozen) {
-    text = PictureTools::ready(session) ? "Frozen:  " + tool_prompt(tools) : "Frozen";
+  if (lost_for_s) {
+    text = formatted("No usable pose for %.1f s: the picture stands still", *lost_for_s);
+  } else if (!frozen.empty()) {
+    text = frozen;
     background = colour::kAccentDark;
     ink = colour::kText;
   } else {
@@ -105,6 +104,11 @@ void draw_banner(const Theme& theme, const Rect& panel, const Session& session, 
   }
   const float width = text_width(theme.strong, text) + theme.px(24);
   draw_chip(theme, {panel.x + (panel.w - width) / 2, panel.y + panel.h - theme.px(46)}, background, ink, text);
+}
+
+std::string frozen_text(const Session& session, const PictureTools& tools) {
+  if (!session.console().frozen) return "";
+  return PictureTools::ready(session) ? "Frozen:  " + tool_prompt(tools) : "Frozen";
 }
 
 // What is wrong with the tracker, at length; the tracker's own panel has room for its beginning.
@@ -122,6 +126,19 @@ void draw_tracker_problem(const Theme& theme, const Rect& panel, const Session& 
   const Rect plate{panel.x + (panel.w - width) / 2, panel.y + panel.h - theme.px(58) - height, width, height};
   fill(plate, colour::kRaised, theme.px(4));
   draw_paragraph(plate.inset(margin, margin), theme.text, colour::kText, problem);
+}
+
+/// The picture with its scales; how it lies on the screen.
+PlaneOnScreen draw_picture(const Theme& theme, const Rect& panel, const gl::Texture& picture, const Pictures& pictures,
+                           const Console& console) {
+  const Rect area = UltrasoundPanel::picture_area(theme, panel);
+  const PlaneOnScreen plane = UltrasoundPanel::plane(theme, panel, pictures);
+  ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(std::uintptr_t(picture.name())), area.min(),
+                                       area.max(), {1, 0}, {0, 1});
+  draw_depth_scale(theme, panel, plane, console.depth_mm);
+  draw_grey_scale(theme, panel, console.dynamic_range_db);
+  draw_marker(theme, plane, console.probe);
+  return plane;
 }
 
 void take_mouse(const Theme& theme, const Rect& area, Session& session, const PlaneOnScreen& plane,
@@ -160,22 +177,29 @@ void UltrasoundPanel::draw(const Theme& theme, const Rect& panel, Session& sessi
   fill(panel, colour::kImage, theme.px(4));
   const Rect area = picture_area(theme, panel);
   if (const gl::Texture* picture = pictures.ultrasound()) {
-    const PlaneOnScreen plane = UltrasoundPanel::plane(theme, panel, pictures);
-    ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(std::uintptr_t(picture->name())), area.min(),
-                                         area.max(), {1, 0}, {0, 1});
-    draw_depth_scale(theme, panel, plane, session.console().depth_mm);
-    draw_grey_scale(theme, panel, session.console().dynamic_range_db);
-    draw_marker(theme, plane, session.console().probe);
+    const PlaneOnScreen plane = draw_picture(theme, panel, *picture, pictures, session.console());
     draw_marks(theme, panel, plane, session, tools);
     draw_picture_tools(theme, panel, session, tools, places);  // before the picture's own item, which lies under them
     take_mouse(theme, area, session, plane, tools);
   } else {
     draw_text(panel, theme.text, colour::kFaint, "Waiting for the probe", Align::centre);
   }
-  draw_annotations(theme, panel, session);
+  const Rect below = draw_annotations(theme, panel, session.study().subject.name, session.console());
+  if (!session.marks_s().empty()) draw_text(below, theme.small_text, colour::kAccent, mark_text(session));
   draw_mark(theme, panel, session);
-  draw_banner(theme, panel, session, tools);
+  draw_banner(theme, panel, session.lost_for_s(), frozen_text(session, tools));
   draw_tracker_problem(theme, panel, session);
+}
+
+void UltrasoundPanel::draw_still(const Theme& theme, const Rect& panel, const std::string& patient,
+                                 const Console& console, std::optional<double> lost_for_s, const Pictures& pictures) {
+  fill(panel, colour::kImage, theme.px(4));
+  if (const gl::Texture* picture = pictures.ultrasound())
+    draw_picture(theme, panel, *picture, pictures, console);
+  else
+    draw_text(panel, theme.text, colour::kFaint, "No pose has come yet", Align::centre);
+  draw_annotations(theme, panel, patient, console);
+  draw_banner(theme, panel, lost_for_s, console.frozen ? "Frozen" : "");
 }
 
 }  // namespace insonate::ui

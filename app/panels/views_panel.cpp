@@ -82,7 +82,7 @@ bool on_probe(const Theme& theme, const view::OrbitCamera& camera, const Rect& p
 
 }  // namespace
 
-void SpacePanel::draw(const Theme& theme, const Rect& panel, Session& session, Pictures& pictures) {
+void SpacePanel::draw(const Theme& theme, const Rect& panel, Session* session, Pictures& pictures) {
   fill(panel, colour::kImage, theme.px(4));
   if (const gl::Texture* picture = pictures.volume())
     ImGui::GetWindowDrawList()->AddImage(id_of(*picture), panel.min(), panel.max());
@@ -91,16 +91,17 @@ void SpacePanel::draw(const Theme& theme, const Rect& panel, Session& session, P
                          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
   const ImGuiIO& io = ImGui::GetIO();
   view::OrbitCamera& camera = pictures.camera;
-  const bool over_probe = ImGui::IsItemHovered() && session.shown_pose() &&
-                          on_probe(theme, camera, panel, *session.shown_pose(), io.MousePos);
+  const bool over_probe = ImGui::IsItemHovered() && session && session->shown_pose() &&
+                          on_probe(theme, camera, panel, *session->shown_pose(), io.MousePos);
   if (ImGui::IsItemHovered() && io.MouseWheel != 0) camera.zoom(std::pow(1.1, io.MouseWheel));
   if (ImGui::IsItemActivated()) holds_probe_ = over_probe && io.MouseDown[0];
   if (over_probe || (holds_probe_ && ImGui::IsItemActive())) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
   if (ImGui::IsItemActive() && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0)) {
     constexpr double kDegPerPixel = 0.4;
-    if (holds_probe_) {
+    if (holds_probe_ && session) {
       const Sight to = sight(camera, panel, io.MousePos);
-      session.move_probe([&](const ProbeHand& hand, const Pose& pose) { return hand.put(pose, to.eye, to.direction); });
+      session->move_probe(
+          [&](const ProbeHand& hand, const Pose& pose) { return hand.put(pose, to.eye, to.direction); });
     } else if (io.MouseDown[1]) {
       camera.pan({io.MouseDelta.x, io.MouseDelta.y}, int(panel.h));
     } else {

@@ -10,7 +10,8 @@ namespace insonate::ui {
 /// button it shifts it, the wheel comes nearer; dragging the probe puts it elsewhere on the skin.
 class SpacePanel {
 public:
-  void draw(const Theme& theme, const Rect& panel, Session& session, Pictures& pictures);
+  /// @param session  nullptr: there is no probe to be dragged
+  void draw(const Theme& theme, const Rect& panel, Session* session, Pictures& pictures);
 
 private:
   bool holds_probe_ = false;

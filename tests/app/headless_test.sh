@@ -75,6 +75,23 @@ echo "how long a live tracker's reports take to the picture is told"
 grep -q '^from_ms,report_to_frame,report_to_picture$' "$work/latency.csv" || fail "$(cat "$work/latency.csv")"
 grep -q '^report to picture: median' "$work/log" || fail "$(cat "$work/log")"
 
+echo "a replay shows an attempt as it shows its log, and keeps nothing"
+log="$INSONATE_ASSETS/logs/ruq_good.igs.mha"
+"$score" attempts "$work/results.db" >"$work/before.txt"
+"$trainer" --headless --replay "$log" --scenario "$scenario" --seconds 20 --out "$work/replayed" \
+  --screenshot "$work/replay.png" >"$work/log" 2>&1 || fail "$(cat "$work/log")"
+"$trainer" --headless --results "$work/results.db" --replay-attempt 1 --seconds 20 --out "$work/replayed" \
+  --screenshot "$work/attempt.png" >"$work/log" 2>&1 || fail "$(cat "$work/log")"
+convert "$work/replay.png" -crop 700x330+40+110 +repage "$work/replay_picture.png"
+convert "$work/attempt.png" -crop 700x330+40+110 +repage "$work/attempt_picture.png"
+[ "$(compare -metric AE "$work/replay_picture.png" "$work/attempt_picture.png" null: 2>&1 || true)" = 0 ] ||
+  fail "the attempt shows another picture than its log"
+[ "$(convert "$work/replay_picture.png" -colorspace Gray -format '%[fx:standard_deviation>0.05]' info:)" = 1 ] ||
+  fail "the replay shows no picture"
+"$score" attempts "$work/results.db" >"$work/after.txt"
+cmp "$work/before.txt" "$work/after.txt" || fail "a replay was kept as an attempt"
+[ ! -e "$work/replayed" ] || fail "a replay left results: $(ls "$work/replayed")"
+
 # `refuses ARGUMENTS...`: exit code 2 and one line that names what is wrong.
 refuses() {
   local words=$1 code=0
@@ -106,5 +123,15 @@ refuses "not where" --headless --record-images
 refuses "no device that sends bytes" --headless --tracker synthetic: --record-raw "$work/run.raw"
 refuses "no device that sends bytes" --headless --tracker "replay:$INSONATE_ASSETS/logs/ruq_good.igs.mha" --record-raw "$work/run.raw"
 refuses "no tracker is named" --headless --record-raw "$work/run.raw"
+refuses missing.igs.mha --headless --replay "$work/missing.igs.mha"
+refuses cut.igs.mha --headless --replay "$log" --beside "$work/cut.igs.mha"
+refuses "no run to lay it beside" --headless --beside "$log"
+refuses "no database of results is named" --headless --replay-attempt 1
+refuses "no attempt" --headless --results "$work/results.db" --replay-attempt 99
+refuses "nothing of a replay is kept" --headless --replay "$log" --results "$work/none.db"
+refuses "names a run already" --headless --replay "$log" --results "$work/results.db" --replay-attempt 1
+refuses "no use for a tracker" --headless --replay "$log" --tracker mouse:
+refuses "brings its scenario" --headless --results "$work/results.db" --replay-attempt 1 --scenario "$scenario"
+[ ! -e "$work/none.db" ] || fail "a database was made for a replay"
 refuses shader-dir --headless --shader-dir "$work/missing"
 echo "passed"

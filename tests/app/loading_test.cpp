@@ -30,8 +30,8 @@ TEST_CASE("what is loaded is handed over, with the progress on the way and what 
     progress("Reading", 0.25);
     told.set_value();
     go_on.get_future().wait();
-    Study study;
-    study.subject.name = "Somebody";
+    auto study = std::make_shared<Study>();
+    study->subject.name = "Somebody";
     return study;
   });
   told.get_future().wait();
@@ -43,7 +43,8 @@ TEST_CASE("what is loaded is handed over, with the progress on the way and what 
   CHECK(loading.done());
   CHECK(Loading::given_up() == 0);
 
-  Loading failing([](const LoadProgress&) -> Study { throw std::runtime_error("no such thing"); });
+  Loading failing(
+      [](const LoadProgress&) -> std::shared_ptr<const Study> { throw std::runtime_error("no such thing"); });
   CHECK_THROWS_WITH(failing.take(), "no such thing");
 }
 
@@ -51,7 +52,7 @@ TEST_CASE("giving up does not wait, and ends the work at the next progress it re
   std::promise<void> begun, go_on;
   std::promise<bool> waited_for;
   std::atomic<bool> went_on = false;
-  auto loading = std::make_unique<Loading>([&](const LoadProgress& progress) -> Study {
+  auto loading = std::make_unique<Loading>([&](const LoadProgress& progress) -> std::shared_ptr<const Study> {
     begun.set_value();
     // Nobody lets this go on before the Loading is destroyed: one that waited for its thread would wait all of that.
     waited_for.set_value(go_on.get_future().wait_for(kAtMost) == std::future_status::timeout);
@@ -80,7 +81,7 @@ TEST_CASE("what was loaded after it was given up goes away with its thread") {
   auto loading = std::make_unique<Loading>([&, watched = std::move(watched)](const LoadProgress&) {
     begun.set_value();
     go_on.get_future().wait();
-    return Study();
+    return std::make_shared<const Study>();
   });
   begun.get_future().wait();
   loading.reset();

@@ -566,3 +566,62 @@ TEST_CASE("free practice has no exam, and an exam can be started from it") {
   CHECK(without.runner() == nullptr);
   CHECK_FALSE(without.result());
 }
+
+TEST_CASE("under strict rules an exam is taken once and as it is") {
+  std::vector<PoseSample> coming;
+  const auto study = tiny_study();
+  Session session(
+      study, [&] { return std::make_unique<HandFed>(coming); }, 0, ExamRules::strict);
+  CHECK(session.strict());
+  session.advance(10);
+  const int attempt = session.attempt();
+  const auto still_the_exam = [&] {
+    return session.activity() == Activity::exam && session.holder() == Holder::tracker &&
+           session.attempt() == attempt && session.runner();
+  };
+  coming = {sample_at(10.1, turned(0, {1, 0, 0}, {1, 2, 3}))};
+  session.advance(10.2);
+  REQUIRE(session.runner()->live().started);
+
+  session.practise();
+  CHECK(still_the_exam());
+  session.take_probe();
+  CHECK(still_the_exam());
+  session.give_back_probe();
+  CHECK(still_the_exam());
+  session.start_over();
+  CHECK(still_the_exam());
+  session.move_probe([](const ProbeHand&, const Pose& from) { return Pose{from.rotation, from.point({7, 0, 0})}; });
+  CHECK(still_the_exam());
+
+  INFO("there are no hints, and freezing is no pause");
+  session.act({ActionKind::hint});
+  session.console().frozen = true;
+  coming = {sample_at(12, turned(0, {1, 0, 0}, {1, 2, 3}))};
+  session.advance(12);
+  REQUIRE(session.actions().size() == 1);
+  CHECK(session.actions().begin()->second == std::vector<Action>{{ActionKind::freeze}});
+  CHECK(session.runner()->live().elapsed_s == Approx(1.9));
+
+  INFO("what is left before its end is scored as far as it went, and that is the end of it");
+  session.hand_in();
+  REQUIRE(session.result());
+  CHECK(session.result()->complete);
+  CHECK_FALSE(session.result()->passed);
+  CHECK(session.result()->steps[0].outcome == StepOutcome::scan_ended);
+  session.start_over();
+  session.practise();
+  CHECK(still_the_exam());
+  CHECK(session.result());
+}
+
+TEST_CASE("an exam under strict rules that nobody has begun is not handed in") {
+  std::vector<PoseSample> coming;
+  Session session(
+      tiny_study(), [&] { return std::make_unique<HandFed>(coming); }, 0, ExamRules::strict);
+  session.advance(1);
+  session.hand_in();
+  CHECK_FALSE(session.result());
+  session.start_over();  // nothing was seen of it yet
+  CHECK(session.activity() == Activity::exam);
+}

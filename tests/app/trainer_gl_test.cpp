@@ -468,3 +468,107 @@ TEST_CASE("a second attempt's report shows its own best frame, and none when the
   CHECK(third.find(none) != std::string::npos);
   CHECK_FALSE(trainer.best_frame());
 }
+
+TEST_CASE("an exam that counts is kept once for a learner, with the seed that drew it, also when it is left early") {
+  const gl::HeadlessContext context;
+  const Folder folder;
+  Options options = folder.options();
+  options.results = folder.path / "lab.db";
+  options.learner = "L-07";
+  options.tracker = "mouse:";
+  options.exam = true;
+  const auto start = [](Trainer& trainer) {
+    trainer.open_from_options();
+    trainer.finish_loading();
+  };
+  {
+    Trainer trainer(options);
+    start(trainer);
+    REQUIRE(trainer.session());
+    CHECK(trainer.session()->strict());
+    for (int i = 0; i < 5; ++i) trainer.update(i / 30.0);
+
+    INFO("help and other material are out of reach");
+    trainer.guide().next(*trainer.session());
+    CHECK_FALSE(trainer.guide().now(*trainer.session()));
+    trainer.begin_setup();
+    CHECK_FALSE(trainer.setup());
+    open_and_wait(trainer, folder.path / "exam.toml");
+    REQUIRE(trainer.problems().size() == 1);
+    CHECK(trainer.problems().front().find("taken as it is") != std::string::npos);
+    CHECK(trainer.session()->attempt() == 1);
+
+    trainer.draw(kSizes, 1, kNoBudget);
+    trainer.hand_in_exam();
+    trainer.hand_in_exam();  // and no second time
+    CHECK(trainer.problems().size() == 1);
+  }
+  ResultsDatabase database = ResultsDatabase::open(options.results);
+  REQUIRE(database.attempts().size() == 1);
+  CHECK(database.attempts()[0].learner == "L-07");
+  CHECK(database.attempts()[0].complete);
+  const auto seed_of = [&](std::int64_t number) {
+    return result_from_json(database.read(number).score_json, "an attempt").provenance.seed;
+  };
+  CHECK(seed_of(1) != 0);  // drawn out of 2^32
+  {
+    Trainer again(options);
+    start(again);
+    CHECK_FALSE(again.session());
+    CHECK_FALSE(again.loading());
+    REQUIRE(again.problems().size() == 1);
+    CHECK(again.problems().front().find("as attempt 1") != std::string::npos);
+  }
+  options.learner = "L-08";
+  options.seed = 5;
+  {
+    Trainer other(options);
+    start(other);
+    REQUIRE(other.session());
+    for (int i = 0; i < 5; ++i) other.update(i / 30.0);
+    other.hand_in_exam();
+  }
+  REQUIRE(database.attempts().size() == 2);
+  CHECK(seed_of(2) == 5);
+
+  INFO("a recorded scan is nobody's exam");
+  options.learner = "L-09";
+  options.tracker = folder.options().tracker;
+  Trainer replayed(options);
+  start(replayed);
+  CHECK_FALSE(replayed.session());
+  CHECK(replayed.problems().size() == 1);
+}
+
+TEST_CASE("a replay has no session, keeps nothing, and gives way to what is opened next") {
+  const gl::HeadlessContext context;
+  const Folder folder;
+  Options options = folder.options();
+  options.tracker.clear();
+  options.replay.log = folder.path / "scan.igs.mha";
+  Trainer trainer(options);
+  trainer.open_from_options();
+  trainer.finish_loading();
+  REQUIRE(trainer.replay());
+  CHECK_FALSE(trainer.session());
+  trainer.update(0);
+  trainer.draw(kSizes, 1, kNoBudget);
+  REQUIRE(trainer.pictures().ultrasound());
+  const Image<Rgba8> first = read_back(*trainer.pictures().ultrasound());
+  trainer.replay()->toggle();
+  for (int i = 0; i < 300; ++i) trainer.update(i / 30.0);
+  CHECK(trainer.replay()->time_s() == trainer.replay()->run().duration_s());
+  REQUIRE(trainer.replay()->run().result);
+  trainer.draw(kSizes, 1, kNoBudget);
+  CHECK(read_back(*trainer.pictures().ultrasound()).pixels != first.pixels);
+  trainer.replay()->seek(0);
+  trainer.draw(kSizes, 1, kNoBudget);
+  CHECK(read_back(*trainer.pictures().ultrasound()).pixels == first.pixels);
+  trainer.write_results_if_due();
+  CHECK_FALSE(fs::exists(folder.path / "out"));
+  CHECK_FALSE(fs::exists(folder.path / "data"));
+
+  open_and_wait(trainer, folder.path / "scan.igs.mha");
+  CHECK_FALSE(trainer.replay());
+  CHECK(trainer.session());
+}

@@ -1,0 +1,52 @@
+#include "app/guide.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scenarios/guidance.h"
+
+namespace insonate {
+namespace {
+
+/// The names of the patient's views, those of the exam's steps first.
+std::vector<std::string> views_of(const Study& study) {
+  std::vector<std::string> names;
+  const auto add = [&](const std::string& name) {
+    if (study.subject.find_view(name) && std::find(names.begin(), names.end(), name) == names.end())
+      names.push_back(name);
+  };
+  if (study.scenario)
+    for (const Step& step : study.scenario->steps) add(step.view);
+  for (const ReferenceView& view : study.subject.views) add(view.name);
+  return names;
+}
+
+}  // namespace
+
+void Guide::next(const Session& session) {
+  if (session.activity() == Activity::exam) return;
+  const std::vector<std::string> names = views_of(session.study());
+  auto at = std::find(names.begin(), names.end(), view_);
+  at = at == names.end() ? names.begin() : at + 1;
+  view_ = at == names.end() ? std::string() : *at;
+}
+
+std::optional<Guiding> Guide::now(const Session& session) const {
+  if (session.activity() == Activity::exam || view_.empty()) return std::nullopt;
+  const ReferenceView* view = session.study().subject.find_view(view_);
+  const std::optional<Pose>& pose = session.newest_pose();
+  if (!view || !pose) return std::nullopt;
+  Guiding guiding;
+  guiding.view = view;
+  guiding.advice = in_words(move_to(*pose, view->patient_from_probe), *pose);
+  const glm::dvec3 middle(0, view->depth_mm / 2, 0), normal = view->patient_from_probe.rotation[2];
+  guiding.plane_distance_mm = std::abs(glm::dot(pose->point(middle) - view->patient_from_probe.point(middle), normal));
+  const double cosine = glm::dot(pose->rotation[2], normal);
+  guiding.plane_angle_deg = glm::degrees(std::acos(std::clamp(cosine, -1.0, 1.0)));
+  guiding.there = guiding.advice.empty();
+  return guiding;
+}
+
+}  // namespace insonate

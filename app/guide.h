@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/session.h"
+
+namespace insonate {
+
+/// What a teacher beside the bed would say now.
+struct Guiding {
+  const ReferenceView* view = nullptr;  ///< that is looked for; of the session's case
+  std::vector<std::string> advice;      ///< what to do next, in its order; empty when the view is there, or no probe
+  double plane_distance_mm = 0;         ///< between the middles of the two pictures, along the reference's normal
+  double plane_angle_deg = 0;
+  bool there = false;
+};
+
+/// Help for practice, off until it is asked for: the way to one of the patient's reference views. There is none of it
+/// in an exam, whatever was asked for before.
+class Guide {
+public:
+  /// Turns to the next of the patient's views, those of the exam's steps first, and off behind the last one. Does
+  /// nothing in an exam.
+  void next(const Session& session);
+
+  /// Empty in an exam, while it is off, and before the first pose.
+  std::optional<Guiding> now(const Session& session) const;
+
+private:
+  std::string view_;  ///< empty: off
+};
+
+}  // namespace insonate

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "app/guide.h"
+#include "app/panels/theme.h"
+#include "app/panels/widgets.h"
+#include "sim/view/orbit_camera.h"
+
+namespace insonate::ui {
+
+/// Help for practice, over what it helps with: the reference view's plane as a ghost in the 3D view, and what to do
+/// next beside the ultrasound.
+void draw_ghost(const Theme& theme, const Rect& space, const Guiding& guiding, const view::OrbitCamera& camera);
+/// Returns where it is.
+Rect draw_advice(const Theme& theme, const Rect& ultrasound, const Guiding& guiding);
+
+}  // namespace insonate::ui

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "app/panels/views_panel.h"
+#include "app/trainer.h"
+
+namespace insonate::ui {
+
+/// Where a replay's parts go on the screen.
+struct ReplayPlaces {
+  Rect top, ultrasound, space, timeline;
+};
+
+/// The screen while a run is looked at again: the step and its outcome, the picture with the knobs as they were, the
+/// patient with the probe's path so far and the expert's, and the time line. The CT's pictures are those of a session.
+void draw_replay_page(const Theme& theme, const ReplayPlaces& places, Trainer& trainer, SpacePanel& space,
+                      std::map<std::string, Rect>& names);
+
+}  // namespace insonate::ui

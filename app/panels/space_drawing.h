@@ -1,0 +1,36 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include <span>
+
+#include "app/panels/widgets.h"
+#include "app/session.h"
+#include "sim/core/pose.h"
+#include "sim/view/orbit_camera.h"
+
+namespace insonate::ui {
+
+/// Draws lines and planes of the patient's space over the 3D view of a panel, whatever lies in front of them.
+class SpaceDrawing {
+public:
+  SpaceDrawing(const Rect& panel, const view::OrbitCamera& camera);
+  ~SpaceDrawing();
+  SpaceDrawing(const SpaceDrawing&) = delete;
+  SpaceDrawing& operator=(const SpaceDrawing&) = delete;
+
+  /// Through points of the patient, mm; interrupted where one lies behind the camera.
+  void path(std::span<const glm::dvec3> points, ImU32 colour, float thickness) const;
+  /// The sector that a probe shows from a pose, as a sheet of glass with an edge.
+  void fan(const Pose& patient_from_probe, const Probe& probe, double depth_mm, ImU32 edge, ImU32 glass) const;
+
+private:
+  bool in_front(const glm::dvec3& patient_mm) const;
+  ImVec2 at(const glm::dvec3& patient_mm) const;
+
+  Rect panel_;
+  view::OrbitCamera camera_;
+  Pose camera_from_patient_;
+};
+
+}  // namespace insonate::ui

@@ -1,0 +1,45 @@
+// What the trainer does besides practice: an exam that counts, and a run that is looked at again.
+
+#include <random>
+#include <utility>
+
+#include "app/trainer.h"
+#include "sim/core/input_error.h"
+
+namespace insonate {
+
+/// Of an exam that counts nobody knows the variant beforehand; the result keeps what was drawn.
+std::uint32_t Trainer::seed() const {
+  if (options_.seed || !options_.exam) return options_.seed.value_or(0);
+  return std::random_device()();
+}
+
+void Trainer::refuse_second_exam(const Study& study) {
+  if (!results_)
+    throw InputError("command line", "--exam", "there is no database to keep the attempt in",
+                     "name one with --results");
+  for (const AttemptSummary& taken : results_->attempts())
+    if (taken.learner == options_.learner && taken.scenario_digest == study.scenario->digest)
+      throw InputError(options_.learner, "--exam",
+                       "this learner has taken the exam already, as attempt " + std::to_string(taken.number),
+                       "start another exam, or practise without --exam");
+}
+
+void Trainer::hand_in_exam() {
+  if (!options_.exam || !session_ || session_->result()) return;
+  session_->hand_in();
+  results_due_ = results_due_ || session_->result().has_value();
+  write_results_if_due();
+}
+
+void Trainer::begin_replay(std::shared_ptr<const Study> study, const Request& request) {
+  recorder_.stop();
+  show(std::move(study), request);
+  setup_.reset();
+  session_.reset();
+  result_files_.reset();
+  results_due_ = false;
+  replay_ = std::move(*std::exchange(loaded_replay_, nullptr));
+}
+
+}  // namespace insonate

@@ -1,0 +1,191 @@
+#include "app/replay.h"
+
+#include <catch2/catch.hpp>
+
+#include "app/session.h"
+#include "devices/live/probe_buttons.h"
+#include "devices/replay/replay_tracker.h"
+#include "scenarios/result_json.h"
+#include "sim/core/hash.h"
+#include "tests/scenarios/tiny_case.h"
+
+using namespace insonate;
+
+namespace {
+
+std::shared_ptr<const Study> tiny_study(bool with_exam = true) {
+  auto study = std::make_shared<Study>();
+  study->subject = tiny_case();
+  study->tissues = tiny_tissues();
+  if (with_exam) study->scenario = parse_scenario(kTinyScenario, "exam.toml");
+  study->surroundings.start.translation = {0, 0, -40};
+  return study;
+}
+
+/// A scan that finds the ball after `search_s`, with losses of tracking, a mark, and knobs turned on the way.
+RecordedScan scan(double search_s, double first_s = 0) {
+  RecordedScan scan;
+  scan.samples = samples_of(search_s + 5, 60, [&](double t) {
+    const double off = 30 * std::max(0.0, 1 - t / search_s) + 1;
+    return turned(off, {1, 0.4, 0}, {4 * std::sin(0.7 * t), 0.5, off});
+  });
+  for (PoseSample& sample : scan.samples) {
+    if (std::fmod(sample.time_s + 1, 2.3) < 0.35) sample.status = PoseStatus::missing;
+    if (std::abs(sample.time_s - 1) < 0.2 && sample.status == PoseStatus::ok) sample.buttons = kMarkButton;
+    sample.time_s += first_s;
+  }
+  scan.recording.file = "scan.igs.mha";
+  const auto act = [&](std::size_t frame, const char* what) {
+    scan.recording.actions[scan.samples[frame].time_s] = what;
+  };
+  act(31, "depth 120; gain 4");
+  act(60, "freeze");
+  act(100, "unfreeze; frequency 5");
+  act(150, "probe :linear");
+  act(200, "probe :curvilinear; depth 140");
+  return scan;
+}
+
+/// All that the screen shows of a session at its time against what a replay says of that time.
+void check_same(const Session& session, const Replay& replay) {
+  const RunMoment& moment = replay.moment();
+  REQUIRE(moment.shown_pose.has_value() == session.shown_pose().has_value());
+  if (moment.shown_pose) CHECK(*moment.shown_pose == *session.shown_pose());
+  REQUIRE(moment.newest_pose.has_value() == session.newest_pose().has_value());
+  if (moment.newest_pose) CHECK(*moment.newest_pose == *session.newest_pose());
+  CHECK(replay.console() == session.console());
+  if (!session.runner() || session.runner()->live().finished) return;
+  const LiveExam& live = session.runner()->live();
+  CHECK(moment.step == live.step);
+  CHECK(moment.on_skin == live.on_skin);
+  CHECK(moment.within_tolerance == live.within_tolerance);
+  REQUIRE(moment.view.has_value() == live.view.has_value());
+  if (!live.view) return;
+  for (const ViewValues::Field& field : ViewValues::fields())
+    CHECK(moment.view.value().*field.value == *live.view.*field.value);
+}
+
+}  // namespace
+
+TEST_CASE("a replay at a time is what a session that played the log until then shows, however the time was come to") {
+  const auto study = tiny_study();
+  // An origin as of a tracker whose clock counts since 1970: the run's own times begin with 0 all the same.
+  for (const double first_s : {0.0, 1.7e9}) {
+    const RecordedScan log = scan(3, first_s);
+    const RecordedRun run = play_through(study, log);
+    Replay scrubbed(run), played(run);
+    Session session(study, [&] {
+      return std::make_unique<ReplayTracker>("a log", log.samples, ReplayTracker::Options{}, log.recording);
+    });
+    session.advance(0);
+    played.advance(0);
+    played.toggle();
+    // 23 frames a second: no frame falls together with samples.
+    for (int frame = 1; frame / 23.0 < run.duration_s(); ++frame) {
+      const double now_s = frame / 23.0;
+      CAPTURE(first_s, now_s);
+      session.advance(now_s);
+      played.advance(now_s);
+      check_same(session, played);
+      for (std::uint32_t jump = 0; jump < 5; ++jump)
+        scrubbed.seek(run.duration_s() * (double(unit_float(hash(std::uint32_t(frame), jump)))));
+      scrubbed.seek(played.time_s());
+      check_same(session, scrubbed);
+      CHECK(run.lost_for_s(scrubbed.time_s()).has_value() == session.lost_for_s().has_value());
+      CHECK(run.index_at(scrubbed.time_s()) == run.index_at(played.time_s()));
+    }
+  }
+}
+
+TEST_CASE("a replayed run has its score, its steps, and what was done besides moving") {
+  const auto study = tiny_study();
+  const RecordedScan log = scan(3);
+  const RecordedRun run = play_through(study, log);
+  Runner runner(*study->scenario, study->subject, study->tissues);
+  runner.feed(log.samples, parse_action_log(log.recording.actions, "a log"));
+  runner.end();
+  REQUIRE(run.result);
+  ExamResult result = *run.result;
+  result.provenance = runner.result().provenance;
+  CHECK(to_json(result) == to_json(runner.result()));
+
+  REQUIRE(run.moments.size() == log.samples.size());
+  REQUIRE(run.stretches.size() == 2);
+  CHECK(run.stretches[0].start_s == 0);
+  CHECK(run.stretches[0].end_s == run.stretches[1].start_s);
+  // The next step begins with the sample that ends the hold.
+  CHECK(run.stretches[1].start_s == Approx(run.result->steps[1].start_s));
+  CHECK(run.stretches[1].end_s == run.duration_s());
+
+  std::vector<std::string> words;
+  for (const RunEvent& event : run.events) words.push_back(event.words);
+  CHECK(words == std::vector<std::string>{"Depth 12.0 cm", "Gain +4 dB", "Mark 1", "Freeze", "Live",
+                                          "Frequency 5.0 MHz", "Probe Linear", "Probe Curvilinear", "Depth 14.0 cm"});
+  CHECK(run.console_at(log.samples[30].time_s).depth_mm != 120);
+  CHECK(run.console_at(log.samples[31].time_s).depth_mm == 120);
+}
+
+TEST_CASE("an expert's run lies beside another step by step") {
+  const auto study = tiny_study();
+  const RecordedRun slow = play_through(study, scan(4)), fast = play_through(study, scan(1));
+  REQUIRE(slow.stretches.size() == 2);
+  REQUIRE(fast.stretches.size() == 2);
+  Replay replay(slow, fast);
+  const double boundary = slow.stretches[1].start_s, expert_boundary = fast.stretches[1].start_s;
+  REQUIRE(boundary > expert_boundary + 1);
+  replay.seek(0.5);
+  CHECK(replay.expert_time_s() == 0.5);
+  INFO("who was done sooner waits at his step's end");
+  replay.seek(boundary - 0.1);
+  CHECK(replay.expert_time_s() == fast.stretches[0].end_s);
+  INFO("both begin the next step together");
+  replay.seek(boundary);
+  CHECK(replay.expert_time_s() == expert_boundary);
+  CHECK(replay.beside_s(expert_boundary).value() == Approx(boundary));
+  CHECK(replay.beside_s(0.5) == 0.5);
+  INFO("what the expert did when the learner had gone on is not to be seen");
+  Replay other(fast, slow);
+  CHECK_FALSE(other.beside_s(boundary - 0.1));
+  CHECK(other.expert_time_s(0.25) == 0.25);
+  CHECK_FALSE(Replay(slow).expert_time_s());
+}
+
+TEST_CASE("a replay plays, pauses, steps by samples, and keeps to its ends") {
+  Replay replay(play_through(tiny_study(false), scan(2, 500)));
+  CHECK_FALSE(replay.run().result);
+  CHECK(replay.run().stretches.size() == 1);
+  const double end_s = replay.run().duration_s();
+  replay.advance(100);
+  replay.advance(101);
+  CHECK(replay.time_s() == 0);
+  replay.toggle();
+  replay.advance(101.5);
+  CHECK(replay.time_s() == Approx(0.5));
+  replay.change_speed(+1);
+  CHECK(replay.speed() == 2);
+  replay.advance(102);
+  CHECK(replay.time_s() == Approx(1.5));
+  replay.change_speed(-9);
+  CHECK(replay.speed() == 0.25);
+  replay.advance(103);
+  CHECK(replay.time_s() == Approx(1.75));
+  replay.step(1);
+  CHECK_FALSE(replay.playing());
+  const double at_s = replay.time_s();
+  replay.step(1);
+  CHECK(replay.time_s() - at_s == Approx(1 / 60.0).margin(1e-6));
+  replay.step(-1);
+  CHECK(replay.time_s() == at_s);
+  replay.step(-100000);
+  CHECK(replay.time_s() == 0);
+  replay.seek(1e9);
+  CHECK(replay.time_s() == end_s);
+  replay.change_speed(+9);
+  CHECK(replay.speed() == 8);
+  replay.toggle();
+  CHECK(replay.time_s() == 0);
+  replay.advance(103.01);
+  replay.advance(200);
+  CHECK(replay.time_s() == end_s);
+  CHECK_FALSE(replay.playing());
+}

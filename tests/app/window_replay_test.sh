@@ -1,0 +1,99 @@
+#!/usr/bin/env bash
+# A run is looked at again in a real window: played, paused, dragged along its time line, stepped sample by sample.
+# Whatever way a time is come to, the screen shows the same.
+#   window_replay_test.sh PROGRAM ASSETS_FOLDER
+. "$(dirname "$0")/window_session.sh"
+logs="$INSONATE_ASSETS/logs"
+start_trainer --replay "$logs/ruq_poor.igs.mha" --beside "$logs/ruq_good.igs.mha"
+
+# The x of a share of the time line, in per cent.
+along() { echo $(($(value timeline_x) + $(value timeline_w) * $1 / 100)); }
+drag_to() {
+  pointer_to "$(along 3)" "$(middle_y timeline)"
+  sleep 0.3
+  xdotool mousedown 1
+  for share in 10 $((($1 + 10) / 2)) "$1"; do
+    pointer_to "$(along "$share")" "$(middle_y timeline)"
+    sleep 0.2
+  done
+  xdotool mouseup 1
+}
+# Whether the time is within half a per cent of that share of the run.
+at_share() {
+  awk -v t="$(value replay_s)" -v d="$(value replay_duration_s)" -v s="$1" 'BEGIN { exit !((t/d - s/100)^2 < 0.005^2) }'
+}
+later_than() { awk -v t="$(value replay_s)" -v a="$1" 'BEGIN { exit !(t > a) }'; }
+press_button() { click "$(middle_x "$1")" "$(middle_y "$1")"; }
+
+echo "the run stands at its beginning, and is nobody's exam"
+await "the run is shown" is replay_s 0.0
+await "poses are there" is_not face_x ""
+[ -z "$(value activity)" ] || fail "there is a session beside the replay"
+
+echo "a click plays it, another pauses it"
+press_button replay_play
+await "it plays" is replay_playing true
+await "the time runs" later_than 0.5
+press_button replay_play
+await "it pauses" is replay_playing false
+stands=$(value replay_s)
+sleep 1
+is replay_s "$stands" || fail "it goes on while it is paused: $stands, $(value replay_s)"
+
+echo "the time line is dragged, and the same time shows the same screen"
+drag_to 60
+await "the time follows the pointer" at_share 60
+await "the picture is drawn in full" at_rest
+sixty=$(value replay_s) face=$(value face_x)
+shot "$work/first.png" ultrasound 20
+shot "$work/first_timeline.png" timeline
+remember_probe
+drag_to 30
+await "the time follows the pointer back" at_share 30
+await "the probe goes with it" far_enough
+xdotool key End
+at_end() { is replay_s "$(value replay_duration_s)"; }
+await "End goes to the end" at_end
+drag_to 60
+await "the time is the one before" is replay_s "$sixty"
+is face_x "$face" || fail "the probe is elsewhere at the same time: $face, $(value face_x)"
+await "the picture is drawn in full" at_rest
+# The ultrasound itself may be computed for fewer pixels by now, on a machine that is slow.
+shot "$work/again_timeline.png" timeline
+pixels=$(different "$work/first_timeline.png" "$work/again_timeline.png")
+[ "$pixels" = 0 ] || fail "$pixels pixels of the time line differ at the same time"
+drag_to 61
+await "the time follows the pointer on" at_share 61
+await "the picture is drawn in full" at_rest
+shot "$work/other.png" ultrasound 20
+pixels=$(different "$work/first.png" "$work/other.png")
+[ "$pixels" -gt 500 ] || fail "the picture does not follow the time: $pixels pixels changed"
+
+echo "keys step by samples and change the speed"
+before=$(value replay_s)
+xdotool key Right
+await "the right arrow goes on by a sample" is_not replay_s "$before"
+awk -v a="$before" -v b="$(value replay_s)" 'BEGIN { exit !(b > a && b - a < 0.1) }' || fail "it went on by more than a sample"
+xdotool key Home
+await "Home goes to the beginning" is replay_s 0.0
+xdotool key Up
+await "up is faster" is replay_speed 2.0
+press_button replay_speed_5
+await "a click chooses a speed" is replay_speed 8.0
+xdotool key space
+await "it plays to its end by itself" at_end
+await "and pauses there" is replay_playing false
+
+echo "nothing of it is scored or kept"
+[ ! -e "$work/out" ] || fail "there are results: $(ls "$work/out")"
+[ ! -e "$work/data" ] || fail "something was kept: $(find "$work/data")"
+
+echo "a scenario that is opened ends the replay and begins a session"
+xdotool key ctrl+o
+await "Ctrl O asks for a path" is overlay open
+xdotool type "$INSONATE_ASSETS/scenarios/ruq_hepatorenal.toml"
+xdotool key Return
+await "the session begins" is activity exam
+[ -z "$(value replay_s)" ] || fail "the replay is still there"
+kill -0 "$trainer" || fail "the trainer ended by itself"
+echo "passed"
