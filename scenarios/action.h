@@ -25,10 +25,10 @@ enum class ActionKind {
   label,      ///< names what lies there [x, y; the structure's name]
   take_back,  ///< as if it had not been placed [slot of a caliper or ellipse, or 0; then the label's name, or "" for
               ///< the point]
-  answer,  ///< answers the question [the choice, number or text]
-  hint,    ///< asks for the next hint
-  go_to,   ///< turns to another step [its name]
-  go_on    ///< says that the step is done
+  answer,     ///< answers the question [the choice, number or text]
+  hint,       ///< asks for the next hint
+  go_to,      ///< turns to another step [its name]
+  go_on       ///< says that the step is done
 };
 
 /// Positions are mm in the probe's imaging plane: x lateral towards the marker, y along the central beam.
