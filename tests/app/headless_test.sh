@@ -62,6 +62,7 @@ done
 written=$(frames)
 kill -9 "$killed"
 wait "$killed" 2>/dev/null || true
+killed=""  # a trap that fails would be the script's own exit status
 [ "$written" -ge 200 ] || fail "only $written frames were written ($(cat "$work/log"))"
 [ ! -e "$work/killed.igs.mha" ] || fail "half a recording looks whole"
 "$devices" recover "$work/killed.igs.mha" >"$work/log" || fail "$(cat "$work/log")"
