@@ -2,25 +2,14 @@
 
 #include <catch2/catch.hpp>
 
-#include "app/session.h"
 #include "devices/live/probe_buttons.h"
-#include "devices/replay/replay_tracker.h"
 #include "scenarios/result_json.h"
 #include "sim/core/hash.h"
-#include "tests/scenarios/tiny_case.h"
+#include "tests/app/tiny_session.h"
 
 using namespace insonate;
 
 namespace {
-
-std::shared_ptr<const Study> tiny_study(bool with_exam = true) {
-  auto study = std::make_shared<Study>();
-  study->subject = tiny_case();
-  study->tissues = tiny_tissues();
-  if (with_exam) study->scenario = parse_scenario(kTinyScenario, "exam.toml");
-  study->surroundings.start.translation = {0, 0, -40};
-  return study;
-}
 
 /// A scan that finds the ball after `search_s`, with losses of tracking, a mark, and knobs turned on the way.
 RecordedScan scan(double search_s, double first_s = 0) {

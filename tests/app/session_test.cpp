@@ -10,61 +10,24 @@
 #include "devices/mouse/mouse_tracker.h"
 #include "devices/record/sequence_recorder.h"
 #include "devices/registry.h"
-#include "devices/replay/replay_tracker.h"
 #include "devices/sequence/probe_samples.h"
 #include "scenarios/result_json.h"
 #include "sim/core/digest.h"
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
-#include "tests/scenarios/tiny_case.h"
+#include "tests/app/tiny_session.h"
 
 using namespace insonate;
-
-namespace {
-
-std::shared_ptr<const Study> tiny_study(bool with_exam = true) {
-  auto study = std::make_shared<Study>();
-  study->subject = tiny_case();
-  study->tissues = tiny_tissues();
-  if (with_exam) study->scenario = parse_scenario(kTinyScenario, "exam.toml");
-  study->surroundings.start.translation = {0, 0, -40};
-  return study;
-}
-
-/// A scan that finds the ball after some searching, with losses of tracking on the way.
-std::vector<PoseSample> scan() {
-  auto samples = samples_of(9, 60, [](double t) {
-    const double off = 25 * std::exp(-t / 2) * std::sin(2 * t) + 3;
-    return turned(10 * std::sin(t) * std::exp(-t / 3), {1, 0.4, 0}, {4 * std::sin(0.7 * t), 0.5, off});
-  });
-  for (PoseSample& sample : samples)
-    if (std::fmod(sample.time_s + 1, 3.1) < 0.2) sample.status = PoseStatus::missing;
-  return samples;
-}
-
-Session::OpenTracker replay(std::vector<PoseSample> samples) {
-  return [samples = std::move(samples)] {
-    return std::make_unique<ReplayTracker>("a log", samples, ReplayTracker::Options{});
-  };
-}
-
-/// Advances in steps of that many a second; returns the time reached.
-double run_until(Session& session, double from_s, double to_s, double steps_per_s = 60) {
-  for (long i = 1; from_s + i / steps_per_s <= to_s + 1e-9; ++i) session.advance(from_s + i / steps_per_s);
-  return to_s;
-}
-
-}  // namespace
 
 TEST_CASE("a log gets the same score to the bit in the trainer as from the runner, at any frame rate") {
   const auto study = tiny_study();
   Runner runner(*study->scenario, study->subject, study->tissues);
-  runner.feed(scan());
+  runner.feed(searching_scan());
   runner.end();
   const std::string expected = to_json(runner.result());
   for (const double frames_per_s : {2.0, 23.0, 60.0, 144.0}) {
     CAPTURE(frames_per_s);
-    Session session(study, replay(scan()));
+    Session session(study, replay_of(searching_scan()));
     session.advance(0);
     run_until(session, 0, 10, frames_per_s);
     REQUIRE(session.result());
@@ -74,7 +37,8 @@ TEST_CASE("a log gets the same score to the bit in the trainer as from the runne
 
 TEST_CASE("a log that begins again at its end is refused for an exam, and practised with") {
   const auto looping = [] {
-    return std::make_unique<ReplayTracker>("replay of scan.igs.mha", scan(), ReplayTracker::Options{1.0, true});
+    return std::make_unique<ReplayTracker>("replay of scan.igs.mha", searching_scan(),
+                                           ReplayTracker::Options{1.0, true});
   };
   CHECK_THROWS_WITH(Session(tiny_study(), looping),
                     Catch::Contains("scan.igs.mha") && Catch::Contains("leave loop=1 out"));
@@ -83,14 +47,14 @@ TEST_CASE("a log that begins again at its end is refused for an exam, and practi
   Session session(tiny_study(false), looping);
   session.advance(0);
   run_until(session, 0, 20);  // more than twice through
-  CHECK(session.tracker_state().delivered > 2 * scan().size());
+  CHECK(session.tracker_state().delivered > 2 * searching_scan().size());
   CHECK_FALSE(session.result());
 }
 
 TEST_CASE("each attempt names the log that it was scored from, also when the file has changed in between") {
   const auto file =
       std::filesystem::temp_directory_path() / ("insonate_session_" + std::to_string(getpid()) + ".igs.mha");
-  const std::string first = write_sequence(scan());
+  const std::string first = write_sequence(searching_scan());
   const std::string second = write_sequence(samples_of(3, 60, [](double) { return turned(0, {1, 0, 0}, {0, 0, 30}); }));
   write_file(file, first);
   const auto study = tiny_study();
@@ -136,7 +100,7 @@ TEST_CASE(
     const bool lost = i >= 60 && i < 180;
     samples.push_back(sample_at(i / 60.0, lost ? garbage : good, lost ? PoseStatus::out_of_view : PoseStatus::ok));
   }
-  Session session(tiny_study(), replay(samples));
+  Session session(tiny_study(), replay_of(samples));
   session.advance(0);
   for (int i = 1; i < 239; ++i) {
     session.advance(i / 60.0);
@@ -148,30 +112,6 @@ TEST_CASE(
     CHECK(session.lost_for_s().has_value() == stands);
   }
 }
-
-namespace {
-
-/// A live tracker without its thread: hands over what the test puts into `coming`, and `coming` outlives it.
-class HandFed : public Tracker {
-public:
-  explicit HandFed(std::vector<PoseSample>& coming, bool relative = false)
-      : Tracker("a device"), coming_(coming), relative_(relative) {}
-  bool live() const override { return true; }
-  bool relative() const override { return relative_; }
-  double clock_s(double now_s) const override { return now_s; }
-
-protected:
-  void collect(double, std::vector<PoseSample>& samples) override {
-    samples.insert(samples.end(), coming_.begin(), coming_.end());
-    coming_.clear();
-  }
-
-private:
-  std::vector<PoseSample>& coming_;
-  bool relative_;
-};
-
-}  // namespace
 
 TEST_CASE("a live tracker is opened once, and what it says while the learner has the probe is past") {
   std::vector<PoseSample> coming;
@@ -261,7 +201,7 @@ TEST_CASE("of a live tracker the pose at the time of the picture is shown, and h
   CHECK(after(0.3, 0.03).first == PoseAnswer::stale);
 
   INFO("what is replayed shows its newest sample");
-  Session replayed(tiny_study(), replay(steady));
+  Session replayed(tiny_study(), replay_of(steady));
   replayed.advance(0);
   replayed.advance(0.51);
   CHECK_FALSE(replayed.answer());
@@ -270,7 +210,7 @@ TEST_CASE("of a live tracker the pose at the time of the picture is shown, and h
 
 TEST_CASE("an exam of a live tracker is scored from its samples, not from the poses that are shown") {
   const auto study = tiny_study();
-  std::vector<PoseSample> log = scan();
+  std::vector<PoseSample> log = searching_scan();
   // The device goes silent, and the exam's time runs out.
   for (double time_s = 9.1; time_s < 60; time_s += 0.1) log.push_back({time_s, PoseStatus::missing, Pose{}, 0});
   Runner runner(*study->scenario, study->subject, study->tissues);
@@ -292,7 +232,7 @@ TEST_CASE("an exam of a live tracker is scored from its samples, not from the po
 }
 
 TEST_CASE("who takes the probe out of an exam practises, and giving it back starts exam and log over") {
-  Session session(tiny_study(), replay(scan()));
+  Session session(tiny_study(), replay_of(searching_scan()));
   session.advance(0);
   double now_s = run_until(session, 0, 2);
   const Pose before = *session.shown_pose();
@@ -313,14 +253,14 @@ TEST_CASE("who takes the probe out of an exam practises, and giving it back star
   CHECK(session.holder() == Holder::tracker);
   run_until(session, now_s, now_s + 10);
   Runner runner(*session.study().scenario, session.study().subject, session.study().tissues);
-  runner.feed(scan());
+  runner.feed(searching_scan());
   runner.end();
   REQUIRE(session.result());
   CHECK(to_json(*session.result()) == to_json(runner.result()));
 }
 
 TEST_CASE("an exam of the learner's own starts on the belly and scores the learner's samples alone") {
-  Session session(tiny_study(), replay(scan()));
+  Session session(tiny_study(), replay_of(searching_scan()));
   session.advance(0);
   double now_s = run_until(session, 0, 4);
   session.take_probe();
@@ -335,7 +275,7 @@ TEST_CASE("an exam of the learner's own starts on the belly and scores the learn
 }
 
 TEST_CASE("moving the probe takes it, and moves it as far as was asked") {
-  Session session(tiny_study(), replay(scan()));
+  Session session(tiny_study(), replay_of(searching_scan()));
   session.advance(0);
   double now_s = run_until(session, 0, 0.5);
   const Pose before = *session.shown_pose();
@@ -349,7 +289,7 @@ TEST_CASE("a log that is gone leaves the probe with the learner") {
   bool gone = false;
   Session session(tiny_study(), [&]() -> std::unique_ptr<Tracker> {
     if (gone) throw InputError("scan.igs.mha", "", "it is gone", "bring it back");
-    return replay(scan())();
+    return replay_of(searching_scan())();
   });
   session.advance(0);
   session.take_probe();
@@ -361,7 +301,7 @@ TEST_CASE("a log that is gone leaves the probe with the learner") {
 }
 
 TEST_CASE("a frozen picture stays while the exam goes on") {
-  Session session(tiny_study(), replay(scan()));
+  Session session(tiny_study(), replay_of(searching_scan()));
   session.advance(0);
   double now_s = run_until(session, 0, 1);
   const Pose frozen = *session.shown_pose();
@@ -374,112 +314,9 @@ TEST_CASE("a frozen picture stays while the exam goes on") {
   CHECK_FALSE(*session.shown_pose() == frozen);
 }
 
-TEST_CASE("the probe's freeze button freezes the picture and thaws it, once each time that it is pressed") {
-  auto samples = scan();
-  for (PoseSample& sample : samples) {
-    const bool freezes = std::abs(sample.time_s - 1.25) < 0.25, thaws = std::abs(sample.time_s - 3.15) < 0.15;
-    sample.status = PoseStatus::ok;
-    sample.buttons = freezes || thaws ? kFreezeButton | kMarkButton : kMarkButton;
-    // While the button is held the tracker is lost for a moment.
-    if (std::abs(sample.time_s - 1.25) < 0.05) {
-      sample.status = PoseStatus::missing;
-      sample.buttons = 0;
-    }
-  }
-  Session session(tiny_study(), replay(samples));
-  session.advance(0);
-  double now_s = run_until(session, 0, 0.9);
-  CHECK_FALSE(session.console().frozen);
-  now_s = run_until(session, now_s, 2);
-  CHECK(session.console().frozen);
-  const Pose frozen = *session.shown_pose();
-  now_s = run_until(session, now_s, 2.9);
-  CHECK(*session.shown_pose() == frozen);
-  run_until(session, now_s, 4);
-  CHECK_FALSE(session.console().frozen);
-  CHECK_FALSE(*session.shown_pose() == frozen);
-}
-
-TEST_CASE("the probe's mark and go-on buttons act once each time they are pressed, also across a dropout") {
-  auto samples = scan();
-  for (PoseSample& sample : samples) {
-    sample.status = PoseStatus::ok;
-    const bool first = std::abs(sample.time_s - 1.25) < 0.25, second = std::abs(sample.time_s - 3) < 0.1;
-    sample.buttons = first || second ? std::uint32_t(kMarkButton) : 0;
-    if (std::abs(sample.time_s - 2) < 0.2) sample.buttons = kGoOnButton;
-    if (std::abs(sample.time_s - 1.25) < 0.1) sample = {sample.time_s, PoseStatus::missing, Pose{}, 0};
-  }
-  Session session(tiny_study(), replay(samples));
-  session.advance(100);
-  double now_s = run_until(session, 100, 101.9);
-  CHECK(session.marks_s().size() == 1);
-  now_s = run_until(session, now_s, 104);
-  REQUIRE(session.marks_s().size() == 2);
-  // The first sample behind that time, and a frame until it is polled.
-  CHECK(session.marks_s()[0] == Approx(1).margin(0.04));
-  CHECK(session.marks_s()[1] == Approx(2.9).margin(0.04));
-  CHECK(session.take_go_on());
-  CHECK_FALSE(session.take_go_on());
-  CHECK_FALSE(session.console().frozen);
-
-  INFO("a mark of the keyboard is in one sample, for the record");
-  session.press(kMarkButton);
-  std::size_t marked = 0;
-  for (int i = 1; i <= 30; ++i) {
-    session.advance(now_s + i / 60.0);
-    for (const PoseSample& sample : session.latest_samples()) marked += sample.buttons == kMarkButton;
-  }
-  CHECK(session.marks_s().size() == 3);
-  CHECK(marked == 1);
-  session.start_over();
-  CHECK(session.marks_s().empty());
-}
-
-TEST_CASE("a button that is held when a session begins was pressed for somebody else") {
-  auto samples = scan();
-  for (PoseSample& sample : samples)
-    sample.buttons = sample.time_s < 1 || sample.time_s > 2 ? kFreezeButton | kMarkButton : 0;
-  Session session(tiny_study(), replay(samples));
-  session.advance(0);
-  const double now_s = run_until(session, 0, 1.5);
-  CHECK_FALSE(session.console().frozen);
-  CHECK(session.marks_s().empty());
-  run_until(session, now_s, 3);
-  CHECK(session.console().frozen);
-  CHECK(session.marks_s().size() == 1);
-}
-
-TEST_CASE("a button that is held on the tracker while the probe changes hands was pressed once") {
-  std::vector<PoseSample> coming;
-  Session session(tiny_study(), [&] { return std::make_unique<HandFed>(coming); });
-  double now_s = 100;
-  const auto hold = [&](std::uint32_t buttons) {
-    coming = {sample_at(now_s, turned(0, {1, 0, 0}, {0, 1, 3}))};
-    coming[0].buttons = buttons;
-    session.advance(now_s += 0.1);
-  };
-  session.advance(now_s);
-  hold(0);
-  hold(kMarkButton | kFreezeButton);
-  CHECK(session.console().frozen);
-  CHECK(session.marks_s().size() == 1);
-  session.take_probe();
-  hold(kMarkButton | kFreezeButton);
-  session.press(kMarkButton);  // the keyboard's own
-  hold(kMarkButton | kFreezeButton);
-  CHECK(session.marks_s().size() == 1);
-  session.give_back_probe();
-  hold(kMarkButton | kFreezeButton);
-  CHECK_FALSE(session.console().frozen);
-  CHECK(session.marks_s().empty());
-  hold(0);
-  hold(kMarkButton);
-  CHECK(session.marks_s().size() == 1);
-}
-
 TEST_CASE("what the learner does reaches the exam, and again when the exam is scored from a log that keeps it") {
   const auto study = tiny_study();
-  Session session(study, replay(scan()));
+  Session session(study, replay_of(searching_scan()));
   session.advance(0);
   double now_s = run_until(session, 0, 0.5);
   session.console().depth_mm = 120;
@@ -499,7 +336,7 @@ TEST_CASE("what the learner does reaches the exam, and again when the exam is sc
   const auto file = std::filesystem::temp_directory_path() / ("insonate_acts_" + std::to_string(getpid()) + ".igs.mha");
   {
     SequenceRecorder recorder(file);
-    for (const PoseSample& sample : scan()) {
+    for (const PoseSample& sample : searching_scan()) {
       const auto done = session.actions().find(sample.time_s);
       recorder.add(sample, done == session.actions().end() ? "" : to_text(done->second));
     }
@@ -549,7 +386,7 @@ TEST_CASE("knobs and acts between two samples keep their order, in practice too"
 }
 
 TEST_CASE("free practice has no exam, and an exam can be started from it") {
-  Session session(tiny_study(), replay(scan()));
+  Session session(tiny_study(), replay_of(searching_scan()));
   session.advance(0);
   session.practise();
   CHECK(session.runner() == nullptr);
@@ -560,7 +397,7 @@ TEST_CASE("free practice has no exam, and an exam can be started from it") {
   REQUIRE(session.runner());
   CHECK(session.holder() == Holder::tracker);
 
-  Session without(tiny_study(false), replay(scan()));
+  Session without(tiny_study(false), replay_of(searching_scan()));
   without.advance(0);
   run_until(without, 0, 10);
   CHECK(without.runner() == nullptr);
