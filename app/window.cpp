@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "app/cursors.h"
 #include "app/keyboard.h"
 #include "app/mouse.h"
 #include "app/panels/screen.h"
@@ -217,6 +218,7 @@ private:
   }
 
   void draw() {
+    cursors_.show(window_);
     ImGui_ImplGlfw_NewFrame();
     events_.mouse.apply();
     const ImVec2 size = ImGui::GetIO().DisplaySize;
@@ -231,6 +233,7 @@ private:
   Trainer trainer_;
   ui::Screen screen_;
   Events events_;
+  Cursors cursors_;
   QualityGovernor governor_;
   double start_s_ = 0, last_s_ = 0, changed_s_ = 0, state_written_s_ = -1, frame_s_ = kFrame_s;
   long frames_ = 0;

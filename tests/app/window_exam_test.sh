@@ -71,10 +71,6 @@ zero = 0
 EOF
 
 click_on() { click "$(middle_x "$1")" "$(middle_y "$1")"; }
-# Where a point of the imaging plane is on the screen, to the nearest pixel.
-plane_x() { awk -v o="$(value plane_origin_x)" -v t="$(value plane_at_10_10_mm_x)" -v mm="$1" 'BEGIN { printf "%.0f", o + (t - o) * mm / 10 }'; }
-plane_y() { awk -v o="$(value plane_origin_y)" -v t="$(value plane_at_10_10_mm_y)" -v mm="$1" 'BEGIN { printf "%.0f", o + (t - o) * mm / 10 }'; }
-click_plane() { click "$(plane_x "$1")" "$(plane_y "$2")"; }
 
 start_trainer --scenario "$work/exam.toml" --tracker mouse: --record "$work/run.igs.mha"
 await "the exam starts" is activity exam

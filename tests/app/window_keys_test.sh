@@ -91,5 +91,19 @@ for _ in 1 2 3; do
   await "Return acknowledges" is overlay ""
 done
 
+echo "a click counts where it was made, whatever shape the pointer takes meanwhile"
+xdotool key space
+await "the picture is frozen" is can_measure true
+measured() { awk -v p="$(value placed)" 'BEGIN { split(p, a, " "); exit !(a[2] > 39 && a[2] < 41) }'; }
+left=$(plane_x 20) right=$(plane_x -20) level=$(plane_y 60)
+for pause_s in $(seq 0 0.01 0.15); do
+  pointer_to "$(freeze_x)" "$(freeze_y)"
+  sleep 0.3
+  xdotool mousemove "$right" "$level" click 1 sleep "$pause_s" mousemove "$left" "$level" click 1
+  await "40 mm are measured" measured
+  xdotool key Delete
+  await "Delete takes it back" is placed ""
+done
+
 kill -0 "$trainer" || fail "the trainer ended by itself"
 echo "passed"

@@ -1,0 +1,27 @@
+// How the sanitizers look at every program of the project; linked into each that is built with AddressSanitizer, so
+// that one started by hand is looked at as the tests are.
+
+// intercept_tls_get_addr=0: up to GCC 13 LeakSanitizer takes a library's thread-local memory for a block of glibc 2.19
+// where it happens to begin 16 bytes into a page, and dies of the address it reads in front of it
+// (github.com/google/sanitizers/issues/1322).
+extern "C" const char* __asan_default_options() {
+  return "detect_odr_violation=1:intercept_tls_get_addr=0";
+}
+
+extern "C" const char* __lsan_default_options() {
+  return "print_suppressions=0";
+}
+
+// What Mesa's software renderer and the loader beneath it keep until the process ends.
+extern "C" const char* __lsan_default_suppressions() {
+  return "leak:swrast_dri.so\n"
+         "leak:libgallium\n"
+         "leak:libEGL_mesa.so\n"
+         "leak:libGLX_mesa.so\n"
+         "leak:libLLVM\n";
+}
+
+// A driver that is unloaded before the leak check has no name by which its leaks could be told from ours.
+extern "C" int dlclose(void*) {
+  return 0;
+}
