@@ -12,13 +12,17 @@ extern "C" const char* __lsan_default_options() {
   return "print_suppressions=0";
 }
 
-// What Mesa's software renderer and the loader beneath it keep until the process ends.
+// What Mesa's software renderer and the loader beneath it keep until the process ends, and GLib beneath umockdev.
 extern "C" const char* __lsan_default_suppressions() {
   return "leak:swrast_dri.so\n"
          "leak:libgallium\n"
          "leak:libEGL_mesa.so\n"
          "leak:libGLX_mesa.so\n"
-         "leak:libLLVM\n";
+         "leak:libLLVM\n"
+         "leak:libglib\n"
+         "leak:libgobject\n"
+         "leak:libgio\n"
+         "leak:libumockdev\n";
 }
 
 // A driver that is unloaded before the leak check has no name by which its leaks could be told from ours.

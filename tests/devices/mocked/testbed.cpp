@@ -11,12 +11,6 @@
 #include <stdexcept>
 #include <thread>
 
-// GLib keeps what it has made once; that is no leak of this project's.
-extern "C" const char* __lsan_default_suppressions();
-extern "C" const char* __lsan_default_suppressions() {
-  return "leak:libglib\nleak:libgobject\nleak:libgio\nleak:libumockdev\n";
-}
-
 namespace insonate {
 namespace {
 
