@@ -43,7 +43,7 @@ void Pictures::show(const Study& study) {
 }
 
 void Pictures::update(const std::optional<Pose>& pose, const Console& console, const PictureSizes& sizes,
-                      double quality, double budget_ms) {
+                      double quality, double budget_ms, bool anatomy) {
   if (!patient_ || !pose) return;
   if (console.probe.name != probe_name_ || console.depth_mm != depth_mm_) {
     simulator_.set_probe(console.probe, console.depth_mm);
@@ -65,13 +65,17 @@ void Pictures::update(const std::optional<Pose>& pose, const Console& console, c
   plane.probe = console.probe;
   plane.patient_from_probe = *pose;
   view::SliceStyle style;
-  slice_ = &slice_view_.render(*patient_, plane, style);
+  slice_ = anatomy ? &slice_view_.render(*patient_, plane, style) : nullptr;
   style.ultrasound = blend_share;
-  blend_ = &blend_view_.render(*patient_, plane, style);
+  blend_ = anatomy ? &blend_view_.render(*patient_, plane, style) : nullptr;
   if (!camera_placed_) camera = view::OrbitCamera::facing(grid_, *pose);
   camera_placed_ = true;
   view::VolumeStyle body;
-  body.cut = std::abs(glm::dot(camera.patient_from_camera().rotation[2], pose->rotation[2])) > kEdgeOn;
+  if (!anatomy) {
+    body.organs = false;
+    body.skin = 1;
+  }
+  body.cut = anatomy && std::abs(glm::dot(camera.patient_from_camera().rotation[2], pose->rotation[2])) > kEdgeOn;
   volume_ = &volume_view_.render(std::max(sizes.volume_width, 1), std::max(sizes.volume_height, 1), *patient_, camera,
                                  plane, body, budget_ms);
 }

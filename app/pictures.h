@@ -32,11 +32,13 @@ public:
   /// @param quality    0 to 1: the share of the screen's pixels that the ultrasound is computed for, along each side
   /// @param budget_ms  for the volume view, which gets coarser while things move to stay within it
   void update(const Session& session, const PictureSizes& sizes, double quality, double budget_ms) {
-    update(session.shown_pose(), session.console(), sizes, quality, budget_ms);
+    update(session.shown_pose(), session.console(), sizes, quality, budget_ms, session.shows_anatomy());
   }
   /// The same of a pose, or of none, and a machine that are at hand.
+  /// @param anatomy  whether the patient is shown from within: without it there is no slice() and no blend(), and
+  ///                 volume() shows the skin alone
   void update(const std::optional<Pose>& pose, const Console& console, const PictureSizes& sizes, double quality,
-              double budget_ms);
+              double budget_ms, bool anatomy = true);
 
   /// The ultrasound of a reference view as the machine shows it before anything on it was changed, in the size of the
   /// last picture; row 0 is the top, the marker's side on the right. To be called between two frames: what ultrasound()

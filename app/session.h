@@ -78,6 +78,9 @@ public:
   Activity activity() const { return activity_; }
   /// Whether the exam is taken under strict rules.
   bool strict() const { return rules_ == ExamRules::strict; }
+  /// Whether the CT and the patient's inside may be seen: not in an exam under strict rules, which asks what the
+  /// learner sees in the ultrasound, until it is finished.
+  bool shows_anatomy() const { return !strict() || !runner_ || result_; }
   /// Starts the exam from its beginning with whoever holds the probe, or without a scenario just the scan.
   void start_over();
   /// Ends the exam without a score: whoever holds the probe goes on with it.

@@ -112,15 +112,15 @@ void draw_time(const Theme& theme, const Rect& where, const LiveExam& live, bool
     return draw_text(lines[1], theme.small_text, colour::kMuted, "in all");
   }
   const auto draw = [&](Rect line, ImFont* font, const char* name, double left_s, bool runs) {
-    draw_text(line.take_left(theme.px(44)), theme.small_text, colour::kMuted, name);
+    draw_text(line.take_left(theme.px(64)), theme.small_text, colour::kMuted, name);
     draw_text(line, font,
               runs && left_s < kHurry_s ? colour::kAmber
               : runs                    ? colour::kText
                                         : colour::kFaint,
               clock_text(left_s));
   };
-  draw(lines[0], theme.strong, "Step", live.step_remaining_s, true);
-  draw(lines[1], theme.text, "Exam", live.exam_remaining_s, counts);
+  draw(lines[0], theme.strong, "Step left", live.step_remaining_s, true);
+  draw(lines[1], theme.text, "Exam left", live.exam_remaining_s, counts);
 }
 
 /// What is special about a step.
@@ -176,7 +176,7 @@ void draw_exam_panel(const Theme& theme, const Rect& panel, const Session& sessi
   const LiveExam& live = runner->live();
   const Scenario& scenario = runner->scenario();
   const Step& step = scenario.steps[live.step];
-  draw_time(theme, rest.take_right(theme.px(92)), live, step.counts);
+  draw_time(theme, rest.take_right(theme.px(112)), live, step.counts);
   rest.take_right(theme.px(12));
   // Whether the view is found is what an exam asks.
   if (!session.strict() || live.finished) {

@@ -66,13 +66,16 @@ void Screen::lay_out(const Trainer& trainer, float width, float height) {
       rest.take_right(std::min(std::round(rest.w * 0.35f), std::round(rest.h * (trainer.replay() ? 1.0f : 0.82f))));
   rest.take_right(gap);
   ultrasound_ = rest;
-  volume_ = side.take_top(std::round(side.h * 0.58f));
+  places_ = {{"ultrasound", ultrasound_}, {"console", console_}, {"exam", top_}};
+  if (trainer.session() && !trainer.session()->shows_anatomy()) {
+    places_["space"] = volume_ = side;
+    return;
+  }
+  places_["space"] = volume_ = side.take_top(std::round(side.h * 0.58f));
   side.take_top(gap);
-  slice_ = side.take_left(std::round((side.w - gap) / 2));
+  places_["slice"] = slice_ = side.take_left(std::round((side.w - gap) / 2));
   side.take_left(gap);
-  blend_ = side;
-  places_ = {{"ultrasound", ultrasound_}, {"space", volume_},    {"slice", slice_},
-             {"blend", blend_},           {"console", console_}, {"exam", top_}};
+  places_["blend"] = blend_ = side;
 }
 
 PictureSizes Screen::picture_sizes(const Trainer& trainer, float width, float height) {
@@ -118,8 +121,10 @@ void Screen::draw_panels(Trainer& trainer) {
       draw_ghost(theme_, volume_, *guiding, pictures.camera);
       places_["guide"] = draw_advice(theme_, ultrasound_, *guiding);
     }
-    draw_slice_panel(theme_, slice_, pictures);
-    draw_blend_panel(theme_, blend_, pictures);
+    if (session->shows_anatomy()) {
+      draw_slice_panel(theme_, slice_, pictures);
+      draw_blend_panel(theme_, blend_, pictures);
+    }
     const auto attempt = [&](const std::function<void()>& action) { trainer.attempt(action); };
     switch (draw_console_panel(theme_, console_, *session, attempt)) {
       case ConsoleRequest::help:

@@ -410,6 +410,7 @@ TEST_CASE("under strict rules an exam is taken once and as it is") {
   Session session(
       study, [&] { return std::make_unique<HandFed>(coming); }, 0, ExamRules::strict);
   CHECK(session.strict());
+  CHECK_FALSE(session.shows_anatomy());
   session.advance(10);
   const int attempt = session.attempt();
   const auto still_the_exam = [&] {
@@ -443,6 +444,7 @@ TEST_CASE("under strict rules an exam is taken once and as it is") {
   INFO("what is left before its end is scored as far as it went, and that is the end of it");
   session.hand_in();
   REQUIRE(session.result());
+  CHECK(session.shows_anatomy());
   CHECK(session.result()->complete);
   CHECK_FALSE(session.result()->passed);
   CHECK(session.result()->steps[0].outcome == StepOutcome::scan_ended);

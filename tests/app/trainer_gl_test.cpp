@@ -498,8 +498,16 @@ TEST_CASE("an exam that counts is kept once for a learner, with the seed that dr
     CHECK(trainer.problems().front().find("taken as it is") != std::string::npos);
     CHECK(trainer.session()->attempt() == 1);
 
-    trainer.draw(kSizes, 1, kNoBudget);
+    INFO("the CT and the patient's inside are not to be seen before it is over");
+    const auto drawn = [&] {
+      trainer.draw(kSizes, 1, kNoBudget);
+      return trainer.pictures().slice() && trainer.pictures().blend();
+    };
+    CHECK_FALSE(drawn());
+    const Image<Rgba8> closed = read_back(*trainer.pictures().volume());
     trainer.hand_in_exam();
+    CHECK(drawn());
+    CHECK(read_back(*trainer.pictures().volume()).pixels != closed.pixels);
     trainer.hand_in_exam();  // and no second time
     CHECK(trainer.problems().size() == 1);
   }
