@@ -113,6 +113,8 @@ bool Keyboard::type(const KeyEvent& event, Trainer& trainer, ui::Screen& screen)
     case KeyEvent::Kind::repeated:
       break;  // ImGui repeats by itself
     case KeyEvent::Kind::pressed:
+      // Closed now, the field would never see what was typed before in this frame.
+      if ((event.key == GLFW_KEY_ESCAPE || is_enter(event)) && !io.InputQueueCharacters.empty()) return false;
       if (event.key == GLFW_KEY_ESCAPE) {
         screen.dismiss(trainer);
       } else if (is_enter(event)) {
@@ -138,6 +140,7 @@ void Keyboard::set_up(const KeyEvent& pressed, Trainer& trainer) {
 /// What the step lets choose from, by its number from 0 on.
 void Keyboard::choose(int index, Trainer& trainer) {
   const auto which = std::size_t(index);
+  if (Author* author = trainer.author()) return author->toggle(which);
   PictureTools& tools = trainer.picture_tools();
   if (const Question* question = trainer.step_controls().question()) {
     if (which < question->choices.size()) trainer.step_controls().draft(question->choices[which]);
@@ -207,7 +210,7 @@ void Keyboard::press(const KeyEvent& pressed, Trainer& trainer, ui::Screen& scre
   switch (pressed.key) {
     case GLFW_KEY_ENTER:
     case GLFW_KEY_KP_ENTER:
-      if (!repeated && StepControls::active(session)) screen.go_on(trainer);
+      if (!repeated && (trainer.author() || StepControls::active(session))) screen.go_on(trainer);
       break;
     case GLFW_KEY_BACKSPACE:
       trainer.picture_tools().undo(session);

@@ -22,6 +22,8 @@ void declare(CLI::App& arguments, Options& options) {
       "--exam", options.exam,
       "An exam that counts: once for a learner, without hints, practice or a second beginning, and what\n"
       "is left unfinished is scored as it is; the variant is drawn unless --seed says which");
+  arguments.add_flag("--author", options.author,
+                     "Make reference views of the case folder: hold the probe, freeze, name, keep");
   std::string trackers = "Where the probe's poses come from:";
   for (const TrackerKind& kind : tracker_kinds())
     trackers += "\n  " + std::string(kind.form) + "\n      " + std::string(kind.summary);
@@ -111,6 +113,7 @@ void declare(CLI::App& arguments, Options& options) {
       "  insonate --tracker mouse:                         the same exam, the probe in your hands\n"
       "  insonate --ct abdomen.nii.gz                      free practice on a CT of your own\n"
       "  insonate --scenario exam.toml --tracker replay:scan.igs.mha\n"
+      "  insonate --author --case patient7 --tracker hydra:    an expert's planes become the case's views\n"
       "  insonate --replay scan.igs.mha --beside expert.igs.mha --scenario exam.toml\n"
       "  insonate --headless --out results                 score the bundled scan without a window\n"
       "\nExit codes: 0 done, 2 input that cannot be used, 3 any other failure.");
@@ -159,6 +162,16 @@ void check_replay(const Options& options) {
            "leave --scenario, --case and --ct out");
 }
 
+void check_author(const Options& options) {
+  if (!options.author) return;
+  if (options.case_folder.empty())
+    refuse("--author", "there is no case to make views of", "name its folder with --case");
+  if (!options.scenario.empty()) refuse("--author", "views are not made in an exam", "leave --scenario out");
+  if (options.exam) refuse("--author", "views are not made in an exam", "leave --exam out");
+  if (options.headless) refuse("--author", "it needs a window", "leave --headless out");
+  if (options.replay.any()) refuse("--author", "a replay is not scanned in", "name the recorded scan with --tracker");
+}
+
 void check_exam(const Options& options) {
   if (!options.exam) return;
   if (options.learner == kNobodyInParticular)
@@ -176,6 +189,7 @@ void check_exam(const Options& options) {
 
 void check(const Options& options) {
   check_replay(options);
+  check_author(options);
   check_exam(options);
   if (!options.igtl_server.empty()) parse_server_address(options.igtl_server);
   if (!options.case_folder.empty() && !options.ct.empty())

@@ -21,6 +21,7 @@ struct Options {
   std::filesystem::path scenario;
   std::optional<std::uint32_t> seed;  ///< draws the scenario's variant; empty: 0, and of an exam that counts any
   bool exam = false;                  ///< an exam that counts: taken once, under strict rules
+  bool author = false;                ///< views of the case folder are made
   std::string tracker;                ///< a tracker's URI
   std::filesystem::path calibration;  ///< of that tracker, whose samples are its sensor's; empty: they are the probe's
   std::filesystem::path landmarks;    ///< of the patient, for the set-up; empty: the built-in patient's

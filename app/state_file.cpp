@@ -104,6 +104,14 @@ void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::
       state["finished"] = runner->live().finished;
     }
     state["strict"] = session->strict();
+    if (const Author* author = trainer.author()) {
+      std::string wanted;
+      for (const Author::Part& part : author->parts())
+        if (part.wanted) wanted += part.name + "; ";
+      state["wanted"] = wanted;
+      state["view_title"] = author->title();
+      state["kept_view"] = author->kept();
+    }
     if (const std::optional<Guiding> guiding = trainer.guide().now(*session)) {
       state["guided_to"] = guiding->view->name;
       state["advice"] = guiding->advice.empty() ? "" : guiding->advice.front();

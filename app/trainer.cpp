@@ -153,6 +153,9 @@ void Trainer::begin(std::shared_ptr<const Study> study, const Request& request) 
   session_ = std::move(session);
   picture_tools_ = {};
   step_controls_ = {};
+  author_.reset();
+  if (options_.author && request.source.case_folder == options_.case_folder && !study_->scenario)
+    author_.emplace(options_.case_folder);
   replay_.reset();
   reader_.forget();
   recorder_.begin_anew();
@@ -182,6 +185,7 @@ void Trainer::update(double now_s) {
   session_->advance(now_s);
   picture_tools_.see(*session_);
   step_controls_.see(*session_);
+  if (author_) author_->see(*session_);
   recorder_.take(*session_);
   attempt([&] { recorder_.check(); });
   attempt([&] { check_raw(); });

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "app/author.h"
 #include "app/guide.h"
 #include "app/igtl_feed.h"
 #include "app/loading.h"
@@ -99,6 +100,12 @@ public:
   Guide& guide() { return guide_; }
   const Guide& guide() const { return guide_; }
 
+  /// What makes views of a case folder; nullptr unless that is what the trainer was started for.
+  Author* author() { return author_ ? &*author_ : nullptr; }
+  const Author* author() const { return author_ ? &*author_ : nullptr; }
+  /// Keeps the view that is being made; what speaks against it is a problem to acknowledge.
+  void keep_view();
+
   Session* session() { return session_.get(); }
   const Session* session() const { return session_.get(); }
   PictureTools& picture_tools() { return picture_tools_; }
@@ -169,6 +176,7 @@ private:
   std::shared_ptr<std::unique_ptr<Replay>> loaded_replay_;  ///< filled in by loading_; nullptr when it is of a session
   std::unique_ptr<Replay> replay_;
   Guide guide_;
+  std::optional<Author> author_;
   std::unique_ptr<SetupWizard> setup_;
   bool setup_left_ = false;  ///< before it was complete: the tracker is used without
   Pictures pictures_;

@@ -1,4 +1,4 @@
-// What the trainer does besides practice: an exam that counts, and a run that is looked at again.
+// What the trainer does besides practice: an exam that counts, a run that is looked at again, and views being made.
 
 #include <random>
 #include <utility>
@@ -30,6 +30,10 @@ void Trainer::hand_in_exam() {
   session_->hand_in();
   results_due_ = results_due_ || session_->result().has_value();
   write_results_if_due();
+}
+
+void Trainer::keep_view() {
+  if (author_ && session_) attempt([&] { author_->keep(*session_); });
 }
 
 void Trainer::begin_replay(std::shared_ptr<const Study> study, const Request& request) {

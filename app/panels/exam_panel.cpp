@@ -158,7 +158,7 @@ std::string clock_text(double seconds) {
   return text;
 }
 
-void draw_exam_panel(const Theme& theme, const Rect& panel, const Session& session) {
+void draw_exam_panel(const Theme& theme, const Rect& panel, const Session& session, bool makes_views) {
   fill(panel, colour::kPanel, theme.px(4));
   Rect rest = panel.inset(theme.px(16), 0);
   draw_tracker(theme, rest.take_right(theme.px(264)), session);
@@ -166,7 +166,7 @@ void draw_exam_panel(const Theme& theme, const Rect& panel, const Session& sessi
   const Rect upper{rest.x, rest.y + theme.px(9), rest.w, theme.px(25)};
   const Runner* runner = session.runner();
   if (!runner) {
-    draw_text(upper, theme.heading, colour::kText, "Free practice");
+    draw_text(upper, theme.heading, colour::kText, makes_views ? "Making views" : "Free practice");
     draw_text({rest.x, upper.y + upper.h, rest.w, theme.px(20)}, theme.text, colour::kMuted,
               session.study().scenario              ? "Nothing is scored. The Exam button starts an exam of your own."
               : session.holder() == Holder::learner ? "Move the probe with the arrow keys or drag it over the patient."

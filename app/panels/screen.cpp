@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "app/panels/author_panel.h"
 #include "app/panels/console_panel.h"
 #include "app/panels/exam_panel.h"
 #include "app/panels/guide_layer.h"
@@ -55,8 +56,8 @@ void Screen::lay_out(const Trainer& trainer, float width, float height) {
   top_ = rest.take_top(theme_.px(66));
   rest.take_top(gap);
   task_ = {};
-  if (const Session* session = trainer.session(); session && has_task_panel(*session)) {
-    task_ = rest.take_top(task_panel_height(theme_, *session, rest.w));
+  if (const Session* session = trainer.session(); session && (trainer.author() || has_task_panel(*session))) {
+    task_ = rest.take_top(trainer.author() ? author_panel_height(theme_) : task_panel_height(theme_, *session, rest.w));
     rest.take_top(gap);
   }
   console_ = rest.take_bottom(theme_.px(trainer.replay() ? 272 : 120));  // charts below a replay's time line
@@ -111,10 +112,11 @@ void Screen::draw_panels(Trainer& trainer) {
                    ImGuiWindowFlags_NoScrollWithMouse);
   if (Session* session = trainer.session()) {
     Pictures& pictures = trainer.pictures();
-    draw_exam_panel(theme_, top_, *session);
-    if (task_.h > 0)
-      draw_task_panel(theme_, task_, *session, trainer.picture_tools(), trainer.step_controls(), answer_field_,
-                      places_);
+    draw_exam_panel(theme_, top_, *session, trainer.author() != nullptr);
+    if (trainer.author())
+      draw_author_panel(theme_, task_, trainer, text_field_, places_);
+    else if (task_.h > 0)
+      draw_task_panel(theme_, task_, *session, trainer.picture_tools(), trainer.step_controls(), text_field_, places_);
     UltrasoundPanel::draw(theme_, ultrasound_, *session, pictures, trainer.picture_tools(), places_);
     space_.draw(theme_, volume_, session, pictures);
     if (const std::optional<Guiding> guiding = trainer.guide().now(*session)) {
@@ -212,8 +214,8 @@ void Screen::dismiss(Trainer& trainer) {
   if (shown == "help") help_ = false;
   if (shown == "open") stop_asking();
   if (shown == "score") closed_sheet_of_ = &*trainer.session()->result();
-  if (shown.empty() && !answer_field_.is_open()) trainer.picture_tools().cancel();
-  answer_field_.close();
+  if (shown.empty() && !text_field_.is_open()) trainer.picture_tools().cancel();
+  text_field_.close();
 }
 
 void Screen::confirm(Trainer& trainer) {
@@ -231,13 +233,20 @@ void Screen::go_on(Trainer& trainer) {
   if (over && (shown.empty() || shown == "score")) answer_score(trainer, ScoreAnswer::again);
 }
 
-/// Goes on with the exam. A question that waits for something typed gets its field opened first.
+/// Goes on with the exam, or keeps the view that is being made. What waits for something typed gets its field opened
+/// first.
 void Screen::step_on(Trainer& trainer) {
   if (!trainer.session()) return;
+  if (const Author* author = trainer.author()) {
+    if (author->parts().empty()) return;
+    if (author->title().empty()) return text_field_.open();
+    text_field_.close();
+    return trainer.keep_view();
+  }
   StepControls& controls = trainer.step_controls();
   const Question* question = controls.question();
-  if (question && question->answer != Question::Answer::choice && !controls.can_answer()) return answer_field_.open();
-  answer_field_.close();
+  if (question && question->answer != Question::Answer::choice && !controls.can_answer()) return text_field_.open();
+  text_field_.close();
   controls.go_on(*trainer.session());
 }
 

@@ -4,11 +4,11 @@
 #include <optional>
 #include <string>
 
-#include "app/panels/answer_field.h"
 #include "app/panels/overlays.h"
 #include "app/panels/score_sheet.h"
 #include "app/panels/setup_page.h"
 #include "app/panels/task_panel.h"
+#include "app/panels/text_field.h"
 #include "app/panels/theme.h"
 #include "app/panels/ultrasound_panel.h"
 #include "app/panels/views_panel.h"
@@ -48,10 +48,10 @@ public:
   /// Something lies over the screen: keys do not move the probe.
   bool takes_keys(const Trainer& trainer) const { return !overlay(trainer).empty() || types_text(trainer); }
   /// There is a field that text is typed into.
-  bool types_text(const Trainer& trainer) const { return overlay(trainer) == "open" || types_answer(trainer); }
+  bool types_text(const Trainer& trainer) const { return overlay(trainer) == "open" || types_in_panel(trainer); }
   /// There will be one, which takes text from one of the next frames on.
   bool opens_text_field(const Trainer& trainer) const {
-    return types_text(trainer) && !(types_answer(trainer) ? answer_field_.ready() : open_dialog_.ready());
+    return types_text(trainer) && !(types_in_panel(trainer) ? text_field_.ready() : open_dialog_.ready());
   }
 
   /// What lies over the screen: "problem", "loading", "setup", "help", "open", "score", or "" for nothing.
@@ -61,7 +61,7 @@ public:
   const std::map<std::string, Rect>& places() const { return places_; }
 
 private:
-  bool types_answer(const Trainer& trainer) const { return answer_field_.is_open() && overlay(trainer).empty(); }
+  bool types_in_panel(const Trainer& trainer) const { return text_field_.is_open() && overlay(trainer).empty(); }
   void step_on(Trainer& trainer);
   void lay_out(const Trainer& trainer, float width, float height);
   void draw_panels(Trainer& trainer);
@@ -79,7 +79,7 @@ private:
   std::string device_;
   SpacePanel space_;
   OpenDialog open_dialog_;
-  AnswerField answer_field_;
+  TextField text_field_;
   bool help_ = false, asking_ = false, fonts_are_new_ = false;
   const ExamResult* closed_sheet_of_ = nullptr;
   double frames_per_second_ = 0;

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/panels/choice_rows.h"
 #include "app/panels/marks_layer.h"
 #include "scenarios/caliper.h"
 #include "scenarios/steps/mark_point.h"
@@ -15,36 +16,8 @@
 namespace insonate::ui {
 namespace {
 
-constexpr float kMargin = 8, kControls = 34, kLine = 24, kTurns = 36, kSecondRow = 40;
+constexpr float kMargin = 8, kLine = 24, kTurns = 36;
 constexpr float kRight = 320;  ///< of hint and going on
-
-struct Choice {
-  std::string id, text;
-  ButtonKind kind = ButtonKind::normal;
-  bool enabled = true;
-};
-
-/// Buttons side by side, narrower where they would not fit; which one was clicked.
-std::optional<std::size_t> row_of_buttons(const Theme& theme, Rect row, const std::vector<Choice>& choices,
-                                          std::map<std::string, Rect>& places) {
-  const float gap = theme.px(8);
-  std::vector<float> widths;
-  float sum = -gap;
-  for (const Choice& choice : choices) {
-    widths.push_back(std::max(text_width(theme.text, choice.text) + theme.px(28), theme.px(64)));
-    sum += widths.back() + gap;
-  }
-  const float gaps = gap * float(choices.size() - 1);
-  const float shrink = std::min(1.0f, (row.w - gaps) / (sum - gaps));
-  std::optional<std::size_t> clicked;
-  for (std::size_t i = 0; i < choices.size(); ++i) {
-    const Rect where = row.take_left(widths[i] * shrink);
-    row.take_left(gap);
-    places[choices[i].id] = where;
-    if (button(theme, choices[i].id.c_str(), where, choices[i].text, choices[i].kind, choices[i].enabled)) clicked = i;
-  }
-  return clicked;
-}
 
 /// What a step lets choose from, as it is shown.
 std::vector<std::string> choice_texts(const Step& step) {
@@ -61,29 +34,6 @@ bool has_controls(const Step& step) {
          step.kind == "set_knobs";
 }
 
-/// Whether texts are too long for buttons in one row.
-bool need_two_rows(const Theme& theme, float width, const std::vector<std::string>& texts) {
-  float sum = 0;
-  for (const std::string& text : texts) sum += text_width(theme.text, text) + theme.px(36);
-  return texts.size() > 1 && sum > width;
-}
-
-/// In one row, or in two where one is too short for all of them to be read.
-std::optional<std::size_t> choices_in(const Theme& theme, Rect where, const std::vector<Choice>& choices,
-                                      std::map<std::string, Rect>& places) {
-  std::vector<std::string> texts;
-  for (const Choice& choice : choices) texts.push_back(choice.text);
-  const Rect upper_row = where.take_top(theme.px(kControls));
-  if (!need_two_rows(theme, where.w, texts)) return row_of_buttons(theme, upper_row, choices, places);
-  const auto half = std::ptrdiff_t(choices.size() + 1) / 2;
-  const auto upper = row_of_buttons(theme, upper_row, {choices.begin(), choices.begin() + half}, places);
-  where.take_top(theme.px(kSecondRow - kControls));
-  const Rect lower_row = where.take_top(theme.px(kControls));
-  const auto lower = row_of_buttons(theme, lower_row, {choices.begin() + half, choices.end()}, places);
-  if (lower) return *lower + std::size_t(half);
-  return upper;
-}
-
 void draw_slots(const Theme& theme, Rect where, PictureTools& tools, std::map<std::string, Rect>& places) {
   const Measure& measure = *tools.measuring();
   std::vector<Choice> choices;
@@ -96,7 +46,7 @@ void draw_slots(const Theme& theme, Rect where, PictureTools& tools, std::map<st
   const float walls = text_width(theme.text, measure.walls);
   draw_text(where.take_left(walls), theme.text, colour::kMuted, measure.walls);
   where.take_left(theme.px(16));
-  if (const auto clicked = row_of_buttons(theme, where, choices, places)) tools.choose_slot(int(*clicked) + 1);
+  if (const auto clicked = row_of_choices(theme, where, choices, places)) tools.choose_slot(int(*clicked) + 1);
 }
 
 void draw_knobs(const Theme& theme, Rect where, const std::vector<StepControls::Knob>& knobs) {
@@ -113,22 +63,23 @@ void draw_knobs(const Theme& theme, Rect where, const std::vector<StepControls::
   }
 }
 
-void draw_question(const Theme& theme, Rect where, StepControls& controls, AnswerField& field,
+void draw_question(const Theme& theme, Rect where, StepControls& controls, TextField& field,
                    std::map<std::string, Rect>& places) {
   const Question& question = *controls.question();
   if (question.answer != Question::Answer::choice) {
     const bool number = question.answer == Question::Answer::number;
     const float unit = question.unit.empty() ? 0 : text_width(theme.text, question.unit) + theme.px(8);
-    const Rect row = where.take_top(theme.px(kControls));
+    const Rect row = where.take_top(theme.px(kChoiceRow));
     const Rect box{row.x, row.y, std::min(row.w, number ? theme.px(180) + unit : theme.px(700)), row.h};
-    places["answer_field"] = box;
-    return field.draw(theme, box, controls);
+    places["text_field"] = box;
+    return controls.draft(
+        field.draw(theme, box, controls.draft(), number ? "Type a number" : "Type your answer", question.unit));
   }
   std::vector<Choice> choices;
   for (const std::string& choice : question.choices)
     choices.push_back({"choice_" + std::to_string(choices.size() + 1), choice,
                        choice == controls.draft() ? ButtonKind::chosen : ButtonKind::normal});
-  if (const auto clicked = choices_in(theme, where, choices, places)) controls.draft(question.choices[*clicked]);
+  if (const auto clicked = rows_of_choices(theme, where, choices, places)) controls.draft(question.choices[*clicked]);
 }
 
 void draw_names(const Theme& theme, const Rect& where, Session& session, PictureTools& tools,
@@ -138,7 +89,7 @@ void draw_names(const Theme& theme, const Rect& where, Session& session, Picture
     choices.push_back({"name_" + name, in_words(name),
                        tools.marks().labels().contains(name) ? ButtonKind::chosen : ButtonKind::normal,
                        tools.unnamed_place().has_value()});
-  if (const auto clicked = choices_in(theme, where, choices, places))
+  if (const auto clicked = rows_of_choices(theme, where, choices, places))
     tools.name_place(session, tools.names()[*clicked]);
 }
 
@@ -149,7 +100,7 @@ void draw_turns(const Theme& theme, Rect where, Session& session, StepControls& 
   for (const StepControls::Turn& turn : turns)
     choices.push_back({"turn_" + std::to_string(turn.step + 1), turn.title + (turn.ended ? " (over)" : ""),
                        turn.current ? ButtonKind::chosen : ButtonKind::normal, turn.can_turn || turn.current});
-  if (const auto clicked = row_of_buttons(theme, where, choices, places))
+  if (const auto clicked = row_of_choices(theme, where, choices, places))
     controls.turn_to(session, turns[*clicked].step);
 }
 
@@ -196,11 +147,11 @@ float task_panel_height(const Theme& theme, const Session& session, float width)
   const bool two_rows = std::any_of(scenario.steps.begin(), scenario.steps.end(), [&](const Step& step) {
     return need_two_rows(theme, for_choices, choice_texts(step));
   });
-  return theme.px(2 * kMargin + kControls + kLine + (free ? kTurns : 0) + (two_rows ? kSecondRow : 0));
+  return theme.px(2 * kMargin + kChoiceRow + kLine + (free ? kTurns : 0) + (two_rows ? kSecondChoiceRow : 0));
 }
 
 void draw_task_panel(const Theme& theme, const Rect& panel, Session& session, PictureTools& tools,
-                     StepControls& controls, AnswerField& field, std::map<std::string, Rect>& places) {
+                     StepControls& controls, TextField& field, std::map<std::string, Rect>& places) {
   fill(panel, colour::kPanel, theme.px(4));
   const bool typed = controls.question() && controls.question()->answer != Question::Answer::choice;
   if (!typed) field.close();
@@ -215,7 +166,7 @@ void draw_task_panel(const Theme& theme, const Rect& panel, Session& session, Pi
     rest.take_bottom(theme.px(6));
   }
   Rect right = rest.take_right(theme.px(kRight));
-  right.h = theme.px(kControls);
+  right.h = theme.px(kChoiceRow);
   places["go_on"] = right.take_right(theme.px(150));
   const bool ready = controls.question() ? controls.can_answer() : live.enough;
   const char* text = controls.question() ? "Answer (Enter)" : controls.asks_again() ? "Go on anyway" : "Go on (Enter)";
@@ -235,7 +186,7 @@ void draw_task_panel(const Theme& theme, const Rect& panel, Session& session, Pi
   draw_line(theme, rest.take_bottom(theme.px(kLine)), live, controls,
             has_controls(step) ? prompt(session, tools, controls, step.kind) : "");
   Rect row = rest;
-  row.h = theme.px(kControls);
+  row.h = theme.px(kChoiceRow);
   if (controls.question())
     draw_question(theme, rest, controls, field, places);
   else if (tools.measuring())

@@ -3,7 +3,7 @@
 #include <map>
 #include <string>
 
-#include "app/panels/answer_field.h"
+#include "app/panels/text_field.h"
 #include "app/panels/theme.h"
 #include "app/panels/widgets.h"
 #include "app/picture_tools.h"
@@ -21,6 +21,6 @@ float task_panel_height(const Theme& theme, const Session& session, float width)
 /// The strip below the exam's: what the learner can do in the step under way, hints, and going on. Adds to `places`
 /// where its buttons are.
 void draw_task_panel(const Theme& theme, const Rect& panel, Session& session, PictureTools& tools,
-                     StepControls& controls, AnswerField& field, std::map<std::string, Rect>& places);
+                     StepControls& controls, TextField& field, std::map<std::string, Rect>& places);
 
 }  // namespace insonate::ui

@@ -1,8 +1,6 @@
 #include "scenarios/cases/add_view.h"
 
-#include <cmath>
-#include <cstdio>
-
+#include "scenarios/cases/in_picture.h"
 #include "scenarios/skin_contact.h"
 #include "scenarios/view_meter.h"
 #include "sim/core/input_error.h"
@@ -16,17 +14,6 @@ std::vector<std::string> names_of(const std::vector<Named>& all) {
   std::vector<std::string> names;
   for (const Named& one : all) names.push_back(one.name);
   return names;
-}
-
-/// Why a landmark is not in a view's picture; empty when it is.
-std::string why_not_seen(const Landmark& landmark, const ReferenceView& view, const Probe& probe) {
-  const glm::dvec3 p = view.patient_from_probe.inverse().point(landmark.position);
-  if (std::abs(p.z) > ViewMeter::kLandmarkDistance_mm) {
-    char text[64];
-    std::snprintf(text, sizeof text, "lies %.0f mm beside its plane", std::abs(p.z));
-    return text;
-  }
-  return line_position(probe, view.depth_mm, glm::dvec2(p)) ? "" : "lies outside its fan";
 }
 
 }  // namespace
@@ -45,7 +32,8 @@ void add_view(const std::filesystem::path& case_folder, const ReferenceView& vie
   for (const std::string& name : view.landmarks) {
     const Landmark* landmark = subject.find_landmark(name);
     if (!landmark) refuse("no landmark is called '" + name + "'", suggest(name, names_of(subject.landmarks)));
-    if (const std::string why = why_not_seen(*landmark, view, *probe); !why.empty())
+    if (const std::string why = why_not_in_picture(*landmark, *probe, view.depth_mm, view.patient_from_probe);
+        !why.empty())
       refuse("the landmark '" + name + "' " + why, "hold the probe so that it is in the picture, or leave it out");
   }
   if (!SkinContact(subject.ct, *probe).at(view.patient_from_probe))

@@ -3,13 +3,6 @@
 #   window_keys_test.sh PROGRAM ASSETS_FOLDER
 . "$(dirname "$0")/window_session.sh"
 
-# All events of a command fall into one frame: the trainer stands still meanwhile.
-in_one_frame() {
-  kill -STOP "$trainer"
-  "$@"
-  kill -CONT "$trainer"
-}
-
 start_trainer
 await "the session starts" is activity exam
 xdotool key Tab

@@ -92,6 +92,13 @@ click() {
 plane_x() { awk -v o="$(value plane_origin_x)" -v t="$(value plane_at_10_10_mm_x)" -v mm="$1" 'BEGIN { printf "%.0f", o + (t - o) * mm / 10 }'; }
 plane_y() { awk -v o="$(value plane_origin_y)" -v t="$(value plane_at_10_10_mm_y)" -v mm="$1" 'BEGIN { printf "%.0f", o + (t - o) * mm / 10 }'; }
 click_plane() { click "$(plane_x "$1")" "$(plane_y "$2")"; }
+# All events of a command fall into one frame: the trainer stands still meanwhile.
+in_one_frame() {
+  kill -STOP "$trainer"
+  "$@"
+  kill -CONT "$trainer"
+}
+
 # Freeze is the first of the console's right-hand block of buttons, Keys the one below it.
 freeze_x() { echo $(($(value console_x) + $(value console_w) - 16 - 276 + 43)); }
 freeze_y() { echo $(($(middle_y console) - 26)); }

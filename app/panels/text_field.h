@@ -1,18 +1,23 @@
 #pragma once
 
 #include <array>
+#include <string>
 
 #include "app/panels/theme.h"
 #include "app/panels/widgets.h"
-#include "app/step_controls.h"
+#include "scenarios/action.h"
 
 namespace insonate::ui {
 
-/// The field for answers that are typed: a number with its unit, or a text. Closed it shows what was typed; a click
-/// opens it, and then it takes the keys.
-class AnswerField {
+/// A field that a short text or a number is typed into. Closed it shows what was typed; a click opens it, and then it
+/// takes the keys.
+class TextField {
 public:
-  void draw(const Theme& theme, const Rect& where, StepControls& controls);
+  /// Returns what is in it now.
+  /// @param hint  shown while nothing is
+  /// @param unit  of a number, shown behind the field; empty for none
+  std::string draw(const Theme& theme, const Rect& where, const std::string& text, const char* hint,
+                   const std::string& unit = {});
   /// It is typed into, or will be from one of the next frames on.
   bool is_open() const { return open_; }
   /// Whether it takes what is typed.

@@ -1,14 +1,12 @@
-#include "app/panels/answer_field.h"
+#include "app/panels/text_field.h"
 
 #include <utility>
 
-#include "scenarios/steps/question.h"
-
 namespace insonate::ui {
 
-void AnswerField::draw(const Theme& theme, const Rect& given, StepControls& controls) {
+std::string TextField::draw(const Theme& theme, const Rect& given, const std::string& text, const char* hint,
+                            const std::string& unit) {
   Rect where = given;
-  const std::string& unit = controls.question()->unit;
   if (!unit.empty()) {
     const float width = text_width(theme.text, unit);
     draw_text(where.take_right(width), theme.text, colour::kMuted, unit);
@@ -20,16 +18,12 @@ void AnswerField::draw(const Theme& theme, const Rect& given, StepControls& cont
   if (!open_) {
     filled_ = false;
     ImGui::SetCursorScreenPos(where.min());
-    open_ = ImGui::InvisibleButton("answer_field", {where.w, where.h});
-    const bool empty = controls.draft().empty();
-    const bool number = controls.question()->answer == Question::Answer::number;
-    draw_text(where.inset(margin, 0), theme.text, empty ? colour::kFaint : colour::kText,
-              !empty   ? controls.draft()
-              : number ? "Type a number"
-                       : "Type your answer");
-    return;
+    open_ = ImGui::InvisibleButton("text_field", {where.w, where.h});
+    draw_text(where.inset(margin, 0), theme.text, text.empty() ? colour::kFaint : colour::kText,
+              text.empty() ? hint : text);
+    return text;
   }
-  if (!std::exchange(filled_, true)) typed_[controls.draft().copy(typed_.data(), typed_.size() - 1)] = 0;
+  if (!std::exchange(filled_, true)) typed_[text.copy(typed_.data(), typed_.size() - 1)] = 0;
   ImGui::SetCursorScreenPos({where.x, where.y + (where.h - theme.text->FontSize) / 2 - theme.px(4)});
   ImGui::PushFont(theme.text);
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {margin, theme.px(4)});
@@ -38,14 +32,14 @@ void AnswerField::draw(const Theme& theme, const Rect& given, StepControls& cont
   ImGui::PushStyleColor(ImGuiCol_FrameBgActive, 0);
   ImGui::SetNextItemWidth(where.w);
   if (!ready_) ImGui::SetKeyboardFocusHere();
-  ImGui::InputText("##answer", typed_.data(), typed_.size(), ImGuiInputTextFlags_AutoSelectAll);
+  ImGui::InputText("##text", typed_.data(), typed_.size(), ImGuiInputTextFlags_AutoSelectAll);
   const bool active = ImGui::IsItemActive();
   ImGui::PopStyleColor(3);
   ImGui::PopStyleVar();
   ImGui::PopFont();
-  controls.draft(typed_.data());
   if (ready_ && !active) close();  // something else was clicked
   ready_ = open_ && (ready_ || active);
+  return typed_.data();
 }
 
 }  // namespace insonate::ui

@@ -1,0 +1,80 @@
+#include "app/author.h"
+
+#include <algorithm>
+
+#include "scenarios/cases/add_view.h"
+#include "scenarios/cases/in_picture.h"
+
+namespace insonate {
+namespace {
+
+bool is_letter(char c) {
+  return c >= 'a' && c <= 'z';
+}
+
+}  // namespace
+
+std::string view_name_of(const std::string& title) {
+  std::string name;
+  for (char c : title) {
+    if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
+    if (is_letter(c) || (c >= '0' && c <= '9' && !name.empty()))
+      name += c;
+    else if (!name.empty() && name.back() != '_')
+      name += '_';
+  }
+  while (!name.empty() && name.back() == '_') name.pop_back();
+  return name;
+}
+
+void Author::see(const Session& session) {
+  const auto picture = session.frozen_picture();
+  const Console& console = session.console();
+  if (picture == picture_ && console.depth_mm == depth_mm_ && console.probe.name == probe_) return;
+  picture_ = picture;
+  depth_mm_ = console.depth_mm;
+  probe_ = console.probe.name;
+  parts_.clear();
+  if (!picture) return;
+  const InPicture seen = in_picture(session.study().subject, console.probe, console.depth_mm, *picture);
+  const auto add = [&](const std::vector<std::string>& names, std::size_t most, bool landmarks) {
+    for (std::size_t i = 0; i < std::min(names.size(), most); ++i)
+      parts_.push_back({names[i], landmarks, wanted_.contains(names[i])});
+  };
+  add(seen.structures, kMostStructures, false);
+  add(seen.landmarks, kMostLandmarks, true);
+}
+
+void Author::toggle(std::size_t part) {
+  if (part >= parts_.size()) return;
+  Part& turned = parts_[part];
+  turned.wanted = !turned.wanted;
+  if (turned.wanted)
+    wanted_.insert(turned.name);
+  else
+    wanted_.erase(turned.name);
+}
+
+bool Author::ready() const {
+  return picture_ && !view_name_of(title_).empty() &&
+         std::any_of(parts_.begin(), parts_.end(), [](const Part& part) { return part.wanted; });
+}
+
+void Author::keep(const Session& session) {
+  if (!ready()) return;
+  ReferenceView view;
+  view.name = view_name_of(title_);
+  view.title = title_;
+  view.probe = probe_;
+  view.depth_mm = depth_mm_;
+  view.patient_from_probe = *picture_;
+  for (const Part& part : parts_)
+    if (part.wanted) (part.landmark ? view.landmarks : view.targets).push_back(part.name);
+  add_view(case_folder_, view, session.study().tissues);
+  kept_ = "Kept as '" + view.name + "' in " + (case_folder_ / "case.toml").string() + ".";
+  title_.clear();
+  wanted_.clear();
+  for (Part& part : parts_) part.wanted = false;
+}
+
+}  // namespace insonate
