@@ -116,6 +116,20 @@ TEST_CASE("a deeper picture of the same plane shows more") {
   CHECK(names(desk.author.parts()) == std::vector<std::string>{"ball", "top"});
 }
 
+TEST_CASE("what takes the most of the picture comes first") {
+  Desk desk;
+  const Pose along_z = turned(90, {0, 1, 0});
+  const auto structures_at = [&](double depth_mm) {
+    desk.session.console().depth_mm = depth_mm;
+    desk.freeze(along_z);
+    auto found = names(desk.author.parts());
+    std::erase_if(found, [](const std::string& name) { return name == "centre" || name == "top"; });
+    return found;
+  };
+  CHECK(structures_at(43) == std::vector<std::string>{"rib", "ball"});  // of the ball its nearest 3 mm
+  CHECK(structures_at(120) == std::vector<std::string>{"ball", "rib"});
+}
+
 TEST_CASE("a view's name is made of its title") {
   CHECK(view_name_of("Right kidney, long axis") == "right_kidney_long_axis");
   CHECK(view_name_of("  RUQ -- 2nd try! ") == "ruq_2nd_try");
