@@ -37,11 +37,11 @@ void draw_author_panel(const Theme& theme, const Rect& panel, Trainer& trainer, 
   Rect rest = panel.inset(theme.px(16), theme.px(kMargin));
   if (author.parts().empty()) {
     field.close();
-    const bool nothing = trainer.session()->frozen_picture().has_value();
+    const bool frozen = trainer.session()->frozen_picture().has_value();
     draw_text(rest.take_bottom(theme.px(kChoiceRow)), theme.small_text, colour::kMuted, author.kept());
     return draw_text(rest.take_top(theme.px(kChoiceRow)), theme.text, colour::kText,
-                     nothing ? "The picture shows no structure and no landmark of this case."
-                             : "Hold the probe as a learner is to hold it, then freeze the picture (Space).");
+                     frozen ? "The picture shows no structure and no landmark of this case."
+                            : "Hold the probe as a learner is to hold it, then freeze the picture (Space).");
   }
   Rect title = rest.take_left(theme.px(kTitle));
   title.h = theme.px(kChoiceRow);
