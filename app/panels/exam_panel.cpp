@@ -67,7 +67,7 @@ void draw_tracker(const Theme& theme, const Rect& where, const Session& session)
   lower.take_left(theme.px(18));
   draw_text(upper, theme.strong, light == colour::kAmber ? colour::kAmber : colour::kText, condition);
   const std::string& source = state.problem.empty() ? state.name : state.problem;
-  if (state.distortion && session.holder() == Holder::tracker) {
+  if (state.distortion.value_or(0) > 0 && session.holder() == Holder::tracker) {
     const std::string grade = "distortion " + std::to_string(*state.distortion);
     const bool bad = state.rejected == Rejection::distortion;
     draw_text(lower.take_right(text_width(theme.small_text, grade)), theme.small_text,

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <fstream>
 #include <string_view>
+#include <thread>
 #include <vector>
 
 #include "devices/record/append_only.h"
@@ -108,6 +110,17 @@ void copy(const std::filesystem::path& from, std::uint64_t bytes, std::ofstream&
   if (bytes > 0) throw InputError(from.string(), "", "it cannot be read", "check its permissions");
 }
 
+/// Whether nobody writes the file: a program that was killed holds it for the moment that it takes to die.
+bool let_go(const std::filesystem::path& working) {
+  constexpr std::chrono::milliseconds kPatience(1000), kPause(20);
+  const auto end = std::chrono::steady_clock::now() + kPatience;
+  while (is_being_written(working)) {
+    if (std::chrono::steady_clock::now() >= end) return false;
+    std::this_thread::sleep_for(kPause);
+  }
+  return true;
+}
+
 std::filesystem::path with_ending(const std::filesystem::path& file, const char* ending) {
   std::filesystem::path named = file;
   return named += ending;
@@ -155,7 +168,7 @@ std::size_t recover_recording(const std::filesystem::path& file) {
     throw InputError(file.string(), "", "there is such a file already", "move it away");
   const std::filesystem::path working = working_file(file), images = images_file(file);
   check_is_file(working);
-  if (is_being_written(working))
+  if (!let_go(working))
     throw InputError(working.string(), "", "it is still being recorded to", "end the recording, which makes its file");
   Lines lines(working);
   const Head head = read_head(lines, working);

@@ -1,13 +1,17 @@
 // Recordings: what comes back of them, when the run ends and when it is killed.
 #include <catch2/catch.hpp>
+#include <fcntl.h>
 #include <signal.h>
+#include <sys/file.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <zlib.h>
 
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "devices/record/recording_files.h"
@@ -189,6 +193,20 @@ TEST_CASE("a recording that is still running is not recovered, nor recorded over
   recorder.add(hand(1)[1]);
   recorder.finish();
   CHECK(read_samples(file).size() == 2);
+}
+
+TEST_CASE("a program that is only just dying is waited for") {
+  const Folder folder;
+  const fs::path file = folder.path / "scan.igs.mha";
+  const auto samples = hand(1);
+  record_and_be_killed(file, samples, 10, false);
+  const int held = ::open(working_file(file).c_str(), O_RDONLY | O_CLOEXEC);
+  REQUIRE(::flock(held, LOCK_EX | LOCK_NB) == 0);
+  std::jthread death([held] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    ::close(held);
+  });
+  CHECK(recover_recording(file) == 10);
 }
 
 TEST_CASE("a pause of hours is recorded and read back; a clock that was set is not recorded") {

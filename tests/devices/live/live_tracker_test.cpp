@@ -61,6 +61,14 @@ TEST_CASE("a live tracker hands over every sample once, in order, with rising ti
   CHECK(state.problem.empty());
 }
 
+TEST_CASE("a live tracker tells a place or none as its device does, before it is opened") {
+  ScriptedDevice device;
+  CHECK_FALSE(tracker_of(device)->relative());
+  device.relative = true;
+  CHECK(tracker_of(device)->relative());
+  CHECK(device.opened == 0);
+}
+
 TEST_CASE("a device may be plugged in late, pulled out and plugged in again, and every state has its words") {
   ScriptedDevice device;
   device.plugged_in = false;

@@ -20,6 +20,7 @@ struct ScriptedDevice {
   std::atomic<int> opened{0}, closed{0};
   std::atomic<std::uint32_t> sent{0};  ///< samples so far; each carries its number, from 1 on, as x and as buttons
   std::atomic<int> in_one_read{1};
+  bool relative = false;  ///< whether it tells no place
 
   void note(const std::string& text) {
     const std::lock_guard lock(mutex_);
@@ -40,6 +41,7 @@ public:
   explicit ScriptedSource(ScriptedDevice& device) : device_(device) {}
 
   std::string name() const override { return "a scripted device"; }
+  bool relative() const override { return device_.relative; }
 
   void open() override {
     if (!device_.plugged_in) throw SourceGone("The scripted device is not plugged in.");
