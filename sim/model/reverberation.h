@@ -9,8 +9,9 @@ namespace insonate {
 /// Care Medicine 24, 1998).
 ///
 /// On each line, before the beam's width, from I and R of its samples: a sample reflects A = R / I^2 = alpha |d . n|,
-/// and lies where its interface does, at c, the mean place of the samples nearer than the reflection length l, weighted
-/// by A. The face, with A = face_reflection, lies at c = 0. Samples i before j make the echo
+/// at most 1, which means over a slice's planes may exceed; it lies where its interface does, at c, the mean place of
+/// the samples nearer than the reflection length l, weighted by A. The face, with A = face_reflection, lies at c = 0.
+/// Samples i before j make the echo
 ///
 ///     V(c_j + k (c_j - c_i)) gets s R_j g^k,  k from 1 to kMostRepeats,     g = w A_i A_j T^2
 ///

@@ -29,7 +29,7 @@ Image<double> reverberation_reference(const Image<double>& intensity, const Imag
   for (int line = 0; line < intensity.width; ++line) {
     const auto i_at = [&](int k) { return intensity.at(line, std::clamp(k, 0, d - 1)); };
     const auto strength = [&](int k) {
-      return i_at(k) > kLeastReverberant ? reflection.at(line, k) / (i_at(k) * i_at(k)) : 0;
+      return i_at(k) > kLeastReverberant ? std::min(reflection.at(line, k) / (i_at(k) * i_at(k)), 1.0) : 0;
     };
     std::vector<Reflector> reflectors;
     for (int k = 0; k < d && reflectors.size() < std::size_t(kMostReflectors); ++k) {

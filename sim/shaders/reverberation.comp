@@ -18,7 +18,7 @@ float intensity(int k) { return texelFetch(scan, ivec2(clamp(k, 0, samples - 1),
 // A of a sample, and its R.
 vec2 reflected(int k) {
   vec2 value = texelFetch(scan, ivec2(k, line), 0).xy;
-  return value.x > kLeastReverberant ? vec2(value.y / (value.x * value.x), value.y) : vec2(0.0);
+  return value.x > kLeastReverberant ? vec2(min(value.y / (value.x * value.x), 1.0), value.y) : vec2(0.0);
 }
 
 // Adds `echo` between two samples.
