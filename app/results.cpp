@@ -1,7 +1,6 @@
 #include "app/results.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
 #include <stdexcept>
 #include <utility>
@@ -12,16 +11,36 @@
 
 namespace insonate {
 
+namespace {
+
+/// What took the place of the scenario's own patient; empty for nothing.
+std::string patient_of(const StudySource& source) {
+  const std::filesystem::path& patient = source.ct.empty() ? source.case_folder : source.ct;
+  return patient.empty() ? "" : std::filesystem::absolute(patient).string();
+}
+
+}  // namespace
+
+Sitting sitting_of(const Session& session, const StudySource& source, const std::string& learner) {
+  const Scenario& scenario = session.runner()->scenario();
+  Sitting sitting;
+  sitting.learner = learner;
+  sitting.title = scenario.title;
+  sitting.scenario_text = scenario.text;
+  sitting.scenario_file = scenario.file.string();
+  sitting.patient = patient_of(source);
+  sitting.seed = scenario.seed;
+  return sitting;
+}
+
 Attempt finished_attempt(const Session& session, const StudySource& source, const std::string& learner,
                          std::vector<ReportPicture> pictures) {
   if (!session.result() || !session.runner()) throw std::logic_error("the exam is not finished");
   Attempt attempt = attempt_of(*session.runner(), *session.result(),
                                write_sequence(session.exam_samples(), to_texts(session.actions())));
   attempt.learner = learner;
-  const auto since_1970 = std::chrono::system_clock::now().time_since_epoch();
-  attempt.finished_ms = std::chrono::duration_cast<std::chrono::milliseconds>(since_1970).count();
-  for (const std::filesystem::path& patient : {source.case_folder, source.ct})
-    if (!patient.empty()) attempt.patient = std::filesystem::absolute(patient).string();
+  attempt.finished_ms = now_since_1970_ms();
+  attempt.patient = patient_of(source);
   attempt.pictures = std::move(pictures);
   return attempt;
 }

@@ -6,6 +6,7 @@
 
 #include "app/session.h"
 #include "scenarios/results/attempt.h"
+#include "scenarios/results/sitting.h"
 #include "sim/core/image.h"
 
 namespace insonate {
@@ -14,6 +15,9 @@ namespace insonate {
 /// from. Throws std::logic_error when the exam is not finished.
 Attempt finished_attempt(const Session& session, const StudySource& source, const std::string& learner,
                          std::vector<ReportPicture> pictures);
+
+/// The exam of a session, for it to begin in a database.
+Sitting sitting_of(const Session& session, const StudySource& source, const std::string& learner);
 
 /// A picture of the ultrasound, whose colours are greys, as a report keeps it.
 ReportPicture report_picture(std::size_t step, ReportPicture::Kind kind, const Image<Rgba8>& ultrasound);

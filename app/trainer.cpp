@@ -187,6 +187,7 @@ void Trainer::update(double now_s) {
   step_controls_.see(*session_);
   if (author_) author_->see(*session_);
   recorder_.take(*session_);
+  attempt([&] { keep_sitting(); });
   attempt([&] { recorder_.check(); });
   attempt([&] { check_raw(); });
   if (!session_->result()) result_files_.reset();
@@ -280,7 +281,7 @@ void Trainer::keep_and_report() {
   std::exception_ptr not_kept;
   if (results_ && (!replayed || !options_.results.empty())) {
     try {
-      results_->add(finished);
+      results_->add(finished, journal_ ? journal_->finish() : 0);
     } catch (const InputError&) {
       not_kept = std::current_exception();  // the report is wanted all the more
     }

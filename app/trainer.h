@@ -8,6 +8,7 @@
 #include <string>
 
 #include "app/author.h"
+#include "app/exam_journal.h"
 #include "app/guide.h"
 #include "app/igtl_feed.h"
 #include "app/loading.h"
@@ -143,6 +144,7 @@ private:
   void begin(std::shared_ptr<const Study> study, const Request& request);
   std::uint32_t seed() const;
   void refuse_second_exam(const Study& study);
+  void keep_sitting();
   void begin_replay(std::shared_ptr<const Study> study, const Request& request);
   void show(std::shared_ptr<const Study> study, const Request& request);
   std::filesystem::path own_calibration() const;
@@ -190,6 +192,7 @@ private:
   std::optional<ResultFiles> result_files_;
   bool results_due_ = false;
   std::optional<ResultsDatabase> results_;
+  std::optional<ExamJournal> journal_;               ///< of an exam that counts, once it has begun
   std::map<std::size_t, Image<Rgba8>> best_frames_;  ///< by step
   int best_frame_of_ = 0;                            ///< the session's attempt; 0 for none
   std::size_t best_step_ = 0;

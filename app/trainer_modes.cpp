@@ -23,6 +23,19 @@ void Trainer::refuse_second_exam(const Study& study) {
       throw InputError(options_.learner, "--exam",
                        "this learner has taken the exam already, as attempt " + std::to_string(taken.number),
                        "start another exam, or practise without --exam");
+  for (const Sitting& begun : results_->sittings())
+    if (begun.learner == options_.learner && begun.scenario_text == study.scenario->text)
+      throw InputError(
+          options_.learner, "--exam",
+          "this learner has begun the exam already (" + utc_time(begun.began_ms) + ") and not handed it in",
+          "end it where it is being taken, or have what there is of it scored with 'insonate-score hand-in " +
+              results_->file().string() + "'");
+}
+
+void Trainer::keep_sitting() {
+  if (!options_.exam || !results_ || !session_->runner() || session_->result()) return;
+  if (!journal_) journal_.emplace(results_->file(), sitting_of(*session_, current_.source, options_.learner));
+  journal_->take(*session_);
 }
 
 void Trainer::hand_in_exam() {

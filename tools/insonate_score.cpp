@@ -40,7 +40,7 @@ struct Arguments {
 
 void keep(const Arguments& given, Attempt attempt) {
   attempt.learner = given.learner;
-  attempt.finished_ms = now_ms();
+  attempt.finished_ms = now_since_1970_ms();
   if (!given.case_folder.empty()) attempt.patient = std::filesystem::absolute(given.case_folder).string();
   ResultsDatabase::open_or_make(given.results).add(attempt);
 }
@@ -130,6 +130,7 @@ int main(int argc, char** argv) {
   add_list_commands(arguments, run_command);
   add_report_command(arguments, run_command);
   add_rescore_command(arguments, run_command);
+  add_hand_in_command(arguments, run_command);
   add_pass_mark_command(arguments, run_command);
 
   return run_program(arguments, argc, argv, [&] {

@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -17,6 +16,7 @@ namespace insonate {
 using CommandRun = std::function<int()>;
 
 /// Each declares its commands on `arguments` and sets `run` when one of them is parsed.
+void add_hand_in_command(CLI::App& arguments, CommandRun& run);
 void add_list_commands(CLI::App& arguments, CommandRun& run);
 void add_pass_mark_command(CLI::App& arguments, CommandRun& run);
 void add_report_command(CLI::App& arguments, CommandRun& run);
@@ -28,11 +28,6 @@ inline std::vector<std::int64_t> chosen_attempts(ResultsDatabase& database, std:
   std::vector<std::int64_t> numbers;
   for (const AttemptSummary& attempt : database.attempts()) numbers.push_back(attempt.number);
   return numbers;
-}
-
-inline std::int64_t now_ms() {
-  return std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::system_clock::now().time_since_epoch())
-      .count();
 }
 
 }  // namespace insonate

@@ -20,11 +20,16 @@ std::string shown_time(std::int64_t since_1970_ms) {
 }
 
 int list_attempts(const Listed& given) {
+  ResultsDatabase database = ResultsDatabase::open(given.database);
   std::printf("%7s  %-20s  %-20s  %-10s %9s  %s\n", "attempt", "learner", "finished", "", "percent", "scenario");
-  for (const AttemptSummary& a : ResultsDatabase::open(given.database).attempts())
+  for (const AttemptSummary& a : database.attempts())
     if (given.learner.empty() || a.learner == given.learner)
       std::printf("%7lld  %-20s  %-20s  %-10s %9.2f  %s\n", static_cast<long long>(a.number), a.learner.c_str(),
                   shown_time(a.finished_ms).c_str(), a.passed ? "passed" : "not passed", a.percent, a.title.c_str());
+  for (const Sitting& s : database.sittings())
+    if (given.learner.empty() || s.learner == given.learner)
+      std::printf("sitting %lld of %s, begun %s, is not handed in: %s\n", static_cast<long long>(s.number),
+                  s.learner.c_str(), shown_time(s.began_ms).c_str(), s.title.c_str());
   return 0;
 }
 

@@ -1,7 +1,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "devices/sequence/probe_samples.h"
@@ -10,40 +9,20 @@
 #include "scenarios/results/results_database.h"
 #include "scenarios/runner.h"
 #include "sim/core/files.h"
+#include "tools/attempt_cases.h"
 #include "tools/score_commands.h"
-#include "tools/subject.h"
 
 namespace insonate {
 namespace {
 
-/// The cases that attempts were taken on, the last one kept: attempts at one exam often come one after the other.
-class Cases {
-public:
-  const Case& of(const Attempt& attempt, const Scenario& scenario) {
-    std::string key = attempt.patient + '\n' + scenario.case_name + '\n' + scenario.file.parent_path().string();
-    for (const auto& [name, value] : scenario.phantom_options) key.append("\n").append(name).append("=").append(value);
-    if (!case_ || key != key_) {
-      case_.reset();  // two would take twice the memory
-      case_ = attempt.patient.empty() ? load_case(scenario, assets_folder(), cache_folder(), show_progress)
-                                      : open_case(attempt.patient);
-      key_ = key;
-    }
-    return *case_;
-  }
-
-private:
-  std::string key_;
-  std::optional<Case> case_;
-};
-
 /// Empty when the attempt comes out the same, else why not.
-std::string compare(ResultsDatabase& database, std::int64_t number, Cases& cases, const TissueTable& tissues) {
+std::string compare(ResultsDatabase& database, std::int64_t number, AttemptCases& cases, const TissueTable& tissues) {
   const std::string name = "attempt " + std::to_string(number);
   try {
     const Attempt attempt = database.read(number);
     const std::uint32_t seed = result_from_json(attempt.score_json, name).provenance.seed;
     Scenario scenario = parse_scenario(attempt.scenario_text, attempt.scenario_file, seed);
-    Runner runner(scenario, cases.of(attempt, scenario), tissues);
+    Runner runner(scenario, cases.of(attempt.patient, scenario), tissues);
     const Sequence log = parse_sequence(attempt.log, name);
     runner.feed(probe_samples(log), parse_action_log(recorded_actions(log), name));
     runner.end();
@@ -61,7 +40,7 @@ struct Given {
 int rescore(const Given& given) {
   ResultsDatabase database = ResultsDatabase::open(given.database);
   const TissueTable tissues = read_tissue_table(assets_folder() / "tissues.toml");
-  Cases cases;
+  AttemptCases cases;
   int same = 0, other = 0;
   for (const std::int64_t number : chosen_attempts(database, given.attempt)) {
     const std::string why = compare(database, number, cases, tissues);

@@ -1,5 +1,6 @@
 #include "scenarios/results/attempt.h"
 
+#include <chrono>
 #include <cstdio>
 #include <ctime>
 #include <utility>
@@ -17,6 +18,11 @@ Attempt attempt_of(const Runner& runner, const ExamResult& result, std::string l
   attempt.score_json = to_json(result);
   attempt.trace_json = to_json(runner.trace());
   return attempt;
+}
+
+std::int64_t now_since_1970_ms() {
+  const auto since_1970 = std::chrono::system_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::milliseconds>(since_1970).count();
 }
 
 std::string utc_time(std::int64_t since_1970_ms) {

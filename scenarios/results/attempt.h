@@ -29,6 +29,9 @@ struct Attempt {
 /// What a runner's scenario, trace and result tell of an attempt; learner, time and patient are left to whoever knows.
 Attempt attempt_of(const Runner& runner, const ExamResult& result, std::string log);
 
+/// The time now, as Attempt::finished_ms.
+std::int64_t now_since_1970_ms();
+
 /// "2026-11-21T18:05:09.250Z", of Attempt::finished_ms.
 std::string utc_time(std::int64_t since_1970_ms);
 

@@ -6,6 +6,7 @@
 #include "scenarios/result_json.h"
 #include "scenarios/results/compression.h"
 #include "scenarios/results/learner_id.h"
+#include "scenarios/results/packed_column.h"
 #include "scenarios/results/results_schema.h"
 #include "sim/core/digest.h"
 #include "sim/core/input_error.h"
@@ -14,9 +15,6 @@ namespace insonate {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// As read_file() takes a log: more is no log.
-constexpr std::int64_t kLargest = std::int64_t(1) << 30;
 
 /// A file's folder, made if need be, so that SQLite finds it.
 const fs::path& with_folder(const fs::path& file) {
@@ -67,7 +65,7 @@ ResultsDatabase ResultsDatabase::open_or_make(const fs::path& file) {
   return {with_folder(file), true};
 }
 
-void ResultsDatabase::add(Attempt& attempt) {
+void ResultsDatabase::add(Attempt& attempt, std::int64_t sitting) {
   check_learner_id(attempt.learner, connection_.file().string(), "learner");
   const ExamResult result = result_from_json(attempt.score_json, connection_.file().string());
   const std::string log = compressed(attempt.log), trace = compressed(attempt.trace_json);
@@ -99,6 +97,7 @@ void ResultsDatabase::add(Attempt& attempt) {
             .bind(3, kind.name)
             .bind_bytes(4, picture.png)
             .step();
+  remove(sitting);
   const std::string identity = this->identity();
   transaction.commit();
   attempt.database = identity;
@@ -113,11 +112,10 @@ Attempt ResultsDatabase::read(std::int64_t number) {
   if (!row.bind(1, number).step())
     throw InputError(connection_.file().string(), "", "there is no attempt " + std::to_string(number),
                      "list them with 'insonate-score attempts'");
+  const std::string place = "attempt " + std::to_string(number);
   const auto unpacked = [&](int size_column, const char* what) {
-    const std::int64_t size = row.integer(size_column);
-    const auto bytes =
-        size >= 0 && size <= kLargest ? decompressed(row.bytes(size_column + 1), std::size_t(size)) : std::nullopt;
-    if (!bytes) fail(number, std::string("its ") + what + " is damaged");
+    const auto bytes = unpack(row, size_column);
+    if (!bytes) fail(place, std::string("its ") + what + " is damaged");
     return *bytes;
   };
   Attempt attempt;
@@ -131,8 +129,8 @@ Attempt ResultsDatabase::read(std::int64_t number) {
   attempt.score_json = row.text(6);
   attempt.log = unpacked(9, "log");
   attempt.trace_json = unpacked(11, "trace");
-  if (digest_of(attempt.scenario_text) != row.text(7)) fail(number, "its scenario is damaged");
-  if (digest_of(attempt.log) != row.text(8)) fail(number, "its log is damaged");
+  if (digest_of(attempt.scenario_text) != row.text(7)) fail(place, "its scenario is damaged");
+  if (digest_of(attempt.log) != row.text(8)) fail(place, "its log is damaged");
   attempt.database = identity();
 
   sqlite::Statement picture(connection_, "SELECT step, kind, png FROM picture WHERE attempt = ? ORDER BY step, kind");
@@ -141,7 +139,7 @@ Attempt ResultsDatabase::read(std::int64_t number) {
     const std::string name = picture.text(1);
     const auto kind = std::find_if(kPictureKinds.begin(), kPictureKinds.end(),
                                    [&](const PictureKindName& k) { return k.name == name; });
-    if (kind == kPictureKinds.end() || picture.integer(0) < 0) fail(number, "its pictures are damaged");
+    if (kind == kPictureKinds.end() || picture.integer(0) < 0) fail(place, "its pictures are damaged");
     attempt.pictures.push_back({std::size_t(picture.integer(0)), kind->kind, picture.bytes(2)});
   }
   return attempt;
@@ -180,11 +178,11 @@ void ResultsDatabase::check() {
                      "the database is damaged (" + (orphans ? "an attempt of no learner" : said) + ")",
                      "go back to a copy of it from before");
   for (const AttemptSummary& attempt : attempts()) read(attempt.number);
+  for (const Sitting& sitting : sittings()) parts(sitting.number);
 }
 
-void ResultsDatabase::fail(std::int64_t number, const std::string& problem) const {
-  throw InputError(connection_.file().string(), "attempt " + std::to_string(number), problem,
-                   "go back to a copy of the database from before");
+void ResultsDatabase::fail(const std::string& place, const std::string& problem) const {
+  throw InputError(connection_.file().string(), place, problem, "go back to a copy of the database from before");
 }
 
 }  // namespace insonate

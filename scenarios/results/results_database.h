@@ -3,9 +3,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scenarios/results/attempt.h"
+#include "scenarios/results/sitting.h"
 #include "scenarios/results/sqlite.h"
 
 namespace insonate {
@@ -45,7 +47,8 @@ public:
 
   /// Keeps an attempt and sets its number and uuid. Throws InputError when the learner's id is none, or the score does
   /// not read back.
-  void add(Attempt& attempt);
+  /// @param sitting  of which it is what was handed in, and which it takes the place of; 0 for none
+  void add(Attempt& attempt, std::int64_t sitting = 0);
 
   /// Throws InputError when there is no attempt of that number, or when it is damaged.
   Attempt read(std::int64_t number);
@@ -55,6 +58,21 @@ public:
   /// In the order of their ids.
   std::vector<LearnerSummary> learners();
 
+  /// Keeps that an exam has begun, with the first part of its log, and sets its number. Throws InputError when the
+  /// learner's id is none, or when this learner is sitting this very exam already.
+  void begin(Sitting& sitting, std::string_view log);
+  /// Keeps what has come of it since the part before: a sequence file without pictures. Throws InputError when there is
+  /// no such sitting any more.
+  void add_part(std::int64_t sitting, std::string_view log, std::int64_t now_ms);
+  /// The exams that were begun and not handed in, in the order in which they began.
+  std::vector<Sitting> sittings();
+  /// What there is of one, in order.
+  std::vector<std::string> parts(std::int64_t sitting);
+  /// Removes one as if it had not begun.
+  void remove(std::int64_t sitting);
+
+  const std::filesystem::path& file() const { return connection_.file(); }
+
   /// 32 hexadecimal digits that no other database has.
   std::string identity();
 
@@ -63,7 +81,8 @@ public:
 
 private:
   ResultsDatabase(const std::filesystem::path& file, bool make);
-  [[noreturn]] void fail(std::int64_t number, const std::string& problem) const;
+  [[noreturn]] void fail(const std::string& place, const std::string& problem) const;
+  void insert_part(std::int64_t sitting, std::string_view log, std::int64_t now_ms);
 
   sqlite::Connection connection_;
 };

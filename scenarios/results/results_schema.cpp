@@ -54,6 +54,29 @@ CREATE TABLE picture (
   png BLOB NOT NULL,
   PRIMARY KEY (attempt, step, kind)
 ) STRICT;
+)sql",
+                            R"sql(
+CREATE TABLE sitting (
+  number INTEGER PRIMARY KEY AUTOINCREMENT,
+  learner TEXT NOT NULL REFERENCES learner (id) ON DELETE CASCADE,
+  began_ms INTEGER NOT NULL,            -- since 1970 UTC
+  title TEXT NOT NULL,
+  scenario_digest TEXT NOT NULL,
+  scenario_file TEXT NOT NULL,
+  scenario TEXT NOT NULL,
+  patient TEXT NOT NULL,
+  seed INTEGER NOT NULL,
+  UNIQUE (learner, scenario_digest)
+) STRICT;
+
+CREATE TABLE sitting_part (
+  sitting INTEGER NOT NULL REFERENCES sitting (number) ON DELETE CASCADE,
+  part INTEGER NOT NULL,                -- from 1
+  kept_ms INTEGER NOT NULL,             -- since 1970 UTC
+  log_size INTEGER NOT NULL,            -- in bytes, before zlib
+  log BLOB NOT NULL,
+  PRIMARY KEY (sitting, part)
+) STRICT;
 )sql"};
 
 struct Header {

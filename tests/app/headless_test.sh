@@ -70,6 +70,29 @@ recovered=$(sed -n 's/.* with \([0-9]*\) frames$/\1/p' "$work/log")
 [ "$recovered" -ge "$written" ] || fail "of $written frames $recovered came back"
 "$devices" check "$work/killed.igs.mha" >"$work/log" || [ $? = 1 ] || fail "$(cat "$work/log")"
 
+echo "an exam that counts is begun once, also when the program is killed in the middle"
+sit() {
+  "$trainer" --headless --exam --scenario "$scenario" --seed 3 --tracker "synthetic:1?live=1&rate=60" \
+    --results "$work/sitting.db" --learner "$1" --seconds 3600 --out "$work/sitting" >"$work/log" 2>&1
+}
+for learner in L-07 L-08; do
+  sit "$learner" &
+  killed=$!
+  for _ in $(seq 1 600); do
+    "$score" attempts "$work/sitting.db" 2>/dev/null | grep -q "of $learner" && break
+    sleep 0.2
+  done
+  sleep 3
+  pkill -9 -P "$killed" || true
+  kill -9 "$killed" 2>/dev/null || true
+  wait "$killed" 2>/dev/null || true
+  killed=""
+done
+"$score" hand-in "$work/sitting.db" >"$work/handed.txt" || fail "hand-in ended with $?"
+[ "$(grep -c 'under way, or broken off only just' "$work/handed.txt")" -ge 1 ] || fail "$(cat "$work/handed.txt")"
+sit L-08 && fail "an exam was begun twice"
+grep -q "this learner has begun the exam already" "$work/log" || fail "$(cat "$work/log")"
+
 echo "how long a live tracker's reports take to the picture is told"
 "$trainer" --headless --tracker "synthetic:1?live=1" --seconds 2 --latency "$work/latency.csv" --out "$work/live" \
   >"$work/log" 2>&1 || fail "$(cat "$work/log")"
@@ -135,4 +158,20 @@ refuses "no use for a tracker" --headless --replay "$log" --tracker mouse:
 refuses "brings its scenario" --headless --results "$work/results.db" --replay-attempt 1 --scenario "$scenario"
 [ ! -e "$work/none.db" ] || fail "a database was made for a replay"
 refuses shader-dir --headless --shader-dir "$work/missing"
+
+echo "what there is of a sitting that was broken off is handed in, or removed so that it can be taken again"
+for _ in $(seq 1 100); do
+  "$score" hand-in "$work/sitting.db" --sitting 1 >"$work/handed.txt" || fail "hand-in ended with $?"
+  grep -q 'only just' "$work/handed.txt" || break
+  sleep 0.5
+done
+grep -q '^sitting 1, L-07, begun .*: attempt 1, ' "$work/handed.txt" || fail "$(cat "$work/handed.txt")"
+"$score" rescore "$work/sitting.db" >"$work/log" || fail "$(cat "$work/log")"
+"$score" report "$work/sitting.db" --out "$work/reports-sitting" >"$work/log" 2>&1 || fail "$(cat "$work/log")"
+grep -q '"seed": 3,' "$work/reports-sitting/attempt-1/score.json" || fail "the seed was not kept"
+sit L-07 && fail "an exam that was handed in was begun again"
+grep -q "as attempt 1" "$work/log" || fail "$(cat "$work/log")"
+"$score" hand-in "$work/sitting.db" --sitting 2 --discard >"$work/handed.txt" || fail "hand-in ended with $?"
+grep -q '^sitting 2, L-08, begun .*: removed$' "$work/handed.txt" || fail "$(cat "$work/handed.txt")"
+[ "$("$score" hand-in "$work/sitting.db")" = "no exam was begun and not handed in" ] || fail "sittings are left"
 echo "passed"

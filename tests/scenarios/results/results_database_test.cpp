@@ -47,6 +47,60 @@ TEST_CASE("an attempt comes back from the database to the byte, and later ones l
   CHECK_THROWS_AS(database.read(3), InputError);
 }
 
+TEST_CASE("an exam under way is kept part by part until an attempt takes its place") {
+  const ResultsFolder folder;
+  ResultsDatabase database = ResultsDatabase::open_or_make(folder / "results.db");
+  Sitting sitting;
+  sitting.learner = "L-01";
+  sitting.began_ms = 1'795'284'309'250;
+  sitting.title = "Ball";
+  sitting.scenario_text = kTinyScenario;
+  sitting.scenario_file = "/exams/exam.toml";
+  sitting.patient = "/cases/7";
+  sitting.seed = 4'000'000'000;
+  database.begin(sitting, "first");
+  CHECK(sitting.number == 1);
+  database.add_part(1, std::string("second\0", 7), sitting.began_ms + 1000);
+  Sitting other = sitting;
+  other.learner = "L-02";
+  database.begin(other, "");
+
+  const std::vector<Sitting> kept = database.sittings();
+  REQUIRE(kept.size() == 2);
+  CHECK(kept[0].number == 1);
+  CHECK(kept[0].learner == "L-01");
+  CHECK(kept[0].began_ms == sitting.began_ms);
+  CHECK(kept[0].kept_ms == sitting.began_ms + 1000);
+  CHECK(kept[0].title == "Ball");
+  CHECK(kept[0].scenario_text == kTinyScenario);
+  CHECK(kept[0].scenario_file == "/exams/exam.toml");
+  CHECK(kept[0].patient == "/cases/7");
+  CHECK(kept[0].seed == 4'000'000'000);
+  CHECK(kept[1].learner == "L-02");
+  CHECK(database.parts(1) == std::vector<std::string>{"first", std::string("second\0", 7)});
+  CHECK(database.parts(2) == std::vector<std::string>{""});
+  database.check();
+
+  INFO("nobody takes an exam at two stations");
+  Sitting twice = sitting;
+  CHECK_THROWS_WITH(database.begin(twice, "x"), Catch::Contains("at another station"));
+  twice.scenario_text += "\n";
+  database.begin(twice, "x");
+  CHECK(database.sittings().size() == 3);
+
+  INFO("handed in it is an attempt and nothing else");
+  Attempt attempt = made_attempt("L-01", tiny_exam(0));
+  database.add(attempt, 1);
+  CHECK(database.attempts().size() == 1);
+  CHECK(database.sittings().size() == 2);
+  CHECK(database.parts(1).empty());
+  CHECK_THROWS_WITH(database.add_part(1, "third", 0), Catch::Contains("handed in meanwhile"));
+  database.remove(2);
+  REQUIRE(database.sittings().size() == 1);
+  CHECK(database.sittings()[0].number == 3);
+  database.check();
+}
+
 TEST_CASE("lists say who took what, and how it went") {
   const ResultsFolder folder;
   ResultsDatabase database = ResultsDatabase::open_or_make(folder / "results.db");

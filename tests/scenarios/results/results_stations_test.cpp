@@ -97,6 +97,40 @@ TEST_CASE("whenever a program is killed, the database opens, is whole, and has w
   CHECK(in_the_middle >= 20);
 }
 
+TEST_CASE("whenever a program is killed, what was said to be kept of an exam under way is there") {
+  const ResultsFolder folder;
+  std::mt19937 random(11);
+  for (int kill_number = 0; kill_number < 10; ++kill_number) {
+    folder.clear();
+    int ends[2];
+    REQUIRE(pipe(ends) == 0);
+    const pid_t child = start([&] {
+      ResultsDatabase database = ResultsDatabase::open_or_make(folder / "results.db");
+      Sitting sitting;
+      sitting.learner = "L-07";
+      database.begin(sitting, noise(0));
+      for (std::uint32_t i = 1; write(ends[1], "!", 1) == 1; ++i) database.add_part(sitting.number, noise(i), i);
+    });
+    close(ends[1]);
+    char byte = 0;
+    REQUIRE(read(ends[0], &byte, 1) == 1);
+    std::uint32_t promised = 1;
+    std::this_thread::sleep_for(std::chrono::microseconds(random() % 30'000));
+    kill(child, SIGKILL);
+    int status = 0;
+    REQUIRE(waitpid(child, &status, 0) == child);
+    REQUIRE(WIFSIGNALED(status));
+    while (read(ends[0], &byte, 1) == 1) ++promised;
+    close(ends[0]);
+    ResultsDatabase database = ResultsDatabase::open(folder / "results.db");
+    database.check();
+    REQUIRE(database.sittings().size() == 1);
+    const std::vector<std::string> parts = database.parts(database.sittings()[0].number);
+    CHECK(parts.size() >= promised);
+    for (std::uint32_t i = 0; i < parts.size(); ++i) CHECK(parts[i] == noise(i));
+  }
+}
+
 TEST_CASE("stations that write at once, and make the database at once, lose nothing") {
   const ResultsFolder folder;
   const TinyExam exam = tiny_exam(0);

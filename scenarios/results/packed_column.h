@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "scenarios/results/compression.h"
+#include "scenarios/results/sqlite.h"
+
+namespace insonate {
+
+/// The bytes of two columns, their size before they were compressed and what they were compressed to. Empty when they
+/// are damaged.
+inline std::optional<std::string> unpack(const sqlite::Statement& row, int size_column) {
+  // As read_file() takes a log: more is no log.
+  constexpr std::int64_t kLargest = std::int64_t(1) << 30;
+  const std::int64_t size = row.integer(size_column);
+  if (size < 0 || size > kLargest) return std::nullopt;
+  return decompressed(row.bytes(size_column + 1), std::size_t(size));
+}
+
+}  // namespace insonate

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "scenarios/scenario.h"
+#include "sim/core/files.h"
+#include "tools/subject.h"
+
+namespace insonate {
+
+/// The cases that attempts were taken on, the last one kept: attempts at one exam often come one after the other.
+class AttemptCases {
+public:
+  /// @param patient  Attempt::patient
+  const Case& of(const std::string& patient, const Scenario& scenario) {
+    std::string key = patient + '\n' + scenario.case_name + '\n' + scenario.file.parent_path().string();
+    for (const auto& [name, value] : scenario.phantom_options) key.append("\n").append(name).append("=").append(value);
+    if (!case_ || key != key_) {
+      case_.reset();  // two would take twice the memory
+      case_ =
+          patient.empty() ? load_case(scenario, assets_folder(), cache_folder(), show_progress) : open_case(patient);
+      key_ = key;
+    }
+    return *case_;
+  }
+
+private:
+  std::string key_;
+  std::optional<Case> case_;
+};
+
+}  // namespace insonate

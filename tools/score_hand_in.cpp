@@ -1,0 +1,90 @@
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "devices/sequence/probe_samples.h"
+#include "devices/sequence/sequence.h"
+#include "scenarios/results/results_database.h"
+#include "scenarios/runner.h"
+#include "sim/core/files.h"
+#include "sim/core/input_error.h"
+#include "tools/attempt_cases.h"
+#include "tools/score_commands.h"
+
+namespace insonate {
+namespace {
+
+/// Scored as an exam is that ends where its log ends.
+Attempt scored(ResultsDatabase& database, const Sitting& sitting, AttemptCases& cases, const TissueTable& tissues) {
+  const std::string name = "sitting " + std::to_string(sitting.number);
+  const Scenario scenario = parse_scenario(sitting.scenario_text, sitting.scenario_file, sitting.seed);
+  Runner runner(scenario, cases.of(sitting.patient, scenario), tissues);
+  std::vector<PoseSample> samples;
+  std::map<double, std::string> actions;
+  for (const std::string& part : database.parts(sitting.number)) {
+    const Sequence log = parse_sequence(part, name);
+    const std::vector<PoseSample> some = probe_samples(log);
+    samples.insert(samples.end(), some.begin(), some.end());
+    actions.merge(recorded_actions(log));
+  }
+  runner.feed(samples, parse_action_log(actions, name));
+  runner.end();
+  Attempt attempt = attempt_of(runner, runner.result(), write_sequence(samples, actions));
+  attempt.learner = sitting.learner;
+  attempt.finished_ms = sitting.kept_ms;
+  attempt.patient = sitting.patient;
+  return attempt;
+}
+
+struct Given {
+  std::filesystem::path database;
+  std::int64_t sitting = 0;
+  bool discard = false;
+};
+
+int hand_in(const Given& given) {
+  ResultsDatabase database = ResultsDatabase::open(given.database);
+  const TissueTable tissues = read_tissue_table(assets_folder() / "tissues.toml");
+  AttemptCases cases;
+  bool found = false;
+  for (const Sitting& sitting : database.sittings()) {
+    if (given.sitting != 0 && sitting.number != given.sitting) continue;
+    found = true;
+    std::printf("sitting %lld, %s, begun %s: ", static_cast<long long>(sitting.number), sitting.learner.c_str(),
+                utc_time(sitting.began_ms).c_str());
+    if (now_since_1970_ms() - sitting.kept_ms < Sitting::kGivenUpAfter_ms) {
+      std::printf("under way, or broken off only just\n");
+    } else if (given.discard) {
+      database.remove(sitting.number);
+      std::printf("removed\n");
+    } else {
+      Attempt attempt = scored(database, sitting, cases, tissues);
+      database.add(attempt, sitting.number);
+      std::printf("attempt %lld, %s\n", static_cast<long long>(attempt.number), sitting.title.c_str());
+    }
+  }
+  if (!found && given.sitting != 0)
+    throw InputError(given.database.string(), "", "there is no sitting " + std::to_string(given.sitting),
+                     "list them with 'insonate-score attempts'");
+  if (!found) std::printf("no exam was begun and not handed in\n");
+  return 0;
+}
+
+}  // namespace
+
+void add_hand_in_command(CLI::App& arguments, CommandRun& run) {
+  const auto given = std::make_shared<Given>();
+  CLI::App* command = arguments.add_subcommand(
+      "hand-in",
+      "Scores the exams that were begun with --exam and never handed in, as when the power failed, each from what was "
+      "kept of it, and makes attempts of them");
+  command->add_option("database", given->database, "The database")->required();
+  CLI::Option* only = command->add_option("--sitting", given->sitting, "Only this one, by its number");
+  only->check(CLI::PositiveNumber);
+  command->add_flag("--discard", given->discard, "Removes it unscored, so that the learner can take the exam again")
+      ->needs(only);
+  command->callback([given, &run] { run = [given] { return hand_in(*given); }; });
+}
+
+}  // namespace insonate
