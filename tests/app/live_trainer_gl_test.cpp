@@ -108,6 +108,27 @@ TEST_CASE("what a live tracker sends the trainer replays to the samples that the
   CHECK(same_bits(replayed, seen));
 }
 
+TEST_CASE("each session's bytes go to a file of their own, and say of what they are") {
+  const gl::HeadlessContext context;
+  Lab lab;
+  lab.options.tracker = "hydra:";
+  lab.options.calibration = lab.folder.path / "lab.toml";
+  lab.options.record_raw = lab.folder.path / "run.raw";
+  write_calibration(lab.options.calibration, calibration_of(lab.options.tracker));
+  Trainer trainer(lab.options);
+  trainer.open_from_options();
+  trainer.finish_loading();
+  REQUIRE(trainer.session());
+  CHECK(trainer.raw_file() == lab.folder.path / "run.raw");
+  INFO("what comes through a calibration are the sensor's poses");
+  CHECK_THAT(read_file(trainer.raw_file()), Catch::Contains("\ntracker hydra:?raw=1&filter="));
+  trainer.begin_setup();
+  REQUIRE(trainer.setup());
+  trainer.end_setup();
+  REQUIRE(trainer.session());
+  CHECK(trainer.raw_file() == lab.folder.path / "run-2.raw");
+}
+
 TEST_CASE("a tracker without bytes, none at all, and a file that is there are refused before anything is loaded") {
   const Folder folder;
   Options options;

@@ -51,6 +51,17 @@ TEST_CASE("a log that begins again at its end is refused for an exam, and practi
   CHECK_FALSE(session.result());
 }
 
+TEST_CASE("a log of a sensor's poses is refused: nobody knows where its probe was") {
+  Recording recording{"run.raw", "digest", "reports of hydra:?raw=1"};
+  const auto open = [&] {
+    return std::make_unique<ReplayTracker>("raw replay of run.raw", searching_scan(), ReplayTracker::Options{},
+                                           recording);
+  };
+  CHECK_NOTHROW(Session(tiny_study(false), open));
+  recording.of_sensor = true;
+  CHECK_THROWS_WITH(Session(tiny_study(false), open), Catch::Contains("run.raw") && Catch::Contains("--calibration"));
+}
+
 TEST_CASE("each attempt names the log that it was scored from, also when the file has changed in between") {
   const auto file =
       std::filesystem::temp_directory_path() / ("insonate_session_" + std::to_string(getpid()) + ".igs.mha");
