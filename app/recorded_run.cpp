@@ -71,9 +71,9 @@ public:
     moment.newest_pose = session.newest_pose();
     if (sample.status == PoseStatus::ok) last_usable_s_ = moment.time_s;
     moment.last_usable_s = last_usable_s_;
-    if (run_.consoles.empty() || !(run_.consoles.back() == session.console()))
-      run_.consoles.push_back(session.console());
-    moment.console = run_.consoles.size() - 1;
+    moment.console = index_of(run_.consoles, session.console());
+    tools_.see(session);
+    moment.marks = index_of(run_.marks, shown_marks(session, tools_));
     if (const Runner* runner = session.runner()) {
       const LiveExam& live = runner->live();
       moment.step = live.step;
@@ -96,10 +96,18 @@ public:
   }
 
 private:
+  /// What is as it was before is not kept twice.
+  template <typename Value>
+  static std::size_t index_of(std::vector<Value>& values, const Value& value) {
+    if (values.empty() || !(values.back() == value)) values.push_back(value);
+    return values.size() - 1;
+  }
+
   RecordedRun& run_;
   double first_s_;
   std::optional<double> last_usable_s_;
   MotionMeter motion_;
+  PictureTools tools_;  ///< as the screen's, in nobody's hand
 };
 
 std::vector<RunEvent> events_of(const RecordedScan& scan, const std::vector<double>& marks_s) {

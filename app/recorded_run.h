@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/session.h"
+#include "app/shown_marks.h"
 #include "app/study.h"
 #include "devices/sequence/probe_samples.h"
 #include "scenarios/result.h"
@@ -24,6 +25,7 @@ struct RunMoment {
   std::optional<Pose> newest_pose;      ///< of the probe
   std::optional<double> last_usable_s;  ///< when the newest usable sample came
   std::size_t console = 0;              ///< index into RecordedRun::consoles
+  std::size_t marks = 0;                ///< index into RecordedRun::marks
   std::size_t step = 0;                 ///< of the scenario; 0 without one
   bool on_skin = false;                 ///< of the runner, as all below: false without a scenario
   bool within_tolerance = false;        ///< the picture is as the step asks for
@@ -50,6 +52,7 @@ struct RecordedRun {
   std::string name;                   ///< of the log, for the screen
   std::vector<RunMoment> moments;     ///< at least one; times rise from 0
   std::vector<Console> consoles;      ///< the settings there were, in their order
+  std::vector<ShownMarks> marks;      ///< what lay over the picture, in its order
   std::vector<RunStretch> stretches;  ///< without gaps from 0 to the end; one without a scenario
   std::vector<RunEvent> events;       ///< in the order of time
   std::optional<ExamResult> result;   ///< empty without a scenario
@@ -59,6 +62,7 @@ struct RecordedRun {
   std::size_t index_at(double time_s) const;
   const RunMoment& at(double time_s) const { return moments[index_at(time_s)]; }
   const Console& console_at(double time_s) const { return consoles[at(time_s).console]; }
+  const ShownMarks& marks_at(double time_s) const { return marks[at(time_s).marks]; }
   /// Index of the stretch that a time lies in; a boundary belongs to the later one.
   std::size_t stretch_at(double time_s) const;
   /// How long no usable pose had come by then, once that is longer than Session::kStale_s; as Session::lost_for_s().

@@ -26,6 +26,7 @@ public:
   double time_s() const { return time_s_; }
   const RunMoment& moment() const { return run_.at(time_s_); }
   const Console& console() const { return run_.console_at(time_s_); }
+  const ShownMarks& marks() const { return run_.marks_at(time_s_); }
 
   /// The time of the expert's run that lies as far behind the beginning of its step, or its end once the expert had
   /// gone on; empty without an expert, and where the expert never came to that step.

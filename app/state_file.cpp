@@ -24,6 +24,13 @@ void write_pose(Json& state, const Pose& pose) {
   }
 }
 
+/// Something that is placed in the picture: its slot and value, or its name.
+std::string in_short(const Action& placed) {
+  if (placed.kind == ActionKind::caliper || placed.kind == ActionKind::ellipse)
+    return std::to_string(placed.slot()) + " " + value_text(placed) + "; ";
+  return (placed.kind == ActionKind::point ? "point" : placed.text) + "; ";
+}
+
 }  // namespace
 
 void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::Screen& screen, long frames) {
@@ -61,6 +68,9 @@ void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::
     state["replay_speed"] = replay->speed();
     state["step"] = replay->moment().step;
     write_console(state, replay->console());
+    std::string placed;
+    for (const ShownMarks::Placed& mark : replay->marks().placed) placed += in_short(mark.action);
+    state["placed"] = placed;
     if (const auto& pose = replay->moment().shown_pose) write_pose(state, *pose);
   }
   if (const Session* session = trainer.session()) {
@@ -88,10 +98,9 @@ void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::
     }
     std::string placed;
     const PictureMarks& marks = trainer.picture_tools().marks();
-    for (const auto& [slot, mark] : marks.measured())
-      placed += std::to_string(slot) + " " + value_text(mark.action) + "; ";
-    if (marks.point()) placed += "point; ";
-    for (const auto& [name, mark] : marks.labels()) placed += name + "; ";
+    for (const auto& [slot, mark] : marks.measured()) placed += in_short(mark.action);
+    if (marks.point()) placed += in_short(marks.point()->action);
+    for (const auto& [name, mark] : marks.labels()) placed += in_short(mark.action);
     state["placed"] = placed;
     state["can_measure"] = PictureTools::ready(*session);
     state["draft"] = trainer.step_controls().draft();

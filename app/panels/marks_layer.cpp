@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "scenarios/caliper.h"
-#include "scenarios/steps/measure.h"
 
 namespace insonate::ui {
 namespace {
@@ -81,35 +80,22 @@ void draw_placed(const Theme& theme, const PlaneOnScreen& plane, const Action& a
     draw_place(theme, plane, action.point(0), colour, in_words(action.text));
 }
 
-struct Value {
-  std::string name, text;
-  ImU32 colour;
-};
-
-std::vector<Value> values(const Session& session, const PictureTools& tools) {
-  std::vector<Value> found;
-  const auto picture = session.frozen_picture();
-  const auto& hand = tools.in_hand();
-  const auto add = [&](const Action& action, ImU32 colour) {
-    const bool numbered = tools.free_choice() || (tools.measuring() && tools.measuring()->tool == Measure::Tool::ratio);
-    const std::string number = numbered ? std::to_string(action.slot()) + "   " : "";
-    found.push_back({number + tools.slot_name(action.slot()), value_text(action), colour});
-  };
-  for (const auto& [slot, mark] : tools.marks().measured())
-    if (!hand || hand->slot() != slot)
-      add(mark.action, picture == mark.patient_from_probe ? colour::kText : colour::kMuted);
-  if (hand && (hand->kind == ActionKind::caliper || hand->kind == ActionKind::ellipse)) add(*hand, colour::kAccent);
-  if (const std::string total = tools.total_text(); !total.empty()) {
-    const std::size_t blank = total.find(' ');
-    found.push_back({total.substr(0, blank), total.substr(blank + 1), colour::kText});
+ImU32 ink_of(const ShownMarks::Value& value) {
+  switch (value.of) {
+    case ShownMarks::Value::Of::picture:
+      return colour::kText;
+    case ShownMarks::Value::Of::other_picture:
+      return colour::kMuted;
+    case ShownMarks::Value::Of::in_hand:
+      break;
   }
-  return found;
+  return colour::kAccent;
 }
 
-void draw_values(const Theme& theme, const Rect& panel, const std::vector<Value>& rows) {
+void draw_values(const Theme& theme, const Rect& panel, const std::vector<ShownMarks::Value>& rows) {
   if (rows.empty()) return;
   float names = 0, texts = 0;
-  for (const Value& row : rows) {
+  for (const ShownMarks::Value& row : rows) {
     names = std::max(names, text_width(theme.small_text, row.name));
     texts = std::max(texts, text_width(theme.strong, row.text));
   }
@@ -120,30 +106,21 @@ void draw_values(const Theme& theme, const Rect& panel, const std::vector<Value>
   fill(placed, colour::kPanel, theme.px(4));
   outline(placed, colour::kLine, theme.px(4));
   Rect rest = placed.inset(margin, margin / 2);
-  for (const Value& row : rows) {
+  for (const ShownMarks::Value& row : rows) {
     const Rect line = rest.take_top(height);
-    draw_text(line, theme.small_text, row.colour == colour::kText ? colour::kMuted : row.colour, row.name);
-    draw_text(line, theme.strong, row.colour, row.text, Align::right);
+    const ImU32 ink = ink_of(row);
+    draw_text(line, theme.small_text, ink == colour::kText ? colour::kMuted : ink, row.name);
+    draw_text(line, theme.strong, ink, row.text, Align::right);
   }
 }
 
 }  // namespace
 
-void draw_marks(const Theme& theme, const Rect& panel, const PlaneOnScreen& plane, const Session& session,
-                const PictureTools& tools) {
-  const auto picture = session.frozen_picture();
-  const auto& hand = tools.in_hand();
-  const auto draw = [&](const PictureMark& mark) {
-    if (mark.patient_from_probe != picture) return;
-    if (hand && take_back(*hand) == take_back(mark.action)) return;
-    draw_placed(theme, plane, mark.action, colour::kText);
-  };
-  for (const auto& [slot, mark] : tools.marks().measured()) draw(mark);
-  if (tools.marks().point()) draw(*tools.marks().point());
-  for (const auto& [name, mark] : tools.marks().labels()) draw(mark);
-  if (hand) draw_placed(theme, plane, *hand, colour::kAccent);
-  if (tools.unnamed_place()) draw_place(theme, plane, *tools.unnamed_place(), colour::kAccent, "?");
-  draw_values(theme, panel, values(session, tools));
+void draw_marks(const Theme& theme, const Rect& panel, const PlaneOnScreen& plane, const ShownMarks& marks) {
+  for (const ShownMarks::Placed& placed : marks.placed)
+    draw_placed(theme, plane, placed.action, placed.in_hand ? colour::kAccent : colour::kText);
+  if (marks.unnamed_place) draw_place(theme, plane, *marks.unnamed_place, colour::kAccent, "?");
+  draw_values(theme, panel, marks.values);
 }
 
 void draw_picture_tools(const Theme& theme, const Rect& panel, Session& session, PictureTools& tools,

@@ -7,13 +7,13 @@
 #include "app/panels/widgets.h"
 #include "app/picture_tools.h"
 #include "app/plane_on_screen.h"
+#include "app/shown_marks.h"
 
 namespace insonate::ui {
 
 /// What is placed in the ultrasound picture, as machines draw it: small crosses, a dotted line between them, and a box
 /// of values in the corner.
-void draw_marks(const Theme& theme, const Rect& panel, const PlaneOnScreen& plane, const Session& session,
-                const PictureTools& tools);
+void draw_marks(const Theme& theme, const Rect& panel, const PlaneOnScreen& plane, const ShownMarks& marks);
 
 /// The buttons beside the frozen picture: what to measure with, undo, clear. Adds to `places` where they are.
 void draw_picture_tools(const Theme& theme, const Rect& panel, Session& session, PictureTools& tools,

@@ -108,7 +108,7 @@ void draw_replay_page(const Theme& theme, const ReplayPlaces& places, Trainer& t
   const Study& study = *trainer.study();
   const Scenario* scenario = study.scenario ? &*study.scenario : nullptr;
   draw_top(theme, places.top, replay, scenario);
-  UltrasoundPanel::draw_still(theme, places.ultrasound, study.subject.name, replay.console(),
+  UltrasoundPanel::draw_still(theme, places.ultrasound, study.subject.name, replay.console(), replay.marks(),
                               replay.run().lost_for_s(replay.time_s()), trainer.pictures());
   space.draw(theme, places.space, nullptr, trainer.pictures());
   draw_paths(theme, places.space, replay, trainer.pictures().camera);

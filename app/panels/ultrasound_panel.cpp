@@ -178,7 +178,7 @@ void UltrasoundPanel::draw(const Theme& theme, const Rect& panel, Session& sessi
   const Rect area = picture_area(theme, panel);
   if (const gl::Texture* picture = pictures.ultrasound()) {
     const PlaneOnScreen plane = draw_picture(theme, panel, *picture, pictures, session.console());
-    draw_marks(theme, panel, plane, session, tools);
+    draw_marks(theme, panel, plane, shown_marks(session, tools));
     draw_picture_tools(theme, panel, session, tools, places);  // before the picture's own item, which lies under them
     take_mouse(theme, area, session, plane, tools);
   } else {
@@ -192,10 +192,11 @@ void UltrasoundPanel::draw(const Theme& theme, const Rect& panel, Session& sessi
 }
 
 void UltrasoundPanel::draw_still(const Theme& theme, const Rect& panel, const std::string& patient,
-                                 const Console& console, std::optional<double> lost_for_s, const Pictures& pictures) {
+                                 const Console& console, const ShownMarks& marks, std::optional<double> lost_for_s,
+                                 const Pictures& pictures) {
   fill(panel, colour::kImage, theme.px(4));
   if (const gl::Texture* picture = pictures.ultrasound())
-    draw_picture(theme, panel, *picture, pictures, console);
+    draw_marks(theme, panel, draw_picture(theme, panel, *picture, pictures, console), marks);
   else
     draw_text(panel, theme.text, colour::kFaint, "No pose has come yet", Align::centre);
   draw_annotations(theme, panel, patient, console);

@@ -8,6 +8,7 @@
 #include "app/picture_tools.h"
 #include "app/pictures.h"
 #include "app/plane_on_screen.h"
+#include "app/shown_marks.h"
 
 namespace insonate::ui {
 
@@ -27,7 +28,7 @@ public:
                    PictureTools& tools, std::map<std::string, Rect>& places);
   /// The same of a run that is over: nothing on it can be taken hold of.
   static void draw_still(const Theme& theme, const Rect& panel, const std::string& patient, const Console& console,
-                         std::optional<double> lost_for_s, const Pictures& pictures);
+                         const ShownMarks& marks, std::optional<double> lost_for_s, const Pictures& pictures);
 };
 
 }  // namespace insonate::ui

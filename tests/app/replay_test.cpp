@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "devices/live/probe_buttons.h"
+#include "scenarios/caliper.h"
 #include "scenarios/result_json.h"
 #include "sim/core/hash.h"
 #include "tests/app/tiny_session.h"
@@ -29,6 +30,7 @@ RecordedScan scan(double search_s, double first_s = 0) {
   };
   act(31, "depth 120; gain 4");
   act(60, "freeze");
+  act(75, "caliper 1 0 40 0 80");
   act(100, "unfreeze; frequency 5");
   act(150, "probe :linear");
   act(200, "probe :curvilinear; depth 140");
@@ -36,13 +38,14 @@ RecordedScan scan(double search_s, double first_s = 0) {
 }
 
 /// All that the screen shows of a session at its time against what a replay says of that time.
-void check_same(const Session& session, const Replay& replay) {
+void check_same(const Session& session, const PictureTools& tools, const Replay& replay) {
   const RunMoment& moment = replay.moment();
   REQUIRE(moment.shown_pose.has_value() == session.shown_pose().has_value());
   if (moment.shown_pose) CHECK(*moment.shown_pose == *session.shown_pose());
   REQUIRE(moment.newest_pose.has_value() == session.newest_pose().has_value());
   if (moment.newest_pose) CHECK(*moment.newest_pose == *session.newest_pose());
   CHECK(replay.console() == session.console());
+  CHECK(replay.marks() == shown_marks(session, tools));
   if (!session.runner() || session.runner()->live().finished) return;
   const LiveExam& live = session.runner()->live();
   CHECK(moment.step == live.step);
@@ -66,7 +69,9 @@ TEST_CASE("a replay at a time is what a session that played the log until then s
     Session session(study, [&] {
       return std::make_unique<ReplayTracker>("a log", log.samples, ReplayTracker::Options{}, log.recording);
     });
+    PictureTools tools;
     session.advance(0);
+    tools.see(session);
     played.advance(0);
     played.toggle();
     // 23 frames a second: no frame falls together with samples.
@@ -74,12 +79,13 @@ TEST_CASE("a replay at a time is what a session that played the log until then s
       const double now_s = frame / 23.0;
       CAPTURE(first_s, now_s);
       session.advance(now_s);
+      tools.see(session);
       played.advance(now_s);
-      check_same(session, played);
+      check_same(session, tools, played);
       for (std::uint32_t jump = 0; jump < 5; ++jump)
         scrubbed.seek(run.duration_s() * (double(unit_float(hash(std::uint32_t(frame), jump)))));
       scrubbed.seek(played.time_s());
-      check_same(session, scrubbed);
+      check_same(session, tools, scrubbed);
       CHECK(run.lost_for_s(scrubbed.time_s()).has_value() == session.lost_for_s().has_value());
       CHECK(run.index_at(scrubbed.time_s()) == run.index_at(played.time_s()));
     }
@@ -108,10 +114,96 @@ TEST_CASE("a replayed run has its score, its steps, and what was done besides mo
 
   std::vector<std::string> words;
   for (const RunEvent& event : run.events) words.push_back(event.words);
-  CHECK(words == std::vector<std::string>{"Depth 12.0 cm", "Gain +4 dB", "Mark 1", "Freeze", "Live",
+  CHECK(words == std::vector<std::string>{"Depth 12.0 cm", "Gain +4 dB", "Mark 1", "Freeze", "Caliper 1", "Live",
                                           "Frequency 5.0 MHz", "Probe Linear", "Probe Curvilinear", "Depth 14.0 cm"});
   CHECK(run.console_at(log.samples[30].time_s).depth_mm != 120);
   CHECK(run.console_at(log.samples[31].time_s).depth_mm == 120);
+}
+
+TEST_CASE("a replay has what lay over its pictures, from when it was placed until it was gone") {
+  auto study = std::make_shared<Study>(*tiny_study(false));
+  const std::string measure =
+      "[[step]]\nkind = \"measure\"\ntitle = \"Volume\"\ninstruction = \"Measure.\"\nview = \"ball\"\n"
+      "tool = \"volume\"\nwalls = \"outer to outer\"\n[[step.target]]\nstructures = [\"ball\"]\n";
+  const std::string point =
+      "[[step]]\nkind = \"mark_point\"\ntitle = \"Top\"\ninstruction = \"Point.\"\nlandmark = \"top\"\n";
+  const std::string labels =
+      "[[step]]\nkind = \"label_structures\"\ntitle = \"Names\"\ninstruction = \"Name.\"\n"
+      "structures = [\"rib\", \"ball\"]\n";
+  RecordedScan log;
+  log.samples = samples_of(6, 60, [](double t) { return turned(0, {1, 0, 0}, {t, 0, 0}); });
+  const Action first{ActionKind::caliper, {1, 0, 40, 0, 80}}, moved{ActionKind::caliper, {1, 0, 40, 0, 70}},
+      second{ActionKind::caliper, {2, -20, 60, 20, 60}}, third{ActionKind::caliper, {3, -10, 50, 10, 50}};
+  const Action place{ActionKind::point, {3, 45}}, ball{ActionKind::label, {0, 60}, "ball"},
+      rib{ActionKind::label, {30, 16}, "rib"};
+  const auto act = [&](std::size_t frame, const std::vector<Action>& actions) {
+    log.recording.actions[log.samples[frame].time_s] = to_text(actions);
+  };
+  act(20, {{ActionKind::freeze}});
+  act(30, {first});
+  act(40, {moved});
+  act(50, {take_back(first)});
+  act(60, {first, second});
+  act(70, {{ActionKind::unfreeze}});
+  act(80, {{ActionKind::freeze}});
+  act(90, {third});
+  act(100, {{ActionKind::go_on}});
+  act(110, {place});
+  act(120, {{ActionKind::go_on}});
+  act(130, {ball, rib});
+  act(140, {take_back(rib)});
+
+  RecordedRun run;
+  const auto at = [&](std::size_t frame) -> const ShownMarks& { return run.marks_at(log.samples[frame].time_s); };
+  const auto placed = [&](std::size_t frame) {
+    std::vector<Action> actions;
+    for (const ShownMarks::Placed& mark : at(frame).placed) actions.push_back(mark.action);
+    return actions;
+  };
+  using Actions = std::vector<Action>;
+  using Value = ShownMarks::Value;
+  using Of = ShownMarks::Value::Of;
+  const Value length_1{"Length 1", value_text(first)}, length_2{"Length 2", value_text(second)},
+      length_3{"Length 3", value_text(third)};
+
+  SECTION("in an exam: until it is taken back, the picture moves on or the step ends") {
+    study->scenario =
+        parse_scenario("format = 2\ntitle = \"Tools\"\ncase = \"tiny\"\npass_mark_percent = 50\ntime_limit_s = 600\n" +
+                           measure + point + labels + "[[criterion]]\nmetric = \"time_s\"\nfull = 10\nzero = 100\n",
+                       "exam.toml");
+    run = play_through(study, log);
+    CHECK(at(29) == ShownMarks{});
+    CHECK(placed(30) == Actions{first});
+    CHECK(at(30).values == std::vector{length_1});
+    CHECK(run.marks_at(log.samples[30].time_s - 0.001) == ShownMarks{});
+    CHECK(placed(39) == Actions{first});
+    CHECK(placed(40) == Actions{moved});
+    CHECK(at(50) == ShownMarks{});
+    CHECK(placed(69) == Actions{first, second});
+    INFO("the values of a step that is measured in several pictures stay");
+    const Value elsewhere_1{"Length 1", value_text(first), Of::other_picture},
+        elsewhere_2{"Length 2", value_text(second), Of::other_picture};
+    CHECK(placed(70).empty());
+    CHECK(at(70).values == std::vector{elsewhere_1, elsewhere_2});
+    CHECK(placed(80).empty());
+    CHECK(placed(99) == Actions{third});
+    CHECK(at(99).values == std::vector{elsewhere_1, elsewhere_2, length_3, Value{"Volume", "17 ml"}});
+    CHECK(at(100) == ShownMarks{});
+    CHECK(placed(110) == Actions{place});
+    CHECK(at(120) == ShownMarks{});
+    CHECK(placed(130) == Actions{ball, rib});
+    CHECK(placed(140) == Actions{ball});
+    CHECK(run.marks_at(run.duration_s()) == ShownMarks{});
+  }
+  SECTION("without one: until the picture moves on") {
+    run = play_through(study, log);
+    CHECK(placed(69) == Actions{first, second});
+    const Value distance_1{"1   Distance", value_text(first)}, distance_2{"2   Distance", value_text(second)};
+    CHECK(at(69).values == std::vector{distance_1, distance_2});
+    CHECK(at(70) == ShownMarks{});
+    CHECK(placed(80).empty());
+    CHECK(placed(90) == Actions{third});
+  }
 }
 
 TEST_CASE("an expert's run lies beside another step by step") {

@@ -96,4 +96,22 @@ xdotool key Return
 await "the session begins" is activity exam
 [ -z "$(value replay_s)" ] || fail "the replay is still there"
 kill -0 "$trainer" || fail "the trainer ended by itself"
+
+echo "what was measured lies over the frozen picture from when it was placed"
+kill "$trainer"
+start_trainer --replay "$logs/aorta_good.igs.mha" --scenario "$INSONATE_ASSETS/scenarios/aorta.toml"
+await "the run is shown" is replay_s 0.0
+drag_to 33
+await "the picture is frozen, and nothing is placed yet" is frozen true
+await "the picture is drawn in full" at_rest
+is placed "" || fail "it is placed before its time: $(value placed)"
+shot "$work/bare.png" ultrasound 20
+drag_to 38
+await "the caliper is there" is placed "1 21.6 mm; "
+await "the picture is drawn in full" at_rest
+shot "$work/measured.png" ultrasound 20
+pixels=$(different "$work/bare.png" "$work/measured.png")
+[ "$pixels" -gt 300 ] || fail "the caliper is not drawn: $pixels pixels changed"
+drag_to 44
+await "it goes with its picture" is placed ""
 echo "passed"
