@@ -64,6 +64,10 @@ public:
 
   /// Ends an exam that counts and is left before its end: what there is of it is scored and kept.
   void hand_in_exam();
+  /// Whether the exam that the trainer was started for cannot be taken: there is nothing to show then but why.
+  bool exam_refused() const { return options_.exam && !session_ && !setup_ && !loading_; }
+  /// Whether that is acknowledged too, and nothing is left to be done.
+  bool is_over() const { return exam_refused() && problems_.empty(); }
 
   /// Starts recording, to the file of the command line, or else to the next free name beside it or in the folder of the
   /// results: recording.igs.mha.

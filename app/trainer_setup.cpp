@@ -144,6 +144,7 @@ void Trainer::end_setup() {
   setup_.reset();
   const Request again = current_;
   attempt([&] { begin(study_, again); });
+  if (!session_ && options_.exam) return;
   if (!session_) return load({});
   if (setup_left_)
     calibration_warning_ = "The set-up is not complete: the step '" + missing +

@@ -156,7 +156,7 @@ public:
   Loop& operator=(const Loop&) = delete;
 
   void run() {
-    while (!glfwWindowShouldClose(window_)) {
+    while (!glfwWindowShouldClose(window_) && !trainer_.is_over()) {
       wait();
       const double now_s = steady_now_s();
       step(now_s);

@@ -44,7 +44,7 @@ bool draw_loading(const Theme& theme, const Rect& screen, const Loading::Progres
   return stop;
 }
 
-bool draw_problem(const Theme& theme, const Rect& screen, const std::string& problem) {
+bool draw_problem(const Theme& theme, const Rect& screen, const std::string& problem, bool ends) {
   const float width = theme.px(600), margin = theme.px(28);
   const float text_height = theme.text
                                 ->CalcTextSizeA(theme.text->FontSize, 3e38f, width - 2 * margin, problem.data(),
@@ -52,11 +52,13 @@ bool draw_problem(const Theme& theme, const Rect& screen, const std::string& pro
                                 .y;
   const float shown = std::min(text_height, screen.h * 0.5f);
   Rect sheet = begin_overlay(theme, screen, {width, shown + theme.px(160)});
-  draw_text(sheet.take_top(theme.px(28)), theme.heading, colour::kAmber, "This cannot be used");
+  draw_text(sheet.take_top(theme.px(28)), theme.heading, colour::kAmber,
+            ends ? "This exam cannot be taken" : "This cannot be used");
   sheet.take_top(theme.px(14));
   draw_paragraph(sheet.take_top(shown), theme.text, colour::kText, problem);
   Rect buttons = sheet.take_bottom(theme.px(38));
-  const bool closed = button(theme, "acknowledge", buttons.take_right(theme.px(120)), "Go on", ButtonKind::primary);
+  const bool closed =
+      button(theme, "acknowledge", buttons.take_right(theme.px(120)), ends ? "Close" : "Go on", ButtonKind::primary);
   end_overlay();
   return closed;
 }

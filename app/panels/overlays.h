@@ -20,7 +20,8 @@ void end_overlay();
 bool draw_loading(const Theme& theme, const Rect& screen, const Loading::Progress& progress, bool can_stop);
 
 /// True when it was acknowledged.
-bool draw_problem(const Theme& theme, const Rect& screen, const std::string& problem);
+/// @param ends  there is nothing to go on with
+bool draw_problem(const Theme& theme, const Rect& screen, const std::string& problem, bool ends);
 
 /// True when it was closed.
 bool draw_key_help(const Theme& theme, const Rect& screen);

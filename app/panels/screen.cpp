@@ -142,11 +142,11 @@ void Screen::draw_panels(Trainer& trainer) {
     draw_replay_page(theme_, {top_, ultrasound_, volume_, console_}, trainer, space_, places_);
     draw_slice_panel(theme_, slice_, trainer.pictures());
     draw_blend_panel(theme_, blend_, trainer.pictures());
-  } else {
+  } else if (!trainer.exam_refused()) {
     for (const Rect& panel : {top_, console_}) fill(panel, colour::kPanel, theme_.px(4));
     for (const Rect& panel : {ultrasound_, volume_, slice_, blend_}) fill(panel, colour::kImage, theme_.px(4));
   }
-  draw_status(trainer);
+  if (!trainer.exam_refused()) draw_status(trainer);
   ImGui::End();
 }
 
@@ -260,7 +260,8 @@ void Screen::draw_overlay(Trainer& trainer) {
   if (session && !session->result()) closed_sheet_of_ = nullptr;
   const std::string shown = overlay(trainer);
   if (shown == "problem") {
-    if (draw_problem(theme_, screen_, trainer.problems().front())) trainer.problems().pop_front();
+    if (draw_problem(theme_, screen_, trainer.problems().front(), trainer.exam_refused()))
+      trainer.problems().pop_front();
   } else if (shown == "loading") {
     if (draw_loading(theme_, screen_, trainer.loading()->progress(), session || trainer.setup() || trainer.replay()))
       trainer.stop_loading();

@@ -486,6 +486,7 @@ TEST_CASE("an exam that counts is kept once for a learner, with the seed that dr
     start(trainer);
     REQUIRE(trainer.session());
     CHECK(trainer.session()->strict());
+    CHECK_FALSE(trainer.exam_refused());
     for (int i = 0; i < 5; ++i) trainer.update(i / 30.0);
 
     INFO("help and other material are out of reach");
@@ -546,6 +547,11 @@ TEST_CASE("an exam that counts is kept once for a learner, with the seed that dr
   start(replayed);
   CHECK_FALSE(replayed.session());
   CHECK(replayed.problems().size() == 1);
+  INFO("what remains is to say why, and to end");
+  CHECK(replayed.exam_refused());
+  CHECK_FALSE(replayed.is_over());
+  replayed.problems().clear();
+  CHECK(replayed.is_over());
 }
 
 TEST_CASE("a replay has no session, keeps nothing, and gives way to what is opened next") {

@@ -162,4 +162,12 @@ for what in '"answer"' '"yes"' '"measured"' '"41.7"' '"point_error_mm"'; do
 done
 grep -q -- "$(echo "$shown" | sed 's/^1 \(.*\); $/\1/')" "$work/again.json" || fail "what was shown, '$shown', was not scored"
 grep -q '"passed": true' "$work/again.json" || fail "the exam was not passed"
+
+echo "an exam that cannot be taken says why, and then the program ends"
+kill "$trainer"
+start_trainer --scenario "$work/exam.toml" --tracker "replay:$work/run.igs.mha" --exam --learner L-07 --results "$work/lab.db"
+await "it is refused" contains problem "a recorded scan is nobody's exam"
+is overlay problem || fail "the refusal is not shown"
+xdotool key Return
+wait "$trainer" || fail "it ended with $?"
 echo "passed"
