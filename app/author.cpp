@@ -60,8 +60,8 @@ bool Author::ready() const {
          std::any_of(parts_.begin(), parts_.end(), [](const Part& part) { return part.wanted; });
 }
 
-void Author::keep(const Session& session) {
-  if (!ready()) return;
+std::optional<ReferenceView> Author::keep(const Session& session) {
+  if (!ready()) return std::nullopt;
   ReferenceView view;
   view.name = view_name_of(title_);
   view.title = title_;
@@ -75,6 +75,7 @@ void Author::keep(const Session& session) {
   title_.clear();
   wanted_.clear();
   for (Part& part : parts_) part.wanted = false;
+  return view;
 }
 
 }  // namespace insonate

@@ -41,7 +41,8 @@ public:
   bool ready() const;
   /// Writes the view into the case folder, and makes ready for the next. Throws what add_view() throws; nothing is
   /// lost then.
-  void keep(const Session& session);
+  /// @return  the view, which the session's own case does not have; empty when nothing was ready
+  std::optional<ReferenceView> keep(const Session& session);
   /// What was kept last, as a sentence; empty before.
   const std::string& kept() const { return kept_; }
 

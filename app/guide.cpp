@@ -8,34 +8,35 @@
 #include "scenarios/guidance.h"
 
 namespace insonate {
-namespace {
 
-/// The names of the patient's views, those of the exam's steps first.
-std::vector<std::string> views_of(const Study& study) {
+const ReferenceView* Guide::find_view(const Study& study, const std::string& name) const {
+  const auto made = std::find_if(made_.begin(), made_.end(), [&](const ReferenceView& v) { return v.name == name; });
+  return made == made_.end() ? study.subject.find_view(name) : &*made;
+}
+
+std::vector<std::string> Guide::names(const Study& study) const {
   std::vector<std::string> names;
   const auto add = [&](const std::string& name) {
-    if (study.subject.find_view(name) && std::find(names.begin(), names.end(), name) == names.end())
-      names.push_back(name);
+    if (find_view(study, name) && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   };
   if (study.scenario)
     for (const Step& step : study.scenario->steps) add(step.view);
   for (const ReferenceView& view : study.subject.views) add(view.name);
+  for (const ReferenceView& view : made_) add(view.name);
   return names;
 }
 
-}  // namespace
-
 void Guide::next(const Session& session) {
   if (session.activity() == Activity::exam) return;
-  const std::vector<std::string> names = views_of(session.study());
-  auto at = std::find(names.begin(), names.end(), view_);
-  at = at == names.end() ? names.begin() : at + 1;
-  view_ = at == names.end() ? std::string() : *at;
+  const std::vector<std::string> views = names(session.study());
+  auto at = std::find(views.begin(), views.end(), view_);
+  at = at == views.end() ? views.begin() : at + 1;
+  view_ = at == views.end() ? std::string() : *at;
 }
 
 std::optional<Guiding> Guide::now(const Session& session) const {
   if (session.activity() == Activity::exam || view_.empty()) return std::nullopt;
-  const ReferenceView* view = session.study().subject.find_view(view_);
+  const ReferenceView* view = find_view(session.study(), view_);
   const std::optional<Pose>& pose = session.newest_pose();
   if (!view || !pose) return std::nullopt;
   Guiding guiding;

@@ -10,7 +10,7 @@ namespace insonate {
 
 /// What a teacher beside the bed would say now.
 struct Guiding {
-  const ReferenceView* view = nullptr;  ///< that is looked for; of the session's case
+  const ReferenceView* view = nullptr;  ///< that is looked for; of the session's case, or the guide's own
   std::vector<std::string> advice;      ///< what to do next, in its order; empty when the view is there, or no probe
   double plane_distance_mm = 0;         ///< between the middles of the two pictures, along the reference's normal
   double plane_angle_deg = 0;
@@ -21,15 +21,24 @@ struct Guiding {
 /// in an exam, whatever was asked for before.
 class Guide {
 public:
-  /// Turns to the next of the patient's views, those of the exam's steps first, and off behind the last one. Does
-  /// nothing in an exam.
+  /// Turns to the next of the patient's views, those of the exam's steps first and those that were made since last, and
+  /// off behind the last one. Does nothing in an exam.
   void next(const Session& session);
 
   /// Empty in an exam, while it is off, and before the first pose.
   std::optional<Guiding> now(const Session& session) const;
 
+  /// A view that was made of the patient after the case was read.
+  void add(const ReferenceView& made) { made_.push_back(made); }
+  /// Another patient is there, or the same one read again.
+  void forget_made() { made_.clear(); }
+
 private:
-  std::string view_;  ///< empty: off
+  const ReferenceView* find_view(const Study& study, const std::string& name) const;
+  std::vector<std::string> names(const Study& study) const;
+
+  std::string view_;                 ///< empty: off
+  std::vector<ReferenceView> made_;  ///< the case has none of their names
 };
 
 }  // namespace insonate

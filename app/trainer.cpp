@@ -164,8 +164,10 @@ void Trainer::begin(std::shared_ptr<const Study> study, const Request& request) 
 }
 
 void Trainer::show(std::shared_ptr<const Study> study, const Request& request) {
-  if (study != study_)
+  if (study != study_) {
     gl::upload_ct(patient_of(request.source), study->subject.ct.grid, [&] { pictures_.show(*study); });
+    guide_.forget_made();
+  }
   study_ = std::move(study);
   current_ = request;
 }

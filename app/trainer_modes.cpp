@@ -46,7 +46,10 @@ void Trainer::hand_in_exam() {
 }
 
 void Trainer::keep_view() {
-  if (author_ && session_) attempt([&] { author_->keep(*session_); });
+  if (!author_ || !session_) return;
+  attempt([&] {
+    if (const std::optional<ReferenceView> made = author_->keep(*session_)) guide_.add(*made);
+  });
 }
 
 void Trainer::begin_replay(std::shared_ptr<const Study> study, const Request& request) {

@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "app/guide.h"
 #include "sim/core/input_error.h"
 #include "tests/app/tiny_session.h"
 #include "tests/volume/temporary_folder.h"
@@ -85,6 +86,41 @@ TEST_CASE("a frozen picture with a title and what it must show becomes a view of
   CHECK_FALSE(desk.author.ready());
   CHECK(desk.author.title().empty());
   CHECK_FALSE(desk.author.parts()[0].wanted);
+}
+
+TEST_CASE("the way to a view that was made is shown at once, behind the case's own, until the case is read again") {
+  Desk desk;
+  desk.freeze(kHeld);
+  desk.author.title("As we hold it");
+  desk.want("ball");
+  Guide guide;
+  const auto next = [&] {
+    guide.next(desk.session);
+    const std::optional<Guiding> guiding = guide.now(desk.session);
+    return guiding ? guiding->view->name : "";
+  };
+  CHECK(next() == "ball");
+  const std::optional<ReferenceView> made = desk.author.keep(desk.session);
+  REQUIRE(made);
+  CHECK_FALSE(desk.author.keep(desk.session));  // the next one is not ready
+  guide.add(*made);
+  CHECK(next() == "bare");
+  CHECK(next() == "as_we_hold_it");
+  const Guiding guiding = guide.now(desk.session).value();
+  CHECK(guiding.there);
+  CHECK(guiding.view->title == "As we hold it");
+  CHECK(guiding.view->patient_from_probe == kHeld);
+  CHECK(guiding.view->depth_mm == desk.session.console().depth_mm);
+  desk.session.console().frozen = false;
+  desk.hold(turned(0, {1, 0, 0}, {0, 0, 45}));
+  CHECK_FALSE(guide.now(desk.session)->there);
+
+  INFO("where the case is read again it has the view itself");
+  guide.forget_made();
+  CHECK_FALSE(guide.now(desk.session));
+  CHECK(next() == "ball");
+  CHECK(next() == "bare");
+  CHECK(next().empty());
 }
 
 TEST_CASE("what was chosen stays chosen in the next picture, and a view that is refused loses nothing") {

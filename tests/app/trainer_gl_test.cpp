@@ -386,6 +386,18 @@ TEST_CASE("another log can be opened in the same session's place, another patien
   CHECK(trainer.session()->result()->provenance.log == "second.igs.mha");
   CHECK(trainer.result_files());
 
+  INFO("a view that was made of one patient is none of another");
+  trainer.session()->practise();
+  trainer.update(3.1);
+  trainer.guide().add({"made", "Made", "curvilinear", 140, {}, {"ball"}, Pose{}});
+  const auto guided_to = [&] {
+    std::vector<std::string> names;
+    for (trainer.guide().next(*trainer.session()); const auto guiding = trainer.guide().now(*trainer.session());
+         trainer.guide().next(*trainer.session()))
+      names.push_back(guiding->view->name);
+    return names;
+  };
+  CHECK(guided_to() == std::vector<std::string>{"ball", "bare", "made"});
   Case another = tiny_case();
   another.name = "Somebody else";
   write_case(folder.path / "another", another);
@@ -396,6 +408,7 @@ TEST_CASE("another log can be opened in the same session's place, another patien
   trainer.update(4);
   trainer.draw(kSizes, 1, kNoBudget);
   CHECK(trainer.pictures().ultrasound() != nullptr);
+  CHECK(guided_to() == std::vector<std::string>{"ball", "bare"});
 }
 
 TEST_CASE("without a window there is nobody to answer a dialog: bad input passes through") {

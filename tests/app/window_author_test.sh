@@ -63,6 +63,12 @@ for line in 'name = "all_wet"' 'title = "All wet"' 'targets = \["water"\]' 'land
   grep -q "$line" "$block/case.toml" || fail "the file does not say $line"
 done
 await "the next begins with nothing" is wanted ""
+echo "the way to it is shown at once"
+xdotool key g
+await "the guide leads to it" is guided_to all_wet
+is advice "" || fail "the way to where the probe is: $(value advice)"
+xdotool key g
+await "there is no other" is guided_to ""
 
 echo "a second of this name is refused, and nothing is lost"
 click_on text_field
