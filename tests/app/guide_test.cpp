@@ -48,6 +48,15 @@ TEST_CASE("in practice the guide leads to one view after the other, those of the
   CHECK(guiding->there);
   CHECK(guiding->plane_distance_mm == Approx(0).margin(1e-9));
 
+  INFO("of a tilted probe the middle of the picture is off, 70 mm below the face");
+  session.move_probe([](const ProbeHand&, const Pose&) { return turned(30, {1, 0, 0}); });
+  session.advance(0.3);
+  guiding = guide.now(session);
+  REQUIRE(guiding);
+  CHECK_FALSE(guiding->there);
+  CHECK(guiding->plane_distance_mm == Approx(35));
+  CHECK(guiding->plane_angle_deg == Approx(30));
+
   guide.next(session);
   CHECK(guide.now(session)->view->name == "bare");
   guide.next(session);

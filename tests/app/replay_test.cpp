@@ -231,6 +231,28 @@ TEST_CASE("an expert's run lies beside another step by step") {
   CHECK_FALSE(Replay(slow).expert_time_s());
 }
 
+TEST_CASE("an expert who took the steps in another order, or left one out, lies beside the same steps") {
+  const auto run_of = [](std::vector<RunStretch> stretches) {
+    RecordedRun run;
+    run.moments.resize(2);
+    run.moments.back().time_s = stretches.back().end_s;
+    run.stretches = std::move(stretches);
+    return run;
+  };
+  const RecordedRun learner = run_of({{0, 0, 2}, {1, 2, 8}});
+  const Replay other_order(learner, run_of({{1, 0, 3}, {0, 3, 7}}));
+  CHECK(other_order.expert_time_s(0.5) == 3.5);
+  CHECK(other_order.expert_time_s(2.5) == 0.5);
+  CHECK(other_order.expert_time_s(6) == 3);  // where the expert had gone on
+  INFO("what the expert did up to the very end of the learner's step is beside it, and nothing later");
+  CHECK(other_order.beside_s(5) == 2);
+  CHECK_FALSE(other_order.beside_s(5.001));
+  const Replay left_out(learner, run_of({{1, 0, 3}, {2, 3, 4}}));
+  CHECK_FALSE(left_out.expert_time_s(0.5));
+  CHECK(left_out.expert_time_s(2.5) == 0.5);
+  CHECK_FALSE(left_out.beside_s(3.5));
+}
+
 TEST_CASE("a replay plays, pauses, steps by samples, and keeps to its ends") {
   Replay replay(play_through(tiny_study(false), scan(2, 500)));
   CHECK_FALSE(replay.run().result);
@@ -242,6 +264,10 @@ TEST_CASE("a replay plays, pauses, steps by samples, and keeps to its ends") {
   replay.toggle();
   replay.advance(101.5);
   CHECK(replay.time_s() == Approx(0.5));
+  replay.advance(101.2);  // nothing goes back with a clock that does
+  CHECK(replay.time_s() == Approx(0.5));
+  replay.advance(101.5);
+  replay.seek(0.5);
   replay.change_speed(+1);
   CHECK(replay.speed() == 2);
   replay.advance(102);
@@ -261,6 +287,9 @@ TEST_CASE("a replay plays, pauses, steps by samples, and keeps to its ends") {
   CHECK(replay.time_s() == 0);
   replay.seek(1e9);
   CHECK(replay.time_s() == end_s);
+  replay.seek(-1);
+  CHECK(replay.time_s() == 0);
+  replay.seek(end_s);
   replay.change_speed(+9);
   CHECK(replay.speed() == 8);
   replay.toggle();
