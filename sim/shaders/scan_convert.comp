@@ -35,7 +35,8 @@ void convert(ivec2 pixel) {
   bool inside = place.x > -1.0;
   ivec2 last = ivec2(samples, lines) - 1;
   vec2 position = clamp(place.yx, vec2(0.0), vec2(last));
-  ivec2 low = min(ivec2(position), max(last - 1, 0)), high = min(low + 1, last);
+  // On the last sample that is low itself: a difference to a louder one would leave nothing of its own digits.
+  ivec2 low = ivec2(position), high = min(low + 1, last);
   vec2 f = position - vec2(low);
   vec4 value = mix(mix(texelFetch(echoes, low, 0), texelFetch(echoes, ivec2(high.x, low.y), 0), f.x),
                    mix(texelFetch(echoes, ivec2(low.x, high.y), 0), texelFetch(echoes, high, 0), f.x), f.y);
