@@ -18,16 +18,15 @@ void Trainer::refuse_second_exam(const Study& study) {
   if (!results_)
     throw InputError("command line", "--exam", "there is no database to keep the attempt in",
                      "name one with --results");
+  const std::string learner = "learner '" + options_.learner + "'";
   for (const AttemptSummary& taken : results_->attempts())
     if (taken.learner == options_.learner && taken.scenario_digest == study.scenario->digest)
-      throw InputError(options_.learner, "--exam",
-                       "this learner has taken the exam already, as attempt " + std::to_string(taken.number),
+      throw InputError(learner, "", "the exam has been taken already, as attempt " + std::to_string(taken.number),
                        "start another exam, or practise without --exam");
   for (const Sitting& begun : results_->sittings())
     if (begun.learner == options_.learner && begun.scenario_text == study.scenario->text)
       throw InputError(
-          options_.learner, "--exam",
-          "this learner has begun the exam already (" + utc_time(begun.began_ms) + ") and not handed it in",
+          learner, "", "the exam was begun at " + utc_time(begun.began_ms) + " and is not handed in",
           "end it where it is being taken, or have what there is of it scored with 'insonate-score hand-in " +
               results_->file().string() + "'");
 }

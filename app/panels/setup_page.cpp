@@ -62,10 +62,12 @@ void draw_progress(const Theme& theme, const Rect& bar, double share) {
 
 /// A plate with a coloured edge at the bottom of what is left.
 void draw_plate(const Theme& theme, Rect& rest, ImU32 edge, ImU32 ink, ImFont* font, std::string_view text) {
-  Rect plate = rest.take_bottom(theme.px(84));
+  const float edge_width = theme.px(6), dx = theme.px(16), dy = theme.px(10);
+  const float height = paragraph_height(font, text, rest.w - edge_width - 2 * dx) + 2 * dy;
+  Rect plate = rest.take_bottom(std::max(height, theme.px(84)));
   fill(plate, colour::kRaised, theme.px(4));
-  fill(plate.take_left(theme.px(6)), edge, theme.px(3));
-  draw_paragraph(plate.inset(theme.px(16), theme.px(10)), font, ink, text);
+  fill(plate.take_left(edge_width), edge, theme.px(3));
+  draw_paragraph(plate.inset(dx, dy), font, ink, text);
   rest.take_bottom(theme.px(8));
 }
 

@@ -93,11 +93,15 @@ void draw_text(const Rect& where, ImFont* font, ImU32 colour, std::string_view t
   ImGui::GetWindowDrawList()->AddText(font, font->FontSize, at, colour, text.data(), text.data() + text.size());
 }
 
+float paragraph_height(ImFont* font, std::string_view text, float width) {
+  return size_of(font, text, width).y;
+}
+
 float draw_paragraph(const Rect& where, ImFont* font, ImU32 colour, std::string_view text) {
   const ImVec4 clip(where.x, where.y, where.x + where.w + 1, where.y + where.h);
   ImGui::GetWindowDrawList()->AddText(font, font->FontSize, where.min(), colour, text.data(), text.data() + text.size(),
                                       where.w, &clip);
-  return size_of(font, text, where.w).y;
+  return paragraph_height(font, text, where.w);
 }
 
 void fill(const Rect& where, ImU32 colour, float rounding) {

@@ -31,6 +31,8 @@ float text_width(ImFont* font, std::string_view text);
 /// One line, centred in the rectangle's height; what does not fit ends in an ellipsis.
 void draw_text(const Rect& where, ImFont* font, ImU32 colour, std::string_view text, Align align = Align::left);
 
+float paragraph_height(ImFont* font, std::string_view text, float width);
+
 /// Wraps lines to the rectangle's width; returns the height they take. Does not draw beyond the rectangle's bottom.
 float draw_paragraph(const Rect& where, ImFont* font, ImU32 colour, std::string_view text);
 
