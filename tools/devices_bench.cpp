@@ -26,7 +26,8 @@ class Figures {
 public:
   void heading(const char* text) { std::printf("%s\n", text); }
   void add(const char* measure, const std::string& setting, const char* figure, double value, const char* unit) {
-    std::printf("  %-28s %-26s %10.4g %s\n", setting.c_str(), figure, value, unit);
+    const char* const format = value < 1e4 ? "  %-28s %-26s %10.4g %s\n" : "  %-28s %-26s %10.0f %s\n";
+    std::printf(format, setting.c_str(), figure, value, unit);
     std::fflush(stdout);
     char number[40];
     std::snprintf(number, sizeof number, "%.6g", value);
