@@ -41,7 +41,7 @@ void draw_depth_scale(const Theme& theme, const Rect& panel, const PlaneOnScreen
 }
 
 void draw_grey_scale(const Theme& theme, const Rect& panel, double dynamic_range_db) {
-  const Rect bar{panel.x + theme.px(16), panel.y + panel.h * 0.36f, theme.px(12), panel.h * 0.34f};
+  const Rect bar{panel.x + theme.px(16), panel.y + panel.h * 0.36f, theme.px(12), panel.h * 0.28f};
   ImGui::GetWindowDrawList()->AddRectFilledMultiColor(bar.min(), bar.max(), IM_COL32_WHITE, IM_COL32_WHITE,
                                                       IM_COL32_BLACK, IM_COL32_BLACK);
   outline(bar, colour::kLine);
