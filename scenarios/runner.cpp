@@ -37,7 +37,7 @@ bool usable(const PoseSample& sample) {
 }  // namespace
 
 Runner::Runner(Scenario scenario, const Case& subject, const TissueTable& tissues)
-    : scenario_(std::move(scenario)), subject_(subject), tissues_(tissues) {
+    : scenario_(std::move(scenario)), subject_(subject), tissues_(tissues), labels_(subject) {
   check_against_case(scenario_, subject);
   case_digest_ = digest_of(subject);
   machine_ = starting_machine(scenario_, subject);
@@ -162,7 +162,7 @@ void Runner::begin_step(std::size_t index, double now) {
     counts_from_s_ = now;
     if (now > 0) motion_ = motion_.following(now);
   }
-  run_ = asked.task->begin({asked, subject_, tissues_, meters_[index].get()}, now);
+  run_ = asked.task->begin({asked, subject_, labels_, tissues_, meters_[index].get()}, now);
   live_.hold_share = 0;
   live_.within_tolerance = false;
   live_.enough = run_->enough();

@@ -14,6 +14,7 @@
 #include "scenarios/scenario.h"
 #include "scenarios/skin_contact.h"
 #include "scenarios/steps/step_task.h"
+#include "scenarios/steps/structures.h"
 #include "scenarios/view_meter.h"
 #include "sim/core/pose_sample.h"
 #include "sim/model/tissue.h"
@@ -122,6 +123,7 @@ private:
   Scenario scenario_;
   const Case& subject_;
   TissueTable tissues_;
+  LabelIndex labels_;
   std::string case_digest_;
   std::vector<std::unique_ptr<ViewMeter>> meters_;  ///< one a step; null without a view
   std::map<std::string, SkinContact> contacts_;     ///< by probe

@@ -23,7 +23,7 @@ std::optional<glm::dvec3> place_in_patient(const Action& action, const Moment& m
 
 class PointRun : public StepRun {
 public:
-  PointRun(const MarkPoint& asked, const Case& subject) : asked_(asked), subject_(subject) {}
+  PointRun(const MarkPoint& asked, const LabelIndex& labels) : asked_(asked), labels_(labels) {}
 
   void act(const Action& action, const Moment& moment) override {
     if (action.kind == ActionKind::take_back && action.slot() == 0 && action.text.empty()) point_.reset();
@@ -35,21 +35,21 @@ public:
 
   void finish(StepOutcome, double, StepResult& result) const override {
     if (!point_) return;
-    const Landmark* landmark = subject_.find_landmark(asked_.landmark);
+    const Landmark* landmark = labels_.subject().find_landmark(asked_.landmark);
     const auto error = landmark ? std::optional(glm::distance(*point_, landmark->position))
-                                : StructureSet(subject_, asked_.structures).distance_mm(*point_);
+                                : StructureSet(labels_, asked_.structures).distance_mm(*point_);
     if (error) result.values.emplace_back(Metric::point_error_mm, *error);
   }
 
 private:
   const MarkPoint& asked_;
-  const Case& subject_;
+  const LabelIndex& labels_;
   std::optional<glm::dvec3> point_;
 };
 
 class LabelRun : public StepRun {
 public:
-  LabelRun(const LabelStructures& asked, const Case& subject) : asked_(asked), subject_(subject) {}
+  LabelRun(const LabelStructures& asked, const LabelIndex& labels) : asked_(asked), labels_(labels) {}
 
   void act(const Action& action, const Moment& moment) override {
     if (action.kind == ActionKind::take_back && action.slot() == 0) places_.erase(action.text);
@@ -63,7 +63,7 @@ public:
   void finish(StepOutcome, double, StepResult& result) const override {
     int right = 0;
     for (const auto& [name, place] : places_) {
-      const auto off = StructureSet(subject_, {name}).distance_mm(place);
+      const auto off = StructureSet(labels_, {name}).distance_mm(place);
       const bool hit = off && *off <= asked_.tolerance_mm;
       right += hit;
       result.facts.emplace_back(name, hit ? "right" : off ? fixed(*off, 1) + " mm off" : "not in this patient");
@@ -73,7 +73,7 @@ public:
 
 private:
   const LabelStructures& asked_;
-  const Case& subject_;
+  const LabelIndex& labels_;
   std::map<std::string, glm::dvec3> places_;
 };
 
@@ -102,7 +102,7 @@ void MarkPoint::check(const Step&, const Case& subject, const std::string& where
 }
 
 std::unique_ptr<StepRun> MarkPoint::begin(const StepWorld& world, double) const {
-  return std::make_unique<PointRun>(*this, world.subject);
+  return std::make_unique<PointRun>(*this, world.labels);
 }
 
 std::shared_ptr<const StepTask> LabelStructures::read(TableReader& table, const Step&) {
@@ -123,7 +123,7 @@ void LabelStructures::check(const Step&, const Case& subject, const std::string&
 }
 
 std::unique_ptr<StepRun> LabelStructures::begin(const StepWorld& world, double) const {
-  return std::make_unique<LabelRun>(*this, world.subject);
+  return std::make_unique<LabelRun>(*this, world.labels);
 }
 
 }  // namespace insonate

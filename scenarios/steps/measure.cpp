@@ -23,12 +23,13 @@ const ReferenceView* view_of(const MeasureTarget& target, const Step& step, cons
 }
 
 /// The target's part in its view's plane; empty when the structures do not cross it.
-std::optional<PlaneRegion> region_of(const MeasureTarget& target, const Step& step, const Case& subject) {
+std::optional<PlaneRegion> region_of(const MeasureTarget& target, const Step& step, const LabelIndex& labels) {
+  const Case& subject = labels.subject();
   const ReferenceView& view = *view_of(target, step, subject);
   std::optional<glm::dvec2> near;
   if (const Landmark* landmark = subject.find_landmark(target.through))
     near = glm::dvec2(view.patient_from_probe.inverse().point(landmark->position));
-  return plane_region(StructureSet(subject, target.structures), view.patient_from_probe, near, kWindow_mm,
+  return plane_region(StructureSet(labels, target.structures), view.patient_from_probe, near, kWindow_mm,
                       Measure::kPitch_mm);
 }
 
@@ -50,20 +51,20 @@ struct Truth {
   std::optional<glm::dvec3> middle;
 };
 
-Truth truth_of(const Measure& asked, const Step& step, const Case& subject) {
+Truth truth_of(const Measure& asked, const Step& step, const LabelIndex& labels) {
   Truth truth;
   if (asked.tool == Measure::Tool::volume) {
-    const double volume_mm3 = StructureSet(subject, asked.targets[0].structures).volume_mm3();
+    const double volume_mm3 = StructureSet(labels, asked.targets[0].structures).volume_mm3();
     if (volume_mm3 > 0) truth.value = volume_mm3 / 1000;
     return truth;
   }
   std::vector<PlaneRegion> regions;
   for (const MeasureTarget& target : asked.targets) {
-    auto region = region_of(target, step, subject);
+    auto region = region_of(target, step, labels);
     if (!region) return truth;
     regions.push_back(std::move(*region));
   }
-  const ReferenceView& view = *view_of(asked.targets[0], step, subject);
+  const ReferenceView& view = *view_of(asked.targets[0], step, labels.subject());
   truth.middle = view.patient_from_probe.point(glm::dvec3(regions[0].middle(), 0));
   if (asked.tool == Measure::Tool::ellipse) {
     truth.value = regions[0].area_mm2();
@@ -98,7 +99,7 @@ public:
     std::vector<Action> placed;
     for (int i = 0; i < asked_.slots(); ++i) placed.push_back(placed_[std::size_t(i)]->action);
     const double measured = asked_.value(placed);
-    const Truth truth = truth_of(asked_, world_.step, world_.subject);
+    const Truth truth = truth_of(asked_, world_.step, world_.labels);
     result.facts.emplace_back("measured", with_unit(measured));
     if (!truth.value) return;
     result.facts.emplace_back("truth", with_unit(*truth.value) + ", " + asked_.walls);
@@ -232,7 +233,7 @@ void Measure::check(const Step& step, const Case& subject, const std::string& wh
                           where + " measures at the landmark '" + target.through + "', which is not there",
                           landmarks.empty() ? "take a case with landmarks" : suggest(target.through, landmarks)});
   }
-  if (problems.size() == before && !truth_of(*this, step, subject).value)
+  if (problems.size() == before && !truth_of(*this, step, LabelIndex(subject)).value)
     problems.push_back({targets[0].place, where + " measures what this patient does not have there",
                         "name structures that cross the view's picture"});
 }

@@ -1,10 +1,13 @@
 #include "scenarios/steps/plane_region.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <utility>
 
 namespace insonate {
 
@@ -22,10 +25,19 @@ double PlaneRegion::longest_extent_mm() const {
   constexpr double kPi = 3.14159265358979323846;
   // Off the longest direction by half a step of 2 degrees, an extent is short by 1 - cos(1 degree), 0.15 thousandths.
   constexpr int kDirections = 90;
+  // Whatever the direction, the outermost pixel is the first or the last of its row.
+  std::map<double, std::pair<double, double>> rows;
+  for (const glm::dvec2& pixel : pixels) {
+    auto& [first, last] = rows.try_emplace(pixel.y, pixel.x, pixel.x).first->second;
+    first = std::min(first, pixel.x);
+    last = std::max(last, pixel.x);
+  }
+  PlaneRegion ends{pitch_mm, {}};
+  for (const auto& [y, row] : rows) ends.pixels.insert(ends.pixels.end(), {{row.first, y}, {row.second, y}});
   double longest = 0;
   for (int i = 0; i < kDirections; ++i) {
     const double angle = kPi * i / kDirections;
-    longest = std::max(longest, extent_mm({std::cos(angle), std::sin(angle)}));
+    longest = std::max(longest, ends.extent_mm({std::cos(angle), std::sin(angle)}));
   }
   return longest;
 }
@@ -45,9 +57,26 @@ std::optional<PlaneRegion> plane_region(const StructureSet& structures, const Po
   std::vector<char> inside(std::size_t(side) * std::size_t(side));
   const auto at = [&](int i, int j) -> char& { return inside[std::size_t(j) * std::size_t(side) + std::size_t(i)]; };
 
+  if (!structures.any_voxel()) return std::nullopt;
+  // Only where the box around the structures can meet the plane.
+  const Pose plane_from_patient = patient_from_plane.inverse();
+  glm::dvec2 least(std::numeric_limits<double>::infinity()), most = -least;
+  for (const glm::dvec3& corner : structures.corners()) {
+    const glm::dvec2 in_plane(plane_from_patient.point(corner));
+    least = glm::min(least, in_plane);
+    most = glm::max(most, in_plane);
+  }
+  const auto pixel = [&](double mm, double middle) {
+    return std::clamp((mm - middle) / pitch_mm + half, -1.0, side + 0.0);
+  };
+  const glm::ivec2 first(std::max(int(pixel(least.x, centre.x)) - 1, 0),
+                         std::max(int(pixel(least.y, centre.y)) - 1, 0));
+  const glm::ivec2 last(std::min(int(pixel(most.x, centre.x)) + 2, side - 1),
+                        std::min(int(pixel(most.y, centre.y)) + 2, side - 1));
+
   PlaneRegion all{pitch_mm, {}};
-  for (int j = 0; j < side; ++j)
-    for (int i = 0; i < side; ++i)
+  for (int j = first.y; j <= last.y; ++j)
+    for (int i = first.x; i <= last.x; ++i)
       if ((at(i, j) = structures.holds(patient_from_plane.point(glm::dvec3(place(i, j), 0)))))
         all.pixels.push_back(place(i, j));
   if (all.pixels.empty()) return std::nullopt;

@@ -14,10 +14,10 @@ namespace {
 
 class Run : public StepRun {
 public:
-  Run(const Question& asked, const Case& subject) : asked_(asked) {
+  Run(const Question& asked, const LabelIndex& labels) : asked_(asked) {
     right_ = asked.right;
     if (!asked.findings.empty())
-      right_ = StructureSet(subject, asked.findings).any_voxel() ? asked.if_present : asked.if_absent;
+      right_ = StructureSet(labels, asked.findings).any_voxel() ? asked.if_present : asked.if_absent;
     if (asked.answer == Question::Answer::number) right_ = short_number(asked.right_number);
   }
 
@@ -105,7 +105,7 @@ void Question::check(const Step&, const Case& subject, const std::string& where,
 }
 
 std::unique_ptr<StepRun> Question::begin(const StepWorld& world, double) const {
-  return std::make_unique<Run>(*this, world.subject);
+  return std::make_unique<Run>(*this, world.labels);
 }
 
 }  // namespace insonate

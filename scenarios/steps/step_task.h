@@ -15,6 +15,7 @@
 
 namespace insonate {
 
+class LabelIndex;
 class ViewMeter;
 struct ScenarioProblem;
 struct Step;
@@ -23,6 +24,7 @@ struct Step;
 struct StepWorld {
   const Step& step;
   const Case& subject;
+  const LabelIndex& labels;  ///< of the case
   const TissueTable& tissues;
   const ViewMeter* meter;  ///< of the step's view; nullptr when it names none
 };

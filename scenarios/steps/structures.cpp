@@ -1,29 +1,60 @@
 #include "scenarios/steps/structures.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "sim/core/suggest.h"
 
 namespace insonate {
 
-StructureSet::StructureSet(const Case& subject, const std::vector<std::string>& names) : subject_(subject) {
-  for (const std::string& name : names)
-    if (const Label* label = subject.find_label(name)) values_.set(label->value);
+void LabelExtent::include(const LabelExtent& other) {
+  if (other.voxels == 0) return;
+  first = voxels == 0 ? other.first : glm::min(first, other.first);
+  last = voxels == 0 ? other.last : glm::max(last, other.last);
+  voxels += other.voxels;
 }
 
-bool StructureSet::any_voxel() const {
-  return std::any_of(subject_.labels.voxels.begin(), subject_.labels.voxels.end(),
-                     [&](std::uint8_t value) { return values_[value]; });
+LabelIndex::LabelIndex(const Case& subject) : subject_(subject) {
+  if (subject.labels.empty()) return;
+  const glm::ivec3 size = subject.labels.grid.size;
+  const std::uint8_t* row = subject.labels.voxels.data();
+  for (int k = 0; k < size.z; ++k)
+    for (int j = 0; j < size.y; ++j, row += size.x)
+      for (int i = 0; i < size.x;) {
+        const int begin = i;
+        while (i < size.x && row[i] == row[begin]) ++i;
+        extents_[row[begin]].include({std::uint64_t(i - begin), {begin, j, k}, {i - 1, j, k}});
+      }
+}
+
+StructureSet::StructureSet(const LabelIndex& labels, const std::vector<std::string>& names)
+    : subject_(labels.subject()) {
+  for (const std::string& name : names) {
+    const Label* label = subject_.find_label(name);
+    if (!label || values_[label->value]) continue;
+    values_.set(label->value);
+    extent_.include(labels.of(label->value));
+  }
 }
 
 double StructureSet::volume_mm3() const {
-  const auto count = std::count_if(subject_.labels.voxels.begin(), subject_.labels.voxels.end(),
-                                   [&](std::uint8_t value) { return values_[value]; });
   const glm::dvec3& spacing = subject_.labels.grid.spacing;
-  return double(count) * spacing.x * spacing.y * spacing.z;
+  return double(extent_.voxels) * spacing.x * spacing.y * spacing.z;
+}
+
+std::array<glm::dvec3, 8> StructureSet::corners() const {
+  std::array<glm::dvec3, 8> corners;
+  for (int c = 0; c < 8; ++c) {
+    glm::dvec3 index;
+    for (int axis = 0; axis < 3; ++axis)
+      index[axis] = c >> axis & 1 ? extent_.last[axis] + 0.5 : extent_.first[axis] - 0.5;
+    corners[std::size_t(c)] = subject_.labels.grid.patient_from_index(index);
+  }
+  return corners;
 }
 
 std::optional<double> StructureSet::distance_mm(const glm::dvec3& patient_mm) const {
@@ -31,13 +62,32 @@ std::optional<double> StructureSet::distance_mm(const glm::dvec3& patient_mm) co
   const Grid& grid = subject_.labels.grid;
   const glm::dvec3 at = grid.index_from_patient(patient_mm);
   double nearest = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < grid.size.z; ++k)
-    for (int j = 0; j < grid.size.y; ++j)
-      for (int i = 0; i < grid.size.x; ++i)
-        if (values_[subject_.labels.at({i, j, k})]) {
-          const glm::dvec3 way = (glm::dvec3(i, j, k) - at) * grid.spacing;
-          nearest = std::min(nearest, glm::dot(way, way));
-        }
+  // From the point's own slice and row outwards, as far as anything nearer can lie.
+  const auto outwards = [&](int axis, double already, const auto& look) {
+    const int first = extent_.first[axis], last = extent_.last[axis];
+    const int middle = int(std::clamp(std::round(at[axis]), double(first), double(last)));
+    for (int step = 0; step <= std::max(middle - first, last - middle); ++step) {
+      bool any = false;
+      for (const int index : {middle - step, middle + step}) {
+        const double way = (double(index) - at[axis]) * grid.spacing[axis], square = already + way * way;
+        if (index < first || index > last || square > nearest) continue;
+        any = true;
+        look(index, square);
+        if (step == 0) break;
+      }
+      if (!any) return;
+    }
+  };
+  if (any_voxel())
+    outwards(2, 0, [&](int k, double of_k) {
+      outwards(1, of_k, [&](int j, double) {
+        for (int i = extent_.first.x; i <= extent_.last.x; ++i)
+          if (values_[subject_.labels.at({i, j, k})]) {
+            const glm::dvec3 way = (glm::dvec3(i, j, k) - at) * grid.spacing;
+            nearest = std::min(nearest, glm::dot(way, way));
+          }
+      });
+    });
   if (nearest == std::numeric_limits<double>::infinity()) return std::nullopt;
   return std::sqrt(nearest);
 }

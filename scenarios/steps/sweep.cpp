@@ -14,23 +14,26 @@ namespace insonate {
 namespace {
 
 /// The middles of the organ's cells: every so many voxels along each axis, where the organ is.
-std::vector<glm::dvec3> cells_of(const Case& subject, const std::vector<std::string>& organ) {
-  const StructureSet structures(subject, organ);
-  const Grid& grid = subject.labels.grid;
+std::vector<glm::dvec3> cells_of(const LabelIndex& index, const std::vector<std::string>& organ) {
+  const StructureSet structures(index, organ);
+  const Volume<std::uint8_t>& labels = index.subject().labels;
+  const Grid& grid = labels.grid;
   const auto stride = [](double spacing) { return std::max(1, int(std::lround(Sweep::kCell_mm / spacing))); };
   const glm::ivec3 step(stride(grid.spacing.x), stride(grid.spacing.y), stride(grid.spacing.z));
+  const glm::ivec3 half = step / 2, last = structures.extent().last;
+  const glm::ivec3 first = (glm::max(structures.extent().first - half, 0) + step - 1) / step * step + half;
   std::vector<glm::dvec3> cells;
-  for (int k = step.z / 2; k < grid.size.z; k += step.z)
-    for (int j = step.y / 2; j < grid.size.y; j += step.y)
-      for (int i = step.x / 2; i < grid.size.x; i += step.x)
-        if (structures.holds(subject.labels.at({i, j, k}))) cells.push_back(grid.patient_from_index({i, j, k}));
+  for (int k = first.z; k <= last.z; k += step.z)
+    for (int j = first.y; j <= last.y; j += step.y)
+      for (int i = first.x; i <= last.x; i += step.x)
+        if (structures.holds(labels.at({i, j, k}))) cells.push_back(grid.patient_from_index({i, j, k}));
   return cells;
 }
 
 class Run : public StepRun {
 public:
   Run(const Sweep& asked, const StepWorld& world, double now_s)
-      : asked_(asked), world_(world), path_(now_s), cells_(cells_of(world.subject, asked.organ)) {
+      : asked_(asked), world_(world), path_(now_s), cells_(cells_of(world.labels, asked.organ)) {
     for (const std::string& name : asked.keep) landmarks_.push_back(world.subject.find_landmark(name)->position);
     total_ = cells_.size();
   }
@@ -107,7 +110,7 @@ void Sweep::check(const Step&, const Case& subject, const std::string& where,
                   std::vector<ScenarioProblem>& problems) const {
   const std::size_t before = problems.size();
   check_structures(organ, organ_place, subject, where, problems);
-  if (problems.size() == before && cells_of(subject, organ).empty())
+  if (problems.size() == before && cells_of(LabelIndex(subject), organ).empty())
     problems.push_back({organ_place, where + " sweeps an organ that this patient does not have", "name another"});
   std::vector<std::string> known;
   for (const Landmark& landmark : subject.landmarks) known.push_back(landmark.name);
