@@ -1,7 +1,6 @@
 #include "app/exam_journal.h"
 
 #include <chrono>
-#include <exception>
 #include <utility>
 
 #include "app/results.h"
@@ -25,28 +24,50 @@ std::string log_of(const Session& session, std::size_t first) {
 ExamJournal::ExamJournal(std::filesystem::path database, Sitting sitting)
     : database_(std::move(database)), sitting_(std::move(sitting)) {}
 
-void ExamJournal::take(const Session& session) {
-  const std::size_t samples = session.exam_samples().size();
-  const bool due = kept_ == 0 || session.now_s() - kept_until_s_ >= kPart_s;
-  if (given_up_ || samples == kept_ || !due) return;
-  if (writing_.valid()) {
-    if (writing_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
-    given_up_ = true;  // unless it went well
-    writing_.get();
-    given_up_ = false;
-  }
-  writing_ = std::async(std::launch::async, [this, log = log_of(session, kept_)] {
-    ResultsDatabase database = ResultsDatabase::open_or_make(database_);
-    if (sitting_.number > 0) return database.add_part(sitting_.number, log, now_since_1970_ms());
-    sitting_.began_ms = now_since_1970_ms();
-    database.begin(sitting_, log);
-  });
-  kept_ = samples;
-  kept_until_s_ = session.now_s();
+bool ExamJournal::idle() const {
+  return !writing_.valid() || writing_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
 }
 
-std::int64_t ExamJournal::finish() {
-  if (writing_.valid()) writing_.wait();
+/// Throws what went wrong with the newest part, which is not kept then.
+void ExamJournal::settle() {
+  if (!writing_.valid()) return;
+  writing_.get();
+  kept_ = handed_over_;
+  told_ = false;
+}
+
+void ExamJournal::write(const Session& session) {
+  handed_over_ = session.exam_samples().size();
+  tried_s_ = session.now_s();
+  writing_ = std::async(std::launch::async, [this, log = log_of(session, kept_)] {
+    ResultsDatabase database = ResultsDatabase::open(database_);
+    sitting_.number > 0 ? database.add_part(sitting_.number, log) : database.begin(sitting_, log);
+  });
+}
+
+void ExamJournal::take(const Session& session) {
+  if (!idle()) return;
+  try {
+    settle();
+  } catch (const ExamTaken&) {
+    throw;
+  } catch (const InputError&) {
+    if (!std::exchange(told_, true)) throw;
+  }
+  const bool due = handed_over_ == 0 || session.now_s() - tried_s_ >= kPart_s;
+  if (due && session.exam_samples().size() > kept_) write(session);
+}
+
+std::int64_t ExamJournal::finish(const Session& session) {
+  for (const bool last : {false, true}) {
+    try {
+      settle();
+      if (!last && session.exam_samples().size() > kept_) write(session);
+    } catch (const ExamTaken&) {
+      throw;
+    } catch (const InputError&) {
+    }
+  }
   return sitting_.number;
 }
 

@@ -27,7 +27,7 @@ Sitting sitting_of(const Session& session, const StudySource& source, const std:
   sitting.learner = learner;
   sitting.title = scenario.title;
   sitting.scenario_text = scenario.text;
-  sitting.scenario_file = scenario.file.string();
+  sitting.scenario_file = std::filesystem::absolute(scenario.file).string();
   sitting.patient = patient_of(source);
   sitting.seed = scenario.seed;
   return sitting;

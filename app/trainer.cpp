@@ -189,11 +189,11 @@ void Trainer::update(double now_s) {
   step_controls_.see(*session_);
   if (author_) author_->see(*session_);
   recorder_.take(*session_);
-  attempt([&] { keep_sitting(); });
   attempt([&] { recorder_.check(); });
   attempt([&] { check_raw(); });
   if (!session_->result()) result_files_.reset();
   results_due_ = results_due_ || (!had_result && session_->result());
+  attempt([&] { keep_sitting(); });
 }
 
 void Trainer::draw(const PictureSizes& sizes, double quality, double budget_ms) {
@@ -283,7 +283,9 @@ void Trainer::keep_and_report() {
   std::exception_ptr not_kept;
   if (results_ && (!replayed || !options_.results.empty())) {
     try {
-      results_->add(finished, journal_ ? journal_->finish() : 0);
+      const std::int64_t sitting = journal_ ? journal_->finish(*session_) : 0;
+      if (journal_ && sitting == 0) results_->check_not_taken(options_.learner, study_->scenario->digest);
+      results_->add(finished, sitting);
     } catch (const InputError&) {
       not_kept = std::current_exception();  // the report is wanted all the more
     }

@@ -1,5 +1,6 @@
 // What the trainer does besides practice: an exam that counts, a run that is looked at again, and views being made.
 
+#include <cstdio>
 #include <random>
 #include <utility>
 
@@ -18,23 +19,23 @@ void Trainer::refuse_second_exam(const Study& study) {
   if (!results_)
     throw InputError("command line", "--exam", "there is no database to keep the attempt in",
                      "name one with --results");
-  const std::string learner = "learner '" + options_.learner + "'";
-  for (const AttemptSummary& taken : results_->attempts())
-    if (taken.learner == options_.learner && taken.scenario_digest == study.scenario->digest)
-      throw InputError(learner, "", "the exam has been taken already, as attempt " + std::to_string(taken.number),
-                       "start another exam, or practise without --exam");
-  for (const Sitting& begun : results_->sittings())
-    if (begun.learner == options_.learner && begun.scenario_text == study.scenario->text)
-      throw InputError(
-          learner, "", "the exam was begun at " + utc_time(begun.began_ms) + " and is not handed in",
-          "end it where it is being taken, or have what there is of it scored with 'insonate-score hand-in " +
-              results_->file().string() + "'");
+  results_->check_not_taken(options_.learner, study.scenario->digest);
 }
 
 void Trainer::keep_sitting() {
   if (!options_.exam || !results_ || !session_->runner() || session_->result()) return;
   if (!journal_) journal_.emplace(results_->file(), sitting_of(*session_, current_.source, options_.learner));
-  journal_->take(*session_);
+  try {
+    journal_->take(*session_);
+  } catch (const ExamTaken&) {
+    recorder_.stop();
+    session_.reset();  // nobody takes an exam twice
+    throw;
+  } catch (const InputError& error) {
+    const std::string told = std::string("The exam goes on, but is not kept while it lasts: ") + error.what();
+    std::fprintf(stderr, "insonate: %s\n", told.c_str());
+    if (!options_.headless) problems_.push_back(told);
+  }
 }
 
 void Trainer::hand_in_exam() {

@@ -155,7 +155,8 @@ public:
   Loop(const Loop&) = delete;
   Loop& operator=(const Loop&) = delete;
 
-  void run() {
+  /// Returns the exit code.
+  int run() {
     while (!glfwWindowShouldClose(window_) && !trainer_.is_over()) {
       wait();
       const double now_s = steady_now_s();
@@ -171,6 +172,9 @@ public:
       glfwGetFramebufferSize(window_, &width, &height);
       write_png(options_.screenshot, read_screen(width, height));
     }
+    // There is no frame any more to show them in.
+    for (const std::string& problem : trainer_.problems()) std::fprintf(stderr, "insonate: %s\n", problem.c_str());
+    return trainer_.problems().empty() ? 0 : 2;
   }
 
 private:
@@ -250,8 +254,7 @@ bool has_display() {
 int run_window(const Options& options) {
   const GlfwLibrary library;
   const auto window = open_window(options);
-  Loop(window.get(), options).run();
-  return 0;
+  return Loop(window.get(), options).run();
 }
 
 }  // namespace insonate

@@ -7,6 +7,7 @@
 #include "devices/sequence/sequence.h"
 #include "scenarios/results/results_database.h"
 #include "scenarios/runner.h"
+#include "sim/core/digest.h"
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
 #include "tools/attempt_cases.h"
@@ -18,6 +19,8 @@ namespace {
 /// Scored as an exam is that ends where its log ends.
 Attempt scored(ResultsDatabase& database, const Sitting& sitting, AttemptCases& cases, const TissueTable& tissues) {
   const std::string name = "sitting " + std::to_string(sitting.number);
+  if (digest_of(sitting.scenario_text) != sitting.scenario_digest)
+    throw InputError(database.file().string(), name, "its scenario is damaged", "remove it with --discard");
   const Scenario scenario = parse_scenario(sitting.scenario_text, sitting.scenario_file, sitting.seed);
   Runner runner(scenario, cases.of(sitting.patient, scenario), tissues);
   std::vector<PoseSample> samples;
@@ -47,28 +50,35 @@ int hand_in(const Given& given) {
   ResultsDatabase database = ResultsDatabase::open(given.database);
   const TissueTable tissues = read_tissue_table(assets_folder() / "tissues.toml");
   AttemptCases cases;
-  bool found = false;
+  bool found = false, all_well = true;
   for (const Sitting& sitting : database.sittings()) {
     if (given.sitting != 0 && sitting.number != given.sitting) continue;
     found = true;
     std::printf("sitting %lld, %s, begun %s: ", static_cast<long long>(sitting.number), sitting.learner.c_str(),
                 utc_time(sitting.began_ms).c_str());
-    if (now_since_1970_ms() - sitting.kept_ms < Sitting::kGivenUpAfter_ms) {
+    // A clock that was set back since says nothing.
+    const std::int64_t age_ms = now_since_1970_ms() - sitting.kept_ms;
+    if (age_ms >= 0 && age_ms < Sitting::kGivenUpAfter_ms) {
       std::printf("under way, or broken off only just\n");
     } else if (given.discard) {
       database.remove(sitting.number);
       std::printf("removed\n");
     } else {
-      Attempt attempt = scored(database, sitting, cases, tissues);
-      database.add(attempt, sitting.number);
-      std::printf("attempt %lld, %s\n", static_cast<long long>(attempt.number), sitting.title.c_str());
+      try {
+        Attempt attempt = scored(database, sitting, cases, tissues);
+        database.add(attempt, sitting.number);
+        std::printf("attempt %lld, %s\n", static_cast<long long>(attempt.number), sitting.title.c_str());
+      } catch (const InputError& error) {
+        std::printf("%s\n", error.what());
+        all_well = false;
+      }
     }
   }
   if (!found && given.sitting != 0)
     throw InputError(given.database.string(), "", "there is no sitting " + std::to_string(given.sitting),
                      "list them with 'insonate-score attempts'");
   if (!found) std::printf("no exam was begun and not handed in\n");
-  return 0;
+  return all_well ? 0 : 2;
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace insonate {
 Attempt attempt_of(const Runner& runner, const ExamResult& result, std::string log) {
   Attempt attempt;
   attempt.scenario_text = runner.scenario().text;
-  attempt.scenario_file = runner.scenario().file.string();
+  attempt.scenario_file = std::filesystem::absolute(runner.scenario().file).string();
   attempt.log = std::move(log);
   attempt.score_json = to_json(result);
   attempt.trace_json = to_json(runner.trace());

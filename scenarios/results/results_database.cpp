@@ -97,7 +97,7 @@ void ResultsDatabase::add(Attempt& attempt, std::int64_t sitting) {
             .bind(3, kind.name)
             .bind_bytes(4, picture.png)
             .step();
-  remove(sitting);
+  if (sitting != 0) take_out(sitting);
   const std::string identity = this->identity();
   transaction.commit();
   attempt.database = identity;
@@ -175,10 +175,14 @@ void ResultsDatabase::check() {
   const bool orphans = sqlite::Statement(connection_, "PRAGMA foreign_key_check").step();
   if (said != "ok" || orphans)
     throw InputError(connection_.file().string(), "",
-                     "the database is damaged (" + (orphans ? "an attempt of no learner" : said) + ")",
+                     "the database is damaged (" + (orphans ? "a row without what it belongs to" : said) + ")",
                      "go back to a copy of it from before");
   for (const AttemptSummary& attempt : attempts()) read(attempt.number);
-  for (const Sitting& sitting : sittings()) parts(sitting.number);
+  for (const Sitting& sitting : sittings()) {
+    if (digest_of(sitting.scenario_text) != sitting.scenario_digest)
+      fail("sitting " + std::to_string(sitting.number), "its scenario is damaged");
+    parts(sitting.number);
+  }
 }
 
 void ResultsDatabase::fail(const std::string& place, const std::string& problem) const {

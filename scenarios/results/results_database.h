@@ -46,7 +46,7 @@ public:
   static ResultsDatabase open_or_make(const std::filesystem::path& file);
 
   /// Keeps an attempt and sets its number and uuid. Throws InputError when the learner's id is none, or the score does
-  /// not read back.
+  /// not read back, and ExamTaken when there is no such sitting any more.
   /// @param sitting  of which it is what was handed in, and which it takes the place of; 0 for none
   void add(Attempt& attempt, std::int64_t sitting = 0);
 
@@ -58,17 +58,19 @@ public:
   /// In the order of their ids.
   std::vector<LearnerSummary> learners();
 
-  /// Keeps that an exam has begun, with the first part of its log, and sets its number. Throws InputError when the
-  /// learner's id is none, or when this learner is sitting this very exam already.
+  /// Throws ExamTaken when this learner has an attempt at this very exam, or a sitting.
+  void check_not_taken(const std::string& learner, const std::string& scenario_digest);
+  /// Keeps that an exam begins now, with the first part of its log, and sets its number, digest and times. Throws what
+  /// check_not_taken() throws, and InputError when the learner's id is none.
   void begin(Sitting& sitting, std::string_view log);
-  /// Keeps what has come of it since the part before: a sequence file without pictures. Throws InputError when there is
+  /// Keeps what has come of it since the part before: a sequence file without pictures. Throws ExamTaken when there is
   /// no such sitting any more.
-  void add_part(std::int64_t sitting, std::string_view log, std::int64_t now_ms);
+  void add_part(std::int64_t sitting, std::string_view log);
   /// The exams that were begun and not handed in, in the order in which they began.
   std::vector<Sitting> sittings();
   /// What there is of one, in order.
   std::vector<std::string> parts(std::int64_t sitting);
-  /// Removes one as if it had not begun.
+  /// Removes one as if it had not begun, with its learner if nothing else is of him.
   void remove(std::int64_t sitting);
 
   const std::filesystem::path& file() const { return connection_.file(); }
@@ -82,7 +84,8 @@ public:
 private:
   ResultsDatabase(const std::filesystem::path& file, bool make);
   [[noreturn]] void fail(const std::string& place, const std::string& problem) const;
-  void insert_part(std::int64_t sitting, std::string_view log, std::int64_t now_ms);
+  std::int64_t insert_part(std::int64_t sitting, std::string_view log);
+  void take_out(std::int64_t sitting);
 
   sqlite::Connection connection_;
 };

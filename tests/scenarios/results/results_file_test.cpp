@@ -106,7 +106,7 @@ TEST_CASE("a damaged database is refused in a sentence") {
   }
   SECTION("an attempt of nobody") {
     run_sql(folder / "results.db", "DELETE FROM learner");
-    refused(folder / "results.db", "of no learner");
+    refused(folder / "results.db", "a row without what it belongs to");
   }
   SECTION("values changed") {
     const std::pair<const char*, const char*> changes[] = {

@@ -109,7 +109,7 @@ TEST_CASE("whenever a program is killed, what was said to be kept of an exam und
       Sitting sitting;
       sitting.learner = "L-07";
       database.begin(sitting, noise(0));
-      for (std::uint32_t i = 1; write(ends[1], "!", 1) == 1; ++i) database.add_part(sitting.number, noise(i), i);
+      for (std::uint32_t i = 1; write(ends[1], "!", 1) == 1; ++i) database.add_part(sitting.number, noise(i));
     });
     close(ends[1]);
     char byte = 0;
