@@ -46,7 +46,8 @@ struct Doing {
       if (!subject.find_label(name)) refuse("the structure '" + name + "' is not in the case");
       names.push_back(name);
     }
-    const auto found = plane_region(StructureSet(LabelIndex(subject), names), patient_from_probe, near, kWindow_mm, kPitch_mm);
+    const auto found =
+        plane_region(StructureSet(LabelIndex(subject), names), patient_from_probe, near, kWindow_mm, kPitch_mm);
     if (!found) refuse("the picture does not show it");
     return *found;
   }
