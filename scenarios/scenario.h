@@ -71,7 +71,8 @@ struct Step {
   /// and does not count. Default: the next step.
   std::string if_good, if_poor;
   std::vector<Criterion> criteria;       ///< none makes the step a warm-up that does not count
-  std::shared_ptr<const StepTask> task;  ///< what this kind asks for; never null
+  std::shared_ptr<const StepTask> task;  ///< what this kind asks for; null only where `sound` is false
+  bool sound = true;                     ///< nothing is wrong with its table
 };
 
 struct Scenario {
@@ -115,11 +116,15 @@ struct ScenarioProblem {
 /// Thrown with every problem that a scenario has, in the order of the file; what() lists them all.
 class ScenarioError : public InputError {
 public:
-  ScenarioError(const std::string& file, std::vector<ScenarioProblem> problems);
+  ScenarioError(const std::string& file, std::vector<ScenarioProblem> problems,
+                std::shared_ptr<const Scenario> as_read = nullptr);
   const std::vector<ScenarioProblem>& problems() const { return problems_; }
+  /// What could be read of it all the same, for whoever can check more than its text; nullptr when that is nothing.
+  const Scenario* as_read() const { return as_read_.get(); }
 
 private:
   std::vector<ScenarioProblem> problems_;
+  std::shared_ptr<const Scenario> as_read_;
 };
 
 /// Reads the variant that the seed draws, and checks of all of them what can be checked without the case. Throws
@@ -129,8 +134,11 @@ Scenario read_scenario(const std::filesystem::path& file, std::uint32_t seed = 0
 /// The same for a text at hand; `name` stands for the file in messages.
 Scenario parse_scenario(std::string_view text, const std::filesystem::path& name, std::uint32_t seed = 0);
 
-/// Checks what the scenario says of the case: views, and that their targets and landmarks are there for the metrics
-/// that need them. Throws ScenarioError.
+/// What is wrong with what the scenario says of the case: views, and that their targets and landmarks are there for the
+/// metrics that need them. Of a step that is not sound only the view's name is looked at.
+std::vector<ScenarioProblem> problems_with_case(const Scenario& scenario, const Case& subject);
+
+/// Throws a ScenarioError when there is any.
 void check_against_case(const Scenario& scenario, const Case& subject);
 
 /// The same for one metric that a step asks for at `place`.

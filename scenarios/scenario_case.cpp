@@ -34,6 +34,7 @@ void check_step(const Step& step, const std::string& where, const Case& subject,
          suggest(step.view, names_of(subject.views))});
     return;
   }
+  if (!step.sound) return;
   for (const Criterion& criterion : step.criteria)
     check_metric(criterion.metric, criterion.place, step, subject, where, problems);
   step.task->check(step, subject, where, problems);
@@ -50,10 +51,15 @@ void check_metric(Metric metric, const SourcePlace& place, const Step& step, con
                         "add them to the case or remove the metric"});
 }
 
-void check_against_case(const Scenario& scenario, const Case& subject) {
+std::vector<ScenarioProblem> problems_with_case(const Scenario& scenario, const Case& subject) {
   std::vector<ScenarioProblem> problems;
   for (std::size_t i = 0; i < scenario.steps.size(); ++i)
     check_step(scenario.steps[i], "step " + std::to_string(i + 1), subject, problems);
+  return problems;
+}
+
+void check_against_case(const Scenario& scenario, const Case& subject) {
+  std::vector<ScenarioProblem> problems = problems_with_case(scenario, subject);
   if (!problems.empty()) throw ScenarioError(scenario.file.string(), std::move(problems));
 }
 

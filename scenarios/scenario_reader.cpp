@@ -210,7 +210,9 @@ Scenario read_tables(TableReader& reader, const Variant* variant) {
   read_variants(reader);  // they were looked at before: here their keys are checked and known
   std::vector<SourcePlace> places;
   for (const auto& table : reader.tables("step", kMostSteps, "step ", "")) {
+    const std::size_t problems_before = table->problems().size();
     scenario.steps.push_back(read_step(*table, scenario));
+    scenario.steps.back().sound = table->problems().size() == problems_before;
     places.push_back(table->place("name"));
     if (!scenario.steps.back().counts && scenario.steps.size() > 1 && scenario.steps[scenario.steps.size() - 2].counts)
       table->problem(table->place("counts"), "is a warm-up behind a step that counts", "move it to the front");
@@ -264,8 +266,11 @@ std::vector<ScenarioProblem> in_order_of_file(std::vector<ScenarioProblem> probl
 
 }  // namespace
 
-ScenarioError::ScenarioError(const std::string& file, std::vector<ScenarioProblem> problems)
-    : InputError(as_input_error(file, in_order_of_file(problems))), problems_(in_order_of_file(std::move(problems))) {}
+ScenarioError::ScenarioError(const std::string& file, std::vector<ScenarioProblem> problems,
+                             std::shared_ptr<const Scenario> as_read)
+    : InputError(as_input_error(file, in_order_of_file(problems))),
+      problems_(in_order_of_file(std::move(problems))),
+      as_read_(std::move(as_read)) {}
 
 Scenario parse_scenario(std::string_view text, const std::filesystem::path& name, std::uint32_t seed) {
   std::vector<ScenarioProblem> problems;
@@ -295,10 +300,11 @@ Scenario parse_scenario(std::string_view text, const std::filesystem::path& name
   Scenario scenario = read_with(variants.empty() ? nullptr : &variants[drawn(seed, variants.size())]);
   if (variants.size() > 1)
     for (const Variant& other : variants) read_with(&other);
-  if (!problems.empty()) throw ScenarioError(name.string(), std::move(problems));
+  scenario.file = name;
+  if (!problems.empty())
+    throw ScenarioError(name.string(), std::move(problems), std::make_shared<const Scenario>(std::move(scenario)));
   scenario.seed = seed;
   scenario.variants = variants.size();
-  scenario.file = name;
   scenario.text = text;
   scenario.digest = digest_of(text);
   return scenario;

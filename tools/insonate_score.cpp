@@ -75,8 +75,30 @@ int score(const Arguments& given) {
   return 0;
 }
 
+/// All that is wrong at once: with the text, and as far as that could be read, with how it fits the case.
+[[noreturn]] void refuse(const ScenarioError& text, const Arguments& given) {
+  std::vector<ScenarioProblem> problems = text.problems();
+  try {
+    const Case subject = case_for(*text.as_read(), given.case_folder);
+    const std::vector<ScenarioProblem> more = problems_with_case(*text.as_read(), subject);
+    problems.insert(problems.end(), more.begin(), more.end());
+  } catch (const InputError&) {
+    // Without a case there is the text alone; once that is right, it is told what is wrong with the case.
+  }
+  throw ScenarioError(given.scenario.string(), std::move(problems));
+}
+
+Scenario read_to_check(const Arguments& given, bool without_case) {
+  try {
+    return read_scenario(given.scenario);
+  } catch (const ScenarioError& text) {
+    if (without_case || !text.as_read()) throw;
+    refuse(text, given);
+  }
+}
+
 int check(const Arguments& given, bool without_case) {
-  const Scenario scenario = read_scenario(given.scenario);
+  const Scenario scenario = read_to_check(given, without_case);
   std::set<std::string> checked;
   // Each variant that a seed may draw, on its own patient.
   for (std::uint32_t seed = 0; !without_case && checked.size() < std::max<std::size_t>(scenario.variants, 1); ++seed) {

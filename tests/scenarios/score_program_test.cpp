@@ -157,6 +157,28 @@ TEST_CASE("insonate-score check passes the bundled exam") {
   CHECK(outcome.output.find("no problems found") != std::string::npos);
 }
 
+TEST_CASE("insonate-score check tells of a scenario's text and of its case at once, in the order of the file") {
+  const Folder folder;
+  std::string exam = coarse_exam();
+  const auto spoil = [&](const std::string& from, const std::string& to) {
+    const std::size_t at = exam.find(from);
+    REQUIRE(at != std::string::npos);
+    exam.replace(at, from.size(), to);
+  };
+  spoil("view = \"hepatorenal\"", "view = \"hepatorenl\"");
+  spoil("pass_mark_percent", "pass_mark");
+  const std::string file = folder.file("exam.toml", exam).string();
+  const Outcome outcome = run(folder, "check " + file);
+  INFO(outcome.errors);
+  CHECK(outcome.code == 2);
+  CHECK(outcome.errors.find("2 problems") != std::string::npos);
+  CHECK(outcome.errors.find("'pass_mark'") < outcome.errors.find("did you mean 'hepatorenal'?"));
+  CHECK(outcome.errors.find("did you mean 'hepatorenal'?") != std::string::npos);
+  const Outcome text = run(folder, "check --without-case " + file);
+  CHECK(text.code == 2);
+  CHECK(text.errors.find("hepatorenl") == std::string::npos);
+}
+
 TEST_CASE(
     "insonate-score keeps attempts, lists them, scores them again to the same bits, and makes their reports again") {
   const Folder folder;
