@@ -174,6 +174,12 @@ TEST_CASE("insonate-score check tells of a scenario's text and of its case at on
   CHECK(outcome.errors.find("2 problems") != std::string::npos);
   CHECK(outcome.errors.find("'pass_mark'") < outcome.errors.find("did you mean 'hepatorenal'?"));
   CHECK(outcome.errors.find("did you mean 'hepatorenal'?") != std::string::npos);
+
+  INFO("of a step that nobody knows how to read its view is looked at, and no more");
+  spoil("kind = \"find_view\"", "kind = \"find_vew\"");
+  const Outcome unknown = run(folder, "check " + folder.file("kind.toml", exam).string());
+  CHECK(unknown.code == 2);
+  CHECK(unknown.errors.find("3 problems") != std::string::npos);
   const Outcome text = run(folder, "check --without-case " + file);
   CHECK(text.code == 2);
   CHECK(text.errors.find("hepatorenl") == std::string::npos);
