@@ -44,6 +44,7 @@ Runner::Runner(Scenario scenario, const Case& subject, const TissueTable& tissue
   for (const Step& step : scenario_.steps) {
     const ReferenceView* view = subject.find_view(step.view);
     meters_.push_back(view ? std::make_unique<ViewMeter>(subject, *view, tissues) : nullptr);
+    begin_.push_back(step.task->prepare({step, subject_, labels_, tissues_, meters_.back().get()}));
   }
   ended_.resize(scenario_.steps.size());
   spent_s_.resize(scenario_.steps.size());
@@ -162,7 +163,7 @@ void Runner::begin_step(std::size_t index, double now) {
     counts_from_s_ = now;
     if (now > 0) motion_ = motion_.following(now);
   }
-  run_ = asked.task->begin({asked, subject_, labels_, tissues_, meters_[index].get()}, now);
+  run_ = begin_[index](now);
   live_.hold_share = 0;
   live_.within_tolerance = false;
   live_.enough = run_->enough();

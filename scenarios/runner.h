@@ -79,6 +79,8 @@ public:
   /// Keeps references to the case. Throws ScenarioError when the scenario does not fit the case, and InputError when
   /// the case does not fit itself.
   Runner(Scenario scenario, const Case& subject, const TissueTable& tissues);
+  Runner(const Runner&) = delete;  // what is prepared for its steps refers to it
+  Runner& operator=(const Runner&) = delete;
 
   /// @param before  what was done since the sample before
   void feed(const PoseSample& sample, std::span<const Action> before = {});
@@ -126,6 +128,7 @@ private:
   LabelIndex labels_;
   std::string case_digest_;
   std::vector<std::unique_ptr<ViewMeter>> meters_;  ///< one a step; null without a view
+  std::vector<StepBegin> begin_;                    ///< by step
   std::map<std::string, SkinContact> contacts_;     ///< by probe
   Machine machine_;
   LiveExam live_;

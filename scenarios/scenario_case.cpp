@@ -2,6 +2,7 @@
 
 #include "scenarios/scenario.h"
 #include "scenarios/steps/step_task.h"
+#include "scenarios/steps/structures.h"
 #include "sim/core/suggest.h"
 
 namespace insonate {
@@ -25,8 +26,9 @@ std::string lacking(const MetricInfo& metric, const ReferenceView& view, const C
   return "";
 }
 
-void check_step(const Step& step, const std::string& where, const Case& subject,
+void check_step(const Step& step, const std::string& where, const LabelIndex& labels,
                 std::vector<ScenarioProblem>& problems) {
+  const Case& subject = labels.subject();
   if (!step.view.empty() && !subject.find_view(step.view)) {
     problems.push_back(
         {step.view_place,
@@ -37,7 +39,7 @@ void check_step(const Step& step, const std::string& where, const Case& subject,
   if (!step.sound) return;
   for (const Criterion& criterion : step.criteria)
     check_metric(criterion.metric, criterion.place, step, subject, where, problems);
-  step.task->check(step, subject, where, problems);
+  step.task->check(step, labels, where, problems);
 }
 
 }  // namespace
@@ -52,9 +54,10 @@ void check_metric(Metric metric, const SourcePlace& place, const Step& step, con
 }
 
 std::vector<ScenarioProblem> problems_with_case(const Scenario& scenario, const Case& subject) {
+  const LabelIndex labels(subject);
   std::vector<ScenarioProblem> problems;
   for (std::size_t i = 0; i < scenario.steps.size(); ++i)
-    check_step(scenario.steps[i], "step " + std::to_string(i + 1), subject, problems);
+    check_step(scenario.steps[i], "step " + std::to_string(i + 1), labels, problems);
   return problems;
 }
 

@@ -39,7 +39,7 @@ const Transmission::Medium& Transmission::medium(const glm::dvec3& index, double
   return medium_of_hu_[std::size_t(std::clamp(hu, double(kLeastHu), double(kMostHu)) - kHalfBelow)];
 }
 
-void Transmission::along(const VoxelLine& line, std::vector<double>& intensity) const {
+void Transmission::along(const VoxelLine& line, std::span<double> intensity) const {
   double arriving = 1;
   Medium before = medium(line.start, 0);
   for (std::size_t k = 0; k < intensity.size(); ++k) {

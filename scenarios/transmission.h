@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "sim/core/grid.h"
@@ -30,8 +31,8 @@ public:
                double frequency_mhz);
 
   /// One-way intensity relative to the emitted at the middle of each sample of a line through the CT, into
-  /// `intensity`, which holds as many as the line has samples.
-  void along(const VoxelLine& line, std::vector<double>& intensity) const;
+  /// `intensity`: as many as it holds, the nearest first.
+  void along(const VoxelLine& line, std::span<double> intensity) const;
 
 private:
   struct Medium {

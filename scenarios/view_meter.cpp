@@ -117,14 +117,19 @@ ViewMeter::TargetArea ViewMeter::target_area(const Pose& patient_from_probe, dou
   if (is_target_.none() || case_->labels.empty()) return area;
   const int count = int(lines_.lines.size());
   std::vector<double> intensity(std::size_t(lines_.samples));
+  std::vector<int> in_targets;
   for (int i = 0; i < count; ++i) {
     // Labels lie on the CT's grid, so one way through the voxels serves both.
     const VoxelLine way = voxel_line(case_->ct.grid, lines_, std::size_t(i), patient_from_probe);
-    transmission_.along(way, intensity);
+    in_targets.clear();
+    for (int k = 0; k < lines_.samples; ++k)
+      if (is_target_[sample_nearest(case_->labels, way.at(k + 0.5))]) in_targets.push_back(k);
+    if (in_targets.empty()) continue;
+    // What the sound meets behind the targets does not matter.
+    transmission_.along(way, std::span(intensity).first(std::size_t(in_targets.back()) + 1));
     const ScanLine& line = lines_.lines[std::size_t(i)];
     const double across = (2 * i + 1 - count) / double(count);
-    for (int k = 0; k < lines_.samples; ++k) {
-      if (!is_target_[sample_nearest(case_->labels, way.at(k + 0.5))]) continue;
+    for (const int k : in_targets) {
       const double r_mm = lines_.r_min_mm + (k + 0.5) * lines_.dr_mm();
       const double cell = cell_mm2_[std::size_t(i) * std::size_t(lines_.samples) + std::size_t(k)];
       if (area.seen_mm2 == 0) area.nearest_mm = r_mm;

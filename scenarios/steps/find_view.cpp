@@ -5,6 +5,7 @@
 #include <deque>
 
 #include "scenarios/motion_meter.h"
+#include "scenarios/steps/structures.h"
 #include "scenarios/table_reader.h"
 #include "scenarios/view_meter.h"
 #include "sim/core/suggest.h"
@@ -142,13 +143,14 @@ std::shared_ptr<const StepTask> FindView::read(TableReader& table, const Step& s
   return task;
 }
 
-void FindView::check(const Step& step, const Case& subject, const std::string& where,
+void FindView::check(const Step& step, const LabelIndex& labels, const std::string& where,
                      std::vector<ScenarioProblem>& problems) const {
-  for (const Tolerance& limit : tolerance) check_metric(limit.metric, limit.place, step, subject, where, problems);
+  for (const Tolerance& limit : tolerance)
+    check_metric(limit.metric, limit.place, step, labels.subject(), where, problems);
 }
 
-std::unique_ptr<StepRun> FindView::begin(const StepWorld&, double) const {
-  return std::make_unique<Run>(*this);
+StepBegin FindView::prepare(const StepWorld&) const {
+  return [this](double) { return std::make_unique<Run>(*this); };
 }
 
 }  // namespace insonate

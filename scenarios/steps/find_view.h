@@ -17,9 +17,9 @@ struct FindView : StepTask {
   const char* kind() const override { return "find_view"; }
   std::vector<Metric> metrics() const override { return {Metric::longest_hold_s}; }
   bool judges_picture() const override { return true; }
-  void check(const Step& step, const Case& subject, const std::string& where,
+  void check(const Step& step, const LabelIndex& labels, const std::string& where,
              std::vector<ScenarioProblem>& problems) const override;
-  std::unique_ptr<StepRun> begin(const StepWorld& world, double now_s) const override;
+  StepBegin prepare(const StepWorld& world) const override;
 };
 
 }  // namespace insonate

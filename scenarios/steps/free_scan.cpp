@@ -15,8 +15,8 @@ std::shared_ptr<const StepTask> FreeScan::read(TableReader&, const Step&) {
   return std::make_shared<FreeScan>();
 }
 
-std::unique_ptr<StepRun> FreeScan::begin(const StepWorld&, double) const {
-  return std::make_unique<Run>();
+StepBegin FreeScan::prepare(const StepWorld&) const {
+  return [](double) { return std::make_unique<Run>(); };
 }
 
 }  // namespace insonate

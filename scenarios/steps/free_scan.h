@@ -12,7 +12,7 @@ struct FreeScan : StepTask {
   static std::shared_ptr<const StepTask> read(TableReader& table, const Step& step);
 
   const char* kind() const override { return "free_scan"; }
-  std::unique_ptr<StepRun> begin(const StepWorld& world, double now_s) const override;
+  StepBegin prepare(const StepWorld& world) const override;
 };
 
 }  // namespace insonate

@@ -90,8 +90,9 @@ std::shared_ptr<const StepTask> MarkPoint::read(TableReader& table, const Step&)
   return task;
 }
 
-void MarkPoint::check(const Step&, const Case& subject, const std::string& where,
+void MarkPoint::check(const Step&, const LabelIndex& labels, const std::string& where,
                       std::vector<ScenarioProblem>& problems) const {
+  const Case& subject = labels.subject();
   check_structures(structures, place, subject, where, problems);
   if (landmark.empty() || subject.find_landmark(landmark)) return;
   std::vector<std::string> known;
@@ -101,8 +102,8 @@ void MarkPoint::check(const Step&, const Case& subject, const std::string& where
        known.empty() ? "take a case with landmarks" : suggest(landmark, known)});
 }
 
-std::unique_ptr<StepRun> MarkPoint::begin(const StepWorld& world, double) const {
-  return std::make_unique<PointRun>(*this, world.labels);
+StepBegin MarkPoint::prepare(const StepWorld& world) const {
+  return [this, &labels = world.labels](double) { return std::make_unique<PointRun>(*this, labels); };
 }
 
 std::shared_ptr<const StepTask> LabelStructures::read(TableReader& table, const Step&) {
@@ -117,13 +118,13 @@ std::shared_ptr<const StepTask> LabelStructures::read(TableReader& table, const 
   return task;
 }
 
-void LabelStructures::check(const Step&, const Case& subject, const std::string& where,
+void LabelStructures::check(const Step&, const LabelIndex& labels, const std::string& where,
                             std::vector<ScenarioProblem>& problems) const {
-  check_structures(structures, place, subject, where, problems);
+  check_structures(structures, place, labels.subject(), where, problems);
 }
 
-std::unique_ptr<StepRun> LabelStructures::begin(const StepWorld& world, double) const {
-  return std::make_unique<LabelRun>(*this, world.labels);
+StepBegin LabelStructures::prepare(const StepWorld& world) const {
+  return [this, &labels = world.labels](double) { return std::make_unique<LabelRun>(*this, labels); };
 }
 
 }  // namespace insonate

@@ -20,9 +20,9 @@ struct MarkPoint : StepTask {
   const char* kind() const override { return "mark_point"; }
   std::vector<Metric> metrics() const override { return {Metric::point_error_mm}; }
   const char* why_no_value() const override { return "nothing was pointed at."; }
-  void check(const Step& step, const Case& subject, const std::string& where,
+  void check(const Step& step, const LabelIndex& labels, const std::string& where,
              std::vector<ScenarioProblem>& problems) const override;
-  std::unique_ptr<StepRun> begin(const StepWorld& world, double now_s) const override;
+  StepBegin prepare(const StepWorld& world) const override;
 };
 
 /// kind = "label_structures": put names on structures in the picture. Of each name the last place before going on
@@ -36,9 +36,9 @@ struct LabelStructures : StepTask {
 
   const char* kind() const override { return "label_structures"; }
   std::vector<Metric> metrics() const override { return {Metric::labels_right_percent}; }
-  void check(const Step& step, const Case& subject, const std::string& where,
+  void check(const Step& step, const LabelIndex& labels, const std::string& where,
              std::vector<ScenarioProblem>& problems) const override;
-  std::unique_ptr<StepRun> begin(const StepWorld& world, double now_s) const override;
+  StepBegin prepare(const StepWorld& world) const override;
 };
 
 }  // namespace insonate

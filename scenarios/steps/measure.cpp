@@ -77,7 +77,7 @@ Truth truth_of(const Measure& asked, const Step& step, const LabelIndex& labels)
 
 class Run : public StepRun {
 public:
-  Run(const Measure& asked, const StepWorld& world) : asked_(asked), world_(world) {}
+  Run(const Measure& asked, const ViewMeter* meter, const Truth& truth) : asked_(asked), meter_(meter), truth_(truth) {}
 
   void act(const Action& action, const Moment& moment) override {
     const bool has_slot = action.slot() >= 1 && action.slot() <= asked_.slots();
@@ -91,24 +91,23 @@ public:
 
   void finish(StepOutcome, double, StepResult& result) const override {
     const Placed* last = last_placed();
-    if (last && world_.meter) {
-      result.judged = world_.meter->measure(last->patient_from_probe, last->depth_mm);
+    if (last && meter_) {
+      result.judged = meter_->measure(last->patient_from_probe, last->depth_mm);
       result.judged_from_s = result.judged_to_s = last->time_s;
     }
     if (!enough()) return;
     std::vector<Action> placed;
     for (int i = 0; i < asked_.slots(); ++i) placed.push_back(placed_[std::size_t(i)]->action);
     const double measured = asked_.value(placed);
-    const Truth truth = truth_of(asked_, world_.step, world_.labels);
     result.facts.emplace_back("measured", with_unit(measured));
-    if (!truth.value) return;
-    result.facts.emplace_back("truth", with_unit(*truth.value) + ", " + asked_.walls);
+    if (!truth_.value) return;
+    result.facts.emplace_back("truth", with_unit(*truth_.value) + ", " + asked_.walls);
     if (asked_.tool == Measure::Tool::distance)
-      result.values.emplace_back(Metric::measurement_error_mm, std::abs(measured - *truth.value));
+      result.values.emplace_back(Metric::measurement_error_mm, std::abs(measured - *truth_.value));
     result.values.emplace_back(Metric::measurement_error_percent,
-                               100 * std::abs(measured - *truth.value) / *truth.value);
-    if (truth.middle)
-      result.values.emplace_back(Metric::measurement_offset_mm, glm::distance(middle_of(*placed_[0]), *truth.middle));
+                               100 * std::abs(measured - *truth_.value) / *truth_.value);
+    if (truth_.middle)
+      result.values.emplace_back(Metric::measurement_offset_mm, glm::distance(middle_of(*placed_[0]), *truth_.middle));
   }
 
 private:
@@ -139,7 +138,8 @@ private:
   }
 
   const Measure& asked_;
-  StepWorld world_;
+  const ViewMeter* meter_;  ///< of the step's view; nullptr when it names none
+  Truth truth_;
   std::array<std::optional<Placed>, 3> placed_;
   int order_ = 0;
 };
@@ -216,8 +216,9 @@ std::vector<Metric> Measure::metrics() const {
   return measured;
 }
 
-void Measure::check(const Step& step, const Case& subject, const std::string& where,
+void Measure::check(const Step& step, const LabelIndex& labels, const std::string& where,
                     std::vector<ScenarioProblem>& problems) const {
+  const Case& subject = labels.subject();
   const std::size_t before = problems.size();
   for (const MeasureTarget& target : targets) {
     check_structures(target.structures, target.place, subject, where, problems);
@@ -233,13 +234,15 @@ void Measure::check(const Step& step, const Case& subject, const std::string& wh
                           where + " measures at the landmark '" + target.through + "', which is not there",
                           landmarks.empty() ? "take a case with landmarks" : suggest(target.through, landmarks)});
   }
-  if (problems.size() == before && !truth_of(*this, step, LabelIndex(subject)).value)
+  if (problems.size() == before && !truth_of(*this, step, labels).value)
     problems.push_back({targets[0].place, where + " measures what this patient does not have there",
                         "name structures that cross the view's picture"});
 }
 
-std::unique_ptr<StepRun> Measure::begin(const StepWorld& world, double) const {
-  return std::make_unique<Run>(*this, world);
+StepBegin Measure::prepare(const StepWorld& world) const {
+  return [this, meter = world.meter, truth = truth_of(*this, world.step, world.labels)](double) {
+    return std::make_unique<Run>(*this, meter, truth);
+  };
 }
 
 }  // namespace insonate

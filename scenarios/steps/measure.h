@@ -52,9 +52,9 @@ struct Measure : StepTask {
   std::vector<Metric> metrics() const override;
   bool judges_picture() const override { return true; }  ///< the frozen one
   const char* why_no_value() const override { return "nothing was measured in a frozen picture."; }
-  void check(const Step& step, const Case& subject, const std::string& where,
+  void check(const Step& step, const LabelIndex& labels, const std::string& where,
              std::vector<ScenarioProblem>& problems) const override;
-  std::unique_ptr<StepRun> begin(const StepWorld& world, double now_s) const override;
+  StepBegin prepare(const StepWorld& world) const override;
 };
 
 }  // namespace insonate

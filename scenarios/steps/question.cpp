@@ -99,13 +99,13 @@ std::vector<Metric> Question::metrics() const {
   return {Metric::answer_right_percent};
 }
 
-void Question::check(const Step&, const Case& subject, const std::string& where,
+void Question::check(const Step&, const LabelIndex& labels, const std::string& where,
                      std::vector<ScenarioProblem>& problems) const {
-  check_structures(findings, finding_place, subject, where, problems);
+  check_structures(findings, finding_place, labels.subject(), where, problems);
 }
 
-std::unique_ptr<StepRun> Question::begin(const StepWorld& world, double) const {
-  return std::make_unique<Run>(*this, world.labels);
+StepBegin Question::prepare(const StepWorld& world) const {
+  return [this, &labels = world.labels](double) { return std::make_unique<Run>(*this, labels); };
 }
 
 }  // namespace insonate

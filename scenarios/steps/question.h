@@ -36,9 +36,9 @@ struct Question : StepTask {
   const char* kind() const override { return "question"; }
   std::vector<Metric> metrics() const override;
   const char* why_no_value() const override { return "there was no answer."; }
-  void check(const Step& step, const Case& subject, const std::string& where,
+  void check(const Step& step, const LabelIndex& labels, const std::string& where,
              std::vector<ScenarioProblem>& problems) const override;
-  std::unique_ptr<StepRun> begin(const StepWorld& world, double now_s) const override;
+  StepBegin prepare(const StepWorld& world) const override;
 };
 
 }  // namespace insonate

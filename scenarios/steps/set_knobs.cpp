@@ -67,8 +67,8 @@ std::shared_ptr<const StepTask> SetKnobs::read(TableReader& table, const Step&) 
   return task;
 }
 
-std::unique_ptr<StepRun> SetKnobs::begin(const StepWorld&, double now_s) const {
-  return std::make_unique<Run>(*this, now_s);
+StepBegin SetKnobs::prepare(const StepWorld&) const {
+  return [this](double now_s) { return std::make_unique<Run>(*this, now_s); };
 }
 
 }  // namespace insonate

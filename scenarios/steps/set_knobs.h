@@ -18,7 +18,7 @@ struct SetKnobs : StepTask {
 
   const char* kind() const override { return "set_knobs"; }
   std::vector<Metric> metrics() const override { return {Metric::knobs_right_percent}; }
-  std::unique_ptr<StepRun> begin(const StepWorld& world, double now_s) const override;
+  StepBegin prepare(const StepWorld& world) const override;
 };
 
 }  // namespace insonate

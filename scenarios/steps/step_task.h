@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -62,6 +63,9 @@ public:
   virtual void finish(StepOutcome outcome, double now_s, StepResult& result) const = 0;
 };
 
+/// Begins a step; where the order is free, perhaps more than once.
+using StepBegin = std::function<std::unique_ptr<StepRun>(double now_s)>;
+
 /// What a step of some kind asks for: the keys that only this kind has. Immutable once read.
 class StepTask {
 public:
@@ -75,8 +79,10 @@ public:
   /// What a report says of a criterion without a value.
   virtual const char* why_no_value() const { return "there was no valid pose to judge."; }
   /// Adds what does not fit the case. @param where  "step 2"
-  virtual void check(const Step&, const Case&, const std::string& /*where*/, std::vector<ScenarioProblem>&) const {}
-  virtual std::unique_ptr<StepRun> begin(const StepWorld& world, double now_s) const = 0;
+  virtual void check(const Step&, const LabelIndex&, const std::string& /*where*/,
+                     std::vector<ScenarioProblem>&) const {}
+  /// Searches the patient for what the step will be judged by, before the exam begins: no sample waits for that.
+  virtual StepBegin prepare(const StepWorld& world) const = 0;
 };
 
 }  // namespace insonate

@@ -32,10 +32,9 @@ std::vector<glm::dvec3> cells_of(const LabelIndex& index, const std::vector<std:
 
 class Run : public StepRun {
 public:
-  Run(const Sweep& asked, const StepWorld& world, double now_s)
-      : asked_(asked), world_(world), path_(now_s), cells_(cells_of(world.labels, asked.organ)) {
+  Run(const Sweep& asked, const StepWorld& world, const std::vector<glm::dvec3>& cells, double now_s)
+      : asked_(asked), world_(world), path_(now_s), cells_(cells), total_(cells.size()) {
     for (const std::string& name : asked.keep) landmarks_.push_back(world.subject.find_landmark(name)->position);
-    total_ = cells_.size();
   }
 
   void see(const Moment& moment) override {
@@ -80,7 +79,7 @@ private:
   StepWorld world_;
   PathGrid path_;
   std::vector<glm::dvec3> cells_;  ///< not seen yet
-  std::size_t total_ = 0;
+  std::size_t total_;
   std::vector<glm::dvec3> landmarks_;
   std::optional<Insonation> insonation_;
   long looks_ = 0;
@@ -106,11 +105,12 @@ std::vector<Metric> Sweep::metrics() const {
   return measured;
 }
 
-void Sweep::check(const Step&, const Case& subject, const std::string& where,
+void Sweep::check(const Step&, const LabelIndex& labels, const std::string& where,
                   std::vector<ScenarioProblem>& problems) const {
+  const Case& subject = labels.subject();
   const std::size_t before = problems.size();
   check_structures(organ, organ_place, subject, where, problems);
-  if (problems.size() == before && cells_of(LabelIndex(subject), organ).empty())
+  if (problems.size() == before && cells_of(labels, organ).empty())
     problems.push_back({organ_place, where + " sweeps an organ that this patient does not have", "name another"});
   std::vector<std::string> known;
   for (const Landmark& landmark : subject.landmarks) known.push_back(landmark.name);
@@ -122,8 +122,10 @@ void Sweep::check(const Step&, const Case& subject, const std::string& where,
            known.empty() ? "take a case with landmarks" : suggest(name, known)});
 }
 
-std::unique_ptr<StepRun> Sweep::begin(const StepWorld& world, double now_s) const {
-  return std::make_unique<Run>(*this, world, now_s);
+StepBegin Sweep::prepare(const StepWorld& world) const {
+  return [this, world, cells = cells_of(world.labels, organ)](double now_s) {
+    return std::make_unique<Run>(*this, world, cells, now_s);
+  };
 }
 
 }  // namespace insonate

@@ -25,9 +25,9 @@ struct Sweep : StepTask {
 
   const char* kind() const override { return "sweep"; }
   std::vector<Metric> metrics() const override;
-  void check(const Step& step, const Case& subject, const std::string& where,
+  void check(const Step& step, const LabelIndex& labels, const std::string& where,
              std::vector<ScenarioProblem>& problems) const override;
-  std::unique_ptr<StepRun> begin(const StepWorld& world, double now_s) const override;
+  StepBegin prepare(const StepWorld& world) const override;
 };
 
 }  // namespace insonate
