@@ -23,7 +23,8 @@ std::optional<glm::dvec3> place_in_patient(const Action& action, const Moment& m
 
 class PointRun : public StepRun {
 public:
-  PointRun(const MarkPoint& asked, const LabelIndex& labels) : asked_(asked), labels_(labels) {}
+  PointRun(const Landmark* landmark, const StructureSurface& structures)
+      : landmark_(landmark), structures_(structures) {}
 
   void act(const Action& action, const Moment& moment) override {
     if (action.kind == ActionKind::take_back && action.slot() == 0 && action.text.empty()) point_.reset();
@@ -35,26 +36,28 @@ public:
 
   void finish(StepOutcome, double, StepResult& result) const override {
     if (!point_) return;
-    const Landmark* landmark = labels_.subject().find_landmark(asked_.landmark);
-    const auto error = landmark ? std::optional(glm::distance(*point_, landmark->position))
-                                : StructureSet(labels_, asked_.structures).distance_mm(*point_);
+    const auto error =
+        landmark_ ? std::optional(glm::distance(*point_, landmark_->position)) : structures_.distance_mm(*point_);
     if (error) result.values.emplace_back(Metric::point_error_mm, *error);
   }
 
 private:
-  const MarkPoint& asked_;
-  const LabelIndex& labels_;
+  const Landmark* landmark_;  ///< nullptr where structures are to be marked
+  const StructureSurface& structures_;
   std::optional<glm::dvec3> point_;
 };
 
+/// By name.
+using Surfaces = std::map<std::string, StructureSurface>;
+
 class LabelRun : public StepRun {
 public:
-  LabelRun(const LabelStructures& asked, const LabelIndex& labels) : asked_(asked), labels_(labels) {}
+  LabelRun(const LabelStructures& asked, const Surfaces& structures) : asked_(asked), structures_(structures) {}
 
   void act(const Action& action, const Moment& moment) override {
     if (action.kind == ActionKind::take_back && action.slot() == 0) places_.erase(action.text);
     if (action.kind != ActionKind::label) return;
-    if (std::find(asked_.structures.begin(), asked_.structures.end(), action.text) == asked_.structures.end()) return;
+    if (!structures_.contains(action.text)) return;
     if (const auto place = place_in_patient(action, moment)) places_[action.text] = *place;
   }
   bool enough() const override { return places_.size() == asked_.structures.size(); }
@@ -63,7 +66,7 @@ public:
   void finish(StepOutcome, double, StepResult& result) const override {
     int right = 0;
     for (const auto& [name, place] : places_) {
-      const auto off = StructureSet(labels_, {name}).distance_mm(place);
+      const auto off = structures_.at(name).distance_mm(place);
       const bool hit = off && *off <= asked_.tolerance_mm;
       right += hit;
       result.facts.emplace_back(name, hit ? "right" : off ? fixed(*off, 1) + " mm off" : "not in this patient");
@@ -73,7 +76,7 @@ public:
 
 private:
   const LabelStructures& asked_;
-  const LabelIndex& labels_;
+  const Surfaces& structures_;
   std::map<std::string, glm::dvec3> places_;
 };
 
@@ -103,7 +106,8 @@ void MarkPoint::check(const Step&, const LabelIndex& labels, const std::string& 
 }
 
 StepBegin MarkPoint::prepare(const StepWorld& world) const {
-  return [this, &labels = world.labels](double) { return std::make_unique<PointRun>(*this, labels); };
+  return [landmark = world.subject.find_landmark(landmark), surface = StructureSurface(world.labels, structures)](
+             double) { return std::make_unique<PointRun>(landmark, surface); };
 }
 
 std::shared_ptr<const StepTask> LabelStructures::read(TableReader& table, const Step&) {
@@ -124,7 +128,9 @@ void LabelStructures::check(const Step&, const LabelIndex& labels, const std::st
 }
 
 StepBegin LabelStructures::prepare(const StepWorld& world) const {
-  return [this, &labels = world.labels](double) { return std::make_unique<LabelRun>(*this, labels); };
+  Surfaces surfaces;
+  for (const std::string& name : structures) surfaces.emplace(name, StructureSurface(world.labels, {name}));
+  return [this, surfaces = std::move(surfaces)](double) { return std::make_unique<LabelRun>(*this, surfaces); };
 }
 
 }  // namespace insonate

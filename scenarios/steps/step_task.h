@@ -63,7 +63,7 @@ public:
   virtual void finish(StepOutcome outcome, double now_s, StepResult& result) const = 0;
 };
 
-/// Begins a step; where the order is free, perhaps more than once.
+/// Begins a step; where the order is free, perhaps more than once. It outlives the runs that it begins.
 using StepBegin = std::function<std::unique_ptr<StepRun>(double now_s)>;
 
 /// What a step of some kind asks for: the keys that only this kind has. Immutable once read.

@@ -57,38 +57,33 @@ std::array<glm::dvec3, 8> StructureSet::corners() const {
   return corners;
 }
 
-std::optional<double> StructureSet::distance_mm(const glm::dvec3& patient_mm) const {
-  if (holds(patient_mm)) return 0.0;
-  const Grid& grid = subject_.labels.grid;
-  const glm::dvec3 at = grid.index_from_patient(patient_mm);
-  double nearest = std::numeric_limits<double>::infinity();
-  // From the point's own slice and row outwards, as far as anything nearer can lie.
-  const auto outwards = [&](int axis, double already, const auto& look) {
-    const int first = extent_.first[axis], last = extent_.last[axis];
-    const int middle = int(std::clamp(std::round(at[axis]), double(first), double(last)));
-    for (int step = 0; step <= std::max(middle - first, last - middle); ++step) {
-      bool any = false;
-      for (const int index : {middle - step, middle + step}) {
-        const double way = (double(index) - at[axis]) * grid.spacing[axis], square = already + way * way;
-        if (index < first || index > last || square > nearest) continue;
-        any = true;
-        look(index, square);
-        if (step == 0) break;
+StructureSurface::StructureSurface(const LabelIndex& labels, const std::vector<std::string>& names)
+    : grid_(labels.subject().labels.grid), structures_(labels, names) {
+  if (!structures_.any_voxel()) return;
+  const Volume<std::uint8_t>& map = labels.subject().labels;
+  const glm::ivec3 first = structures_.extent().first, last = structures_.extent().last;
+  const auto inside = [&](int i, int j, int k) { return structures_.holds(map.at({i, j, k})); };
+  for (int k = first.z; k <= last.z; ++k)
+    for (int j = first.y; j <= last.y; ++j)
+      for (int i = first.x; i <= last.x; ++i) {
+        if (!inside(i, j, k)) continue;
+        // Beyond the box there is nothing of them.
+        const bool enclosed = i > first.x && i < last.x && j > first.y && j < last.y && k > first.z && k < last.z &&
+                              inside(i - 1, j, k) && inside(i + 1, j, k) && inside(i, j - 1, k) &&
+                              inside(i, j + 1, k) && inside(i, j, k - 1) && inside(i, j, k + 1);
+        if (!enclosed) voxels_.push_back({i, j, k});
       }
-      if (!any) return;
-    }
-  };
-  if (any_voxel())
-    outwards(2, 0, [&](int k, double of_k) {
-      outwards(1, of_k, [&](int j, double) {
-        for (int i = extent_.first.x; i <= extent_.last.x; ++i)
-          if (values_[subject_.labels.at({i, j, k})]) {
-            const glm::dvec3 way = (glm::dvec3(i, j, k) - at) * grid.spacing;
-            nearest = std::min(nearest, glm::dot(way, way));
-          }
-      });
-    });
-  if (nearest == std::numeric_limits<double>::infinity()) return std::nullopt;
+}
+
+std::optional<double> StructureSurface::distance_mm(const glm::dvec3& patient_mm) const {
+  if (structures_.holds(patient_mm)) return 0.0;
+  if (voxels_.empty()) return std::nullopt;
+  const glm::dvec3 at = grid_.index_from_patient(patient_mm);
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const glm::ivec3& voxel : voxels_) {
+    const glm::dvec3 way = (glm::dvec3(voxel) - at) * grid_.spacing;
+    nearest = std::min(nearest, glm::dot(way, way));
+  }
   return std::sqrt(nearest);
 }
 

@@ -53,13 +53,26 @@ public:
   double volume_mm3() const;
   /// The corners of the box around all voxels, edges and all (patient, mm); meaningless without any.
   std::array<glm::dvec3, 8> corners() const;
-  /// From a point to the nearest voxel's centre; 0 inside; empty when there is none.
-  std::optional<double> distance_mm(const glm::dvec3& patient_mm) const;
 
 private:
   const Case& subject_;
   std::bitset<256> values_;
   LabelExtent extent_;
+};
+
+/// The voxels at the surface of structures, listed once: whoever is outside has none that is nearer.
+class StructureSurface {
+public:
+  /// Keeps a reference to the case, as StructureSet does.
+  StructureSurface(const LabelIndex& labels, const std::vector<std::string>& names);
+
+  /// From a point to the nearest voxel's centre; 0 inside; empty when there is none.
+  std::optional<double> distance_mm(const glm::dvec3& patient_mm) const;
+
+private:
+  const Grid& grid_;
+  StructureSet structures_;
+  std::vector<glm::ivec3> voxels_;
 };
 
 /// Adds a problem for each name that the case has no label for, or for the case when it has none at all.

@@ -1,4 +1,4 @@
-// Labels are looked up in an index, near the place that is asked for: the same must come out as of reading all voxels.
+// Labels are looked up in an index, or at their surface: the same must come out as of reading all voxels.
 #include "scenarios/steps/structures.h"
 
 #include <catch2/catch.hpp>
@@ -54,6 +54,7 @@ TEST_CASE("what an index tells of structures is what reading every voxel tells, 
     const LabelIndex index(subject);
     for (const auto& names : kSets) {
       const StructureSet set(index, names);
+      const StructureSurface surface(index, names);
       std::vector<glm::ivec3> voxels;
       for (int k = 0; k < grid.size.z; ++k)
         for (int j = 0; j < grid.size.y; ++j)
@@ -68,7 +69,7 @@ TEST_CASE("what an index tells of structures is what reading every voxel tells, 
           const glm::dvec3 way = (glm::dvec3(voxel) - grid.index_from_patient(at)) * grid.spacing;
           nearest = std::min(nearest, glm::dot(way, way));
         }
-        const auto distance = set.distance_mm(at);
+        const auto distance = surface.distance_mm(at);
         REQUIRE(distance.has_value() == !voxels.empty());
         if (distance) CHECK(*distance == (set.holds(at) ? 0 : std::sqrt(nearest)));
       }
