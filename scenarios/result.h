@@ -88,7 +88,7 @@ struct Provenance {
 
 struct ExamResult {
   /// Raised whenever the same samples could get another score.
-  static constexpr int kScoringVersion = 2;
+  static constexpr int kScoringVersion = 3;
 
   std::string title;
   Provenance provenance;

@@ -121,11 +121,13 @@ void Runner::look(const PoseSample& raw, double now) {
   step_motion_.feed(sample, live_.on_skin);
   if (valid) last_valid_ = sample.patient_from_probe;
 
-  show(sample, now);
-  record(sample, now);
-  if (run_->done()) {
-    end_step(step().kind == "find_view" ? StepOutcome::held : StepOutcome::done, now);
-    if (!live_.finished) show(sample, now);
+  if (!valid || !looked_s_ || now - *looked_s_ >= kLook_s - kTimeRounding_s) {
+    show(sample, now);
+    record(sample, now);
+    if (run_->done()) {
+      end_step(step().kind == "find_view" ? StepOutcome::held : StepOutcome::done, now);
+      if (!live_.finished) show(sample, now);
+    }
   }
   live_.step_remaining_s = std::max(0.0, step_limit_s() - now);
   live_.exam_remaining_s = counts_from_s_ ? std::max(0.0, exam_limit_s() - now) : scenario_.time_limit_s;
@@ -135,6 +137,7 @@ void Runner::look(const PoseSample& raw, double now) {
 void Runner::show(const PoseSample& sample, double now) {
   const bool valid = sample.status == PoseStatus::ok;
   const ViewMeter* meter = meters_[live_.step].get();
+  looked_s_ = valid ? std::optional(now) : std::nullopt;
   live_.view.reset();
   if (valid && meter) live_.view = meter->measure(sample.patient_from_probe, machine_.depth_mm);
   run_->see({now, valid, sample.patient_from_probe, live_.view ? &*live_.view : nullptr, machine_});
@@ -158,6 +161,7 @@ void Runner::begin_step(std::size_t index, double now) {
   live_.step = index;
   step_start_s_ = now;
   step_motion_ = step_motion_.following(now);
+  looked_s_.reset();
   const Step& asked = step();
   if (asked.counts && !counts_from_s_) {
     counts_from_s_ = now;

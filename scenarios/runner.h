@@ -62,9 +62,11 @@ struct TracePoint {
 ///   sample that follows it; it is done at that sample's time and before the sample is looked at.
 /// - What a step asks for, when it is done and how it is judged is its kind's business (scenarios/steps). When it is
 ///   done, or the learner goes on, the next one begins with the same sample.
-/// - A view is held while every tolerance of its step is kept by every valid sample. A loss of tracking longer than
-///   MotionMeter::kBridged_s ends the hold. The picture of a step is judged by the mean over the hold, weighted by
-///   time; of a step that ended without one, by the mean over the hold_s before its last valid sample.
+/// - Motion is taken from every sample, the picture from every valid one that comes kLook_s or more after the one
+///   before: a tracker of 1000 Hz costs no more than one of 100 Hz.
+/// - A view is held while every tolerance of its step is kept whenever the picture is looked at. A loss of tracking
+///   longer than MotionMeter::kBridged_s ends the hold. The picture of a step is judged by the mean over the hold,
+///   weighted by time; of a step that ended without one, by the mean over the hold_s before its last valid sample.
 /// - Warm-ups come before the exam's own clock and motion begin.
 /// - A step that names where to go on skips what lies between. Where the order is free, the learner may turn to any
 /// step
@@ -76,6 +78,8 @@ struct TracePoint {
 ///   are done with the next one.
 class Runner {
 public:
+  static constexpr double kLook_s = 0.009;  ///< at 60 frames a second no more than two a frame
+
   /// Keeps references to the case. Throws ScenarioError when the scenario does not fit the case, and InputError when
   /// the case does not fit itself.
   Runner(Scenario scenario, const Case& subject, const TissueTable& tissues);
@@ -136,6 +140,7 @@ private:
   double last_s_ = 0;
   std::vector<Action> waiting_;  ///< handed over with samples that were passed over
   std::optional<Pose> last_valid_;
+  std::optional<double> looked_s_;  ///< when the picture was looked at; empty after a loss or where a step begins
   double step_start_s_ = 0;
   MotionMeter step_motion_;
   std::unique_ptr<StepRun> run_;                  ///< the step under way

@@ -39,8 +39,8 @@ struct Moment {
   const Machine& machine;
 };
 
-/// A step under way: fed by the runner with every sample and action in order. A new kind of step is a class derived
-/// from this one, one derived from StepTask, and a line in step_kinds.cpp.
+/// A step under way: fed by the runner with every action, and every sample that it looks at, in order. A new kind of
+/// step is a class derived from this one, one derived from StepTask, and a line in step_kinds.cpp.
 class StepRun {
 public:
   virtual ~StepRun() = default;

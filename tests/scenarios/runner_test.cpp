@@ -174,7 +174,7 @@ TEST_CASE("a loss at the end or the beginning of a hold moves that end, and a lo
 }
 
 TEST_CASE("a step begins with the sample that ended the one before") {
-  for (const double rate : {10.0, 50.0, 250.0}) {
+  for (const double rate : {10.0, 50.0, 100.0}) {
     CAPTURE(rate);
     const ExamResult result = scored(samples_of(2, rate, [](double) { return at_z(0); }));
     CHECK(result.steps[0].end_s == Approx(1.0));
@@ -331,7 +331,7 @@ TEST_CASE("where times round the score does not depend on where time begins eith
 TEST_CASE("the score hardly depends on the sampling rate") {
   const ExamResult fine = scored(wandering(400));
   REQUIRE(fine.steps[1].outcome == StepOutcome::held);
-  for (const double rate : {30.0, 60.0, 125.0, 250.0}) {
+  for (const double rate : {30.0, 60.0, 125.0, 250.0, 1000.0}) {
     const ExamResult coarse = scored(wandering(rate));
     INFO(rate);
     // A hold begins and ends up to a sample later each, 1/30 s at the coarsest; the view moves by at most about
@@ -339,6 +339,29 @@ TEST_CASE("the score hardly depends on the sampling rate") {
     CHECK(coarse.points == Approx(fine.points).margin(0.5));
     CHECK(coarse.motion.time_s == Approx(fine.motion.time_s).margin(0.2));
   }
+}
+
+TEST_CASE("the picture is looked at no more than every 9 ms, and at once after a loss") {
+  Runner runner(tiny_scenario(), shared_case(), tiny_tissues());
+  const auto distance_mm = [&](double time_s, PoseStatus status = PoseStatus::ok) {
+    PoseSample sample = sample_at(time_s, at_z(30 + 10 * time_s));  // not yet within tolerance
+    sample.status = status;
+    runner.feed(sample);
+    return runner.live().view ? std::optional(runner.live().view->plane_distance_mm) : std::nullopt;
+  };
+  std::vector<double> times_s;
+  double before = distance_mm(0).value();
+  for (int ms = 1; ms <= 40; ++ms) {
+    const double now = distance_mm(ms / 1000.0).value();
+    if (now != before) times_s.push_back(ms / 1000.0);
+    before = now;
+  }
+  CHECK(times_s == std::vector<double>{0.009, 0.018, 0.027, 0.036});
+  CHECK_FALSE(distance_mm(0.041, PoseStatus::missing));
+  CHECK(runner.live().tracking == PoseStatus::missing);
+  CHECK(distance_mm(0.042).value() != before);
+  INFO("the motion is that of every sample");
+  CHECK(runner.live().elapsed_s == 0.042);
 }
 
 TEST_CASE("the score does not depend on where the patient lies") {
