@@ -126,7 +126,7 @@ bool button(const Theme& theme, const char* id, const Rect& where, std::string_v
   const bool hovered = ImGui::IsItemHovered() && enabled;
   ImU32 background = hovered ? colour::kHovered : colour::kRaised, ink = colour::kText;
   if (kind == ButtonKind::chosen) background = colour::kAccentDark;
-  if (kind == ButtonKind::primary) {
+  if (kind == ButtonKind::primary && enabled) {
     background = colour::kAccent;
     ink = colour::kBackground;
   }
