@@ -17,18 +17,18 @@
 namespace insonate::gl {
 namespace {
 
-// The channels of a texture, each as an image.
-std::vector<Image<float>> read_channels(const Texture& texture, int channels) {
+// What a stage has written, so many floats to a place, each of them as an image.
+std::vector<Image<float>> read_channels(const Buffer& buffer, int channels, int width, int height) {
   const std::size_t count = std::size_t(channels);
-  Image<float> image(texture.width(), texture.height());
+  Image<float> image(width, height);
   std::vector<float> values(count * image.pixels.size());
-  texture.read(channels == 4 ? GL_RGBA : GL_RED, GL_FLOAT, values.data(), values.size() * sizeof(float));
+  buffer.read(values.data(), values.size() * sizeof(float));
   std::vector<Image<float>> images(count, image);
   for (std::size_t i = 0; i < values.size(); ++i) images[i % count].pixels[i / count] = values[i];
   return images;
 }
 
-// Textures have a row a line, Stages a column.
+// The stages have a row a line, Stages a column.
 Image<float> transposed(const Image<float>& rows) {
   Image<float> columns(rows.height, rows.width);
   for (int y = 0; y < rows.height; ++y)
@@ -65,8 +65,10 @@ struct Simulator::State {
   double noise_length_mm = 0;  // the noise's grain
 
   // What they write.
-  Texture scan, repeats, echoes, mean_echo, picture, sharp, half_smoothed, fused, levels;
-  Buffer brightest;  // a block of the fan
+  Buffer scan, repeats, echoes, mean_echo;              // by sample
+  TexelBuffer echo_texels;                              // the echoes once more
+  Buffer picture, sharp, half_smoothed, fused, levels;  // by pixel
+  Buffer brightest;                                     // by block of the fan
   Buffer maximum_buffer{sizeof(GLuint), nullptr};
   Buffer counters{sizeof(SampleCounts), nullptr};
   Texture image;
@@ -77,6 +79,7 @@ struct Simulator::State {
   std::optional<Stage> first_due = Stage::traverse;
   std::array<long, kStageCount> runs{};
 
+  std::size_t pixels() const { return std::size_t(settings.image_width) * std::size_t(settings.image_height); }
   bool frame_sets_white() const { return settings.reference_level == ReferenceLevel::frame_maximum; }
 
   void due_from(Stage stage) { first_due = std::min(first_due.value_or(stage), stage); }
@@ -95,11 +98,12 @@ struct Simulator::State {
 // Allocates what depends on the number of lines, samples and pixels, and works out where each pixel lies.
 void Simulator::State::lay_out() {
   lines = scan_lines(probe, depth_mm, settings.samples);
-  const int n = int(lines.lines.size()), d = lines.samples;
+  const std::size_t n = lines.lines.size(), d = std::size_t(lines.samples);
   line_buffer = Buffer(std::size_t(settings.slice_planes) * lines.lines.size() * sizeof(PlacedLine), nullptr);
-  scan = Texture::make_2d(GL_RGBA32F, d, n, Filter::nearest);
-  echoes = Texture::make_2d(GL_RGBA32F, d, n, Filter::nearest);
-  mean_echo = Texture::make_2d(GL_R32F, d, 1, Filter::nearest);
+  scan = Buffer::make_room(n * d, sizeof(glm::vec4));
+  echoes = Buffer::make_room(n * d, sizeof(glm::vec4));
+  echo_texels = TexelBuffer(echoes, GL_RGBA32F);
+  mean_echo = Buffer::make_room(d, sizeof(float));
 
   const int w = settings.image_width, h = settings.image_height;
   fan = FanLayout(probe, depth_mm, lines, w, h);
@@ -108,10 +112,10 @@ void Simulator::State::lay_out() {
   line_and_sample.write(GL_RG, GL_FLOAT, fan.line_and_sample.data());
   fan_blocks = Buffer(fan.blocks.size() * sizeof(glm::ivec2), fan.blocks.data());
   brightest = Buffer(fan.blocks.size() * sizeof(GLuint), nullptr);
-  picture = Texture::make_2d(GL_RG32F, w, h, Filter::nearest);
+  picture = Buffer::make_room(pixels(), sizeof(glm::vec2));
   fan_weights = Texture();
-  fused = Texture();
-  levels = Texture();
+  fused = Buffer();
+  levels = Buffer();
   image = Texture::make_2d(GL_RGBA8, w, h, Filter::linear);
   image.clear();
   layout_changed = false;
@@ -135,7 +139,7 @@ void Simulator::State::prepare() {
   }
   if (beam_changed) {
     if (reverberates(settings))
-      repeats = Texture::make_2d(GL_R32F, lines.samples, int(lines.lines.size()), Filter::nearest);
+      repeats = Buffer::make_room(lines.lines.size() * std::size_t(lines.samples), sizeof(float));
     beam_window = half_beam_window(settings);
     beam_at_depth = beam_by_depth(lines, settings);
     beam_changed = false;
@@ -159,17 +163,16 @@ void Simulator::State::prepare_smoothing() {
   reflection_gaussian = reflection;
   transmission_gaussian = transmission;
   fan_weights = weights_of_pixels(fan, reflection, transmission);
-  const GLenum format = transmission.radius > 0 ? GL_RG32F : GL_R32F;
-  sharp = Texture::make_2d(format, w, h, Filter::nearest);
-  half_smoothed = Texture::make_2d(format, w, h, Filter::nearest);
+  const std::size_t bytes = transmission.radius > 0 ? sizeof(glm::vec2) : sizeof(float);
+  sharp = Buffer::make_room(pixels(), bytes);
+  half_smoothed = Buffer::make_room(pixels(), bytes);
   sharp.clear();
   half_smoothed.clear();
 }
 
 void Simulator::State::prepare_fusion() {
-  const int w = settings.image_width, h = settings.image_height;
-  if (stages_are_read && !fused) (fused = Texture::make_2d(GL_R32F, w, h, Filter::nearest)).clear();
-  if (frame_sets_white() && !levels) levels = Texture::make_2d(GL_R32F, w, h, Filter::nearest);
+  if (stages_are_read && !fused) (fused = Buffer::make_room(pixels(), sizeof(float))).clear();
+  if (frame_sets_white() && !levels) levels = Buffer::make_room(pixels(), sizeof(float));
 }
 
 void Simulator::State::prepare_noise() {
@@ -204,55 +207,53 @@ void Simulator::State::run(Stage stage) {
       counters.clear();
       line_buffer.bind_storage(0);
       volume.tissue_lookup().bind(7);
+      scan.bind_storage(1);
       counters.bind_storage(2);
       volume.texture().bind(0);
       scatterers.bind(1);
-      scan.bind_image(0, GL_READ_WRITE);
       programs.traverse.dispatch(parameters.lines, 1);
       break;
     case Stage::beam:
+      scan.bind_storage(0);
       if (reverberates(settings)) {
         repeats.clear();
-        scan.bind(0);
-        repeats.bind_image(0, GL_READ_WRITE);
+        repeats.bind_storage(1);
         programs.reverberation.dispatch(parameters.lines, 1);
-        repeats.bind(2);
       }
       beam_window.bind_uniform(1);
-      scan.bind(0);
       beam_at_depth.bind(1);
-      echoes.bind_image(0, GL_WRITE_ONLY);
+      echoes.bind_storage(2);
       programs.beam.dispatch(parameters.samples, (parameters.lines + 3) / 4);
       if (settings.clutter) {
-        echoes.bind(0);
-        mean_echo.bind_image(0, GL_READ_WRITE);
+        echoes.bind_storage(0);
+        mean_echo.bind_storage(1);
         programs.clutter.dispatch(parameters.samples, 1);
         programs.clutter_tail.dispatch(1, 1);
       }
       break;
     case Stage::scan_convert:
-      echoes.bind(0);
+      echo_texels.bind(0);
       line_and_sample.bind(1);
       noise.bind(2);
-      mean_echo.bind(3);
-      picture.bind_image(0, GL_WRITE_ONLY);
-      sharp.bind_image(1, GL_WRITE_ONLY);
+      mean_echo.bind_storage(0);
+      picture.bind_storage(1);
+      sharp.bind_storage(2);
       over_fan(programs.scan_convert);
       break;
     case Stage::smooth:
-      sharp.bind(0);
-      half_smoothed.bind_image(0, GL_WRITE_ONLY);
+      sharp.bind_storage(0);
+      half_smoothed.bind_storage(1);
       over_fan(programs.smooth);
       break;
     case Stage::fuse:
-      picture.bind(0);
-      half_smoothed.bind(1);
+      picture.bind_storage(0);
+      half_smoothed.bind_storage(1);
       fan_weights.bind(2);
       brightest.clear();
-      brightest.bind_storage(0);
-      if (fused) fused.bind_image(0, GL_WRITE_ONLY);
+      brightest.bind_storage(3);
+      if (fused) fused.bind_storage(4);
       if (frame_sets_white())
-        levels.bind_image(1, GL_WRITE_ONLY);
+        levels.bind_storage(2);
       else
         image.bind_image_as(1, GL_WRITE_ONLY, GL_R32UI);
       over_fan(programs.fuse);
@@ -263,7 +264,7 @@ void Simulator::State::run(Stage stage) {
       maximum_buffer.bind_storage(1);
       programs.maximum.dispatch_groups(1);
       maximum_buffer.bind_storage(0);
-      levels.bind(0);
+      levels.bind_storage(1);
       image.bind_image_as(0, GL_WRITE_ONLY, GL_R32UI);
       over_fan(programs.compress);
       break;
@@ -340,14 +341,15 @@ Stages<float> Simulator::read_stages() {
   run_through(Stage::compress);
   const State& s = *state_;
   Stages<float> stages;
-  const std::vector<Image<float>> scan = read_channels(s.scan, 4), echoes = read_channels(s.echoes, 4);
+  const int n = int(s.lines.lines.size()), d = s.lines.samples;
+  const std::vector<Image<float>> scan = read_channels(s.scan, 4, d, n), echoes = read_channels(s.echoes, 4, d, n);
   stages.intensity = transposed(scan[0]);
   stages.reflection = transposed(scan[1]);
   stages.reflection_beam = transposed(echoes[0]);
   stages.transmission = transposed(echoes[1]);
   stages.speckle = transposed(echoes[2]);
   stages.repeated = transposed(echoes[3]);
-  stages.fused = read_channels(s.fused, 1)[0];
+  stages.fused = read_channels(s.fused, 1, s.image.width(), s.image.height())[0];
   const int w = s.image.width(), h = s.image.height();
   Image<Rgba8> rgba(w, h);
   s.image.read(GL_RGBA, GL_UNSIGNED_BYTE, rgba.pixels.data(), rgba.pixels.size() * sizeof(Rgba8));

@@ -38,7 +38,7 @@ Defines beam_of(const Settings& settings) {
 Defines conversion(const StageVariant& variant) {
   return {{"REFLECTION_SMOOTHED", flag(variant.reflection_radius_px > 0)},
           {"TRANSMISSION_SMOOTHED", flag(variant.transmission_radius_px > 0)},
-          {"SMOOTHED_FORMAT", variant.transmission_radius_px > 0 ? "rg32f" : "r32f"},
+          {"SMOOTHED", variant.transmission_radius_px > 0 ? "vec2" : "float"},
           {"NOISE", flag(is_noisy(variant.settings))},
           {"CLUTTER", flag(variant.settings.clutter)}};
 }
@@ -46,7 +46,7 @@ Defines conversion(const StageVariant& variant) {
 Defines smoothing(const StageVariant& variant) {
   return {{"REFLECTION_RADIUS", std::to_string(variant.reflection_radius_px)},
           {"TRANSMISSION_RADIUS", std::to_string(variant.transmission_radius_px)},
-          {"SMOOTHED_FORMAT", variant.transmission_radius_px > 0 ? "rg32f" : "r32f"}};
+          {"SMOOTHED", variant.transmission_radius_px > 0 ? "vec2" : "float"}};
 }
 
 Defines display(const Settings& settings) {

@@ -8,11 +8,12 @@ layout(local_size_x = 64) in;
 
 #include "shared/simulation_parameters.h"
 
-layout(binding = 0) uniform sampler2D scan;      // a row a line: I, R, scatterers' echo (re, im)
 layout(binding = 1) uniform sampler2D at_depth;  // a sample: mean envelope -> 1, focused beam's reach in lines, exponent
-layout(binding = 2) uniform sampler2D repeats;   // a row a line: V before the window, with REVERBERATION
 layout(std140, binding = 1) uniform Window { vec4 window[32]; };  // weights from the middle line outwards
-layout(binding = 0, rgba32f) writeonly uniform image2D echoes;    // a row a line: R, T, S, V
+// A row a line:
+layout(std430, binding = 0) readonly buffer Scan { vec4 scan[]; };         // I, R, scatterers' echo (re, im)
+layout(std430, binding = 1) readonly buffer Repeats { float repeats[]; };  // V before the window, with REVERBERATION
+layout(std430, binding = 2) writeonly buffer Echoes { vec4 echoes[]; };    // R, T, S, V
 
 #if FOCUSED_BEAM == 1
 int reach;       // of the aperture at this sample, in lines to either side
@@ -36,14 +37,14 @@ float weight_at(int away) {
 // Adds line first + j, one behind the line added before, and gives its intensity.
 float add(int first, int j, int k) {
   weights = vec4(weight_at(j), weights.xyz);
-  int at = first + j;
-  vec4 value = texelFetch(scan, ivec2(k, clamp(at, 0, lines - 1)), 0);
+  int at = first + j, place = clamp(at, 0, lines - 1) * samples + k;
+  vec4 value = scan[place];
   vec4 weight = at >= 0 && at < lines ? weights : vec4(0.0);
   reflection += weight * value.y;
   re += weight * value.z;
   im += weight * value.w;
 #if REVERBERATION == 1
-  repeated += weight * texelFetch(repeats, ivec2(k, clamp(at, 0, lines - 1)), 0).x;
+  repeated += weight * repeats[place];
 #endif
   total += weight;
   return value.x;
@@ -69,5 +70,5 @@ void main() {
   vec4 envelope = sqrt(re * re + im * im) / total * here.x;
   for (int i = 0; i < 4; ++i)
     if (first + i < lines)
-      imageStore(echoes, ivec2(k, first + i), vec4(reflection[i], transmission[i], envelope[i], repeated[i]));
+      echoes[(first + i) * samples + k] = vec4(reflection[i], transmission[i], envelope[i], repeated[i]);
 }

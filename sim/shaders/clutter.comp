@@ -5,16 +5,16 @@ layout(local_size_x = 8) in;
 
 #include "shared/simulation_parameters.h"
 
-layout(binding = 0) uniform sampler2D echoes;                    // a row a line: R, T, S, V
-layout(binding = 0, r32f) writeonly uniform image2D mean_echo;  // a sample: mean of T S
+layout(std430, binding = 0) readonly buffer Echoes { vec4 echoes[]; };        // a row a line: R, T, S, V
+layout(std430, binding = 1) writeonly buffer MeanEcho { float mean_echo[]; };  // a sample: mean of T S
 
 void main() {
   int k = int(gl_GlobalInvocationID.x);
   if (k >= samples) return;
   float sum = 0.0;
   for (int line = 0; line < lines; ++line) {
-    vec4 value = texelFetch(echoes, ivec2(k, line), 0);
+    vec4 value = echoes[line * samples + k];
     sum += value.y * value.z;
   }
-  imageStore(mean_echo, ivec2(k, 0), vec4(sum / float(lines)));
+  mean_echo[k] = sum / float(lines);
 }

@@ -5,12 +5,12 @@ layout(local_size_x = 1) in;
 
 #include "shared/simulation_parameters.h"
 
-layout(binding = 0, r32f) uniform image2D mean_echo;  // a sample: mean of T S, and with its tail
+layout(std430, binding = 1) buffer MeanEcho { float mean_echo[]; };  // a sample: mean of T S, and with its tail
 
 void main() {
-  float mean = imageLoad(mean_echo, ivec2(0)).x;
+  float mean = mean_echo[0];
   for (int k = 1; k < samples; ++k) {
-    mean = mix(imageLoad(mean_echo, ivec2(k, 0)).x, mean, clutter_kept);
-    imageStore(mean_echo, ivec2(k, 0), vec4(mean));
+    mean = mix(mean_echo[k], mean, clutter_kept);
+    mean_echo[k] = mean;
   }
 }

@@ -6,18 +6,19 @@ layout(local_size_x = 8) in;
 
 #include "shared/simulation_parameters.h"
 
-layout(binding = 0) uniform sampler2D scan;        // a row a line: I, R, scatterers' echo (re, im)
-layout(binding = 0, r32f) uniform image2D repeats;  // a row a line: V, 0 before
+// A row a line:
+layout(std430, binding = 0) readonly buffer Scan { vec4 scan[]; };  // I, R, scatterers' echo (re, im)
+layout(std430, binding = 1) buffer Repeats { float repeats[]; };    // V, 0 before
 
 const int kMostReflectors = 64, kMostRepeats = 16;  // as in sim/model/reverberation.h, with the next
 const float kLeastRound = 1e-3, kLeastReverberant = 1e-12;
 
-int line;
-float intensity(int k) { return texelFetch(scan, ivec2(clamp(k, 0, samples - 1), line), 0).x; }
+int row;  // where the line begins
+float intensity(int k) { return scan[row + clamp(k, 0, samples - 1)].x; }
 
 // A of a sample, and its R.
 vec2 reflected(int k) {
-  vec2 value = texelFetch(scan, ivec2(k, line), 0).xy;
+  vec2 value = scan[row + k].xy;
   return value.x > kLeastReverberant ? vec2(min(value.y / (value.x * value.x), 1.0), value.y) : vec2(0.0);
 }
 
@@ -25,9 +26,8 @@ vec2 reflected(int k) {
 void add(float position, float echo) {
   int low = int(floor(position));
   float f = position - float(low);
-  if (low < samples) imageStore(repeats, ivec2(low, line), imageLoad(repeats, ivec2(low, line)) + (1.0 - f) * echo);
-  if (low + 1 < samples)
-    imageStore(repeats, ivec2(low + 1, line), imageLoad(repeats, ivec2(low + 1, line)) + f * echo);
+  if (low < samples) repeats[row + low] += (1.0 - f) * echo;
+  if (low + 1 < samples) repeats[row + low + 1] += f * echo;
 }
 
 // What counts of a round that leaves so much.
@@ -45,8 +45,9 @@ void repeat(int k, float echo, float apart, float gain) {
 }
 
 void main() {
-  line = int(gl_GlobalInvocationID.x);
+  int line = int(gl_GlobalInvocationID.x);
   if (line >= lines) return;
+  row = line * samples;
 
   // Listed first: renderers that run lanes in step would spend on every sample what only these need.
   int at[kMostReflectors];

@@ -8,27 +8,28 @@ layout(local_size_x = 64, local_size_y = 1) in;
 #include "shared/simulation_parameters.h"
 #include "shared/fan_blocks.glsl"
 
-layout(binding = 0) uniform sampler2D echoes;           // a row a line: R, T, S, V
+layout(binding = 0) uniform samplerBuffer echoes;       // a row a line: R, T, S, V
 layout(binding = 1) uniform sampler2D line_and_sample;  // per pixel; line below -1 outside the fan
 layout(binding = 2) uniform sampler2D noise;            // per pixel, of mean 1
-layout(binding = 3) uniform sampler2D mean_echo;        // a sample: mean of T S over the lines, with its tail
-layout(binding = 0, rg32f) writeonly uniform image2D picture;  // X, S
-#if REFLECTION_SMOOTHED == 1 || TRANSMISSION_SMOOTHED == 1
-layout(binding = 1, SMOOTHED_FORMAT) writeonly uniform image2D sharp;  // R, and T if it is smoothed; -1 outside the fan
-#endif
+layout(std430, binding = 0) readonly buffer MeanEcho { float mean_echo[]; };  // a sample: mean of T S over the lines,
+                                                                              // with its tail
+layout(std430, binding = 1) writeonly buffer Picture { vec2 picture[]; };     // X, S
+layout(std430, binding = 2) writeonly buffer Sharp { SMOOTHED sharp[]; };     // R, and T if it is smoothed; -1 outside
+                                                                              // the fan
 
 // The noise's mean at a place along the lines: of the electronics, and with CLUTTER what the side lobes bring.
 float noise_at(float sample_position) {
 #if CLUTTER == 1
   float position = clamp(sample_position, 0.0, float(samples - 1));
   int low = int(position), high = min(low + 1, samples - 1);
-  float mean = mix(texelFetch(mean_echo, ivec2(low, 0), 0).x, texelFetch(mean_echo, ivec2(high, 0), 0).x,
-                  position - float(low));
+  float mean = mix(mean_echo[low], mean_echo[high], position - float(low));
   return noise_level + clutter_share * blend * mean;
 #else
   return noise_level;
 #endif
 }
+
+vec4 echo_at(int sample_index, int line) { return texelFetch(echoes, line * samples + sample_index); }
 
 void convert(ivec2 pixel) {
   vec2 place = texelFetch(line_and_sample, pixel, 0).xy;
@@ -38,8 +39,8 @@ void convert(ivec2 pixel) {
   // On the last sample that is low itself: a difference to a louder one would leave nothing of its own digits.
   ivec2 low = ivec2(position), high = min(low + 1, last);
   vec2 f = position - vec2(low);
-  vec4 value = mix(mix(texelFetch(echoes, low, 0), texelFetch(echoes, ivec2(high.x, low.y), 0), f.x),
-                   mix(texelFetch(echoes, ivec2(low.x, high.y), 0), texelFetch(echoes, high, 0), f.x), f.y);
+  vec4 value = mix(mix(echo_at(low.x, low.y), echo_at(high.x, low.y), f.x),
+                   mix(echo_at(low.x, high.y), echo_at(high.x, high.y), f.x), f.y);
 
   float rest = value.w;
 #if REFLECTION_SMOOTHED == 0
@@ -51,9 +52,9 @@ void convert(ivec2 pixel) {
 #if NOISE == 1
   rest += noise_at(place.y) * texelFetch(noise, pixel, 0).x;
 #endif
-  imageStore(picture, pixel, vec4(rest, value.z, 0.0, 0.0));
+  picture[index_of(pixel)] = vec2(rest, value.z);
 #if REFLECTION_SMOOTHED == 1 || TRANSMISSION_SMOOTHED == 1
-  imageStore(sharp, pixel, inside ? vec4(value.xy, 0.0, 0.0) : vec4(-1.0));
+  sharp[index_of(pixel)] = inside ? SMOOTHED(value) : SMOOTHED(-1.0);
 #endif
 }
 

@@ -9,13 +9,13 @@ layout(local_size_x = 16, local_size_y = 4) in;
 #include "shared/fan_blocks.glsl"
 #include "shared/gaussian.glsl"
 
-layout(binding = 0) uniform sampler2D sharp;                              // R, T; -1 outside the fan
-layout(binding = 0, SMOOTHED_FORMAT) writeonly uniform image2D half_smoothed;  // the windows' sums of R, T
+layout(std430, binding = 0) readonly buffer Sharp { SMOOTHED sharp[]; };                  // R, T; -1 outside the fan
+layout(std430, binding = 1) writeonly buffer HalfSmoothed { SMOOTHED half_smoothed[]; };  // the windows' sums of R, T
 
 // At the distance j from the first of the four pixels.
 vec2 sharp_at(ivec2 first, int j) {
   int x = first.x + j;
-  vec2 value = texelFetch(sharp, ivec2(clamp(x, 0, width - 1), first.y), 0).xy;
+  vec2 value = vec2(sharp[index_of(ivec2(clamp(x, 0, width - 1), first.y))]);
   return x >= 0 && x < width ? value : vec2(-1.0);
 }
 
@@ -37,6 +37,6 @@ void main() {
 #endif
   for (int i = 0; i < 4; ++i) {
     vec2 sums = sharp_at(first, i).x >= 0.0 ? vec2(reflection[i], transmission[i]) : vec2(0.0);
-    if (first.x + i < width) imageStore(half_smoothed, first + ivec2(i, 0), vec4(sums, 0.0, 0.0));
+    if (first.x + i < width) half_smoothed[index_of(first) + i] = SMOOTHED(sums);
   }
 }

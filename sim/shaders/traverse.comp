@@ -1,7 +1,8 @@
 // Model S along one scan line: reflection coefficient, transmitted intensity, echo, and the scatterers' echo.
 // An invocation a line walks from the face into the depth, because the intensity at a sample depends on all before it.
 // Fetches from the volume are what it costs, so it makes as few as the sampling allows. What it writes has a row a line:
-// invocations that each walk along a row stay in the processor's cache, a column each would touch a page a step.
+// invocations that each walk along a row stay in the processor's cache, a column each would touch a page a step. It goes
+// to a buffer, as what all stages hand on: a software renderer takes ten times as long to store it in an image.
 
 layout(local_size_x = 8) in;
 
@@ -9,11 +10,7 @@ layout(local_size_x = 8) in;
 #include "shared/acoustic_volume.glsl"
 
 layout(binding = 1) uniform sampler3D scatterers;  // complex, unit variance at the lattice's points
-layout(binding = 0, rgba32f)
-#if PLANES == 1
-writeonly
-#endif
-uniform image2D scan;  // I, R, scatterers' echo (re, im)
+layout(std430, binding = 1) buffer Scan { vec4 scan[]; };  // a row a line: I, R, scatterers' echo (re, im)
 
 // A line and the directions beside it, worked out in double precision for each pose: adding up single-precision
 // products here instead would move samples by a thousandth of a voxel, which shows at the surface of gas.
@@ -113,16 +110,17 @@ vec2 scatterers_echo(float k, Medium here) {
 }
 
 // The planes of the slice add up.
-void put(int plane, ivec2 at, vec4 value) {
+void put(int plane, int at, vec4 value) {
 #if PLANES > 1
   value *= line.lateral.w;
-  if (plane > 0) value += imageLoad(scan, at);
+  if (plane > 0) value += scan[at];
 #endif
-  imageStore(scan, at, value);
+  scan[at] = value;
 }
 
 void walk(int plane, int index) {
   line = scan_lines[plane * lines + index];
+  int row = index * samples;
 
   float log_intensity = 0.0;
   uint normals = 0u;
@@ -154,7 +152,7 @@ void walk(int plane, int index) {
       ++normals;
     }
     float reflection = alpha * intensity * intensity * cosine;  // (3)
-    put(plane, ivec2(k, index), vec4(intensity, reflection, scatterers_echo(position, here)));
+    put(plane, row + k, vec4(intensity, reflection, scatterers_echo(position, here)));
 
     log_intensity +=
         reflection_exponent * log_transmission(alpha, before.impedance, behind.impedance) - absorbed;  // (5)
@@ -173,7 +171,7 @@ void walk(int plane, int index) {
   atomicAdd(normals_taken, normals);
   // What nothing is heard of still scatters in the apertures of the lines beside it.
   for (; k < samples; ++k)
-    put(plane, ivec2(k, index), vec4(0.0, 0.0, scatterers_echo(float(k), medium(float(k)))));
+    put(plane, row + k, vec4(0.0, 0.0, scatterers_echo(float(k), medium(float(k)))));
 }
 
 void main() {

@@ -42,6 +42,17 @@ TEST_CASE("a texture that the device cannot hold is refused, and the next one is
   CHECK_NOTHROW(Texture::make_3d(GL_R8, 4, 4, 4, Filter::nearest, Wrap::edge));
 }
 
+TEST_CASE("more than shaders can have of the device is refused, and what fits is given") {
+  const HeadlessContext context;
+  GLint64 limit = 0;
+  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);
+  const std::size_t most = std::size_t(limit) / 16;
+  CHECK_THROWS_WITH(Buffer::make_room(most + 1, 16), Catch::Contains("above the device's limit"));
+  CHECK_THROWS_WITH(Buffer::make_room(std::size_t(-1) / 2, 16), Catch::Contains("above the device's limit"));
+  CHECK(bool(Buffer::make_room(1000, 16)));
+  CHECK(glGetError() == GL_NO_ERROR);
+}
+
 TEST_CASE("a volume that the device refuses leaves the simulator with the one before") {
   const HeadlessContext context;
   const TissueTable table = read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml");

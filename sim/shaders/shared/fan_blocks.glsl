@@ -7,3 +7,6 @@ layout(std430, binding = 7) readonly buffer FanBlocks { ivec2 fan_block[]; };
 ivec2 first_of_row() { return fan_block[gl_WorkGroupID.x] * kBlock + ivec2(gl_LocalInvocationID.xy) * ivec2(4, 1); }
 // ... or in one of 64 x 1 that goes down columns.
 ivec2 first_of_column() { return fan_block[gl_WorkGroupID.x] * kBlock + ivec2(gl_LocalInvocationID.xy) * ivec2(1, 4); }
+
+// Where a pixel is in what the stages hand on.
+int index_of(ivec2 pixel) { return pixel.y * width + pixel.x; }
