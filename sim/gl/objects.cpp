@@ -36,19 +36,6 @@ Buffer::Buffer(std::size_t bytes, const void* data) {
   glNamedBufferStorage(name, GLsizeiptr(bytes), data, GL_DYNAMIC_STORAGE_BIT);
 }
 
-Buffer Buffer::make_room(std::size_t count, std::size_t bytes) {
-  GLint64 limit = 0;
-  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);
-  const std::string values = std::to_string(count) + " values of " + std::to_string(bytes) + " bytes";
-  if (count > std::size_t(limit) / bytes)
-    throw std::runtime_error(values + " are above the device's limit of " + std::to_string(limit) +
-                             " bytes; take fewer scan lines, samples or pixels");
-  forget_errors();
-  Buffer buffer(count * bytes, nullptr);
-  if (out_of_memory()) throw std::runtime_error("the device has no memory for " + values);
-  return buffer;
-}
-
 void Buffer::write(const void* data, std::size_t bytes) {
   glNamedBufferSubData(object_.name(), 0, GLsizeiptr(bytes), data);
 }
@@ -151,11 +138,24 @@ void Texture::bind_image_as(GLuint unit, GLenum access, GLenum format) const {
   glBindImageTexture(unit, object_.name(), 0, GL_TRUE, 0, access, format);  // all slices of a 3D texture
 }
 
-TexelBuffer::TexelBuffer(const Buffer& buffer, GLenum format) {
+TexelBuffer::TexelBuffer(GLenum format, std::size_t texels) {
+  const std::size_t bytes = format == GL_RGBA32F ? 16 : format == GL_RG32F ? 8 : 4;
+  GLint64 most_bytes = 0;
+  GLint most_texels = 0;
+  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most_bytes);
+  glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most_texels);
+  const std::size_t most = std::min(std::size_t(most_bytes) / bytes, std::size_t(most_texels));
+  if (texels > most)
+    throw std::runtime_error(std::to_string(texels) + " samples or pixels are above the device's limit of " +
+                             std::to_string(most) + "; take fewer scan lines, samples a line or pixels");
+  forget_errors();
+  buffer_ = Buffer(texels * bytes, nullptr);
+  if (out_of_memory())
+    throw std::runtime_error("the device has no memory for " + std::to_string(texels) + " samples or pixels");
   GLuint name = 0;
   glCreateTextures(GL_TEXTURE_BUFFER, 1, &name);
-  object_ = Object<TextureKind>(name);
-  glTextureBuffer(name, format, buffer.name());
+  texture_ = Object<TextureKind>(name);
+  glTextureBuffer(name, format, buffer_.name());
 }
 
 Framebuffer::Framebuffer(const Texture& colour) : width_(colour.width()), height_(colour.height()) {

@@ -41,9 +41,6 @@ public:
   Buffer() = default;
   /// Storage of fixed size, filled from `data` when there is any.
   Buffer(std::size_t bytes, const void* data);
-  /// For what a stage hands to the next: `count` values of so many bytes, whatever they are at first. Throws
-  /// std::runtime_error when shaders cannot have that many on the device, or it has no memory for them.
-  static Buffer make_room(std::size_t count, std::size_t bytes);
 
   /// Replaces the first `bytes` bytes.
   void write(const void* data, std::size_t bytes);
@@ -54,7 +51,6 @@ public:
   void bind_uniform(GLuint binding) const { glBindBufferBase(GL_UNIFORM_BUFFER, binding, object_.name()); }
   void bind_storage(GLuint binding) const { glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, object_.name()); }
   GLuint name() const { return object_.name(); }
-  explicit operator bool() const { return bool(object_); }
 
 private:
   Object<BufferKind> object_;
@@ -123,18 +119,25 @@ private:
   int width_ = 0, height_ = 0, depth_ = 0;
 };
 
-/// A buffer's values as texels. Where the invocations that run side by side read from all over it, a software renderer
-/// takes half as long to gather texels as values.
+/// What one stage hands to the next: written as values of a buffer, read as texels of it (samplerBuffer). That is how a
+/// software renderer is fastest: storing to an image takes it several times as long, and so does gathering values.
 class TexelBuffer {
 public:
   TexelBuffer() = default;
-  /// @param buffer  outlives the texels
-  /// @param format  sized internal format, such as GL_RGBA32F
-  TexelBuffer(const Buffer& buffer, GLenum format);
-  void bind(GLuint unit) const { glBindTextureUnit(unit, object_.name()); }
+  /// So many texels, whatever they are at first. Throws std::runtime_error when shaders cannot have that many on the
+  /// device, or it has no memory for them.
+  /// @param format  GL_R32F, GL_RG32F or GL_RGBA32F
+  TexelBuffer(GLenum format, std::size_t texels);
+
+  void bind(GLuint unit) const { glBindTextureUnit(unit, texture_.name()); }
+  void bind_storage(GLuint binding) const { buffer_.bind_storage(binding); }
+  void clear() { buffer_.clear(); }
+  void read(float* values, std::size_t count) const { buffer_.read(values, count * sizeof(float)); }
+  explicit operator bool() const { return bool(texture_); }
 
 private:
-  Object<TextureKind> object_;
+  Buffer buffer_;
+  Object<TextureKind> texture_;
 };
 
 struct FramebufferKind {

@@ -18,11 +18,11 @@ namespace insonate::gl {
 namespace {
 
 // What a stage has written, so many floats to a place, each of them as an image.
-std::vector<Image<float>> read_channels(const Buffer& buffer, int channels, int width, int height) {
+std::vector<Image<float>> read_channels(const TexelBuffer& buffer, int channels, int width, int height) {
   const std::size_t count = std::size_t(channels);
   Image<float> image(width, height);
   std::vector<float> values(count * image.pixels.size());
-  buffer.read(values.data(), values.size() * sizeof(float));
+  buffer.read(values.data(), values.size());
   std::vector<Image<float>> images(count, image);
   for (std::size_t i = 0; i < values.size(); ++i) images[i % count].pixels[i / count] = values[i];
   return images;
@@ -65,10 +65,9 @@ struct Simulator::State {
   double noise_length_mm = 0;  // the noise's grain
 
   // What they write.
-  Buffer scan, repeats, echoes, mean_echo;              // by sample
-  TexelBuffer echo_texels;                              // the echoes once more
-  Buffer picture, sharp, half_smoothed, fused, levels;  // by pixel
-  Buffer brightest;                                     // by block of the fan
+  TexelBuffer scan, repeats, echoes, mean_echo;              // by sample
+  TexelBuffer picture, sharp, half_smoothed, fused, levels;  // by pixel
+  Buffer brightest;                                          // by block of the fan
   Buffer maximum_buffer{sizeof(GLuint), nullptr};
   Buffer counters{sizeof(SampleCounts), nullptr};
   Texture image;
@@ -100,10 +99,9 @@ void Simulator::State::lay_out() {
   lines = scan_lines(probe, depth_mm, settings.samples);
   const std::size_t n = lines.lines.size(), d = std::size_t(lines.samples);
   line_buffer = Buffer(std::size_t(settings.slice_planes) * lines.lines.size() * sizeof(PlacedLine), nullptr);
-  scan = Buffer::make_room(n * d, sizeof(glm::vec4));
-  echoes = Buffer::make_room(n * d, sizeof(glm::vec4));
-  echo_texels = TexelBuffer(echoes, GL_RGBA32F);
-  mean_echo = Buffer::make_room(d, sizeof(float));
+  scan = TexelBuffer(GL_RGBA32F, n * d);
+  echoes = TexelBuffer(GL_RGBA32F, n * d);
+  mean_echo = TexelBuffer(GL_R32F, d);
 
   const int w = settings.image_width, h = settings.image_height;
   fan = FanLayout(probe, depth_mm, lines, w, h);
@@ -112,10 +110,10 @@ void Simulator::State::lay_out() {
   line_and_sample.write(GL_RG, GL_FLOAT, fan.line_and_sample.data());
   fan_blocks = Buffer(fan.blocks.size() * sizeof(glm::ivec2), fan.blocks.data());
   brightest = Buffer(fan.blocks.size() * sizeof(GLuint), nullptr);
-  picture = Buffer::make_room(pixels(), sizeof(glm::vec2));
+  picture = TexelBuffer(GL_RG32F, pixels());
   fan_weights = Texture();
-  fused = Buffer();
-  levels = Buffer();
+  fused = TexelBuffer();
+  levels = TexelBuffer();
   image = Texture::make_2d(GL_RGBA8, w, h, Filter::linear);
   image.clear();
   layout_changed = false;
@@ -138,8 +136,7 @@ void Simulator::State::prepare() {
     line_buffer.write(placed.data(), placed.size() * sizeof(PlacedLine));
   }
   if (beam_changed) {
-    if (reverberates(settings))
-      repeats = Buffer::make_room(lines.lines.size() * std::size_t(lines.samples), sizeof(float));
+    if (reverberates(settings)) repeats = TexelBuffer(GL_R32F, lines.lines.size() * std::size_t(lines.samples));
     beam_window = half_beam_window(settings);
     beam_at_depth = beam_by_depth(lines, settings);
     beam_changed = false;
@@ -163,16 +160,16 @@ void Simulator::State::prepare_smoothing() {
   reflection_gaussian = reflection;
   transmission_gaussian = transmission;
   fan_weights = weights_of_pixels(fan, reflection, transmission);
-  const std::size_t bytes = transmission.radius > 0 ? sizeof(glm::vec2) : sizeof(float);
-  sharp = Buffer::make_room(pixels(), bytes);
-  half_smoothed = Buffer::make_room(pixels(), bytes);
+  const GLenum format = transmission.radius > 0 ? GL_RG32F : GL_R32F;
+  sharp = TexelBuffer(format, pixels());
+  half_smoothed = TexelBuffer(format, pixels());
   sharp.clear();
   half_smoothed.clear();
 }
 
 void Simulator::State::prepare_fusion() {
-  if (stages_are_read && !fused) (fused = Buffer::make_room(pixels(), sizeof(float))).clear();
-  if (frame_sets_white() && !levels) levels = Buffer::make_room(pixels(), sizeof(float));
+  if (stages_are_read && !fused) (fused = TexelBuffer(GL_R32F, pixels())).clear();
+  if (frame_sets_white() && !levels) levels = TexelBuffer(GL_R32F, pixels());
 }
 
 void Simulator::State::prepare_noise() {
@@ -214,44 +211,45 @@ void Simulator::State::run(Stage stage) {
       programs.traverse.dispatch(parameters.lines, 1);
       break;
     case Stage::beam:
-      scan.bind_storage(0);
+      scan.bind(0);
       if (reverberates(settings)) {
         repeats.clear();
-        repeats.bind_storage(1);
+        repeats.bind_storage(0);
         programs.reverberation.dispatch(parameters.lines, 1);
+        repeats.bind(2);
       }
       beam_window.bind_uniform(1);
       beam_at_depth.bind(1);
-      echoes.bind_storage(2);
+      echoes.bind_storage(0);
       programs.beam.dispatch(parameters.samples, (parameters.lines + 3) / 4);
       if (settings.clutter) {
-        echoes.bind_storage(0);
-        mean_echo.bind_storage(1);
+        echoes.bind(0);
+        mean_echo.bind_storage(0);
         programs.clutter.dispatch(parameters.samples, 1);
         programs.clutter_tail.dispatch(1, 1);
       }
       break;
     case Stage::scan_convert:
-      echo_texels.bind(0);
+      echoes.bind(0);
       line_and_sample.bind(1);
       noise.bind(2);
-      mean_echo.bind_storage(0);
-      picture.bind_storage(1);
-      sharp.bind_storage(2);
+      mean_echo.bind(3);
+      picture.bind_storage(0);
+      sharp.bind_storage(1);
       over_fan(programs.scan_convert);
       break;
     case Stage::smooth:
-      sharp.bind_storage(0);
-      half_smoothed.bind_storage(1);
+      sharp.bind(0);
+      half_smoothed.bind_storage(0);
       over_fan(programs.smooth);
       break;
     case Stage::fuse:
-      picture.bind_storage(0);
-      half_smoothed.bind_storage(1);
+      picture.bind(0);
+      half_smoothed.bind(1);
       fan_weights.bind(2);
       brightest.clear();
-      brightest.bind_storage(3);
-      if (fused) fused.bind_storage(4);
+      brightest.bind_storage(0);
+      if (fused) fused.bind_storage(1);
       if (frame_sets_white())
         levels.bind_storage(2);
       else
@@ -264,7 +262,7 @@ void Simulator::State::run(Stage stage) {
       maximum_buffer.bind_storage(1);
       programs.maximum.dispatch_groups(1);
       maximum_buffer.bind_storage(0);
-      levels.bind_storage(1);
+      levels.bind(0);
       image.bind_image_as(0, GL_WRITE_ONLY, GL_R32UI);
       over_fan(programs.compress);
       break;

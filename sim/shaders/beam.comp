@@ -8,12 +8,11 @@ layout(local_size_x = 64) in;
 
 #include "shared/simulation_parameters.h"
 
-layout(binding = 1) uniform sampler2D at_depth;  // a sample: mean envelope -> 1, focused beam's reach in lines, exponent
-layout(std140, binding = 1) uniform Window { vec4 window[32]; };  // weights from the middle line outwards
-// A row a line:
-layout(std430, binding = 0) readonly buffer Scan { vec4 scan[]; };         // I, R, scatterers' echo (re, im)
-layout(std430, binding = 1) readonly buffer Repeats { float repeats[]; };  // V before the window, with REVERBERATION
-layout(std430, binding = 2) writeonly buffer Echoes { vec4 echoes[]; };    // R, T, S, V
+layout(binding = 0) uniform samplerBuffer scan;     // a row a line: I, R, scatterers' echo (re, im)
+layout(binding = 1) uniform sampler2D at_depth;     // a sample: mean envelope -> 1, focused beam's reach in lines, exponent
+layout(binding = 2) uniform samplerBuffer repeats;  // a row a line: V before the window, with REVERBERATION
+layout(std140, binding = 1) uniform Window { vec4 window[32]; };         // weights from the middle line outwards
+layout(std430, binding = 0) writeonly buffer Echoes { vec4 echoes[]; };  // a row a line: R, T, S, V
 
 #if FOCUSED_BEAM == 1
 int reach;       // of the aperture at this sample, in lines to either side
@@ -38,13 +37,13 @@ float weight_at(int away) {
 float add(int first, int j, int k) {
   weights = vec4(weight_at(j), weights.xyz);
   int at = first + j, place = clamp(at, 0, lines - 1) * samples + k;
-  vec4 value = scan[place];
+  vec4 value = texelFetch(scan, place);
   vec4 weight = at >= 0 && at < lines ? weights : vec4(0.0);
   reflection += weight * value.y;
   re += weight * value.z;
   im += weight * value.w;
 #if REVERBERATION == 1
-  repeated += weight * repeats[place];
+  repeated += weight * texelFetch(repeats, place).x;
 #endif
   total += weight;
   return value.x;

@@ -5,15 +5,15 @@ layout(local_size_x = 8) in;
 
 #include "shared/simulation_parameters.h"
 
-layout(std430, binding = 0) readonly buffer Echoes { vec4 echoes[]; };        // a row a line: R, T, S, V
-layout(std430, binding = 1) writeonly buffer MeanEcho { float mean_echo[]; };  // a sample: mean of T S
+layout(binding = 0) uniform samplerBuffer echoes;                             // a row a line: R, T, S, V
+layout(std430, binding = 0) writeonly buffer MeanEcho { float mean_echo[]; };  // a sample: mean of T S
 
 void main() {
   int k = int(gl_GlobalInvocationID.x);
   if (k >= samples) return;
   float sum = 0.0;
   for (int line = 0; line < lines; ++line) {
-    vec4 value = echoes[line * samples + k];
+    vec4 value = texelFetch(echoes, line * samples + k);
     sum += value.y * value.z;
   }
   mean_echo[k] = sum / float(lines);

@@ -5,7 +5,7 @@ layout(local_size_x = 1) in;
 
 #include "shared/simulation_parameters.h"
 
-layout(std430, binding = 1) buffer MeanEcho { float mean_echo[]; };  // a sample: mean of T S, and with its tail
+layout(std430, binding = 0) buffer MeanEcho { float mean_echo[]; };  // a sample: mean of T S, and with its tail
 
 void main() {
   float mean = mean_echo[0];

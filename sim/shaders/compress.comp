@@ -6,8 +6,8 @@ layout(local_size_x = 64, local_size_y = 1) in;
 #include "shared/fan_blocks.glsl"
 #include "shared/grey.glsl"
 
-layout(std430, binding = 0) readonly buffer Maximum { uint maximum; };   // as ordered() gives it
-layout(std430, binding = 1) readonly buffer Levels { float levels[]; };  // of U behind the gains, dB
+layout(binding = 0) uniform samplerBuffer levels;                       // of U behind the gains, dB
+layout(std430, binding = 0) readonly buffer Maximum { uint maximum; };  // as ordered() gives it
 layout(binding = 0, r32ui) writeonly uniform uimage2D image;           // grey, grey, grey, 1 inside the fan; packed
 
 void main() {
@@ -16,6 +16,6 @@ void main() {
   for (int i = 0; i < 4; ++i) {
     ivec2 pixel = first + ivec2(0, i);
     if (pixel.x < width && pixel.y < height)
-      imageStore(image, pixel, uvec4(grey_pixel(levels[index_of(pixel)], white_db)));
+      imageStore(image, pixel, uvec4(grey_pixel(texelFetch(levels, index_of(pixel)).x, white_db)));
   }
 }

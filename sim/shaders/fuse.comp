@@ -11,16 +11,15 @@ layout(local_size_x = 64, local_size_y = 1) in;
 #include "shared/gaussian.glsl"
 #include "shared/grey.glsl"
 
-layout(std430, binding = 0) readonly buffer Picture { vec2 picture[]; };  // X, S
-layout(std430, binding = 1) readonly buffer HalfSmoothed { SMOOTHED half_smoothed[]; };  // of R, T: the sums of their
-                                                                                         // windows along the rows
+layout(binding = 0) uniform samplerBuffer picture;        // X, S
+layout(binding = 1) uniform samplerBuffer half_smoothed;  // of R, T: the sums of their windows along the rows
 layout(binding = 2) uniform sampler2D fan;  // per pixel: sample + 1, or 0 outside; of R's and of T's window, 1 / its sum
 #if KEEP_FUSED == 1
-layout(std430, binding = 4) writeonly buffer Fused { float fused[]; };  // U
+layout(std430, binding = 1) writeonly buffer Fused { float fused[]; };  // U
 #endif
 #if FRAME_MAXIMUM == 1
 layout(std430, binding = 2) writeonly buffer Levels { float levels[]; };  // of U behind the gains, dB
-layout(std430, binding = 3) buffer Brightest { uint brightest[]; };  // a block, as ordered() gives it; 0 for none
+layout(std430, binding = 0) buffer Brightest { uint brightest[]; };  // a block, as ordered() gives it; 0 for none
 #else
 layout(binding = 1, r32ui) writeonly uniform uimage2D image;  // grey, grey, grey, 1 inside the fan; packed
 #endif
@@ -40,7 +39,7 @@ float gain_at_db(float sample_position) {
 }
 
 vec2 half_smoothed_at(ivec2 at) {
-  vec2 value = vec2(half_smoothed[index_of(ivec2(at.x, clamp(at.y, 0, height - 1)))]);
+  vec2 value = texelFetch(half_smoothed, index_of(ivec2(at.x, clamp(at.y, 0, height - 1)))).xy;
   return at.y >= 0 && at.y < height ? value : vec2(0.0);
 }
 
@@ -67,7 +66,7 @@ void main() {
   for (int i = 0; i < 4; ++i) {
     ivec2 pixel = first + ivec2(0, i);
     if (pixel.y >= height) break;
-    vec2 value = picture[index_of(pixel)];
+    vec2 value = texelFetch(picture, index_of(pixel)).xy;
     vec3 place = texelFetch(fan, pixel, 0).xyz;
     bool inside = place.x > 0.0;
     float smoothed = reflection[i] * place.y + blend * transmission[i] * place.z;

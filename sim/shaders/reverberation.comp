@@ -6,19 +6,18 @@ layout(local_size_x = 8) in;
 
 #include "shared/simulation_parameters.h"
 
-// A row a line:
-layout(std430, binding = 0) readonly buffer Scan { vec4 scan[]; };  // I, R, scatterers' echo (re, im)
-layout(std430, binding = 1) buffer Repeats { float repeats[]; };    // V, 0 before
+layout(binding = 0) uniform samplerBuffer scan;                   // a row a line: I, R, scatterers' echo (re, im)
+layout(std430, binding = 0) buffer Repeats { float repeats[]; };  // a row a line: V, 0 before
 
 const int kMostReflectors = 64, kMostRepeats = 16;  // as in sim/model/reverberation.h, with the next
 const float kLeastRound = 1e-3, kLeastReverberant = 1e-12;
 
 int row;  // where the line begins
-float intensity(int k) { return scan[row + clamp(k, 0, samples - 1)].x; }
+float intensity(int k) { return texelFetch(scan, row + clamp(k, 0, samples - 1)).x; }
 
 // A of a sample, and its R.
 vec2 reflected(int k) {
-  vec2 value = scan[row + k].xy;
+  vec2 value = texelFetch(scan, row + k).xy;
   return value.x > kLeastReverberant ? vec2(min(value.y / (value.x * value.x), 1.0), value.y) : vec2(0.0);
 }
 

@@ -11,18 +11,16 @@ layout(local_size_x = 64, local_size_y = 1) in;
 layout(binding = 0) uniform samplerBuffer echoes;       // a row a line: R, T, S, V
 layout(binding = 1) uniform sampler2D line_and_sample;  // per pixel; line below -1 outside the fan
 layout(binding = 2) uniform sampler2D noise;            // per pixel, of mean 1
-layout(std430, binding = 0) readonly buffer MeanEcho { float mean_echo[]; };  // a sample: mean of T S over the lines,
-                                                                              // with its tail
-layout(std430, binding = 1) writeonly buffer Picture { vec2 picture[]; };     // X, S
-layout(std430, binding = 2) writeonly buffer Sharp { SMOOTHED sharp[]; };     // R, and T if it is smoothed; -1 outside
-                                                                              // the fan
+layout(binding = 3) uniform samplerBuffer mean_echo;    // a sample: mean of T S over the lines, with its tail
+layout(std430, binding = 0) writeonly buffer Picture { vec2 picture[]; };  // X, S
+layout(std430, binding = 1) writeonly buffer Sharp { SMOOTHED sharp[]; };  // R, T as far as smoothed; -1 outside the fan
 
 // The noise's mean at a place along the lines: of the electronics, and with CLUTTER what the side lobes bring.
 float noise_at(float sample_position) {
 #if CLUTTER == 1
   float position = clamp(sample_position, 0.0, float(samples - 1));
   int low = int(position), high = min(low + 1, samples - 1);
-  float mean = mix(mean_echo[low], mean_echo[high], position - float(low));
+  float mean = mix(texelFetch(mean_echo, low).x, texelFetch(mean_echo, high).x, position - float(low));
   return noise_level + clutter_share * blend * mean;
 #else
   return noise_level;

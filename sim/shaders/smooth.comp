@@ -9,13 +9,13 @@ layout(local_size_x = 16, local_size_y = 4) in;
 #include "shared/fan_blocks.glsl"
 #include "shared/gaussian.glsl"
 
-layout(std430, binding = 0) readonly buffer Sharp { SMOOTHED sharp[]; };                  // R, T; -1 outside the fan
-layout(std430, binding = 1) writeonly buffer HalfSmoothed { SMOOTHED half_smoothed[]; };  // the windows' sums of R, T
+layout(binding = 0) uniform samplerBuffer sharp;                                          // R, T; -1 outside the fan
+layout(std430, binding = 0) writeonly buffer HalfSmoothed { SMOOTHED half_smoothed[]; };  // the windows' sums of R, T
 
 // At the distance j from the first of the four pixels.
 vec2 sharp_at(ivec2 first, int j) {
   int x = first.x + j;
-  vec2 value = vec2(sharp[index_of(ivec2(clamp(x, 0, width - 1), first.y))]);
+  vec2 value = texelFetch(sharp, index_of(ivec2(clamp(x, 0, width - 1), first.y))).xy;
   return x >= 0 && x < width ? value : vec2(-1.0);
 }
 

@@ -47,9 +47,9 @@ TEST_CASE("more than shaders can have of the device is refused, and what fits is
   GLint64 limit = 0;
   glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);
   const std::size_t most = std::size_t(limit) / 16;
-  CHECK_THROWS_WITH(Buffer::make_room(most + 1, 16), Catch::Contains("above the device's limit"));
-  CHECK_THROWS_WITH(Buffer::make_room(std::size_t(-1) / 2, 16), Catch::Contains("above the device's limit"));
-  CHECK(bool(Buffer::make_room(1000, 16)));
+  CHECK_THROWS_WITH(TexelBuffer(GL_RGBA32F, most + 1), Catch::Contains("above the device's limit"));
+  CHECK_THROWS_WITH(TexelBuffer(GL_R32F, std::size_t(-1) / 2), Catch::Contains("above the device's limit"));
+  CHECK(bool(TexelBuffer(GL_RGBA32F, 1000)));
   CHECK(glGetError() == GL_NO_ERROR);
 }
 
