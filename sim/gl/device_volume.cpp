@@ -23,16 +23,14 @@ Texture upload(const AcousticVolume& volume) {
 }
 
 // What acoustic_volume.glsl reads between two whole HU: values at the first, and what they rise by to the next.
-Texture tabulate(const TissueTable& table) {
+TexelBuffer tabulate(const TissueTable& table) {
   std::vector<glm::vec4> lookup;
   for (int i = 0; i < kLookupSize; ++i) {
     const TissueKnot knot = table.at(kFirstHu + i), next = table.at(kFirstHu + i + 1);
     lookup.emplace_back(knot.impedance_mrayl, knot.absorption_db_cm_mhz, next.impedance_mrayl - knot.impedance_mrayl,
                         next.absorption_db_cm_mhz - knot.absorption_db_cm_mhz);
   }
-  Texture texture = Texture::make_2d(GL_RGBA32F, kLookupSize, 1, Filter::nearest);
-  texture.write(GL_RGBA, GL_FLOAT, lookup.data());
-  return texture;
+  return TexelBuffer(GL_RGBA32F, lookup.size(), lookup.data());
 }
 
 // The least box of indices around all voxels that sound can tell from the air outside.

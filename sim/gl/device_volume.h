@@ -24,7 +24,7 @@ public:
   /// (HU, echogenicity in hundredths of a dB) / 32767, with the margin of air.
   const Texture& texture() const { return texture_; }
   /// Impedance and absorption at each whole HU, as acoustic_volume.glsl reads it.
-  const Texture& tissue_lookup() const { return tissue_lookup_; }
+  const TexelBuffer& tissue_lookup() const { return tissue_lookup_; }
   /// Patient mm -> the texture's coordinates.
   const glm::dmat4& texture_from_patient() const { return texture_from_patient_; }
 
@@ -36,7 +36,7 @@ public:
 
 private:
   Texture texture_;
-  Texture tissue_lookup_;
+  TexelBuffer tissue_lookup_;
   glm::dmat4 texture_from_patient_{1.0};
   glm::dvec3 body_low_{0.0}, body_high_{0.0};  ///< texture coordinates
 };

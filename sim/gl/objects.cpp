@@ -138,7 +138,7 @@ void Texture::bind_image_as(GLuint unit, GLenum access, GLenum format) const {
   glBindImageTexture(unit, object_.name(), 0, GL_TRUE, 0, access, format);  // all slices of a 3D texture
 }
 
-TexelBuffer::TexelBuffer(GLenum format, std::size_t texels) {
+TexelBuffer::TexelBuffer(GLenum format, std::size_t texels, const void* values) {
   const std::size_t bytes = format == GL_RGBA32F ? 16 : format == GL_RG32F ? 8 : 4;
   GLint64 most_bytes = 0;
   GLint most_texels = 0;
@@ -149,7 +149,7 @@ TexelBuffer::TexelBuffer(GLenum format, std::size_t texels) {
     throw std::runtime_error(std::to_string(texels) + " samples or pixels are above the device's limit of " +
                              std::to_string(most) + "; take fewer scan lines, samples a line or pixels");
   forget_errors();
-  buffer_ = Buffer(texels * bytes, nullptr);
+  buffer_ = Buffer(texels * bytes, values);
   if (out_of_memory())
     throw std::runtime_error("the device has no memory for " + std::to_string(texels) + " samples or pixels");
   GLuint name = 0;

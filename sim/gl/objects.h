@@ -119,15 +119,16 @@ private:
   int width_ = 0, height_ = 0, depth_ = 0;
 };
 
-/// What one stage hands to the next: written as values of a buffer, read as texels of it (samplerBuffer). That is how a
-/// software renderer is fastest: storing to an image takes it several times as long, and so does gathering values.
+/// A table, or what one stage hands to the next: written as values of a buffer, read as texels of it (samplerBuffer).
+/// That is how a software renderer is fastest: storing to an image takes it several times as long, and gathering values
+/// or a texture's texels takes longer than gathering these.
 class TexelBuffer {
 public:
   TexelBuffer() = default;
-  /// So many texels, whatever they are at first. Throws std::runtime_error when shaders cannot have that many on the
-  /// device, or it has no memory for them.
+  /// So many texels, filled from `values` when there are any. Throws std::runtime_error when shaders cannot have that
+  /// many on the device, or it has no memory for them.
   /// @param format  GL_R32F, GL_RG32F or GL_RGBA32F
-  TexelBuffer(GLenum format, std::size_t texels);
+  TexelBuffer(GLenum format, std::size_t texels, const void* values = nullptr);
 
   void bind(GLuint unit) const { glBindTextureUnit(unit, texture_.name()); }
   void bind_storage(GLuint binding) const { buffer_.bind_storage(binding); }

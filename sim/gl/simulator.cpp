@@ -59,8 +59,9 @@ struct Simulator::State {
   DeviceVolume volume;
   SimulationParameters parameters{};
   Buffer parameter_buffer{sizeof(SimulationParameters), nullptr};
-  Texture scatterers, line_and_sample;
-  Texture beam_at_depth, noise, fan_weights;
+  Texture scatterers;
+  TexelBuffer beam_at_depth;                        // by sample
+  TexelBuffer line_and_sample, noise, fan_weights;  // by pixel
   Buffer line_buffer, beam_window, fan_blocks;
   double noise_length_mm = 0;  // the noise's grain
 
@@ -105,13 +106,12 @@ void Simulator::State::lay_out() {
 
   const int w = settings.image_width, h = settings.image_height;
   fan = FanLayout(probe, depth_mm, lines, w, h);
-  noise = Texture();
-  line_and_sample = Texture::make_2d(GL_RG32F, w, h, Filter::nearest);
-  line_and_sample.write(GL_RG, GL_FLOAT, fan.line_and_sample.data());
+  noise = TexelBuffer();
+  line_and_sample = TexelBuffer(GL_RG32F, pixels(), fan.line_and_sample.data());
   fan_blocks = Buffer(fan.blocks.size() * sizeof(glm::ivec2), fan.blocks.data());
   brightest = Buffer(fan.blocks.size() * sizeof(GLuint), nullptr);
   picture = TexelBuffer(GL_RG32F, pixels());
-  fan_weights = Texture();
+  fan_weights = TexelBuffer();
   fused = TexelBuffer();
   levels = TexelBuffer();
   image = Texture::make_2d(GL_RGBA8, w, h, Filter::linear);

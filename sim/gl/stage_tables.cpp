@@ -91,7 +91,7 @@ Buffer half_beam_window(const Settings& settings) {
   return Buffer(half.size() * sizeof(float), half.data());
 }
 
-Texture beam_by_depth(const ScanLines& lines, const Settings& settings) {
+TexelBuffer beam_by_depth(const ScanLines& lines, const Settings& settings) {
   std::vector<glm::vec4> depths(std::size_t(lines.samples), glm::vec4(1, 0, 0, 0));
   if (settings.speckle) {
     const std::vector<double> scale = envelope_scale(lines, settings);
@@ -104,9 +104,7 @@ Texture beam_by_depth(const ScanLines& lines, const Settings& settings) {
       depths[k].z = depths[k].y > 0 ? float(-0.5 / (sigma[k] * sigma[k])) : 0;
     }
   }
-  Texture texture = Texture::make_2d(GL_RGBA32F, lines.samples, 1, Filter::nearest);
-  texture.write(GL_RGBA, GL_FLOAT, depths.data());
-  return texture;
+  return TexelBuffer(GL_RGBA32F, depths.size(), depths.data());
 }
 
 Gaussian::Gaussian(double sigma_px, int limit_px) {
@@ -151,7 +149,7 @@ SimulationParameters parameters_of(const Settings& settings, const ScanLines& li
   return p;
 }
 
-Texture weights_of_pixels(const FanLayout& fan, const Gaussian& reflection, const Gaussian& transmission) {
+TexelBuffer weights_of_pixels(const FanLayout& fan, const Gaussian& reflection, const Gaussian& transmission) {
   const Image<float> of_reflection = inside_window(fan.inside, reflection);
   const int channels = transmission.radius > 0 ? 4 : 2;
   const Image<float> of_transmission = channels == 4 ? inside_window(fan.inside, transmission) : Image<float>();
@@ -163,20 +161,15 @@ Texture weights_of_pixels(const FanLayout& fan, const Gaussian& reflection, cons
     values.push_back(inside ? 1 / of_reflection.pixels[i] : 0);
     if (channels == 4) values.insert(values.end(), {inside ? 1 / of_transmission.pixels[i] : 0, 0});
   }
-  Texture texture =
-      Texture::make_2d(channels == 4 ? GL_RGBA32F : GL_RG32F, fan.inside.width, fan.inside.height, Filter::nearest);
-  texture.write(channels == 4 ? GL_RGBA : GL_RG, GL_FLOAT, values.data());
-  return texture;
+  return TexelBuffer(channels == 4 ? GL_RGBA32F : GL_RG32F, fan.inside.pixels.size(), values.data());
 }
 
-Texture noise_of_pixels(const FanLayout& fan, const ScanLines& lines, const Settings& settings) {
+TexelBuffer noise_of_pixels(const FanLayout& fan, const ScanLines& lines, const Settings& settings) {
   const Image<double> of_samples = electronic_noise(lines, settings);
   std::vector<float> of_pixels;
   for (std::size_t i = 0; i < fan.inside.pixels.size(); ++i)
     of_pixels.push_back(fan.inside.pixels[i] ? float(bilinear(of_samples, fan.line_and_sample[i])) : 0);
-  Texture texture = Texture::make_2d(GL_R32F, fan.inside.width, fan.inside.height, Filter::nearest);
-  texture.write(GL_RED, GL_FLOAT, of_pixels.data());
-  return texture;
+  return TexelBuffer(GL_R32F, of_pixels.size(), of_pixels.data());
 }
 
 }  // namespace insonate::gl

@@ -30,9 +30,9 @@ std::vector<PlacedLine> placed_lines(const DeviceVolume& volume, const Pose& pat
 /// The beam's window from the middle line outwards, 128 weights, as beam.comp takes it.
 Buffer half_beam_window(const Settings& settings);
 
-/// What beam.comp asks of each depth, samples x 1: the factor that makes the envelope's mean 1, and of a focused beam
+/// What beam.comp asks of each sample's depth: the factor that makes the envelope's mean 1, and of a focused beam
 /// the reach in lines and the Gaussian's exponent.
-Texture beam_by_depth(const ScanLines& lines, const Settings& settings);
+TexelBuffer beam_by_depth(const ScanLines& lines, const Settings& settings);
 
 /// A smoothing window out to three sigma or the picture's size, in pixels.
 struct Gaussian {
@@ -50,9 +50,9 @@ SimulationParameters parameters_of(const Settings& settings, const ScanLines& li
 
 /// What fuse.comp asks of each pixel: its sample + 1, or 0 outside the fan, and 1 over what of its windows of R and of
 /// T lies inside the fan; RG32F when there is no window of T, else RGBA32F.
-Texture weights_of_pixels(const FanLayout& fan, const Gaussian& reflection, const Gaussian& transmission);
+TexelBuffer weights_of_pixels(const FanLayout& fan, const Gaussian& reflection, const Gaussian& transmission);
 
 /// The receiver's noise, mean 1, as scan conversion brings it to each pixel of the fan; 0 outside.
-Texture noise_of_pixels(const FanLayout& fan, const ScanLines& lines, const Settings& settings);
+TexelBuffer noise_of_pixels(const FanLayout& fan, const ScanLines& lines, const Settings& settings);
 
 }  // namespace insonate::gl

@@ -8,9 +8,10 @@ layout(local_size_x = 64) in;
 
 #include "shared/simulation_parameters.h"
 
-layout(binding = 0) uniform samplerBuffer scan;     // a row a line: I, R, scatterers' echo (re, im)
-layout(binding = 1) uniform sampler2D at_depth;     // a sample: mean envelope -> 1, focused beam's reach in lines, exponent
-layout(binding = 2) uniform samplerBuffer repeats;  // a row a line: V before the window, with REVERBERATION
+layout(binding = 0) uniform samplerBuffer scan;      // a row a line: I, R, scatterers' echo (re, im)
+layout(binding = 1) uniform samplerBuffer at_depth;  // a sample: mean envelope -> 1, focused beam's reach in lines,
+                                                     // exponent
+layout(binding = 2) uniform samplerBuffer repeats;   // a row a line: V before the window, with REVERBERATION
 layout(std140, binding = 1) uniform Window { vec4 window[32]; };         // weights from the middle line outwards
 layout(std430, binding = 0) writeonly buffer Echoes { vec4 echoes[]; };  // a row a line: R, T, S, V
 
@@ -53,7 +54,7 @@ void main() {
   int k = int(gl_GlobalInvocationID.x), first = 4 * int(gl_GlobalInvocationID.y);
   if (first >= lines || k >= samples) return;
 
-  vec4 here = texelFetch(at_depth, ivec2(k, 0), 0);
+  vec4 here = texelFetch(at_depth, k);
 #if FOCUSED_BEAM == 1
   reach = int(here.y);
   exponent = here.z;

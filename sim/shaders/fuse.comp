@@ -13,7 +13,8 @@ layout(local_size_x = 64, local_size_y = 1) in;
 
 layout(binding = 0) uniform samplerBuffer picture;        // X, S
 layout(binding = 1) uniform samplerBuffer half_smoothed;  // of R, T: the sums of their windows along the rows
-layout(binding = 2) uniform sampler2D fan;  // per pixel: sample + 1, or 0 outside; of R's and of T's window, 1 / its sum
+layout(binding = 2) uniform samplerBuffer fan;            // per pixel: sample + 1, or 0 outside; of R's and of T's
+                                                          // window, 1 / its sum
 #if KEEP_FUSED == 1
 layout(std430, binding = 1) writeonly buffer Fused { float fused[]; };  // U
 #endif
@@ -67,7 +68,7 @@ void main() {
     ivec2 pixel = first + ivec2(0, i);
     if (pixel.y >= height) break;
     vec2 value = texelFetch(picture, index_of(pixel)).xy;
-    vec3 place = texelFetch(fan, pixel, 0).xyz;
+    vec3 place = texelFetch(fan, index_of(pixel)).xyz;
     bool inside = place.x > 0.0;
     float smoothed = reflection[i] * place.y + blend * transmission[i] * place.z;
     float echo = inside ? value.x + value.y * smoothed : 0.0;

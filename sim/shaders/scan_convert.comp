@@ -8,10 +8,10 @@ layout(local_size_x = 64, local_size_y = 1) in;
 #include "shared/simulation_parameters.h"
 #include "shared/fan_blocks.glsl"
 
-layout(binding = 0) uniform samplerBuffer echoes;       // a row a line: R, T, S, V
-layout(binding = 1) uniform sampler2D line_and_sample;  // per pixel; line below -1 outside the fan
-layout(binding = 2) uniform sampler2D noise;            // per pixel, of mean 1
-layout(binding = 3) uniform samplerBuffer mean_echo;    // a sample: mean of T S over the lines, with its tail
+layout(binding = 0) uniform samplerBuffer echoes;           // a row a line: R, T, S, V
+layout(binding = 1) uniform samplerBuffer line_and_sample;  // per pixel; line below -1 outside the fan
+layout(binding = 2) uniform samplerBuffer noise;            // per pixel, of mean 1
+layout(binding = 3) uniform samplerBuffer mean_echo;        // a sample: mean of T S over the lines, with its tail
 layout(std430, binding = 0) writeonly buffer Picture { vec2 picture[]; };  // X, S
 layout(std430, binding = 1) writeonly buffer Sharp { SMOOTHED sharp[]; };  // R, T as far as smoothed; -1 outside the fan
 
@@ -30,7 +30,7 @@ float noise_at(float sample_position) {
 vec4 echo_at(int sample_index, int line) { return texelFetch(echoes, line * samples + sample_index); }
 
 void convert(ivec2 pixel) {
-  vec2 place = texelFetch(line_and_sample, pixel, 0).xy;
+  vec2 place = texelFetch(line_and_sample, index_of(pixel)).xy;
   bool inside = place.x > -1.0;
   ivec2 last = ivec2(samples, lines) - 1;
   vec2 position = clamp(place.yx, vec2(0.0), vec2(last));
@@ -48,7 +48,7 @@ void convert(ivec2 pixel) {
   rest += value.z * blend * value.y;
 #endif
 #if NOISE == 1
-  rest += noise_at(place.y) * texelFetch(noise, pixel, 0).x;
+  rest += noise_at(place.y) * texelFetch(noise, index_of(pixel)).x;
 #endif
   picture[index_of(pixel)] = vec2(rest, value.z);
 #if REFLECTION_SMOOTHED == 1 || TRANSMISSION_SMOOTHED == 1

@@ -5,7 +5,7 @@ layout(binding = 0) uniform sampler3D acoustic_volume;
 
 // Impedance (MRayl) and absorption (dB/(cm MHz)) at each whole HU from -1024 on, and what they rise by to the next; linear
 // between, which is exact because the tissue table's knots sit at whole HU.
-layout(binding = 7) uniform sampler2D tissue_at_hu;
+layout(binding = 7) uniform samplerBuffer tissue_at_hu;
 
 const float kFirstHu = -1024.0;
 const float kCouplingAirHu = -300.5;         // below this, what lies within the gel layer is gel
@@ -15,6 +15,6 @@ const vec2 kOutside = vec2(-1000.0, -6000.0);  // beyond the volume, and all aro
 vec2 impedance_and_absorption(float hu) {
   float position = clamp(hu - kFirstHu, 0.0, 4095.0);
   int below = int(position);
-  vec4 known = texelFetch(tissue_at_hu, ivec2(below, 0), 0);
+  vec4 known = texelFetch(tissue_at_hu, below);
   return known.xy + (position - float(below)) * known.zw;
 }
