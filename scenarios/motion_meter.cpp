@@ -65,6 +65,24 @@ void MotionMeter::feed(const PoseSample& sample, bool on_skin) {
   last_on_skin_ = on_skin;
 }
 
+MotionValues& MotionValues::operator+=(const MotionValues& later) {
+  time_s += later.time_s;
+  path_length_mm += later.path_length_mm;
+  angular_path_deg += later.angular_path_deg;
+  translational_movements += later.translational_movements;
+  rotational_movements += later.rotational_movements;
+  tracked_s += later.tracked_s;
+  on_skin_s += later.on_skin_s;
+  untracked_s += later.untracked_s;
+  dropouts += later.dropouts;
+  const auto less_smooth = [](std::optional<double>& mine, const std::optional<double>& other) {
+    if (!mine || (other && *other < *mine)) mine = other;
+  };
+  less_smooth(log_dimensionless_jerk, later.log_dimensionless_jerk);
+  less_smooth(spectral_arc_length, later.spectral_arc_length);
+  return *this;
+}
+
 void MotionMeter::end(double time_s) {
   if (any_) pass(time_s, last_valid_ && bridges(time_s - last_s_), last_on_skin_);
 }

@@ -27,6 +27,9 @@ struct MotionValues {
 
   /// Empty for what cannot be said of a stretch without tracked time.
   std::optional<double> of(Metric motion_metric) const;
+
+  /// Adds a stretch that comes later. Smoothness does not add up: it is that of the less smooth one.
+  MotionValues& operator+=(const MotionValues& later);
 };
 
 /// Measures motion, one sample after the other.

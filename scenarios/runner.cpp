@@ -47,7 +47,7 @@ Runner::Runner(Scenario scenario, const Case& subject, const TissueTable& tissue
     begin_.push_back(step.task->prepare({step, subject_, labels_, tissues_, meters_.back().get()}));
   }
   ended_.resize(scenario_.steps.size());
-  spent_s_.resize(scenario_.steps.size());
+  left_.resize(scenario_.steps.size());
   hints_taken_.resize(scenario_.steps.size());
   live_.step_remaining_s = scenario_.steps.front().time_limit_s;
   live_.exam_remaining_s = scenario_.time_limit_s;
@@ -160,6 +160,7 @@ double Runner::exam_limit_s() const {
 void Runner::begin_step(std::size_t index, double now) {
   live_.step = index;
   step_start_s_ = now;
+  if (!left_[index].began_s) left_[index].began_s = now;
   step_motion_ = step_motion_.following(now);
   looked_s_.reset();
   const Step& asked = step();
@@ -185,7 +186,8 @@ bool Runner::can_go_to(std::size_t index) const {
 void Runner::go_to(const std::string& name, double now) {
   for (std::size_t i = 0; i < scenario_.steps.size(); ++i) {
     if (scenario_.steps[i].name != name || !can_go_to(i)) continue;
-    spent_s_[live_.step] += now - step_start_s_;
+    step_motion_.end(now);
+    left_[live_.step].motion += step_motion_.values();
     return begin_step(i, now);
   }
 }
@@ -255,9 +257,10 @@ StepResult Runner::judge(StepOutcome outcome, double now) const {
   result.outcome = outcome;
   result.hints_taken = int(hints_taken_[live_.step]);
   for (std::size_t i = 0; i < hints_taken_[live_.step]; ++i) result.hint_cost += asked.hints[i].cost;
-  result.start_s = step_start_s_;
+  result.start_s = *left_[live_.step].began_s;
   result.end_s = now;
-  result.motion = step_motion_.values();
+  result.motion = left_[live_.step].motion;
+  result.motion += step_motion_.values();
   run_->finish(outcome, now, result);
 
   for (const Criterion& criterion : asked.criteria) {

@@ -69,8 +69,8 @@ struct TracePoint {
 ///   weighted by time; of a step that ended without one, by the mean over the hold_s before its last valid sample.
 /// - Warm-ups come before the exam's own clock and motion begin.
 /// - A step that names where to go on skips what lies between. Where the order is free, the learner may turn to any
-/// step
-///   that is not ended; the time spent on a step he left still counts against its limit.
+///   step that is not ended. One that he comes back to begins anew, but its limit, its time and its motion are those of
+///   all his visits.
 /// - Whichever limit comes first ends a step at that very time, and the exam's limit ends the exam. A sample at the
 ///   limit comes too late.
 /// - Times are compared to kTimeRounding_s.
@@ -120,7 +120,7 @@ private:
   void go_to(const std::string& name, double now);
   void skip(std::size_t from, std::size_t to, double now);
   std::optional<std::size_t> step_after(const StepResult& ended, double now);
-  double step_limit_s() const { return step_start_s_ + (step().time_limit_s - spent_s_[live_.step]); }
+  double step_limit_s() const { return step_start_s_ + (step().time_limit_s - left_[live_.step].motion.time_s); }
   double exam_limit_s() const;
   void finish(double now);
   void record(const PoseSample& sample, double now);
@@ -146,9 +146,13 @@ private:
   std::unique_ptr<StepRun> run_;                  ///< the step under way
   MotionMeter motion_;                            ///< of the whole exam
   std::vector<std::optional<StepResult>> ended_;  ///< by step
-  std::vector<double> spent_s_;                   ///< by step: on it before the learner turned away
-  std::vector<std::size_t> hints_taken_;          ///< by step
-  std::optional<double> counts_from_s_;           ///< when the warm-ups were over
+  struct Left {
+    std::optional<double> began_s;  ///< empty as long as nobody has turned to the step
+    MotionValues motion;            ///< of the visits before this one
+  };
+  std::vector<Left> left_;                ///< by step: what the learner left behind when he turned away
+  std::vector<std::size_t> hints_taken_;  ///< by step
+  std::optional<double> counts_from_s_;   ///< when the warm-ups were over
   std::vector<TracePoint> trace_;
 };
 

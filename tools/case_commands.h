@@ -18,7 +18,8 @@ void inspect(const std::filesystem::path& path, bool json);
 void make_and_write(std::filesystem::path recipe, const std::vector<std::string>& settings,
                     const std::filesystem::path& folder);
 
-void import_and_write(const ImportRequest& request, const std::filesystem::path& folder);
+/// @param replace  whether a case of that folder is written over, with what an expert has added to it
+void import_and_write(ImportRequest request, const std::filesystem::path& folder, bool replace);
 
 /// A moment of a recorded log.
 struct RecordedMoment {

@@ -87,8 +87,12 @@ void make_and_write(std::filesystem::path recipe, const std::vector<std::string>
   write_case(folder, subject);
 }
 
-void import_and_write(const ImportRequest& request, const std::filesystem::path& folder) {
+void import_and_write(ImportRequest request, const std::filesystem::path& folder, bool replace) {
   check_case_can_be_written(folder);
+  if (!replace && std::filesystem::exists(folder / "case.toml"))
+    throw InputError(folder.string(), "", "there is a case already, with the views that were added to it",
+                     "name another folder, or give --replace to write over it");
+  if (request.name.empty()) request.name = std::filesystem::absolute(folder / "").parent_path().filename().string();
   const TissueTable tissues = read_tissue_table(assets_folder() / "tissues.toml");
   ImportedCase imported;
   {

@@ -42,7 +42,9 @@ int main(int argc, char** argv) {
                    "TotalSegmentator's output: one file of many labels, or a folder of a mask for each structure")
       ->required();
   import->add_option("--out", imported_folder, "The case folder to write")->required();
-  import->add_option("--name", request.name, "What people see it called (the CT's file name)");
+  bool replace = false;
+  import->add_flag("--replace", replace, "Write over a case of that folder, with the views that were added to it");
+  import->add_option("--name", request.name, "What people see it called (the case folder's name)");
   import->add_option("--label-table", request.label_table,
                      "The standard table that a file of many labels follows, instead of its header's: total "
                      "(TotalSegmentator 2) or total_v1");
@@ -74,7 +76,7 @@ int main(int argc, char** argv) {
     if (inspect_command->parsed())
       inspect(path, json);
     else if (import->parsed())
-      import_and_write(request, imported_folder);
+      import_and_write(request, imported_folder, replace);
     else if (add_view->parsed())
       add_recorded_view(case_folder, view, pose_file, moment);
     else

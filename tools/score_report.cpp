@@ -22,12 +22,16 @@ int report(const Given& given) {
     throw InputError("command line", "--home-page", "'" + given.home_page + "' is no web address",
                      "give one like https://lab.example/learners");
   ResultsDatabase database = ResultsDatabase::open(given.database);
-  for (const std::int64_t number : chosen_attempts(database, given.attempt)) {
-    const Attempt attempt = database.read(number);
-    const std::filesystem::path folder = given.out / ("attempt-" + std::to_string(number));
-    std::printf("wrote %s\n", write_report_files(folder, attempt, given.home_page).report.c_str());
-  }
-  return 0;
+  bool all = true;
+  for (const std::int64_t number : chosen_attempts(database, given.attempt)) try {
+      const Attempt attempt = database.read(number);
+      const std::filesystem::path folder = given.out / ("attempt-" + std::to_string(number));
+      std::printf("wrote %s\n", write_report_files(folder, attempt, given.home_page).report.c_str());
+    } catch (const InputError& error) {  // one that is damaged does not keep the others from theirs
+      std::fprintf(stderr, "insonate-score: %s\n", error.what());
+      all = false;
+    }
+  return all ? 0 : 2;
 }
 
 }  // namespace

@@ -63,7 +63,7 @@ ImportedCase import_case(const ImportRequest& request, const TissueTable& tissue
   tell(0);
   ImportedCase made;
   Case& subject = made.subject;
-  subject.name = request.name.empty() ? request.ct.filename().string() : request.name;
+  subject.name = request.name.empty() ? "Patient" : request.name;
   subject.ct = read_at_working_spacing(request);
   tell(kCtRead);
   Segmentation segmentation = read_segmentation(request.labels, subject.ct.grid, request.label_table,

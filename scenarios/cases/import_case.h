@@ -15,7 +15,7 @@ struct ImportRequest {
   std::filesystem::path ct;      ///< whatever read_ct() reads
   std::filesystem::path labels;  ///< whatever read_segmentation() reads
   std::string label_table;       ///< for labels without names: see read_segmentation()
-  std::string name;              ///< of the case; the CT's file name when empty
+  std::string name;              ///< of the case; "Patient" when empty: a file's name may be a person's
 };
 
 struct ImportedCase {

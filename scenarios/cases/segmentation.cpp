@@ -96,6 +96,7 @@ std::string identifier(const std::string& file, const std::string& name) {
 Label label_of(const std::string& file, int value, const std::string& name, std::vector<std::string>& notes) {
   const std::string plain = identifier(file, name);
   const auto tissue = tissue_of_structure(plain);
+  if (finding_tissue(plain)) notes.push_back("The structure '" + name + "' is taken for a finding: " + *tissue + ".");
   if (!tissue) notes.push_back("The structure '" + name + "' is not known and counts as soft tissue.");
   return {std::uint8_t(value), plain, tissue.value_or("soft_tissue")};
 }

@@ -57,7 +57,6 @@ LabelNames numbered(std::string_view list) {
 // cortex; hollow organs are taken as filled with what a fasting patient has in them.
 constexpr std::array kTissues =
     std::to_array<std::pair<std::string_view, std::string_view>>({{"spleen", "spleen"},
-                                                                  {"kidney_cyst", "cyst"},
                                                                   {"kidney", "kidney_cortex"},
                                                                   {"gallbladder", "bile"},
                                                                   {"liver", "liver"},
@@ -106,7 +105,24 @@ constexpr std::array kTissues =
                                                                   {"brain", "soft_tissue"},
                                                                   {"face", "soft_tissue"}});
 
+// What is found in or beside an organ, by a part of its name: a cyst of the liver is drawn as a cyst.
+constexpr std::array kFindings = std::to_array<std::pair<std::string_view, std::string_view>>({{"cyst", "cyst"},
+                                                                                               {"stone", "stone"},
+                                                                                               {"calcul", "stone"},
+                                                                                               {"lith", "stone"},
+                                                                                               {"fluid", "fluid"},
+                                                                                               {"ascites", "fluid"},
+                                                                                               {"effusion", "fluid"},
+                                                                                               {"haemato", "blood"},
+                                                                                               {"hemato", "blood"}});
+
 }  // namespace
+
+std::optional<std::string> finding_tissue(std::string_view structure) {
+  for (const auto& [part, tissue] : kFindings)
+    if (structure.find(part) != std::string_view::npos) return std::string(tissue);
+  return std::nullopt;
+}
 
 std::optional<LabelNames> standard_label_table(std::string_view name) {
   if (name == "total") return numbered(kTotal);
@@ -119,6 +135,7 @@ std::vector<std::string> standard_label_tables() {
 }
 
 std::optional<std::string> tissue_of_structure(std::string_view structure) {
+  if (const auto finding = finding_tissue(structure)) return finding;
   for (const auto& [beginning, tissue] : kTissues)
     if (structure.starts_with(beginning)) return std::string(tissue);
   return std::nullopt;

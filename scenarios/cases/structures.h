@@ -20,6 +20,10 @@ std::vector<std::string> standard_label_tables();
 /// lower case; nothing for a structure that is not known.
 std::optional<std::string> tissue_of_structure(std::string_view structure);
 
+/// The tissue of a finding in or beside an organ (a cyst, a stone, fluid, a haematoma), by a part of its name, whatever
+/// the organ: tissue_of_structure() looks here first. Nothing for any other name.
+std::optional<std::string> finding_tissue(std::string_view structure);
+
 /// A structure as people write it: "kidney_right" is "Right kidney".
 std::string title_of_structure(std::string_view structure);
 

@@ -32,18 +32,32 @@ std::string row(std::initializer_list<std::string> cells) {
 
 std::string score_csv(const Attempt& attempt, const ExamResult& result) {
   std::string csv =
-      "attempt,uuid,learner,finished,exam,exam_digest,percent,passed,step,title,metric,unit,value,full,zero,weight,"
-      "critical,points,why\r\n";
+      "attempt,uuid,learner,finished,exam,exam_digest,seed,variant,percent,passed,step,title,metric,unit,value,full,"
+      "zero,weight,critical,points,why\r\n";
   const bool kept = attempt.number > 0;
   for (const Measured& m : measured(result)) {
     const auto of_mark = [&](double Mark::*field) { return m.mark ? number(m.mark->*field) : ""; };
-    csv += row({kept ? std::to_string(attempt.number) : "", attempt.uuid, kept ? as_cell(attempt.learner) : "",
-                kept ? utc_time(attempt.finished_ms) : "", as_cell(result.title), result.provenance.scenario_digest,
-                number(result.percent), result.passed ? "1" : "0", m.step ? std::to_string(*m.step + 1) : "",
-                m.step ? as_cell(result.steps[*m.step].title) : "", std::string(info(m.metric).name),
-                as_cell(info(m.metric).unit), m.value ? number(*m.value) : "", of_mark(&Mark::full),
-                of_mark(&Mark::zero), of_mark(&Mark::weight), m.mark ? (m.mark->critical ? "1" : "0") : "",
-                of_mark(&Mark::points), m.mark ? as_cell(m.mark->why) : ""});
+    csv += row({kept ? std::to_string(attempt.number) : "",
+                attempt.uuid,
+                kept ? as_cell(attempt.learner) : "",
+                kept ? utc_time(attempt.finished_ms) : "",
+                as_cell(result.title),
+                result.provenance.scenario_digest,
+                std::to_string(result.provenance.seed),
+                as_cell(result.provenance.variant),
+                number(result.percent),
+                result.passed ? "1" : "0",
+                m.step ? std::to_string(*m.step + 1) : "",
+                m.step ? as_cell(result.steps[*m.step].title) : "",
+                std::string(info(m.metric).name),
+                as_cell(info(m.metric).unit),
+                m.value ? number(*m.value) : "",
+                of_mark(&Mark::full),
+                of_mark(&Mark::zero),
+                of_mark(&Mark::weight),
+                m.mark ? (m.mark->critical ? "1" : "0") : "",
+                of_mark(&Mark::points),
+                m.mark ? as_cell(m.mark->why) : ""});
   }
   return csv;
 }

@@ -11,6 +11,7 @@ namespace insonate {
 /// the whole exam, so that the files of many attempts can be put one below the other. The columns:
 ///   attempt, uuid, learner, finished  of the attempt; empty for a score that is in no database
 ///   exam, exam_digest                 title and digest of the scenario
+///   seed, variant                     what was drawn of it; variant is empty where there are none
 ///   percent, passed                   of the whole attempt; passed is 1 or 0
 ///   step, title                       from 1, and its title; both empty for the whole exam
 ///   metric, unit, value               value is empty when it could not be measured

@@ -81,6 +81,10 @@ std::shared_ptr<const StepTask> Question::read(TableReader& table, const Step&) 
   } else {
     task->choices = table.texts("choices", 10);
     if (task->choices.size() == 1) table.problem(table.place("choices"), "has one choice", "offer two or more");
+    std::vector<std::string> sorted = task->choices;
+    std::sort(sorted.begin(), sorted.end());
+    if (const auto twice = std::adjacent_find(sorted.begin(), sorted.end()); twice != sorted.end())
+      table.problem(table.place("choices"), "offers '" + *twice + "' twice", "write each choice once");
     task->findings = table.texts("finding", 20, false);
     task->finding_place = table.place("finding");
     if (task->findings.empty()) {
@@ -88,6 +92,9 @@ std::shared_ptr<const StepTask> Question::read(TableReader& table, const Step&) 
     } else {
       task->if_present = choice_of(table, "if_present", task->choices);
       task->if_absent = choice_of(table, "if_absent", task->choices);
+      if (!task->if_present.empty() && task->if_present == task->if_absent)
+        table.problem(table.place("if_absent"), "has the same right answer with the finding as without",
+                      "give another one");
     }
   }
   return task;

@@ -285,13 +285,36 @@ TEST_CASE("where the order is free the learner turns to any step, and a step's l
   const ExamResult result = scored(exam, 9, {{2.0, {go_to("two")}}, {3.0, {answer("a")}}});
   CHECK(result.steps[1].start_s == 2);
   CHECK(result.steps[1].marks[0].points == 1);
-  CHECK(result.steps[0].start_s == 3);
+  CHECK(result.steps[0].start_s == 0);
+  CHECK(result.steps[0].motion.time_s == 3);
   CHECK(result.steps[0].outcome == StepOutcome::timed_out);
   CHECK(result.steps[0].end_s == 4);  // two of its three seconds were spent before
   // In a fixed order there is no turning.
   const Scenario fixed_order = exam_of(step("question", "name = \"one\"\n" + question, "answer_right_percent") +
                                        step("question", "name = \"two\"\n" + question, "answer_right_percent"));
   CHECK(scored(fixed_order, 9, {{2.0, {go_to("two"), answer("a")}}}).steps[0].marks[0].points == 1);
+}
+
+TEST_CASE("who turns away from a step and comes back has made its way and taken its time all the same") {
+  const Scenario exam =
+      exam_of(step("free_scan", "name = \"one\"", "path_length_mm", "full = 10\nzero = 100") +
+                  step("question", "name = \"two\"\nchoices = [\"a\", \"b\"]\nright = \"a\"", "answer_right_percent"),
+              "order = \"free\"\n");
+  const auto go_to = [](const char* name) { return Action{ActionKind::go_to, {}, name}; };
+  const auto to_and_fro = [](double t) { return at_z(20 * std::sin(3 * t)); };
+  const auto scan = [&](ActionLog actions) {
+    actions[5.0].push_back(kGoOn);
+    return scored(exam, 6, actions, to_and_fro).steps[0];
+  };
+  const StepResult straight = scan({}), detour = scan({{4.0, {go_to("two"), go_to("one")}}});
+  CHECK(detour.start_s == straight.start_s);
+  CHECK(detour.motion.time_s == Approx(straight.motion.time_s));
+  // What lies between the sample before a turn and the one behind it is no step's: at most 60 mm/s for 0.1 s.
+  CHECK(detour.motion.path_length_mm == Approx(straight.motion.path_length_mm).margin(6));
+  CHECK(detour.motion.tracked_s == Approx(straight.motion.tracked_s));
+  CHECK(detour.marks[0].points == Approx(straight.marks[0].points).margin(1e-9));
+  REQUIRE(straight.motion.log_dimensionless_jerk);
+  CHECK(*detour.motion.log_dimensionless_jerk <= *straight.motion.log_dimensionless_jerk + 1);
 }
 
 TEST_CASE("a seed draws a variant, which spells out the steps and is kept in the result") {

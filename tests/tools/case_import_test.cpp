@@ -74,6 +74,21 @@ TEST_CASE("insonate-case import makes a case with named targets, landmarks and v
   CHECK(made.find_view("kidney_right_long")->landmarks.size() == 3);
 }
 
+TEST_CASE("a case with an expert's view is written over only when that is asked for") {
+  const Lab lab;
+  REQUIRE(lab.run(lab.import("--label-table total")).code == 0);
+  CHECK(read_case(lab.out).name == std::filesystem::path(lab.out).filename());
+  ReferenceView expert = read_case(lab.out).views.front();
+  expert.name = "expert";
+  append_view(lab.out, expert);
+  const Outcome again = lab.run(lab.import("--label-table total"));
+  CHECK(again.code == 2);
+  CHECK(contains(again.errors, "there is a case already"));
+  CHECK(read_case(lab.out).find_view("expert"));
+  REQUIRE(lab.run(lab.import("--label-table total --replace")).code == 0);
+  CHECK_FALSE(read_case(lab.out).find_view("expert"));
+}
+
 TEST_CASE("insonate-case import refuses in a sentence what it cannot use, and writes nothing") {
   const Lab lab;
   const auto refused = [&](const std::string& arguments, const std::string& words) {

@@ -79,6 +79,13 @@ TEST_CASE("every structure of the standard tables has a tissue of the tissue tab
   CHECK(tissue_of_structure("kidney_cyst_left") == "cyst");
   CHECK(tissue_of_structure("kidney_left") == "kidney_cortex");
   CHECK_FALSE(tissue_of_structure("wormhole"));
+  // A finding is not drawn as its organ.
+  CHECK(tissue_of_structure("liver_cyst") == "cyst");
+  CHECK(tissue_of_structure("kidney_stone_left") == "stone");
+  CHECK(tissue_of_structure("gallstone") == "stone");
+  CHECK(tissue_of_structure("gallbladder_calculus") == "stone");
+  CHECK(tissue_of_structure("free_fluid") == "fluid");
+  CHECK(tissue_of_structure("spleen_haematoma") == "blood");
   CHECK(title_of_structure("kidney_right") == "Right kidney");
   CHECK(title_of_structure("inferior_vena_cava") == "Inferior vena cava");
 }

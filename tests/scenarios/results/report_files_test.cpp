@@ -83,6 +83,8 @@ TEST_CASE("the table has a row for each metric, and its numbers are the result's
     for (std::size_t c = 0; c < head.size(); ++c) row[head[c]] = rows[r][c];
     CHECK(row["attempt"] == "12");
     CHECK(row["learner"] == "L-07");
+    CHECK(row["seed"] == std::to_string(exam.result.provenance.seed));
+    CHECK(row["variant"] == exam.result.provenance.variant);
     CHECK(std::stod(row["percent"]) == exam.result.percent);
     CHECK(found.emplace(row["step"] + " " + row["metric"], row).second);
   }
@@ -105,7 +107,7 @@ TEST_CASE("text in the table is text to a spreadsheet") {
   exam.result.steps[0].title = "a \"b\", c";
   const auto rows = cells_of(score_csv(kept_attempt(exam), exam.result));
   CHECK(rows[1][4] == "'=HYPERLINK(\"http://x\")");
-  CHECK(rows[1][9] == "a \"b\", c");
+  CHECK(rows[1][11] == "a \"b\", c");
 }
 
 TEST_CASE("statements tell a learning record store of an attempt") {
