@@ -2,7 +2,7 @@
 // An invocation a line walks from the face into the depth, because the intensity at a sample depends on all before it.
 // Fetches from the volume are what it costs, so it makes as few as the sampling allows. What it writes has a row a line:
 // invocations that each walk along a row stay in the processor's cache, a column each would touch a page a step. It goes
-// to a buffer, as what all stages hand on: a software renderer takes ten times as long to store it in an image.
+// to a buffer, as what all stages hand on: a software renderer takes several times as long to store in an image.
 
 layout(local_size_x = 8) in;
 
