@@ -26,8 +26,19 @@ std::vector<std::string> Guide::names(const Study& study) const {
   return names;
 }
 
+/// The view that the step under way asks for; empty when it asks for none, nullptr when there is no step under way.
+const std::string* Guide::view_of_step(const Session& session) {
+  const Runner* runner = session.runner();
+  if (!runner || runner->live().finished) return nullptr;
+  return &runner->scenario().steps[runner->live().step].view;
+}
+
 void Guide::next(const Session& session) {
-  if (session.activity() == Activity::exam) return;
+  if (session.strict()) return;
+  if (view_of_step(session)) {
+    in_run_ = !in_run_;
+    return;
+  }
   const std::vector<std::string> views = names(session.study());
   auto at = std::find(views.begin(), views.end(), view_);
   at = at == views.end() ? views.begin() : at + 1;
@@ -35,8 +46,10 @@ void Guide::next(const Session& session) {
 }
 
 std::optional<Guiding> Guide::now(const Session& session) const {
-  if (session.activity() == Activity::exam || view_.empty()) return std::nullopt;
-  const ReferenceView* view = find_view(session.study(), view_);
+  if (session.strict()) return std::nullopt;
+  const std::string* of_step = view_of_step(session);
+  if (of_step && !in_run_) return std::nullopt;
+  const ReferenceView* view = find_view(session.study(), of_step ? *of_step : view_);
   const std::optional<Pose>& pose = session.newest_pose();
   if (!view || !pose) return std::nullopt;
   Guiding guiding;

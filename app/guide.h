@@ -17,15 +17,15 @@ struct Guiding {
   bool there = false;
 };
 
-/// Help for practice, off until it is asked for: the way to one of the patient's reference views. There is none of it
-/// in an exam, whatever was asked for before.
+/// Help for practice, off until it is asked for: the way to one of the patient's reference views. While a scenario runs
+/// it leads to the view that the step asks for. There is none of it under strict rules.
 class Guide {
 public:
-  /// Turns to the next of the patient's views, those of the exam's steps first and those that were made since last, and
-  /// off behind the last one. Does nothing in an exam.
+  /// While a scenario runs: turns it on or off. Else turns to the next of the patient's views, those of the scenario's
+  /// steps first and those that were made since last, and off behind the last one.
   void next(const Session& session);
 
-  /// Empty in an exam, while it is off, and before the first pose.
+  /// Empty under strict rules, while it is off, when the step asks for no view, and before the first pose.
   std::optional<Guiding> now(const Session& session) const;
 
   /// A view that was made of the patient after the case was read.
@@ -36,8 +36,10 @@ public:
 private:
   const ReferenceView* find_view(const Study& study, const std::string& name) const;
   std::vector<std::string> names(const Study& study) const;
+  static const std::string* view_of_step(const Session& session);
 
-  std::string view_;                 ///< empty: off
+  bool in_run_ = false;              ///< on while a scenario runs
+  std::string view_;                 ///< without one; empty: off
   std::vector<ReferenceView> made_;  ///< the case has none of their names
 };
 

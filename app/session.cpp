@@ -293,7 +293,9 @@ void Session::hand_in() {
 void Session::keep_result() {
   if (!runner_ || result_ || !runner_->live().finished) return;
   result_ = runner_->result();
+  result_->provenance.mode = strict() ? AttemptMode::exam : AttemptMode::practice;
   if (const Recording* recording = source().recording()) {
+    result_->provenance.mode = AttemptMode::recording;
     result_->provenance.log = recording->file;
     result_->provenance.log_digest = recording->digest;
     result_->provenance.log_transform = recording->transform;

@@ -187,6 +187,20 @@ std::string verdict(const ExamResult& result) {
   return html + overview(result) + "</div>\n";
 }
 
+/// What a reader has to know before he compares it with others.
+std::string kind_of_report(std::optional<AttemptMode> mode) {
+  if (!mode) return "Score report";
+  switch (*mode) {
+    case AttemptMode::exam:
+      return "Score report of an exam";
+    case AttemptMode::practice:
+      return "Score report of practice, which does not count as an exam";
+    case AttemptMode::recording:
+      return "Score report of a recorded scan";
+  }
+  return "";
+}
+
 std::string whose(const ReportSubject& subject) {
   std::string rows;
   for (const auto& [name, value] :
@@ -221,8 +235,9 @@ std::string report_html(const ExamResult& result, std::span<const TracePoint> tr
       "<!doctype html>\n<html lang='en'><head><meta charset='utf-8'>"
       "<meta name='viewport' content='width=device-width, initial-scale=1'><title>" +
       escaped(result.title) + "</title><style>" + kReportStyle + "</style></head>\n<body><main>\n";
-  html += "<header><div><p class='quiet'>Score report</p><h1>" + escaped(result.title) + "</h1><p class='quiet'>" +
-          escaped(result.provenance.case_name) + "</p></div>" + whose(subject) + "</header>\n" + verdict(result);
+  html += "<header><div><p class='quiet'>" + kind_of_report(result.provenance.mode) + "</p><h1>" +
+          escaped(result.title) + "</h1><p class='quiet'>" + escaped(result.provenance.case_name) + "</p></div>" +
+          whose(subject) + "</header>\n" + verdict(result);
   for (std::size_t i = 0; i < result.steps.size(); ++i) html += section(result.steps[i], i, subject.pictures);
   html += "<section><h2>Whole exam</h2>" + table(result.marks) + "</section>\n";
   if (!trace.empty()) {

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "scenarios/attempt_mode.h"
 #include "scenarios/metric.h"
 #include "scenarios/motion_meter.h"
 #include "scenarios/view_meter.h"
@@ -73,8 +74,9 @@ struct StepResult {
 /// What a score was made from, so that it can be made again.
 struct Provenance {
   std::string program_version;
-  int scoring_version = 0;  ///< ExamResult::kScoringVersion of that program
-  std::string scenario;     ///< file name
+  int scoring_version = 0;          ///< ExamResult::kScoringVersion of that program
+  std::optional<AttemptMode> mode;  ///< empty when whoever kept the score did not say
+  std::string scenario;             ///< file name
   std::string scenario_digest;
   std::string case_name;
   std::string case_digest;

@@ -182,6 +182,12 @@ StepResult step_from(const Json& json) {
   return step;
 }
 
+AttemptMode mode_named(const std::string& name) {
+  const auto mode = find_attempt_mode(name);
+  if (!mode) throw std::runtime_error("an unknown mode");
+  return *mode;
+}
+
 ExamResult result_from(const Json& json) {
   if (json.at("format") != kFormat) throw std::runtime_error("a format that this program does not read");
   ExamResult result;
@@ -201,6 +207,7 @@ ExamResult result_from(const Json& json) {
   each_field_of_provenance(result.provenance,
                            [&](const char* key, std::string& value) { made_from.at(key).get_to(value); });
   made_from.at("seed").get_to(result.provenance.seed);
+  if (made_from.contains("mode")) result.provenance.mode = mode_named(made_from["mode"].get<std::string>());
   for (const auto& [name, value] : made_from.at("phantom_options").items())
     result.provenance.phantom_options.emplace_back(name, value.get<std::string>());
   return result;
@@ -213,6 +220,7 @@ std::string to_json(const ExamResult& result) {
   each_field_of_provenance(result.provenance,
                            [&](const char* key, const std::string& value) { made_from[key] = value; });
   made_from["seed"] = result.provenance.seed;
+  if (result.provenance.mode) made_from["mode"] = name_of(result.provenance.mode);
   made_from["phantom_options"] = Json::object();
   for (const auto& [name, value] : result.provenance.phantom_options) made_from["phantom_options"][name] = value;
 

@@ -7,7 +7,7 @@
 
 namespace insonate {
 
-/// A result as JSON: `"format": 1`, keys spelled with their units, numbers with as many digits as bring back the same
+/// A result as JSON: `"format": 2`, keys spelled with their units, numbers with as many digits as bring back the same
 /// double. Made for programs; people get the report.
 std::string to_json(const ExamResult& result);
 

@@ -104,7 +104,7 @@ public:
   /// As the actions have set it.
   const Machine& machine() const { return machine_; }
 
-  /// The marks of all steps that ended; complete when the exam is finished. Provenance lacks the log.
+  /// The marks of all steps that ended; complete when the exam is finished. Provenance lacks the mode and the log.
   ExamResult result() const;
 
 private:

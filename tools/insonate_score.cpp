@@ -64,6 +64,7 @@ int score(const Arguments& given) {
   runner.feed(scan.samples, parse_action_log(scan.recording.actions, given.log.string()));
   runner.end();
   ExamResult result = runner.result();
+  result.provenance.mode = AttemptMode::recording;
   result.provenance.log = scan.recording.file;
   result.provenance.log_digest = scan.recording.digest;
   result.provenance.log_transform = scan.recording.transform;

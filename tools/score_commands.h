@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "scenarios/results/results_database.h"
@@ -21,6 +22,12 @@ void add_list_commands(CLI::App& arguments, CommandRun& run);
 void add_pass_mark_command(CLI::App& arguments, CommandRun& run);
 void add_report_command(CLI::App& arguments, CommandRun& run);
 void add_rescore_command(CLI::App& arguments, CommandRun& run);
+
+/// Declares --mode: what of the attempts is taken.
+inline CLI::Option* add_mode_option(CLI::App& command, std::string& mode, const std::string& meaning) {
+  return command.add_option("--mode", mode, meaning)
+      ->check(CLI::IsMember(std::vector<std::string>(kAttemptModes.begin(), kAttemptModes.end())));
+}
 
 /// The numbers of all attempts, or `only` that one when it is not 0.
 inline std::vector<std::int64_t> chosen_attempts(ResultsDatabase& database, std::int64_t only) {

@@ -33,7 +33,9 @@ Attempt scored(ResultsDatabase& database, const Sitting& sitting, AttemptCases& 
   }
   runner.feed(samples, parse_action_log(actions, name));
   runner.end();
-  Attempt attempt = attempt_of(runner, runner.result(), write_sequence(samples, actions));
+  ExamResult result = runner.result();
+  result.provenance.mode = AttemptMode::exam;
+  Attempt attempt = attempt_of(runner, result, write_sequence(samples, actions));
   attempt.learner = sitting.learner;
   attempt.finished_ms = sitting.kept_ms;
   attempt.patient = sitting.patient;

@@ -12,6 +12,7 @@ namespace {
 struct Listed {
   std::filesystem::path database;
   std::string learner;
+  std::string mode;  ///< empty: any
 };
 
 /// To the second: more would only widen the list.
@@ -21,11 +22,15 @@ std::string shown_time(std::int64_t since_1970_ms) {
 
 int list_attempts(const Listed& given) {
   ResultsDatabase database = ResultsDatabase::open(given.database);
-  std::printf("%7s  %-20s  %-20s  %-10s %9s  %s\n", "attempt", "learner", "finished", "", "percent", "scenario");
+  const auto mode = find_attempt_mode(given.mode);
+  std::printf("%7s  %-20s  %-20s  %-9s  %-10s %9s  %s\n", "attempt", "learner", "finished", "mode", "", "percent",
+              "scenario");
   for (const AttemptSummary& a : database.attempts())
-    if (given.learner.empty() || a.learner == given.learner)
-      std::printf("%7lld  %-20s  %-20s  %-10s %9.2f  %s\n", static_cast<long long>(a.number), a.learner.c_str(),
-                  shown_time(a.finished_ms).c_str(), a.passed ? "passed" : "not passed", a.percent, a.title.c_str());
+    if ((given.learner.empty() || a.learner == given.learner) && (!mode || a.mode == mode))
+      std::printf("%7lld  %-20s  %-20s  %-9s  %-10s %9.2f  %s\n", static_cast<long long>(a.number), a.learner.c_str(),
+                  shown_time(a.finished_ms).c_str(), name_of(a.mode).c_str(), a.passed ? "passed" : "not passed",
+                  a.percent, a.title.c_str());
+  if (mode && mode != AttemptMode::exam) return 0;
   for (const Sitting& s : database.sittings())
     if (given.learner.empty() || s.learner == given.learner)
       std::printf("sitting %lld of %s, begun %s, is not handed in: %s\n", static_cast<long long>(s.number),
@@ -35,7 +40,7 @@ int list_attempts(const Listed& given) {
 
 int list_learners(const Listed& given) {
   std::printf("%-20s  %8s  %6s  %12s  %s\n", "learner", "attempts", "passed", "best percent", "last attempt");
-  for (const LearnerSummary& l : ResultsDatabase::open(given.database).learners())
+  for (const LearnerSummary& l : ResultsDatabase::open(given.database).learners(find_attempt_mode(given.mode)))
     std::printf("%-20s  %8d  %6d  %12.2f  %s\n", l.id.c_str(), l.attempts, l.passed, l.best_percent,
                 shown_time(l.last_ms).c_str());
   return 0;
@@ -48,10 +53,12 @@ void add_list_commands(CLI::App& arguments, CommandRun& run) {
   CLI::App* attempts = arguments.add_subcommand("attempts", "Lists the attempts in a database of results");
   attempts->add_option("database", given->database, "The database")->required();
   attempts->add_option("--learner", given->learner, "Only this learner's");
+  add_mode_option(*attempts, given->mode, "Only exams that counted, practice, or recorded scans");
   attempts->callback([given, &run] { run = [given] { return list_attempts(*given); }; });
 
   CLI::App* learners = arguments.add_subcommand("learners", "Lists the learners in a database of results");
   learners->add_option("database", given->database, "The database")->required();
+  add_mode_option(*learners, given->mode, "Counts only exams that counted, practice, or recorded scans");
   learners->callback([given, &run] { run = [given] { return list_learners(*given); }; });
 }
 

@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -20,6 +21,7 @@ struct Given {
   std::filesystem::path novices;
   std::filesystem::path experts;
   std::filesystem::path scenario;
+  std::string mode{name_of(AttemptMode::exam)};
 };
 
 using Ids = std::set<std::string>;
@@ -61,13 +63,21 @@ void print_misjudged(const char* name, const Misjudged& share) {
   std::printf("%s: %.1f %% observed, %.1f %% by the normal\n", name, share.observed_percent, share.theoretical_percent);
 }
 
+/// Those of one mode: with help, or the third time, people score otherwise than in an exam.
+std::vector<AttemptSummary> attempts_of(ResultsDatabase database, std::optional<AttemptMode> mode) {
+  std::vector<AttemptSummary> attempts = database.attempts();
+  std::erase_if(attempts, [&](const AttemptSummary& attempt) { return attempt.mode != mode; });
+  return attempts;
+}
+
 int pass_mark(const Given& given) {
   const Ids novices = ids_of(given.novices), experts = ids_of(given.experts);
   for (const std::string& id : novices)
     if (experts.contains(id))
       throw InputError(given.experts.string(), "", "'" + id + "' is a novice as well",
                        "let each learner be in one list");
-  const std::vector<AttemptSummary> attempts = ResultsDatabase::open(given.database).attempts();
+  const std::vector<AttemptSummary> attempts =
+      attempts_of(ResultsDatabase::open(given.database), find_attempt_mode(given.mode));
   const std::string exam = exam_of(given, attempts, novices, experts);
   try {
     const PassMark mark =
@@ -78,7 +88,8 @@ int pass_mark(const Given& given) {
     print_misjudged("false passes", mark.false_passes);
     print_misjudged("false fails", mark.false_fails);
   } catch (const std::domain_error& error) {
-    throw InputError(given.database.string(), "", error.what(), "let more learners of both groups take the exam");
+    throw InputError(given.database.string(), "", error.what(),
+                     "let more learners of both groups take the exam, or count other attempts with --mode");
   }
   return 0;
 }
@@ -90,12 +101,13 @@ void add_pass_mark_command(CLI::App& arguments, CommandRun& run) {
   CLI::App* command =
       arguments.add_subcommand("pass-mark",
                                "Says where a lab's own pass mark for an exam lies, by contrasting groups: where the "
-                               "normals through the scores of "
-                               "novices and of experts cross. Counts the first complete attempt of each learner");
+                               "normals through the scores of novices and of experts cross. Counts the first complete "
+                               "attempt of each learner");
   command->add_option("database", given->database, "The database")->required();
   command->add_option("--novices", given->novices, "Their ids: CSV with the header 'learner', or TOML")->required();
   command->add_option("--experts", given->experts, "Theirs")->required();
   command->add_option("--scenario", given->scenario, "The exam, when the groups took several: its very file");
+  add_mode_option(*command, given->mode, "What counts: exams, practice, or recorded scans")->capture_default_str();
   command->callback([given, &run] { run = [given] { return pass_mark(*given); }; });
 }
 

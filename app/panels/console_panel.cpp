@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <string>
+#include <utility>
 
 namespace insonate::ui {
 namespace {
@@ -99,11 +100,11 @@ ConsoleRequest draw_console_panel(const Theme& theme, const Rect& panel, Session
   const Rect first = lower.take_left((lower.w - between) / 2);
   lower.take_left(between);
   if (practising) {
-    if (button(theme, "exam", first, "Exam")) attempt([&] { session.start_over(); });
-  } else if (button(theme, "practice", first, "Practice", ButtonKind::normal,
+    if (button(theme, "exam", first, "Scored")) attempt([&] { session.start_over(); });
+  } else if (button(theme, "practice", first, "Unscored", ButtonKind::normal,
                     session.study().scenario.has_value() && !session.strict())) {
-    session.take_probe();
-    session.practise();
+    // Nobody leads the probe of a recorded scan.
+    std::as_const(session).source().recording() ? session.take_probe() : session.practise();
   }
   if (button(theme, "open", lower, "Open", ButtonKind::normal, !session.strict())) request = ConsoleRequest::open;
   return request;

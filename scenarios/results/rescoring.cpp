@@ -28,6 +28,7 @@ std::string first_difference(const std::string& then_json, const std::string& no
 std::string why_different(const std::string& score_json, ExamResult now, const std::string& name) {
   const Provenance then = result_from_json(score_json, name).provenance;
   now.provenance.program_version = then.program_version;
+  now.provenance.mode = then.mode;
   now.provenance.log = then.log;
   now.provenance.log_digest = then.log_digest;
   now.provenance.log_transform = then.log_transform;

@@ -78,7 +78,7 @@ void ResultsDatabase::add(Attempt& attempt, std::int64_t sitting) {
   sqlite::Statement insert(connection_,
                            "INSERT INTO attempt (uuid, learner, finished_ms, title, complete, percent, passed, "
                            "scenario_digest, scenario_file, scenario, patient, log_digest, log_size, log, trace_size, "
-                           "trace, score) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+                           "trace, score, mode) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   insert.bind(1, uuid).bind(2, attempt.learner).bind(3, attempt.finished_ms);
   insert.bind(4, result.title).bind(5, std::int64_t(result.complete)).bind(6, result.percent);
   insert.bind(7, std::int64_t(result.passed));
@@ -86,6 +86,7 @@ void ResultsDatabase::add(Attempt& attempt, std::int64_t sitting) {
   insert.bind(11, attempt.patient);
   insert.bind(12, digest_of(attempt.log)).bind(13, std::int64_t(attempt.log.size())).bind_bytes(14, log);
   insert.bind(15, std::int64_t(attempt.trace_json.size())).bind_bytes(16, trace).bind(17, attempt.score_json);
+  insert.bind(18, name_of(result.provenance.mode));
   insert.step();
   const std::int64_t number = connection_.last_row();
   for (const ReportPicture& picture : attempt.pictures)
@@ -148,19 +149,20 @@ Attempt ResultsDatabase::read(std::int64_t number) {
 std::vector<AttemptSummary> ResultsDatabase::attempts() {
   std::vector<AttemptSummary> list;
   sqlite::Statement row(connection_,
-                        "SELECT number, learner, finished_ms, title, scenario_digest, complete, percent, passed "
+                        "SELECT number, learner, mode, finished_ms, title, scenario_digest, complete, percent, passed "
                         "FROM attempt ORDER BY number");
   while (row.step())
-    list.push_back({row.integer(0), row.text(1), row.integer(2), row.text(3), row.text(4), row.integer(5) != 0,
-                    row.real(6), row.integer(7) != 0});
+    list.push_back({row.integer(0), row.text(1), find_attempt_mode(row.text(2)), row.integer(3), row.text(4),
+                    row.text(5), row.integer(6) != 0, row.real(7), row.integer(8) != 0});
   return list;
 }
 
-std::vector<LearnerSummary> ResultsDatabase::learners() {
+std::vector<LearnerSummary> ResultsDatabase::learners(std::optional<AttemptMode> mode) {
   std::vector<LearnerSummary> list;
   sqlite::Statement row(connection_,
                         "SELECT learner, count(*), sum(passed), max(percent), max(finished_ms) FROM attempt "
-                        "GROUP BY learner ORDER BY learner");
+                        "WHERE ?1 IN ('', mode) GROUP BY learner ORDER BY learner");
+  row.bind(1, name_of(mode));
   while (row.step())
     list.push_back({row.text(0), int(row.integer(1)), int(row.integer(2)), row.real(3), row.integer(4)});
   return list;

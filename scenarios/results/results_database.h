@@ -16,6 +16,7 @@ namespace insonate {
 struct AttemptSummary {
   std::int64_t number = 0;
   std::string learner;
+  std::optional<AttemptMode> mode;  ///< empty when it was kept by a version that did not say
   std::int64_t finished_ms = 0;
   std::string title;  ///< of the scenario
   std::string scenario_digest;
@@ -55,10 +56,11 @@ public:
 
   /// In the order in which they were added.
   std::vector<AttemptSummary> attempts();
-  /// In the order of their ids.
-  std::vector<LearnerSummary> learners();
+  /// In the order of their ids. @param mode  only of attempts of this mode; empty: of all
+  std::vector<LearnerSummary> learners(std::optional<AttemptMode> mode = {});
 
-  /// Throws ExamTaken when this learner has an attempt at this very exam, or a sitting.
+  /// Throws ExamTaken when this learner has taken this very exam so that it counted, or has a sitting. An attempt that
+  /// does not say its mode may have counted, and is taken to have.
   void check_not_taken(const std::string& learner, const std::string& scenario_digest);
   /// Keeps that an exam begins now, with the first part of its log, and sets its number, digest and times. Throws what
   /// check_not_taken() throws, and InputError when the learner's id is none.

@@ -77,6 +77,10 @@ CREATE TABLE sitting_part (
   log BLOB NOT NULL,
   PRIMARY KEY (sitting, part)
 ) STRICT;
+)sql",
+                            R"sql(
+-- Out of the score: 'exam', 'practice' or 'recording'; '' of attempts from before.
+ALTER TABLE attempt ADD COLUMN mode TEXT NOT NULL DEFAULT '';
 )sql"};
 
 struct Header {

@@ -27,7 +27,8 @@ void ResultsDatabase::check_not_taken(const std::string& learner, const std::str
     return row.step() ? std::optional(std::pair(row.integer(0), row.integer(1))) : std::nullopt;
   };
   const std::string who = "learner '" + learner + "'";
-  if (const auto taken = found("SELECT number, 0 FROM attempt WHERE learner = ? AND scenario_digest = ?"))
+  if (const auto taken =
+          found("SELECT number, 0 FROM attempt WHERE learner = ? AND scenario_digest = ? AND mode IN ('exam', '')"))
     throw ExamTaken(who, "", "the exam has been taken already, as attempt " + std::to_string(taken->first),
                     "start another exam, or practise without --exam");
   if (const auto begun = found("SELECT number, began_ms FROM sitting WHERE learner = ? AND scenario_digest = ?"))

@@ -32,7 +32,8 @@ std::string row(std::initializer_list<std::string> cells) {
 
 std::string score_csv(const Attempt& attempt, const ExamResult& result) {
   std::string csv =
-      "attempt,uuid,learner,finished,exam,exam_digest,seed,variant,percent,passed,step,title,metric,unit,value,full,"
+      "attempt,uuid,learner,finished,mode,exam,exam_digest,seed,variant,percent,passed,step,title,metric,unit,value,"
+      "full,"
       "zero,weight,critical,points,why\r\n";
   const bool kept = attempt.number > 0;
   for (const Measured& m : measured(result)) {
@@ -41,6 +42,7 @@ std::string score_csv(const Attempt& attempt, const ExamResult& result) {
                 attempt.uuid,
                 kept ? as_cell(attempt.learner) : "",
                 kept ? utc_time(attempt.finished_ms) : "",
+                name_of(result.provenance.mode),
                 as_cell(result.title),
                 result.provenance.scenario_digest,
                 std::to_string(result.provenance.seed),

@@ -10,6 +10,7 @@ namespace insonate {
 /// A result as CSV (RFC 4180, UTF-8, decimal points): a header line, then a row for each metric of each step and of
 /// the whole exam, so that the files of many attempts can be put one below the other. The columns:
 ///   attempt, uuid, learner, finished  of the attempt; empty for a score that is in no database
+///   mode                              "exam", "practice" or "recording" (attempt_mode.h); empty when nobody said
 ///   exam, exam_digest                 title and digest of the scenario
 ///   seed, variant                     what was drawn of it; variant is empty where there are none
 ///   percent, passed                   of the whole attempt; passed is 1 or 0

@@ -54,12 +54,13 @@ std::string xapi_statements(const Attempt& attempt, const ExamResult& result, co
       {"objectType", "Activity"},
       {"id", kOwn + "scenarios/" + result.provenance.scenario_digest},
       {"definition", {{"name", {{"en", result.title}}}, {"type", "http://adlnet.gov/expapi/activities/assessment"}}}};
+  Json extensions = {{kOwn + "extensions/case_digest", result.provenance.case_digest},
+                     {kOwn + "extensions/scoring_version", result.provenance.scoring_version}};
+  if (result.provenance.mode) extensions[kOwn + "extensions/mode"] = name_of(result.provenance.mode);
   const Json context = {{"registration", attempt.uuid},
                         {"platform", "Insonate " + result.provenance.program_version},
                         {"language", "en"},
-                        {"extensions",
-                         {{kOwn + "extensions/case_digest", result.provenance.case_digest},
-                          {kOwn + "extensions/scoring_version", result.provenance.scoring_version}}}};
+                        {"extensions", extensions}};
   const std::int64_t start_ms = attempt.finished_ms - std::llround(1000 * result.motion.time_s);
 
   Json statements = Json::array();

@@ -14,7 +14,10 @@ std::shared_ptr<const Study> tiny_study() {
   study->subject = tiny_case();
   std::swap(study->subject.views[0], study->subject.views[1]);  // the exam's view is not the case's first
   study->tissues = tiny_tissues();
-  study->scenario = parse_scenario(kTinyScenario, "exam.toml");
+  std::string two_views = kTinyScenario;
+  const std::string view = "view = \"ball\"";
+  two_views.replace(two_views.rfind(view), view.size(), "view = \"bare\"");
+  study->scenario = parse_scenario(two_views, "exam.toml");
   study->surroundings.start.translation = {0, 0, -40};
   return study;
 }
@@ -63,23 +66,44 @@ TEST_CASE("in practice the guide leads to one view after the other, those of the
   CHECK_FALSE(guide.now(session));
 }
 
-TEST_CASE("an exam has no guide, whatever was asked for before") {
+TEST_CASE("while a scenario is practised the guide leads to the view of the step under way") {
   const auto study = tiny_study();
   Session session = by_hand(study);
   session.advance(0);
   session.advance(0.1);
   Guide guide;
+  CHECK_FALSE(guide.now(session));
+  guide.next(session);
+  REQUIRE(guide.now(session));
+  CHECK(guide.now(session)->view->name == "ball");
   guide.next(session);
   CHECK_FALSE(guide.now(session));
-  session.practise();
-  session.advance(0.2);
-  CHECK_FALSE(guide.now(session));  // what was asked for in the exam was not heard
   guide.next(session);
-  CHECK(guide.now(session));
-  session.start_over();
+
+  INFO("the next step's view is another");
+  session.act({ActionKind::go_on});
+  session.advance(0.2);
+  REQUIRE(session.runner()->live().step == 1);
+  REQUIRE(guide.now(session));
+  CHECK(guide.now(session)->view->name == "bare");
+
+  INFO("what is chosen without a scenario is another thing");
+  session.practise();
   session.advance(0.3);
-  session.advance(0.4);
-  REQUIRE(session.activity() == Activity::exam);
+  CHECK_FALSE(guide.now(session));
+}
+
+TEST_CASE("under strict rules there is no guide, not even after the exam") {
+  const auto study = tiny_study();
+  Session session(
+      study, [study] { return std::make_unique<MouseTracker>(study->surroundings.start); }, 0, ExamRules::strict);
+  session.advance(0);
+  session.advance(0.1);
   REQUIRE(session.newest_pose());
+  Guide guide;
+  guide.next(session);
+  CHECK_FALSE(guide.now(session));
+  session.hand_in();
+  guide.next(session);
   CHECK_FALSE(guide.now(session));
 }

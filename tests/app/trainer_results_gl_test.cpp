@@ -159,6 +159,18 @@ TEST_CASE("an exam that counts is kept once for a learner, with the seed that dr
     trainer.finish_loading();
   };
   {
+    INFO("who has practised it may take it");
+    options.exam = false;
+    Trainer trainer(options);
+    start(trainer);
+    for (int i = 0; i < 1000 && !trainer.result_files(); ++i) {
+      trainer.update(i / 30.0);
+      trainer.write_results_if_due();
+    }
+    REQUIRE(trainer.result_files());
+    options.exam = true;
+  }
+  {
     Trainer trainer(options);
     start(trainer);
     REQUIRE(trainer.session());
@@ -190,20 +202,22 @@ TEST_CASE("an exam that counts is kept once for a learner, with the seed that dr
     CHECK(trainer.problems().size() == 1);
   }
   ResultsDatabase database = ResultsDatabase::open(options.results);
-  REQUIRE(database.attempts().size() == 1);
-  CHECK(database.attempts()[0].learner == "L-07");
-  CHECK(database.attempts()[0].complete);
+  REQUIRE(database.attempts().size() == 2);
+  CHECK(database.attempts()[1].learner == "L-07");
+  CHECK(database.attempts()[1].complete);
+  CHECK(database.attempts()[0].mode == AttemptMode::practice);
+  CHECK(database.attempts()[1].mode == AttemptMode::exam);
   const auto seed_of = [&](std::int64_t number) {
     return result_from_json(database.read(number).score_json, "an attempt").provenance.seed;
   };
-  CHECK(seed_of(1) != 0);  // drawn out of 2^32
+  CHECK(seed_of(2) != 0);  // drawn out of 2^32
   {
     Trainer again(options);
     start(again);
     CHECK_FALSE(again.session());
     CHECK_FALSE(again.loading());
     REQUIRE(again.problems().size() == 1);
-    CHECK(again.problems().front().find("as attempt 1") != std::string::npos);
+    CHECK(again.problems().front().find("as attempt 2") != std::string::npos);
   }
   options.learner = "L-08";
   options.seed = 5;
@@ -214,8 +228,8 @@ TEST_CASE("an exam that counts is kept once for a learner, with the seed that dr
     for (int i = 0; i < 5; ++i) other.update(i / 30.0);
     other.hand_in_exam();
   }
-  REQUIRE(database.attempts().size() == 2);
-  CHECK(seed_of(2) == 5);
+  REQUIRE(database.attempts().size() == 3);
+  CHECK(seed_of(3) == 5);
 
   INFO("a recorded scan is nobody's exam");
   options.learner = "L-09";

@@ -52,6 +52,22 @@ TEST_CASE("a result goes to JSON and back without losing a bit") {
   }
 }
 
+TEST_CASE("a result keeps how it came about, and one that does not say reads as before") {
+  ExamResult result = scan(1).result;
+  CHECK(to_json(result).find("\"mode\"") == std::string::npos);
+  CHECK(result_from_json(to_json(result), "x").provenance.mode == std::nullopt);
+  for (const auto& [mode, words] : {std::pair{AttemptMode::exam, "report of an exam<"},
+                                    {AttemptMode::practice, "report of practice, which does not count as an exam<"},
+                                    {AttemptMode::recording, "report of a recorded scan<"}}) {
+    result.provenance.mode = mode;
+    CHECK(result_from_json(to_json(result), "x").provenance.mode == mode);
+    CHECK(report_html(result, {}).find(words) != std::string::npos);
+  }
+  std::string other = to_json(result);
+  other.replace(other.find("\"recording\""), 11, "\"cramming\"");
+  CHECK_THROWS_AS(result_from_json(other, "x"), InputError);
+}
+
 TEST_CASE("a result of another scoring version reads, and says so") {
   ExamResult result = scan(1).result;
   CHECK(result.provenance.scoring_version == ExamResult::kScoringVersion);

@@ -7,6 +7,7 @@
 #include "devices/replay/read_log.h"
 #include "scenarios/result_json.h"
 #include "scenarios/results/results_database.h"
+#include "scenarios/results/trace_json.h"
 #include "scenarios/runner.h"
 #include "sim/core/digest.h"
 #include "sim/core/files.h"
@@ -75,6 +76,7 @@ TEST_CASE("insonate-score prints the very score that the trainer comes to, and a
   for (const PoseSample& sample : read_recorded_scan(log).samples) runner.feed(sample);
   runner.end();
   ExamResult expected = runner.result();
+  expected.provenance.mode = AttemptMode::recording;
   expected.provenance.log = "ruq_poor.igs.mha";
   expected.provenance.log_digest = digest_of(read_file(log));
   expected.provenance.log_transform = "ProbeToTracker";
@@ -204,7 +206,10 @@ TEST_CASE(
   CHECK(attempts.find("L-good") < attempts.find("L-poor"));
   CHECK(attempts.find(" passed ") < attempts.find("not passed"));
   CHECK(run(folder, "attempts " + database + " --learner L-poor").output.find("L-good") == std::string::npos);
+  CHECK(attempts.find(" recording ") != std::string::npos);
+  CHECK(run(folder, "attempts " + database + " --mode exam").output.find("L-") == std::string::npos);
   CHECK(run(folder, "learners " + database).output.find("L-poor") != std::string::npos);
+  CHECK(run(folder, "learners " + database + " --mode exam").output.find("L-poor") == std::string::npos);
 
   const Outcome again = run(folder, "rescore " + database);
   INFO(again.output << again.errors);
@@ -231,12 +236,34 @@ TEST_CASE(
   CHECK(different.output.find("attempt 4: passed: false then, true now\n") != std::string::npos);
 }
 
+TEST_CASE("insonate-score makes the other reports when an attempt is damaged") {
+  const Folder folder;
+  const std::string database = (folder.path / "lab.db").string();
+  for (int i = 0; i < 3; ++i) {
+    Attempt attempt;
+    attempt.learner = "L-01";
+    attempt.score_json = to_json(ExamResult());
+    attempt.trace_json = to_json(std::vector<TracePoint>());
+    ResultsDatabase::open_or_make(database).add(attempt);
+  }
+  sqlite::Connection(database, false).run("UPDATE attempt SET log_digest = 'x' WHERE number = 2");
+  const Outcome outcome = run(folder, "report " + database + " --out " + (folder.path / "reports").string());
+  INFO(outcome.errors);
+  CHECK(outcome.code == 2);
+  CHECK(outcome.errors.find("attempt 2: its log is damaged") != std::string::npos);
+  for (const int number : {1, 2, 3})
+    CHECK(std::filesystem::exists(folder.path / ("reports/attempt-" + std::to_string(number)) / "report.html") ==
+          (number != 2));
+}
+
 TEST_CASE("insonate-score sets a pass mark from two lists of learners") {
   const Folder folder;
   const std::string database = (folder.path / "lab.db").string();
   ResultsDatabase opened = ResultsDatabase::open_or_make(database);
-  const auto add = [&](const char* learner, double percent, const char* scenario = "exam") {
+  const auto add = [&](const char* learner, double percent, const char* scenario = "exam",
+                       AttemptMode mode = AttemptMode::exam) {
     ExamResult result;
+    result.provenance.mode = mode;
     result.complete = true;
     result.percent = percent;
     Attempt attempt;
@@ -245,7 +272,8 @@ TEST_CASE("insonate-score sets a pass mark from two lists of learners") {
     attempt.score_json = to_json(result);
     opened.add(attempt);
   };
-  // Means 40 and 80, equal deviations; the second attempt of a novice does not count.
+  // Means 40 and 80, equal deviations; neither practice nor the second attempt of a novice counts.
+  add("n1", 90, "exam", AttemptMode::practice);
   for (const auto& [learner, percent] : {std::pair{"n1", 10.0},
                                          {"n2", 40.0},
                                          {"n3", 70.0},
@@ -262,6 +290,10 @@ TEST_CASE("insonate-score sets a pass mark from two lists of learners") {
   CHECK(outcome.code == 0);
   CHECK(outcome.output.find("pass mark: 60.00 %\nnovices: 3 of 4 took it, mean 40.00 %") == 0);
   CHECK(outcome.output.find("false passes: 33.3 % observed, 25.2 % by the normal") != std::string::npos);
+
+  const Outcome practice = run(folder, "pass-mark " + database + lists + " --mode practice");
+  CHECK(practice.code == 2);
+  CHECK(practice.errors.find("fewer than two scores of novices") != std::string::npos);
 
   add("n4", 20, "another exam");
   const Outcome several = run(folder, "pass-mark " + database + lists);

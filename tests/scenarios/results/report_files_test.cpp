@@ -72,7 +72,8 @@ TEST_CASE("an attempt in no database has no statements, and removes those of ano
 }
 
 TEST_CASE("the table has a row for each metric, and its numbers are the result's") {
-  const TinyExam exam = tiny_exam(1.0 / 3);
+  TinyExam exam = tiny_exam(1.0 / 3);
+  exam.result.provenance.mode = AttemptMode::practice;
   const auto rows = cells_of(score_csv(kept_attempt(exam), exam.result));
   const std::vector<std::string>& head = rows.front();
   CHECK(rows.size() == 1 + measured(exam.result).size());
@@ -83,6 +84,7 @@ TEST_CASE("the table has a row for each metric, and its numbers are the result's
     for (std::size_t c = 0; c < head.size(); ++c) row[head[c]] = rows[r][c];
     CHECK(row["attempt"] == "12");
     CHECK(row["learner"] == "L-07");
+    CHECK(row["mode"] == "practice");
     CHECK(row["seed"] == std::to_string(exam.result.provenance.seed));
     CHECK(row["variant"] == exam.result.provenance.variant);
     CHECK(std::stod(row["percent"]) == exam.result.percent);
@@ -106,12 +108,13 @@ TEST_CASE("text in the table is text to a spreadsheet") {
   exam.result.title = "=HYPERLINK(\"http://x\")";
   exam.result.steps[0].title = "a \"b\", c";
   const auto rows = cells_of(score_csv(kept_attempt(exam), exam.result));
-  CHECK(rows[1][4] == "'=HYPERLINK(\"http://x\")");
-  CHECK(rows[1][11] == "a \"b\", c");
+  CHECK(rows[1][5] == "'=HYPERLINK(\"http://x\")");
+  CHECK(rows[1][12] == "a \"b\", c");
 }
 
 TEST_CASE("statements tell a learning record store of an attempt") {
-  const TinyExam good = tiny_exam(0);
+  TinyExam good = tiny_exam(0);
+  good.result.provenance.mode = AttemptMode::exam;
   const Attempt attempt = kept_attempt(good);
   const std::string text = xapi_statements(attempt, good.result, "");
   CHECK(text == xapi_statements(attempt, good.result, ""));
@@ -127,6 +130,7 @@ TEST_CASE("statements tell a learning record store of an attempt") {
     CHECK(statement.at("actor").at("account").at("homePage") ==
           "https://insonate.invalid/databases/" + std::string(32, 'd'));
     CHECK(statement.at("context").at("registration") == attempt.uuid);
+    CHECK(statement.at("context").at("extensions").at("https://insonate.invalid/extensions/mode") == "exam");
     CHECK(statement.at("object").at("definition").at("name").at("en") == "Find the ball");
   }
   const std::string adl = "http://adlnet.gov/expapi/verbs/";

@@ -14,6 +14,7 @@ TEST_CASE("a score is the same to the bit or it is said why not") {
   const std::string json = to_json(then);
   ExamResult now = then;
   now.provenance.program_version = "another";
+  now.provenance.mode = AttemptMode::exam;
   now.provenance.log = "elsewhere.igs.mha";
   CHECK(why_different(json, now, "x").empty());
 

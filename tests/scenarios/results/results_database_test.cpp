@@ -124,6 +124,29 @@ TEST_CASE("nobody takes an exam twice, at two stations, or once more when it has
   database.check();
 }
 
+TEST_CASE("only an exam that counted stands in the way of taking it") {
+  const ResultsFolder folder;
+  ResultsDatabase database = ResultsDatabase::open_or_make(folder / "results.db");
+  TinyExam exam = tiny_exam(0);
+  const auto add = [&](std::optional<AttemptMode> mode) {
+    exam.result.provenance.mode = mode;
+    exam.attempt.score_json = to_json(exam.result);
+    Attempt attempt = made_attempt("L-0" + std::to_string(database.attempts().size()), exam);
+    database.add(attempt);
+    CHECK(database.attempts().back().mode == mode);
+    return attempt.learner;
+  };
+  const std::string digest = exam.result.provenance.scenario_digest;
+  CHECK_NOTHROW(database.check_not_taken(add(AttemptMode::practice), digest));
+  CHECK_NOTHROW(database.check_not_taken(add(AttemptMode::recording), digest));
+  CHECK_THROWS_AS(database.check_not_taken(add(AttemptMode::exam), digest), ExamTaken);
+  CHECK_THROWS_AS(database.check_not_taken(add(std::nullopt), digest), ExamTaken);
+
+  CHECK(database.learners().size() == 4);
+  REQUIRE(database.learners(AttemptMode::practice).size() == 1);
+  CHECK(database.learners(AttemptMode::practice)[0].id == "L-00");
+}
+
 TEST_CASE("lists say who took what, and how it went") {
   const ResultsFolder folder;
   ResultsDatabase database = ResultsDatabase::open_or_make(folder / "results.db");

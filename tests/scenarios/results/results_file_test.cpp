@@ -146,6 +146,7 @@ TEST_CASE("a database of the first schema is brought up to date and keeps its at
   database.check();
   CHECK(database.read(5).learner == "L-01");
   CHECK(database.read(5).pictures.empty());
+  CHECK(database.attempts()[0].mode == std::nullopt);
   Attempt next = made_attempt("L-02", tiny_exam(0));
   database.add(next);
   CHECK(next.number == 6);
