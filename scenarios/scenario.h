@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -33,6 +34,7 @@ struct Criterion {
   double weight = 1;      ///< weight = 2: the points there are to earn, above 0 to 1000; default 1
   bool critical = false;  ///< critical = true: earning nothing here fails the exam, whatever the total; default false
   SourcePlace place;
+  bool sound = true;  ///< there is such a metric
 };
 
 class StepTask;
@@ -72,7 +74,7 @@ struct Step {
   std::string if_good, if_poor;
   std::vector<Criterion> criteria;       ///< none makes the step a warm-up that does not count
   std::shared_ptr<const StepTask> task;  ///< what this kind asks for; null only where `sound` is false
-  bool sound = true;                     ///< nothing is wrong with its table
+  bool sound = true;                     ///< nothing is wrong with its kind and with the keys of that
 };
 
 struct Scenario {
@@ -94,8 +96,10 @@ struct Scenario {
   /// `[phantom]`: options of the built-in phantom's recipe, by name (free_fluid = true); only with
   /// case = "abdomen".
   std::vector<std::pair<std::string, std::string>> phantom_options;
-  std::vector<Step> steps;          ///< 1 to 100
-  std::vector<Criterion> criteria;  ///< of the whole exam; may be empty
+  std::map<std::string, SourcePlace> option_places;  ///< by option
+  SourcePlace case_place;                            ///< of what names the case
+  std::vector<Step> steps;                           ///< 1 to 100
+  std::vector<Criterion> criteria;                   ///< of the whole exam; may be empty
 
   std::uint32_t seed = 0;      ///< draws one of the file's [[variant]] tables (variants.h)
   std::string variant;         ///< the name of the one that was drawn; empty when the file has none
@@ -116,16 +120,21 @@ struct ScenarioProblem {
 /// Thrown with every problem that a scenario has, in the order of the file; what() lists them all.
 class ScenarioError : public InputError {
 public:
-  ScenarioError(const std::string& file, std::vector<ScenarioProblem> problems,
-                std::shared_ptr<const Scenario> as_read = nullptr);
+  ScenarioError(const std::string& file, std::vector<ScenarioProblem> problems);
   const std::vector<ScenarioProblem>& problems() const { return problems_; }
-  /// What could be read of it all the same, for whoever can check more than its text; nullptr when that is nothing.
-  const Scenario* as_read() const { return as_read_.get(); }
 
 private:
   std::vector<ScenarioProblem> problems_;
-  std::shared_ptr<const Scenario> as_read_;
 };
+
+/// A scenario's text, as far as it can be read.
+struct ReadScenario {
+  std::vector<Scenario> variants;         ///< one when the file has no [[variant]]; none when it is no TOML
+  std::vector<ScenarioProblem> problems;  ///< of all variants, without looking at a case
+};
+
+/// Reads each variant, whatever is wrong with it. Throws InputError when there is no such file.
+ReadScenario read_every_variant(const std::filesystem::path& file);
 
 /// Reads the variant that the seed draws, and checks of all of them what can be checked without the case. Throws
 /// ScenarioError, or InputError when there is no such file.
@@ -135,7 +144,7 @@ Scenario read_scenario(const std::filesystem::path& file, std::uint32_t seed = 0
 Scenario parse_scenario(std::string_view text, const std::filesystem::path& name, std::uint32_t seed = 0);
 
 /// What is wrong with what the scenario says of the case: views, and that their targets and landmarks are there for the
-/// metrics that need them. Of a step that is not sound only the view's name is looked at.
+/// metrics that need them. Of a step that is not sound the view's name and the criteria are looked at.
 std::vector<ScenarioProblem> problems_with_case(const Scenario& scenario, const Case& subject);
 
 /// Throws a ScenarioError when there is any.
@@ -145,8 +154,11 @@ void check_against_case(const Scenario& scenario, const Case& subject);
 void check_metric(Metric metric, const SourcePlace& place, const Step& step, const Case& subject,
                   const std::string& where, std::vector<ScenarioProblem>& problems);
 
+/// The options that the built-in phantom out of `assets` does not take.
+std::vector<ScenarioProblem> problems_with_phantom(const Scenario& scenario, const std::filesystem::path& assets);
+
 /// The case that the scenario names: the built-in phantom out of `assets`, kept in `cache`, or a case folder. Throws
-/// InputError.
+/// ScenarioError for options that the phantom does not take, and InputError.
 Case load_case(const Scenario& scenario, const std::filesystem::path& assets, const std::filesystem::path& cache,
                const Progress& progress = {});
 

@@ -3,10 +3,15 @@
 #include "scenarios/scenario.h"
 #include "scenarios/steps/step_task.h"
 #include "scenarios/steps/structures.h"
+#include "sim/core/files.h"
 #include "sim/core/suggest.h"
 
 namespace insonate {
 namespace {
+
+std::filesystem::path phantom_in(const std::filesystem::path& assets) {
+  return assets / "phantoms" / "abdomen.toml";
+}
 
 template <typename Named>
 std::vector<std::string> names_of(const std::vector<Named>& list) {
@@ -36,10 +41,9 @@ void check_step(const Step& step, const std::string& where, const LabelIndex& la
          suggest(step.view, names_of(subject.views))});
     return;
   }
-  if (!step.sound) return;
   for (const Criterion& criterion : step.criteria)
-    check_metric(criterion.metric, criterion.place, step, subject, where, problems);
-  step.task->check(step, labels, where, problems);
+    if (criterion.sound) check_metric(criterion.metric, criterion.place, step, subject, where, problems);
+  if (step.sound) step.task->check(step, labels, where, problems);
 }
 
 }  // namespace
@@ -66,11 +70,25 @@ void check_against_case(const Scenario& scenario, const Case& subject) {
   if (!problems.empty()) throw ScenarioError(scenario.file.string(), std::move(problems));
 }
 
+std::vector<ScenarioProblem> problems_with_phantom(const Scenario& scenario, const std::filesystem::path& assets) {
+  std::vector<ScenarioProblem> problems;
+  if (scenario.case_name != "abdomen") return problems;
+  const std::filesystem::path recipe = phantom_in(assets);
+  for (const OptionProblem& wrong :
+       problems_with_options(recipe.string(), read_file(recipe), scenario.phantom_options)) {
+    const auto place = scenario.option_places.find(wrong.option);
+    problems.push_back({place == scenario.option_places.end() ? scenario.case_place : place->second,
+                        "the phantom's option '" + wrong.option + "': " + wrong.problem, wrong.remedy});
+  }
+  return problems;
+}
+
 Case load_case(const Scenario& scenario, const std::filesystem::path& assets, const std::filesystem::path& cache,
                const Progress& progress) {
-  if (scenario.case_name == "abdomen")
-    return cached_phantom(assets / "phantoms" / "abdomen.toml", scenario.phantom_options, cache, progress);
-  return read_case(scenario.file.parent_path() / scenario.case_name);
+  if (scenario.case_name != "abdomen") return read_case(scenario.file.parent_path() / scenario.case_name);
+  std::vector<ScenarioProblem> problems = problems_with_phantom(scenario, assets);
+  if (!problems.empty()) throw ScenarioError(scenario.file.string(), std::move(problems));
+  return cached_phantom(phantom_in(assets), scenario.phantom_options, cache, progress);
 }
 
 }  // namespace insonate

@@ -44,6 +44,7 @@ Criterion read_criterion(TableReader& reader, bool whole_exam) {
     reader.problem(reader.place("weight"), "has no weight", "give it one above 0, or remove the criterion");
 
   const auto metric = find_metric(name);
+  criterion.sound = metric.has_value();
   if (!metric) {
     if (!name.empty())
       reader.problem(criterion.place, "names the metric '" + name + "', which does not exist",
@@ -85,7 +86,7 @@ void check_criteria(const Step& step, const std::string& where, std::vector<Scen
   };
   for (const Criterion& criterion : step.criteria) {
     const MetricInfo& m = info(criterion.metric);
-    if (measures(m)) continue;
+    if (!criterion.sound || measures(m)) continue;
     std::string known;
     for (const MetricInfo& other : metrics())
       if (other.scope != MetricScope::motion && measures(other))
@@ -129,6 +130,7 @@ Step read_step(TableReader& reader, const Scenario& exam) {
                      "remove [step.next], or set order = \"fixed\"");
   }
   if (!kind) {
+    step.sound = false;
     reader.ignore_others();
     return step;
   }
@@ -138,8 +140,9 @@ Step read_step(TableReader& reader, const Scenario& exam) {
   }
   const std::size_t problems_before = reader.problems().size();
   step.task = kind->read(reader, step);
+  step.sound = reader.problems().size() == problems_before;
   step.criteria = read_criteria(reader, reader.where(), false);
-  if (reader.problems().size() == problems_before) check_criteria(step, reader.where(), reader.problems());
+  if (step.task) check_criteria(step, reader.where(), reader.problems());
   return step;
 }
 
@@ -182,7 +185,11 @@ Scenario read_tables(TableReader& reader, const Variant* variant) {
         "set format = " + std::to_string(Scenario::kFormat) + " and check the file against it, or use a newer program");
   scenario.title = reader.text("title");
   scenario.case_name = reader.text("case", !variant || variant->case_name.empty());
-  if (variant && !variant->case_name.empty()) scenario.case_name = variant->case_name;
+  scenario.case_place = reader.place("case");
+  if (variant && !variant->case_name.empty()) {
+    scenario.case_name = variant->case_name;
+    scenario.case_place = variant->case_place;
+  }
   scenario.briefing = reader.text("briefing", false);
   scenario.pass_mark_percent = reader.number("pass_mark_percent", {0, 100}, 80);
   scenario.time_limit_s = reader.number("time_limit_s", {1, kLongestExam_s});
@@ -191,7 +198,7 @@ Scenario read_tables(TableReader& reader, const Variant* variant) {
                             ? Scenario::Difficulty(index_of(kDifficulties, reader.choice("difficulty", kDifficulties)))
                             : Scenario::Difficulty::medium;
   if (const auto options = reader.table("phantom", false, "[phantom]")) {
-    scenario.phantom_options = read_options(*options);
+    scenario.phantom_options = read_options(*options, &scenario.option_places);
     if (!scenario.case_name.empty() && scenario.case_name != "abdomen")
       reader.problem(reader.place("phantom"), "gives phantom options for the case '" + scenario.case_name + "'",
                      "remove [phantom], or set case = \"abdomen\"");
@@ -200,6 +207,7 @@ Scenario read_tables(TableReader& reader, const Variant* variant) {
     for (const auto& option : variant->phantom_options) {
       std::erase_if(scenario.phantom_options, [&](const auto& one) { return one.first == option.first; });
       scenario.phantom_options.push_back(option);
+      scenario.option_places[option.first] = variant->option_places.at(option.first);
     }
     std::sort(scenario.phantom_options.begin(), scenario.phantom_options.end());
     scenario.variant = variant->name;
@@ -210,9 +218,7 @@ Scenario read_tables(TableReader& reader, const Variant* variant) {
   read_variants(reader);  // they were looked at before: here their keys are checked and known
   std::vector<SourcePlace> places;
   for (const auto& table : reader.tables("step", kMostSteps, "step ", "")) {
-    const std::size_t problems_before = table->problems().size();
     scenario.steps.push_back(read_step(*table, scenario));
-    scenario.steps.back().sound = table->problems().size() == problems_before;
     places.push_back(table->place("name"));
     if (!scenario.steps.back().counts && scenario.steps.size() > 1 && scenario.steps[scenario.steps.size() - 2].counts)
       table->problem(table->place("counts"), "is a warm-up behind a step that counts", "move it to the front");
@@ -264,24 +270,16 @@ std::vector<ScenarioProblem> in_order_of_file(std::vector<ScenarioProblem> probl
   return once;
 }
 
-}  // namespace
-
-ScenarioError::ScenarioError(const std::string& file, std::vector<ScenarioProblem> problems,
-                             std::shared_ptr<const Scenario> as_read)
-    : InputError(as_input_error(file, in_order_of_file(problems))),
-      problems_(in_order_of_file(std::move(problems))),
-      as_read_(std::move(as_read)) {}
-
-Scenario parse_scenario(std::string_view text, const std::filesystem::path& name, std::uint32_t seed) {
-  std::vector<ScenarioProblem> problems;
+ReadScenario parse_every_variant(std::string_view text, const std::filesystem::path& name) {
+  ReadScenario read;
   toml::table root;
   try {
     root = toml::parse(text);
   } catch (const toml::parse_error& error) {
-    problems.push_back({{int(error.source().begin.line), int(error.source().begin.column)},
-                        "this is no TOML: " + std::string(error.description()),
-                        "correct the line; toml.io explains the notation"});
-    throw ScenarioError(name.string(), std::move(problems));
+    read.problems.push_back({{int(error.source().begin.line), int(error.source().begin.column)},
+                             "this is no TOML: " + std::string(error.description()),
+                             "correct the line; toml.io explains the notation"});
+    return read;
   }
   std::vector<Variant> variants;
   {
@@ -292,22 +290,35 @@ Scenario parse_scenario(std::string_view text, const std::filesystem::path& name
   }
   const auto read_with = [&](const Variant* variant) {
     toml::table spelt = toml::parse(text);  // a copy would not know where in the text its values are
-    if (variant) spell_out(spelt, *variant, problems);
-    TableReader reader({&spelt}, "the scenario", problems);
-    return read_tables(reader, variant);
+    if (variant) spell_out(spelt, *variant, read.problems);
+    TableReader reader({&spelt}, "the scenario", read.problems);
+    read.variants.push_back(read_tables(reader, variant));
+    read.variants.back().file = name;
+    read.variants.back().text = text;
+    read.variants.back().digest = digest_of(text);
+    read.variants.back().variants = variants.size();
   };
+  if (variants.empty()) read_with(nullptr);
+  for (const Variant& variant : variants) read_with(&variant);
+  return read;
+}
+
+}  // namespace
+
+ScenarioError::ScenarioError(const std::string& file, std::vector<ScenarioProblem> problems)
+    : InputError(as_input_error(file, in_order_of_file(problems))), problems_(in_order_of_file(std::move(problems))) {}
+
+Scenario parse_scenario(std::string_view text, const std::filesystem::path& name, std::uint32_t seed) {
   // All are read, so that whichever a seed draws has been checked.
-  Scenario scenario = read_with(variants.empty() ? nullptr : &variants[drawn(seed, variants.size())]);
-  if (variants.size() > 1)
-    for (const Variant& other : variants) read_with(&other);
-  scenario.file = name;
-  if (!problems.empty())
-    throw ScenarioError(name.string(), std::move(problems), std::make_shared<const Scenario>(std::move(scenario)));
+  ReadScenario read = parse_every_variant(text, name);
+  if (!read.problems.empty()) throw ScenarioError(name.string(), std::move(read.problems));
+  Scenario scenario = std::move(read.variants[drawn(seed, read.variants.size())]);
   scenario.seed = seed;
-  scenario.variants = variants.size();
-  scenario.text = text;
-  scenario.digest = digest_of(text);
   return scenario;
+}
+
+ReadScenario read_every_variant(const std::filesystem::path& file) {
+  return parse_every_variant(read_file(file, kLargestFile), file);
 }
 
 Scenario read_scenario(const std::filesystem::path& file, std::uint32_t seed) {

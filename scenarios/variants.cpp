@@ -61,8 +61,9 @@ std::vector<Variant> read_variants(TableReader& scenario) {
     Variant variant;
     variant.name = table->text("name");
     variant.case_name = table->text("case", false);
+    variant.case_place = table->place("case");
     if (const auto options = table->table("phantom", false, "the phantom of " + table->where()))
-      variant.phantom_options = read_options(*options);
+      variant.phantom_options = read_options(*options, &variant.option_places);
     if (const auto words = table->table("words", false, "the words of " + table->where()))
       variant.words = read_options(*words);
     const bool taken =
@@ -82,9 +83,11 @@ void spell_out(toml::table& root, const Variant& variant, std::vector<ScenarioPr
   if (toml::node* steps = root.get("step")) speller.visit(*steps);
 }
 
-std::vector<std::pair<std::string, std::string>> read_options(TableReader& table) {
+std::vector<std::pair<std::string, std::string>> read_options(TableReader& table,
+                                                              std::map<std::string, SourcePlace>* places) {
   std::vector<std::pair<std::string, std::string>> options;
   for (const TableReader::Entry& entry : table.entries()) {
+    if (places) (*places)[entry.key] = entry.key_place;
     if (entry.text)
       options.emplace_back(entry.key, *entry.text);
     else if (entry.yes)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,7 +16,9 @@ namespace insonate {
 struct Variant {
   std::string name;                                                  ///< name = "with a stone"; kept in the result
   std::string case_name;                                             ///< case = "...": instead of the file's
+  SourcePlace case_place;                                            ///< meaningful where there is one
   std::vector<std::pair<std::string, std::string>> phantom_options;  ///< phantom = { gallstone = true }
+  std::map<std::string, SourcePlace> option_places;                  ///< by option
   std::vector<std::pair<std::string, std::string>> words;            ///< words = { side = "right" }: see spell_out()
 };
 
@@ -32,6 +35,8 @@ std::size_t drawn(std::uint32_t seed, std::size_t count);
 void spell_out(toml::table& root, const Variant& variant, std::vector<ScenarioProblem>& problems);
 
 /// The options of a table like [phantom] as text, as the phantom's maker takes them, sorted by name.
-std::vector<std::pair<std::string, std::string>> read_options(TableReader& table);
+/// @param places  gets where each stands; nullptr for nobody who wants to know
+std::vector<std::pair<std::string, std::string>> read_options(TableReader& table,
+                                                              std::map<std::string, SourcePlace>* places = nullptr);
 
 }  // namespace insonate

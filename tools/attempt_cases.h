@@ -9,6 +9,11 @@
 
 namespace insonate {
 
+/// The patient that was named, or else the scenario's own.
+inline Case case_of(const Scenario& scenario, const std::filesystem::path& named) {
+  return named.empty() ? load_case(scenario, assets_folder(), cache_folder(), show_progress) : open_case(named);
+}
+
 /// The cases that attempts were taken on, the last one kept: attempts at one exam often come one after the other.
 class AttemptCases {
 public:
@@ -18,8 +23,7 @@ public:
     for (const auto& [name, value] : scenario.phantom_options) key.append("\n").append(name).append("=").append(value);
     if (!case_ || key != key_) {
       case_.reset();  // two would take twice the memory
-      case_ =
-          patient.empty() ? load_case(scenario, assets_folder(), cache_folder(), show_progress) : open_case(patient);
+      case_ = case_of(scenario, patient);
       key_ = key;
     }
     return *case_;

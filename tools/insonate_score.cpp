@@ -1,7 +1,5 @@
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <set>
 #include <string>
 
 #include "devices/calibrated_tracker.h"
@@ -14,17 +12,13 @@
 #include "scenarios/scenario.h"
 #include "sim/core/files.h"
 #include "sim/model/tissue.h"
+#include "tools/attempt_cases.h"
 #include "tools/program.h"
 #include "tools/score_commands.h"
-#include "tools/subject.h"
 
 namespace {
 
 using namespace insonate;
-
-Case case_for(const Scenario& scenario, const std::filesystem::path& folder) {
-  return folder.empty() ? load_case(scenario, assets_folder(), cache_folder(), show_progress) : open_case(folder);
-}
 
 struct Arguments {
   std::filesystem::path log;
@@ -58,7 +52,7 @@ int score(const Arguments& given) {
   check_learner_id(given.learner, "command line", "--learner");
   const Scenario scenario = read_scenario(given.scenario, given.seed);
   const RecordedScan scan = scan_of_probe(given);
-  const Case subject = case_for(scenario, given.case_folder);
+  const Case subject = case_of(scenario, given.case_folder);
 
   Runner runner(scenario, subject, read_tissue_table(assets_folder() / "tissues.toml"));
   runner.feed(scan.samples, parse_action_log(scan.recording.actions, given.log.string()));
@@ -73,44 +67,6 @@ int score(const Arguments& given) {
     keep(given, attempt_of(runner, result, write_sequence(scan.samples, scan.recording.actions)));
   if (!given.report.empty()) write_file(given.report, report_html(result, runner.trace()));
   std::fputs(to_json(result).c_str(), stdout);
-  return 0;
-}
-
-/// All that is wrong at once: with the text, and as far as that could be read, with how it fits the case.
-[[noreturn]] void refuse(const ScenarioError& text, const Arguments& given) {
-  std::vector<ScenarioProblem> problems = text.problems();
-  try {
-    const Case subject = case_for(*text.as_read(), given.case_folder);
-    const std::vector<ScenarioProblem> more = problems_with_case(*text.as_read(), subject);
-    problems.insert(problems.end(), more.begin(), more.end());
-  } catch (const InputError&) {
-    // Without a case there is the text alone; once that is right, it is told what is wrong with the case.
-  }
-  throw ScenarioError(given.scenario.string(), std::move(problems));
-}
-
-Scenario read_to_check(const Arguments& given, bool without_case) {
-  try {
-    return read_scenario(given.scenario);
-  } catch (const ScenarioError& text) {
-    if (without_case || !text.as_read()) throw;
-    refuse(text, given);
-  }
-}
-
-int check(const Arguments& given, bool without_case) {
-  const Scenario scenario = read_to_check(given, without_case);
-  std::set<std::string> checked;
-  // Each variant that a seed may draw, on its own patient.
-  for (std::uint32_t seed = 0; !without_case && checked.size() < std::max<std::size_t>(scenario.variants, 1); ++seed) {
-    const Scenario variant = read_scenario(given.scenario, seed);
-    if (!checked.insert(variant.variant).second) continue;
-    // Building the runner checks the names against the case, and the case's views against themselves.
-    const Case subject = case_for(variant, given.case_folder);
-    Runner(variant, subject, read_tissue_table(assets_folder() / "tissues.toml"));
-  }
-  std::printf("%s: \"%s\", %zu steps: no problems found\n", given.scenario.string().c_str(), scenario.title.c_str(),
-              scenario.steps.size());
   return 0;
 }
 
@@ -143,13 +99,8 @@ int main(int argc, char** argv) {
   arguments.add_option("--results", given.results, "Also keeps the attempt in this database of results");
   arguments.add_option("--learner", given.learner, "Whose attempt it is: an opaque id")->capture_default_str();
 
-  bool without_case = false;
-  CLI::App* check_command = arguments.add_subcommand("check", "Checks a scenario file and lists all its problems");
-  check_command->add_option("file", given.scenario, "The scenario, a TOML file")->required();
-  check_command->add_option("--case", given.case_folder, "A case folder to take instead of the scenario's own case");
-  check_command->add_flag("--without-case", without_case, "Checks the text alone, not its names against the case");
-
   CommandRun run_command;
+  add_check_command(arguments, run_command);
   add_list_commands(arguments, run_command);
   add_report_command(arguments, run_command);
   add_rescore_command(arguments, run_command);
@@ -158,7 +109,6 @@ int main(int argc, char** argv) {
 
   return run_program(arguments, argc, argv, [&] {
     if (run_command) return run_command();
-    if (*check_command) return check(given, without_case);
     if (given.log.empty()) throw CLI::RequiredError("--log");
     if (given.scenario.empty()) throw CLI::RequiredError("--scenario");
     return score(given);

@@ -9,7 +9,7 @@
 
 #include "scenarios/results/results_database.h"
 
-// The commands of insonate-score that work on a database of results.
+// The commands of insonate-score besides scoring.
 
 namespace insonate {
 
@@ -17,6 +17,7 @@ namespace insonate {
 using CommandRun = std::function<int()>;
 
 /// Each declares its commands on `arguments` and sets `run` when one of them is parsed.
+void add_check_command(CLI::App& arguments, CommandRun& run);
 void add_hand_in_command(CLI::App& arguments, CommandRun& run);
 void add_list_commands(CLI::App& arguments, CommandRun& run);
 void add_pass_mark_command(CLI::App& arguments, CommandRun& run);

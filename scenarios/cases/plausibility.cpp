@@ -84,12 +84,15 @@ constexpr std::array kDensities = {DensityRange{"lung", -1024, -300}, DensityRan
                                    DensityRange{"muscle", -60, 500},  DensityRange{"bone", 60, 3000}};
 constexpr std::size_t kTooSmall = 100;  // voxels: the edge of something
 
-Tally compare_densities(const Case& subject, const std::vector<StructureShape>& shapes) {
+/// Bones apart from the rest: labels that lie elsewhere come out against most bones, while what is soft lies next to
+/// what is as soft. (The upper abdomen of the test data: 20 mm to the side 13 of 13 bones are against, and 3 of 11
+/// others.)
+Tally compare_densities(const Case& subject, const std::vector<StructureShape>& shapes, bool bones) {
   Tally tally;
   for (const StructureShape& shape : shapes) {
     const auto range = std::find_if(kDensities.begin(), kDensities.end(),
                                     [&](const auto& r) { return r.tissue == shape.label.tissue; });
-    if (range == kDensities.end() || shape.voxels < kTooSmall) continue;
+    if (range == kDensities.end() || shape.voxels < kTooSmall || (range->tissue == "bone") != bones) continue;
     std::vector<std::int16_t> densities;
     densities.reserve(shape.voxels);
     for (int k = shape.low.z; k <= shape.high.z; ++k)
@@ -114,7 +117,9 @@ std::vector<std::string> check_plausible(const std::string& file, const Case& su
     const char* remedy;
   };
   const Check checks[] = {
-      {compare_densities(subject, shapes), "the labels do not lie on their organs",
+      {compare_densities(subject, shapes, true), "the labels do not lie on their bones",
+       "give the labels of this CT, with the orientation in their header"},
+      {compare_densities(subject, shapes, false), "the labels do not lie on their organs",
        "give the labels of this CT, with the orientation in their header"},
       {compare_heights(shapes), "head and feet are exchanged", "correct the orientation of the CT and its labels"},
       {compare_depths(shapes), "front and back are exchanged", "correct the orientation of the CT and its labels"},

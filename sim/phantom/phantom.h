@@ -23,6 +23,17 @@ using Progress = std::function<void(double share)>;
 Case make_phantom(const std::string& recipe_name, const std::string& recipe_text,
                   const std::vector<std::pair<std::string, std::string>>& options = {}, const Progress& progress = {});
 
+/// What is wrong with an option and what to do about it.
+struct OptionProblem {
+  std::string option;
+  std::string problem;
+  std::string remedy;
+};
+
+/// All of `options` that the recipe does not take. Throws InputError when the recipe itself cannot be read.
+std::vector<OptionProblem> problems_with_options(const std::string& recipe_name, const std::string& recipe_text,
+                                                 const std::vector<std::pair<std::string, std::string>>& options);
+
 /// How many phantoms a cache keeps: those used last, about 100 MB each for the built-in one at 1 mm. The bundled exams
 /// have ten patients between them.
 inline constexpr std::size_t kKeptPhantoms = 16;

@@ -35,7 +35,9 @@ Recipe::Recipe(std::string name, const std::string& text,
       options_[option] = declared_option(option, *value.as_table());
     }
   }
-  for (const auto& [option, value] : options) set_option(option, value);
+  for (const auto& [option, value] : options)
+    if (const auto wrong = set_option(option, value))
+      throw InputError(name_, "option '" + option + "'", wrong->problem, wrong->remedy);
 }
 
 Recipe::Option Recipe::declared_option(const std::string& option, const toml::table& declared) const {
@@ -54,23 +56,32 @@ Recipe::Option Recipe::declared_option(const std::string& option, const toml::ta
   return made;
 }
 
-void Recipe::set_option(const std::string& option, const std::string& value) {
-  const std::string place = "option '" + option + "'";
+std::optional<OptionProblem> Recipe::set_option(const std::string& option, const std::string& value) {
   const auto found = options_.find(option);
   if (found == options_.end())
-    throw InputError(name_, place, "the recipe has no such option", suggest_from(option, options_));
+    return OptionProblem{option, "the recipe has no such option", suggest_from(option, options_)};
   Option& made = found->second;
   if (made.is_flag) {
     if (value != "true" && value != "false")
-      throw InputError(name_, place, "'" + value + "' is neither true nor false", "set it to true or false");
+      return OptionProblem{option, "'" + value + "' is neither true nor false", "set it to true or false"};
     made.value = value == "true" ? 1 : 0;
-    return;
+    return std::nullopt;
   }
   const std::optional<double> number = parse_number(value);
   if (!number || *number < made.least || *number > made.most)
-    throw InputError(name_, place, "'" + value + "' is " + (number ? "out of range" : "no number"),
-                     range_remedy(made.least, made.most));
+    return OptionProblem{option, "'" + value + "' is " + (number ? "out of range" : "no number"),
+                         range_remedy(made.least, made.most)};
   made.value = *number;
+  return std::nullopt;
+}
+
+std::vector<OptionProblem> problems_with_options(const std::string& recipe_name, const std::string& recipe_text,
+                                                 const std::vector<std::pair<std::string, std::string>>& options) {
+  Recipe recipe(recipe_name, recipe_text, {});
+  std::vector<OptionProblem> problems;
+  for (const auto& [option, value] : options)
+    if (const auto wrong = recipe.set_option(option, value)) problems.push_back(*wrong);
+  return problems;
 }
 
 double Recipe::evaluate(const std::string& expression, const toml::node& where) const {

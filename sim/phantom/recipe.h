@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "sim/core/suggest.h"
 #include "sim/core/toml_table.h"
+#include "sim/phantom/phantom.h"
 
 namespace insonate {
 
@@ -22,6 +24,9 @@ class Recipe {
 public:
   /// Parses the text and its [options], and puts the given values in place of the recipe's own. Throws InputError.
   Recipe(std::string name, const std::string& text, const std::vector<std::pair<std::string, std::string>>& options);
+
+  /// Puts a value in place of the recipe's own, or says why not.
+  std::optional<OptionProblem> set_option(const std::string& option, const std::string& value);
 
   const std::string& name() const { return name_; }
   const toml::table& root() const { return root_; }
@@ -38,7 +43,6 @@ private:
     bool is_flag = false;
   };
   Option declared_option(const std::string& option, const toml::table& declared) const;
-  void set_option(const std::string& option, const std::string& value);
 
   std::string name_;
   toml::table root_;

@@ -177,7 +177,7 @@ TEST_CASE("insonate-score check tells of a scenario's text and of its case at on
   CHECK(outcome.errors.find("'pass_mark'") < outcome.errors.find("did you mean 'hepatorenal'?"));
   CHECK(outcome.errors.find("did you mean 'hepatorenal'?") != std::string::npos);
 
-  INFO("of a step that nobody knows how to read its view is looked at, and no more");
+  INFO("of a step of no kind there is still the view to look at");
   spoil("kind = \"find_view\"", "kind = \"find_vew\"");
   const Outcome unknown = run(folder, "check " + folder.file("kind.toml", exam).string());
   CHECK(unknown.code == 2);
@@ -185,6 +185,42 @@ TEST_CASE("insonate-score check tells of a scenario's text and of its case at on
   const Outcome text = run(folder, "check --without-case " + file);
   CHECK(text.code == 2);
   CHECK(text.errors.find("hepatorenl") == std::string::npos);
+}
+
+TEST_CASE("insonate-score check tells what is wrong with every variant and its patient, each where it stands") {
+  const Folder folder;
+  std::string exam = coarse_exam();
+  const auto spoil = [&](const std::string& from, const std::string& to) {
+    const std::size_t at = exam.find(from);
+    REQUIRE(at != std::string::npos);
+    exam.replace(at, from.size(), to);
+  };
+  spoil("view = \"hepatorenal\"", "view = \"${view}\"");
+  spoil("[phantom] ",
+        "[[variant]]\nname = \"one\"\nphantom = { fre_fluid = true }\nwords = { view = \"hepatorenl\" }\n\n"
+        "[[variant]]\nname = \"two\"\nphantom = { aorta_diameter_mm = 900 }\nwords = { view = \"liver_lng\" }\n\n"
+        "[[variant]]\nname = \"three\"\ncase = \"gone\"\nwords = { view = \"hepatorenal\" }\n\n[phantom] ");
+  spoil("metric = \"plane_angle_deg\"", "metric = \"plane_angel_deg\"");
+  const Outcome outcome = run(folder, "check " + folder.file("exam.toml", exam).string());
+  INFO(outcome.errors);
+  CHECK(outcome.code == 2);
+  const auto line_of = [&](const std::string& text) {
+    return "line " + std::to_string(1 + std::count(exam.begin(), exam.begin() + long(exam.find(text)), '\n')) + ",";
+  };
+  const auto told = [&](const std::string& at, const std::string& words) {
+    INFO(words);
+    const std::size_t found = outcome.errors.find(words);
+    REQUIRE(found != std::string::npos);
+    const std::size_t line = outcome.errors.rfind("line ", found);
+    CHECK(outcome.errors.substr(line, line_of(at).size()) == line_of(at));
+  };
+  told("fre_fluid", "the phantom's option 'fre_fluid': the recipe has no such option; did you mean 'free_fluid'?");
+  told("900", "the phantom's option 'aorta_diameter_mm': '900' is out of range");
+  told("\"gone\"", "the case cannot be used: ");
+  told("${view}", "the view 'hepatorenl'");
+  told("${view}", "the view 'liver_lng'");
+  told("plane_angel_deg", "did you mean 'plane_angle_deg'?");
+  CHECK(outcome.errors.find("'hepatorenal', which") == std::string::npos);
 }
 
 TEST_CASE(

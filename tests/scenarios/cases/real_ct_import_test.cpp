@@ -8,6 +8,7 @@
 
 #include "scenarios/cases/acoustic_window.h"
 #include "scenarios/cases/import_case.h"
+#include "scenarios/cases/plausibility.h"
 #include "scenarios/cases/suggested_views.h"
 #include "scenarios/skin_contact.h"
 #include "scenarios/view_meter.h"
@@ -47,6 +48,12 @@ TEST_CASE("a real CT with TotalSegmentator's labels becomes a case with views th
   REQUIRE(right);
   REQUIRE(left);
   CHECK(right->position.x < left->position.x);
+
+  INFO("labels of the same grid that belong 20 mm to the side are not this CT's");
+  Case beside = subject;
+  std::rotate(beside.labels.voxels.begin(), beside.labels.voxels.begin() + 20, beside.labels.voxels.end());
+  CHECK(check_plausible("labels", subject, structure_shapes(subject)).empty());
+  CHECK_THROWS_WITH(check_plausible("labels", beside, structure_shapes(beside)), Catch::Contains("on their bones"));
 
   for (const char* name : {"liver_short", "aorta_long"}) {
     INFO(name);
