@@ -205,8 +205,21 @@ std::optional<Pose> Session::frozen_picture() const {
   return source().recording() ? shown_pose_ : machine_.frozen_at;
 }
 
+bool Session::locks(ActionKind setting) const {
+  return strict() && runner_ && !result_ && runner_->scenario().locked.contains(setting);
+}
+
+/// Whoever sets the console need not know what is locked.
+void Session::undo_locked() {
+  if (locks(ActionKind::probe)) console_.probe = *find_probe(acted_.probe);
+  if (locks(ActionKind::depth)) console_.depth_mm = acted_.depth_mm;
+  if (locks(ActionKind::frequency)) console_.frequency_mhz = acted_.frequency_mhz;
+  if (locks(ActionKind::gain)) console_.gain_db = acted_.gain_db;
+}
+
 /// What is on the console comes before what is done next.
 void Session::note_settings() {
+  undo_locked();
   for (Action& setting : settings_since(acted_, console_)) {
     acted_.apply(setting, newest_pose_);
     acts_.push_back(std::move(setting));
@@ -268,6 +281,7 @@ void Session::advance(double now_s) {
   if (!std::exchange(advanced_, true)) last_usable_s_ = attempt_began_s_ = now_s;
   samples_.clear();
   latest_actions_.clear();
+  undo_locked();
   if (holder_ == Holder::learner && tracker_ && tracker_->live()) {
     tracker_->poll(now_s, samples_);
     samples_.clear();

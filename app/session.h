@@ -56,7 +56,8 @@ enum class ExamRules { open, strict };
 /// what he set on the console, and act(). A log that keeps such actions sets the console itself.
 ///
 /// Under strict rules an exam is not left for practice, its probe does not change hands, it is not begun again once its
-/// first sample has come, and there are no hints: what asks for any of that does nothing.
+/// first sample has come, there are no hints, and what the scenario locks of the machine stays as it is: what asks for
+/// any of that does nothing.
 ///
 /// The probe's buttons (probe_buttons.h) act when they are pressed, once however long they are held: freeze freezes the
 /// picture or thaws it, mark marks the moment, and go on is handed on to whoever shows the session.
@@ -78,6 +79,9 @@ public:
   Activity activity() const { return activity_; }
   /// Whether the exam is taken under strict rules.
   bool strict() const { return rules_ == ExamRules::strict; }
+  /// Whether a setting of the machine stays as it is: in an exam under strict rules that locks it, until it is
+  /// finished.
+  bool locks(ActionKind setting) const;
   /// Whether the CT and the patient's inside may be seen: not in an exam under strict rules, which asks what the
   /// learner sees in the ultrasound, until it is finished.
   bool shows_anatomy() const { return !strict() || !runner_ || result_; }
@@ -166,6 +170,7 @@ private:
   void keep_result();
   void take(const PoseSample& sample);
   void find_pose();
+  void undo_locked();
   void note_settings();
   std::vector<Action> actions_before(const PoseSample& sample);
   Tracker& source();

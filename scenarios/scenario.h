@@ -4,11 +4,13 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "scenarios/action.h"
 #include "scenarios/metric.h"
 #include "sim/core/input_error.h"
 #include "sim/phantom/phantom.h"
@@ -93,6 +95,10 @@ struct Scenario {
   /// begins anew when he comes back, with the time that is left of its limit.
   Order order = Order::fixed;
   Difficulty difficulty = Difficulty::medium;  ///< difficulty = "easy", "medium" (default) or "hard": what hints cost
+  /// locked = ["probe", "depth"]: settings of the machine, of "probe", "depth", "frequency" and "gain", that stay as
+  /// they are at the beginning (starting_machine) when the exam counts; no step asks for them. In practice all are
+  /// free.
+  std::set<ActionKind> locked;
   /// `[phantom]`: options of the built-in phantom's recipe, by name (free_fluid = true); only with
   /// case = "abdomen".
   std::vector<std::pair<std::string, std::string>> phantom_options;

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "scenarios/machine.h"
 #include "scenarios/scenario.h"
 #include "scenarios/steps/step_task.h"
 #include "scenarios/steps/structures.h"
@@ -59,9 +60,19 @@ void check_metric(Metric metric, const SourcePlace& place, const Step& step, con
 
 std::vector<ScenarioProblem> problems_with_case(const Scenario& scenario, const Case& subject) {
   const LabelIndex labels(subject);
+  const std::string first_probe = starting_machine(scenario, subject).probe;
   std::vector<ScenarioProblem> problems;
-  for (std::size_t i = 0; i < scenario.steps.size(); ++i)
-    check_step(scenario.steps[i], "step " + std::to_string(i + 1), labels, problems);
+  for (std::size_t i = 0; i < scenario.steps.size(); ++i) {
+    const Step& step = scenario.steps[i];
+    const std::string where = "step " + std::to_string(i + 1);
+    check_step(step, where, labels, problems);
+    const ReferenceView* view = subject.find_view(step.view);
+    if (view && scenario.locked.contains(ActionKind::probe) && view->probe != first_probe)
+      problems.push_back({step.view_place,
+                          where + " shows the view '" + step.view + "' with the probe '" + view->probe +
+                              "', but the exam locks the probe, and begins with '" + first_probe + "'",
+                          "remove \"probe\" from 'locked'"});
+  }
   return problems;
 }
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <set>
 
@@ -23,6 +24,22 @@ constexpr double kLongestStep_s = 3600;
 
 std::size_t index_of(const std::vector<std::string>& words, const std::string& word) {
   return std::size_t(std::find(words.begin(), words.end(), word) - words.begin());
+}
+
+/// What a scenario may lock, by its word in the file.
+const std::vector<std::string> kSettings{"probe", "depth", "frequency", "gain"};
+constexpr std::array kSettingKinds{ActionKind::probe, ActionKind::depth, ActionKind::frequency, ActionKind::gain};
+
+std::set<ActionKind> read_locked(TableReader& reader) {
+  std::set<ActionKind> locked;
+  for (const std::string& word : reader.texts("locked", kSettings.size(), false)) {
+    const std::size_t index = index_of(kSettings, word);
+    if (index < kSettings.size())
+      locked.insert(kSettingKinds[index]);
+    else
+      reader.problem(reader.place("locked"), "locks '" + word + "', which is no setting", suggest(word, kSettings));
+  }
+  return locked;
 }
 
 std::vector<std::string> metric_names(MetricScope least) {
@@ -143,6 +160,10 @@ Step read_step(TableReader& reader, const Scenario& exam) {
   step.sound = reader.problems().size() == problems_before;
   step.criteria = read_criteria(reader, reader.where(), false);
   if (step.task) check_criteria(step, reader.where(), reader.problems());
+  for (const ActionKind setting : step.task ? step.task->settings() : std::vector<ActionKind>())
+    if (exam.locked.contains(setting))
+      reader.problem(reader.place("kind"), "asks for a setting that the exam locks",
+                     "remove it from the step, or from 'locked'");
   return step;
 }
 
@@ -193,6 +214,7 @@ Scenario read_tables(TableReader& reader, const Variant* variant) {
   scenario.briefing = reader.text("briefing", false);
   scenario.pass_mark_percent = reader.number("pass_mark_percent", {0, 100}, 80);
   scenario.time_limit_s = reader.number("time_limit_s", {1, kLongestExam_s});
+  scenario.locked = read_locked(reader);
   scenario.order = Scenario::Order(index_of(kOrders, reader.choice("order", kOrders, false)));
   scenario.difficulty = reader.has("difficulty")
                             ? Scenario::Difficulty(index_of(kDifficulties, reader.choice("difficulty", kDifficulties)))

@@ -14,7 +14,8 @@ std::string formatted(const char* format, double value) {
   return text;
 }
 
-void draw_probe_choice(const Theme& theme, Rect where, Console& console) {
+void draw_probe_choice(const Theme& theme, Rect where, Session& session) {
+  Console& console = session.console();
   draw_text(where.take_top(theme.px(20)), theme.small_text, colour::kMuted, "Probe");
   where.take_top(theme.px(4));
   const float between = theme.px(5), count = float(probes().size());
@@ -23,24 +24,26 @@ void draw_probe_choice(const Theme& theme, Rect where, Console& console) {
     const Rect place = where.take_top(height);
     where.take_top(between);
     const bool chosen = console.probe.name == probe.name;
-    if (button(theme, probe.name.c_str(), place, probe.title.c_str(),
-               chosen ? ButtonKind::chosen : ButtonKind::normal) &&
+    if (button(theme, probe.name.c_str(), place, probe.title.c_str(), chosen ? ButtonKind::chosen : ButtonKind::normal,
+               chosen || !session.locks(ActionKind::probe)) &&
         !chosen)
       console.choose(probe);
   }
 }
 
-void draw_knobs(const Theme& theme, Rect where, Console& console) {
+void draw_knobs(const Theme& theme, Rect where, Session& session) {
+  Console& console = session.console();
   const float gap = theme.px(24);
   const float width = (where.w - gap) / 2, height = theme.px(46);
   const Rect left{where.x, where.y, width, height}, right{where.x + width + gap, where.y, width, height};
   const float next = theme.px(50);
   slider(theme, "depth", left, "Depth", formatted("%.1f cm", console.depth_mm / 10), console.depth_mm,
-         Console::kLeastDepth_mm, Console::kMostDepth_mm, 5, console.probe.depth_mm);
-  slider(theme, "gain", right, "Gain", formatted("%+.0f dB", console.gain_db), console.gain_db, -30, 30, 1, 0);
+         Console::kLeastDepth_mm, Console::kMostDepth_mm, 5, console.probe.depth_mm, !session.locks(ActionKind::depth));
+  slider(theme, "gain", right, "Gain", formatted("%+.0f dB", console.gain_db), console.gain_db, -30, 30, 1, 0,
+         !session.locks(ActionKind::gain));
   slider(theme, "frequency", {left.x, left.y + next, width, height}, "Frequency",
-         formatted("%.1f MHz", console.frequency_mhz), console.frequency_mhz, 1.5, 12, 0.5,
-         console.probe.frequency_mhz);
+         formatted("%.1f MHz", console.frequency_mhz), console.frequency_mhz, 1.5, 12, 0.5, console.probe.frequency_mhz,
+         !session.locks(ActionKind::frequency));
   slider(theme, "range", {right.x, right.y + next, width, height}, "Dynamic range",
          formatted("%.0f dB", console.dynamic_range_db), console.dynamic_range_db, 30, 90, 5, 60);
 }
@@ -66,14 +69,14 @@ ConsoleRequest draw_console_panel(const Theme& theme, const Rect& panel, Session
   Console& console = session.console();
   Rect rest = panel.inset(theme.px(16), theme.px(10));
   const float gap = theme.px(28);
-  draw_probe_choice(theme, rest.take_left(theme.px(112)), console);
+  draw_probe_choice(theme, rest.take_left(theme.px(112)), session);
   rest.take_left(gap);
 
   Rect buttons = rest.take_right(theme.px(276));
   rest.take_right(gap);
   draw_time_gain(theme, rest.take_right(theme.px(190)), console);
   rest.take_right(gap);
-  draw_knobs(theme, rest, console);
+  draw_knobs(theme, rest, session);
 
   ConsoleRequest request = ConsoleRequest::none;
   const float height = theme.px(44), between = theme.px(8);

@@ -146,12 +146,12 @@ bool button(const Theme& theme, const char* id, const Rect& where, std::string_v
 }
 
 bool slider(const Theme& theme, const char* id, const Rect& where, std::string_view name, std::string_view value_text,
-            double& value, double least, double most, double step, double normal) {
+            double& value, double least, double most, double step, double normal, bool enabled) {
   constexpr float kRadius = 7;
   const double before = value;
   const float left = where.x + theme.px(kRadius), right = where.x + where.w - theme.px(kRadius);
   const double at_mouse = least + (most - least) * (ImGui::GetIO().MousePos.x - left) / (right - left);
-  const bool lit = handle(id, where, {least, most, step, normal}, at_mouse, value);
+  const bool lit = enabled && handle(id, where, {least, most, step, normal}, at_mouse, value);
 
   Rect line = where;
   line.h = theme.px(20);
@@ -163,8 +163,8 @@ bool slider(const Theme& theme, const char* id, const Rect& where, std::string_v
   const float x = left + float((value - least) / (most - least)) * (right - left);
   const float half = theme.px(2);
   fill({where.x, y - half, where.w, 2 * half}, colour::kRaised, half);
-  fill({where.x, y - half, x - where.x, 2 * half}, colour::kAccent, half);
-  draw_knob(theme, {x, y}, kRadius, lit);
+  fill({where.x, y - half, x - where.x, 2 * half}, enabled ? colour::kAccent : colour::kHovered, half);
+  if (enabled) draw_knob(theme, {x, y}, kRadius, lit);
   return value != before;
 }
 

@@ -49,9 +49,9 @@ bool button(const Theme& theme, const char* id, const Rect& where, std::string_v
             ButtonKind kind = ButtonKind::normal, bool enabled = true);
 
 /// A slider with its name on the left and its value on the right above the track. A double click sets `normal`. True
-/// when the value changed; it is rounded to whole `step`s.
+/// when the value changed; it is rounded to whole `step`s. One that is not enabled shows its value and stays.
 bool slider(const Theme& theme, const char* id, const Rect& where, std::string_view name, std::string_view value_text,
-            double& value, double least, double most, double step, double normal);
+            double& value, double least, double most, double step, double normal, bool enabled = true);
 
 /// A short upright slider about a middle of 0, as those of the time gain compensation.
 bool upright_slider(const Theme& theme, const char* id, const Rect& where, double& value, double reach);

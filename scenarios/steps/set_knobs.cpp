@@ -67,6 +67,15 @@ std::shared_ptr<const StepTask> SetKnobs::read(TableReader& table, const Step&) 
   return task;
 }
 
+std::vector<ActionKind> SetKnobs::settings() const {
+  std::vector<ActionKind> asked;
+  if (!probe.empty()) asked.push_back(ActionKind::probe);
+  if (depth_mm) asked.push_back(ActionKind::depth);
+  if (frequency_mhz) asked.push_back(ActionKind::frequency);
+  if (gain_db) asked.push_back(ActionKind::gain);
+  return asked;
+}
+
 StepBegin SetKnobs::prepare(const StepWorld&) const {
   return [this](double now_s) { return std::make_unique<Run>(*this, now_s); };
 }

@@ -18,6 +18,7 @@ struct SetKnobs : StepTask {
 
   const char* kind() const override { return "set_knobs"; }
   std::vector<Metric> metrics() const override { return {Metric::knobs_right_percent}; }
+  std::vector<ActionKind> settings() const override;
   StepBegin prepare(const StepWorld& world) const override;
 };
 

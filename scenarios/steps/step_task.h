@@ -76,6 +76,8 @@ public:
   virtual std::vector<Metric> metrics() const { return {}; }
   /// Whether a picture is judged, so that criteria may ask for picture metrics.
   virtual bool judges_picture() const { return false; }
+  /// The settings of the machine that the learner is asked to change.
+  virtual std::vector<ActionKind> settings() const { return {}; }
   /// What a report says of a criterion without a value.
   virtual const char* why_no_value() const { return "there was no valid pose to judge."; }
   /// Adds what does not fit the case. @param where  "step 2"

@@ -479,6 +479,48 @@ TEST_CASE("under strict rules an exam is taken once and as it is") {
   CHECK(session.result());
 }
 
+TEST_CASE("what a scenario locks of the machine stays as it is in an exam, and in no practice") {
+  const auto study = [] {
+    auto made = std::make_shared<Study>(*tiny_study());
+    made->scenario->locked = {ActionKind::probe, ActionKind::depth, ActionKind::gain};
+    return made;
+  }();
+  for (const ExamRules rules : {ExamRules::strict, ExamRules::open}) {
+    const bool strict = rules == ExamRules::strict;
+    CAPTURE(strict);
+    std::vector<PoseSample> coming{sample_at(10.1, Pose{})};
+    Session session(
+        study, [&] { return std::make_unique<HandFed>(coming); }, 0, rules);
+    session.advance(10.2);
+    CHECK(session.locks(ActionKind::depth) == strict);
+    CHECK_FALSE(session.locks(ActionKind::frequency));
+    const Console before = session.console();
+    session.console().choose(*find_probe("linear"));
+    session.console().depth_mm = 55;
+    session.console().gain_db = 7;
+    session.console().frequency_mhz = 2.5;
+    session.act({ActionKind::point, {1, 2}});
+    coming = {sample_at(10.3, Pose{})};
+    session.advance(10.3);
+    const Machine& machine = session.runner()->machine();
+    CHECK(machine.probe == (strict ? before.probe.name : "linear"));
+    CHECK(machine.depth_mm == (strict ? before.depth_mm : 55));
+    CHECK(machine.gain_db == (strict ? 0 : 7));
+    CHECK(machine.frequency_mhz == 2.5);
+    CHECK(session.console().depth_mm == machine.depth_mm);
+    CHECK(session.console().probe.name == machine.probe);
+
+    INFO("also while no sample comes, and no longer than the exam");
+    session.console().gain_db = 9;
+    session.advance(10.4);
+    CHECK(session.console().gain_db == (strict ? 0 : 9));
+    session.hand_in();
+    session.console().gain_db = 9;
+    session.advance(10.5);
+    CHECK(session.console().gain_db == 9);
+  }
+}
+
 TEST_CASE("an exam under strict rules that nobody has begun is not handed in") {
   std::vector<PoseSample> coming;
   Session session(

@@ -82,6 +82,9 @@ TEST_CASE("what is wrong in a scenario is said in words") {
       {"pass_mark_percent = 60", "pass_mark_percent = \"60\"", {"line 5, column 21", "no number"}},
       {"pass_mark_percent = 60", "pass_mark_percent = nan", {"no number"}},
       {"time_limit_s = 30", "time_limit_s = -1", {"-1", "from 1"}},
+      {"time_limit_s = 30",
+       "time_limit_s = 30\nlocked = [\"frequncy\"]",
+       {"line 7", "locks 'frequncy', which is no setting", "did you mean 'frequency'?"}},
       {"time_limit_s = 30", "time_limit_s = inf", {"no number"}},
       {"time_limit_s = 30", "time_limit_s = 30\n[phantom]\nfluid = true", {"phantom options", "'tiny'"}},
       {"kind = \"find_view\"", "kind = \"find_veiw\"", {"step 1", "'find_veiw'", "did you mean 'find_view'?"}},
@@ -154,6 +157,28 @@ TEST_CASE("all problems of a scenario come at once, in the order of the file") {
          {"'titel'", "lacks the key 'title'", "'weight' that is no number", "step 2 lacks the key 'view'"})
       CHECK(message.find(word) != std::string::npos);
   }
+}
+
+TEST_CASE("what an exam locks no step asks for, nor a view of another probe") {
+  const auto locking = [](const std::string& settings) {
+    return with(kTinyScenario, "time_limit_s = 30", "time_limit_s = 30\nlocked = [" + settings + "]");
+  };
+  CHECK(parse_scenario(kTinyScenario, "x").locked.empty());
+  CHECK(parse_scenario(locking("\"depth\", \"gain\""), "x").locked == std::set{ActionKind::depth, ActionKind::gain});
+  const std::string knobs =
+      "[[step]]\nkind = \"set_knobs\"\ntitle = \"x\"\ninstruction = \"x\"\ndepth_mm = [90, 120]\n"
+      "[[step.criterion]]\nmetric = \"knobs_right_percent\"\nfull = 100\nzero = 0\n";
+  CHECK_NOTHROW(parse_scenario(locking("\"gain\", \"probe\"") + knobs, "x"));
+  CHECK_THROWS_WITH(parse_scenario(locking("\"depth\"") + knobs, "x"),
+                    Catch::Contains("step 3 asks for a setting that the exam locks"));
+
+  const Scenario scenario = parse_scenario(
+      with(locking("\"probe\""), "view = \"ball\"\nhold_s = 0.5", "view = \"bare\"\nhold_s = 0.5"), "exam.toml");
+  Case subject = tiny_case();
+  CHECK_NOTHROW(check_against_case(scenario, subject));
+  subject.views[1].probe = "linear";
+  CHECK_THROWS_WITH(check_against_case(scenario, subject),
+                    Catch::Contains("step 2 shows the view 'bare' with the probe 'linear'"));
 }
 
 TEST_CASE("names are checked against the case, with the name that was meant") {
