@@ -169,6 +169,7 @@ grep -q '^sitting 1, L-07, begun .*: attempt 1, ' "$work/handed.txt" || fail "$(
 "$score" rescore "$work/sitting.db" >"$work/log" || fail "$(cat "$work/log")"
 "$score" report "$work/sitting.db" --out "$work/reports-sitting" >"$work/log" 2>&1 || fail "$(cat "$work/log")"
 grep -q '"seed": 3,' "$work/reports-sitting/attempt-1/score.json" || fail "the seed was not kept"
+grep -q '"mode": "exam"' "$work/reports-sitting/attempt-1/score.json" || fail "it does not say that it was an exam"
 sit L-07 && fail "an exam that was handed in was begun again"
 grep -q "as attempt 1" "$work/log" || fail "$(cat "$work/log")"
 "$score" hand-in "$work/sitting.db" --sitting 2 --discard >"$work/handed.txt" || fail "hand-in ended with $?"

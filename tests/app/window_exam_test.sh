@@ -87,6 +87,13 @@ await "a key chooses another" is draft yes
 xdotool key Return
 await "the answer ends the step" is step 1
 
+echo "G leads to the view that the step asks for, and ends that"
+is guided_to "" || fail "there is a guide that nobody asked for"
+xdotool key g
+await "the guide leads there" is guided_to pelvis
+xdotool key g
+await "the guide is off" is guided_to ""
+
 echo "calipers are placed in the frozen picture, dragged, taken back and placed again"
 is can_measure false || fail "a running picture is measured in"
 remember_probe
@@ -155,8 +162,10 @@ await "the file is made" written
 echo "the recording scores as the exam did"
 [ -s "$work/out/score.json" ] || fail "there is no score"
 "$score" --log "$work/run.igs.mha" --scenario "$work/exam.toml" >"$work/again.json" 2>"$work/score.log" || fail "$(cat "$work/score.log")"
-without_log() { grep -v '"log' "$1"; }
-cmp <(without_log "$work/out/score.json") <(without_log "$work/again.json") || fail "the recording has another score"
+without_origin() { grep -v -e '"log' -e '"mode"' "$1"; }
+cmp <(without_origin "$work/out/score.json") <(without_origin "$work/again.json") || fail "the recording has another score"
+grep -q '"mode": "practice"' "$work/out/score.json" || fail "the attempt does not say that it is practice"
+grep -q '"mode": "recording"' "$work/again.json" || fail "the recording does not say that it is one"
 for what in '"answer"' '"yes"' '"measured"' '"41.7"' '"point_error_mm"'; do
   grep -q -- "$what" "$work/again.json" || fail "the score does not say $what"
 done
