@@ -103,7 +103,14 @@ TEST_CASE("under strict rules there is no guide, not even after the exam") {
   Guide guide;
   guide.next(session);
   CHECK_FALSE(guide.now(session));
+
+  INFO("whatever was asked for elsewhere");
+  Session practised = by_hand(study);
+  practised.advance(0);
+  practised.advance(0.1);
+  guide.next(practised);
+  REQUIRE(guide.now(practised));
+  CHECK_FALSE(guide.now(session));
   session.hand_in();
-  guide.next(session);
   CHECK_FALSE(guide.now(session));
 }
