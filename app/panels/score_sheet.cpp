@@ -53,6 +53,7 @@ void draw_verdict(const Theme& theme, Rect head, const ExamResult& result) {
   draw_text(head.take_top(theme.px(24)), theme.strong, colour, result.passed ? "Passed" : "Not passed");
   std::string line = short_number(result.points) + " of " + short_number(result.points_possible) + " points; " +
                      short_number(result.pass_mark_percent) + " % are needed";
+  if (result.provenance.mode == AttemptMode::practice) line += "; practice, which does not count as an exam";
   draw_text(head.take_top(theme.px(20)), theme.small_text, colour::kMuted, line);
 }
 
@@ -118,7 +119,7 @@ void draw_rows(const Theme& theme, Rect rows, float height, const ExamResult& re
 }  // namespace
 
 ScoreAnswer draw_score_sheet(const Theme& theme, const Rect& screen, const ExamResult& result,
-                             const std::optional<ResultFiles>& files, bool learner_scanned, bool once) {
+                             const std::optional<ResultFiles>& files, bool watched, bool once) {
   const float row = theme.px(26), head_height = theme.px(74), reason_height = theme.px(22);
   const std::size_t reasons = std::min<std::size_t>(result.reasons.size(), 3);
   const float rows_height = row * float(row_count(result));
@@ -162,7 +163,7 @@ ScoreAnswer draw_score_sheet(const Theme& theme, const Rect& screen, const ExamR
     return answer;
   }
   if (button(theme, "practice_after", next(), "Free practice")) answer = ScoreAnswer::practice;
-  if (!learner_scanned) {
+  if (watched) {
     if (button(theme, "again", next(), "Watch again")) answer = ScoreAnswer::again;
     if (button(theme, "own_try", next(), "Try it yourself", ButtonKind::primary)) answer = ScoreAnswer::own_try;
   } else if (button(theme, "again", next(), "Try again", ButtonKind::primary)) {

@@ -275,8 +275,9 @@ void Screen::draw_overlay(Trainer& trainer) {
     if (answer != OpenDialog::Answer::none) stop_asking();
     if (answer == OpenDialog::Answer::chosen) trainer.open(open_dialog_.path());
   } else if (shown == "score") {
-    answer_score(trainer, draw_score_sheet(theme_, screen_, *session->result(), trainer.result_files(),
-                                           session->holder() == Holder::learner, session->strict()));
+    const bool watched = std::as_const(*session).source().recording() != nullptr;
+    answer_score(trainer, draw_score_sheet(theme_, screen_, *session->result(), trainer.result_files(), watched,
+                                           session->strict()));
   }
 }
 
@@ -287,7 +288,10 @@ void Screen::answer_score(Trainer& trainer, ScoreAnswer answer) {
       trainer.attempt([&] { session.start_over(); });
       break;
     case ScoreAnswer::own_try:
-      trainer.attempt([&] { session.take_probe(); });
+      trainer.attempt([&] {
+        session.take_probe();
+        session.start_over();
+      });
       break;
     case ScoreAnswer::practice:
       trainer.attempt([&] { session.practise(); });
