@@ -201,7 +201,8 @@ void Keyboard::press(const KeyEvent& pressed, Trainer& trainer, ui::Screen& scre
   if (!(pressed.modifiers & GLFW_MOD_CONTROL)) tapped_.insert(pressed.key);
   if (pressed.key == GLFW_KEY_F2 && !repeated) return trainer.begin_setup();
   if (pressed.key == GLFW_KEY_SLASH && (pressed.modifiers & GLFW_MOD_SHIFT)) return screen.toggle_help();
-  if (pressed.key == GLFW_KEY_O && (pressed.modifiers & GLFW_MOD_CONTROL)) return screen.ask_for_path();
+  const bool strict = trainer.session() && trainer.session()->strict();
+  if (pressed.key == GLFW_KEY_O && (pressed.modifiers & GLFW_MOD_CONTROL) && !strict) return screen.ask_for_path();
   if (!trainer.session()) return;
   Session& session = *trainer.session();
   Console& console = session.console();

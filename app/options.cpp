@@ -183,6 +183,10 @@ void check_exam(const Options& options) {
     refuse("--exam", "it is not said where it is kept", "name a database with --results");
   if (options.tracker.empty())
     refuse("--exam", "it does not say what the learner scans with", "name a tracker, as in --tracker mouse:");
+  if (!options.igtl_server.empty())
+    refuse("--igtl-server", "in an exam that counts nobody else is told where the probe is", "leave it out");
+  if (!options.shader_folder.empty())
+    refuse("--shader-dir", "an exam that counts is drawn as the program draws it", "leave it out");
 }
 
 }  // namespace

@@ -135,6 +135,7 @@ void Session::begin_attempt() {
   acts_.clear();
   actions_.clear();
   latest_actions_.clear();
+  at_start_ = console_;
   machine_ = acted_ = runner_ ? runner_->machine() : Machine();
   attempt_is_fresh_ = true;
   log_actions_.clear();
@@ -214,7 +215,11 @@ void Session::undo_locked() {
   if (locks(ActionKind::probe)) console_.probe = *find_probe(acted_.probe);
   if (locks(ActionKind::depth)) console_.depth_mm = acted_.depth_mm;
   if (locks(ActionKind::frequency)) console_.frequency_mhz = acted_.frequency_mhz;
-  if (locks(ActionKind::gain)) console_.gain_db = acted_.gain_db;
+  if (locks(ActionKind::gain)) {
+    console_.gain_db = acted_.gain_db;
+    console_.tgc_db = at_start_.tgc_db;
+    console_.dynamic_range_db = at_start_.dynamic_range_db;
+  }
 }
 
 /// What is on the console comes before what is done next.

@@ -80,7 +80,7 @@ public:
   /// Whether the exam is taken under strict rules.
   bool strict() const { return rules_ == ExamRules::strict; }
   /// Whether a setting of the machine stays as it is: in an exam under strict rules that locks it, until it is
-  /// finished.
+  /// finished. With the gain go the time gain and the dynamic range.
   bool locks(ActionKind setting) const;
   /// Whether the CT and the patient's inside may be seen: not in an exam under strict rules, which asks what the
   /// learner sees in the ultrasound, until it is finished.
@@ -203,6 +203,7 @@ private:
   ActionLog log_actions_;     ///< of the log that is replayed
   std::vector<Action> acts_;  ///< the learner's own, until the next sample
   Machine acted_;             ///< as they leave it
+  Console at_start_;          ///< of this attempt
   Machine machine_;           ///< as it was at the last sample; of a log the console says it
   ActionLog actions_;         ///< of this attempt
   bool advanced_ = false;

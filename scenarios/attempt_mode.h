@@ -29,4 +29,9 @@ inline std::optional<AttemptMode> find_attempt_mode(std::string_view name) {
   return std::nullopt;
 }
 
+/// Whether an attempt is one of those asked for. One that does not say may have counted, and is taken to have.
+inline bool is_of(std::optional<AttemptMode> mode, AttemptMode asked) {
+  return mode.value_or(AttemptMode::exam) == asked;
+}
+
 }  // namespace insonate

@@ -96,7 +96,15 @@ std::vector<ScenarioProblem> problems_with_phantom(const Scenario& scenario, con
 
 Case load_case(const Scenario& scenario, const std::filesystem::path& assets, const std::filesystem::path& cache,
                const Progress& progress) {
-  if (scenario.case_name != "abdomen") return read_case(scenario.file.parent_path() / scenario.case_name);
+  if (scenario.case_name != "abdomen") {
+    const std::filesystem::path folder = scenario.file.parent_path() / scenario.case_name;
+    std::error_code error;
+    if (!std::filesystem::exists(folder, error))
+      throw ScenarioError(scenario.file.string(),
+                          {{scenario.case_place, "the case '" + scenario.case_name + "' is no folder beside the file",
+                            "name a case folder, or \"abdomen\" for the built-in patient"}});
+    return read_case(folder);
+  }
   std::vector<ScenarioProblem> problems = problems_with_phantom(scenario, assets);
   if (!problems.empty()) throw ScenarioError(scenario.file.string(), std::move(problems));
   return cached_phantom(phantom_in(assets), scenario.phantom_options, cache, progress);

@@ -30,6 +30,11 @@ std::size_t index_of(const std::vector<std::string>& words, const std::string& w
 const std::vector<std::string> kSettings{"probe", "depth", "frequency", "gain"};
 constexpr std::array kSettingKinds{ActionKind::probe, ActionKind::depth, ActionKind::frequency, ActionKind::gain};
 
+const char* word_of(ActionKind setting) {
+  return kSettings[std::size_t(std::find(kSettingKinds.begin(), kSettingKinds.end(), setting) - kSettingKinds.begin())]
+      .c_str();
+}
+
 std::set<ActionKind> read_locked(TableReader& reader) {
   std::set<ActionKind> locked;
   for (const std::string& word : reader.texts("locked", kSettings.size(), false)) {
@@ -39,6 +44,10 @@ std::set<ActionKind> read_locked(TableReader& reader) {
     else
       reader.problem(reader.place("locked"), "locks '" + word + "', which is no setting", suggest(word, kSettings));
   }
+  if (!locked.contains(ActionKind::probe) &&
+      (locked.contains(ActionKind::depth) || locked.contains(ActionKind::frequency)))
+    reader.problem(reader.place("locked"), "locks depth or frequency, but not the probe, which brings its own",
+                   "add \"probe\"");
   return locked;
 }
 
@@ -115,6 +124,18 @@ void check_criteria(const Step& step, const std::string& where, std::vector<Scen
   }
 }
 
+/// Settings that the exam locks and the step wants changed.
+void check_locks(const Step& step, const Scenario& exam, TableReader& reader) {
+  for (const ActionKind setting : step.task->settings())
+    if (exam.locked.contains(setting))
+      reader.problem(reader.place("kind"), std::string("asks for the ") + word_of(setting) + ", which the exam locks",
+                     "remove it from the step, or from 'locked'");
+  for (const Criterion& criterion : step.criteria)
+    if (criterion.sound && criterion.metric == Metric::depth_use_percent && exam.locked.contains(ActionKind::depth))
+      reader.problem(criterion.place, "asks for depth_use_percent, but the exam locks the depth",
+                     "remove the criterion, or \"depth\" from 'locked'");
+}
+
 double read_cost(TableReader& table, Scenario::Difficulty difficulty) {
   if (table.is_list("cost")) return table.one_of_three("cost", std::size_t(difficulty), {0, 1000});
   return table.number("cost", {0, 1000});
@@ -146,24 +167,22 @@ Step read_step(TableReader& reader, const Scenario& exam) {
       reader.problem(reader.place("next"), "goes on to a step of its own, but the order is free",
                      "remove [step.next], or set order = \"fixed\"");
   }
+  if (!kind || kind->view != ViewUse::none) {
+    step.view = reader.text("view", kind && kind->view == ViewUse::required);
+    step.view_place = reader.place("view");
+  }
   if (!kind) {
     step.sound = false;
+    step.criteria = read_criteria(reader, reader.where(), false);
     reader.ignore_others();
     return step;
-  }
-  if (kind->view != ViewUse::none) {
-    step.view = reader.text("view", kind->view == ViewUse::required);
-    step.view_place = reader.place("view");
   }
   const std::size_t problems_before = reader.problems().size();
   step.task = kind->read(reader, step);
   step.sound = reader.problems().size() == problems_before;
   step.criteria = read_criteria(reader, reader.where(), false);
   if (step.task) check_criteria(step, reader.where(), reader.problems());
-  for (const ActionKind setting : step.task ? step.task->settings() : std::vector<ActionKind>())
-    if (exam.locked.contains(setting))
-      reader.problem(reader.place("kind"), "asks for a setting that the exam locks",
-                     "remove it from the step, or from 'locked'");
+  if (step.task) check_locks(step, exam, reader);
   return step;
 }
 

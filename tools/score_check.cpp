@@ -32,7 +32,8 @@ ScenarioProblem unusable(const Scenario& scenario, const InputError& error) {
 
 /// What is wrong with a variant on its patient. What the phantom does not take is left out of it, so that the rest can
 /// be looked at.
-std::vector<ScenarioProblem> problems_with_patient(Scenario variant, const Given& given, bool text_is_right) {
+std::vector<ScenarioProblem> problems_with_patient(Scenario variant, const Given& given, bool text_is_right,
+                                                   AttemptCases& cases) {
   std::vector<ScenarioProblem> problems;
   if (given.case_folder.empty()) {
     problems = problems_with_phantom(variant, assets_folder());
@@ -43,13 +44,16 @@ std::vector<ScenarioProblem> problems_with_patient(Scenario variant, const Given
     });
   }
   try {
-    const Case subject = case_of(variant, given.case_folder);
+    const Case& subject = cases.of(given.case_folder.string(), variant);
     const std::vector<ScenarioProblem> more = problems_with_case(variant, subject);
     problems.insert(problems.end(), more.begin(), more.end());
     // Building the runner checks the case's views against themselves.
     if (text_is_right && problems.empty())
       Runner(variant, subject, read_tissue_table(assets_folder() / "tissues.toml"));
+  } catch (const ScenarioError& error) {
+    problems.insert(problems.end(), error.problems().begin(), error.problems().end());
   } catch (const InputError& error) {
+    if (!given.case_folder.empty()) throw;
     problems.push_back(unusable(variant, error));
   }
   return problems;
@@ -58,9 +62,10 @@ std::vector<ScenarioProblem> problems_with_patient(Scenario variant, const Given
 int check(const Given& given) {
   ReadScenario read = read_every_variant(given.scenario);
   const bool text_is_right = read.problems.empty();
+  AttemptCases cases;
   if (!given.without_case)
     for (const Scenario& variant : read.variants) {
-      const std::vector<ScenarioProblem> more = problems_with_patient(variant, given, text_is_right);
+      const std::vector<ScenarioProblem> more = problems_with_patient(variant, given, text_is_right, cases);
       read.problems.insert(read.problems.end(), more.begin(), more.end());
     }
   if (!read.problems.empty()) throw ScenarioError(given.scenario.string(), std::move(read.problems));

@@ -64,9 +64,9 @@ void print_misjudged(const char* name, const Misjudged& share) {
 }
 
 /// Those of one mode: with help, or the third time, people score otherwise than in an exam.
-std::vector<AttemptSummary> attempts_of(ResultsDatabase database, std::optional<AttemptMode> mode) {
+std::vector<AttemptSummary> attempts_of(ResultsDatabase database, AttemptMode mode) {
   std::vector<AttemptSummary> attempts = database.attempts();
-  std::erase_if(attempts, [&](const AttemptSummary& attempt) { return attempt.mode != mode; });
+  std::erase_if(attempts, [&](const AttemptSummary& attempt) { return !is_of(attempt.mode, mode); });
   return attempts;
 }
 
@@ -77,7 +77,7 @@ int pass_mark(const Given& given) {
       throw InputError(given.experts.string(), "", "'" + id + "' is a novice as well",
                        "let each learner be in one list");
   const std::vector<AttemptSummary> attempts =
-      attempts_of(ResultsDatabase::open(given.database), find_attempt_mode(given.mode));
+      attempts_of(ResultsDatabase::open(given.database), find_attempt_mode(given.mode).value());
   const std::string exam = exam_of(given, attempts, novices, experts);
   try {
     const PassMark mark =

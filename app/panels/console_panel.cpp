@@ -45,10 +45,12 @@ void draw_knobs(const Theme& theme, Rect where, Session& session) {
          formatted("%.1f MHz", console.frequency_mhz), console.frequency_mhz, 1.5, 12, 0.5, console.probe.frequency_mhz,
          !session.locks(ActionKind::frequency));
   slider(theme, "range", {right.x, right.y + next, width, height}, "Dynamic range",
-         formatted("%.0f dB", console.dynamic_range_db), console.dynamic_range_db, 30, 90, 5, 60);
+         formatted("%.0f dB", console.dynamic_range_db), console.dynamic_range_db, 30, 90, 5, 60,
+         !session.locks(ActionKind::gain));
 }
 
-void draw_time_gain(const Theme& theme, Rect where, Console& console) {
+void draw_time_gain(const Theme& theme, Rect where, Session& session) {
+  Console& console = session.console();
   constexpr double kReach_db = 20;
   Rect head = where.take_top(theme.px(20));
   draw_text(head, theme.small_text, colour::kMuted, "Time gain");
@@ -57,7 +59,8 @@ void draw_time_gain(const Theme& theme, Rect where, Console& console) {
   const float width = where.w / float(console.tgc_db.size());
   for (std::size_t i = 0; i < console.tgc_db.size(); ++i) {
     const std::string id = "tgc" + std::to_string(i);
-    upright_slider(theme, id.c_str(), where.take_left(width), console.tgc_db[i], kReach_db);
+    upright_slider(theme, id.c_str(), where.take_left(width), console.tgc_db[i], kReach_db,
+                   !session.locks(ActionKind::gain));
   }
 }
 
@@ -74,7 +77,7 @@ ConsoleRequest draw_console_panel(const Theme& theme, const Rect& panel, Session
 
   Rect buttons = rest.take_right(theme.px(276));
   rest.take_right(gap);
-  draw_time_gain(theme, rest.take_right(theme.px(190)), console);
+  draw_time_gain(theme, rest.take_right(theme.px(190)), session);
   rest.take_right(gap);
   draw_knobs(theme, rest, session);
 

@@ -24,8 +24,11 @@ Rect draw_advice(const Theme& theme, const Rect& ultrasound, const Guiding& guid
   constexpr std::size_t kMost = 4;
   const std::size_t lines = std::clamp<std::size_t>(guiding.advice.size(), 1, kMost);
   const float row = theme.px(21), margin = theme.px(12), height = row * float(lines + 1) + theme.px(18 + 16 + 4);
-  const Rect plate{ultrasound.x + theme.px(16), ultrasound.y + ultrasound.h - height - theme.px(14), theme.px(300),
-                   height};
+  float width = theme.px(300);
+  for (const std::string& advice : guiding.advice)
+    width = std::max(width, text_width(theme.text, advice) + 2 * margin + theme.px(2));
+  const Rect plate{ultrasound.x + theme.px(16), ultrasound.y + ultrasound.h - height - theme.px(14),
+                   std::min(width, ultrasound.w - theme.px(32)), height};
   fill(plate, IM_COL32(18, 22, 27, 225), theme.px(4));
   outline(plate, guiding.there ? colour::kAccent : colour::kLine, theme.px(4));
   Rect rest = plate.inset(margin, theme.px(8));

@@ -190,6 +190,8 @@ void Screen::draw_status(Trainer& trainer) {
   const std::string keys =
       trainer.replay()
           ? "Space play    \u2190 \u2192 sample by sample    \u2191 \u2193 speed    Home End    Ctrl O open"
+      : trainer.session() && trainer.session()->strict()
+          ? "F1 keys    Space freeze    R record"
           : "F1 keys    Tab probe    Space freeze    R record    F2 set up";
   draw_text(line.take_left(text_width(theme_.small_text, keys) + theme_.px(24)), theme_.small_text, colour::kMuted,
             keys);

@@ -54,7 +54,8 @@ bool slider(const Theme& theme, const char* id, const Rect& where, std::string_v
             double& value, double least, double most, double step, double normal, bool enabled = true);
 
 /// A short upright slider about a middle of 0, as those of the time gain compensation.
-bool upright_slider(const Theme& theme, const char* id, const Rect& where, double& value, double reach);
+bool upright_slider(const Theme& theme, const char* id, const Rect& where, double& value, double reach,
+                    bool enabled = true);
 
 /// A ring that fills clockwise from the top.
 void draw_ring(const ImVec2& centre, float radius, float thickness, double share, ImU32 colour, ImU32 rest);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 
 #include "scenarios/result_json.h"
 #include "scenarios/results/compression.h"
@@ -157,14 +158,20 @@ std::vector<AttemptSummary> ResultsDatabase::attempts() {
   return list;
 }
 
-std::vector<LearnerSummary> ResultsDatabase::learners(std::optional<AttemptMode> mode) {
+std::vector<LearnerSummary> ResultsDatabase::learners() {
+  std::map<std::string, LearnerSummary> by_id;
+  for (const AttemptSummary& attempt : attempts()) {
+    LearnerSummary& learner = by_id[attempt.learner];
+    learner.id = attempt.learner;
+    ++learner.attempts;
+    learner.last_ms = std::max(learner.last_ms, attempt.finished_ms);
+    if (!is_of(attempt.mode, AttemptMode::exam)) continue;
+    ++learner.exams;
+    learner.passed += attempt.passed ? 1 : 0;
+    learner.best_percent = std::max(learner.best_percent.value_or(0), attempt.percent);
+  }
   std::vector<LearnerSummary> list;
-  sqlite::Statement row(connection_,
-                        "SELECT learner, count(*), sum(passed), max(percent), max(finished_ms) FROM attempt "
-                        "WHERE ?1 IN ('', mode) GROUP BY learner ORDER BY learner");
-  row.bind(1, name_of(mode));
-  while (row.step())
-    list.push_back({row.text(0), int(row.integer(1)), int(row.integer(2)), row.real(3), row.integer(4)});
+  for (const auto& [id, learner] : by_id) list.push_back(learner);
   return list;
 }
 

@@ -28,9 +28,10 @@ struct AttemptSummary {
 struct LearnerSummary {
   std::string id;
   int attempts = 0;
-  int passed = 0;
-  double best_percent = 0;
-  std::int64_t last_ms = 0;  ///< when the last attempt finished
+  int exams = 0;                       ///< of these that counted, or may have (is_of)
+  int passed = 0;                      ///< of the exams
+  std::optional<double> best_percent;  ///< of the exams
+  std::int64_t last_ms = 0;            ///< when the last attempt finished
 };
 
 /// The results of a lab, in one SQLite file. An attempt is in it whole, or not at all, whenever a program or the power
@@ -56,8 +57,8 @@ public:
 
   /// In the order in which they were added.
   std::vector<AttemptSummary> attempts();
-  /// In the order of their ids. @param mode  only of attempts of this mode; empty: of all
-  std::vector<LearnerSummary> learners(std::optional<AttemptMode> mode = {});
+  /// In the order of their ids.
+  std::vector<LearnerSummary> learners();
 
   /// Throws ExamTaken when this learner has taken this very exam so that it counted, or has a sitting. An attempt that
   /// does not say its mode may have counted, and is taken to have.

@@ -79,8 +79,9 @@ CREATE TABLE sitting_part (
 ) STRICT;
 )sql",
                             R"sql(
--- Out of the score: 'exam', 'practice' or 'recording'; '' of attempts from before.
+-- Out of the score: 'exam', 'practice' or 'recording'; of attempts from before '', but for scores that name a log.
 ALTER TABLE attempt ADD COLUMN mode TEXT NOT NULL DEFAULT '';
+UPDATE attempt SET mode = 'recording' WHERE score GLOB '*"log": "[^"]*';
 )sql"};
 
 struct Header {

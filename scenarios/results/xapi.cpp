@@ -79,11 +79,16 @@ std::string xapi_statements(const Attempt& attempt, const ExamResult& result, co
   state("attempted", start_ms, nullptr);
   if (result.complete) {
     const Json done = {{"completion", true}, {"duration", duration(result.motion.time_s)}};
-    state("completed", attempt.finished_ms, done);
-    Json judged = {{"score", score_of(result)}, {"success", result.passed}};
+    Json judged = {{"score", score_of(result)}};
     judged.update(done);
     judged["extensions"] = metrics_of(result);
-    state(result.passed ? "passed" : "failed", attempt.finished_ms, judged);
+    if (is_of(result.provenance.mode, AttemptMode::exam)) {
+      state("completed", attempt.finished_ms, done);
+      judged["success"] = result.passed;
+      state(result.passed ? "passed" : "failed", attempt.finished_ms, judged);
+    } else {
+      state("completed", attempt.finished_ms, judged);
+    }
   }
   return statements.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

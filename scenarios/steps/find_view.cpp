@@ -143,6 +143,12 @@ std::shared_ptr<const StepTask> FindView::read(TableReader& table, const Step& s
   return task;
 }
 
+std::vector<ActionKind> FindView::settings() const {
+  const bool judges_depth = std::any_of(tolerance.begin(), tolerance.end(),
+                                        [](const Tolerance& t) { return t.metric == Metric::depth_use_percent; });
+  return judges_depth ? std::vector{ActionKind::depth} : std::vector<ActionKind>();
+}
+
 void FindView::check(const Step& step, const LabelIndex& labels, const std::string& where,
                      std::vector<ScenarioProblem>& problems) const {
   for (const Tolerance& limit : tolerance)

@@ -17,6 +17,7 @@ struct FindView : StepTask {
   const char* kind() const override { return "find_view"; }
   std::vector<Metric> metrics() const override { return {Metric::longest_hold_s}; }
   bool judges_picture() const override { return true; }
+  std::vector<ActionKind> settings() const override;
   void check(const Step& step, const LabelIndex& labels, const std::string& where,
              std::vector<ScenarioProblem>& problems) const override;
   StepBegin prepare(const StepWorld& world) const override;

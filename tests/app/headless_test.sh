@@ -158,6 +158,9 @@ refuses "no use for a tracker" --headless --replay "$log" --tracker mouse:
 refuses "brings its scenario" --headless --results "$work/results.db" --replay-attempt 1 --scenario "$scenario"
 [ ! -e "$work/none.db" ] || fail "a database was made for a replay"
 refuses shader-dir --headless --shader-dir "$work/missing"
+exam=(--headless --exam --learner L-01 --results "$work/results.db" --tracker mouse:)
+refuses "nobody else is told where the probe is" "${exam[@]}" --igtl-server 18944
+refuses "drawn as the program draws it" "${exam[@]}" --shader-dir "$work"
 
 echo "what there is of a sitting that was broken off is handed in, or removed so that it can be taken again"
 for _ in $(seq 1 100); do

@@ -498,6 +498,8 @@ TEST_CASE("what a scenario locks of the machine stays as it is in an exam, and i
     session.console().choose(*find_probe("linear"));
     session.console().depth_mm = 55;
     session.console().gain_db = 7;
+    session.console().tgc_db[3] = 12;
+    session.console().dynamic_range_db = 40;
     session.console().frequency_mhz = 2.5;
     session.act({ActionKind::point, {1, 2}});
     coming = {sample_at(10.3, Pose{})};
@@ -508,6 +510,8 @@ TEST_CASE("what a scenario locks of the machine stays as it is in an exam, and i
     CHECK(machine.gain_db == (strict ? 0 : 7));
     CHECK(machine.frequency_mhz == 2.5);
     CHECK(session.console().depth_mm == machine.depth_mm);
+    CHECK(session.console().tgc_db[3] == (strict ? 0 : 12));
+    CHECK(session.console().dynamic_range_db == (strict ? before.dynamic_range_db : 40));
     CHECK(session.console().probe.name == machine.probe);
 
     INFO("also while no sample comes, and no longer than the exam");

@@ -164,13 +164,20 @@ TEST_CASE("what an exam locks no step asks for, nor a view of another probe") {
     return with(kTinyScenario, "time_limit_s = 30", "time_limit_s = 30\nlocked = [" + settings + "]");
   };
   CHECK(parse_scenario(kTinyScenario, "x").locked.empty());
-  CHECK(parse_scenario(locking("\"depth\", \"gain\""), "x").locked == std::set{ActionKind::depth, ActionKind::gain});
+  CHECK(parse_scenario(locking("\"probe\", \"gain\""), "x").locked == std::set{ActionKind::probe, ActionKind::gain});
+  CHECK_THROWS_WITH(parse_scenario(locking("\"depth\""), "x"), Catch::Contains("add \"probe\""));
   const std::string knobs =
       "[[step]]\nkind = \"set_knobs\"\ntitle = \"x\"\ninstruction = \"x\"\ndepth_mm = [90, 120]\n"
       "[[step.criterion]]\nmetric = \"knobs_right_percent\"\nfull = 100\nzero = 0\n";
   CHECK_NOTHROW(parse_scenario(locking("\"gain\", \"probe\"") + knobs, "x"));
-  CHECK_THROWS_WITH(parse_scenario(locking("\"depth\"") + knobs, "x"),
-                    Catch::Contains("step 3 asks for a setting that the exam locks"));
+  CHECK_THROWS_WITH(parse_scenario(locking("\"depth\", \"probe\"") + knobs, "x"),
+                    Catch::Contains("step 3 asks for the depth, which the exam locks"));
+  for (const auto& [from, to] :
+       {std::pair{"plane_distance_mm = 8\n", "plane_distance_mm = 8\ndepth_use_percent = 50\n"},
+        {"metric = \"target_insonated_percent\"", "metric = \"depth_use_percent\""}}) {
+    CHECK_NOTHROW(parse_scenario(with(kTinyScenario, from, to), "x"));
+    CHECK_THROWS_WITH(parse_scenario(with(locking("\"probe\", \"depth\""), from, to), "x"), Catch::Contains("locks"));
+  }
 
   const Scenario scenario = parse_scenario(
       with(locking("\"probe\""), "view = \"ball\"\nhold_s = 0.5", "view = \"bare\"\nhold_s = 0.5"), "exam.toml");

@@ -160,6 +160,18 @@ TEST_CASE("statements tell a learning record store of an attempt") {
             .at("plane_distance_mm") == *good.result.steps[0].marks[0].value);
 }
 
+TEST_CASE("of practice and recordings statements tell the score, and neither pass nor failure") {
+  for (const AttemptMode mode : {AttemptMode::practice, AttemptMode::recording}) {
+    TinyExam exam = tiny_exam(0);
+    exam.result.provenance.mode = mode;
+    const Json statements = Json::parse(xapi_statements(kept_attempt(exam), exam.result, ""));
+    REQUIRE(statements.size() == 3);
+    CHECK(statements[2].at("verb").at("id") == "http://adlnet.gov/expapi/verbs/completed");
+    CHECK(statements[2].at("result").at("score").at("raw") == exam.result.points);
+    CHECK_FALSE(statements[2].at("result").contains("success"));
+  }
+}
+
 TEST_CASE("statements say failed of a failed exam, and judge none that is not complete") {
   const TinyExam poor = tiny_exam(70);
   Json statements = Json::parse(xapi_statements(kept_attempt(poor), poor.result, "https://lab.example/learners"));

@@ -139,6 +139,10 @@ TEST_CASE("a database of the first schema is brought up to date and keeps its at
     old.run(
         "INSERT INTO attempt VALUES (5, 'uuid', 'L-01', 0, 'title', 1, 50, 0, '2d06800538d394c2', '', '', '', "
         "'2d06800538d394c2', 0, x'789c030000000001', 0, x'789c030000000001', '{}')");
+    old.run(
+        "INSERT INTO attempt SELECT 4, 'other', learner, 0, title, 1, 50, 0, scenario_digest, '', '', '', log_digest, "
+        "0, "
+        "log, 0, trace, '{\"log\": \"a.igs.mha\",\"log_digest\": \"\"}' FROM attempt");
     CHECK(old.number("PRAGMA user_version") == 1);
     CHECK_THROWS_AS(old.run("SELECT * FROM picture"), InputError);
   }
@@ -146,7 +150,8 @@ TEST_CASE("a database of the first schema is brought up to date and keeps its at
   database.check();
   CHECK(database.read(5).learner == "L-01");
   CHECK(database.read(5).pictures.empty());
-  CHECK(database.attempts()[0].mode == std::nullopt);
+  CHECK(database.attempts()[0].mode == AttemptMode::recording);  // its score names a log
+  CHECK(database.attempts()[1].mode == std::nullopt);
   Attempt next = made_attempt("L-02", tiny_exam(0));
   database.add(next);
   CHECK(next.number == 6);
