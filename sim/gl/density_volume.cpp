@@ -7,6 +7,8 @@
 #include <cmath>
 #include <vector>
 
+#include "sim/gl/device_volume.h"
+
 namespace insonate::gl {
 namespace {
 
@@ -44,10 +46,9 @@ Texture density_volume(const AcousticVolume& volume, double reflection_length_mm
         }
       }
   });
-  Texture texture =
-      Texture::make_3d(GL_RGBA16_SNORM, grid.size.x, grid.size.y, grid.size.z, Filter::linear, Wrap::border);
-  texture.set_border(float(AcousticVoxel{}.hu) / 32767.0f, 0, 0, 0);
-  texture.write(GL_RGBA, GL_SHORT, voxels.data());
+  const glm::ivec3 size = grid.size + 2 * kAirMargin;
+  Texture texture = Texture::make_3d(GL_RGBA16_SNORM, size.x, size.y, size.z, Filter::linear, Wrap::edge);
+  texture.write_inside(GL_RGBA, GL_SHORT, voxels.data(), {float(AcousticVoxel{}.hu) / 32767.0f, 0, 0, 0});
   return texture;
 }
 

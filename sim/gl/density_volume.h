@@ -6,8 +6,8 @@
 namespace insonate::gl {
 
 /// What model W reads of a CT: (HU, its differences over the reflection length along the CT's axes i, j, k in eighths
-/// of HU) / 32767, eight bytes a voxel; beyond the CT air without a gradient. Differences above 4095 HU count as that.
-/// Throws TextureRefused.
+/// of HU) / 32767, eight bytes a voxel, with kAirMargin of air without a gradient around it. Differences above 4095 HU
+/// count as that. Throws TextureRefused.
 /// @param reflection_length_mm  0.01 to 20
 Texture density_volume(const AcousticVolume& volume, double reflection_length_mm);
 

@@ -1,7 +1,6 @@
 #include "sim/gl/objects.h"
 
 #include <algorithm>
-#include <climits>
 #include <string>
 
 namespace insonate::gl {
@@ -50,12 +49,9 @@ void Buffer::clear() {
 }
 
 Texture Texture::make(GLenum target, GLenum format, int width, int height, int depth, Filter filter, Wrap wrap) {
-  GLint limit = 0, layers = INT_MAX;
+  GLint limit = 0;
   glGetIntegerv(target == GL_TEXTURE_3D ? GL_MAX_3D_TEXTURE_SIZE : GL_MAX_TEXTURE_SIZE, &limit);
-  if (target == GL_TEXTURE_2D_ARRAY) glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &layers);
-  if (std::max({width, height, target == GL_TEXTURE_2D_ARRAY ? 1 : depth}) > limit)
-    throw TextureRefused(width, height, depth, limit);
-  if (depth > layers) throw TextureRefused(width, height, depth, layers);
+  if (std::max({width, height, depth}) > limit) throw TextureRefused(width, height, depth, limit);
   Texture texture;
   GLuint name = 0;
   glCreateTextures(target, 1, &name);
@@ -73,7 +69,7 @@ Texture Texture::make(GLenum target, GLenum format, int width, int height, int d
   const GLint gl_filter = filter == Filter::linear ? GL_LINEAR : GL_NEAREST;
   glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, gl_filter);
   glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, gl_filter);
-  const GLint gl_wrap = wrap == Wrap::edge ? GL_CLAMP_TO_EDGE : wrap == Wrap::repeat ? GL_REPEAT : GL_CLAMP_TO_BORDER;
+  const GLint gl_wrap = wrap == Wrap::edge ? GL_CLAMP_TO_EDGE : GL_REPEAT;
   for (GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
     glTextureParameteri(name, axis, gl_wrap);
   return texture;
@@ -87,15 +83,6 @@ Texture Texture::make_3d(GLenum format, int width, int height, int depth, Filter
   return make(GL_TEXTURE_3D, format, width, height, depth, filter, wrap);
 }
 
-Texture Texture::make_layers(GLenum format, int width, int height, int layers, Filter filter, Wrap wrap) {
-  return make(GL_TEXTURE_2D_ARRAY, format, width, height, layers, filter, wrap);
-}
-
-void Texture::set_border(float r, float g, float b, float a) {
-  const float colour[] = {r, g, b, a};
-  glTextureParameterfv(object_.name(), GL_TEXTURE_BORDER_COLOR, colour);
-}
-
 void Texture::write(GLenum layout, GLenum type, const void* pixels) {
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   GLint target = 0;
@@ -106,6 +93,13 @@ void Texture::write(GLenum layout, GLenum type, const void* pixels) {
   else
     glTextureSubImage2D(object_.name(), 0, 0, 0, width_, height_, layout, type, pixels);
   if (out_of_memory()) throw TextureRefused(width_, height_, depth_, 0);
+}
+
+void Texture::write(GLenum layout, GLenum type, const Buffer& pixels) {
+  glMemoryBarrier(GL_PIXEL_BUFFER_BARRIER_BIT);
+  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, pixels.name());
+  write(layout, type, static_cast<const void*>(nullptr));
+  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
 }
 
 void Texture::write_inside(GLenum layout, GLenum type, const void* pixels, const std::array<float, 4>& margin) {
@@ -139,7 +133,7 @@ void Texture::bind_image_as(GLuint unit, GLenum access, GLenum format) const {
 }
 
 TexelBuffer::TexelBuffer(GLenum format, std::size_t texels, const void* values) {
-  const std::size_t bytes = format == GL_RGBA32F ? 16 : format == GL_RG32F ? 8 : 4;
+  const std::size_t bytes = format == GL_RGBA32F || format == GL_RGBA32I ? 16 : format == GL_RG32F ? 8 : 4;
   GLint64 most_bytes = 0;
   GLint most_texels = 0;
   glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most_bytes);

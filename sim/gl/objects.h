@@ -74,9 +74,9 @@ private:
 enum class Filter { nearest, linear };
 
 /// What a texture gives outside [0, 1].
-enum class Wrap { edge, repeat, border };
+enum class Wrap { edge, repeat };
 
-/// A 2D or 3D texture, or layers of 2D ones, with one level and immutable storage.
+/// A 2D or 3D texture with one level and immutable storage.
 class Texture {
 public:
   Texture() = default;
@@ -85,16 +85,14 @@ public:
   /// @param format  sized internal format, such as GL_RGBA32F
   static Texture make_2d(GLenum format, int width, int height, Filter filter, Wrap wrap = Wrap::edge);
   static Texture make_3d(GLenum format, int width, int height, int depth, Filter filter, Wrap wrap);
-  static Texture make_layers(GLenum format, int width, int height, int layers, Filter filter, Wrap wrap = Wrap::edge);
-
-  /// The colour that Wrap::border gives outside.
-  void set_border(float r, float g, float b, float a);
 
   /// Sets everything to 0.
   void clear();
   /// Uploads everything; `pixels` are tightly packed values of `type` in `layout` (GL_RG, GL_SHORT, ...). Throws
   /// TextureRefused: a device may look for memory no sooner than here.
   void write(GLenum layout, GLenum type, const void* pixels);
+  /// The same from a buffer that shaders have written.
+  void write(GLenum layout, GLenum type, const Buffer& pixels);
   /// The same for all of a 3D texture but a margin of one texel on every side, which becomes `margin` (RGBA).
   void write_inside(GLenum layout, GLenum type, const void* pixels, const std::array<float, 4>& margin);
   /// Reads everything back, tightly packed.
@@ -127,13 +125,14 @@ public:
   TexelBuffer() = default;
   /// So many texels, filled from `values` when there are any. Throws std::runtime_error when shaders cannot have that
   /// many on the device, or it has no memory for them.
-  /// @param format  GL_R32F, GL_RG32F or GL_RGBA32F
+  /// @param format  GL_R32F, GL_R32UI, GL_RG16, GL_RG32F, GL_RGBA32F or GL_RGBA32I
   TexelBuffer(GLenum format, std::size_t texels, const void* values = nullptr);
 
   void bind(GLuint unit) const { glBindTextureUnit(unit, texture_.name()); }
   void bind_storage(GLuint binding) const { buffer_.bind_storage(binding); }
+  const Buffer& values() const { return buffer_; }
   void clear() { buffer_.clear(); }
-  void read(float* values, std::size_t count) const { buffer_.read(values, count * sizeof(float)); }
+  void read(void* values, std::size_t bytes) const { buffer_.read(values, bytes); }
   explicit operator bool() const { return bool(texture_); }
 
 private:

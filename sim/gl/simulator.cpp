@@ -22,7 +22,7 @@ std::vector<Image<float>> read_channels(const TexelBuffer& buffer, int channels,
   const std::size_t count = std::size_t(channels);
   Image<float> image(width, height);
   std::vector<float> values(count * image.pixels.size());
-  buffer.read(values.data(), values.size());
+  buffer.read(values.data(), values.size() * sizeof(float));
   std::vector<Image<float>> images(count, image);
   for (std::size_t i = 0; i < values.size(); ++i) images[i % count].pixels[i / count] = values[i];
   return images;

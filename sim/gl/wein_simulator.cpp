@@ -5,10 +5,15 @@
 #include <glm/vec4.hpp>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
+#include <string>
 
 #include "sim/gl/density_volume.h"
+#include "sim/gl/device_volume.h"
 #include "sim/gl/fan_layout.h"
 #include "sim/shaders/shared/wein_parameters.h"
 
@@ -18,40 +23,62 @@ namespace {
 // Of a chunk's scan lines: what a processor's second-level cache holds.
 constexpr std::size_t kChunkBytes = std::size_t(2) << 20;
 constexpr std::size_t kSampleBytes = 4;
+constexpr std::size_t kMostChunk = 2048;  // images, of which some tables have a row each
 
 // Below this no echo is left: with any compression it is less than half a step of what the scan holds.
 constexpr double kLeastIntensity = 1e-10;
 
 constexpr std::size_t kGroup = 8;  // the shaders' local size
+constexpr int kWordPixels = 4;     // of the grid, stored at once
 
-// Columns of pixels, one an invocation, as a table with a row a step; as many columns as whole groups have.
-Texture as_table(const std::vector<std::vector<glm::vec4>>& columns, const glm::vec4& filler) {
-  std::size_t steps = 0;
-  for (const auto& column : columns) steps = std::max(steps, column.size());
-  const std::size_t width = (columns.size() + kGroup - 1) / kGroup * kGroup;
-  std::vector<glm::vec4> table(width * steps, filler);
-  for (std::size_t i = 0; i < columns.size(); ++i)
-    for (std::size_t step = 0; step < columns[i].size(); ++step) table[step * width + i] = columns[i][step];
-  Texture texture = Texture::make_2d(GL_RGBA32F, int(width), int(steps), Filter::nearest);
-  texture.write(GL_RGBA, GL_FLOAT, table.data());
-  return texture;
+// Where a pixel lies among the scan lines, as shared/wein_scan.glsl reads it: behind which sample of a scan; how far,
+// as a float's bits, from there to the next sample and to the next line; what more a stage wants to know.
+using PixelPlace = glm::ivec4;
+const PixelPlace kNowhere(-1, 0, 0, 0);
+
+// Pixels shared out to invocations, a column each, with a row a step; as many columns as whole groups have.
+struct PixelTable {
+  PixelTable() = default;
+  PixelTable(const std::vector<std::vector<PixelPlace>>& of_columns, const PixelPlace& filler) {
+    std::size_t steps = 0;
+    for (const auto& column : of_columns) steps = std::max(steps, column.size());
+    columns = (of_columns.size() + kGroup - 1) / kGroup * kGroup;
+    std::vector<PixelPlace> table(columns * steps, filler);
+    for (std::size_t i = 0; i < of_columns.size(); ++i)
+      for (std::size_t step = 0; step < of_columns[i].size(); ++step) table[step * columns + i] = of_columns[i][step];
+    places = TexelBuffer(GL_RGBA32I, table.size(), table.data());
+  }
+  explicit operator bool() const { return columns > 0; }
+
+  std::size_t columns = 0;
+  TexelBuffer places;
+};
+
+// About 64 pixels a column, `together` in one after the other, so that a group takes neighbours at a step.
+PixelTable shared_out(const std::vector<PixelPlace>& pixels, std::size_t together, const PixelPlace& filler) {
+  if (pixels.empty()) return {};
+  const std::size_t units = pixels.size() / together,
+                    groups = std::clamp<std::size_t>(pixels.size() / (64 * kGroup), 1, 512);
+  const std::size_t steps = (units + groups * kGroup - 1) / (groups * kGroup);
+  std::vector<std::vector<PixelPlace>> columns(groups * kGroup);
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const std::size_t unit = i / together;
+    columns[unit / kGroup / steps * kGroup + unit % kGroup].push_back(pixels[i]);
+  }
+  return PixelTable(columns, filler);
 }
 
-// Pixels shared out to invocations, a column each, so that a group takes neighbours at a step; about 32 pixels a
-// column, and no side above 16384.
-Texture shared_out(const std::vector<glm::vec4>& pixels, const glm::vec4& filler) {
-  if (pixels.empty()) return {};
-  const std::size_t groups = std::clamp<std::size_t>(pixels.size() / (32 * kGroup), 1, 512);
-  const std::size_t steps = (pixels.size() + groups * kGroup - 1) / (groups * kGroup);
-  std::vector<std::vector<glm::vec4>> columns(groups * kGroup);
-  for (std::size_t i = 0; i < pixels.size(); ++i)
-    columns[i / kGroup / steps * kGroup + i % kGroup].push_back(pixels[i]);
-  return as_table(columns, filler);
+// As shaders write it.
+std::string literal(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "float(%.9g)", value);
+  return text;
 }
 
 // What traverses lines; `tells`: the intensity too, which no picture needs.
-Program traverse_program(const ShaderSources& sources, bool tells) {
-  return Program(sources, {"wein_traverse.comp"}, tells ? Defines{{"INTENSITY", ""}} : Defines{});
+Program traverse_program(const ShaderSources& sources, Defines compiled_in, bool tells) {
+  if (tells) compiled_in.emplace_back("INTENSITY", "");
+  return Program(sources, {"wein_traverse.comp"}, compiled_in);
 }
 
 }  // namespace
@@ -63,20 +90,26 @@ struct WeinSimulator::State {
   void traverse(std::span<const Pose> chunk, std::size_t first, const Program& program);
   template <typename Work>
   void by_chunks(std::span<const Pose> poses, Work&& work);
-  std::vector<glm::vec4> positions() const;
+  Defines constants(const AcousticVolume& volume) const;
+  std::vector<PixelPlace> positions() const;
+  PixelTable picture_pixels() const;
 
   WeinSettings settings;
   ShaderSources sources;
   ScanLines lines;
   FanLayout fan;
   std::size_t chunk_images;
+  const int tile_words;  // of an image in the grid, four pixels each
   glm::dmat4 texture_from_patient{1.0};
   WeinParameters parameters{};
 
+  Defines compiled_in;
   Program traverse_lines, picture, parts, lc2;
   Buffer parameter_buffer{sizeof(WeinParameters), nullptr}, similarities;
   std::size_t similarities_held = 0;
-  Texture density, probe_lines, places, scan, fan_pixels, counted_pixels, sums, grid;
+  TexelBuffer scan, tiles;
+  PixelTable fan_pixels, counted_pixels;
+  Texture density, probe_lines, places, sums, grid;
   std::vector<glm::vec4> place_rows;
 };
 
@@ -86,18 +119,20 @@ WeinSimulator::State::State(const AcousticVolume& volume, const Probe& probe, do
       sources(given),
       lines(scan_lines(probe, depth_mm, wanted.samples)),
       fan(probe, depth_mm, lines, wanted.image_width, wanted.image_height),
-      traverse_lines(traverse_program(given, false)),
-      picture(given, {"wein_picture.comp"}),
-      parts(given, {"lc2_parts.comp"}),
-      lc2(given, {"lc2.comp"}),
+      tile_words((wanted.image_width + kWordPixels - 1) / kWordPixels),
+      compiled_in(constants(volume)),
+      traverse_lines(traverse_program(given, compiled_in, false)),
+      picture(given, {"wein_picture.comp"}, compiled_in),
+      parts(given, {"lc2_parts.comp"}, compiled_in),
+      lc2(given, {"lc2.comp"}, compiled_in),
       density(density_volume(volume, wanted.reflection_length_mm)) {
   const int n = int(lines.lines.size()), d = lines.samples;
   const double dr = lines.dr_mm();
-  const glm::dvec3 size(volume.grid.size);
+  const glm::dvec3 size(volume.grid.size + 2 * kAirMargin);
   const glm::dmat4 index_from_patient = glm::inverse(volume.grid.matrix());
   for (int column = 0; column < 4; ++column)
     texture_from_patient[column] = index_from_patient[column] / glm::dvec4(size, 1);
-  texture_from_patient[3] += glm::dvec4(0.5 / size, 0);  // voxel centres lie at (i + 1/2) / size
+  texture_from_patient[3] += glm::dvec4((kAirMargin + 0.5) / size, 0);  // texels' centres lie at (i + 1/2) / size
 
   std::vector<glm::vec4> ways;
   for (const ScanLine& line : lines.lines) {
@@ -107,48 +142,71 @@ WeinSimulator::State::State(const AcousticVolume& volume, const Probe& probe, do
   probe_lines = Texture::make_2d(GL_RGBA32F, 2, n, Filter::nearest);
   probe_lines.write(GL_RGBA, GL_FLOAT, ways.data());
 
-  GLint most = 0;
-  glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &most);
-  chunk_images =
-      std::clamp<std::size_t>(kChunkBytes / (std::size_t(n) * std::size_t(d) * kSampleBytes), 1, std::size_t(most));
-  scan = Texture::make_layers(GL_RG16, d, n, int(chunk_images), Filter::linear);
+  chunk_images = std::clamp<std::size_t>(kChunkBytes / (std::size_t(n) * std::size_t(d) * kSampleBytes), 1, kMostChunk);
+  scan = TexelBuffer(GL_RG16, std::size_t(n) * std::size_t(d) * chunk_images);
   places = Texture::make_2d(GL_RGBA32F, 3, int(chunk_images), Filter::nearest);
   place_rows.resize(3 * chunk_images);
 
-  const int w = settings.image_width;
-  std::vector<glm::vec4> pixels = positions();
-  std::size_t inside = 0;
-  for (std::size_t i = 0; i < pixels.size(); ++i)
-    if (fan.inside.pixels[i]) pixels[inside++] = glm::vec4(pixels[i].x, pixels[i].y, int(i) % w, int(i) / w);
-  pixels.resize(inside);
-  if (inside > 0) fan_pixels = shared_out(pixels, pixels.back());
-
-  WeinParameters& p = parameters;
-  p.lines = n;
-  p.samples = d;
-  p.width = w;
-  p.height = settings.image_height;
-  p.columns = 1;
-  p.shadows = settings.shadows;
-  // Sample k lies at (k + 1/2) dr behind r_min: the first one that is not nearer than the contact.
-  p.first_free_sample = float(std::ceil((settings.contact_mm - lines.r_min_mm) / dr - 0.5));
-  p.patches = settings.similarity_patch > 0;
-  p.dr_by_length = float(dr / settings.reflection_length_mm);
-  p.compression = float(settings.compression);
-  p.one_over_compressed_one = float(1 / std::log1p(settings.compression));
-  p.dark_hu = float(settings.dark_hu);
-  p.one_over_hu_range = float(1 / (settings.bright_hu - settings.dark_hu));
-  p.reflection_share = float(settings.reflection_share);
-  p.last_log_intensity = settings.shadows ? float(std::log(kLeastIntensity)) : -INFINITY;
-  p.sides_by_dr = glm::vec4(size * volume.grid.spacing / dr, 0);
+  parameters.columns = 1;
+  fan_pixels = picture_pixels();
 }
 
-// Where each pixel lies in the scan's texture, in x and y.
-std::vector<glm::vec4> WeinSimulator::State::positions() const {
-  const glm::vec2 size(lines.samples, int(lines.lines.size()));
-  std::vector<glm::vec4> result;
-  for (const glm::vec2& at : fan.line_and_sample) result.emplace_back((glm::vec2(at.y, at.x) + 0.5f) / size, 0, 0);
+// What no call changes.
+Defines WeinSimulator::State::constants(const AcousticVolume& volume) const {
+  const double dr = lines.dr_mm();
+  const glm::dvec3 sides_by_dr = glm::dvec3(volume.grid.size + 2 * kAirMargin) * volume.grid.spacing / dr;
+  return {{"LINES", std::to_string(lines.lines.size())},
+          {"SAMPLES", std::to_string(lines.samples)},
+          {"TILE_WORDS", std::to_string(tile_words)},
+          {"TILE_HEIGHT", std::to_string(settings.image_height)},
+          {"PATCHES", settings.similarity_patch > 0 ? "1" : "0"},
+          {"SHADOWS", settings.shadows ? "1" : "0"},
+          // Sample k lies at (k + 1/2) dr behind r_min: the first one that is not nearer than the contact.
+          {"FIRST_FREE_SAMPLE", literal(std::ceil((settings.contact_mm - lines.r_min_mm) / dr - 0.5))},
+          {"DR_BY_LENGTH", literal(dr / settings.reflection_length_mm)},
+          {"COMPRESSION", literal(settings.compression)},
+          {"ONE_OVER_COMPRESSED_ONE", literal(1 / std::log1p(settings.compression))},
+          {"DARK_HU", literal(settings.dark_hu)},
+          {"ONE_OVER_HU_RANGE", literal(1 / (settings.bright_hu - settings.dark_hu))},
+          {"REFLECTION_SHARE", literal(settings.reflection_share)},
+          {"LAST_LOG_INTENSITY", literal(settings.shadows ? std::log(kLeastIntensity) : -1e30)},
+          {"SIDES_BY_DR",
+           "vec3(" + literal(sides_by_dr.x) + ", " + literal(sides_by_dr.y) + ", " + literal(sides_by_dr.z) + ")"}};
+}
+
+// Where each pixel lies in a scan; outside the fan nowhere.
+std::vector<PixelPlace> WeinSimulator::State::positions() const {
+  const glm::ivec2 last(lines.samples - 1, int(lines.lines.size()) - 1);
+  std::vector<PixelPlace> result(fan.line_and_sample.size(), kNowhere);
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    if (!fan.inside.pixels[i]) continue;
+    const glm::vec2 at =
+        glm::clamp(glm::vec2(fan.line_and_sample[i].y, fan.line_and_sample[i].x), glm::vec2(0), glm::vec2(last));
+    const glm::ivec2 low = glm::max(glm::min(glm::ivec2(at), last - 1), 0);
+    const glm::vec2 further = at - glm::vec2(low);
+    result[i] =
+        PixelPlace(low.y * lines.samples + low.x, std::bit_cast<int>(further.x), std::bit_cast<int>(further.y), 0);
+  }
   return result;
+}
+
+// The words of a picture that the fan touches.
+PixelTable WeinSimulator::State::picture_pixels() const {
+  const std::vector<PixelPlace> all = positions();
+  std::vector<PixelPlace> pixels;
+  for (int y = 0; y < settings.image_height; ++y)
+    for (int word = 0; word < tile_words; ++word) {
+      std::array<PixelPlace, kWordPixels> four;
+      bool touched = false;
+      for (int i = 0; i < kWordPixels; ++i) {
+        const int x = kWordPixels * word + i;
+        four[std::size_t(i)] = x < settings.image_width ? all[std::size_t(y * settings.image_width + x)] : kNowhere;
+        touched = touched || four[std::size_t(i)].x >= 0;
+      }
+      four[0].w = y << 16 | word;
+      if (touched) pixels.insert(pixels.end(), four.begin(), four.end());
+    }
+  return shared_out(pixels, kWordPixels, PixelPlace(-1, 0, 0, -1));
 }
 
 // Places a chunk's lines and walks along them.
@@ -165,8 +223,8 @@ void WeinSimulator::State::traverse(std::span<const Pose> chunk, std::size_t fir
   density.bind(0);
   probe_lines.bind(1);
   places.bind(2);
-  scan.bind_image(0, GL_WRITE_ONLY);
-  program.dispatch(parameters.lines, parameters.images);
+  scan.bind_storage(0);
+  program.dispatch(int(lines.lines.size()), parameters.images);
 }
 
 template <typename Work>
@@ -199,23 +257,28 @@ const Texture& WeinSimulator::simulate(std::span<const Pose> patient_from_probe)
   const int count = std::max(int(patient_from_probe.size()), 1);
   const int columns = std::clamp(int(std::lround(std::sqrt(double(count) * h / w))), 1, count);
   const int rows = (count + columns - 1) / columns;
-  const bool fits = s.grid && s.grid.width() == columns * w && s.grid.height() == rows * h;
-  if (!fits) s.grid = Texture::make_2d(GL_R8, columns * w, rows * h, Filter::nearest);
-  if (!fits || count < columns * rows) s.grid.clear();  // what no fan covers stays so
+  const int grid_width = columns * s.tile_words * kWordPixels;
+  const bool fits = s.grid && s.grid.width() == grid_width && s.grid.height() == rows * h;
+  if (!fits) {
+    s.grid = Texture::make_2d(GL_R8, grid_width, rows * h, Filter::nearest);
+    s.tiles = TexelBuffer(GL_R32UI, std::size_t(grid_width / kWordPixels) * std::size_t(rows * h));
+  }
+  if (!fits || count < columns * rows) s.tiles.clear();  // what no fan covers stays so
   s.parameters.columns = columns;
-  if (!s.fan_pixels) return s.grid;
-  s.by_chunks(patient_from_probe, [&](int images) {
-    s.fan_pixels.bind(1);
-    s.grid.bind_image(0, GL_WRITE_ONLY);
-    s.picture.dispatch(s.fan_pixels.width(), images);
-  });
+  if (s.fan_pixels)
+    s.by_chunks(patient_from_probe, [&](int images) {
+      s.fan_pixels.places.bind(1);
+      s.tiles.bind_storage(0);
+      s.picture.dispatch(int(s.fan_pixels.columns), images);
+    });
+  s.grid.write(GL_RED, GL_UNSIGNED_BYTE, s.tiles.values());
   return s.grid;
 }
 
 glm::ivec2 WeinSimulator::tile(int image) const {
   const State& s = *state_;
   return glm::ivec2(image % s.parameters.columns, image / s.parameters.columns) *
-         glm::ivec2(s.settings.image_width, s.settings.image_height);
+         glm::ivec2(s.tile_words * kWordPixels, s.settings.image_height);
 }
 
 void WeinSimulator::set_ultrasound(const Image<float>& image) {
@@ -239,20 +302,21 @@ void WeinSimulator::set_ultrasound(const Image<float>& image) {
     if (counts(i)) squares += (image.pixels[i] - mean) * (image.pixels[i] - mean);
   const double scale = most > least ? 1 / std::sqrt(squares / count) : 0;  // of a flat image nothing is left
   const int width = fan.width, patch = s.settings.similarity_patch, across = patch ? (width + patch - 1) / patch : 0;
-  const std::vector<glm::vec4> positions = s.positions();
-  std::vector<glm::vec4> pixels;
-  std::vector<std::vector<glm::vec4>> patches;
+  const std::vector<PixelPlace> positions = s.positions();
+  std::vector<PixelPlace> pixels;
+  std::vector<std::vector<PixelPlace>> patches;
   for (std::size_t i = 0; i < positions.size(); ++i)
     if (counts(i)) {
-      pixels.emplace_back(positions[i].x, positions[i].y, (image.pixels[i] - mean) * scale, 1);
+      pixels.push_back(positions[i]);
+      pixels.back().w = std::bit_cast<int>(float((image.pixels[i] - mean) * scale));
       if (!patch) continue;
       const std::size_t in = std::size_t(int(i) / width / patch * across + int(i) % width / patch);
       patches.resize(std::max(patches.size(), in + 1));
       patches[in].push_back(pixels.back());
     }
-  s.counted_pixels = patches.empty() ? shared_out(pixels, glm::vec4(0)) : as_table(patches, glm::vec4(0));
+  s.counted_pixels = patches.empty() ? shared_out(pixels, 1, kNowhere) : PixelTable(patches, kNowhere);
   if (s.counted_pixels)
-    s.sums = Texture::make_2d(GL_RGBA32F, 3 * s.counted_pixels.width(), int(s.chunk_images), Filter::nearest);
+    s.sums = Texture::make_2d(GL_RGBA32F, 3 * int(s.counted_pixels.columns), int(s.chunk_images), Filter::nearest);
 }
 
 std::vector<float> WeinSimulator::similarity(std::span<const Pose> patient_from_probe) {
@@ -265,9 +329,9 @@ std::vector<float> WeinSimulator::similarity(std::span<const Pose> patient_from_
     s.similarities_held = result.size();
   }
   s.by_chunks(patient_from_probe, [&](int images) {
-    s.counted_pixels.bind(1);
+    s.counted_pixels.places.bind(1);
     s.sums.bind_image(0, GL_WRITE_ONLY);
-    s.parts.dispatch(s.counted_pixels.width(), images);
+    s.parts.dispatch(int(s.counted_pixels.columns), images);
     s.similarities.bind_storage(0);
     s.sums.bind(0);
     s.lc2.dispatch(images, 1);
@@ -279,13 +343,13 @@ std::vector<float> WeinSimulator::similarity(std::span<const Pose> patient_from_
 WeinStages<float> WeinSimulator::read_stages(const Pose& patient_from_probe) {
   State& s = *state_;
   simulate({&patient_from_probe, 1});
-  const int n = s.parameters.lines, d = s.parameters.samples;
+  const int n = int(s.lines.lines.size()), d = s.lines.samples;
   const Texture intensities = Texture::make_2d(GL_R32F, d, n, Filter::nearest);
   intensities.bind_image(1, GL_WRITE_ONLY);
-  s.traverse({&patient_from_probe, 1}, 0, traverse_program(s.sources, true));
+  s.traverse({&patient_from_probe, 1}, 0, traverse_program(s.sources, s.compiled_in, true));
   const std::size_t count = std::size_t(n) * std::size_t(d);
-  std::vector<glm::vec2> terms(count * s.chunk_images);
-  s.scan.read(GL_RG, GL_FLOAT, terms.data(), terms.size() * sizeof(glm::vec2));
+  std::vector<std::array<std::uint16_t, 2>> terms(count);
+  s.scan.read(terms.data(), count * sizeof terms.front());
   std::vector<float> intensity(count);
   intensities.read(GL_RED, GL_FLOAT, intensity.data(), count * sizeof(float));
   WeinStages<float> stages;
@@ -293,12 +357,15 @@ WeinStages<float> WeinSimulator::read_stages(const Pose& patient_from_probe) {
   for (int line = 0; line < n; ++line)
     for (int k = 0; k < d; ++k) {
       const std::size_t i = std::size_t(line) * std::size_t(d) + std::size_t(k);
-      stages.scan_echogenicity.at(line, k) = terms[i].x;
-      stages.scan_reflection.at(line, k) = terms[i].y;
+      stages.scan_echogenicity.at(line, k) = float(terms[i][0]) / 65535;
+      stages.scan_reflection.at(line, k) = float(terms[i][1]) / 65535;
       stages.intensity.at(line, k) = intensity[i];
     }
   stages.grey = Image<std::uint8_t>(s.settings.image_width, s.settings.image_height);
-  s.grid.read(GL_RED, GL_UNSIGNED_BYTE, stages.grey.pixels.data(), stages.grey.pixels.size());
+  Image<std::uint8_t> tile(s.grid.width(), s.grid.height());
+  s.grid.read(GL_RED, GL_UNSIGNED_BYTE, tile.pixels.data(), tile.pixels.size());
+  for (int y = 0; y < stages.grey.height; ++y)
+    for (int x = 0; x < stages.grey.width; ++x) stages.grey.at(x, y) = tile.at(x, y);
   return stages;
 }
 

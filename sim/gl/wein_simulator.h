@@ -39,8 +39,8 @@ public:
   /// 1 inside the fan: elsewhere images are 0 and mean nothing.
   const Image<std::uint8_t>& inside() const;
 
-  /// An image a pose, each in its tile of a grid: R8, row 0 on top, near to square. Throws TextureRefused when the
-  /// device takes no grid of that many. Valid until the next call. The device may still be at work.
+  /// An image a pose, each in its tile of a grid: R8, row 0 on top, near to square. Throws std::runtime_error when
+  /// the device takes no grid of that many. Valid until the next call. The device may still be at work.
   const Texture& simulate(std::span<const Pose> patient_from_probe);
   /// The top left pixel of an image of the last grid.
   glm::ivec2 tile(int image) const;

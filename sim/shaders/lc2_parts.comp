@@ -5,22 +5,22 @@
 layout(local_size_x = 8) in;
 
 #include "shared/wein_parameters.h"
+#include "shared/wein_scan.glsl"
 
-layout(binding = 0) uniform sampler2DArray scan;
-layout(binding = 1) uniform sampler2D pixels;  // where in the scan, u, 1 where the pixel counts; a column an invocation
 layout(binding = 0, rgba32f) writeonly uniform image2D sums;  // a row an image, three texels a part
 
 void main() {
   int column = int(gl_GlobalInvocationID.x), image = int(gl_WorkGroupID.y);
-  int steps = textureSize(pixels, 0).y;
   vec3 origin = vec3(0.0), sum = vec3(0.0), squares = vec3(0.0), products = vec3(0.0);
   float count = 0.0;
-  for (int i = 0; i < steps; ++i) {
-    vec4 pixel = texelFetch(pixels, ivec2(column, i), 0);
-    vec3 value = vec3(pixel.z, textureLod(scan, vec3(pixel.xy, float(image)), 0.0).xy);
+  int length = steps();
+  for (int i = 0; i < length; ++i) {
+    ivec4 pixel = pixel_at(i);  // its w: u
+    float counts = pixel.x < 0 ? 0.0 : 1.0;
+    vec3 value = vec3(intBitsToFloat(pixel.w), terms_at(pixel, image));
     if (i == 0) origin = value;
-    value = pixel.w * (value - origin);
-    count += pixel.w;
+    value = counts * (value - origin);
+    count += counts;
     sum += value;
     squares += value * value;
     products += value * value.yzx;

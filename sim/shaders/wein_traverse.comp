@@ -8,7 +8,7 @@ layout(local_size_x = 8) in;
 layout(binding = 0) uniform sampler3D density;  // (HU, gradient along the CT's axes in eighths of HU) / 32767
 layout(binding = 1) uniform sampler2D probe_lines;  // a row a line, probe's frame, mm: sample 0, the way to the next
 layout(binding = 2) uniform sampler2D places;       // a row an image: the rows of texture_from_probe
-layout(binding = 0, rg16) writeonly uniform image2DArray scan;  // a layer an image, a row a line: E, R
+layout(std430, binding = 0) writeonly buffer Scan { uint scan[]; };  // image by image, a row a line: E, R, 16 bits each
 #ifdef INTENSITY
 layout(binding = 1, r32f) writeonly uniform image2D intensities;  // of the first image
 #endif
@@ -18,7 +18,7 @@ const float kContactAirHu = -300.5;
 const float kNothing = -1e6;  // the logarithm of what total reflection lets pass, in effect
 
 void tell(int k, int line, int image, float echogenicity, float reflection, float intensity) {
-  imageStore(scan, ivec3(k, line, image), vec4(echogenicity, reflection, 0.0, 0.0));
+  scan[(image * lines + line) * samples + k] = packUnorm2x16(vec2(echogenicity, reflection));
 #ifdef INTENSITY
   imageStore(intensities, ivec2(k, line), vec4(intensity));
 #endif
@@ -32,7 +32,7 @@ void main() {
        z = texelFetch(places, ivec2(2, image), 0);
   vec3 start = vec3(dot(x.xyz, sample_0), dot(y.xyz, sample_0), dot(z.xyz, sample_0)) + vec3(x.w, y.w, z.w);
   vec3 along = vec3(dot(x.xyz, to_next), dot(y.xyz, to_next), dot(z.xyz, to_next));
-  vec3 direction = along * sides_by_dr.xyz;  // unit, along the CT's axes
+  vec3 direction = along * sides_by_dr;  // unit, along the CT's axes
 
   float log_intensity = 0.0;
   int k = 0;
