@@ -98,6 +98,12 @@ void declare(CLI::App& arguments, Options& options) {
   arguments.add_option("--height", options.height, "Of the screen, pixels")
       ->check(CLI::Range(700, 4320))
       ->capture_default_str();
+  arguments
+      .add_option("--quality", options.quality,
+                  "What the ultrasound may cost: fast, balanced or exact, the first with fewer samples and pixels and\n"
+                  "the last with more samples; no score feels it")
+      ->check(CLI::IsMember(quality_names()))
+      ->capture_default_str();
   arguments.add_option("--shader-dir", options.shader_folder, "Take shaders from this folder and reload what changes")
       ->type_name("FOLDER");
   arguments

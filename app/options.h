@@ -11,6 +11,7 @@
 #include "devices/calibration/calibration.h"
 #include "devices/pose_history.h"
 #include "scenarios/results/learner_id.h"
+#include "sim/model/quality.h"
 
 namespace insonate {
 
@@ -37,6 +38,7 @@ struct Options {
   std::filesystem::path screenshot;  ///< a PNG of the whole screen, taken at the end
   double seconds = 0;                ///< end after so long; 0: at the exam's end (headless), never (window)
   std::filesystem::path out = "out";
+  std::string quality = name_of(Quality::balanced);  ///< of the ultrasound: one of quality_names()
   std::filesystem::path shader_folder;
   int width = 1280;
   int height = 800;

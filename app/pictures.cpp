@@ -25,8 +25,8 @@ std::vector<std::string> label_names(const Case& subject) {
 
 }  // namespace
 
-Pictures::Pictures(const gl::ShaderSources& sources)
-    : simulator_(sources), slice_view_(sources), blend_view_(sources), volume_view_(sources) {}
+Pictures::Pictures(const gl::ShaderSources& sources, Quality level)
+    : level_(level), simulator_(sources), slice_view_(sources), blend_view_(sources), volume_view_(sources) {}
 
 void Pictures::show(const Study& study) {
   // Whatever the device may refuse comes first: the patient on the screen stays there then.
@@ -54,7 +54,7 @@ void Pictures::update(const std::optional<Pose>& pose, const Console& console, c
   const int width = std::max(sizes.ultrasound_width, 1), height = std::max(sizes.ultrasound_height, 1);
   settings.image_width = std::clamp(int(std::lround(width * quality)), std::min(kLeastWidth, width), 4096);
   settings.image_height = std::max(1, settings.image_width * height / width);
-  simulator_.set_settings(settings);
+  simulator_.set_settings(at_quality(settings, level_));
   simulator_.set_pose(*pose);
   ultrasound_ = &simulator_.image();
 
@@ -86,7 +86,7 @@ std::optional<Image<Rgba8>> Pictures::reference_picture(const ReferenceView& vie
   Console untouched;
   untouched.choose(*probe);
   untouched.depth_mm = std::clamp(view.depth_mm, Console::kLeastDepth_mm, Console::kMostDepth_mm);
-  Settings settings = untouched.settings();
+  Settings settings = at_quality(untouched.settings(), level_);
   settings.image_width = ultrasound_->width();
   settings.image_height = ultrasound_->height();
   simulator_.set_probe(*probe, untouched.depth_mm);

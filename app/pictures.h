@@ -6,6 +6,7 @@
 
 #include "app/session.h"
 #include "sim/gl/simulator.h"
+#include "sim/model/quality.h"
 #include "sim/view/orbit_camera.h"
 #include "sim/view/slice_view.h"
 #include "sim/view/volume_view.h"
@@ -22,7 +23,8 @@ struct PictureSizes {
 /// OpenGL 4.5 context from construction to destruction.
 class Pictures {
 public:
-  explicit Pictures(const gl::ShaderSources& sources = {});
+  /// @param level  of the ultrasound
+  explicit Pictures(const gl::ShaderSources& sources = {}, Quality level = Quality::balanced);
 
   /// Uploads a patient; takes some tenths of a second. The study outlives this or the next one shown. Throws
   /// gl::TextureRefused, and goes on as it was, when the device cannot hold the patient beside the one before.
@@ -68,6 +70,7 @@ public:
   std::optional<std::string> reload(const gl::ShaderSources& sources);
 
 private:
+  Quality level_;
   gl::Simulator simulator_;
   view::SliceView slice_view_, blend_view_;
   view::VolumeView volume_view_;

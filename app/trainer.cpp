@@ -33,7 +33,7 @@ Trainer::Trainer(Options options)
     : options_(std::move(options)),
       shaders_(shaders_of(options_)),
       shaders_changed_(shaders_.last_change()),
-      pictures_(shaders_),
+      pictures_(shaders_, quality_named(options_.quality)),
       recorder_(options_.record_images) {
   if (!options_.igtl_server.empty()) feed_ = std::make_unique<IgtlFeed>(parse_server_address(options_.igtl_server));
   open_results();

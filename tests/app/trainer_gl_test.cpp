@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "app/trainer.h"
 #include "devices/calibration/calibration.h"
@@ -91,6 +92,28 @@ TEST_CASE("where nothing changes nothing is drawn, and each change draws what it
   trainer.draw(kSizes, 1, kNoBudget);
   CHECK(pictures.simulator_runs() == before_camera);
   CHECK(pictures.drawn() == all + 1);
+}
+
+TEST_CASE("the ultrasound is drawn at the quality that is asked for, balanced unless one is") {
+  const gl::HeadlessContext context;
+  const TrainerFolder folder;
+  const auto ultrasound = [&](std::optional<Quality> quality) {
+    Options options = folder.options();
+    if (quality) options.quality = name_of(*quality);
+    Trainer trainer(options);
+    trainer.open_from_options();
+    trainer.finish_loading();
+    trainer.update(0.5);
+    trainer.draw(kSizes, 1, kNoBudget);
+    return read_back(*trainer.pictures().ultrasound());
+  };
+  const Image<Rgba8> plain = ultrasound({}), fast = ultrasound(Quality::fast), exact = ultrasound(Quality::exact);
+  CHECK(plain.width == kSizes.ultrasound_width);
+  CHECK(plain.pixels == ultrasound(Quality::balanced).pixels);
+  CHECK(fast.width == plain.width * 3 / 4);
+  CHECK(fast.height == plain.height * 3 / 4);
+  CHECK(exact.width == plain.width);
+  CHECK(exact.pixels != plain.pixels);  // of more samples
 }
 
 TEST_CASE("a tracker with a calibration tells the probe's pose, and an old calibration warns") {
