@@ -23,6 +23,8 @@ using test::Worst;
 
 namespace {
 
+constexpr double kFused_db = 0.01;  // a twentieth of a grey level at 60 dB
+
 void check_parity(const Probe& probe, double depth_mm, const Settings& settings, const Pose& pose) {
   const gl::HeadlessContext context;
   const AcousticVolume body = test::test_body();
@@ -72,6 +74,26 @@ void check_parity(const Probe& probe, double depth_mm, const Settings& settings,
       worst(expected.speckle, got.speckle, tolerance(&Stages<double>::speckle, [](double) { return 1e-3; }));
   INFO(told("S", speckle));
   CHECK(speckle.error < 1);
+
+  // U in dB, down to where the dynamic range ends below the brightest: grey levels are coarser, and gain and map lie
+  // between.
+  const double loudest = *std::max_element(expected.fused.pixels.begin(), expected.fused.pixels.end());
+  const double faintest = loudest * std::pow(10, -settings.dynamic_range_db / 10);
+  const auto in_db = [&](const auto& fused, auto decibels) {
+    for (std::size_t i = 0; i < fused.pixels.size(); ++i)
+      decibels.pixels[i] = 10 * std::log10(std::max<double>(fused.pixels[i], faintest) / loudest);
+    return decibels;
+  };
+  const Image<double> expected_db = in_db(expected.fused, expected.fused);
+  Image<double> tolerated_db(expected_db.width, expected_db.height, kFused_db);
+  for (const Stages<double>& other : uncertain) {
+    const Image<double> other_db = in_db(other.fused, other.fused);
+    for (std::size_t i = 0; i < other_db.pixels.size(); ++i)
+      tolerated_db.pixels[i] += std::abs(other_db.pixels[i] - expected_db.pixels[i]);
+  }
+  const Worst fused = worst(expected_db, in_db(got.fused, got.fused), tolerated_db);
+  INFO(told("U in dB", fused));
+  CHECK(fused.error < 1);
 
   REQUIRE(expected.inside.pixels == got.inside.pixels);
   std::size_t inside = 0, off_by_more_than_1 = 0;
