@@ -169,6 +169,10 @@ TEST_CASE("volumes at the ends of what a grid and a voxel can hold") {
       {"-32768 beside 32767", filled({8, 8, 8}, {10, 10, 10}, -32768, 32767)},
       {"air beside bone", filled({16, 16, 16}, {4, 4, 4}, -1000, 1500)},
       {"air", filled({8, 8, 8}, {10, 10, 10}, -1000, -1000)},
+      {"air to the gel", filled({8, 8, 8}, {10, 10, 10}, -301, -301)},
+      {"tissue to the gel", filled({8, 8, 8}, {10, 10, 10}, -300, -300)},
+      {"the head of air's ramp", filled({8, 8, 8}, {10, 10, 10}, -299, -299)},
+      {"on air's ramp", filled({8, 8, 8}, {10, 10, 10}, -499, -499)},
       {"bone", filled({8, 8, 8}, {10, 10, 10}, 1500, 1500)},
       {"water", filled({8, 8, 8}, {10, 10, 10}, 0, 0)},
   });
