@@ -159,6 +159,16 @@ TEST_CASE("all problems of a scenario come at once, in the order of the file") {
   }
 }
 
+TEST_CASE("of a metric that does not exist no more is said than that") {
+  const std::string question =
+      "[[step]]\nkind = \"question\"\ntitle = \"x\"\ninstruction = \"x\"\nchoices = [\"a\", \"b\"]\nright = \"a\"\n"
+      "[[step.criterion]]\nmetric = \"answer_rihgt_percent\"\nfull = 100\nzero = 0\n";
+  const std::string message = refusal(kTinyScenario + question);
+  INFO(message);
+  CHECK(message.find("did you mean 'answer_right_percent'?") != std::string::npos);
+  CHECK(message.find("problems") == std::string::npos);
+}
+
 TEST_CASE("what an exam locks no step asks for, nor a view of another probe") {
   const auto locking = [](const std::string& settings) {
     return with(kTinyScenario, "time_limit_s = 30", "time_limit_s = 30\nlocked = [" + settings + "]");
