@@ -57,6 +57,12 @@ std::string coarse_exam() {
   return text.insert(text.find(key) + key.size(), "voxel_mm = 2\n");
 }
 
+void replace_first(std::string& text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  REQUIRE(at != std::string::npos);
+  text.replace(at, from.size(), to);
+}
+
 }  // namespace
 
 TEST_CASE("insonate-score prints the very score that the trainer comes to, and a failed exam is a result") {
@@ -162,11 +168,7 @@ TEST_CASE("insonate-score check passes the bundled exam") {
 TEST_CASE("insonate-score check tells of a scenario's text and of its case at once, in the order of the file") {
   const Folder folder;
   std::string exam = coarse_exam();
-  const auto spoil = [&](const std::string& from, const std::string& to) {
-    const std::size_t at = exam.find(from);
-    REQUIRE(at != std::string::npos);
-    exam.replace(at, from.size(), to);
-  };
+  const auto spoil = [&](const std::string& from, const std::string& to) { replace_first(exam, from, to); };
   spoil("view = \"hepatorenal\"", "view = \"hepatorenl\"");
   spoil("pass_mark_percent", "pass_mark");
   const std::string file = folder.file("exam.toml", exam).string();
@@ -191,11 +193,7 @@ TEST_CASE("insonate-score check tells of a scenario's text and of its case at on
 TEST_CASE("insonate-score check tells what is wrong with every variant and its patient, each where it stands") {
   const Folder folder;
   std::string exam = coarse_exam();
-  const auto spoil = [&](const std::string& from, const std::string& to) {
-    const std::size_t at = exam.find(from);
-    REQUIRE(at != std::string::npos);
-    exam.replace(at, from.size(), to);
-  };
+  const auto spoil = [&](const std::string& from, const std::string& to) { replace_first(exam, from, to); };
   spoil("view = \"hepatorenal\"", "view = \"${view}\"");
   spoil("[phantom] ",
         "[[variant]]\nname = \"one\"\nphantom = { fre_fluid = true }\nwords = { view = \"hepatorenl\" }\n\n"
