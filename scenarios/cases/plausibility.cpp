@@ -90,8 +90,8 @@ constexpr std::array kDensities = {DensityRange{"lung", -1024, -300}, DensityRan
 constexpr std::size_t kTooSmall = 100;  // voxels: the edge of something
 
 /// Bones are a tally of their own: labels that lie elsewhere come out against most bones, while what is soft lies next
-/// to what is as soft. (The upper abdomen of the test data: 20 mm to the side 13 of 13 bones are against, and 3 of 11
-/// others.) One or two, which a tumour may have softened, are judged with the rest.
+/// to what is as soft. (The upper abdomen of the test data, 20 mm along the body: 7 of 10 bones are against, and none
+/// of 9 others.) One or two, which a tumour may have softened, are judged with the rest.
 struct Densities {
   Tally bones, others;
 };
