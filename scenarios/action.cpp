@@ -143,6 +143,10 @@ private:
 
 }  // namespace
 
+std::string_view word_of(ActionKind kind) {
+  return kKinds[std::size_t(kind)].word;
+}
+
 std::string to_text(std::span<const Action> actions) {
   std::string text;
   for (const Action& action : actions) {

@@ -31,6 +31,9 @@ enum class ActionKind {
   go_on       ///< says that the step is done
 };
 
+/// As logs and scenarios call it: "depth".
+std::string_view word_of(ActionKind kind);
+
 /// Positions are mm in the probe's imaging plane: x lateral towards the marker, y along the central beam.
 struct Action {
   static constexpr std::size_t kMostNumbers = 6;

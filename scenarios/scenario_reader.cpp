@@ -26,23 +26,19 @@ std::size_t index_of(const std::vector<std::string>& words, const std::string& w
   return std::size_t(std::find(words.begin(), words.end(), word) - words.begin());
 }
 
-/// What a scenario may lock, by its word in the file.
-const std::vector<std::string> kSettings{"probe", "depth", "frequency", "gain"};
-constexpr std::array kSettingKinds{ActionKind::probe, ActionKind::depth, ActionKind::frequency, ActionKind::gain};
-
-const char* word_of(ActionKind setting) {
-  return kSettings[std::size_t(std::find(kSettingKinds.begin(), kSettingKinds.end(), setting) - kSettingKinds.begin())]
-      .c_str();
-}
+/// What a scenario may lock.
+constexpr std::array kSettings{ActionKind::probe, ActionKind::depth, ActionKind::frequency, ActionKind::gain};
 
 std::set<ActionKind> read_locked(TableReader& reader) {
+  std::vector<std::string> words;
+  for (const ActionKind setting : kSettings) words.emplace_back(word_of(setting));
   std::set<ActionKind> locked;
-  for (const std::string& word : reader.texts("locked", kSettings.size(), false)) {
-    const std::size_t index = index_of(kSettings, word);
-    if (index < kSettings.size())
-      locked.insert(kSettingKinds[index]);
+  for (const std::string& word : reader.texts("locked", words.size(), false)) {
+    const std::size_t index = index_of(words, word);
+    if (index < words.size())
+      locked.insert(kSettings[index]);
     else
-      reader.problem(reader.place("locked"), "locks '" + word + "', which is no setting", suggest(word, kSettings));
+      reader.problem(reader.place("locked"), "locks '" + word + "', which is no setting", suggest(word, words));
   }
   if (!locked.contains(ActionKind::probe) &&
       (locked.contains(ActionKind::depth) || locked.contains(ActionKind::frequency)))
@@ -128,7 +124,7 @@ void check_criteria(const Step& step, const std::string& where, std::vector<Scen
 void check_locks(const Step& step, const Scenario& exam, TableReader& reader) {
   for (const ActionKind setting : step.task->settings())
     if (exam.locked.contains(setting))
-      reader.problem(reader.place("kind"), std::string("asks for the ") + word_of(setting) + ", which the exam locks",
+      reader.problem(reader.place("kind"), "asks for the " + std::string(word_of(setting)) + ", which the exam locks",
                      "remove it from the step, or from 'locked'");
   for (const Criterion& criterion : step.criteria)
     if (criterion.sound && criterion.metric == Metric::depth_use_percent && exam.locked.contains(ActionKind::depth))

@@ -33,8 +33,7 @@ std::string row(std::initializer_list<std::string> cells) {
 std::string score_csv(const Attempt& attempt, const ExamResult& result) {
   std::string csv =
       "attempt,uuid,learner,finished,mode,exam,exam_digest,seed,variant,percent,passed,step,title,metric,unit,value,"
-      "full,"
-      "zero,weight,critical,points,why\r\n";
+      "full,zero,weight,critical,points,why\r\n";
   const bool kept = attempt.number > 0;
   for (const Measured& m : measured(result)) {
     const auto of_mark = [&](double Mark::*field) { return m.mark ? number(m.mark->*field) : ""; };
