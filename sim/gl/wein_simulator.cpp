@@ -20,8 +20,8 @@
 namespace insonate::gl {
 namespace {
 
-// Of a chunk's scan lines: what a processor's second-level cache holds.
-constexpr std::size_t kChunkBytes = std::size_t(2) << 20;
+// Of a chunk's scan lines: small beside a processor's last cache, and still many images that meet the same voxels.
+constexpr std::size_t kChunkBytes = std::size_t(8) << 20;
 constexpr std::size_t kSampleBytes = 4;
 constexpr std::size_t kMostChunk = 2048;  // images, of which some tables have a row each
 
@@ -224,7 +224,7 @@ void WeinSimulator::State::traverse(std::span<const Pose> chunk, std::size_t fir
   probe_lines.bind(1);
   places.bind(2);
   scan.bind_storage(0);
-  program.dispatch(int(lines.lines.size()), parameters.images);
+  program.dispatch_groups(parameters.images, (int(lines.lines.size()) + int(kGroup) - 1) / int(kGroup));
 }
 
 template <typename Work>

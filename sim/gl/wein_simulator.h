@@ -22,7 +22,7 @@ namespace insonate::gl {
 /// much each is like a given ultrasound image.
 ///
 /// A call's poses are worked through in chunks whose scan lines stay below a few megabytes, so that memory is bounded
-/// and a processor's caches hold them; nothing is read back between chunks. Needs an OpenGL 4.5 context, current
+/// and a processor's cache holds them; nothing is read back between chunks. Needs an OpenGL 4.5 context, current
 /// whenever it is used. Poses are rigid and finite; checked where they enter the program.
 class WeinSimulator {
 public:

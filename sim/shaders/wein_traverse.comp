@@ -1,5 +1,6 @@
 // Model W along one scan line, an invocation a line, for all the images of a chunk at once: echogenicity, reflection,
-// transmitted intensity. The gradient is stored with the density, so a sample costs one fetch.
+// transmitted intensity. The gradient is stored with the density, so a sample costs one fetch. Groups follow each other
+// image by image along the same few lines: poses of a search lie close together, so the voxels are still in the cache.
 
 layout(local_size_x = 8) in;
 
@@ -25,9 +26,10 @@ void tell(int k, int line, int image, float echogenicity, float reflection, floa
 }
 
 void main() {
-  int line = int(gl_GlobalInvocationID.x), image = int(gl_WorkGroupID.y);
+  int image = int(gl_WorkGroupID.x), line = int(gl_WorkGroupID.y * gl_WorkGroupSize.x + gl_LocalInvocationID.x);
   if (line >= lines) return;
-  vec3 sample_0 = texelFetch(probe_lines, ivec2(0, line), 0).xyz, to_next = texelFetch(probe_lines, ivec2(1, line), 0).xyz;
+  vec3 sample_0 = texelFetch(probe_lines, ivec2(0, line), 0).xyz,
+       to_next = texelFetch(probe_lines, ivec2(1, line), 0).xyz;
   vec4 x = texelFetch(places, ivec2(0, image), 0), y = texelFetch(places, ivec2(1, image), 0),
        z = texelFetch(places, ivec2(2, image), 0);
   vec3 start = vec3(dot(x.xyz, sample_0), dot(y.xyz, sample_0), dot(z.xyz, sample_0)) + vec3(x.w, y.w, z.w);
