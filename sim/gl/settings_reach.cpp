@@ -1,14 +1,38 @@
 #include "sim/gl/settings_reach.h"
 
-namespace insonate::gl {
+#include "sim/gl/stage_tables.h"
+#include "sim/model/beam.h"
 
-Reach reach_of_change(const Settings& from, const Settings& to) {
+namespace insonate::gl {
+namespace {
+
+// What the others leave unused is as if it had never been set.
+Settings in_use(Settings settings) {
+  const Settings unset;
+  const auto forget = [&](auto... members) { ((settings.*members = unset.*members), ...); };
+  using S = Settings;
+  if (settings.slice_planes == 1) forget(&S::slice_thickness_mm, &S::elevation_focus_mm);
+  if (!settings.speckle) forget(&S::speckle_seed, &S::speckle_cell_mm);
+  if (settings.focused_beam)
+    forget(&S::beam_window, &S::beam_lines);
+  else
+    forget(&S::focus_mm, &S::f_number);
+  if (!settings.absorption && !settings.focused_beam && !slice_bends(settings)) forget(&S::frequency_mhz);
+  if (!settings.clutter) forget(&S::clutter_db);
+  if (!settings.electronic_noise) forget(&S::noise_db);
+  if (!settings.electronic_noise && settings.reference_level == ReferenceLevel::frame_maximum) forget(&S::fixed_level);
+  return settings;
+}
+
+}  // namespace
+
+Reach reach_of_change(const Settings& before, const Settings& now) {
+  const Settings from = in_use(before), to = in_use(now);
   using S = Settings;
   const auto differ = [&](auto... members) { return ((from.*members != to.*members) || ...); };
 
   Reach reach;
   reach.layout = differ(&S::samples, &S::slice_planes, &S::image_width, &S::image_height);
-  reach.scatterers = differ(&S::speckle_seed);
   reach.beam = differ(&S::beam_window, &S::beam_lines, &S::focused_beam, &S::focus_mm, &S::f_number, &S::frequency_mhz,
                       &S::speckle, &S::reverberation, &S::face_reflection, &S::speckle_cell_mm, &S::slice_thickness_mm,
                       &S::elevation_focus_mm);
@@ -16,7 +40,7 @@ Reach reach_of_change(const Settings& from, const Settings& to) {
   if (differ(&S::samples, &S::reflection_length_mm, &S::frequency_mhz, &S::absorption, &S::gel_mm, &S::speckle,
              &S::speckle_seed, &S::speckle_cell_mm, &S::slice_planes, &S::slice_thickness_mm, &S::elevation_focus_mm,
              &S::edge_shadow, &S::image_width, &S::image_height, &S::skipping) ||
-      (to.skipping && to.blend < from.blend))  // interfaces may be seen that were not beside more echo
+      least_alpha_with_normal(to) < least_alpha_with_normal(from))  // interfaces are seen that were not
     reach.first = Stage::traverse;
   else if (differ(&S::beam_window, &S::beam_lines, &S::focused_beam, &S::focus_mm, &S::f_number, &S::reverberation,
                   &S::face_reflection, &S::clutter, &S::two_way))

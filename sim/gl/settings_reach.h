@@ -7,14 +7,14 @@
 
 namespace insonate::gl {
 
-/// What a change of settings reaches.
+/// What a change of settings reaches. Settings that others leave unused, such as the focus of a beam that has none,
+/// reach nothing.
 struct Reach {
   std::optional<Stage> first;  ///< stage to run again, with those behind it; none when the picture stays as it is
   bool layout = false;         ///< the number of samples, planes or pixels
-  bool scatterers = false;     ///< the lattice of scatterers
   bool beam = false;           ///< what the beam's windows hang on
 };
 
-Reach reach_of_change(const Settings& from, const Settings& to);
+Reach reach_of_change(const Settings& before, const Settings& now);
 
 }  // namespace insonate::gl

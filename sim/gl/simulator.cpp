@@ -63,7 +63,8 @@ struct Simulator::State {
   TexelBuffer beam_at_depth;                        // by sample
   TexelBuffer line_and_sample, noise, fan_weights;  // by pixel
   Buffer line_buffer, beam_window, fan_blocks;
-  double noise_length_mm = 0;  // the noise's grain
+  double noise_length_mm = 0;         // the noise's grain
+  std::uint32_t scatterers_seed = 0;  // of those there are
 
   // What they write.
   TexelBuffer scan, repeats, echoes, mean_echo;              // by sample
@@ -73,9 +74,8 @@ struct Simulator::State {
   Buffer counters{sizeof(SampleCounts), nullptr};
   Texture image;
 
-  bool layout_changed = true;      // probe, depth, sample count or picture size
-  bool beam_changed = true;        // layout, or what the beam's windows hang on
-  bool scatterers_changed = true;  // seed
+  bool layout_changed = true;  // probe, depth, sample count or picture size
+  bool beam_changed = true;    // layout, or what the beam's windows hang on
   std::optional<Stage> first_due = Stage::traverse;
   std::array<long, kStageCount> runs{};
 
@@ -85,7 +85,7 @@ struct Simulator::State {
   void due_from(Stage stage) { first_due = std::min(first_due.value_or(stage), stage); }
 
   void lay_out();
-  void upload_scatterers();
+  void prepare_scatterers();
   void prepare();
   void run_through(Stage last);
   void run(Stage stage);
@@ -120,17 +120,18 @@ void Simulator::State::lay_out() {
   beam_changed = true;
 }
 
-void Simulator::State::upload_scatterers() {
+void Simulator::State::prepare_scatterers() {
+  if (scatterers && scatterers_seed == settings.speckle_seed) return;
   constexpr int side = ScattererLattice::kSide;
   scatterers = Texture::make_3d(GL_RG16_SNORM, side, side, side, Filter::linear, Wrap::repeat);
   scatterers.write(GL_RG, GL_SHORT, make_scatterers(settings.speckle_seed).stored.data());
-  scatterers_changed = false;
+  scatterers_seed = settings.speckle_seed;
 }
 
 // Everything that the stages due read and that is not another stage's.
 void Simulator::State::prepare() {
   if (layout_changed) lay_out();
-  if (scatterers_changed) upload_scatterers();
+  if (settings.speckle) prepare_scatterers();
   if (*first_due == Stage::traverse) {
     const std::vector<PlacedLine> placed = placed_lines(volume, patient_from_probe, lines, settings);
     line_buffer.write(placed.data(), placed.size() * sizeof(PlacedLine));
@@ -291,7 +292,6 @@ void Simulator::set_settings(const Settings& settings) {
   if (const auto why = why_not_valid(settings)) throw std::invalid_argument("simulator: " + *why);
   const Reach reach = reach_of_change(state_->settings, settings);
   state_->layout_changed |= reach.layout;
-  state_->scatterers_changed |= reach.scatterers;
   state_->beam_changed |= reach.beam;
   if (reach.first) state_->due_from(*reach.first);
   state_->settings = settings;

@@ -17,8 +17,9 @@ namespace {
 constexpr double kLn10 = 2.302585092994046;
 
 // An interface counts as too weak for its tilt to be seen where it echoes this share of what the scatterers do: 0.004
-// dB. A tenth of that would show where a beam's width carries it from beside a shadow into it, and nowhere else.
-constexpr double kUnseenShare = 0.001;
+// dB. The beam's width carries it into shadows beside it, where scatterers are weaker: there clutter or noise covers
+// it, and without them the share is smaller, so that 30 dB of shadow do not bring it out.
+constexpr double kUnseenShare = 0.001, kUnseenShareInShadow = 1e-6;
 
 // What x line, y sample holds at a continuous place inside the fan, as scan_convert.comp reads it.
 double bilinear(const Image<double>& image, const glm::vec2& line_and_sample) {
@@ -113,6 +114,12 @@ Gaussian::Gaussian(double sigma_px, int limit_px) {
   exponent = -0.5 / (sigma_px * sigma_px);
 }
 
+double least_alpha_with_normal(const Settings& settings) {
+  if (!settings.skipping) return 0;
+  const bool covered = settings.clutter || settings.electronic_noise;
+  return (covered ? kUnseenShare : kUnseenShareInShadow) * settings.blend;
+}
+
 SimulationParameters parameters_of(const Settings& settings, const ScanLines& lines, const Gaussian& reflection,
                                    const Gaussian& transmission) {
   const double dr = lines.dr_mm(), samples_a_length = settings.reflection_length_mm / dr;
@@ -126,8 +133,8 @@ SimulationParameters parameters_of(const Settings& settings, const ScanLines& li
   p.half_reflection_length = float(samples_a_length / 2);
   p.reflection_exponent = float(1 / samples_a_length);
   p.absorption_per_sample = float(settings.frequency_mhz * dr / 100 * kLn10);
-  p.gel_mm = float(settings.gel_mm);
-  p.least_alpha_with_normal = float(settings.skipping ? kUnseenShare * settings.blend : 0);
+  p.gel_mm = float(std::max(settings.gel_mm, kFace_mm));
+  p.least_alpha_with_normal = float(least_alpha_with_normal(settings));
   p.reflection_exponent_px = float(reflection.exponent);
   p.transmission_exponent_px = float(transmission.exponent);
   p.face_reflection = float(settings.face_reflection);

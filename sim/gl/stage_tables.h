@@ -44,6 +44,9 @@ struct Gaussian {
   bool operator==(const Gaussian&) const = default;
 };
 
+/// The alpha of (1) below which an interface's tilt is not looked at, because its echo is not seen.
+double least_alpha_with_normal(const Settings& settings);
+
 /// The block of parameters that all shaders read.
 SimulationParameters parameters_of(const Settings& settings, const ScanLines& lines, const Gaussian& reflection,
                                    const Gaussian& transmission);

@@ -26,6 +26,10 @@ enum class GreyMap {
 /// silent.
 inline constexpr double kMostTimeGainDb = 300;
 
+/// Nearer to the face than this lies the face itself: its lens is matched to tissue (Szabo, Diagnostic Ultrasound
+/// Imaging, 5), so sound leaves it as it leaves water, and where air lies against it nearly all is reflected.
+inline constexpr double kFace_mm = 1e-5;
+
 /// Everything that decides how model S turns a volume, a pose and a probe into a picture. Numbers in brackets are the
 /// equations of Kutter, Shams, Navab 2009. A field added here gets its line in settings_file.cpp.
 struct Settings {

@@ -117,7 +117,7 @@ double grey_of(GreyMap map, double g) {
 }  // namespace
 
 Medium with_gel(const Medium& medium, double r_mm, double gel_mm) {
-  return r_mm < gel_mm && medium.hu < kCouplingAirHu ? Medium{0, -60} : medium;
+  return r_mm < std::max(gel_mm, kFace_mm) && medium.hu < kCouplingAirHu ? Medium{0, -60} : medium;
 }
 
 MediumField trilinear_field(const AcousticVolume& volume) {

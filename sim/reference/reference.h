@@ -26,7 +26,7 @@ using MediumField = std::function<Medium(const glm::dvec3& patient_mm)>;
 inline constexpr double kCouplingAirHu = -300.5;
 
 /// What the sound meets where the field has `medium`, at a distance from the face along the line: coupling gel of
-/// `gel_mm`, which is water without any echo, fills what air there is.
+/// `gel_mm`, or the face itself, which is water without any echo, takes the place of air.
 Medium with_gel(const Medium& medium, double r_mm, double gel_mm);
 
 /// The trilinear field of a volume, with air outside.

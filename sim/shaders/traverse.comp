@@ -34,7 +34,7 @@ const float kMeanCosine = 0.5;           // |d . n| over all directions, for int
 const float kLeastHu = -150.0, kMostHu = 150.0, kLogSpeedBelowWater = 5e-4, kLogSpeedAboveWater = 7.6e-4;
 const float kScattererScale = 4.0;     // the lattice stores a quarter of its normally distributed numbers
 const float kLn10 = 2.302585093;
-const float kSpentLogIntensity = -46.0;  // 10^-20: 200 dB down nothing can be heard
+const float kSpentLogIntensity = SKIPPING == 1 ? -46.0 : -1e30;  // 10^-20: 200 dB down nothing can be heard
 
 Line line;
 
@@ -122,7 +122,8 @@ void walk(int plane, int index) {
   line = scan_lines[plane * lines + index];
   int row = index * samples;
 
-  float log_intensity = 0.0;
+  // The sum's rounding is carried along: thousands of small losses would add up to more error than is allowed.
+  precise float log_intensity = 0.0, carried = 0.0;
   uint normals = 0u;
 #if EDGE_SHADOW == 1
   vec2 turn = vec2(0.0);  // of the sound, in units of kTurn_rad
@@ -154,15 +155,17 @@ void walk(int plane, int index) {
     float reflection = alpha * intensity * intensity * cosine;  // (3)
     put(plane, row + k, vec4(intensity, reflection, scatterers_echo(position, here)));
 
-    log_intensity +=
-        reflection_exponent * log_transmission(alpha, before.impedance, behind.impedance) - absorbed;  // (5)
+    float change = reflection_exponent * log_transmission(alpha, before.impedance, behind.impedance) - absorbed;  // (5)
 #if EDGE_SHADOW == 1
     vec4 soft = clamp(around, kLeastHu, kMostHu);
     vec4 log_speed = kLogSpeedBelowWater * min(soft, 0.0) + kLogSpeedAboveWater * max(soft, 0.0);
     turn = turn * turn_kept + (log_speed.xz - log_speed.yw) * turn_per_step;
     float turned = dot(turn, turn), to_the_fourth = turned * turned;
-    log_intensity -= 2.0 * to_the_fourth / (2.0 + to_the_fourth) * turn_loss;
+    change -= 2.0 * to_the_fourth / (2.0 + to_the_fourth) * turn_loss;
 #endif
+    precise float term = change - carried, sum = log_intensity + term;
+    carried = (sum - log_intensity) - term;
+    log_intensity = sum;
     before = behind;
     if (EDGES_AT == kEdgesAtSamples) before = here;
     here = next;

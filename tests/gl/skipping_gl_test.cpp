@@ -57,12 +57,34 @@ TEST_CASE("an unchanged frame runs nothing") {
 TEST_CASE("a change runs the first stage it reaches and those behind it") {
   Fixture f;
   CHECK(f.after([&] { f.simulator.set_pose(test::on_the_skin(1, 9, 0)); }) == "01234");
-  CHECK(f.after([&] { f.settings.beam_lines = 9; }) == "1234");
+  CHECK(f.after([&] { f.settings.f_number = 5; }) == "1234");
   CHECK(f.after([&] { f.settings.reflection_sigma_mm = 2; }) == "234");
   CHECK(f.after([&] { f.settings.blend *= 2; }) == "234");
   CHECK(f.after([&] { f.settings.gain_db = 6; }) == "4");
   CHECK(f.after([&] { f.settings.tgc_db[3] += 6; }) == "4");
   CHECK(f.after([&] { f.settings.dynamic_range_db = 50; }) == "4");
+}
+
+TEST_CASE("what other settings leave unused reaches nothing, until they use it") {
+  Fixture f;
+  CHECK(f.after([&] { f.settings.beam_lines = 9; }) == "");  // the beam is focused
+  CHECK(f.after([&] { f.settings.beam_window = BeamWindow::box; }) == "");
+  CHECK(f.after([&] { f.settings.slice_thickness_mm = 5; }) == "");
+  CHECK(f.after([&] { f.settings.elevation_focus_mm = 50; }) == "");
+  CHECK(f.after([&] { f.settings.focused_beam = false; }) == "1234");
+  CHECK(f.after([&] { f.settings.focus_mm = 70, f.settings.f_number = 4; }) == "");
+  CHECK(f.after([&] { f.settings.beam_lines = 11; }) == "1234");
+  CHECK(f.after([&] { f.settings.frequency_mhz = 4; }) == "01234");  // absorption
+  CHECK(f.after([&] { f.settings.absorption = false; }) == "01234");
+  CHECK(f.after([&] { f.settings.frequency_mhz = 5; }) == "");
+  CHECK(f.after([&] { f.settings.electronic_noise = false; }) == "234");  // clutter covers as noise does
+  CHECK(f.after([&] { f.settings.noise_db = -90; }) == "");
+  CHECK(f.after([&] { f.settings.clutter = false; }) == "01234");  // weaker interfaces are seen
+  CHECK(f.after([&] { f.settings.clutter_db = -20; }) == "");
+  CHECK(f.after([&] { f.settings.speckle = false; }) == "01234");
+  CHECK(f.after([&] { f.settings.speckle_seed = 7, f.settings.speckle_cell_mm = 1; }) == "");
+  CHECK(f.after([&] { f.settings.slice_planes = 3; }) == "01234");
+  CHECK(f.after([&] { f.settings.slice_thickness_mm = 4; }) == "01234");
 }
 
 TEST_CASE("smoothing that is off does not run") {
@@ -93,7 +115,12 @@ TEST_CASE("the picture's version changes with the picture alone") {
 TEST_CASE("a picture after a change is the picture that a new simulator draws") {
   const std::function<void(Settings&)> changes[] = {
       [](Settings& s) { s.speckle = false; },
+      [](Settings& s) { s.speckle_seed = 7, s.speckle_cell_mm = 0.8; },  // unused; then used
       [](Settings& s) { s.speckle = true; },
+      [](Settings& s) { s.speckle = false; },
+      [](Settings& s) { s.speckle_seed = 1, s.speckle = true; },  // as before it was off and another one
+      [](Settings& s) { s.beam_lines = 15, s.beam_window = BeamWindow::box; },
+      [](Settings& s) { s.slice_thickness_mm = 5, s.elevation_focus_mm = 60; },
       [](Settings& s) { s.absorption = !s.absorption; },
       [](Settings& s) { s.focused_beam = !s.focused_beam; },
       [](Settings& s) { s.clutter = !s.clutter; },
@@ -103,6 +130,8 @@ TEST_CASE("a picture after a change is the picture that a new simulator draws") 
       [](Settings& s) { s.grey_map = GreyMap::s_curve; },
       [](Settings& s) { s.reference_level = ReferenceLevel::frame_maximum; },
       [](Settings& s) { s.fixed_level *= 2; },
+      [](Settings& s) { s.slice_planes = 3; },
+      [](Settings& s) { s.clutter = s.electronic_noise = false; },
       // one that reaches the beam alone, and one that makes interfaces seen that were not
       [](Settings& s) { s.two_way = !s.two_way, s.blend *= 1e-4; },
   };

@@ -1,0 +1,92 @@
+// What the shaders make of media whose intensity and picture are known without any reference.
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/gl/headless_context.h"
+#include "sim/gl/simulator.h"
+
+using namespace insonate;
+
+namespace {
+
+/// Half a metre of one density, or of two that meet in the plane y = 0.
+AcousticVolume medium(std::int16_t hu_before, std::int16_t hu_behind) {
+  AcousticVolume volume;
+  volume.grid.size = {10, 101, 10};
+  volume.grid.spacing = {60, 10, 60};
+  volume.grid.origin = {-270, -500, -270};
+  for (int z = 0; z < volume.grid.size.z; ++z)
+    for (int y = 0; y < volume.grid.size.y; ++y)
+      for (int x = 0; x < volume.grid.size.x; ++x) volume.voxels.push_back({y < 50 ? hu_before : hu_behind, 0});
+  return volume;
+}
+
+Pose at_y(double y_mm) {
+  return {glm::dmat3(1.0), {0, y_mm, 0}};
+}
+
+}  // namespace
+
+TEST_CASE("in a homogeneous medium sound is absorbed exactly, however many samples a line has") {
+  constexpr double kHu = 60, kDepth_mm = 400, kFrequency_mhz = 3.5;
+  const gl::HeadlessContext context;
+  const TissueTable table = read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml");
+  Probe probe = *find_probe("linear");
+  probe.lines = 4;
+  gl::Simulator simulator;
+  simulator.set_volume(medium(std::int16_t(kHu), std::int16_t(kHu)), table);
+  simulator.set_probe(probe, kDepth_mm);
+  simulator.set_pose(at_y(-200));
+  const double a = table.at(kHu).absorption_db_cm_mhz;
+  for (const int samples : {1, 512, 2132, 8192}) {
+    Settings settings = trainer_settings(kFrequency_mhz, kDepth_mm);
+    settings.samples = samples;
+    settings.image_width = settings.image_height = 16;
+    simulator.set_settings(settings);
+    const Stages<float> stages = simulator.read_stages();
+    const double dr = kDepth_mm / samples;
+    double worst = 0;
+    for (int k = 0; k < samples; ++k) {
+      const double expected = std::pow(10.0, -a * kFrequency_mhz * (k + 0.5) * dr / 100);
+      for (int line = 0; line < probe.lines; ++line) {
+        worst = std::max(worst, std::abs(stages.intensity.at(line, k) / expected - 1));
+        CHECK(stages.reflection.at(line, k) == 0);
+      }
+    }
+    INFO(samples << " samples, I off by " << worst << " of itself at worst");
+    CHECK(worst < 1e-5);  // the accuracy contract's
+  }
+}
+
+TEST_CASE("a probe in air, or held off the skin, shows its own face and nothing behind") {
+  constexpr double kDepth_mm = 120;
+  const gl::HeadlessContext context;
+  gl::Simulator simulator;
+  simulator.set_volume(medium(-1000, 60), read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml"));
+  simulator.set_probe(*find_probe("linear"), kDepth_mm);
+  const auto brightest_behind = [&](const Settings& settings, double air_mm, double from_mm) {
+    simulator.set_settings(settings);
+    simulator.set_pose(at_y(-5 - air_mm));  // air ends between voxels, 5 mm before the body's first
+    const Stages<float> stages = simulator.read_stages();
+    std::uint8_t brightest = 0;
+    for (int y = 0; y < stages.grey.height; ++y)
+      for (int x = 0; x < stages.grey.width; ++x)
+        if (simulator.geometry().plane_mm(x, y).y > from_mm) brightest = std::max(brightest, stages.grey.at(x, y));
+    return int(brightest);
+  };
+  const Settings paper = paper_settings(kDepth_mm, 512);
+  Settings dry = trainer_settings(7.5, kDepth_mm), with_gel = dry;
+  dry.gel_mm = 0;
+  for (Settings* settings : {&dry, &with_gel}) settings->clutter = settings->electronic_noise = false;
+  CHECK(with_gel.gel_mm == 6);
+  for (const double air_mm : {20.0, 300.0}) {
+    CHECK(brightest_behind(paper, air_mm, 3) == 0);
+    CHECK(brightest_behind(dry, air_mm, 3) == 0);
+    CHECK(brightest_behind(with_gel, air_mm, 9) == 0);  // gel, and the smoothed echo of where it ends
+  }
+  CHECK(brightest_behind(paper, -20, 3) > 100);
+  CHECK(brightest_behind(dry, -20, 3) > 100);
+}
