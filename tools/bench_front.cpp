@@ -68,7 +68,10 @@ std::vector<Setting> settings_to_try(const Request& request, const Scene& scene)
   };
   without("nothing skipped", [](Settings& s) { s.skipping = false; });
   without("no speckle", [](Settings& s) { s.speckle = false; });
-  without("a beam of one line", [](Settings& s) { s.beam_lines = 1; });
+  without("one plane", [](Settings& s) { s.slice_planes = 1; });
+  without("no edge shadow", [](Settings& s) { s.edge_shadow = false; });
+  without("no reverberation", [](Settings& s) { s.reverberation = false, s.face_reflection = 0; });
+  without("a beam of one line", [](Settings& s) { s.focused_beam = false, s.beam_lines = 1; });
   without("no smoothing", [](Settings& s) { s.reflection_sigma_mm = s.transmission_sigma_mm = 0; });
   return tried;
 }

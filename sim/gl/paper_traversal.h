@@ -29,7 +29,8 @@ public:
 
   /// Throws TextureRefused when the device cannot hold it.
   void set_volume(const AcousticVolume& volume, const TissueTable& table);
-  /// @param settings  those of the traversal; the number of samples is that of `lines`
+  /// @param settings  those of the traversal, of one plane without edge shadow; the number of samples is that of
+  /// `lines`
   void set_lines(const ScanLines& lines, const Settings& settings);
 
   /// Places the lines and draws the D passes. Leaves no framebuffer bound.

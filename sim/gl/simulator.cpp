@@ -67,7 +67,7 @@ struct Simulator::State {
   std::uint32_t scatterers_seed = 0;  // of those there are
 
   // What they write.
-  TexelBuffer scan, repeats, echoes, mean_echo;              // by sample
+  TexelBuffer scan, middle, repeats, echoes, mean_echo;      // by sample
   TexelBuffer picture, sharp, half_smoothed, fused, levels;  // by pixel
   Buffer brightest;                                          // by block of the fan
   Buffer maximum_buffer{sizeof(GLuint), nullptr};
@@ -101,6 +101,7 @@ void Simulator::State::lay_out() {
   const std::size_t n = lines.lines.size(), d = std::size_t(lines.samples);
   line_buffer = Buffer(std::size_t(settings.slice_planes) * lines.lines.size() * sizeof(PlacedLine), nullptr);
   scan = TexelBuffer(GL_RGBA32F, n * d);
+  middle = TexelBuffer();
   echoes = TexelBuffer(GL_RGBA32F, n * d);
   mean_echo = TexelBuffer(GL_R32F, d);
 
@@ -132,6 +133,8 @@ void Simulator::State::prepare_scatterers() {
 void Simulator::State::prepare() {
   if (layout_changed) lay_out();
   if (settings.speckle) prepare_scatterers();
+  if (keeps_middle_plane(settings) && !middle)
+    middle = TexelBuffer(GL_RG32F, lines.lines.size() * std::size_t(lines.samples));
   if (*first_due == Stage::traverse) {
     const std::vector<PlacedLine> placed = placed_lines(volume, patient_from_probe, lines, settings);
     line_buffer.write(placed.data(), placed.size() * sizeof(PlacedLine));
@@ -207,18 +210,20 @@ void Simulator::State::run(Stage stage) {
       volume.tissue_lookup().bind(7);
       scan.bind_storage(1);
       counters.bind_storage(2);
+      if (keeps_middle_plane(settings)) middle.bind_storage(3);
       volume.texture().bind(0);
       scatterers.bind(1);
       programs.traverse.dispatch(parameters.lines, 1);
       break;
     case Stage::beam:
-      scan.bind(0);
       if (reverberates(settings)) {
+        (keeps_middle_plane(settings) ? middle : scan).bind(0);
         repeats.clear();
         repeats.bind_storage(0);
         programs.reverberation.dispatch(parameters.lines, 1);
         repeats.bind(2);
       }
+      scan.bind(0);
       beam_window.bind_uniform(1);
       beam_at_depth.bind(1);
       echoes.bind_storage(0);

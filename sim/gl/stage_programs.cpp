@@ -23,7 +23,8 @@ Defines traversal(const Settings& settings, double dr_mm) {
           {"EDGE_SHADOW", flag(settings.edge_shadow)},
           {"SKIPPING", flag(settings.skipping)},
           {"ELEVATION_FOCUS", flag(slice_bends(settings))},
-          {"PLANES", std::to_string(settings.slice_planes)}};
+          {"PLANES", std::to_string(settings.slice_planes)},
+          {"KEEP_MIDDLE", flag(keeps_middle_plane(settings))}};
 }
 
 Defines reverberation_of(const Settings& settings) {
@@ -73,6 +74,9 @@ StageVariant plain(const Settings& settings) {
 
 bool reverberates(const Settings& settings) {
   return settings.reverberation || settings.face_reflection > 0;
+}
+bool keeps_middle_plane(const Settings& settings) {
+  return settings.slice_planes > 1 && reverberates(settings);
 }
 bool is_noisy(const Settings& settings) {
   return settings.electronic_noise || settings.clutter;

@@ -11,6 +11,8 @@ namespace insonate::gl {
 
 /// Whether anything repeats (sim/model/reverberation.h), and whether anything adds noise (sim/model/noise.h).
 bool reverberates(const Settings& settings);
+/// Reverberation is of the slice's middle plane, which the traversal then keeps beside the sum of all.
+bool keeps_middle_plane(const Settings& settings);
 bool is_noisy(const Settings& settings);
 
 /// What the shaders of model S are compiled for, so that what a scene does not need costs it nothing.

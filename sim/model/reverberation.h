@@ -8,9 +8,10 @@ namespace insonate {
 /// with it, gas and bone show at multiples of their depth, as the A-lines of lung ultrasound (Lichtenstein, Intensive
 /// Care Medicine 24, 1998).
 ///
-/// On each line, before the beam's width, from I and R of its samples: a sample reflects A = R / I^2 = alpha |d . n|,
-/// at most 1, which means over a slice's planes may exceed; it lies where its interface does, at c, the mean place of
-/// the samples nearer than the reflection length l, weighted by A. The face, with A = face_reflection, lies at c = 0.
+/// On each line, before the beam's width, from I and R of its samples in the middle plane of the slice, because layers
+/// that lie in different planes hold no sound between them: a sample reflects A = R / I^2 = alpha |d . n|, 0 to 1; it
+/// lies where its interface does, at c, the mean place of the samples nearer than the reflection length l, weighted by
+/// A. The face, with A = face_reflection, lies at c = 0.
 /// Samples i before j make the echo
 ///
 ///     V(c_j + k (c_j - c_i)) gets s R_j g^k,  k from 1 to kMostRepeats,     g = w A_i A_j T^2
@@ -18,8 +19,9 @@ namespace insonate {
 /// for each round of which the sound passes what lies between twice, T = I(j - l + dr) / I(i + l), at most 1; w rises
 /// from 0 to 1 while c_j - c_i rises from l/2 to l, because what is nearer is one interface; s = dr/l shares a sharp
 /// interface's R among the samples that show it, and is 1 for the face. An echo has R_j's shape: sample k of it lies as
-/// far from its place as j does from c_j. Rounds of less than kLeastRound cannot be seen and are left out without a
-/// step: g counts as g - kLeastRound^2/g, and as 0 below.
+/// far from its place as j does from c_j; between samples it is shared among the nearest four by the cubic B-spline, so
+/// that no edge of it appears at once when the probe moves. Rounds of less than kLeastRound cannot be seen and are left
+/// out without a step: g counts as g - kLeastRound^2/g, and as 0 below.
 ///
 /// V passes the beam's window (4) as R does, and adds to (6), U = (R + b T) S + V, because it is no scatterers' echo.
 inline constexpr double kLeastRound = 1e-3;

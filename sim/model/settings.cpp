@@ -33,7 +33,10 @@ Settings trainer_settings(double frequency_mhz, double depth_mm) {
   settings.reflection_length_mm = 2 * depth_mm / settings.samples;
   settings.focused_beam = true;
   settings.focus_mm = std::clamp(depth_mm / 2, 5.0, 400.0);  // where sonographers are taught to look
-  settings.clutter = settings.electronic_noise = true;
+  settings.slice_planes = 3;
+  settings.reverberation = settings.edge_shadow = settings.clutter = settings.electronic_noise = true;
+  settings.face_reflection = 0.02;
+  settings.transmission_sigma_mm = 1;  // a beam passes a limb in part: its shadow has soft edges
   const double two_way_db = 2 * kSoftTissueAbsorption * frequency_mhz * depth_mm / 10;
   for (std::size_t i = 0; i < settings.tgc_db.size(); ++i)
     settings.tgc_db[i] = std::min(two_way_db * double(i) / double(settings.tgc_db.size() - 1), kMostTimeGainDb);

@@ -228,19 +228,22 @@ Stages<double> simulate_reference(const MediumField& field, const TissueTable& t
   const ScanLines lines = scan_lines(probe, depth_mm, settings.samples);
   const int n = int(lines.lines.size()), d = lines.samples;
   ReferenceScan scan{Image<double>(n, d), Image<double>(n, d), Image<double>(n, d), Image<double>(n, d)};
-  for (const SlicePlane& plane : slice_planes(settings)) {
+  const std::vector<SlicePlane> planes = slice_planes(settings);
+  Image<double> repeats;
+  for (const SlicePlane& plane : planes) {
     const ReferenceScan one = traverse_reference(field, table, lines, settings, patient_from_probe, plane);
     for (Image<double> ReferenceScan::*part :
          {&ReferenceScan::intensity, &ReferenceScan::reflection, &ReferenceScan::echo_re, &ReferenceScan::echo_im})
       for (std::size_t i = 0; i < (one.*part).pixels.size(); ++i)
         (scan.*part).pixels[i] += plane.weight * (one.*part).pixels[i];
+    if (&plane == &planes[planes.size() / 2])
+      repeats = reverberation_reference(one.intensity, one.reflection, lines, settings);
   }
 
   Stages<double> stages;
   stages.reflection_beam = Image<double>(n, d);
   stages.transmission = Image<double>(n, d);
   stages.speckle = Image<double>(n, d);
-  const Image<double> repeats = reverberation_reference(scan.intensity, scan.reflection, lines, settings);
   stages.repeated = Image<double>(n, d);
   const std::vector<double> sigma = focused_beam_sigma(lines, settings);
   const std::vector<double> scale = envelope_scale(lines, settings);

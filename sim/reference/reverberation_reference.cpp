@@ -14,6 +14,11 @@ double seen(double round) {
   return round > kLeastRound ? round - kLeastRound * kLeastRound / round : 0;
 }
 
+double cubic_b_spline(double x) {
+  const double away = std::abs(x);
+  return away < 1 ? 2.0 / 3 - away * away * (1 - away / 2) : std::pow(std::max(2 - away, 0.0), 3) / 6;
+}
+
 }  // namespace
 
 Image<double> reverberation_reference(const Image<double>& intensity, const Image<double>& reflection,
@@ -46,10 +51,9 @@ Image<double> reverberation_reference(const Image<double>& intensity, const Imag
       for (int n = 1; n <= kMostRepeats && apart_mm > 0; ++n) {
         const double position = deep.sample + n * apart_mm / dr;
         if (position >= d) break;
-        const int low = int(position);
         echo *= seen(round);
-        repeats.at(line, low) += (low + 1 - position) * echo;
-        if (low + 1 < d) repeats.at(line, low + 1) += (position - low) * echo;
+        for (int k = std::max(int(position) - 1, 0); k <= std::min(int(position) + 2, d - 1); ++k)
+          repeats.at(line, k) += cubic_b_spline(k - position) * echo;
       }
     };
     for (std::size_t j = 0; j < reflectors.size(); ++j) {

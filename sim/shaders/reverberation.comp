@@ -6,7 +6,7 @@ layout(local_size_x = 8) in;
 
 #include "shared/simulation_parameters.h"
 
-layout(binding = 0) uniform samplerBuffer scan;                   // a row a line: I, R, scatterers' echo (re, im)
+layout(binding = 0) uniform samplerBuffer scan;                   // a row a line: I, R of the slice's middle plane
 layout(std430, binding = 0) buffer Repeats { float repeats[]; };  // a row a line: V, 0 before
 
 const int kMostReflectors = 64, kMostRepeats = 16;  // as in sim/model/reverberation.h, with the next
@@ -21,12 +21,13 @@ vec2 reflected(int k) {
   return value.x > kLeastReverberant ? vec2(min(value.y / (value.x * value.x), 1.0), value.y) : vec2(0.0);
 }
 
-// Adds `echo` between two samples.
+// Adds `echo` around a place between two samples, by the cubic B-spline.
 void add(float position, float echo) {
   int low = int(floor(position));
-  float f = position - float(low);
-  if (low < samples) repeats[row + low] += (1.0 - f) * echo;
-  if (low + 1 < samples) repeats[row + low + 1] += f * echo;
+  float f = position - float(low), g = 1.0 - f;
+  vec4 share = vec4(g * g * g, 4.0 - f * f * (6.0 - 3.0 * f), 4.0 - g * g * (6.0 - 3.0 * g), f * f * f) * (echo / 6.0);
+  for (int i = 0; i < 4; ++i)
+    if (low - 1 + i >= 0 && low - 1 + i < samples) repeats[row + low - 1 + i] += share[i];
 }
 
 // What counts of a round that leaves so much.

@@ -21,6 +21,9 @@ struct Line {
   vec4 lattice_start, lattice_along;  // in the scatterers' lattice
   vec4 beside, lattice_beside;        // with ELEVATION_FOCUS, the way to the plane for each mm of the slice's thickness
 };
+#if KEEP_MIDDLE == 1
+layout(std430, binding = 3) writeonly buffer Middle { vec2 middle[]; };  // a row a line: I, R of the slice's middle plane
+#endif
 layout(std430, binding = 0) readonly buffer ScanLines { Line scan_lines[]; };  // plane by plane
 layout(std430, binding = 2) buffer Counters { uint samples_walked, normals_taken; };
 
@@ -109,8 +112,12 @@ vec2 scatterers_echo(float k, Medium here) {
   return echo;
 }
 
-// The planes of the slice add up.
+// The planes of the slice add up. Where sound goes to and fro is a matter of the middle one alone: layers that lie in
+// different planes hold none between them.
 void put(int plane, int at, vec4 value) {
+#if KEEP_MIDDLE == 1
+  if (plane == PLANES / 2) middle[at] = value.xy;
+#endif
 #if PLANES > 1
   value *= line.lateral.w;
   if (plane > 0) value += scan[at];

@@ -262,7 +262,8 @@ TEST_CASE("what is skipped changes no pixel by more than a grey level") {
       const Image<std::uint8_t> skipped = grey(true);
       const gl::SampleCounts counts = simulator.sample_counts();
       const Image<std::uint8_t> whole = grey(false);
-      CHECK(simulator.sample_counts().walked == std::uint32_t(find_probe("curvilinear")->lines * settings.samples));
+      CHECK(simulator.sample_counts().walked ==
+            std::uint32_t(settings.slice_planes * find_probe("curvilinear")->lines * settings.samples));
       skipped_normals += simulator.sample_counts().normals - counts.normals;
       int worst_change = 0;
       for (std::size_t i = 0; i < whole.pixels.size(); ++i)

@@ -45,6 +45,7 @@ struct Look {
 Look look(gl::Simulator& simulator, const Pose& pose, const std::string& picture) {
   const Probe& probe = *find_probe("curvilinear");
   Settings settings = trainer_settings(probe.frequency_mhz, kDepthMm);
+  settings.slice_planes = 1;  // what a line meets is looked up along it alone
   simulator.set_probe(probe, kDepthMm);
   simulator.set_settings(settings);
   simulator.set_pose(pose);

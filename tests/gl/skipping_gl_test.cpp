@@ -27,6 +27,8 @@ struct Fixture {
 
   Fixture() {
     settings.samples = 64;
+    settings.slice_planes = 1;
+    settings.transmission_sigma_mm = 0;
     settings.image_width = 64;
     settings.image_height = 48;
     set_up(simulator, settings);
@@ -131,6 +133,9 @@ TEST_CASE("a picture after a change is the picture that a new simulator draws") 
       [](Settings& s) { s.reference_level = ReferenceLevel::frame_maximum; },
       [](Settings& s) { s.fixed_level *= 2; },
       [](Settings& s) { s.slice_planes = 3; },
+      [](Settings& s) { s.reverberation = false, s.face_reflection = 0; },
+      [](Settings& s) { s.reverberation = true; },
+      [](Settings& s) { s.focused_beam = !s.focused_beam; },  // reaches the beam alone, where reverberation is
       [](Settings& s) { s.clutter = s.electronic_noise = false; },
       // one that reaches the beam alone, and one that makes interfaces seen that were not
       [](Settings& s) { s.two_way = !s.two_way, s.blend *= 1e-4; },
