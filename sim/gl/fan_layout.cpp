@@ -1,5 +1,7 @@
 #include "sim/gl/fan_layout.h"
 
+#include <glm/common.hpp>
+
 #include <algorithm>
 
 namespace insonate::gl {
@@ -23,6 +25,15 @@ FanLayout::FanLayout(const Probe& probe, double depth_mm, const ScanLines& lines
   for (int y = 0; y * kBlock.y < height; ++y)
     for (int x = 0; x * kBlock.x < width; ++x)
       if (touched(glm::ivec2(x, y) * kBlock)) blocks.emplace_back(x, y);
+}
+
+std::size_t FanLayout::pixels_in_blocks() const {
+  std::size_t count = 0;
+  for (const glm::ivec2& block : blocks) {
+    const glm::ivec2 size = glm::min(glm::ivec2(inside.width, inside.height) - block * kBlock, kBlock);
+    count += std::size_t(size.x) * std::size_t(size.y);
+  }
+  return count;
 }
 
 }  // namespace insonate::gl

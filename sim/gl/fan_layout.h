@@ -2,6 +2,7 @@
 
 #include <glm/vec2.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -21,6 +22,9 @@ struct FanLayout {
 
   FanLayout() = default;
   FanLayout(const Probe& probe, double depth_mm, const ScanLines& lines, int width, int height);
+
+  /// The pixels of the picture in those blocks.
+  std::size_t pixels_in_blocks() const;
 };
 
 }  // namespace insonate::gl

@@ -339,6 +339,30 @@ SampleCounts Simulator::sample_counts() const {
   return counts;
 }
 
+StageCount Simulator::count(Stage stage) const {
+  const State& s = *state_;
+  StageCount count{s.runs[std::size_t(stage)]};
+  if (count.runs == 0) return count;
+  const std::uint64_t samples = s.lines.lines.size() * std::uint64_t(s.lines.samples);
+  switch (stage) {
+    case Stage::traverse:
+      count.possible = samples * std::uint64_t(s.settings.slice_planes);
+      count.evaluated = sample_counts().walked;
+      break;
+    case Stage::beam:
+      count.possible = count.evaluated = samples;
+      break;
+    case Stage::scan_convert:
+    case Stage::smooth:
+    case Stage::fuse:
+    case Stage::compress:
+      count.possible = s.pixels();
+      count.evaluated = s.fan.pixels_in_blocks();
+      break;
+  }
+  return count;
+}
+
 Stages<float> Simulator::read_stages() {
   if (!std::exchange(state_->stages_are_read, true)) state_->due_from(Stage::fuse);
   run_through(Stage::compress);

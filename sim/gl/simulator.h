@@ -24,6 +24,13 @@ struct SampleCounts {
   std::uint32_t normals = 0;  ///< samples of these whose interface's normal was worked out
 };
 
+/// What a stage did.
+struct StageCount {
+  long runs = 0;                ///< since the simulator was made
+  std::uint64_t evaluated = 0;  ///< samples (traverse, beam) or pixels, of its last run
+  std::uint64_t possible = 0;   ///< of so many
+};
+
 /// Model S on the graphics card: a volume, a probe, a pose and settings in, a picture out.
 ///
 /// Setters only note what changed; image() runs the first stage that a change reaches and those behind it, and nothing
@@ -70,6 +77,8 @@ public:
   const std::array<long, kStageCount>& runs() const;
   /// Waits for the device.
   SampleCounts sample_counts() const;
+  /// Waits for the device where the stage is the traversal.
+  StageCount count(Stage stage) const;
 
   /// Builds all shaders again; what does not build goes on as it was and is told of.
   std::optional<std::string> reload(const ShaderSources& sources);

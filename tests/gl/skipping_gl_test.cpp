@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <functional>
 
 #include "sim/gl/headless_context.h"
@@ -87,6 +88,33 @@ TEST_CASE("what other settings leave unused reaches nothing, until they use it")
   CHECK(f.after([&] { f.settings.speckle_seed = 7, f.settings.speckle_cell_mm = 1; }) == "");
   CHECK(f.after([&] { f.settings.slice_planes = 3; }) == "01234");
   CHECK(f.after([&] { f.settings.slice_thickness_mm = 4; }) == "01234");
+}
+
+TEST_CASE("each stage tells how often it ran and how much it evaluated of what there is") {
+  Fixture f;
+  f.settings.image_width = 400;
+  f.settings.image_height = 300;
+  f.settings.slice_planes = 3;
+  f.after([&] { f.simulator.set_pose(test::on_the_skin(0, -40, 180)); });  // away from the body: lines end soon
+  const std::uint64_t samples = std::uint64_t(find_probe("curvilinear")->lines) * 64, pixels = 400 * 300;
+  const gl::StageCount traversal = f.simulator.count(Stage::traverse), beam = f.simulator.count(Stage::beam);
+  CHECK(traversal.runs == 2);
+  CHECK(traversal.possible == 3 * samples);
+  CHECK(traversal.evaluated > 0);
+  CHECK(traversal.evaluated < traversal.possible / 2);
+  CHECK(beam.evaluated == samples);
+  CHECK(beam.possible == samples);
+  const Image<std::uint8_t> inside = f.simulator.read_stages().inside;
+  const auto in_fan = std::uint64_t(std::count(inside.pixels.begin(), inside.pixels.end(), std::uint8_t(1)));
+  for (const Stage stage : {Stage::scan_convert, Stage::smooth, Stage::fuse}) {
+    const gl::StageCount count = f.simulator.count(stage);
+    CHECK(count.runs >= 2);
+    CHECK(count.possible == pixels);
+    CHECK(count.evaluated >= in_fan);
+    CHECK(count.evaluated < pixels);  // the picture's corners are left out
+  }
+  CHECK(f.simulator.count(Stage::compress).runs == 0);  // white is a fixed level
+  CHECK(f.simulator.count(Stage::compress).evaluated == 0);
 }
 
 TEST_CASE("smoothing that is off does not run") {
