@@ -11,6 +11,7 @@ struct Point {
   double time_ms = 0, error_db = 0;  ///< > 0 to be drawn
   bool on_front = false;
   std::string quality = {};  ///< the level of quality that it is, if any, which is named and ringed
+  bool leaves_out = false;   ///< an effect, so that it is another picture
 };
 
 struct Panel {
