@@ -22,7 +22,7 @@ struct Line {
   vec4 beside, lattice_beside;        // with ELEVATION_FOCUS, the way to the plane for each mm of the slice's thickness
 };
 #if KEEP_MIDDLE == 1
-layout(std430, binding = 3) writeonly buffer Middle { vec2 middle[]; };  // a row a line: I, R of the slice's middle plane
+layout(std430, binding = 3) writeonly buffer Middle { vec2 middle[]; };  // a row a line: I, R of the middle plane
 #endif
 layout(std430, binding = 0) readonly buffer ScanLines { Line scan_lines[]; };  // plane by plane
 layout(std430, binding = 2) buffer Counters { uint samples_walked, normals_taken; };
@@ -170,7 +170,7 @@ void walk(int plane, int index) {
     float turned = dot(turn, turn), to_the_fourth = turned * turned;
     change -= 2.0 * to_the_fourth / (2.0 + to_the_fourth) * turn_loss;
 #endif
-    precise float term = change - carried, sum = log_intensity + term;
+    precise float term = change - carried, sum = min(log_intensity + term, log_intensity);  // I never rises
     carried = (sum - log_intensity) - term;
     log_intensity = sum;
     before = behind;
