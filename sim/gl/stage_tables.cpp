@@ -72,10 +72,14 @@ std::vector<PlacedLine> placed_lines(const DeviceVolume& volume, const Pose& pat
       // A sample's width to spare, for the rounding of the shader's own positions.
       const auto [enters, leaves] =
           settings.skipping && !slice_bends(settings) ? volume.meets_body(start, along) : std::pair(-1e9, 1e9);
+      // Behind the body, or the gel where there is none, lies air alone, which nothing is seen of but how the last
+      // surface lets sound through.
+      const double body_mm = enters <= leaves ? leaves * dr : 0, gel_mm = settings.gel_mm - lines.r_min_mm;
+      const double end = (std::max(body_mm, gel_mm) + 2 * settings.reflection_length_mm) / dr + 2;
       placed.push_back({{start, enters - 1},
                         {along, leaves + 1},
                         {step(texture_from_probe, half_length * lateral), plane.weight},
-                        {step(texture_from_probe, half_length * elevation), 0},
+                        {step(texture_from_probe, half_length * elevation), ends_behind_body(settings) ? end : 1e9},
                         {point(lattice_from_probe, first), 0},
                         {step(lattice_from_probe, dr * d), 0},
                         {step(texture_from_probe, {0, 0, plane.offset}), 0},
@@ -112,6 +116,12 @@ Gaussian::Gaussian(double sigma_px, int limit_px) {
   if (sigma_px < 0.05) return;
   radius = std::min(int(std::ceil(3 * sigma_px)), limit_px);
   exponent = -0.5 / (sigma_px * sigma_px);
+}
+
+bool ends_behind_body(const Settings& settings) {
+  // Of air: b of -44 dB, its -60 dB, and a surface that passes 10^-3 at most each way, against a white of -19 dB.
+  constexpr double kAir_db = -120;
+  return settings.skipping && !slice_bends(settings) && settings.electronic_noise && settings.noise_db > kAir_db;
 }
 
 double least_alpha_with_normal(const Settings& settings) {
