@@ -5,7 +5,14 @@
 #include <algorithm>
 
 namespace insonate::gl {
-FanLayout::FanLayout(const Probe& probe, double depth_mm, const ScanLines& lines, int width, int height)
+namespace {
+
+constexpr glm::ivec2 kOutside(1 << 20);  // in blocks: no picture reaches as far
+
+}  // namespace
+
+FanLayout::FanLayout(const Probe& probe, double depth_mm, const ScanLines& lines, int width, int height,
+                     const Scheme& scheme)
     : geometry(image_geometry(probe, depth_mm, width, height)), inside(width, height) {
   line_and_sample.assign(inside.pixels.size(), glm::vec2(-2));
   std::size_t pixel = 0;
@@ -25,12 +32,15 @@ FanLayout::FanLayout(const Probe& probe, double depth_mm, const ScanLines& lines
   for (int y = 0; y * kBlock.y < height; ++y)
     for (int x = 0; x * kBlock.x < width; ++x)
       if (touched(glm::ivec2(x, y) * kBlock)) blocks.emplace_back(x, y);
+  groups = scheme.in_rows(blocks.size());
+  blocks.resize(std::size_t(groups.x) * std::size_t(groups.y), kOutside);
 }
 
 std::size_t FanLayout::pixels_in_blocks() const {
   std::size_t count = 0;
   for (const glm::ivec2& block : blocks) {
-    const glm::ivec2 size = glm::min(glm::ivec2(inside.width, inside.height) - block * kBlock, kBlock);
+    const glm::ivec2 size =
+        glm::clamp(glm::ivec2(inside.width, inside.height) - block * kBlock, glm::ivec2(0), kBlock);
     count += std::size_t(size.x) * std::size_t(size.y);
   }
   return count;

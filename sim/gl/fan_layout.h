@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sim/core/image.h"
+#include "sim/gl/scheme.h"
 #include "sim/probe/probe.h"
 
 namespace insonate::gl {
@@ -18,10 +19,14 @@ struct FanLayout {
   ImageGeometry geometry;
   Image<std::uint8_t> inside;              ///< 1 inside the fan
   std::vector<glm::vec2> line_and_sample;  ///< per pixel, continuous; (-2, -2) outside the fan
-  std::vector<glm::ivec2> blocks;          ///< those that the fan touches, counted in blocks
+  /// Those that the fan touches, counted in blocks; behind them some that lie outside the picture, as far as rows of
+  /// work groups are to be filled.
+  std::vector<glm::ivec2> blocks;
+  glm::ivec2 groups{0};  ///< work groups for the blocks, a row's and rows
 
   FanLayout() = default;
-  FanLayout(const Probe& probe, double depth_mm, const ScanLines& lines, int width, int height);
+  FanLayout(const Probe& probe, double depth_mm, const ScanLines& lines, int width, int height,
+            const Scheme& scheme = {});
 
   /// The pixels of the picture in those blocks.
   std::size_t pixels_in_blocks() const;

@@ -28,14 +28,20 @@ EGLDisplay open_display() {
 
 }  // namespace
 
-HeadlessContext::HeadlessContext() {
+HeadlessContext::HeadlessContext(Kind kind) {
   display_ = open_display();
   if (!display_)
     throw std::runtime_error("no EGL display without a window: install libegl1 and a driver (Mesa's will do)");
   eglBindAPI(EGL_OPENGL_API);
-  const EGLint wanted[] = {
-      EGL_CONTEXT_MAJOR_VERSION,           4,       EGL_CONTEXT_MINOR_VERSION, 5, EGL_CONTEXT_OPENGL_PROFILE_MASK,
-      EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+  const EGLint wanted[] = {EGL_CONTEXT_MAJOR_VERSION,
+                           4,
+                           EGL_CONTEXT_MINOR_VERSION,
+                           5,
+                           EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                           EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                           EGL_CONTEXT_OPENGL_DEBUG,
+                           kind == Kind::debugged ? EGL_TRUE : EGL_FALSE,
+                           EGL_NONE};
   context_ = eglCreateContext(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, wanted);
   if (!context_ || !eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) {
     if (context_) eglDestroyContext(display_, context_);

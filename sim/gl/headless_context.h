@@ -10,7 +10,9 @@ namespace insonate::gl {
 /// Throws std::runtime_error naming what is missing when neither gives such a context.
 class HeadlessContext {
 public:
-  HeadlessContext();
+  /// A debugged context tells of errors by KHR_debug, if it is asked to; drivers are slower for it.
+  enum class Kind { ordinary, debugged };
+  explicit HeadlessContext(Kind kind = Kind::ordinary);
   ~HeadlessContext();
   HeadlessContext(const HeadlessContext&) = delete;
   HeadlessContext& operator=(const HeadlessContext&) = delete;

@@ -29,6 +29,7 @@ TextureRefused::TextureRefused(int width, int height, int depth, int limit)
     : std::runtime_error(why_refused(width, height, depth, limit)), limit_(limit) {}
 
 Buffer::Buffer(std::size_t bytes, const void* data) {
+  if (bytes == 0) throw std::invalid_argument("a buffer of no bytes");
   GLuint name = 0;
   glCreateBuffers(1, &name);
   object_ = Object<BufferKind>(name);

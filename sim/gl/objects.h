@@ -39,7 +39,8 @@ struct BufferKind {
 class Buffer {
 public:
   Buffer() = default;
-  /// Storage of fixed size, filled from `data` when there is any.
+  /// Storage of fixed size, filled from `data` when there is any. Throws std::invalid_argument for no bytes, which
+  /// OpenGL refuses.
   Buffer(std::size_t bytes, const void* data);
 
   /// Replaces the first `bytes` bytes.

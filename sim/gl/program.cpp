@@ -1,12 +1,14 @@
 #include "sim/gl/program.h"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <iterator>
 #include <sstream>
 #include <stdexcept>
 
 #include "sim/gl/embedded_shaders.h"
+#include "sim/gl/scheme.h"
 
 namespace insonate::gl {
 namespace {
@@ -31,6 +33,19 @@ std::string log_of(GLuint name, void (*get)(GLuint, GLenum, GLint*), void (*text
 struct ShaderKind {
   static void destroy(GLuint name) { glDeleteShader(name); }
 };
+
+// OpenGL itself only notes an error, which nobody looks at, and runs nothing.
+void refuse_too_many(const std::string& shader, const std::array<int, 3>& groups) {
+  for (std::size_t axis = 0; axis < groups.size(); ++axis) {
+    if (groups[axis] <= Scheme{}.most_groups) continue;
+    GLint most = 0;
+    glGetIntegeri_v(GL_MAX_COMPUTE_WORK_GROUP_COUNT, GLuint(axis), &most);
+    if (groups[axis] > most)
+      throw std::runtime_error(shader + ": " + std::to_string(groups[axis]) +
+                               " work groups are above the device's limit of " + std::to_string(most) +
+                               "; take fewer scan lines, pixels or voxels");
+  }
+}
 
 Object<ShaderKind> compile(const ShaderSources& sources, const std::string& name, const Defines& defines) {
   std::vector<std::string> files;
@@ -117,12 +132,7 @@ Program::Variant Program::build(const ShaderSources& sources, const std::vector<
   if (!linked)
     throw std::runtime_error(shaders.front() + " does not link:\n" +
                              log_of(program, glGetProgramiv, glGetProgramInfoLog));
-  if (shaders.front().ends_with(".comp")) {
-    GLint group[3] = {1, 1, 1};
-    glGetProgramiv(program, GL_COMPUTE_WORK_GROUP_SIZE, group);
-    variant.group_x = group[0];
-    variant.group_y = group[1];
-  }
+  if (shaders.front().ends_with(".comp")) glGetProgramiv(program, GL_COMPUTE_WORK_GROUP_SIZE, variant.group);
   return variant;
 }
 
@@ -151,14 +161,16 @@ void Program::define(const ShaderSources& sources, const Defines& defines) {
   std::rotate(variants_.begin(), found, found + 1);
 }
 
-void Program::dispatch(int x, int y) const {
-  const Variant& in_use = variants_.front();
-  dispatch_groups((x + in_use.group_x - 1) / in_use.group_x, (y + in_use.group_y - 1) / in_use.group_y);
+void Program::dispatch(int x, int y, int z) const {
+  const GLint* group = variants_.front().group;
+  const auto groups = [](int invocations, GLint size) { return (invocations + size - 1) / size; };
+  dispatch_groups(groups(x, group[0]), groups(y, group[1]), groups(z, group[2]));
 }
 
-void Program::dispatch_groups(int x, int y) const {
+void Program::dispatch_groups(int x, int y, int z) const {
+  refuse_too_many(shaders_.front(), {x, y, z});
   use();
-  glDispatchCompute(GLuint(x), GLuint(y), 1);
+  glDispatchCompute(GLuint(x), GLuint(y), GLuint(z));
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 

@@ -65,17 +65,17 @@ public:
   GLint uniform(const char* name) const { return glGetUniformLocation(this->name(), name); }
   GLuint name() const { return variants_.empty() ? 0 : variants_.front().object.name(); }
 
-  /// Runs a compute program over at least `x` by `y` invocations in groups of its local size, and makes what it wrote
-  /// visible to whatever comes next.
-  void dispatch(int x, int y) const;
-  /// The same for a number of whole groups.
-  void dispatch_groups(int x, int y = 1) const;
+  /// Runs a compute program over at least `x` by `y` by `z` invocations in groups of its local size, and makes what it
+  /// wrote visible to whatever comes next. Throws std::runtime_error when the device does not take as many groups.
+  void dispatch(int x, int y, int z = 1) const;
+  /// The same for a number of whole groups, each at least 1.
+  void dispatch_groups(int x, int y = 1, int z = 1) const;
 
 private:
   struct Variant {
     Defines defines;
     Object<ProgramKind> object;
-    int group_x = 1, group_y = 1;
+    GLint group[3] = {1, 1, 1};
   };
   static Variant build(const ShaderSources& sources, const std::vector<std::string>& shaders, Defines defines);
 

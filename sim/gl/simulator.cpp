@@ -39,8 +39,9 @@ Image<float> transposed(const Image<float>& rows) {
 }  // namespace
 
 struct Simulator::State {
-  explicit State(const ShaderSources& sources) : programs(sources) {}
+  State(const ShaderSources& sources, const Scheme& given) : scheme(given), programs(sources) {}
 
+  const Scheme scheme;
   StagePrograms programs;
 
   // What the user set.
@@ -106,7 +107,7 @@ void Simulator::State::lay_out() {
   mean_echo = TexelBuffer(GL_R32F, d);
 
   const int w = settings.image_width, h = settings.image_height;
-  fan = FanLayout(probe, depth_mm, lines, w, h);
+  fan = FanLayout(probe, depth_mm, lines, w, h, scheme);
   noise = TexelBuffer();
   line_and_sample = TexelBuffer(GL_RG32F, pixels(), fan.line_and_sample.data());
   fan_blocks = Buffer(fan.blocks.size() * sizeof(glm::ivec2), fan.blocks.data());
@@ -201,7 +202,7 @@ void Simulator::State::run_through(Stage last) {
 }
 
 void Simulator::State::run(Stage stage) {
-  const auto over_fan = [&](const Program& program) { program.dispatch_groups(int(fan.blocks.size())); };
+  const auto over_fan = [&](const Program& program) { program.dispatch_groups(fan.groups.x, fan.groups.y); };
   fan_blocks.bind_storage(7);
   switch (stage) {
     case Stage::traverse:
@@ -275,7 +276,8 @@ void Simulator::State::run(Stage stage) {
   }
 }
 
-Simulator::Simulator(const ShaderSources& sources) : state_(std::make_unique<State>(sources)) {}
+Simulator::Simulator(const ShaderSources& sources, const Scheme& scheme)
+    : state_(std::make_unique<State>(sources, scheme)) {}
 Simulator::~Simulator() = default;
 Simulator::Simulator(Simulator&&) noexcept = default;
 Simulator& Simulator::operator=(Simulator&&) noexcept = default;

@@ -9,6 +9,7 @@
 #include "sim/core/pose.h"
 #include "sim/gl/objects.h"
 #include "sim/gl/program.h"
+#include "sim/gl/scheme.h"
 #include "sim/gl/stage.h"
 #include "sim/model/acoustic_volume.h"
 #include "sim/model/settings.h"
@@ -38,7 +39,7 @@ struct StageCount {
 /// Throws std::runtime_error when shaders do not build or the device cannot hold the volume.
 class Simulator {
 public:
-  explicit Simulator(const ShaderSources& sources = {});
+  explicit Simulator(const ShaderSources& sources = {}, const Scheme& scheme = {});
   ~Simulator();
   Simulator(Simulator&&) noexcept;
   Simulator& operator=(Simulator&&) noexcept;

@@ -55,7 +55,7 @@ const Texture& VolumeSweep::convert(const Sweep& sweep, const SweepValues& value
   values_.bind(0);
   plane_from_voxel_.bind(1);
   volume_.bind_image(0, GL_WRITE_ONLY);
-  program_.dispatch(grid.size.x, grid.size.y * grid.size.z);
+  program_.dispatch(grid.size.x, grid.size.y, grid.size.z);
   return volume_;
 }
 

@@ -84,6 +84,6 @@ void main() {
 #endif
   }
 #if FRAME_MAXIMUM == 1
-  atomicMax(brightest[gl_WorkGroupID.x], brightest_here);
+  atomicMax(brightest[block()], brightest_here);
 #endif
 }

@@ -1,5 +1,5 @@
 // Backward warp from the lines of a sweep to a volume: a voxel finds the two planes on its sides and its place among
-// the lines of each, and takes from each by its distance. An invocation a voxel, the volume's slices one below another.
+// the lines of each, and takes from each by its distance. An invocation a voxel.
 
 layout(local_size_x = 32, local_size_y = 4) in;
 
@@ -41,8 +41,8 @@ vec2 value_at(int plane, vec2 p) {
 }
 
 void main() {
-  ivec3 at = ivec3(gl_GlobalInvocationID.x, gl_GlobalInvocationID.y % uint(height), gl_GlobalInvocationID.y / uint(height));
-  if (at.x >= width || at.z >= depth) return;
+  ivec3 at = ivec3(gl_GlobalInvocationID);
+  if (at.x >= width || at.y >= height) return;
   vec4 voxel = vec4(at, 1.0);
 
   // The voxel lies on other sides of the first and the last plane; halving what is between keeps that true.

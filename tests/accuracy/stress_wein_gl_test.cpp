@@ -6,13 +6,13 @@
 #include <cmath>
 #include <cstdio>
 
-#include "sim/gl/headless_context.h"
 #include "sim/gl/wein_simulator.h"
 #include "sim/model/wein_settings_file.h"
 #include "sim/reference/wein_reference.h"
 #include "tests/accuracy/stress_bounds.h"
 #include "tests/accuracy/stress_scene.h"
 #include "tests/gl/parity.h"
+#include "tests/gl/test_context.h"
 
 using namespace insonate;
 using namespace insonate::test;
@@ -100,7 +100,7 @@ public:
   }
 
 private:
-  gl::HeadlessContext context_;
+  test::TestContext context_;
   WeinStages<float> got_;
   Image<std::uint8_t> inside_;
 };

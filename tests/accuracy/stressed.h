@@ -1,9 +1,9 @@
 #pragma once
 
-#include "sim/gl/headless_context.h"
 #include "sim/gl/simulator.h"
 #include "sim/reference/reference.h"
 #include "tests/accuracy/stress_scene.h"
+#include "tests/gl/test_context.h"
 
 namespace insonate::test {
 
@@ -20,7 +20,7 @@ public:
   void check(const Scene& scene);
 
 private:
-  gl::HeadlessContext context_;
+  test::TestContext context_;
   gl::Simulator simulator_;
   TissueTable table_ = read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml");
 };

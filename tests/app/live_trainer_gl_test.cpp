@@ -12,9 +12,9 @@
 #include "devices/replay/read_log.h"
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
-#include "sim/gl/headless_context.h"
 #include "sim/volume/case.h"
 #include "tests/devices/test_samples.h"
+#include "tests/gl/test_context.h"
 #include "tests/scenarios/tiny_case.h"
 
 using namespace insonate;
@@ -75,7 +75,7 @@ std::optional<glm::dvec3> shown_place(Lab& lab, Trainer& trainer) {
 }  // namespace
 
 TEST_CASE("what a live tracker sends the trainer replays to the samples that the trainer recorded, to the bit") {
-  const gl::HeadlessContext context;
+  const test::TestContext context;
   Lab lab;
   Options& options = lab.options;
   options.record = lab.folder.path / "run.igs.mha";
@@ -109,7 +109,7 @@ TEST_CASE("what a live tracker sends the trainer replays to the samples that the
 }
 
 TEST_CASE("each session's bytes go to a file of their own, and say of what they are") {
-  const gl::HeadlessContext context;
+  const test::TestContext context;
   Lab lab;
   lab.options.tracker = "hydra:";
   lab.options.calibration = lab.folder.path / "lab.toml";
@@ -145,7 +145,7 @@ TEST_CASE("a tracker without bytes, none at all, and a file that is there are re
 }
 
 TEST_CASE("a set-up that was made of this very tracker is used from the next start on, and of any other it is told") {
-  const gl::HeadlessContext context;
+  const test::TestContext context;
   Lab lab;
   const fs::path file = lab.options.out / "calibration.toml";
   SECTION("of this tracker") {

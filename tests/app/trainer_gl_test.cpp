@@ -11,10 +11,10 @@
 #include "scenarios/result_json.h"
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
-#include "sim/gl/headless_context.h"
 #include "sim/volume/volume_checks.h"
 #include "tests/app/trainer_folder.h"
 #include "tests/devices/igtl/raw_peer.h"
+#include "tests/gl/test_context.h"
 
 using namespace insonate;
 namespace fs = std::filesystem;
@@ -33,7 +33,7 @@ std::string water(int voxels_along_x, double spacing_x_mm) {
 }  // namespace
 
 TEST_CASE("the trainer replays a log, draws it, and leaves a report and the runner's score") {
-  const gl::HeadlessContext context;
+  const test::TestContext context;
   const TrainerFolder folder;
   Trainer trainer(folder.options());
   trainer.open_from_options();
@@ -68,7 +68,7 @@ TEST_CASE("the trainer replays a log, draws it, and leaves a report and the runn
 }
 
 TEST_CASE("where nothing changes nothing is drawn, and each change draws what it reaches") {
-  const gl::HeadlessContext context;
+  const test::TestContext context;
   const TrainerFolder folder;
   Trainer trainer(folder.options());
   trainer.open_from_options();
@@ -95,7 +95,7 @@ TEST_CASE("where nothing changes nothing is drawn, and each change draws what it
 }
 
 TEST_CASE("the ultrasound is drawn at the quality that is asked for, balanced unless one is") {
-  const gl::HeadlessContext context;
+  const test::TestContext context;
   const TrainerFolder folder;
   const auto ultrasound = [&](std::optional<Quality> quality) {
     Options options = folder.options();
@@ -117,7 +117,7 @@ TEST_CASE("the ultrasound is drawn at the quality that is asked for, balanced un
 }
 
 TEST_CASE("a tracker with a calibration tells the probe's pose, and an old calibration warns") {
-  const gl::HeadlessContext context;
+  const test::TestContext context;
   const TrainerFolder folder;
   Calibration calibration;
   calibration.tracker = {"replay", ""};
@@ -151,7 +151,7 @@ TEST_CASE("a tracker with a calibration tells the probe's pose, and an old calib
 }
 
 TEST_CASE("an OpenIGTLink client gets the picture that is on the screen, also one that stands when it connects") {
-  const gl::HeadlessContext context;
+  const test::TestContext context;
   const TrainerFolder folder;
   constexpr PictureSizes small{240, 160, 160, 120};  // what the reader of messages keeps
   Options options = folder.options();
@@ -193,7 +193,7 @@ TEST_CASE("an OpenIGTLink client gets the picture that is on the screen, also on
 }
 
 TEST_CASE("what cannot be opened is told of, and the session goes on as it was") {
-  const gl::HeadlessContext context;
+  const test::TestContext context;
   const TrainerFolder folder;
   Trainer trainer(folder.options());
   trainer.open_from_options();
@@ -232,7 +232,7 @@ TEST_CASE("what cannot be opened is told of, and the session goes on as it was")
 }
 
 TEST_CASE("a CT that the device cannot hold is told of, and the patient on the screen stays there") {
-  const gl::HeadlessContext context;
+  const test::TestContext context;
   const TrainerFolder folder;
   Trainer trainer(folder.options());
   trainer.open_from_options();
@@ -275,7 +275,7 @@ TEST_CASE("a CT that the device cannot hold is told of, and the patient on the s
 }
 
 TEST_CASE("another log can be opened in the same session's place, another patient too") {
-  const gl::HeadlessContext context;
+  const test::TestContext context;
   const TrainerFolder folder;
   Trainer trainer(folder.options());
   trainer.open_from_options();
@@ -319,7 +319,7 @@ TEST_CASE("another log can be opened in the same session's place, another patien
 }
 
 TEST_CASE("without a window there is nobody to answer a dialog: bad input passes through") {
-  const gl::HeadlessContext context;
+  const test::TestContext context;
   const TrainerFolder folder;
   Options options = folder.options();
   options.headless = true;
@@ -330,7 +330,7 @@ TEST_CASE("without a window there is nobody to answer a dialog: bad input passes
 }
 
 TEST_CASE("a replay has no session, keeps nothing, and gives way to what is opened next") {
-  const gl::HeadlessContext context;
+  const test::TestContext context;
   const TrainerFolder folder;
   Options options = folder.options();
   options.tracker.clear();

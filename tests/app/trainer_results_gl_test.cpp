@@ -7,14 +7,14 @@
 #include "devices/sequence/sequence.h"
 #include "scenarios/result_json.h"
 #include "sim/core/files.h"
-#include "sim/gl/headless_context.h"
 #include "tests/app/trainer_folder.h"
+#include "tests/gl/test_context.h"
 
 using namespace insonate;
 namespace fs = std::filesystem;
 
 TEST_CASE("the trainer keeps attempts in the database it was given, and of the user's own accord only those by hand") {
-  const gl::HeadlessContext context;
+  const test::TestContext context;
   const TrainerFolder folder;
   const auto finish = [](Trainer& trainer) {
     trainer.open_from_options();
@@ -87,7 +87,7 @@ TEST_CASE("the trainer keeps attempts in the database it was given, and of the u
 }
 
 TEST_CASE("a second attempt's report shows its own best frame, and none when the view was never held") {
-  const gl::HeadlessContext context;
+  const test::TestContext context;
   const TrainerFolder folder;
   // One step, so that no attempt's frame gives way only because another step came.
   std::string exam = kTinyScenario;
@@ -147,7 +147,7 @@ TEST_CASE("a second attempt's report shows its own best frame, and none when the
 }
 
 TEST_CASE("an exam that counts is kept once for a learner, with the seed that drew it, also when it is left early") {
-  const gl::HeadlessContext context;
+  const test::TestContext context;
   const TrainerFolder folder;
   Options options = folder.options();
   options.results = folder.path / "lab.db";

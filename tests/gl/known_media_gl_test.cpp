@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/gl/headless_context.h"
 #include "sim/gl/simulator.h"
+#include "tests/gl/test_context.h"
 
 using namespace insonate;
 
@@ -32,7 +32,7 @@ Pose at_y(double y_mm) {
 
 TEST_CASE("in a homogeneous medium sound is absorbed exactly, however many samples a line has") {
   constexpr double kHu = 60, kDepth_mm = 400, kFrequency_mhz = 3.5;
-  const gl::HeadlessContext context;
+  const test::TestContext context;
   const TissueTable table = read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml");
   Probe probe = *find_probe("linear");
   probe.lines = 4;
@@ -63,7 +63,7 @@ TEST_CASE("in a homogeneous medium sound is absorbed exactly, however many sampl
 
 TEST_CASE("a probe in air, or held off the skin, shows its own face and nothing behind") {
   constexpr double kDepth_mm = 120;
-  const gl::HeadlessContext context;
+  const test::TestContext context;
   gl::Simulator simulator;
   simulator.set_volume(medium(-1000, 60), read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml"));
   simulator.set_probe(*find_probe("linear"), kDepth_mm);

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 
-#include "sim/gl/headless_context.h"
 #include "sim/gl/paper_traversal.h"
 #include "tests/gl/parity.h"
 #include "tests/gl/test_body.h"
+#include "tests/gl/test_context.h"
 
 using namespace insonate;
 
@@ -21,7 +21,7 @@ void check(const Settings& settings, const Pose& pose) {
   probe.lines = 67;  // no multiple of any width that a device shades at once
   const ScanLines lines = scan_lines(probe, 110, settings.samples);
 
-  const gl::HeadlessContext context;
+  const test::TestContext context;
   gl::PaperTraversal traversal;
   traversal.set_volume(body, table);
   traversal.set_lines(lines, settings);

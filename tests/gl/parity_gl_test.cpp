@@ -10,11 +10,11 @@
 #include <stdexcept>
 #include <string>
 
-#include "sim/gl/headless_context.h"
 #include "sim/gl/simulator.h"
 #include "sim/reference/reference.h"
 #include "tests/gl/parity.h"
 #include "tests/gl/test_body.h"
+#include "tests/gl/test_context.h"
 
 using namespace insonate;
 using test::told;
@@ -27,7 +27,7 @@ constexpr double kFused_db = 0.01;  // a twentieth of a grey level at 60 dB
 
 void check_parity(const Probe& probe, double depth_mm, Settings settings, const Pose& pose) {
   settings.skipping = false;  // which the reference does not do
-  const gl::HeadlessContext context;
+  const test::TestContext context;
   const AcousticVolume body = test::test_body();
   const TissueTable table = read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml");
   gl::Simulator simulator;
@@ -207,7 +207,7 @@ TEST_CASE("GLSL agrees with the reference: shadows at the edges of a rib, a cyst
 }
 
 TEST_CASE("a frame without any echo is black, not NaN") {
-  const gl::HeadlessContext context;
+  const test::TestContext context;
   AcousticVolume water;
   water.grid.size = {60, 60, 60};
   water.grid.origin = glm::dvec3(-30);
@@ -225,7 +225,7 @@ TEST_CASE("a frame without any echo is black, not NaN") {
 }
 
 TEST_CASE("what is skipped changes no pixel by more than a grey level") {
-  const gl::HeadlessContext context;
+  const test::TestContext context;
   gl::Simulator simulator;
   simulator.set_volume(test::test_body(), read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml"));
   simulator.set_probe(*find_probe("curvilinear"), 120);
@@ -277,7 +277,7 @@ TEST_CASE("what is skipped changes no pixel by more than a grey level") {
 }
 
 TEST_CASE("settings out of their range are refused by name, and those before stay") {
-  const gl::HeadlessContext context;
+  const test::TestContext context;
   gl::Simulator simulator;
   simulator.set_volume(test::test_body(), read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml"));
   simulator.set_probe(*find_probe("curvilinear"), 100);

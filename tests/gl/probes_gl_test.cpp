@@ -6,15 +6,15 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "sim/gl/headless_context.h"
 #include "sim/gl/simulator.h"
 #include "sim/reference/reference.h"
 #include "tests/gl/test_body.h"
+#include "tests/gl/test_context.h"
 
 using namespace insonate;
 
 TEST_CASE("GLSL agrees with the reference: phased probe") {
-  const gl::HeadlessContext context;
+  const test::TestContext context;
   const AcousticVolume body = test::test_body();
   const TissueTable table = read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml");
   Probe probe = *find_probe("phased");

@@ -3,8 +3,8 @@
 #include <array>
 #include <vector>
 
-#include "sim/gl/headless_context.h"
 #include "sim/gl/readback.h"
+#include "tests/gl/test_context.h"
 
 using namespace insonate;
 
@@ -22,7 +22,7 @@ void fill(gl::Texture& texture, int first) {
 }  // namespace
 
 TEST_CASE("pictures are read back in the order they were asked for, each as it was then") {
-  const gl::HeadlessContext context;
+  const test::TestContext context;
   gl::Texture texture = gl::Texture::make_2d(GL_RGBA8, kWidth, kHeight, gl::Filter::nearest);
   gl::Readback readback;
   CHECK_FALSE(readback.take());

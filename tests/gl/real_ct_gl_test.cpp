@@ -11,9 +11,9 @@
 #include <optional>
 #include <vector>
 
-#include "sim/gl/headless_context.h"
 #include "sim/gl/simulator.h"
 #include "sim/volume/open_case.h"
+#include "tests/gl/test_context.h"
 
 using namespace insonate;
 
@@ -81,7 +81,7 @@ TEST_CASE("in a real CT bone casts a shadow, gas blocks, and liver and kidney ar
   }
   const Case subject = open_case(kScan);
   const TissueTable table = read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml");
-  const gl::HeadlessContext context;
+  const test::TestContext context;
   gl::Simulator simulator;
   simulator.set_volume(make_acoustic_volume(subject.ct, {}, {}, table), table);
   const glm::dvec3 centre = subject.ct.grid.centre();

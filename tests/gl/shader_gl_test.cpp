@@ -6,14 +6,14 @@
 #include <set>
 
 #include "sim/core/files.h"
-#include "sim/gl/headless_context.h"
 #include "sim/gl/program.h"
+#include "tests/gl/test_context.h"
 
 using namespace insonate;
 namespace fs = std::filesystem;
 
 TEST_CASE("a shader that does not build keeps the last good program and names file and line") {
-  const gl::HeadlessContext context;
+  const test::TestContext context;
   const fs::path folder = fs::temp_directory_path() / ("insonate-shaders-" + std::to_string(::getpid()));
   const gl::ShaderSources sources(folder);
   gl::Program program(sources, {"clutter.comp"});
@@ -37,7 +37,7 @@ TEST_CASE("a shader that does not build keeps the last good program and names fi
 }
 
 TEST_CASE("a program goes back to defines it was built for without building, until its files change") {
-  const gl::HeadlessContext context;
+  const test::TestContext context;
   const fs::path folder = fs::temp_directory_path() / ("insonate-variants-" + std::to_string(::getpid()));
   const auto write_shader = [&](const std::string& body) {
     write_file(folder / "clutter.comp", "layout(local_size_x = SIZE) in;\n" + body + "void main() {}\n");

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <functional>
 
-#include "sim/gl/headless_context.h"
 #include "sim/gl/simulator.h"
 #include "tests/gl/test_body.h"
+#include "tests/gl/test_context.h"
 
 using namespace insonate;
 using gl::Stage;
@@ -22,7 +22,7 @@ void set_up(gl::Simulator& simulator, const Settings& settings) {
 }
 
 struct Fixture {
-  gl::HeadlessContext context;
+  test::TestContext context;
   gl::Simulator simulator;
   Settings settings = trainer_settings(3.5, 100);
 

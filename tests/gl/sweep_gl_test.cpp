@@ -10,9 +10,9 @@
 #include <cmath>
 
 #include "sim/core/hash.h"
-#include "sim/gl/headless_context.h"
 #include "sim/gl/volume_sweep.h"
 #include "sim/reference/sweep_reference.h"
+#include "tests/gl/test_context.h"
 
 using namespace insonate;
 
@@ -52,7 +52,7 @@ SweepValues sampled(const Sweep& sweep, int samples, const Pattern& pattern) {
 }
 
 Volume<float> converted(const Sweep& sweep, const SweepValues& values, const Grid& grid) {
-  const gl::HeadlessContext context;
+  const test::TestContext context;
   gl::VolumeSweep converter;
   return gl::read_swept_volume(converter.convert(sweep, values, grid), grid);
 }

@@ -8,11 +8,11 @@
 #include <limits>
 #include <vector>
 
-#include "sim/gl/headless_context.h"
 #include "sim/gl/wein_simulator.h"
 #include "sim/reference/wein_reference.h"
 #include "tests/gl/parity.h"
 #include "tests/gl/test_body.h"
+#include "tests/gl/test_context.h"
 
 using namespace insonate;
 
@@ -35,7 +35,7 @@ WeinSettings small() {
 }
 
 struct Fixture {
-  gl::HeadlessContext context;
+  test::TestContext context;
   AcousticVolume body = test::test_body();
   Probe probe = curvilinear();
   WeinSettings settings = small();
@@ -67,7 +67,7 @@ std::vector<Pose> poses(int count) {
 }
 
 void check_parity(const WeinSettings& settings, const Probe& probe, const Pose& pose) {
-  const gl::HeadlessContext context;
+  const test::TestContext context;
   const AcousticVolume body = test::test_body();
   gl::WeinSimulator simulator(body, probe, kDepthMm, settings);
   const WeinStages<float> got = simulator.read_stages(pose);
