@@ -41,7 +41,6 @@ void Buffer::write(const void* data, std::size_t bytes) {
 }
 
 void Buffer::read(void* data, std::size_t bytes, std::size_t offset) const {
-  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   glGetNamedBufferSubData(object_.name(), GLintptr(offset), GLsizeiptr(bytes), data);
 }
 
@@ -125,8 +124,16 @@ void Texture::clear() {
 
 void Texture::read(GLenum layout, GLenum type, void* pixels, std::size_t bytes) const {
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
   glGetTextureImage(object_.name(), 0, layout, type, GLsizei(bytes), pixels);
+}
+
+void Texture::require_other_formats() const {
+  GLint kind = 0;
+  glGetTextureParameteriv(object_.name(), GL_IMAGE_FORMAT_COMPATIBILITY_TYPE, &kind);
+  if (kind != GL_IMAGE_FORMAT_COMPATIBILITY_BY_SIZE)
+    throw std::runtime_error(
+        "the graphics driver lets no shader store a pixel's four bytes as one number: update it, or use Mesa's "
+        "software one");
 }
 
 void Texture::bind_image_as(GLuint unit, GLenum access, GLenum format) const {

@@ -101,7 +101,11 @@ public:
 
   void bind(GLuint unit) const { glBindTextureUnit(unit, object_.name()); }
   void bind_image(GLuint unit, GLenum access) const { bind_image_as(unit, access, format_); }
-  /// @param format  another one of as many bytes, in which the shader has its texels: GL_R32UI for packed GL_RGBA8
+  /// OpenGL leaves it to the driver whether shaders may have an image's texels in another format of as many bytes.
+  /// Throws std::runtime_error where they may not.
+  void require_other_formats() const;
+  /// @param format  the one in which the shader has its texels: its own, or one that require_other_formats() allows,
+  ///                such as GL_R32UI for packed GL_RGBA8
   void bind_image_as(GLuint unit, GLenum access, GLenum format) const;
 
   int width() const { return width_; }

@@ -171,7 +171,9 @@ void Program::dispatch_groups(int x, int y, int z) const {
   refuse_too_many(shaders_.front(), {x, y, z});
   use();
   glDispatchCompute(GLuint(x), GLuint(y), GLuint(z));
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+  // For the next shader, and for what writes, clears or reads the same objects without one.
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
+                  GL_BUFFER_UPDATE_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
 }
 
 }  // namespace insonate::gl

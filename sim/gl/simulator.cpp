@@ -117,6 +117,7 @@ void Simulator::State::lay_out() {
   fused = TexelBuffer();
   levels = TexelBuffer();
   image = Texture::make_2d(GL_RGBA8, w, h, Filter::linear);
+  image.require_other_formats();
   image.clear();
   layout_changed = false;
   beam_changed = true;

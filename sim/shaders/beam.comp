@@ -61,7 +61,11 @@ void main() {
 #endif
 
   for (int j = -reach; j < 0; ++j) add(first, j, k);
-  vec4 intensity = vec4(add(first, 0, k), add(first, 1, k), add(first, 2, k), add(first, 3, k));
+  vec4 intensity;  // a statement each: in what order a constructor's arguments are worked out is left open
+  intensity.x = add(first, 0, k);
+  intensity.y = add(first, 1, k);
+  intensity.z = add(first, 2, k);
+  intensity.w = add(first, 3, k);
   for (int j = 4; j <= reach + 3; ++j) add(first, j, k);
 
   reflection /= total;
