@@ -36,7 +36,7 @@ Table measure_batch(const Request& request) {
               {}};
 
   const gl::HeadlessContext context;
-  std::printf("%s\n", gl::device_description().c_str());
+  tell_device();
   for_each_scene(request, [&](const Scene& scene) {
     gl::Simulator trainer;
     gl::upload_ct(scene.file, scene.volume.grid, [&] { trainer.set_volume(scene.volume, scene.table); });

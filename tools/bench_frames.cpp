@@ -63,7 +63,7 @@ Table measure_frames(const Request& request) {
   for (const char* stage : kStages) table.columns.push_back(std::string(stage) + "_ms");
 
   const gl::HeadlessContext context;
-  std::printf("%s\n", gl::device_description().c_str());
+  tell_device();
   for_each_scene(request, [&](const Scene& scene) {
     gl::Simulator simulator;
     gl::upload_ct(scene.file, scene.volume.grid, [&] { simulator.set_volume(scene.volume, scene.table); });

@@ -120,7 +120,7 @@ Table measure_front(const Request& request, const std::string& svg) {
               {}};
   std::vector<Panel> panels;
   const gl::HeadlessContext context;
-  std::printf("%s\n", gl::device_description().c_str());
+  tell_device();
   for_each_scene(request, [&](const Scene& scene) {
     gl::Simulator simulator;
     gl::upload_ct(scene.file, scene.volume.grid, [&] { simulator.set_volume(scene.volume, scene.table); });

@@ -49,7 +49,7 @@ Table measure_paper(const Request& request) {
   std::vector<double> ratios;
 
   const gl::HeadlessContext context;
-  std::printf("%s\n", gl::device_description().c_str());
+  tell_device();
   for_each_scene(request, [&](const Scene& scene) {
     gl::Simulator simulator;
     gl::PaperTraversal paper;

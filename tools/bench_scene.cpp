@@ -4,10 +4,12 @@
 
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
 #include "sim/core/suggest.h"
+#include "sim/gl/headless_context.h"
 #include "tools/subject.h"
 
 namespace insonate::bench {
@@ -66,6 +68,13 @@ std::vector<Configuration> configurations(const Request& request, const std::vec
     given.push_back({numbers[i], numbers[i + 1], numbers[i + 2], numbers[i + 3]});
   }
   return given;
+}
+
+void tell_device() {
+  std::printf("%s%s\n", gl::device_description().c_str(),
+              gl::is_software_renderer()
+                  ? ": a SOFTWARE RENDERER, so the times are the processor's and no graphics card's"
+                  : "");
 }
 
 Pose wandering(const Pose& start, int frame) {

@@ -45,6 +45,9 @@ std::vector<Configuration> configurations(const Request& request, const std::vec
 /// The five of Kutter, Shams, Navab 2009.
 extern const std::vector<Configuration> kPaperConfigurations;
 
+/// Prints what is measured, and that it is no graphics card where that is so.
+void tell_device();
+
 /// Where the probe stands in a frame: it wanders around `start` by a few millimetres along the face and across it.
 Pose wandering(const Pose& start, int frame);
 

@@ -3,63 +3,91 @@
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
+#include <algorithm>
+#include <array>
 #include <stdexcept>
+
+#include "sim/gl/egl_displays.h"
 
 namespace insonate::gl {
 namespace {
 
-EGLDisplay initialised(EGLDisplay display) {
-  EGLint major = 0, minor = 0;
-  return display != EGL_NO_DISPLAY && eglInitialize(display, &major, &minor) ? display : EGL_NO_DISPLAY;
+std::string text_of(GLenum name) {
+  return reinterpret_cast<const char*>(glGetString(name));
 }
 
-EGLDisplay open_display() {
-  if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless"))
-    if (EGLDisplay display = initialised(eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, nullptr, nullptr)))
-      return display;
-  if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_device")) {
-    EGLDeviceEXT device = nullptr;
-    EGLint count = 0;
-    if (eglQueryDevicesEXT(1, &device, &count) && count > 0)
-      return initialised(eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device, nullptr));
-  }
-  return EGL_NO_DISPLAY;
+EGLContext new_context(EGLDisplay display, HeadlessContext::Kind kind) {
+  const EGLint debugged = kind == HeadlessContext::Kind::debugged;
+  const std::array<EGLint, 9> wanted = {EGL_CONTEXT_MAJOR_VERSION,
+                                        4,
+                                        EGL_CONTEXT_MINOR_VERSION,
+                                        5,
+                                        EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                        EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                        EGL_CONTEXT_OPENGL_DEBUG,
+                                        debugged,
+                                        EGL_NONE};
+  return eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, wanted.data());
 }
 
 }  // namespace
 
+/// A display with a context that is current; `context` is null where it gives none.
+struct HeadlessContext::Current {
+  EGLDisplay display = EGL_NO_DISPLAY;  ///< initialised, or none
+  EGLContext context = EGL_NO_CONTEXT;
+
+  Current(EGLDisplay opened, Kind kind) {
+    EGLint major = 0, minor = 0;
+    if (opened == EGL_NO_DISPLAY || !eglInitialize(opened, &major, &minor)) return;
+    display = opened;
+    eglBindAPI(EGL_OPENGL_API);
+    context = new_context(display, kind);
+    if (context && make_current()) return;
+    if (context) eglDestroyContext(display, context);
+    context = EGL_NO_CONTEXT;
+  }
+  ~Current() {
+    if (context) {
+      eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+      eglDestroyContext(display, context);
+    }
+    if (display) eglTerminate(display);
+  }
+  Current(const Current&) = delete;
+  Current& operator=(const Current&) = delete;
+
+  bool make_current() const { return eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context); }
+};
+
 HeadlessContext::HeadlessContext(Kind kind) {
-  display_ = open_display();
-  if (!display_)
+  bool any_display = false;
+  for (const EglDisplay& display : egl_displays()) {
+    if (current_ && display.is_software) break;  // is no better
+    auto tried = std::make_unique<Current>(display.open(), kind);
+    any_display |= tried->display != EGL_NO_DISPLAY;
+    if (!tried->context) continue;
+    const bool software = is_software_renderer();
+    if (!current_ || !software) current_ = std::move(tried);
+    if (!software) break;
+  }
+  if (!any_display)
     throw std::runtime_error("no EGL display without a window: install libegl1 and a driver (Mesa's will do)");
-  eglBindAPI(EGL_OPENGL_API);
-  const EGLint wanted[] = {EGL_CONTEXT_MAJOR_VERSION,
-                           4,
-                           EGL_CONTEXT_MINOR_VERSION,
-                           5,
-                           EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                           EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                           EGL_CONTEXT_OPENGL_DEBUG,
-                           kind == Kind::debugged ? EGL_TRUE : EGL_FALSE,
-                           EGL_NONE};
-  context_ = eglCreateContext(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, wanted);
-  if (!context_ || !eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) {
-    if (context_) eglDestroyContext(display_, context_);
-    eglTerminate(display_);
+  if (!current_ || !current_->make_current())  // what was left for it may have taken its place
     throw std::runtime_error(
         "the graphics driver gives no OpenGL 4.5 core context: update it, or use Mesa's software one");
-  }
 }
 
-HeadlessContext::~HeadlessContext() {
-  eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-  eglDestroyContext(display_, context_);
-  eglTerminate(display_);
-}
+HeadlessContext::~HeadlessContext() = default;
 
 std::string device_description() {
-  const auto text = [](GLenum name) { return std::string(reinterpret_cast<const char*>(glGetString(name))); };
-  return text(GL_RENDERER) + ", OpenGL " + text(GL_VERSION);
+  return text_of(GL_RENDERER) + ", OpenGL " + text_of(GL_VERSION);
+}
+
+bool is_software_renderer() {
+  const std::string renderer = text_of(GL_RENDERER);
+  constexpr std::array<const char*, 5> kNames = {"llvmpipe", "softpipe", "swrast", "SWR", "Software Rasterizer"};
+  return std::ranges::any_of(kNames, [&](const char* name) { return renderer.find(name) != std::string::npos; });
 }
 
 }  // namespace insonate::gl

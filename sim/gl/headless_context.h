@@ -1,13 +1,15 @@
 #pragma once
 
+#include <memory>
 #include <string>
 
 namespace insonate::gl {
 
 /// An OpenGL 4.5 core context without a window, current on the thread that made it until it is destroyed.
 ///
-/// Made through EGL: Mesa's surfaceless platform first, then the first EGL device, which is how headless GPUs answer.
-/// Throws std::runtime_error naming what is missing when neither gives such a context.
+/// Made through EGL, on a graphics card if one gives such a context, else on a software renderer; egl_displays() has
+/// the order, and how to choose. Throws InputError for a choice that there is not, std::runtime_error naming what is
+/// missing when nothing gives such a context.
 class HeadlessContext {
 public:
   /// A debugged context tells of errors by KHR_debug, if it is asked to; drivers are slower for it.
@@ -18,11 +20,14 @@ public:
   HeadlessContext& operator=(const HeadlessContext&) = delete;
 
 private:
-  void* display_ = nullptr;
-  void* context_ = nullptr;
+  struct Current;
+  std::unique_ptr<Current> current_;
 };
 
 /// The current context's renderer and version, for reports and benchmarks.
 std::string device_description();
+
+/// Whether the current context's renderer runs on the processor.
+bool is_software_renderer();
 
 }  // namespace insonate::gl

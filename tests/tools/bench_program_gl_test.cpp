@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <limits>
 #include <string>
@@ -140,6 +141,17 @@ TEST_CASE("insonate-bench compare: a run against itself has not changed") {
   f.measure("frames");
   CHECK(f.run("compare " + f.csv.string() + " " + f.csv.string()) == 0);
   CHECK(f.output.find("4 settings, median ratio 1.000; beyond the spread: 0 slower, 0 faster") != std::string::npos);
+}
+
+TEST_CASE("insonate-bench measures the EGL device that is asked for, and says loudly when it is no graphics card") {
+  Fixture f;
+  ::setenv("INSONATE_EGL_DEVICE", "99", 1);
+  CHECK(f.run("frames --case " + (f.folder / "tiny").string()) == 2);
+  CHECK(f.output.starts_with("insonate-bench: INSONATE_EGL_DEVICE: there is no EGL device 99; "));
+  ::unsetenv("INSONATE_EGL_DEVICE");
+  const bench::Table table = f.measure("frames");
+  const bool software = table.cell(0, "device").find("llvmpipe") != std::string::npos;
+  CHECK((f.output.find("SOFTWARE RENDERER") != std::string::npos) == software);
 }
 
 TEST_CASE("insonate-bench says what is wrong in one line and exits with 2") {
