@@ -19,6 +19,9 @@ Table measure_paper(const Request& request);
 /// and for comparison the trainer's model S.
 Table measure_batch(const Request& request);
 
+/// What the device's linear filter is off by, which exact_filter in Settings mends.
+Table measure_filter();
+
 /// Run time against error over the settings. Scenes' plots go into one SVG unless `svg` is empty.
 Table measure_front(const Request& request, const std::string& svg);
 

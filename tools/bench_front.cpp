@@ -70,6 +70,7 @@ std::vector<Setting> settings_to_try(const Request& request, const Scene& scene)
   };
   const auto without = [&](const char* what, auto change) { changed(what, false, change); };
   changed("nothing skipped", true, [](Settings& s) { s.skipping = false; });
+  changed("exact filtering", true, [](Settings& s) { s.exact_filter = true; });
   without("no speckle", [](Settings& s) { s.speckle = false; });
   without("one plane", [](Settings& s) { s.slice_planes = 1; });
   without("no edge shadow", [](Settings& s) { s.edge_shadow = false; });

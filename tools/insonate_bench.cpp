@@ -41,6 +41,8 @@ int main(int argc, char** argv) {
       request, csv);
   const CLI::App* batch = add_measurement(
       arguments, "batch", "Model W for registration: many images in one call against one a call", request, csv);
+  CLI::App* filter = arguments.add_subcommand("filter", "How exact the device's own filter of volumes is");
+  filter->add_option("--csv", csv, "Write the table as CSV too");
   CLI::App* front = add_measurement(arguments, "front", "Run time against error over the settings", request, csv);
   front->add_option("--svg", svg, "Draw the plot too");
   std::vector<std::string> exams;
@@ -61,6 +63,7 @@ int main(int argc, char** argv) {
       exams = {assets_folder() / "scenarios" / "ruq_hepatorenal.toml", assets_folder() / "logs" / "ruq_good.igs.mha"};
     const bench::Table table = frames->parsed()    ? bench::measure_frames(request)
                                : paper->parsed()   ? bench::measure_paper(request)
+                               : filter->parsed()  ? bench::measure_filter()
                                : batch->parsed()   ? bench::measure_batch(request)
                                : scoring->parsed() ? bench::measure_scoring(exams)
                                                    : bench::measure_front(request, svg);

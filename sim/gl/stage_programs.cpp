@@ -21,6 +21,7 @@ Defines traversal(const Settings& settings, double dr_mm) {
           {"ABSORPTION", flag(settings.absorption)},
           {"SPECKLE", flag(settings.speckle)},
           {"EDGE_SHADOW", flag(settings.edge_shadow)},
+          {"EXACT_FILTER", flag(settings.exact_filter)},
           {"SKIPPING", flag(settings.skipping)},
           {"ELEVATION_FOCUS", flag(slice_bends(settings))},
           {"PLANES", std::to_string(settings.slice_planes)},

@@ -41,6 +41,9 @@ struct Settings {
   bool absorption = true;             ///< frequency-dependent absorption in (5); off in the paper's own mode
   double gel_mm = 6;  ///< coupling gel: air nearer to the face than this counts as water; 0 (none) to 100
 
+  /// Weigh the voxels around a sample in single precision, where a device's own filter has weights of as few as 8 bits.
+  bool exact_filter = false;
+
   bool skipping = true;  ///< leave out what cannot change a pixel by a grey level
 
   // Beam width (4)

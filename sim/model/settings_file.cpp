@@ -24,6 +24,7 @@ const std::vector<Key<Settings>>& all_keys() {
       flag("edge_shadow", &S::edge_shadow),
       flag("absorption", &S::absorption),
       number("gel_mm", &S::gel_mm, 0, 100),
+      flag("exact_filter", &S::exact_filter),
       flag("skipping", &S::skipping),
       choice("beam_window", &S::beam_window, {"box", "triangle", "hann"}),
       whole("beam_lines", &S::beam_lines, 1, 255, true),

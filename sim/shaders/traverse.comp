@@ -8,6 +8,7 @@ layout(local_size_x = 8) in;
 
 #include "shared/simulation_parameters.h"
 #include "shared/acoustic_volume.glsl"
+#include "shared/exact_filter.glsl"
 
 layout(binding = 1) uniform sampler3D scatterers;  // complex, unit variance at the lattice's points
 layout(std430, binding = 1) buffer Scan { vec4 scan[]; };  // a row a line: I, R, scatterers' echo (re, im)
@@ -58,7 +59,13 @@ vec3 place(float k) { return line.start.xyz + k * line.along.xyz; }
 vec3 lattice_place(float k) { return line.lattice_start.xyz + k * line.lattice_along.xyz; }
 #endif
 
-vec2 voxel(vec3 at) { return textureLod(acoustic_volume, at, 0.0).rg * 32767.0; }
+vec2 voxel(vec3 at) {
+#if EXACT_FILTER == 1
+  return exact_to_edge(acoustic_volume, at) * 32767.0;
+#else
+  return textureLod(acoustic_volume, at, 0.0).rg * 32767.0;
+#endif
+}
 
 // Coupling gel fills what air there is between the face and the skin, up to its thickness.
 vec2 with_gel(vec2 voxel, float r) { return r < gel_mm && voxel.x < kCouplingAirHu ? kGel : voxel; }
@@ -88,7 +95,12 @@ float log_transmission(float alpha, float z1, float z2) {
 vec2 scatterer(vec3 lattice) {
   vec3 f = fract(lattice * vec3(textureSize(scatterers, 0)) - 0.5);
   vec3 kept = f * f + (1.0 - f) * (1.0 - f);
-  return textureLod(scatterers, lattice, 0.0).rg * (kScattererScale * inversesqrt(kept.x * kept.y * kept.z));
+#if EXACT_FILTER == 1
+  vec2 stored = exact_repeating(scatterers, lattice);
+#else
+  vec2 stored = textureLod(scatterers, lattice, 0.0).rg;
+#endif
+  return stored * (kScattererScale * inversesqrt(kept.x * kept.y * kept.z));
 }
 
 // Densities half the reflection length beside a sample: to both sides in the plane, and in elevation.

@@ -116,16 +116,18 @@ TEST_CASE("insonate-bench front: errors against the converged reference, a front
   const fs::path svg = f.folder / "front.svg";
   const bench::Table table =
       f.measure("front --svg " + svg.string(), "24,1600,60,45,24,200,60,45,24,1600,15,11,24,1200,45,34");
-  REQUIRE(table.rows.size() == 4 + 7);
+  REQUIRE(table.rows.size() == 4 + 8);
   const auto error = [&](std::size_t row) { return table.number("table.csv", row, "error_db"); };
   CHECK(error(0) > 0);
   CHECK(error(1) > 2 * error(0));  // an eighth of the samples
   CHECK(error(2) > 2 * error(0));  // a sixteenth of the pixels
   CHECK(table.cell(4, "setting") == "nothing skipped");
   CHECK(error(4) < 1.1 * error(0));  // what is skipped is not seen, so nothing is gained by it
-  CHECK(table.cell(5, "setting") == "no speckle");
-  CHECK(error(5) > 2);  // the envelope of speckle is off by 5.6 dB from its mean wherever there is echo
-  for (std::size_t i = 6; i < table.rows.size(); ++i) {
+  CHECK(table.cell(5, "setting") == "exact filtering");
+  CHECK(error(5) == Approx(error(0)).epsilon(0.1));  // the filter's error is small beside the others
+  CHECK(table.cell(6, "setting") == "no speckle");
+  CHECK(error(6) > 2);  // the envelope of speckle is off by 5.6 dB from its mean wherever there is echo
+  for (std::size_t i = 7; i < table.rows.size(); ++i) {
     INFO(table.cell(i, "setting"));
     CHECK(error(i) != error(0));  // each leaves something out
   }
@@ -134,6 +136,21 @@ TEST_CASE("insonate-bench front: errors against the converged reference, a front
   CHECK(f.output.find("\nbalanced, the default, ") != std::string::npos);
   CHECK(f.output.find("45 x 34 (fast)\n") != std::string::npos);
   CHECK(f.output.find("\nfast ") != std::string::npos);
+}
+
+TEST_CASE("insonate-bench filter: what the device's own filter is off by, and whether to do without it") {
+  Fixture f;
+  REQUIRE(f.run("filter --csv " + f.csv.string()) == 0);
+  INFO(f.output);
+  const bench::Table table = bench::Table::parse("table.csv", read_file(f.csv));
+  REQUIRE(table.rows.size() == 1);
+  const double largest = table.number("table.csv", 0, "largest_error");
+  CHECK(table.number("table.csv", 0, "rms_error") <= largest);
+  CHECK(largest < 0.02);  // less than the 6 bits that nothing has
+  const bool coarse = table.cell(0, "coarse") == "1";
+  CHECK(coarse == (largest > 2e-5));
+  CHECK((f.output.find("\nCoarse: ") != std::string::npos) == coarse);
+  CHECK((f.output.find("\nFine: ") != std::string::npos) == !coarse);
 }
 
 TEST_CASE("insonate-bench compare: a run against itself has not changed") {
