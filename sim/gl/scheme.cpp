@@ -1,8 +1,25 @@
 #include "sim/gl/scheme.h"
 
+#include <epoxy/gl.h>
+
 #include <algorithm>
 
+#include "sim/gl/headless_context.h"
+
 namespace insonate::gl {
+namespace {
+
+constexpr GLenum kSubgroupSize = 0x9532;  // GL_SUBGROUP_SIZE_KHR, younger than some headers
+
+}  // namespace
+
+Scheme Scheme::of_device() {
+  Scheme scheme;
+  GLint lanes = is_software_renderer() ? 8 : 32;
+  if (epoxy_has_gl_extension("GL_KHR_shader_subgroup")) glGetIntegerv(kSubgroupSize, &lanes);
+  scheme.group = std::clamp(lanes, 4, 128);
+  return scheme;
+}
 
 glm::ivec2 Scheme::in_rows(std::size_t groups) const {
   const std::size_t count = std::max<std::size_t>(groups, 1), most = std::size_t(most_groups);

@@ -39,7 +39,7 @@ Image<float> transposed(const Image<float>& rows) {
 }  // namespace
 
 struct Simulator::State {
-  State(const ShaderSources& sources, const Scheme& given) : scheme(given), programs(sources) {}
+  State(const ShaderSources& sources, const Scheme& given) : scheme(given), programs(sources, given) {}
 
   const Scheme scheme;
   StagePrograms programs;

@@ -39,7 +39,7 @@ struct StageCount {
 /// Throws std::runtime_error when shaders do not build or the device cannot hold the volume.
 class Simulator {
 public:
-  explicit Simulator(const ShaderSources& sources = {}, const Scheme& scheme = {});
+  explicit Simulator(const ShaderSources& sources = {}, const Scheme& scheme = Scheme::of_device());
   ~Simulator();
   Simulator(Simulator&&) noexcept;
   Simulator& operator=(Simulator&&) noexcept;

@@ -12,6 +12,12 @@ std::string flag(bool on) {
   return on ? "1" : "0";
 }
 
+// Of the stages that walk along lines.
+Defines in_groups(const Scheme& scheme, Defines defines = {}) {
+  defines.emplace_back("GROUP", std::to_string(scheme.group));
+  return defines;
+}
+
 Defines traversal(const Settings& settings, double dr_mm) {
   const double samples_a_length = settings.reflection_length_mm / dr_mm;
   const auto is = [&](double whole) { return std::abs(samples_a_length - whole) < 1e-9; };
@@ -83,24 +89,25 @@ bool is_noisy(const Settings& settings) {
   return settings.electronic_noise || settings.clutter;
 }
 
-StagePrograms::StagePrograms(const ShaderSources& sources)
-    : traverse(sources, {"traverse.comp"}, traversal({}, 1)),
-      reverberation(sources, {"reverberation.comp"}, reverberation_of({})),
+StagePrograms::StagePrograms(const ShaderSources& sources, const Scheme& scheme)
+    : traverse(sources, {"traverse.comp"}, in_groups(scheme, traversal({}, 1))),
+      reverberation(sources, {"reverberation.comp"}, in_groups(scheme, reverberation_of({}))),
       beam(sources, {"beam.comp"}, beam_of({})),
-      clutter(sources, {"clutter.comp"}),
+      clutter(sources, {"clutter.comp"}, in_groups(scheme)),
       clutter_tail(sources, {"clutter_tail.comp"}),
       scan_convert(sources, {"scan_convert.comp"}, conversion(plain({}))),
       smooth(sources, {"smooth.comp"}, smoothing(plain({}))),
       fuse(sources, {"fuse.comp"}, fusion(plain({}))),
       maximum(sources, {"maximum.comp"}),
       compress(sources, {"compress.comp"}, display({})),
-      sources_(sources) {}
+      sources_(sources),
+      scheme_(scheme) {}
 
 void StagePrograms::build_from(Stage first, const StageVariant& variant) {
   const Settings& settings = variant.settings;
-  if (first <= Stage::traverse) traverse.define(sources_, traversal(settings, variant.dr_mm));
+  if (first <= Stage::traverse) traverse.define(sources_, in_groups(scheme_, traversal(settings, variant.dr_mm)));
   if (first <= Stage::beam) {
-    if (reverberates(settings)) reverberation.define(sources_, reverberation_of(settings));
+    if (reverberates(settings)) reverberation.define(sources_, in_groups(scheme_, reverberation_of(settings)));
     beam.define(sources_, beam_of(settings));
   }
   if (first <= Stage::scan_convert) scan_convert.define(sources_, conversion(variant));

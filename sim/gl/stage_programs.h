@@ -4,6 +4,7 @@
 #include <string>
 
 #include "sim/gl/program.h"
+#include "sim/gl/scheme.h"
 #include "sim/gl/stage.h"
 #include "sim/model/settings.h"
 
@@ -26,7 +27,7 @@ struct StageVariant {
 /// The shaders of model S.
 struct StagePrograms {
   /// Throws std::runtime_error when one does not build.
-  explicit StagePrograms(const ShaderSources& sources);
+  StagePrograms(const ShaderSources& sources, const Scheme& scheme);
 
   /// Builds a stage and those behind it for a variant; does nothing for those that are built so. Throws
   /// std::runtime_error.
@@ -39,6 +40,7 @@ struct StagePrograms {
 
 private:
   ShaderSources sources_;
+  Scheme scheme_;
 };
 
 }  // namespace insonate::gl

@@ -28,21 +28,20 @@ constexpr std::size_t kMostChunk = 2048;  // images, of which some tables have a
 // Below this no echo is left: with any compression it is less than half a step of what the scan holds.
 constexpr double kLeastIntensity = 1e-10;
 
-constexpr std::size_t kGroup = 8;  // the shaders' local size
-constexpr int kWordPixels = 4;     // of the grid, stored at once
+constexpr int kWordPixels = 4;  // of the grid, stored at once
 
 // Where a pixel lies among the scan lines, as shared/wein_scan.glsl reads it: behind which sample of a scan; how far,
 // as a float's bits, from there to the next sample and to the next line; what more a stage wants to know.
 using PixelPlace = glm::ivec4;
 const PixelPlace kNowhere(-1, 0, 0, 0);
 
-// Pixels shared out to invocations, a column each, with a row a step; as many columns as whole groups have.
+// Pixels shared out to invocations, a column each, with a row a step; as many columns as whole groups of so many have.
 struct PixelTable {
   PixelTable() = default;
-  PixelTable(const std::vector<std::vector<PixelPlace>>& of_columns, const PixelPlace& filler) {
+  PixelTable(const std::vector<std::vector<PixelPlace>>& of_columns, const PixelPlace& filler, std::size_t group) {
     std::size_t steps = 0;
     for (const auto& column : of_columns) steps = std::max(steps, column.size());
-    columns = (of_columns.size() + kGroup - 1) / kGroup * kGroup;
+    columns = (of_columns.size() + group - 1) / group * group;
     std::vector<PixelPlace> table(columns * steps, filler);
     for (std::size_t i = 0; i < of_columns.size(); ++i)
       for (std::size_t step = 0; step < of_columns[i].size(); ++step) table[step * columns + i] = of_columns[i][step];
@@ -55,17 +54,18 @@ struct PixelTable {
 };
 
 // About 64 pixels a column, `together` in one after the other, so that a group takes neighbours at a step.
-PixelTable shared_out(const std::vector<PixelPlace>& pixels, std::size_t together, const PixelPlace& filler) {
+PixelTable shared_out(const std::vector<PixelPlace>& pixels, std::size_t together, const PixelPlace& filler,
+                      std::size_t group) {
   if (pixels.empty()) return {};
   const std::size_t units = pixels.size() / together,
-                    groups = std::clamp<std::size_t>(pixels.size() / (64 * kGroup), 1, 512);
-  const std::size_t steps = (units + groups * kGroup - 1) / (groups * kGroup);
-  std::vector<std::vector<PixelPlace>> columns(groups * kGroup);
+                    groups = std::clamp<std::size_t>(pixels.size() / (64 * group), 1, 512);
+  const std::size_t steps = (units + groups * group - 1) / (groups * group);
+  std::vector<std::vector<PixelPlace>> columns(groups * group);
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     const std::size_t unit = i / together;
-    columns[unit / kGroup / steps * kGroup + unit % kGroup].push_back(pixels[i]);
+    columns[unit / group / steps * group + unit % group].push_back(pixels[i]);
   }
-  return PixelTable(columns, filler);
+  return PixelTable(columns, filler, group);
 }
 
 // As shaders write it.
@@ -85,7 +85,7 @@ Program traverse_program(const ShaderSources& sources, Defines compiled_in, bool
 
 struct WeinSimulator::State {
   State(const AcousticVolume& volume, const Probe& probe, double depth_mm, const WeinSettings& wanted,
-        const ShaderSources& given);
+        const ShaderSources& given, const Scheme& scheme);
 
   void traverse(std::span<const Pose> chunk, std::size_t first, const Program& program);
   template <typename Work>
@@ -96,6 +96,7 @@ struct WeinSimulator::State {
 
   WeinSettings settings;
   ShaderSources sources;
+  const std::size_t group;  // the shaders' local size
   ScanLines lines;
   FanLayout fan;
   std::size_t chunk_images;
@@ -114,9 +115,10 @@ struct WeinSimulator::State {
 };
 
 WeinSimulator::State::State(const AcousticVolume& volume, const Probe& probe, double depth_mm,
-                            const WeinSettings& wanted, const ShaderSources& given)
+                            const WeinSettings& wanted, const ShaderSources& given, const Scheme& scheme)
     : settings(wanted),
       sources(given),
+      group(std::size_t(scheme.group)),
       lines(scan_lines(probe, depth_mm, wanted.samples)),
       fan(probe, depth_mm, lines, wanted.image_width, wanted.image_height),
       tile_words((wanted.image_width + kWordPixels - 1) / kWordPixels),
@@ -155,7 +157,8 @@ WeinSimulator::State::State(const AcousticVolume& volume, const Probe& probe, do
 Defines WeinSimulator::State::constants(const AcousticVolume& volume) const {
   const double dr = lines.dr_mm();
   const glm::dvec3 sides_by_dr = glm::dvec3(volume.grid.size + 2 * kAirMargin) * volume.grid.spacing / dr;
-  return {{"LINES", std::to_string(lines.lines.size())},
+  return {{"GROUP", std::to_string(group)},
+          {"LINES", std::to_string(lines.lines.size())},
           {"SAMPLES", std::to_string(lines.samples)},
           {"TILE_WORDS", std::to_string(tile_words)},
           {"TILE_HEIGHT", std::to_string(settings.image_height)},
@@ -206,7 +209,7 @@ PixelTable WeinSimulator::State::picture_pixels() const {
       four[0].w = y << 16 | word;
       if (touched) pixels.insert(pixels.end(), four.begin(), four.end());
     }
-  return shared_out(pixels, kWordPixels, PixelPlace(-1, 0, 0, -1));
+  return shared_out(pixels, kWordPixels, PixelPlace(-1, 0, 0, -1), group);
 }
 
 // Places a chunk's lines and walks along them.
@@ -224,7 +227,7 @@ void WeinSimulator::State::traverse(std::span<const Pose> chunk, std::size_t fir
   probe_lines.bind(1);
   places.bind(2);
   scan.bind_storage(0);
-  program.dispatch_groups(parameters.images, (int(lines.lines.size()) + int(kGroup) - 1) / int(kGroup));
+  program.dispatch_groups(parameters.images, (int(lines.lines.size()) + int(group) - 1) / int(group));
 }
 
 template <typename Work>
@@ -238,8 +241,8 @@ void WeinSimulator::State::by_chunks(std::span<const Pose> poses, Work&& work) {
 }
 
 WeinSimulator::WeinSimulator(const AcousticVolume& volume, const Probe& probe, double depth_mm,
-                             const WeinSettings& settings, const ShaderSources& sources)
-    : state_(std::make_unique<State>(volume, probe, depth_mm, settings, sources)) {}
+                             const WeinSettings& settings, const ShaderSources& sources, const Scheme& scheme)
+    : state_(std::make_unique<State>(volume, probe, depth_mm, settings, sources, scheme)) {}
 WeinSimulator::~WeinSimulator() = default;
 WeinSimulator::WeinSimulator(WeinSimulator&&) noexcept = default;
 WeinSimulator& WeinSimulator::operator=(WeinSimulator&&) noexcept = default;
@@ -314,7 +317,8 @@ void WeinSimulator::set_ultrasound(const Image<float>& image) {
       patches.resize(std::max(patches.size(), in + 1));
       patches[in].push_back(pixels.back());
     }
-  s.counted_pixels = patches.empty() ? shared_out(pixels, 1, kNowhere) : PixelTable(patches, kNowhere);
+  s.counted_pixels =
+      patches.empty() ? shared_out(pixels, 1, kNowhere, s.group) : PixelTable(patches, kNowhere, s.group);
   if (s.counted_pixels)
     s.sums = Texture::make_2d(GL_RGBA32F, 3 * int(s.counted_pixels.columns), int(s.chunk_images), Filter::nearest);
 }

@@ -11,6 +11,7 @@
 #include "sim/core/pose.h"
 #include "sim/gl/objects.h"
 #include "sim/gl/program.h"
+#include "sim/gl/scheme.h"
 #include "sim/model/acoustic_volume.h"
 #include "sim/model/wein_settings.h"
 #include "sim/model/wein_stages.h"
@@ -29,7 +30,7 @@ public:
   /// Throws std::runtime_error when shaders do not build, TextureRefused when the device cannot hold the volume.
   /// @param depth_mm  10 to 400
   WeinSimulator(const AcousticVolume& volume, const Probe& probe, double depth_mm, const WeinSettings& settings,
-                const ShaderSources& sources = {});
+                const ShaderSources& sources = {}, const Scheme& scheme = Scheme::of_device());
   ~WeinSimulator();
   WeinSimulator(WeinSimulator&&) noexcept;
   WeinSimulator& operator=(WeinSimulator&&) noexcept;

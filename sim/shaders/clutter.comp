@@ -1,7 +1,7 @@
 // The scatterers' mean echo over the lines at each depth, of which side lobes bring a share to every line. Neighbouring
 // samples are neighbours in memory, so an invocation takes a sample and goes through the lines.
 
-layout(local_size_x = 8) in;
+layout(local_size_x = GROUP) in;
 
 #include "shared/simulation_parameters.h"
 

@@ -1,7 +1,7 @@
 // LC2 of an image: the share of the ultrasound image's variance that the two terms and a constant explain, of its parts'
 // sums put together, or of each part by itself where the parts are patches.
 
-layout(local_size_x = 8) in;
+layout(local_size_x = GROUP) in;
 
 #include "shared/wein_parameters.h"
 

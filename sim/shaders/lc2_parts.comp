@@ -2,7 +2,7 @@
 // which are converted from the scan lines on the way. Kept as means and products of differences, which single precision
 // can hold: sums of squares less squares of sums would leave nothing of a flat image.
 
-layout(local_size_x = 8) in;
+layout(local_size_x = GROUP) in;
 
 #include "shared/wein_parameters.h"
 #include "shared/wein_scan.glsl"

@@ -2,7 +2,7 @@
 // in sim/model/reverberation.h. An invocation takes a line: it lists the samples that reflect much, few as a rule, and
 // adds what each makes with those before it.
 
-layout(local_size_x = 8) in;
+layout(local_size_x = GROUP) in;
 
 #include "shared/simulation_parameters.h"
 

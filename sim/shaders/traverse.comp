@@ -4,7 +4,7 @@
 // invocations that each walk along a row stay in the processor's cache, a column each would touch a page a step. It goes
 // to a buffer, as what all stages hand on: a software renderer takes several times as long to store in an image.
 
-layout(local_size_x = 8) in;
+layout(local_size_x = GROUP) in;
 
 #include "shared/simulation_parameters.h"
 #include "shared/acoustic_volume.glsl"

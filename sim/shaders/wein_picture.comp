@@ -1,7 +1,7 @@
 // Scan conversion of a chunk's images, each into its tile of the grid: a work group takes a run of the fan's pixels, an
 // invocation four neighbours at once, which it stores as one.
 
-layout(local_size_x = 8) in;
+layout(local_size_x = GROUP) in;
 
 #include "shared/wein_parameters.h"
 #include "shared/wein_scan.glsl"

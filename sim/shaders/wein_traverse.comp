@@ -2,7 +2,7 @@
 // transmitted intensity. The gradient is stored with the density, so a sample costs one fetch. Groups follow each other
 // image by image along the same few lines: poses of a search lie close together, so the voxels are still in the cache.
 
-layout(local_size_x = 8) in;
+layout(local_size_x = GROUP) in;
 
 #include "shared/wein_parameters.h"
 

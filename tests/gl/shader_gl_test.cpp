@@ -16,10 +16,10 @@ TEST_CASE("a shader that does not build keeps the last good program and names fi
   const test::TestContext context;
   const fs::path folder = fs::temp_directory_path() / ("insonate-shaders-" + std::to_string(::getpid()));
   const gl::ShaderSources sources(folder);
-  gl::Program program(sources, {"clutter.comp"});
+  gl::Program program(sources, {"clutter_tail.comp"});
   const GLuint good = program.name();
 
-  write_file(folder / "clutter.comp",
+  write_file(folder / "clutter_tail.comp",
              "layout(local_size_x = 1) in;\n#include \"shared/broken.glsl\"\nvoid main() {}\n");
   write_file(folder / "shared" / "broken.glsl", "// fine\nfloat a = undefined_name;\n");
   const auto problem = program.reload(sources);

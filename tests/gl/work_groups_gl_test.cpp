@@ -7,11 +7,14 @@
 #include <array>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "sim/core/hash.h"
 #include "sim/gl/program.h"
 #include "sim/gl/simulator.h"
 #include "sim/gl/volume_sweep.h"
+#include "sim/gl/wein_simulator.h"
 #include "tests/gl/test_body.h"
 #include "tests/gl/test_context.h"
 
@@ -43,21 +46,24 @@ std::array<Settings, 2> both_whites(int width, int height) {
 }  // namespace
 
 TEST_CASE("work groups go into rows that a device takes, none of them empty") {
-  const gl::Scheme scheme;
+  gl::Scheme scheme, in_fours;
+  in_fours.most_groups = 4;
   CHECK(scheme.in_rows(0) == glm::ivec2(1, 1));
   CHECK(scheme.in_rows(1) == glm::ivec2(1, 1));
   CHECK(scheme.in_rows(65535) == glm::ivec2(65535, 1));
   CHECK(scheme.in_rows(65536) == glm::ivec2(32768, 2));
   CHECK(scheme.in_rows(262144) == glm::ivec2(52429, 5));  // the largest picture there is: 8192 x 8192
-  CHECK(gl::Scheme{4}.in_rows(9) == glm::ivec2(3, 3));
-  CHECK(gl::Scheme{4}.in_rows(10) == glm::ivec2(4, 3));
+  CHECK(in_fours.in_rows(9) == glm::ivec2(3, 3));
+  CHECK(in_fours.in_rows(10) == glm::ivec2(4, 3));
 }
 
 TEST_CASE("a picture of more work groups than go into a row is the same to the last bit") {
   for (const Settings& settings : both_whites(200, 150)) {
     const Probe probe = *find_probe("curvilinear");
     const Stages<float> at_once = stages_of(probe, settings, {});
-    const Stages<float> in_rows = stages_of(probe, settings, {7});  // no divisor of the fan's blocks
+    gl::Scheme sevens;  // no divisor of the fan's blocks
+    sevens.most_groups = 7;
+    const Stages<float> in_rows = stages_of(probe, settings, sevens);
     CHECK(at_once.grey.pixels == in_rows.grey.pixels);
     CHECK(at_once.inside.pixels == in_rows.inside.pixels);
     CHECK(at_once.fused.pixels == in_rows.fused.pixels);
@@ -100,4 +106,59 @@ TEST_CASE("more work groups than a device takes are refused in a sentence") {
                       Catch::Contains("clutter_tail.comp: " + std::to_string(most + 1) + " work groups") &&
                           Catch::Contains("the device's limit of " + std::to_string(most)));
   CHECK_THROWS_AS(gl::Buffer(0, nullptr), std::invalid_argument);
+}
+
+TEST_CASE("pictures are the same to the last bit whatever lines a work group walks along") {
+  const Probe probe = *find_probe("curvilinear");
+  Settings settings = both_whites(200, 150)[0];  // with every effect on
+  settings.reverberation = settings.clutter = true;
+  gl::Scheme eight, wide;
+  eight.group = 8;
+  const Stages<float> expected = stages_of(probe, settings, eight);
+  for (const int group : {4, 32, 64}) {
+    CAPTURE(group);
+    wide.group = group;
+    const Stages<float> got = stages_of(probe, settings, wide);
+    CHECK(got.grey.pixels == expected.grey.pixels);
+    CHECK(got.fused.pixels == expected.fused.pixels);
+    CHECK(got.intensity.pixels == expected.intensity.pixels);
+  }
+}
+
+TEST_CASE("model W's pictures are so too, and its similarities but for how their sums are rounded") {
+  const test::TestContext context;
+  const AcousticVolume body = test::test_body();
+  Probe probe = *find_probe("curvilinear");
+  probe.lines = 61;  // no multiple of any group
+  WeinSettings settings;
+  settings.samples = 90;
+  settings.image_width = 72;
+  settings.image_height = 60;
+  std::vector<Pose> poses;
+  for (int i = 0; i < 20; ++i) poses.push_back(test::on_the_skin(i - 10.0, 9, i));
+  Image<float> ultrasound(settings.image_width, settings.image_height);
+  for (std::size_t i = 0; i < ultrasound.pixels.size(); ++i) ultrasound.pixels[i] = unit_float(hash(std::uint32_t(i)));
+
+  const auto drawn = [&](int group, int patch) {
+    gl::Scheme scheme;
+    scheme.group = group;
+    settings.similarity_patch = patch;
+    gl::WeinSimulator simulator(body, probe, 100, settings, {}, scheme);
+    simulator.set_ultrasound(ultrasound);
+    const gl::Texture& grid = simulator.simulate(poses);
+    std::vector<std::uint8_t> pixels(std::size_t(grid.width()) * std::size_t(grid.height()));
+    grid.read(GL_RED, GL_UNSIGNED_BYTE, pixels.data(), pixels.size());
+    return std::pair(pixels, simulator.similarity(poses));
+  };
+  for (const int patch : {0, 12}) {
+    const auto [expected_pixels, expected_similarities] = drawn(8, patch);
+    CHECK(*std::max_element(expected_pixels.begin(), expected_pixels.end()) > 60);
+    for (const int group : {4, 32, 64}) {
+      CAPTURE(group, patch);
+      const auto [pixels, similarities] = drawn(group, patch);
+      CHECK(pixels == expected_pixels);
+      for (std::size_t i = 0; i < similarities.size(); ++i)  // some thousand terms, each rounded by 6e-8
+        CHECK(similarities[i] == Approx(expected_similarities[i]).margin(1e-5));
+    }
+  }
 }
