@@ -164,6 +164,7 @@ Defines WeinSimulator::State::constants(const AcousticVolume& volume) const {
           {"TILE_HEIGHT", std::to_string(settings.image_height)},
           {"PATCHES", settings.similarity_patch > 0 ? "1" : "0"},
           {"SHADOWS", settings.shadows ? "1" : "0"},
+          {"EXACT_FILTER", settings.exact_filter ? "1" : "0"},
           // Sample k lies at (k + 1/2) dr behind r_min: the first one that is not nearer than the contact.
           {"FIRST_FREE_SAMPLE", literal(std::ceil((settings.contact_mm - lines.r_min_mm) / dr - 0.5))},
           {"DR_BY_LENGTH", literal(dr / settings.reflection_length_mm)},

@@ -26,6 +26,8 @@ struct WeinSettings {
   bool shadows = true;            ///< E too is scaled by I, so that a shadow holds no echo; the paper leaves E as it is
   double reflection_share = 0.5;  ///< s in the image, s R + (1 - s) E, 0 to 1
 
+  bool exact_filter = false;  ///< as in Settings
+
   int similarity_patch = 0;  ///< pixels: LC2 of patches of so many squared, weighted by the ultrasound's variance in
                              ///< them; 0 (of the whole picture), or kLeastPatch to kMostPatch with at
                              ///< most kMostPatches in a picture

@@ -20,6 +20,7 @@ const std::vector<Key<WeinSettings>>& all_keys() {
       number("bright_hu", &W::bright_hu, -1000, 3000),
       flag("shadows", &W::shadows),
       number("reflection_share", &W::reflection_share, 0, 1),
+      flag("exact_filter", &W::exact_filter),
       whole("similarity_patch", &W::similarity_patch, 0, kMostPatch),
       whole("image_width", &W::image_width, 1, 8192),
       whole("image_height", &W::image_height, 1, 8192),

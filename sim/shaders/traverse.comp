@@ -61,7 +61,7 @@ vec3 lattice_place(float k) { return line.lattice_start.xyz + k * line.lattice_a
 
 vec2 voxel(vec3 at) {
 #if EXACT_FILTER == 1
-  return exact_to_edge(acoustic_volume, at) * 32767.0;
+  return exact_to_edge(acoustic_volume, at).rg * 32767.0;
 #else
   return textureLod(acoustic_volume, at, 0.0).rg * 32767.0;
 #endif
@@ -96,7 +96,7 @@ vec2 scatterer(vec3 lattice) {
   vec3 f = fract(lattice * vec3(textureSize(scatterers, 0)) - 0.5);
   vec3 kept = f * f + (1.0 - f) * (1.0 - f);
 #if EXACT_FILTER == 1
-  vec2 stored = exact_repeating(scatterers, lattice);
+  vec2 stored = exact_repeating(scatterers, lattice).rg;
 #else
   vec2 stored = textureLod(scatterers, lattice, 0.0).rg;
 #endif

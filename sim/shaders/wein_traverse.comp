@@ -5,6 +5,7 @@
 layout(local_size_x = GROUP) in;
 
 #include "shared/wein_parameters.h"
+#include "shared/exact_filter.glsl"
 
 layout(binding = 0) uniform sampler3D density;  // (HU, gradient along the CT's axes in eighths of HU) / 32767
 layout(binding = 1) uniform sampler2D probe_lines;  // a row a line, probe's frame, mm: sample 0, the way to the next
@@ -39,7 +40,12 @@ void main() {
   float log_intensity = 0.0;
   int k = 0;
   for (; k < samples && log_intensity > last_log_intensity; ++k) {
-    vec4 here = textureLod(density, start + float(k) * along, 0.0) * 32767.0;
+    vec3 at = start + float(k) * along;
+#if EXACT_FILTER == 1
+    vec4 here = exact_to_edge(density, at) * 32767.0;
+#else
+    vec4 here = textureLod(density, at, 0.0) * 32767.0;
+#endif
     bool contact = float(k) < first_free_sample;
     float hu = contact && here.x < kContactAirHu ? 0.0 : here.x;
     vec3 gradient = contact ? vec3(0.0) : here.yzw * 0.125;

@@ -50,7 +50,8 @@ public:
   /// Bounds alone.
   void check_shaders(const WeinScene& scene) {
     REQUIRE(why_not_valid(scene.settings).value_or("") == "");
-    gl::WeinSimulator simulator(scene.place.volume, scene.place.probe, scene.place.depth_mm, scene.settings);
+    gl::WeinSimulator simulator(scene.place.volume, scene.place.probe, scene.place.depth_mm,
+                                exact_as_needed(scene.settings));
     got_ = simulator.read_stages(scene.place.pose);
     inside_ = simulator.inside();
     CHECK(out_of_bounds(got_, inside_) == "");

@@ -122,7 +122,7 @@ std::string disagreement(const Scene& scene, const Stages<double>& expected, con
 Stages<float> Stressed::shaders(const Scene& scene) {
   simulator_.set_volume(scene.volume, table_);
   simulator_.set_probe(scene.probe, scene.depth_mm);
-  simulator_.set_settings(scene.settings);
+  simulator_.set_settings(exact_as_needed(scene.settings));
   simulator_.set_pose(scene.pose);
   return simulator_.read_stages();
 }

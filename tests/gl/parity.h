@@ -9,10 +9,24 @@
 
 #include "sim/core/hash.h"
 #include "sim/core/image.h"
+#include "sim/gl/filter_error.h"
 #include "sim/reference/reference.h"
 
 /// Single precision on the graphics card against the reference: how far it may be off, and where it is furthest.
 namespace insonate::test {
+
+// Whether the device's own filter is one for which no tolerance here has room.
+inline bool own_filter_is_coarse() {
+  static const bool coarse = gl::measure_filter().is_coarse();
+  return coarse;
+}
+
+// What is held against the reference on any device: exact filtering where it has to be.
+template <typename AnySettings>
+AnySettings exact_as_needed(AnySettings settings) {
+  settings.exact_filter = settings.exact_filter || own_filter_is_coarse();
+  return settings;
+}
 
 struct Worst {
   double error = 0;

@@ -40,7 +40,7 @@ struct Fixture {
   Probe probe = curvilinear();
   WeinSettings settings = small();
   Pose pose = test::on_the_skin(0, 9, 12);
-  gl::WeinSimulator simulator{body, probe, kDepthMm, settings};
+  gl::WeinSimulator simulator{body, probe, kDepthMm, test::exact_as_needed(settings)};
 
   WeinStages<double> expected(const Pose& at) const {
     return wein_reference(wein_field(body, settings.reflection_length_mm), probe, kDepthMm, settings, at);
@@ -69,7 +69,7 @@ std::vector<Pose> poses(int count) {
 void check_parity(const WeinSettings& settings, const Probe& probe, const Pose& pose) {
   const test::TestContext context;
   const AcousticVolume body = test::test_body();
-  gl::WeinSimulator simulator(body, probe, kDepthMm, settings);
+  gl::WeinSimulator simulator(body, probe, kDepthMm, test::exact_as_needed(settings));
   const WeinStages<float> got = simulator.read_stages(pose);
   const WeinField field = wein_field(body, settings.reflection_length_mm);
   const WeinStages<double> expected = wein_reference(field, probe, kDepthMm, settings, pose);
@@ -109,6 +109,9 @@ void check_parity(const WeinSettings& settings, const Probe& probe, const Pose& 
 
 TEST_CASE("model W: GLSL agrees with the reference") {
   check_parity(small(), curvilinear(), test::on_the_skin(0, 9, 12));
+  WeinSettings exact = small();
+  exact.exact_filter = true;
+  check_parity(exact, curvilinear(), test::on_the_skin(0, 9, 12));
   Probe linear = *find_probe("linear");
   linear.lines = 40;
   WeinSettings settings = small();
@@ -166,7 +169,7 @@ TEST_CASE("LC2 by patches: GLSL agrees with the reference, and feels no gain tha
   Fixture f;
   WeinSettings settings = small();
   settings.similarity_patch = 12;  // which divides neither side
-  gl::WeinSimulator by_patches(f.body, f.probe, kDepthMm, settings);
+  gl::WeinSimulator by_patches(f.body, f.probe, kDepthMm, test::exact_as_needed(settings));
   const WeinStages<double> stages = f.expected(f.pose);
   Image<float> ultrasound = f.ultrasound_like(stages, 90, 30, 0.4);
   const auto check = [&](bool fading) {
