@@ -39,8 +39,7 @@ FanLayout::FanLayout(const Probe& probe, double depth_mm, const ScanLines& lines
 std::size_t FanLayout::pixels_in_blocks() const {
   std::size_t count = 0;
   for (const glm::ivec2& block : blocks) {
-    const glm::ivec2 size =
-        glm::clamp(glm::ivec2(inside.width, inside.height) - block * kBlock, glm::ivec2(0), kBlock);
+    const glm::ivec2 size = glm::clamp(glm::ivec2(inside.width, inside.height) - block * kBlock, glm::ivec2(0), kBlock);
     count += std::size_t(size.x) * std::size_t(size.y);
   }
   return count;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "sim/core/hash.h"
+#include "sim/gl/fan_layout.h"
 #include "sim/gl/program.h"
 #include "sim/gl/simulator.h"
 #include "sim/gl/volume_sweep.h"
@@ -68,6 +69,11 @@ TEST_CASE("a picture of more work groups than go into a row is the same to the l
     CHECK(at_once.inside.pixels == in_rows.inside.pixels);
     CHECK(at_once.fused.pixels == in_rows.fused.pixels);
     CHECK(*std::max_element(at_once.grey.pixels.begin(), at_once.grey.pixels.end()) > 100);
+
+    const ScanLines lines = scan_lines(probe, 100, settings.samples);
+    const gl::FanLayout fan(probe, 100, lines, 200, 150), fan_in_rows(probe, 100, lines, 200, 150, sevens);
+    CHECK(fan_in_rows.blocks.size() > fan.blocks.size());
+    CHECK(fan_in_rows.pixels_in_blocks() == fan.pixels_in_blocks());
   }
 }
 
