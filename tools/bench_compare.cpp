@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <map>
 
@@ -32,6 +33,14 @@ std::string setting_of(const Table& table, std::size_t row) {
   return text;
 }
 
+double time_of(const std::string& file, const Table& table, std::size_t row, const char* name) {
+  const double ms = table.number(file, row, name);
+  if (!(ms > 0) || std::isinf(ms))
+    throw InputError(file, "line " + std::to_string(row + 2) + ", column '" + name + "'",
+                     "'" + table.cell(row, name) + "' is no time that anything takes", "measure again");
+  return ms;
+}
+
 void check(const std::string& file, const Table& table) {
   for (const char* name : kTimes)
     if (std::find(table.columns.begin(), table.columns.end(), name) == table.columns.end())
@@ -52,8 +61,8 @@ std::vector<Change> changes(const std::string& old_file, const Table& before, co
   for (std::size_t i = 0; i < before.rows.size(); ++i) {
     const auto match = row_of.find(setting_of(before, i));
     if (match == row_of.end()) continue;
-    const auto was = [&](const char* name) { return before.number(old_file, i, name); };
-    const auto is = [&](const char* name) { return after.number(new_file, match->second, name); };
+    const auto was = [&](const char* name) { return time_of(old_file, before, i, name); };
+    const auto is = [&](const char* name) { return time_of(new_file, after, match->second, name); };
     found.push_back({match->first, was("median_ms"), is("median_ms"), is("median_ms") / was("median_ms"),
                      is("q1_ms") / was("q3_ms"), is("q3_ms") / was("q1_ms")});
   }

@@ -38,17 +38,6 @@ std::array<double, gl::kStageCount> stage_times(gl::Simulator& simulator, const 
   return medians;
 }
 
-/// The paper's pipeline as the paper has it, or the trainer's with all that it adds.
-Settings settings_of(const Scene& scene, const Configuration& c, bool trainer) {
-  Settings settings =
-      trainer ? trainer_settings(scene.probe.frequency_mhz, scene.depth_mm) : paper_settings(scene.depth_mm, c.samples);
-  settings.samples = c.samples;
-  if (trainer) settings.reflection_length_mm = 2 * scene.depth_mm / c.samples;  // two samples a length, as there
-  settings.image_width = c.width;
-  settings.image_height = c.height;
-  return settings;
-}
-
 }  // namespace
 
 Table measure_frames(const Request& request) {

@@ -67,14 +67,9 @@ Table measure_paper(const Request& request) {
       Probe probe = scene.probe;
       for (const Configuration& c : sizes) {
         probe.lines = c.lines;
-        Settings settings =
-            trainer ? trainer_settings(probe.frequency_mhz, scene.depth_mm) : paper_settings(scene.depth_mm, c.samples);
-        settings.samples = c.samples;
-        if (trainer) settings.reflection_length_mm = 2 * scene.depth_mm / c.samples;  // two samples a length, as there
+        Settings settings = settings_of(scene, c, trainer);
         settings.skipping = settings.edge_shadow = false;  // neither leaves anything out, or has what the other has not
         settings.slice_planes = 1;
-        settings.image_width = c.width;
-        settings.image_height = c.height;
         settings.speckle = false;  // neither method's traversal is to draw scatterers
         const ScanLines lines = scan_lines(probe, scene.depth_mm, c.samples);
         simulator.set_probe(probe, scene.depth_mm);

@@ -10,6 +10,7 @@
 #include "sim/core/input_error.h"
 #include "sim/core/suggest.h"
 #include "sim/gl/headless_context.h"
+#include "sim/model/settings_file.h"
 #include "tools/subject.h"
 
 namespace insonate::bench {
@@ -75,6 +76,19 @@ void tell_device() {
               gl::is_software_renderer()
                   ? ": a SOFTWARE RENDERER, so the times are the processor's and no graphics card's"
                   : "");
+}
+
+Settings settings_of(const Scene& scene, const Configuration& c, bool trainer) {
+  Settings settings =
+      trainer ? trainer_settings(scene.probe.frequency_mhz, scene.depth_mm) : paper_settings(scene.depth_mm, c.samples);
+  settings.samples = c.samples;
+  if (trainer) settings.reflection_length_mm = 2 * scene.depth_mm / c.samples;
+  settings.image_width = c.width;
+  settings.image_height = c.height;
+  if (const auto why = why_not_valid(settings))
+    throw InputError("--configuration", std::to_string(c.samples) + " samples", *why,
+                     "it is that of one or two samples: give another number of them");
+  return settings;
 }
 
 Pose wandering(const Pose& start, int frame) {

@@ -6,6 +6,7 @@
 
 #include "sim/core/pose.h"
 #include "sim/model/acoustic_volume.h"
+#include "sim/model/settings.h"
 #include "sim/model/tissue.h"
 #include "sim/probe/probe.h"
 
@@ -47,6 +48,10 @@ extern const std::vector<Configuration> kPaperConfigurations;
 
 /// Prints what is measured, and that it is no graphics card where that is so.
 void tell_device();
+
+/// The paper's pipeline as the paper has it, a sample a reflection length, or the trainer's with all that it adds and
+/// two samples a length. Throws InputError where so many samples make no such length.
+Settings settings_of(const Scene& scene, const Configuration& configuration, bool trainer);
 
 /// Where the probe stands in a frame: it wanders around `start` by a few millimetres along the face and across it.
 Pose wandering(const Pose& start, int frame);

@@ -66,7 +66,7 @@ Table Table::parse(const std::string& file, std::string_view text) {
   lines.erase(lines.begin());
   for (std::size_t i = 0; i < lines.size(); ++i)
     if (lines[i].size() != table.columns.size())
-      throw InputError(file, "row " + std::to_string(i + 1),
+      throw InputError(file, "line " + std::to_string(i + 2),
                        "it has " + std::to_string(lines[i].size()) + " cells under " +
                            std::to_string(table.columns.size()) + " columns",
                        kRemedy);
@@ -85,7 +85,7 @@ double Table::number(const std::string& file, std::size_t row, std::string_view 
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
   if (text.empty() || *end)
-    throw InputError(file, "row " + std::to_string(row + 1) + ", column '" + std::string(name) + "'",
+    throw InputError(file, "line " + std::to_string(row + 2) + ", column '" + std::string(name) + "'",
                      "'" + text + "' is no number", kRemedy);
   return value;
 }

@@ -1,6 +1,7 @@
 // insonate-bench: what the simulator costs on this machine, as medians with their spread, and how exact it is.
 
 #include "sim/core/files.h"
+#include "sim/gl/upload.h"
 #include "tools/bench_commands.h"
 #include "tools/program.h"
 
@@ -61,12 +62,15 @@ int main(int argc, char** argv) {
     if (exams.size() % 2 != 0) throw CLI::ValidationError("exams", "a scenario comes without a recorded scan");
     if (exams.empty())
       exams = {assets_folder() / "scenarios" / "ruq_hepatorenal.toml", assets_folder() / "logs" / "ruq_good.igs.mha"};
-    const bench::Table table = frames->parsed()    ? bench::measure_frames(request)
-                               : paper->parsed()   ? bench::measure_paper(request)
-                               : filter->parsed()  ? bench::measure_filter()
-                               : batch->parsed()   ? bench::measure_batch(request)
-                               : scoring->parsed() ? bench::measure_scoring(exams)
-                                                   : bench::measure_front(request, svg);
+    bench::Table table;
+    gl::within_device("--configuration", "take fewer lines, samples or pixels", [&] {
+      table = frames->parsed()    ? bench::measure_frames(request)
+              : paper->parsed()   ? bench::measure_paper(request)
+              : filter->parsed()  ? bench::measure_filter()
+              : batch->parsed()   ? bench::measure_batch(request)
+              : scoring->parsed() ? bench::measure_scoring(exams)
+                                  : bench::measure_front(request, svg);
+    });
     if (!csv.empty()) write_file(csv, table.csv());
     return 0;
   });

@@ -26,7 +26,7 @@ bool out_of_memory() {
 }  // namespace
 
 TextureRefused::TextureRefused(int width, int height, int depth, int limit)
-    : std::runtime_error(why_refused(width, height, depth, limit)), limit_(limit) {}
+    : DeviceRefused(why_refused(width, height, depth, limit)), limit_(limit) {}
 
 Buffer::Buffer(std::size_t bytes, const void* data) {
   if (bytes == 0) throw std::invalid_argument("a buffer of no bytes");
@@ -148,12 +148,12 @@ TexelBuffer::TexelBuffer(GLenum format, std::size_t texels, const void* values) 
   glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most_texels);
   const std::size_t most = std::min(std::size_t(most_bytes) / bytes, std::size_t(most_texels));
   if (texels > most)
-    throw std::runtime_error(std::to_string(texels) + " samples or pixels are above the device's limit of " +
-                             std::to_string(most) + "; take fewer scan lines, samples a line or pixels");
+    throw DeviceRefused(std::to_string(texels) + " samples or pixels are above the device's limit of " +
+                        std::to_string(most));
   forget_errors();
   buffer_ = Buffer(texels * bytes, values);
   if (out_of_memory())
-    throw std::runtime_error("the device has no memory for " + std::to_string(texels) + " samples or pixels");
+    throw DeviceRefused("the device has no memory for " + std::to_string(texels) + " samples or pixels");
   GLuint name = 0;
   glCreateTextures(GL_TEXTURE_BUFFER, 1, &name);
   texture_ = Object<TextureKind>(name);

@@ -61,8 +61,13 @@ struct TextureKind {
   static void destroy(GLuint name) { glDeleteTextures(1, &name); }
 };
 
+/// The device does not hold what it was asked to; what() says how much that is, and the limit.
+class DeviceRefused : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 /// The device does not take a texture: a side is above its limit, or it has no memory for it.
-class TextureRefused : public std::runtime_error {
+class TextureRefused : public DeviceRefused {
 public:
   TextureRefused(int width, int height, int depth, int limit);
   /// The longest side that the device takes, when that is what is wrong; 0 when it is the memory.

@@ -27,4 +27,12 @@ void upload_ct(const std::string& file, const Grid& grid, const std::function<vo
   }
 }
 
+void within_device(const std::string& asked, const std::string& remedy, const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const DeviceRefused& refused) {
+    throw InputError(asked, "", refused.what(), remedy);
+  }
+}
+
 }  // namespace insonate::gl

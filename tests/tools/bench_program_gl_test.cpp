@@ -194,6 +194,22 @@ TEST_CASE("insonate-bench says what is wrong in one line and exits with 2") {
     CHECK(f.output.find(expected) != std::string::npos);
     CHECK(std::count(f.output.begin(), f.output.end(), '\n') <= 2);  // the device, then the sentence
   }
+  // Found out while it measures.
+  const std::pair<std::string, const char*> beyond[] = {
+      {"frames --configuration 1,1,1,1", "--configuration: 1 samples: 'reflection_length_mm' is"},
+      {"paper --configuration 1,1,1,1", "--configuration: 1 samples: 'reflection_length_mm' is"},
+      {"frames --configuration 4096,8192,64,64", "--configuration: 33554432 samples or pixels are above the device's"},
+  };
+  REQUIRE(f.run("frames " + tiny + " --frames 3 --configuration 18,30,20,30") == 0);
+  const bool small_device = f.output.starts_with("llvmpipe");  // a graphics card may take the last
+  for (const auto& [arguments, expected] : beyond) {
+    if (&expected == &std::end(beyond)[-1].second && !small_device) continue;
+    CAPTURE(arguments);
+    const int code = f.run(arguments + " " + tiny + " --frames 3");
+    CAPTURE(f.output);
+    CHECK(code == 2);
+    CHECK(f.output.find(expected) != std::string::npos);
+  }
   CHECK(f.run("") == 2);
   CHECK(f.run("--help") == 0);
 }

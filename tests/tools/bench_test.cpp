@@ -70,10 +70,10 @@ TEST_CASE("a table comes back from its CSV as it was, whatever its cells hold") 
 
 TEST_CASE("what is no table is refused with its place") {
   CHECK_THROWS_WITH(Table::parse("t.csv", ""), Catch::Contains("t.csv") && Catch::Contains("no table"));
-  CHECK_THROWS_WITH(Table::parse("t.csv", "a,b\n1,2\n1\n"), Catch::Contains("row 2") && Catch::Contains("1 cells"));
+  CHECK_THROWS_WITH(Table::parse("t.csv", "a,b\n1,2\n1\n"), Catch::Contains("line 3") && Catch::Contains("1 cells"));
   CHECK_THROWS_WITH(Table::parse("t.csv", "a\n\"b\n"), Catch::Contains("quotation mark"));
   const Table words = Table::parse("t.csv", "median_ms\nfast\n");
-  CHECK_THROWS_WITH(words.number("t.csv", 0, "median_ms"), Catch::Contains("row 1") && Catch::Contains("'fast'"));
+  CHECK_THROWS_WITH(words.number("t.csv", 0, "median_ms"), Catch::Contains("line 2") && Catch::Contains("'fast'"));
 }
 
 TEST_CASE("two runs compare setting by setting, on whatever device, and tell a change from the spread") {
@@ -99,6 +99,16 @@ TEST_CASE("runs that cannot be compared are refused") {
   for (auto& row : other.rows) row[2] = "65";
   CHECK_THROWS_AS(changes("old", run("X", 1, 2, 3), "new", other), InputError);
   CHECK_THROWS_WITH(changes("old", {{"a"}, {{"1"}}}, "new", other), Catch::Contains("no column 'q1_ms'"));
+  for (const char* none : {"0", "nan", "-3", "inf"}) {
+    const Table good = run("X", 1, 2, 3);
+    Table bad = good;
+    bad.rows[1][bad.column("q3_ms")] = none;
+    const auto told = [&](const char* file) {
+      return Catch::Contains(std::string(file) + ": line 3, column 'q3_ms': '" + none + "' is no time");
+    };
+    CHECK_THROWS_WITH(changes("old", bad, "new", good), told("old"));
+    CHECK_THROWS_WITH(changes("old", good, "new", bad), told("new"));
+  }
 }
 
 TEST_CASE("the plot names the front's settings and the levels of quality alone, and takes any name") {
