@@ -22,6 +22,7 @@
 #include "tools/render_stages.h"
 #include "tools/render_sweep.h"
 #include "tools/render_wein.h"
+#include "tools/stage_files.h"
 #include "tools/subject.h"
 
 using namespace insonate;
@@ -35,8 +36,8 @@ std::vector<Pose> read_sweep(const std::string& file) {
   constexpr std::size_t kMostPlanes = 2048;
   std::vector<Pose> poses = read_poses(file);
   if (poses.size() < 2 || poses.size() > kMostPlanes)
-    throw InputError(file, "", "there are not 16 numbers for each of 2 to 2048 planes",
-                     "write each plane's matrix patient_from_probe row by row, in the order of the sweep");
+    throw InputError(file, "", "it holds " + std::to_string(poses.size()) + " of the 2 to 2048 poses of a sweep",
+                     "write a matrix patient_from_probe for each plane, in the order of the sweep");
   return poses;
 }
 
@@ -147,18 +148,20 @@ int main(int argc, char** argv) {
                   "The PNG to write, with the probe's marker on its left, as clinics show it; for a sweep, the NRRD")
       ->required();
 
-  return run_program(arguments, argc, argv, [&] {
+  const auto work = [&] {
     const Probe* probe = find_probe(probe_name);
     if (!probe)
       throw InputError("--probe", "", "there is no probe named '" + probe_name + "'",
                        suggest(probe_name, probe_names()));
-    if (!stages_folder.empty()) refuse_taken(stages_folder);
+    if (*stages_option) refuse_taken(stages_folder);
     for (const CLI::Option* of_model_s : {quality, gain, stages_option, sweep, freehand})
       if (model == "W" && *of_model_s)
         throw InputError(of_model_s->get_name(), "", "model W has no such thing", "leave it out or take --model S");
     const bool to_volume = *sweep || *freehand;
-    if (to_volume && std::filesystem::path(out).extension() != ".nrrd")
-      throw InputError(out, "", "a sweep is written as NRRD", "name a file that ends in .nrrd");
+    const std::string ending = to_volume ? ".nrrd" : ".png";
+    if (std::filesystem::path(out).extension() != ending)
+      throw InputError(out, "", to_volume ? "a sweep is written as NRRD" : "a picture is written as PNG",
+                       "name a file that ends in " + ending);
     const Case subject = open_subject(subject_path);
     std::vector<Pose> by_hand;
     if (*freehand) by_hand = read_sweep(freehand_file);
@@ -183,7 +186,7 @@ int main(int argc, char** argv) {
       settings.image_width = width.value_or(settings.image_width);
       settings.image_height = height.value_or(settings.image_height);
       write_png(out, mirrored(render_wein(subject_path, volume_of(), *probe, depth_mm, settings, pose, by_reference)));
-      return 0;
+      return;
     }
     Settings settings = settings_file.empty() ? trainer_settings(probe->frequency_mhz, depth_mm)
                                               : read_settings(settings_file, probe->frequency_mhz, depth_mm);
@@ -198,12 +201,22 @@ int main(int argc, char** argv) {
           pivot_mm.value_or(probe->kind == ProbeKind::linear ? kLinearPivot_mm : apex_behind_mm(*probe));
       const Sweep swept{*probe, depth_mm, *freehand ? by_hand : swept_planes(pose, planes, sweep_deg, pivot)};
       write_ct(out, render_volume(subject_path, volume, table, swept, settings, voxel_mm));
-      return 0;
+      return;
     }
     const RenderedScene scene{volume, table, *probe, depth_mm, settings, pose};
     const auto [stages, made_by] = by_reference ? render_by_reference(scene) : render(subject_path, scene);
-    if (!stages_folder.empty()) write_stages(stages_folder, scene, stages, made_by);
-    write_png(out, mirrored(stages.grey));
+    const auto write_picture = [&, &grey = stages.grey] { write_png(out, mirrored(grey)); };
+    if (*stages_option)
+      write_folder(stages_folder, [&, &stages = stages, &made_by = made_by](const std::filesystem::path& folder) {
+        write_stages(folder, scene, stages, made_by);
+        write_picture();  // before the folder has its name: without the picture it is not to stay
+      });
+    else
+      write_picture();
+  };
+  return run_program(arguments, argc, argv, [&] {
+    gl::within_device(settings_file.empty() ? "command line" : settings_file,
+                      "take fewer samples, pixels or planes, or larger voxels", work);
     return 0;
   });
 }

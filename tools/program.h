@@ -2,13 +2,30 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <functional>
+#include <string>
 
 #include "sim/core/input_error.h"
 
 namespace insonate {
+
+/// Refuses what CLI11 lets pass: NaN, which lies in every range; infinity, where there is none; and an empty text,
+/// which would count as an option that was left out.
+inline void refuse_unusable(const CLI::App& arguments) {
+  for (const CLI::Option* option : arguments.get_options())
+    for (const std::string& given : option->results()) {
+      if (given.empty())
+        throw InputError(option->get_name(), "", "nothing is given behind it", "give a value or leave it out");
+      const bool real = option->get_type_name().find("FLOAT") != std::string::npos;
+      if (real && !std::isfinite(std::strtod(given.c_str(), nullptr)))
+        throw InputError(option->get_name(), "", "'" + given + "' is no finite number", "give one");
+    }
+  for (const CLI::App* command : arguments.get_subcommands()) refuse_unusable(*command);
+}
 
 /// What every command-line program's main does around its work: parses the arguments, runs `work`, and turns what
 /// goes wrong into one sentence on standard error. Exit codes: 0 done, what `work` returns, 2 for input that cannot be
@@ -16,6 +33,7 @@ namespace insonate {
 inline int run_program(CLI::App& arguments, int argc, char** argv, const std::function<int()>& work) {
   try {
     arguments.parse(argc, argv);
+    refuse_unusable(arguments);
     return work();
   } catch (const CLI::ParseError& error) {
     return arguments.exit(error) == 0 ? 0 : 2;

@@ -2,20 +2,17 @@
 
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
-#include <bit>
 #include <cmath>
-#include <system_error>
 
 #include "sim/core/files.h"
-#include "sim/core/input_error.h"
 #include "sim/model/beam.h"
 #include "sim/model/noise.h"
 #include "sim/model/refraction.h"
 #include "sim/model/reverberation.h"
 #include "sim/model/settings_file.h"
 #include "sim/reference/reference.h"
+#include "tools/stage_files.h"
 
 namespace insonate {
 namespace {
@@ -24,12 +21,6 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr double kOutsideFan = -2;  // of pixel_line and pixel_sample
-
-Image<float> in_single_precision(const Image<double>& image) {
-  Image<float> rounded(image.width, image.height);
-  for (std::size_t i = 0; i < image.pixels.size(); ++i) rounded.pixels[i] = float(image.pixels[i]);
-  return rounded;
-}
 
 /// What the sound meets at each sample.
 struct Tissue {
@@ -151,17 +142,22 @@ Json description(const RenderedScene& scene, const ScanLines& lines, const Image
   return text;
 }
 
-void write_nrrd(const fs::path& file, const Image<float>& image, const char* axes, const std::string& content) {
-  static_assert(std::endian::native == std::endian::little);
-  std::string bytes = "NRRD0004\ncontent: " + content +
-                      "\ntype: float\ndimension: 2\nsizes: " + std::to_string(image.width) + " " +
-                      std::to_string(image.height) + "\nlabels: " + axes + "\nendian: little\nencoding: raw\n\n";
-  bytes.append(reinterpret_cast<const char*>(image.pixels.data()), image.pixels.size() * sizeof(float));
-  write_file(file, bytes);
+}  // namespace
+
+Stages<float> in_single_precision(const Stages<double>& stages) {
+  return {in_single_precision(stages.intensity),
+          in_single_precision(stages.reflection),
+          in_single_precision(stages.reflection_beam),
+          in_single_precision(stages.transmission),
+          in_single_precision(stages.repeated),
+          in_single_precision(stages.speckle),
+          in_single_precision(stages.fused),
+          stages.inside,
+          stages.grey};
 }
 
-void write_files(const fs::path& folder, const RenderedScene& scene, const Stages<float>& stages,
-                 const std::string& made_by) {
+void write_stages(const fs::path& folder, const RenderedScene& scene, const Stages<float>& stages,
+                  const std::string& made_by) {
   const Settings& settings = scene.settings;
   const ScanLines lines = scan_lines(scene.probe, scene.depth_mm, settings.samples);
   const ImageGeometry geometry =
@@ -169,7 +165,7 @@ void write_files(const fs::path& folder, const RenderedScene& scene, const Stage
   write_file(folder / "scanlines.json", description(scene, lines, geometry, made_by).dump(1) + "\n");
 
   const auto among_lines = [&](const char* name, const Image<float>& image, const char* content) {
-    write_nrrd(folder / (std::string(name) + ".nrrd"), image, "\"line\" \"sample\"", content);
+    write_among_lines(folder, name, image, content);
   };
   const Tissue tissue = tissue_along(lines, scene);
   among_lines("hounsfield", tissue.hounsfield, "Hounsfield units of the volume, trilinear");
@@ -193,63 +189,13 @@ void write_files(const fs::path& folder, const RenderedScene& scene, const Stage
                 "of mean 1: times noise_level, and the scatterers' mean echo at the depth times clutter_share, in U");
 
   const auto as_picture = [&](const char* name, const Image<float>& image, const char* content) {
-    write_nrrd(folder / (std::string(name) + ".nrrd"), image, "\"x\" \"y\"", content);
+    write_as_picture(folder, name, image, content);
   };
   const PixelPositions positions = pixel_positions(scene, lines, geometry);
   as_picture("pixel_line", positions.line, "scan line at the pixel, 0 on the first; -2 outside the fan");
   as_picture("pixel_sample", positions.sample, "sample at the pixel, 0 on the first; -2 outside the fan");
   as_picture("fused", stages.fused, "U (6), before gain");
-  Image<float> grey(stages.grey.width, stages.grey.height);
-  for (std::size_t i = 0; i < grey.pixels.size(); ++i) grey.pixels[i] = float(stages.grey.pixels[i]);
-  as_picture("image", grey, "grey level behind gain and log compression (7), 0 to 255");
-}
-
-fs::path without_slash(const fs::path& folder) {
-  return folder.has_filename() ? folder : folder.parent_path();
-}
-
-}  // namespace
-
-Stages<float> in_single_precision(const Stages<double>& stages) {
-  return {in_single_precision(stages.intensity),
-          in_single_precision(stages.reflection),
-          in_single_precision(stages.reflection_beam),
-          in_single_precision(stages.transmission),
-          in_single_precision(stages.repeated),
-          in_single_precision(stages.speckle),
-          in_single_precision(stages.fused),
-          stages.inside,
-          stages.grey};
-}
-
-void refuse_taken(const fs::path& folder) {
-  std::error_code error;
-  if (fs::exists(fs::symlink_status(without_slash(folder), error)))
-    throw InputError(folder.string(), "", "something of this name is there", "name a folder that is new");
-}
-
-void write_stages(const fs::path& folder, const RenderedScene& scene, const Stages<float>& stages,
-                  const std::string& made_by) {
-  const fs::path target = without_slash(folder);
-  fs::path temporary = target;
-  temporary.replace_filename("." + target.filename().string() + "." + std::to_string(getpid()) + ".partial");
-  std::error_code error, ignored;
-  fs::create_directories(temporary, error);
-  if (!error) {
-    try {
-      write_files(temporary, scene, stages, made_by);
-      refuse_taken(target);
-    } catch (...) {
-      fs::remove_all(temporary, ignored);
-      throw;
-    }
-    fs::rename(temporary, target, error);
-  }
-  if (error) {
-    fs::remove_all(temporary, ignored);
-    throw InputError(folder.string(), "", "the folder cannot be written (" + error.message() + ")",
-                     "name a folder that may be written");
-  }
+  as_picture("image", in_single_precision(stages.grey), "grey level behind gain and log compression (7), 0 to 255");
 }
 
 }  // namespace insonate

@@ -24,10 +24,7 @@ struct RenderedScene {
 
 Stages<float> in_single_precision(const Stages<double>& stages);
 
-/// Throws InputError when something of that name is there.
-void refuse_taken(const std::filesystem::path& folder);
-
-/// Writes what crosses the stages, for those who recompute them: the folder appears whole or not at all.
+/// Writes what crosses the stages into a folder, for those who recompute them.
 ///
 /// `scanlines.json` holds the lines (patient mm), where their samples lie, the pose, the tissue table, every setting,
 /// the weights of the beam, and how pixels lie in the probe's plane. Beside it lie NRRD files of raw little-endian
@@ -36,7 +33,7 @@ void refuse_taken(const std::filesystem::path& folder);
 ///                                 (what the model's definitions give on these lines, in double precision);
 ///                                 transmission, reflection, reflection_beam, speckle (what `stages` hold)
 ///   sizes W H, marker (+x) right  pixel_line, pixel_sample (where the pixel lies among the lines); fused, image
-/// Throws InputError when the folder cannot be written, or its name is taken.
+/// Throws InputError when they cannot be written.
 /// @param made_by  what computed `stages`: the device, or the reference
 void write_stages(const std::filesystem::path& folder, const RenderedScene& scene, const Stages<float>& stages,
                   const std::string& made_by);
