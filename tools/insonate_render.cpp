@@ -122,9 +122,10 @@ int main(int argc, char** argv) {
       arguments.add_option("--gain", gain_db, "Gain, dB (the settings': 0)")->check(CLI::Range(-60.0, 60.0));
   arguments.add_option("--width", width, "Pixels (the settings': 640, of model W 128)")->check(CLI::Range(1, 8192));
   arguments.add_option("--height", height, "Pixels (the settings': 480, of model W 96)")->check(CLI::Range(1, 8192));
-  CLI::Option* stages_option = arguments.add_option(
-      "--stages", stages_folder,
-      "A new folder for what crosses the stages: scanlines.json, and NRRD files that say what they hold");
+  CLI::Option* stages_option = arguments.add_option("--stages", stages_folder,
+                                                    "A new folder for what crosses the stages, enough to recompute "
+                                                    "each: scanlines.json, the volume, and NRRD files that "
+                                                    "say what they hold; sets 'skipping' to false");
   CLI::Option* reference_flag =
       arguments.add_flag("--reference", by_reference, "Compute by the double-precision reference, without OpenGL");
   CLI::Option* sweep = arguments.add_option("--sweep", sweep_deg,
@@ -178,9 +179,8 @@ int main(int argc, char** argv) {
     if (depth_mm == 0) depth_mm = probe->depth_mm;
 
     const TissueTable table = read_tissue_table(assets_folder() / "tissues.toml");
-    const auto volume_of = [&] {
-      return make_acoustic_volume(subject.ct, subject.labels, tissue_by_label(subject), table);
-    };
+    const std::vector<std::string> tissue_of = tissue_by_label(subject);
+    const auto volume_of = [&] { return make_acoustic_volume(subject.ct, subject.labels, tissue_of, table); };
     if (model == "W") {
       WeinSettings settings = settings_file.empty() ? WeinSettings{} : read_wein_settings(settings_file);
       settings.image_width = width.value_or(settings.image_width);
@@ -203,7 +203,9 @@ int main(int argc, char** argv) {
       write_ct(out, render_volume(subject_path, volume, table, swept, settings, voxel_mm));
       return;
     }
-    const RenderedScene scene{volume, table, *probe, depth_mm, settings, pose};
+    // Where samples are skipped, R comes of a mean normal, which nobody else can recompute.
+    if (*stages_option) settings.skipping = false;
+    const RenderedScene scene{volume, subject.labels, tissue_of, table, *probe, depth_mm, settings, pose};
     const auto [stages, made_by] = by_reference ? render_by_reference(scene) : render(subject_path, scene);
     const auto write_picture = [&, &grey = stages.grey] { write_png(out, mirrored(grey)); };
     if (*stages_option)

@@ -4,19 +4,22 @@
 
 namespace insonate {
 
+inline constexpr std::uint32_t kHashFirst = 0x85ebca6bu, kHashSecond = 0xc2b2ae35u;  ///< multipliers of a round
+inline constexpr std::uint32_t kHashNext = 0x9e3779b9u;                              ///< added between rounds
+
 /// A counter-based random number: the same key gives the same 32 well-mixed bits on every machine, in any order and
 /// from any thread. Mixing steps of MurmurHash3's 32-bit finaliser (Appleby, public domain), one round a key.
 constexpr std::uint32_t hash(std::uint32_t h) {
   h ^= h >> 16;
-  h *= 0x85ebca6bu;
+  h *= kHashFirst;
   h ^= h >> 13;
-  h *= 0xc2b2ae35u;
+  h *= kHashSecond;
   h ^= h >> 16;
   return h;
 }
 
 constexpr std::uint32_t hash(std::uint32_t a, std::uint32_t b) {
-  return hash(hash(a) + 0x9e3779b9u + b);
+  return hash(hash(a) + kHashNext + b);
 }
 
 constexpr std::uint32_t hash(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {

@@ -19,24 +19,6 @@ namespace {
 
 constexpr int kLabels = 256;
 
-// Texture: CT noise and structure of +-10 to 15 HU within an organ becomes +-1 to 2 dB of grain. Beyond 30 HU from the
-// label's mean the voxel is no texture but partial volume at the organ's rim; the shift fades out by 60 HU, so that
-// rims get no dark or bright seam. Estimates, chosen by eye on real scans.
-constexpr double kTextureDbPerHu = 0.1;
-constexpr double kTextureHu = 30;
-constexpr double kRimHu = 60;
-
-// A voxel counts as partial volume when two opposite neighbours at this distance enclose its density with a margin on
-// both sides. The distance spans half the blur of an edge in resampled thick slices; the margin is above the noise of
-// an abdominal CT (10 to 15 HU), so that noise in a cyst does not fill it with echoes.
-constexpr double kEdgeReachMm = 2;
-constexpr int kEdgeMarginHu = 20;
-
-// Without labels a voxel's density is taken as the mean over its neighbourhood of what is as dense as it within the
-// noise: unenhanced kidney (30 HU) and fluid (15 HU) are closer together than the noise of one voxel.
-constexpr double kNeighbourMm = 3;
-constexpr int kNoiseHu = 36;  // three standard deviations
-
 std::int16_t centidecibel(double db) {
   return std::int16_t(std::lround(db * 100));
 }
@@ -80,8 +62,8 @@ public:
                  const std::vector<std::string>& tissue_of, const TissueTable& table)
       : ct_(ct), labels_(labels), by_hu_(tabulate(table)) {
     for (int axis = 0; axis < 3; ++axis) {
-      reach_[axis] = std::max(1, int(std::lround(kEdgeReachMm / ct.grid.spacing[axis])));
-      neighbour_[axis] = std::max(1, int(std::lround(kNeighbourMm / ct.grid.spacing[axis])));
+      reach_[axis] = std::max(1, int(std::lround(kEdgeReach_mm / ct.grid.spacing[axis])));
+      neighbour_[axis] = std::max(1, int(std::lround(kNeighbour_mm / ct.grid.spacing[axis])));
     }
     const std::ptrdiff_t row = ct.grid.size.x, slice = row * ct.grid.size.y;
     std::size_t n = 0;
@@ -110,7 +92,8 @@ public:
     const std::uint8_t label = labels_.empty() ? 0 : labels_.voxels[v];
     const int hu = ct_.voxels[v];
     if (has_tissue_[label])
-      return centidecibel(std::clamp(tissue_db_[label] + texture_db(hu - means_[label]), -60.0, 30.0));
+      return centidecibel(
+          std::clamp(tissue_db_[label] + texture_db(hu - means_[label]), kLeastEchogenicityDb, kMostEchogenicityDb));
     const int density = local_density(i, v);
     std::int16_t echo = std::int16_t(by_density(density) + centidecibel(texture_db(hu - density)));
     std::ptrdiff_t stride = 1;
@@ -133,7 +116,7 @@ private:
     const int hu = ct_.voxels[v];
     int sum = 0, count = 0;
     const auto add = [&](int there) {
-      const bool alike = std::abs(there - hu) <= kNoiseHu;
+      const bool alike = std::abs(there - hu) <= kAlikeHu;
       sum += alike ? there : 0;
       count += alike;
     };

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/tools/render/synthetic_ct.h"
+#include "tests/tools/render/short_volume.h"
 
 namespace outsider {
 
@@ -23,7 +23,9 @@ struct Plane {
 /// What `insonate-render --stages` has written.
 struct StageFolder {
   nlohmann::json description;
-  std::map<std::string, Plane> planes;  ///< by the file's name without .nrrd
+  std::map<std::string, Plane> planes;  ///< by the file's name in the folder, without .nrrd
+  ShortVolume hounsfield;               ///< that the sound went through
+  ShortVolume echogenicity;             ///< the same, hundredths of a dB
 };
 
 /// Throws std::runtime_error for what is no such folder.
@@ -37,8 +39,11 @@ struct Tolerances {
   double fused;       ///< of U, relative to the brightest of the pixels around
 };
 
-/// Recomputes each stage from the files of the stages before it, and the first ones from the CT. By stage, the worst
-/// disagreement as a multiple of what is tolerated.
-std::map<std::string, double> misfits(const StageFolder& stages, const SyntheticCt& ct, const Tolerances& tolerances);
+/// Recomputes each stage from the files of the stages before it, and the first ones from the volume. By stage, the
+/// worst disagreement as a multiple of what is tolerated.
+std::map<std::string, double> misfits(const StageFolder& stages, const Tolerances& tolerances);
+
+/// The same of the volume's echogenicity, from its Hounsfield units, where no labels tell more.
+std::map<std::string, double> volume_misfits(const StageFolder& stages);
 
 }  // namespace outsider

@@ -33,27 +33,6 @@ SyntheticCt::SyntheticCt() {
             std::int16_t(std::lround(body(origin + double(i) * axes[0] + double(j) * axes[1] + double(k) * axes[2]))));
 }
 
-double SyntheticCt::hounsfield(const Vec3& patient_mm) const {
-  const Vec3 p = patient_mm - origin;
-  double f[3];
-  int i[3];
-  for (std::size_t a = 0; a < 3; ++a) {
-    const double index = dot(p, axes[a]);  // the axes are orthonormal and a voxel is 1 mm
-    i[a] = int(std::floor(index));
-    f[a] = index - i[a];
-  }
-  double hu = 0;
-  for (int dk = 0; dk < 2; ++dk)
-    for (int dj = 0; dj < 2; ++dj)
-      for (int di = 0; di < 2; ++di) {
-        const int u = i[0] + di, v = i[1] + dj, w = i[2] + dk;
-        const bool inside = u >= 0 && v >= 0 && w >= 0 && u < size[0] && v < size[1] && w < size[2];
-        hu += (di ? f[0] : 1 - f[0]) * (dj ? f[1] : 1 - f[1]) * (dk ? f[2] : 1 - f[2]) *
-              (inside ? voxels[std::size_t((w * size[1] + v) * size[0] + u)] : -1000);
-      }
-  return hu;
-}
-
 void SyntheticCt::write_nrrd(const std::filesystem::path& file) const {
   std::ofstream stream(file, std::ios::binary);
   stream.precision(17);

@@ -18,8 +18,6 @@ struct SyntheticCt {
   std::vector<std::int16_t> voxels;  ///< Hounsfield units, first axis fastest
 
   SyntheticCt();
-  /// Trilinear between voxel centres, -1000 beyond.
-  double hounsfield(const Vec3& patient_mm) const;
   void write_nrrd(const std::filesystem::path& file) const;
 };
 

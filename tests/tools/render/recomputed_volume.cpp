@@ -1,0 +1,102 @@
+// How brightly each voxel scatters, from its Hounsfield units and those around.
+
+#include "tests/tools/render/recomputation.h"
+
+namespace outsider {
+namespace {
+
+class Echogenicity {
+public:
+  explicit Echogenicity(const StageFolder& stages)
+      : hu_(stages.hounsfield), about_(stages.description), constant_(about_.at("echogenicity")) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      near_[a] = in_voxels("neighbour_mm", a);
+      reach_[a] = in_voxels("edge_reach_mm", a);
+    }
+    for (const auto& knot : about_.at("tissues"))
+      knots_.emplace_back(knot.at("hu").get<double>(), knot.at("echogenicity_db").get<double>());
+  }
+
+  /// Hundredths of a dB.
+  double at(const std::array<int, 3>& i) const {
+    const int hu = hu_.voxel(i[0], i[1], i[2]), density = local_density(i, hu);
+    double echo = tabled(density) + texture(hu - density);
+    for (std::size_t a = 0; a < 3; ++a) {
+      std::array<int, 3> before = i, after = i;
+      before[a] -= reach_[a];
+      after[a] += reach_[a];
+      if (before[a] < 0 || after[a] >= hu_.size[a]) continue;
+      const int one = hu_.voxel(before[0], before[1], before[2]), other = hu_.voxel(after[0], after[1], after[2]);
+      const int margin = constant_.at("edge_margin_hu");
+      if (hu - std::min(one, other) >= margin && std::max(one, other) - hu >= margin)
+        echo = std::max({echo, tabled(one), tabled(other)});
+    }
+    return echo;
+  }
+
+private:
+  int in_voxels(const char* length, std::size_t axis) const {
+    return std::max(1, int(std::lround(constant_.at(length).get<double>() / outsider::length(hu_.step[axis]))));
+  }
+
+  int local_density(const std::array<int, 3>& i, int hu) const {
+    double sum = 0, count = 0;
+    for (int dk = -1; dk <= 1; ++dk)
+      for (int dj = -1; dj <= 1; ++dj)
+        for (int di = -1; di <= 1; ++di) {
+          const int there = hu_.voxel(std::clamp(i[0] + di * near_[0], 0, hu_.size[0] - 1),
+                                      std::clamp(i[1] + dj * near_[1], 0, hu_.size[1] - 1),
+                                      std::clamp(i[2] + dk * near_[2], 0, hu_.size[2] - 1));
+          if (std::abs(there - hu) > alike_) continue;
+          sum += there;
+          ++count;
+        }
+    return int(std::lround(sum / count));
+  }
+
+  double tabled(int hu) const {
+    double db = knots_.back().second;
+    if (hu <= knots_.front().first) db = knots_.front().second;
+    for (std::size_t k = 1; k < knots_.size(); ++k)
+      if (hu > knots_[k - 1].first && hu <= knots_[k].first)
+        db = knots_[k - 1].second + (hu - knots_[k - 1].first) / (knots_[k].first - knots_[k - 1].first) *
+                                        (knots_[k].second - knots_[k - 1].second);
+    return std::round(100 * db);
+  }
+
+  double texture(int above) const {
+    const double rim = constant_.at("rim_hu"), full = constant_.at("texture_hu");
+    const double fade = std::clamp((rim - std::abs(above)) / (rim - full), 0.0, 1.0);
+    return std::round(100 * constant_.at("texture_db_per_hu").get<double>() * above * fade);
+  }
+
+  const ShortVolume& hu_;
+  const nlohmann::json &about_, &constant_;
+  const int alike_ = constant_.at("alike_hu");
+  std::array<int, 3> near_{}, reach_{};
+  std::vector<std::pair<double, double>> knots_;
+};
+
+}  // namespace
+
+std::map<std::string, double> volume_misfits(const StageFolder& stages) {
+  const Echogenicity echogenicity(stages);
+  std::map<std::string, double> worst;
+  const ShortVolume &hu = stages.hounsfield, &written = stages.echogenicity;
+  const auto& volume = stages.description.at("volume");
+  for (std::size_t a = 0; a < 3; ++a) {
+    const bool same = hu.size == written.size && volume.at("size").at(a) == hu.size[a];
+    const Vec3 off = volume.at("spacing_mm").at(a).get<double>() * vec3(volume.at("axes").at(a)) - hu.step[a];
+    worst["geometry"] = std::max({worst["geometry"], same ? 0 : HUGE_VAL, length(off) / 1e-9,
+                                  length(vec3(volume.at("origin_mm")) - hu.origin) / 1e-9});
+  }
+  if (worst["geometry"] > 1) return worst;
+  double& misfit = worst["volume_echogenicity"];
+  for (int k = 0; k < hu.size[2]; ++k)
+    for (int j = 0; j < hu.size[1]; ++j)
+      for (int i = 0; i < hu.size[0]; ++i)  // one off where a half is rounded
+        misfit = std::max(misfit, std::abs(echogenicity.at({i, j, k}) - written.voxel(i, j, k)) / 1.5);
+  return worst;
+}
+
+}  // namespace outsider
