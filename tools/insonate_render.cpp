@@ -22,6 +22,7 @@
 #include "tools/render_stages.h"
 #include "tools/render_sweep.h"
 #include "tools/render_wein.h"
+#include "tools/stage_description.h"
 #include "tools/stage_files.h"
 #include "tools/subject.h"
 
@@ -82,7 +83,7 @@ Volume<std::int16_t> render_volume(const std::string& file, const AcousticVolume
 Rendered render_by_reference(const RenderedScene& scene) {
   return {in_single_precision(simulate_reference(trilinear_field(scene.volume), scene.table, scene.probe,
                                                  scene.depth_mm, scene.settings, scene.patient_from_probe)),
-          "reference in double precision"};
+          kMadeByReference};
 }
 
 }  // namespace
@@ -125,7 +126,7 @@ int main(int argc, char** argv) {
   CLI::Option* stages_option = arguments.add_option("--stages", stages_folder,
                                                     "A new folder for what crosses the stages, enough to recompute "
                                                     "each: scanlines.json, the volume, and NRRD files that "
-                                                    "say what they hold; sets 'skipping' to false");
+                                                    "say what they hold; of model S, sets 'skipping' to false");
   CLI::Option* reference_flag =
       arguments.add_flag("--reference", by_reference, "Compute by the double-precision reference, without OpenGL");
   CLI::Option* sweep = arguments.add_option("--sweep", sweep_deg,
@@ -149,13 +150,22 @@ int main(int argc, char** argv) {
                   "The PNG to write, with the probe's marker on its left, as clinics show it; for a sweep, the NRRD")
       ->required();
 
+  // With the stages before it, if they are asked for: their folder gets its name when the picture is there.
+  const auto write_all = [&](const Image<std::uint8_t>& grey, const auto& write_stages_to) {
+    const auto write_picture = [&] { write_png(out, mirrored(grey)); };
+    if (!*stages_option) return write_picture();
+    write_folder(stages_folder, [&](const std::filesystem::path& folder) {
+      write_stages_to(folder);
+      write_picture();
+    });
+  };
   const auto work = [&] {
     const Probe* probe = find_probe(probe_name);
     if (!probe)
       throw InputError("--probe", "", "there is no probe named '" + probe_name + "'",
                        suggest(probe_name, probe_names()));
     if (*stages_option) refuse_taken(stages_folder);
-    for (const CLI::Option* of_model_s : {quality, gain, stages_option, sweep, freehand})
+    for (const CLI::Option* of_model_s : {quality, gain, sweep, freehand})
       if (model == "W" && *of_model_s)
         throw InputError(of_model_s->get_name(), "", "model W has no such thing", "leave it out or take --model S");
     const bool to_volume = *sweep || *freehand;
@@ -185,7 +195,10 @@ int main(int argc, char** argv) {
       WeinSettings settings = settings_file.empty() ? WeinSettings{} : read_wein_settings(settings_file);
       settings.image_width = width.value_or(settings.image_width);
       settings.image_height = height.value_or(settings.image_height);
-      write_png(out, mirrored(render_wein(subject_path, volume_of(), *probe, depth_mm, settings, pose, by_reference)));
+      const AcousticVolume volume = volume_of();
+      const WeinScene scene{volume, *probe, depth_mm, settings, pose};
+      const RenderedWein rendered = render_wein(subject_path, scene, by_reference);
+      write_all(rendered.stages.grey, [&](const auto& folder) { write_stages(folder, scene, rendered); });
       return;
     }
     Settings settings = settings_file.empty() ? trainer_settings(probe->frequency_mhz, depth_mm)
@@ -207,14 +220,9 @@ int main(int argc, char** argv) {
     if (*stages_option) settings.skipping = false;
     const RenderedScene scene{volume, subject.labels, tissue_of, table, *probe, depth_mm, settings, pose};
     const auto [stages, made_by] = by_reference ? render_by_reference(scene) : render(subject_path, scene);
-    const auto write_picture = [&, &grey = stages.grey] { write_png(out, mirrored(grey)); };
-    if (*stages_option)
-      write_folder(stages_folder, [&, &stages = stages, &made_by = made_by](const std::filesystem::path& folder) {
-        write_stages(folder, scene, stages, made_by);
-        write_picture();  // before the folder has its name: without the picture it is not to stay
-      });
-    else
-      write_picture();
+    write_all(stages.grey, [&, &stages = stages, &made_by = made_by](const auto& folder) {
+      write_stages(folder, scene, stages, made_by);
+    });
   };
   return run_program(arguments, argc, argv, [&] {
     gl::within_device(settings_file.empty() ? "command line" : settings_file,

@@ -74,7 +74,8 @@ void write_stages(const fs::path& folder, const RenderedScene& scene, const Stag
   const StageGeometry geometry(scene.probe, scene.depth_mm, settings.samples, settings.image_width,
                                settings.image_height);
   write_file(folder / "scanlines.json", describe(scene, geometry, made_by).dump(1) + "\n");
-  write_volume(folder, scene.volume);
+  write_hounsfield(folder, scene.volume);
+  write_echogenicity(folder, scene.volume);
   if (!scene.labels.empty()) write_labels(folder / "volume_labels.nrrd", scene.labels);
   write_planes(folder, scene, geometry.lines);
 

@@ -35,8 +35,8 @@ std::string slice_folder(const std::vector<SlicePlane>& planes, std::size_t plan
 ///
 /// `scanlines.json` holds the lines (patient mm), where their samples lie, the pose, the tissue table, every setting,
 /// the weights of the beam and of the slice's planes, the constants of the model, and how pixels lie in the probe's
-/// plane. Beside it lie the volume that was used (write_volume() in stage_description.h; volume_labels.nrrd where there
-/// are labels) and NRRD files of raw little-endian float32, whose `content` says what their values are:
+/// plane. Beside it lie the volume that was used (volume.nrrd, volume_echogenicity.nrrd, and volume_labels.nrrd where
+/// there are labels) and NRRD files of raw little-endian float32, whose `content` says what their values are:
 ///   sizes N D, x line, y sample   hounsfield, echogenicity, impedance, absorption, alpha, incidence (what the model's
 ///                                 definitions give on these lines, in double precision; if the slice has several
 ///                                 planes, in a folder of each, plane_1 and so on); echo_re, echo_im (the same, all

@@ -6,7 +6,6 @@
 #include "sim/model/refraction.h"
 #include "sim/model/reverberation.h"
 #include "sim/model/scatterers.h"
-#include "sim/model/settings_file.h"
 #include "sim/reference/reference.h"
 #include "sim/volume/ct_reader.h"
 #include "tools/stage_files.h"
@@ -46,6 +45,13 @@ Json scatterer_constants() {
           {"hash", {{"first", kHashFirst}, {"second", kHashSecond}, {"next", kHashNext}}}};
 }
 
+void write_part(const fs::path& file, const AcousticVolume& volume, std::int16_t AcousticVoxel::*of) {
+  Volume<std::int16_t> part{volume.grid, {}};
+  part.voxels.reserve(volume.voxels.size());
+  for (const AcousticVoxel& voxel : volume.voxels) part.voxels.push_back(voxel.*of);
+  write_ct(file, part);
+}
+
 }  // namespace
 
 StageGeometry::StageGeometry(const Probe& of_probe, double depth, int samples, int width, int height)
@@ -54,13 +60,14 @@ StageGeometry::StageGeometry(const Probe& of_probe, double depth, int samples, i
       lines(scan_lines(of_probe, depth, samples)),
       image(image_geometry(of_probe, depth, width, height)) {}
 
-Json describe_geometry(const StageGeometry& geometry, const Pose& patient_from_probe, const AcousticVolume& volume,
-                       const std::string& made_by) {
+Json describe_geometry(const char* model, const StageGeometry& geometry, const Pose& patient_from_probe,
+                       const AcousticVolume& volume, const std::string& made_by) {
   const Grid& grid = volume.grid;
   const ScanLines& lines = geometry.lines;
   const glm::dmat4 pose = patient_from_probe.matrix();
   Json text;
   text["format"] = 2;
+  text["model"] = model;
   text["made_by"] = made_by;
   text["probe"] = geometry.probe.name;
   text["depth_mm"] = geometry.depth_mm;
@@ -86,14 +93,18 @@ Json describe_geometry(const StageGeometry& geometry, const Pose& patient_from_p
   return text;
 }
 
+void describe_settings(Json& text, const std::vector<std::pair<std::string, SettingValue>>& settings) {
+  for (const auto& [name, value] : settings)
+    text["settings"][name] = std::visit([](const auto& held) { return Json(held); }, value);
+}
+
 Json describe(const RenderedScene& scene, const StageGeometry& geometry, const std::string& made_by) {
   const ScanLines& lines = geometry.lines;
-  Json text = describe_geometry(geometry, scene.patient_from_probe, scene.volume, made_by);
+  Json text = describe_geometry("S", geometry, scene.patient_from_probe, scene.volume, made_by);
   text["reflection_length_mm"] = scene.settings.reflection_length_mm;
   text["frequency_mhz"] = scene.settings.frequency_mhz;
   text["coupling_air_hu"] = kCouplingAirHu;
-  for (const auto& [name, value] : named_settings(scene.settings))
-    text["settings"][name] = std::visit([](const auto& held) { return Json(held); }, value);
+  describe_settings(text, named_settings(scene.settings));
   for (const TissueKnot& knot : scene.table.knots)
     text["tissues"].push_back({{"hu", knot.hu},
                                {"impedance_mrayl", knot.impedance_mrayl},
@@ -145,15 +156,12 @@ void write_pixel_positions(const fs::path& folder, const StageGeometry& geometry
   write_as_picture(folder, "pixel_sample", sample, "sample at the pixel, 0 on the first; -2 outside the fan");
 }
 
-void write_volume(const fs::path& folder, const AcousticVolume& volume) {
-  Volume<std::int16_t> part{volume.grid, {}};
-  const auto write = [&](const char* name, std::int16_t AcousticVoxel::*of) {
-    part.voxels.clear();
-    for (const AcousticVoxel& voxel : volume.voxels) part.voxels.push_back(voxel.*of);
-    write_ct(folder / name, part);
-  };
-  write("volume.nrrd", &AcousticVoxel::hu);
-  write("volume_echogenicity.nrrd", &AcousticVoxel::echogenicity_cdb);
+void write_hounsfield(const fs::path& folder, const AcousticVolume& volume) {
+  write_part(folder / "volume.nrrd", volume, &AcousticVoxel::hu);
+}
+
+void write_echogenicity(const fs::path& folder, const AcousticVolume& volume) {
+  write_part(folder / "volume_echogenicity.nrrd", volume, &AcousticVoxel::echogenicity_cdb);
 }
 
 }  // namespace insonate

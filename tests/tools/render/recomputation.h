@@ -15,7 +15,7 @@ inline constexpr double kFloat = 6e-8;  // what rounding to float32 changes at m
 /// What the recomputation of each part of a folder starts from, and the worst disagreements it notes.
 class Recomputation {
 public:
-  Recomputation(const StageFolder& stages, const Tolerances& tolerances);
+  explicit Recomputation(const StageFolder& stages);
 
   std::map<std::string, double> worst() const { return worst_; }
 
@@ -27,10 +27,12 @@ protected:
   void compare(const std::string& stage, double expected, double got, double tolerated);
   bool inside(int x, int y) const { return plane("pixel_line").at(x, y) > -1; }
 
+  void pixels();
+  Plane converted(const Plane& from) const;
+
   const StageFolder& stages_;
   const nlohmann::json &about_, &set_;
   const std::map<std::string, Plane>& planes_;
-  const Tolerances tolerances_;
   std::vector<Vec3> starts_, directions_;
   int n_ = 0, d_ = 0;  // lines, samples
   double dr_ = 0, r_min_ = 0;

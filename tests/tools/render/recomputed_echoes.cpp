@@ -10,7 +10,7 @@ const double kPi = std::acos(-1.0);
 class Echoes : public Recomputation {
 public:
   Echoes(const StageFolder& stages, const Tolerances& tolerances)
-      : Recomputation(stages, tolerances), l_(setting("reflection_length_mm")) {}
+      : Recomputation(stages), tolerances_(tolerances), l_(setting("reflection_length_mm")) {}
 
   void all() {
     beam();
@@ -122,6 +122,7 @@ private:
       }
   }
 
+  const Tolerances tolerances_;
   double l_;
   std::vector<double> weights_;
 };

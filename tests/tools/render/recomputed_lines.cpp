@@ -11,7 +11,8 @@ namespace {
 class Lines : public Recomputation {
 public:
   Lines(const StageFolder& stages, const Tolerances& tolerances)
-      : Recomputation(stages, tolerances),
+      : Recomputation(stages),
+        tolerances_(tolerances),
         lattice_(about_),
         intensity_(blank()),
         reflection_(blank()),
@@ -208,6 +209,7 @@ private:
       }
   }
 
+  const Tolerances tolerances_;
   const Lattice lattice_;
   std::vector<Knot> knots_;
   double l_ = 0, gel_mm_ = 0, coupling_air_hu_ = 0;

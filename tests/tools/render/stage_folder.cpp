@@ -37,7 +37,7 @@ StageFolder read_stage_folder(const std::filesystem::path& folder) {
   std::ifstream stream(folder / "scanlines.json");
   stages.description = nlohmann::json::parse(stream);
   stages.hounsfield = ShortVolume(folder / "volume.nrrd");
-  stages.echogenicity = ShortVolume(folder / "volume_echogenicity.nrrd");
+  if (stages.description.at("model") == "S") stages.echogenicity = ShortVolume(folder / "volume_echogenicity.nrrd");
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     const std::filesystem::path name = std::filesystem::relative(entry.path(), folder).replace_extension();
     if (entry.path().extension() == ".nrrd" && name.string().rfind("volume", 0) != 0)
@@ -53,12 +53,11 @@ std::map<std::string, double> misfits(const StageFolder& stages, const Tolerance
   return all;
 }
 
-Recomputation::Recomputation(const StageFolder& stages, const Tolerances& tolerances)
+Recomputation::Recomputation(const StageFolder& stages)
     : stages_(stages),
       about_(stages.description),
       set_(about_.at("settings")),
       planes_(stages.planes),
-      tolerances_(tolerances),
       d_(about_.at("samples")),
       dr_(about_.at("dr_mm")),
       r_min_(about_.at("r_min_mm")) {

@@ -25,7 +25,7 @@ struct StageFolder {
   nlohmann::json description;
   std::map<std::string, Plane> planes;  ///< by the file's name in the folder, without .nrrd
   ShortVolume hounsfield;               ///< that the sound went through
-  ShortVolume echogenicity;             ///< the same, hundredths of a dB
+  ShortVolume echogenicity;             ///< the same, hundredths of a dB; of model S
 };
 
 /// Throws std::runtime_error for what is no such folder.
@@ -42,6 +42,10 @@ struct Tolerances {
 /// Recomputes each stage from the files of the stages before it, and the first ones from the volume. By stage, the
 /// worst disagreement as a multiple of what is tolerated.
 std::map<std::string, double> misfits(const StageFolder& stages, const Tolerances& tolerances);
+
+/// The same of model W.
+/// @param single  whether it was computed in single precision, with gradients kept to 1/16 HU
+std::map<std::string, double> wein_misfits(const StageFolder& stages, bool single);
 
 /// The same of the volume's echogenicity, from its Hounsfield units, where no labels tell more.
 std::map<std::string, double> volume_misfits(const StageFolder& stages);

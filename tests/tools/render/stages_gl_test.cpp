@@ -124,6 +124,29 @@ TEST_CASE("every stage of the reference's pictures follows from the stages befor
   }
 }
 
+TEST_CASE("every stage of model W's pictures follows from the volume, and one wrong number is found") {
+  const SyntheticCt ct;
+  const View view{"--model W --probe curvilinear --depth 60", kFan.pose,
+                  "samples = 120\nreflection_length_mm = 1.5\ncompression = 300\ncontact_mm = 4\ndark_hu = -60\n"
+                  "bright_hu = 120\nreflection_share = 0.4\nimage_width = 90\nimage_height = 70\n"};
+  for (const bool single : {true, false}) {
+    const StageFolder stages = render(ct, view, single ? "" : "--reference");
+    CHECK(stages.hounsfield.voxels == ct.voxels);
+    for (const auto& [stage, misfit] : wein_misfits(stages, single)) {
+      INFO(stage << ": the worst is " << misfit << " of what is tolerated");
+      CHECK(misfit < 1);
+    }
+    for (const auto& [name, plane] : stages.planes) {
+      StageFolder wrong = stages;
+      wrong.planes.at(name).at(plane.width / 2, plane.height / 3) += name == "image" ? 2 : 0.02;
+      double worst = 0;
+      for (const auto& [stage, misfit] : wein_misfits(wrong, single)) worst = std::max(worst, misfit);
+      INFO(name);
+      CHECK(worst > 1);
+    }
+  }
+}
+
 TEST_CASE("a CT that is resampled lies beside the stages as it was insonated") {
   const SyntheticCt fine;
   SyntheticCt coarse = fine;  // every third voxel along each axis
