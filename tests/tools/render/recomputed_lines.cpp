@@ -22,7 +22,7 @@ public:
     for (const auto& knot : about_.at("tissues"))
       knots_.push_back({knot.at("hu"), knot.at("impedance_mrayl"), knot.at("absorption_db_cm_mhz")});
     l_ = setting("reflection_length_mm");
-    gel_mm_ = setting("gel_mm");
+    gel_mm_ = std::max(setting("gel_mm"), value("face_mm"));
     coupling_air_hu_ = about_.at("coupling_air_hu");
   }
 

@@ -8,7 +8,15 @@ namespace {
 class Echogenicity {
 public:
   explicit Echogenicity(const StageFolder& stages)
-      : hu_(stages.hounsfield), about_(stages.description), constant_(about_.at("echogenicity")) {
+      : hu_(stages.hounsfield),
+        labels_(stages.labels),
+        about_(stages.description),
+        constant_(about_.at("echogenicity")) {
+    for (std::size_t v = 0; v < labels_.size(); ++v) {
+      mean_[labels_[v]] += hu_.voxels[v];
+      ++count_[labels_[v]];
+    }
+    for (std::size_t label = 0; label < mean_.size(); ++label) mean_[label] /= std::max(count_[label], 1.0);
     for (std::size_t a = 0; a < 3; ++a) {
       near_[a] = in_voxels("neighbour_mm", a);
       reach_[a] = in_voxels("edge_reach_mm", a);
@@ -19,8 +27,18 @@ public:
 
   /// Hundredths of a dB.
   double at(const std::array<int, 3>& i) const {
+    if (!labels_.empty()) {
+      const int label = labels_[std::size_t((i[2] * hu_.size[1] + i[1]) * hu_.size[0] + i[0])];
+      const auto& tissues = about_.at("tissue_of_label");
+      if (const auto found = tissues.find(std::to_string(label)); found != tissues.end()) {
+        const auto& tissue = about_.at("labelled_tissues").at(found->get<std::string>());
+        const double db = tissue.at("echogenicity_db").get<double>() +
+                          texture_db(hu_.voxel(i[0], i[1], i[2]) - mean_[std::size_t(label)]);
+        return 100 * std::clamp(db, constant_.at("least_db").get<double>(), constant_.at("most_db").get<double>());
+      }
+    }
     const int hu = hu_.voxel(i[0], i[1], i[2]), density = local_density(i, hu);
-    double echo = tabled(density) + texture(hu - density);
+    double echo = tabled(density) + std::round(100 * texture_db(hu - density));
     for (std::size_t a = 0; a < 3; ++a) {
       std::array<int, 3> before = i, after = i;
       before[a] -= reach_[a];
@@ -64,15 +82,17 @@ private:
     return std::round(100 * db);
   }
 
-  double texture(int above) const {
+  double texture_db(double above) const {
     const double rim = constant_.at("rim_hu"), full = constant_.at("texture_hu");
     const double fade = std::clamp((rim - std::abs(above)) / (rim - full), 0.0, 1.0);
-    return std::round(100 * constant_.at("texture_db_per_hu").get<double>() * above * fade);
+    return constant_.at("texture_db_per_hu").get<double>() * above * fade;
   }
 
   const ShortVolume& hu_;
+  const std::vector<std::uint8_t>& labels_;
   const nlohmann::json &about_, &constant_;
   const int alike_ = constant_.at("alike_hu");
+  std::array<double, 256> mean_{}, count_{};  // of each label, HU and voxels
   std::array<int, 3> near_{}, reach_{};
   std::vector<std::pair<double, double>> knots_;
 };

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "tests/tools/render/recomputation.h"
+#include "tests/tools/render/render_program.h"
 
 namespace outsider {
 namespace {
@@ -38,6 +39,11 @@ StageFolder read_stage_folder(const std::filesystem::path& folder) {
   stages.description = nlohmann::json::parse(stream);
   stages.hounsfield = ShortVolume(folder / "volume.nrrd");
   if (stages.description.at("model") == "S") stages.echogenicity = ShortVolume(folder / "volume_echogenicity.nrrd");
+  if (std::filesystem::exists(folder / "volume_labels.nrrd")) {
+    const std::string bytes = bytes_of(folder / "volume_labels.nrrd");
+    if (bytes.size() < stages.hounsfield.voxels.size()) throw std::runtime_error("volume_labels.nrrd is too short");
+    stages.labels.assign(bytes.end() - std::ptrdiff_t(stages.hounsfield.voxels.size()), bytes.end());
+  }
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     const std::filesystem::path name = std::filesystem::relative(entry.path(), folder).replace_extension();
     if (entry.path().extension() == ".nrrd" && name.string().rfind("volume", 0) != 0)

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -25,6 +26,7 @@ struct StageFolder {
   nlohmann::json description;
   std::map<std::string, Plane> planes;  ///< by the file's name in the folder, without .nrrd
   ShortVolume hounsfield;               ///< that the sound went through
+  std::vector<std::uint8_t> labels;     ///< of the volume's voxels; empty if there are none
   ShortVolume echogenicity;             ///< the same, hundredths of a dB; of model S
 };
 
@@ -47,7 +49,7 @@ std::map<std::string, double> misfits(const StageFolder& stages, const Tolerance
 /// @param single  whether it was computed in single precision, with gradients kept to 1/16 HU
 std::map<std::string, double> wein_misfits(const StageFolder& stages, bool single);
 
-/// The same of the volume's echogenicity, from its Hounsfield units, where no labels tell more.
+/// The same of the volume's echogenicity, from its Hounsfield units and labels.
 std::map<std::string, double> volume_misfits(const StageFolder& stages);
 
 }  // namespace outsider

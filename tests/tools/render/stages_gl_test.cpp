@@ -52,19 +52,23 @@ const Tolerances kReference{1e-6, 1e-6, 2e-6, 2e-5};
 // their lookup, and for U single precision's place of a pixel among some hundred samples times the contrast there.
 const Tolerances kGraphicsCard{1e-4, 1e-4, 1e-3, 1e-4};
 
-StageFolder render(const SyntheticCt& ct, const View& view, const std::string& more) {
-  const TestFolder folder;
-  ct.write_nrrd(folder.path / "ct.nrrd");
+/// @param patient  --ct or --case, in the folder
+StageFolder render(const TestFolder& folder, const std::string& patient, const View& view, const std::string& more) {
   folder.file("pose.txt", view.pose);
   folder.file("settings.toml", view.settings);
   const std::string in = folder.path.string();
-  const Outcome outcome =
-      run(folder, INSONATE_RENDER_PROGRAM,
-          "--ct " + in + "/ct.nrrd --pose " + in + "/pose.txt --settings " + in + "/settings.toml " + view.arguments +
-              " --stages " + in + "/stages " + more + " " + in + "/image.png");
+  const Outcome outcome = run(folder, INSONATE_RENDER_PROGRAM,
+                              patient + " --pose " + in + "/pose.txt --settings " + in + "/settings.toml " +
+                                  view.arguments + " --stages " + in + "/stages " + more + " " + in + "/image.png");
   INFO(outcome.errors);
   REQUIRE(outcome.code == 0);
   return read_stage_folder(folder.path / "stages");
+}
+
+StageFolder render(const SyntheticCt& ct, const View& view, const std::string& more) {
+  const TestFolder folder;
+  ct.write_nrrd(folder.path / "ct.nrrd");
+  return render(folder, "--ct " + folder.path.string() + "/ct.nrrd", view, more);
 }
 
 void check(const StageFolder& stages, const Tolerances& tolerances) {
@@ -172,6 +176,24 @@ TEST_CASE("a CT that is resampled lies beside the stages as it was insonated") {
       for (int i = 0; i < coarse.size[0]; ++i)
         worst = std::max(worst, std::abs(used.voxel(3 * i + 1, 3 * j + 1, 3 * k + 1) - coarse.voxels[n++]));
   CHECK(worst == 0);
+}
+
+TEST_CASE("what labels say of a case's echogenicity can be recomputed too") {
+  const SyntheticCt ct;
+  const TestFolder folder;
+  std::filesystem::create_directory(folder.path / "case");
+  ct.write_nrrd(folder.path / "case" / "ct.nrrd");
+  std::string labels = bytes_of(folder.path / "case" / "ct.nrrd");
+  labels.resize(labels.find("\n\n") + 2);
+  labels.replace(labels.find("type: short"), 11, "type: uint8");
+  for (std::size_t v = 0; v < ct.voxels.size(); ++v)  // the rest by its density
+    labels += char(ct.voxels[v] > 20 ? 1 : ct.voxels[v] > -20 ? 3 : 0);
+  folder.file("case/labels.nrrd", labels);
+  folder.file("case/case.toml",
+              "format = 1\nname = \"Labelled\"\nct = \"ct.nrrd\"\nlabels = \"labels.nrrd\"\n"
+              "[[label]]\nvalue = 1\nname = \"liver\"\ntissue = \"liver\"\n"
+              "[[label]]\nvalue = 3\nname = \"kidney\"\ntissue = \"kidney_cortex\"\n");
+  check(render(folder, "--case " + folder.path.string() + "/case", kFan, ""), ct, kGraphicsCard);
 }
 
 TEST_CASE("one wrong number in any of the files is found") {
