@@ -42,6 +42,10 @@ void write_planes(const fs::path& folder, const RenderedScene& scene, const Scan
     write_tissue(of_plane, tissue_along(lines, scene, planes[i]));
     const ReferenceScan scan =
         traverse_reference(field, scene.table, lines, scene.settings, scene.patient_from_probe, planes[i]);
+    if (planes.size() > 1) {
+      write_among_lines(of_plane, "transmission", in_single_precision(scan.intensity), "I (5) of this plane");
+      write_among_lines(of_plane, "reflection", in_single_precision(scan.reflection), "R (3) of this plane");
+    }
     add(echo_re, planes[i].weight, scan.echo_re);
     add(echo_im, planes[i].weight, scan.echo_im);
   }

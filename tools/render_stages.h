@@ -39,7 +39,8 @@ std::string slice_folder(const std::vector<SlicePlane>& planes, std::size_t plan
 /// there are labels) and NRRD files of raw little-endian float32, whose `content` says what their values are:
 ///   sizes N D, x line, y sample   hounsfield, echogenicity, impedance, absorption, alpha, incidence (what the model's
 ///                                 definitions give on these lines, in double precision; if the slice has several
-///                                 planes, in a folder of each, plane_1 and so on); echo_re, echo_im (the same, all
+///                                 planes, in a folder of each, plane_1 and so on, with its
+///                                 transmission and reflection beside them); echo_re, echo_im (the same, all
 ///                                 planes' sum by weight); transmission, reflection, reflection_beam, speckle (what
 ///                                 `stages` hold)
 ///   sizes W H, marker (+x) right  pixel_line, pixel_sample (where the pixel lies among the lines); fused, image

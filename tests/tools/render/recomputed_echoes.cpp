@@ -57,9 +57,18 @@ private:
       }
   }
 
-  /// Echoes of echoes, from I and R of each line, and behind the same window as R.
+  static double b_spline(double x) {
+    const double a = std::abs(x);
+    return a >= 2 ? 0 : a >= 1 ? (2 - a) * (2 - a) * (2 - a) / 6 : 2.0 / 3 - a * a + a * a * a / 2;
+  }
+
+  /// Echoes of echoes, from I and R of each line in the slice's middle plane, and behind the same window as R.
   void reverberation() {
     const auto& about = about_.at("reverberation");
+    const auto& planes = about_.at("slice_planes");
+    const std::string middle = planes.at(planes.size() / 2).at("folder");
+    const std::string prefix = middle.empty() ? "" : middle + "/";
+    const Plane &passing = plane(prefix + "transmission"), &reflected = plane(prefix + "reflection");
     const double least_round = about.at("least_round"), least_reverberant = about.at("least_reverberant");
     const int most_repeats = about.at("most_repeats"), most_reflectors = about.at("most_reflectors");
     const double share = std::min(dr_ / l_, 1.0);
@@ -70,18 +79,18 @@ private:
     Plane repeats = plane("repeated");
     for (double& v : repeats.values) v = 0;
     for (int line = 0; line < n_; ++line) {
-      const auto i_at = [&](int k) { return plane("transmission").at(line, std::clamp(k, 0, d_ - 1)); };
+      const auto i_at = [&](int k) { return passing.at(line, std::clamp(k, 0, d_ - 1)); };
       const auto reflects = [&](int k) {
-        return i_at(k) > least_reverberant ? plane("reflection").at(line, k) / (i_at(k) * i_at(k)) : 0;
+        return i_at(k) > least_reverberant ? reflected.at(line, k) / (i_at(k) * i_at(k)) : 0;
       };
       // Sound that goes to and fro over `way` shows sample k again and again.
       const auto ring = [&](int k, double way, double echo, double round) {
         for (int n = 1; n <= most_repeats && counted(round) > 0; ++n) {
           echo *= counted(round);
           const double at = k + n * way / dr_;
-          const int low = int(std::floor(at));
-          if (low < d_) repeats.at(line, low) += (low + 1 - at) * echo;
-          if (low + 1 < d_) repeats.at(line, low + 1) += (at - low) * echo;
+          if (at >= d_) break;
+          for (int j = std::max(int(at) - 1, 0); j <= std::min(int(at) + 2, d_ - 1); ++j)
+            repeats.at(line, j) += b_spline(j - at) * echo;
         }
       };
       std::vector<int> found;
@@ -93,7 +102,7 @@ private:
           sum += reflects(j);
           moment += reflects(j) * (r_min_ + (j + 0.5) * dr_);
         }
-        const double here = moment / sum, echo = plane("reflection").at(line, k), before = i_at(k - near + 1);
+        const double here = moment / sum, echo = reflected.at(line, k), before = i_at(k - near + 1);
         ring(k, here, echo, setting("face_reflection") * reflects(k) * before * before);
         for (std::size_t i = 0; i < found.size() && on("reverberation"); ++i) {
           const double way = here - place[i], between = std::min(1.0, before / i_at(found[i] + near));

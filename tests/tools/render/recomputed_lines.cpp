@@ -147,8 +147,14 @@ private:
         const double step_db = met("absorption").at(line, k) * f * dr_ / 10;
         if (k == 0) db = -step_db / 2;
         const double intensity = std::pow(10, db / 10), alpha = met("alpha").at(line, k);
+        const double echo = alpha * intensity * intensity * met("incidence").at(line, k);
         intensity_.at(line, k) += weight_ * intensity;
-        reflection_.at(line, k) += weight_ * alpha * intensity * intensity * met("incidence").at(line, k);
+        reflection_.at(line, k) += weight_ * echo;
+        if (!prefix_.empty()) {  // always of the reference
+          compare("transmission of a plane", intensity, met("transmission").at(line, k),
+                  (1e-6 + rounding) * std::max(intensity, 1e-6));
+          compare("reflection of a plane", echo, met("reflection").at(line, k), (1e-6 + 2 * rounding) * alpha + 1e-12);
+        }
         rounding_.at(line, k) = std::max(rounding_.at(line, k), rounding);
         most_refracted_db = std::max(most_refracted_db, refracted_db);
         db += 10 * std::log10(1 - alpha) * dr_ / l_ - step_db;

@@ -35,9 +35,9 @@ const View kRinging = {kFan.arguments, kFan.pose, kFan.settings + "reverberation
 // The same with what refraction takes behind the edges of what is round.
 const View kRefracting = {kFan.arguments, kFan.pose, kFan.settings + "edge_shadow = true\n"};
 
-// The same through a slice of three planes that bend.
-const View kSlice = {kFan.arguments, kFan.pose,
-                     kFan.settings + "slice_planes = 3\nslice_thickness_mm = 4\nelevation_focus_mm = 35\n"};
+// The same through a slice of three planes that bend, with echoes of echoes.
+const View kSlice = {kRinging.arguments, kRinging.pose,
+                     kRinging.settings + "slice_planes = 3\nslice_thickness_mm = 4\nelevation_focus_mm = 35\n"};
 
 // The paper's own model but for the reflection length, gel before a face that stands off the skin, and a wide box beam.
 const View kLinear = {"--probe linear --depth 40", "-1 0 0 3  0 0.96 -0.28 -2  0 -0.28 -0.96 0  0 0 0 1",
