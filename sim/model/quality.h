@@ -9,12 +9,11 @@
 namespace insonate {
 
 /// Points of the front of run time against error that `insonate-bench front` measures: what a frame costs, and how far
-/// its grey levels are from the converged reference. Measured on two processor cores (docs/benchmarks/epyc-2-cores; the
-/// built-in abdomen and a real CT); a graphics card is faster, and the ratios are of the same order:
+/// its grey levels are from the converged reference. docs/benchmarks has both, by device.
 ///
-///     fast      8.6 and  8.6 ms    1.5 and 1.3 dB    three quarters of the samples, and of the pixels along each side
-///     balanced  11.9 and 11.8 ms   0.9 and 0.8 dB    trainer_settings(): two samples a reflection length, 640 x 480
-///     exact     26.5 and 26.8 ms   0.13 and 0.11 dB  four times the samples
+///     fast      three quarters of the samples, and of the pixels along each side
+///     balanced  trainer_settings(): two samples a reflection length, 640 x 480
+///     exact     four times the samples
 enum class Quality { fast, balanced, exact };
 inline constexpr std::array kQualities = {Quality::fast, Quality::balanced, Quality::exact};
 
@@ -25,7 +24,7 @@ std::vector<std::string> quality_names();
 /// Throws std::invalid_argument for a name that is none of them.
 Quality quality_named(const std::string& name);
 
-/// Settings at another quality.
+/// Settings at another quality; samples and pixels stay within 1 and 8192.
 /// @param balanced  as trainer_settings() gives them, of any picture size
 Settings at_quality(Settings balanced, Quality quality);
 

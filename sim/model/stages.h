@@ -6,7 +6,31 @@
 
 namespace insonate {
 
-/// What crosses the stages of model S, for those who check or take apart a picture.
+/// What crosses the stages of model S, for those who check or take apart a picture. Numbers in brackets are the
+/// equations of Kutter, Shams, Navab (Computer Methods and Programs in Biomedicine 94, 2009), words with underscores
+/// the fields of Settings. With Z the impedance and a the absorption of the tissue table, l = reflection_length_mm, d
+/// the line's direction, n that of Z's gradient, and r_k = (k + 1/2) dr the samples' distances from the face:
+///
+///     alpha(r) = ((Z(r + l/2) - Z(r - l/2)) / (Z(r + l/2) + Z(r - l/2)))^2                             (1)
+///     I(r + dr) = I(r) (1 - alpha(r))^(dr/l) 10^(-a f dr/100),  I(0) = 1                               (5)
+///     R = alpha I^2 |d . n|                                                                            (3)
+///     T = I^2 if two_way, else I
+///     U = (G1 R + b G2 T) S + what is heard beside                                                     (6)
+///     E = U 10^((gain_db + t)/10)
+///     grey = 255 m(clamp(1 + 10 log10(E/L) / dynamic_range_db, 0, 1)),  0 where E is 0                 (7)
+///
+/// (5) has the paper's recursion for l = dr; l keeps it from depending on how many samples there are. Its last factor
+/// is absorption, a in dB/(cm MHz) one way, f = frequency_mhz and dr in mm (Szabo, Diagnostic Ultrasound Imaging, 4: an
+/// attenuation in proportion to frequency); the paper has none. Coupling: nearer to the face than gel_mm, what is less
+/// dense than kCouplingAirHu (sim/reference/reference.h) counts as water without echo, as the face itself does; beyond,
+/// air reflects by (1) as anywhere, so that a face that does not touch sees nothing. Where the slice has several planes
+/// (sim/model/beam.h), I, R and the scatterers' echo are their sums by weight.
+///
+/// In (6) R and S are behind the beam's width (4), sim/model/beam.h, G1 and G2 Gaussians in the picture of
+/// reflection_sigma_mm and transmission_sigma_mm, b = blend; beside are V of reverberation.h, and noise and clutter of
+/// noise.h. Time gain t is tgc_db at 8 depths, the first at the face and the last at the imaging depth, linear between:
+/// an amplifier's, in dB of what U is, an intensity. White is the level L: the frame's brightest E in the paper, or
+/// fixed_level, so that the picture does not pump while the probe moves. m is grey_map.
 ///
 /// The first six lie among the scan lines: x is the line, y the sample. The last three are as the picture.
 template <typename Real>

@@ -51,17 +51,20 @@ struct ScanLine {
 
 /// What the traversal is given: it knows lines, not probes.
 struct ScanLines {
-  std::vector<ScanLine> lines;
-  int samples = 512;  ///< a line, 1 to 8192
-  double r_min_mm = 0;
-  double r_max_mm = 160;
+  std::vector<ScanLine> lines;  ///< 1 to 4096
+  int samples = 512;            ///< a line, 1 to 8192
+  double r_min_mm = 0;          ///< where the first sample's share of a line begins, from its start; 0 or more
+  double r_max_mm = 160;        ///< where the last one's ends, above r_min_mm
 
   double dr_mm() const { return (r_max_mm - r_min_mm) / samples; }
 };
 
 /// The scan lines of a probe at a depth, from the edge opposite the marker (-x) to the marker's edge (+x), at the
 /// middles of `probe.lines` equal parts of the face (linear) or of the field of view (curvilinear, phased).
-/// Each ends `depth_mm` along it from where it leaves the face.
+/// Each ends `depth_mm` along it from where it leaves the face. Throws nothing of its own: numbers out of range are
+/// refused where they enter a program, and mean nothing here.
+/// @param depth_mm  10 to 400
+/// @param samples   a line, 1 to 8192
 ScanLines scan_lines(const Probe& probe, double depth_mm, int samples);
 
 /// Where a point of the imaging plane (x lateral, y along the central beam, probe frame, mm) lies among the lines.
@@ -71,6 +74,7 @@ struct LinePosition {
 };
 
 /// Empty outside the fan: beyond its edges, in front of the face, or deeper than `depth_mm`.
+/// @param depth_mm  10 to 400
 std::optional<LinePosition> line_position(const Probe& probe, double depth_mm, const glm::dvec2& xy_mm);
 
 /// How pixels of the displayed image lie in the imaging plane: square pixels, the fan as large as fits, centred.
@@ -78,13 +82,17 @@ std::optional<LinePosition> line_position(const Probe& probe, double depth_mm, c
 struct ImageGeometry {
   int width = 640;
   int height = 480;
-  double mm_per_pixel = 0.4;
+  double mm_per_pixel = 0.4;    ///< above 0
   glm::dvec2 top_left_mm{0.0};  ///< centre of the top left pixel
 
   glm::dvec2 plane_mm(double x, double y) const { return top_left_mm + mm_per_pixel * glm::dvec2(x, y); }
   glm::dvec2 pixel(const glm::dvec2& plane_mm) const { return (plane_mm - top_left_mm) / mm_per_pixel; }
 };
 
+/// Of the image that shows a probe's fan down to a depth, with as many millimetres a pixel as its wider side needs.
+/// Numbers out of range mean nothing, as in scan_lines().
+/// @param depth_mm       10 to 400
+/// @param width, height  pixels, 1 to 8192
 ImageGeometry image_geometry(const Probe& probe, double depth_mm, int width, int height);
 
 }  // namespace insonate
