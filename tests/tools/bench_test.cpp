@@ -125,7 +125,7 @@ TEST_CASE("the plot names the front's settings and the levels of quality alone, 
 }
 
 TEST_CASE("the levels of quality are points of the measured front") {
-  const std::string file = INSONATE_DOCS_FOLDER "/benchmarks/epyc-2-cores/front.csv";
+  const std::string file = INSONATE_DOCS_FOLDER "/benchmarks/xeon-2-cores/front.csv";
   const Table table = Table::parse(file, read_file(file));
   for (const Quality quality : kQualities) {
     const Settings settings = at_quality(trainer_settings(3.5, 160), quality);
