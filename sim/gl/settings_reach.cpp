@@ -41,7 +41,7 @@ Reach reach_of_change(const Settings& before, const Settings& now) {
   if (differ(&S::samples, &S::reflection_length_mm, &S::frequency_mhz, &S::absorption, &S::gel_mm, &S::speckle,
              &S::speckle_seed, &S::speckle_cell_mm, &S::slice_planes, &S::slice_thickness_mm, &S::elevation_focus_mm,
              &S::edge_shadow, &S::image_width, &S::image_height, &S::exact_filter, &S::skipping) ||
-      ends_behind_body(to) != ends_behind_body(from) || (keeps_middle_plane(to) && !keeps_middle_plane(from)) ||
+      (keeps_middle_plane(to) && !keeps_middle_plane(from)) ||
       least_alpha_with_normal(to) < least_alpha_with_normal(from))  // interfaces are seen that were not
     reach.first = Stage::traverse;
   else if (differ(&S::beam_window, &S::beam_lines, &S::focused_beam, &S::focus_mm, &S::f_number, &S::reverberation,

@@ -17,9 +17,10 @@ namespace {
 constexpr double kLn10 = 2.302585092994046;
 
 // An interface counts as too weak for its tilt to be seen where it echoes this share of what the scatterers do: 0.004
-// dB. The beam's width carries it into shadows beside it, where scatterers are weaker: there clutter or noise covers
-// it, and without them the share is smaller, so that 30 dB of shadow do not bring it out.
+// dB. The beam's width carries it into shadows beside it, where scatterers are weaker: there clutter of as much covers
+// it, and without any the share is smaller, so that 30 dB of shadow do not bring it out.
 constexpr double kUnseenShare = 0.001, kUnseenShareInShadow = 1e-6;
+constexpr double kMostBlend = 1e-3;  // beside more echo than that, what rings would still show the tilt
 
 // What x line, y sample holds at a continuous place inside the fan, as scan_convert.comp reads it.
 double bilinear(const Image<double>& image, const glm::vec2& line_and_sample) {
@@ -72,14 +73,10 @@ std::vector<PlacedLine> placed_lines(const DeviceVolume& volume, const Pose& pat
       // A sample's width to spare, for the rounding of the shader's own positions.
       const auto [enters, leaves] =
           settings.skipping && !slice_bends(settings) ? volume.meets_body(start, along) : std::pair(-1e9, 1e9);
-      // Behind the body, or the gel where there is none, lies air alone, which nothing is seen of but how the last
-      // surface lets sound through.
-      const double body_mm = enters <= leaves ? leaves * dr : 0, gel_mm = settings.gel_mm - lines.r_min_mm;
-      const double end = (std::max(body_mm, gel_mm) + 2 * settings.reflection_length_mm) / dr + 2;
       placed.push_back({{start, enters - 1},
                         {along, leaves + 1},
                         {step(texture_from_probe, half_length * lateral), plane.weight},
-                        {step(texture_from_probe, half_length * elevation), ends_behind_body(settings) ? end : 1e9},
+                        {step(texture_from_probe, half_length * elevation), 0},
                         {point(lattice_from_probe, first), 0},
                         {step(lattice_from_probe, dr * d), 0},
                         {step(texture_from_probe, {0, 0, plane.offset}), 0},
@@ -118,16 +115,9 @@ Gaussian::Gaussian(double sigma_px, int limit_px) {
   exponent = -0.5 / (sigma_px * sigma_px);
 }
 
-bool ends_behind_body(const Settings& settings) {
-  // Of air: b of -44 dB, its -60 dB, and a surface that passes 10^-3 at most each way, against a white of -19 dB.
-  constexpr double kAir_db = -120;
-  return settings.skipping && !slice_bends(settings) && settings.electronic_noise && settings.noise_db > kAir_db;
-}
-
 double least_alpha_with_normal(const Settings& settings) {
   if (!settings.skipping) return 0;
-  const bool covered = settings.clutter || settings.electronic_noise;
-  return (covered ? kUnseenShare : kUnseenShareInShadow) * settings.blend;
+  return std::clamp(clutter_share(settings), kUnseenShareInShadow, kUnseenShare) * std::min(settings.blend, kMostBlend);
 }
 
 SimulationParameters parameters_of(const Settings& settings, const ScanLines& lines, const Gaussian& reflection,

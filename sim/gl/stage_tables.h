@@ -44,9 +44,6 @@ struct Gaussian {
   bool operator==(const Gaussian&) const = default;
 };
 
-/// Lines end where they have left the body for good, because the receiver's noise covers what air would echo.
-bool ends_behind_body(const Settings& settings);
-
 /// The alpha of (1) below which an interface's tilt is not looked at, because its echo is not seen.
 double least_alpha_with_normal(const Settings& settings);
 

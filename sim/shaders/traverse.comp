@@ -18,8 +18,7 @@ layout(std430, binding = 1) buffer Scan { vec4 scan[]; };  // a row a line: I, R
 struct Line {
   vec4 start, along;        // in the volume's texture: of sample 0, and to the next; start.w and along.w: the first and
                             // the last sample that may lie in the body
-  vec4 lateral, elevation;  // half the reflection length to either side; lateral.w: the plane's weight, elevation.w: the
-                            // sample behind which nothing is seen
+  vec4 lateral, elevation;  // half the reflection length to either side; lateral.w: the plane's weight
   vec4 lattice_start, lattice_along;  // in the scatterers' lattice
   vec4 beside, lattice_beside;        // with ELEVATION_FOCUS, the way to the plane for each mm of the slice's thickness
 };
@@ -150,8 +149,7 @@ void walk(int plane, int index) {
 #endif
   Medium here = medium(0.0), before = medium(-half_reflection_length);
   int k = 0;
-  int end = int(min(line.elevation.w, float(samples)));
-  for (; k < end && log_intensity > kSpentLogIntensity; ++k) {
+  for (; k < samples && log_intensity > kSpentLogIntensity; ++k) {
     float position = float(k);
     Medium next = medium(position + 1.0), behind = next;
     if (EDGES_AT != kEdgesAtSamples) behind = medium(position + half_reflection_length);
@@ -194,8 +192,7 @@ void walk(int plane, int index) {
   atomicAdd(samples_walked, uint(k));
   atomicAdd(normals_taken, normals);
   // What nothing is heard of still scatters in the apertures of the lines beside it.
-  for (; k < end; ++k) put(plane, row + k, vec4(0.0, 0.0, scatterers_echo(float(k), medium(float(k)))));
-  for (; k < samples; ++k) put(plane, row + k, vec4(0.0));
+  for (; k < samples; ++k) put(plane, row + k, vec4(0.0, 0.0, scatterers_echo(float(k), medium(float(k)))));
 }
 
 void main() {

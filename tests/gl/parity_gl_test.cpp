@@ -248,6 +248,10 @@ TEST_CASE("what is skipped changes no pixel by more than a grey level") {
   Settings bare = trainer;
   bare.clutter = bare.electronic_noise = false;
   bare.gain_db = 30;
+  Settings noisy = bare, hazy = bare, blended = trainer;
+  noisy.electronic_noise = true;
+  hazy.clutter = true;
+  blended.blend = 1000;  // so much echo that noise covers no air's
   Settings wide = bare;
   wide.focused_beam = false;
   wide.beam_window = BeamWindow::box;
@@ -262,7 +266,7 @@ TEST_CASE("what is skipped changes no pixel by more than a grey level") {
   for (const Pose& pose : {test::on_the_skin(0, 9, 12), test::on_the_skin(-25, 5, 0), test::on_the_skin(20, 8, -15),
                            test::on_the_skin(60, 2, 0), test::on_the_skin(0, 4, 70), test::on_the_skin(0, -40, 180)}) {
     simulator.set_pose(pose);
-    for (Settings settings : {trainer, bare, wide, narrow}) {
+    for (Settings settings : {trainer, bare, noisy, hazy, blended, wide, narrow}) {
       const auto grey = [&](bool skipping) {
         settings.skipping = skipping;
         simulator.set_settings(settings);
@@ -277,6 +281,7 @@ TEST_CASE("what is skipped changes no pixel by more than a grey level") {
       int worst_change = 0;
       for (std::size_t i = 0; i < whole.pixels.size(); ++i)
         worst_change = std::max(worst_change, std::abs(int(skipped.pixels[i]) - int(whole.pixels[i])));
+      INFO("clutter " << settings.clutter << ", noise " << settings.electronic_noise << ", blend " << settings.blend);
       INFO("gain " << settings.gain_db << " dB, beam of " << settings.beam_lines << " lines");
       CHECK(worst_change <= 1);
     }
