@@ -1,6 +1,5 @@
 #include "sim/gl/settings_reach.h"
 
-#include "sim/gl/stage_programs.h"
 #include "sim/gl/stage_tables.h"
 #include "sim/model/beam.h"
 

@@ -7,10 +7,9 @@
 
 #include "sim/gl/device_volume.h"
 #include "sim/gl/fan_layout.h"
+#include "sim/gl/picture_programs.h"
 #include "sim/gl/settings_reach.h"
-#include "sim/gl/stage_programs.h"
 #include "sim/gl/stage_tables.h"
-#include "sim/model/scatterers.h"
 #include "sim/model/settings_file.h"
 #include "sim/shaders/shared/simulation_parameters.h"
 
@@ -39,10 +38,12 @@ Image<float> transposed(const Image<float>& rows) {
 }  // namespace
 
 struct Simulator::State {
-  State(const ShaderSources& sources, const Scheme& given) : scheme(given), programs(sources, given) {}
+  State(const ShaderSources& sources, const Scheme& given)
+      : scheme(given), line_stages(sources, given), programs(sources) {}
 
   const Scheme scheme;
-  StagePrograms programs;
+  LineStages line_stages;
+  PicturePrograms programs;
 
   // What the user set.
   Settings settings;
@@ -52,7 +53,6 @@ struct Simulator::State {
   bool stages_are_read = false;  // by read_stages(), which asks for U where grey is all that a picture needs
 
   // What follows from that.
-  ScanLines lines;
   FanLayout fan;
   Gaussian reflection_gaussian, transmission_gaussian;
 
@@ -60,23 +60,17 @@ struct Simulator::State {
   DeviceVolume volume;
   SimulationParameters parameters{};
   Buffer parameter_buffer{sizeof(SimulationParameters), nullptr};
-  Texture scatterers;
-  TexelBuffer beam_at_depth;                        // by sample
   TexelBuffer line_and_sample, noise, fan_weights;  // by pixel
-  Buffer line_buffer, beam_window, fan_blocks;
-  double noise_length_mm = 0;         // the noise's grain
-  std::uint32_t scatterers_seed = 0;  // of those there are
+  Buffer fan_blocks;
+  double noise_length_mm = 0;  // the noise's grain
 
   // What they write.
-  TexelBuffer scan, middle, repeats, echoes, mean_echo;      // by sample
   TexelBuffer picture, sharp, half_smoothed, fused, levels;  // by pixel
   Buffer brightest;                                          // by block of the fan
   Buffer maximum_buffer{sizeof(GLuint), nullptr};
-  Buffer counters{sizeof(SampleCounts), nullptr};
   Texture image;
 
   bool layout_changed = true;  // probe, depth, sample count or picture size
-  bool beam_changed = true;    // layout, or what the beam's windows hang on
   std::optional<Stage> first_due = Stage::traverse;
   std::array<long, kStageCount> runs{};
 
@@ -86,7 +80,6 @@ struct Simulator::State {
   void due_from(Stage stage) { first_due = std::min(first_due.value_or(stage), stage); }
 
   void lay_out();
-  void prepare_scatterers();
   void prepare();
   void run_through(Stage last);
   void run(Stage stage);
@@ -98,16 +91,9 @@ struct Simulator::State {
 
 // Allocates what depends on the number of lines, samples and pixels, and works out where each pixel lies.
 void Simulator::State::lay_out() {
-  lines = scan_lines(probe, depth_mm, settings.samples);
-  const std::size_t n = lines.lines.size(), d = std::size_t(lines.samples);
-  line_buffer = Buffer(std::size_t(settings.slice_planes) * lines.lines.size() * sizeof(PlacedLine), nullptr);
-  scan = TexelBuffer(GL_RGBA32F, n * d);
-  middle = TexelBuffer();
-  echoes = TexelBuffer(GL_RGBA32F, n * d);
-  mean_echo = TexelBuffer(GL_R32F, d);
-
+  line_stages.lay_out(scan_lines(probe, depth_mm, settings.samples), settings);
   const int w = settings.image_width, h = settings.image_height;
-  fan = FanLayout(probe, depth_mm, lines, w, h, scheme);
+  fan = FanLayout(probe, depth_mm, line_stages.lines(), w, h, scheme);
   noise = TexelBuffer();
   line_and_sample = TexelBuffer(GL_RG32F, pixels(), fan.line_and_sample.data());
   fan_blocks = Buffer(fan.blocks.size() * sizeof(glm::ivec2), fan.blocks.data());
@@ -120,41 +106,19 @@ void Simulator::State::lay_out() {
   image.require_other_formats();
   image.clear();
   layout_changed = false;
-  beam_changed = true;
-}
-
-void Simulator::State::prepare_scatterers() {
-  if (scatterers && scatterers_seed == settings.speckle_seed) return;
-  constexpr int side = ScattererLattice::kSide;
-  scatterers = Texture::make_3d(GL_RG16_SNORM, side, side, side, Filter::linear, Wrap::repeat);
-  scatterers.write(GL_RG, GL_SHORT, make_scatterers(settings.speckle_seed).stored.data());
-  scatterers_seed = settings.speckle_seed;
 }
 
 // Everything that the stages due read and that is not another stage's.
 void Simulator::State::prepare() {
   if (layout_changed) lay_out();
-  if (settings.speckle) prepare_scatterers();
-  if (keeps_middle_plane(settings) && !middle)
-    middle = TexelBuffer(GL_RG32F, lines.lines.size() * std::size_t(lines.samples));
-  if (*first_due == Stage::traverse) {
-    const std::vector<PlacedLine> placed = placed_lines(volume, patient_from_probe, lines, settings);
-    line_buffer.write(placed.data(), placed.size() * sizeof(PlacedLine));
-  }
-  if (beam_changed) {
-    if (reverberates(settings)) repeats = TexelBuffer(GL_R32F, lines.lines.size() * std::size_t(lines.samples));
-    beam_window = half_beam_window(settings);
-    beam_at_depth = beam_by_depth(lines, settings);
-    beam_changed = false;
-  }
   if (*first_due <= Stage::scan_convert) {
     prepare_smoothing();
     if (is_noisy(settings)) prepare_noise();
   }
   prepare_fusion();
-  programs.build_from(
-      *first_due, {settings, lines.dr_mm(), reflection_gaussian.radius, transmission_gaussian.radius, stages_are_read});
-  parameters = parameters_of(settings, lines, reflection_gaussian, transmission_gaussian);
+  programs.build_from(*first_due,
+                      {settings, reflection_gaussian.radius, transmission_gaussian.radius, stages_are_read});
+  parameters = parameters_of(settings, line_stages.lines(), reflection_gaussian, transmission_gaussian);
   parameter_buffer.write(&parameters, sizeof parameters);
 }
 
@@ -181,7 +145,7 @@ void Simulator::State::prepare_fusion() {
 void Simulator::State::prepare_noise() {
   if (noise && noise_length_mm == settings.reflection_length_mm) return;
   noise_length_mm = settings.reflection_length_mm;
-  noise = noise_of_pixels(fan, lines, settings);
+  noise = noise_of_pixels(fan, line_stages.lines(), settings);
 }
 
 bool Simulator::State::needed(Stage stage) const {
@@ -207,41 +171,16 @@ void Simulator::State::run(Stage stage) {
   fan_blocks.bind_storage(7);
   switch (stage) {
     case Stage::traverse:
-      counters.clear();
-      line_buffer.bind_storage(0);
-      volume.tissue_lookup().bind(7);
-      scan.bind_storage(1);
-      counters.bind_storage(2);
-      if (keeps_middle_plane(settings)) middle.bind_storage(3);
-      volume.texture().bind(0);
-      scatterers.bind(1);
-      programs.traverse.dispatch(parameters.lines, 1);
+      line_stages.traverse(volume, patient_from_probe, settings);
       break;
     case Stage::beam:
-      if (reverberates(settings)) {
-        (keeps_middle_plane(settings) ? middle : scan).bind(0);
-        repeats.clear();
-        repeats.bind_storage(0);
-        programs.reverberation.dispatch(parameters.lines, 1);
-        repeats.bind(2);
-      }
-      scan.bind(0);
-      beam_window.bind_uniform(1);
-      beam_at_depth.bind(1);
-      echoes.bind_storage(0);
-      programs.beam.dispatch(parameters.samples, (parameters.lines + 3) / 4);
-      if (settings.clutter) {
-        echoes.bind(0);
-        mean_echo.bind_storage(0);
-        programs.clutter.dispatch(parameters.samples, 1);
-        programs.clutter_tail.dispatch(1, 1);
-      }
+      line_stages.beam(settings);
       break;
     case Stage::scan_convert:
-      echoes.bind(0);
+      line_stages.echoes().bind(0);
       line_and_sample.bind(1);
       noise.bind(2);
-      mean_echo.bind(3);
+      line_stages.mean_echo().bind(3);
       picture.bind_storage(0);
       sharp.bind_storage(1);
       over_fan(programs.scan_convert);
@@ -300,7 +239,7 @@ void Simulator::set_settings(const Settings& settings) {
   if (const auto why = why_not_valid(settings)) throw std::invalid_argument("simulator: " + *why);
   const Reach reach = reach_of_change(state_->settings, settings);
   state_->layout_changed |= reach.layout;
-  state_->beam_changed |= reach.beam;
+  if (reach.beam) state_->line_stages.change_beam();
   if (reach.first) state_->due_from(*reach.first);
   state_->settings = settings;
 }
@@ -337,16 +276,14 @@ const std::array<long, kStageCount>& Simulator::runs() const {
 }
 
 SampleCounts Simulator::sample_counts() const {
-  SampleCounts counts;
-  state_->counters.read(&counts, sizeof counts);
-  return counts;
+  return state_->line_stages.sample_counts();
 }
 
 StageCount Simulator::count(Stage stage) const {
   const State& s = *state_;
   StageCount count{s.runs[std::size_t(stage)]};
   if (count.runs == 0) return count;
-  const std::uint64_t samples = s.lines.lines.size() * std::uint64_t(s.lines.samples);
+  const std::uint64_t samples = s.line_stages.lines().lines.size() * std::uint64_t(s.line_stages.lines().samples);
   switch (stage) {
     case Stage::traverse:
       count.possible = samples * std::uint64_t(s.settings.slice_planes);
@@ -371,8 +308,9 @@ Stages<float> Simulator::read_stages() {
   run_through(Stage::compress);
   const State& s = *state_;
   Stages<float> stages;
-  const int n = int(s.lines.lines.size()), d = s.lines.samples;
-  const std::vector<Image<float>> scan = read_channels(s.scan, 4, d, n), echoes = read_channels(s.echoes, 4, d, n);
+  const int n = int(s.line_stages.lines().lines.size()), d = s.line_stages.lines().samples;
+  const std::vector<Image<float>> scan = read_channels(s.line_stages.scan(), 4, d, n),
+                                  echoes = read_channels(s.line_stages.echoes(), 4, d, n);
   stages.intensity = transposed(scan[0]);
   stages.reflection = transposed(scan[1]);
   stages.reflection_beam = transposed(echoes[0]);
@@ -395,7 +333,9 @@ Stages<float> Simulator::read_stages() {
 
 std::optional<std::string> Simulator::reload(const ShaderSources& sources) {
   state_->due_from(Stage::traverse);
-  return state_->programs.reload(sources);
+  const auto of_lines = state_->line_stages.reload(sources), of_picture = state_->programs.reload(sources);
+  if (of_lines && of_picture) return *of_lines + *of_picture;
+  return of_lines ? of_lines : of_picture;
 }
 
 }  // namespace insonate::gl

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "sim/core/pose.h"
+#include "sim/gl/line_stages.h"
 #include "sim/gl/objects.h"
 #include "sim/gl/program.h"
 #include "sim/gl/scheme.h"
@@ -18,12 +19,6 @@
 #include "sim/probe/probe.h"
 
 namespace insonate::gl {
-
-/// What the traversal did for the last picture.
-struct SampleCounts {
-  std::uint32_t walked = 0;   ///< samples, of planes x lines x samples: a line ends where it has lost its energy
-  std::uint32_t normals = 0;  ///< samples of these whose interface's normal was worked out
-};
 
 /// What a stage did.
 struct StageCount {

@@ -115,6 +115,16 @@ Gaussian::Gaussian(double sigma_px, int limit_px) {
   exponent = -0.5 / (sigma_px * sigma_px);
 }
 
+bool reverberates(const Settings& settings) {
+  return settings.reverberation || settings.face_reflection > 0;
+}
+bool is_noisy(const Settings& settings) {
+  return settings.electronic_noise || settings.clutter;
+}
+bool keeps_middle_plane(const Settings& settings) {
+  return settings.slice_planes > 1 && reverberates(settings);
+}
+
 double least_alpha_with_normal(const Settings& settings) {
   if (!settings.skipping) return 0;
   return std::clamp(clutter_share(settings), kUnseenShareInShadow, kUnseenShare) * std::min(settings.blend, kMostBlend);

@@ -44,6 +44,12 @@ struct Gaussian {
   bool operator==(const Gaussian&) const = default;
 };
 
+/// Whether anything repeats (sim/model/reverberation.h), and whether anything adds noise (sim/model/noise.h).
+bool reverberates(const Settings& settings);
+bool is_noisy(const Settings& settings);
+/// Reverberation is of the slice's middle plane, which the traversal then keeps beside the sum of all.
+bool keeps_middle_plane(const Settings& settings);
+
 /// The alpha of (1) below which an interface's tilt is not looked at, because its echo is not seen.
 double least_alpha_with_normal(const Settings& settings);
 

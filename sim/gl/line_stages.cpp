@@ -1,0 +1,145 @@
+#include "sim/gl/line_stages.h"
+
+#include <cmath>
+#include <vector>
+
+#include "sim/gl/stage_tables.h"
+#include "sim/model/beam.h"
+#include "sim/model/scatterers.h"
+
+namespace insonate::gl {
+namespace {
+
+std::string flag(bool on) {
+  return on ? "1" : "0";
+}
+
+// Of the stages that walk along lines.
+Defines in_groups(const Scheme& scheme, Defines defines = {}) {
+  defines.emplace_back("GROUP", std::to_string(scheme.group));
+  return defines;
+}
+
+Defines traversal(const Settings& settings, double dr_mm) {
+  const double samples_a_length = settings.reflection_length_mm / dr_mm;
+  const auto is = [&](double whole) { return std::abs(samples_a_length - whole) < 1e-9; };
+  return {{"EDGES_AT", is(2)   ? "kEdgesAtSamples"
+                       : is(1) ? "kEdgesAtMiddles"
+                               : "kEdgesAnywhere"},
+          {"ABSORPTION", flag(settings.absorption)},
+          {"SPECKLE", flag(settings.speckle)},
+          {"EDGE_SHADOW", flag(settings.edge_shadow)},
+          {"EXACT_FILTER", flag(settings.exact_filter)},
+          {"SKIPPING", flag(settings.skipping)},
+          {"ELEVATION_FOCUS", flag(slice_bends(settings))},
+          {"PLANES", std::to_string(settings.slice_planes)},
+          {"KEEP_MIDDLE", flag(keeps_middle_plane(settings))}};
+}
+
+Defines reverberation_of(const Settings& settings) {
+  return {{"IN_TISSUE", flag(settings.reverberation)}, {"AT_FACE", flag(settings.face_reflection > 0)}};
+}
+
+Defines beam_of(const Settings& settings) {
+  return {{"FOCUSED_BEAM", flag(settings.focused_beam)},
+          {"BEAM_HALF", settings.focused_beam ? "0" : std::to_string(settings.beam_lines / 2)},
+          {"REVERBERATION", flag(reverberates(settings))}};
+}
+
+}  // namespace
+
+LineStages::LineStages(const ShaderSources& sources, const Scheme& scheme)
+    : sources_(sources),
+      scheme_(scheme),
+      traverse_(sources, {"traverse.comp"}, in_groups(scheme, traversal({}, 1))),
+      reverberation_(sources, {"reverberation.comp"}, in_groups(scheme, reverberation_of({}))),
+      beam_(sources, {"beam.comp"}, beam_of({})),
+      clutter_(sources, {"clutter.comp"}, in_groups(scheme)),
+      clutter_tail_(sources, {"clutter_tail.comp"}) {}
+
+void LineStages::lay_out(const ScanLines& lines, const Settings& settings) {
+  lines_ = lines;
+  const std::size_t n = lines.lines.size(), d = std::size_t(lines.samples);
+  line_buffer_ = Buffer(std::size_t(settings.slice_planes) * n * sizeof(PlacedLine), nullptr);
+  scan_ = TexelBuffer(GL_RGBA32F, n * d);
+  middle_ = TexelBuffer();
+  echoes_ = TexelBuffer(GL_RGBA32F, n * d);
+  mean_echo_ = TexelBuffer(GL_R32F, d);
+  beam_changed_ = true;
+}
+
+void LineStages::prepare_scatterers(const Settings& settings) {
+  if (scatterers_ && scatterers_seed_ == settings.speckle_seed) return;
+  constexpr int side = ScattererLattice::kSide;
+  scatterers_ = Texture::make_3d(GL_RG16_SNORM, side, side, side, Filter::linear, Wrap::repeat);
+  scatterers_.write(GL_RG, GL_SHORT, make_scatterers(settings.speckle_seed).stored.data());
+  scatterers_seed_ = settings.speckle_seed;
+}
+
+void LineStages::traverse(const DeviceVolume& volume, const Pose& patient_from_probe, const Settings& settings) {
+  traverse_.define(sources_, in_groups(scheme_, traversal(settings, lines_.dr_mm())));
+  if (settings.speckle) prepare_scatterers(settings);
+  if (keeps_middle_plane(settings) && !middle_)
+    middle_ = TexelBuffer(GL_RG32F, lines_.lines.size() * std::size_t(lines_.samples));
+  const std::vector<PlacedLine> placed = placed_lines(volume, patient_from_probe, lines_, settings);
+  line_buffer_.write(placed.data(), placed.size() * sizeof(PlacedLine));
+  counters_.clear();
+
+  volume.texture().bind(0);
+  scatterers_.bind(1);
+  volume.tissue_lookup().bind(7);
+  line_buffer_.bind_storage(0);
+  scan_.bind_storage(1);
+  counters_.bind_storage(2);
+  if (keeps_middle_plane(settings)) middle_.bind_storage(3);
+  traverse_.dispatch(int(lines_.lines.size()), 1);
+}
+
+void LineStages::prepare_beam(const Settings& settings) {
+  if (reverberates(settings)) reverberation_.define(sources_, in_groups(scheme_, reverberation_of(settings)));
+  beam_.define(sources_, beam_of(settings));
+  if (!beam_changed_) return;
+  if (reverberates(settings)) repeats_ = TexelBuffer(GL_R32F, lines_.lines.size() * std::size_t(lines_.samples));
+  beam_window_ = half_beam_window(settings);
+  beam_at_depth_ = beam_by_depth(lines_, settings);
+  beam_changed_ = false;
+}
+
+void LineStages::beam(const Settings& settings) {
+  prepare_beam(settings);
+  const int n = int(lines_.lines.size());
+  if (reverberates(settings)) {
+    (keeps_middle_plane(settings) ? middle_ : scan_).bind(0);
+    repeats_.clear();
+    repeats_.bind_storage(0);
+    reverberation_.dispatch(n, 1);
+    repeats_.bind(2);
+  }
+  scan_.bind(0);
+  beam_window_.bind_uniform(1);
+  beam_at_depth_.bind(1);
+  echoes_.bind_storage(0);
+  beam_.dispatch(lines_.samples, (n + 3) / 4);
+  if (!settings.clutter) return;
+  echoes_.bind(0);
+  mean_echo_.bind_storage(0);
+  clutter_.dispatch(lines_.samples, 1);
+  clutter_tail_.dispatch(1, 1);
+}
+
+SampleCounts LineStages::sample_counts() const {
+  SampleCounts counts;
+  counters_.read(&counts, sizeof counts);
+  return counts;
+}
+
+std::optional<std::string> LineStages::reload(const ShaderSources& sources) {
+  std::string problems;
+  for (Program* program : {&traverse_, &reverberation_, &beam_, &clutter_, &clutter_tail_})
+    if (const auto problem = program->reload(sources)) problems += *problem;
+  if (!problems.empty()) return problems;
+  sources_ = sources;  // not before: others would fail when a program is built for other settings
+  return std::nullopt;
+}
+
+}  // namespace insonate::gl

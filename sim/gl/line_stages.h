@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "sim/core/pose.h"
+#include "sim/gl/device_volume.h"
+#include "sim/gl/objects.h"
+#include "sim/gl/program.h"
+#include "sim/gl/scheme.h"
+#include "sim/model/settings.h"
+#include "sim/probe/probe.h"
+
+namespace insonate::gl {
+
+/// What the traversal did when it last ran.
+struct SampleCounts {
+  std::uint32_t walked = 0;   ///< samples, of planes x lines x samples: a line ends where it has lost its energy
+  std::uint32_t normals = 0;  ///< samples of these whose interface's normal was worked out
+};
+
+/// The stages of model S that know scan lines and neither pictures nor volumes: traversal, and the beam with all that
+/// hangs on it, reverberation and clutter. What they hand on has a row a line.
+///
+/// They read the block of parameters (sim/shaders/shared/simulation_parameters.h), which whoever runs them binds as
+/// uniform block 0 before. Each builds its shaders when it runs, for the settings it is given; throws
+/// std::runtime_error when one does not build.
+class LineStages {
+public:
+  LineStages(const ShaderSources& sources, const Scheme& scheme);
+
+  /// Allocates for lines, samples and slice planes. Throws DeviceRefused.
+  void lay_out(const ScanLines& lines, const Settings& settings);
+  /// Notes that something changed that the beam's windows hang on; a new layout does so by itself.
+  void change_beam() { beam_changed_ = true; }
+
+  /// Places the lines and walks along them.
+  void traverse(const DeviceVolume& volume, const Pose& patient_from_probe, const Settings& settings);
+  /// Behind traverse() with the same settings, but for those that reach no further back than here.
+  void beam(const Settings& settings);
+
+  const ScanLines& lines() const { return lines_; }
+  const TexelBuffer& scan() const { return scan_; }            ///< by sample: I, R, scatterers' echo (re, im)
+  const TexelBuffer& echoes() const { return echoes_; }        ///< by sample: R, T, S, V
+  const TexelBuffer& mean_echo() const { return mean_echo_; }  ///< by depth: mean of T S with its tail, with clutter
+  /// Waits for the device.
+  SampleCounts sample_counts() const;
+
+  /// Builds all shaders again; what does not build goes on as it was and is told of.
+  std::optional<std::string> reload(const ShaderSources& sources);
+
+private:
+  void prepare_scatterers(const Settings& settings);
+  void prepare_beam(const Settings& settings);
+
+  ShaderSources sources_;
+  Scheme scheme_;
+  Program traverse_, reverberation_, beam_, clutter_, clutter_tail_;
+
+  ScanLines lines_;
+  Texture scatterers_;
+  std::uint32_t scatterers_seed_ = 0;  // of those there are
+  Buffer line_buffer_, beam_window_;
+  TexelBuffer beam_at_depth_;
+  bool beam_changed_ = true;
+
+  TexelBuffer scan_, middle_, repeats_, echoes_, mean_echo_;
+  Buffer counters_{sizeof(SampleCounts), nullptr};
+};
+
+}  // namespace insonate::gl

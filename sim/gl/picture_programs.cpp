@@ -1,0 +1,73 @@
+#include "sim/gl/picture_programs.h"
+
+#include <algorithm>
+
+#include "sim/gl/stage_tables.h"
+
+namespace insonate::gl {
+namespace {
+
+std::string flag(bool on) {
+  return on ? "1" : "0";
+}
+
+Defines conversion(const PictureVariant& variant) {
+  return {{"REFLECTION_SMOOTHED", flag(variant.reflection_radius_px > 0)},
+          {"TRANSMISSION_SMOOTHED", flag(variant.transmission_radius_px > 0)},
+          {"SMOOTHED", variant.transmission_radius_px > 0 ? "vec2" : "float"},
+          {"NOISE", flag(is_noisy(variant.settings))},
+          {"CLUTTER", flag(variant.settings.clutter)}};
+}
+
+Defines smoothing(const PictureVariant& variant) {
+  return {{"REFLECTION_RADIUS", std::to_string(variant.reflection_radius_px)},
+          {"TRANSMISSION_RADIUS", std::to_string(variant.transmission_radius_px)},
+          {"SMOOTHED", variant.transmission_radius_px > 0 ? "vec2" : "float"}};
+}
+
+Defines display(const Settings& settings) {
+  return {{"GREY_MAP", std::to_string(int(settings.grey_map))}};
+}
+
+Defines fusion(const PictureVariant& variant) {
+  Defines defines = smoothing(variant);
+  defines.push_back(display(variant.settings).front());
+  const auto none = [](double db) { return db == 0; };
+  defines.emplace_back("TIME_GAIN", flag(!std::ranges::all_of(variant.settings.tgc_db, none)));
+  defines.emplace_back("FRAME_MAXIMUM", flag(variant.settings.reference_level == ReferenceLevel::frame_maximum));
+  defines.emplace_back("KEEP_FUSED", flag(variant.keeps_fused));
+  return defines;
+}
+
+// Until settings are known.
+PictureVariant plain(const Settings& settings) {
+  return {settings, 0, 0, false};
+}
+
+}  // namespace
+
+PicturePrograms::PicturePrograms(const ShaderSources& sources)
+    : scan_convert(sources, {"scan_convert.comp"}, conversion(plain({}))),
+      smooth(sources, {"smooth.comp"}, smoothing(plain({}))),
+      fuse(sources, {"fuse.comp"}, fusion(plain({}))),
+      maximum(sources, {"maximum.comp"}),
+      compress(sources, {"compress.comp"}, display({})),
+      sources_(sources) {}
+
+void PicturePrograms::build_from(Stage first, const PictureVariant& variant) {
+  if (first <= Stage::scan_convert) scan_convert.define(sources_, conversion(variant));
+  if (first <= Stage::smooth) smooth.define(sources_, smoothing(variant));
+  if (first <= Stage::fuse) fuse.define(sources_, fusion(variant));
+  compress.define(sources_, display(variant.settings));
+}
+
+std::optional<std::string> PicturePrograms::reload(const ShaderSources& sources) {
+  std::string problems;
+  for (Program* program : {&scan_convert, &smooth, &fuse, &maximum, &compress})
+    if (const auto problem = program->reload(sources)) problems += *problem;
+  if (!problems.empty()) return problems;
+  sources_ = sources;  // not before: others would fail when a program is built for other settings
+  return std::nullopt;
+}
+
+}  // namespace insonate::gl
