@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sim/gl/device_volume.h"
+#include "sim/gl/headless_context.h"
 
 namespace insonate::gl {
 namespace {
@@ -21,6 +22,13 @@ double between(const AcousticVoxel* row, std::ptrdiff_t stride, int count, doubl
     return i >= 0 && i < count ? double(row[std::ptrdiff_t(i) * stride].hu) : double(AcousticVoxel{}.hu);
   };
   return hu(below) + share * (hu(below + 1) - hu(below));
+}
+
+Texture stored_as(GLenum format, const Grid& grid, const std::vector<std::array<std::int16_t, 4>>& voxels) {
+  const glm::ivec3 size = grid.size + 2 * kAirMargin;
+  Texture texture = Texture::make_3d(format, size.x, size.y, size.z, Filter::linear, Wrap::edge);
+  texture.write_inside(GL_RGBA, GL_SHORT, voxels.data(), {float(AcousticVoxel{}.hu) / 32767.0f, 0, 0, 0});
+  return texture;
 }
 
 }  // namespace
@@ -46,10 +54,16 @@ Texture density_volume(const AcousticVolume& volume, double reflection_length_mm
         }
       }
   });
-  const glm::ivec3 size = grid.size + 2 * kAirMargin;
-  Texture texture = Texture::make_3d(GL_RGBA16_SNORM, size.x, size.y, size.z, Filter::linear, Wrap::edge);
-  texture.write_inside(GL_RGBA, GL_SHORT, voxels.data(), {float(AcousticVoxel{}.hu) / 32767.0f, 0, 0, 0});
-  return texture;
+  // A processor takes a voxel of floats as it is and has to unpack one of whole numbers: a tenth of an image's time
+  // (`insonate-bench batch`, llvmpipe). They take twice the memory, which a card would have to move.
+  if (is_software_renderer()) {
+    try {
+      return stored_as(GL_RGBA32F, grid, voxels);
+    } catch (const TextureRefused&) {
+      // The smaller ones may still fit.
+    }
+  }
+  return stored_as(GL_RGBA16_SNORM, grid, voxels);
 }
 
 }  // namespace insonate::gl

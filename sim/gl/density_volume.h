@@ -6,8 +6,9 @@
 namespace insonate::gl {
 
 /// What model W reads of a CT: (HU, its differences over the reflection length along the CT's axes i, j, k in eighths
-/// of HU) / 32767, eight bytes a voxel, with kAirMargin of air without a gradient around it. Differences above 4095 HU
-/// count as that. Throws TextureRefused.
+/// of HU) / 32767, with kAirMargin of air without a gradient around it. Differences above 4095 HU
+/// count as that. Eight bytes a voxel, or sixteen where a software renderer holds them, which fetches those faster.
+/// Throws TextureRefused.
 /// @param reflection_length_mm  0.01 to 20
 Texture density_volume(const AcousticVolume& volume, double reflection_length_mm);
 
