@@ -30,6 +30,7 @@ Json echogenicity_constants() {
           {"edge_margin_hu", kEdgeMarginHu},
           {"neighbour_mm", kNeighbour_mm},
           {"alike_hu", kAlikeHu},
+          {"most_air_hu", kMostAirHu},
           {"least_db", kLeastEchogenicityDb},
           {"most_db", kMostEchogenicityDb}};
 }
@@ -116,6 +117,7 @@ Json describe(const RenderedScene& scene, const StageGeometry& geometry, const s
   for (std::size_t label = 0; label < scene.tissue_of.size(); ++label)
     if (!scene.tissue_of[label].empty()) text["tissue_of_label"][std::to_string(label)] = scene.tissue_of[label];
   text["echogenicity"] = echogenicity_constants();
+  text["silent_db"] = kSilentDb;
   text["scatterers"] = scatterer_constants();
   text["beam_weights"] = beam_weights(scene.settings);
   if (scene.settings.focused_beam) text["beam_sigma_lines"] = focused_beam_sigma(lines, scene.settings);

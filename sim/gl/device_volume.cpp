@@ -36,13 +36,7 @@ TexelBuffer tabulate(const TissueTable& table) {
 // The least box of indices around all voxels that sound can tell from the air outside.
 std::pair<glm::ivec3, glm::ivec3> body_box(const AcousticVolume& volume, const TissueTable& table) {
   const AcousticVoxel outside;
-  const TissueKnot air = table.at(outside.hu);
-  int densest_air = outside.hu;  // denser than that, impedance or absorption differ from air's
-  const auto like_air = [&](const TissueKnot& knot) {
-    return knot.impedance_mrayl == air.impedance_mrayl && knot.absorption_db_cm_mhz == air.absorption_db_cm_mhz;
-  };
-  while (densest_air < kFirstHu + kLookupSize && like_air(table.at(densest_air + 1))) ++densest_air;
-
+  const int densest_air = table.densest_air_hu();
   glm::ivec3 low = volume.grid.size, high(-1);
   std::size_t v = 0;
   for (int z = 0; z < volume.grid.size.z; ++z)
@@ -77,12 +71,14 @@ DeviceVolume::DeviceVolume(const AcousticVolume& volume, const TissueTable& tabl
   body_high_ = (glm::dvec3(high + kAirMargin) + 1.5) / size;
 }
 
-std::pair<double, double> DeviceVolume::meets_body(const glm::dvec3& start, const glm::dvec3& step) const {
-  double first = -std::numeric_limits<double>::infinity(), last = -first;
+std::pair<double, double> DeviceVolume::meets_body(const glm::dvec3& start, const glm::dvec3& step,
+                                                   const glm::dvec3& reach) const {
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  double first = -kFar, last = kFar;
   for (int axis = 0; axis < 3; ++axis) {
-    const double low = body_low_[axis] - start[axis], high = body_high_[axis] - start[axis];
+    const double low = body_low_[axis] - reach[axis] - start[axis], high = body_high_[axis] + reach[axis] - start[axis];
     if (step[axis] == 0) {
-      if (low > 0 || high < 0) return {0, -1};
+      if (low > 0 || high < 0) return {kFar, -kFar};
       continue;
     }
     const auto [in, out] = std::minmax({low / step[axis], high / step[axis]});

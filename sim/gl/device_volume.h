@@ -28,9 +28,10 @@ public:
   /// Patient mm -> the texture's coordinates.
   const glm::dmat4& texture_from_patient() const { return texture_from_patient_; }
 
-  /// The part of a ray where it may meet anything but the air that is around the body: from start + first * step to
-  /// start + last * step (texture coordinates), with last < first where it meets nothing else.
-  std::pair<double, double> meets_body(const glm::dvec3& start, const glm::dvec3& step) const;
+  /// The part of a ray where it may meet anything but the air that is around the body, or may have it within `reach`
+  /// along the axes: from start + first * step to start + last * step (texture coordinates), with last < first where it
+  /// meets nothing else.
+  std::pair<double, double> meets_body(const glm::dvec3& start, const glm::dvec3& step, const glm::dvec3& reach) const;
 
   explicit operator bool() const { return bool(texture_); }
 

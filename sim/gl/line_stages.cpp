@@ -1,7 +1,7 @@
 #include "sim/gl/line_stages.h"
 
+#include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "sim/gl/stage_tables.h"
 #include "sim/model/beam.h"
@@ -61,6 +61,8 @@ void LineStages::lay_out(const ScanLines& lines, const Settings& settings) {
   lines_ = lines;
   const std::size_t n = lines.lines.size(), d = std::size_t(lines.samples);
   line_buffer_ = Buffer(std::size_t(settings.slice_planes) * n * sizeof(PlacedLine), nullptr);
+  air_line_buffer_ = Buffer(std::size_t(settings.slice_planes) * sizeof(PlacedLine), nullptr);
+  in_air_ = TexelBuffer(GL_RGBA32F, d);
   scan_ = TexelBuffer(GL_RGBA32F, n * d);
   middle_ = TexelBuffer();
   echoes_ = TexelBuffer(GL_RGBA32F, n * d);
@@ -81,18 +83,24 @@ void LineStages::traverse(const DeviceVolume& volume, const Pose& patient_from_p
   if (settings.speckle) prepare_scatterers(settings);
   if (keeps_middle_plane(settings) && !middle_)
     middle_ = TexelBuffer(GL_RG32F, lines_.lines.size() * std::size_t(lines_.samples));
-  const std::vector<PlacedLine> placed = placed_lines(volume, patient_from_probe, lines_, settings);
-  line_buffer_.write(placed.data(), placed.size() * sizeof(PlacedLine));
-  counters_.clear();
-
   volume.texture().bind(0);
   scatterers_.bind(1);
   volume.tissue_lookup().bind(7);
-  line_buffer_.bind_storage(0);
-  scan_.bind_storage(1);
+  if (keeps_middle_plane(settings)) middle_.bind_storage(3);  // the line in air's is written over
+
+  const std::vector<PlacedLine> placed = placed_lines(volume, patient_from_probe, lines_, settings);
+  if (std::ranges::any_of(placed, meets_no_body)) walk(1, line_in_air(settings), air_line_buffer_, in_air_);
+  in_air_.bind(2);
+  walk(int(lines_.lines.size()), placed, line_buffer_, scan_);
+}
+
+void LineStages::walk(int lines, const std::vector<PlacedLine>& placed, Buffer& line_buffer, const TexelBuffer& scan) {
+  line_buffer.write(placed.data(), placed.size() * sizeof(PlacedLine));
+  counters_.clear();
+  line_buffer.bind_storage(0);
+  scan.bind_storage(1);
   counters_.bind_storage(2);
-  if (keeps_middle_plane(settings)) middle_.bind_storage(3);
-  traverse_.dispatch(int(lines_.lines.size()), 1);
+  traverse_.dispatch(lines, 1);
 }
 
 void LineStages::prepare_beam(const Settings& settings) {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "sim/core/pose.h"
 #include "sim/gl/device_volume.h"
@@ -15,9 +16,12 @@
 
 namespace insonate::gl {
 
-/// What the traversal did when it last ran.
+struct PlacedLine;
+
+/// What the traversal did when it last ran. A line ends where it has lost its energy; one that meets no body does not
+/// start.
 struct SampleCounts {
-  std::uint32_t walked = 0;   ///< samples, of planes x lines x samples: a line ends where it has lost its energy
+  std::uint32_t walked = 0;   ///< samples, of planes x lines x samples
   std::uint32_t normals = 0;  ///< samples of these whose interface's normal was worked out
 };
 
@@ -53,6 +57,7 @@ public:
 
 private:
   void prepare_scatterers(const Settings& settings);
+  void walk(int lines, const std::vector<PlacedLine>& placed, Buffer& line_buffer, const TexelBuffer& scan);
   void prepare_beam(const Settings& settings);
 
   ShaderSources sources_;
@@ -62,10 +67,11 @@ private:
   ScanLines lines_;
   Texture scatterers_;
   std::uint32_t scatterers_seed_ = 0;  // of those there are
-  Buffer line_buffer_, beam_window_;
+  Buffer line_buffer_, air_line_buffer_, beam_window_;
   TexelBuffer beam_at_depth_;
   bool beam_changed_ = true;
 
+  TexelBuffer in_air_;  // by sample, as scan(): of a line that meets no body
   TexelBuffer scan_, middle_, repeats_, echoes_, mean_echo_;
   Buffer counters_{sizeof(SampleCounts), nullptr};
 };

@@ -50,7 +50,34 @@ Image<float> inside_window(const Image<std::uint8_t>& inside, const Gaussian& ga
   return whole;
 }
 
+constexpr float kFar = 1e9f;  // samples
+
+// The first and the last sample of a line that may meet the body, at a sample's width or `reach` beside it: the shader
+// rounds its own positions. The first behind the last where none between the face and the line's end does.
+std::pair<float, float> samples_in_body(const DeviceVolume& volume, const glm::dvec3& start, const glm::dvec3& along,
+                                        const glm::dvec3& reach, double last_sample) {
+  const auto [first, last] = volume.meets_body(start, along, reach);
+  if (last < first || last + 1 < 0 || first - 1 > last_sample) return {kFar, -kFar};
+  return {float(first - 1), float(last + 1)};
+}
+
 }  // namespace
+
+bool meets_no_body(const PlacedLine& line) {
+  return line.start.w > line.along.w;
+}
+
+std::vector<PlacedLine> line_in_air(const Settings& settings) {
+  std::vector<PlacedLine> planes;
+  for (const SlicePlane& plane : slice_planes(settings)) {
+    PlacedLine line{};
+    line.start = glm::vec4(-1, -1, -1, -kFar);  // beside the texture, and in the body before the face at most
+    line.along.w = -kFar;
+    line.lateral.w = float(plane.weight);
+    planes.push_back(line);
+  }
+  return planes;
+}
 
 std::vector<PlacedLine> placed_lines(const DeviceVolume& volume, const Pose& patient_from_probe, const ScanLines& lines,
                                      const Settings& settings) {
@@ -70,13 +97,17 @@ std::vector<PlacedLine> placed_lines(const DeviceVolume& volume, const Pose& pat
       const double beside = slice_bends(settings) ? 0 : plane.offset * settings.slice_thickness_mm;
       const glm::dvec3 first = line.start + glm::dvec3(0, 0, beside) + (lines.r_min_mm + dr / 2) * d;
       const glm::dvec3 start = point(texture_from_probe, first), along = step(texture_from_probe, dr * d);
-      // A sample's width to spare, for the rounding of the shader's own positions.
-      const auto [enters, leaves] =
-          settings.skipping && !slice_bends(settings) ? volume.meets_body(start, along) : std::pair(-1e9, 1e9);
-      placed.push_back({{start, enters - 1},
-                        {along, leaves + 1},
-                        {step(texture_from_probe, half_length * lateral), plane.weight},
-                        {step(texture_from_probe, half_length * elevation), 0},
+      const glm::dvec3 to_side = step(texture_from_probe, half_length * lateral),
+                       to_elevation = step(texture_from_probe, half_length * elevation);
+      // Sound meets what lies half the reflection length around a sample. Bent lines are not told apart.
+      const glm::dvec3 reach = glm::abs(to_side) + glm::abs(to_elevation) + half_length / dr * glm::abs(along);
+      const auto [first_met, last_met] = settings.skipping && !slice_bends(settings)
+                                             ? samples_in_body(volume, start, along, reach, lines.samples - 1)
+                                             : std::pair(-kFar, kFar);
+      placed.push_back({{start, first_met},
+                        {along, last_met},
+                        {to_side, plane.weight},
+                        {to_elevation, 0},
                         {point(lattice_from_probe, first), 0},
                         {step(lattice_from_probe, dr * d), 0},
                         {step(texture_from_probe, {0, 0, plane.offset}), 0},

@@ -23,9 +23,15 @@ struct PlacedLine {
   glm::vec4 beside, lattice_beside;
 };
 
-/// The lines of all slice planes where the probe now is.
+/// The lines of all slice planes where the probe now is, plane by plane.
 std::vector<PlacedLine> placed_lines(const DeviceVolume& volume, const Pose& patient_from_probe, const ScanLines& lines,
                                      const Settings& settings);
+
+/// That none of its samples, nor what they look at beside it, lies in the body: it is not walked along.
+bool meets_no_body(const PlacedLine& line);
+
+/// What such lines carry is that of one line in each plane which is.
+std::vector<PlacedLine> line_in_air(const Settings& settings);
 
 /// The beam's window from the middle line outwards, 128 weights, as beam.comp takes it.
 Buffer half_beam_window(const Settings& settings);

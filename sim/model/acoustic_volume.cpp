@@ -60,7 +60,7 @@ class EchogenicityOf {
 public:
   EchogenicityOf(const Volume<std::int16_t>& ct, const Volume<std::uint8_t>& labels,
                  const std::vector<std::string>& tissue_of, const TissueTable& table)
-      : ct_(ct), labels_(labels), by_hu_(tabulate(table)) {
+      : ct_(ct), labels_(labels), by_hu_(tabulate(table)), densest_air_(table.densest_air_hu()) {
     for (int axis = 0; axis < 3; ++axis) {
       reach_[axis] = std::max(1, int(std::lround(kEdgeReach_mm / ct.grid.spacing[axis])));
       neighbour_[axis] = std::max(1, int(std::lround(kNeighbour_mm / ct.grid.spacing[axis])));
@@ -94,6 +94,7 @@ public:
     if (has_tissue_[label])
       return centidecibel(
           std::clamp(tissue_db_[label] + texture_db(hu - means_[label]), kLeastEchogenicityDb, kMostEchogenicityDb));
+    if (is_amid_air(i)) return centidecibel(kLeastEchogenicityDb);
     const int density = local_density(i, v);
     std::int16_t echo = std::int16_t(by_density(density) + centidecibel(texture_db(hu - density)));
     std::ptrdiff_t stride = 1;
@@ -112,6 +113,17 @@ public:
   }
 
 private:
+  // Beyond the grid there is air.
+  bool is_amid_air(const glm::ivec3& i) const {
+    if (ct_.at(i) > densest_air_) return false;
+    const glm::ivec3 low = glm::max(i - 1, 0), high = glm::min(i + 1, ct_.grid.size - 1);
+    for (int z = low.z; z <= high.z; ++z)
+      for (int y = low.y; y <= high.y; ++y)
+        for (int x = low.x; x <= high.x; ++x)
+          if (ct_.at({x, y, z}) > densest_air_) return false;
+    return true;
+  }
+
   int local_density(const glm::ivec3& i, std::size_t v) const {
     const int hu = ct_.voxels[v];
     int sum = 0, count = 0;
@@ -138,6 +150,7 @@ private:
   const Volume<std::int16_t>& ct_;
   const Volume<std::uint8_t>& labels_;
   std::vector<std::int16_t> by_hu_;
+  int densest_air_;
   glm::ivec3 reach_{1}, neighbour_{1};
   std::array<std::ptrdiff_t, 27> around_{};  ///< from a voxel away from the border to its neighbours and itself
   std::array<double, kLabels> means_{};

@@ -10,7 +10,7 @@ namespace insonate {
 /// What the simulator keeps of a voxel: 4 bytes, one texture fetch.
 struct AcousticVoxel {
   std::int16_t hu = -1000;                ///< gives impedance and absorption through the tissue table
-  std::int16_t echogenicity_cdb = -6000;  ///< backscatter relative to liver in hundredths of a dB
+  std::int16_t echogenicity_cdb = -6000;  ///< backscatter relative to liver in hundredths of a dB; -6000: none
 };
 
 using AcousticVolume = Volume<AcousticVoxel>;
@@ -36,6 +36,9 @@ inline constexpr int kAlikeHu = 36;  ///< three standard deviations of it
 // What a labelled voxel is kept within: the range of the tissue table.
 inline constexpr double kLeastEchogenicityDb = -60, kMostEchogenicityDb = 30;
 
+// What has no more than the least does not scatter at all; a voxel's steps are hundredths of a dB.
+inline constexpr double kSilentDb = kLeastEchogenicityDb + 0.005;
+
 /// From Hounsfield units, and labels where there are any, to what the sound meets.
 ///
 /// Echogenicity comes from the label's tissue, shifted by the voxel's own density relative to its label's mean so that
@@ -56,7 +59,8 @@ inline constexpr double kLeastEchogenicityDb = -60, kMostEchogenicityDb = 30;
 ///
 /// and without a label at least T of the two voxels at -e and e along each axis whose lower one lies kEdgeMarginHu or
 /// more below H and the higher one as much above; here e is kEdgeReach_mm in voxels, as above, and both lie in the
-/// grid.
+/// grid. But of air amid air, where a voxel without a label and its 26 neighbours are TissueTable::densest_air_hu() or
+/// less, it is kLeastEchogenicityDb: no sound gets there, and what surrounds the body need not be looked at.
 /// @param labels     on the CT's grid, or empty
 /// @param tissue_of  per label value, the tissue's name in the table ("" for none); 256 entries, or empty
 AcousticVolume make_acoustic_volume(const Volume<std::int16_t>& ct, const Volume<std::uint8_t>& labels,

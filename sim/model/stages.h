@@ -40,7 +40,7 @@ struct Stages {
   Image<Real> reflection_beam;  ///< R after it (4)
   Image<Real> transmission;     ///< T of (6): I, or I^2 where the echo's way back counts
   Image<Real> repeated;         ///< V behind the beam's width, of reverberation.h; 0 where there is none
-  Image<Real> speckle;          ///< S: envelope of the scatterers' echo, mean 1 in liver
+  Image<Real> speckle;          ///< S: envelope of the scatterers' echo, mean 1 in liver; none at kSilentDb and below
   Image<Real> fused;            ///< U (6), before gain
   Image<std::uint8_t> inside;   ///< 1 inside the fan
   Image<std::uint8_t> grey;     ///< after log compression (7), 0 to 255

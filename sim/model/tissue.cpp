@@ -37,6 +37,14 @@ TissueKnot TissueTable::at(double hu) const {
           a.echogenicity_db + t * (b.echogenicity_db - a.echogenicity_db)};
 }
 
+int TissueTable::densest_air_hu() const {
+  const auto denser = std::find_if(knots.begin(), knots.end(), [&](const TissueKnot& knot) {
+    return knot.impedance_mrayl != knots.front().impedance_mrayl ||
+           knot.absorption_db_cm_mhz != knots.front().absorption_db_cm_mhz;
+  });
+  return denser == knots.end() ? kMostAirHu : std::min(denser[-1].hu, kMostAirHu);
+}
+
 TissueTable read_tissue_table(const std::filesystem::path& toml_file) {
   const toml::table parsed = parse_toml(toml_file.string(), read_file(toml_file, kLargestFile));
   const TomlTable root(toml_file.string(), "", parsed);

@@ -11,6 +11,9 @@ namespace insonate {
 /// knot, so a table of one entry a unit over this range holds all that a tissue table says.
 inline constexpr int kLeastKnotHu = -1024, kMostKnotHu = 3071;
 
+/// Coupling gel takes the place of what is no denser.
+inline constexpr int kMostAirHu = -301;
+
 /// What a Hounsfield unit means acoustically; between knots linear, beyond the ends constant.
 struct TissueKnot {
   int hu = 0;                       ///< rising from knot to knot, kLeastKnotHu to kMostKnotHu
@@ -32,6 +35,10 @@ struct TissueTable {
 
   /// The knots at one Hounsfield unit; this is the definition that shaders tabulate.
   TissueKnot at(double hu) const;
+
+  /// The densest air, kMostAirHu or less, that has the impedance and absorption of the first knot: sound tells it from
+  /// no other air.
+  int densest_air_hu() const;
 };
 
 /// Reads a table such as `assets/tissues.toml`, which gives the source of each number. Throws InputError.

@@ -189,7 +189,7 @@ ReferenceScan traverse_reference(const MediumField& field, const TissueTable& ta
       if (k == 0) intensity *= absorbed(dr / 2);
       scan.intensity.at(line, k) = intensity;
       scan.reflection.at(line, k) = alpha * intensity * intensity * cosine;  // (3)
-      const double amplitude = std::pow(10.0, here.echogenicity_db / 10);
+      const double amplitude = here.echogenicity_db > kSilentDb ? std::pow(10.0, here.echogenicity_db / 10) : 0;
       const std::complex<double> echo = amplitude * (settings.speckle ? scatterers.at(p) : 1.0);
       scan.echo_re.at(line, k) = echo.real();
       scan.echo_im.at(line, k) = echo.imag();

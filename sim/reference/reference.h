@@ -23,7 +23,7 @@ using MediumField = std::function<Medium(const glm::dvec3& patient_mm)>;
 
 /// Below this density, what lies within the gel layer is gel. Not a whole number, as voxels are: in a volume of one
 /// density the last place of a sum would decide.
-inline constexpr double kCouplingAirHu = -300.5;
+inline constexpr double kCouplingAirHu = kMostAirHu + 0.5;
 
 /// What the sound meets where the field has `medium`, at a distance from the face along the line: coupling gel of
 /// `gel_mm`, or the face itself, which is water without any echo, takes the place of air.

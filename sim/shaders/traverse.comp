@@ -11,13 +11,14 @@ layout(local_size_x = GROUP) in;
 #include "shared/exact_filter.glsl"
 
 layout(binding = 1) uniform sampler3D scatterers;  // complex, unit variance at the lattice's points
+layout(binding = 2) uniform samplerBuffer in_air;  // I, R of a line that meets no body, by sample
 layout(std430, binding = 1) buffer Scan { vec4 scan[]; };  // a row a line: I, R, scatterers' echo (re, im)
 
 // A line and the directions beside it, worked out in double precision for each pose: adding up single-precision
 // products here instead would move samples by a thousandth of a voxel, which shows at the surface of gas.
 struct Line {
   vec4 start, along;        // in the volume's texture: of sample 0, and to the next; start.w and along.w: the first and
-                            // the last sample that may lie in the body
+                            // the last sample that may lie in the body, in this order unless none does
   vec4 lateral, elevation;  // half the reflection length to either side; lateral.w: the plane's weight
   vec4 lattice_start, lattice_along;  // in the scatterers' lattice
   vec4 beside, lattice_beside;        // with ELEVATION_FOCUS, the way to the plane for each mm of the slice's thickness
@@ -38,6 +39,7 @@ const float kMeanCosine = 0.5;           // |d . n| over all directions, for int
 const float kLeastHu = -150.0, kMostHu = 150.0, kLogSpeedBelowWater = 5e-4, kLogSpeedAboveWater = 7.6e-4;
 const float kScattererScale = 4.0;     // the lattice stores a quarter of its normally distributed numbers
 const float kLn10 = 2.302585093;
+const float kSilent = -5999.5;  // hundredths of a dB: what is marked with the least echogenicity does not scatter
 const float kSpentLogIntensity = SKIPPING == 1 ? -46.0 : -1e30;  // 10^-20: 200 dB down nothing can be heard
 
 Line line;
@@ -119,7 +121,7 @@ float incidence(vec4 around, float along) {
 
 // Complex amplitude of what scatters at a sample.
 vec2 scatterers_echo(float k, Medium here) {
-  vec2 echo = vec2(exp(here.echogenicity * (kLn10 / 1000.0)), 0.0);
+  vec2 echo = vec2(here.echogenicity > kSilent ? exp(here.echogenicity * (kLn10 / 1000.0)) : 0.0, 0.0);
   if (SPECKLE == 1) echo = echo.x * scatterer(lattice_place(k));
   return echo;
 }
@@ -137,8 +139,10 @@ void put(int plane, int at, vec4 value) {
   scan[at] = value;
 }
 
+int line_count() { return scan_lines.length() / PLANES; }
+
 void walk(int plane, int index) {
-  line = scan_lines[plane * lines + index];
+  line = scan_lines[plane * line_count() + index];
   int row = index * samples;
 
   // The sum's rounding is carried along: thousands of small losses would add up to more error than is allowed.
@@ -147,9 +151,10 @@ void walk(int plane, int index) {
 #if EDGE_SHADOW == 1
   vec2 turn = vec2(0.0);  // of the sound, in units of kTurn_rad
 #endif
+  bool starts = line.start.w <= line.along.w;
+  int k = 0, end = starts ? samples : 0;
   Medium here = medium(0.0), before = medium(-half_reflection_length);
-  int k = 0;
-  for (; k < samples && log_intensity > kSpentLogIntensity; ++k) {
+  for (; k < end && log_intensity > kSpentLogIntensity; ++k) {
     float position = float(k);
     Medium next = medium(position + 1.0), behind = next;
     if (EDGES_AT != kEdgesAtSamples) behind = medium(position + half_reflection_length);
@@ -191,13 +196,15 @@ void walk(int plane, int index) {
   }
   atomicAdd(samples_walked, uint(k));
   atomicAdd(normals_taken, normals);
-  // What nothing is heard of still scatters in the apertures of the lines beside it.
-  for (; k < samples; ++k) put(plane, row + k, vec4(0.0, 0.0, scatterers_echo(float(k), medium(float(k)))));
+  // What nothing is heard of still scatters in the apertures of the lines beside it, as far as the body goes.
+  for (end = int(min(line.along.w + 1.0, float(samples))); k < end; ++k)
+    put(plane, row + k, vec4(0.0, 0.0, scatterers_echo(float(k), medium(float(k)))));
+  for (; k < samples; ++k) put(plane, row + k, vec4(starts ? vec2(0.0) : texelFetch(in_air, k).xy, 0.0, 0.0));
 }
 
 void main() {
   int index = int(gl_GlobalInvocationID.x);
-  if (index >= lines) return;
+  if (index >= line_count()) return;
 #if PLANES == 1
   walk(0, index);
 #else

@@ -264,7 +264,8 @@ TEST_CASE("what is skipped changes no pixel by more than a grey level") {
   std::uint32_t skipped_normals = 0;
   // Over the rib, the cyst and the gas; half off the body; turned away so that lines leave it again; beside it.
   for (const Pose& pose : {test::on_the_skin(0, 9, 12), test::on_the_skin(-25, 5, 0), test::on_the_skin(20, 8, -15),
-                           test::on_the_skin(60, 2, 0), test::on_the_skin(0, 4, 70), test::on_the_skin(0, -40, 180)}) {
+                           test::on_the_skin(60, 2, 0), test::on_the_skin(0, 4, 70), test::on_the_skin(0, -40, 180),
+                           test::on_the_skin(72, -8, 20)}) {
     simulator.set_pose(pose);
     for (Settings settings : {trainer, bare, noisy, hazy, blended, wide, narrow}) {
       const auto grey = [&](bool skipping) {
@@ -287,6 +288,31 @@ TEST_CASE("what is skipped changes no pixel by more than a grey level") {
     }
   }
   CHECK(skipped_normals > 10000);
+}
+
+TEST_CASE("a line that meets no body does not start") {
+  const test::TestContext context;
+  gl::Simulator simulator;
+  simulator.set_volume(test::test_body(), read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml"));
+  const Probe probe = *find_probe("linear");
+  simulator.set_probe(probe, 50);
+  Settings settings = small(trainer_settings(7.5, 50));
+  const auto walked = [&](const Pose& pose) {
+    simulator.set_pose(pose);
+    simulator.set_settings(settings);
+    simulator.image();
+    return simulator.sample_counts().walked;
+  };
+  const Pose beside = test::on_the_skin(0, -60, 180), on_the_edge = test::on_the_skin(72, 4, 0),
+             too_far = test::on_the_skin(0, -120, 0);
+  CHECK(walked(beside) == 0);
+  CHECK(walked(too_far) == 0);
+  const std::uint32_t on_edge = walked(on_the_edge);
+  CHECK(on_edge > 0);
+  settings.skipping = false;
+  const std::uint32_t all = walked(on_the_edge);
+  CHECK(all == std::uint32_t(settings.slice_planes * probe.lines * settings.samples));
+  CHECK(on_edge < 0.8 * all);
 }
 
 TEST_CASE("settings out of their range are refused by name, and those before stay") {

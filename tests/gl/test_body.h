@@ -19,6 +19,7 @@ inline AcousticVolume test_body() {
     double hu, echogenicity_db;
   };
   const auto at = [](const glm::dvec3& p, double grain) -> Point {
+    if (p.y < -4) return {-1000, -60};  // amid air nothing scatters
     if (p.y < 0) return {-1000, 0};
     if (p.y < 2) return {40, -3};
     if (p.y < 12 + 2 * std::sin(p.x / 15)) return {-100, -4};

@@ -69,6 +69,21 @@ TEST_CASE("the edge between fat and organ has no dark outline") {
       }
 }
 
+TEST_CASE("air scatters where it touches the body, and nowhere else") {
+  const double air_db = shipped().at(-1000).echogenicity_db;
+  auto ct = along_x({40, 9, 9}, 1, [](double x) { return x < 20 ? -990.0 : 60.0; });
+  ct.voxels[ct.grid.offset({5, 4, 4})] = -400;  // denser than air: a part of something
+  const AcousticVolume volume = make_acoustic_volume(ct, {}, {}, shipped());
+  CHECK(echogenicity_db(volume, {0, 0, 0}) == kLeastEchogenicityDb);  // beyond the grid there is air
+  CHECK(echogenicity_db(volume, {18, 4, 4}) == kLeastEchogenicityDb);
+  CHECK(echogenicity_db(volume, {19, 4, 4}) == Approx(air_db));  // so that the surface's echo is not darkened
+  CHECK(echogenicity_db(volume, {4, 5, 3}) == Approx(air_db));
+  CHECK(echogenicity_db(volume, {3, 4, 4}) == kLeastEchogenicityDb);
+
+  Volume<std::uint8_t> labels{ct.grid, std::vector<std::uint8_t>(ct.voxels.size(), 1)};
+  CHECK(echogenicity_db(make_acoustic_volume(ct, labels, {"", "lung"}, shipped()), {10, 4, 4}) > -40);
+}
+
 TEST_CASE("true fluid stays echo-free beside an organ, under noise and when it is small") {
   const auto ct = along_x({40, 9, 9}, 1, edge(5, 60, 2));
   const AcousticVolume volume = make_acoustic_volume(ct, {}, {}, shipped());

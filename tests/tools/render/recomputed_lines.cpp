@@ -24,6 +24,7 @@ public:
     l_ = setting("reflection_length_mm");
     gel_mm_ = std::max(setting("gel_mm"), value("face_mm"));
     coupling_air_hu_ = about_.at("coupling_air_hu");
+    silent_db_ = about_.at("silent_db");
   }
 
   void all() {
@@ -190,7 +191,7 @@ private:
         const bool gel = r < gel_mm_ && stages_.hounsfield.at(p, value_outside("hu")) < coupling_air_hu_;
         const double db = gel ? -60 : stages_.echogenicity.at(p, 100 * value_outside("echogenicity_db")) / 100;
         compare("echogenicity", db, met("echogenicity").at(line, k), 60 * kFloat + 1e-9);
-        const double amplitude = std::pow(10, db / 10);
+        const double amplitude = db > silent_db_ ? std::pow(10, db / 10) : 0;
         const std::array<double, 2> drawn = on("speckle") ? lattice_.at(p) : std::array<double, 2>{1, 0};
         re_.at(line, k) += weight_ * amplitude * drawn[0];
         im_.at(line, k) += weight_ * amplitude * drawn[1];
@@ -218,7 +219,7 @@ private:
   const Tolerances tolerances_;
   const Lattice lattice_;
   std::vector<Knot> knots_;
-  double l_ = 0, gel_mm_ = 0, coupling_air_hu_ = 0;
+  double l_ = 0, gel_mm_ = 0, coupling_air_hu_ = 0, silent_db_ = 0;
   double offset_ = 0, weight_ = 1;  // of the slice's plane at hand
   std::string prefix_;
   Plane intensity_, reflection_, re_, im_, rounding_;  // the last of alpha's file, relative, in any plane

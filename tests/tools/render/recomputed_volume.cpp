@@ -21,8 +21,13 @@ public:
       near_[a] = in_voxels("neighbour_mm", a);
       reach_[a] = in_voxels("edge_reach_mm", a);
     }
-    for (const auto& knot : about_.at("tissues"))
+    for (const auto& knot : about_.at("tissues")) {
       knots_.emplace_back(knot.at("hu").get<double>(), knot.at("echogenicity_db").get<double>());
+      const auto& air = about_.at("tissues").front();
+      like_air_ = like_air_ && knot.at("impedance_mrayl") == air.at("impedance_mrayl") &&
+                  knot.at("absorption_db_cm_mhz") == air.at("absorption_db_cm_mhz");
+      if (like_air_) densest_air_ = std::min(knot.at("hu").get<int>(), constant_.at("most_air_hu").get<int>());
+    }
   }
 
   /// Hundredths of a dB.
@@ -37,6 +42,7 @@ public:
         return 100 * std::clamp(db, constant_.at("least_db").get<double>(), constant_.at("most_db").get<double>());
       }
     }
+    if (amid_air(i)) return 100 * constant_.at("least_db").get<double>();
     const int hu = hu_.voxel(i[0], i[1], i[2]), density = local_density(i, hu);
     double echo = tabled(density) + std::round(100 * texture_db(hu - density));
     for (std::size_t a = 0; a < 3; ++a) {
@@ -55,6 +61,18 @@ public:
 private:
   int in_voxels(const char* length, std::size_t axis) const {
     return std::max(1, int(std::lround(constant_.at(length).get<double>() / outsider::length(hu_.step[axis]))));
+  }
+
+  bool amid_air(const std::array<int, 3>& i) const {
+    for (int dk = -1; dk <= 1; ++dk)
+      for (int dj = -1; dj <= 1; ++dj)
+        for (int di = -1; di <= 1; ++di) {
+          const std::array<int, 3> at = {i[0] + di, i[1] + dj, i[2] + dk};
+          bool in_grid = true;
+          for (std::size_t a = 0; a < 3; ++a) in_grid = in_grid && at[a] >= 0 && at[a] < hu_.size[a];
+          if (in_grid && hu_.voxel(at[0], at[1], at[2]) > densest_air_) return false;
+        }
+    return true;
   }
 
   int local_density(const std::array<int, 3>& i, int hu) const {
@@ -92,6 +110,8 @@ private:
   const std::vector<std::uint8_t>& labels_;
   const nlohmann::json &about_, &constant_;
   const int alike_ = constant_.at("alike_hu");
+  bool like_air_ = true;
+  int densest_air_ = -32768;
   std::array<double, 256> mean_{}, count_{};  // of each label, HU and voxels
   std::array<int, 3> near_{}, reach_{};
   std::vector<std::pair<double, double>> knots_;
