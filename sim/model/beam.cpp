@@ -59,8 +59,9 @@ std::vector<double> beam_weights(const Settings& settings) {
 }
 
 double focused_beam_fwhm_mm(const Settings& settings, double r_mm) {
-  const double n = settings.f_number, waist = 1.54 / settings.frequency_mhz * n;
-  const double spread = 4 * std::log(2.0) / (2 * glm::pi<double>() * n);
+  constexpr double kOfSincSquared = 0.8859;  // its full width at half maximum
+  const double lambda = 1.54 / settings.frequency_mhz, waist = kOfSincSquared * lambda * settings.f_number;
+  const double spread = 2 * std::log(2.0) * lambda / (glm::pi<double>() * waist);
   const double sent = std::hypot(waist, (r_mm - settings.focus_mm) * spread);
   const double received = waist * std::max(1.0, r_mm / settings.focus_mm);
   return 1 / std::hypot(1 / sent, 1 / received);

@@ -13,12 +13,15 @@ std::vector<double> beam_weights(const Settings& settings);
 /// Lateral full width at half maximum, mm, of a beam sent with a fixed focus F and received with a moving one, at a
 /// distance r >= 0 from the face. With N the f-number and lambda = 1.54 mm MHz / frequency:
 ///
-///     sent      sqrt((lambda N)^2 + ((r - F) 4 ln 2 / (2 pi N))^2)
-///     received  lambda N max(1, r/F)
+///     w         0.8859 lambda N
+///     sent      hypot(w, (r - F) 2 ln 2 lambda / (pi w))
+///     received  w max(1, r/F)
 ///     both      (1/sent^2 + 1/received^2)^(-1/2)
 ///
-/// What is sent is a Gaussian beam about its waist (Siegman, Lasers, 17.1). What is received keeps N until the aperture
-/// F/N is all in use. Both together is the product of two Gaussians (Szabo, Diagnostic Ultrasound Imaging, 6).
+/// w is the width of sinc^2(x / (lambda N)), the intensity that an evenly weighted aperture makes at its focus (Szabo,
+/// Diagnostic Ultrasound Imaging, 6). What is sent is a Gaussian beam about a waist as wide (Siegman, Lasers, 17.1).
+/// What is received keeps N until the aperture F/N is all in use. Both together is the product of two Gaussians: 0.626
+/// lambda N at the focus, where sinc^4 has 0.638.
 double focused_beam_fwhm_mm(const Settings& settings, double r_mm);
 
 /// Most lines to either side that a focused beam's window reaches.
