@@ -20,13 +20,6 @@
 
 namespace insonate::gl {
 
-/// What a stage did.
-struct StageCount {
-  long runs = 0;                ///< since the simulator was made
-  std::uint64_t evaluated = 0;  ///< samples (traverse, beam) or pixels, of its last run
-  std::uint64_t possible = 0;   ///< of so many
-};
-
 /// Model S on the graphics card: a volume, a probe, a pose and settings in, a picture out.
 ///
 /// Setters only note what changed; image() runs the first stage that a change reaches and those behind it, and nothing

@@ -15,6 +15,7 @@
 #include "sim/gl/density_volume.h"
 #include "sim/gl/device_volume.h"
 #include "sim/gl/fan_layout.h"
+#include "sim/gl/pixel_table.h"
 #include "sim/shaders/shared/wein_parameters.h"
 
 namespace insonate::gl {
@@ -29,44 +30,6 @@ constexpr std::size_t kMostChunk = 2048;  // images, of which some tables have a
 constexpr double kLeastIntensity = 1e-10;
 
 constexpr int kWordPixels = 4;  // of the grid, stored at once
-
-// Where a pixel lies among the scan lines, as shared/wein_scan.glsl reads it: behind which sample of a scan; how far,
-// as a float's bits, from there to the next sample and to the next line; what more a stage wants to know.
-using PixelPlace = glm::ivec4;
-const PixelPlace kNowhere(-1, 0, 0, 0);
-
-// Pixels shared out to invocations, a column each, with a row a step; as many columns as whole groups of so many have.
-struct PixelTable {
-  PixelTable() = default;
-  PixelTable(const std::vector<std::vector<PixelPlace>>& of_columns, const PixelPlace& filler, std::size_t group) {
-    std::size_t steps = 0;
-    for (const auto& column : of_columns) steps = std::max(steps, column.size());
-    columns = (of_columns.size() + group - 1) / group * group;
-    std::vector<PixelPlace> table(columns * steps, filler);
-    for (std::size_t i = 0; i < of_columns.size(); ++i)
-      for (std::size_t step = 0; step < of_columns[i].size(); ++step) table[step * columns + i] = of_columns[i][step];
-    places = TexelBuffer(GL_RGBA32I, table.size(), table.data());
-  }
-  explicit operator bool() const { return columns > 0; }
-
-  std::size_t columns = 0;
-  TexelBuffer places;
-};
-
-// About 64 pixels a column, `together` in one after the other, so that a group takes neighbours at a step.
-PixelTable shared_out(const std::vector<PixelPlace>& pixels, std::size_t together, const PixelPlace& filler,
-                      std::size_t group) {
-  if (pixels.empty()) return {};
-  const std::size_t units = pixels.size() / together,
-                    groups = std::clamp<std::size_t>(pixels.size() / (64 * group), 1, 512);
-  const std::size_t steps = (units + groups * group - 1) / (groups * group);
-  std::vector<std::vector<PixelPlace>> columns(groups * group);
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
-    const std::size_t unit = i / together;
-    columns[unit / group / steps * group + unit % group].push_back(pixels[i]);
-  }
-  return PixelTable(columns, filler, group);
-}
 
 // As shaders write it.
 std::string literal(double value) {
@@ -88,6 +51,7 @@ struct WeinSimulator::State {
         const ShaderSources& given, const Scheme& scheme);
 
   void traverse(std::span<const Pose> chunk, std::size_t first, const Program& program);
+  void ran(WeinStage stage, std::size_t images, std::size_t pixels);
   template <typename Work>
   void by_chunks(std::span<const Pose> poses, Work&& work);
   Defines constants(const AcousticVolume& volume) const;
@@ -112,6 +76,9 @@ struct WeinSimulator::State {
   PixelTable fan_pixels, counted_pixels;
   Texture density, probe_lines, places, sums, grid;
   std::vector<glm::vec4> place_rows;
+
+  Buffer samples_walked{sizeof(GLuint), nullptr};  // by the last call
+  std::array<StageCount, kWeinStageCount> counts{};
 };
 
 WeinSimulator::State::State(const AcousticVolume& volume, const Probe& probe, double depth_mm,
@@ -228,11 +195,23 @@ void WeinSimulator::State::traverse(std::span<const Pose> chunk, std::size_t fir
   probe_lines.bind(1);
   places.bind(2);
   scan.bind_storage(0);
+  samples_walked.bind_storage(1);
   program.dispatch_groups(parameters.images, (int(lines.lines.size()) + int(group) - 1) / int(group));
+}
+
+void WeinSimulator::State::ran(WeinStage stage, std::size_t images, std::size_t pixels) {
+  StageCount& count = counts[std::size_t(stage)];
+  ++count.runs;
+  count.evaluated = images * pixels;
+  count.possible = images * fan.inside.pixels.size();
 }
 
 template <typename Work>
 void WeinSimulator::State::by_chunks(std::span<const Pose> poses, Work&& work) {
+  samples_walked.clear();
+  StageCount& count = counts[std::size_t(WeinStage::traverse)];
+  ++count.runs;
+  count.possible = poses.size() * lines.lines.size() * std::size_t(lines.samples);
   for (std::size_t first = 0; first < poses.size(); first += chunk_images) {
     const std::span<const Pose> chunk = poses.subspan(first, std::min(chunk_images, poses.size() - first));
     traverse(chunk, first, traverse_lines);
@@ -276,6 +255,7 @@ const Texture& WeinSimulator::simulate(std::span<const Pose> patient_from_probe)
       s.picture.dispatch(int(s.fan_pixels.columns), images);
     });
   s.grid.write(GL_RED, GL_UNSIGNED_BYTE, s.tiles.values());
+  s.ran(WeinStage::scan_convert, patient_from_probe.size(), s.fan_pixels.pixels);
   return s.grid;
 }
 
@@ -342,7 +322,17 @@ std::vector<float> WeinSimulator::similarity(std::span<const Pose> patient_from_
     s.lc2.dispatch(images, 1);
   });
   s.similarities.read(result.data(), bytes);
+  s.ran(WeinStage::compare, result.size(), s.counted_pixels.pixels);
   return result;
+}
+
+StageCount WeinSimulator::count(WeinStage stage) const {
+  StageCount count = state_->counts[std::size_t(stage)];
+  if (stage != WeinStage::traverse || count.runs == 0) return count;
+  GLuint walked = 0;
+  state_->samples_walked.read(&walked, sizeof walked);
+  count.evaluated = walked;
+  return count;
 }
 
 WeinStages<float> WeinSimulator::read_stages(const Pose& patient_from_probe) {
@@ -351,6 +341,7 @@ WeinStages<float> WeinSimulator::read_stages(const Pose& patient_from_probe) {
   const int n = int(s.lines.lines.size()), d = s.lines.samples;
   const Texture intensities = Texture::make_2d(GL_R32F, d, n, Filter::nearest);
   intensities.bind_image(1, GL_WRITE_ONLY);
+  s.samples_walked.clear();
   s.traverse({&patient_from_probe, 1}, 0, traverse_program(s.sources, s.compiled_in, true));
   const std::size_t count = std::size_t(n) * std::size_t(d);
   std::vector<std::array<std::uint16_t, 2>> terms(count);

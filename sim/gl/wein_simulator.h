@@ -12,6 +12,7 @@
 #include "sim/gl/objects.h"
 #include "sim/gl/program.h"
 #include "sim/gl/scheme.h"
+#include "sim/gl/stage.h"
 #include "sim/model/acoustic_volume.h"
 #include "sim/model/wein_settings.h"
 #include "sim/model/wein_stages.h"
@@ -54,6 +55,10 @@ public:
   /// patches if the settings say so: the images stay on the device, a number each is read back. 0 without an ultrasound
   /// image. Waits for the device.
   std::vector<float> similarity(std::span<const Pose> patient_from_probe);
+
+  /// Of calls, each of which is one run of its stages, and of all its images. Waits for the device where the stage is
+  /// the traversal. Images that read_stages() makes count as well.
+  StageCount count(WeinStage stage) const;
 
   /// What crosses the stages of one image but its terms behind scan conversion, read back; for those who check.
   WeinStages<float> read_stages(const Pose& patient_from_probe);

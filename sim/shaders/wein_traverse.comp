@@ -11,6 +11,7 @@ layout(binding = 0) uniform sampler3D density;  // (HU, gradient along the CT's 
 layout(binding = 1) uniform sampler2D probe_lines;  // a row a line, probe's frame, mm: sample 0, the way to the next
 layout(binding = 2) uniform sampler2D places;       // a row an image: the rows of texture_from_probe
 layout(std430, binding = 0) writeonly buffer Scan { uint scan[]; };  // image by image, a row a line: E, R, 16 bits each
+layout(std430, binding = 1) buffer Counter { uint samples_walked; };  // of a call
 #ifdef INTENSITY
 layout(binding = 1, r32f) writeonly uniform image2D intensities;  // of the first image
 #endif
@@ -61,5 +62,6 @@ void main() {
 
     log_intensity += dr_by_length * (change < 1.0 ? log(1.0 - change * change) : kNothing / dr_by_length);
   }
+  atomicAdd(samples_walked, uint(k));
   for (; k < samples; ++k) tell(k, line, image, 0.0, 0.0, 0.0);
 }

@@ -215,6 +215,11 @@ TEST_CASE("poses that no hand holds") {
          filled({8, 8, 8}, {10, 10, 10}, 1500, 1500)(scene);
          scene.pose.translation = {};
        }},
+      {"within a bone that ends 15 mm before the face",
+       [](Scene& scene) {
+         scene.volume = make_volume({8, 8, 8}, {10, 10, 10}, [](const glm::ivec3& i) { return i.y < 5 ? 1500 : 60; });
+         scene.pose.translation = {};
+       }},
       {"along an axis, on the faces between voxels",
        [](Scene& scene) {
          scene.probe.kind = ProbeKind::linear;

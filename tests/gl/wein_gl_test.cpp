@@ -144,6 +144,45 @@ TEST_CASE("model W: images of one call are those of a call each, over more than 
   }
 }
 
+TEST_CASE("model W's stages tell how often they ran and how much they evaluated of what there is") {
+  Fixture f;
+  using Stage = gl::WeinStage;
+  const auto count = [&](Stage stage) { return f.simulator.count(stage); };
+  CHECK(count(Stage::traverse).runs == 0);
+  CHECK(count(Stage::traverse).possible == 0);
+
+  const std::size_t images = 20;
+  const std::uint64_t samples = images * 61 * 90, pixels = images * 70 * 50;
+  const auto& inside = f.simulator.inside().pixels;
+  const auto in_fan = std::uint64_t(std::count(inside.begin(), inside.end(), std::uint8_t(1))) * images;
+  f.simulator.simulate(poses(int(images)));
+  CHECK(count(Stage::traverse).runs == 1);
+  CHECK(count(Stage::traverse).possible == samples);
+  CHECK(count(Stage::traverse).evaluated > samples / 2);
+  CHECK(count(Stage::traverse).evaluated < samples);  // lines that end in gas
+  CHECK(count(Stage::scan_convert).runs == 1);
+  CHECK(count(Stage::scan_convert).possible == pixels);
+  CHECK(count(Stage::scan_convert).evaluated >= in_fan);
+  CHECK(count(Stage::scan_convert).evaluated < pixels);
+  CHECK(count(Stage::compare).runs == 0);
+
+  Image<float> ultrasound = f.ultrasound_like(f.expected(f.pose), 50, 10, 0.1);
+  for (int y = 0; y < ultrasound.height; ++y) ultrasound.at(35, y) = NAN;
+  f.simulator.set_ultrasound(ultrasound);
+  f.simulator.similarity(poses(int(images)));
+  CHECK(count(Stage::traverse).runs == 2);
+  CHECK(count(Stage::scan_convert).runs == 1);  // comparing needs no image
+  CHECK(count(Stage::compare).runs == 1);
+  CHECK(count(Stage::compare).possible == pixels);
+  CHECK(count(Stage::compare).evaluated > in_fan / 2);
+  CHECK(count(Stage::compare).evaluated < in_fan);  // what is masked does not count
+
+  f.settings.shadows = false;  // then nothing needs I, and no line ends
+  gl::WeinSimulator unshadowed(f.body, f.probe, kDepthMm, test::exact_as_needed(f.settings));
+  unshadowed.simulate(poses(int(images)));
+  CHECK(unshadowed.count(Stage::traverse).evaluated == samples);
+}
+
 TEST_CASE("LC2: GLSL agrees with the reference for every image of a call") {
   Fixture f;
   const Image<float> ultrasound = f.ultrasound_like(f.expected(f.pose), 90, 30, 0.4);
