@@ -32,7 +32,7 @@ Defines traversal(const Settings& settings, double dr_mm) {
           {"EXACT_FILTER", flag(settings.exact_filter)},
           {"SKIPPING", flag(settings.skipping)},
           {"ELEVATION_FOCUS", flag(slice_bends(settings))},
-          {"PLANES", std::to_string(settings.slice_planes)},
+          {"SLICE_PLANES", std::to_string(settings.slice_planes)},
           {"KEEP_MIDDLE", flag(keeps_middle_plane(settings))}};
 }
 
@@ -57,16 +57,17 @@ LineStages::LineStages(const ShaderSources& sources, const Scheme& scheme)
       clutter_(sources, {"clutter.comp"}, in_groups(scheme)),
       clutter_tail_(sources, {"clutter_tail.comp"}) {}
 
-void LineStages::lay_out(const ScanLines& lines, const Settings& settings) {
-  lines_ = lines;
-  const std::size_t n = lines.lines.size(), d = std::size_t(lines.samples);
+void LineStages::lay_out(const ScanLines& of_plane, int most_planes, const Settings& settings) {
+  lines_ = of_plane;
+  most_planes_ = most_planes;
+  const std::size_t n = std::size_t(most_planes) * lines_.lines.size(), d = std::size_t(lines_.samples);
   line_buffer_ = Buffer(std::size_t(settings.slice_planes) * n * sizeof(PlacedLine), nullptr);
   air_line_buffer_ = Buffer(std::size_t(settings.slice_planes) * sizeof(PlacedLine), nullptr);
   in_air_ = TexelBuffer(GL_RGBA32F, d);
   scan_ = TexelBuffer(GL_RGBA32F, n * d);
   middle_ = TexelBuffer();
   echoes_ = TexelBuffer(GL_RGBA32F, n * d);
-  mean_echo_ = TexelBuffer(GL_R32F, d);
+  mean_echo_ = TexelBuffer(GL_R32F, std::size_t(most_planes) * d);
   beam_changed_ = true;
 }
 
@@ -78,36 +79,57 @@ void LineStages::prepare_scatterers(const Settings& settings) {
   scatterers_seed_ = settings.speckle_seed;
 }
 
-void LineStages::traverse(const DeviceVolume& volume, const Pose& patient_from_probe, const Settings& settings) {
+std::size_t LineStages::set_lines() const {
+  return std::size_t(planes_) * lines_.lines.size();
+}
+
+std::size_t LineStages::most_samples() const {
+  return std::size_t(most_planes_) * lines_.lines.size() * std::size_t(lines_.samples);
+}
+
+void LineStages::traverse(const DeviceVolume& volume, std::span<const Pose> patient_from_plane,
+                          const Settings& settings) {
+  planes_ = int(patient_from_plane.size());
   traverse_.define(sources_, in_groups(scheme_, traversal(settings, lines_.dr_mm())));
   if (settings.speckle) prepare_scatterers(settings);
-  if (keeps_middle_plane(settings) && !middle_)
-    middle_ = TexelBuffer(GL_RG32F, lines_.lines.size() * std::size_t(lines_.samples));
+  if (keeps_middle_plane(settings) && !middle_) middle_ = TexelBuffer(GL_RG32F, most_samples());
   volume.texture().bind(0);
   scatterers_.bind(1);
   volume.tissue_lookup().bind(7);
   if (keeps_middle_plane(settings)) middle_.bind_storage(3);  // the line in air's is written over
 
-  const std::vector<PlacedLine> placed = placed_lines(volume, patient_from_probe, lines_, settings);
-  if (std::ranges::any_of(placed, meets_no_body)) walk(1, line_in_air(settings), air_line_buffer_, in_air_);
+  std::vector<PlacedLine> placed;
+  for (const Pose& pose : patient_from_plane) {
+    const std::vector<PlacedLine> of_plane = placed_lines(volume, pose, lines_, settings);
+    placed.insert(placed.end(), of_plane.begin(), of_plane.end());
+  }
+  if (std::ranges::any_of(placed, meets_no_body)) walk(1, line_in_air(settings), air_line_buffer_, in_air_, uncounted_);
   in_air_.bind(2);
-  walk(int(lines_.lines.size()), placed, line_buffer_, scan_);
+  counters_.clear();
+  walk(set_lines(), placed, line_buffer_, scan_, counters_);
 }
 
-void LineStages::walk(int lines, const std::vector<PlacedLine>& placed, Buffer& line_buffer, const TexelBuffer& scan) {
+void LineStages::walk(std::size_t lines, const std::vector<PlacedLine>& placed, Buffer& line_buffer,
+                      const TexelBuffer& scan, const Buffer& counters) {
   line_buffer.write(placed.data(), placed.size() * sizeof(PlacedLine));
-  counters_.clear();
   line_buffer.bind_storage(0);
   scan.bind_storage(1);
-  counters_.bind_storage(2);
-  traverse_.dispatch(lines, 1);
+  counters.bind_storage(2);
+  dispatch(traverse_, lines);
+}
+
+// One row of work groups need not hold all lines.
+void LineStages::dispatch(const Program& program, std::size_t lines) const {
+  const std::size_t group = std::size_t(scheme_.group);
+  const glm::ivec2 groups = scheme_.in_rows((lines + group - 1) / group);
+  program.dispatch_groups(groups.x, groups.y);
 }
 
 void LineStages::prepare_beam(const Settings& settings) {
   if (reverberates(settings)) reverberation_.define(sources_, in_groups(scheme_, reverberation_of(settings)));
   beam_.define(sources_, beam_of(settings));
   if (!beam_changed_) return;
-  if (reverberates(settings)) repeats_ = TexelBuffer(GL_R32F, lines_.lines.size() * std::size_t(lines_.samples));
+  if (reverberates(settings)) repeats_ = TexelBuffer(GL_R32F, most_samples());
   beam_window_ = half_beam_window(settings);
   beam_at_depth_ = beam_by_depth(lines_, settings);
   beam_changed_ = false;
@@ -115,24 +137,23 @@ void LineStages::prepare_beam(const Settings& settings) {
 
 void LineStages::beam(const Settings& settings) {
   prepare_beam(settings);
-  const int n = int(lines_.lines.size());
   if (reverberates(settings)) {
     (keeps_middle_plane(settings) ? middle_ : scan_).bind(0);
     repeats_.clear();
     repeats_.bind_storage(0);
-    reverberation_.dispatch(n, 1);
+    dispatch(reverberation_, set_lines());
     repeats_.bind(2);
   }
   scan_.bind(0);
   beam_window_.bind_uniform(1);
   beam_at_depth_.bind(1);
   echoes_.bind_storage(0);
-  beam_.dispatch(lines_.samples, (n + 3) / 4);
+  beam_.dispatch(lines_.samples, (int(lines_.lines.size()) + 3) / 4, planes_);
   if (!settings.clutter) return;
   echoes_.bind(0);
   mean_echo_.bind_storage(0);
-  clutter_.dispatch(lines_.samples, 1);
-  clutter_tail_.dispatch(1, 1);
+  clutter_.dispatch(lines_.samples, planes_);
+  clutter_tail_.dispatch(planes_, 1);
 }
 
 SampleCounts LineStages::sample_counts() const {

@@ -26,29 +26,38 @@ struct SampleCounts {
 };
 
 /// The stages of model S that know scan lines and neither pictures nor volumes: traversal, and the beam with all that
-/// hangs on it, reverberation and clutter. What they hand on has a row a line.
+/// hangs on it, reverberation and clutter. They run on the lines of one plane, for a picture, or of a set of planes,
+/// for a volume, each of them where its own pose says.
+///
+/// What they hand on has a row a line, plane by plane, in one buffer: a texture near square, which would hold as many,
+/// is slower to store to (see TexelBuffer), and no device needs it where work groups go in rows.
 ///
 /// They read the block of parameters (sim/shaders/shared/simulation_parameters.h), which whoever runs them binds as
-/// uniform block 0 before. Each builds its shaders when it runs, for the settings it is given; throws
-/// std::runtime_error when one does not build.
+/// uniform block 0 before, with the number of planes. Each builds its shaders when it runs, for the settings it is
+/// given; throws std::runtime_error when one does not build.
 class LineStages {
 public:
   LineStages(const ShaderSources& sources, const Scheme& scheme);
 
-  /// Allocates for lines, samples and slice planes. Throws DeviceRefused.
-  void lay_out(const ScanLines& lines, const Settings& settings);
+  /// Allocates. Throws DeviceRefused.
+  /// @param of_plane     in the plane's own frame, the same for all
+  /// @param most_planes  together, 1 or more
+  void lay_out(const ScanLines& of_plane, int most_planes, const Settings& settings);
   /// Notes that something changed that the beam's windows hang on; a new layout does so by itself.
   void change_beam() { beam_changed_ = true; }
 
   /// Places the lines and walks along them.
-  void traverse(const DeviceVolume& volume, const Pose& patient_from_probe, const Settings& settings);
+  /// @param patient_from_plane  1 to most_planes
+  void traverse(const DeviceVolume& volume, std::span<const Pose> patient_from_plane, const Settings& settings);
   /// Behind traverse() with the same settings, but for those that reach no further back than here.
   void beam(const Settings& settings);
 
-  const ScanLines& lines() const { return lines_; }
-  const TexelBuffer& scan() const { return scan_; }            ///< by sample: I, R, scatterers' echo (re, im)
-  const TexelBuffer& echoes() const { return echoes_; }        ///< by sample: R, T, S, V
-  const TexelBuffer& mean_echo() const { return mean_echo_; }  ///< by depth: mean of T S with its tail, with clutter
+  const ScanLines& lines() const { return lines_; }      ///< of a plane
+  const TexelBuffer& scan() const { return scan_; }      ///< by sample: I, R, scatterers' echo (re, im)
+  const TexelBuffer& echoes() const { return echoes_; }  ///< by sample: R, T, S, V
+  const TexelBuffer& mean_echo() const {
+    return mean_echo_;
+  }  ///< by plane and depth: mean of T S with its tail, with clutter
   /// Waits for the device.
   SampleCounts sample_counts() const;
 
@@ -57,14 +66,19 @@ public:
 
 private:
   void prepare_scatterers(const Settings& settings);
-  void walk(int lines, const std::vector<PlacedLine>& placed, Buffer& line_buffer, const TexelBuffer& scan);
   void prepare_beam(const Settings& settings);
+  std::size_t set_lines() const;
+  std::size_t most_samples() const;
+  void walk(std::size_t lines, const std::vector<PlacedLine>& placed, Buffer& line_buffer, const TexelBuffer& scan,
+            const Buffer& counters);
+  void dispatch(const Program& program, std::size_t lines) const;
 
   ShaderSources sources_;
   Scheme scheme_;
   Program traverse_, reverberation_, beam_, clutter_, clutter_tail_;
 
   ScanLines lines_;
+  int most_planes_ = 1, planes_ = 1;  // of the last traversal
   Texture scatterers_;
   std::uint32_t scatterers_seed_ = 0;  // of those there are
   Buffer line_buffer_, air_line_buffer_, beam_window_;
@@ -73,7 +87,7 @@ private:
 
   TexelBuffer in_air_;  // by sample, as scan(): of a line that meets no body
   TexelBuffer scan_, middle_, repeats_, echoes_, mean_echo_;
-  Buffer counters_{sizeof(SampleCounts), nullptr};
+  Buffer counters_{sizeof(SampleCounts), nullptr}, uncounted_{sizeof(SampleCounts), nullptr};
 };
 
 }  // namespace insonate::gl

@@ -91,7 +91,7 @@ struct Simulator::State {
 
 // Allocates what depends on the number of lines, samples and pixels, and works out where each pixel lies.
 void Simulator::State::lay_out() {
-  line_stages.lay_out(scan_lines(probe, depth_mm, settings.samples), settings);
+  line_stages.lay_out(scan_lines(probe, depth_mm, settings.samples), 1, settings);
   const int w = settings.image_width, h = settings.image_height;
   fan = FanLayout(probe, depth_mm, line_stages.lines(), w, h, scheme);
   noise = TexelBuffer();
@@ -171,7 +171,7 @@ void Simulator::State::run(Stage stage) {
   fan_blocks.bind_storage(7);
   switch (stage) {
     case Stage::traverse:
-      line_stages.traverse(volume, patient_from_probe, settings);
+      line_stages.traverse(volume, {&patient_from_probe, 1}, settings);
       break;
     case Stage::beam:
       line_stages.beam(settings);

@@ -167,6 +167,7 @@ SimulationParameters parameters_of(const Settings& settings, const ScanLines& li
   SimulationParameters p{};
   p.lines = int(lines.lines.size());
   p.samples = lines.samples;
+  p.planes = 1;
   p.width = settings.image_width;
   p.height = settings.image_height;
   p.r_min_mm = float(lines.r_min_mm);

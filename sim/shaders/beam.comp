@@ -2,7 +2,8 @@
 // complex amplitudes before their envelope is taken, which is what makes speckle.
 //
 // An invocation serves four neighbouring lines, whose apertures overlap: a value is read once for all four. It is
-// compiled for the beam's half width BEAM_HALF, so that a narrow aperture needs no loop.
+// compiled for the beam's half width BEAM_HALF, so that a narrow aperture needs no loop. A plane's window ends at its own
+// outer lines: the first line of the next plane lies at the array's other end.
 
 layout(local_size_x = 64) in;
 
@@ -22,6 +23,7 @@ float exponent;  // of its Gaussian
 const int reach = BEAM_HALF;
 #endif
 vec4 reflection = vec4(0.0), re = vec4(0.0), im = vec4(0.0), repeated = vec4(0.0), total = vec4(0.0);
+int plane_row;             // where the plane's lines begin
 vec4 weights = vec4(0.0);  // each of the four lines' for the line that is being added
 
 // Of a line so many lines away from the aperture's middle.
@@ -37,7 +39,7 @@ float weight_at(int away) {
 // Adds line first + j, one behind the line added before, and gives its intensity.
 float add(int first, int j, int k) {
   weights = vec4(weight_at(j), weights.xyz);
-  int at = first + j, place = clamp(at, 0, lines - 1) * samples + k;
+  int at = first + j, place = plane_row + clamp(at, 0, lines - 1) * samples + k;
   vec4 value = texelFetch(scan, place);
   vec4 weight = at >= 0 && at < lines ? weights : vec4(0.0);
   reflection += weight * value.y;
@@ -53,6 +55,7 @@ float add(int first, int j, int k) {
 void main() {
   int k = int(gl_GlobalInvocationID.x), first = 4 * int(gl_GlobalInvocationID.y);
   if (first >= lines || k >= samples) return;
+  plane_row = int(gl_GlobalInvocationID.z) * lines * samples;
 
   vec4 here = texelFetch(at_depth, k);
 #if FOCUSED_BEAM == 1
@@ -74,5 +77,5 @@ void main() {
   vec4 envelope = sqrt(re * re + im * im) / total * here.x;
   for (int i = 0; i < 4; ++i)
     if (first + i < lines)
-      echoes[(first + i) * samples + k] = vec4(reflection[i], transmission[i], envelope[i], repeated[i]);
+      echoes[plane_row + (first + i) * samples + k] = vec4(reflection[i], transmission[i], envelope[i], repeated[i]);
 }

@@ -5,6 +5,7 @@
 layout(local_size_x = GROUP) in;
 
 #include "shared/simulation_parameters.h"
+#include "shared/line_of_set.glsl"
 
 layout(binding = 0) uniform samplerBuffer scan;                   // a row a line: I, R of the slice's middle plane
 layout(std430, binding = 0) buffer Repeats { float repeats[]; };  // a row a line: V, 0 before
@@ -45,8 +46,8 @@ void repeat(int k, float echo, float apart, float gain) {
 }
 
 void main() {
-  int line = int(gl_GlobalInvocationID.x);
-  if (line >= lines) return;
+  int line = line_of_set();
+  if (line >= planes * lines) return;
   row = line * samples;
 
   // Listed first: renderers that run lanes in step would spend on every sample what only these need.

@@ -9,6 +9,7 @@ layout(local_size_x = GROUP) in;
 #include "shared/simulation_parameters.h"
 #include "shared/acoustic_volume.glsl"
 #include "shared/exact_filter.glsl"
+#include "shared/line_of_set.glsl"
 
 layout(binding = 1) uniform sampler3D scatterers;  // complex, unit variance at the lattice's points
 layout(binding = 2) uniform samplerBuffer in_air;  // I, R of a line that meets no body, by sample
@@ -26,7 +27,8 @@ struct Line {
 #if KEEP_MIDDLE == 1
 layout(std430, binding = 3) writeonly buffer Middle { vec2 middle[]; };  // a row a line: I, R of the middle plane
 #endif
-layout(std430, binding = 0) readonly buffer ScanLines { Line scan_lines[]; };  // plane by plane
+layout(std430, binding = 0) readonly buffer ScanLines { Line scan_lines[]; };  // plane by plane, of each
+                                                                                     // its slice's planes in turn
 layout(std430, binding = 2) buffer Counters { uint samples_walked, normals_taken; };
 
 // Where the ends of the reflection length lie. Ends that meet those of the next samples are fetched once for all.
@@ -128,21 +130,23 @@ vec2 scatterers_echo(float k, Medium here) {
 
 // The planes of the slice add up. Where sound goes to and fro is a matter of the middle one alone: layers that lie in
 // different planes hold none between them.
-void put(int plane, int at, vec4 value) {
+void put(int slice_plane, int at, vec4 value) {
 #if KEEP_MIDDLE == 1
-  if (plane == PLANES / 2) middle[at] = value.xy;
+  if (slice_plane == SLICE_PLANES / 2) middle[at] = value.xy;
 #endif
-#if PLANES > 1
+#if SLICE_PLANES > 1
   value *= line.lateral.w;
-  if (plane > 0) value += scan[at];
+  if (slice_plane > 0) value += scan[at];
 #endif
   scan[at] = value;
 }
 
-int line_count() { return scan_lines.length() / PLANES; }
+// Of a line in air, which is one line in each of the slice's planes, or of the planes.
+int line_count() { return min(planes * lines, scan_lines.length() / SLICE_PLANES); }
 
-void walk(int plane, int index) {
-  line = scan_lines[plane * line_count() + index];
+void walk(int slice_plane, int index) {
+  int stride = min(lines, line_count());
+  line = scan_lines[index + (index / stride * (SLICE_PLANES - 1) + slice_plane) * stride];
   int row = index * samples;
 
   // The sum's rounding is carried along: thousands of small losses would add up to more error than is allowed.
@@ -177,7 +181,7 @@ void walk(int plane, int index) {
       ++normals;
     }
     float reflection = alpha * intensity * intensity * cosine;  // (3)
-    put(plane, row + k, vec4(intensity, reflection, scatterers_echo(position, here)));
+    put(slice_plane, row + k, vec4(intensity, reflection, scatterers_echo(position, here)));
 
     float change = reflection_exponent * log_transmission(alpha, before.impedance, behind.impedance) - absorbed;  // (5)
 #if EDGE_SHADOW == 1
@@ -198,16 +202,16 @@ void walk(int plane, int index) {
   atomicAdd(normals_taken, normals);
   // What nothing is heard of still scatters in the apertures of the lines beside it, as far as the body goes.
   for (end = int(min(line.along.w + 1.0, float(samples))); k < end; ++k)
-    put(plane, row + k, vec4(0.0, 0.0, scatterers_echo(float(k), medium(float(k)))));
-  for (; k < samples; ++k) put(plane, row + k, vec4(starts ? vec2(0.0) : texelFetch(in_air, k).xy, 0.0, 0.0));
+    put(slice_plane, row + k, vec4(0.0, 0.0, scatterers_echo(float(k), medium(float(k)))));
+  for (; k < samples; ++k) put(slice_plane, row + k, vec4(starts ? vec2(0.0) : texelFetch(in_air, k).xy, 0.0, 0.0));
 }
 
 void main() {
-  int index = int(gl_GlobalInvocationID.x);
+  int index = line_of_set();
   if (index >= line_count()) return;
-#if PLANES == 1
+#if SLICE_PLANES == 1
   walk(0, index);
 #else
-  for (int plane = 0; plane < PLANES; ++plane) walk(plane, index);
+  for (int slice_plane = 0; slice_plane < SLICE_PLANES; ++slice_plane) walk(slice_plane, index);
 #endif
 }

@@ -9,7 +9,7 @@ struct SimulationParameters {
 #else
 layout(std140, binding = 0) uniform SimulationParameters {
 #endif
-  int lines;    // N
+  int lines;    // N, of a plane
   int samples;  // D
   int width;    // of the picture, pixels
   int height;
@@ -43,6 +43,11 @@ layout(std140, binding = 0) uniform SimulationParameters {
   float slice_thickness_mm;
   float slice_spread;  // of the slice's thickness, a mm from its focus
   float elevation_focus_mm;
+
+  int planes;    // whose lines are worked on together, one after the other: 1 for a picture
+  int unused_1;  // std140: a row has 16 bytes
+  int unused_2;
+  int unused_3;
 
   vec4 tgc_db[2];  // at 8 depths from the face to full depth
 #ifdef __cplusplus
