@@ -11,6 +11,7 @@
 #include "sim/core/suggest.h"
 #include "sim/gl/headless_context.h"
 #include "sim/gl/simulator.h"
+#include "sim/gl/sweep_simulator.h"
 #include "sim/gl/upload.h"
 #include "sim/model/quality.h"
 #include "sim/model/settings_file.h"
@@ -20,7 +21,6 @@
 #include "tools/pose_file.h"
 #include "tools/program.h"
 #include "tools/render_stages.h"
-#include "tools/render_sweep.h"
 #include "tools/render_wein.h"
 #include "tools/stage_description.h"
 #include "tools/stage_files.h"
@@ -75,9 +75,12 @@ Volume<std::int16_t> render_volume(const std::string& file, const AcousticVolume
   if (std::max({grid.size.x, grid.size.y, grid.size.z}) > kLongestSide)
     throw InputError("--voxel", "", "the volume would have more than 512 voxels along a side", "take larger voxels");
   const gl::HeadlessContext context;
-  gl::Simulator simulator;
+  gl::SweepSimulator simulator;
   gl::upload_ct(file, volume.grid, [&] { simulator.set_volume(volume, table); });
-  return render_sweep(simulator, sweep, settings, grid);
+  simulator.set_sweep(sweep);
+  simulator.set_settings(settings);
+  simulator.set_grid(grid);
+  return simulator.read_grey();
 }
 
 Rendered render_by_reference(const RenderedScene& scene) {

@@ -17,6 +17,8 @@ struct Grid {
   glm::dvec3 origin{0.0};     ///< patient position of the centre of voxel (0, 0, 0), mm
   glm::dmat3 direction{1.0};  ///< column c is the patient direction of axis c; any rotation, or a reflection
 
+  bool operator==(const Grid&) const = default;
+
   std::size_t count() const { return std::size_t(size.x) * std::size_t(size.y) * std::size_t(size.z); }
   std::size_t offset(const glm::ivec3& i) const {
     return (std::size_t(i.z) * std::size_t(size.y) + std::size_t(i.y)) * std::size_t(size.x) + std::size_t(i.x);

@@ -105,7 +105,6 @@ void LineStages::traverse(const DeviceVolume& volume, std::span<const Pose> pati
   }
   if (std::ranges::any_of(placed, meets_no_body)) walk(1, line_in_air(settings), air_line_buffer_, in_air_, uncounted_);
   in_air_.bind(2);
-  counters_.clear();
   walk(set_lines(), placed, line_buffer_, scan_, counters_);
 }
 

@@ -18,7 +18,7 @@ namespace insonate::gl {
 
 struct PlacedLine;
 
-/// What the traversal did when it last ran. A line ends where it has lost its energy; one that meets no body does not
+/// What the traversal did, modulo 2^32. A line ends where it has lost its energy; one that meets no body does not
 /// start.
 struct SampleCounts {
   std::uint32_t walked = 0;   ///< samples, of planes x lines x samples
@@ -46,6 +46,8 @@ public:
   /// Notes that something changed that the beam's windows hang on; a new layout does so by itself.
   void change_beam() { beam_changed_ = true; }
 
+  /// Counts samples anew.
+  void restart_counts() { counters_.clear(); }
   /// Places the lines and walks along them.
   /// @param patient_from_plane  1 to most_planes
   void traverse(const DeviceVolume& volume, std::span<const Pose> patient_from_plane, const Settings& settings);

@@ -102,6 +102,16 @@ void Texture::write(GLenum layout, GLenum type, const Buffer& pixels) {
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
 }
 
+void Texture::write_slices(GLenum layout, GLenum type, int first, int count, const Buffer& pixels) {
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  forget_errors();
+  glMemoryBarrier(GL_PIXEL_BUFFER_BARRIER_BIT);
+  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, pixels.name());
+  glTextureSubImage3D(object_.name(), 0, 0, 0, first, width_, height_, count, layout, type, nullptr);
+  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+  if (out_of_memory()) throw TextureRefused(width_, height_, depth_, 0);
+}
+
 void Texture::write_inside(GLenum layout, GLenum type, const void* pixels, const std::array<float, 4>& margin) {
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   forget_errors();

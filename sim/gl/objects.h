@@ -99,7 +99,10 @@ public:
   void write(GLenum layout, GLenum type, const void* pixels);
   /// The same from a buffer that shaders have written.
   void write(GLenum layout, GLenum type, const Buffer& pixels);
-  /// The same for all of a 3D texture but a margin of one texel on every side, which becomes `margin` (RGBA).
+  /// Some slices of a 3D texture from such a buffer.
+  void write_slices(GLenum layout, GLenum type, int first, int count, const Buffer& pixels);
+  /// The same as write() for all of a 3D texture but a margin of one texel on every side, which becomes `margin`
+  /// (RGBA).
   void write_inside(GLenum layout, GLenum type, const void* pixels, const std::array<float, 4>& margin);
   /// Reads everything back, tightly packed.
   void read(GLenum layout, GLenum type, void* pixels, std::size_t bytes) const;

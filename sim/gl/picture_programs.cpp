@@ -1,7 +1,5 @@
 #include "sim/gl/picture_programs.h"
 
-#include <algorithm>
-
 #include "sim/gl/stage_tables.h"
 
 namespace insonate::gl {
@@ -32,8 +30,7 @@ Defines display(const Settings& settings) {
 Defines fusion(const PictureVariant& variant) {
   Defines defines = smoothing(variant);
   defines.push_back(display(variant.settings).front());
-  const auto none = [](double db) { return db == 0; };
-  defines.emplace_back("TIME_GAIN", flag(!std::ranges::all_of(variant.settings.tgc_db, none)));
+  defines.emplace_back("TIME_GAIN", flag(has_time_gain(variant.settings)));
   defines.emplace_back("FRAME_MAXIMUM", flag(variant.settings.reference_level == ReferenceLevel::frame_maximum));
   defines.emplace_back("KEEP_FUSED", flag(variant.keeps_fused));
   return defines;

@@ -21,6 +21,10 @@ struct Scheme {
   /// Work groups along a dimension: so many at least every device takes (GL_MAX_COMPUTE_WORK_GROUP_COUNT).
   int most_groups = 65535;
 
+  /// Of 16 bytes, that a shader has in a buffer: 128 MiB, which every device of OpenGL 4.5 takes as a storage block.
+  /// What may be more, as the lines of a sweep, is worked through in parts.
+  std::size_t most_texels = std::size_t(1) << 23;
+
   /// The current context's: GL_KHR_shader_subgroup's size where the driver has it, else 8 for a software renderer
   /// and 32.
   static Scheme of_device();

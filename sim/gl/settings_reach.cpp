@@ -24,6 +24,33 @@ Settings in_use(Settings settings) {
   return settings;
 }
 
+Settings in_use_by_sweeps(Settings settings) {
+  const Settings unset;
+  settings.image_width = unset.image_width;
+  settings.image_height = unset.image_height;
+  settings.reflection_sigma_mm = unset.reflection_sigma_mm;
+  settings.transmission_sigma_mm = unset.transmission_sigma_mm;
+  return settings;
+}
+
+// Where a sweep does what a picture's stage does.
+SweepStage sweep_stage(Stage of_picture) {
+  switch (of_picture) {
+    case Stage::traverse:
+      return SweepStage::traverse;
+    case Stage::beam:
+      return SweepStage::beam;
+    case Stage::scan_convert:
+    case Stage::smooth:
+      return SweepStage::fuse;
+    case Stage::fuse:
+      return SweepStage::maximum;
+    case Stage::compress:
+      return SweepStage::compress;
+  }
+  return SweepStage::traverse;
+}
+
 }  // namespace
 
 Reach reach_of_change(const Settings& before, const Settings& now) {
@@ -55,6 +82,13 @@ Reach reach_of_change(const Settings& before, const Settings& now) {
   else if (differ(&S::dynamic_range_db, &S::grey_map))
     reach.first = to.reference_level == ReferenceLevel::fixed ? Stage::fuse : Stage::compress;
   return reach;
+}
+
+SweepReach reach_in_sweep(const Settings& before, const Settings& now) {
+  const Reach reach = reach_of_change(in_use_by_sweeps(before), in_use_by_sweeps(now));
+  SweepReach in_sweep{std::nullopt, reach.layout, reach.beam};
+  if (reach.first) in_sweep.first = sweep_stage(*reach.first);
+  return in_sweep;
 }
 
 }  // namespace insonate::gl

@@ -7,8 +7,8 @@
 
 namespace insonate::gl {
 
-/// What a change of settings reaches. Settings that others leave unused, such as the focus of a beam that has none,
-/// reach nothing.
+/// What a change of settings reaches of a picture. Settings that others leave unused, such as the focus of a beam that
+/// has none, reach nothing.
 struct Reach {
   std::optional<Stage> first;  ///< stage to run again, with those behind it; none when the picture stays as it is
   bool layout = false;         ///< the number of samples, planes or pixels
@@ -16,5 +16,14 @@ struct Reach {
 };
 
 Reach reach_of_change(const Settings& before, const Settings& now);
+
+/// The same of a sweep's volume, which uses neither the picture's size nor its smoothing.
+struct SweepReach {
+  std::optional<SweepStage> first;
+  bool layout = false;
+  bool beam = false;
+};
+
+SweepReach reach_in_sweep(const Settings& before, const Settings& now);
 
 }  // namespace insonate::gl

@@ -171,6 +171,7 @@ void Simulator::State::run(Stage stage) {
   fan_blocks.bind_storage(7);
   switch (stage) {
     case Stage::traverse:
+      line_stages.restart_counts();
       line_stages.traverse(volume, {&patient_from_probe, 1}, settings);
       break;
     case Stage::beam:

@@ -152,6 +152,9 @@ bool reverberates(const Settings& settings) {
 bool is_noisy(const Settings& settings) {
   return settings.electronic_noise || settings.clutter;
 }
+bool has_time_gain(const Settings& settings) {
+  return std::ranges::any_of(settings.tgc_db, [](double db) { return db != 0; });
+}
 bool keeps_middle_plane(const Settings& settings) {
   return settings.slice_planes > 1 && reverberates(settings);
 }
@@ -211,6 +214,14 @@ TexelBuffer weights_of_pixels(const FanLayout& fan, const Gaussian& reflection, 
     if (channels == 4) values.insert(values.end(), {inside ? 1 / of_transmission.pixels[i] : 0, 0});
   }
   return TexelBuffer(channels == 4 ? GL_RGBA32F : GL_RG32F, fan.inside.pixels.size(), values.data());
+}
+
+TexelBuffer noise_of_lines(const ScanLines& lines, const Settings& settings) {
+  const Image<double> noise = electronic_noise(lines, settings);
+  std::vector<float> rows;
+  for (int line = 0; line < noise.width; ++line)
+    for (int k = 0; k < noise.height; ++k) rows.push_back(float(noise.at(line, k)));
+  return TexelBuffer(GL_R32F, rows.size(), rows.data());
 }
 
 TexelBuffer noise_of_pixels(const FanLayout& fan, const ScanLines& lines, const Settings& settings) {

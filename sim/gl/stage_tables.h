@@ -53,6 +53,7 @@ struct Gaussian {
 /// Whether anything repeats (sim/model/reverberation.h), and whether anything adds noise (sim/model/noise.h).
 bool reverberates(const Settings& settings);
 bool is_noisy(const Settings& settings);
+bool has_time_gain(const Settings& settings);
 /// Reverberation is of the slice's middle plane, which the traversal then keeps beside the sum of all.
 bool keeps_middle_plane(const Settings& settings);
 
@@ -66,6 +67,9 @@ SimulationParameters parameters_of(const Settings& settings, const ScanLines& li
 /// What fuse.comp asks of each pixel: its sample + 1, or 0 outside the fan, and 1 over what of its windows of R and of
 /// T lies inside the fan; RG32F when there is no window of T, else RGBA32F.
 TexelBuffer weights_of_pixels(const FanLayout& fan, const Gaussian& reflection, const Gaussian& transmission);
+
+/// The receiver's noise, mean 1, a row a line.
+TexelBuffer noise_of_lines(const ScanLines& lines, const Settings& settings);
 
 /// The receiver's noise, mean 1, as scan conversion brings it to each pixel of the fan; 0 outside.
 TexelBuffer noise_of_pixels(const FanLayout& fan, const ScanLines& lines, const Settings& settings);

@@ -28,6 +28,8 @@ struct Probe {
   double frequency_mhz = 3.5;     ///< centre frequency, 1 to 20
   double depth_mm = 160;          ///< default imaging depth
   int lines = 192;                ///< scan lines, 1 to 4096
+
+  bool operator==(const Probe&) const = default;
 };
 
 /// The probes that ship: "curvilinear" (abdomen, 3.5 MHz), "linear" (vessels and soft parts, 7.5 MHz) and "phased"

@@ -18,6 +18,8 @@ struct Sweep {
   Probe probe;                           ///< of each plane
   double depth_mm = 160;                 ///< along each line
   std::vector<Pose> patient_from_plane;  ///< rigid; the plane is that of x and y
+
+  bool operator==(const Sweep&) const = default;
 };
 
 /// The planes of a 3D probe: tilted about an axis along x that lies `pivot_mm` behind the face's middle, from

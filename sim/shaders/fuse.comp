@@ -10,6 +10,7 @@ layout(local_size_x = 64, local_size_y = 1) in;
 #include "shared/fan_blocks.glsl"
 #include "shared/gaussian.glsl"
 #include "shared/grey.glsl"
+#include "shared/time_gain.glsl"
 
 layout(binding = 0) uniform samplerBuffer picture;        // X, S
 layout(binding = 1) uniform samplerBuffer half_smoothed;  // of R, T: the sums of their windows along the rows
@@ -24,20 +25,6 @@ layout(std430, binding = 0) buffer Brightest { uint brightest[]; };  // a block,
 #else
 layout(binding = 1, r32ui) writeonly uniform uimage2D image;  // grey, grey, grey, 1 inside the fan; packed
 #endif
-
-// Gain and time gain, dB: linear between eight depths, as what each stretch between two of them adds. Looking the two up
-// would be a load for each pixel.
-float gain_at_db(float sample_position) {
-#if TIME_GAIN == 1
-  float depth = 7.0 * (sample_position + 0.5) / float(samples);
-  vec4 first = clamp(depth - vec4(0.0, 1.0, 2.0, 3.0), 0.0, 1.0);
-  vec3 second = clamp(depth - vec3(4.0, 5.0, 6.0), 0.0, 1.0);
-  return gain_db + tgc_db[0].x + dot(first, vec4(tgc_db[0].yzw, tgc_db[1].x) - tgc_db[0]) +
-         dot(second, tgc_db[1].yzw - tgc_db[1].xyz);
-#else
-  return gain_db;
-#endif
-}
 
 vec2 half_smoothed_at(ivec2 at) {
   vec2 value = texelFetch(half_smoothed, index_of(ivec2(at.x, clamp(at.y, 0, height - 1)))).xy;
@@ -72,7 +59,7 @@ void main() {
     bool inside = place.x > 0.0;
     float smoothed = reflection[i] * place.y + blend * transmission[i] * place.z;
     float echo = inside ? value.x + value.y * smoothed : 0.0;
-    float level = inside ? level_db(echo) + gain_at_db(place.x - 1.0) : kOutsideFan;
+    float level = inside ? level_db(echo) + gain_at_db((place.x - 0.5) / float(samples)) : kOutsideFan;
 #if KEEP_FUSED == 1
     fused[index_of(pixel)] = echo;
 #endif

@@ -5,7 +5,7 @@
 layout(local_size_x = GROUP) in;
 
 #include "shared/simulation_parameters.h"
-#include "shared/line_of_set.glsl"
+#include "shared/rows.glsl"
 
 layout(binding = 0) uniform samplerBuffer scan;                   // a row a line: I, R of the slice's middle plane
 layout(std430, binding = 0) buffer Repeats { float repeats[]; };  // a row a line: V, 0 before
@@ -46,7 +46,7 @@ void repeat(int k, float echo, float apart, float gain) {
 }
 
 void main() {
-  int line = line_of_set();
+  int line = invocation_in_rows();
   if (line >= planes * lines) return;
   row = line * samples;
 

@@ -5,19 +5,20 @@ layout(local_size_x = 32, local_size_y = 4) in;
 
 #include "shared/sweep_parameters.h"
 
-layout(binding = 0) uniform sampler3D values;              // x sample, y line, z plane
-layout(binding = 1) uniform sampler2D plane_from_voxel;    // a row a plane: the rows of a matrix, voxel -> plane, mm
-layout(binding = 0, rg32f) writeonly uniform image3D volume;  // value, 1; 0, 0 outside the sweep
+layout(binding = 0) uniform samplerBuffer values;            // a row a line, plane by plane
+layout(binding = 1) uniform samplerBuffer plane_from_voxel;  // a plane: the three rows of a matrix, voxel -> plane, mm
+layout(std430, binding = 0) writeonly buffer Slices { vec2 slices[]; };  // value, share of the depth along the lines;
+                                                                         // 0, -1 outside the sweep
+const vec2 kOutside = vec2(0.0, -1.0);
 
 const int kLinear = 0, kCurvilinear = 1, kPhased = 2;  // as ProbeKind
 
-vec3 in_plane(int plane, vec4 voxel) {
-  return vec3(dot(texelFetch(plane_from_voxel, ivec2(0, plane), 0), voxel),
-              dot(texelFetch(plane_from_voxel, ivec2(1, plane), 0), voxel),
-              dot(texelFetch(plane_from_voxel, ivec2(2, plane), 0), voxel));
+vec2 in_plane(int plane, vec4 voxel) {
+  return vec2(dot(texelFetch(plane_from_voxel, 3 * plane), voxel),
+              dot(texelFetch(plane_from_voxel, 3 * plane + 1), voxel));
 }
 
-float height_above(int plane, vec4 voxel) { return dot(texelFetch(plane_from_voxel, ivec2(2, plane), 0), voxel); }
+float height_above(int plane, vec4 voxel) { return dot(texelFetch(plane_from_voxel, 3 * plane + 2), voxel); }
 
 // Across the face or the field of view, 0 to 1 inside, and mm along the line from the face.
 vec2 across_and_depth(vec2 p) {
@@ -27,29 +28,31 @@ vec2 across_and_depth(vec2 p) {
   return vec2(atan(p.x, below_apex) / field_of_view + 0.5, probe_kind == kPhased && p.y < 0.0 ? -1.0 : r);
 }
 
-// Bilinear in one plane, and 1; (0, 0) outside its fan.
+// Bilinear in one plane, and its share of the depth; kOutside outside its fan.
 vec2 value_at(int plane, vec2 p) {
   vec2 at = across_and_depth(p);
-  if (at.x < 0.0 || at.x > 1.0 || at.y < 0.0 || at.y > depth_mm) return vec2(0.0);
+  if (at.x < 0.0 || at.x > 1.0 || at.y < 0.0 || at.y > depth_mm) return kOutside;
   ivec2 last = ivec2(samples, lines) - 1;
-  vec2 position = clamp(vec2(at.y * samples_per_mm, at.x * float(lines)) - 0.5, vec2(0.0), vec2(last));
+  vec2 position = clamp(vec2(at.y / depth_mm * float(samples), at.x * float(lines)) - 0.5, vec2(0.0), vec2(last));
   ivec2 low = min(ivec2(position), max(last - 1, 0)), high = min(low + 1, last);
   vec2 f = position - vec2(low);
-  float near = mix(texelFetch(values, ivec3(low, plane), 0).x, texelFetch(values, ivec3(low.x, high.y, plane), 0).x, f.y);
-  float far = mix(texelFetch(values, ivec3(high.x, low.y, plane), 0).x, texelFetch(values, ivec3(high, plane), 0).x, f.y);
-  return vec2(mix(near, far, f.x), 1.0);
+  ivec2 row = (plane * lines + ivec2(low.y, high.y)) * samples;
+  float near = mix(texelFetch(values, row.x + low.x).x, texelFetch(values, row.y + low.x).x, f.y);
+  float far = mix(texelFetch(values, row.x + high.x).x, texelFetch(values, row.y + high.x).x, f.y);
+  return vec2(mix(near, far, f.x), at.y / depth_mm);
 }
 
 void main() {
   ivec3 at = ivec3(gl_GlobalInvocationID);
   if (at.x >= width || at.y >= height) return;
-  vec4 voxel = vec4(at, 1.0);
+  vec4 voxel = vec4(at.xy, at.z + first_slice, 1.0);
 
   // The voxel lies on other sides of the first and the last plane; halving what is between keeps that true.
   int low = 0, high = planes - 1;
   float height_low = height_above(low, voxel), height_high = height_above(high, voxel);
-  vec2 found = vec2(0.0);
-  if (height_low * height_high <= 0.0) {
+  vec2 found = kOutside;
+  bool between = height_low * height_high <= 0.0;
+  if (between) {
     while (high - low > 1) {
       int middle = (low + high) / 2;
       float height_middle = height_above(middle, voxel);
@@ -60,9 +63,8 @@ void main() {
       height_low = in_lower_half ? height_low : height_middle;
     }
     float apart = abs(height_low) + abs(height_high), share = apart > 0.0 ? abs(height_low) / apart : 0.0;
-    vec2 before = value_at(low, in_plane(low, voxel).xy), behind = value_at(high, in_plane(high, voxel).xy);
-    float inside = before.y * behind.y;
-    found = inside * vec2(mix(before.x, behind.x, share), 1.0);
+    vec2 before = value_at(low, in_plane(low, voxel)), behind = value_at(high, in_plane(high, voxel));
+    if (before.y >= 0.0 && behind.y >= 0.0) found = mix(before, behind, share);
   }
-  imageStore(volume, at, vec4(found, 0.0, 0.0));
+  if (between || marks_outside == 1) slices[(at.z * height + at.y) * width + at.x] = found;
 }

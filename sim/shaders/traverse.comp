@@ -9,7 +9,7 @@ layout(local_size_x = GROUP) in;
 #include "shared/simulation_parameters.h"
 #include "shared/acoustic_volume.glsl"
 #include "shared/exact_filter.glsl"
-#include "shared/line_of_set.glsl"
+#include "shared/rows.glsl"
 
 layout(binding = 1) uniform sampler3D scatterers;  // complex, unit variance at the lattice's points
 layout(binding = 2) uniform samplerBuffer in_air;  // I, R of a line that meets no body, by sample
@@ -207,7 +207,7 @@ void walk(int slice_plane, int index) {
 }
 
 void main() {
-  int index = line_of_set();
+  int index = invocation_in_rows();
   if (index >= line_count()) return;
 #if SLICE_PLANES == 1
   walk(0, index);

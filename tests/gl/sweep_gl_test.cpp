@@ -10,7 +10,7 @@
 #include <cmath>
 
 #include "sim/core/hash.h"
-#include "sim/gl/volume_sweep.h"
+#include "sim/gl/sweep_conversion.h"
 #include "sim/reference/sweep_reference.h"
 #include "tests/gl/test_context.h"
 
@@ -53,8 +53,11 @@ SweepValues sampled(const Sweep& sweep, int samples, const Pattern& pattern) {
 
 Volume<float> converted(const Sweep& sweep, const SweepValues& values, const Grid& grid) {
   const test::TestContext context;
-  gl::VolumeSweep converter;
-  return gl::read_swept_volume(converter.convert(sweep, values, grid), grid);
+  gl::SweepConversion conversion;
+  conversion.lay_out(grid);
+  const gl::TexelBuffer rows(GL_R32F, values.values.size(), values.values.data());
+  conversion.convert(sweep, {0, int(sweep.patient_from_plane.size())}, rows, values.samples);
+  return conversion.read();
 }
 
 }  // namespace

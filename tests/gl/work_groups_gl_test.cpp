@@ -14,7 +14,7 @@
 #include "sim/gl/fan_layout.h"
 #include "sim/gl/program.h"
 #include "sim/gl/simulator.h"
-#include "sim/gl/volume_sweep.h"
+#include "sim/gl/sweep_conversion.h"
 #include "sim/gl/wein_simulator.h"
 #include "tests/gl/test_body.h"
 #include "tests/gl/test_context.h"
@@ -92,13 +92,15 @@ TEST_CASE("a swept volume may have more rows of voxels than a device takes work 
   sweep.probe.lines = 4;
   sweep.depth_mm = 40;
   for (const double z : {-10.0, 10.0}) sweep.patient_from_plane.push_back({glm::dmat3(1), {0, 0, z}});
-  const SweepValues values{3, 4, std::vector<float>(2 * 4 * 3, 0.5f)};
+  const std::vector<float> values(2 * 4 * 3, 0.5f);
   Grid grid;  // 150,000 work groups of four rows each
   grid.size = {2, 600, 1000};
   grid.spacing = {1, 0.05, 0.015};
   grid.origin = {-0.5, 1, -7.5};
-  gl::VolumeSweep converter;
-  const Volume<float> got = gl::read_swept_volume(converter.convert(sweep, values, grid), grid);
+  gl::SweepConversion conversion;
+  conversion.lay_out(grid);
+  conversion.convert(sweep, {0, 2}, gl::TexelBuffer(GL_R32F, values.size(), values.data()), 3);
+  const Volume<float> got = conversion.read();
   CHECK(std::ranges::all_of(got.voxels, [](float value) { return value == 0.5f; }));
 }
 

@@ -14,10 +14,13 @@ float mapped(float g) {
   return g;
 }
 
+float grey_at(float level, float white_db) {
+  return mapped(level > kSilent ? 1.0 - clamp((white_db - level) / dynamic_range_db, 0.0, 1.0) : 0.0);
+}
+
 // Four bytes as one number: a software renderer stores it in half the time of four channels.
 uint grey_pixel(float level, float white_db) {
-  float grey = level > kSilent ? 1.0 - clamp((white_db - level) / dynamic_range_db, 0.0, 1.0) : 0.0;
-  return level == kOutsideFan ? 0u : packUnorm4x8(vec4(vec3(mapped(grey)), 1.0));
+  return level == kOutsideFan ? 0u : packUnorm4x8(vec4(vec3(grey_at(level, white_db)), 1.0));
 }
 
 // Levels as whole numbers in the same order, which is what a maximum over invocations takes.
