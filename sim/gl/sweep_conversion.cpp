@@ -60,7 +60,7 @@ void SweepConversion::convert(const Sweep& sweep, const Part& part, const TexelB
   plane_from_voxel_ = TexelBuffer(GL_RGBA32F, rows.size(), rows.data());
 
   SweepParameters p = parameters_of(sweep, part.planes, samples, grid_);
-  p.marks_outside = part.first == 0;
+  p.is_first_part = part.first == 0;
   values.bind(0);
   plane_from_voxel_.bind(1);
   for (const Slab& slab : slabs_) {

@@ -51,9 +51,9 @@ Grid sweep_grid(const Sweep& sweep, double voxel_mm);
 
 /// A value at each sample of a sweep.
 struct SweepValues {
-  int samples = 0;            ///< a line; sample k at (k + 1/2) depth / samples from the face
-  int lines = 0;              ///< a plane
-  std::vector<float> values;  ///< samples fastest, then lines, then planes
+  int samples = 0;             ///< a line; sample k at (k + 1/2) depth / samples from the face
+  int lines = 0;               ///< a plane
+  std::vector<double> values;  ///< samples fastest, then lines, then planes
 };
 
 }  // namespace insonate

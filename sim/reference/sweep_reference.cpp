@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/model/noise.h"
+
 namespace insonate {
 namespace {
 
@@ -13,12 +15,33 @@ double bilinear(const SweepValues& values, int plane, double line, double sample
   sample = std::clamp(sample, 0.0, values.samples - 1.0);
   const auto at = [&](double i, double k) {
     const std::size_t row = std::size_t(plane) * std::size_t(values.lines) + std::size_t(i);
-    return double(values.values[row * std::size_t(values.samples) + std::size_t(k)]);
+    return values.values[row * std::size_t(values.samples) + std::size_t(k)];
   };
   const double i = std::floor(line), k = std::floor(sample), fi = line - i, fk = sample - k;
   const double next_i = std::min(i + 1, values.lines - 1.0), next_k = std::min(k + 1, values.samples - 1.0);
   return (1 - fi) * ((1 - fk) * at(i, k) + fk * at(i, next_k)) +
          fi * ((1 - fk) * at(next_i, k) + fk * at(next_i, next_k));
+}
+
+// U (6) at each sample of a plane, behind those that are there.
+void append_fused(SweepValues& values, const Stages<double>& stages, const Image<double>& noise, double dr_mm,
+                  const Settings& settings) {
+  const double tail = std::exp(-dr_mm / kClutterTail_mm);
+  std::vector<double> beside;  // the noise's mean at each depth
+  double late = 0;
+  for (int k = 0; k < values.samples; ++k) {
+    double mean = 0;
+    for (int line = 0; line < values.lines; ++line)
+      mean += settings.blend * stages.transmission.at(line, k) * stages.speckle.at(line, k) / values.lines;
+    late = k == 0 ? mean : mean + (late - mean) * tail;
+    beside.push_back(noise_level(settings) + clutter_share(settings) * late);
+  }
+  for (int line = 0; line < values.lines; ++line)
+    for (int k = 0; k < values.samples; ++k) {
+      const double scattered = settings.blend * stages.transmission.at(line, k);
+      values.values.push_back((stages.reflection_beam.at(line, k) + scattered) * stages.speckle.at(line, k) +
+                              stages.repeated.at(line, k) + beside[std::size_t(k)] * noise.at(line, k));
+    }
 }
 
 }  // namespace
@@ -37,6 +60,38 @@ Volume<double> convert_sweep_reference(const Sweep& sweep, const SweepValues& va
         volume.at({i, j, k}) = (1 - position->share) * in(position->plane, position->in_this) +
                                position->share * in(position->plane + 1, position->in_next);
       }
+  return volume;
+}
+
+ReferenceVolume simulate_sweep_reference(const MediumField& field, const TissueTable& table, const Sweep& sweep,
+                                         const Settings& settings, const Grid& grid) {
+  const ScanLines lines = scan_lines(sweep.probe, sweep.depth_mm, settings.samples);
+  const Image<double> noise = electronic_noise(lines, settings);
+  Settings without_picture = settings;
+  without_picture.image_width = without_picture.image_height = 1;
+  SweepValues fused{settings.samples, sweep.probe.lines, {}};
+  for (const Pose& pose : sweep.patient_from_plane)
+    append_fused(fused, simulate_reference(field, table, sweep.probe, sweep.depth_mm, without_picture, pose), noise,
+                 lines.dr_mm(), settings);
+
+  ReferenceVolume volume{convert_sweep_reference(sweep, fused, grid), {grid, {}}};
+  std::vector<double> gained;
+  for (int k = 0; k < grid.size.z; ++k)
+    for (int j = 0; j < grid.size.y; ++j)
+      for (int i = 0; i < grid.size.x; ++i) {
+        const auto at = sweep_position(sweep, grid.patient_from_index({i, j, k}));
+        if (!at) {
+          gained.push_back(-1);
+          continue;
+        }
+        const double r_mm = (1 - at->share) * at->in_this.r_mm + at->share * at->in_next.r_mm;
+        gained.push_back(volume.fused.at({i, j, k}) * time_gain(settings, r_mm / sweep.depth_mm));
+      }
+  const double level = settings.reference_level == ReferenceLevel::fixed
+                           ? settings.fixed_level
+                           : *std::max_element(gained.begin(), gained.end());
+  for (const double echo : gained)
+    volume.grey.voxels.push_back(echo < 0 ? std::int16_t(-1) : std::int16_t(grey_level(settings, echo, level)));
   return volume;
 }
 

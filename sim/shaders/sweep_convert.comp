@@ -51,7 +51,8 @@ void main() {
   int low = 0, high = planes - 1;
   float height_low = height_above(low, voxel), height_high = height_above(high, voxel);
   vec2 found = kOutside;
-  bool between = height_low * height_high <= 0.0;
+  // On a plane counts as before it: the part that ends with the plane has served the voxel.
+  bool between = height_low * height_high <= 0.0 && (height_low != 0.0 || is_first_part == 1);
   if (between) {
     while (high - low > 1) {
       int middle = (low + high) / 2;
@@ -66,5 +67,5 @@ void main() {
     vec2 before = value_at(low, in_plane(low, voxel)), behind = value_at(high, in_plane(high, voxel));
     if (before.y >= 0.0 && behind.y >= 0.0) found = mix(before, behind, share);
   }
-  if (between || marks_outside == 1) slices[(at.z * height + at.y) * width + at.x] = found;
+  if (between || is_first_part == 1) slices[(at.z * height + at.y) * width + at.x] = found;
 }

@@ -2,10 +2,12 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <string>
+#include <vector>
 
 #include "sim/core/hash.h"
 #include "sim/core/image.h"
@@ -82,6 +84,48 @@ Image<double> tolerated(const Data& expected, const std::array<Data, 4>& uncerta
     for (const Data& other : uncertain) result.pixels[i] += std::abs((other.*stage).pixels[i] - value);
   }
   return result;
+}
+
+/// U in dB, down to where the dynamic range ends below the loudest: grey levels are coarser, and gain and map lie
+/// between.
+inline void check_fused(const Image<double>& expected, const std::array<Image<double>, 4>& uncertain,
+                        const Image<float>& got, double dynamic_range_db) {
+  constexpr double kFused_db = 0.01;  // a twentieth of a grey level at 60 dB
+  const double loudest = *std::max_element(expected.pixels.begin(), expected.pixels.end());
+  const double faintest = loudest * std::pow(10, -dynamic_range_db / 10);
+  const auto in_db = [&](const auto& fused, auto decibels) {
+    for (std::size_t i = 0; i < fused.pixels.size(); ++i)
+      decibels.pixels[i] = 10 * std::log10(std::max<double>(fused.pixels[i], faintest) / loudest);
+    return decibels;
+  };
+  const Image<double> expected_db = in_db(expected, expected);
+  Image<double> tolerated_db(expected.width, expected.height, kFused_db);
+  for (const Image<double>& other : uncertain) {
+    const Image<double> other_db = in_db(other, other);
+    for (std::size_t i = 0; i < other_db.pixels.size(); ++i)
+      tolerated_db.pixels[i] += std::abs(other_db.pixels[i] - expected_db.pixels[i]);
+  }
+  const Worst fused = worst(expected_db, in_db(got, got), tolerated_db);
+  INFO(told("U in dB", fused));
+  CHECK(fused.error < 1);
+}
+
+/// Grey levels inside the fan: 1 off at most on 99.9 %, 2 at worst.
+inline void check_grey(const std::vector<int>& expected, const std::vector<int>& got) {
+  REQUIRE(expected.size() == got.size());
+  std::size_t off_by_more_than_1 = 0;
+  int worst_grey = 0;
+  double mean = 0;
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    const int error = std::abs(expected[i] - got[i]);
+    worst_grey = std::max(worst_grey, error);
+    off_by_more_than_1 += error > 1;
+    mean += expected[i] / double(expected.size());
+  }
+  INFO("grey: " << off_by_more_than_1 << " of " << expected.size() << " off by more than 1, worst " << worst_grey);
+  CHECK(double(off_by_more_than_1) <= 0.001 * double(expected.size()));
+  CHECK(worst_grey <= 2);
+  CHECK(mean > 10);  // black would agree as well
 }
 
 }  // namespace insonate::test

@@ -55,7 +55,8 @@ Volume<float> converted(const Sweep& sweep, const SweepValues& values, const Gri
   const test::TestContext context;
   gl::SweepConversion conversion;
   conversion.lay_out(grid);
-  const gl::TexelBuffer rows(GL_R32F, values.values.size(), values.values.data());
+  const std::vector<float> stored(values.values.begin(), values.values.end());
+  const gl::TexelBuffer rows(GL_R32F, stored.size(), stored.data());
   conversion.convert(sweep, {0, int(sweep.patient_from_plane.size())}, rows, values.samples);
   return conversion.read();
 }

@@ -15,7 +15,7 @@ layout(std140, binding = 1) uniform SweepParameters {
   int width;  // of the volume, voxels
   int height;
   int first_slice;
-  int marks_outside;  // 1: the voxels between none of these planes are written too
+  int is_first_part;  // 1: the voxels between none of these planes are written too
 
   float depth_mm;        // along the lines
   float face_width_mm;   // linear
