@@ -1,23 +1,34 @@
 #include "sim/gl/pixel_table.h"
 
+#include <glm/common.hpp>
+
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
 
 namespace insonate::gl {
+namespace {
 
-PixelTable::PixelTable(const std::vector<std::vector<PixelPlace>>& of_columns, const PixelPlace& filler,
-                       std::size_t group) {
+const PixelPlace kNowhere(-1, 0, 0, 0);
+
+PixelTable table_of(const std::vector<std::vector<PixelPlace>>& columns, const PixelPlace& filler, std::size_t group) {
   std::size_t steps = 0;
-  for (const auto& column : of_columns) {
+  PixelTable result;
+  for (const auto& column : columns) {
     steps = std::max(steps, column.size());
-    pixels += column.size();
+    result.pixels += column.size();
   }
-  columns = (of_columns.size() + group - 1) / group * group;
-  std::vector<PixelPlace> table(columns * steps, filler);
-  for (std::size_t i = 0; i < of_columns.size(); ++i)
-    for (std::size_t step = 0; step < of_columns[i].size(); ++step) table[step * columns + i] = of_columns[i][step];
-  places = TexelBuffer(GL_RGBA32I, table.size(), table.data());
+  result.columns = (columns.size() + group - 1) / group * group;
+  std::vector<PixelPlace> table(result.columns * steps, filler);
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    for (std::size_t step = 0; step < columns[i].size(); ++step) table[step * result.columns + i] = columns[i][step];
+  result.places = TexelBuffer(GL_RGBA32I, table.size(), table.data());
+  return result;
 }
 
+// About 64 pixels a column, `together` in one after the other, so that a group takes neighbours at a step.
 PixelTable shared_out(const std::vector<PixelPlace>& pixels, std::size_t together, const PixelPlace& filler,
                       std::size_t group) {
   if (pixels.empty()) return {};
@@ -29,7 +40,74 @@ PixelTable shared_out(const std::vector<PixelPlace>& pixels, std::size_t togethe
     const std::size_t unit = i / together;
     columns[unit / group / steps * group + unit % group].push_back(pixels[i]);
   }
-  return PixelTable(columns, filler, group);
+  return table_of(columns, filler, group);
+}
+
+}  // namespace
+
+std::vector<PixelPlace> places_in_scan(const FanLayout& fan, const ScanLines& lines) {
+  const glm::ivec2 last(lines.samples - 1, int(lines.lines.size()) - 1);
+  std::vector<PixelPlace> result(fan.line_and_sample.size(), kNowhere);
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    if (!fan.inside.pixels[i]) continue;
+    const glm::vec2 at =
+        glm::clamp(glm::vec2(fan.line_and_sample[i].y, fan.line_and_sample[i].x), glm::vec2(0), glm::vec2(last));
+    const glm::ivec2 low = glm::max(glm::min(glm::ivec2(at), last - 1), 0);
+    const glm::vec2 further = at - glm::vec2(low);
+    result[i] =
+        PixelPlace(low.y * lines.samples + low.x, std::bit_cast<int>(further.x), std::bit_cast<int>(further.y), 0);
+  }
+  return result;
+}
+
+PixelTable picture_pixels(const std::vector<PixelPlace>& places, int width, int height, std::size_t group) {
+  const int words = (width + kWordPixels - 1) / kWordPixels;
+  std::vector<PixelPlace> pixels;
+  for (int y = 0; y < height; ++y)
+    for (int word = 0; word < words; ++word) {
+      std::array<PixelPlace, kWordPixels> four;
+      bool touched = false;
+      for (int i = 0; i < kWordPixels; ++i) {
+        const int x = kWordPixels * word + i;
+        four[std::size_t(i)] = x < width ? places[std::size_t(y * width + x)] : kNowhere;
+        touched = touched || four[std::size_t(i)].x >= 0;
+      }
+      four[0].w = y << 16 | word;
+      if (touched) pixels.insert(pixels.end(), four.begin(), four.end());
+    }
+  return shared_out(pixels, kWordPixels, PixelPlace(-1, 0, 0, -1), group);
+}
+
+PixelTable compared_pixels(const std::vector<PixelPlace>& places, const Image<float>& image, int patch,
+                           std::size_t group) {
+  const auto counts = [&](std::size_t i) { return places[i].x >= 0 && !std::isnan(image.pixels[i]); };
+  double count = 0, sum = 0, squares = 0;
+  float least = std::numeric_limits<float>::infinity(), most = -least;
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (counts(i)) {
+      ++count;
+      sum += image.pixels[i];
+      least = std::min(least, image.pixels[i]);
+      most = std::max(most, image.pixels[i]);
+    }
+  const double mean = sum / std::max(count, 1.0);
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (counts(i)) squares += (image.pixels[i] - mean) * (image.pixels[i] - mean);
+  const double scale = most > least ? 1 / std::sqrt(squares / count) : 0;
+
+  const int across = patch ? (image.width + patch - 1) / patch : 0;
+  std::vector<PixelPlace> pixels;
+  std::vector<std::vector<PixelPlace>> patches;
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (counts(i)) {
+      pixels.push_back(places[i]);
+      pixels.back().w = std::bit_cast<int>(float((image.pixels[i] - mean) * scale));
+      if (!patch) continue;
+      const std::size_t in = std::size_t(int(i) / image.width / patch * across + int(i) % image.width / patch);
+      patches.resize(std::max(patches.size(), in + 1));
+      patches[in].push_back(pixels.back());
+    }
+  return patches.empty() ? shared_out(pixels, 1, kNowhere, group) : table_of(patches, kNowhere, group);
 }
 
 }  // namespace insonate::gl

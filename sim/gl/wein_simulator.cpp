@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
@@ -28,8 +27,6 @@ constexpr std::size_t kMostChunk = 2048;  // images, of which some tables have a
 
 // Below this no echo is left: with any compression it is less than half a step of what the scan holds.
 constexpr double kLeastIntensity = 1e-10;
-
-constexpr int kWordPixels = 4;  // of the grid, stored at once
 
 // As shaders write it.
 std::string literal(double value) {
@@ -55,8 +52,6 @@ struct WeinSimulator::State {
   template <typename Work>
   void by_chunks(std::span<const Pose> poses, Work&& work);
   Defines constants(const AcousticVolume& volume) const;
-  std::vector<PixelPlace> positions() const;
-  PixelTable picture_pixels() const;
 
   WeinSettings settings;
   ShaderSources sources;
@@ -73,6 +68,7 @@ struct WeinSimulator::State {
   Buffer parameter_buffer{sizeof(WeinParameters), nullptr}, similarities;
   std::size_t similarities_held = 0;
   TexelBuffer scan, tiles;
+  std::vector<PixelPlace> pixel_places;
   PixelTable fan_pixels, counted_pixels;
   Texture density, probe_lines, places, sums, grid;
   std::vector<glm::vec4> place_rows;
@@ -117,7 +113,8 @@ WeinSimulator::State::State(const AcousticVolume& volume, const Probe& probe, do
   place_rows.resize(3 * chunk_images);
 
   parameters.columns = 1;
-  fan_pixels = picture_pixels();
+  pixel_places = places_in_scan(fan, lines);
+  fan_pixels = picture_pixels(pixel_places, wanted.image_width, wanted.image_height, group);
 }
 
 // What no call changes.
@@ -143,41 +140,6 @@ Defines WeinSimulator::State::constants(const AcousticVolume& volume) const {
           {"LAST_LOG_INTENSITY", literal(settings.shadows ? std::log(kLeastIntensity) : -1e30)},
           {"SIDES_BY_DR",
            "vec3(" + literal(sides_by_dr.x) + ", " + literal(sides_by_dr.y) + ", " + literal(sides_by_dr.z) + ")"}};
-}
-
-// Where each pixel lies in a scan; outside the fan nowhere.
-std::vector<PixelPlace> WeinSimulator::State::positions() const {
-  const glm::ivec2 last(lines.samples - 1, int(lines.lines.size()) - 1);
-  std::vector<PixelPlace> result(fan.line_and_sample.size(), kNowhere);
-  for (std::size_t i = 0; i < result.size(); ++i) {
-    if (!fan.inside.pixels[i]) continue;
-    const glm::vec2 at =
-        glm::clamp(glm::vec2(fan.line_and_sample[i].y, fan.line_and_sample[i].x), glm::vec2(0), glm::vec2(last));
-    const glm::ivec2 low = glm::max(glm::min(glm::ivec2(at), last - 1), 0);
-    const glm::vec2 further = at - glm::vec2(low);
-    result[i] =
-        PixelPlace(low.y * lines.samples + low.x, std::bit_cast<int>(further.x), std::bit_cast<int>(further.y), 0);
-  }
-  return result;
-}
-
-// The words of a picture that the fan touches.
-PixelTable WeinSimulator::State::picture_pixels() const {
-  const std::vector<PixelPlace> all = positions();
-  std::vector<PixelPlace> pixels;
-  for (int y = 0; y < settings.image_height; ++y)
-    for (int word = 0; word < tile_words; ++word) {
-      std::array<PixelPlace, kWordPixels> four;
-      bool touched = false;
-      for (int i = 0; i < kWordPixels; ++i) {
-        const int x = kWordPixels * word + i;
-        four[std::size_t(i)] = x < settings.image_width ? all[std::size_t(y * settings.image_width + x)] : kNowhere;
-        touched = touched || four[std::size_t(i)].x >= 0;
-      }
-      four[0].w = y << 16 | word;
-      if (touched) pixels.insert(pixels.end(), four.begin(), four.end());
-    }
-  return shared_out(pixels, kWordPixels, PixelPlace(-1, 0, 0, -1), group);
 }
 
 // Places a chunk's lines and walks along them.
@@ -267,39 +229,9 @@ glm::ivec2 WeinSimulator::tile(int image) const {
 
 void WeinSimulator::set_ultrasound(const Image<float>& image) {
   State& s = *state_;
-  const Image<std::uint8_t>& fan = s.fan.inside;
-  if (image.width != fan.width || image.height != fan.height)
+  if (image.width != s.fan.inside.width || image.height != s.fan.inside.height)
     throw std::invalid_argument("WeinSimulator: the ultrasound image has another size than the simulated ones");
-  // Brought to mean 0 and variance 1 in double precision: LC2 feels neither gain nor offset, single precision would.
-  const auto counts = [&](std::size_t i) { return fan.pixels[i] && !std::isnan(image.pixels[i]); };
-  double count = 0, sum = 0, squares = 0;
-  float least = INFINITY, most = -INFINITY;
-  for (std::size_t i = 0; i < fan.pixels.size(); ++i)
-    if (counts(i)) {
-      ++count;
-      sum += image.pixels[i];
-      least = std::min(least, image.pixels[i]);
-      most = std::max(most, image.pixels[i]);
-    }
-  const double mean = sum / std::max(count, 1.0);
-  for (std::size_t i = 0; i < fan.pixels.size(); ++i)
-    if (counts(i)) squares += (image.pixels[i] - mean) * (image.pixels[i] - mean);
-  const double scale = most > least ? 1 / std::sqrt(squares / count) : 0;  // of a flat image nothing is left
-  const int width = fan.width, patch = s.settings.similarity_patch, across = patch ? (width + patch - 1) / patch : 0;
-  const std::vector<PixelPlace> positions = s.positions();
-  std::vector<PixelPlace> pixels;
-  std::vector<std::vector<PixelPlace>> patches;
-  for (std::size_t i = 0; i < positions.size(); ++i)
-    if (counts(i)) {
-      pixels.push_back(positions[i]);
-      pixels.back().w = std::bit_cast<int>(float((image.pixels[i] - mean) * scale));
-      if (!patch) continue;
-      const std::size_t in = std::size_t(int(i) / width / patch * across + int(i) % width / patch);
-      patches.resize(std::max(patches.size(), in + 1));
-      patches[in].push_back(pixels.back());
-    }
-  s.counted_pixels =
-      patches.empty() ? shared_out(pixels, 1, kNowhere, s.group) : PixelTable(patches, kNowhere, s.group);
+  s.counted_pixels = compared_pixels(s.pixel_places, image, s.settings.similarity_patch, s.group);
   if (s.counted_pixels)
     s.sums = Texture::make_2d(GL_RGBA32F, 3 * int(s.counted_pixels.columns), int(s.chunk_images), Filter::nearest);
 }
