@@ -19,6 +19,10 @@ Table measure_paper(const Request& request);
 /// and for comparison the trainer's model S.
 Table measure_batch(const Request& request);
 
+/// What a volume of a 3D probe costs, by configuration, whose width is also the volume's third side: with a moving
+/// probe, scan conversion and on, and with another gain alone.
+Table measure_sweep(const Request& request);
+
 /// What the device's linear filter is off by, which exact_filter in Settings mends.
 Table measure_filter();
 

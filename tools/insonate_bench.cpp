@@ -42,6 +42,8 @@ int main(int argc, char** argv) {
       request, csv);
   const CLI::App* batch = add_measurement(
       arguments, "batch", "Model W for registration: many images in one call against one a call", request, csv);
+  const CLI::App* sweep =
+      add_measurement(arguments, "sweep", "What a 3D probe's volume of WIDTH x HEIGHT x WIDTH costs", request, csv);
   CLI::App* filter = arguments.add_subcommand("filter", "How exact the device's own filter of volumes is");
   filter->add_option("--csv", csv, "Write the table as CSV too");
   CLI::App* front = add_measurement(arguments, "front", "Run time against error over the settings", request, csv);
@@ -67,6 +69,7 @@ int main(int argc, char** argv) {
       table = frames->parsed()    ? bench::measure_frames(request)
               : paper->parsed()   ? bench::measure_paper(request)
               : filter->parsed()  ? bench::measure_filter()
+              : sweep->parsed()   ? bench::measure_sweep(request)
               : batch->parsed()   ? bench::measure_batch(request)
               : scoring->parsed() ? bench::measure_scoring(exams)
                                   : bench::measure_front(request, svg);

@@ -116,6 +116,17 @@ TEST_CASE("insonate-bench batch: images and LC2, one a call and many, as through
   CHECK(f.output.find(" MPixel/s; ") != std::string::npos);
 }
 
+TEST_CASE("insonate-bench sweep: a volume with a moving probe, of the same lines elsewhere, and with another gain") {
+  Fixture f;
+  const bench::Table table = f.measure("sweep", "12,40,16,20");
+  REQUIRE(table.rows.size() == 3);
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    CHECK(table.cell(i, "method") == std::array{"moved", "scan converted", "gained"}[i]);
+    CHECK(table.cell(i, "planes") == "64");
+    CHECK(table.cell(i, "depth") == "16");
+  }
+}
+
 TEST_CASE("insonate-bench front: errors against the converged reference, a front, and a plot of it") {
   Fixture f;
   const fs::path svg = f.folder / "front.svg";
