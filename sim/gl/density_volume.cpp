@@ -33,9 +33,8 @@ Texture stored_as(GLenum format, const Grid& grid, const std::vector<std::array<
 
 }  // namespace
 
-Texture density_volume(const AcousticVolume& volume, double reflection_length_mm) {
+Texture density_volume(const AcousticVolume& volume, const glm::dvec3& half_voxels) {
   const Grid& grid = volume.grid;
-  const glm::dvec3 half = reflection_length_mm / 2 / grid.spacing;
   const glm::tvec3<std::ptrdiff_t> stride(1, grid.size.x, std::ptrdiff_t(grid.size.x) * grid.size.y);
   std::vector<std::array<std::int16_t, 4>> voxels(grid.count());
   tbb::parallel_for(0, grid.size.z, [&](int z) {
@@ -47,8 +46,8 @@ Texture density_volume(const AcousticVolume& volume, double reflection_length_mm
         voxels[v][0] = here->hu;
         for (int axis = 0; axis < 3; ++axis) {
           const AcousticVoxel* row = here - i[axis] * stride[axis];
-          const double change = between(row, stride[axis], grid.size[axis], i[axis] + half[axis]) -
-                                between(row, stride[axis], grid.size[axis], i[axis] - half[axis]);
+          const double change = between(row, stride[axis], grid.size[axis], i[axis] + half_voxels[axis]) -
+                                between(row, stride[axis], grid.size[axis], i[axis] - half_voxels[axis]);
           voxels[v][std::size_t(axis) + 1] =
               std::int16_t(std::lround(std::clamp(kStepsPerHu * change, -32767.0, 32767.0)));
         }
@@ -64,6 +63,10 @@ Texture density_volume(const AcousticVolume& volume, double reflection_length_mm
     }
   }
   return stored_as(GL_RGBA16_SNORM, grid, voxels);
+}
+
+Texture density_volume(const AcousticVolume& volume, double reflection_length_mm) {
+  return density_volume(volume, reflection_length_mm / 2 / volume.grid.spacing);
 }
 
 }  // namespace insonate::gl

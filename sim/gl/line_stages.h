@@ -10,6 +10,7 @@
 #include "sim/gl/device_volume.h"
 #include "sim/gl/objects.h"
 #include "sim/gl/program.h"
+#include "sim/gl/representation.h"
 #include "sim/gl/scheme.h"
 #include "sim/model/settings.h"
 #include "sim/probe/probe.h"
@@ -37,7 +38,7 @@ struct SampleCounts {
 /// given; throws std::runtime_error when one does not build.
 class LineStages {
 public:
-  LineStages(const ShaderSources& sources, const Scheme& scheme);
+  LineStages(const ShaderSources& sources, const Scheme& scheme, const Representation& representation = {});
 
   /// Allocates. Throws DeviceRefused.
   /// @param of_plane     in the plane's own frame, the same for all
@@ -56,7 +57,7 @@ public:
 
   const ScanLines& lines() const { return lines_; }      ///< of a plane
   const TexelBuffer& scan() const { return scan_; }      ///< by sample: I, R, scatterers' echo (re, im)
-  const TexelBuffer& echoes() const { return echoes_; }  ///< by sample: R, T, S, V
+  const TexelBuffer& echoes() const { return echoes_; }  ///< by sample: R, T, S, V; both as handed_on.h says
   const TexelBuffer& mean_echo() const {
     return mean_echo_;
   }  ///< by plane and depth: mean of T S with its tail, with clutter
@@ -77,6 +78,7 @@ private:
 
   ShaderSources sources_;
   Scheme scheme_;
+  Representation representation_;
   Program traverse_, reverberation_, beam_, clutter_, clutter_tail_;
 
   ScanLines lines_;

@@ -1,5 +1,6 @@
 #include "sim/gl/picture_programs.h"
 
+#include "sim/gl/handed_on.h"
 #include "sim/gl/stage_tables.h"
 
 namespace insonate::gl {
@@ -14,7 +15,8 @@ Defines conversion(const PictureVariant& variant) {
           {"TRANSMISSION_SMOOTHED", flag(variant.transmission_radius_px > 0)},
           {"SMOOTHED", variant.transmission_radius_px > 0 ? "vec2" : "float"},
           {"NOISE", flag(is_noisy(variant.settings))},
-          {"CLUTTER", flag(variant.settings.clutter)}};
+          {"CLUTTER", flag(variant.settings.clutter)},
+          handed_on_define(variant.half_floats)};
 }
 
 Defines smoothing(const PictureVariant& variant) {
@@ -30,6 +32,7 @@ Defines display(const Settings& settings) {
 Defines fusion(const PictureVariant& variant) {
   Defines defines = smoothing(variant);
   defines.push_back(display(variant.settings).front());
+  defines.push_back(handed_on_define(variant.half_floats));
   defines.emplace_back("TIME_GAIN", flag(has_time_gain(variant.settings)));
   defines.emplace_back("FRAME_MAXIMUM", flag(variant.settings.reference_level == ReferenceLevel::frame_maximum));
   defines.emplace_back("KEEP_FUSED", flag(variant.keeps_fused));
@@ -38,7 +41,7 @@ Defines fusion(const PictureVariant& variant) {
 
 // Until settings are known.
 PictureVariant plain(const Settings& settings) {
-  return {settings, 0, 0, false};
+  return {settings, 0, 0, false, false};
 }
 
 }  // namespace

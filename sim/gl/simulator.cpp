@@ -7,6 +7,7 @@
 
 #include "sim/gl/device_volume.h"
 #include "sim/gl/fan_layout.h"
+#include "sim/gl/handed_on.h"
 #include "sim/gl/picture_programs.h"
 #include "sim/gl/settings_reach.h"
 #include "sim/gl/stage_tables.h"
@@ -15,17 +16,6 @@
 
 namespace insonate::gl {
 namespace {
-
-// What a stage has written, so many floats to a place, each of them as an image.
-std::vector<Image<float>> read_channels(const TexelBuffer& buffer, int channels, int width, int height) {
-  const std::size_t count = std::size_t(channels);
-  Image<float> image(width, height);
-  std::vector<float> values(count * image.pixels.size());
-  buffer.read(values.data(), values.size() * sizeof(float));
-  std::vector<Image<float>> images(count, image);
-  for (std::size_t i = 0; i < values.size(); ++i) images[i % count].pixels[i / count] = values[i];
-  return images;
-}
 
 // The stages have a row a line, Stages a column.
 Image<float> transposed(const Image<float>& rows) {
@@ -38,10 +28,11 @@ Image<float> transposed(const Image<float>& rows) {
 }  // namespace
 
 struct Simulator::State {
-  State(const ShaderSources& sources, const Scheme& given)
-      : scheme(given), line_stages(sources, given), programs(sources) {}
+  State(const ShaderSources& sources, const Scheme& given, const Representation& chosen)
+      : scheme(given), representation(chosen), line_stages(sources, given, chosen), programs(sources) {}
 
   const Scheme scheme;
+  const Representation representation;
   LineStages line_stages;
   PicturePrograms programs;
 
@@ -98,7 +89,7 @@ void Simulator::State::lay_out() {
   line_and_sample = TexelBuffer(GL_RG32F, pixels(), fan.line_and_sample.data());
   fan_blocks = Buffer(fan.blocks.size() * sizeof(glm::ivec2), fan.blocks.data());
   brightest = Buffer(fan.blocks.size() * sizeof(GLuint), nullptr);
-  picture = TexelBuffer(GL_RG32F, pixels());
+  picture = handed_on_pairs(representation.half_floats, pixels());
   fan_weights = TexelBuffer();
   fused = TexelBuffer();
   levels = TexelBuffer();
@@ -116,8 +107,8 @@ void Simulator::State::prepare() {
     if (is_noisy(settings)) prepare_noise();
   }
   prepare_fusion();
-  programs.build_from(*first_due,
-                      {settings, reflection_gaussian.radius, transmission_gaussian.radius, stages_are_read});
+  programs.build_from(*first_due, {settings, reflection_gaussian.radius, transmission_gaussian.radius, stages_are_read,
+                                   representation.half_floats});
   parameters = parameters_of(settings, line_stages.lines(), reflection_gaussian, transmission_gaussian);
   parameter_buffer.write(&parameters, sizeof parameters);
 }
@@ -217,14 +208,14 @@ void Simulator::State::run(Stage stage) {
   }
 }
 
-Simulator::Simulator(const ShaderSources& sources, const Scheme& scheme)
-    : state_(std::make_unique<State>(sources, scheme)) {}
+Simulator::Simulator(const ShaderSources& sources, const Scheme& scheme, const Representation& representation)
+    : state_(std::make_unique<State>(sources, scheme, representation)) {}
 Simulator::~Simulator() = default;
 Simulator::Simulator(Simulator&&) noexcept = default;
 Simulator& Simulator::operator=(Simulator&&) noexcept = default;
 
 void Simulator::set_volume(const AcousticVolume& volume, const TissueTable& table) {
-  state_->volume = DeviceVolume(volume, table);
+  state_->volume = DeviceVolume(volume, table, state_->representation);
   state_->due_from(Stage::traverse);
 }
 
@@ -310,16 +301,18 @@ Stages<float> Simulator::read_stages() {
   const State& s = *state_;
   Stages<float> stages;
   const int n = int(s.line_stages.lines().lines.size()), d = s.line_stages.lines().samples;
-  const std::vector<Image<float>> scan = read_channels(s.line_stages.scan(), 4, d, n),
-                                  echoes = read_channels(s.line_stages.echoes(), 4, d, n);
+  const bool half_floats = s.representation.half_floats;
+  const auto scan = read_scan(s.line_stages.scan(), half_floats, d, n);
+  const auto echoes = read_echoes(s.line_stages.echoes(), half_floats, d, n);
   stages.intensity = transposed(scan[0]);
   stages.reflection = transposed(scan[1]);
   stages.reflection_beam = transposed(echoes[0]);
   stages.transmission = transposed(echoes[1]);
   stages.speckle = transposed(echoes[2]);
   stages.repeated = transposed(echoes[3]);
-  stages.fused = read_channels(s.fused, 1, s.image.width(), s.image.height())[0];
   const int w = s.image.width(), h = s.image.height();
+  stages.fused = Image<float>(w, h);
+  s.fused.read(stages.fused.pixels.data(), stages.fused.pixels.size() * sizeof(float));
   Image<Rgba8> rgba(w, h);
   s.image.read(GL_RGBA, GL_UNSIGNED_BYTE, rgba.pixels.data(), rgba.pixels.size() * sizeof(Rgba8));
   stages.inside = Image<std::uint8_t>(w, h);

@@ -7,13 +7,14 @@
 layout(local_size_x = GROUP) in;
 
 #include "shared/simulation_parameters.h"
+#include "shared/handed_on.glsl"
 #include "shared/acoustic_volume.glsl"
 #include "shared/exact_filter.glsl"
 #include "shared/rows.glsl"
 
 layout(binding = 1) uniform sampler3D scatterers;  // complex, unit variance at the lattice's points
 layout(binding = 2) uniform samplerBuffer in_air;  // I, R of a line that meets no body, by sample
-layout(std430, binding = 1) buffer Scan { vec4 scan[]; };  // a row a line: I, R, scatterers' echo (re, im)
+layout(std430, binding = 1) buffer Scan { HANDED_4 scan[]; };  // a row a line: I, R, scatterers' echo (re, im)
 
 // A line and the directions beside it, worked out in double precision for each pose: adding up single-precision
 // products here instead would move samples by a thousandth of a voxel, which shows at the surface of gas.
@@ -25,7 +26,7 @@ struct Line {
   vec4 beside, lattice_beside;        // with ELEVATION_FOCUS, the way to the plane for each mm of the slice's thickness
 };
 #if KEEP_MIDDLE == 1
-layout(std430, binding = 3) writeonly buffer Middle { vec2 middle[]; };  // a row a line: I, R of the middle plane
+layout(std430, binding = 3) writeonly buffer Middle { HANDED_2 middle[]; };  // a row a line: I, R of the middle plane
 #endif
 layout(std430, binding = 0) readonly buffer ScanLines { Line scan_lines[]; };  // plane by plane, of each
                                                                                      // its slice's planes in turn
@@ -106,19 +107,43 @@ vec2 scatterer(vec3 lattice) {
   return stored * (kScattererScale * inversesqrt(kept.x * kept.y * kept.z));
 }
 
-// Densities half the reflection length beside a sample: to both sides in the plane, and in elevation.
-vec4 beside(float k) {
+// How density changes around a sample, of which that of impedance has the direction: no look at the tissue table is
+// needed.
+struct Surroundings {
+  vec4 beside;  // densities half the reflection length beside it: to both sides in the plane, and in elevation
+  float along;  // their difference over the reflection length along the line
+};
+
+#if STORED_GRADIENT == 1
+layout(binding = 3) uniform sampler3D density;  // (HU, differences over two voxels in eighths of HU) / 32767
+
+// By the stored gradient, as if density went on as steeply as it does at the sample.
+Surroundings surroundings(float k, float along) {
+#if EXACT_FILTER == 1
+  vec4 here = exact_to_edge(density, place(k)) * 32767.0;
+#else
+  vec4 here = textureLod(density, place(k), 0.0) * 32767.0;
+#endif
+  vec3 a_voxel = here.yzw * (0.125 / 2.0), a_texture = a_voxel * vec3(textureSize(density, 0));
+  vec2 to_side = vec2(dot(a_texture, line.lateral.xyz), dot(a_texture, line.elevation.xyz));
+  vec4 beside = here.x + vec4(to_side.x, -to_side.x, to_side.y, -to_side.y);
+  if (depth(k) < gel_mm) beside = mix(beside, vec4(kGel.x), lessThan(beside, vec4(kCouplingAirHu)));
+  return Surroundings(beside, dot(a_texture, line.along.xyz) * 2.0 * half_reflection_length);
+}
+#else
+// By differences; those along the line are known from its walk.
+Surroundings surroundings(float k, float along) {
   vec3 at = place(k);
   float r = depth(k);
-  return vec4(hu_at(at + line.lateral.xyz, r), hu_at(at - line.lateral.xyz, r),
-              hu_at(at + line.elevation.xyz, r), hu_at(at - line.elevation.xyz, r));
+  return Surroundings(vec4(hu_at(at + line.lateral.xyz, r), hu_at(at - line.lateral.xyz, r),
+                           hu_at(at + line.elevation.xyz, r), hu_at(at - line.elevation.xyz, r)), along);
 }
+#endif
 
-// |cos| of the angle between the beam and the normal of the interface, from differences over the reflection length:
-// of density, whose gradient is that of impedance in direction and needs no look at the tissue table.
-float incidence(vec4 around, float along) {
-  vec2 across = around.xz - around.yw;
-  return abs(along) * inversesqrt(along * along + dot(across, across));
+// |cos| of the angle between the beam and the normal of the interface.
+float incidence(Surroundings around) {
+  vec2 across = around.beside.xz - around.beside.yw;
+  return abs(around.along) * inversesqrt(max(around.along * around.along + dot(across, across), 1e-30));
 }
 
 // Complex amplitude of what scatters at a sample.
@@ -132,13 +157,13 @@ vec2 scatterers_echo(float k, Medium here) {
 // different planes hold none between them.
 void put(int slice_plane, int at, vec4 value) {
 #if KEEP_MIDDLE == 1
-  if (slice_plane == SLICE_PLANES / 2) middle[at] = value.xy;
+  if (slice_plane == SLICE_PLANES / 2) middle[at] = kept_energy(value.xy);
 #endif
 #if SLICE_PLANES > 1
   value *= line.lateral.w;
-  if (slice_plane > 0) value += scan[at];
+  if (slice_plane > 0) value += scan_of(scan[at]);
 #endif
-  scan[at] = value;
+  scan[at] = kept_scan(value);
 }
 
 // Of a line in air, which is one line in each of the slice's planes, or of the planes.
@@ -171,13 +196,13 @@ void walk(int slice_plane, int index) {
     float intensity = exp(log_intensity);
     float cosine = kMeanCosine;
 #if EDGE_SHADOW == 1
-    vec4 around = beside(position);
+    Surroundings around = surroundings(position, behind.hu - before.hu);
 #endif
     if (alpha > least_alpha_with_normal) {
 #if EDGE_SHADOW == 0
-      vec4 around = beside(position);
+      Surroundings around = surroundings(position, behind.hu - before.hu);
 #endif
-      cosine = incidence(around, behind.hu - before.hu);
+      cosine = incidence(around);
       ++normals;
     }
     float reflection = alpha * intensity * intensity * cosine;  // (3)
@@ -185,7 +210,7 @@ void walk(int slice_plane, int index) {
 
     float change = reflection_exponent * log_transmission(alpha, before.impedance, behind.impedance) - absorbed;  // (5)
 #if EDGE_SHADOW == 1
-    vec4 soft = clamp(around, kLeastHu, kMostHu);
+    vec4 soft = clamp(around.beside, kLeastHu, kMostHu);
     vec4 log_speed = kLogSpeedBelowWater * min(soft, 0.0) + kLogSpeedAboveWater * max(soft, 0.0);
     turn = turn * turn_kept + (log_speed.xz - log_speed.yw) * turn_per_step;
     float turned = dot(turn, turn), to_the_fourth = turned * turned;
@@ -203,7 +228,8 @@ void walk(int slice_plane, int index) {
   // What nothing is heard of still scatters in the apertures of the lines beside it, as far as the body goes.
   for (end = int(min(line.along.w + 1.0, float(samples))); k < end; ++k)
     put(slice_plane, row + k, vec4(0.0, 0.0, scatterers_echo(float(k), medium(float(k)))));
-  for (; k < samples; ++k) put(slice_plane, row + k, vec4(starts ? vec2(0.0) : texelFetch(in_air, k).xy, 0.0, 0.0));
+  for (; k < samples; ++k)
+    put(slice_plane, row + k, vec4(starts ? vec2(0.0) : energy_of(texelFetch(in_air, k).xy), 0.0, 0.0));
 }
 
 void main() {
