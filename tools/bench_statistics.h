@@ -30,10 +30,16 @@ private:
 
 /// A setting's run time and error.
 struct Cost {
-  double time = 0, error = 0;
+  Spread time;
+  double error = 0;
 };
 
-/// For each, whether it lies on the front: no other is better in one and at least as good in the other.
+/// Errors that differ by less than this share show no difference.
+inline constexpr double kSameError = 0.01;
+
+/// For each, whether it lies on the front: no other is better in one and at least as good in the other. Times whose
+/// quartiles overlap and errors within kSameError are no better than each other; of settings that are so alike in both
+/// the first lies on the front for all.
 std::vector<bool> on_front(const std::vector<Cost>& costs);
 
 }  // namespace insonate::bench

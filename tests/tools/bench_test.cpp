@@ -52,9 +52,23 @@ TEST_CASE("the root mean square of nothing is 0, of others the root of their mea
 }
 
 TEST_CASE("on the front lies what no other setting beats in one and equals in the other") {
-  const std::vector<bool> front = on_front({{1, 5}, {2, 3}, {2, 4}, {3, 3}, {4, 1}, {5, 2}});
-  CHECK(front == std::vector<bool>{true, true, false, false, true, false});
-  CHECK(on_front({{1, 1}, {1, 1}}) == std::vector<bool>{true, true});
+  const auto front = [](const std::vector<std::pair<double, double>>& settings) {
+    std::vector<Cost> costs;
+    for (const auto& [time, error] : settings) costs.push_back({{time, time, time}, error});
+    return on_front(costs);
+  };
+  CHECK(front({{1, 5}, {2, 3}, {2, 4}, {3, 3}, {4, 1}, {5, 2}}) ==
+        std::vector<bool>{true, true, false, false, true, false});
+}
+
+TEST_CASE("of settings that cannot be told apart the first lies on the front, whichever is faster by chance") {
+  const Cost usual{{9, 10, 11}, 1.0}, by_chance{{8, 9.5, 11}, 0.999}, faster{{7, 8, 8.9}, 1.0},
+      finer{{9, 10, 11}, 0.98}, slower{{12, 13, 14}, 0.999};
+  CHECK(on_front({usual, by_chance, slower}) == std::vector<bool>{true, false, false});
+  CHECK(on_front({by_chance, usual}) == std::vector<bool>{true, false});
+  CHECK(on_front({usual, faster}) == std::vector<bool>{false, true});
+  CHECK(on_front({usual, finer}) == std::vector<bool>{false, true});
+  CHECK(on_front({usual, usual}) == std::vector<bool>{true, false});
 }
 
 TEST_CASE("a table comes back from its CSV as it was, whatever its cells hold") {
