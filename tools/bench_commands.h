@@ -26,6 +26,10 @@ Table measure_sweep(const Request& request);
 /// What the device's linear filter is off by, which exact_filter in Settings mends.
 Table measure_filter();
 
+/// What numbers too small for single precision's normal ones cost: a picture behind gas and bone, which is full of
+/// them, in turn with one of as many samples in plain tissue.
+Table measure_denormals(const Request& request);
+
 /// Run time against error over the settings. Scenes' plots go into one SVG unless `svg` is empty.
 Table measure_front(const Request& request, const std::string& svg);
 

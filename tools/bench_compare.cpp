@@ -16,9 +16,9 @@ namespace {
 
 constexpr std::array<const char*, 3> kTimes = {"q1_ms", "median_ms", "q3_ms"};
 // What is measured or only told, as are all times: everything else names the setting.
-constexpr std::array<const char*, 11> kMeasured = {"device",     "frames",          "runs_still",      "error_db",
-                                                   "error_grey", "error_r_db",      "evaluated",       "possible",
-                                                   "on_front",   "images_a_second", "mpixels_a_second"};
+constexpr std::array<const char*, 13> kMeasured = {
+    "device",   "frames",   "runs_still",      "error_db",         "error_grey", "error_r_db", "evaluated",
+    "possible", "on_front", "images_a_second", "mpixels_a_second", "faintest",   "denormal"};
 
 bool names_setting(const std::string& column) {
   const auto is = [&](const char* name) { return column == name; };

@@ -44,6 +44,11 @@ int main(int argc, char** argv) {
       arguments, "batch", "Model W for registration: many images in one call against one a call", request, csv);
   const CLI::App* sweep =
       add_measurement(arguments, "sweep", "What a 3D probe's volume of WIDTH x HEIGHT x WIDTH costs", request, csv);
+  CLI::App* denormal = arguments.add_subcommand("denormal", "What numbers near nothing cost, beside ordinary ones");
+  denormal->add_option("--frames", request.frames, "Frames measured")
+      ->check(CLI::Range(3, 100000))
+      ->capture_default_str();
+  denormal->add_option("--csv", csv, "Write the table as CSV too");
   CLI::App* filter = arguments.add_subcommand("filter", "How exact the device's own filter of volumes is");
   filter->add_option("--csv", csv, "Write the table as CSV too");
   CLI::App* front = add_measurement(arguments, "front", "Run time against error over the settings", request, csv);
@@ -66,13 +71,14 @@ int main(int argc, char** argv) {
       exams = {assets_folder() / "scenarios" / "ruq_hepatorenal.toml", assets_folder() / "logs" / "ruq_good.igs.mha"};
     bench::Table table;
     gl::within_device("--configuration", "take fewer lines, samples or pixels", [&] {
-      table = frames->parsed()    ? bench::measure_frames(request)
-              : paper->parsed()   ? bench::measure_paper(request)
-              : filter->parsed()  ? bench::measure_filter()
-              : sweep->parsed()   ? bench::measure_sweep(request)
-              : batch->parsed()   ? bench::measure_batch(request)
-              : scoring->parsed() ? bench::measure_scoring(exams)
-                                  : bench::measure_front(request, svg);
+      table = frames->parsed()     ? bench::measure_frames(request)
+              : paper->parsed()    ? bench::measure_paper(request)
+              : filter->parsed()   ? bench::measure_filter()
+              : denormal->parsed() ? bench::measure_denormals(request)
+              : sweep->parsed()    ? bench::measure_sweep(request)
+              : batch->parsed()    ? bench::measure_batch(request)
+              : scoring->parsed()  ? bench::measure_scoring(exams)
+                                   : bench::measure_front(request, svg);
     });
     if (!csv.empty()) write_file(csv, table.csv());
     return 0;

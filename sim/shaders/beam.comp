@@ -74,7 +74,8 @@ void main() {
 
   reflection /= total;
   repeated /= total;
-  vec4 transmission = two_way == 1 ? intensity * intensity : intensity;
+  vec4 heard = mix(vec4(0.0), intensity, greaterThan(intensity, vec4(kLeastIntensity)));
+  vec4 transmission = two_way == 1 ? heard * heard : intensity;
   vec4 envelope = sqrt(re * re + im * im) / total * here.x;
   for (int i = 0; i < 4; ++i)
     if (first + i < lines)

@@ -40,7 +40,7 @@ float seen(float round_trip) {
 // Sample k, which lies `apart` behind another reflector, with what a round between them leaves.
 void repeat(int k, float echo, float apart, float gain) {
   float position = float(k) + apart;
-  for (int n = 0; n < kMostRepeats && position < float(samples); ++n, position += apart) {
+  for (int n = 0; n < kMostRepeats && position < float(samples) && echo > kLeastEcho; ++n, position += apart) {
     echo *= gain;
     add(position, echo);
   }

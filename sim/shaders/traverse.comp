@@ -44,6 +44,7 @@ const float kScattererScale = 4.0;     // the lattice stores a quarter of its no
 const float kLn10 = 2.302585093;
 const float kSilent = -5999.5;  // hundredths of a dB: what is marked with the least echogenicity does not scatter
 const float kSpentLogIntensity = SKIPPING == 1 ? -46.0 : -1e30;  // 10^-20: 200 dB down nothing can be heard
+const float kLeastLogIntensity = -69.0;  // 10^-30, for lines that nothing ends
 
 Line line;
 
@@ -193,7 +194,7 @@ void walk(int slice_plane, int index) {
 
     float absorbed = ABSORPTION == 1 ? here.absorption * absorption_per_sample : 0.0;
     if (k == 0) log_intensity = -0.5 * absorbed;  // the first sample lies half a step behind the face
-    float intensity = exp(log_intensity);
+    float intensity = SKIPPING == 1 || log_intensity > kLeastLogIntensity ? exp(log_intensity) : 0.0;
     float cosine = kMeanCosine;
 #if EDGE_SHADOW == 1
     Surroundings around = surroundings(position, behind.hu - before.hu);
@@ -205,7 +206,8 @@ void walk(int slice_plane, int index) {
       cosine = incidence(around);
       ++normals;
     }
-    float reflection = alpha * intensity * intensity * cosine;  // (3)
+    float heard = intensity > kLeastIntensity ? intensity : 0.0, reflection = alpha * heard * heard * cosine;  // (3)
+    if (reflection < kLeastEcho) reflection = 0.0;
     put(slice_plane, row + k, vec4(intensity, reflection, scatterers_echo(position, here)));
 
     float change = reflection_exponent * log_transmission(alpha, before.impedance, behind.impedance) - absorbed;  // (5)

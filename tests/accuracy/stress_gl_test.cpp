@@ -2,6 +2,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <functional>
 #include <string>
@@ -199,6 +201,33 @@ TEST_CASE("thousands of interfaces in a row") {
       {"strong", layers(60, 1500)},
       {"total", layers(-1000, 1500)},
   });
+}
+
+TEST_CASE("no stage holds a denormal number, with which a processor is slow, where sound fades through all that are") {
+  // Gas and bone take all but some 10^-18 of it, and what is left fades by absorption: R and T through 10^-38.
+  Scene scene = ordinary_scene();
+  scene.volume = make_volume({2, 2000, 2}, {40, 0.1, 40}, [](const glm::ivec3& i) {
+    const int layer = i.y / 10;
+    return layer % 2 == 0 || layer > 11 ? 60 + i.y % 2 : layer < 6 ? -1000 : 1500;
+  });
+  for (AcousticVoxel& voxel : scene.volume.voxels) voxel.echogenicity_cdb = 0;
+  scene.probe.kind = ProbeKind::linear;
+  scene.probe.lines = 40;
+  scene.depth_mm = 190;
+  scene.pose.translation = {0, -100, 0};
+  scene.settings.samples = 1000;
+  scene.settings.gel_mm = 0;
+  scene.settings.speckle = scene.settings.clutter = scene.settings.electronic_noise = false;
+  Stressed stressed;
+  for (const bool skipping : {true, false}) {
+    CAPTURE(skipping);
+    scene.settings.skipping = skipping;
+    const Stages<float> stages = stressed.check_shaders(scene);
+    CHECK(std::ranges::any_of(stages.intensity.pixels, [](float i) { return i > 0 && i < 1e-18f; }));
+    for (const auto stage : {&Stages<float>::intensity, &Stages<float>::reflection, &Stages<float>::reflection_beam,
+                             &Stages<float>::transmission, &Stages<float>::repeated, &Stages<float>::fused})
+      CHECK(std::ranges::none_of((stages.*stage).pixels, [](float v) { return std::fpclassify(v) == FP_SUBNORMAL; }));
+  }
 }
 
 TEST_CASE("poses that no hand holds") {

@@ -161,6 +161,23 @@ TEST_CASE("insonate-bench front: errors against the converged reference, a front
   CHECK(f.output.find("\nfast ") != std::string::npos);
 }
 
+TEST_CASE("insonate-bench denormal: behind gas and bone and in tissue, neither with denormal numbers") {
+  Fixture f;
+  REQUIRE(f.run("denormal --frames 3 --csv " + f.csv.string()) == 0);
+  INFO(f.output);
+  const bench::Table table = bench::Table::parse("table.csv", read_file(f.csv));
+  REQUIRE(table.rows.size() == 2);
+  CHECK(table.cell(0, "case") == "tissue");
+  CHECK(table.cell(1, "case") == "behind gas and bone");
+  for (const std::size_t row : {0u, 1u}) {
+    CHECK(table.number("table.csv", row, "median_ms") > 0);
+    CHECK(table.cell(row, "denormal") == "0");
+    CHECK(table.number("table.csv", row, "faintest") > 0);
+  }
+  CHECK(table.number("table.csv", 0, "faintest") > 0.1);
+  CHECK(table.number("table.csv", 1, "faintest") < 1e-18);
+}
+
 TEST_CASE("insonate-bench filter: what the device's own filter is off by, and whether to do without it") {
   Fixture f;
   REQUIRE(f.run("filter --csv " + f.csv.string()) == 0);
