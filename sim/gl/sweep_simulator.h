@@ -43,7 +43,8 @@ public:
   /// Throws std::invalid_argument on settings that why_not_valid() (sim/model/settings_file.h) finds fault with.
   void set_settings(const Settings& settings);
 
-  /// The volume: RG8, as large as the grid: grey and 1, or 0 and 0 outside the sweep.
+  /// RG8, as large as the grid: grey and 1, or 0 and 0 outside the sweep. This and what is read back is there once
+  /// volume, sweep and grid are set.
   const Texture& volume();
 
   /// The same read back: 0 to 255, -1 outside the sweep. Runs what is due first.
