@@ -1,11 +1,10 @@
-// A sweep as one set of lines on the graphics card: against the reference in double precision, and against the
-// simulator of pictures plane by plane; the same whatever a device takes at once; and nothing run that a change does
-// not reach.
+// A sweep as one set of lines on the graphics card: against the simulator of pictures plane by plane; the same whatever
+// a device takes at once; and nothing run that a change does not reach.
 
 #include <catch2/catch.hpp>
-#include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <stdexcept>
@@ -15,76 +14,18 @@
 #include "sim/gl/line_stages.h"
 #include "sim/gl/simulator.h"
 #include "sim/gl/stage_tables.h"
-#include "sim/gl/sweep_simulator.h"
-#include "sim/reference/sweep_reference.h"
-#include "tests/gl/parity.h"
-#include "tests/gl/test_body.h"
 #include "tests/gl/test_context.h"
+#include "tests/gl/test_sweeps.h"
 
 using namespace insonate;
+using test::by_hand;
+using test::everything;
+using test::of_the_paper;
+using test::simulator_of;
+using test::swept;
+using test::tissues;
 
 namespace {
-
-constexpr double kDepth_mm = 110;
-
-const TissueTable& tissues() {
-  static const TissueTable table = read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml");
-  return table;
-}
-
-Probe small_probe(const char* name) {
-  Probe probe = *find_probe(name);
-  probe.lines = 30;  // no multiple of a work group, nor of the four lines that share their windows
-  return probe;
-}
-
-/// Over the rib, the cyst and the gas.
-Sweep swept(const char* probe_name, int planes = 9) {
-  const Probe probe = small_probe(probe_name);
-  return {probe, kDepth_mm, swept_planes(test::on_the_skin(0, 9, 0), planes, 40, 30)};
-}
-
-/// As a hand moves: each plane turned and moved against the one before by another way.
-Sweep by_hand() {
-  Sweep sweep{small_probe("curvilinear"), kDepth_mm, {}};
-  Pose patient_from_plane = test::on_the_skin(-6, 7, -12);
-  for (int k = 0; k < 9; ++k) {
-    sweep.patient_from_plane.push_back(patient_from_plane);
-    const glm::dmat4 turn =
-        glm::rotate(glm::dmat4(1.0), 0.03 + 0.02 * (k % 3), glm::normalize(glm::dvec3(1, 0.5 * std::sin(k), 0.2)));
-    patient_from_plane = patient_from_plane * Pose{glm::dmat3(turn), {std::cos(k), 0.3, 2.5 + k % 2}};
-  }
-  return sweep;
-}
-
-/// Every effect on, and enough of each to show.
-Settings everything() {
-  Settings settings = trainer_settings(3.5, kDepth_mm);
-  settings.samples = 150;
-  settings.reverberation = settings.clutter = settings.electronic_noise = settings.edge_shadow = true;
-  settings.face_reflection = 0.3;
-  settings.clutter_db = -15;
-  settings.noise_db = -80;
-  settings.slice_planes = 3;
-  settings.gain_db = 10;
-  return settings;
-}
-
-Settings of_the_paper() {
-  Settings settings = paper_settings(kDepth_mm, 150);
-  settings.blend = 1e-3;  // else its one brightest voxel leaves the rest black
-  return settings;
-}
-
-gl::SweepSimulator simulator_of(const Sweep& sweep, const Settings& settings, const Grid& grid,
-                                const gl::Scheme& scheme = gl::Scheme::of_device()) {
-  gl::SweepSimulator simulator({}, scheme);
-  simulator.set_volume(test::test_body(), tissues());
-  simulator.set_sweep(sweep);
-  simulator.set_settings(settings);
-  simulator.set_grid(grid);
-  return simulator;
-}
 
 struct Volumes {
   std::vector<float> fused;
@@ -108,83 +49,7 @@ long count_of_different(const std::vector<Number>& a, const std::vector<Number>&
   return count;
 }
 
-Image<double> row_of(const std::vector<double>& values) {
-  Image<double> row(int(values.size()), 1);
-  row.pixels = values;
-  return row;
-}
-
-void check_against_reference(const Sweep& sweep, Settings settings) {
-  const test::TestContext context;
-  settings = test::exact_as_needed(settings);
-  settings.skipping = false;  // which the reference does not do
-  const Grid grid = sweep_grid(sweep, 4);
-  gl::SweepSimulator simulator = simulator_of(sweep, settings, grid);
-  const Volume<float> fused = simulator.read_fused();
-  const Volume<std::int16_t> grey = simulator.read_grey();
-
-  const AcousticVolume body = test::test_body();
-  const MediumField field = trilinear_field(body);
-  const auto reference = [&](const MediumField& of_body, const Grid& of_voxels) {
-    return simulate_sweep_reference(of_body, tissues(), sweep, settings, of_voxels);
-  };
-  const ReferenceVolume expected = reference(field, grid);
-  // Mesa's arctangent is within 1e-6 rad, which is 2e-4 mm at a fan's end, 170 mm from its apex; the voxels'
-  // coordinates are closer than that. It is felt where an echo stands beside one of another magnitude.
-  std::array<ReferenceVolume, 4> uncertain;
-  for (std::uint32_t i = 0; i < uncertain.size(); ++i) {
-    Grid moved = grid;
-    for (int axis = 0; axis < 3; ++axis)
-      moved.origin[axis] += 2e-4 * (2.0 * unit_float(hash(i, std::uint32_t(axis))) - 1.0);
-    uncertain[i] = reference(test::as_single_precision_knows_it(field, i), moved);
-  }
-
-  // At the edge of the sweep rounding alone decides what is inside.
-  long at_edge = 0;
-  std::vector<double> expected_fused;
-  std::array<std::vector<double>, 4> uncertain_fused;
-  std::vector<float> got_fused;
-  std::vector<int> expected_grey, got_grey;
-  for (std::size_t i = 0; i < grid.count(); ++i) {
-    REQUIRE(std::isnan(fused.voxels[i]) == (grey.voxels[i] < 0));
-    REQUIRE(std::isnan(expected.fused.voxels[i]) == (expected.grey.voxels[i] < 0));
-    const bool inside = grey.voxels[i] >= 0;
-    if (inside != expected.grey.voxels[i] >= 0) ++at_edge;
-    const auto outside_there = [&](const ReferenceVolume& volume) { return volume.grey.voxels[i] < 0; };
-    if (!inside || outside_there(expected) || std::ranges::any_of(uncertain, outside_there)) continue;
-    expected_fused.push_back(expected.fused.voxels[i]);
-    for (std::size_t j = 0; j < uncertain.size(); ++j) uncertain_fused[j].push_back(uncertain[j].fused.voxels[i]);
-    got_fused.push_back(fused.voxels[i]);
-    expected_grey.push_back(expected.grey.voxels[i]);
-    got_grey.push_back(grey.voxels[i]);
-  }
-  CHECK(at_edge <= 5);
-  REQUIRE(got_fused.size() > grid.count() / 10);
-  Image<float> got(int(got_fused.size()), 1);
-  got.pixels = got_fused;
-  test::check_fused(
-      row_of(expected_fused),
-      {row_of(uncertain_fused[0]), row_of(uncertain_fused[1]), row_of(uncertain_fused[2]), row_of(uncertain_fused[3])},
-      got, settings.dynamic_range_db);
-  test::check_grey(expected_grey, got_grey);
-}
-
 }  // namespace
-
-TEST_CASE("GLSL agrees with the reference: a 3D probe, every effect on") {
-  check_against_reference(swept("curvilinear"), everything());
-}
-
-TEST_CASE("GLSL agrees with the reference: a 3D probe in the paper's own mode, its brightest voxel white") {
-  check_against_reference(swept("phased"), of_the_paper());
-}
-
-TEST_CASE("GLSL agrees with the reference: planes that a hand has swept") {
-  Settings settings = everything();
-  settings.slice_planes = 1;
-  settings.grey_map = GreyMap::s_curve;
-  check_against_reference(by_hand(), settings);
-}
 
 TEST_CASE("the lines of many planes hold what each plane's picture holds, to the last bit") {
   // Windows too wide for the array: one that went on into the next plane's lines would take its other end.
