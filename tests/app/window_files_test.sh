@@ -97,7 +97,7 @@ pixels=$(different "$work/console.png" "$work/console_broken.png")
 pixels=$(different "$work/before.png" "$work/broken.png")
 [ "$pixels" = 0 ] || fail "a shader that does not build changed $pixels pixels"
 import -window root "$work/broken_screen.png"
-sed 's/vec3(mapped(grey))/vec3(1.0 - mapped(grey))/' "$shaders/shared/grey.glsl" >"$work/shaders/shared/grey.glsl"
+sed 's/vec3(grey_at(level, white_db))/vec3(1.0 - grey_at(level, white_db))/' "$shaders/shared/grey.glsl" >"$work/shaders/shared/grey.glsl"
 ! cmp -s "$shaders/shared/grey.glsl" "$work/shaders/shared/grey.glsl" || fail "shared/grey.glsl reads differently: edit it elsewhere"
 await "a shader that builds is taken" builds
 await "the picture stands still" still
