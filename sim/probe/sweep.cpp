@@ -19,6 +19,20 @@ std::vector<Pose> swept_planes(const Pose& patient_from_probe, int planes, doubl
   return placed;
 }
 
+std::optional<std::size_t> turns_back_at(const Sweep& sweep) {
+  constexpr double kResting_mm = 0.05;
+  const glm::dvec3 middle(0, sweep.depth_mm / 2, 0);
+  double way = 0;  // of the planes until now, along their z
+  for (std::size_t k = 1; k < sweep.patient_from_plane.size(); ++k) {
+    const Pose before_from_patient = sweep.patient_from_plane[k - 1].inverse();
+    const double step_mm = before_from_patient.point(sweep.patient_from_plane[k].point(middle)).z;
+    if (std::abs(step_mm) < kResting_mm) continue;
+    if (way * step_mm < 0) return k;
+    way = step_mm;
+  }
+  return std::nullopt;
+}
+
 ScanLines scan_lines(const Sweep& sweep, int samples) {
   const ScanLines plane = scan_lines(sweep.probe, sweep.depth_mm, samples);
   ScanLines all = plane;

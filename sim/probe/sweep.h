@@ -29,6 +29,10 @@ struct Sweep {
 /// @param pivot_mm   0 or more: the radius on which the face swings
 std::vector<Pose> swept_planes(const Pose& patient_from_probe, int planes, double sweep_deg, double pivot_mm);
 
+/// The first plane that goes back the way the planes before it came, as its middle shows, half the depth from the face;
+/// empty for a sweep that goes one way. Where a hand rests planes may lie within a twentieth of a millimetre.
+std::optional<std::size_t> turns_back_at(const Sweep& sweep);
+
 /// All lines of a sweep, patient mm, plane by plane: line i of plane p is at p * probe.lines + i.
 ScanLines scan_lines(const Sweep& sweep, int samples);
 

@@ -108,6 +108,21 @@ TEST_CASE("a point between a 3D probe's planes is found by its angle") {
   CHECK_FALSE(sweep_position(sweep, pose.point({0, 101, 0})));
 }
 
+TEST_CASE("a sweep that goes back is told from one that goes one way or rests") {
+  const auto at = [](const std::vector<double>& elevations_mm) {
+    Sweep sweep{*find_probe("linear"), 60, {}};
+    for (const double z : elevations_mm) sweep.patient_from_plane.push_back({glm::dmat3(1.0), {0, 0, z}});
+    return turns_back_at(sweep);
+  };
+  CHECK(!at({0, 5, 10, 15}));
+  CHECK(!at({15, 10, 5, 0}));
+  CHECK(!at({0, 5, 5, 4.98, 5, 10}));
+  CHECK(at({0, 5, 10, 5, 0}) == 3u);
+  CHECK(at({0, 0, -5, -4}) == 3u);
+  const Sweep swept{*find_probe("curvilinear"), 160, swept_planes({}, 33, 120, 60)};
+  CHECK(!turns_back_at(swept));
+}
+
 TEST_CASE("the grid of a sweep holds all of it, with cubic voxels along the middle plane's axes") {
   for (const Sweep& sweep : {swept("curvilinear", 11, 45), by_hand("linear")}) {
     const Grid grid = sweep_grid(sweep, 0.8);

@@ -149,6 +149,16 @@ TEST_CASE("a sweep becomes a volume in which the patient's parts lie where they 
                                 "--ct " + scene.in("ct.nrrd") + " --freehand " + scene.in("pose.txt") + " " + volume);
   CHECK(one_plane.code == 2);
   CHECK(one_plane.errors.find("pose.txt: it holds 1 of the 2 to 2048 poses of a sweep") != std::string::npos);
+  std::string and_back;
+  for (const double z : {-6.0, 0.0, 6.0, 0.0})
+    and_back += "1 0 0 0  0 1 0 9  0 0 1 " + std::to_string(z) + "  0 0 0 1\n";
+  scene.folder.file("back.txt", and_back);
+  fs::remove(volume);
+  const Outcome turned = run(scene.folder, INSONATE_RENDER_PROGRAM,
+                             "--ct " + scene.in("ct.nrrd") + " --freehand " + scene.in("back.txt") + " " + volume);
+  CHECK(turned.code == 2);
+  CHECK(turned.errors.find("back.txt: pose 4: the sweep goes back here") != std::string::npos);
+  CHECK(!fs::exists(volume));
   CHECK(scene.render("--sweep 30").errors.find("name a file that ends in .nrrd") != std::string::npos);
 }
 
