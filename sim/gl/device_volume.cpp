@@ -91,6 +91,7 @@ DeviceVolume::DeviceVolume(const AcousticVolume& volume, const TissueTable& tabl
 std::pair<double, double> DeviceVolume::meets_body(const glm::dvec3& start, const glm::dvec3& step,
                                                    const glm::dvec3& reach) const {
   constexpr double kFar = std::numeric_limits<double>::infinity();
+  if (body_high_.x < body_low_.x) return {kFar, -kFar};  // air everywhere
   double first = -kFar, last = kFar;
   for (int axis = 0; axis < 3; ++axis) {
     const double low = body_low_[axis] - reach[axis] - start[axis], high = body_high_[axis] + reach[axis] - start[axis];

@@ -11,10 +11,6 @@
 namespace insonate::gl {
 namespace {
 
-std::string flag(bool on) {
-  return on ? "1" : "0";
-}
-
 // What all stages are compiled for, and what one is besides.
 Defines with(const Scheme& scheme, const Representation& representation, Defines defines = {}) {
   defines.emplace_back("GROUP", std::to_string(scheme.group));

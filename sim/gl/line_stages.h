@@ -58,9 +58,8 @@ public:
   const ScanLines& lines() const { return lines_; }      ///< of a plane
   const TexelBuffer& scan() const { return scan_; }      ///< by sample: I, R, scatterers' echo (re, im)
   const TexelBuffer& echoes() const { return echoes_; }  ///< by sample: R, T, S, V; both as handed_on.h says
-  const TexelBuffer& mean_echo() const {
-    return mean_echo_;
-  }  ///< by plane and depth: mean of T S with its tail, with clutter
+  /// By plane and depth: mean of T S with its tail, with clutter.
+  const TexelBuffer& mean_echo() const { return mean_echo_; }
   /// Waits for the device.
   SampleCounts sample_counts() const;
 

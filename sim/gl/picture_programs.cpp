@@ -6,10 +6,6 @@
 namespace insonate::gl {
 namespace {
 
-std::string flag(bool on) {
-  return on ? "1" : "0";
-}
-
 Defines conversion(const PictureVariant& variant) {
   return {{"REFLECTION_SMOOTHED", flag(variant.reflection_radius_px > 0)},
           {"TRANSMISSION_SMOOTHED", flag(variant.transmission_radius_px > 0)},

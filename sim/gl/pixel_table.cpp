@@ -18,7 +18,7 @@ PixelTable table_of(const std::vector<std::vector<PixelPlace>>& columns, const P
   PixelTable result;
   for (const auto& column : columns) {
     steps = std::max(steps, column.size());
-    result.pixels += column.size();
+    result.pixels += std::size_t(std::ranges::count_if(column, [](const PixelPlace& place) { return place.x >= 0; }));
   }
   result.columns = (columns.size() + group - 1) / group * group;
   std::vector<PixelPlace> table(result.columns * steps, filler);

@@ -23,7 +23,7 @@ std::vector<PixelPlace> places_in_scan(const FanLayout& fan, const ScanLines& li
 /// A column an invocation, with a row a step; as many columns as whole groups of so many have.
 struct PixelTable {
   std::size_t columns = 0;
-  std::size_t pixels = 0;  ///< but for those that fill up shorter columns
+  std::size_t pixels = 0;  ///< inside the fan; others fill up words and shorter columns
   TexelBuffer places;
 
   explicit operator bool() const { return columns > 0; }

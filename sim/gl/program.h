@@ -39,6 +39,11 @@ private:
 /// Lines put in front of a shader as `#define NAME VALUE`.
 using Defines = std::vector<std::pair<std::string, std::string>>;
 
+/// What a define is for something that is on or off.
+inline std::string flag(bool on) {
+  return on ? "1" : "0";
+}
+
 struct ProgramKind {
   static void destroy(GLuint name) { glDeleteProgram(name); }
 };

@@ -64,6 +64,7 @@ struct Simulator::State {
   bool layout_changed = true;  // probe, depth, sample count or picture size
   std::optional<Stage> first_due = Stage::traverse;
   std::array<long, kStageCount> runs{};
+  int slice_planes_walked = 0;  // when the traversal last ran
 
   std::size_t pixels() const { return std::size_t(settings.image_width) * std::size_t(settings.image_height); }
   bool frame_sets_white() const { return settings.reference_level == ReferenceLevel::frame_maximum; }
@@ -163,6 +164,7 @@ void Simulator::State::run(Stage stage) {
   switch (stage) {
     case Stage::traverse:
       line_stages.restart_counts();
+      slice_planes_walked = settings.slice_planes;
       line_stages.traverse(volume, {&patient_from_probe, 1}, settings);
       break;
     case Stage::beam:
@@ -278,7 +280,7 @@ StageCount Simulator::count(Stage stage) const {
   const std::uint64_t samples = s.line_stages.lines().lines.size() * std::uint64_t(s.line_stages.lines().samples);
   switch (stage) {
     case Stage::traverse:
-      count.possible = samples * std::uint64_t(s.settings.slice_planes);
+      count.possible = samples * std::uint64_t(s.slice_planes_walked);
       count.evaluated = sample_counts().walked;
       break;
     case Stage::beam:
@@ -288,7 +290,7 @@ StageCount Simulator::count(Stage stage) const {
     case Stage::smooth:
     case Stage::fuse:
     case Stage::compress:
-      count.possible = s.pixels();
+      count.possible = std::uint64_t(s.image.width()) * std::uint64_t(s.image.height());
       count.evaluated = s.fan.pixels_in_blocks();
       break;
   }

@@ -21,10 +21,11 @@ using Part = SweepConversion::Part;
 
 constexpr std::size_t kGroupVoxels = 4 * 64;  // that a work group of sweep_compress.comp serves
 
-// As many planes together as a buffer holds samples, but the two at least that voxels lie between.
-std::vector<Part> parts_of(const Sweep& sweep, int samples, const Scheme& scheme) {
+// As many planes together as a buffer holds samples and placed lines, but the two at least that voxels lie between.
+std::vector<Part> parts_of(const Sweep& sweep, const Settings& settings, const Scheme& scheme) {
   const int planes = int(sweep.patient_from_plane.size());
-  const std::size_t plane = std::size_t(sweep.probe.lines) * std::size_t(samples);
+  const std::size_t placed = std::size_t(settings.slice_planes) * sizeof(PlacedLine) / (4 * sizeof(float));
+  const std::size_t plane = std::size_t(sweep.probe.lines) * std::max(std::size_t(settings.samples), placed);
   const int most = int(std::clamp<std::size_t>(scheme.most_texels / plane, 2, std::size_t(planes)));
   std::vector<Part> parts;
   for (int first = 0; first + 1 < planes; first += most - 1) parts.push_back({first, std::min(most, planes - first)});
@@ -79,6 +80,7 @@ struct SweepSimulator::State {
   bool lines_changed = true, grid_changed = true;  // their numbers
   std::optional<SweepStage> first_due = SweepStage::traverse;
   std::array<long, kSweepStageCount> runs{};
+  std::uint64_t samples = 0, slice_samples = 0, voxels = 0;  // when they last ran
 
   bool is_whole() const { return !sweep.patient_from_plane.empty() && grid.count() > 0 && volume; }
   bool needed(SweepStage stage) const {
@@ -95,12 +97,13 @@ struct SweepSimulator::State {
   void run_part(const Part& part, SweepStage first);
   template <typename Work>
   void for_each_slab(const Program& program, Work&& then);
+  void count_what_ran(SweepStage first);
   void run();
 };
 
 void SweepSimulator::State::lay_out() {
   if (lines_changed) {
-    parts = parts_of(sweep, settings.samples, scheme);
+    parts = parts_of(sweep, settings, scheme);
     const int most = parts.front().planes;
     line_stages.lay_out(scan_lines(sweep.probe, sweep.depth_mm, settings.samples), most, settings);
     fused = TexelBuffer(GL_R32F, std::size_t(most) * std::size_t(sweep.probe.lines) * std::size_t(settings.samples));
@@ -181,9 +184,19 @@ void SweepSimulator::State::run() {
   for_each_slab(compress, [&](const SweepConversion::Slab& slab) {
     grey.write_slices(GL_RG, GL_UNSIGNED_BYTE, slab.first_slice, slab.slices, packed);
   });
+  count_what_ran(first);
   for (int stage = int(first); stage < kSweepStageCount; ++stage)
     if (needed(SweepStage(stage))) ++runs[std::size_t(stage)];
   first_due.reset();
+}
+
+void SweepSimulator::State::count_what_ran(SweepStage first) {
+  voxels = grid.count();
+  if (first > SweepStage::fuse) return;
+  samples = 0;
+  for (const Part& part : parts)
+    samples += std::uint64_t(part.planes) * std::uint64_t(sweep.probe.lines) * std::uint64_t(settings.samples);
+  if (first == SweepStage::traverse) slice_samples = samples * std::uint64_t(settings.slice_planes);
 }
 
 SweepSimulator::SweepSimulator(const ShaderSources& sources, const Scheme& scheme)
@@ -252,18 +265,10 @@ StageCount SweepSimulator::count(SweepStage stage) const {
   const State& s = *state_;
   StageCount count{s.runs[std::size_t(stage)]};
   if (count.runs == 0) return count;
-  if (stage >= SweepStage::scan_convert) {
-    count.possible = count.evaluated = s.grid.count();
-    return count;
-  }
-  for (const Part& part : s.parts)
-    count.possible +=
-        std::uint64_t(part.planes) * std::uint64_t(s.sweep.probe.lines) * std::uint64_t(s.settings.samples);
-  count.evaluated = count.possible;
-  if (stage == SweepStage::traverse) {
-    count.possible *= std::uint64_t(s.settings.slice_planes);
-    count.evaluated = s.line_stages.sample_counts().walked;
-  }
+  count.possible = stage >= SweepStage::scan_convert ? s.voxels
+                   : stage == SweepStage::traverse   ? s.slice_samples
+                                                     : s.samples;
+  count.evaluated = stage == SweepStage::traverse ? s.line_stages.sample_counts().walked : count.possible;
   return count;
 }
 

@@ -162,6 +162,7 @@ void WeinSimulator::State::traverse(std::span<const Pose> chunk, std::size_t fir
 }
 
 void WeinSimulator::State::ran(WeinStage stage, std::size_t images, std::size_t pixels) {
+  if (images == 0) return;
   StageCount& count = counts[std::size_t(stage)];
   ++count.runs;
   count.evaluated = images * pixels;
@@ -170,6 +171,7 @@ void WeinSimulator::State::ran(WeinStage stage, std::size_t images, std::size_t 
 
 template <typename Work>
 void WeinSimulator::State::by_chunks(std::span<const Pose> poses, Work&& work) {
+  if (poses.empty()) return;
   samples_walked.clear();
   StageCount& count = counts[std::size_t(WeinStage::traverse)];
   ++count.runs;

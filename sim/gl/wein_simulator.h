@@ -56,8 +56,8 @@ public:
   /// image. Waits for the device.
   std::vector<float> similarity(std::span<const Pose> patient_from_probe);
 
-  /// Of calls, each of which is one run of its stages, and of all its images. Waits for the device where the stage is
-  /// the traversal. Images that read_stages() makes count as well.
+  /// Of calls with any pose, each of which is one run of its stages, and of all its images. Samples evaluated are
+  /// modulo 2^32. Waits for the device where the stage is the traversal. Images that read_stages() makes count as well.
   StageCount count(WeinStage stage) const;
 
   /// What crosses the stages of one image but its terms behind scan conversion, read back; for those who check.

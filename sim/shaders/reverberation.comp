@@ -29,7 +29,7 @@ void add(float position, float echo) {
   float f = position - float(low), g = 1.0 - f;
   vec4 share = vec4(g * g * g, 4.0 - f * f * (6.0 - 3.0 * f), 4.0 - g * g * (6.0 - 3.0 * g), f * f * f) * (echo / 6.0);
   for (int i = 0; i < 4; ++i)
-    if (low - 1 + i >= 0 && low - 1 + i < samples) repeats[row + low - 1 + i] += share[i];
+    if (low - 1 + i >= 0 && low - 1 + i < samples && share[i] > kLeastEcho) repeats[row + low - 1 + i] += share[i];
 }
 
 // What counts of a round that leaves so much.
@@ -40,8 +40,9 @@ float seen(float round_trip) {
 // Sample k, which lies `apart` behind another reflector, with what a round between them leaves.
 void repeat(int k, float echo, float apart, float gain) {
   float position = float(k) + apart;
-  for (int n = 0; n < kMostRepeats && position < float(samples) && echo > kLeastEcho; ++n, position += apart) {
+  for (int n = 0; n < kMostRepeats && position < float(samples); ++n, position += apart) {
     echo *= gain;
+    if (echo < kLeastEcho) return;
     add(position, echo);
   }
 }

@@ -28,8 +28,8 @@ struct Line {
 #if KEEP_MIDDLE == 1
 layout(std430, binding = 3) writeonly buffer Middle { HANDED_2 middle[]; };  // a row a line: I, R of the middle plane
 #endif
-layout(std430, binding = 0) readonly buffer ScanLines { Line scan_lines[]; };  // plane by plane, of each
-                                                                                     // its slice's planes in turn
+// Plane by plane, of each its slice's planes in turn.
+layout(std430, binding = 0) readonly buffer ScanLines { Line scan_lines[]; };
 layout(std430, binding = 2) buffer Counters { uint samples_walked, normals_taken; };
 
 // Where the ends of the reflection length lie. Ends that meet those of the next samples are fetched once for all.
@@ -42,7 +42,7 @@ const float kMeanCosine = 0.5;           // |d . n| over all directions, for int
 const float kLeastHu = -150.0, kMostHu = 150.0, kLogSpeedBelowWater = 5e-4, kLogSpeedAboveWater = 7.6e-4;
 const float kScattererScale = 4.0;     // the lattice stores a quarter of its normally distributed numbers
 const float kLn10 = 2.302585093;
-const float kSilent = -5999.5;  // hundredths of a dB: what is marked with the least echogenicity does not scatter
+const float kSilentEchogenicity = -5999.5;  // hundredths of a dB: what is marked with the least echogenicity does not scatter
 const float kSpentLogIntensity = SKIPPING == 1 ? -46.0 : -1e30;  // 10^-20: 200 dB down nothing can be heard
 const float kLeastLogIntensity = -69.0;  // 10^-30, for lines that nothing ends
 
@@ -149,7 +149,7 @@ float incidence(Surroundings around) {
 
 // Complex amplitude of what scatters at a sample.
 vec2 scatterers_echo(float k, Medium here) {
-  vec2 echo = vec2(here.echogenicity > kSilent ? exp(here.echogenicity * (kLn10 / 1000.0)) : 0.0, 0.0);
+  vec2 echo = vec2(here.echogenicity > kSilentEchogenicity ? exp(here.echogenicity * (kLn10 / 1000.0)) : 0.0, 0.0);
   if (SPECKLE == 1) echo = echo.x * scatterer(lattice_place(k));
   return echo;
 }

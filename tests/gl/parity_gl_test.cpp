@@ -288,6 +288,42 @@ TEST_CASE("a line that meets no body does not start") {
   CHECK(on_edge < 0.8 * all);
 }
 
+TEST_CASE("where there is only air no line starts, and one starts that passes beside the body") {
+  const test::TestContext context;
+  gl::Simulator simulator;
+  const TissueTable table = read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml");
+  AcousticVolume block;
+  block.grid.size = {20, 40, 20};
+  block.grid.spacing = glm::dvec3(2);
+  block.grid.origin = {-19, 0, -19};
+  Settings settings = small(trainer_settings(7.5, 60));
+  settings.absorption = false;  // nothing ends a line
+  Probe probe = *find_probe("linear");
+  probe.lines = 1;
+  simulator.set_probe(probe, 60);
+  const auto walked_of = [&](const AcousticVoxel& voxel) {
+    block.voxels.assign(block.grid.count(), voxel);
+    simulator.set_volume(block, table);
+    simulator.set_settings(settings);
+    simulator.image();
+    return simulator.sample_counts().walked;
+  };
+  CHECK(walked_of({}) == 0);
+
+  // Of a block, 5 mm beside it, nothing lies on the line; but its edge turns sound that is within half the reflection
+  // length of it.
+  block.grid.origin.x = 6;
+  settings.gel_mm = 100;
+  settings.reflection_length_mm = 15;
+  settings.slice_planes = 1;
+  CHECK(walked_of({140, 0}) > 0);
+  const Image<float> intensity = simulator.read_stages().intensity;
+  CHECK(intensity.at(0, intensity.height - 1) < 0.99f * intensity.at(0, 0));
+  settings.skipping = false;
+  simulator.set_settings(settings);
+  CHECK(simulator.read_stages().intensity.pixels == intensity.pixels);
+}
+
 TEST_CASE("settings out of their range are refused by name, and those before stay") {
   const test::TestContext context;
   gl::Simulator simulator;

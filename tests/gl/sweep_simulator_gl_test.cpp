@@ -176,6 +176,59 @@ TEST_CASE("a sweep runs the first stage that a change reaches and those behind i
   }
 }
 
+TEST_CASE("a volume after a change is the volume that a new simulator makes") {
+  const test::TestContext context;
+  for (const bool in_parts : {false, true}) {
+    Sweep sweep = swept("curvilinear", 6);
+    Settings settings = everything();
+    settings.samples = 64;
+    settings.skipping = false;  // else normals that settings before have asked for would still be there
+    Grid grid = sweep_grid(sweep, 8);
+    gl::Scheme scheme = gl::Scheme::of_device();
+    if (in_parts) scheme.most_texels = 3 * 30 * 64;
+    gl::SweepSimulator simulator = simulator_of(sweep, settings, grid, scheme);
+    simulator.volume();
+    const std::vector<std::function<void()>> changes = {
+        [&] { settings.samples = 48; },
+        [&] { settings.reflection_length_mm *= 2; },
+        [&] { settings.slice_planes = 1; },
+        [&] { settings.clutter = false; },
+        [&] { settings.noise_db += 6; },
+        [&] { settings.electronic_noise = false; },
+        [&] { settings.speckle_seed = 7; },
+        [&] { settings.focused_beam = false; },
+        [&] { sweep.depth_mm = 90; },
+        [&] { sweep.probe.lines = 21; },
+        [&] { sweep.probe = test::small_probe("phased"); },
+        [&] { sweep.patient_from_plane.pop_back(); },
+        [&] { sweep.patient_from_plane[2].translation.x += 1; },
+        [&] { grid = sweep_grid(sweep, 6); },
+        [&] { settings.clutter = settings.electronic_noise = true; },
+    };
+    for (std::size_t i = 0; i < changes.size(); ++i) {
+      CAPTURE(in_parts, i);
+      changes[i]();
+      simulator.set_sweep(sweep);
+      simulator.set_settings(settings);
+      simulator.set_grid(grid);
+      const std::vector<std::int16_t> grey = simulator.read_grey().voxels;
+      CHECK(std::ranges::count_if(grey, [](int g) { return g > 20; }) > 100);
+      CHECK(grey == simulator_of(sweep, settings, grid, scheme).read_grey().voxels);
+    }
+
+    AcousticVolume liver = test::test_body();
+    liver.voxels.assign(liver.grid.count(), {60, 0});
+    simulator.set_volume(liver, tissues());
+    gl::SweepSimulator anew = simulator_of(sweep, settings, grid, scheme);
+    CHECK(simulator.read_grey().voxels != anew.read_grey().voxels);
+    anew.set_volume(liver, tissues());
+    CHECK(simulator.read_grey().voxels == anew.read_grey().voxels);
+
+    CHECK(!simulator.reload(gl::ShaderSources()));
+    CHECK(simulator.read_grey().voxels == anew.read_grey().voxels);
+  }
+}
+
 TEST_CASE("a volume beside its sweep is all outside, and one of its planes alone is refused") {
   const test::TestContext context;
   Sweep sweep = swept("linear", 3);
