@@ -308,10 +308,12 @@ TEST_CASE("where there is only air no line starts, and one starts that passes be
     simulator.image();
     return simulator.sample_counts().walked;
   };
+  simulator.set_pose(test::on_the_skin(0, 0, 20));  // along no axis
   CHECK(walked_of({}) == 0);
 
   // Of a block, 5 mm beside it, nothing lies on the line; but its edge turns sound that is within half the reflection
   // length of it.
+  simulator.set_pose({});
   block.grid.origin.x = 6;
   settings.gel_mm = 100;
   settings.reflection_length_mm = 15;
