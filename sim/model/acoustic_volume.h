@@ -36,7 +36,8 @@ inline constexpr int kAlikeHu = 36;  ///< three standard deviations of it
 // What a labelled voxel is kept within: the range of the tissue table.
 inline constexpr double kLeastEchogenicityDb = -60, kMostEchogenicityDb = 30;
 
-// What has no more than the least does not scatter at all; a voxel's steps are hundredths of a dB.
+// What has no more than the least does not scatter at all; a voxel's steps are hundredths of a dB. Of what has e dB the
+// scatterers' amplitude is 10^(e/10) - 10^(kSilentDb/10): it begins where silence ends.
 inline constexpr double kSilentDb = kLeastEchogenicityDb + 0.005;
 
 /// From Hounsfield units, and labels where there are any, to what the sound meets.

@@ -6,6 +6,9 @@
 
 namespace insonate {
 
+/// Echoes that have lost 300 dB, as much as time gain can give back, are none.
+inline constexpr double kLeastEcho = 1e-30;
+
 /// What crosses the stages of model S, for those who check or take apart a picture. Numbers in brackets are the
 /// equations of Kutter, Shams, Navab (Computer Methods and Programs in Biomedicine 94, 2009), words with underscores
 /// the fields of Settings. With Z the impedance and a the absorption of the tissue table, l = reflection_length_mm, d
@@ -24,8 +27,8 @@ namespace insonate {
 /// attenuation in proportion to frequency); the paper has none. Coupling: nearer to the face than gel_mm, what is less
 /// dense than kCouplingAirHu (sim/reference/reference.h) counts as water without echo, as the face itself does; beyond,
 /// air reflects by (1) as anywhere, so that a face that does not touch sees nothing. Where the slice has several planes
-/// (sim/model/beam.h), I, R and the scatterers' echo are their sums by weight. The shaders keep an R, and a T that is
-/// I^2, below 1e-30 as 0.
+/// (sim/model/beam.h), I, R and the scatterers' echo are their sums by weight. An R below kLeastEcho is 0, and so
+/// is a T that is I^2.
 ///
 /// In (6) R and S are behind the beam's width (4), sim/model/beam.h, G1 and G2 Gaussians in the picture of
 /// reflection_sigma_mm and transmission_sigma_mm, b = blend; beside are V of reverberation.h, and noise and clutter of

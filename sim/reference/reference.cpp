@@ -17,6 +17,10 @@
 namespace insonate {
 namespace {
 
+double heard(double echo) {
+  return echo > kLeastEcho ? echo : 0;
+}
+
 /// The one asked for last is kept: drawing it takes longer than a small picture.
 std::shared_ptr<const ScattererLattice> lattice_of(std::uint32_t seed) {
   thread_local std::uint32_t kept_seed = 0;
@@ -188,8 +192,9 @@ ReferenceScan traverse_reference(const MediumField& field, const TissueTable& ta
 
       if (k == 0) intensity *= absorbed(dr / 2);
       scan.intensity.at(line, k) = intensity;
-      scan.reflection.at(line, k) = alpha * intensity * intensity * cosine;  // (3)
-      const double amplitude = here.echogenicity_db > kSilentDb ? std::pow(10.0, here.echogenicity_db / 10) : 0;
+      scan.reflection.at(line, k) = heard(alpha * intensity * intensity * cosine);  // (3)
+      const double amplitude =
+          std::max(std::pow(10.0, here.echogenicity_db / 10) - std::pow(10.0, kSilentDb / 10), 0.0);
       const std::complex<double> echo = amplitude * (settings.speckle ? scatterers.at(p) : 1.0);
       scan.echo_re.at(line, k) = echo.real();
       scan.echo_im.at(line, k) = echo.imag();
@@ -264,7 +269,7 @@ Stages<double> simulate_reference(const MediumField& field, const TissueTable& t
       stages.reflection_beam.at(line, k) = reflection / total;
       stages.repeated.at(line, k) = repeat / total;
       const double intensity = scan.intensity.at(line, k);
-      stages.transmission.at(line, k) = settings.two_way ? intensity * intensity : intensity;
+      stages.transmission.at(line, k) = settings.two_way ? heard(intensity * intensity) : intensity;
       stages.speckle.at(line, k) = std::abs(echo) / total * (settings.speckle ? scale[std::size_t(k)] : 1);
     }
   }

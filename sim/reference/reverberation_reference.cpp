@@ -50,7 +50,7 @@ Image<double> reverberation_reference(const Image<double>& intensity, const Imag
     const auto repeat = [&](const Reflector& deep, double echo, double apart_mm, double round) {
       for (int n = 1; n <= kMostRepeats && apart_mm > 0; ++n) {
         const double position = deep.sample + n * apart_mm / dr;
-        if (position >= d) break;
+        if (position >= d + 1) break;  // the spline reaches before the line's end from behind it
         echo *= seen(round);
         for (int k = std::max(int(position) - 1, 0); k <= std::min(int(position) + 2, d - 1); ++k)
           repeats.at(line, k) += cubic_b_spline(k - position) * echo;

@@ -40,7 +40,8 @@ float seen(float round_trip) {
 // Sample k, which lies `apart` behind another reflector, with what a round between them leaves.
 void repeat(int k, float echo, float apart, float gain) {
   float position = float(k) + apart;
-  for (int n = 0; n < kMostRepeats && position < float(samples); ++n, position += apart) {
+  // The spline reaches before the line's end from a sample behind it.
+  for (int n = 0; n < kMostRepeats && position < float(samples + 1); ++n, position += apart) {
     echo *= gain;
     if (echo < kLeastEcho) return;
     add(position, echo);

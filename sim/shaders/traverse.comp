@@ -42,7 +42,8 @@ const float kMeanCosine = 0.5;           // |d . n| over all directions, for int
 const float kLeastHu = -150.0, kMostHu = 150.0, kLogSpeedBelowWater = 5e-4, kLogSpeedAboveWater = 7.6e-4;
 const float kScattererScale = 4.0;     // the lattice stores a quarter of its normally distributed numbers
 const float kLn10 = 2.302585093;
-const float kSilentEchogenicity = -5999.5;  // hundredths of a dB: what is marked with the least echogenicity does not scatter
+// As in sim/model/acoustic_volume.h: in hundredths of a dB, and 10 to the power of a thousandth of that.
+const float kSilentEchogenicity = -5999.5, kSilentAmplitude = 1.00115195e-6;
 const float kSpentLogIntensity = SKIPPING == 1 ? -46.0 : -1e30;  // 10^-20: 200 dB down nothing can be heard
 const float kLeastLogIntensity = -69.0;  // 10^-30, for lines that nothing ends
 
@@ -149,7 +150,8 @@ float incidence(Surroundings around) {
 
 // Complex amplitude of what scatters at a sample.
 vec2 scatterers_echo(float k, Medium here) {
-  vec2 echo = vec2(here.echogenicity > kSilentEchogenicity ? exp(here.echogenicity * (kLn10 / 1000.0)) : 0.0, 0.0);
+  float above_silence = max(here.echogenicity - kSilentEchogenicity, 0.0);
+  vec2 echo = vec2(kSilentAmplitude * (exp(above_silence * (kLn10 / 1000.0)) - 1.0), 0.0);
   if (SPECKLE == 1) echo = echo.x * scatterer(lattice_place(k));
   return echo;
 }

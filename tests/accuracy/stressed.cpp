@@ -40,11 +40,12 @@ double largest(const Image<double>& image) {
 
 /// How far references that know place and density as single precision does are from the one that knows them exactly.
 struct Spread {
-  Image<double> intensity, reflection, speckle, fused, grey;
+  Image<double> intensity, reflection, repeated, speckle, fused, grey;
 
   explicit Spread(const Stages<double>& of)
       : intensity(of.intensity.width, of.intensity.height),
         reflection(intensity),
+        repeated(intensity),
         speckle(intensity),
         fused(of.fused.width, of.fused.height),
         grey(fused) {}
@@ -52,6 +53,7 @@ struct Spread {
   void include(const Stages<double>& expected, const Stages<double>& other) {
     widen(intensity, expected.intensity, other.intensity);
     widen(reflection, expected.reflection, other.reflection);
+    widen(repeated, expected.repeated, other.repeated);
     widen(speckle, expected.speckle, other.speckle);
     widen(fused, expected.fused, other.fused);
     widen(grey, expected.grey, other.grey);
@@ -99,10 +101,15 @@ std::string disagreement(const Scene& scene, const Stages<double>& expected, con
             tolerated(expected.speckle, spread.speckle, [&](double) { return of_loudest * loudest; }));
   if (!(speckle.error < 1)) return told("S", speckle);
 
+  const double loudest_repeat = largest(expected.repeated);
+  const Worst repeated = worst(expected.repeated, got.repeated,
+                               tolerated(expected.repeated, spread.repeated, [&](double) { return 1e-4 * brightest; }));
+  if (!(repeated.error < 1)) return told("V", repeated);
+
   // Grey values follow from U: what may be wrong of U, in decibels, and two grey levels.
   const Settings& s = scene.settings;
   const Image<double> fused_tolerance = tolerated(expected.fused, spread.fused, [&](double value) {
-    return 1e-3 * value + (1e-4 * brightest + 2e-10 * s.blend) * loudest;
+    return 1e-3 * value + (1e-4 * brightest + 2e-10 * s.blend) * loudest + 1e-4 * loudest_repeat;
   });
   for (std::size_t i = 0; i < expected.grey.pixels.size(); ++i) {
     const double u = expected.fused.pixels[i];

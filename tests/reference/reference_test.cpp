@@ -403,6 +403,25 @@ TEST_CASE("a thin layer draws a tail behind it, an echo each time that sound has
   CHECK(area(echoes(20, 2, 400, 0).second, 24) == 0);
 }
 
+TEST_CASE("a repeat leaves the picture at the lines' end without a step") {
+  Settings settings = without_absorption(1);
+  settings.face_reflection = 1;
+  Image<double> intensity(1, 40), reflection(1, 40);
+  std::fill(intensity.pixels.begin(), intensity.pixels.end(), 1.0);
+  reflection.at(0, 19) = 0.5;
+  // The face, nearer or further, brings the repeat of sample 19 to either side of the end, behind sample 39.
+  const auto last = [&](double position) {
+    ScanLines lines = one_line(40, 40);
+    lines.r_min_mm = position - 19 - 19.5;
+    lines.r_max_mm = lines.r_min_mm + 40;
+    return reverberation_reference(intensity, reflection, lines, settings).at(0, 39);
+  };
+  CHECK(last(39) > 0.1);
+  for (const double end : {40.0, 41.0}) CHECK(last(end - 1e-6) == Approx(last(end + 1e-6)).margin(1e-5));
+  CHECK(last(40) > 0.02);
+  CHECK(last(41) == 0);
+}
+
 TEST_CASE("a surface that a slice's planes meet at different depths holds no sound between them") {
   Probe probe = *find_probe("linear");
   probe.lines = 8;

@@ -4,8 +4,8 @@
 //
 // A stage reads a texel as the buffer's format gives it, as floats in both.
 
-// Echoes that have lost 300 dB, as much as time gain can give back, are none. Weaker ones would come to single precision's
-// denormal numbers, and a processor is many times as long about one of these as about another.
+// As in sim/model/stages.h. Weaker ones would come to single precision's denormal numbers, and a processor is many times
+// as long about one of these as about another.
 const float kLeastEcho = 1e-30;
 const float kLeastIntensity = 1e-15;  // whose square that is
 

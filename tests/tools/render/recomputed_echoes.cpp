@@ -88,7 +88,7 @@ private:
         for (int n = 1; n <= most_repeats && counted(round) > 0; ++n) {
           echo *= counted(round);
           const double at = k + n * way / dr_;
-          if (at >= d_) break;
+          if (at >= d_ + 1) break;
           for (int j = std::max(int(at) - 1, 0); j <= std::min(int(at) + 2, d_ - 1); ++j)
             repeats.at(line, j) += b_spline(j - at) * echo;
         }

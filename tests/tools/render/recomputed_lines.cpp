@@ -191,7 +191,7 @@ private:
         const bool gel = r < gel_mm_ && stages_.hounsfield.at(p, value_outside("hu")) < coupling_air_hu_;
         const double db = gel ? -60 : stages_.echogenicity.at(p, 100 * value_outside("echogenicity_db")) / 100;
         compare("echogenicity", db, met("echogenicity").at(line, k), 60 * kFloat + 1e-9);
-        const double amplitude = db > silent_db_ ? std::pow(10, db / 10) : 0;
+        const double amplitude = std::max(std::pow(10, db / 10) - std::pow(10, silent_db_ / 10), 0.0);
         const std::array<double, 2> drawn = on("speckle") ? lattice_.at(p) : std::array<double, 2>{1, 0};
         re_.at(line, k) += weight_ * amplitude * drawn[0];
         im_.at(line, k) += weight_ * amplitude * drawn[1];
