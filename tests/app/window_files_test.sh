@@ -83,18 +83,24 @@ still() {
   sleep 0.7
   is pictures_drawn "$before"
 }
-await "the picture stands still" still
-shot "$work/before.png" ultrasound 20
-shot "$work/console.png" console
-echo 'this is no GLSL' >>"$work/shaders/shared/grey.glsl"
-await "a broken shader is told of" does_not_build
-grep -q 'shared/grey.glsl' "$state" || fail "the broken shader is not named"
-await "the picture stands still" still
-shot "$work/broken.png" ultrasound 20
-shot "$work/console_broken.png" console
-pixels=$(different "$work/console.png" "$work/console_broken.png")
-[ "$pixels" = 0 ] || fail "what is wrong with the shader is written over the console: $pixels pixels"
-pixels=$(different "$work/before.png" "$work/broken.png")
+# What else a panel shows may change meanwhile by the clock, and then once; what a broken shader does it does each time.
+for attempt in 1 2 3; do
+  cp "$shaders/shared/grey.glsl" "$work/shaders/shared/grey.glsl"
+  await "the shaders build" builds
+  await "the picture stands still" still
+  shot "$work/before.png" ultrasound 20
+  shot "$work/console.png" console
+  echo 'this is no GLSL' >>"$work/shaders/shared/grey.glsl"
+  await "a broken shader is told of" does_not_build
+  grep -q 'shared/grey.glsl' "$state" || fail "the broken shader is not named"
+  await "the picture stands still" still
+  shot "$work/broken.png" ultrasound 20
+  shot "$work/console_broken.png" console
+  over_console=$(different "$work/console.png" "$work/console_broken.png")
+  pixels=$(different "$work/before.png" "$work/broken.png")
+  [ "$over_console" = 0 ] && [ "$pixels" = 0 ] && break
+done
+[ "$over_console" = 0 ] || fail "what is wrong with the shader is written over the console: $over_console pixels"
 [ "$pixels" = 0 ] || fail "a shader that does not build changed $pixels pixels"
 import -window root "$work/broken_screen.png"
 sed 's/vec3(grey_at(level, white_db))/vec3(1.0 - grey_at(level, white_db))/' "$shaders/shared/grey.glsl" >"$work/shaders/shared/grey.glsl"
