@@ -16,8 +16,8 @@ enum class VolumeFormat {
 /// holds each against the default and the reference.
 ///
 /// The default is what that command found best on llvmpipe, where alone it has been run: 32-bit volumes cost time and
-/// gain nothing that shows, half floats cost and gain nothing in either place, and a stored gradient gains about as
-/// much time for as much error as fewer samples do, and takes memory.
+/// gain nothing that shows, half floats gain nothing that shows and cost time between stages, and a stored gradient
+/// gains about as much time for as much error as fewer samples do, and takes memory.
 struct Representation {
   VolumeFormat volume = VolumeFormat::normalized_16;
 
