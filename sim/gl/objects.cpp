@@ -152,7 +152,8 @@ void Texture::bind_image_as(GLuint unit, GLenum access, GLenum format) const {
 
 TexelBuffer::TexelBuffer(GLenum format, std::size_t texels, const void* values) {
   const bool pairs_or_halves = format == GL_RG32F || format == GL_RGBA16F;
-  const std::size_t bytes = format == GL_RGBA32F || format == GL_RGBA32I ? 16 : pairs_or_halves ? 8 : 4;
+  const bool words = format != GL_R16;
+  const std::size_t bytes = format == GL_RGBA32F || format == GL_RGBA32I ? 16 : pairs_or_halves ? 8 : words ? 4 : 2;
   GLint64 most_bytes = 0;
   GLint most_texels = 0;
   glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most_bytes);

@@ -45,7 +45,7 @@ PixelTable shared_out(const std::vector<PixelPlace>& pixels, std::size_t togethe
 
 }  // namespace
 
-std::vector<PixelPlace> places_in_scan(const FanLayout& fan, const ScanLines& lines) {
+std::vector<PixelPlace> places_in_scan(const FanLayout& fan, const ScanLines& lines, int row_samples) {
   const glm::ivec2 last(lines.samples - 1, int(lines.lines.size()) - 1);
   std::vector<PixelPlace> result(fan.line_and_sample.size(), kNowhere);
   for (std::size_t i = 0; i < result.size(); ++i) {
@@ -55,7 +55,7 @@ std::vector<PixelPlace> places_in_scan(const FanLayout& fan, const ScanLines& li
     const glm::ivec2 low = glm::max(glm::min(glm::ivec2(at), last - 1), 0);
     const glm::vec2 further = at - glm::vec2(low);
     result[i] =
-        PixelPlace(low.y * lines.samples + low.x, std::bit_cast<int>(further.x), std::bit_cast<int>(further.y), 0);
+        PixelPlace(low.y * row_samples + low.x, std::bit_cast<int>(further.x), std::bit_cast<int>(further.y), 0);
   }
   return result;
 }

@@ -18,7 +18,8 @@ namespace insonate::gl {
 using PixelPlace = glm::ivec4;
 
 /// Of each pixel of the fan's picture, row by row.
-std::vector<PixelPlace> places_in_scan(const FanLayout& fan, const ScanLines& lines);
+/// @param row_samples  from a line of the scan to the next, a line's samples or more
+std::vector<PixelPlace> places_in_scan(const FanLayout& fan, const ScanLines& lines, int row_samples);
 
 /// A column an invocation, with a row a step; as many columns as whole groups of so many have.
 struct PixelTable {

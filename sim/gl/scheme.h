@@ -18,6 +18,10 @@ struct Scheme {
   /// Invocations of a work group that walks along lines, or through an image's pixels: 4 to 128.
   int group = 8;
 
+  /// Images of model W that an invocation works through one after the other, where a call asks for many: a software
+  /// renderer pays for each work group and for each look at where a pixel lies, a card wants all at once.
+  int images_in_turn = 1;
+
   /// Work groups along a dimension: so many at least every device takes (GL_MAX_COMPUTE_WORK_GROUP_COUNT).
   int most_groups = 65535;
 

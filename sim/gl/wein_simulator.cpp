@@ -35,9 +35,13 @@ std::string literal(double value) {
   return text;
 }
 
-// What traverses lines; `tells`: the intensity too, which no picture needs.
-Program traverse_program(const ShaderSources& sources, Defines compiled_in, bool tells) {
-  if (tells) compiled_in.emplace_back("INTENSITY", "");
+// What a walk along the lines leaves: the grey of a picture, both terms, or the terms and the intensity, for those who
+// check.
+enum class Leaves { grey, terms, intensity };
+
+Program traverse_program(const ShaderSources& sources, Defines compiled_in, Leaves leaves) {
+  compiled_in.emplace_back("GREY", leaves == Leaves::grey ? "1" : "0");
+  if (leaves == Leaves::intensity) compiled_in.emplace_back("INTENSITY", "");
   return Program(sources, {"wein_traverse.comp"}, compiled_in);
 }
 
@@ -45,18 +49,22 @@ Program traverse_program(const ShaderSources& sources, Defines compiled_in, bool
 
 struct WeinSimulator::State {
   State(const AcousticVolume& volume, const Probe& probe, double depth_mm, const WeinSettings& wanted,
-        const ShaderSources& given, const Scheme& scheme);
+        const ShaderSources& given, const Scheme& chosen);
 
-  void traverse(std::span<const Pose> chunk, std::size_t first, const Program& program);
+  void traverse(std::span<const Pose> chunk, std::size_t first, const Program& program, const TexelBuffer& scan);
+  // Work groups that so many images take, each a few in turn.
+  int turns(std::size_t images) const { return (int(images) + scheme.images_in_turn - 1) / scheme.images_in_turn; }
   void ran(WeinStage stage, std::size_t images, std::size_t pixels);
   template <typename Work>
-  void by_chunks(std::span<const Pose> poses, Work&& work);
+  void by_chunks(std::span<const Pose> poses, const Program& program, const TexelBuffer& scan, Work&& work);
   Defines constants(const AcousticVolume& volume) const;
 
   WeinSettings settings;
   ShaderSources sources;
+  const Scheme scheme;
   const std::size_t group;  // the shaders' local size
   ScanLines lines;
+  const int row_samples;  // of a line in a scan: even, so that pairs of samples share no word with the next line
   FanLayout fan;
   std::size_t chunk_images;
   const int tile_words;  // of an image in the grid, four pixels each
@@ -64,10 +72,10 @@ struct WeinSimulator::State {
   WeinParameters parameters{};
 
   Defines compiled_in;
-  Program traverse_lines, picture, parts, lc2;
+  Program traverse_grey, traverse_terms, picture, parts, lc2;
   Buffer parameter_buffer{sizeof(WeinParameters), nullptr}, similarities;
   std::size_t similarities_held = 0;
-  TexelBuffer scan, tiles;
+  TexelBuffer grey_scan, term_scan, tiles;
   std::vector<PixelPlace> pixel_places;
   PixelTable fan_pixels, counted_pixels;
   Texture density, probe_lines, places, sums, grid;
@@ -78,20 +86,23 @@ struct WeinSimulator::State {
 };
 
 WeinSimulator::State::State(const AcousticVolume& volume, const Probe& probe, double depth_mm,
-                            const WeinSettings& wanted, const ShaderSources& given, const Scheme& scheme)
+                            const WeinSettings& wanted, const ShaderSources& given, const Scheme& chosen)
     : settings(wanted),
       sources(given),
+      scheme(chosen),
       group(std::size_t(scheme.group)),
       lines(scan_lines(probe, depth_mm, wanted.samples)),
+      row_samples(lines.samples + lines.samples % 2),
       fan(probe, depth_mm, lines, wanted.image_width, wanted.image_height),
       tile_words((wanted.image_width + kWordPixels - 1) / kWordPixels),
       compiled_in(constants(volume)),
-      traverse_lines(traverse_program(given, compiled_in, false)),
+      traverse_grey(traverse_program(given, compiled_in, Leaves::grey)),
+      traverse_terms(traverse_program(given, compiled_in, Leaves::terms)),
       picture(given, {"wein_picture.comp"}, compiled_in),
       parts(given, {"lc2_parts.comp"}, compiled_in),
       lc2(given, {"lc2.comp"}, compiled_in),
       density(density_volume(volume, wanted.reflection_length_mm)) {
-  const int n = int(lines.lines.size()), d = lines.samples;
+  const int n = int(lines.lines.size());
   const double dr = lines.dr_mm();
   const glm::dvec3 size(volume.grid.size + 2 * kAirMargin);
   const glm::dmat4 index_from_patient = glm::inverse(volume.grid.matrix());
@@ -107,13 +118,15 @@ WeinSimulator::State::State(const AcousticVolume& volume, const Probe& probe, do
   probe_lines = Texture::make_2d(GL_RGBA32F, 2, n, Filter::nearest);
   probe_lines.write(GL_RGBA, GL_FLOAT, ways.data());
 
-  chunk_images = std::clamp<std::size_t>(kChunkBytes / (std::size_t(n) * std::size_t(d) * kSampleBytes), 1, kMostChunk);
-  scan = TexelBuffer(GL_RG16, std::size_t(n) * std::size_t(d) * chunk_images);
+  const std::size_t image_samples = std::size_t(n) * std::size_t(row_samples);
+  chunk_images = std::clamp<std::size_t>(kChunkBytes / (image_samples * kSampleBytes), 1, kMostChunk);
+  grey_scan = TexelBuffer(GL_R16, image_samples * chunk_images);
+  term_scan = TexelBuffer(GL_RG16, image_samples * chunk_images);
   places = Texture::make_2d(GL_RGBA32F, 3, int(chunk_images), Filter::nearest);
   place_rows.resize(3 * chunk_images);
 
   parameters.columns = 1;
-  pixel_places = places_in_scan(fan, lines);
+  pixel_places = places_in_scan(fan, lines, row_samples);
   fan_pixels = picture_pixels(pixel_places, wanted.image_width, wanted.image_height, group);
 }
 
@@ -124,6 +137,8 @@ Defines WeinSimulator::State::constants(const AcousticVolume& volume) const {
   return {{"GROUP", std::to_string(group)},
           {"LINES", std::to_string(lines.lines.size())},
           {"SAMPLES", std::to_string(lines.samples)},
+          {"ROW_SAMPLES", std::to_string(row_samples)},
+          {"IMAGES_IN_TURN", std::to_string(scheme.images_in_turn)},
           {"TILE_WORDS", std::to_string(tile_words)},
           {"TILE_HEIGHT", std::to_string(settings.image_height)},
           {"PATCHES", settings.similarity_patch > 0 ? "1" : "0"},
@@ -143,7 +158,8 @@ Defines WeinSimulator::State::constants(const AcousticVolume& volume) const {
 }
 
 // Places a chunk's lines and walks along them.
-void WeinSimulator::State::traverse(std::span<const Pose> chunk, std::size_t first, const Program& program) {
+void WeinSimulator::State::traverse(std::span<const Pose> chunk, std::size_t first, const Program& program,
+                                    const TexelBuffer& scan) {
   for (std::size_t i = 0; i < chunk.size(); ++i) {
     const glm::dmat4 rows = glm::transpose(texture_from_patient * chunk[i].matrix());
     for (int row = 0; row < 3; ++row) place_rows[3 * i + std::size_t(row)] = glm::vec4(rows[row]);
@@ -158,7 +174,7 @@ void WeinSimulator::State::traverse(std::span<const Pose> chunk, std::size_t fir
   places.bind(2);
   scan.bind_storage(0);
   samples_walked.bind_storage(1);
-  program.dispatch_groups(parameters.images, (int(lines.lines.size()) + int(group) - 1) / int(group));
+  program.dispatch_groups(turns(chunk.size()), (int(lines.lines.size()) + int(group) - 1) / int(group));
 }
 
 void WeinSimulator::State::ran(WeinStage stage, std::size_t images, std::size_t pixels) {
@@ -170,7 +186,8 @@ void WeinSimulator::State::ran(WeinStage stage, std::size_t images, std::size_t 
 }
 
 template <typename Work>
-void WeinSimulator::State::by_chunks(std::span<const Pose> poses, Work&& work) {
+void WeinSimulator::State::by_chunks(std::span<const Pose> poses, const Program& program, const TexelBuffer& scan,
+                                     Work&& work) {
   if (poses.empty()) return;
   samples_walked.clear();
   StageCount& count = counts[std::size_t(WeinStage::traverse)];
@@ -178,7 +195,7 @@ void WeinSimulator::State::by_chunks(std::span<const Pose> poses, Work&& work) {
   count.possible = poses.size() * lines.lines.size() * std::size_t(lines.samples);
   for (std::size_t first = 0; first < poses.size(); first += chunk_images) {
     const std::span<const Pose> chunk = poses.subspan(first, std::min(chunk_images, poses.size() - first));
-    traverse(chunk, first, traverse_lines);
+    traverse(chunk, first, program, scan);
     scan.bind(0);
     work(int(chunk.size()));
   }
@@ -213,10 +230,10 @@ const Texture& WeinSimulator::simulate(std::span<const Pose> patient_from_probe)
   if (!fits || count < columns * rows) s.tiles.clear();  // what no fan covers stays so
   s.parameters.columns = columns;
   if (s.fan_pixels)
-    s.by_chunks(patient_from_probe, [&](int images) {
+    s.by_chunks(patient_from_probe, s.traverse_grey, s.grey_scan, [&](int images) {
       s.fan_pixels.places.bind(1);
       s.tiles.bind_storage(0);
-      s.picture.dispatch(int(s.fan_pixels.columns), images);
+      s.picture.dispatch(int(s.fan_pixels.columns), s.turns(std::size_t(images)));
     });
   s.grid.write(GL_RED, GL_UNSIGNED_BYTE, s.tiles.values());
   s.ran(WeinStage::scan_convert, patient_from_probe.size(), s.fan_pixels.pixels);
@@ -247,7 +264,7 @@ std::vector<float> WeinSimulator::similarity(std::span<const Pose> patient_from_
     s.similarities = Buffer(bytes, nullptr);
     s.similarities_held = result.size();
   }
-  s.by_chunks(patient_from_probe, [&](int images) {
+  s.by_chunks(patient_from_probe, s.traverse_terms, s.term_scan, [&](int images) {
     s.counted_pixels.places.bind(1);
     s.sums.bind_image(0, GL_WRITE_ONLY);
     s.parts.dispatch(int(s.counted_pixels.columns), images);
@@ -276,20 +293,20 @@ WeinStages<float> WeinSimulator::read_stages(const Pose& patient_from_probe) {
   const Texture intensities = Texture::make_2d(GL_R32F, d, n, Filter::nearest);
   intensities.bind_image(1, GL_WRITE_ONLY);
   s.samples_walked.clear();
-  s.traverse({&patient_from_probe, 1}, 0, traverse_program(s.sources, s.compiled_in, true));
-  const std::size_t count = std::size_t(n) * std::size_t(d);
-  std::vector<std::array<std::uint16_t, 2>> terms(count);
-  s.scan.read(terms.data(), count * sizeof terms.front());
+  s.traverse({&patient_from_probe, 1}, 0, traverse_program(s.sources, s.compiled_in, Leaves::intensity), s.term_scan);
+  const std::size_t count = std::size_t(n) * std::size_t(d), row = std::size_t(s.row_samples);
+  std::vector<std::array<std::uint16_t, 2>> terms(std::size_t(n) * row);
+  s.term_scan.read(terms.data(), terms.size() * sizeof terms.front());
   std::vector<float> intensity(count);
   intensities.read(GL_RED, GL_FLOAT, intensity.data(), count * sizeof(float));
   WeinStages<float> stages;
   stages.intensity = stages.scan_echogenicity = stages.scan_reflection = Image<float>(n, d);
   for (int line = 0; line < n; ++line)
     for (int k = 0; k < d; ++k) {
-      const std::size_t i = std::size_t(line) * std::size_t(d) + std::size_t(k);
-      stages.scan_echogenicity.at(line, k) = float(terms[i][0]) / 65535;
-      stages.scan_reflection.at(line, k) = float(terms[i][1]) / 65535;
-      stages.intensity.at(line, k) = intensity[i];
+      const auto& both = terms[std::size_t(line) * row + std::size_t(k)];
+      stages.scan_echogenicity.at(line, k) = float(both[0]) / 65535;
+      stages.scan_reflection.at(line, k) = float(both[1]) / 65535;
+      stages.intensity.at(line, k) = intensity[std::size_t(line) * std::size_t(d) + std::size_t(k)];
     }
   stages.grey = Image<std::uint8_t>(s.settings.image_width, s.settings.image_height);
   Image<std::uint8_t> tile(s.grid.width(), s.grid.height());

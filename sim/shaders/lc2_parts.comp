@@ -17,7 +17,7 @@ void main() {
   for (int i = 0; i < length; ++i) {
     ivec4 pixel = pixel_at(i);  // its w: u
     float counts = pixel.x < 0 ? 0.0 : 1.0;
-    vec3 value = vec3(intBitsToFloat(pixel.w), terms_at(pixel, image));
+    vec3 value = vec3(intBitsToFloat(pixel.w), scanned_at(pixel, image));
     if (i == 0) origin = value;
     value = counts * (value - origin);
     count += counts;

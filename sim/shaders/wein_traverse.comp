@@ -1,6 +1,7 @@
-// Model W along one scan line, an invocation a line, for all the images of a chunk at once: echogenicity, reflection,
-// transmitted intensity. The gradient is stored with the density, so a sample costs one fetch. Groups follow each other
-// image by image along the same few lines: poses of a search lie close together, so the voxels are still in the cache.
+// Model W along a scan line, an invocation a line, of several images of a chunk one after the other: of each sample either
+// both terms, echogenicity and reflection, or the grey that a picture makes of them, which takes half the room. The
+// gradient is stored with the density, so a sample costs one fetch. Groups follow each other image by image along the
+// same few lines: poses of a search lie close together, so the voxels are still in the cache.
 
 layout(local_size_x = GROUP) in;
 
@@ -10,7 +11,7 @@ layout(local_size_x = GROUP) in;
 layout(binding = 0) uniform sampler3D density;  // (HU, gradient along the CT's axes in eighths of HU) / 32767
 layout(binding = 1) uniform sampler2D probe_lines;  // a row a line, probe's frame, mm: sample 0, the way to the next
 layout(binding = 2) uniform sampler2D places;       // a row an image: the rows of texture_from_probe
-layout(std430, binding = 0) writeonly buffer Scan { uint scan[]; };  // image by image, a row a line: E, R, 16 bits each
+layout(std430, binding = 0) writeonly buffer Scan { uint scan[]; };  // image by image, a row a line, 16 bits each
 layout(std430, binding = 1) buffer Counter { uint samples_walked; };  // of a call
 #ifdef INTENSITY
 layout(binding = 1, r32f) writeonly uniform image2D intensities;  // of the first image
@@ -20,48 +21,74 @@ const float kAirMu = 1.2;
 const float kContactAirHu = -300.5;
 const float kNothing = -1e6;  // the logarithm of what total reflection lets pass, in effect
 
-void tell(int k, int line, int image, float echogenicity, float reflection, float intensity) {
-  scan[(image * lines + line) * samples + k] = packUnorm2x16(vec2(echogenicity, reflection));
+vec3 start, along;  // of the line, in the volume's texture: sample 0, the way to the next
+vec3 direction;     // unit, along the CT's axes
+float log_intensity;
+
+// E and R of the sample that the walk has come to; goes on to the next.
+vec2 terms_of(int k, int line) {
+  vec3 at = start + float(k) * along;
+#if EXACT_FILTER == 1
+  vec4 here = exact_to_edge(density, at) * 32767.0;
+#else
+  vec4 here = textureLod(density, at, 0.0) * 32767.0;
+#endif
+  bool contact = float(k) < first_free_sample;
+  float hu = contact && here.x < kContactAirHu ? 0.0 : here.x;
+  vec3 gradient = contact ? vec3(0.0) : here.yzw * 0.125;
+  float squared = dot(gradient, gradient), steepness = sqrt(squared);
+  float change = min(steepness / (2.0 * max(hu + 1000.0, kAirMu)), 1.0);
+  float cosine = abs(dot(direction, gradient)) / max(steepness, 1e-20);
+
+  float intensity = exp(log_intensity);
+  float reflection = log(1.0 + compression * intensity * change * change * cosine) * one_over_compressed_one;
+  float echogenicity = clamp((hu - dark_hu) * one_over_hu_range, 0.0, 1.0);
+  if (shadows == 1) echogenicity *= intensity;
 #ifdef INTENSITY
   imageStore(intensities, ivec2(k, line), vec4(intensity));
 #endif
+  log_intensity += dr_by_length * (change < 1.0 ? log(1.0 - change * change) : kNothing / dr_by_length);
+  return vec2(echogenicity, reflection);
 }
 
-void main() {
-  int image = int(gl_WorkGroupID.x), line = int(gl_WorkGroupID.y * gl_WorkGroupSize.x + gl_LocalInvocationID.x);
-  if (line >= lines) return;
+// What a word of the scan holds.
+#if GREY == 1
+const int kSamplesAWord = 2;
+float grey_of(int k, int line) {
+  vec2 terms = terms_of(k, line);
+  return mix(terms.x, terms.y, reflection_share);
+}
+uint word_of(int k, int line) {
+  float first = grey_of(k, line);
+  return packUnorm2x16(vec2(first, grey_of(k + 1, line)));
+}
+#else
+const int kSamplesAWord = 1;
+uint word_of(int k, int line) { return packUnorm2x16(terms_of(k, line)); }
+#endif
+
+// How many samples were walked before nothing was left.
+int walk(int line, int image) {
   vec3 sample_0 = texelFetch(probe_lines, ivec2(0, line), 0).xyz,
        to_next = texelFetch(probe_lines, ivec2(1, line), 0).xyz;
   vec4 x = texelFetch(places, ivec2(0, image), 0), y = texelFetch(places, ivec2(1, image), 0),
        z = texelFetch(places, ivec2(2, image), 0);
-  vec3 start = vec3(dot(x.xyz, sample_0), dot(y.xyz, sample_0), dot(z.xyz, sample_0)) + vec3(x.w, y.w, z.w);
-  vec3 along = vec3(dot(x.xyz, to_next), dot(y.xyz, to_next), dot(z.xyz, to_next));
-  vec3 direction = along * sides_by_dr;  // unit, along the CT's axes
+  start = vec3(dot(x.xyz, sample_0), dot(y.xyz, sample_0), dot(z.xyz, sample_0)) + vec3(x.w, y.w, z.w);
+  along = vec3(dot(x.xyz, to_next), dot(y.xyz, to_next), dot(z.xyz, to_next));
+  direction = along * sides_by_dr;
+  log_intensity = 0.0;
 
-  float log_intensity = 0.0;
-  int k = 0;
-  for (; k < samples && log_intensity > last_log_intensity; ++k) {
-    vec3 at = start + float(k) * along;
-#if EXACT_FILTER == 1
-    vec4 here = exact_to_edge(density, at) * 32767.0;
-#else
-    vec4 here = textureLod(density, at, 0.0) * 32767.0;
-#endif
-    bool contact = float(k) < first_free_sample;
-    float hu = contact && here.x < kContactAirHu ? 0.0 : here.x;
-    vec3 gradient = contact ? vec3(0.0) : here.yzw * 0.125;
-    float squared = dot(gradient, gradient), steepness = sqrt(squared);
-    float change = min(steepness / (2.0 * max(hu + 1000.0, kAirMu)), 1.0);
-    float cosine = abs(dot(direction, gradient)) / max(steepness, 1e-20);
+  int k = 0, word = (image * lines + line) * (row_samples / kSamplesAWord);
+  for (; k < samples && log_intensity > last_log_intensity; k += kSamplesAWord) scan[word++] = word_of(k, line);
+  int walked = min(k, samples);
+  for (; k < samples; k += kSamplesAWord) scan[word++] = 0u;
+  return walked;
+}
 
-    float intensity = exp(log_intensity);
-    float reflection = log(1.0 + compression * intensity * change * change * cosine) * one_over_compressed_one;
-    float echogenicity = clamp((hu - dark_hu) * one_over_hu_range, 0.0, 1.0);
-    if (shadows == 1) echogenicity *= intensity;
-    tell(k, line, image, echogenicity, reflection, intensity);
-
-    log_intensity += dr_by_length * (change < 1.0 ? log(1.0 - change * change) : kNothing / dr_by_length);
-  }
-  atomicAdd(samples_walked, uint(k));
-  for (; k < samples; ++k) tell(k, line, image, 0.0, 0.0, 0.0);
+void main() {
+  int first_image = int(gl_WorkGroupID.x) * IMAGES_IN_TURN, end = min(first_image + IMAGES_IN_TURN, images),
+      line = int(gl_WorkGroupID.y * gl_WorkGroupSize.x + gl_LocalInvocationID.x), walked = 0;
+  if (line >= lines) return;
+  for (int image = first_image; image < end; ++image) walked += walk(line, image);
+  atomicAdd(samples_walked, uint(walked));
 }

@@ -139,7 +139,7 @@ TEST_CASE("model W's pictures are so too, and its similarities but for how their
   Probe probe = *find_probe("curvilinear");
   probe.lines = 61;  // no multiple of any group
   WeinSettings settings;
-  settings.samples = 90;
+  settings.samples = 91;  // odd, so that pairs of them do not fill a line
   settings.image_width = 72;
   settings.image_height = 60;
   std::vector<Pose> poses;
@@ -147,9 +147,13 @@ TEST_CASE("model W's pictures are so too, and its similarities but for how their
   Image<float> ultrasound(settings.image_width, settings.image_height);
   for (std::size_t i = 0; i < ultrasound.pixels.size(); ++i) ultrasound.pixels[i] = unit_float(hash(std::uint32_t(i)));
 
-  const auto drawn = [&](int group, int patch) {
+  struct Shared {
+    int group, images_in_turn;
+  };
+  const auto drawn = [&](const Shared& shared, int patch) {
     gl::Scheme scheme;
-    scheme.group = group;
+    scheme.group = shared.group;
+    scheme.images_in_turn = shared.images_in_turn;
     settings.similarity_patch = patch;
     gl::WeinSimulator simulator(body, probe, 100, settings, {}, scheme);
     simulator.set_ultrasound(ultrasound);
@@ -159,11 +163,11 @@ TEST_CASE("model W's pictures are so too, and its similarities but for how their
     return std::pair(pixels, simulator.similarity(poses));
   };
   for (const int patch : {0, 12}) {
-    const auto [expected_pixels, expected_similarities] = drawn(8, patch);
+    const auto [expected_pixels, expected_similarities] = drawn({8, 1}, patch);
     CHECK(*std::max_element(expected_pixels.begin(), expected_pixels.end()) > 60);
-    for (const int group : {4, 32, 64}) {
-      CAPTURE(group, patch);
-      const auto [pixels, similarities] = drawn(group, patch);
+    for (const Shared shared : {Shared{4, 1}, {32, 3}, {64, 20}, {8, 64}}) {
+      CAPTURE(shared.group, shared.images_in_turn, patch);
+      const auto [pixels, similarities] = drawn(shared, patch);
       CHECK(pixels == expected_pixels);
       for (std::size_t i = 0; i < similarities.size(); ++i)  // some thousand terms, each rounded by 6e-8
         CHECK(similarities[i] == Approx(expected_similarities[i]).margin(1e-5));

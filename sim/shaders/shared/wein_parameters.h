@@ -18,6 +18,7 @@ layout(std140, binding = 0) uniform WeinParameters {
 // What no call changes is compiled in: a software renderer gathers a uniform anew for each invocation at each use.
 const int lines = LINES;              // of an image
 const int samples = SAMPLES;          // a line
+const int row_samples = ROW_SAMPLES;  // what a line of the scan has room for: an even number
 const int tile_words = TILE_WORDS;    // four pixels each, in a row of an image's tile in the grid
 const int tile_height = TILE_HEIGHT;  // pixels
 const int shadows = SHADOWS;          // 1: echogenicity is scaled by I

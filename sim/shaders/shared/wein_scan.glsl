@@ -1,9 +1,9 @@
 // A chunk's scan lines as the stages behind the traversal read them, and the tables of pixels for which they do.
 
-layout(binding = 0) uniform samplerBuffer scan;     // image by image, a row a line: E, R
+layout(binding = 0) uniform samplerBuffer scan;     // image by image, a row a line: E, R, or the grey of both
 layout(binding = 1) uniform isamplerBuffer pixels;  // by step, a column an invocation, as PixelTable in C++
 
-const int kNextLine = lines > 1 ? samples : 0, kNextSample = samples > 1 ? 1 : 0;
+const int kNextLine = lines > 1 ? row_samples : 0, kNextSample = samples > 1 ? 1 : 0;
 
 // Of this invocation: the texel of a step.
 ivec4 pixel_at(int step) {
@@ -11,9 +11,9 @@ ivec4 pixel_at(int step) {
 }
 int steps() { return textureSize(pixels) / int(gl_NumWorkGroups.x * gl_WorkGroupSize.x); }
 
-// E and R where a pixel lies: behind which sample of an image's scan, and how far from there to the next sample and line.
-vec2 terms_at(ivec4 pixel, int image) {
-  int low = image * (lines * samples) + max(pixel.x, 0);
+// What was scanned where a pixel lies: behind which sample of an image's, and how far to the next sample and line.
+vec2 scanned_at(ivec4 pixel, int image) {
+  int low = image * (lines * row_samples) + max(pixel.x, 0);
   vec2 f = intBitsToFloat(pixel.yz);
   vec2 here = mix(texelFetch(scan, low).xy, texelFetch(scan, low + kNextSample).xy, f.x);
   low += kNextLine;
