@@ -133,6 +133,7 @@ void SweepSimulator::State::prepare() {
 void SweepSimulator::State::write_parameters(const Part& part) {
   SimulationParameters parameters = parameters_of(settings, line_stages.lines(), {}, {});
   parameters.planes = part.planes;
+  parameters.first_plane = part.first;
   parameter_buffer.write(&parameters, sizeof parameters);
   parameter_buffer.bind_uniform(0);
 }

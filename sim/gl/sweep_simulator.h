@@ -23,7 +23,6 @@ namespace insonate::gl {
 /// The lines of all planes are one set: each stage runs once on all of them. Planes are worked through in parts only
 /// where a buffer cannot hold them all (Scheme::most_texels); then what comes before scan conversion is not kept.
 /// Of the settings, the picture's size and its smoothing (reflection_sigma_mm, transmission_sigma_mm) are not used.
-/// The receiver's noise is the same in every plane.
 ///
 /// Setters only note what changed; volume() runs the first stage that a change reaches and those behind it, and nothing
 /// when nothing changed. Needs an OpenGL 4.5 context, current whenever it is used, from construction to destruction.

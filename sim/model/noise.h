@@ -15,6 +15,14 @@ namespace insonate {
 /// are hashes of line and place: every frame has the same ones, so that a still picture is still.
 Image<double> electronic_noise(const ScanLines& lines, const Settings& settings);
 
+/// Whose noise a line of a volume's plane has: another line's from plane to plane, by the golden section of the lines,
+/// which leaves no two of ten neighbouring planes alike nearby. One line's noise in all planes would be a streak
+/// through the volume. Plane 0 is the plane of a picture.
+/// @param line, plane  0 or more
+constexpr int noise_line(int line, int plane, int lines) {
+  return (line + plane * ((618 * lines + 500) / 1000)) % lines;
+}
+
 /// The mean of the noise in units of U, before gain: `noise_db` below the level that is white; 0 when it is off.
 double noise_level(const Settings& settings);
 

@@ -24,8 +24,8 @@ double bilinear(const SweepValues& values, int plane, double line, double sample
 }
 
 // U (6) at each sample of a plane, behind those that are there.
-void append_fused(SweepValues& values, const Stages<double>& stages, const Image<double>& noise, double dr_mm,
-                  const Settings& settings) {
+void append_fused(SweepValues& values, const Stages<double>& stages, const Image<double>& noise, int plane,
+                  double dr_mm, const Settings& settings) {
   const double tail = std::exp(-dr_mm / kClutterTail_mm);
   std::vector<double> beside;  // the noise's mean at each depth
   double late = 0;
@@ -40,7 +40,8 @@ void append_fused(SweepValues& values, const Stages<double>& stages, const Image
     for (int k = 0; k < values.samples; ++k) {
       const double scattered = settings.blend * stages.transmission.at(line, k);
       values.values.push_back((stages.reflection_beam.at(line, k) + scattered) * stages.speckle.at(line, k) +
-                              stages.repeated.at(line, k) + beside[std::size_t(k)] * noise.at(line, k));
+                              stages.repeated.at(line, k) +
+                              beside[std::size_t(k)] * noise.at(noise_line(line, plane, values.lines), k));
     }
 }
 
@@ -70,9 +71,11 @@ ReferenceVolume simulate_sweep_reference(const MediumField& field, const TissueT
   Settings without_picture = settings;
   without_picture.image_width = without_picture.image_height = 1;
   SweepValues fused{settings.samples, sweep.probe.lines, {}};
-  for (const Pose& pose : sweep.patient_from_plane)
-    append_fused(fused, simulate_reference(field, table, sweep.probe, sweep.depth_mm, without_picture, pose), noise,
-                 lines.dr_mm(), settings);
+  for (std::size_t i = 0; i < sweep.patient_from_plane.size(); ++i) {
+    const Stages<double> stages =
+        simulate_reference(field, table, sweep.probe, sweep.depth_mm, without_picture, sweep.patient_from_plane[i]);
+    append_fused(fused, stages, noise, int(i), lines.dr_mm(), settings);
+  }
 
   ReferenceVolume volume{convert_sweep_reference(sweep, fused, grid), {grid, {}}};
   std::vector<double> gained;

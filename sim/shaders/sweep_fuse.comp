@@ -9,6 +9,9 @@ layout(binding = 1) uniform samplerBuffer noise;      // a row a line of a plane
 layout(binding = 2) uniform samplerBuffer mean_echo;  // a row a plane: mean of T S over the lines, with its tail
 layout(std430, binding = 0) writeonly buffer Fused { float fused[]; };  // as echoes: U
 
+// As in sim/model/noise.h.
+int noise_line(int line, int plane) { return (line + plane * ((618 * lines + 500) / 1000)) % lines; }
+
 void main() {
   int k = int(gl_GlobalInvocationID.x), line = int(gl_GlobalInvocationID.y), plane = int(gl_GlobalInvocationID.z);
   if (k >= samples) return;
@@ -20,7 +23,7 @@ void main() {
 #if CLUTTER == 1
   mean += clutter_share * blend * texelFetch(mean_echo, plane * samples + k).x;
 #endif
-  echo += mean * texelFetch(noise, line * samples + k).x;
+  echo += mean * texelFetch(noise, noise_line(line, first_plane + plane) * samples + k).x;
 #endif
   fused[at] = echo;
 }

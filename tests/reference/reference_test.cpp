@@ -90,6 +90,21 @@ TEST_CASE("electronic noise has the envelope of a complex normal signal, whateve
   for (int k = 0; k < noise.height; ++k) CHECK(same.at(7, 5 * k + 2) == Approx(noise.at(7, k)).epsilon(1e-9));
 }
 
+TEST_CASE("a volume's planes have the noise of all their lines, and neighbours have it in other places") {
+  for (const int lines : {30, 128, 192, 1000}) {
+    CAPTURE(lines);
+    for (int line = 0; line < lines; ++line) CHECK(noise_line(line, 0, lines) == line);
+    for (int plane = 1; plane < 10; ++plane) {
+      std::vector<int> taken;
+      for (int line = 0; line < lines; ++line) taken.push_back(noise_line(line, plane, lines));
+      CHECK(std::min(taken[0], lines - taken[0]) >= lines / 25);
+      std::ranges::sort(taken);
+      CHECK(std::ranges::adjacent_find(taken) == taken.end());
+      CHECK((taken.front() == 0 && taken.back() == lines - 1));
+    }
+  }
+}
+
 TEST_CASE("electronic noise comes before time gain: fluid is black where gain is low and grey where it is high") {
   Probe probe = *find_probe("linear");
   probe.lines = 64;

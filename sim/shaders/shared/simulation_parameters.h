@@ -44,10 +44,10 @@ layout(std140, binding = 0) uniform SimulationParameters {
   float slice_spread;  // of the slice's thickness, a mm from its focus
   float elevation_focus_mm;
 
-  int planes;    // whose lines are worked on together, one after the other: 1 for a picture
-  int unused_1;  // std140: a row has 16 bytes
+  int planes;       // whose lines are worked on together, one after the other: 1 for a picture
+  int first_plane;  // of a sweep's, the first of these
+  int unused_1;     // std140: a row has 16 bytes
   int unused_2;
-  int unused_3;
 
   vec4 tgc_db[2];  // at 8 depths from the face to full depth
 #ifdef __cplusplus
