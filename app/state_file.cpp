@@ -33,7 +33,8 @@ std::string in_short(const Action& placed) {
 
 }  // namespace
 
-void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::Screen& screen, long frames) {
+void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::Screen& screen, long frames,
+                 double quality) {
   Json state;
   state["overlay"] = screen.overlay(trainer);
   state["problem"] = trainer.problems().empty() ? "" : trainer.problems().front();
@@ -41,6 +42,7 @@ void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::
   state["calibration_warning"] = trainer.calibration_warning();
   state["frames"] = frames;
   state["pictures_drawn"] = trainer.pictures().drawn();
+  state["quality"] = quality;
   state["simulator_runs"] = trainer.pictures().simulator_runs();
   state["recording"] = trainer.recorder().running() ? trainer.recorder().file().string() : "";
   for (const auto& [name, rect] : screen.places()) {

@@ -16,6 +16,7 @@
 #include "app/keyboard.h"
 #include "app/mouse.h"
 #include "app/panels/screen.h"
+#include "app/quality_governor.h"
 #include "app/state_file.h"
 #include "app/trainer.h"
 #include "devices/live/steady_clock.h"
@@ -32,23 +33,6 @@ constexpr double kIdle_s = 0.1;
 constexpr double kLively_s = 0.4;
 /// What the volume view may take of a frame while things move.
 constexpr double kVolumeBudget_ms = 10;
-
-/// Computes the ultrasound for fewer pixels where the machine cannot keep up.
-class QualityGovernor {
-public:
-  double quality() const { return quality_; }
-  void see(double frame_s) {
-    mean_s_ += 0.1 * (frame_s - mean_s_);
-    if (++frames_ < 20 || mean_s_ < kSlow_s || quality_ <= kLeast) return;
-    quality_ = std::max(kLeast, quality_ * 0.85);
-    frames_ = 0;
-  }
-
-private:
-  static constexpr double kSlow_s = 0.045, kLeast = 0.6;
-  double quality_ = 1, mean_s_ = 0.02;
-  int frames_ = 0;
-};
 
 struct GlfwLibrary {
   GlfwLibrary() {
@@ -196,20 +180,21 @@ private:
 
     trainer_.update(now_s);
     if (trainer_.session() && trainer_.session()->take_go_on()) screen_.go_on(trainer_);
-    const long drawn_before = trainer_.pictures().drawn();
+    const Pictures& pictures = trainer_.pictures();
+    const long drawn_before = pictures.drawn(), runs_before = pictures.simulator_runs();
     draw();
     glfwSwapBuffers(window_);
     ++frames_;
-    const bool changed = trainer_.pictures().drawn() != drawn_before;
+    const bool changed = pictures.drawn() != drawn_before;
     if (touched || moved || changed || trainer_.loading() || trainer_.setup()) changed_s_ = now_s;
-    if (changed) governor_.see(steady_now_s() - now_s);
+    governor_.see(now_s, steady_now_s() - now_s, pictures.simulator_runs() != runs_before);
     frame_s_ += 0.08 * (now_s - previous_s - frame_s_);
     screen_.set_frames_per_second(1 / frame_s_);
     if (trainer_.best_frame_due()) trainer_.keep_best_frame();
     trainer_.write_results_if_due();
     if (!options_.state_file.empty() && now_s - state_written_s_ > 0.1) {
       state_written_s_ = now_s;
-      write_state(options_.state_file, trainer_, screen_, frames_);
+      write_state(options_.state_file, trainer_, screen_, frames_, governor_.quality());
     }
   }
 

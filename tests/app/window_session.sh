@@ -45,12 +45,13 @@ is_not() { [ "$(value "$1")" != "$2" ]; }
 # Whether a number of the state moved away from another by more than a distance.
 moved() { awk -v a="$(value "$1")" -v b="$2" -v d="$3" 'BEGIN { exit !((a - b > d) || (b - a > d)) }'; }
 
-# Whether nothing is computed: a slow machine takes a while to draw in full what it showed coarsely while the probe moved.
+# Whether every picture is drawn, in full, and none is under way. Frames have to go by meanwhile: a machine that has no
+# time for the trainer draws nothing either, and it is one frame that ends a motion and the next that draws in full.
 at_rest() {
-  local runs
-  runs=$(value simulator_runs)
-  sleep 2
-  is simulator_runs "$runs"
+  local drawn frames
+  drawn=$(value pictures_drawn) frames=$(value frames)
+  sleep 0.7
+  is pictures_drawn "$drawn" && is quality 1.0 && [ "$(value frames)" -ge $((frames + 2)) ]
 }
 
 # What is on the screen, cut to a panel: `shot FILE PANEL [MARGIN]`.
