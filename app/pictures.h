@@ -66,7 +66,8 @@ public:
   long drawn() const;
   long simulator_runs() const;
 
-  /// Builds all shaders again; what does not build goes on as it was and is told of.
+  /// Builds all shaders from other sources; a picture one of whose shaders does not build goes on as it was, and that
+  /// is told of.
   std::optional<std::string> reload(const gl::ShaderSources& sources);
 
 private:

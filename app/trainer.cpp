@@ -31,9 +31,8 @@ gl::ShaderSources shaders_of(const Options& options) {
 
 Trainer::Trainer(Options options)
     : options_(std::move(options)),
-      shaders_(shaders_of(options_)),
-      shaders_changed_(shaders_.last_change()),
-      pictures_(shaders_, quality_named(options_.quality)),
+      shaders_changed_(gl::last_change(options_.shader_folder)),
+      pictures_(shaders_of(options_), quality_named(options_.quality)),
       recorder_(options_.record_images) {
   if (!options_.igtl_server.empty()) feed_ = std::make_unique<IgtlFeed>(parse_server_address(options_.igtl_server));
   open_results();
@@ -295,10 +294,10 @@ void Trainer::keep_and_report() {
 }
 
 void Trainer::reload_shaders() {
-  const auto changed = shaders_.last_change();
+  const auto changed = gl::last_change(options_.shader_folder);
   if (changed == shaders_changed_) return;
   shaders_changed_ = changed;
-  shader_problem_ = pictures_.reload(shaders_).value_or("");
+  shader_problem_ = pictures_.reload(gl::ShaderSources(options_.shader_folder)).value_or("");
   // The screen has room for its beginning; whoever edits shaders has a terminal.
   if (!shader_problem_.empty()) std::fprintf(stderr, "insonate: %s\n", shader_problem_.c_str());
 }

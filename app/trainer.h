@@ -166,7 +166,6 @@ private:
   void show_pictures();
 
   Options options_;
-  gl::ShaderSources shaders_;
   std::optional<std::filesystem::file_time_type> shaders_changed_;
   double shaders_looked_at_s_ = 0;
   std::string shader_problem_, calibration_warning_;

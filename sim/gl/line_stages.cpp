@@ -48,8 +48,7 @@ Defines beam_of(const Settings& settings) {
 }  // namespace
 
 LineStages::LineStages(const ShaderSources& sources, const Scheme& scheme, const Representation& representation)
-    : sources_(sources),
-      scheme_(scheme),
+    : scheme_(scheme),
       representation_(representation),
       traverse_(sources, {"traverse.comp"}, with(scheme, representation, traversal({}, 1))),
       reverberation_(sources, {"reverberation.comp"}, with(scheme, representation, reverberation_of({}))),
@@ -90,7 +89,7 @@ std::size_t LineStages::most_samples() const {
 void LineStages::traverse(const DeviceVolume& volume, std::span<const Pose> patient_from_plane,
                           const Settings& settings) {
   planes_ = int(patient_from_plane.size());
-  traverse_.define(sources_, with(scheme_, representation_, traversal(settings, lines_.dr_mm())));
+  traverse_.define(with(scheme_, representation_, traversal(settings, lines_.dr_mm())));
   if (settings.speckle) prepare_scatterers(settings);
   if (keeps_middle_plane(settings) && !middle_) middle_ = handed_on_pairs(representation_.half_floats, most_samples());
   volume.texture().bind(0);
@@ -126,9 +125,8 @@ void LineStages::dispatch(const Program& program, std::size_t lines) const {
 }
 
 void LineStages::prepare_beam(const Settings& settings) {
-  if (reverberates(settings))
-    reverberation_.define(sources_, with(scheme_, representation_, reverberation_of(settings)));
-  beam_.define(sources_, with(scheme_, representation_, beam_of(settings)));
+  if (reverberates(settings)) reverberation_.define(with(scheme_, representation_, reverberation_of(settings)));
+  beam_.define(with(scheme_, representation_, beam_of(settings)));
   if (!beam_changed_) return;
   if (reverberates(settings)) repeats_ = TexelBuffer(GL_R32F, most_samples());
   beam_window_ = half_beam_window(settings);
@@ -163,13 +161,8 @@ SampleCounts LineStages::sample_counts() const {
   return counts;
 }
 
-std::optional<std::string> LineStages::reload(const ShaderSources& sources) {
-  std::string problems;
-  for (Program* program : {&traverse_, &reverberation_, &beam_, &clutter_, &clutter_tail_})
-    if (const auto problem = program->reload(sources)) problems += *problem;
-  if (!problems.empty()) return problems;
-  sources_ = sources;  // not before: others would fail when a program is built for other settings
-  return std::nullopt;
+std::vector<Program*> LineStages::programs() {
+  return {&traverse_, &reverberation_, &beam_, &clutter_, &clutter_tail_};
 }
 
 }  // namespace insonate::gl

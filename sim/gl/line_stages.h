@@ -1,9 +1,7 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "sim/core/pose.h"
@@ -63,8 +61,8 @@ public:
   /// Waits for the device.
   SampleCounts sample_counts() const;
 
-  /// Builds all shaders again; what does not build goes on as it was and is told of.
-  std::optional<std::string> reload(const ShaderSources& sources);
+  /// For Program::reload().
+  std::vector<Program*> programs();
 
 private:
   void prepare_scatterers(const Settings& settings);
@@ -75,7 +73,6 @@ private:
             const Buffer& counters);
   void dispatch(const Program& program, std::size_t lines) const;
 
-  ShaderSources sources_;
   Scheme scheme_;
   Representation representation_;
   Program traverse_, reverberation_, beam_, clutter_, clutter_tail_;

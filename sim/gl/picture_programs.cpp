@@ -47,23 +47,13 @@ PicturePrograms::PicturePrograms(const ShaderSources& sources)
       smooth(sources, {"smooth.comp"}, smoothing(plain({}))),
       fuse(sources, {"fuse.comp"}, fusion(plain({}))),
       maximum(sources, {"maximum.comp"}),
-      compress(sources, {"compress.comp"}, display({})),
-      sources_(sources) {}
+      compress(sources, {"compress.comp"}, display({})) {}
 
 void PicturePrograms::build_from(Stage first, const PictureVariant& variant) {
-  if (first <= Stage::scan_convert) scan_convert.define(sources_, conversion(variant));
-  if (first <= Stage::smooth) smooth.define(sources_, smoothing(variant));
-  if (first <= Stage::fuse) fuse.define(sources_, fusion(variant));
-  compress.define(sources_, display(variant.settings));
-}
-
-std::optional<std::string> PicturePrograms::reload(const ShaderSources& sources) {
-  std::string problems;
-  for (Program* program : {&scan_convert, &smooth, &fuse, &maximum, &compress})
-    if (const auto problem = program->reload(sources)) problems += *problem;
-  if (!problems.empty()) return problems;
-  sources_ = sources;  // not before: others would fail when a program is built for other settings
-  return std::nullopt;
+  if (first <= Stage::scan_convert) scan_convert.define(conversion(variant));
+  if (first <= Stage::smooth) smooth.define(smoothing(variant));
+  if (first <= Stage::fuse) fuse.define(fusion(variant));
+  compress.define(display(variant.settings));
 }
 
 }  // namespace insonate::gl

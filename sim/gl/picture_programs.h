@@ -1,7 +1,6 @@
 #pragma once
 
-#include <optional>
-#include <string>
+#include <vector>
 
 #include "sim/gl/program.h"
 #include "sim/gl/stage.h"
@@ -26,13 +25,10 @@ struct PicturePrograms {
   /// std::runtime_error.
   void build_from(Stage first, const PictureVariant& variant);
 
-  /// Builds all again; what does not build goes on as it was and is told of.
-  std::optional<std::string> reload(const ShaderSources& sources);
+  /// For Program::reload().
+  std::vector<Program*> all() { return {&scan_convert, &smooth, &fuse, &maximum, &compress}; }
 
   Program scan_convert, smooth, fuse, maximum, compress;
-
-private:
-  ShaderSources sources_;
 };
 
 }  // namespace insonate::gl

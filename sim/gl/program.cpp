@@ -11,6 +11,7 @@
 #include "sim/gl/scheme.h"
 
 namespace insonate::gl {
+namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view kInclude = "#include \"";
@@ -33,6 +34,13 @@ std::string log_of(GLuint name, void (*get)(GLuint, GLenum, GLint*), void (*text
 struct ShaderKind {
   static void destroy(GLuint name) { glDeleteShader(name); }
 };
+
+// A folder may hold other things too, large ones, or be named by mistake.
+bool is_shader(const fs::directory_entry& entry) {
+  static constexpr std::array kEndings = {".comp", ".vert", ".frag", ".glsl", ".h"};
+  std::error_code error;
+  return std::ranges::count(kEndings, entry.path().extension().string()) > 0 && entry.is_regular_file(error);
+}
 
 // OpenGL itself only notes an error, which nobody looks at, and runs nothing.
 void refuse_too_many(const std::string& shader, const std::array<int, 3>& groups) {
@@ -70,14 +78,26 @@ Object<ShaderKind> compile(const ShaderSources& sources, const std::string& name
 
 }  // namespace
 
-std::string ShaderSources::load(std::string_view name) const {
-  if (folder_) {
-    std::ifstream stream(*folder_ / name);
-    if (stream) return {std::istreambuf_iterator<char>(stream), {}};
+ShaderSources::ShaderSources(const fs::path& folder) {
+  std::map<std::string, std::string, std::less<>> texts;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder, error)) {
+    if (!is_shader(entry)) continue;
+    std::ifstream stream(entry.path());
+    if (stream)
+      texts[entry.path().lexically_relative(folder).generic_string()] = {std::istreambuf_iterator(stream), {}};
+  }
+  of_folder_ = std::make_shared<const decltype(texts)>(std::move(texts));
+}
+
+std::string_view ShaderSources::load(std::string_view name) const {
+  if (of_folder_) {
+    const auto found = of_folder_->find(name);
+    if (found != of_folder_->end()) return found->second;
   }
   const std::string_view text = embedded_shader(name);
   if (text.empty()) throw std::runtime_error("there is no shader named " + std::string(name));
-  return std::string(text);
+  return text;
 }
 
 void ShaderSources::expand(std::string_view name, std::string& text, std::vector<std::string>& files) const {
@@ -87,7 +107,7 @@ void ShaderSources::expand(std::string_view name, std::string& text, std::vector
     return "#line " + std::to_string(int(number) * kLinesPerFile + line) + "\n";
   };
   text += line_directive(1);
-  std::istringstream lines(load(name));
+  std::istringstream lines{std::string(load(name))};
   int line_number = 0;
   for (std::string line; std::getline(lines, line);) {
     ++line_number;
@@ -107,54 +127,58 @@ std::string ShaderSources::text(std::string_view name, std::vector<std::string>&
   return text;
 }
 
-std::optional<std::filesystem::file_time_type> ShaderSources::last_change() const {
-  if (!folder_) return std::nullopt;
-  std::optional<std::filesystem::file_time_type> newest;
+std::optional<fs::file_time_type> last_change(const fs::path& folder) {
+  std::optional<fs::file_time_type> newest;
   std::error_code error;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(*folder_, error)) {
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder, error)) {
     const auto time = entry.last_write_time(error);
-    if (!error && entry.is_regular_file(error)) newest = std::max(newest.value_or(time), time);
+    if (!error && is_shader(entry)) newest = std::max(newest.value_or(time), time);
   }
   return newest;
 }
 
-Program::Variant Program::build(const ShaderSources& sources, const std::vector<std::string>& shaders,
-                                Defines defines) {
+Program::Program(const ShaderSources& sources, std::vector<std::string> shaders, Defines defines)
+    : sources_(sources), shaders_(std::move(shaders)) {
+  variants_.push_back(build(std::move(defines)));
+}
+
+Program::Variant Program::build(Defines defines) const {
   Variant variant{std::move(defines), Object<ProgramKind>(glCreateProgram())};
   const GLuint program = variant.object.name();
-  for (const std::string& name : shaders) {
-    const Object<ShaderKind> shader = compile(sources, name, variant.defines);
+  for (const std::string& name : shaders_) {
+    const Object<ShaderKind> shader = compile(sources_, name, variant.defines);
     glAttachShader(program, shader.name());  // stays alive with the program
   }
   glLinkProgram(program);
   GLint linked = 0;
   glGetProgramiv(program, GL_LINK_STATUS, &linked);
   if (!linked)
-    throw std::runtime_error(shaders.front() + " does not link:\n" +
+    throw std::runtime_error(shaders_.front() + " does not link:\n" +
                              log_of(program, glGetProgramiv, glGetProgramInfoLog));
-  if (shaders.front().ends_with(".comp")) glGetProgramiv(program, GL_COMPUTE_WORK_GROUP_SIZE, variant.group);
+  if (shaders_.front().ends_with(".comp")) glGetProgramiv(program, GL_COMPUTE_WORK_GROUP_SIZE, variant.group);
   return variant;
 }
 
-Program::Program(const ShaderSources& sources, std::vector<std::string> shaders, Defines defines)
-    : shaders_(std::move(shaders)) {
-  variants_.push_back(build(sources, shaders_, std::move(defines)));
-}
-
-std::optional<std::string> Program::reload(const ShaderSources& sources) {
-  try {
-    *this = Program(sources, shaders_, variants_.front().defines);
-    return std::nullopt;
-  } catch (const std::runtime_error& error) {
-    return error.what();
+std::optional<std::string> Program::reload(std::span<Program* const> programs, const ShaderSources& sources) {
+  std::vector<Program> built;
+  std::string problems;
+  for (const Program* program : programs) {
+    try {
+      built.emplace_back(sources, program->shaders_, program->variants_.front().defines);
+    } catch (const std::runtime_error& error) {
+      problems += error.what();
+    }
   }
+  if (!problems.empty()) return problems;
+  for (std::size_t i = 0; i < built.size(); ++i) *programs[i] = std::move(built[i]);
+  return std::nullopt;
 }
 
-void Program::define(const ShaderSources& sources, const Defines& defines) {
+void Program::define(const Defines& defines) {
   auto found = std::find_if(variants_.begin(), variants_.end(),
                             [&](const Variant& variant) { return variant.defines == defines; });
   if (found == variants_.end()) {
-    Variant built = build(sources, shaders_, defines);
+    Variant built = build(defines);
     if (variants_.size() == kMostKept) variants_.pop_back();
     found = variants_.insert(variants_.end(), std::move(built));
   }

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -11,14 +14,15 @@
 
 namespace insonate::gl {
 
-/// The text of the project's shaders: those embedded in the program, or those of a folder while one is being edited.
+/// The text of the project's shaders: those embedded in the program, or those of a folder while one is being edited, as
+/// they were when it was read. What is built from the same sources, however much later, fits together.
 class ShaderSources {
 public:
   static constexpr int kLinesPerFile = 10000;
 
   ShaderSources() = default;
   /// Takes files from `folder` (laid out as sim/shaders) where they exist there, else the embedded ones.
-  explicit ShaderSources(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  explicit ShaderSources(const std::filesystem::path& folder);
 
   /// A shader with its `#include "shared/..."` lines replaced by those files. The first line of file number i is given
   /// the line number i * kLinesPerFile + 1 by #line, because drivers drop the source number that #line also takes.
@@ -26,15 +30,15 @@ public:
   /// @param files  receives the names in the order of their numbers
   std::string text(std::string_view name, std::vector<std::string>& files) const;
 
-  /// When the newest file of the folder was written; nothing when shaders come from the program alone.
-  std::optional<std::filesystem::file_time_type> last_change() const;
-
 private:
-  std::string load(std::string_view name) const;
+  std::string_view load(std::string_view name) const;
   void expand(std::string_view name, std::string& text, std::vector<std::string>& files) const;
 
-  std::optional<std::filesystem::path> folder_;
+  std::shared_ptr<const std::map<std::string, std::string, std::less<>>> of_folder_;  // by name
 };
+
+/// When the newest file of a folder was written; nothing when there is none.
+std::optional<std::filesystem::file_time_type> last_change(const std::filesystem::path& folder);
 
 /// Lines put in front of a shader as `#define NAME VALUE`.
 using Defines = std::vector<std::pair<std::string, std::string>>;
@@ -56,14 +60,14 @@ public:
   /// Throws std::runtime_error with file, line and the compiler's words when it does not build.
   Program(const ShaderSources& sources, std::vector<std::string> shaders, Defines defines = {});
 
-  /// Builds again. When that fails the program goes on as it was, and the compiler's words are returned.
-  std::optional<std::string> reload(const ShaderSources& sources);
+  /// Builds programs again from other sources, all of them or none: when one fails they all go on as they were, and the
+  /// compiler's words are returned.
+  static std::optional<std::string> reload(std::span<Program* const> programs, const ShaderSources& sources);
 
   /// Builds for other defines; does nothing when they are those it was built for. The kMostKept variants used last are
   /// kept until the next reload(), so that going back costs nothing; one that is not kept takes as long to build as any
   /// program, 50 to 200 ms with llvmpipe. Throws as the constructor does, and goes on as it was.
-  /// @param sources  those it was built from
-  void define(const ShaderSources& sources, const Defines& defines);
+  void define(const Defines& defines);
   static constexpr std::size_t kMostKept = 16;
 
   void use() const { glUseProgram(name()); }
@@ -82,8 +86,9 @@ private:
     Object<ProgramKind> object;
     GLint group[3] = {1, 1, 1};
   };
-  static Variant build(const ShaderSources& sources, const std::vector<std::string>& shaders, Defines defines);
+  Variant build(Defines defines) const;
 
+  ShaderSources sources_;
   std::vector<std::string> shaders_;
   std::vector<Variant> variants_;  ///< the one in use, then those used before it
 };

@@ -328,10 +328,11 @@ Stages<float> Simulator::read_stages() {
 }
 
 std::optional<std::string> Simulator::reload(const ShaderSources& sources) {
-  state_->due_from(Stage::traverse);
-  const auto of_lines = state_->line_stages.reload(sources), of_picture = state_->programs.reload(sources);
-  if (of_lines && of_picture) return *of_lines + *of_picture;
-  return of_lines ? of_lines : of_picture;
+  std::vector<Program*> programs = state_->line_stages.programs();
+  for (Program* program : state_->programs.all()) programs.push_back(program);
+  const std::optional<std::string> problem = Program::reload(programs, sources);
+  if (!problem) state_->due_from(Stage::traverse);
+  return problem;
 }
 
 }  // namespace insonate::gl

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "sim/gl/objects.h"
@@ -45,7 +43,7 @@ public:
   Volume<float> read() const;
 
   /// Builds the shader again; when that fails it goes on as it was and the compiler's words are returned.
-  std::optional<std::string> reload(const ShaderSources& sources) { return program_.reload(sources); }
+  Program& program() { return program_; }
 
 private:
   Program program_;

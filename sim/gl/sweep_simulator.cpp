@@ -47,15 +47,13 @@ Defines display(const Settings& settings, bool finds_maximum) {
 
 struct SweepSimulator::State {
   State(const ShaderSources& given, const Scheme& of_device)
-      : sources(given),
-        scheme(of_device),
+      : scheme(of_device),
         line_stages(given, of_device),
         conversion(given, of_device),
         fuse(given, {"sweep_fuse.comp"}, fusion({})),
         maximum(given, {"sweep_compress.comp"}, display({}, true)),
         compress(given, {"sweep_compress.comp"}, display({}, false)) {}
 
-  ShaderSources sources;
   const Scheme scheme;
   LineStages line_stages;
   SweepConversion conversion;
@@ -125,9 +123,9 @@ void SweepSimulator::State::prepare() {
     noise = noise_of_lines(line_stages.lines(), settings);
     noise_length_mm = settings.reflection_length_mm;
   }
-  fuse.define(sources, fusion(settings));
-  if (needed(SweepStage::maximum)) maximum.define(sources, display(settings, true));
-  compress.define(sources, display(settings, false));
+  fuse.define(fusion(settings));
+  if (needed(SweepStage::maximum)) maximum.define(display(settings, true));
+  compress.define(display(settings, false));
 }
 
 void SweepSimulator::State::write_parameters(const Part& part) {
@@ -275,12 +273,11 @@ StageCount SweepSimulator::count(SweepStage stage) const {
 
 std::optional<std::string> SweepSimulator::reload(const ShaderSources& sources) {
   State& s = *state_;
-  s.due_from(SweepStage::traverse);
-  std::string problems = s.line_stages.reload(sources).value_or("") + s.conversion.reload(sources).value_or("");
-  for (Program* program : {&s.fuse, &s.maximum, &s.compress}) problems += program->reload(sources).value_or("");
-  if (!problems.empty()) return problems;
-  s.sources = sources;
-  return std::nullopt;
+  std::vector<Program*> programs = s.line_stages.programs();
+  for (Program* program : {&s.conversion.program(), &s.fuse, &s.maximum, &s.compress}) programs.push_back(program);
+  const std::optional<std::string> problem = Program::reload(programs, sources);
+  if (!problem) s.due_from(SweepStage::traverse);
+  return problem;
 }
 
 }  // namespace insonate::gl

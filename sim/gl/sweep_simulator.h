@@ -58,7 +58,7 @@ public:
   /// traversal.
   StageCount count(SweepStage stage) const;
 
-  /// Builds all shaders again; what does not build goes on as it was and is told of.
+  /// Builds all shaders from other sources; when one does not build all go on as they were, and it is told of.
   std::optional<std::string> reload(const ShaderSources& sources);
 
 private:

@@ -1,5 +1,7 @@
 #include "sim/view/slice_view.h"
 
+#include <array>
+
 #include "sim/shaders/shared/slice_parameters.h"
 #include "sim/view/picture_target.h"
 #include "sim/view/plane_state.h"
@@ -92,8 +94,9 @@ long SliceView::renders() const {
 }
 
 std::optional<std::string> SliceView::reload(const gl::ShaderSources& sources) {
-  forget();
-  return state_->program.reload(sources);
+  const std::optional<std::string> problem = gl::Program::reload(std::array{&state_->program}, sources);
+  if (!problem) forget();
+  return problem;
 }
 
 }  // namespace insonate::view

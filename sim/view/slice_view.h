@@ -42,7 +42,7 @@ public:
   /// How often it has drawn.
   long renders() const;
 
-  /// Builds the shader again; what does not build goes on as it was and is told of.
+  /// Builds the shader from other sources; when it does not build it goes on as it was, and that is told of.
   std::optional<std::string> reload(const gl::ShaderSources& sources);
 
 private:

@@ -3,6 +3,7 @@
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -206,8 +207,9 @@ double VolumeView::full_picture_ms() const {
 }
 
 std::optional<std::string> VolumeView::reload(const gl::ShaderSources& sources) {
-  forget();
-  return state_->program.reload(sources);
+  const std::optional<std::string> problem = gl::Program::reload(std::array{&state_->program}, sources);
+  if (!problem) forget();
+  return problem;
 }
 
 }  // namespace insonate::view

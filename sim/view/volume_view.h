@@ -52,7 +52,7 @@ public:
   /// Device time that a picture of full size takes, as measured last; 0 before that.
   double full_picture_ms() const;
 
-  /// Builds the shader again; what does not build goes on as it was and is told of.
+  /// Builds the shader from other sources; when it does not build it goes on as it was, and that is told of.
   std::optional<std::string> reload(const gl::ShaderSources& sources);
 
 private:

@@ -91,6 +91,20 @@ pixels=$(different "$work/console.png" "$work/console_broken.png")
 pixels=$(different "$work/before.png" "$work/broken.png")
 [ "$pixels" = 0 ] || fail "a shader that does not build changed $pixels pixels"
 import -window root "$work/broken_screen.png"
+# At two thirds of the depth more pixels are smoothed over, which takes shaders that have not been built yet.
+depth=$(value depth_mm)
+xdotool key --repeat 10 --delay 30 bracketleft
+await "the picture shows less depth" moved depth_mm "$depth" 49
+await "the picture is drawn" at_rest
+shot "$work/shallow.png" ultrasound 20
+pixels=$(different "$work/before.png" "$work/shallow.png")
+[ "$pixels" -gt 2000 ] || fail "the depth is not changed beside a shader that does not build: $pixels pixels"
+xdotool key --repeat 10 --delay 30 bracketright
+await "the depth is the one before" is depth_mm "$depth"
+await "the picture is drawn" at_rest
+shot "$work/back.png" ultrasound 20
+pixels=$(different "$work/before.png" "$work/back.png")
+[ "$pixels" = 0 ] || fail "$pixels pixels have changed at the same depth"
 sed 's/vec3(grey_at(level, white_db))/vec3(1.0 - grey_at(level, white_db))/' "$shaders/shared/grey.glsl" >"$work/shaders/shared/grey.glsl"
 ! cmp -s "$shaders/shared/grey.glsl" "$work/shaders/shared/grey.glsl" || fail "shared/grey.glsl reads differently: edit it elsewhere"
 await "a shader that builds is taken" builds
