@@ -15,7 +15,7 @@
 /// What model S's stages read that no stage writes, worked out on the processor.
 namespace insonate::gl {
 
-/// A scan line as `Line` in traverse.comp: in the volume's texture and in the scatterers' lattice.
+/// A scan line as `Line` in shared/line_sample.glsl: in the volume's texture and in the scatterers' lattice.
 struct PlacedLine {
   glm::vec4 start, along;
   glm::vec4 lateral, elevation;

@@ -1,0 +1,253 @@
+// A scan line of model S and what sound meets at a sample of it: reflection coefficient, transmission, the scatterers'
+// echo. Whoever includes this walks along lines. Fetches from the volume are what it costs, so it makes as few as the
+// sampling allows. What is written has a row a line: invocations that each walk along a row stay in the processor's
+// cache, a column each would touch a page a step. It goes to a buffer, as what all stages hand on: a software renderer
+// takes several times as long to store in an image.
+
+#include "shared/simulation_parameters.h"
+#include "shared/handed_on.glsl"
+#include "shared/acoustic_volume.glsl"
+#include "shared/exact_filter.glsl"
+
+layout(binding = 1) uniform sampler3D scatterers;  // complex, unit variance at the lattice's points
+layout(binding = 2) uniform samplerBuffer in_air;  // I, R of a line that meets no body, by sample
+layout(std430, binding = 1) buffer Scan { HANDED_4 scan[]; };  // a row a line: I, R, scatterers' echo (re, im)
+
+// A line and the directions beside it, worked out in double precision for each pose: adding up single-precision
+// products here instead would move samples by a thousandth of a voxel, which shows at the surface of gas.
+struct Line {
+  vec4 start, along;        // in the volume's texture: of sample 0, and to the next; start.w and along.w: the first and
+                            // the last sample that may lie in the body, in this order unless none does
+  vec4 lateral, elevation;  // half the reflection length to either side; lateral.w: the plane's weight
+  vec4 lattice_start, lattice_along;  // in the scatterers' lattice
+  vec4 beside, lattice_beside;        // with ELEVATION_FOCUS, the way to the plane for each mm of the slice's thickness
+};
+#if KEEP_MIDDLE == 1
+layout(std430, binding = 3) writeonly buffer Middle { HANDED_2 middle[]; };  // a row a line: I, R of the middle plane
+#endif
+// Plane by plane, of each its slice's planes in turn.
+layout(std430, binding = 0) readonly buffer ScanLines { Line scan_lines[]; };
+layout(std430, binding = 2) buffer Counters { uint samples_walked, normals_taken; };
+
+// Where the ends of the reflection length lie. Ends that meet those of the next samples are fetched once for all.
+const int kEdgesAtSamples = 2;  // l = 2 dr: on the neighbouring samples
+const int kEdgesAtMiddles = 1;  // l = dr: halfway between samples, as in the paper
+const int kEdgesAnywhere = 0;
+
+const float kMeanCosine = 0.5;           // |d . n| over all directions, for interfaces too weak to be looked at
+// As in sim/model/refraction.h.
+const float kLeastHu = -150.0, kMostHu = 150.0, kLogSpeedBelowWater = 5e-4, kLogSpeedAboveWater = 7.6e-4;
+const float kScattererScale = 4.0;     // the lattice stores a quarter of its normally distributed numbers
+const float kLn10 = 2.302585093;
+// As in sim/model/acoustic_volume.h: in hundredths of a dB, and 10 to the power of a thousandth of that.
+const float kSilentEchogenicity = -5999.5, kSilentAmplitude = 1.00115195e-6;
+// 10^-20: 200 dB down nothing can be heard; 10^-30 for lines that nothing ends.
+const float kLeastLogIntensity = SKIPPING == 1 ? -46.0 : -69.0;
+
+Line line;
+uint walked = 0u, normals = 0u;  // by this invocation
+
+// Of a line in air, which is one line in each of the slice's planes, or of the planes.
+int line_count() { return min(planes * lines, scan_lines.length() / SLICE_PLANES); }
+
+void place_line(int slice_plane, int index) {
+  int stride = min(lines, line_count());
+  line = scan_lines[index + (index / stride * (SLICE_PLANES - 1) + slice_plane) * stride];
+}
+
+bool starts() { return line.start.w <= line.along.w; }
+
+// Where a place along the line lies, counted in samples. With ELEVATION_FOCUS planes bend as the slice's thickness does.
+float depth(float k) { return r_min_mm + (k + 0.5) * dr_mm; }
+#if ELEVATION_FOCUS == 1
+float thickness_mm(float k) {
+  float spread = slice_spread * (depth(k) - elevation_focus_mm);
+  return sqrt(slice_thickness_mm * slice_thickness_mm + spread * spread);
+}
+vec3 place(float k) { return line.start.xyz + k * line.along.xyz + thickness_mm(k) * line.beside.xyz; }
+vec3 lattice_place(float k) {
+  return line.lattice_start.xyz + k * line.lattice_along.xyz + thickness_mm(k) * line.lattice_beside.xyz;
+}
+#else
+vec3 place(float k) { return line.start.xyz + k * line.along.xyz; }
+vec3 lattice_place(float k) { return line.lattice_start.xyz + k * line.lattice_along.xyz; }
+#endif
+
+vec2 voxel(vec3 at) {
+#if EXACT_FILTER == 1
+  return exact_to_edge(acoustic_volume, at).rg * 32767.0;
+#else
+  return textureLod(acoustic_volume, at, 0.0).rg * 32767.0;
+#endif
+}
+
+// Coupling gel fills what air there is between the face and the skin, up to its thickness.
+vec2 with_gel(vec2 voxel, float r) { return r < gel_mm && voxel.x < kCouplingAirHu ? kGel : voxel; }
+
+struct Medium { float hu, impedance, absorption, echogenicity; };
+
+// At a place along the line, counted in samples.
+Medium medium(float k) {
+  vec2 here = kOutside;
+  if (k >= line.start.w && k <= line.along.w) here = voxel(place(k));
+  here = with_gel(here, depth(k));
+  vec2 known = impedance_and_absorption(here.x);
+  return Medium(here.x, known.x, known.y, here.y);
+}
+
+float hu_at(vec3 at, float r) { return with_gel(voxel(at), r).x; }
+
+// ln(1 - alpha) without the cancellation in 1 - alpha: by its series for weak interfaces, as 4 Z1 Z2 / (Z1 + Z2)^2 for
+// strong ones.
+float log_transmission(float alpha, float z1, float z2) {
+  if (alpha < 0.03) return -alpha * (1.0 + alpha * (0.5 + alpha * (1.0 / 3.0 + alpha * 0.25)));
+  return log(4.0 * z1 * z2 / ((z1 + z2) * (z1 + z2)));
+}
+
+// Trilinear interpolation between independent numbers has less variance between lattice points than at them; dividing
+// by what the weights leave keeps the speckle from showing the lattice.
+vec2 scatterer(vec3 lattice) {
+  vec3 f = fract(lattice * vec3(textureSize(scatterers, 0)) - 0.5);
+  vec3 kept = f * f + (1.0 - f) * (1.0 - f);
+#if EXACT_FILTER == 1
+  vec2 stored = exact_repeating(scatterers, lattice).rg;
+#else
+  vec2 stored = textureLod(scatterers, lattice, 0.0).rg;
+#endif
+  return stored * (kScattererScale * inversesqrt(kept.x * kept.y * kept.z));
+}
+
+// How density changes around a sample, of which that of impedance has the direction: no look at the tissue table is
+// needed.
+struct Surroundings {
+  vec4 beside;  // densities half the reflection length beside it: to both sides in the plane, and in elevation
+  float along;  // their difference over the reflection length along the line
+};
+
+#if STORED_GRADIENT == 1
+layout(binding = 3) uniform sampler3D density;  // (HU, differences over two voxels in eighths of HU) / 32767
+
+// By the stored gradient, as if density went on as steeply as it does at the sample.
+Surroundings surroundings(float k, float along) {
+#if EXACT_FILTER == 1
+  vec4 here = exact_to_edge(density, place(k)) * 32767.0;
+#else
+  vec4 here = textureLod(density, place(k), 0.0) * 32767.0;
+#endif
+  vec3 a_voxel = here.yzw * (0.125 / 2.0), a_texture = a_voxel * vec3(textureSize(density, 0));
+  vec2 to_side = vec2(dot(a_texture, line.lateral.xyz), dot(a_texture, line.elevation.xyz));
+  vec4 beside = here.x + vec4(to_side.x, -to_side.x, to_side.y, -to_side.y);
+  if (depth(k) < gel_mm) beside = mix(beside, vec4(kGel.x), lessThan(beside, vec4(kCouplingAirHu)));
+  return Surroundings(beside, dot(a_texture, line.along.xyz) * 2.0 * half_reflection_length);
+}
+#else
+// By differences; those along the line are known from its walk.
+Surroundings surroundings(float k, float along) {
+  vec3 at = place(k);
+  float r = depth(k);
+  return Surroundings(vec4(hu_at(at + line.lateral.xyz, r), hu_at(at - line.lateral.xyz, r),
+                           hu_at(at + line.elevation.xyz, r), hu_at(at - line.elevation.xyz, r)), along);
+}
+#endif
+
+// |cos| of the angle between the beam and the normal of the interface.
+float incidence(Surroundings around) {
+  vec2 across = around.beside.xz - around.beside.yw;
+  return abs(around.along) * inversesqrt(max(around.along * around.along + dot(across, across), 1e-30));
+}
+
+// Complex amplitude of what scatters at a sample.
+vec2 scatterers_echo(float k, Medium here) {
+  float above_silence = max(here.echogenicity - kSilentEchogenicity, 0.0);
+  vec2 echo = vec2(kSilentAmplitude * (exp(above_silence * (kLn10 / 1000.0)) - 1.0), 0.0);
+  if (SPECKLE == 1) echo = echo.x * scatterer(lattice_place(k));
+  return echo;
+}
+
+// What sound meets at a sample, however much of it arrives there.
+struct Sample {
+  float alpha, cosine;  // of the interface
+  float change;         // of the logarithm of intensity, but for what turns off the line
+  vec2 turn;            // of the sound, in units of kTurn_rad
+  vec2 echo;            // of the scatterers
+};
+
+float absorbed(Medium here) { return ABSORPTION == 1 ? here.absorption * absorption_per_sample : 0.0; }
+
+// Sample k, with the reflection length's ends before and behind it.
+Sample sample_at(float k, Medium here, Medium before, Medium behind) {
+  Sample met;
+  met.alpha = (behind.impedance - before.impedance) / (behind.impedance + before.impedance);  // (1)
+  met.alpha *= met.alpha;
+  met.cosine = kMeanCosine;
+#if EDGE_SHADOW == 1
+  Surroundings around = surroundings(k, behind.hu - before.hu);
+  vec4 soft = clamp(around.beside, kLeastHu, kMostHu);
+  vec4 log_speed = kLogSpeedBelowWater * min(soft, 0.0) + kLogSpeedAboveWater * max(soft, 0.0);
+  met.turn = (log_speed.xz - log_speed.yw) * turn_per_step;
+#endif
+  if (met.alpha > least_alpha_with_normal) {
+#if EDGE_SHADOW == 0
+    Surroundings around = surroundings(k, behind.hu - before.hu);
+#endif
+    met.cosine = incidence(around);
+    ++normals;
+  }
+  float transmitted = log_transmission(met.alpha, before.impedance, behind.impedance);
+  met.change = reflection_exponent * transmitted - absorbed(here);  // (5)
+  met.echo = scatterers_echo(k, here);
+  return met;
+}
+
+// How the logarithm of intensity changes where sound that is turned so far leaves the line.
+float change_by(vec2 turn) {
+  float turned = dot(turn, turn), to_the_fourth = turned * turned;
+  return -2.0 * to_the_fourth / (2.0 + to_the_fourth) * turn_loss;
+}
+
+// The logarithm of the intensity that arrives at a sample. What rounding added to it is carried along: thousands of
+// small losses would add up to more error than is allowed.
+struct LogIntensity { float value, excess; };
+
+// The first sample lies half a step behind the face.
+LogIntensity arriving_first(Medium here) { return LogIntensity(-0.5 * absorbed(here), 0.0); }
+
+LogIntensity changed(LogIntensity log_intensity, float change) {
+  precise float term = change - log_intensity.excess;
+  precise float value = min(log_intensity.value + term, log_intensity.value);  // I never rises
+  precise float excess = (value - log_intensity.value) - term;
+  return LogIntensity(value, excess);
+}
+
+bool is_heard(LogIntensity log_intensity) { return log_intensity.value > kLeastLogIntensity; }
+
+// The planes of the slice add up. Where sound goes to and fro is a matter of the middle one alone: layers that lie in
+// different planes hold none between them.
+void put(int slice_plane, int at, vec4 value) {
+#if KEEP_MIDDLE == 1
+  if (slice_plane == SLICE_PLANES / 2) middle[at] = kept_energy(value.xy);
+#endif
+#if SLICE_PLANES > 1
+  value *= line.lateral.w;
+  if (slice_plane > 0) value += scan_of(scan[at]);
+#endif
+  scan[at] = kept_scan(value);
+}
+
+// What a sample sends back of the intensity that arrives.
+void put(int slice_plane, int at, Sample met, LogIntensity log_intensity) {
+  float intensity = is_heard(log_intensity) ? exp(log_intensity.value) : 0.0;
+  float heard = intensity > kLeastIntensity ? intensity : 0.0;
+  float reflection = met.alpha * heard * heard * met.cosine;  // (3)
+  if (reflection < kLeastEcho) reflection = 0.0;
+  put(slice_plane, at, vec4(intensity, reflection, met.echo));
+}
+
+// Sample k and every `step`th behind it, at which no sound arrives. What nothing is heard of still scatters in the
+// apertures of the lines beside it, as far as the body goes.
+void put_silent(int slice_plane, int row, int k, int step) {
+  for (int end = int(min(line.along.w + 1.0, float(samples))); k < end; k += step)
+    put(slice_plane, row + k, vec4(0.0, 0.0, scatterers_echo(float(k), medium(float(k)))));
+  for (; k < samples; k += step)
+    put(slice_plane, row + k, vec4(starts() ? vec2(0.0) : energy_of(texelFetch(in_air, k).xy), 0.0, 0.0));
+}
