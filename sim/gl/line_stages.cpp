@@ -19,10 +19,11 @@ Defines with(const Scheme& scheme, const Representation& representation, Defines
   return defines;
 }
 
-Defines traversal(const Settings& settings, double dr_mm) {
+Defines traversal(const Settings& settings, double dr_mm, bool group_a_line) {
   const double samples_a_length = settings.reflection_length_mm / dr_mm;
   const auto is = [&](double whole) { return std::abs(samples_a_length - whole) < 1e-9; };
-  return {{"EDGES_AT", is(2)   ? "kEdgesAtSamples"
+  return {{"GROUP_A_LINE", flag(group_a_line)},
+          {"EDGES_AT", is(2)   ? "kEdgesAtSamples"
                        : is(1) ? "kEdgesAtMiddles"
                                : "kEdgesAnywhere"},
           {"ABSORPTION", flag(settings.absorption)},
@@ -50,7 +51,7 @@ Defines beam_of(const Settings& settings) {
 LineStages::LineStages(const ShaderSources& sources, const Scheme& scheme, const Representation& representation)
     : scheme_(scheme),
       representation_(representation),
-      traverse_(sources, {"traverse.comp"}, with(scheme, representation, traversal({}, 1))),
+      traverse_(sources, {"traverse.comp"}, with(scheme, representation, traversal({}, 1, scheme.lines_that_fill > 0))),
       reverberation_(sources, {"reverberation.comp"}, with(scheme, representation, reverberation_of({}))),
       beam_(sources, {"beam.comp"}, with(scheme, representation, beam_of({}))),
       clutter_(sources, {"clutter.comp"}, with(scheme, representation)),
@@ -82,6 +83,15 @@ std::size_t LineStages::set_lines() const {
   return std::size_t(planes_) * lines_.lines.size();
 }
 
+bool LineStages::group_a_line() const {
+  return set_lines() < scheme_.lines_that_fill;
+}
+
+std::size_t LineStages::groups_of(std::size_t lines) const {
+  const std::size_t group = std::size_t(scheme_.group);
+  return (lines + group - 1) / group;
+}
+
 std::size_t LineStages::most_samples() const {
   return std::size_t(most_planes_) * lines_.lines.size() * std::size_t(lines_.samples);
 }
@@ -89,7 +99,7 @@ std::size_t LineStages::most_samples() const {
 void LineStages::traverse(const DeviceVolume& volume, std::span<const Pose> patient_from_plane,
                           const Settings& settings) {
   planes_ = int(patient_from_plane.size());
-  traverse_.define(with(scheme_, representation_, traversal(settings, lines_.dr_mm())));
+  traverse_.define(with(scheme_, representation_, traversal(settings, lines_.dr_mm(), group_a_line())));
   if (settings.speckle) prepare_scatterers(settings);
   if (keeps_middle_plane(settings) && !middle_) middle_ = handed_on_pairs(representation_.half_floats, most_samples());
   volume.texture().bind(0);
@@ -114,14 +124,13 @@ void LineStages::walk(std::size_t lines, const std::vector<PlacedLine>& placed, 
   line_buffer.bind_storage(0);
   scan.bind_storage(1);
   counters.bind_storage(2);
-  dispatch(traverse_, lines);
+  dispatch(traverse_, group_a_line() ? lines : groups_of(lines));
 }
 
 // One row of work groups need not hold all lines.
-void LineStages::dispatch(const Program& program, std::size_t lines) const {
-  const std::size_t group = std::size_t(scheme_.group);
-  const glm::ivec2 groups = scheme_.in_rows((lines + group - 1) / group);
-  program.dispatch_groups(groups.x, groups.y);
+void LineStages::dispatch(const Program& program, std::size_t groups) const {
+  const glm::ivec2 in_rows = scheme_.in_rows(groups);
+  program.dispatch_groups(in_rows.x, in_rows.y);
 }
 
 void LineStages::prepare_beam(const Settings& settings) {
@@ -140,7 +149,7 @@ void LineStages::beam(const Settings& settings) {
     (keeps_middle_plane(settings) ? middle_ : scan_).bind(0);
     repeats_.clear();
     repeats_.bind_storage(0);
-    dispatch(reverberation_, set_lines());
+    dispatch(reverberation_, groups_of(set_lines()));
     repeats_.bind(2);
   }
   scan_.bind(0);

@@ -18,7 +18,8 @@ namespace insonate::gl {
 struct PlacedLine;
 
 /// What the traversal did, modulo 2^32. A line ends where it has lost its energy; one that meets no body does not
-/// start.
+/// start. Where a work group walks along a line, it ends with the stretch of it in which the energy is lost, and the
+/// samples of that stretch behind count too: they were worked out.
 struct SampleCounts {
   std::uint32_t walked = 0;   ///< samples, of planes x lines x samples
   std::uint32_t normals = 0;  ///< samples of these whose interface's normal was worked out
@@ -68,10 +69,12 @@ private:
   void prepare_scatterers(const Settings& settings);
   void prepare_beam(const Settings& settings);
   std::size_t set_lines() const;
+  bool group_a_line() const;
   std::size_t most_samples() const;
   void walk(std::size_t lines, const std::vector<PlacedLine>& placed, Buffer& line_buffer, const TexelBuffer& scan,
             const Buffer& counters);
-  void dispatch(const Program& program, std::size_t lines) const;
+  std::size_t groups_of(std::size_t lines) const;  // where an invocation takes a line
+  void dispatch(const Program& program, std::size_t groups) const;
 
   Scheme scheme_;
   Representation representation_;

@@ -13,14 +13,20 @@ constexpr GLenum kSubgroupSize = 0x9532;  // GL_SUBGROUP_SIZE_KHR, younger than 
 
 constexpr int kImagesInTurn = 8;  // twice as many would save one image in a hundred
 
+constexpr std::size_t kLinesThatFill = 8192;  // 8 vectors of 32 on 32 processors, reckoned as the header says
+
 }  // namespace
 
 Scheme Scheme::of_device() {
   Scheme scheme;
-  GLint lanes = is_software_renderer() ? 8 : 32;
+  const bool software = is_software_renderer();
+  GLint lanes = software ? 8 : 32;
   if (epoxy_has_gl_extension("GL_KHR_shader_subgroup")) glGetIntegerv(kSubgroupSize, &lanes);
   scheme.group = std::clamp(lanes, 4, 128);
-  if (is_software_renderer()) scheme.images_in_turn = kImagesInTurn;
+  if (software)
+    scheme.images_in_turn = kImagesInTurn;
+  else
+    scheme.lines_that_fill = kLinesThatFill;
   return scheme;
 }
 

@@ -8,6 +8,7 @@
 
 #include "tests/accuracy/stress_bounds.h"
 #include "tests/accuracy/stressed.h"
+#include "tests/gl/test_schemes.h"
 
 using namespace insonate;
 using namespace insonate::test;
@@ -51,7 +52,7 @@ void for_many_scenes(long frames, Scene (*drawn)(std::uint32_t), const std::func
 }  // namespace
 
 TEST_CASE("random scenes in groups that share their programs, bounds alone") {
-  Stressed stressed;
+  Stressed stressed(GENERATE(line_an_invocation(), line_a_group()));
   for_many_scenes(500, random_scene_of_everything, [&](const Scene& scene) { stressed.check_shaders(scene); });
 }
 
@@ -71,19 +72,19 @@ TEST_CASE("a weak echo on a line's last sample is not lost beside a loud one in 
 }
 
 TEST_CASE("random scenes in groups that share their programs, against the reference") {
-  Stressed stressed;
+  Stressed stressed(GENERATE(line_an_invocation(), line_a_group()));
   for_many_scenes(100, random_scene, [&](const Scene& scene) { stressed.check(scene); });
 }
 
 // Hidden, as they take an hour or more: build/dev/tests/stress_test "[many]".
 TEST_CASE("many random scenes, bounds alone", "[.][many]") {
-  Stressed stressed;
+  Stressed stressed(GENERATE(line_an_invocation(), line_a_group()));
   for_many_scenes(from_environment("INSONATE_STRESS_FRAMES", 100000), random_scene_of_everything,
                   [&](const Scene& scene) { stressed.check_shaders(scene); });
 }
 
 TEST_CASE("many random scenes against the reference", "[.][many]") {
-  Stressed stressed;
+  Stressed stressed(GENERATE(line_an_invocation(), line_a_group()));
   for_many_scenes(from_environment("INSONATE_STRESS_FRAMES", 100000), random_scene,
                   [&](const Scene& scene) { stressed.check(scene); });
 }

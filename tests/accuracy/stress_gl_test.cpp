@@ -9,6 +9,7 @@
 #include <string>
 
 #include "tests/accuracy/stressed.h"
+#include "tests/gl/test_schemes.h"
 
 using namespace insonate;
 using namespace insonate::test;
@@ -20,9 +21,11 @@ struct Strain {
   std::function<void(Scene&)> apply;
 };
 
-/// `strains` one by one on an ordinary scene.
+/// `strains` one by one on an ordinary scene, walked along either way.
 void check_each(const std::vector<Strain>& strains) {
-  Stressed stressed;
+  const gl::Scheme scheme = GENERATE(line_an_invocation(), line_a_group(32));
+  CAPTURE(scheme.lines_that_fill);
+  Stressed stressed(scheme);
   for (const Strain& strain : strains) {
     INFO(strain.name);
     Scene scene = ordinary_scene();

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "sim/gl/simulator.h"
 #include "sim/reference/reference.h"
 #include "tests/accuracy/stress_scene.h"
@@ -11,6 +13,10 @@ namespace insonate::test {
 /// of its bounds, and that both agree wherever single precision can.
 class Stressed {
 public:
+  /// @param scheme  the device's own when there is none
+  explicit Stressed(const std::optional<gl::Scheme>& scheme = {})
+      : simulator_({}, scheme ? *scheme : gl::Scheme::of_device()) {}
+
   Stages<float> shaders(const Scene& scene);
   Stages<double> reference(const Scene& scene, const MediumField& field) const;
 

@@ -7,6 +7,7 @@
 
 #include "sim/gl/simulator.h"
 #include "tests/gl/test_context.h"
+#include "tests/gl/test_schemes.h"
 
 using namespace insonate;
 
@@ -36,7 +37,9 @@ TEST_CASE("in a homogeneous medium sound is absorbed exactly, however many sampl
   const TissueTable table = read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml");
   Probe probe = *find_probe("linear");
   probe.lines = 4;
-  gl::Simulator simulator;
+  const gl::Scheme scheme = GENERATE(test::line_an_invocation(), test::line_a_group(), test::line_a_group(128));
+  CAPTURE(scheme.lines_that_fill, scheme.group);
+  gl::Simulator simulator({}, scheme);
   simulator.set_volume(medium(std::int16_t(kHu), std::int16_t(kHu)), table);
   simulator.set_probe(probe, kDepth_mm);
   simulator.set_pose(at_y(-200));

@@ -14,6 +14,7 @@
 #include "tests/gl/parity.h"
 #include "tests/gl/test_body.h"
 #include "tests/gl/test_context.h"
+#include "tests/gl/test_schemes.h"
 
 using namespace insonate;
 using test::told;
@@ -82,16 +83,19 @@ void check_parity(const Probe& probe, double depth_mm, Settings settings, const 
   for (std::uint32_t i = 0; i < uncertain.size(); ++i)
     uncertain[i] =
         simulate_reference(test::as_single_precision_knows_it(field, i), table, probe, depth_mm, settings, pose);
-  gl::Simulator simulator;
-  simulator.set_volume(body, table);
-  simulator.set_probe(probe, depth_mm);
-  simulator.set_pose(pose);
-  for (const bool exact : {true, false}) {
-    if (!exact && test::own_filter_is_coarse()) return;
-    settings.exact_filter = exact;
-    simulator.set_settings(settings);
-    INFO((exact ? "exact filtering" : "the device's own filter"));
-    check_stages(expected, uncertain, simulator.read_stages(), settings);
+  for (const gl::Scheme& scheme : {test::line_an_invocation(), test::line_a_group(), test::line_a_group(32)}) {
+    gl::Simulator simulator({}, scheme);
+    simulator.set_volume(body, table);
+    simulator.set_probe(probe, depth_mm);
+    simulator.set_pose(pose);
+    for (const bool exact : {true, false}) {
+      if (!exact && test::own_filter_is_coarse()) continue;
+      settings.exact_filter = exact;
+      simulator.set_settings(settings);
+      INFO((exact ? "exact filtering" : "the device's own filter"));
+      INFO((scheme.lines_that_fill > 0 ? "a line a group of " : "a line an invocation, in groups of ") << scheme.group);
+      check_stages(expected, uncertain, simulator.read_stages(), settings);
+    }
   }
 }
 
@@ -207,7 +211,9 @@ TEST_CASE("a frame without any echo is black, not NaN") {
 
 TEST_CASE("what is skipped changes no pixel by more than a grey level") {
   const test::TestContext context;
-  gl::Simulator simulator;
+  const gl::Scheme scheme = GENERATE(test::line_an_invocation(), test::line_a_group());
+  CAPTURE(scheme.lines_that_fill);
+  gl::Simulator simulator({}, scheme);
   simulator.set_volume(test::test_body(), read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml"));
   simulator.set_probe(*find_probe("curvilinear"), 120);
   const auto sized = [](Settings settings) {
@@ -265,7 +271,7 @@ TEST_CASE("what is skipped changes no pixel by more than a grey level") {
 
 TEST_CASE("a line that meets no body does not start") {
   const test::TestContext context;
-  gl::Simulator simulator;
+  gl::Simulator simulator({}, GENERATE(test::line_an_invocation(), test::line_a_group()));
   simulator.set_volume(test::test_body(), read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml"));
   const Probe probe = *find_probe("linear");
   simulator.set_probe(probe, 50);
@@ -290,7 +296,7 @@ TEST_CASE("a line that meets no body does not start") {
 
 TEST_CASE("where there is only air no line starts, and one starts that passes beside the body") {
   const test::TestContext context;
-  gl::Simulator simulator;
+  gl::Simulator simulator({}, GENERATE(test::line_an_invocation(), test::line_a_group()));
   const TissueTable table = read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml");
   AcousticVolume block;
   block.grid.size = {20, 40, 20};

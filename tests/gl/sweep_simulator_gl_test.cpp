@@ -15,6 +15,7 @@
 #include "sim/gl/simulator.h"
 #include "sim/gl/stage_tables.h"
 #include "tests/gl/test_context.h"
+#include "tests/gl/test_schemes.h"
 #include "tests/gl/test_sweeps.h"
 
 using namespace insonate;
@@ -52,6 +53,8 @@ long count_of_different(const std::vector<Number>& a, const std::vector<Number>&
 }  // namespace
 
 TEST_CASE("the lines of many planes hold what each plane's picture holds, to the last bit") {
+  const gl::Scheme scheme = GENERATE(test::line_an_invocation(), test::line_a_group());
+  CAPTURE(scheme.lines_that_fill);
   // Windows too wide for the array: one that went on into the next plane's lines would take its other end.
   for (const bool focused : {false, true}) {
     Settings settings = everything();
@@ -67,7 +70,7 @@ TEST_CASE("the lines of many planes hold what each plane's picture holds, to the
 
     const test::TestContext context;
     const gl::DeviceVolume body(test::test_body(), tissues());
-    gl::LineStages stages({}, gl::Scheme::of_device());
+    gl::LineStages stages({}, scheme);
     stages.lay_out(scan_lines(sweep.probe, sweep.depth_mm, d), planes, settings);
     gl::SimulationParameters parameters = gl::parameters_of(settings, stages.lines(), {}, {});
     parameters.planes = planes;
@@ -79,7 +82,7 @@ TEST_CASE("the lines of many planes hold what each plane's picture holds, to the
     stages.scan().read(scan.data(), scan.size() * sizeof scan[0]);
     stages.echoes().read(echoes.data(), echoes.size() * sizeof echoes[0]);
 
-    gl::Simulator simulator;
+    gl::Simulator simulator({}, scheme);
     simulator.set_volume(test::test_body(), tissues());
     simulator.set_probe(sweep.probe, sweep.depth_mm);
     simulator.set_settings(settings);

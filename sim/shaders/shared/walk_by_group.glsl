@@ -1,0 +1,67 @@
+// A line a work group, whose invocations take neighbouring samples, a stretch of the line at a time. What hangs on the
+// samples before is found by scans over the stretch, and carried into the next. Each sample fetches the ends of its own
+// reflection length: its neighbours fetch the same at the same time, which a card's texture cache serves.
+//
+// Invocations of a group wait for each other: all of them must come to each barrier, so what the loops around one go on
+// by is the same for all. Sample k is the same invocation's in each plane of the slice, whose sums so need no barrier.
+
+const int kLast = GROUP - 1;
+shared float changes[GROUP];  // of the logarithm of intensity, from the stretch's start to behind each sample
+shared vec2 turns[GROUP];
+
+// A level joins neighbouring parts of the stretch, twice as long as those of the level before: to each sample of the
+// back part it adds what the front part's last sample has. None of what a level reads is written by it. Rounding keeps
+// numbers in order, so sums in this order never rise from sample to sample where nothing that they add is positive.
+void scan_changes(int me, float change) {
+  barrier();  // behind whoever still reads those of the stretch before
+  changes[me] = change;
+  for (int part = 1; part < GROUP; part *= 2) {
+    barrier();
+    if ((me & part) != 0) changes[me] += changes[(me & -part) - 1];
+  }
+  barrier();
+}
+
+// The same where less is kept of a turn the further it has come. The first sample brings in what came `before`.
+void scan_turns(int me, vec2 turn, vec2 before) {
+  float kept = turn_kept, kept_over_part = turn_kept;  // kept: from the front part's last sample to this one
+  barrier();
+  turns[me] = me == 0 ? before * turn_kept + turn : turn;
+  for (int part = 1; part < GROUP; part *= 2) {
+    barrier();
+    if ((me & part) != 0) {
+      turns[me] += turns[(me & -part) - 1] * kept;
+      kept *= kept_over_part;
+    }
+    kept_over_part *= kept_over_part;
+  }
+  barrier();
+}
+
+void walk(int slice_plane, int index) {
+  place_line(slice_plane, index);
+  int me = int(gl_LocalInvocationID.x), row = index * samples, end = starts() ? samples : 0, first = 0;
+  LogIntensity arriving = arriving_first(medium(0.0));  // at the stretch's first sample
+  vec2 turn = vec2(0.0);                                // behind its last
+  for (; first < end && (SKIPPING == 0 || is_heard(arriving)); first += GROUP) {
+    int k = first + me;
+    float position = float(k);
+    Sample met = Sample(0.0, 0.0, 0.0, vec2(0.0), vec2(0.0));  // behind the line's end
+    if (k < samples) {
+      met = sample_at(position, medium(position), medium(position - half_reflection_length),
+                      medium(position + half_reflection_length));
+      ++walked;
+    }
+#if EDGE_SHADOW == 1
+    scan_turns(me, met.turn, turn);
+    met.change += change_by(turns[me]);
+    turn = turns[kLast];
+#endif
+    scan_changes(me, met.change);
+    LogIntensity log_intensity = arriving;
+    if (me > 0) log_intensity = changed(arriving, changes[me - 1]);
+    if (k < samples) put(slice_plane, row + k, met, log_intensity);
+    arriving = changed(arriving, changes[kLast]);
+  }
+  put_silent(slice_plane, row, first + me, GROUP);
+}
