@@ -15,6 +15,10 @@ Table measure_frames(const Request& request);
 /// The traversal against the paper's own method, both in turn, and each one's error against the converged reference.
 Table measure_paper(const Request& request);
 
+/// The traversal by an invocation a line and by a work group a line, both in turn: of one plane by configuration, and
+/// of sweeps.
+Table measure_schemes(const Request& request);
+
 /// Many images in one call against one a call, by configuration: model W's images, their LC2 with an ultrasound image,
 /// and for comparison the trainer's model S.
 Table measure_batch(const Request& request);

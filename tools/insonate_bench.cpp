@@ -40,6 +40,10 @@ int main(int argc, char** argv) {
   const CLI::App* paper = add_measurement(
       arguments, "paper", "The traversal against that of Kutter, Shams and Navab (2009), a render pass a sample",
       request, csv);
+  const CLI::App* scheme = add_measurement(arguments, "scheme",
+                                           "The traversal by an invocation a line and by a work group a line, of so "
+                                           "many LINES and SAMPLES",
+                                           request, csv);
   const CLI::App* batch = add_measurement(
       arguments, "batch", "Model W for registration: many images in one call against one a call", request, csv);
   const CLI::App* sweep =
@@ -73,6 +77,7 @@ int main(int argc, char** argv) {
     gl::within_device("--configuration", "take fewer lines, samples or pixels", [&] {
       table = frames->parsed()     ? bench::measure_frames(request)
               : paper->parsed()    ? bench::measure_paper(request)
+              : scheme->parsed()   ? bench::measure_schemes(request)
               : filter->parsed()   ? bench::measure_filter()
               : denormal->parsed() ? bench::measure_denormals(request)
               : sweep->parsed()    ? bench::measure_sweep(request)

@@ -98,6 +98,22 @@ TEST_CASE("insonate-bench frames: both modes, what each stage takes, and a still
   }
 }
 
+TEST_CASE("insonate-bench scheme: both ways to walk along a line, in both modes") {
+  Fixture f;
+  const bench::Table table = f.measure("scheme");
+  REQUIRE(table.rows.size() == 2 * 2 * 2);
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    const auto number = [&](std::size_t row, const char* name) { return table.number("table.csv", row, name); };
+    CHECK(table.cell(i, "method") == std::array{"invocation", "group"}[i % 2]);
+    CHECK(table.cell(i, "mode") == std::array{"paper", "trainer"}[i / 4]);
+    CHECK(table.cell(i, "planes") == "1");
+    CHECK(number(i, "evaluated") > 0);
+    CHECK(number(i, "evaluated") <= number(i, "possible"));
+    if (i % 2 == 1) CHECK(number(i, "evaluated") >= number(i - 1, "evaluated"));
+  }
+  CHECK(f.output.find("of this device: a line ") != std::string::npos);
+}
+
 TEST_CASE("insonate-bench batch: images and LC2, one a call and many, as throughput") {
   Fixture f;
   const bench::Table table = f.measure("batch");
