@@ -20,8 +20,9 @@
 namespace insonate::gl {
 namespace {
 
-// Of a chunk's scan lines: small beside a processor's last cache, and still many images that meet the same voxels.
-constexpr std::size_t kChunkBytes = std::size_t(8) << 20;
+// Of a chunk's scan lines: bounds the memory. What a chunk costs besides its images is that of about three of them
+// (`insonate-bench batch`, llvmpipe), so the images that a search asks for at once fit one.
+constexpr std::size_t kChunkBytes = std::size_t(16) << 20;
 constexpr std::size_t kSampleBytes = 4;
 constexpr std::size_t kMostChunk = 2048;  // images, of which some tables have a row each
 

@@ -23,9 +23,9 @@ namespace insonate::gl {
 /// Model W (sim/model/wein_settings.h) on the graphics card: many images a call, as registration needs them, and how
 /// much each is like a given ultrasound image.
 ///
-/// A call's poses are worked through in chunks whose scan lines stay below a few megabytes, so that memory is bounded
-/// and a processor's cache holds them; nothing is read back between chunks. Needs an OpenGL 4.5 context, current
-/// whenever it is used. Poses are rigid and finite; checked where they enter the program.
+/// A call's poses are worked through in chunks whose scan lines stay below 16 MiB, so that memory is bounded; nothing
+/// is read back between chunks. Needs an OpenGL 4.5 context, current whenever it is used. Poses are rigid and finite;
+/// checked where they enter the program.
 class WeinSimulator {
 public:
   /// Throws std::runtime_error when shaders do not build, TextureRefused when the device cannot hold the volume.
