@@ -11,16 +11,16 @@ remember_probe
 await "the tracker moves the probe" far_enough
 await "the scan comes to the view that is asked for" is_not hold_share 0.0
 shot "$work/first.png" ultrasound 20
+shot "$work/space.png" space 4
+
+echo "Tab takes the probe, arrow keys slide it, the picture follows"
+xdotool key Tab  # before the pictures are looked at: where that takes long, the scan would end meanwhile
+await "the learner has the probe" is holder learner
 read -r mean deviation <<<"$(brightness "$work/first.png")"
 awk -v m="$mean" -v d="$deviation" 'BEGIN { exit !(m > 0.03 && m < 0.8 && d > 0.05) }' ||
   fail "the ultrasound is black or uniform: mean $mean, deviation $deviation"
-shot "$work/space.png" space 4
 read -r mean deviation <<<"$(brightness "$work/space.png")"
 awk -v d="$deviation" 'BEGIN { exit !(d > 0.03) }' || fail "the 3D view is uniform: deviation $deviation"
-
-echo "Tab takes the probe, arrow keys slide it, the picture follows"
-xdotool key Tab
-await "the learner has the probe" is holder learner
 is activity practice || fail "what the tracker found counts for the learner"
 sleep 1
 shot "$work/before.png" ultrasound 20
