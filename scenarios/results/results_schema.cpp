@@ -91,10 +91,14 @@ struct Header {
   std::int64_t programs;  ///< triggers and views
 };
 
+/// As one moment has it, though another process may be making the tables: a savepoint, within a transaction or outside.
 Header header_of(sqlite::Connection& connection) {
-  return {connection.number("PRAGMA application_id"), connection.number("PRAGMA user_version"),
-          connection.number("SELECT count(*) FROM sqlite_schema"),
-          connection.number("SELECT count(*) FROM sqlite_schema WHERE type IN ('trigger', 'view')")};
+  connection.run("SAVEPOINT header");
+  const Header header{connection.number("PRAGMA application_id"), connection.number("PRAGMA user_version"),
+                      connection.number("SELECT count(*) FROM sqlite_schema"),
+                      connection.number("SELECT count(*) FROM sqlite_schema WHERE type IN ('trigger', 'view')")};
+  connection.run("RELEASE header");
+  return header;
 }
 
 /// Whether the tables still have to be made, or made newer.
