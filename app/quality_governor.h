@@ -3,8 +3,8 @@
 namespace insonate {
 
 /// Decides how many pixels the window's ultrasound is computed for: fewer while it changes from frame to frame on a
-/// machine that cannot keep up, all of them once it stands still, so that what is looked at closely, measured in or
-/// compared never hangs on how fast the machine was.
+/// machine that cannot keep up, all of them once it stands still, so that what is looked at closely or measured in does
+/// not hang on how fast the machine was. What is kept of a picture that moves has the pixels that it was drawn with.
 class QualityGovernor {
 public:
   static constexpr double kLeast = 0.6;

@@ -151,6 +151,7 @@ public:
     trainer_.finish_recording();
     if (!options_.latency.empty()) trainer_.latency().write(options_.latency);
     if (!options_.screenshot.empty()) {
+      governor_ = {};  // all pixels
       draw();
       int width = 0, height = 0;
       glfwGetFramebufferSize(window_, &width, &height);

@@ -1,6 +1,9 @@
 #include <array>
 #include <cstdio>
+#include <functional>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "sim/gl/headless_context.h"
 #include "sim/gl/line_stages.h"

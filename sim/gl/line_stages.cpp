@@ -23,9 +23,10 @@ Defines traversal(const Settings& settings, double dr_mm, bool group_a_line) {
   const double samples_a_length = settings.reflection_length_mm / dr_mm;
   const auto is = [&](double whole) { return std::abs(samples_a_length - whole) < 1e-9; };
   return {{"GROUP_A_LINE", flag(group_a_line)},
-          {"EDGES_AT", is(2)   ? "kEdgesAtSamples"
-                       : is(1) ? "kEdgesAtMiddles"
-                               : "kEdgesAnywhere"},
+          {"EDGES_AT", group_a_line ? "kEdgesAnywhere"  // each sample looks for itself
+                       : is(2)      ? "kEdgesAtSamples"
+                       : is(1)      ? "kEdgesAtMiddles"
+                                    : "kEdgesAnywhere"},
           {"ABSORPTION", flag(settings.absorption)},
           {"SPECKLE", flag(settings.speckle)},
           {"EDGE_SHADOW", flag(settings.edge_shadow)},
@@ -84,7 +85,8 @@ std::size_t LineStages::set_lines() const {
 }
 
 bool LineStages::group_a_line() const {
-  return set_lines() < scheme_.lines_that_fill;
+  // Of a sweep in parts, the same for each of them.
+  return std::size_t(most_planes_) * lines_.lines.size() < scheme_.lines_that_fill;
 }
 
 std::size_t LineStages::groups_of(std::size_t lines) const {

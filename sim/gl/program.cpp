@@ -35,6 +35,10 @@ struct ShaderKind {
   static void destroy(GLuint name) { glDeleteShader(name); }
 };
 
+// Through links to folders too, and past what may not be read.
+constexpr fs::directory_options kAsFilesOpen =
+    fs::directory_options::follow_directory_symlink | fs::directory_options::skip_permission_denied;
+
 // A folder may hold other things too, large ones, or be named by mistake.
 bool is_shader(const fs::directory_entry& entry) {
   static constexpr std::array kEndings = {".comp", ".vert", ".frag", ".glsl", ".h"};
@@ -81,7 +85,7 @@ Object<ShaderKind> compile(const ShaderSources& sources, const std::string& name
 ShaderSources::ShaderSources(const fs::path& folder) {
   std::map<std::string, std::string, std::less<>> texts;
   std::error_code error;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder, error)) {
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder, kAsFilesOpen, error)) {
     if (!is_shader(entry)) continue;
     std::ifstream stream(entry.path());
     if (stream)
@@ -130,7 +134,7 @@ std::string ShaderSources::text(std::string_view name, std::vector<std::string>&
 std::optional<fs::file_time_type> last_change(const fs::path& folder) {
   std::optional<fs::file_time_type> newest;
   std::error_code error;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder, error)) {
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder, kAsFilesOpen, error)) {
     const auto time = entry.last_write_time(error);
     if (!error && is_shader(entry)) newest = std::max(newest.value_or(time), time);
   }

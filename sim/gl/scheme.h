@@ -12,7 +12,7 @@ namespace insonate::gl {
 /// A scan line is walked along in one of two ways, because the intensity at each sample depends on all before it. By an
 /// invocation, sample after sample: it fetches and adds no more than it must, and waits for nobody. Or by a work group,
 /// whose invocations take neighbouring samples, a stretch of the line at a time, and find what hangs on those before by
-/// scans over the stretch: each sample fetches up to three times as much, and a stretch waits at some ten barriers, but
+/// scans over the stretch: each sample fetches up to three times as much, and a stretch waits at a dozen barriers, but
 /// a line is work for as many lanes as the group has, and done in as many times fewer steps.
 ///
 /// Devices run invocations side by side in lanes of a vector, 8 of llvmpipe's with AVX, 32 or 64 of a graphics card's,

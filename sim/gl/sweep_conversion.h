@@ -42,7 +42,7 @@ public:
   /// The values read back; NaN outside the sweep.
   Volume<float> read() const;
 
-  /// Builds the shader again; when that fails it goes on as it was and the compiler's words are returned.
+  /// For Program::reload().
   Program& program() { return program_; }
 
 private:

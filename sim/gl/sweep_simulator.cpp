@@ -11,6 +11,7 @@
 #include "sim/gl/settings_reach.h"
 #include "sim/gl/stage_tables.h"
 #include "sim/gl/sweep_conversion.h"
+#include "sim/model/noise.h"
 #include "sim/model/settings_file.h"
 #include "sim/shaders/shared/simulation_parameters.h"
 
@@ -132,6 +133,7 @@ void SweepSimulator::State::write_parameters(const Part& part) {
   SimulationParameters parameters = parameters_of(settings, line_stages.lines(), {}, {});
   parameters.planes = part.planes;
   parameters.first_plane = part.first;
+  parameters.noise_step = noise_step(sweep.probe.lines);
   parameter_buffer.write(&parameters, sizeof parameters);
   parameter_buffer.bind_uniform(0);
 }

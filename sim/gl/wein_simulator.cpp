@@ -20,8 +20,9 @@
 namespace insonate::gl {
 namespace {
 
-// Of a chunk's scan lines: bounds the memory. What a chunk costs besides its images is that of about three of them
-// (`insonate-bench batch`, llvmpipe), so the images that a search asks for at once fit one.
+// Of a chunk's scan lines, whose grey takes half as much again: bounds the memory. What a chunk costs besides its
+// images is that of about three of them (`insonate-bench batch`, llvmpipe), so those that a search asks for at once fit
+// one.
 constexpr std::size_t kChunkBytes = std::size_t(16) << 20;
 constexpr std::size_t kSampleBytes = 4;
 constexpr std::size_t kMostChunk = 2048;  // images, of which some tables have a row each
@@ -291,7 +292,8 @@ WeinStages<float> WeinSimulator::read_stages(const Pose& patient_from_probe) {
   State& s = *state_;
   simulate({&patient_from_probe, 1});
   const int n = int(s.lines.lines.size()), d = s.lines.samples;
-  const Texture intensities = Texture::make_2d(GL_R32F, d, n, Filter::nearest);
+  Texture intensities = Texture::make_2d(GL_R32F, d, n, Filter::nearest);
+  intensities.clear();  // what lies behind a line's end is not written
   intensities.bind_image(1, GL_WRITE_ONLY);
   s.samples_walked.clear();
   s.traverse({&patient_from_probe, 1}, 0, traverse_program(s.sources, s.compiled_in, Leaves::intensity), s.term_scan);

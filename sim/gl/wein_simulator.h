@@ -23,7 +23,7 @@ namespace insonate::gl {
 /// Model W (sim/model/wein_settings.h) on the graphics card: many images a call, as registration needs them, and how
 /// much each is like a given ultrasound image.
 ///
-/// A call's poses are worked through in chunks whose scan lines stay below 16 MiB, so that memory is bounded; nothing
+/// A call's poses are worked through in chunks whose scan lines stay below 24 MiB, so that memory is bounded; nothing
 /// is read back between chunks. Needs an OpenGL 4.5 context, current whenever it is used. Poses are rigid and finite;
 /// checked where they enter the program.
 class WeinSimulator {

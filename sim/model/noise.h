@@ -1,5 +1,7 @@
 #pragma once
 
+#include <numeric>
+
 #include "sim/core/image.h"
 #include "sim/model/settings.h"
 #include "sim/probe/probe.h"
@@ -15,12 +17,21 @@ namespace insonate {
 /// are hashes of line and place: every frame has the same ones, so that a still picture is still.
 Image<double> electronic_noise(const ScanLines& lines, const Settings& settings);
 
-/// Whose noise a line of a volume's plane has: another line's from plane to plane, by the golden section of the lines,
-/// which leaves no two of ten neighbouring planes alike nearby. One line's noise in all planes would be a streak
-/// through the volume. Plane 0 is the plane of a picture.
+/// By how many lines the noise is shifted from a volume's plane to the next: about the golden section of them, so that
+/// neighbouring planes have it far apart, and without a common divisor, so that it is back after `lines` planes only.
+/// @param lines  of a plane, 1 or more
+constexpr int noise_step(int lines) {
+  const int golden = (618 * lines + 500) / 1000;
+  for (int apart = 0;; ++apart)
+    for (const int step : {golden - apart, golden + apart})
+      if (std::gcd(step, lines) == 1) return step;
+}
+
+/// Whose noise a line of a volume's plane has. One line's noise in all planes would be a streak through the volume.
+/// Plane 0 is the plane of a picture.
 /// @param line, plane  0 or more
 constexpr int noise_line(int line, int plane, int lines) {
-  return (line + plane * ((618 * lines + 500) / 1000)) % lines;
+  return (line + plane * noise_step(lines)) % lines;
 }
 
 /// The mean of the noise in units of U, before gain: `noise_db` below the level that is white; 0 when it is off.

@@ -9,9 +9,6 @@ layout(binding = 1) uniform samplerBuffer noise;      // a row a line of a plane
 layout(binding = 2) uniform samplerBuffer mean_echo;  // a row a plane: mean of T S over the lines, with its tail
 layout(std430, binding = 0) writeonly buffer Fused { float fused[]; };  // as echoes: U
 
-// As in sim/model/noise.h.
-int noise_line(int line, int plane) { return (line + plane * ((618 * lines + 500) / 1000)) % lines; }
-
 void main() {
   int k = int(gl_GlobalInvocationID.x), line = int(gl_GlobalInvocationID.y), plane = int(gl_GlobalInvocationID.z);
   if (k >= samples) return;
@@ -19,11 +16,12 @@ void main() {
   vec4 value = texelFetch(echoes, at);
   float echo = (value.x + blend * value.y) * value.z + value.w;
 #if NOISE == 1
+  int noise_line = (line + (first_plane + plane) * noise_step) % lines;
   float mean = noise_level;
 #if CLUTTER == 1
   mean += clutter_share * blend * texelFetch(mean_echo, plane * samples + k).x;
 #endif
-  echo += mean * texelFetch(noise, noise_line(line, first_plane + plane) * samples + k).x;
+  echo += mean * texelFetch(noise, noise_line * samples + k).x;
 #endif
   fused[at] = echo;
 }

@@ -1,6 +1,6 @@
-// Model W along a scan line, an invocation a line, of several images of a chunk one after the other: of each sample either
-// both terms, echogenicity and reflection, or the grey that a picture makes of them, which takes half the room. The
-// gradient is stored with the density, so a sample costs one fetch. Groups follow each other image by image along the
+// Model W along a scan line, an invocation a line, of several images of a chunk one after the other: of each sample
+// either both terms, echogenicity and reflection, or the grey that a picture makes of them, which takes half the room.
+// The gradient is stored with the density, so a sample costs one fetch. Groups follow each other image by image along the
 // same few lines: poses of a search lie close together, so the voxels are still in the cache.
 
 layout(local_size_x = GROUP) in;

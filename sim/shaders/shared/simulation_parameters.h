@@ -46,8 +46,8 @@ layout(std140, binding = 0) uniform SimulationParameters {
 
   int planes;       // whose lines are worked on together, one after the other: 1 for a picture
   int first_plane;  // of a sweep's, the first of these
+  int noise_step;   // lines that the noise is shifted by from a plane to the next
   int unused_1;     // std140: a row has 16 bytes
-  int unused_2;
 
   vec4 tgc_db[2];  // at 8 depths from the face to full depth
 #ifdef __cplusplus
