@@ -50,10 +50,18 @@ void Pictures::update(const std::optional<Pose>& pose, const Console& console, c
     probe_name_ = console.probe.name;
     depth_mm_ = console.depth_mm;
   }
-  Settings settings = console.settings();
   const int width = std::max(sizes.ultrasound_width, 1), height = std::max(sizes.ultrasound_height, 1);
-  settings.image_width = std::clamp(int(std::lround(width * quality)), std::min(kLeastWidth, width), 4096);
-  settings.image_height = std::max(1, settings.image_width * height / width);
+  const auto high = [&](int wide) { return std::max(1, wide * height / width); };
+  Settings settings = console.settings();
+  settings.image_width = std::min(width, 4096);
+  settings.image_height = high(settings.image_width);
+  if (ultrasound_ && settings == shown_ && *pose == shown_pose_) quality = std::max(quality, shown_quality_);
+  shown_ = settings;
+  shown_pose_ = *pose;
+  shown_quality_ = quality;
+  settings.image_width =
+      std::max(int(std::lround(settings.image_width * quality)), std::min(kLeastWidth, settings.image_width));
+  settings.image_height = high(settings.image_width);
   simulator_.set_settings(at_quality(settings, level_));
   simulator_.set_pose(*pose);
   ultrasound_ = &simulator_.image();
@@ -86,11 +94,11 @@ std::optional<Image<Rgba8>> Pictures::reference_picture(const ReferenceView& vie
   Console untouched;
   untouched.choose(*probe);
   untouched.depth_mm = std::clamp(view.depth_mm, Console::kLeastDepth_mm, Console::kMostDepth_mm);
-  Settings settings = at_quality(untouched.settings(), level_);
-  settings.image_width = ultrasound_->width();
-  settings.image_height = ultrasound_->height();
+  Settings settings = untouched.settings();
+  settings.image_width = shown_.image_width;
+  settings.image_height = shown_.image_height;
   simulator_.set_probe(*probe, untouched.depth_mm);
-  simulator_.set_settings(settings);
+  simulator_.set_settings(at_quality(settings, level_));
   simulator_.set_pose(view.patient_from_probe);
   probe_name_.clear();  // the session's probe has to be set again
   return read_back(simulator_.image());

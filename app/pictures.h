@@ -31,7 +31,8 @@ public:
   void show(const Study& study);
 
   /// Draws what is due.
-  /// @param quality    0 to 1: the share of the screen's pixels that the ultrasound is computed for, along each side
+  /// @param quality    0 to 1: the share of the screen's pixels that the ultrasound is computed for, along each side; a
+  ///                   picture that is there already is not drawn again with fewer
   /// @param budget_ms  for the volume view, which gets coarser while things move to stay within it
   void update(const Session& session, const PictureSizes& sizes, double quality, double budget_ms) {
     update(session.shown_pose(), session.console(), sizes, quality, budget_ms, session.shows_anatomy());
@@ -42,9 +43,10 @@ public:
   void update(const std::optional<Pose>& pose, const Console& console, const PictureSizes& sizes, double quality,
               double budget_ms, bool anatomy = true);
 
-  /// The ultrasound of a reference view as the machine shows it before anything on it was changed, in the size of the
-  /// last picture; row 0 is the top, the marker's side on the right. To be called between two frames: what ultrasound()
-  /// shows is right again after the next update(). Empty until update() had a pose to draw, and for an unknown probe.
+  /// The ultrasound of a reference view as the machine shows it before anything on it was changed, with all of the
+  /// pixels that the screen had for the last picture; row 0 is the top, the marker's side on the right. To be called
+  /// between two frames: what ultrasound() shows is right again after the next update(). Empty until update() had a
+  /// pose to draw, and for an unknown probe.
   std::optional<Image<Rgba8>> reference_picture(const ReferenceView& view);
   /// The body alone, without probe and picture, from any side; null without a patient. Takes the place of volume().
   const gl::Texture* draw_body(const view::OrbitCamera& from, int width, int height, double budget_ms);
@@ -84,6 +86,11 @@ private:
   const gl::Texture* volume_ = nullptr;
   std::string probe_name_;
   double depth_mm_ = 0;
+
+  // What the ultrasound shows.
+  Settings shown_;  ///< all of the screen's pixels
+  Pose shown_pose_;
+  double shown_quality_ = 0;
 };
 
 /// A texture's pixels, row 0 at the top.

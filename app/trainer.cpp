@@ -196,9 +196,15 @@ void Trainer::update(double now_s) {
 }
 
 void Trainer::draw(const PictureSizes& sizes, double quality, double budget_ms) {
-  if (replay_) pictures_.update(replay_->moment().shown_pose, replay_->console(), sizes, quality, budget_ms);
+  try {
+    if (replay_) pictures_.update(replay_->moment().shown_pose, replay_->console(), sizes, quality, budget_ms);
+    if (session_) pictures_.update(*session_, sizes, quality, budget_ms);
+  } catch (const std::runtime_error& error) {
+    // What was built when the file changed may not build for settings that come later.
+    if (options_.shader_folder.empty()) throw;
+    tell_of_shaders(error.what());
+  }
   if (!session_) return;
-  pictures_.update(*session_, sizes, quality, budget_ms);
   if (!options_.latency.empty()) {
     glFinish();
     latency_.add(*session_, steady_now_s());
@@ -297,9 +303,14 @@ void Trainer::reload_shaders() {
   const auto changed = gl::last_change(options_.shader_folder);
   if (changed == shaders_changed_) return;
   shaders_changed_ = changed;
-  shader_problem_ = pictures_.reload(gl::ShaderSources(options_.shader_folder)).value_or("");
+  tell_of_shaders(pictures_.reload(gl::ShaderSources(options_.shader_folder)).value_or(""));
+}
+
+void Trainer::tell_of_shaders(const std::string& problem) {
+  if (problem == shader_problem_) return;
+  shader_problem_ = problem;
   // The screen has room for its beginning; whoever edits shaders has a terminal.
-  if (!shader_problem_.empty()) std::fprintf(stderr, "insonate: %s\n", shader_problem_.c_str());
+  if (!problem.empty()) std::fprintf(stderr, "insonate: %s\n", problem.c_str());
 }
 
 }  // namespace insonate

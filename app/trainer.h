@@ -130,7 +130,8 @@ public:
   const std::deque<std::string>& problems() const { return problems_; }
   /// What makes the tracker's calibration doubtful, as sentences; empty when nothing does.
   const std::string& calibration_warning() const { return calibration_warning_; }
-  /// What shaders being edited do not build with; empty when they do.
+  /// What shaders being edited do not build with, when they were read or for the settings of a picture since; empty
+  /// when they do. The picture stays as it was.
   const std::string& shader_problem() const { return shader_problem_; }
 
   /// Runs `action` and turns what it throws into a problem to acknowledge, except without a window, where there is
@@ -160,6 +161,7 @@ private:
   void check_raw();
   void open_setup();
   void reload_shaders();
+  void tell_of_shaders(const std::string& problem);
   void open_results();
   std::vector<ReportPicture> report_pictures();
   void keep_and_report();

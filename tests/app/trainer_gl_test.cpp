@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <optional>
 
 #include "app/trainer.h"
@@ -92,6 +93,82 @@ TEST_CASE("where nothing changes nothing is drawn, and each change draws what it
   trainer.draw(kSizes, 1, kNoBudget);
   CHECK(pictures.simulator_runs() == before_camera);
   CHECK(pictures.drawn() == all + 1);
+}
+
+TEST_CASE("fewer pixels are drawn of a picture that changes, and never of one that is there already") {
+  const test::TestContext context;
+  const TrainerFolder folder;
+  Trainer trainer(folder.options());
+  trainer.open_from_options();
+  trainer.finish_loading();
+  trainer.update(0.5);
+  constexpr PictureSizes kWide{400, 300, 160, 120};
+  const Pictures& pictures = trainer.pictures();
+  const auto width_at = [&](double quality) {
+    trainer.draw(kWide, quality, kNoBudget);
+    return pictures.ultrasound()->width();
+  };
+  CHECK(width_at(1) == 400);
+  const long drawn = pictures.drawn();
+  CHECK(width_at(0.75) == 400);
+  CHECK(pictures.drawn() == drawn);
+  trainer.session()->console().gain_db = 3;
+  CHECK(width_at(0.75) == 300);
+  CHECK(width_at(0.8) == 320);
+  CHECK(width_at(0.7) == 320);
+  trainer.update(0.6);  // the probe moves
+  CHECK(width_at(0.7) == 280);
+  trainer.session()->console().depth_mm += 20;
+  CHECK(width_at(0.65) == 260);
+
+  INFO("what a picture is held against has all pixels");
+  ReferenceView view;
+  view.probe = "curvilinear";
+  view.depth_mm = 100;
+  const auto reference = trainer.pictures().reference_picture(view);
+  REQUIRE(reference);
+  CHECK(reference->width == 400);
+  CHECK(reference->height == 300);
+  CHECK(width_at(0.7) == 280);
+}
+
+TEST_CASE("a shader that builds as it is and not for other settings is told of, and the picture stays") {
+  const test::TestContext context;
+  const TrainerFolder folder;
+  std::vector<std::string> files;
+  const std::string smooth = gl::ShaderSources().text("smooth.comp", files);
+  fs::create_directories(folder.path / "shaders");
+  // A picture of less depth has more pixels a millimetre.
+  folder.file("shaders/smooth.comp", "#if TRANSMISSION_RADIUS > 3\n#error too wide\n#endif\n" + smooth);
+  Options options = folder.options();
+  options.shader_folder = folder.path / "shaders";
+  Trainer trainer(options);
+  trainer.open_from_options();
+  trainer.finish_loading();
+  trainer.update(0.5);
+  double& depth_mm = trainer.session()->console().depth_mm;
+  depth_mm = 300;
+  trainer.draw(kSizes, 1, kNoBudget);
+  const auto pixels = read_back(*trainer.pictures().ultrasound()).pixels;
+  CHECK(trainer.shader_problem().empty());
+
+  depth_mm = 40;
+  trainer.draw(kSizes, 1, kNoBudget);
+  CHECK(trainer.shader_problem().find("too wide") != std::string::npos);
+  depth_mm = 300;
+  trainer.draw(kSizes, 1, kNoBudget);
+  CHECK((read_back(*trainer.pictures().ultrasound()).pixels == pixels));
+
+  INFO("once the file is mended the picture is drawn");
+  folder.file("shaders/smooth.comp", smooth);
+  fs::last_write_time(options.shader_folder / "smooth.comp",
+                      fs::last_write_time(options.shader_folder / "smooth.comp") + std::chrono::seconds(2));
+  trainer.update(1.5);
+  CHECK(trainer.shader_problem().empty());
+  depth_mm = 40;
+  trainer.draw(kSizes, 1, kNoBudget);
+  CHECK(trainer.shader_problem().empty());
+  CHECK((read_back(*trainer.pictures().ultrasound()).pixels != pixels));
 }
 
 TEST_CASE("the ultrasound is drawn at the quality that is asked for, balanced unless one is") {
