@@ -198,6 +198,8 @@ void Program::dispatch(int x, int y, int z) const {
 void Program::dispatch_groups(int x, int y, int z) const {
   refuse_too_many(shaders_.front(), {x, y, z});
   use();
+  // What it writes over may still be drawn or copied.
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   glDispatchCompute(GLuint(x), GLuint(y), GLuint(z));
   // For the next shader, and for what writes, clears or reads the same objects without one.
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
