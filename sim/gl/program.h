@@ -74,8 +74,9 @@ public:
   GLint uniform(const char* name) const { return glGetUniformLocation(this->name(), name); }
   GLuint name() const { return variants_.empty() ? 0 : variants_.front().object.name(); }
 
-  /// Runs a compute program over at least `x` by `y` by `z` invocations in groups of its local size, and makes what it
-  /// wrote visible to whatever comes next. Throws std::runtime_error when the device does not take as many groups.
+  /// Runs a compute program over at least `x` by `y` by `z` invocations in groups of its local size, behind whatever
+  /// still reads what it writes over, and makes what it wrote visible to whatever comes next. Throws std::runtime_error
+  /// when the device does not take as many groups.
   void dispatch(int x, int y, int z = 1) const;
   /// The same for a number of whole groups, each at least 1.
   void dispatch_groups(int x, int y = 1, int z = 1) const;
