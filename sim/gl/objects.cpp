@@ -33,7 +33,9 @@ Buffer::Buffer(std::size_t bytes, const void* data) {
   GLuint name = 0;
   glCreateBuffers(1, &name);
   object_ = Object<BufferKind>(name);
+  forget_errors();
   glNamedBufferStorage(name, GLsizeiptr(bytes), data, GL_DYNAMIC_STORAGE_BIT);
+  if (out_of_memory()) throw DeviceRefused("the device has no memory for " + std::to_string(bytes) + " bytes more");
 }
 
 void Buffer::write(const void* data, std::size_t bytes) {
@@ -137,17 +139,21 @@ void Texture::read(GLenum layout, GLenum type, void* pixels, std::size_t bytes) 
   glGetTextureImage(object_.name(), 0, layout, type, GLsizei(bytes), pixels);
 }
 
-void Texture::require_other_formats() const {
-  GLint kind = 0;
-  glGetTextureParameteriv(object_.name(), GL_IMAGE_FORMAT_COMPATIBILITY_TYPE, &kind);
-  if (kind != GL_IMAGE_FORMAT_COMPATIBILITY_BY_SIZE)
-    throw std::runtime_error(
-        "the graphics driver lets no shader store a pixel's four bytes as one number: update it, or use Mesa's "
-        "software one");
+void Texture::bind_image(GLuint unit, GLenum access) const {
+  glBindImageTexture(unit, object_.name(), 0, GL_TRUE, 0, access, format_);  // all slices of a 3D texture
 }
 
-void Texture::bind_image_as(GLuint unit, GLenum access, GLenum format) const {
-  glBindImageTexture(unit, object_.name(), 0, GL_TRUE, 0, access, format);  // all slices of a 3D texture
+Texture Texture::seen_as(GLenum format) const {
+  Texture view;
+  GLuint name = 0;
+  glGenTextures(1, &name);  // a view takes a name that is no texture yet
+  view.object_ = Object<TextureKind>(name);
+  view.format_ = format;
+  view.width_ = width_;
+  view.height_ = height_;
+  view.depth_ = depth_;
+  glTextureView(name, GL_TEXTURE_2D, object_.name(), format, 0, 1, 0, 1);
+  return view;
 }
 
 TexelBuffer::TexelBuffer(GLenum format, std::size_t texels, const void* values) {
@@ -162,10 +168,7 @@ TexelBuffer::TexelBuffer(GLenum format, std::size_t texels, const void* values) 
   if (texels > most)
     throw DeviceRefused(std::to_string(texels) + " samples or pixels are above the device's limit of " +
                         std::to_string(most));
-  forget_errors();
   buffer_ = Buffer(texels * bytes, values);
-  if (out_of_memory())
-    throw DeviceRefused("the device has no memory for " + std::to_string(texels) + " samples or pixels");
   GLuint name = 0;
   glCreateTextures(GL_TEXTURE_BUFFER, 1, &name);
   texture_ = Object<TextureKind>(name);

@@ -40,7 +40,7 @@ class Buffer {
 public:
   Buffer() = default;
   /// Storage of fixed size, filled from `data` when there is any. Throws std::invalid_argument for no bytes, which
-  /// OpenGL refuses.
+  /// OpenGL refuses, and DeviceRefused when the device has no memory for as many.
   Buffer(std::size_t bytes, const void* data);
 
   /// Replaces the first `bytes` bytes.
@@ -108,13 +108,10 @@ public:
   void read(GLenum layout, GLenum type, void* pixels, std::size_t bytes) const;
 
   void bind(GLuint unit) const { glBindTextureUnit(unit, object_.name()); }
-  void bind_image(GLuint unit, GLenum access) const { bind_image_as(unit, access, format_); }
-  /// OpenGL leaves it to the driver whether shaders may have an image's texels in another format of as many bytes.
-  /// Throws std::runtime_error where they may not.
-  void require_other_formats() const;
-  /// @param format  the one in which the shader has its texels: its own, or one that require_other_formats() allows,
-  ///                such as GL_R32UI for packed GL_RGBA8
-  void bind_image_as(GLuint unit, GLenum access, GLenum format) const;
+  void bind_image(GLuint unit, GLenum access) const;
+  /// The same texels in another format of as many bytes, such as GL_R32UI for GL_RGBA8: of a 2D texture. It may outlive
+  /// this one.
+  Texture seen_as(GLenum format) const;
 
   int width() const { return width_; }
   int height() const { return height_; }

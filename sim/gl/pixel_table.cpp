@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/model/wein_settings.h"
+
 namespace insonate::gl {
 namespace {
 
@@ -30,10 +32,10 @@ PixelTable table_of(const std::vector<std::vector<PixelPlace>>& columns, const P
 
 // About 64 pixels a column, `together` in one after the other, so that a group takes neighbours at a step.
 PixelTable shared_out(const std::vector<PixelPlace>& pixels, std::size_t together, const PixelPlace& filler,
-                      std::size_t group) {
+                      std::size_t group, std::size_t most_columns) {
   if (pixels.empty()) return {};
   const std::size_t units = pixels.size() / together,
-                    groups = std::clamp<std::size_t>(pixels.size() / (64 * group), 1, 512);
+                    groups = std::clamp<std::size_t>(pixels.size() / (64 * group), 1, most_columns / group);
   const std::size_t steps = (units + groups * group - 1) / (groups * group);
   std::vector<std::vector<PixelPlace>> columns(groups * group);
   for (std::size_t i = 0; i < pixels.size(); ++i) {
@@ -75,7 +77,7 @@ PixelTable picture_pixels(const std::vector<PixelPlace>& places, int width, int 
       four[0].w = y << 16 | word;
       if (touched) pixels.insert(pixels.end(), four.begin(), four.end());
     }
-  return shared_out(pixels, kWordPixels, PixelPlace(-1, 0, 0, -1), group);
+  return shared_out(pixels, kWordPixels, PixelPlace(-1, 0, 0, -1), group, 512 * group);
 }
 
 PixelTable compared_pixels(const std::vector<PixelPlace>& places, const Image<float>& image, int patch,
@@ -107,7 +109,7 @@ PixelTable compared_pixels(const std::vector<PixelPlace>& places, const Image<fl
       patches.resize(std::max(patches.size(), in + 1));
       patches[in].push_back(pixels.back());
     }
-  return patches.empty() ? shared_out(pixels, 1, kNowhere, group) : table_of(patches, kNowhere, group);
+  return patches.empty() ? shared_out(pixels, 1, kNowhere, group, kMostPatches) : table_of(patches, kNowhere, group);
 }
 
 }  // namespace insonate::gl

@@ -59,7 +59,7 @@ struct Simulator::State {
   TexelBuffer picture, sharp, half_smoothed, fused, levels;  // by pixel
   Buffer brightest;                                          // by block of the fan
   Buffer maximum_buffer{sizeof(GLuint), nullptr};
-  Texture image;
+  Texture image, image_words;  // the picture, and each of its pixels as one number
 
   bool layout_changed = true;  // probe, depth, sample count or picture size
   std::optional<Stage> first_due = Stage::traverse;
@@ -95,7 +95,7 @@ void Simulator::State::lay_out() {
   fused = TexelBuffer();
   levels = TexelBuffer();
   image = Texture::make_2d(GL_RGBA8, w, h, Filter::linear);
-  image.require_other_formats();
+  image_words = image.seen_as(GL_R32UI);
   image.clear();
   layout_changed = false;
 }
@@ -194,7 +194,7 @@ void Simulator::State::run(Stage stage) {
       if (frame_sets_white())
         levels.bind_storage(2);
       else
-        image.bind_image_as(1, GL_WRITE_ONLY, GL_R32UI);
+        image_words.bind_image(1, GL_WRITE_ONLY);
       over_fan(programs.fuse);
       break;
     case Stage::compress:
@@ -204,7 +204,7 @@ void Simulator::State::run(Stage stage) {
       programs.maximum.dispatch_groups(1);
       maximum_buffer.bind_storage(0);
       levels.bind(0);
-      image.bind_image_as(0, GL_WRITE_ONLY, GL_R32UI);
+      image_words.bind_image(0, GL_WRITE_ONLY);
       over_fan(programs.compress);
       break;
   }

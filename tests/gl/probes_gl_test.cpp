@@ -8,6 +8,7 @@
 
 #include "sim/gl/simulator.h"
 #include "sim/reference/reference.h"
+#include "tests/gl/parity.h"
 #include "tests/gl/test_body.h"
 #include "tests/gl/test_context.h"
 
@@ -22,6 +23,7 @@ TEST_CASE("GLSL agrees with the reference: phased probe") {
   Settings settings = trainer_settings(probe.frequency_mhz, 120);
   settings.image_width = 200;
   settings.image_height = 160;
+  settings = test::exact_as_needed(settings);
   const Pose pose = test::on_the_skin(0, 9, 12);
 
   gl::Simulator simulator;

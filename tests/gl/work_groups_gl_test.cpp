@@ -12,6 +12,7 @@
 
 #include "sim/core/hash.h"
 #include "sim/gl/fan_layout.h"
+#include "sim/gl/pixel_table.h"
 #include "sim/gl/program.h"
 #include "sim/gl/simulator.h"
 #include "sim/gl/sweep_conversion.h"
@@ -172,5 +173,16 @@ TEST_CASE("model W's pictures are so too, and its similarities but for how their
       for (std::size_t i = 0; i < similarities.size(); ++i)  // some thousand terms, each rounded by 6e-8
         CHECK(similarities[i] == Approx(expected_similarities[i]).margin(1e-5));
     }
+  }
+}
+
+TEST_CASE("LC2's sums of a picture fit a texture, however large the picture and the groups") {
+  const test::TestContext context;
+  const int width = 1600, height = 1000;
+  const std::vector<gl::PixelPlace> places(std::size_t(width) * height, gl::PixelPlace(0));
+  for (const std::size_t group : {8, 32, 128}) {
+    const gl::PixelTable table = gl::compared_pixels(places, Image<float>(width, height), 0, group);
+    CHECK(table.pixels == places.size());
+    CHECK(3 * table.columns <= 16384);
   }
 }
