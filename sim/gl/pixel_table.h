@@ -39,8 +39,8 @@ inline constexpr int kWordPixels = 4;
 PixelTable picture_pixels(const std::vector<PixelPlace>& places, int width, int height, std::size_t group);
 
 /// For lc2_parts.comp: the pixels inside the fan that are numbers, each with its value, brought to mean 0 and variance
-/// 1: LC2 feels neither gain nor offset, and single precision would. A flat image has 0 everywhere. At most
-/// kMostPatches columns, as many sums as a texture holds.
+/// 1: LC2 feels neither gain nor offset, and single precision would. A flat image has 0 everywhere. With up
+/// to kMostPatches patches, and groups of up to 128, no more columns than a texture holds sums of.
 /// @param patch  side in pixels of the squares that are compared each by itself, a column each; 0 for the whole
 PixelTable compared_pixels(const std::vector<PixelPlace>& places, const Image<float>& image, int patch,
                            std::size_t group);

@@ -38,7 +38,8 @@ struct WeinSettings {
 
 inline constexpr double kLeastHuRange = 1;
 inline constexpr int kLeastPatch = 4, kMostPatch = 128;
-inline constexpr int kMostPatches = 5456;  ///< what textures 16384 wide, as every device has, hold the sums of
+/// What textures 16384 wide, as every device has, hold the sums of: three texels each, in work groups of up to 128.
+inline constexpr int kMostPatches = 5376;
 
 /// The mu of air, below which none counts: its density is 1.2e-3 of water's, whose mu is 1000.
 inline constexpr double kAirMu = 1.2;

@@ -176,13 +176,19 @@ TEST_CASE("model W's pictures are so too, and its similarities but for how their
   }
 }
 
-TEST_CASE("LC2's sums of a picture fit a texture, however large the picture and the groups") {
+TEST_CASE("LC2's sums fit a texture, however large the picture and the groups and however many the patches") {
   const test::TestContext context;
-  const int width = 1600, height = 1000;
-  const std::vector<gl::PixelPlace> places(std::size_t(width) * height, gl::PixelPlace(0));
-  for (const std::size_t group : {8, 32, 128}) {
-    const gl::PixelTable table = gl::compared_pixels(places, Image<float>(width, height), 0, group);
+  const auto table_of = [](int width, int height, int patch, std::size_t group) {
+    const std::vector<gl::PixelPlace> places(std::size_t(width) * std::size_t(height), gl::PixelPlace(0));
+    gl::PixelTable table = gl::compared_pixels(places, Image<float>(width, height), patch, group);
     CHECK(table.pixels == places.size());
-    CHECK(3 * table.columns <= 16384);
+    return table;
+  };
+  for (const std::size_t group : {8, 32, 128}) {
+    CAPTURE(group);
+    CHECK(3 * table_of(1600, 1000, 0, group).columns <= 16384);
+    const gl::PixelTable patches = table_of(kMostPatches / 2 * kLeastPatch, 2 * kLeastPatch, kLeastPatch, group);
+    CHECK(patches.columns >= std::size_t(kMostPatches));
+    CHECK(3 * patches.columns <= 16384);
   }
 }

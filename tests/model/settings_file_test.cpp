@@ -198,7 +198,7 @@ TEST_CASE("model W's settings that cannot be used are refused with place and rea
       {"dark_hu = 20\nbright_hu = 20\n", "line 2, column 13", "'bright_hu' is 20, not 1 or more above 'dark_hu'"},
       {"image_width = 0\nshadows = 1\n", "line 2", "give true or false"},
       {"similarity_patch = 3\n", "line 1, column 20", "'similarity_patch' is 3, neither 0 nor 4 or more"},
-      {"similarity_patch = 4\nimage_width = 640\nimage_height = 480\n", "line 1, column 20", "at most 5456 patches"},
+      {"similarity_patch = 4\nimage_width = 640\nimage_height = 480\n", "line 1, column 20", "at most 5376 patches"},
   };
   for (const auto& bad : cases) {
     const std::string why = why_refused(bad.text, read_wein);
