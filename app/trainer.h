@@ -131,7 +131,7 @@ public:
   /// What makes the tracker's calibration doubtful, as sentences; empty when nothing does.
   const std::string& calibration_warning() const { return calibration_warning_; }
   /// What shaders being edited do not build with, when they were read or for the settings of a picture since; empty
-  /// when they do. The picture stays as it was.
+  /// when they do. There is no new picture then: it stays as it was, or black where the probe or its depth has changed.
   const std::string& shader_problem() const { return shader_problem_; }
 
   /// Runs `action` and turns what it throws into a problem to acknowledge, except without a window, where there is
