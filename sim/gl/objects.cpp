@@ -19,6 +19,23 @@ void forget_errors() {
   }
 }
 
+// Of a texel buffer's formats, as its constructor's comment lists them.
+std::size_t texel_bytes(GLenum format) {
+  switch (format) {
+    case GL_R16:
+      return 2;
+    case GL_RG32F:
+    case GL_RGBA16:
+    case GL_RGBA16F:
+      return 8;
+    case GL_RGBA32F:
+    case GL_RGBA32I:
+      return 16;
+    default:
+      return 4;
+  }
+}
+
 bool out_of_memory() {
   return glGetError() == GL_OUT_OF_MEMORY;
 }
@@ -157,9 +174,7 @@ Texture Texture::seen_as(GLenum format) const {
 }
 
 TexelBuffer::TexelBuffer(GLenum format, std::size_t texels, const void* values) {
-  const bool pairs_or_halves = format == GL_RG32F || format == GL_RGBA16F;
-  const bool words = format != GL_R16;
-  const std::size_t bytes = format == GL_RGBA32F || format == GL_RGBA32I ? 16 : pairs_or_halves ? 8 : words ? 4 : 2;
+  const std::size_t bytes = texel_bytes(format);
   GLint64 most_bytes = 0;
   GLint most_texels = 0;
   glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most_bytes);

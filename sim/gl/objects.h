@@ -135,7 +135,8 @@ public:
   TexelBuffer() = default;
   /// So many texels, filled from `values` when there are any. Throws std::runtime_error when shaders cannot have that
   /// many on the device, or it has no memory for them.
-  /// @param format  GL_R16, GL_R32F, GL_R32UI, GL_RG16, GL_RG16F, GL_RG32F, GL_RGBA16F, GL_RGBA32F or GL_RGBA32I
+  /// @param format  GL_R16, GL_R32F, GL_R32UI, GL_RG16, GL_RG16F, GL_RG32F, GL_RGBA16, GL_RGBA16F, GL_RGBA32F or
+  ///                GL_RGBA32I
   TexelBuffer(GLenum format, std::size_t texels, const void* values = nullptr);
 
   void bind(GLuint unit) const { glBindTextureUnit(unit, texture_.name()); }

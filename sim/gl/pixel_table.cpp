@@ -45,6 +45,17 @@ PixelTable shared_out(const std::vector<PixelPlace>& pixels, std::size_t togethe
   return table_of(columns, filler, group);
 }
 
+// An image's pixels in strips so wide, each from top to bottom: a work group that goes down a strip comes by the few
+// scan lines that pass through it, sample after sample, so that what it fetches is in the cache from the step before.
+std::vector<std::size_t> strip_by_strip(int width, int height, int strip) {
+  std::vector<std::size_t> result;
+  for (int first = 0; first < width; first += strip)
+    for (int y = 0; y < height; ++y)
+      for (int x = first; x < std::min(first + strip, width); ++x)
+        result.push_back(std::size_t(y) * std::size_t(width) + std::size_t(x));
+  return result;
+}
+
 }  // namespace
 
 std::vector<PixelPlace> places_in_scan(const FanLayout& fan, const ScanLines& lines, int row_samples) {
@@ -100,7 +111,7 @@ PixelTable compared_pixels(const std::vector<PixelPlace>& places, const Image<fl
   const int across = patch ? (image.width + patch - 1) / patch : 0;
   std::vector<PixelPlace> pixels;
   std::vector<std::vector<PixelPlace>> patches;
-  for (std::size_t i = 0; i < places.size(); ++i)
+  for (const std::size_t i : strip_by_strip(image.width, image.height, int(group)))
     if (counts(i)) {
       pixels.push_back(places[i]);
       pixels.back().w = std::bit_cast<int>(float((image.pixels[i] - mean) * scale));

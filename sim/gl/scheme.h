@@ -29,7 +29,8 @@ struct Scheme {
   std::size_t lines_that_fill = 0;
 
   /// Images of model W that an invocation works through one after the other, where a call asks for many: a software
-  /// renderer pays for each work group and for each look at where a pixel lies, a card wants all at once.
+  /// renderer pays for each work group and for each look at where a pixel lies, a card wants all at once. From
+  /// ScanStages::kAbreast on, so many lie abreast.
   int images_in_turn = 1;
 
   /// Work groups along a dimension: so many at least every device takes (GL_MAX_COMPUTE_WORK_GROUP_COUNT).

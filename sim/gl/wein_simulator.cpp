@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -15,6 +16,7 @@
 #include "sim/gl/device_volume.h"
 #include "sim/gl/fan_layout.h"
 #include "sim/gl/pixel_table.h"
+#include "sim/gl/scan_stages.h"
 #include "sim/shaders/shared/wein_parameters.h"
 
 namespace insonate::gl {
@@ -30,21 +32,17 @@ constexpr std::size_t kMostChunk = 2048;  // images, of which some tables have a
 // Below this no echo is left: with any compression it is less than half a step of what the scan holds.
 constexpr double kLeastIntensity = 1e-10;
 
+// Whole texels' worth of images where there is room for that.
+std::size_t images_of_chunk(std::size_t image_samples) {
+  const std::size_t fit = std::clamp<std::size_t>(kChunkBytes / (image_samples * kSampleBytes), 1, kMostChunk);
+  return fit < ScanStages::kAbreast ? fit : fit - fit % ScanStages::kAbreast;
+}
+
 // As shaders write it.
 std::string literal(double value) {
   char text[40];
   std::snprintf(text, sizeof text, "float(%.9g)", value);
   return text;
-}
-
-// What a walk along the lines leaves: the grey of a picture, both terms, or the terms and the intensity, for those who
-// check.
-enum class Leaves { grey, terms, intensity };
-
-Program traverse_program(const ShaderSources& sources, Defines compiled_in, Leaves leaves) {
-  compiled_in.emplace_back("GREY", leaves == Leaves::grey ? "1" : "0");
-  if (leaves == Leaves::intensity) compiled_in.emplace_back("INTENSITY", "");
-  return Program(sources, {"wein_traverse.comp"}, compiled_in);
 }
 
 }  // namespace
@@ -53,12 +51,13 @@ struct WeinSimulator::State {
   State(const AcousticVolume& volume, const Probe& probe, double depth_mm, const WeinSettings& wanted,
         const ShaderSources& given, const Scheme& chosen);
 
-  void traverse(std::span<const Pose> chunk, std::size_t first, const Program& program, const TexelBuffer& scan);
-  // Work groups that so many images take, each a few in turn.
-  int turns(std::size_t images) const { return (int(images) + scheme.images_in_turn - 1) / scheme.images_in_turn; }
+  const ScanStages& stages_for(std::size_t images) const { return images > 1 && abreast ? *abreast : alone; }
+  void traverse(std::span<const Pose> chunk, std::size_t first, const ScanStages& stages, const Program& program,
+                const TexelBuffer& scan);
   void ran(WeinStage stage, std::size_t images, std::size_t pixels);
   template <typename Work>
-  void by_chunks(std::span<const Pose> poses, const Program& program, const TexelBuffer& scan, Work&& work);
+  void by_chunks(std::span<const Pose> poses, const ScanStages& stages, const Program& program, const TexelBuffer& scan,
+                 Work&& work);
   Defines constants(const AcousticVolume& volume) const;
 
   WeinSettings settings;
@@ -68,16 +67,17 @@ struct WeinSimulator::State {
   ScanLines lines;
   const int row_samples;  // of a line in a scan: even, so that pairs of samples share no word with the next line
   FanLayout fan;
-  std::size_t chunk_images;
+  const std::size_t image_samples, chunk_images;
   const int tile_words;  // of an image in the grid, four pixels each
   glm::dmat4 texture_from_patient{1.0};
   WeinParameters parameters{};
 
-  Defines compiled_in;
-  Program traverse_grey, traverse_terms, picture, parts, lc2;
+  std::optional<ScanStages> abreast;  // of calls with more than one image, where a software renderer draws them
+  ScanStages alone;
+  Program lc2;
   Buffer parameter_buffer{sizeof(WeinParameters), nullptr}, similarities;
   std::size_t similarities_held = 0;
-  TexelBuffer grey_scan, term_scan, tiles;
+  TexelBuffer tiles;
   std::vector<PixelPlace> pixel_places;
   PixelTable fan_pixels, counted_pixels;
   Texture density, probe_lines, places, sums, grid;
@@ -96,13 +96,15 @@ WeinSimulator::State::State(const AcousticVolume& volume, const Probe& probe, do
       lines(scan_lines(probe, depth_mm, wanted.samples)),
       row_samples(lines.samples + lines.samples % 2),
       fan(probe, depth_mm, lines, wanted.image_width, wanted.image_height),
+      image_samples(lines.lines.size() * std::size_t(row_samples)),
+      chunk_images(images_of_chunk(image_samples)),
       tile_words((wanted.image_width + kWordPixels - 1) / kWordPixels),
-      compiled_in(constants(volume)),
-      traverse_grey(traverse_program(given, compiled_in, Leaves::grey)),
-      traverse_terms(traverse_program(given, compiled_in, Leaves::terms)),
-      picture(given, {"wein_picture.comp"}, compiled_in),
-      parts(given, {"lc2_parts.comp"}, compiled_in),
-      lc2(given, {"lc2.comp"}, compiled_in),
+      abreast(std::min(std::size_t(chosen.images_in_turn), chunk_images) >= ScanStages::kAbreast
+                  ? std::optional<ScanStages>(std::in_place, given, constants(volume), ScanStages::kAbreast,
+                                              chosen.images_in_turn, image_samples, chunk_images)
+                  : std::nullopt),
+      alone(given, constants(volume), 1, chosen.images_in_turn, image_samples, abreast ? 1 : chunk_images),
+      lc2(given, {"lc2.comp"}, alone.compiled_in),
       density(density_volume(volume, wanted.reflection_length_mm)) {
   const int n = int(lines.lines.size());
   const double dr = lines.dr_mm();
@@ -120,10 +122,6 @@ WeinSimulator::State::State(const AcousticVolume& volume, const Probe& probe, do
   probe_lines = Texture::make_2d(GL_RGBA32F, 2, n, Filter::nearest);
   probe_lines.write(GL_RGBA, GL_FLOAT, ways.data());
 
-  const std::size_t image_samples = std::size_t(n) * std::size_t(row_samples);
-  chunk_images = std::clamp<std::size_t>(kChunkBytes / (image_samples * kSampleBytes), 1, kMostChunk);
-  grey_scan = TexelBuffer(GL_R16, image_samples * chunk_images);
-  term_scan = TexelBuffer(GL_RG16, image_samples * chunk_images);
   places = Texture::make_2d(GL_RGBA32F, 3, int(chunk_images), Filter::nearest);
   place_rows.resize(3 * chunk_images);
 
@@ -140,7 +138,6 @@ Defines WeinSimulator::State::constants(const AcousticVolume& volume) const {
           {"LINES", std::to_string(lines.lines.size())},
           {"SAMPLES", std::to_string(lines.samples)},
           {"ROW_SAMPLES", std::to_string(row_samples)},
-          {"IMAGES_IN_TURN", std::to_string(scheme.images_in_turn)},
           {"TILE_WORDS", std::to_string(tile_words)},
           {"TILE_HEIGHT", std::to_string(settings.image_height)},
           {"PATCHES", settings.similarity_patch > 0 ? "1" : "0"},
@@ -160,8 +157,8 @@ Defines WeinSimulator::State::constants(const AcousticVolume& volume) const {
 }
 
 // Places a chunk's lines and walks along them.
-void WeinSimulator::State::traverse(std::span<const Pose> chunk, std::size_t first, const Program& program,
-                                    const TexelBuffer& scan) {
+void WeinSimulator::State::traverse(std::span<const Pose> chunk, std::size_t first, const ScanStages& stages,
+                                    const Program& program, const TexelBuffer& scan) {
   for (std::size_t i = 0; i < chunk.size(); ++i) {
     const glm::dmat4 rows = glm::transpose(texture_from_patient * chunk[i].matrix());
     for (int row = 0; row < 3; ++row) place_rows[3 * i + std::size_t(row)] = glm::vec4(rows[row]);
@@ -176,7 +173,7 @@ void WeinSimulator::State::traverse(std::span<const Pose> chunk, std::size_t fir
   places.bind(2);
   scan.bind_storage(0);
   samples_walked.bind_storage(1);
-  program.dispatch_groups(turns(chunk.size()), (int(lines.lines.size()) + int(group) - 1) / int(group));
+  program.dispatch_groups(stages.turns(int(chunk.size())), (int(lines.lines.size()) + int(group) - 1) / int(group));
 }
 
 void WeinSimulator::State::ran(WeinStage stage, std::size_t images, std::size_t pixels) {
@@ -188,8 +185,8 @@ void WeinSimulator::State::ran(WeinStage stage, std::size_t images, std::size_t 
 }
 
 template <typename Work>
-void WeinSimulator::State::by_chunks(std::span<const Pose> poses, const Program& program, const TexelBuffer& scan,
-                                     Work&& work) {
+void WeinSimulator::State::by_chunks(std::span<const Pose> poses, const ScanStages& stages, const Program& program,
+                                     const TexelBuffer& scan, Work&& work) {
   if (poses.empty()) return;
   samples_walked.clear();
   StageCount& count = counts[std::size_t(WeinStage::traverse)];
@@ -197,7 +194,7 @@ void WeinSimulator::State::by_chunks(std::span<const Pose> poses, const Program&
   count.possible = poses.size() * lines.lines.size() * std::size_t(lines.samples);
   for (std::size_t first = 0; first < poses.size(); first += chunk_images) {
     const std::span<const Pose> chunk = poses.subspan(first, std::min(chunk_images, poses.size() - first));
-    traverse(chunk, first, program, scan);
+    traverse(chunk, first, stages, program, scan);
     scan.bind(0);
     work(int(chunk.size()));
   }
@@ -231,11 +228,12 @@ const Texture& WeinSimulator::simulate(std::span<const Pose> patient_from_probe)
   }
   if (!fits || count < columns * rows) s.tiles.clear();  // what no fan covers stays so
   s.parameters.columns = columns;
+  const ScanStages& stages = s.stages_for(patient_from_probe.size());
   if (s.fan_pixels)
-    s.by_chunks(patient_from_probe, s.traverse_grey, s.grey_scan, [&](int images) {
+    s.by_chunks(patient_from_probe, stages, stages.traverse_grey, stages.grey_scan, [&](int images) {
       s.fan_pixels.places.bind(1);
       s.tiles.bind_storage(0);
-      s.picture.dispatch(int(s.fan_pixels.columns), s.turns(std::size_t(images)));
+      stages.picture.dispatch(int(s.fan_pixels.columns), stages.turns(images));
     });
   s.grid.write(GL_RED, GL_UNSIGNED_BYTE, s.tiles.values());
   s.ran(WeinStage::scan_convert, patient_from_probe.size(), s.fan_pixels.pixels);
@@ -266,10 +264,11 @@ std::vector<float> WeinSimulator::similarity(std::span<const Pose> patient_from_
     s.similarities = Buffer(bytes, nullptr);
     s.similarities_held = result.size();
   }
-  s.by_chunks(patient_from_probe, s.traverse_terms, s.term_scan, [&](int images) {
+  const ScanStages& stages = s.stages_for(patient_from_probe.size());
+  s.by_chunks(patient_from_probe, stages, stages.traverse_terms, stages.term_scan, [&](int images) {
     s.counted_pixels.places.bind(1);
     s.sums.bind_image(0, GL_WRITE_ONLY);
-    s.parts.dispatch(int(s.counted_pixels.columns), images);
+    stages.parts.dispatch(int(s.counted_pixels.columns), stages.term_groups(images));
     s.similarities.bind_storage(0);
     s.sums.bind(0);
     s.lc2.dispatch(images, 1);
@@ -296,10 +295,12 @@ WeinStages<float> WeinSimulator::read_stages(const Pose& patient_from_probe) {
   intensities.clear();  // what lies behind a line's end is not written
   intensities.bind_image(1, GL_WRITE_ONLY);
   s.samples_walked.clear();
-  s.traverse({&patient_from_probe, 1}, 0, traverse_program(s.sources, s.compiled_in, Leaves::intensity), s.term_scan);
+  s.traverse({&patient_from_probe, 1}, 0, s.alone,
+             ScanStages::traverse_program(s.sources, s.alone.compiled_in, ScanStages::Leaves::intensity),
+             s.alone.term_scan);
   const std::size_t count = std::size_t(n) * std::size_t(d), row = std::size_t(s.row_samples);
   std::vector<std::array<std::uint16_t, 2>> terms(std::size_t(n) * row);
-  s.term_scan.read(terms.data(), terms.size() * sizeof terms.front());
+  s.alone.term_scan.read(terms.data(), terms.size() * sizeof terms.front());
   std::vector<float> intensity(count);
   intensities.read(GL_RED, GL_FLOAT, intensity.data(), count * sizeof(float));
   WeinStages<float> stages;

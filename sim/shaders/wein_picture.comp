@@ -8,7 +8,8 @@ layout(local_size_x = GROUP) in;
 
 layout(std430, binding = 0) writeonly buffer Grid { uint grid[]; };  // four pixels each, row by row
 
-float grey_of(ivec4 pixel, int image) { return pixel.x < 0 ? 0.0 : scanned_at(pixel, image).x; }
+// Of the images that share a texel.
+vec4 greys_of(ivec4 pixel, int image_group) { return pixel.x < 0 ? vec4(0.0) : scanned_at(pixel, image_group); }
 
 void main() {
   int first_image = int(gl_WorkGroupID.y) * IMAGES_IN_TURN, end = min(first_image + IMAGES_IN_TURN, images);
@@ -18,10 +19,15 @@ void main() {
     ivec4 a = pixel_at(i), b = pixel_at(i + 1), c = pixel_at(i + 2), d = pixel_at(i + 3);
     int in_tile = (a.w >> 16) * row_words + (a.w & 0xffff);  // for all four
     ivec2 tile = first_tile;
-    for (int image = first_image; image < end; ++image) {
-      vec4 greys = vec4(grey_of(a, image), grey_of(b, image), grey_of(c, image), grey_of(d, image));
-      if (a.w >= 0) grid[tile.y * tile_height * row_words + tile.x * tile_words + in_tile] = packUnorm4x8(greys);
-      tile = tile.x + 1 < columns ? ivec2(tile.x + 1, tile.y) : ivec2(0, tile.y + 1);
+    for (int image = first_image; image < end; image += greys_abreast) {
+      int group = image / greys_abreast;
+      mat4 by_pixel = mat4(greys_of(a, group), greys_of(b, group), greys_of(c, group), greys_of(d, group)),
+           by_image = transpose(by_pixel);
+      for (int j = 0; j < greys_abreast; ++j) {
+        if (a.w >= 0 && image + j < end)
+          grid[tile.y * tile_height * row_words + tile.x * tile_words + in_tile] = packUnorm4x8(by_image[j]);
+        tile = tile.x + 1 < columns ? ivec2(tile.x + 1, tile.y) : ivec2(0, tile.y + 1);
+      }
     }
   }
 }

@@ -144,7 +144,7 @@ TEST_CASE("model W's pictures are so too, and its similarities but for how their
   settings.image_width = 72;
   settings.image_height = 60;
   std::vector<Pose> poses;
-  for (int i = 0; i < 20; ++i) poses.push_back(test::on_the_skin(i - 10.0, 9, i));
+  for (int i = 0; i < 21; ++i) poses.push_back(test::on_the_skin(i - 10.0, 9, i));
   Image<float> ultrasound(settings.image_width, settings.image_height);
   for (std::size_t i = 0; i < ultrasound.pixels.size(); ++i) ultrasound.pixels[i] = unit_float(hash(std::uint32_t(i)));
 
