@@ -10,8 +10,8 @@ namespace insonate::gl {
 /// Model W's stages from the scan lines to the pixels, compiled, and the scans that they hand on.
 ///
 /// Images lie in a scan either one behind the other or four abreast, where a texel holds the same sample of all four:
-/// of many images at once that is a fetch for four and a walk along two lines at once, of a single image room for
-/// nothing. With llvmpipe a picture of many takes a twentieth less time abreast, and LC2 a tenth.
+/// of many images at once that is a fetch for four, which a software renderer gains by; of a single image it would be
+/// room for nothing. Both are compiled, so that neither pays for the other.
 struct ScanStages {
   static constexpr std::size_t kAbreast = 4;
 

@@ -1,6 +1,7 @@
 // LC2's sums over a part of an image's pixels, an invocation a part, of the images that share the scan's texels: of the
-// ultrasound image u and the terms E and R, which are converted from the scan lines on the way. Kept as means and products of differences, which single precision
-// can hold: sums of squares less squares of sums would leave nothing of a flat image.
+// ultrasound image u and the terms E and R, which are converted from the scan lines on the way. Kept as means and
+// products of differences, which single precision can hold: sums of squares less squares of sums would leave nothing of
+// a flat image.
 
 layout(local_size_x = GROUP) in;
 
