@@ -1,8 +1,10 @@
 // Model W along a scan line, an invocation a line, of several images of a chunk one after the other: of each sample
 // either both terms, echogenicity and reflection, or the grey that a picture makes of them, which takes half the room.
 // The gradient is stored with the density, so a sample costs one fetch. Groups follow each other image by image along the
-// same few lines: poses of a search lie close together, so the voxels are still in the cache. Where the scan's texels
-// hold four images' greys, lines of two images are walked along at once, because a word has room for two.
+// same few lines: poses of a search lie close together, so the voxels are still in the cache.
+//
+// Samples are taken in pairs, so that a processor computes one while the other waits for a division: of an image alone a
+// sample and the next on the line, where the scan's texels hold several images the same sample of two of them.
 
 layout(local_size_x = GROUP) in;
 
@@ -22,88 +24,92 @@ const float kAirMu = 1.2;
 const float kContactAirHu = -300.5;
 const float kNothing = -1e6;  // the logarithm of what total reflection lets pass, in effect
 
-struct Walk {
-  vec3 start, along;  // of the line, in the volume's texture: sample 0, the way to the next
+// Of an image, in the volume's texture.
+struct Line {
+  vec3 start, along;  // sample 0, the way to the next
   vec3 direction;     // unit, along the CT's axes
-  float log_intensity;
 };
+
+// Of a pair of samples.
+struct Terms {
+  vec2 echogenicity, reflection, intensity;
+};
+
+const int kSamplesAPair = ABREAST == 1 ? 2 : 1, kImagesAPair = 2 / kSamplesAPair;
+const int kWordsAPair = GREY == 1 ? 1 : 2;  // both greys, or both terms of one and of the other
+const int kImagesATexel = GREY == 1 ? greys_abreast : terms_abreast;
+const int kStride = max(kImagesATexel / kImagesAPair, 1) * kWordsAPair;  // words from a pair to the next on the line
 
 int line;
 
-Walk at_start(int image) {
+Line line_of(int image) {
   vec3 sample_0 = texelFetch(probe_lines, ivec2(0, line), 0).xyz,
        to_next = texelFetch(probe_lines, ivec2(1, line), 0).xyz;
   vec4 x = texelFetch(places, ivec2(0, image), 0), y = texelFetch(places, ivec2(1, image), 0),
        z = texelFetch(places, ivec2(2, image), 0);
   vec3 start = vec3(dot(x.xyz, sample_0), dot(y.xyz, sample_0), dot(z.xyz, sample_0)) + vec3(x.w, y.w, z.w);
   vec3 along = vec3(dot(x.xyz, to_next), dot(y.xyz, to_next), dot(z.xyz, to_next));
-  return Walk(start, along, along * sides_by_dr, 0.0);
+  return Line(start, along, along * sides_by_dr);
 }
 
-// E and R of the sample that the walk has come to; goes on to the next.
-vec2 terms_of(inout Walk walk, int k) {
-  vec3 at = walk.start + float(k) * walk.along;
+vec4 density_at(Line of_image, float k) {
+  vec3 at = of_image.start + k * of_image.along;
 #if EXACT_FILTER == 1
-  vec4 here = exact_to_edge(density, at) * 32767.0;
+  return exact_to_edge(density, at) * 32767.0;
 #else
-  vec4 here = textureLod(density, at, 0.0) * 32767.0;
+  return textureLod(density, at, 0.0) * 32767.0;
 #endif
-  bool contact = float(k) < first_free_sample;
-  float hu = contact && here.x < kContactAirHu ? 0.0 : here.x;
-  vec3 gradient = contact ? vec3(0.0) : here.yzw * 0.125;
-  float squared = dot(gradient, gradient), steepness = sqrt(squared);
-  float change = min(steepness / (2.0 * max(hu + 1000.0, kAirMu)), 1.0);
-  float cosine = abs(dot(walk.direction, gradient)) / max(steepness, 1e-20);
+}
 
-  float intensity = exp(walk.log_intensity);
-  float reflection = log(1.0 + compression * intensity * change * change * cosine) * one_over_compressed_one;
-  float echogenicity = clamp((hu - dark_hu) * one_over_hu_range, 0.0, 1.0);
+// Of a pair whose first sample is the k-th; takes ln I, as it is before each of them, on to the next pair.
+Terms terms_of(Line one, Line other, int k, inout vec2 log_intensity) {
+  vec2 places_along = vec2(k, k + kSamplesAPair - 1);
+  vec4 here = density_at(one, places_along.x), there = density_at(other, places_along.y);
+  vec3 gradient = here.yzw * 0.125, gradient_there = there.yzw * 0.125;
+  vec2 steepness = sqrt(vec2(dot(gradient, gradient), dot(gradient_there, gradient_there)));
+  vec2 across = abs(vec2(dot(one.direction, gradient), dot(other.direction, gradient_there)));
+  vec2 cosine = across / max(steepness, 1e-20), hu = vec2(here.x, there.x);
+
+  bvec2 contact = lessThan(places_along, vec2(first_free_sample)), air = lessThan(hu, vec2(kContactAirHu));
+  hu = mix(hu, vec2(0.0), bvec2(contact.x && air.x, contact.y && air.y));
+  vec2 change = mix(min(steepness / (2.0 * max(hu + 1000.0, kAirMu)), 1.0), vec2(0.0), contact);
+
+  vec2 log_passed = mix(log(1.0 - change * change) * dr_by_length, vec2(kNothing), equal(change, vec2(1.0)));
+  vec2 before = log_intensity;
+  if (kSamplesAPair == 2) before.y += log_passed.x;
+  log_intensity = before + log_passed;
+  if (kSamplesAPair == 2) log_intensity.x = log_intensity.y;
+
+  vec2 intensity = exp(before);
+  vec2 reflection = log(1.0 + compression * intensity * change * change * cosine) * one_over_compressed_one;
+  vec2 echogenicity = clamp((hu - dark_hu) * one_over_hu_range, 0.0, 1.0);
   if (shadows == 1) echogenicity *= intensity;
-#ifdef INTENSITY
-  imageStore(intensities, ivec2(k, line), vec4(intensity));
-#endif
-  walk.log_intensity += dr_by_length * (change < 1.0 ? log(1.0 - change * change) : kNothing / dr_by_length);
-  return vec2(echogenicity, reflection);
+  return Terms(echogenicity, reflection, intensity);
 }
 
-float grey_of(inout Walk walk, int k) {
-  vec2 terms = terms_of(walk, k);
-  return mix(terms.x, terms.y, reflection_share);
-}
-
-// What a word of the scan holds from sample k on: both terms, the greys of two samples, or those of two images, of which
-// the other is a neighbour's.
-#if GREY == 0
-const int kSamplesAWord = 1, kImagesAWord = 1, kImagesATexel = terms_abreast;
-uint word_of(inout Walk one, inout Walk other, int k) { return packUnorm2x16(terms_of(one, k)); }
-#elif ABREAST == 1
-const int kSamplesAWord = 2, kImagesAWord = 1, kImagesATexel = 1;
-uint word_of(inout Walk one, inout Walk other, int k) {
-  float first = grey_of(one, k);
-  return packUnorm2x16(vec2(first, grey_of(one, k + 1)));
-}
-#else
-const int kSamplesAWord = 1, kImagesAWord = 2, kImagesATexel = greys_abreast;
-uint word_of(inout Walk one, inout Walk other, int k) {
-  float first = grey_of(one, k);
-  return packUnorm2x16(vec2(first, grey_of(other, k)));
-}
-#endif
-const int kStride = kImagesATexel > 1 ? 2 : 1;  // from a line's word to its next
-
-// How many samples were walked before nothing was left.
+// How many samples were walked before nothing was left, of an image or of those of a pair.
 int walk(int image) {
-  Walk one = at_start(image), other = at_start(min(image + kImagesAWord, images) - 1);
-  if (kImagesAWord == 1) other.log_intensity = kNothing;  // it stays behind
-  int k = 0, row = (image / kImagesATexel * lines + line) * (row_samples / kSamplesAWord),
-      word = row * kStride + image % kImagesATexel / kImagesAWord;
-  for (; k < samples && max(one.log_intensity, other.log_intensity) > last_log_intensity; k += kSamplesAWord) {
-    scan[word] = word_of(one, other, k);
+  Line one = line_of(image), other = line_of(min(image + kImagesAPair, images) - 1);
+  vec2 log_intensity = vec2(0.0);
+  int row = (image / kImagesATexel * lines + line) * row_samples / kSamplesAPair, k = 0;
+  int word = row * kStride + image % kImagesATexel / kImagesAPair;
+  for (; k < samples && max(log_intensity.x, log_intensity.y) > last_log_intensity; k += kSamplesAPair) {
+    Terms terms = terms_of(one, other, k, log_intensity);
+#if GREY == 1
+    scan[word] = packUnorm2x16(mix(terms.echogenicity, terms.reflection, reflection_share));
+#else
+    scan[word] = packUnorm2x16(vec2(terms.echogenicity.x, terms.reflection.x));
+    scan[word + 1] = packUnorm2x16(vec2(terms.echogenicity.y, terms.reflection.y));
+#endif
+#ifdef INTENSITY
+    imageStore(intensities, ivec2(k, line), vec4(terms.intensity.x));
+    imageStore(intensities, ivec2(k + 1, line), vec4(terms.intensity.y));
+#endif
     word += kStride;
   }
-  int walked = min(k, samples) * min(kImagesAWord, images - image);
-  for (; k < samples; k += kSamplesAWord) {
-    scan[word] = 0u;
+  int walked = min(k, samples) * min(kImagesAPair, images - image);
+  for (; k < samples; k += kSamplesAPair) {
+    for (int i = 0; i < kWordsAPair; ++i) scan[word + i] = 0u;
     word += kStride;
   }
   return walked;
@@ -113,6 +119,6 @@ void main() {
   int first_image = int(gl_WorkGroupID.x) * IMAGES_IN_TURN, end = min(first_image + IMAGES_IN_TURN, images), walked = 0;
   line = int(gl_WorkGroupID.y * gl_WorkGroupSize.x + gl_LocalInvocationID.x);
   if (line >= lines) return;
-  for (int image = first_image; image < end; image += kImagesAWord) walked += walk(image);
+  for (int image = first_image; image < end; image += kImagesAPair) walked += walk(image);
   atomicAdd(samples_walked, uint(walked));
 }
