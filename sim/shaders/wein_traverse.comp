@@ -4,7 +4,17 @@
 // same few lines: poses of a search lie close together, so the voxels are still in the cache.
 //
 // Samples are taken in pairs, so that a processor computes one while the other waits for a division: of an image alone a
-// sample and the next on the line, where the scan's texels hold several images the same sample of two of them.
+// sample and the next on the line, where the scan's texels hold several images the same sample of two of them. What
+// comes of them is stored as one value, as llvmpipe stores lane after lane, and each value of a vector by itself.
+
+#ifdef GL_ARB_gpu_shader_int64
+#extension GL_ARB_gpu_shader_int64 : enable
+#define Words uint64_t
+#define words_of packUint2x32
+#else
+#define Words uvec2
+#define words_of uvec2
+#endif
 
 layout(local_size_x = GROUP) in;
 
@@ -14,7 +24,12 @@ layout(local_size_x = GROUP) in;
 layout(binding = 0) uniform sampler3D density;  // (HU, gradient along the CT's axes in eighths of HU) / 32767
 layout(binding = 1) uniform sampler2D probe_lines;  // a row a line, probe's frame, mm: sample 0, the way to the next
 layout(binding = 2) uniform sampler2D places;       // a row an image: the rows of texture_from_probe
-layout(std430, binding = 0) writeonly buffer Scan { uint scan[]; };  // as shared/wein_scan.glsl reads it, 16 bits each
+#if GREY == 1 && ABREAST == 1
+#define Stored uint
+#else
+#define Stored Words
+#endif
+layout(std430, binding = 0) writeonly buffer Scan { Stored scan[]; };  // 16 bits each, as shared/wein_scan.glsl reads it
 layout(std430, binding = 1) buffer Counter { uint samples_walked; };  // of a call
 #ifdef INTENSITY
 layout(binding = 1, r32f) writeonly uniform image2D intensities;  // of the first image
@@ -36,9 +51,7 @@ struct Terms {
 };
 
 const int kSamplesAPair = ABREAST == 1 ? 2 : 1, kImagesAPair = 2 / kSamplesAPair;
-const int kWordsAPair = GREY == 1 ? 1 : 2;  // both greys, or both terms of one and of the other
-const int kImagesATexel = GREY == 1 ? greys_abreast : terms_abreast;
-const int kStride = max(kImagesATexel / kImagesAPair, 1) * kWordsAPair;  // words from a pair to the next on the line
+const int kPairs = GREY == 1 && ABREAST == 4 ? 2 : 1, kImages = kPairs * kImagesAPair;  // walked along at once
 
 int line;
 
@@ -87,31 +100,39 @@ Terms terms_of(Line one, Line other, int k, inout vec2 log_intensity) {
   return Terms(echogenicity, reflection, intensity);
 }
 
-// How many samples were walked before nothing was left, of an image or of those of a pair.
+uint greys_of(Terms terms) { return packUnorm2x16(mix(terms.echogenicity, terms.reflection, reflection_share)); }
+
+// How many samples were walked, of all images, before nothing was left.
 int walk(int image) {
-  Line one = line_of(image), other = line_of(min(image + kImagesAPair, images) - 1);
-  vec2 log_intensity = vec2(0.0);
-  int row = (image / kImagesATexel * lines + line) * row_samples / kSamplesAPair, k = 0;
-  int word = row * kStride + image % kImagesATexel / kImagesAPair;
-  for (; k < samples && max(log_intensity.x, log_intensity.y) > last_log_intensity; k += kSamplesAPair) {
-    Terms terms = terms_of(one, other, k, log_intensity);
-#if GREY == 1
-    scan[word] = packUnorm2x16(mix(terms.echogenicity, terms.reflection, reflection_share));
+  Line ways[2 * kPairs];
+  for (int i = 0; i < 2 * kPairs; ++i) ways[i] = line_of(min(image + i / kSamplesAPair, images - 1));
+  vec2 log_intensity[kPairs];
+  float most = 0.0;
+  for (int i = 0; i < kPairs; ++i) log_intensity[i] = vec2(0.0);
+
+  int at = (image / kImages * lines + line) * (row_samples / kSamplesAPair), k = 0;
+  for (; k < samples && most > last_log_intensity; k += kSamplesAPair) {
+    Terms terms[kPairs];
+    most = kNothing;
+    for (int i = 0; i < kPairs; ++i) {
+      terms[i] = terms_of(ways[2 * i], ways[2 * i + 1], k, log_intensity[i]);
+      most = max(most, max(log_intensity[i].x, log_intensity[i].y));
+    }
+#if GREY == 0
+    scan[at++] = words_of(uvec2(packUnorm2x16(vec2(terms[0].echogenicity.x, terms[0].reflection.x)),
+                                packUnorm2x16(vec2(terms[0].echogenicity.y, terms[0].reflection.y))));
+#elif ABREAST == 1
+    scan[at++] = greys_of(terms[0]);
 #else
-    scan[word] = packUnorm2x16(vec2(terms.echogenicity.x, terms.reflection.x));
-    scan[word + 1] = packUnorm2x16(vec2(terms.echogenicity.y, terms.reflection.y));
+    scan[at++] = words_of(uvec2(greys_of(terms[0]), greys_of(terms[1])));
 #endif
 #ifdef INTENSITY
-    imageStore(intensities, ivec2(k, line), vec4(terms.intensity.x));
-    imageStore(intensities, ivec2(k + 1, line), vec4(terms.intensity.y));
+    imageStore(intensities, ivec2(k, line), vec4(terms[0].intensity.x));
+    imageStore(intensities, ivec2(k + 1, line), vec4(terms[0].intensity.y));
 #endif
-    word += kStride;
   }
-  int walked = min(k, samples) * min(kImagesAPair, images - image);
-  for (; k < samples; k += kSamplesAPair) {
-    for (int i = 0; i < kWordsAPair; ++i) scan[word + i] = 0u;
-    word += kStride;
-  }
+  int walked = min(k, samples) * min(kImages, images - image);
+  for (; k < samples; k += kSamplesAPair) scan[at++] = Stored(0u);
   return walked;
 }
 
@@ -119,6 +140,6 @@ void main() {
   int first_image = int(gl_WorkGroupID.x) * IMAGES_IN_TURN, end = min(first_image + IMAGES_IN_TURN, images), walked = 0;
   line = int(gl_WorkGroupID.y * gl_WorkGroupSize.x + gl_LocalInvocationID.x);
   if (line >= lines) return;
-  for (int image = first_image; image < end; image += kImagesAPair) walked += walk(image);
+  for (int image = first_image; image < end; image += kImages) walked += walk(image);
   atomicAdd(samples_walked, uint(walked));
 }
