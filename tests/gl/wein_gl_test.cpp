@@ -191,6 +191,8 @@ TEST_CASE("model W's stages tell how often they ran and how much they evaluated 
   gl::WeinSimulator unshadowed(f.body, f.probe, kDepthMm, test::exact_as_needed(f.settings));
   unshadowed.simulate(poses(int(images)));
   CHECK(unshadowed.count(Stage::traverse).evaluated == samples);
+  unshadowed.simulate({&f.pose, 1});  // whose samples are walked in pairs: odd, the last one has no neighbour
+  CHECK(unshadowed.count(Stage::traverse).evaluated == 61 * 91);
 }
 
 TEST_CASE("LC2: GLSL agrees with the reference for every image of a call") {
