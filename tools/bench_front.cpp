@@ -20,9 +20,9 @@
 namespace insonate::bench {
 namespace {
 
-/// Each setting's frames are measured in as many rounds over all settings, so that a machine that is slower for a while
-/// is so for all of them.
-constexpr int kRounds = 3;
+/// Each setting's frames are measured in as many rounds over all settings, so that a machine that is slower for a few
+/// seconds is so for all of them.
+constexpr int kRounds = 10;
 
 struct Setting {
   std::string name;
