@@ -21,7 +21,7 @@ namespace insonate::bench {
 namespace {
 
 /// Each setting's frames are measured in as many rounds over all settings, so that a machine that is slower for a few
-/// seconds is so for all of them.
+/// seconds is so for few frames of any of them.
 constexpr int kRounds = 10;
 
 struct Setting {
@@ -179,8 +179,8 @@ Table measure_front(const Request& request, const std::string& svg) {
           simulator.set_pose(pose);
           simulator.image();
         };
-        const int count = request.frames * (round + 1) / kRounds - request.frames * round / kRounds;
-        const auto measured = times_in_turn(scene.pose, count, {frame}).front();
+        const int first = request.frames * round / kRounds, count = request.frames * (round + 1) / kRounds - first;
+        const auto measured = times_in_turn(scene.pose, count, {frame}, first).front();
         frames_ms[i].insert(frames_ms[i].end(), measured.begin(), measured.end());
       }
 

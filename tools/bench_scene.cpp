@@ -98,16 +98,17 @@ Pose wandering(const Pose& start, int frame) {
 }
 
 std::vector<std::vector<double>> times_in_turn(const Pose& start, int frames,
-                                               const std::vector<std::function<void(const Pose&)>>& methods) {
+                                               const std::vector<std::function<void(const Pose&)>>& methods,
+                                               int first) {
   std::vector<std::vector<double>> times(methods.size());
-  for (int frame = -kWarmUpFrames; frame < frames; ++frame) {
+  for (int frame = first - kWarmUpFrames; frame < first + frames; ++frame) {
     const Pose pose = wandering(start, frame);
     for (std::size_t i = 0; i < methods.size(); ++i) {
       const auto begin = std::chrono::steady_clock::now();
       methods[i](pose);
       glFinish();
       const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - begin;
-      if (frame >= 0) times[i].push_back(taken.count());
+      if (frame >= first) times[i].push_back(taken.count());
     }
   }
   return times;

@@ -58,8 +58,10 @@ Pose wandering(const Pose& start, int frame);
 
 /// Runs the methods in turn, frame by frame, each with the same poses, and tells each one's times from the pose to the
 /// end of the device's work. A few frames before those that count warm up.
+/// @param first  of the frames, for those who measure some of them now and some later
 /// @return milliseconds: per method, per frame
 std::vector<std::vector<double>> times_in_turn(const Pose& start, int frames,
-                                               const std::vector<std::function<void(const Pose&)>>& methods);
+                                               const std::vector<std::function<void(const Pose&)>>& methods,
+                                               int first = 0);
 
 }  // namespace insonate::bench

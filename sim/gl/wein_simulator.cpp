@@ -65,7 +65,7 @@ struct WeinSimulator::State {
   const Scheme scheme;
   const std::size_t group;  // the shaders' local size
   ScanLines lines;
-  const int row_samples;  // of a line in a scan: even, so that pairs of samples share no word with the next line
+  const int row_samples;  // of a line in a scan: even, so that no pair of samples lies in two lines
   FanLayout fan;
   const std::size_t image_samples, chunk_images;
   const int tile_words;  // of an image in the grid, four pixels each

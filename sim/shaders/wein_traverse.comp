@@ -1,11 +1,12 @@
-// Model W along a scan line, an invocation a line, of several images of a chunk one after the other: of each sample
-// either both terms, echogenicity and reflection, or the grey that a picture makes of them, which takes half the room.
-// The gradient is stored with the density, so a sample costs one fetch. Groups follow each other image by image along the
-// same few lines: poses of a search lie close together, so the voxels are still in the cache.
+// Model W along a scan line, an invocation a line, of several images of a chunk in turn: of each sample either both
+// terms, echogenicity and reflection, or the grey that a picture makes of them, which takes half the room. The gradient
+// is stored with the density, so a sample costs one fetch. Groups follow each other image by image along the same few
+// lines: poses of a search lie close together, so the voxels are still in the cache.
 //
-// Samples are taken in pairs, so that a processor computes one while the other waits for a division: of an image alone a
-// sample and the next on the line, where the scan's texels hold several images the same sample of two of them. What
-// comes of them is stored as one value, as llvmpipe stores lane after lane, and each value of a vector by itself.
+// Samples are computed in pairs, so that a processor works at one while the other waits for a division: the same sample
+// of two images where images lie abreast in the scan, else two neighbours on the line. Stored at once is a texel of
+// images abreast, which takes one pair's terms or two pairs' greys, or else what comes of a pair. Where the device has
+// integers of 64 bits it is a single value, as llvmpipe takes as long again for each value of a vector.
 
 #ifdef GL_ARB_gpu_shader_int64
 #extension GL_ARB_gpu_shader_int64 : enable
@@ -29,7 +30,7 @@ layout(binding = 2) uniform sampler2D places;       // a row an image: the rows 
 #else
 #define Stored Words
 #endif
-layout(std430, binding = 0) writeonly buffer Scan { Stored scan[]; };  // 16 bits each, as shared/wein_scan.glsl reads it
+layout(std430, binding = 0) writeonly buffer Scan { Stored scan[]; };  // as shared/wein_scan.glsl reads it
 layout(std430, binding = 1) buffer Counter { uint samples_walked; };  // of a call
 #ifdef INTENSITY
 layout(binding = 1, r32f) writeonly uniform image2D intensities;  // of the first image
@@ -74,16 +75,16 @@ vec4 density_at(Line of_image, float k) {
 #endif
 }
 
-// Of a pair whose first sample is the k-th; takes ln I, as it is before each of them, on to the next pair.
+// Of a pair whose first sample is the k-th. Takes ln I on to the next pair: that of each image, or of the one twice.
 Terms terms_of(Line one, Line other, int k, inout vec2 log_intensity) {
-  vec2 places_along = vec2(k, k + kSamplesAPair - 1);
-  vec4 here = density_at(one, places_along.x), there = density_at(other, places_along.y);
+  vec2 steps = vec2(k, k + kSamplesAPair - 1);
+  vec4 here = density_at(one, steps.x), there = density_at(other, steps.y);
   vec3 gradient = here.yzw * 0.125, gradient_there = there.yzw * 0.125;
   vec2 steepness = sqrt(vec2(dot(gradient, gradient), dot(gradient_there, gradient_there)));
   vec2 across = abs(vec2(dot(one.direction, gradient), dot(other.direction, gradient_there)));
   vec2 cosine = across / max(steepness, 1e-20), hu = vec2(here.x, there.x);
 
-  bvec2 contact = lessThan(places_along, vec2(first_free_sample)), air = lessThan(hu, vec2(kContactAirHu));
+  bvec2 contact = lessThan(steps, vec2(first_free_sample)), air = lessThan(hu, vec2(kContactAirHu));
   hu = mix(hu, vec2(0.0), bvec2(contact.x && air.x, contact.y && air.y));
   vec2 change = mix(min(steepness / (2.0 * max(hu + 1000.0, kAirMu)), 1.0), vec2(0.0), contact);
 
@@ -102,7 +103,7 @@ Terms terms_of(Line one, Line other, int k, inout vec2 log_intensity) {
 
 uint greys_of(Terms terms) { return packUnorm2x16(mix(terms.echogenicity, terms.reflection, reflection_share)); }
 
-// How many samples were walked, of all images, before nothing was left.
+// How many samples were walked, of all images, before nothing was left of any.
 int walk(int image) {
   Line ways[2 * kPairs];
   for (int i = 0; i < 2 * kPairs; ++i) ways[i] = line_of(min(image + i / kSamplesAPair, images - 1));
