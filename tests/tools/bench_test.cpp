@@ -138,8 +138,9 @@ TEST_CASE("the plot names the front's settings and the levels of quality alone, 
   CHECK(svg.find("beaten: 9.0 ms") == std::string::npos);
 }
 
-TEST_CASE("the levels of quality are points of the measured front") {
-  const std::string file = INSONATE_DOCS_FOLDER "/benchmarks/xeon-2-cores/front.csv";
+TEST_CASE("the levels of quality are points of the measured fronts") {
+  const std::string machine = GENERATE("xeon-2-cores", "epyc-2-cores");
+  const std::string file = INSONATE_DOCS_FOLDER "/benchmarks/" + machine + "/front.csv";
   const Table table = Table::parse(file, read_file(file));
   for (const Quality quality : kQualities) {
     const Settings settings = at_quality(trainer_settings(3.5, 160), quality);
