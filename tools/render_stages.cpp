@@ -15,15 +15,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kImpedance = "Z, MRayl; gel in place of air within gel_mm";
+constexpr const char* kAlpha = "alpha (1): ((Z(r + l/2) - Z(r - l/2)) / (Z(r + l/2) + Z(r - l/2)))^2";
+
 void write_tissue(const fs::path& folder, const Tissue& tissue) {
   const auto write = [&](const char* name, const Image<float>& image, const char* content) {
     write_among_lines(folder, name, image, content);
   };
   write("hounsfield", tissue.hounsfield, "Hounsfield units of the volume, trilinear; gel as water");
   write("echogenicity", tissue.echogenicity, "backscatter relative to liver, dB");
-  write("impedance", tissue.impedance, "Z, MRayl; gel in place of air within gel_mm");
+  write("impedance", tissue.impedance, kImpedance);
   write("absorption", tissue.absorption, "a, dB/(cm MHz), one way; gel as in impedance");
-  write("alpha", tissue.alpha, "alpha (1): ((Z(r + l/2) - Z(r - l/2)) / (Z(r + l/2) + Z(r - l/2)))^2");
+  write("alpha", tissue.alpha, kAlpha);
   write("incidence", tissue.incidence, "|d . n|, n from differences of Z over l along three axes");
 }
 
@@ -39,12 +42,17 @@ void write_planes(const fs::path& folder, const RenderedScene& scene, const Scan
   for (std::size_t i = 0; i < planes.size(); ++i) {
     const fs::path of_plane = folder / slice_folder(planes, i);
     fs::create_directories(of_plane);
-    write_tissue(of_plane, tissue_along(lines, scene, planes[i]));
+    const Tissue tissue = tissue_along(lines, scene, planes[i]);
+    write_tissue(of_plane, tissue);
     const ReferenceScan scan =
         traverse_reference(field, scene.table, lines, scene.settings, scene.patient_from_probe, planes[i]);
     if (planes.size() > 1) {
       write_among_lines(of_plane, "transmission", in_single_precision(scan.intensity), "I (5) of this plane");
       write_among_lines(of_plane, "reflection", in_single_precision(scan.reflection), "R (3) of this plane");
+      if (i == planes.size() / 2) {  // the imaging plane: where one looks first
+        write_among_lines(folder, "impedance", tissue.impedance, kImpedance);
+        write_among_lines(folder, "alpha", tissue.alpha, kAlpha);
+      }
     }
     add(echo_re, planes[i].weight, scan.echo_re);
     add(echo_im, planes[i].weight, scan.echo_im);

@@ -40,7 +40,8 @@ std::string slice_folder(const std::vector<SlicePlane>& planes, std::size_t plan
 ///   sizes N D, x line, y sample   hounsfield, echogenicity, impedance, absorption, alpha, incidence (what the model's
 ///                                 definitions give on these lines, in double precision; if the slice has several
 ///                                 planes, in a folder of each, plane_1 and so on, with its
-///                                 transmission and reflection beside them); echo_re, echo_im (the same, all
+///                                 transmission and reflection beside them, and impedance and alpha of the middle
+///                                 one, which is the imaging plane, here too); echo_re, echo_im (the same, all
 ///                                 planes' sum by weight); transmission, reflection, reflection_beam, speckle (what
 ///                                 `stages` hold)
 ///   sizes W H, marker (+x) right  pixel_line, pixel_sample (where the pixel lies among the lines); fused, image
