@@ -46,17 +46,6 @@ public:
 
 private:
   Plane blank() const { return {n_, d_, std::vector<double>(std::size_t(n_) * std::size_t(d_), 0.0)}; }
-  /// What lies beside all planes' sums is of the imaging plane.
-  void middle() {
-    const auto& slices = about_.at("slice_planes");
-    const std::string folder = slices.at(slices.size() / 2).at("folder");
-    if (folder.empty()) return;
-    for (const char* name : {"impedance", "alpha"})
-      for (int line = 0; line < n_; ++line)
-        for (int k = 0; k < d_; ++k)
-          compare("the middle plane", plane(folder + "/" + name).at(line, k), plane(name).at(line, k), 1e-12);
-  }
-
   const Plane& met(const char* name) const { return plane(prefix_ + name); }
 
   struct Knot {
@@ -208,6 +197,17 @@ private:
         re_.at(line, k) += weight_ * amplitude * drawn[0];
         im_.at(line, k) += weight_ * amplitude * drawn[1];
       }
+  }
+
+  /// What lies beside all planes' sums is of the imaging plane.
+  void middle() {
+    const auto& slices = about_.at("slice_planes");
+    const std::string folder = slices.at(slices.size() / 2).at("folder");
+    if (folder.empty()) return;
+    for (const char* name : {"impedance", "alpha"})
+      for (int line = 0; line < n_; ++line)
+        for (int k = 0; k < d_; ++k)
+          compare("the middle plane", plane(folder + "/" + name).at(line, k), plane(name).at(line, k), 1e-12);
   }
 
   /// What the planes' sum is held against.
