@@ -20,8 +20,8 @@ namespace insonate {
 /// from 0 to 1 while c_j - c_i rises from l/2 to l, because what is nearer is one interface; s = dr/l shares a sharp
 /// interface's R among the samples that show it, and is 1 for the face. An echo has R_j's shape: sample k of it lies as
 /// far from its place as j does from c_j; between samples it is shared among the nearest four by the cubic B-spline, so
-/// that no edge of it appears at once when the probe moves. Rounds of less than kLeastRound cannot be seen and are left
-/// out without a step: g counts as g - kLeastRound^2/g, and as 0 below.
+/// that no edge of it appears at once when the probe moves; a share below kLeastEcho (stages.h) is none. Rounds of less
+/// than kLeastRound cannot be seen and are left out without a step: g counts as g - kLeastRound^2/g, and as 0 below.
 ///
 /// V passes the beam's window (4) as R does, and adds to (6), U = (R + b T) S + V, because it is no scatterers' echo.
 inline constexpr double kLeastRound = 1e-3;

@@ -19,7 +19,7 @@ inline constexpr double kLeastEcho = 1e-30;
 ///     R = alpha I^2 |d . n|                                                                            (3)
 ///     T = I^2 if two_way, else I
 ///     U = (G1 R + b G2 T) S + what is heard beside                                                     (6)
-///     E = U 10^((gain_db + t)/10)
+///     E = U 10^((gain_db + t)/10),  0 where U is below kLeastEcho
 ///     grey = 255 m(clamp(1 + 10 log10(E/L) / dynamic_range_db, 0, 1)),  0 where E is 0                 (7)
 ///
 /// (5) has the paper's recursion for l = dr; l keeps it from depending on how many samples there are. Its last factor

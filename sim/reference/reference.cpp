@@ -17,10 +17,6 @@
 namespace insonate {
 namespace {
 
-double heard(double echo) {
-  return echo > kLeastEcho ? echo : 0;
-}
-
 /// The one asked for last is kept: drawing it takes longer than a small picture.
 std::shared_ptr<const ScattererLattice> lattice_of(std::uint32_t seed) {
   thread_local std::uint32_t kept_seed = 0;
@@ -222,6 +218,10 @@ double time_gain(const Settings& settings, double depth_share) {
   return std::pow(10.0, db / 10);
 }
 
+double heard(double echo) {
+  return echo > kLeastEcho ? echo : 0;
+}
+
 std::uint8_t grey_level(const Settings& settings, double echo, double level) {
   if (echo <= 0) return 0;
   const double grey = 1 + 10 * std::log10(echo / level) / settings.dynamic_range_db;
@@ -309,12 +309,12 @@ Stages<double> simulate_reference(const MediumField& field, const TissueTable& t
   for (std::size_t i = 0; i < stages.fused.pixels.size(); ++i) {
     stages.fused.pixels[i] =
         (reflection.pixels[i] + settings.blend * transmission.pixels[i]) * speckle.pixels[i] + beside.pixels[i];  // (6)
-    brightest = std::max(brightest, stages.fused.pixels[i] * gain.pixels[i]);
+    brightest = std::max(brightest, heard(stages.fused.pixels[i]) * gain.pixels[i]);
   }
   const double level = settings.reference_level == ReferenceLevel::frame_maximum ? brightest : settings.fixed_level;
   stages.grey = Image<std::uint8_t>(w, h);
   for (std::size_t i = 0; i < stages.fused.pixels.size(); ++i) {
-    const double echo = stages.fused.pixels[i] * gain.pixels[i];
+    const double echo = heard(stages.fused.pixels[i]) * gain.pixels[i];
     if (stages.inside.pixels[i]) stages.grey.pixels[i] = grey_level(settings, echo, level);
   }
   return stages;

@@ -35,6 +35,9 @@ MediumField trilinear_field(const AcousticVolume& volume);
 /// Gain and time gain at a share of the imaging depth, 0 to 1, as a factor on U.
 double time_gain(const Settings& settings, double depth_share);
 
+/// What is left of an echo where those below kLeastEcho are none.
+double heard(double echo);
+
 /// Log compression (7) and the grey map: 255 at `level`, 0 where `echo` is the dynamic range below it, or nothing.
 std::uint8_t grey_level(const Settings& settings, double echo, double level);
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sim/model/reverberation.h"
+#include "sim/reference/reference.h"
 
 namespace insonate {
 namespace {
@@ -53,7 +54,7 @@ Image<double> reverberation_reference(const Image<double>& intensity, const Imag
         if (position >= d + 1) break;  // the spline reaches before the line's end from behind it
         echo *= seen(round);
         for (int k = std::max(int(position) - 1, 0); k <= std::min(int(position) + 2, d - 1); ++k)
-          repeats.at(line, k) += cubic_b_spline(k - position) * echo;
+          repeats.at(line, k) += heard(cubic_b_spline(k - position) * echo);
       }
     };
     for (std::size_t j = 0; j < reflectors.size(); ++j) {

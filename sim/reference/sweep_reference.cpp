@@ -88,7 +88,7 @@ ReferenceVolume simulate_sweep_reference(const MediumField& field, const TissueT
           continue;
         }
         const double r_mm = (1 - at->share) * at->in_this.r_mm + at->share * at->in_next.r_mm;
-        gained.push_back(volume.fused.at({i, j, k}) * time_gain(settings, r_mm / sweep.depth_mm));
+        gained.push_back(heard(volume.fused.at({i, j, k})) * time_gain(settings, r_mm / sweep.depth_mm));
       }
   const double level = settings.reference_level == ReferenceLevel::fixed
                            ? settings.fixed_level

@@ -103,9 +103,10 @@ private:
         const double depth = std::clamp((plane("pixel_sample").at(x, y) + 0.5) / d_, 0.0, 1.0) * double(tgc.size() - 1);
         const std::size_t below = std::min(std::size_t(depth), tgc.size() - 2);
         const double low = tgc.at(below), high = tgc.at(below + 1);
-        db.at(x, y) = inside(x, y) && u.at(x, y) > 0 ? 10 * std::log10(u.at(x, y)) + low +
-                                                           (high - low) * (depth - double(below)) + setting("gain_db")
-                                                     : -HUGE_VAL;
+        db.at(x, y) =
+            inside(x, y) && u.at(x, y) > 1e-30
+                ? 10 * std::log10(u.at(x, y)) + low + (high - low) * (depth - double(below)) + setting("gain_db")
+                : -HUGE_VAL;
         brightest = std::max(brightest, db.at(x, y));
       }
     const double white =
