@@ -6,6 +6,7 @@
 #include "sim/model/refraction.h"
 #include "sim/model/reverberation.h"
 #include "sim/model/scatterers.h"
+#include "sim/model/stages.h"
 #include "sim/reference/reference.h"
 #include "sim/volume/ct_reader.h"
 #include "tools/stage_files.h"
@@ -118,6 +119,7 @@ Json describe(const RenderedScene& scene, const StageGeometry& geometry, const s
     if (!scene.tissue_of[label].empty()) text["tissue_of_label"][std::to_string(label)] = scene.tissue_of[label];
   text["echogenicity"] = echogenicity_constants();
   text["silent_db"] = kSilentDb;
+  text["least_echo"] = kLeastEcho;
   text["scatterers"] = scatterer_constants();
   text["beam_weights"] = beam_weights(scene.settings);
   if (scene.settings.focused_beam) text["beam_sigma_lines"] = focused_beam_sigma(lines, scene.settings);

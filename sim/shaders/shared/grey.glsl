@@ -1,13 +1,12 @@
 // From level to grey: log compression (7) and the grey map, which is known when a shader is compiled.
 
+#include "shared/least_echo.glsl"
+
 const float kSilent = -1e30;       // level of a pixel without any echo
 const float kOutsideFan = 1e30;    // and of one outside the fan
 
-// In decibels, because gains may reach beyond single precision's range and their decibels do not. What
-// is below kLeastEcho of sim/model/stages.h is none: devices differ in the logarithms of denormal numbers, and time gain
-// would show that.
-const float kLeastShown = 1e-30;
-float level_db(float echo) { return echo > kLeastShown ? 4.342944819 * log(echo) : kSilent; }
+// In decibels, because gains may reach beyond single precision's range and their decibels do not.
+float level_db(float echo) { return echo > kLeastEcho ? 4.342944819 * log(echo) : kSilent; }
 
 // Exponents and curve as GreyMap says.
 float mapped(float g) {

@@ -4,10 +4,9 @@
 //
 // A stage reads a texel as the buffer's format gives it, as floats in both.
 
-// As in sim/model/stages.h. Weaker ones would come to single precision's denormal numbers, and a processor is many times
-// as long about one of these as about another.
-const float kLeastEcho = 1e-30;
-const float kLeastIntensity = 1e-15;  // whose square that is
+#include "shared/least_echo.glsl"
+
+const float kLeastIntensity = 1e-15;  // whose square is kLeastEcho
 
 #if HALF_FLOATS == 1
 #define HANDED_4 uvec2

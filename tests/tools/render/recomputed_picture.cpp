@@ -96,6 +96,7 @@ private:
   void compression() {
     const Plane& u = plane("fused");
     const auto& tgc = set_.at("tgc_db");
+    const double least_echo = about_.at("least_echo");
     Plane db = u;  // of the echo behind gain
     double brightest = -HUGE_VAL;
     for (int y = 0; y < u.height; ++y)
@@ -104,7 +105,7 @@ private:
         const std::size_t below = std::min(std::size_t(depth), tgc.size() - 2);
         const double low = tgc.at(below), high = tgc.at(below + 1);
         db.at(x, y) =
-            inside(x, y) && u.at(x, y) > 1e-30
+            inside(x, y) && u.at(x, y) > least_echo
                 ? 10 * std::log10(u.at(x, y)) + low + (high - low) * (depth - double(below)) + setting("gain_db")
                 : -HUGE_VAL;
         brightest = std::max(brightest, db.at(x, y));
