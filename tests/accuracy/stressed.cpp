@@ -2,11 +2,13 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
 
 #include "sim/model/settings_file.h"
+#include "sim/probe/probe.h"
 #include "tests/accuracy/stress_bounds.h"
 #include "tests/gl/parity.h"
 
@@ -40,11 +42,13 @@ double largest(const Image<double>& image) {
 
 /// How far references that know place and density as single precision does are from the one that knows them exactly.
 struct Spread {
-  Image<double> intensity, reflection, repeated, speckle, fused, grey;
+  Image<double> intensity, reflection, reflection_beam, transmission, repeated, speckle, fused, grey;
 
   explicit Spread(const Stages<double>& of)
       : intensity(of.intensity.width, of.intensity.height),
         reflection(intensity),
+        reflection_beam(intensity),
+        transmission(intensity),
         repeated(intensity),
         speckle(intensity),
         fused(of.fused.width, of.fused.height),
@@ -53,6 +57,8 @@ struct Spread {
   void include(const Stages<double>& expected, const Stages<double>& other) {
     widen(intensity, expected.intensity, other.intensity);
     widen(reflection, expected.reflection, other.reflection);
+    widen(reflection_beam, expected.reflection_beam, other.reflection_beam);
+    widen(transmission, expected.transmission, other.transmission);
     widen(repeated, expected.repeated, other.repeated);
     widen(speckle, expected.speckle, other.speckle);
     widen(fused, expected.fused, other.fused);
@@ -77,6 +83,45 @@ Image<double> tolerated(const Image<double>& expected, const Image<double>& spre
   return result;
 }
 
+/// The largest within two pixels of each.
+Image<double> loudest_around(const Image<double>& image) {
+  constexpr int kReach = 2;
+  Image<double> found = image;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      for (int v = std::max(y - kReach, 0); v <= std::min(y + kReach, image.height - 1); ++v)
+        for (int u = std::max(x - kReach, 0); u <= std::min(x + kReach, image.width - 1); ++u)
+          found.at(x, y) = std::max(found.at(x, y), image.at(u, v));
+  return found;
+}
+
+/// The largest U that the samples beside each pixel could make: where a pixel lies among them is known in single
+/// precision, so that much of this too many is told to it.
+Image<double> loudest_samples_around(const Scene& scene, const Stages<double>& of) {
+  const int lines = of.intensity.width, samples = of.intensity.height;
+  const ScanLines placed = scan_lines(scene.probe, scene.depth_mm, samples);
+  const ImageGeometry picture = image_geometry(scene.probe, scene.depth_mm, of.fused.width, of.fused.height);
+  Image<double> found(of.fused.width, of.fused.height);
+  for (int y = 0; y < found.height; ++y)
+    for (int x = 0; x < found.width; ++x)
+      if (const auto at = line_position(scene.probe, scene.depth_mm, picture.plane_mm(x, y))) {
+        const int line = int(at->line), k = int((at->r_mm - placed.r_min_mm) / placed.dr_mm());
+        double echo = 0, scattered = 0, repeated = 0;
+        for (int j = std::max(line - 1, 0); j <= std::min(line + 2, lines - 1); ++j)
+          for (int i = std::max(k - 2, 0); i <= std::min(k + 2, samples - 1); ++i) {
+            echo = std::max(echo, of.reflection_beam.at(j, i) + scene.settings.blend * of.transmission.at(j, i));
+            scattered = std::max(scattered, of.speckle.at(j, i));
+            repeated = std::max(repeated, of.repeated.at(j, i));
+          }
+        found.at(x, y) = echo * scattered + repeated;
+      }
+  return found;
+}
+
+/// What single precision may take for a scatterer: amplitudes begin at 10^-6 less 10^-6, by hundredths of a dB around
+/// 6000, known to 2.4e-4 each.
+constexpr double kSilentRounding = 2e-12;
+
 /// Where shaders and reference are further apart than they may be; "" where they are not.
 std::string disagreement(const Scene& scene, const Stages<double>& expected, const Stages<float>& got,
                          const Spread& spread) {
@@ -92,6 +137,15 @@ std::string disagreement(const Scene& scene, const Stages<double>& expected, con
             tolerated(expected.reflection, spread.reflection, [&](double) { return 1e-4 * brightest; }));
   if (!(reflection.error < 1)) return told("R", reflection);
 
+  const Worst beam = worst(expected.reflection_beam, got.reflection_beam,
+                           tolerated(expected.reflection_beam, spread.reflection_beam,
+                                     [&](double r) { return 1e-4 * r + 1e-6 * brightest; }));
+  if (!(beam.error < 1)) return told("R behind the beam", beam);
+  const Worst transmission =
+      worst(expected.transmission, got.transmission,
+            tolerated(expected.transmission, spread.transmission, [](double t) { return 2e-4 * std::max(t, 1e-12); }));
+  if (!(transmission.error < 1)) return told("T", transmission);
+
   // A place in the lattice is known to the last place of as many periods as a line is long, and cells lie 128 a period.
   const double periods = 1 + scene.depth_mm / (128 * scene.settings.speckle_cell_mm);
   const double of_loudest = 1e-3 + (scene.settings.speckle ? 4 * 128 * 1.2e-7 * periods : 0);
@@ -101,19 +155,25 @@ std::string disagreement(const Scene& scene, const Stages<double>& expected, con
             tolerated(expected.speckle, spread.speckle, [&](double) { return of_loudest * loudest; }));
   if (!(speckle.error < 1)) return told("S", speckle);
 
-  const double loudest_repeat = largest(expected.repeated);
   const Worst repeated = worst(expected.repeated, got.repeated,
                                tolerated(expected.repeated, spread.repeated, [&](double) { return 1e-4 * brightest; }));
   if (!(repeated.error < 1)) return told("V", repeated);
 
-  // Grey values follow from U: what may be wrong of U, in decibels, and two grey levels.
+  // An envelope near its zero is as wrong as the envelopes around it are large. Grey values follow from what may be
+  // wrong of U, in decibels, and are off by two levels besides.
   const Settings& s = scene.settings;
-  const Image<double> fused_tolerance = tolerated(expected.fused, spread.fused, [&](double value) {
-    return 1e-3 * value + (1e-4 * brightest + 2e-10 * s.blend) * loudest + 1e-4 * loudest_repeat;
-  });
+  const Image<double> around = loudest_around(expected.fused);
+  const Image<double> beside = loudest_samples_around(scene, expected);
+  const double place = 2.4e-7 * std::max(expected.intensity.width, expected.intensity.height);
+  const double silent = kLeastEcho + kSilentRounding * s.blend * largest(expected.transmission);
+  Image<double> fused_tolerance = tolerated(expected.fused, spread.fused, [&](double) { return silent; });
+  for (std::size_t i = 0; i < around.pixels.size(); ++i)
+    fused_tolerance.pixels[i] += 1e-3 * around.pixels[i] + place * beside.pixels[i];
+  const Worst fused = worst(expected.fused, got.fused, fused_tolerance);
+  if (!(fused.error < 1)) return told("U", fused);
+
   for (std::size_t i = 0; i < expected.grey.pixels.size(); ++i) {
     const double u = expected.fused.pixels[i];
-    // Where the envelope is near its zero, its own error is as large as it is.
     if (!expected.inside.pixels[i] || fused_tolerance.pixels[i] >= 0.5 * u) continue;
     const double db = -10 * std::log10(1 - fused_tolerance.pixels[i] / u);
     const double allowed = 2 + std::ceil(255 * db / s.dynamic_range_db) + 4 * spread.grey.pixels[i];
