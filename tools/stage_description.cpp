@@ -106,6 +106,7 @@ Json describe(const RenderedScene& scene, const StageGeometry& geometry, const s
   text["reflection_length_mm"] = scene.settings.reflection_length_mm;
   text["frequency_mhz"] = scene.settings.frequency_mhz;
   text["coupling_air_hu"] = kCouplingAirHu;
+  text["coupling_tissue_hu"] = kCouplingTissueHu;
   text["face_mm"] = kFace_mm;
   describe_settings(text, named_settings(scene.settings));
   for (const TissueKnot& knot : scene.table.knots)

@@ -117,7 +117,9 @@ double grey_of(GreyMap map, double g) {
 }  // namespace
 
 Medium with_gel(const Medium& medium, double r_mm, double gel_mm) {
-  return r_mm < std::max(gel_mm, kFace_mm) && medium.hu < kCouplingAirHu ? Medium{0, -60} : medium;
+  if (r_mm >= std::max(gel_mm, kFace_mm)) return medium;
+  const double gel = std::clamp((kCouplingTissueHu - medium.hu) / (kCouplingTissueHu - kCouplingAirHu), 0.0, 1.0);
+  return {(1 - gel) * medium.hu, (1 - gel) * medium.echogenicity_db + gel * kLeastEchogenicityDb};
 }
 
 MediumField trilinear_field(const AcousticVolume& volume) {

@@ -21,9 +21,10 @@ struct Medium {
 };
 using MediumField = std::function<Medium(const glm::dvec3& patient_mm)>;
 
-/// Below this density, what lies within the gel layer is gel. Not a whole number, as voxels are: in a volume of one
-/// density the last place of a sum would decide.
-inline constexpr double kCouplingAirHu = kMostAirHu + 0.5;
+/// Within the gel layer all air is gel. Of what is less dense than kCouplingTissueHu, as the skin's outermost voxels
+/// are, a share is, evenly more down to kCouplingAirHu: were there a density at which tissue turned into gel at once,
+/// echoes of the skin would come and go while the probe moves.
+inline constexpr double kCouplingTissueHu = -150, kCouplingAirHu = kMostAirHu;
 
 /// What the sound meets where the field has `medium`, at a distance from the face along the line: coupling gel of
 /// `gel_mm`, or the face itself, which is water without any echo, takes the place of air.

@@ -22,7 +22,7 @@ layout(location = 1) out vec4 carried;  // I behind this sample, and what the ne
 
 float density(vec3 at, float r) {
   float hu = textureLod(acoustic_volume, at, 0.0).r * 32767.0;
-  return r < gel_mm && hu < kCouplingAirHu ? 0.0 : hu;
+  return r < gel_mm ? (1.0 - gel_share(hu)) * hu : hu;
 }
 
 // ln(1 - alpha), by its series where 1 - alpha would lose the digits of a weak interface.

@@ -82,7 +82,7 @@ vec2 voxel(vec3 at) {
 }
 
 // Coupling gel fills what air there is between the face and the skin, up to its thickness.
-vec2 with_gel(vec2 voxel, float r) { return r < gel_mm && voxel.x < kCouplingAirHu ? kGel : voxel; }
+vec2 with_gel(vec2 voxel, float r) { return r < gel_mm ? mix(voxel, kGel, gel_share(voxel.x)) : voxel; }
 
 struct Medium { float hu, impedance, absorption, echogenicity; };
 
@@ -137,7 +137,8 @@ Surroundings surroundings(float k, float along) {
   vec3 a_voxel = here.yzw * (0.125 / 2.0), a_texture = a_voxel * vec3(textureSize(density, 0));
   vec2 to_side = vec2(dot(a_texture, line.lateral.xyz), dot(a_texture, line.elevation.xyz));
   vec4 beside = here.x + vec4(to_side.x, -to_side.x, to_side.y, -to_side.y);
-  if (depth(k) < gel_mm) beside = mix(beside, vec4(kGel.x), lessThan(beside, vec4(kCouplingAirHu)));
+  float r = depth(k);
+  for (int i = 0; i < 4; ++i) beside[i] = with_gel(vec2(beside[i], 0.0), r).x;
   return Surroundings(beside, dot(a_texture, line.along.xyz) * 2.0 * half_reflection_length);
 }
 #else

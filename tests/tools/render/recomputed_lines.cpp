@@ -24,6 +24,7 @@ public:
     l_ = setting("reflection_length_mm");
     gel_mm_ = std::max(setting("gel_mm"), value("face_mm"));
     coupling_air_hu_ = about_.at("coupling_air_hu");
+    coupling_tissue_hu_ = about_.at("coupling_tissue_hu");
     silent_db_ = about_.at("silent_db");
   }
 
@@ -62,8 +63,15 @@ private:
     }
     return knots_.back();
   }
-  double with_gel(double hu, double r) const { return r < gel_mm_ && hu < coupling_air_hu_ ? 0 : hu; }
-  double hu_at(const Vec3& p, double r) const { return with_gel(stages_.hounsfield.at(p, value_outside("hu")), r); }
+  double hu_in_volume(const Vec3& p) const { return stages_.hounsfield.at(p, value_outside("hu")); }
+  double share_of_gel(double hu, double r) const {
+    const double in_air = (hu - coupling_tissue_hu_) / (coupling_air_hu_ - coupling_tissue_hu_);
+    return r < gel_mm_ ? std::clamp(in_air, 0.0, 1.0) : 0;
+  }
+  double hu_at(const Vec3& p, double r) const {
+    const double hu = hu_in_volume(p);
+    return hu - share_of_gel(hu, r) * hu;
+  }
   double value_outside(const char* of) const { return about_.at("volume").at(std::string("outside_") + of); }
 
   /// On the line, or beside it in elevation, by so many thicknesses of the slice there.
@@ -189,8 +197,8 @@ private:
       for (int k = 0; k < d_; ++k) {
         const double r = r_min_ + (k + 0.5) * dr_;
         const Vec3 p = place(line, r);
-        const bool gel = r < gel_mm_ && stages_.hounsfield.at(p, value_outside("hu")) < coupling_air_hu_;
-        const double db = gel ? -60 : stages_.echogenicity.at(p, 100 * value_outside("echogenicity_db")) / 100;
+        const double of_tissue = stages_.echogenicity.at(p, 100 * value_outside("echogenicity_db")) / 100;
+        const double db = of_tissue + share_of_gel(hu_in_volume(p), r) * (-60 - of_tissue);
         compare("echogenicity", db, met("echogenicity").at(line, k), 60 * kFloat + 1e-9);
         const double amplitude = std::max(std::pow(10, db / 10) - std::pow(10, silent_db_ / 10), 0.0);
         const std::array<double, 2> drawn = on("speckle") ? lattice_.at(p) : std::array<double, 2>{1, 0};
@@ -231,7 +239,7 @@ private:
   const Tolerances tolerances_;
   const Lattice lattice_;
   std::vector<Knot> knots_;
-  double l_ = 0, gel_mm_ = 0, coupling_air_hu_ = 0, silent_db_ = 0;
+  double l_ = 0, gel_mm_ = 0, coupling_air_hu_ = 0, coupling_tissue_hu_ = 0, silent_db_ = 0;
   double offset_ = 0, weight_ = 1;  // of the slice's plane at hand
   std::string prefix_;
   Plane intensity_, reflection_, re_, im_, rounding_;  // the last of alpha's file, relative, in any plane
