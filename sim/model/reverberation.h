@@ -21,7 +21,9 @@ namespace insonate {
 /// interface's R among the samples that show it, and is 1 for the face. An echo has R_j's shape: sample k of it lies as
 /// far from its place as j does from c_j; between samples it is shared among the nearest four by the cubic B-spline, so
 /// that no edge of it appears at once when the probe moves; a share below kLeastEcho (stages.h) is none. Rounds of less
-/// than kLeastRound cannot be seen and are left out without a step: g counts as g - kLeastRound^2/g, and as 0 below.
+/// than kLeastRound are left out, though behind gas and bone they could be seen: thousands of samples reflect as much. g
+/// counts as g (1 - (kLeastRound/g)^2)^8, and as 0 below, so that a repeat comes up from below all that is seen while the
+/// probe moves: one that began with a slope would be there at once, as a picture's decibels have none at 0.
 ///
 /// V passes the beam's window (4) as R does, and adds to (6), U = (R + b T) S + V, because it is no scatterers' echo.
 inline constexpr double kLeastRound = 1e-3;

@@ -12,7 +12,7 @@ namespace {
 
 // What one round counts as.
 double seen(double round) {
-  return round > kLeastRound ? round - kLeastRound * kLeastRound / round : 0;
+  return round > kLeastRound ? round * std::pow(1 - std::pow(kLeastRound / round, 2), 8) : 0;
 }
 
 double cubic_b_spline(double x) {

@@ -34,7 +34,9 @@ void add(float position, float echo) {
 
 // What counts of a round that leaves so much.
 float seen(float round_trip) {
-  return max(round_trip - kLeastRound * kLeastRound / max(round_trip, kLeastRound), 0.0);
+  float least = kLeastRound / max(round_trip, kLeastRound);
+  float above = 1.0 - least * least, squared = above * above, to_the_fourth = squared * squared;
+  return round_trip * to_the_fourth * to_the_fourth;
 }
 
 // Sample k, which lies `apart` behind another reflector, with what a round between them leaves.

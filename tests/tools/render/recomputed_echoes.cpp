@@ -74,7 +74,7 @@ private:
     const double share = std::min(dr_ / l_, 1.0);
     const int near = std::max(int(std::ceil(l_ / dr_ - 1e-3)), 1);  // samples nearer than this are of one interface
     const auto counted = [&](double round) {
-      return round > least_round ? round - least_round * least_round / round : 0;
+      return round > least_round ? round * std::pow(1 - std::pow(least_round / round, 2), 8) : 0;
     };
     Plane repeats = plane("repeated");
     for (double& v : repeats.values) v = 0;
