@@ -23,7 +23,8 @@ namespace insonate {
 /// that no edge of it appears at once when the probe moves; a share below kLeastEcho (stages.h) is none. Rounds of less
 /// than kLeastRound are left out, though behind gas and bone they could be seen: thousands of samples reflect as much. g
 /// counts as g (1 - (kLeastRound/g)^2)^8, and as 0 below, so that a repeat comes up from below all that is seen while the
-/// probe moves: one that began with a slope would be there at once, as a picture's decibels have none at 0.
+/// probe moves: one that began with a slope would be there at once, as decibels have no slope at 0. Of a round from the
+/// face, A_j T^2 counts so, and the face's A is a factor of what counts.
 ///
 /// V passes the beam's window (4) as R does, and adds to (6), U = (R + b T) S + V, because it is no scatterers' echo.
 inline constexpr double kLeastRound = 1e-3;

@@ -48,11 +48,11 @@ Image<double> reverberation_reference(const Image<double>& intensity, const Imag
       reflectors.push_back({k, strength(k), moment / sum});
     }
 
-    const auto repeat = [&](const Reflector& deep, double echo, double apart_mm, double round) {
+    const auto repeat = [&](const Reflector& deep, double echo, double apart_mm, double gain) {
       for (int n = 1; n <= kMostRepeats && apart_mm > 0; ++n) {
         const double position = deep.sample + n * apart_mm / dr;
         if (position >= d + 1) break;  // the spline reaches before the line's end from behind it
-        echo *= seen(round);
+        echo *= gain;
         for (int k = std::max(int(position) - 1, 0); k <= std::min(int(position) + 2, d - 1); ++k)
           repeats.at(line, k) += heard(cubic_b_spline(k - position) * echo);
       }
@@ -60,14 +60,14 @@ Image<double> reverberation_reference(const Image<double>& intensity, const Imag
     for (std::size_t j = 0; j < reflectors.size(); ++j) {
       const Reflector& deep = reflectors[j];
       const double echo = reflection.at(line, deep.sample), before = i_at(deep.sample - near + 1);
-      repeat(deep, echo, deep.place_mm, settings.face_reflection * deep.strength * before * before);
+      repeat(deep, echo, deep.place_mm, settings.face_reflection * seen(deep.strength * before * before));
       for (std::size_t i = 0; i < j && settings.reverberation; ++i) {
         const Reflector& shallow = reflectors[i];
         const double apart = deep.place_mm - shallow.place_mm;
         const double separate = std::clamp(2 * apart / l - 1, 0.0, 1.0);
         const double behind = i_at(shallow.sample + near), between = behind > before ? before / behind : 1;
         repeat(deep, std::min(dr / l, 1.0) * echo, apart,
-               separate * shallow.strength * deep.strength * between * between);
+               seen(separate * shallow.strength * deep.strength * between * between));
       }
     }
   }

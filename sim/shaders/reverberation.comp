@@ -76,7 +76,7 @@ void main() {
     }
     float c = float(k) + moment / sum, before = intensity(k - near + 1);
 #if AT_FACE == 1
-    float of_face = seen(face_reflection * here.x * before * before);
+    float of_face = face_reflection * seen(here.x * before * before);
     if (of_face > 0.0) repeat(k, here.y, c + 0.5 + r_min_mm / dr_mm, of_face);
 #endif
 #if IN_TISSUE == 1

@@ -51,14 +51,14 @@ Change greatest_change(Stressed& stressed, const Scene& scene) {
   return most;
 }
 
-/// What is left of a change in the 500th part of the step that has most of it: of a jump, all.
+/// What is left of a change in the 1000th part of the step that has most of it: of a jump, all.
 int at_once(Stressed& stressed, const Scene& scene, const Change& change) {
   const auto grey_at = [&](double mm) {
     return int(stressed.shaders(moved(scene, change.direction, mm)).grey.pixels[change.pixel]);
   };
   double from_mm = 0, to_mm = kStep_mm;
   int from = grey_at(from_mm), to = grey_at(to_mm);
-  while (to_mm - from_mm > kStep_mm / 500) {
+  while (to_mm - from_mm > kStep_mm / 1000) {
     const double middle_mm = (from_mm + to_mm) / 2;
     const int middle = grey_at(middle_mm);
     const bool first_half = std::abs(middle - from) > std::abs(to - middle);

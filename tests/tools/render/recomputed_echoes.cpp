@@ -84,9 +84,9 @@ private:
         return i_at(k) > least_reverberant ? reflected.at(line, k) / (i_at(k) * i_at(k)) : 0;
       };
       // Sound that goes to and fro over `way` shows sample k again and again.
-      const auto ring = [&](int k, double way, double echo, double round) {
-        for (int n = 1; n <= most_repeats && counted(round) > 0; ++n) {
-          echo *= counted(round);
+      const auto ring = [&](int k, double way, double echo, double gain) {
+        for (int n = 1; n <= most_repeats && gain > 0; ++n) {
+          echo *= gain;
           const double at = k + n * way / dr_;
           if (at >= d_ + 1) break;
           for (int j = std::max(int(at) - 1, 0); j <= std::min(int(at) + 2, d_ - 1); ++j)
@@ -103,11 +103,11 @@ private:
           moment += reflects(j) * (r_min_ + (j + 0.5) * dr_);
         }
         const double here = moment / sum, echo = reflected.at(line, k), before = i_at(k - near + 1);
-        ring(k, here, echo, setting("face_reflection") * reflects(k) * before * before);
+        ring(k, here, echo, setting("face_reflection") * counted(reflects(k) * before * before));
         for (std::size_t i = 0; i < found.size() && on("reverberation"); ++i) {
           const double way = here - place[i], between = std::min(1.0, before / i_at(found[i] + near));
           const double apart = std::clamp((way - l_ / 2) / (l_ / 2), 0.0, 1.0);
-          ring(k, way, share * echo, apart * reflects(found[i]) * reflects(k) * between * between);
+          ring(k, way, share * echo, counted(apart * reflects(found[i]) * reflects(k) * between * between));
         }
         found.push_back(k);
         place.push_back(here);
