@@ -128,6 +128,7 @@ Json describe(const RenderedScene& scene, const StageGeometry& geometry, const s
   text["clutter_share"] = clutter_share(scene.settings);
   text["clutter_tail_mm"] = kClutterTail_mm;
   text["reverberation"] = {{"least_round", kLeastRound},
+                           {"least_from_face", kLeastFromFace},
                            {"least_reverberant", kLeastReverberant},
                            {"most_repeats", kMostRepeats},
                            {"most_reflectors", kMostReflectors}};

@@ -21,13 +21,13 @@ namespace insonate {
 /// interface's R among the samples that show it, and is 1 for the face. An echo has R_j's shape: sample k of it lies as
 /// far from its place as j does from c_j; between samples it is shared among the nearest four by the cubic B-spline, so
 /// that no edge of it appears at once when the probe moves; a share below kLeastEcho (stages.h) is none. Rounds of less
-/// than kLeastRound are left out, though behind gas and bone they could be seen: thousands of samples reflect as much. g
-/// counts as g (1 - (kLeastRound/g)^2)^8, and as 0 below, so that a repeat comes up from below all that is seen while the
-/// probe moves: one that began with a slope would be there at once, as decibels have no slope at 0. Of a round from the
-/// face, A_j T^2 counts so, and the face's A is a factor of what counts.
+/// than kLeastRound are left out, though behind gas and bone they could be seen: thousands of samples reflect as much.
+/// g counts as g (1 - (kLeastRound/g)^2)^8, and as 0 below, so that a repeat comes up from below all that is seen while
+/// the probe moves: one that began with a slope would be there at once, as decibels have no slope at 0. Of a round from
+/// the face it is A_j T^2 that counts so, with kLeastFromFace; the face's own A is a factor of what counts.
 ///
 /// V passes the beam's window (4) as R does, and adds to (6), U = (R + b T) S + V, because it is no scatterers' echo.
-inline constexpr double kLeastRound = 1e-3;
+inline constexpr double kLeastRound = 1e-3, kLeastFromFace = 1e-2;
 inline constexpr int kMostRepeats = 16;
 inline constexpr int kMostReflectors = 64;  ///< samples of a line that are looked at: the first so strong
 /// Sound is too weak to come back a second time where I is less.

@@ -11,8 +11,8 @@ namespace insonate {
 namespace {
 
 // What one round counts as.
-double seen(double round) {
-  return round > kLeastRound ? round * std::pow(1 - std::pow(kLeastRound / round, 2), 8) : 0;
+double counted(double round, double least) {
+  return round > least ? round * std::pow(1 - std::pow(least / round, 2), 8) : 0;
 }
 
 double cubic_b_spline(double x) {
@@ -60,14 +60,15 @@ Image<double> reverberation_reference(const Image<double>& intensity, const Imag
     for (std::size_t j = 0; j < reflectors.size(); ++j) {
       const Reflector& deep = reflectors[j];
       const double echo = reflection.at(line, deep.sample), before = i_at(deep.sample - near + 1);
-      repeat(deep, echo, deep.place_mm, settings.face_reflection * seen(deep.strength * before * before));
+      repeat(deep, echo, deep.place_mm,
+             settings.face_reflection * counted(deep.strength * before * before, kLeastFromFace));
       for (std::size_t i = 0; i < j && settings.reverberation; ++i) {
         const Reflector& shallow = reflectors[i];
         const double apart = deep.place_mm - shallow.place_mm;
         const double separate = std::clamp(2 * apart / l - 1, 0.0, 1.0);
         const double behind = i_at(shallow.sample + near), between = behind > before ? before / behind : 1;
         repeat(deep, std::min(dr / l, 1.0) * echo, apart,
-               seen(separate * shallow.strength * deep.strength * between * between));
+               counted(separate * shallow.strength * deep.strength * between * between, kLeastRound));
       }
     }
   }

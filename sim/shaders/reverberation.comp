@@ -12,7 +12,7 @@ layout(binding = 0) uniform samplerBuffer scan;                   // a row a lin
 layout(std430, binding = 0) buffer Repeats { float repeats[]; };  // a row a line: V, 0 before
 
 const int kMostReflectors = 64, kMostRepeats = 16;  // as in sim/model/reverberation.h, with the next
-const float kLeastRound = 1e-3, kLeastReverberant = 1e-12;
+const float kLeastRound = 1e-3, kLeastFromFace = 1e-2, kLeastReverberant = 1e-12;
 
 int row;  // where the line begins
 float intensity(int k) { return energy_of(texelFetch(scan, row + clamp(k, 0, samples - 1)).xy).x; }
@@ -33,9 +33,9 @@ void add(float position, float echo) {
 }
 
 // What counts of a round that leaves so much.
-float seen(float round_trip) {
-  float least = kLeastRound / max(round_trip, kLeastRound);
-  float above = 1.0 - least * least, squared = above * above, to_the_fourth = squared * squared;
+float counted(float round_trip, float least) {
+  float share = least / max(round_trip, least);
+  float above = 1.0 - share * share, squared = above * above, to_the_fourth = squared * squared;
   return round_trip * to_the_fourth * to_the_fourth;
 }
 
@@ -76,7 +76,7 @@ void main() {
     }
     float c = float(k) + moment / sum, before = intensity(k - near + 1);
 #if AT_FACE == 1
-    float of_face = face_reflection * seen(here.x * before * before);
+    float of_face = face_reflection * counted(here.x * before * before, kLeastFromFace);
     if (of_face > 0.0) repeat(k, here.y, c + 0.5 + r_min_mm / dr_mm, of_face);
 #endif
 #if IN_TISSUE == 1
@@ -86,7 +86,7 @@ void main() {
         apart = c - place[i];
         float between = min(before / behind[i], 1.0);
         float separate = clamp(2.0 * apart / length_in_samples - 1.0, 0.0, 1.0);
-        gain = seen(separate * strength[i] * here.x * between * between);
+        gain = counted(separate * strength[i] * here.x * between * between, kLeastRound);
       }
       if (gain == 0.0) break;
       repeat(k, here.y * share, apart, gain);

@@ -69,12 +69,13 @@ private:
     const std::string middle = planes.at(planes.size() / 2).at("folder");
     const std::string prefix = middle.empty() ? "" : middle + "/";
     const Plane &passing = plane(prefix + "transmission"), &reflected = plane(prefix + "reflection");
-    const double least_round = about.at("least_round"), least_reverberant = about.at("least_reverberant");
+    const double least_round = about.at("least_round"), least_from_face = about.at("least_from_face");
+    const double least_reverberant = about.at("least_reverberant");
     const int most_repeats = about.at("most_repeats"), most_reflectors = about.at("most_reflectors");
     const double share = std::min(dr_ / l_, 1.0);
     const int near = std::max(int(std::ceil(l_ / dr_ - 1e-3)), 1);  // samples nearer than this are of one interface
-    const auto counted = [&](double round) {
-      return round > least_round ? round * std::pow(1 - std::pow(least_round / round, 2), 8) : 0;
+    const auto counted = [&](double round, double least) {
+      return round > least ? round * std::pow(1 - std::pow(least / round, 2), 8) : 0;
     };
     Plane repeats = plane("repeated");
     for (double& v : repeats.values) v = 0;
@@ -103,11 +104,12 @@ private:
           moment += reflects(j) * (r_min_ + (j + 0.5) * dr_);
         }
         const double here = moment / sum, echo = reflected.at(line, k), before = i_at(k - near + 1);
-        ring(k, here, echo, setting("face_reflection") * counted(reflects(k) * before * before));
+        ring(k, here, echo, setting("face_reflection") * counted(reflects(k) * before * before, least_from_face));
         for (std::size_t i = 0; i < found.size() && on("reverberation"); ++i) {
           const double way = here - place[i], between = std::min(1.0, before / i_at(found[i] + near));
           const double apart = std::clamp((way - l_ / 2) / (l_ / 2), 0.0, 1.0);
-          ring(k, way, share * echo, counted(apart * reflects(found[i]) * reflects(k) * between * between));
+          ring(k, way, share * echo,
+               counted(apart * reflects(found[i]) * reflects(k) * between * between, least_round));
         }
         found.push_back(k);
         place.push_back(here);
