@@ -79,7 +79,7 @@ TEST_CASE("settings at the ends of their ranges") {
       {"no smoothing", set(&S::reflection_sigma_mm, 0.0)},
       {"a frame of zeros, whose brightest is white",
        [](Scene& scene) {
-         scene.volume = make_volume({8, 8, 8}, {10, 10, 10}, [](const glm::ivec3&) { return 0; });
+         scene.volume = make_volume({8, 8, 8}, {40, 40, 40}, [](const glm::ivec3&) { return 0; });  // beyond the fan
          scene.settings.reference_level = ReferenceLevel::frame_maximum;
          scene.settings.speckle = scene.settings.electronic_noise = scene.settings.clutter = false;
          scene.settings.blend = 0;

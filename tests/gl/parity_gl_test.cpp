@@ -121,11 +121,12 @@ TEST_CASE("GLSL agrees with the reference: curvilinear probe, everything on") {
   check_parity(probe, 120, small(trainer_settings(3.5, 120)), test::on_the_skin(0, 9, 12));
 }
 
-TEST_CASE("GLSL agrees with the reference: linear probe, wide box beam") {
+TEST_CASE("GLSL agrees with the reference: linear probe, a wide beam of each window") {
   Probe probe = *find_probe("linear");
   probe.lines = 80;
   Settings settings = small(trainer_settings(7.5, 60));
-  settings.beam_window = BeamWindow::box;
+  settings.focused_beam = false;
+  settings.beam_window = GENERATE(BeamWindow::box, BeamWindow::triangle, BeamWindow::hann);
   settings.beam_lines = 11;
   settings.transmission_sigma_mm = 1.5;
   check_parity(probe, 60, settings, test::on_the_skin(-10, 1, -8));

@@ -106,6 +106,32 @@ TEST_CASE("a settings file is a preset and what is written over it") {
   CHECK_FALSE(own.absorption);
 }
 
+TEST_CASE("each effect beyond the paper is off in the paper's own mode and on in the trainer") {
+  const Settings paper = paper_settings(kDepth, 300), trainer = trainer_settings(kFrequency, kDepth);
+  using S = Settings;
+  for (const auto effect : {&S::absorption, &S::two_way, &S::focused_beam, &S::reverberation, &S::edge_shadow,
+                            &S::clutter, &S::electronic_noise}) {
+    CHECK_FALSE(paper.*effect);
+    CHECK(trainer.*effect);
+  }
+  for (const auto amount : {&S::gel_mm, &S::face_reflection}) {
+    CHECK(paper.*amount == 0);
+    CHECK(trainer.*amount > 0);
+  }
+  CHECK(paper.slice_planes == 1);
+  CHECK(trainer.slice_planes > 1);
+  CHECK(paper.reference_level == ReferenceLevel::frame_maximum);
+  CHECK(trainer.reference_level == ReferenceLevel::fixed);
+  CHECK(paper.tgc_db == std::array<double, 8>{});
+  CHECK(trainer.tgc_db.back() == Approx(2 * 0.5 * kFrequency * kDepth / 10));
+  CHECK(paper.reflection_length_mm == kDepth / 300);  // l = dr
+  // The user's own, at rest in both.
+  CHECK(paper.gain_db == 0);
+  CHECK(trainer.gain_db == 0);
+  CHECK(paper.grey_map == GreyMap::linear);
+  CHECK(trainer.grey_map == GreyMap::linear);
+}
+
 TEST_CASE("what settings hold reads back as it was") {
   Settings settings = trainer_settings(5, 90);
   settings.beam_window = BeamWindow::box;

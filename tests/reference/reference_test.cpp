@@ -159,6 +159,39 @@ TEST_CASE("grey maps keep black and white, and each bends the greys between as i
   CHECK(grey_at(GreyMap::soft, 0.25) == 90);      // 0.25^0.75 = 0.3536
   CHECK(grey_at(GreyMap::contrast, 0.25) == 32);  // 0.25^1.5 = 0.125
   CHECK(grey_at(GreyMap::s_curve, 0.25) == 40);   // 0.0625 x 2.5 = 0.15625
+
+  // The same echo, 20 dB below white.
+  const auto grey_20_db_down = [&](double dynamic_range_db, double gain_db) {
+    settings.dynamic_range_db = dynamic_range_db;
+    settings.gain_db = gain_db;
+    return grey_at(GreyMap::linear, 1 - 20 / dynamic_range_db);
+  };
+  CHECK(grey_20_db_down(30, 0) == 85);
+  CHECK(grey_20_db_down(80, 0) == 191);
+  CHECK(grey_20_db_down(80, -22) == 121);
+  CHECK(grey_20_db_down(80, 25) == 255);
+}
+
+TEST_CASE("the beam's windows are a box, a triangle and Hann's, and let through as much") {
+  Settings settings;
+  settings.beam_lines = 5;
+  const auto weights = [&](BeamWindow window) {
+    settings.beam_window = window;
+    return beam_weights(settings);
+  };
+  const auto expected = [](std::vector<double> window, double sum) {
+    for (double& weight : window) weight /= sum;
+    return window;
+  };
+  const auto off_by = [](const std::vector<double>& a, const std::vector<double>& b) {
+    REQUIRE(a.size() == b.size());
+    double worst = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) worst = std::max(worst, std::abs(a[i] - b[i]));
+    return worst;
+  };
+  CHECK(off_by(weights(BeamWindow::box), expected({1, 1, 1, 1, 1}, 5)) < 1e-15);
+  CHECK(off_by(weights(BeamWindow::triangle), expected({1, 2, 3, 2, 1}, 9)) < 1e-15);
+  CHECK(off_by(weights(BeamWindow::hann), expected({1, 3, 4, 3, 1}, 12)) < 1e-15);  // cosines of 60 and 120 degrees
 }
 
 // Full width at half maximum, mm, of what an evenly weighted aperture hears at its focus of a point that it sends to:
