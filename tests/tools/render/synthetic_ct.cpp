@@ -13,11 +13,11 @@ double step(double distance) {
 
 double body(const Vec3& p) {
   const double fat = 8 + 1.5 * std::sin(p[0] / 9);
-  double hu = -1000 + 900 * step(p[1]);                                             // fat
-  hu += 155 * step(p[1] - fat);                                                     // parenchyma
-  hu += 12 * std::sin(p[0] / 2.1) * std::sin(p[1] / 1.7 + p[2]);                    // grain
-  hu -= 50 * step(9 - std::hypot(p[0] - 12, p[1] - 32));                            // a cyst
-  hu += 500 * step(3 - std::hypot(p[1] - 16, p[2] - 1) - std::abs(p[0] + 22) / 5);  // a rib's end
+  double hu = -1000 + 900 * step(p[1]);                                              // fat
+  hu += 155 * step(p[1] - fat);                                                      // parenchyma
+  hu += 12 * std::sin(p[0] / 2.1) * std::sin(p[1] / 1.7 + p[2]);                     // grain
+  hu -= 50 * step(9 - std::hypot(p[0] - 12, p[1] - 32));                             // a cyst
+  hu += 1500 * step(3 - std::hypot(p[1] - 16, p[2] - 1) - std::abs(p[0] + 22) / 5);  // a rib's end
   return hu;
 }
 
