@@ -18,11 +18,19 @@ struct Change {
 
   bool slower() const { return least_ratio > 1; }
   bool faster() const { return most_ratio < 1; }
+
+  /// What else has grown that should not: errors, which have no spread, by more than another device's rounding does,
+  /// and what an unchanged frame runs. "error_db 0.89 -> 1.34", in the order of the columns.
+  std::vector<std::string> worse;
 };
 
-/// Rows of the same setting, in the order of `before`. Settings are all columns but the device and what was measured,
-/// so that runs on two devices compare too. Throws InputError when a file holds no run times or nothing matches.
-std::vector<Change> changes(const std::string& old_file, const Table& before, const std::string& new_file,
-                            const Table& after);
+struct Comparison {
+  std::vector<Change> changes;             ///< rows of the same setting, in the order of the earlier run
+  std::vector<std::string> gone, arrived;  ///< settings of one run alone
+};
+
+/// Settings are all columns but the device and what was measured, so that runs on two devices compare too. Throws
+/// InputError when a file holds no run times, when a cell holds no number, or when nothing matches.
+Comparison compare(const std::string& old_file, const Table& before, const std::string& new_file, const Table& after);
 
 }  // namespace insonate::bench

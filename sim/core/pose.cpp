@@ -14,7 +14,6 @@ namespace insonate {
 namespace {
 
 constexpr double kOrthonormalTolerance = 1e-4;
-constexpr double kReachMm = 1e5;
 
 // Far above what a few products in double precision leave, far below what six decimals do.
 constexpr double kRoundingError = 1e-12;
@@ -51,7 +50,7 @@ Pose operator*(const Pose& a_from_b, const Pose& b_from_c) {
   return {a_from_b.rotation * b_from_c.rotation, a_from_b.point(b_from_c.translation)};
 }
 
-std::optional<std::string> why_not_rigid(const glm::dmat4& m) {
+std::optional<std::string> why_not_rigid(const glm::dmat4& m, double reach_mm) {
   for (int c = 0; c < 4; ++c)
     for (int r = 0; r < 4; ++r)
       if (!std::isfinite(m[c][r])) return "the matrix holds a number that is not finite";
@@ -67,8 +66,8 @@ std::optional<std::string> why_not_rigid(const glm::dmat4& m) {
   const double error = orthonormal_error(rotation);
   if (error > 2 * kOrthonormalTolerance)
     return with_number("the rotation is not orthonormal: it stretches or shears by %.2g", error);
-  const double reach = glm::length(glm::dvec3(m[3]));
-  if (reach > kReachMm) return with_number("the translation is %g mm long, beyond any tracker's reach", reach);
+  const double length = glm::length(glm::dvec3(m[3]));
+  if (length > reach_mm) return with_number("the translation is %g mm long, beyond any tracker's reach", length);
   return std::nullopt;
 }
 

@@ -29,10 +29,13 @@ struct Pose {
 
 Pose operator*(const Pose& a_from_b, const Pose& b_from_c);
 
+/// Beyond that no tracker reaches.
+inline constexpr double kTrackerReachMm = 1e5;
+
 /// Why `matrix` is no rigid transform in mm, as the problem part of an InputError ("the rotation mirrors: its
 /// determinant is -1"); empty when it is one. Accepts what rounding to 6 decimals leaves: columns within 1e-4 of
-/// orthonormal, last row (0 0 0 1), and a translation up to 1e5 mm, beyond which no tracker reaches.
-std::optional<std::string> why_not_rigid(const glm::dmat4& matrix);
+/// orthonormal, last row (0 0 0 1), and a translation up to `reach_mm`.
+std::optional<std::string> why_not_rigid(const glm::dmat4& matrix, double reach_mm = kTrackerReachMm);
 
 /// The pose nearest to a matrix that why_not_rigid has let pass: what rounding left over is removed. A matrix that is
 /// orthonormal to double precision is kept to the bit, so that a pose written with 17 digits reads back equal.

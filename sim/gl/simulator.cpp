@@ -11,6 +11,7 @@
 #include "sim/gl/picture_programs.h"
 #include "sim/gl/settings_reach.h"
 #include "sim/gl/stage_tables.h"
+#include "sim/gl/view_limits.h"
 #include "sim/model/settings_file.h"
 #include "sim/shaders/shared/simulation_parameters.h"
 
@@ -222,6 +223,7 @@ void Simulator::set_volume(const AcousticVolume& volume, const TissueTable& tabl
 }
 
 void Simulator::set_probe(const Probe& probe, double depth_mm) {
+  check_probe("simulator", probe, depth_mm);
   state_->probe = probe;
   state_->depth_mm = depth_mm;
   state_->layout_changed = true;
@@ -240,6 +242,7 @@ void Simulator::set_settings(const Settings& settings) {
 
 void Simulator::set_pose(const Pose& patient_from_probe) {
   if (patient_from_probe == state_->patient_from_probe) return;
+  check_pose("simulator", patient_from_probe);
   state_->patient_from_probe = patient_from_probe;
   state_->due_from(Stage::traverse);
 }
@@ -322,7 +325,6 @@ Stages<float> Simulator::read_stages() {
   for (std::size_t i = 0; i < rgba.pixels.size(); ++i) {
     stages.grey.pixels[i] = rgba.pixels[i][0];
     stages.inside.pixels[i] = rgba.pixels[i][3] ? 1 : 0;
-    stages.fused.pixels[i] = std::max(stages.fused.pixels[i], 0.0f);
   }
   return stages;
 }

@@ -35,7 +35,8 @@ public:
   Simulator& operator=(Simulator&&) noexcept;
 
   void set_volume(const AcousticVolume& volume, const TissueTable& table);
-  /// @param depth_mm  10 to 400
+  /// Throws std::invalid_argument on a probe or a depth that check_probe() (sim/gl/view_limits.h) finds fault with.
+  /// @param depth_mm  0.1 to 1000
   void set_probe(const Probe& probe, double depth_mm);
   /// What shaders are compiled for (effects that are on or off, numbers of lines and planes, a smoothing's radius in
   /// pixels) is compiled when the next picture is due: 50 to 200 ms a stage with llvmpipe, 0.7 s if it is all of them,
@@ -44,7 +45,7 @@ public:
   /// off by a grey level from a new simulator's.
   /// Throws std::invalid_argument on settings that why_not_valid() (sim/model/settings_file.h) finds fault with.
   void set_settings(const Settings& settings);
-  /// @param patient_from_probe  rigid and finite; checked where poses enter the program
+  /// Throws std::invalid_argument on a pose that is not rigid or not finite; that before stays.
   void set_pose(const Pose& patient_from_probe);
 
   /// Runs what is due up to and including a stage, for those who measure.

@@ -11,6 +11,7 @@
 #include "sim/gl/settings_reach.h"
 #include "sim/gl/stage_tables.h"
 #include "sim/gl/sweep_conversion.h"
+#include "sim/gl/view_limits.h"
 #include "sim/model/noise.h"
 #include "sim/model/settings_file.h"
 #include "sim/shaders/shared/simulation_parameters.h"
@@ -215,6 +216,8 @@ void SweepSimulator::set_sweep(const Sweep& sweep) {
   const Sweep& before = state_->sweep;
   if (sweep == before) return;
   if (sweep.patient_from_plane.size() < 2) throw std::invalid_argument("sweep simulator: fewer than two planes");
+  check_probe("sweep simulator", sweep.probe, sweep.depth_mm);
+  for (const Pose& pose : sweep.patient_from_plane) check_pose("sweep simulator", pose);
   state_->lines_changed |= sweep.probe != before.probe || sweep.depth_mm != before.depth_mm ||
                            sweep.patient_from_plane.size() != before.patient_from_plane.size();
   state_->sweep = sweep;

@@ -35,8 +35,8 @@ public:
   SweepSimulator& operator=(SweepSimulator&&) noexcept;
 
   void set_volume(const AcousticVolume& volume, const TissueTable& table);
-  /// @param sweep  of 2 planes or more, depth 10 to 400 mm, poses rigid and finite; checked where they enter the
-  ///               program. Throws std::invalid_argument for fewer planes.
+  /// Throws std::invalid_argument on fewer than two planes, on a pose that is not rigid or not finite, and on a probe
+  /// or a depth that check_probe() (sim/gl/view_limits.h) finds fault with; the sweep before stays.
   void set_sweep(const Sweep& sweep);
   /// @param grid  where the voxels lie in the patient, such as sweep_grid() (sim/probe/sweep.h) gives
   void set_grid(const Grid& grid);

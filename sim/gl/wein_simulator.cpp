@@ -17,6 +17,8 @@
 #include "sim/gl/fan_layout.h"
 #include "sim/gl/pixel_table.h"
 #include "sim/gl/scan_stages.h"
+#include "sim/gl/view_limits.h"
+#include "sim/model/wein_settings_file.h"
 #include "sim/shaders/shared/wein_parameters.h"
 
 namespace insonate::gl {
@@ -36,6 +38,12 @@ constexpr double kLeastIntensity = 1e-10;
 std::size_t images_of_chunk(std::size_t image_samples) {
   const std::size_t fit = std::clamp<std::size_t>(kChunkBytes / (image_samples * kSampleBytes), 1, kMostChunk);
   return fit < ScanStages::kAbreast ? fit : fit - fit % ScanStages::kAbreast;
+}
+
+constexpr const char* kName = "Wein simulator";
+
+void check_poses(std::span<const Pose> poses) {
+  for (const Pose& pose : poses) check_pose(kName, pose);
 }
 
 // As shaders write it.
@@ -201,8 +209,11 @@ void WeinSimulator::State::by_chunks(std::span<const Pose> poses, const ScanStag
 }
 
 WeinSimulator::WeinSimulator(const AcousticVolume& volume, const Probe& probe, double depth_mm,
-                             const WeinSettings& settings, const ShaderSources& sources, const Scheme& scheme)
-    : state_(std::make_unique<State>(volume, probe, depth_mm, settings, sources, scheme)) {}
+                             const WeinSettings& settings, const ShaderSources& sources, const Scheme& scheme) {
+  check_probe(kName, probe, depth_mm);
+  if (const auto why = why_not_valid(settings)) throw std::invalid_argument(std::string(kName) + ": " + *why);
+  state_ = std::make_unique<State>(volume, probe, depth_mm, settings, sources, scheme);
+}
 WeinSimulator::~WeinSimulator() = default;
 WeinSimulator::WeinSimulator(WeinSimulator&&) noexcept = default;
 WeinSimulator& WeinSimulator::operator=(WeinSimulator&&) noexcept = default;
@@ -215,6 +226,7 @@ const Image<std::uint8_t>& WeinSimulator::inside() const {
 }
 
 const Texture& WeinSimulator::simulate(std::span<const Pose> patient_from_probe) {
+  check_poses(patient_from_probe);
   State& s = *state_;
   const int w = s.settings.image_width, h = s.settings.image_height;
   const int count = std::max(int(patient_from_probe.size()), 1);
@@ -249,13 +261,14 @@ glm::ivec2 WeinSimulator::tile(int image) const {
 void WeinSimulator::set_ultrasound(const Image<float>& image) {
   State& s = *state_;
   if (image.width != s.fan.inside.width || image.height != s.fan.inside.height)
-    throw std::invalid_argument("WeinSimulator: the ultrasound image has another size than the simulated ones");
+    throw std::invalid_argument(std::string(kName) + ": the ultrasound image has another size than the simulated ones");
   s.counted_pixels = compared_pixels(s.pixel_places, image, s.settings.similarity_patch, s.group);
   if (s.counted_pixels)
     s.sums = Texture::make_2d(GL_RGBA32F, 3 * int(s.counted_pixels.columns), int(s.chunk_images), Filter::nearest);
 }
 
 std::vector<float> WeinSimulator::similarity(std::span<const Pose> patient_from_probe) {
+  check_poses(patient_from_probe);
   State& s = *state_;
   std::vector<float> result(patient_from_probe.size());
   if (result.empty() || !s.counted_pixels) return result;

@@ -24,12 +24,14 @@ namespace insonate::gl {
 /// much each is like a given ultrasound image.
 ///
 /// A call's poses are worked through in chunks whose scan lines stay below 24 MiB, so that memory is bounded; nothing
-/// is read back between chunks. Needs an OpenGL 4.5 context, current whenever it is used. Poses are rigid and finite;
-/// checked where they enter the program.
+/// is read back between chunks. Needs an OpenGL 4.5 context, current whenever it is used. A call with a pose that is
+/// not rigid or not finite throws std::invalid_argument and draws nothing.
 class WeinSimulator {
 public:
-  /// Throws std::runtime_error when shaders do not build, TextureRefused when the device cannot hold the volume.
-  /// @param depth_mm  10 to 400
+  /// Throws std::runtime_error when shaders do not build, TextureRefused when the device cannot hold the volume,
+  /// std::invalid_argument on settings that why_not_valid() (sim/model/wein_settings_file.h) finds fault with, and on a
+  /// probe or a depth that check_probe() (sim/gl/view_limits.h) does.
+  /// @param depth_mm  0.1 to 1000
   WeinSimulator(const AcousticVolume& volume, const Probe& probe, double depth_mm, const WeinSettings& settings,
                 const ShaderSources& sources = {}, const Scheme& scheme = Scheme::of_device());
   ~WeinSimulator();

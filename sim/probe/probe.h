@@ -65,7 +65,7 @@ struct ScanLines {
 /// middles of `probe.lines` equal parts of the face (linear) or of the field of view (curvilinear, phased).
 /// Each ends `depth_mm` along it from where it leaves the face. Throws nothing of its own: numbers out of range are
 /// refused where they enter a program, and mean nothing here.
-/// @param depth_mm  10 to 400
+/// @param depth_mm  0.1 to 1000
 /// @param samples   a line, 1 to 8192
 ScanLines scan_lines(const Probe& probe, double depth_mm, int samples);
 
@@ -76,7 +76,7 @@ struct LinePosition {
 };
 
 /// Empty outside the fan: beyond its edges, in front of the face, or deeper than `depth_mm`.
-/// @param depth_mm  10 to 400
+/// @param depth_mm  0.1 to 1000
 std::optional<LinePosition> line_position(const Probe& probe, double depth_mm, const glm::dvec2& xy_mm);
 
 /// How pixels of the displayed image lie in the imaging plane: square pixels, the fan as large as fits, centred.
@@ -93,7 +93,7 @@ struct ImageGeometry {
 
 /// Of the image that shows a probe's fan down to a depth, with as many millimetres a pixel as its wider side needs.
 /// Numbers out of range mean nothing, as in scan_lines().
-/// @param depth_mm       10 to 400
+/// @param depth_mm       0.1 to 1000
 /// @param width, height  pixels, 1 to 8192
 ImageGeometry image_geometry(const Probe& probe, double depth_mm, int width, int height);
 

@@ -42,8 +42,10 @@ double heard(double echo);
 /// Log compression (7) and the grey map: 255 at `level`, 0 where `echo` is the dynamic range below it, or nothing.
 std::uint8_t grey_level(const Settings& settings, double echo, double level);
 
-/// Model S in double precision, as MODEL.md's formulas read, in plain loops: the measure of everything faster. Shares
-/// with the shaders the tissue table, the probes' geometry, the scatterers' bits and the beam's weights, and no code.
+/// Model S in double precision, as MODEL.md's formulas read, in plain loops: the measure of everything faster. What it
+/// takes from sim/model and sim/probe the shaders are handed as well, and tests of its own hold it: the tissue table,
+/// the lines' and pixels' geometry, the scatterers' lattice, the beam's and the slice's weights, the levels of
+/// noise and clutter, and constants. All that is computed along lines and at pixels is written here once more.
 Stages<double> simulate_reference(const MediumField& field, const TissueTable& table, const Probe& probe,
                                   double depth_mm, const Settings& settings, const Pose& patient_from_probe);
 

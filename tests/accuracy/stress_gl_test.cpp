@@ -20,7 +20,8 @@ struct Strain {
   std::function<void(Scene&)> apply;
 };
 
-/// `strains` one by one on an ordinary scene, walked along either way.
+/// `strains` one by one on an ordinary scene, walked along either way; of what their fans hold, most is to be known
+/// well enough for its grey to be compared: 0.69 in the settings' cases, more in the others'.
 void check_each(const std::vector<Strain>& strains) {
   const gl::Scheme scheme = GENERATE(line_an_invocation(), line_a_group(32));
   CAPTURE(scheme.lines_that_fill);
@@ -31,6 +32,7 @@ void check_each(const std::vector<Strain>& strains) {
     strain.apply(scene);
     stressed.check(scene);
   }
+  CHECK(stressed.share_compared() > 0.65);
 }
 
 template <typename T>
@@ -267,6 +269,32 @@ TEST_CASE("poses that no hand holds") {
        }},
       {"rotated by 1e-9", at({0, -30, 0}, 1e-9)},
       {"tangent to the body", at({29.999, -30, 0}, 1.5707963)},
+      {"touching a ball of bone",
+       [](Scene& scene) {
+         scene.volume = make_volume({24, 24, 24}, {3, 3, 3}, [](const glm::ivec3& i) {
+           return glm::length(3.0 * (glm::dvec3(i) - 11.5)) < 25 ? 1500 : 60;
+         });
+         scene.pose.translation = {0, -25, 0};
+       }},
+      {"lines along the face of a bone",
+       [](Scene& scene) {
+         scene.volume = make_volume({16, 16, 10}, {5, 5, 5}, [](const glm::ivec3& i) { return i.x < 8 ? 1500 : 60; });
+         scene.probe.kind = ProbeKind::linear;
+         scene.probe.lines = 9;
+         scene.probe.width_mm = 45;  // the fifth line on the face between voxels, the others on others
+       }},
+      {"half of the face in air",
+       [](Scene& scene) {
+         scene.volume =
+             make_volume({16, 16, 10}, {5, 5, 5}, [](const glm::ivec3& i) { return i.x < 8 ? -1000 : mixed(i); });
+         scene.probe.kind = ProbeKind::linear;
+         scene.settings.gel_mm = 0;
+       }},
+      {"half of the face in air behind gel",
+       [](Scene& scene) {
+         scene.volume =
+             make_volume({16, 16, 10}, {5, 5, 5}, [](const glm::ivec3& i) { return i.x < 8 ? -1000 : mixed(i); });
+       }},
       {"against the axes", at({0, 40, 0}, 3.141592653589793)},
   });
 }

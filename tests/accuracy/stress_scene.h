@@ -156,6 +156,7 @@ inline Scene random_scene(std::uint32_t seed) {
   scene.pose.rotation = glm::dmat3(glm::rotate(glm::dmat4(1), angle, axis));
   const double away = draw.one_of({0.0, 1.0, 30.0, 300.0, 99999.0});
   scene.pose.translation = scene.pose.rotation * glm::dvec3(0, -away, 0);
+  s.focused_beam = draw.chance(0.6);
   return scene;
 }
 

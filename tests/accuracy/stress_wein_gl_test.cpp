@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -166,9 +167,17 @@ TEST_CASE("model W: random scenes, each from its seed") {
   const long frames = from_environment("INSONATE_STRESS_FRAMES", 25);
   const long first = from_environment("INSONATE_STRESS_SEED", 1);
   Stressed stressed;
+  long compared = 0;  // most of the others hold an int16's ends
   for (long seed = first; seed < first + frames; ++seed) {
     INFO("seed " << seed);
     const WeinScene scene{random_scene(std::uint32_t(seed)), random_wein_settings(std::uint32_t(seed))};
-    stressed.check_shaders(scene);
+    const auto [least, most] = std::ranges::minmax(scene.place.volume.voxels, {}, &AcousticVoxel::hu);
+    if (most.hu - least.hu < 4096) {
+      stressed.check(scene);
+      ++compared;
+    } else {
+      stressed.check_shaders(scene);
+    }
   }
+  CHECK(compared > frames / 4);
 }

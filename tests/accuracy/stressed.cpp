@@ -122,9 +122,14 @@ Image<double> loudest_samples_around(const Scene& scene, const Stages<double>& o
 /// 6000, known to 2.4e-4 each.
 constexpr double kSilentRounding = 2e-12;
 
+/// Pixels within the fan, and those of them whose grey was compared.
+struct Extent {
+  long in_fan = 0, compared = 0;
+};
+
 /// Where shaders and reference are further apart than they may be; "" where they are not.
 std::string disagreement(const Scene& scene, const Stages<double>& expected, const Stages<float>& got,
-                         const Spread& spread) {
+                         const Spread& spread, Extent& extent) {
   const Worst intensity =
       worst(expected.intensity, got.intensity,
             tolerated(expected.intensity, spread.intensity, [](double i) { return 1e-4 * std::max(i, 1e-6); }));
@@ -174,7 +179,10 @@ std::string disagreement(const Scene& scene, const Stages<double>& expected, con
 
   for (std::size_t i = 0; i < expected.grey.pixels.size(); ++i) {
     const double u = expected.fused.pixels[i];
-    if (!expected.inside.pixels[i] || fused_tolerance.pixels[i] >= 0.5 * u) continue;
+    if (!expected.inside.pixels[i]) continue;
+    ++extent.in_fan;
+    if (fused_tolerance.pixels[i] >= 0.5 * u) continue;
+    ++extent.compared;
     const double db = -10 * std::log10(1 - fused_tolerance.pixels[i] / u);
     const double allowed = 2 + std::ceil(255 * db / s.dynamic_range_db) + 4 * spread.grey.pixels[i];
     if (std::abs(int(got.grey.pixels[i]) - int(expected.grey.pixels[i])) > allowed)
@@ -225,6 +233,7 @@ void Stressed::check(const Scene& scene) {
   for (const AcousticVoxel& voxel : volume.voxels) densest = std::max(densest, std::abs(double(voxel.hu)));
   Spread spread(expected);
   std::string problem;
+  Extent extent;
   std::uint32_t drawn = 0;
   for (const std::uint32_t draws : {4u, 256u}) {
     for (; drawn < draws; ++drawn) {
@@ -234,10 +243,13 @@ void Stressed::check(const Scene& scene) {
       spread.include(expected,
                      reference(near, as_single_precision_knows_it(field, drawn, 2e-7 * reach, 2e-7 * densest)));
     }
-    problem = disagreement(scene, expected, got, spread);
+    extent = {};
+    problem = disagreement(scene, expected, got, spread, extent);
     if (problem.empty()) break;
   }
   CHECK(problem == "");
+  in_fans_ += extent.in_fan;
+  compared_ += extent.compared;
 }
 
 }  // namespace insonate::test

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "sim/gl/simulator.h"
@@ -25,9 +26,13 @@ public:
   /// Bounds of both, and agreement.
   void check(const Scene& scene);
 
+  /// Of the pixels within the fans of what check() has been given: of how many U was known well enough for grey.
+  double share_compared() const { return double(compared_) / double(std::max(in_fans_, 1L)); }
+
 private:
   test::TestContext context_;
   gl::Simulator simulator_;
+  long in_fans_ = 0, compared_ = 0;
   TissueTable table_ = read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml");
 };
 

@@ -97,3 +97,53 @@ TEST_CASE("a probe in air, or held off the skin, shows its own face and nothing 
   CHECK(brightest_behind(paper, -20, 3) > 100);
   CHECK(brightest_behind(dry, -20, 3) > 100);
 }
+
+TEST_CASE("where half of the face is in the air there is no image under that half, and the other half's is whole") {
+  // The skin's edge lies in the plane x = 0; behind the air, at 40 mm, is tissue again.
+  constexpr double kDepth_mm = 80, kFace_mm = 3, kEdge_mm = 5;  // of the beam, of the smoothing and of the CT's voxels
+  const auto body = [](bool whole) {
+    AcousticVolume volume;
+    volume.grid.size = {80, 100, 20};
+    volume.grid.spacing = {1, 1, 4};
+    volume.grid.origin = {-39.5, -5.5, -38};
+    for (int z = 0; z < volume.grid.size.z; ++z)
+      for (int y = 0; y < volume.grid.size.y; ++y)
+        for (int x = 0; x < volume.grid.size.x; ++x)
+          volume.voxels.push_back({std::int16_t(!whole && x >= 40 && y < 45 ? -1000 : 60), 0});
+    return volume;
+  };
+  Probe probe = *find_probe("linear");
+  probe.lines = 64;
+  Settings settings = trainer_settings(7.5, kDepth_mm);
+  settings.gel_mm = 0;
+  settings.clutter = settings.electronic_noise = false;
+  settings.reflection_sigma_mm = settings.transmission_sigma_mm = 0;
+  settings.image_width = settings.image_height = 120;
+  settings.reference_level = ReferenceLevel::fixed;
+
+  const test::TestContext context;
+  gl::Simulator simulator;
+  simulator.set_probe(probe, kDepth_mm);
+  simulator.set_settings(settings);
+  const auto drawn = [&](bool whole) {
+    simulator.set_volume(body(whole), read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml"));
+    return simulator.read_stages();
+  };
+  const Stages<float> half = drawn(false), full = drawn(true);
+  int in_air = 0, on_skin = 0, brightest_in_air = 0, most_changed = 0, bright = 0;
+  for (int y = 0; y < half.grey.height; ++y)
+    for (int x = 0; x < half.grey.width; ++x) {
+      const glm::dvec2 at = simulator.geometry().plane_mm(x, y);
+      if (!half.inside.at(x, y) || at.y < kFace_mm) continue;
+      if (at.x > kEdge_mm) ++in_air, brightest_in_air = std::max(brightest_in_air, int(half.grey.at(x, y)));
+      if (at.x < -kEdge_mm) {
+        ++on_skin, bright += full.grey.at(x, y) > 40;
+        most_changed = std::max(most_changed, std::abs(int(half.grey.at(x, y)) - int(full.grey.at(x, y))));
+      }
+    }
+  CHECK(in_air > 1000);
+  CHECK(on_skin > 1000);
+  CHECK(brightest_in_air == 0);
+  CHECK(most_changed == 0);
+  CHECK(bright > on_skin / 2);
+}

@@ -91,7 +91,7 @@ TEST_CASE("what is no table is refused with its place") {
 }
 
 TEST_CASE("two runs compare setting by setting, on whatever device, and tell a change from the spread") {
-  const auto compared = changes("old", run("X", 9, 10, 11), "new", run("Y", 17, 20, 24));
+  const auto compared = compare("old", run("X", 9, 10, 11), "new", run("Y", 17, 20, 24)).changes;
   REQUIRE(compared.size() == 2);
   CHECK(compared[0].setting == "case=a, lines=64");
   CHECK(compared[0].ratio == 2);
@@ -102,17 +102,55 @@ TEST_CASE("two runs compare setting by setting, on whatever device, and tell a c
   CHECK_FALSE(compared[1].slower());
   CHECK_FALSE(compared[1].faster());
 
-  CHECK(changes("old", run("X", 9, 10, 11), "new", run("X", 6, 7, 8))[0].faster());
-  const Change within = changes("old", run("X", 9, 10, 11), "new", run("X", 10.5, 12, 13))[0];
+  CHECK(compare("old", run("X", 9, 10, 11), "new", run("X", 6, 7, 8)).changes[0].faster());
+  const Change within = compare("old", run("X", 9, 10, 11), "new", run("X", 10.5, 12, 13)).changes[0];
   CHECK_FALSE(within.slower());
   CHECK_FALSE(within.faster());
+}
+
+TEST_CASE("a run whose errors have grown is told from one that is as accurate, however fast") {
+  const auto with_error = [](const char* db, const char* grey) {
+    Table table = run("X", 9, 10, 11);
+    table.columns.emplace_back("error_grey");
+    for (auto& row : table.rows) row.back() = db, row.emplace_back(grey);
+    return table;
+  };
+  const Table before = with_error("0.500", "2.25");
+  const auto worse = [&](const Table& after) { return compare("old", before, "new", after).changes[1].worse; };
+  CHECK(worse(with_error("0.500", "2.25")).empty());
+  CHECK(worse(with_error("0.501", "2.20")).empty());  // rounded otherwise, and better
+  CHECK(worse(with_error("0.510", "2.25")) == std::vector<std::string>{"error_db 0.500 -> 0.510"});
+  CHECK(worse(with_error("0.400", "3.00")) == std::vector<std::string>{"error_grey 2.25 -> 3.00"});
+  CHECK(worse(run("X", 6, 7, 8)).empty());  // whose errors in grey are not told
+  CHECK_THROWS_WITH(worse(with_error("good", "2.25")), Catch::Contains("line 2, column 'error_db': 'good'"));
+}
+
+TEST_CASE("an unchanged frame that runs anything has become worse") {
+  const auto still = [](const char* runs) {
+    Table table = run("X", 9, 10, 11);
+    table.columns.emplace_back("runs_still");
+    for (auto& row : table.rows) row.emplace_back(runs);
+    return table;
+  };
+  CHECK(compare("old", still("0"), "new", still("0")).changes[0].worse.empty());
+  CHECK(compare("old", still("0"), "new", still("1")).changes[0].worse.size() == 1);
+}
+
+TEST_CASE("settings that only one of two runs has are named") {
+  Table before = run("X", 1, 2, 3), after = before;
+  before.rows[1][2] = "65";
+  after.rows[1][2] = "66";
+  const Comparison compared = compare("old", before, "new", after);
+  CHECK(compared.changes.size() == 1);
+  CHECK(compared.gone == std::vector<std::string>{"case=b, lines=65"});
+  CHECK(compared.arrived == std::vector<std::string>{"case=b, lines=66"});
 }
 
 TEST_CASE("runs that cannot be compared are refused") {
   Table other = run("X", 1, 2, 3);
   for (auto& row : other.rows) row[2] = "65";
-  CHECK_THROWS_AS(changes("old", run("X", 1, 2, 3), "new", other), InputError);
-  CHECK_THROWS_WITH(changes("old", {{"a"}, {{"1"}}}, "new", other), Catch::Contains("no column 'q1_ms'"));
+  CHECK_THROWS_AS(compare("old", run("X", 1, 2, 3), "new", other), InputError);
+  CHECK_THROWS_WITH(compare("old", {{"a"}, {{"1"}}}, "new", other), Catch::Contains("no column 'q1_ms'"));
   for (const char* none : {"0", "nan", "-3", "inf"}) {
     const Table good = run("X", 1, 2, 3);
     Table bad = good;
@@ -120,8 +158,8 @@ TEST_CASE("runs that cannot be compared are refused") {
     const auto told = [&](const char* file) {
       return Catch::Contains(std::string(file) + ": line 3, column 'q3_ms': '" + none + "' is no time");
     };
-    CHECK_THROWS_WITH(changes("old", bad, "new", good), told("old"));
-    CHECK_THROWS_WITH(changes("old", good, "new", bad), told("new"));
+    CHECK_THROWS_WITH(compare("old", bad, "new", good), told("old"));
+    CHECK_THROWS_WITH(compare("old", good, "new", bad), told("new"));
   }
 }
 
