@@ -3,8 +3,11 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <functional>
+#include <utility>
 
 #include "tests/accuracy/stress_bounds.h"
 #include "tests/accuracy/stressed.h"
@@ -13,23 +16,20 @@
 using namespace insonate;
 using namespace insonate::test;
 
-TEST_CASE("random scenes, each from its seed") {
-  const long frames = from_environment("INSONATE_STRESS_FRAMES", 25);
-  const long first = from_environment("INSONATE_STRESS_SEED", 1);
-  const int every_other = GENERATE(0, 1);
-  Stressed stressed(every_other ? line_a_group() : line_an_invocation());
-  for (long seed = first + every_other; seed < first + frames; seed += 2) {
-    INFO("seed " << seed);
-    Scene scene = random_scene(std::uint32_t(seed));
-    stressed.check(scene);
-    scene.settings.skipping = true;
-    scene.settings.grey_map = GreyMap(seed % 4);
-    stressed.check_shaders(scene);
-    stressed.check_shaders(random_scene_of_everything(std::uint32_t(seed)));
-  }
-}
-
 namespace {
+
+/// Agreement with the reference, which skips nothing; and where the scene is to skip, the same picture so.
+void check(Stressed& stressed, Scene scene) {
+  const bool skips = std::exchange(scene.settings.skipping, false);
+  const Stages<float> whole = stressed.check(scene);
+  if (!skips) return;
+  scene.settings.skipping = true;
+  const Stages<float> skipped = stressed.check_shaders(scene);
+  int most = 0;
+  for (std::size_t i = 0; i < whole.grey.pixels.size(); ++i)
+    most = std::max(most, std::abs(int(skipped.grey.pixels[i]) - int(whole.grey.pixels[i])));
+  CHECK(most <= 1);
+}
 
 /// Seeds of one group share the programs that this one's scene is compiled with.
 constexpr std::uint32_t kGroup = 250;
@@ -52,9 +52,16 @@ void for_many_scenes(long frames, Scene (*drawn)(std::uint32_t), const std::func
 
 }  // namespace
 
-TEST_CASE("random scenes in groups that share their programs, bounds alone") {
-  Stressed stressed(GENERATE(line_an_invocation(), line_a_group()));
-  for_many_scenes(500, random_scene_of_everything, [&](const Scene& scene) { stressed.check_shaders(scene); });
+TEST_CASE("random scenes, each from its seed") {
+  const long frames = from_environment("INSONATE_STRESS_FRAMES", 25);
+  const long first = from_environment("INSONATE_STRESS_SEED", 1);
+  const int every_other = GENERATE(0, 1);
+  Stressed stressed(every_other ? line_a_group() : line_an_invocation());
+  for (long seed = first + every_other; seed < first + frames; seed += 2) {
+    INFO("seed " << seed);
+    check(stressed, random_scene(std::uint32_t(seed)));
+    check(stressed, random_scene_of_everything(std::uint32_t(seed)));
+  }
 }
 
 TEST_CASE("of planes that sound reaches unevenly no round trip gains strength") {
@@ -80,21 +87,16 @@ TEST_CASE("no time gain lifts what is below the least echo") {
   }
 }
 
-TEST_CASE("random scenes in groups that share their programs, against the reference") {
+TEST_CASE("random scenes in groups that share their programs") {
   Stressed stressed(GENERATE(line_an_invocation(), line_a_group()));
-  for_many_scenes(100, random_scene, [&](const Scene& scene) { stressed.check(scene); });
-  CHECK(stressed.share_compared() > 0.1);  // 0.18: many look at nothing, as from 100 m away
+  for_many_scenes(200, random_scene_of_everything, [&](const Scene& scene) { check(stressed, scene); });
+  CHECK(stressed.share_compared() > 0.65);
 }
 
-// Hidden, as they take an hour or more: build/dev/tests/stress_test "[many]".
-TEST_CASE("many random scenes, bounds alone", "[.][many]") {
+// Hidden, as it takes an hour or more: build/dev/tests/stress_test "[many]".
+TEST_CASE("many random scenes", "[.][many]") {
   Stressed stressed(GENERATE(line_an_invocation(), line_a_group()));
   for_many_scenes(from_environment("INSONATE_STRESS_FRAMES", 100000), random_scene_of_everything,
-                  [&](const Scene& scene) { stressed.check_shaders(scene); });
-}
-
-TEST_CASE("many random scenes against the reference", "[.][many]") {
-  Stressed stressed(GENERATE(line_an_invocation(), line_a_group()));
-  for_many_scenes(from_environment("INSONATE_STRESS_FRAMES", 100000), random_scene,
-                  [&](const Scene& scene) { stressed.check(scene); });
+                  [&](const Scene& scene) { check(stressed, scene); });
+  std::printf("of what echoes %.3f was compared in grey\n", stressed.share_compared());
 }

@@ -20,8 +20,8 @@ struct Strain {
   std::function<void(Scene&)> apply;
 };
 
-/// `strains` one by one on an ordinary scene, walked along either way; of what their fans hold, most is to be known
-/// well enough for its grey to be compared: 0.69 in the settings' cases, more in the others'.
+/// `strains` one by one on an ordinary scene, walked along either way; most of what echoes is to be known well enough
+/// for its grey to be compared: 0.70 in the settings' cases, more in the others'.
 void check_each(const std::vector<Strain>& strains) {
   const gl::Scheme scheme = GENERATE(line_an_invocation(), line_a_group(32));
   CAPTURE(scheme.lines_that_fill);

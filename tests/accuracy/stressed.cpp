@@ -122,9 +122,9 @@ Image<double> loudest_samples_around(const Scene& scene, const Stages<double>& o
 /// 6000, known to 2.4e-4 each.
 constexpr double kSilentRounding = 2e-12;
 
-/// Pixels within the fan, and those of them whose grey was compared.
+/// Pixels that an echo comes from, and those of them whose grey was compared.
 struct Extent {
-  long in_fan = 0, compared = 0;
+  long with_echo = 0, compared = 0;
 };
 
 /// Where shaders and reference are further apart than they may be; "" where they are not.
@@ -179,8 +179,8 @@ std::string disagreement(const Scene& scene, const Stages<double>& expected, con
 
   for (std::size_t i = 0; i < expected.grey.pixels.size(); ++i) {
     const double u = expected.fused.pixels[i];
-    if (!expected.inside.pixels[i]) continue;
-    ++extent.in_fan;
+    if (!expected.inside.pixels[i] || u <= kLeastEcho) continue;
+    ++extent.with_echo;
     if (fused_tolerance.pixels[i] >= 0.5 * u) continue;
     ++extent.compared;
     const double db = -10 * std::log10(1 - fused_tolerance.pixels[i] / u);
@@ -214,8 +214,8 @@ Stages<float> Stressed::check_shaders(const Scene& scene) {
   return got;
 }
 
-void Stressed::check(const Scene& scene) {
-  const Stages<float> got = check_shaders(scene);
+Stages<float> Stressed::check(const Scene& scene) {
+  Stages<float> got = check_shaders(scene);
   // The card's normalised integers have no -32768.
   AcousticVolume volume = scene.volume;
   for (AcousticVoxel& voxel : volume.voxels) voxel.hu = std::max(voxel.hu, std::int16_t(-32767));
@@ -248,8 +248,9 @@ void Stressed::check(const Scene& scene) {
     if (problem.empty()) break;
   }
   CHECK(problem == "");
-  in_fans_ += extent.in_fan;
+  with_echo_ += extent.with_echo;
   compared_ += extent.compared;
+  return got;
 }
 
 }  // namespace insonate::test

@@ -23,16 +23,16 @@ public:
 
   /// Bounds alone.
   Stages<float> check_shaders(const Scene& scene);
-  /// Bounds of both, and agreement.
-  void check(const Scene& scene);
+  /// Bounds of both, and agreement; what the shaders gave.
+  Stages<float> check(const Scene& scene);
 
-  /// Of the pixels within the fans of what check() has been given: of how many U was known well enough for grey.
-  double share_compared() const { return double(compared_) / double(std::max(in_fans_, 1L)); }
+  /// Of all pixels in what check() was given that an echo comes from: of how many U is known well enough for grey.
+  double share_compared() const { return double(compared_) / double(std::max(with_echo_, 1L)); }
 
 private:
   test::TestContext context_;
   gl::Simulator simulator_;
-  long in_fans_ = 0, compared_ = 0;
+  long with_echo_ = 0, compared_ = 0;
   TissueTable table_ = read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml");
 };
 
