@@ -24,6 +24,8 @@ namespace {
 /// seconds is so for few frames of any of them.
 constexpr int kRounds = 10;
 
+constexpr double kMiB = 1 << 20;
+
 struct Setting {
   std::string name;
   int lines;
@@ -109,18 +111,20 @@ std::vector<Setting> settings_to_try(const Request& request, const Scene& scene)
   return tried;
 }
 
-void print(const Scene& scene, const Panel& panel, const std::vector<Spread>& times,
+void print(const Scene& scene, const Panel& panel, const std::vector<Cost>& costs,
            const std::vector<DisplayError>& errors) {
   std::printf("\n%s, view %s: run time of a frame against error\n", scene.name.c_str(), scene.view.c_str());
-  std::printf("  ms       (quartiles)        error, dB   grey levels\n");
-  std::vector<std::size_t> order(times.size());
+  std::printf("  ms       (quartiles)        error, dB   grey levels   volume, MiB\n");
+  std::vector<std::size_t> order(costs.size());
   std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return times[a].median < times[b].median; });
-  for (const std::size_t i : order)
-    std::printf("%8.2f  (%.2f to %.2f)  %8.3f   %8.2f   %-6s %s%s\n", times[i].median, times[i].first_quartile,
-                times[i].third_quartile, errors[i].db, errors[i].grey, panel.points[i].on_front ? "front" : "",
-                panel.points[i].name.c_str(),
+  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return costs[a].time.median < costs[b].time.median; });
+  for (const std::size_t i : order) {
+    const Spread& ms = costs[i].time;
+    std::printf("%8.2f  (%.2f to %.2f)  %8.3f   %8.2f   %8.1f   %-6s %s%s\n", ms.median, ms.first_quartile,
+                ms.third_quartile, errors[i].db, errors[i].grey, costs[i].memory,
+                panel.points[i].on_front ? "front" : "", panel.points[i].name.c_str(),
                 panel.points[i].quality.empty() ? "" : (" (" + panel.points[i].quality + ")").c_str());
+  }
   for (const std::size_t i : order)
     if (i != 0 && !panel.points[i].quality.empty())
       std::printf("%s %s on the front.\n", panel.points[i].quality.c_str(),
@@ -131,22 +135,24 @@ void print(const Scene& scene, const Panel& panel, const std::vector<Spread>& ti
   }
   std::vector<std::size_t> better;
   std::copy_if(order.begin(), order.end(), std::back_inserter(better), [&](std::size_t i) {
-    return i != 0 && !panel.points[i].leaves_out && times[i].median <= times[0].median && errors[i].db <= errors[0].db;
+    return i != 0 && !panel.points[i].leaves_out && costs[i].time.median <= costs[0].time.median &&
+           costs[i].error <= costs[0].error && costs[i].memory <= costs[0].memory;
   });
-  const bool beyond_spread = std::any_of(
-      better.begin(), better.end(), [&](std::size_t i) { return times[i].third_quartile < times[0].first_quartile; });
-  std::printf("balanced, the default, %s; no slower by the median and no less exact:\n",
+  const bool beyond_spread = std::any_of(better.begin(), better.end(), [&](std::size_t i) {
+    return costs[i].time.third_quartile < costs[0].time.first_quartile;
+  });
+  std::printf("balanced, the default, %s; no slower by the median, no less exact and of no more memory:\n",
               beyond_spread ? "does not lie on the front" : "lies on the front within the spread of the times");
   for (const std::size_t i : better)
     std::printf("  %s: %+.1f %% of time, %+.1f %% of error\n", panel.points[i].name.c_str(),
-                100 * (times[i].median / times[0].median - 1), 100 * (errors[i].db / errors[0].db - 1));
+                100 * (costs[i].time.median / costs[0].time.median - 1), 100 * (costs[i].error / costs[0].error - 1));
 }
 
 }  // namespace
 
 Table measure_front(const Request& request, const std::string& svg) {
   Table table{{"device", "case", "view", "setting", "lines", "samples", "width", "height", "frames", "q1_ms",
-               "median_ms", "q3_ms", "error_db", "error_grey", "evaluated", "possible", "on_front"},
+               "median_ms", "q3_ms", "error_db", "error_grey", "volume_mib", "evaluated", "possible", "on_front"},
               {}};
   std::vector<Panel> panels;
   const gl::HeadlessContext context;
@@ -184,35 +190,35 @@ Table measure_front(const Request& request, const std::string& svg) {
         frames_ms[i].insert(frames_ms[i].end(), measured.begin(), measured.end());
       }
 
-    std::vector<Spread> times;
     std::vector<DisplayError> errors;
-    std::vector<Cost> costs;
+    std::vector<Cost> costs, costs_of_whole;
     for (std::size_t i = 0; i < tried.size(); ++i) {
       const Setting& setting = tried[i];
       gl::Simulator& simulator = simulator_of(setting);
       simulator.set_pose(scene.pose);
       const Stages<float> stages = simulator.read_stages();
-      times.push_back(spread_of(frames_ms[i]));
       errors.push_back(error_of(displayed(stages, scene.probe, scene.depth_mm, setting.settings), converged, range));
-      if (setting.whole) costs.push_back({times.back(), errors.back().db});
-      const Spread& ms = times.back();
+      costs.push_back({spread_of(frames_ms[i]), errors.back().db, double(simulator.volume_bytes()) / kMiB});
+      if (setting.whole) costs_of_whole.push_back(costs.back());
+      const Spread& ms = costs.back().time;
       table.rows.push_back({gl::device_description(), scene.name, scene.view, setting.name,
                             std::to_string(setting.lines), std::to_string(setting.settings.samples),
                             std::to_string(setting.settings.image_width), std::to_string(setting.settings.image_height),
                             std::to_string(request.frames), cell_of(ms.first_quartile, 4), cell_of(ms.median, 4),
                             cell_of(ms.third_quartile, 4), cell_of(errors.back().db, 5), cell_of(errors.back().grey, 4),
+                            cell_of(costs.back().memory, 3),
                             std::to_string(simulator.count(gl::Stage::traverse).evaluated),
                             std::to_string(simulator.count(gl::Stage::traverse).possible)});
     }
-    const std::vector<bool> front = on_front(costs);
+    const std::vector<bool> front = on_front(costs_of_whole);
     Panel panel{scene.name + ", view " + scene.view, {}};
     for (std::size_t i = 0, whole = 0; i < tried.size(); ++i) {
       const bool on_it = tried[i].whole && front[whole++];
       table.rows[table.rows.size() - tried.size() + i].push_back(on_it ? "1" : "0");
-      panel.points.push_back(
-          {tried[i].name, times[i].median, errors[i].db, on_it, quality_of(tried[i], tried.front()), !tried[i].whole});
+      panel.points.push_back({tried[i].name, costs[i].time.median, errors[i].db, on_it,
+                              quality_of(tried[i], tried.front()), !tried[i].whole});
     }
-    print(scene, panel, times, errors);
+    print(scene, panel, costs, errors);
     panels.push_back(std::move(panel));
   });
   if (!svg.empty()) write_file(svg, front_svg(gl::device_description(), panels));

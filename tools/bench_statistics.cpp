@@ -28,13 +28,14 @@ std::vector<bool> on_front(const std::vector<Cost>& costs) {
     return !faster(a, b) && !faster(b, a) && !finer(a, b) && !finer(b, a);
   };
   const auto beats = [&](const Cost& a, const Cost& b) {
-    return a.time.median <= b.time.median && !finer(b, a) && !alike(a, b);
+    if (a.memory > b.memory) return false;
+    return alike(a, b) ? a.memory < b.memory : a.time.median <= b.time.median && !finer(b, a);
   };
   std::vector<bool> on(costs.size());
   for (std::size_t i = 0; i < costs.size(); ++i) {
     on[i] = std::none_of(costs.begin(), costs.end(), [&](const Cost& other) { return beats(other, costs[i]); });
     for (std::size_t j = 0; j < i; ++j)
-      if (on[j] && alike(costs[j], costs[i])) on[i] = false;
+      if (on[j] && alike(costs[j], costs[i]) && costs[j].memory == costs[i].memory) on[i] = false;
   }
   return on;
 }

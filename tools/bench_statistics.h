@@ -28,18 +28,19 @@ private:
   long count_ = 0;
 };
 
-/// A setting's run time and error.
+/// A setting's run time and error, and the memory that it takes of the device.
 struct Cost {
   Spread time;
   double error = 0;
+  double memory = 0;
 };
 
 /// Errors that differ by less than this share show no difference.
 inline constexpr double kSameError = 0.01;
 
-/// For each, whether it lies on the front: no other is better in one and at least as good in the other. Times whose
-/// quartiles overlap and errors within kSameError are no better than each other; of settings that are so alike in both
-/// the first lies on the front for all.
+/// For each, whether it lies on the front: no other that takes no more memory is better in time or error and at least
+/// as good in the other. Times whose quartiles overlap and errors within kSameError are no better than each other; of
+/// settings that are so alike in both, and take as much memory, the first lies on the front for all.
 std::vector<bool> on_front(const std::vector<Cost>& costs);
 
 }  // namespace insonate::bench

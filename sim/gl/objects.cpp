@@ -156,6 +156,18 @@ void Texture::read(GLenum layout, GLenum type, void* pixels, std::size_t bytes) 
   glGetTextureImage(object_.name(), 0, layout, type, GLsizei(bytes), pixels);
 }
 
+std::size_t Texture::bytes() const {
+  if (!object_) return 0;
+  int bits = 0;
+  for (const GLenum channel :
+       {GL_TEXTURE_RED_SIZE, GL_TEXTURE_GREEN_SIZE, GL_TEXTURE_BLUE_SIZE, GL_TEXTURE_ALPHA_SIZE}) {
+    int size = 0;
+    glGetTextureLevelParameteriv(object_.name(), 0, channel, &size);
+    bits += size;
+  }
+  return std::size_t(width_) * std::size_t(height_) * std::size_t(depth_) * std::size_t(bits) / 8;
+}
+
 void Texture::bind_image(GLuint unit, GLenum access) const {
   glBindImageTexture(unit, object_.name(), 0, GL_TRUE, 0, access, format_);  // all slices of a 3D texture
 }

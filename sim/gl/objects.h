@@ -116,6 +116,8 @@ public:
   int width() const { return width_; }
   int height() const { return height_; }
   int depth() const { return depth_; }
+  /// What it takes of the device's memory, as the device tells of the format that it chose.
+  std::size_t bytes() const;
   GLuint name() const { return object_.name(); }
   explicit operator bool() const { return bool(object_); }
 

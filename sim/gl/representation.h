@@ -15,9 +15,10 @@ enum class VolumeFormat {
 /// costs and how far it is from the converged picture tells `insonate-bench front`; tests/gl/representation_gl_test.cpp
 /// holds each against the default and the reference.
 ///
-/// The default is what that command found best on llvmpipe, where alone it has been run: 32-bit volumes cost time and
-/// gain nothing that shows, half floats gain nothing that shows and cost time between stages, and a stored gradient
-/// gains about as much time for as much error as fewer samples do, and takes memory.
+/// The default is what that command found best on llvmpipe, where alone it has been run: 32-bit volumes take twice the
+/// memory for a few per cent of time, less on one processor and more on another, and gain nothing that shows; half
+/// floats gain nothing that shows and cost time between stages; and a stored gradient gains about as much time for as
+/// much error as fewer samples do, and takes memory.
 struct Representation {
   VolumeFormat volume = VolumeFormat::normalized_16;
 

@@ -268,6 +268,9 @@ const Texture& Simulator::volume_texture() const {
 const glm::dmat4& Simulator::texture_from_patient() const {
   return state_->volume.texture_from_patient();
 }
+std::size_t Simulator::volume_bytes() const {
+  return state_->volume.texture().bytes() + state_->volume.gradient().bytes();
+}
 const std::array<long, kStageCount>& Simulator::runs() const {
   return state_->runs;
 }

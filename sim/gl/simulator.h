@@ -63,6 +63,8 @@ public:
   const Texture& volume_texture() const;
   /// Patient mm -> that texture's coordinates.
   const glm::dmat4& texture_from_patient() const;
+  /// What the patient takes of the device's memory, a stored gradient included.
+  std::size_t volume_bytes() const;
 
   /// Everything that crosses the stages, read back. Runs what is due first.
   Stages<float> read_stages();

@@ -71,6 +71,15 @@ TEST_CASE("of settings that cannot be told apart the first lies on the front, wh
   CHECK(on_front({usual, usual}) == std::vector<bool>{true, false});
 }
 
+TEST_CASE("what takes more memory does not push from the front what takes less") {
+  const Cost usual{{9, 10, 11}, 1.0, 4}, faster{{7, 8, 8.9}, 1.0, 8}, by_chance{{8, 9.5, 11}, 1.0, 8},
+      lighter{{9, 10, 11}, 1.0, 2};
+  CHECK(on_front({usual, faster}) == std::vector<bool>{true, true});
+  CHECK(on_front({usual, by_chance}) == std::vector<bool>{true, false});
+  CHECK(on_front({by_chance, usual}) == std::vector<bool>{false, true});
+  CHECK(on_front({usual, lighter}) == std::vector<bool>{false, true});
+}
+
 TEST_CASE("a table comes back from its CSV as it was, whatever its cells hold") {
   const Table table{{"device", "median_ms"},
                     {{"llvmpipe (LLVM 15, 256 bits), OpenGL", "1.5"}, {"say \"so\"\nbelow", ""}, {"", "-2e-3"}}};
