@@ -81,11 +81,14 @@ Comparison compare(const std::string& old_file, const Table& before, const std::
                   is("q1_ms") / was("q3_ms"),
                   is("q3_ms") / was("q1_ms"),
                   {}};
-    for (const char* column : kBetterSmall)
-      if (has(before, column) && has(after, column) &&
-          after.number(new_file, match->second, column) > kRounding * before.number(old_file, i, column))
+    for (const char* column : kBetterSmall) {
+      if (!has(before, column)) continue;
+      if (!has(after, column))
+        change.worse.push_back(std::string(column) + " " + before.cell(i, column) + " -> not told");
+      else if (!(after.number(new_file, match->second, column) <= kRounding * before.number(old_file, i, column)))
         change.worse.push_back(std::string(column) + " " + before.cell(i, column) + " -> " +
                                after.cell(match->second, column));
+    }
     found.changes.push_back(std::move(change));
     row_of.erase(match);
   }
@@ -117,7 +120,7 @@ void compare_runs(const std::string& old_file, const std::string& new_file) {
   }
   for (const std::string& setting : compared.gone) std::printf("only in the earlier run: %s\n", setting.c_str());
   for (const std::string& setting : compared.arrived) std::printf("only in the later run: %s\n", setting.c_str());
-  std::printf("%zu settings, median ratio %.3f; beyond the spread: %d slower, %d faster; with larger errors: %d\n",
+  std::printf("%zu settings, median ratio %.3f; beyond the spread: %d slower, %d faster; worse otherwise: %d\n",
               ratios.size(), spread_of(ratios).median, slower, faster, worse);
 }
 

@@ -19,8 +19,8 @@ struct Change {
   bool slower() const { return least_ratio > 1; }
   bool faster() const { return most_ratio < 1; }
 
-  /// What else has grown that should not: errors, which have no spread, by more than another device's rounding does,
-  /// and what an unchanged frame runs. "error_db 0.89 -> 1.34", in the order of the columns.
+  /// What else has grown that should not, or is not told any more: errors, which have no spread, by more than another
+  /// device's rounding does, and what an unchanged frame runs. "error_db 0.89 -> 1.34", in the order of the columns.
   std::vector<std::string> worse;
 };
 

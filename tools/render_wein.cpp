@@ -42,6 +42,7 @@ void write_stages(const std::filesystem::path& folder, const WeinScene& scene, c
       describe_geometry("W", geometry, scene.patient_from_probe, scene.volume, rendered.made_by);
   describe_settings(text, named_settings(settings));
   text["air_mu"] = kAirMu;
+  text["contact_tissue_hu"] = kContactTissueHu;
   text["contact_air_hu"] = kContactAirHu;
   write_file(folder / "scanlines.json", text.dump(1) + "\n");
   write_hounsfield(folder, scene.volume);

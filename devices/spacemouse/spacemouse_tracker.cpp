@@ -27,6 +27,7 @@ SpaceMouseSource::SpaceMouseSource(std::shared_ptr<DeviceBus> bus, const std::st
     : DeviceSource(kKind, std::move(bus), serial, std::move(clock_s)),
       speed_(speed),
       rotation_(glm::normalize(glm::quat_cast(start.rotation))),
+      began_(start.translation),
       translation_(start.translation) {}
 
 void SpaceMouseSource::start(Transport&, const AttachedDevice&) {
@@ -36,7 +37,8 @@ void SpaceMouseSource::start(Transport&, const AttachedDevice&) {
 }
 
 void SpaceMouseSource::move(double elapsed_s) {
-  translation_ += rotation_ * (push_ * speed_ * kMmPerS * elapsed_s);
+  const glm::dvec3 way = translation_ + rotation_ * (push_ * speed_ * kMmPerS * elapsed_s) - began_;
+  translation_ = began_ + way * std::min(kReachMm / std::max(glm::length(way), kReachMm), 1.0);
   const glm::dvec3 turn = turn_ * speed_ * kRadPerS * elapsed_s;
   if (const double angle = glm::length(turn); angle > 0)
     rotation_ = glm::normalize(rotation_ * glm::angleAxis(angle, turn / angle));

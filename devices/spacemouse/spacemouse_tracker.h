@@ -20,6 +20,8 @@ public:
   /// A cap that is held away from rest reports every 8 ms or so. After so long without a word it counts as let go:
   /// the probe must not run away on a report that was lost.
   static constexpr double kLetGoS = 0.1;
+  /// From where it began, so that a cap that is held down loses no probe: more than a patient is long.
+  static constexpr double kReachMm = 2000;
 
   SpaceMouseSource(std::shared_ptr<DeviceBus> bus, const std::string& serial, const Pose& start, double speed,
                    std::function<double()> clock_s = steady_now_s);
@@ -35,7 +37,7 @@ private:
 
   double speed_;
   glm::dquat rotation_;
-  glm::dvec3 translation_;
+  glm::dvec3 began_, translation_;
   glm::dvec3 push_{0}, turn_{0};  ///< in the probe's frame
   std::uint32_t buttons_ = 0;
   double now_s_ = 0;

@@ -67,7 +67,7 @@ std::optional<std::string> why_not_rigid(const glm::dmat4& m, double reach_mm) {
   if (error > 2 * kOrthonormalTolerance)
     return with_number("the rotation is not orthonormal: it stretches or shears by %.2g", error);
   const double length = glm::length(glm::dvec3(m[3]));
-  if (length > reach_mm) return with_number("the translation is %g mm long, beyond any tracker's reach", length);
+  if (length > reach_mm) return with_number("the translation is %g mm long, further than anything reaches", length);
   return std::nullopt;
 }
 

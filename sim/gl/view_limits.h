@@ -9,11 +9,12 @@ namespace insonate::gl {
 
 inline constexpr double kLeastDepthMm = 0.1, kMostDepthMm = 1000;
 
-/// From the volume's frame to the probe: a tracker's reach (sim/core/pose.h), and what it is registered by.
-inline constexpr double kMostReachMm = 1e6;
+/// From the volume's frame to the probe. Above what a CT's origin may be off by (1e6 mm an axis) and what trackers and
+/// the transforms that register them reach beyond it.
+inline constexpr double kMostReachMm = 1e7;
 
-/// Throw std::invalid_argument that begins with the simulator's name: for a depth beyond these, or a probe whose
-/// numbers lie outside the ranges that Probe gives them; and for a pose that is not rigid, not finite or further away.
+/// Throw std::invalid_argument that begins with the simulator's name: for a depth beyond these, or a probe of which a
+/// number that places its lines lies outside the range that Probe gives it; and for a pose that is not rigid, not finite or further away.
 void check_probe(const char* simulator, const Probe& probe, double depth_mm);
 void check_pose(const char* simulator, const Pose& patient_from_probe);
 

@@ -44,8 +44,9 @@ inline constexpr int kMostPatches = 5376;
 /// The mu of air, below which none counts: its density is 1.2e-3 of water's, whose mu is 1000.
 inline constexpr double kAirMu = 1.2;
 
-/// Nearer to the face than WeinSettings::contact_mm, what is less dense than this counts as water: HU. Not a whole
-/// number, as voxels are: in a volume of one density the last place of a sum would decide.
-inline constexpr double kContactAirHu = -300.5;
+/// Nearer to the face than WeinSettings::contact_mm, what is no denser than kContactAirHu counts as water, what is as
+/// dense as kContactTissueHu as itself, and what lies between as its share of both: HU. Were there a density at which
+/// tissue turned into water at once, the picture would jump while the probe moves.
+inline constexpr double kContactTissueHu = -150, kContactAirHu = -301;
 
 }  // namespace insonate

@@ -37,7 +37,7 @@ layout(binding = 1, r32f) writeonly uniform image2D intensities;  // of the firs
 #endif
 
 const float kAirMu = 1.2;
-const float kContactAirHu = -300.5;
+const float kContactTissueHu = -150.0, kContactAirHu = -301.0;
 const float kNothing = -1e6;  // the logarithm of what total reflection lets pass, in effect
 
 // Of an image, in the volume's texture.
@@ -84,8 +84,9 @@ Terms terms_of(Line one, Line other, int k, inout vec2 log_intensity) {
   vec2 across = abs(vec2(dot(one.direction, gradient), dot(other.direction, gradient_there)));
   vec2 cosine = across / max(steepness, 1e-20), hu = vec2(here.x, there.x);
 
-  bvec2 contact = lessThan(steps, vec2(first_free_sample)), air = lessThan(hu, vec2(kContactAirHu));
-  hu = mix(hu, vec2(0.0), bvec2(contact.x && air.x, contact.y && air.y));
+  bvec2 contact = lessThan(steps, vec2(first_free_sample));
+  vec2 water = clamp((kContactTissueHu - hu) / (kContactTissueHu - kContactAirHu), 0.0, 1.0);
+  hu = mix(hu, hu * (1.0 - water), contact);
   vec2 change = mix(min(steepness / (2.0 * max(hu + 1000.0, kAirMu)), 1.0), vec2(0.0), contact);
 
   vec2 log_passed = mix(log(1.0 - change * change) * dr_by_length, vec2(kNothing), equal(change, vec2(1.0)));

@@ -182,6 +182,18 @@ inline Scene random_scene_of_everything(std::uint32_t seed) {
   return scene;
 }
 
+/// The same, of which three quarters begin at the volume or in it and not anywhere.
+inline Scene random_scene_at_body(std::uint32_t seed) {
+  Scene scene = random_scene_of_everything(seed);
+  Draw draw(hash(seed, 0xb0d7u));
+  if (draw.chance(0.75)) {
+    const Grid& grid = scene.volume.grid;
+    const double half_mm = glm::length(grid.spacing * glm::dvec3(grid.size)) / 2;
+    scene.pose.translation = scene.pose.rotation * glm::dvec3(0, -draw.within(0, half_mm), 0);
+  }
+  return scene;
+}
+
 /// `scene` changed where it would have to be compiled for anew behind `first`: compiling takes as long as hundreds of
 /// small pictures. What is left to itself: volume, probe, depth, pose and all other settings.
 inline Scene compiled_as(const Scene& first, Scene scene) {

@@ -10,6 +10,18 @@
 
 namespace insonate::test {
 
+/// Pixels that an echo comes from, and those of them of which U is known well enough for grey to be compared.
+struct Compared {
+  long with_echo = 0, in_grey = 0;
+
+  double share() const { return double(in_grey) / double(std::max(with_echo, 1L)); }
+  Compared& operator+=(const Compared& other) {
+    with_echo += other.with_echo;
+    in_grey += other.in_grey;
+    return *this;
+  }
+};
+
 /// Draws scenes with the shaders and with the reference, and checks that no stage lets out what is not a number or out
 /// of its bounds, and that both agree wherever single precision can.
 class Stressed {
@@ -26,13 +38,13 @@ public:
   /// Bounds of both, and agreement; what the shaders gave.
   Stages<float> check(const Scene& scene);
 
-  /// Of all pixels in what check() was given that an echo comes from: of how many U is known well enough for grey.
-  double share_compared() const { return double(compared_) / double(std::max(with_echo_, 1L)); }
+  /// Of all that check() was given.
+  const Compared& compared() const { return compared_; }
 
 private:
   test::TestContext context_;
   gl::Simulator simulator_;
-  long with_echo_ = 0, compared_ = 0;
+  Compared compared_;
   TissueTable table_ = read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml");
 };
 

@@ -130,7 +130,8 @@ TEST_CASE("a run whose errors have grown is told from one that is as accurate, h
   CHECK(worse(with_error("0.501", "2.20")).empty());  // rounded otherwise, and better
   CHECK(worse(with_error("0.510", "2.25")) == std::vector<std::string>{"error_db 0.500 -> 0.510"});
   CHECK(worse(with_error("0.400", "3.00")) == std::vector<std::string>{"error_grey 2.25 -> 3.00"});
-  CHECK(worse(run("X", 6, 7, 8)).empty());  // whose errors in grey are not told
+  CHECK(worse(with_error("nan", "2.25")) == std::vector<std::string>{"error_db 0.500 -> nan"});
+  CHECK(worse(run("X", 6, 7, 8)) == std::vector<std::string>{"error_grey 2.25 -> not told"});
   CHECK_THROWS_WITH(worse(with_error("good", "2.25")), Catch::Contains("line 2, column 'error_db': 'good'"));
 }
 

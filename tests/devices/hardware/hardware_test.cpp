@@ -359,6 +359,24 @@ TEST_CASE("a SpaceMouse moves the probe at a rate, as seen on the screen, and st
   CHECK(bench.source.tally().incidents() == 0);
 }
 
+TEST_CASE("a SpaceMouse whose cap is held down for minutes keeps the probe within reach, and brings it back") {
+  Bench<SpaceMouseSource> bench(kStart, 10.0);
+  bench.bus->attached.devices = {{0x256f, 0xc635, "", "", "/dev/hidraw0", 0}};
+  bench.source.open();
+  const auto held = [&](int tenths, const Report& report) {
+    glm::dvec3 last(0);
+    for (int i = 0; i < tenths; ++i) {
+      bench.now_s += 0.1;
+      bench.bus->reports = {report};
+      const LiveBatch batch = bench.read_all();
+      if (!batch.samples.empty()) last = batch.samples.back().patient_from_probe.translation;
+    }
+    return glm::distance(last, kStart.translation);
+  };
+  CHECK(held(3000, {1, 0, 0, 0, 0, 94, 1}) == Approx(SpaceMouseSource::kReachMm));
+  CHECK(held(20, {1, 0, 0, 0, 0, 0xa2, 0xfe}) < SpaceMouseSource::kReachMm - 500);
+}
+
 TEST_CASE("an OSVR tracker turns the probe on the spot") {
   Bench<OsvrSource> bench(kStart);
   bench.bus->attached.devices = {{0x1532, 0x0b00, "", "", "/dev/hidraw0", 0}};

@@ -80,7 +80,8 @@ private:
         const Vec3 d = directions_[std::size_t(line)];
         Medium met = medium(starts_[std::size_t(line)] + r * d);
         if (r < setting("contact_mm")) {
-          if (met.hu < value("contact_air_hu")) met.hu = 0;
+          const double tissue = value("contact_tissue_hu"), air = value("contact_air_hu");
+          met.hu *= 1 - std::clamp((tissue - met.hu) / (tissue - air), 0.0, 1.0);
           met.gradient = {};
         }
         const double two_mu = 2 * std::max(met.hu + 1000, value("air_mu")), steepness = length(met.gradient);
