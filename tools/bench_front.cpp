@@ -129,23 +129,20 @@ void print(const Scene& scene, const Panel& panel, const std::vector<Cost>& cost
     if (i != 0 && !panel.points[i].quality.empty())
       std::printf("%s %s on the front.\n", panel.points[i].quality.c_str(),
                   panel.points[i].on_front ? "lies" : "does not lie");
-  if (panel.points.front().on_front) {
-    std::printf("balanced, the default, lies on the front.\n");
-    return;
-  }
+  const Spread& usual = costs.front().time;
   std::vector<std::size_t> better;
   std::copy_if(order.begin(), order.end(), std::back_inserter(better), [&](std::size_t i) {
-    return i != 0 && !panel.points[i].leaves_out && costs[i].time.median <= costs[0].time.median &&
-           costs[i].error <= costs[0].error && costs[i].memory <= costs[0].memory;
+    return i != 0 && !panel.points[i].leaves_out && costs[i].time.median <= usual.median &&
+           costs[i].error <= costs[0].error;
   });
-  const bool beyond_spread = std::any_of(better.begin(), better.end(), [&](std::size_t i) {
-    return costs[i].time.third_quartile < costs[0].time.first_quartile;
-  });
-  std::printf("balanced, the default, %s; no slower by the median, no less exact and of no more memory:\n",
-              beyond_spread ? "does not lie on the front" : "lies on the front within the spread of the times");
+  std::printf("balanced, the default, %s.%s\n",
+              panel.points.front().on_front ? "lies on the front" : "does not lie on the front",
+              better.empty() ? "" : " No slower by the median and no less exact:");
   for (const std::size_t i : better)
-    std::printf("  %s: %+.1f %% of time, %+.1f %% of error\n", panel.points[i].name.c_str(),
-                100 * (costs[i].time.median / costs[0].time.median - 1), 100 * (costs[i].error / costs[0].error - 1));
+    std::printf("  %s: %+.1f %% of time, %s the spread, %+.1f %% of error, %.1f times the memory\n",
+                panel.points[i].name.c_str(), 100 * (costs[i].time.median / usual.median - 1),
+                costs[i].time.third_quartile < usual.first_quartile ? "beyond" : "within",
+                100 * (costs[i].error / costs[0].error - 1), costs[i].memory / costs[0].memory);
 }
 
 }  // namespace

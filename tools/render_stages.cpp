@@ -27,7 +27,8 @@ void write_tissue(const fs::path& folder, const Tissue& tissue) {
   write("impedance", tissue.impedance, kImpedance);
   write("absorption", tissue.absorption, "a, dB/(cm MHz), one way; gel as in impedance");
   write("alpha", tissue.alpha, kAlpha);
-  write("incidence", tissue.incidence, "|d . n|, n from differences of Z over l along three axes");
+  write("incidence", tissue.incidence,
+        "|d . n|, n from differences of Hounsfield units, gel included, over l along three axes");
 }
 
 void add(Image<double>& to, double weight, const Image<double>& what) {
@@ -59,7 +60,8 @@ void write_planes(const fs::path& folder, const RenderedScene& scene, const Scan
   }
   write_among_lines(folder, "echo_re", in_single_precision(echo_re),
                     "the scatterers' echo before the beam's width, real part, of all planes");
-  write_among_lines(folder, "echo_im", in_single_precision(echo_im), "the same, imaginary part");
+  write_among_lines(folder, "echo_im", in_single_precision(echo_im),
+                    "the scatterers' echo before the beam's width, imaginary part, of all planes");
 }
 
 }  // namespace
@@ -101,13 +103,14 @@ void write_stages(const fs::path& folder, const RenderedScene& scene, const Stag
   if (settings.reverberation || settings.face_reflection > 0)
     among_lines("repeated", stages.repeated, "V behind the beam's width, as sim/model/reverberation.h says");
   if (settings.electronic_noise || settings.clutter)
-    among_lines("noise", in_single_precision(electronic_noise(geometry.lines, settings)),
-                "of mean 1: times noise_level, and the scatterers' mean echo at the depth times clutter_share, in U");
+    among_lines(
+        "noise", in_single_precision(electronic_noise(geometry.lines, settings)),
+        "of mean 1: in U times noise_level + clutter_share M, M the scatterers' mean echo at the pixel's depth");
 
   write_pixel_positions(folder, geometry);
   write_as_picture(folder, "fused", stages.fused, "U (6), before gain");
   write_as_picture(folder, "image", in_single_precision(stages.grey),
-                   "grey level behind gain and log compression (7), 0 to 255");
+                   "grey level behind gain and log compression (7), 0 to 255; the marker on the right");
 }
 
 }  // namespace insonate

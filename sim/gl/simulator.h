@@ -45,7 +45,8 @@ public:
   /// off by a grey level from a new simulator's.
   /// Throws std::invalid_argument on settings that why_not_valid() (sim/model/settings_file.h) finds fault with.
   void set_settings(const Settings& settings);
-  /// Throws std::invalid_argument on a pose that is not rigid or not finite; that before stays.
+  /// Throws std::invalid_argument on a pose that check_pose() (sim/gl/view_limits.h) finds fault with: not rigid, not
+  /// finite, or further than 10 km away; that before stays.
   void set_pose(const Pose& patient_from_probe);
 
   /// Runs what is due up to and including a stage, for those who measure.

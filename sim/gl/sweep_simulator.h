@@ -35,10 +35,11 @@ public:
   SweepSimulator& operator=(SweepSimulator&&) noexcept;
 
   void set_volume(const AcousticVolume& volume, const TissueTable& table);
-  /// Throws std::invalid_argument on fewer than two planes, on a pose that is not rigid or not finite, and on a probe
-  /// or a depth that check_probe() (sim/gl/view_limits.h) finds fault with; the sweep before stays.
+  /// Throws std::invalid_argument on fewer than two planes, and on poses, a probe or a depth that check_pose() and
+  /// check_probe() (sim/gl/view_limits.h) find fault with; the sweep before stays.
   void set_sweep(const Sweep& sweep);
-  /// @param grid  where the voxels lie in the patient, such as sweep_grid() (sim/probe/sweep.h) gives
+  /// @param grid  where the voxels lie in the patient, such as sweep_grid() (sim/probe/sweep.h) gives: sizes of 1 or
+  ///              more and spacings above 0, which are not checked; too many voxels are refused by volume()
   void set_grid(const Grid& grid);
   /// Throws std::invalid_argument on settings that why_not_valid() (sim/model/settings_file.h) finds fault with.
   void set_settings(const Settings& settings);

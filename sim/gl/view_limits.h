@@ -14,7 +14,8 @@ inline constexpr double kLeastDepthMm = 0.1, kMostDepthMm = 1000;
 inline constexpr double kMostReachMm = 1e7;
 
 /// Throw std::invalid_argument that begins with the simulator's name: for a depth beyond these, or a probe of which a
-/// number that places its lines lies outside the range that Probe gives it; and for a pose that is not rigid, not finite or further away.
+/// number that places its lines lies outside the range that Probe gives it; and for a pose that is not rigid, not
+/// finite or further away.
 void check_probe(const char* simulator, const Probe& probe, double depth_mm);
 void check_pose(const char* simulator, const Pose& patient_from_probe);
 

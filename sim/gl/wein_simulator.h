@@ -24,8 +24,8 @@ namespace insonate::gl {
 /// much each is like a given ultrasound image.
 ///
 /// A call's poses are worked through in chunks whose scan lines stay below 24 MiB, so that memory is bounded; nothing
-/// is read back between chunks. Needs an OpenGL 4.5 context, current whenever it is used. A call with a pose that is
-/// not rigid or not finite throws std::invalid_argument and draws nothing.
+/// is read back between chunks. Needs an OpenGL 4.5 context, current whenever it is used. A call with a pose that
+/// check_pose() (sim/gl/view_limits.h) finds fault with throws std::invalid_argument and draws nothing.
 class WeinSimulator {
 public:
   /// Throws std::runtime_error when shaders do not build, TextureRefused when the device cannot hold the volume,

@@ -12,7 +12,9 @@ inline constexpr double kLeastEcho = 1e-30;
 /// What crosses the stages of model S, for those who check or take apart a picture. Numbers in brackets are the
 /// equations of Kutter, Shams, Navab (Computer Methods and Programs in Biomedicine 94, 2009), words with underscores
 /// the fields of Settings. With Z the impedance and a the absorption of the tissue table, l = reflection_length_mm, d
-/// the line's direction, n that of Z's gradient, and r_k = (k + 1/2) dr the samples' distances from the face:
+/// the line's direction, n that of the density's gradient (of Z's where Z changes evenly with density: differences of
+/// HU over l along d, along the elevation and square to both), and r_k = (k + 1/2) dr the samples' distances from the
+/// face:
 ///
 ///     alpha(r) = ((Z(r + l/2) - Z(r - l/2)) / (Z(r + l/2) + Z(r - l/2)))^2                             (1)
 ///     I(r + dr) = I(r) (1 - alpha(r))^(dr/l) 10^(-a f dr/100),  I(0) = 1                               (5)
@@ -22,7 +24,8 @@ inline constexpr double kLeastEcho = 1e-30;
 ///     E = U 10^((gain_db + t)/10),  0 where U is below kLeastEcho
 ///     grey = 255 m(clamp(1 + 10 log10(E/L) / dynamic_range_db, 0, 1)),  0 where E is 0                 (7)
 ///
-/// (5) has the paper's recursion for l = dr; l keeps it from depending on how many samples there are. Its last factor
+/// To the first sample, half a step behind the face, (5) takes half a step of absorption and no interface. It has the
+/// paper's recursion for l = dr; l keeps it from depending on how many samples there are. Its last factor
 /// is absorption, a in dB/(cm MHz) one way, f = frequency_mhz and dr in mm (Szabo, Diagnostic Ultrasound Imaging, 4: an
 /// attenuation in proportion to frequency); the paper has none. Coupling: nearer to the face than gel_mm, air counts as
 /// water without echo, as the face itself does (kCouplingAirHu, sim/reference/reference.h); beyond, air reflects by (1)

@@ -11,7 +11,7 @@ namespace insonate {
 /// knot, so a table of one entry a unit over this range holds all that a tissue table says.
 inline constexpr int kLeastKnotHu = -1024, kMostKnotHu = 3071;
 
-/// Coupling gel takes the place of what is no denser.
+/// What is no denser is air: coupling gel takes its place whole (kCouplingAirHu, sim/reference/reference.h).
 inline constexpr int kMostAirHu = -301;
 
 /// What a Hounsfield unit means acoustically; between knots linear, beyond the ends constant.

@@ -26,7 +26,7 @@ struct Probe {
   double field_of_view_deg = 60;  ///< curvilinear and phased: between the outer lines' outer edges, 5 to 150
   double width_mm = 40;           ///< linear and phased: of the face, 5 to 200
   double frequency_mhz = 3.5;     ///< centre frequency, 1 to 20
-  double depth_mm = 160;          ///< default imaging depth
+  double depth_mm = 160;          ///< default imaging depth, 10 to 400
   int lines = 192;                ///< scan lines, 1 to 4096
 
   bool operator==(const Probe&) const = default;

@@ -16,7 +16,7 @@ namespace insonate {
 /// sides: a sweep goes one way, and its planes do not cross in front of the face.
 struct Sweep {
   Probe probe;                           ///< of each plane
-  double depth_mm = 160;                 ///< along each line
+  double depth_mm = 160;                 ///< along each line, 0.1 to 1000
   std::vector<Pose> patient_from_plane;  ///< rigid; the plane is that of x and y
 
   bool operator==(const Sweep&) const = default;

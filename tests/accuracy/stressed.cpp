@@ -165,7 +165,8 @@ std::string disagreement(const Scene& scene, const Stages<double>& expected, con
   const Image<double> around = loudest_around(expected.fused);
   const Image<double> beside = loudest_samples_around(scene, expected);
   const double place = 2.4e-7 * std::max(expected.intensity.width, expected.intensity.height);
-  const double silent = kLeastEcho + kSilentRounding * s.blend * largest(expected.transmission);
+  const double silent =
+      kLeastEcho + kSilentRounding * (largest(expected.reflection_beam) + s.blend * largest(expected.transmission));
   Image<double> fused_tolerance = tolerated(expected.fused, spread.fused, [&](double) { return silent; });
   for (std::size_t i = 0; i < around.pixels.size(); ++i)
     fused_tolerance.pixels[i] += 1e-3 * around.pixels[i] + place * beside.pixels[i];
