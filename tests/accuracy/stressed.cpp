@@ -83,27 +83,33 @@ Image<double> tolerated(const Image<double>& expected, const Image<double>& spre
   return result;
 }
 
-/// The largest within two pixels of each.
-Image<double> loudest_around(const Image<double>& image) {
-  constexpr int kReach = 2;
-  Image<double> found = image;
+/// The largest within so many pixels of each, along x and along y.
+Image<double> loudest_around(const Image<double>& image, int reach) {
+  Image<double> across = image;
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x)
-      for (int v = std::max(y - kReach, 0); v <= std::min(y + kReach, image.height - 1); ++v)
-        for (int u = std::max(x - kReach, 0); u <= std::min(x + kReach, image.width - 1); ++u)
-          found.at(x, y) = std::max(found.at(x, y), image.at(u, v));
+      for (int u = std::max(x - reach, 0); u <= std::min(x + reach, image.width - 1); ++u)
+        across.at(x, y) = std::max(across.at(x, y), image.at(u, y));
+  Image<double> found = across;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      for (int v = std::max(y - reach, 0); v <= std::min(y + reach, image.height - 1); ++v)
+        found.at(x, y) = std::max(found.at(x, y), across.at(x, v));
   return found;
 }
 
-/// The largest U that the samples beside each pixel could make: where a pixel lies among them is known in single
-/// precision, so that much of this too many is told to it.
-Image<double> loudest_samples_around(const Scene& scene, const Stages<double>& of) {
+/// Of the samples beside each pixel, the largest R + b T, and the largest U that they could make: where a pixel lies
+/// among them is known in single precision, so that much of this too many is told to it.
+struct Beside {
+  Image<double> echo, fused;
+};
+Beside loudest_samples_around(const Scene& scene, const Stages<double>& of) {
   const int lines = of.intensity.width, samples = of.intensity.height;
   const ScanLines placed = scan_lines(scene.probe, scene.depth_mm, samples);
   const ImageGeometry picture = image_geometry(scene.probe, scene.depth_mm, of.fused.width, of.fused.height);
-  Image<double> found(of.fused.width, of.fused.height);
-  for (int y = 0; y < found.height; ++y)
-    for (int x = 0; x < found.width; ++x)
+  Beside found{Image<double>(of.fused.width, of.fused.height), Image<double>(of.fused.width, of.fused.height)};
+  for (int y = 0; y < found.fused.height; ++y)
+    for (int x = 0; x < found.fused.width; ++x)
       if (const auto at = line_position(scene.probe, scene.depth_mm, picture.plane_mm(x, y))) {
         const int line = int(at->line), k = int((at->r_mm - placed.r_min_mm) / placed.dr_mm());
         double echo = 0, scattered = 0, repeated = 0;
@@ -113,7 +119,8 @@ Image<double> loudest_samples_around(const Scene& scene, const Stages<double>& o
             scattered = std::max(scattered, of.speckle.at(j, i));
             repeated = std::max(repeated, of.repeated.at(j, i));
           }
-        found.at(x, y) = echo * scattered + repeated;
+        found.echo.at(x, y) = echo;
+        found.fused.at(x, y) = echo * scattered + repeated;
       }
   return found;
 }
@@ -162,14 +169,18 @@ std::string disagreement(const Scene& scene, const Stages<double>& expected, con
   // An envelope near its zero is as wrong as the envelopes around it are large. Grey values follow from what may be
   // wrong of U, in decibels, and are off by two levels besides.
   const Settings& s = scene.settings;
-  const Image<double> around = loudest_around(expected.fused);
-  const Image<double> beside = loudest_samples_around(scene, expected);
+  const Image<double> around = loudest_around(expected.fused, 2);
+  const Beside beside = loudest_samples_around(scene, expected);
+  const ImageGeometry picture = image_geometry(scene.probe, scene.depth_mm, around.width, around.height);
+  const double smoothed_mm = 3 * std::max(s.reflection_sigma_mm, s.transmission_sigma_mm);
+  const Image<double> silent = loudest_around(
+      beside.echo,
+      int(std::min(std::ceil(smoothed_mm / picture.mm_per_pixel), double(std::max(around.width, around.height)))));
   const double place = 2.4e-7 * std::max(expected.intensity.width, expected.intensity.height);
-  const double silent =
-      kLeastEcho + kSilentRounding * (largest(expected.reflection_beam) + s.blend * largest(expected.transmission));
-  Image<double> fused_tolerance = tolerated(expected.fused, spread.fused, [&](double) { return silent; });
+  Image<double> fused_tolerance = tolerated(expected.fused, spread.fused, [](double) { return kLeastEcho; });
   for (std::size_t i = 0; i < around.pixels.size(); ++i)
-    fused_tolerance.pixels[i] += 1e-3 * around.pixels[i] + place * beside.pixels[i];
+    fused_tolerance.pixels[i] +=
+        1e-3 * around.pixels[i] + place * beside.fused.pixels[i] + kSilentRounding * silent.pixels[i];
   const Worst fused = worst(expected.fused, got.fused, fused_tolerance);
   if (!(fused.error < 1)) return told("U", fused);
 
