@@ -40,15 +40,20 @@ Settings few_pixels() {
   return settings;
 }
 
-}  // namespace
-
-TEST_CASE("poses of which no picture can be made are refused, and those before stay") {
-  const test::TestContext context;
+gl::Simulator with_a_picture() {
   gl::Simulator simulator;
   simulator.set_volume(test::test_body(), test::tissues());
   simulator.set_probe(test::small_probe("curvilinear"), test::kDepth_mm);
   simulator.set_settings(few_pixels());
   simulator.set_pose(test::on_the_skin(0, 9, 0));
+  return simulator;
+}
+
+}  // namespace
+
+TEST_CASE("poses of which no picture can be made are refused, and those before stay") {
+  const test::TestContext context;
+  gl::Simulator simulator = with_a_picture();
   const auto before = simulator.read_stages().grey.pixels;
   WeinSettings wein_settings;
   wein_settings.image_width = wein_settings.image_height = 40;
@@ -73,11 +78,7 @@ TEST_CASE("poses of which no picture can be made are refused, and those before s
 
 TEST_CASE("probes and depths beyond their ranges are refused, and those before stay") {
   const test::TestContext context;
-  gl::Simulator simulator;
-  simulator.set_volume(test::test_body(), test::tissues());
-  simulator.set_probe(test::small_probe("curvilinear"), test::kDepth_mm);
-  simulator.set_settings(few_pixels());
-  simulator.set_pose(test::on_the_skin(0, 9, 0));
+  gl::Simulator simulator = with_a_picture();
   const auto before = simulator.read_stages().grey.pixels;
   const auto refused = [&](const Probe& probe, double depth_mm, const char* why) {
     CAPTURE(why);
@@ -103,4 +104,12 @@ TEST_CASE("probes and depths beyond their ranges are refused, and those before s
   probe = test::small_probe("linear");
   probe.width_mm = -40;
   refused(probe, 100, "width in mm is -40");
+}
+
+TEST_CASE("model W's settings beyond their ranges are refused by name") {
+  const test::TestContext context;
+  WeinSettings settings;
+  settings.samples = 0;
+  CHECK_THROWS_WITH(gl::WeinSimulator(test::test_body(), test::small_probe("linear"), test::kDepth_mm, settings),
+                    Catch::StartsWith("Wein simulator: 'samples' is 0"));
 }
