@@ -30,7 +30,7 @@ inline constexpr double kLeastEcho = 1e-30;
 /// attenuation in proportion to frequency); the paper has none. Coupling: nearer to the face than gel_mm, air counts as
 /// water without echo, as the face itself does (kCouplingAirHu, sim/reference/reference.h); beyond, air reflects by (1)
 /// as anywhere, so that a face that does not touch sees nothing. Where the slice has several planes (sim/model/beam.h),
-/// I, R and the scatterers' echo are their sums by weight. An R below kLeastEcho is 0, and so is a T that is I^2.
+/// I, R and the scatterers' echo are their sums by weight. An R below kLeastEcho is 0, and so is T.
 ///
 /// In (6) R and S are behind the beam's width (4), sim/model/beam.h, G1 and G2 Gaussians in the picture of
 /// reflection_sigma_mm and transmission_sigma_mm, b = blend; beside are V of reverberation.h, and noise and clutter of

@@ -271,7 +271,7 @@ Stages<double> simulate_reference(const MediumField& field, const TissueTable& t
       stages.reflection_beam.at(line, k) = reflection / total;
       stages.repeated.at(line, k) = repeat / total;
       const double intensity = scan.intensity.at(line, k);
-      stages.transmission.at(line, k) = settings.two_way ? heard(intensity * intensity) : intensity;
+      stages.transmission.at(line, k) = heard(settings.two_way ? intensity * intensity : intensity);
       stages.speckle.at(line, k) = std::abs(echo) / total * (settings.speckle ? scale[std::size_t(k)] : 1);
     }
   }

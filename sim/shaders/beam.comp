@@ -74,8 +74,9 @@ void main() {
 
   reflection /= total;
   repeated /= total;
-  vec4 heard = mix(vec4(0.0), intensity, greaterThan(intensity, vec4(kLeastIntensity)));
-  vec4 transmission = two_way == 1 ? heard * heard : intensity;
+  float least = two_way == 1 ? kLeastIntensity : kLeastEcho;
+  vec4 heard = mix(vec4(0.0), intensity, greaterThan(intensity, vec4(least)));
+  vec4 transmission = two_way == 1 ? heard * heard : heard;
   vec4 envelope = sqrt(re * re + im * im) / total * here.x;
   for (int i = 0; i < 4; ++i)
     if (first + i < lines)

@@ -111,6 +111,12 @@ TEST_CASE("no time gain lifts what is below the least echo") {
   }
 }
 
+TEST_CASE("no blend lifts sound that is below the least echo on its way in alone") {
+  // 300 dB lost without the way back, by the planes of a slice, and a blend of 1000.
+  constexpr std::uint32_t kSeed = 98975;
+  Stressed().check(compiled_as(random_scene_at_body(leader_of(kSeed)), random_scene_at_body(kSeed)));
+}
+
 TEST_CASE("skipping ends no line that a high gain still shows") {
   // Sound weakened on its way in alone by 200 dB, and as much gain.
   constexpr std::uint32_t kSeed = 4763;

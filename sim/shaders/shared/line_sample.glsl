@@ -41,8 +41,9 @@ const float kScattererScale = 4.0;     // the lattice stores a quarter of its no
 const float kLn10 = 2.302585093;
 // As in sim/model/acoustic_volume.h: in hundredths of a dB, and 10 to the power of a thousandth of that.
 const float kSilentEchogenicity = -5999.5, kSilentAmplitude = 1.00115195e-6;
-// 10^-30: below that no echo counts, whatever the gain, and intensity takes part in each at least once (least_echo.glsl).
-const float kLeastLogIntensity = -69.0;
+// Of 10^-33. Intensity takes part in each echo at least once, and none below 10^-30 counts (least_echo.glsl); the planes
+// of a slice add up to that, so each is known to a thousandth of it.
+const float kLeastLogIntensity = -76.0;
 
 Line line;
 uint walked = 0u, normals = 0u;  // by this invocation
