@@ -107,7 +107,7 @@ Json describe(const RenderedScene& scene, const StageGeometry& geometry, const s
   text["frequency_mhz"] = scene.settings.frequency_mhz;
   text["coupling_air_hu"] = kCouplingAirHu;
   text["coupling_tissue_hu"] = kCouplingTissueHu;
-  text["face_mm"] = kFace_mm;
+  text["coupled_mm"] = coupled_mm(scene.settings);
   describe_settings(text, named_settings(scene.settings));
   for (const TissueKnot& knot : scene.table.knots)
     text["tissues"].push_back({{"hu", knot.hu},

@@ -10,7 +10,7 @@ namespace insonate {
 
 Tissue tissue_along(const ScanLines& lines, const RenderedScene& scene, const SlicePlane& plane) {
   const MediumField field = trilinear_field(scene.volume);
-  const double l = scene.settings.reflection_length_mm, gel = scene.settings.gel_mm;
+  const double l = scene.settings.reflection_length_mm, coupled = coupled_mm(scene.settings);
   const int n = int(lines.lines.size()), d = lines.samples;
   const Image<float> empty(n, d);
   Tissue tissue{empty, empty, empty, empty, empty, empty};
@@ -28,8 +28,8 @@ Tissue tissue_along(const ScanLines& lines, const RenderedScene& scene, const Sl
     for (int k = 0; k < d; ++k) {
       const double r = lines.r_min_mm + (k + 0.5) * lines.dr_mm();
       const glm::dvec3 p = place(r);
-      const auto hu = [&](const glm::dvec3& at, double depth) { return with_gel(field(at), depth, gel).hu; };
-      const Medium here = with_gel(field(p), r, gel);
+      const auto hu = [&](const glm::dvec3& at, double depth) { return with_gel(field(at), depth, coupled).hu; };
+      const Medium here = with_gel(field(p), r, coupled);
       const TissueKnot met = scene.table.at(here.hu);
       tissue.hounsfield.at(line, k) = float(here.hu);
       tissue.echogenicity.at(line, k) = float(here.echogenicity_db);

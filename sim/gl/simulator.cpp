@@ -224,6 +224,7 @@ void Simulator::set_volume(const AcousticVolume& volume, const TissueTable& tabl
 
 void Simulator::set_probe(const Probe& probe, double depth_mm) {
   check_probe("simulator", probe, depth_mm);
+  if (probe == state_->probe && depth_mm == state_->depth_mm) return;
   state_->probe = probe;
   state_->depth_mm = depth_mm;
   state_->layout_changed = true;

@@ -61,6 +61,16 @@ std::pair<float, float> samples_in_body(const DeviceVolume& volume, const glm::d
   return {float(first - 1), float(last + 1)};
 }
 
+// The least and the most slice thickness that a line's samples, and what they reach, meet where planes bend; 0 both
+// where they do not.
+std::pair<double, double> bent_between(const ScanLines& lines, const Settings& settings) {
+  if (!slice_bends(settings)) return {0, 0};
+  const double reach = settings.reflection_length_mm / 2;
+  const double at_face = slice_thickness_at_mm(settings, lines.r_min_mm - reach),
+               at_end = slice_thickness_at_mm(settings, lines.r_max_mm + reach);
+  return {settings.slice_thickness_mm, std::max(at_face, at_end)};
+}
+
 }  // namespace
 
 bool meets_no_body(const PlacedLine& line) {
@@ -89,6 +99,7 @@ std::vector<PlacedLine> placed_lines(const DeviceVolume& volume, const Pose& pat
   const auto point = [](const glm::dmat4& map, const glm::dvec3& p) { return glm::dvec3(map * glm::dvec4(p, 1)); };
   const auto step = [](const glm::dmat4& map, const glm::dvec3& d) { return glm::dvec3(map * glm::dvec4(d, 0)); };
   const double dr = lines.dr_mm(), half_length = settings.reflection_length_mm / 2;
+  const std::pair<double, double> bent = bent_between(lines, settings);
   std::vector<PlacedLine> placed;
   placed.reserve(std::size_t(settings.slice_planes) * lines.lines.size());
   for (const SlicePlane& plane : slice_planes(settings))
@@ -98,19 +109,22 @@ std::vector<PlacedLine> placed_lines(const DeviceVolume& volume, const Pose& pat
       const glm::dvec3 first = line.start + glm::dvec3(0, 0, beside) + (lines.r_min_mm + dr / 2) * d;
       const glm::dvec3 start = point(texture_from_probe, first), along = step(texture_from_probe, dr * d);
       const glm::dvec3 to_side = step(texture_from_probe, half_length * lateral),
-                       to_elevation = step(texture_from_probe, half_length * elevation);
-      // Sound meets what lies half the reflection length around a sample. Bent lines are not told apart.
-      const glm::dvec3 reach = glm::abs(to_side) + glm::abs(to_elevation) + half_length / dr * glm::abs(along);
-      const auto [first_met, last_met] = settings.skipping && !slice_bends(settings)
-                                             ? samples_in_body(volume, start, along, reach, lines.samples - 1)
-                                             : std::pair(-kFar, kFar);
+                       to_elevation = step(texture_from_probe, half_length * elevation),
+                       elevated = step(texture_from_probe, {0, 0, plane.offset});
+      // Sound meets what lies half the reflection length around a sample. A bent line stays between where it is
+      // nearest to the imaging plane and where it is furthest from it.
+      const glm::dvec3 reach = glm::abs(to_side) + glm::abs(to_elevation) + half_length / dr * glm::abs(along) +
+                               (bent.second - bent.first) / 2 * glm::abs(elevated);
+      const glm::dvec3 middle = start + (bent.first + bent.second) / 2 * elevated;
+      const auto [first_met, last_met] =
+          settings.skipping ? samples_in_body(volume, middle, along, reach, lines.samples - 1) : std::pair(-kFar, kFar);
       placed.push_back({{start, first_met},
                         {along, last_met},
                         {to_side, plane.weight},
                         {to_elevation, 0},
                         {point(lattice_from_probe, first), 0},
                         {step(lattice_from_probe, dr * d), 0},
-                        {step(texture_from_probe, {0, 0, plane.offset}), 0},
+                        {elevated, 0},
                         {step(lattice_from_probe, {0, 0, plane.offset}), 0}});
     }
   return placed;
@@ -178,7 +192,7 @@ SimulationParameters parameters_of(const Settings& settings, const ScanLines& li
   p.half_reflection_length = float(samples_a_length / 2);
   p.reflection_exponent = float(1 / samples_a_length);
   p.absorption_per_sample = float(settings.frequency_mhz * dr / 100 * kLn10);
-  p.gel_mm = float(std::max(settings.gel_mm, kFace_mm));
+  p.coupled_mm = float(coupled_mm(settings));
   p.least_alpha_with_normal = float(least_alpha_with_normal(settings));
   p.reflection_exponent_px = float(reflection.exponent);
   p.transmission_exponent_px = float(transmission.exponent);

@@ -91,6 +91,9 @@ struct WeinSimulator::State {
   Texture density, probe_lines, places, sums, grid;
   std::vector<glm::vec4> place_rows;
 
+  std::vector<Pose> drawn, compared;  // of the last calls
+  std::vector<float> similar;         // of `compared`
+
   Buffer samples_walked{sizeof(GLuint), nullptr};  // by the last call
   std::array<StageCount, kWeinStageCount> counts{};
 };
@@ -228,6 +231,7 @@ const Image<std::uint8_t>& WeinSimulator::inside() const {
 const Texture& WeinSimulator::simulate(std::span<const Pose> patient_from_probe) {
   check_poses(patient_from_probe);
   State& s = *state_;
+  if (s.grid && std::ranges::equal(patient_from_probe, s.drawn)) return s.grid;
   const int w = s.settings.image_width, h = s.settings.image_height;
   const int count = std::max(int(patient_from_probe.size()), 1);
   const int columns = std::clamp(int(std::lround(std::sqrt(double(count) * h / w))), 1, count);
@@ -249,6 +253,7 @@ const Texture& WeinSimulator::simulate(std::span<const Pose> patient_from_probe)
     });
   s.grid.write(GL_RED, GL_UNSIGNED_BYTE, s.tiles.values());
   s.ran(WeinStage::scan_convert, patient_from_probe.size(), s.fan_pixels.pixels);
+  s.drawn.assign(patient_from_probe.begin(), patient_from_probe.end());
   return s.grid;
 }
 
@@ -262,6 +267,7 @@ void WeinSimulator::set_ultrasound(const Image<float>& image) {
   State& s = *state_;
   if (image.width != s.fan.inside.width || image.height != s.fan.inside.height)
     throw std::invalid_argument(std::string(kName) + ": the ultrasound image has another size than the simulated ones");
+  s.compared.clear();
   s.counted_pixels = compared_pixels(s.pixel_places, image, s.settings.similarity_patch, s.group);
   if (s.counted_pixels)
     s.sums = Texture::make_2d(GL_RGBA32F, 3 * int(s.counted_pixels.columns), int(s.chunk_images), Filter::nearest);
@@ -272,6 +278,7 @@ std::vector<float> WeinSimulator::similarity(std::span<const Pose> patient_from_
   State& s = *state_;
   std::vector<float> result(patient_from_probe.size());
   if (result.empty() || !s.counted_pixels) return result;
+  if (std::ranges::equal(patient_from_probe, s.compared)) return s.similar;
   const std::size_t bytes = result.size() * sizeof(float);
   if (s.similarities_held < result.size()) {
     s.similarities = Buffer(bytes, nullptr);
@@ -288,6 +295,8 @@ std::vector<float> WeinSimulator::similarity(std::span<const Pose> patient_from_
   });
   s.similarities.read(result.data(), bytes);
   s.ran(WeinStage::compare, result.size(), s.counted_pixels.pixels);
+  s.compared.assign(patient_from_probe.begin(), patient_from_probe.end());
+  s.similar = result;
   return result;
 }
 

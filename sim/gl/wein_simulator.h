@@ -58,9 +58,10 @@ public:
   /// image. Waits for the device.
   std::vector<float> similarity(std::span<const Pose> patient_from_probe);
 
-  /// Of calls with any pose, each of which is one run of its stages, and of all its images. Samples evaluated are
-  /// modulo 2^32; a line counts until the last of those that are walked along together has ended. Waits for the device
-  /// where the stage is the traversal. Images that read_stages() makes count as well.
+  /// Of calls with any pose, each of which is one run of its stages, and of all its images; one with the same poses as
+  /// the call before runs nothing. Samples evaluated are modulo 2^32; a line counts until the last of those that are
+  /// walked along together has ended. Waits for the device where the stage is the traversal. Images that read_stages()
+  /// makes count as well.
   StageCount count(WeinStage stage) const;
 
   /// What crosses the stages of one image but its terms behind scan conversion, read back; for those who check.

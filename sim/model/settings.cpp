@@ -5,6 +5,11 @@
 
 namespace insonate {
 
+double coupled_mm(const Settings& settings) {
+  constexpr double kRounding_mm = 1e-5;  // so that no sample's reflection length ends on either side of it
+  return std::max(settings.gel_mm, settings.reflection_length_mm / 2 + kRounding_mm);
+}
+
 Settings paper_settings(double depth_mm, int samples) {
   Settings settings;
   settings.samples = samples;
@@ -24,7 +29,7 @@ Settings paper_settings(double depth_mm, int samples) {
 Settings trainer_settings(double frequency_mhz, double depth_mm) {
   constexpr double kSoftTissueAbsorption = 0.5;                // dB/(cm MHz), what machines assume of an abdomen
   constexpr double kAxialResolutionCycles = 0.6 * 3.5 / 1.54;  // of the pulse: 0.6 mm at 3.5 MHz
-  constexpr int kFewestSamples = 256, kMostSamples = 8192;
+  constexpr int kFewestSamples = 16, kMostSamples = 8192;
   Settings settings;
   settings.frequency_mhz = frequency_mhz;
   // Two samples a reflection length, which share their edges in the volume: about the axial resolution.

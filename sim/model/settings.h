@@ -26,10 +26,6 @@ enum class GreyMap {
 /// silent.
 inline constexpr double kMostTimeGainDb = 300;
 
-/// Nearer to the face than this lies the face itself: its lens is matched to tissue (Szabo, Diagnostic Ultrasound
-/// Imaging, 5), so sound leaves it as it leaves water, and where air lies against it nearly all is reflected.
-inline constexpr double kFace_mm = 1e-5;
-
 /// Everything that decides how model S turns a volume, a pose and a probe into a picture. Numbers in brackets are the
 /// equations of Kutter, Shams, Navab 2009. A field added here gets its line in settings_file.cpp.
 struct Settings {
@@ -39,7 +35,7 @@ struct Settings {
   double frequency_mhz = 3.5;         ///< 0.5 to 30
   bool edge_shadow = false;           ///< what refraction at grazing incidence takes from a line, see refraction.h
   bool absorption = true;             ///< frequency-dependent absorption in (5); off in the paper's own mode
-  double gel_mm = 6;  ///< coupling gel: air nearer to the face than this counts as water; 0 (none) to 100
+  double gel_mm = 6;                  ///< coupling gel between face and skin, 0 (none) to 100: coupled_mm()
 
   /// Weigh the voxels around a sample in single precision, where a device's own filter has weights of as few as 8 bits.
   bool exact_filter = false;
@@ -90,6 +86,12 @@ struct Settings {
 
   bool operator==(const Settings&) const = default;
 };
+
+/// Nearer to the face than this air counts as water: as far as there is gel, or else half the reflection length. The
+/// face's lens is matched to tissue (Szabo, Diagnostic Ultrasound Imaging, 5), so sound leaves it as it leaves water,
+/// and where air lies against it nearly all is reflected. An interface is spread over half the reflection length to
+/// either side, so this one lies so far behind the face that lines, which begin there, meet the whole of it.
+double coupled_mm(const Settings& settings);
 
 /// As in the paper: no absorption, reflection length = sample distance, one-way transmission, frame's maximum, no
 /// noise, no clutter, a beam equally wide at every depth.

@@ -27,9 +27,9 @@ inline constexpr double kLeastEcho = 1e-30;
 /// To the first sample, half a step behind the face, (5) takes half a step of absorption and no interface. It has the
 /// paper's recursion for l = dr; l keeps it from depending on how many samples there are. Its last factor
 /// is absorption, a in dB/(cm MHz) one way, f = frequency_mhz and dr in mm (Szabo, Diagnostic Ultrasound Imaging, 4: an
-/// attenuation in proportion to frequency); the paper has none. Coupling: nearer to the face than gel_mm, air counts as
-/// water without echo, as the face itself does (kCouplingAirHu, sim/reference/reference.h); beyond, air reflects by (1)
-/// as anywhere, so that a face that does not touch sees nothing. Where the slice has several planes (sim/model/beam.h),
+/// attenuation in proportion to frequency); the paper has none. Coupling: nearer to the face than coupled_mm()
+/// air counts as water without echo (kCouplingAirHu, sim/reference/reference.h); beyond, air reflects by (1) as
+/// anywhere, so that a face that does not touch sees nothing. Where the slice has several planes (sim/model/beam.h),
 /// I, R and the scatterers' echo are their sums by weight. An R below kLeastEcho is 0, and so is T.
 ///
 /// In (6) R and S are behind the beam's width (4), sim/model/beam.h, G1 and G2 Gaussians in the picture of

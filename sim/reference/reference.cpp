@@ -116,8 +116,8 @@ double grey_of(GreyMap map, double g) {
 
 }  // namespace
 
-Medium with_gel(const Medium& medium, double r_mm, double gel_mm) {
-  if (r_mm >= std::max(gel_mm, kFace_mm)) return medium;
+Medium with_gel(const Medium& medium, double r_mm, double coupled_mm) {
+  if (r_mm >= coupled_mm) return medium;
   const double gel = std::clamp((kCouplingTissueHu - medium.hu) / (kCouplingTissueHu - kCouplingAirHu), 0.0, 1.0);
   return {(1 - gel) * medium.hu, (1 - gel) * medium.echogenicity_db + gel * kLeastEchogenicityDb};
 }
@@ -147,7 +147,7 @@ MediumField trilinear_field(const AcousticVolume& volume) {
 ReferenceScan traverse_reference(const MediumField& field, const TissueTable& table, const ScanLines& lines,
                                  const Settings& settings, const Pose& patient_from_probe, const SlicePlane& plane) {
   const int count = int(lines.lines.size());
-  const double dr = lines.dr_mm(), l = settings.reflection_length_mm;
+  const double dr = lines.dr_mm(), l = settings.reflection_length_mm, coupled = coupled_mm(settings);
   const Scatterers scatterers(settings);
   ReferenceScan scan{Image<double>(count, lines.samples), Image<double>(count, lines.samples),
                      Image<double>(count, lines.samples), Image<double>(count, lines.samples)};
@@ -169,10 +169,8 @@ ReferenceScan traverse_reference(const MediumField& field, const TissueTable& ta
     for (int k = 0; k < lines.samples; ++k) {
       const double r = lines.r_min_mm + (k + 0.5) * dr;
       const glm::dvec3 p = place(r);
-      const Medium here = with_gel(field(p), r, settings.gel_mm);
-      const auto hu = [&](const glm::dvec3& at, double depth) {
-        return with_gel(field(at), depth, settings.gel_mm).hu;
-      };
+      const Medium here = with_gel(field(p), r, coupled);
+      const auto hu = [&](const glm::dvec3& at, double depth) { return with_gel(field(at), depth, coupled).hu; };
       const double a = settings.absorption ? table.at(here.hu).absorption_db_cm_mhz : 0;
       const auto absorbed = [&](double distance_mm) {
         return std::pow(10.0, -a * settings.frequency_mhz * distance_mm / 100);

@@ -26,9 +26,9 @@ using MediumField = std::function<Medium(const glm::dvec3& patient_mm)>;
 /// echoes of the skin would come and go while the probe moves.
 inline constexpr double kCouplingTissueHu = -150, kCouplingAirHu = kMostAirHu;
 
-/// What the sound meets where the field has `medium`, at a distance from the face along the line: coupling gel of
-/// `gel_mm`, or the face itself, which is water without any echo, takes the place of air.
-Medium with_gel(const Medium& medium, double r_mm, double gel_mm);
+/// What the sound meets where the field has `medium`, at a distance from the face along the line: nearer than
+/// coupled_mm() (sim/model/settings.h) water without any echo takes the place of air.
+Medium with_gel(const Medium& medium, double r_mm, double coupled_mm);
 
 /// The trilinear field of a volume, with air outside.
 MediumField trilinear_field(const AcousticVolume& volume);

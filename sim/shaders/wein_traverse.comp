@@ -75,6 +75,15 @@ vec4 density_at(Line of_image, float k) {
 #endif
 }
 
+// Where a line leaves the CT and its margin of air, counted in samples; before the first where it misses them.
+float last_in_ct(Line of_image) {
+  vec3 along = mix(of_image.along, vec3(1e-12), lessThan(abs(of_image.along), vec3(1e-12)));
+  vec3 low = -of_image.start / along, high = (1.0 - of_image.start) / along;
+  vec3 entering = min(low, high), leaving = max(low, high);
+  float first = max(max(entering.x, entering.y), entering.z), last = min(min(leaving.x, leaving.y), leaving.z);
+  return first <= last ? last : -1.0;
+}
+
 // Of a pair whose first sample is the k-th. Takes ln I on to the next pair: that of each image, or of the one twice.
 Terms terms_of(Line one, Line other, int k, inout vec2 log_intensity) {
   vec2 steps = vec2(k, k + kSamplesAPair - 1);
@@ -107,13 +116,22 @@ uint greys_of(Terms terms) { return packUnorm2x16(mix(terms.echogenicity, terms.
 // How many samples were walked, of all images, before nothing was left of any.
 int walk(int image) {
   Line ways[2 * kPairs];
-  for (int i = 0; i < 2 * kPairs; ++i) ways[i] = line_of(min(image + i / kSamplesAPair, images - 1));
+  float last = first_free_sample;  // nearer to the face there is water wherever there is no body
+  for (int i = 0; i < 2 * kPairs; ++i) {
+    ways[i] = line_of(min(image + i / kSamplesAPair, images - 1));
+    last = max(last, last_in_ct(ways[i]));
+  }
+#ifdef INTENSITY
+  int end = samples;  // the only stage that does not come to nothing behind the CT
+#else
+  int end = int(min(last + 2.0, float(samples)));
+#endif
   vec2 log_intensity[kPairs];
   float most = 0.0;
   for (int i = 0; i < kPairs; ++i) log_intensity[i] = vec2(0.0);
 
   int at = (image / kImages * lines + line) * (row_samples / kSamplesAPair), k = 0;
-  for (; k < samples && most > last_log_intensity; k += kSamplesAPair) {
+  for (; k < end && most > last_log_intensity; k += kSamplesAPair) {
     Terms terms[kPairs];
     most = kNothing;
     for (int i = 0; i < kPairs; ++i) {

@@ -241,13 +241,16 @@ TEST_CASE("what is skipped changes no pixel by more than a grey level") {
   narrow.fixed_level = 1e-9;
   narrow.beam_lines = 63;
   narrow.dynamic_range_db = 20;
+  Settings bent = bare;
+  bent.elevation_focus_mm = 60;
+  bent.slice_thickness_mm = 12;
   std::uint32_t skipped_normals = 0;
   // Over the rib, the cyst and the gas; half off the body; turned away so that lines leave it again; beside it.
   for (const Pose& pose : {test::on_the_skin(0, 9, 12), test::on_the_skin(-25, 5, 0), test::on_the_skin(20, 8, -15),
                            test::on_the_skin(60, 2, 0), test::on_the_skin(0, 4, 70), test::on_the_skin(0, -40, 180),
                            test::on_the_skin(72, -8, 20)}) {
     simulator.set_pose(pose);
-    for (Settings settings : {trainer, bare, noisy, hazy, blended, wide, narrow}) {
+    for (Settings settings : {trainer, bare, noisy, hazy, blended, wide, narrow, bent}) {
       const auto grey = [&](bool skipping) {
         settings.skipping = skipping;
         simulator.set_settings(settings);
@@ -277,6 +280,8 @@ TEST_CASE("a line that meets no body does not start") {
   const Probe probe = *find_probe("linear");
   simulator.set_probe(probe, 50);
   Settings settings = small(trainer_settings(7.5, 50));
+  settings.elevation_focus_mm = GENERATE(0, 25);  // where planes bend
+  CAPTURE(settings.elevation_focus_mm);
   const auto walked = [&](const Pose& pose) {
     simulator.set_pose(pose);
     simulator.set_settings(settings);
@@ -331,6 +336,22 @@ TEST_CASE("where there is only air no line starts, and one starts that passes be
   settings.skipping = false;
   simulator.set_settings(settings);
   CHECK(simulator.read_stages().intensity.pixels == intensity.pixels);
+
+  // So with planes that bend: far from the focus in elevation the outer two come to what is beside all of them there.
+  settings.skipping = true;
+  settings.frequency_mhz = 0.5;
+  settings.slice_thickness_mm = 0.5;
+  settings.elevation_focus_mm = 5;
+  settings.slice_planes = 3;
+  settings.reflection_length_mm = 0.6;
+  block.grid.origin = {-19, 0, 30};
+  CHECK(walked_of({140, 0}) > 0);
+  const Image<float> bent = simulator.read_stages().speckle;
+  CHECK(bent.at(0, 0) == 0);
+  CHECK(bent.at(0, bent.height - 1) > 0);
+  settings.skipping = false;
+  simulator.set_settings(settings);
+  CHECK(simulator.read_stages().speckle.pixels == bent.pixels);
 }
 
 TEST_CASE("settings out of their range are refused by name, and those before stay") {

@@ -55,6 +55,7 @@ TEST_CASE("an unchanged frame runs nothing") {
   Fixture f;
   CHECK(f.after([] {}) == "");
   CHECK(f.after([&] { f.simulator.set_pose(test::on_the_skin(0, 9, 0)); }) == "");
+  CHECK(f.after([&] { f.simulator.set_probe(*find_probe("curvilinear"), 100); }) == "");
 }
 
 TEST_CASE("a change runs the first stage it reaches and those behind it") {

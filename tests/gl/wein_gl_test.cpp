@@ -52,6 +52,19 @@ struct Fixture {
                                                noise * unit_float(hash(7, std::uint32_t(i)))));
     return image;
   }
+  /// Where the CT's outer voxels and the air around it still count.
+  std::uint64_t samples_in_ct(const Pose& from) const {
+    const ScanLines lines = scan_lines(probe, kDepthMm, settings.samples);
+    std::uint64_t count = 0;
+    for (const ScanLine& line : lines.lines)
+      for (int k = 0; k < lines.samples; ++k) {
+        const glm::dvec3 at = from.point(line.start + (lines.r_min_mm + (k + 0.5) * lines.dr_mm()) * line.direction);
+        const glm::dvec3 index = body.grid.index_from_patient(at);
+        count += glm::all(glm::greaterThan(index, glm::dvec3(-1.5))) &&
+                 glm::all(glm::lessThan(index, glm::dvec3(body.grid.size) + 0.5));
+      }
+    return count;
+  }
   double similarity(const Image<float>& ultrasound, const Pose& at) {
     simulator.set_ultrasound(ultrasound);
     return simulator.similarity({&at, 1}).front();
@@ -190,16 +203,47 @@ TEST_CASE("model W's stages tell how often they ran and how much they evaluated 
   CHECK(count(Stage::compare).evaluated > in_fan / 2);
   CHECK(count(Stage::compare).evaluated < in_fan);  // what is masked does not count
 
-  f.settings.shadows = false;  // then nothing needs I, and no line ends
+  f.settings.shadows = false;  // then nothing needs I, and lines end where the CT does
   gl::WeinSimulator unshadowed(f.body, f.probe, kDepthMm, test::exact_as_needed(f.settings));
-  unshadowed.simulate(poses(int(images)));
-  CHECK(unshadowed.count(Stage::traverse).evaluated == samples);
-  for (const std::size_t some : {2, 3}) {
-    unshadowed.simulate(poses(int(some)));
-    CHECK(unshadowed.count(Stage::traverse).evaluated == some * 61 * 91);
+  for (const std::size_t some : {1, 2, 3}) {
+    CAPTURE(some);
+    const std::vector<Pose> few = poses(int(some));
+    std::uint64_t in_ct = 0;
+    for (const Pose& pose : few) in_ct += f.samples_in_ct(pose);
+    unshadowed.simulate(few);
+    CHECK(unshadowed.count(Stage::traverse).evaluated >= in_ct);
+    // A line is walked in pairs of samples, and two images' until neither is in the CT.
+    CHECK(unshadowed.count(Stage::traverse).evaluated <=
+          std::min<std::uint64_t>(in_ct + some * 61 * 6, some * 61 * 91));
+    CHECK(in_ct < some * 61 * 91);
   }
-  unshadowed.simulate({&f.pose, 1});  // whose samples are walked in pairs: odd, the last one has no neighbour
-  CHECK(unshadowed.count(Stage::traverse).evaluated == 61 * 91);
+  Pose away = f.pose;
+  away.translation.y = -500;
+  unshadowed.simulate({&away, 1});
+  CHECK(unshadowed.count(Stage::traverse).evaluated <= 61 * 8);  // the contact's samples alone, which show water
+}
+
+TEST_CASE("model W runs nothing for the poses of the call before") {
+  Fixture f;
+  using Stage = gl::WeinStage;
+  const auto ran = [&](Stage stage) { return f.simulator.count(stage).runs; };
+  const std::vector<Pose> some = poses(3), others = poses(4);
+  f.simulator.simulate(some);
+  f.simulator.simulate(some);
+  CHECK(ran(Stage::traverse) == 1);
+  CHECK(ran(Stage::scan_convert) == 1);
+  f.simulator.simulate(others);
+  f.simulator.simulate(some);
+  CHECK(ran(Stage::traverse) == 3);
+
+  const Image<float> ultrasound = f.ultrasound_like(f.expected(f.pose), 90, 30, 0.4);
+  f.simulator.set_ultrasound(ultrasound);
+  const std::vector<float> similarity = f.simulator.similarity(some);
+  CHECK(f.simulator.similarity(some) == similarity);
+  CHECK(ran(Stage::compare) == 1);
+  f.simulator.set_ultrasound(f.ultrasound_like(f.expected(f.pose), 90, 30, 0.1));
+  CHECK(f.simulator.similarity(some) != similarity);
+  CHECK(ran(Stage::compare) == 2);
 }
 
 TEST_CASE("LC2: GLSL agrees with the reference for every image of a call") {

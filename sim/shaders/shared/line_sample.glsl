@@ -83,7 +83,7 @@ vec2 voxel(vec3 at) {
 }
 
 // Coupling gel fills what air there is between the face and the skin, up to its thickness.
-vec2 with_gel(vec2 voxel, float r) { return r < gel_mm ? mix(voxel, kGel, gel_share(voxel.x)) : voxel; }
+vec2 with_gel(vec2 voxel, float r) { return r < coupled_mm ? mix(voxel, kGel, gel_share(voxel.x)) : voxel; }
 
 struct Medium { float hu, impedance, absorption, echogenicity; };
 

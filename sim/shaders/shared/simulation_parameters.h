@@ -20,7 +20,7 @@ layout(std140, binding = 0) uniform SimulationParameters {
   float reflection_exponent;     // dr/l
 
   float absorption_per_sample;  // f dr/100 ln 10: times dB/(cm MHz), the natural logarithm that a sample takes
-  float gel_mm;
+  float coupled_mm;
   float least_alpha_with_normal;  // a weaker interface's tilt is not looked at
   float clutter_share;            // of the mean echo from the same depth; 0 for none
 

@@ -22,7 +22,7 @@ public:
     for (const auto& knot : about_.at("tissues"))
       knots_.push_back({knot.at("hu"), knot.at("impedance_mrayl"), knot.at("absorption_db_cm_mhz")});
     l_ = setting("reflection_length_mm");
-    gel_mm_ = std::max(setting("gel_mm"), value("face_mm"));
+    coupled_mm_ = value("coupled_mm");
     coupling_air_hu_ = about_.at("coupling_air_hu");
     coupling_tissue_hu_ = about_.at("coupling_tissue_hu");
     silent_db_ = about_.at("silent_db");
@@ -66,7 +66,7 @@ private:
   double hu_in_volume(const Vec3& p) const { return stages_.hounsfield.at(p, value_outside("hu")); }
   double share_of_gel(double hu, double r) const {
     const double in_air = (hu - coupling_tissue_hu_) / (coupling_air_hu_ - coupling_tissue_hu_);
-    return r < gel_mm_ ? std::clamp(in_air, 0.0, 1.0) : 0;
+    return r < coupled_mm_ ? std::clamp(in_air, 0.0, 1.0) : 0;
   }
   double hu_at(const Vec3& p, double r) const {
     const double hu = hu_in_volume(p);
@@ -240,7 +240,7 @@ private:
   const Tolerances tolerances_;
   const Lattice lattice_;
   std::vector<Knot> knots_;
-  double l_ = 0, gel_mm_ = 0, coupling_air_hu_ = 0, coupling_tissue_hu_ = 0, silent_db_ = 0;
+  double l_ = 0, coupled_mm_ = 0, coupling_air_hu_ = 0, coupling_tissue_hu_ = 0, silent_db_ = 0;
   double offset_ = 0, weight_ = 1;  // of the slice's plane at hand
   std::string prefix_;
   Plane intensity_, reflection_, re_, im_, rounding_;  // the last of alpha's file, relative, in any plane
