@@ -84,6 +84,12 @@ float last_in_ct(Line of_image) {
   return first <= last ? last : -1.0;
 }
 
+// ln(1 - share) without the cancellation in 1 - share: by its series for small ones, of which thousands may add up.
+vec2 log_of_rest(vec2 share) {
+  vec2 series = -share * (1.0 + share * (0.5 + share * (1.0 / 3.0)));
+  return mix(log(1.0 - share), series, lessThan(share, vec2(0.01)));
+}
+
 // Of a pair whose first sample is the k-th. Takes ln I on to the next pair: that of each image, or of the one twice.
 Terms terms_of(Line one, Line other, int k, inout vec2 log_intensity) {
   vec2 steps = vec2(k, k + kSamplesAPair - 1);
@@ -98,7 +104,7 @@ Terms terms_of(Line one, Line other, int k, inout vec2 log_intensity) {
   hu = mix(hu, hu * (1.0 - water), contact);
   vec2 change = mix(min(steepness / (2.0 * max(hu + 1000.0, kAirMu)), 1.0), vec2(0.0), contact);
 
-  vec2 log_passed = mix(log(1.0 - change * change) * dr_by_length, vec2(kNothing), equal(change, vec2(1.0)));
+  vec2 log_passed = mix(log_of_rest(change * change) * dr_by_length, vec2(kNothing), equal(change, vec2(1.0)));
   vec2 before = log_intensity;
   if (kSamplesAPair == 2) before.y += log_passed.x;
   log_intensity = before + log_passed;

@@ -176,12 +176,8 @@ public:
       CHECK(found.error < 1);
       return allowed;
     };
-    // What a reflection length lets pass, nearly 1, is rounded to half a step of single precision below 1, 3e-8, and
-    // its logarithm to as much: that adds up over the depth.
-    const double fading = 6e-8 * place.depth_mm / scene.settings.reflection_length_mm;
-    const auto of_a_term = [&](double) { return 1e-4 + fading; };
-    agree("I", &WeinStages<double>::intensity, got_.intensity,
-          [&](double i) { return (1e-4 + fading) * std::max(i, 1e-6); });
+    const auto of_a_term = [](double) { return 1e-4; };
+    agree("I", &WeinStages<double>::intensity, got_.intensity, [](double i) { return 1e-4 * std::max(i, 1e-6); });
     const Image<double> of_reflection =
         agree("R", &WeinStages<double>::scan_reflection, got_.scan_reflection, of_a_term);
     const Image<double> of_echogenicity =
