@@ -22,7 +22,7 @@ struct PlacedLine;
 /// samples of that stretch behind count too: they were worked out.
 struct SampleCounts {
   std::uint32_t walked = 0;   ///< samples, of planes x lines x samples
-  std::uint32_t normals = 0;  ///< samples of these whose interface's normal was worked out
+  std::uint32_t normals = 0;  ///< of these, with the normal worked out; edge shadows look around all of them
 };
 
 /// The stages of model S that know scan lines and neither pictures nor volumes: traversal, and the beam with all that

@@ -78,14 +78,11 @@ bool meets_no_body(const PlacedLine& line) {
 }
 
 std::vector<PlacedLine> line_in_air(const Settings& settings) {
-  std::vector<PlacedLine> planes;
-  for (const SlicePlane& plane : slice_planes(settings)) {
-    PlacedLine line{};
-    line.start = glm::vec4(-1, -1, -1, -kFar);  // beside the texture, and in the body before the face at most
-    line.along.w = -kFar;
-    line.lateral.w = float(plane.weight);
-    planes.push_back(line);
-  }
+  PlacedLine line{};
+  line.start = glm::vec4(-1, -1, -1, -kFar);  // beside the texture, and in the body before the face at most
+  line.along.w = -kFar;
+  std::vector<PlacedLine> planes(std::size_t(settings.slice_planes), line);
+  planes.front().lateral.w = 1;  // all planes are the same there, and are weighed where they are put
   return planes;
 }
 

@@ -30,7 +30,7 @@ std::vector<PlacedLine> placed_lines(const DeviceVolume& volume, const Pose& pat
 /// That none of its samples, nor what they look at beside it, lies in the body: it is not walked along.
 bool meets_no_body(const PlacedLine& line);
 
-/// What such lines carry is that of one line in each plane which is.
+/// What such lines carry is that of one line in each plane which is, before it is weighed.
 std::vector<PlacedLine> line_in_air(const Settings& settings);
 
 /// The beam's window from the middle line outwards, 128 weights, as beam.comp takes it.

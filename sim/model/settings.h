@@ -14,7 +14,8 @@ enum class ReferenceLevel {
   fixed           ///< a fixed level is white, so that the picture does not pump while the probe moves
 };
 
-/// How echoes between black and white, as a share g from 0 to 1 of the dynamic range, become grey.
+/// How echoes between black and white, as a share g from 0 to 1 of the dynamic range, become grey. Machines offer such
+/// maps and publish none: but for the paper's these curves are this project's own.
 enum class GreyMap {
   linear,    ///< g, as in the paper
   soft,      ///< g^0.75: lifts weak echoes
@@ -35,7 +36,9 @@ struct Settings {
   double frequency_mhz = 3.5;         ///< 0.5 to 30
   bool edge_shadow = false;           ///< what refraction at grazing incidence takes from a line, see refraction.h
   bool absorption = true;             ///< frequency-dependent absorption in (5); off in the paper's own mode
-  double gel_mm = 6;                  ///< coupling gel between face and skin, 0 (none) to 100: coupled_mm()
+
+  /// Coupling gel between face and skin, 0 (none) to 100, see coupled_mm(). 6: an estimate of what a hand squeezes on.
+  double gel_mm = 6;
 
   /// Weigh the voxels around a sample in single precision, where a device's own filter has weights of as few as 8 bits.
   bool exact_filter = false;
@@ -73,7 +76,7 @@ struct Settings {
   bool electronic_noise = false;  ///< in the echo before any gain, so that it shows where time gain is high
   double noise_db = -103;         ///< its mean beside fixed_level, -200 to 0
 
-  // Display (7)
+  // Display (7): as machines' controls of the same names (Szabo, Diagnostic Ultrasound Imaging, 10)
   double gain_db = 0;              ///< -60 to 60
   std::array<double, 8> tgc_db{};  ///< time gain at 8 depths from face to full depth, linear between; -300 to 300
   double dynamic_range_db = 55;    ///< beta, 1 to 200

@@ -23,6 +23,15 @@ vec2 reflected(int k) {
   return value.x > kLeastReverberant ? vec2(min(value.y / (value.x * value.x), 1.0), value.y) : vec2(0.0);
 }
 
+// What rounding added is carried along: a repeat lies as far away as c does, and is as steep as its spline.
+struct Sum { float value, excess; };
+Sum added(Sum sum, float term) {
+  precise float less = term - sum.excess;
+  precise float value = sum.value + less;
+  precise float excess = (value - sum.value) - less;
+  return Sum(value, excess);
+}
+
 // Adds `echo` around a place between two samples, by the cubic B-spline.
 void add(float position, float echo) {
   int low = int(floor(position));
@@ -68,13 +77,13 @@ void main() {
   for (int j = 0; j < count; ++j) {
     int k = at[j];
     vec2 here = reflected(k);
-    float sum = 0.0, moment = 0.0;
+    Sum sum = Sum(0.0, 0.0), moment = sum;
     for (int other = max(k - near + 1, 0); other <= min(k + near - 1, samples - 1); ++other) {
       float weight = reflected(other).x;
-      sum += weight;
-      moment += weight * float(other - k);
+      sum = added(sum, weight);
+      moment = added(moment, weight * float(other - k));
     }
-    float c = float(k) + moment / sum, before = intensity(k - near + 1);
+    float c = float(k) + moment.value / sum.value, before = intensity(k - near + 1);
 #if AT_FACE == 1
     float of_face = face_reflection * counted(here.x * before * before, kLeastFromFace);
     if (of_face > 0.0) repeat(k, here.y, c + 0.5 + r_min_mm / dr_mm, of_face);

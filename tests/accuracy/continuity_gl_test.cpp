@@ -6,12 +6,15 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <functional>
 #include <string>
 
 #include "sim/core/hash.h"
+#include "sim/gl/simulator.h"
 #include "sim/gl/wein_simulator.h"
 #include "tests/accuracy/stressed.h"
+#include "tests/gl/real_ct.h"
 #include "tests/gl/test_body.h"
 
 using namespace insonate;
@@ -145,6 +148,35 @@ TEST_CASE("nor model W's picture by more than half of it") {
   gl::WeinSimulator simulator(scene.volume, scene.probe, scene.depth_mm, settings);
   check_over_skin(
       "model W", [&](const Scene& moved) { return simulator.read_stages(moved.pose).grey; }, scene, {127, 25}, 12);
+}
+
+TEST_CASE("nor that of a real CT, whose gas repeats in the dark behind it, by more than half of it") {
+  if (!std::filesystem::exists(kRealCt)) {
+    WARN("skipped: the real scans are not there");
+    return;
+  }
+  const Case subject = open_case(kRealCt);
+  const TissueTable table = read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml");
+  Scene scene = over_a_body("curvilinear");
+  const TestContext context;
+  gl::Simulator simulator;
+  simulator.set_volume(make_acoustic_volume(subject.ct, {}, {}, table), table);
+  simulator.set_probe(scene.probe, scene.depth_mm);
+  simulator.set_settings(scene.settings);
+  const Draws draws = [&](const Scene& moved) {
+    simulator.set_pose(moved.pose);
+    return simulator.read_stages().grey;
+  };
+  int most = 0;
+  for (std::uint32_t k = 0; k < 12; ++k) {
+    CAPTURE(k);
+    const auto drawn = [&](std::uint32_t j) { return unit_float(hash(k, j, 55u, 1u)) - 0.5; };
+    const double angle = glm::radians(90 + 120 * drawn(0));  // from the front, and from both sides
+    const glm::dvec3 target = subject.ct.grid.centre() + glm::dvec3(100 * drawn(1), 0, 200 * drawn(2));
+    scene.pose = on_skin_of(subject, target, {std::cos(angle), std::sin(angle), 0});
+    check_continuity(draws, scene, {127}, most, 6);
+  }
+  std::printf("a step of 0.01 mm over a real CT: at most %d grey levels\n", most);
 }
 
 TEST_CASE("nor, forwards from where the stress suite's scenes begin, by more than a tenth of it") {

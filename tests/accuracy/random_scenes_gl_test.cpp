@@ -124,6 +124,19 @@ TEST_CASE("skipping ends no line that a high gain still shows") {
   check(stressed, compiled_as(random_scene_of_everything(leader_of(kSeed)), random_scene_of_everything(kSeed)));
 }
 
+TEST_CASE("a repeat lies where the mean of 146 samples says, to a ten-thousandth of one") {
+  // An interface as thick as the line, round which sound goes twice.
+  constexpr std::uint32_t kSeed = 4043;
+  Stressed().check(compiled_as(random_scene_at_body(leader_of(kSeed)), random_scene_at_body(kSeed)));
+}
+
+TEST_CASE("lines in the air hold the same to the last place whether they are walked along or not") {
+  // Beyond a repeat's end the cube of a last place's difference, which 200 dB of dynamic range and 58 of gain show.
+  constexpr std::uint32_t kSeed = 42202;
+  Stressed stressed;
+  check(stressed, compiled_as(random_scene_at_body(leader_of(kSeed)), random_scene_at_body(kSeed)));
+}
+
 TEST_CASE("random scenes in groups that share their programs") {
   Stressed stressed(GENERATE(line_an_invocation(), line_a_group()));
   Effects effects;

@@ -2,7 +2,6 @@
 // pictures/ for people to look at.
 
 #include <catch2/catch.hpp>
-#include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
@@ -12,30 +11,14 @@
 #include <vector>
 
 #include "sim/gl/simulator.h"
-#include "sim/volume/open_case.h"
+#include "tests/gl/real_ct.h"
 #include "tests/gl/test_context.h"
 
 using namespace insonate;
 
 namespace {
 
-const std::filesystem::path kScan = INSONATE_SCANS_FOLDER "/abdomen_ct/abdomen_ct.nii.gz";
 constexpr double kDepthMm = 160;
-
-/// The skin towards `target`, seen along `into`, with the face pressed in by 8 mm and the marker to the head.
-Pose over(const Case& subject, const glm::dvec3& target, const glm::dvec3& into) {
-  double inside = 0;
-  for (double s = -250; s < 250; s += 0.5) {
-    const glm::dvec3 p = target + s * into;
-    inside = sample_trilinear(subject.ct, subject.ct.grid.index_from_patient(p)) > -300 ? inside + 0.5 : 0;
-    if (inside >= 20) {
-      const glm::dvec3 marker(0, 0, 1);
-      return {glm::dmat3(marker, into, glm::cross(marker, into)), p - (20.0 - 8.0) * into};
-    }
-  }
-  FAIL("no skin along the line of sight");
-  return {};
-}
 
 struct Look {
   ScanLines lines;
@@ -75,11 +58,11 @@ double median(std::vector<double> values) {
 }  // namespace
 
 TEST_CASE("in a real CT bone casts a shadow, gas blocks, and liver and kidney are seen beside them") {
-  if (!std::filesystem::exists(kScan)) {
+  if (!std::filesystem::exists(test::kRealCt)) {
     WARN("skipped: the real scans are not there");
     return;
   }
-  const Case subject = open_case(kScan);
+  const Case subject = open_case(test::kRealCt);
   const TissueTable table = read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml");
   const test::TestContext context;
   gl::Simulator simulator;
@@ -88,7 +71,8 @@ TEST_CASE("in a real CT bone casts a shadow, gas blocks, and liver and kidney ar
 
   SECTION("a rib over the liver") {
     const double angle = glm::radians(-20.0);
-    const Pose pose = over(subject, centre + glm::dvec3(-30, 0, 120), {std::cos(angle), std::sin(angle), 0});
+    const Pose pose =
+        test::on_skin_of(subject, centre + glm::dvec3(-30, 0, 120), {std::cos(angle), std::sin(angle), 0});
     const Look seen = look(simulator, pose, "real_ct_right_upper_quadrant");
     const int sample = int(120 / seen.lines.dr_mm());
     std::vector<double> shadowed, clear;
@@ -109,7 +93,7 @@ TEST_CASE("in a real CT bone casts a shadow, gas blocks, and liver and kidney ar
   }
 
   SECTION("gas in the bowel, from the front") {
-    const Pose pose = over(subject, centre, {0, 1, 0});
+    const Pose pose = test::on_skin_of(subject, centre, {0, 1, 0});
     const Look seen = look(simulator, pose, "real_ct_front");
     std::size_t blocked = 0;
     for (std::size_t i = 0; i < seen.lines.lines.size(); ++i)
