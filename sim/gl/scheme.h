@@ -42,7 +42,7 @@ struct Scheme {
 
   /// The current context's. `group` is GL_KHR_shader_subgroup's size where the driver has it, else 8 for a software
   /// renderer and 32. `lines_that_fill` is 0 for a software renderer: a picture's lines fill the few vectors that there
-  /// are, and a group a line takes 1.5 to 2.7 times as long (docs/benchmarks, `scheme`). For a graphics card it is
+  /// are, and a group a line takes 1.4 to 2.7 times as long (docs/benchmarks, `scheme`). For a graphics card it is
   /// 8192: no card has been measured, and this is reckoned. To hide how long a fetch takes, a processor of a card needs
   /// some 8 vectors of 32 lines under way, and cards have 16 to 130 processors: 4000 to 33,000 lines fill one. A
   /// picture has 4096 at most and takes groups; a sweep of 64 planes with 128 lines and more takes invocations.
