@@ -232,6 +232,7 @@ const Texture& WeinSimulator::simulate(std::span<const Pose> patient_from_probe)
   check_poses(patient_from_probe);
   State& s = *state_;
   if (s.grid && std::ranges::equal(patient_from_probe, s.drawn)) return s.grid;
+  s.drawn.clear();  // until all of them are
   const int w = s.settings.image_width, h = s.settings.image_height;
   const int count = std::max(int(patient_from_probe.size()), 1);
   const int columns = std::clamp(int(std::lround(std::sqrt(double(count) * h / w))), 1, count);
