@@ -68,7 +68,7 @@ Json describe_geometry(const char* model, const StageGeometry& geometry, const P
   const ScanLines& lines = geometry.lines;
   const glm::dmat4 pose = patient_from_probe.matrix();
   Json text;
-  text["format"] = 2;
+  text["format"] = 3;
   text["model"] = model;
   text["made_by"] = made_by;
   text["probe"] = geometry.probe.name;
