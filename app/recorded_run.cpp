@@ -160,6 +160,7 @@ RecordedRun play_through(const std::shared_ptr<const Study>& study, const Record
   }
   run.events = events_of(scan, session.marks_s());
   run.result = session.result();
+  run.images = scan.images;
   return run;
 }
 

@@ -49,13 +49,14 @@ struct RunStretch {
 /// All that can be seen of a run that is over, kept sample by sample, so that any time of it can be looked up at once.
 /// It is neither an attempt nor the makings of one.
 struct RecordedRun {
-  std::string name;                   ///< of the log, for the screen
-  std::vector<RunMoment> moments;     ///< at least one; times rise from 0
-  std::vector<Console> consoles;      ///< the settings there were, in their order
-  std::vector<ShownMarks> marks;      ///< what lay over the picture, in its order
-  std::vector<RunStretch> stretches;  ///< without gaps from 0 to the end; one without a scenario
-  std::vector<RunEvent> events;       ///< in the order of time
-  std::optional<ExamResult> result;   ///< empty without a scenario
+  std::string name;                      ///< of the log, for the screen
+  std::vector<RunMoment> moments;        ///< at least one; times rise from 0
+  std::vector<Console> consoles;         ///< the settings there were, in their order
+  std::vector<ShownMarks> marks;         ///< what lay over the picture, in its order
+  std::vector<RunStretch> stretches;     ///< without gaps from 0 to the end; one without a scenario
+  std::vector<RunEvent> events;          ///< in the order of time
+  std::optional<ExamResult> result;      ///< empty without a scenario
+  std::optional<RecordedImages> images;  ///< of the moments, in their order; empty where the recording has none
 
   double duration_s() const { return moments.back().time_s; }
   /// The moment that holds at a time: the last one that is not later, or the first.

@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "devices/sequence/probe_samples.h"
+#include "devices/replay/read_log.h"
 #include "scenarios/result_json.h"
 #include "scenarios/results/results_database.h"
 #include "sim/core/input_error.h"
@@ -23,7 +23,7 @@ KeptRun kept_attempt(const std::filesystem::path& database, std::int64_t number)
   const std::string name = "attempt " + std::to_string(number);
   const Sequence log = parse_sequence(attempt.log, name);
   KeptRun run;
-  run.scan = {{name, "", probe_transform(log), recorded_actions(log)}, probe_samples(log)};
+  run.scan = recorded_scan(log);
   const std::uint32_t seed = result_from_json(attempt.score_json, name).provenance.seed;
   run.scenario = parse_scenario(attempt.scenario_text, attempt.scenario_file, seed);
   run.patient = attempt.patient;
@@ -32,7 +32,10 @@ KeptRun kept_attempt(const std::filesystem::path& database, std::int64_t number)
 
 KeptRun kept_run(const std::filesystem::path& log, const std::filesystem::path& database, std::int64_t attempt) {
   if (attempt > 0) return kept_attempt(database, attempt);
-  return {read_recorded_scan(log), std::nullopt, ""};
+  KeptRun run;
+  run.scan = read_log(log);
+  check_is_of_probe(run.scan.recording);
+  return run;
 }
 
 bool has_any(const std::filesystem::path& log, std::int64_t attempt) {

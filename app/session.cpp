@@ -113,6 +113,7 @@ std::unique_ptr<Tracker> Session::open_fresh() const {
     throw InputError(tracker->state().name, "option 'loop'", "an exam is scored from a log that comes once",
                      "leave loop=1 out, or practise on a patient of your own, without a scenario");
   if (tracker->recording()) check_is_of_probe(*tracker->recording());
+  if (study_->scenario && tracker->recording()) check_has_times(*tracker->recording());
   return tracker;
 }
 

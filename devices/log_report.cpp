@@ -51,7 +51,7 @@ void count_dropouts(const std::vector<PoseSample>& samples, LogReport& report) {
       dropout.frames += end - i;
       ++dropout.spells;
       const double until_s = samples[std::min(end, samples.size() - 1)].time_s;
-      dropout.longest_s = std::max(dropout.longest_s, until_s - samples[i].time_s);
+      if (report.has_times) dropout.longest_s = std::max(dropout.longest_s, until_s - samples[i].time_s);
     }
     i = end;
   }
@@ -65,6 +65,7 @@ void follow_path(const std::vector<PoseSample>& samples, LogReport& report) {
     const double deg = angle_between_deg(a.patient_from_probe, b.patient_from_probe);
     const double s = b.time_s - a.time_s;
     report.path_mm += mm;
+    if (!report.has_times) continue;
     if ((mm > kJumpLeastMm && mm / s > kJumpMmPerS) || (deg > kJumpLeastDeg && deg / s > kJumpDegPerS))
       report.jumps.push_back({i, b.time_s, mm, deg});
   }
@@ -82,7 +83,13 @@ std::string milliseconds(double seconds) {
 
 std::vector<std::string> LogReport::findings() const {
   std::vector<std::string> found;
-  if (usable == 0) found.emplace_back("No frame is usable.");
+  const auto unknown = dropouts.find(PoseStatus::unknown);
+  if (usable == 0 && unknown != dropouts.end() && unknown->second.frames == frames)
+    found.push_back("No frame is usable: none has the status OK for " + transform + ".");
+  else if (usable == 0)
+    found.emplace_back("No frame is usable.");
+  if (!has_times)
+    found.emplace_back("The frames have no Timestamp: it replays with ?rate=HZ, but an exam cannot be scored from it.");
   if (!gaps.empty())
     found.push_back(count_of(gaps.size(), "gap") + " in the samples, the longest step " + milliseconds(longest_step_s) +
                     ".");
@@ -94,18 +101,29 @@ std::vector<std::string> LogReport::findings() const {
   return found;
 }
 
-LogReport check_log(const std::vector<PoseSample>& samples) {
+LogReport check_log(const std::vector<PoseSample>& samples, bool has_times) {
   LogReport report;
   report.frames = samples.size();
+  report.has_times = has_times;
   if (samples.empty()) return report;
-  report.begin_s = samples.front().time_s;
-  report.duration_s = samples.back().time_s - samples.front().time_s;
-  count_gaps(samples, report);
+  if (has_times) {
+    report.begin_s = samples.front().time_s;
+    report.duration_s = samples.back().time_s - samples.front().time_s;
+    count_gaps(samples, report);
+  }
   count_dropouts(samples, report);
   follow_path(samples, report);
   ButtonPresses presses;
+  if (!has_times) return report;
   for (const PoseSample& sample : samples)
     if (presses.see(sample) & kMarkButton) report.marks_s.push_back(sample.time_s);
+  return report;
+}
+
+LogReport check_log(const RecordedScan& scan) {
+  LogReport report = check_log(scan.samples, !scan.recording.assumed_rate_hz);
+  report.transform = scan.recording.transform;
+  report.repairs = scan.recording.repairs;
   return report;
 }
 

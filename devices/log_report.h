@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "devices/recording.h"
+#include "devices/sequence/probe_samples.h"
 #include "sim/core/pose_sample.h"
 
 namespace insonate {
@@ -44,6 +46,9 @@ struct LogReport {
   std::vector<Jump> jumps;
   std::map<PoseStatus, Dropout> dropouts;
   std::vector<double> marks_s;  ///< times at which the button that marks was pressed
+  std::string transform;        ///< the one taken for the probe's; empty if only samples were checked
+  RecordingRepairs repairs;
+  bool has_times = true;  ///< false: all that depends on times is 0 or empty
 
   double rate_hz() const { return interval_s > 0 ? 1 / interval_s : 0; }
 
@@ -60,6 +65,10 @@ inline constexpr double kJumpMmPerS = 3000, kJumpLeastMm = 10;
 inline constexpr double kJumpDegPerS = 1080, kJumpLeastDeg = 15;
 
 /// Looks through samples with rising times, at least one.
-LogReport check_log(const std::vector<PoseSample>& samples);
+/// @param has_times  false: the times mean nothing
+LogReport check_log(const std::vector<PoseSample>& samples, bool has_times = true);
+
+/// Looks through a recording.
+LogReport check_log(const RecordedScan& scan);
 
 }  // namespace insonate

@@ -22,7 +22,7 @@ namespace insonate {
 namespace {
 
 constexpr TrackerKind kKinds[] = {
-    {"replay", "replay:FILE[?speed=2&loop=1&transform=ProbeToTracker]",
+    {"replay", "replay:FILE[?speed=2&loop=1&transform=ProbeToTracker&rate=25]",
      "a recorded .igs.mha, .seq.mha or .seq.nrrd file", open_replay},
     {"raw", "raw:FILE[?speed=2&loop=1]", "what a tracker's device sent, recorded with --record-raw", open_raw},
     {"synthetic", "synthetic:[SEED][?rate=60&live=1]",

@@ -54,7 +54,9 @@ private:
 /// The probe's pose in a log at a moment.
 Pose pose_in_log(const RecordedMoment& moment) {
   constexpr double kNear_s = 0.1;  // a few frames of the slowest tracker
-  const RecordedScan scan = read_log(moment.log, moment.transform);
+  RecordingOptions of_log;
+  of_log.transform = moment.transform;
+  const RecordedScan scan = read_log(moment.log, of_log);
   check_is_of_probe(scan.recording);
   const PoseSample* nearest = nullptr;
   const double wanted_s = scan.samples.front().time_s + moment.at_s;

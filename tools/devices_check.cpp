@@ -16,6 +16,8 @@ namespace {
 
 nlohmann::ordered_json to_json(const std::string& log, const LogReport& report) {
   nlohmann::ordered_json json = {{"log", log},
+                                 {"transform", report.transform},
+                                 {"has_times", report.has_times},
                                  {"frames", report.frames},
                                  {"usable_frames", report.usable},
                                  {"begin_s", report.begin_s},
@@ -24,6 +26,10 @@ nlohmann::ordered_json to_json(const std::string& log, const LogReport& report) 
                                  {"jitter_ms", report.jitter_s * 1e3},
                                  {"longest_step_ms", report.longest_step_s * 1e3},
                                  {"path_mm", report.path_mm},
+                                 {"rounded_rotations", report.repairs.rounded_rotations},
+                                 {"worst_rotation_error", report.repairs.worst_rotation_error},
+                                 {"frames_out_of_order", report.repairs.frames_out_of_order},
+                                 {"worst_disorder_ms", report.repairs.worst_disorder_s * 1e3},
                                  {"findings", report.findings()}};
   json["marks_s"] = report.marks_s;
   json["gaps"] = nlohmann::ordered_json::array();
@@ -45,21 +51,30 @@ nlohmann::ordered_json to_json(const std::string& log, const LogReport& report) 
 void print(const std::string& log, const LogReport& report) {
   constexpr std::size_t kShown = 10;
   std::printf("%s\n", log.c_str());
+  std::printf("  probe     %s\n", report.transform.c_str());
   std::printf("  frames    %zu, %zu of them usable (%.1f %%)\n", report.frames, report.usable,
               100.0 * double(report.usable) / double(report.frames));
-  std::printf("  duration  %.3f s from %.6f s on\n", report.duration_s, report.begin_s);
-  std::printf("  rate      %.2f Hz, jitter %.2f ms RMS\n", report.rate_hz(), report.jitter_s * 1e3);
+  if (report.has_times) {
+    std::printf("  duration  %.3f s from %.6f s on\n", report.duration_s, report.begin_s);
+    std::printf("  rate      %.2f Hz, jitter %.2f ms RMS\n", report.rate_hz(), report.jitter_s * 1e3);
+  }
   std::printf("  path      %.0f mm\n", report.path_mm);
+  if (report.repairs.rounded_rotations > 0)
+    std::printf("  rounded   %zu rotations, off by up to %.1e, are replaced by the nearest ones\n",
+                report.repairs.rounded_rotations, report.repairs.worst_rotation_error);
+  if (report.repairs.frames_out_of_order > 0)
+    std::printf("  sorted    %zu frames stood up to %.1f ms behind a later one\n", report.repairs.frames_out_of_order,
+                report.repairs.worst_disorder_s * 1e3);
   for (const double time_s : report.marks_s)
     std::printf("  marked    %.3f s after the first frame\n", time_s - report.begin_s);
   for (const auto& [status, dropout] : report.dropouts)
     std::printf("  dropouts  %zu frames %s in %zu spells, the longest %.0f ms\n", dropout.frames,
                 std::string(to_string(status)).c_str(), dropout.spells, dropout.longest_s * 1e3);
-  std::printf("  gaps      %zu\n", report.gaps.size());
+  if (report.has_times) std::printf("  gaps      %zu\n", report.gaps.size());
   for (std::size_t i = 0; i < std::min(report.gaps.size(), kShown); ++i)
     std::printf("            %.0f ms before frame %zu, room for %zu samples\n", report.gaps[i].length_s * 1e3,
                 report.gaps[i].frame, report.gaps[i].missing);
-  std::printf("  jumps     %zu\n", report.jumps.size());
+  if (report.has_times) std::printf("  jumps     %zu\n", report.jumps.size());
   for (std::size_t i = 0; i < std::min(report.jumps.size(), kShown); ++i)
     std::printf("            %.0f mm and %.0f degrees at frame %zu\n", report.jumps[i].mm, report.jumps[i].deg,
                 report.jumps[i].frame);
@@ -78,7 +93,10 @@ struct Request {
 };
 
 int check(const Request& request) {
-  const LogReport report = check_log(read_log(request.log, request.transform).samples);
+  RecordingOptions options;
+  options.transform = request.transform;
+  options.without_times = true;
+  const LogReport report = check_log(read_log(request.log, options));
   if (request.json)
     std::printf("%s\n", to_json(request.log, report).dump(2).c_str());
   else
@@ -96,7 +114,7 @@ Command check_command(CLI::App& program) {
                    "A sequence file (.igs.mha, .seq.mha or .seq.nrrd), or what --record-raw has written")
       ->required();
   parser->add_option("--transform", request->transform,
-                     "The probe's transform, as ProbeToTracker; else the usual ones");
+                     "The probe's transform, as in ProbeToTracker; else from Probe to Patient, Reference or Tracker");
   parser->add_flag("--json", request->json, "As JSON");
   parser->footer(
       "Exit codes: 0 whole, 1 something to look at (samples missing, jumps, dropouts over 250 ms), 2 not a log.");

@@ -40,7 +40,9 @@ void keep(const Arguments& given, Attempt attempt) {
 }
 
 RecordedScan scan_of_probe(const Arguments& given) {
-  RecordedScan scan = read_log(given.log, given.transform);
+  RecordingOptions of_log;
+  of_log.transform = given.transform;
+  RecordedScan scan = read_log(given.log, of_log);
   if (!given.calibration.empty())
     scan = calibrated(std::move(scan), read_complete_calibration(given.calibration),
                       given.calibration.filename().string());
@@ -90,8 +92,8 @@ int main(int argc, char** argv) {
   arguments.add_option("--case,--ct", given.case_folder,
                        "A case folder, CT file or DICOM folder to take instead of the scenario's own case");
   arguments.add_option("--transform", given.transform,
-                       "The probe's transform in the log, as in replay:FILE?transform=... (ProbeToPatient, "
-                       "ProbeToReference or ProbeToTracker, the first that is there)");
+                       "The probe's transform in the log, as in replay:FILE?transform=...; else from Probe to "
+                       "Patient, Reference or Tracker");
   arguments.add_option("--calibration", given.calibration,
                        "The tracker's calibration, where the log holds its sensor's poses and not the probe's");
   arguments.add_option("--seed", given.seed, "Draws the scenario's variant, as in the result of the live run (0)");

@@ -86,6 +86,17 @@ std::vector<glm::dvec3> path_until(const RecordedRun& run, double time_s) {
   return path;
 }
 
+/// Where the recording's own image of the moment lies.
+void draw_image_outline(const Theme& theme, const SpaceDrawing& drawing, const Replay& replay) {
+  const RecordedRun& run = replay.run();
+  const std::optional<Pose>& pose = replay.moment().newest_pose;
+  const auto corners = run.images ? image_corners(*run.images, run.index_at(replay.time_s())) : std::nullopt;
+  if (!pose || !corners) return;
+  std::vector<glm::dvec3> outline;
+  for (const std::size_t i : {0, 1, 2, 3, 0}) outline.push_back(pose->point((*corners)[i]));
+  drawing.path(outline, colour::kText, theme.px(1));
+}
+
 void draw_paths(const Theme& theme, const Rect& panel, const Replay& replay, const view::OrbitCamera& camera) {
   const SpaceDrawing drawing(panel, camera);
   if (const std::optional<double> expert_s = replay.expert_time_s()) {
@@ -98,18 +109,20 @@ void draw_paths(const Theme& theme, const Rect& panel, const Replay& replay, con
       drawing.fan(*moment.shown_pose, console.probe, console.depth_mm, kExpertInk, IM_COL32(226, 214, 244, 36));
   }
   drawing.path(path_until(replay.run(), replay.time_s()), colour::kAccent, theme.px(2));
+  draw_image_outline(theme, drawing, replay);
 }
 
 }  // namespace
 
 void draw_replay_page(const Theme& theme, const ReplayPlaces& places, Trainer& trainer, SpacePanel& space,
-                      std::map<std::string, Rect>& names) {
+                      RecordedPanel& recorded, std::map<std::string, Rect>& names) {
   Replay& replay = *trainer.replay();
   const Study& study = *trainer.study();
   const Scenario* scenario = study.scenario ? &*study.scenario : nullptr;
   draw_top(theme, places.top, replay, scenario);
   UltrasoundPanel::draw_still(theme, places.ultrasound, study.subject.name, replay.console(), replay.marks(),
                               replay.run().lost_for_s(replay.time_s()), trainer.pictures());
+  if (replay.run().images) recorded.draw(theme, places.recorded, replay, trainer.pictures());
   space.draw(theme, places.space, nullptr, trainer.pictures());
   draw_paths(theme, places.space, replay, trainer.pictures().camera);
   draw_timeline_panel(theme, places.timeline, replay, scenario, names);

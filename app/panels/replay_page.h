@@ -3,6 +3,7 @@
 #include <map>
 #include <string>
 
+#include "app/panels/recorded_panel.h"
 #include "app/panels/views_panel.h"
 #include "app/trainer.h"
 
@@ -10,12 +11,13 @@ namespace insonate::ui {
 
 /// Where a replay's parts go on the screen.
 struct ReplayPlaces {
-  Rect top, ultrasound, space, timeline;
+  Rect top, ultrasound, recorded, space, timeline;  ///< `recorded` is empty without images
 };
 
 /// The screen while a run is looked at again: the step and its outcome, the picture with the knobs as they were, the
-/// patient with the probe's path so far and the expert's, and the time line. The CT's pictures are those of a session.
+/// recording's own image beside it, the patient with the probe's path so far and the expert's, and the time line. The
+/// CT's pictures are those of a session.
 void draw_replay_page(const Theme& theme, const ReplayPlaces& places, Trainer& trainer, SpacePanel& space,
-                      std::map<std::string, Rect>& names);
+                      RecordedPanel& recorded, std::map<std::string, Rect>& names);
 
 }  // namespace insonate::ui

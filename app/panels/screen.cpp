@@ -66,8 +66,15 @@ void Screen::lay_out(const Trainer& trainer, float width, float height) {
   Rect side =
       rest.take_right(std::min(std::round(rest.w * 0.35f), std::round(rest.h * (trainer.replay() ? 1.0f : 0.82f))));
   rest.take_right(gap);
+  recorded_ = {};
+  if (trainer.replay() && trainer.replay()->run().images) {
+    recorded_ = rest.take_right(std::floor((rest.w - gap) / 2));
+    rest.take_right(gap);
+    rest.w = recorded_.w;  // of equal size, so that both have the same scale
+  }
   ultrasound_ = rest;
   places_ = {{"ultrasound", ultrasound_}, {"console", console_}, {"exam", top_}};
+  if (recorded_.w > 0) places_["recorded"] = recorded_;
   if (trainer.session() && !trainer.session()->shows_anatomy()) {
     places_["space"] = volume_ = side;
     return;
@@ -139,7 +146,8 @@ void Screen::draw_panels(Trainer& trainer) {
         break;
     }
   } else if (trainer.replay()) {
-    draw_replay_page(theme_, {top_, ultrasound_, volume_, console_}, trainer, space_, places_);
+    draw_replay_page(theme_, {top_, ultrasound_, recorded_, volume_, console_}, trainer, space_, recorded_panel_,
+                     places_);
     draw_slice_panel(theme_, slice_, trainer.pictures());
     draw_blend_panel(theme_, blend_, trainer.pictures());
   } else if (!trainer.exam_refused()) {

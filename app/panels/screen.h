@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/panels/overlays.h"
+#include "app/panels/recorded_panel.h"
 #include "app/panels/score_sheet.h"
 #include "app/panels/setup_page.h"
 #include "app/panels/task_panel.h"
@@ -78,12 +79,13 @@ private:
   Theme theme_;
   std::string device_;
   SpacePanel space_;
+  RecordedPanel recorded_panel_;
   OpenDialog open_dialog_;
   TextField text_field_;
   bool help_ = false, asking_ = false, fonts_are_new_ = false;
   const ExamResult* closed_sheet_of_ = nullptr;
   double frames_per_second_ = 0;
-  Rect screen_, top_, task_, ultrasound_, volume_, slice_, blend_, console_, status_;
+  Rect screen_, top_, task_, ultrasound_, recorded_, volume_, slice_, blend_, console_, status_;
   std::map<std::string, Rect> places_;
 };
 

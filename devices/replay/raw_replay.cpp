@@ -182,10 +182,14 @@ bool is_raw_recording(std::string_view bytes) {
 
 RecordedScan read_raw_scan(const std::filesystem::path& file) {
   const std::string bytes = read_file(file);
-  RawScan scan = parse_raw(bytes, file.string());
-  Recording recording{file.filename().string(), digest_of(bytes), "reports of " + scan.tracker};
-  recording.of_sensor = parse_tracker_uri(scan.tracker).flag("raw", false);
-  return {std::move(recording), std::move(scan.samples)};
+  RawScan raw = parse_raw(bytes, file.string());
+  RecordedScan scan;
+  scan.recording.file = file.filename().string();
+  scan.recording.digest = digest_of(bytes);
+  scan.recording.transform = "reports of " + raw.tracker;
+  scan.recording.of_sensor = parse_tracker_uri(raw.tracker).flag("raw", false);
+  scan.samples = std::move(raw.samples);
+  return scan;
 }
 
 std::unique_ptr<Tracker> open_raw(const TrackerUri& uri, const TrackerContext&) {

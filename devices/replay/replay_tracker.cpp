@@ -63,9 +63,12 @@ ReplayTracker::Options replay_options(const TrackerUri& uri, std::initializer_li
 }
 
 std::unique_ptr<Tracker> open_replay(const TrackerUri& uri, const TrackerContext&) {
-  const ReplayTracker::Options options = replay_options(uri, {"speed", "loop", "transform"});
-  const auto transform = uri.options.find("transform");
-  RecordedScan scan = read_recorded_scan(uri.subject, transform == uri.options.end() ? "" : transform->second);
+  const ReplayTracker::Options options = replay_options(uri, {"speed", "loop", "transform", "rate"});
+  RecordingOptions recording;
+  if (const auto transform = uri.options.find("transform"); transform != uri.options.end())
+    recording.transform = transform->second;
+  recording.rate_hz = uri.number("rate", 0, 0.01, 10000);
+  RecordedScan scan = read_recorded_scan(uri.subject, recording);
   return std::make_unique<ReplayTracker>("replay of " + scan.recording.file, std::move(scan.samples), options,
                                          scan.recording);
 }

@@ -48,8 +48,8 @@ private:
 /// InputError.
 ReplayTracker::Options replay_options(const TrackerUri& uri, std::initializer_list<std::string_view> allowed);
 
-/// replay:FILE[?speed=2&loop=1&transform=ProbeToTracker], with speeds from 0.01 to 1000; for the transform see
-/// probe_samples(). Throws InputError.
+/// replay:FILE[?speed=2&loop=1&transform=ProbeToTracker&rate=25], with speeds from 0.01 to 1000 and rates from 0.01 to
+/// 10,000 Hz; for transform and rate see RecordingOptions. Throws InputError.
 std::unique_ptr<Tracker> open_replay(const TrackerUri& uri, const TrackerContext& context);
 
 }  // namespace insonate

@@ -17,16 +17,20 @@ constexpr std::string_view kLayoutFields[] = {"ObjectType",
                                               "DimSize",
                                               "Kinds",
                                               "BinaryData",
+                                              "BinaryDataByteOrderMSB",
+                                              "ElementByteOrderMSB",
                                               "CompressedData",
                                               "CompressedDataSize",
                                               "ElementType",
                                               "ElementNumberOfChannels"};
 
-// Bytes an image element takes, by MetaIO's names (metaTypes.h, where a long has 4).
-constexpr std::pair<std::string_view, std::uint64_t> kElementBytes[] = {
-    {"MET_CHAR", 1},  {"MET_UCHAR", 1},  {"MET_ASCII_CHAR", 1}, {"MET_SHORT", 2}, {"MET_USHORT", 2},
-    {"MET_INT", 4},   {"MET_UINT", 4},   {"MET_LONG", 4},       {"MET_ULONG", 4}, {"MET_LONG_LONG", 8},
-    {"MET_FLOAT", 4}, {"MET_DOUBLE", 8}, {"MET_ULONG_LONG", 8}, {"MET_OTHER", 1}, {"MET_NONE", 1}};
+// Image elements by MetaIO's names (metaTypes.h, where a long has 4 bytes).
+constexpr std::pair<std::string_view, PixelType> kTypes[] = {
+    {"MET_CHAR", PixelType::int8},         {"MET_UCHAR", PixelType::uint8},   {"MET_ASCII_CHAR", PixelType::int8},
+    {"MET_SHORT", PixelType::int16},       {"MET_USHORT", PixelType::uint16}, {"MET_INT", PixelType::int32},
+    {"MET_UINT", PixelType::uint32},       {"MET_LONG", PixelType::int32},    {"MET_ULONG", PixelType::uint32},
+    {"MET_LONG_LONG", PixelType::int64},   {"MET_FLOAT", PixelType::float32}, {"MET_DOUBLE", PixelType::float64},
+    {"MET_ULONG_LONG", PixelType::uint64}, {"MET_OTHER", PixelType::uint8},   {"MET_NONE", PixelType::uint8}};
 
 /// The fields of one header, with the errors that name its file.
 class Layout {
@@ -46,7 +50,8 @@ public:
     claimed.kinds_text = value("Kinds");
     claimed.kinds = words(claimed.kinds_text);
     read_sizes(claimed);
-    claimed.element_bytes = element_bytes();
+    claimed.type = pixel_type();
+    claimed.big_endian = flag("BinaryDataByteOrderMSB", false) || flag("ElementByteOrderMSB", false);
     // Where the colours are a dimension, they are no further channels.
     const bool coloured = !claimed.kinds.empty() && same_ignoring_case(claimed.kinds.front(), "vector");
     claimed.channels = coloured ? 1 : channels();
@@ -83,10 +88,10 @@ private:
            kExportAgain);
   }
 
-  std::uint64_t element_bytes() const {
-    if (!has("ElementType")) return 1;
-    for (const auto& [type, bytes] : kElementBytes)
-      if (type == value("ElementType")) return bytes;
+  PixelType pixel_type() const {
+    if (!has("ElementType")) return PixelType::uint8;
+    for (const auto& [name, type] : kTypes)
+      if (name == value("ElementType")) return type;
     fail("ElementType is " + quoted(value("ElementType")) + ", which MetaImage does not know", kExportAgain);
   }
 

@@ -10,50 +10,52 @@ namespace insonate {
 namespace {
 
 constexpr std::string_view kMagic = "NRRD000";
-constexpr std::string_view kLayoutFields[] = {"type",      "dimension", "sizes",     "kinds",   "encoding",
-                                              "byte skip", "byteskip",  "line skip", "lineskip"};
+constexpr std::string_view kLayoutFields[] = {"type",   "dimension", "sizes",    "kinds",     "encoding",
+                                              "endian", "byte skip", "byteskip", "line skip", "lineskip"};
 
-// Bytes an element takes, by every name that the format has for it (teem.sourceforge.net/nrrd/format.html).
-constexpr std::pair<std::string_view, std::uint64_t> kTypeBytes[] = {{"signed char", 1},
-                                                                     {"int8", 1},
-                                                                     {"int8_t", 1},
-                                                                     {"uchar", 1},
-                                                                     {"unsigned char", 1},
-                                                                     {"uint8", 1},
-                                                                     {"uint8_t", 1},
-                                                                     {"short", 2},
-                                                                     {"short int", 2},
-                                                                     {"signed short", 2},
-                                                                     {"signed short int", 2},
-                                                                     {"int16", 2},
-                                                                     {"int16_t", 2},
-                                                                     {"ushort", 2},
-                                                                     {"unsigned short", 2},
-                                                                     {"unsigned short int", 2},
-                                                                     {"uint16", 2},
-                                                                     {"uint16_t", 2},
-                                                                     {"int", 4},
-                                                                     {"signed int", 4},
-                                                                     {"int32", 4},
-                                                                     {"int32_t", 4},
-                                                                     {"uint", 4},
-                                                                     {"unsigned int", 4},
-                                                                     {"uint32", 4},
-                                                                     {"uint32_t", 4},
-                                                                     {"longlong", 8},
-                                                                     {"long long", 8},
-                                                                     {"long long int", 8},
-                                                                     {"signed long long", 8},
-                                                                     {"signed long long int", 8},
-                                                                     {"int64", 8},
-                                                                     {"int64_t", 8},
-                                                                     {"ulonglong", 8},
-                                                                     {"unsigned long long", 8},
-                                                                     {"unsigned long long int", 8},
-                                                                     {"uint64", 8},
-                                                                     {"uint64_t", 8},
-                                                                     {"float", 4},
-                                                                     {"double", 8}};
+// Elements by every name that the format has for them (teem.sourceforge.net/nrrd/format.html).
+constexpr std::pair<std::string_view, PixelType> kTypes[] = {
+    {"signed char", PixelType::int8},
+    {"int8", PixelType::int8},
+    {"int8_t", PixelType::int8},
+    {"uchar", PixelType::uint8},
+    {"unsigned char", PixelType::uint8},
+    {"uint8", PixelType::uint8},
+    {"uint8_t", PixelType::uint8},
+    {"short", PixelType::int16},
+    {"short int", PixelType::int16},
+    {"signed short", PixelType::int16},
+    {"signed short int", PixelType::int16},
+    {"int16", PixelType::int16},
+    {"int16_t", PixelType::int16},
+    {"ushort", PixelType::uint16},
+    {"unsigned short", PixelType::uint16},
+    {"unsigned short int", PixelType::uint16},
+    {"uint16", PixelType::uint16},
+    {"uint16_t", PixelType::uint16},
+    {"int", PixelType::int32},
+    {"signed int", PixelType::int32},
+    {"int32", PixelType::int32},
+    {"int32_t", PixelType::int32},
+    {"uint", PixelType::uint32},
+    {"unsigned int", PixelType::uint32},
+    {"uint32", PixelType::uint32},
+    {"uint32_t", PixelType::uint32},
+    {"longlong", PixelType::int64},
+    {"long long", PixelType::int64},
+    {"long long int", PixelType::int64},
+    {"signed long long", PixelType::int64},
+    {"signed long long int", PixelType::int64},
+    {"int64", PixelType::int64},
+    {"int64_t", PixelType::int64},
+    {"ulonglong", PixelType::uint64},
+    {"unsigned long long", PixelType::uint64},
+    {"unsigned long long int", PixelType::uint64},
+    {"uint64", PixelType::uint64},
+    {"uint64_t", PixelType::uint64},
+    {"float", PixelType::float32},
+    {"double", PixelType::float64},
+};
 
 [[noreturn]] void fail(const std::string& file, const std::string& problem, const std::string& remedy = kExportAgain) {
   throw InputError(file, "header", problem, remedy);
@@ -78,9 +80,9 @@ void read_sizes(const HeaderFields& fields, ClaimedImages& claimed, const std::s
                    ", where a sequence has 3 to 5 sizes, one of them its number of frames");
 }
 
-std::uint64_t element_bytes(const HeaderFields& fields, const std::string& file) {
-  for (const auto& [type, bytes] : kTypeBytes)
-    if (same_ignoring_case(type, value(fields, "type"))) return bytes;
+PixelType pixel_type(const HeaderFields& fields, const std::string& file) {
+  for (const auto& [name, type] : kTypes)
+    if (same_ignoring_case(name, value(fields, "type"))) return type;
   fail(file, "type is " + quoted(value(fields, "type")) + ", which NRRD does not know");
 }
 
@@ -155,17 +157,19 @@ SequenceLayout nrrd_layout(const HeaderFields& fields, const CutBytes& data, con
   claimed.sizes_name = "sizes";
   claimed.sizes_text = value(fields, "sizes");
   read_sizes(fields, claimed, file);
-  claimed.element_bytes = element_bytes(fields, file);
+  claimed.type = pixel_type(fields, file);
+  claimed.big_endian = same_ignoring_case(value(fields, "endian"), "big");
   claimed.compressed = is_compressed(fields, file);
-  const SequenceLayout layout = sequence_layout(claimed, data.size, file);
+  SequenceLayout layout = sequence_layout(claimed, data.size, file);
   if (!claimed.compressed || !layout.has_images) return layout;
 
-  std::uint64_t raw = claimed.element_bytes;
+  std::uint64_t raw = bytes_of(claimed.type);
   for (const std::uint64_t size : claimed.sizes) raw *= size;
   if (!is_whole_gzip(data, raw))
     throw InputError(file, "image data", "it is no gzip stream of " + std::to_string(raw) + " bytes, or truncated",
                      "copy or record the file again");
-  return {layout.frames, true, data.size};
+  layout.image_bytes = data.size;
+  return layout;
 }
 
 }  // namespace insonate

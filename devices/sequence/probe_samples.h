@@ -2,43 +2,74 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "devices/recording.h"
+#include "devices/sequence/recorded_images.h"
 #include "devices/sequence/sequence.h"
 #include "sim/core/pose_sample.h"
 
 namespace insonate {
 
-/// The probe's poses among the transforms of a sequence, one sample a frame with the frame's own time.
+/// How a recording is to be read.
+struct RecordingOptions {
+  /// The probe's transform, with or without "Transform" at its end, as in "SensorToTracker"; empty: see probe_track().
+  std::string transform{};
+  /// Frames a second of a recording whose frames have no times, Hz, above 0; 0: such a recording is refused.
+  double rate_hz = 0;
+  /// Takes 1 Hz for such a recording instead, for whoever does not look at times.
+  bool without_times = false;
+};
+
+/// The probe's poses among the transforms of a sequence.
+struct ProbeTrack {
+  std::string transform;            ///< for a person: "ProbeToPatient", or "ProbeToTracker, TrackerToReference"
+  std::string probe;                ///< the coordinate frame that counts as the probe's: "Probe"
+  std::vector<PoseSample> samples;  ///< one per frame
+  RecordingRepairs repairs;
+  std::optional<double> assumed_rate_hz;  ///< Recording::assumed_rate_hz
+};
+
+/// Largest orthonormal_error() of a recorded pose that is replaced by the nearest rotation. Matrices with 6 significant
+/// digits that a tracker chained in single precision reach 4.3e-4 (a recording of PLUS's test data); an axis that is
+/// stretched or tilted by a thousandth moves the far end of a 200 mm image by 0.2 mm.
+inline constexpr double kRecordedRotationError = 2e-3;
+
+/// Finds the probe's pose in each frame of a sequence, with the frame's own time.
 ///
-/// `transform` names the one to take, with or without "Transform" at its end; when it is empty the first is taken that
-/// the frames have of ProbeToPatient, ProbeToReference and ProbeToTracker. Where that ends in a frame other than
-/// Patient and the sequence also knows the way on (TrackerToPatient, of each frame or once in the header), the two are
-/// chained; else that frame is taken to be the patient's. The patient's frame is LPS; 3D Slicer shows RAS on the
-/// screen, but what it saves in a sequence are the transforms as they came.
+/// Without `options.transform` the coordinate frame Probe is followed to Patient, else to Reference, else to Tracker,
+/// through all transforms of frames and header and in both directions (find_path()). If none can be reached and exactly
+/// one transform begins with "Probe", that one is taken. With it, that transform or path is taken, and followed on to
+/// Patient where the sequence knows a way. The frame at the end counts as the patient's, in LPS. 3D Slicer shows RAS on
+/// the screen, but what it saves in a sequence are the transforms as they came.
 ///
-/// A sample is ok when all that was chained is; of others the pose is Pose{}, whatever the file holds: it may be zero.
-/// Frames without the transform are missing. A rotation that is orthonormal to rounding error is kept to the bit,
-/// another as far as why_not_rigid() lets it pass is made so. Throws InputError when no transform fits, or when one
-/// that is ok is not rigid.
+/// A sample is ok if every link of its path is; the others have the status of the first link that is not, and Pose{}.
+/// Frames without the transform are missing. A rotation that is orthonormal to rounding error is kept to the bit;
+/// another one up to kRecordedRotationError is replaced by the nearest rotation and counted. Throws InputError when no
+/// transform fits, when a pose that is ok is not rigid, when the frames have no times and the options do not provide
+/// for it, and when they have times and a rate is given.
+ProbeTrack probe_track(const Sequence& sequence, const RecordingOptions& options = {});
+
+/// probe_track()'s samples alone.
 std::vector<PoseSample> probe_samples(const Sequence& sequence, std::string_view transform = {});
 
-/// The name of the transform that probe_samples() takes, without "Transform" at its end. Throws as that does.
-std::string probe_transform(const Sequence& sequence, std::string_view transform = {});
-
-/// What was done besides moving, by the times of the frames that tell of it.
+/// What was done besides moving, by the times of the frames that report it.
 std::map<double, std::string> recorded_actions(const Sequence& sequence);
 
 struct RecordedScan {
   Recording recording;
   std::vector<PoseSample> samples;
+  std::optional<RecordedImages> images;  ///< empty without images, and where they are not of a form that is read
 };
 
-/// Reads a file once, parses it and picks. Keeps its header and samples; its images may have any size. Throws
-/// InputError.
-RecordedScan read_recorded_scan(const std::filesystem::path& file, std::string_view transform = {});
+/// Reads a file once and finds its probe_track(). Keeps its header and samples; its images may have any size, and stay
+/// in the file. Throws InputError.
+RecordedScan read_recorded_scan(const std::filesystem::path& file, const RecordingOptions& options = {});
+
+/// The same of a sequence that is parsed already; the recording has no digest and no images.
+RecordedScan recorded_scan(const Sequence& sequence, const RecordingOptions& options = {});
 
 }  // namespace insonate

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "devices/sequence/cut_bytes.h"
+#include "devices/sequence/sequence_layout.h"
 #include "sim/core/pose_sample.h"
 
 namespace insonate {
@@ -23,7 +24,8 @@ struct SequenceTransform {
 };
 
 struct SequenceFrame {
-  double time_s = 0;                          ///< the file's Timestamp: since some start or since 1970
+  std::size_t number = 0;                     ///< of the frame and its image in the file, from 0
+  double time_s = 0;                          ///< the file's Timestamp: since some start or since 1970; 0 without one
   std::uint32_t buttons = 0;                  ///< bit b is set while button b is held
   std::optional<std::uint32_t> distortion;    ///< as the tracker graded it, where it did
   Rejection rejected = Rejection::none;       ///< why a filter took its pose away, where one did
@@ -33,16 +35,25 @@ struct SequenceFrame {
   const SequenceTransform* find(int name) const;
 };
 
+/// Frames may stand this far behind a later one. Writers that take poses and images from two threads mix them up by
+/// less than a frame; what lies further back is a clock that was set.
+inline constexpr double kLargestDisorderS = 0.05;
+
 /// What an IGSIO/PLUS sequence file (.igs.mha, .seq.mha, .seq.nrrd) says of its frames; the images are left where they
-/// are.
+/// are (image_reader.h reads them).
 struct Sequence {
   std::string file;                             ///< for messages
   std::vector<std::string> transform_names;     ///< of all frames, without "Transform": "ProbeToTracker"
   std::map<std::string, glm::dmat4> constants;  ///< transforms of the header, which hold for all frames; finite
   std::vector<SequenceFrame> frames;            ///< at least one; times finite and strictly rising
+  bool has_times = true;                        ///< false: no frame has a Timestamp, and they are in the file's order
+  std::size_t frames_out_of_order = 0;  ///< frames that stood behind a later one, and were sorted by their times
+  double worst_disorder_s = 0;          ///< how far behind, at most kLargestDisorderS
   bool has_images = false;
-  std::size_t image_offset = 0;  ///< in the file's bytes
-  std::size_t image_bytes = 0;   ///< compressed, where the file is
+  std::size_t image_offset = 0;         ///< in the file's bytes
+  std::size_t image_bytes = 0;          ///< compressed, where the file is
+  std::optional<ImageForm> image_form;  ///< empty without images, and where their frames are interleaved
+  std::string image_orientation;        ///< of UltrasoundImageOrientation, as "MFA"; empty when it is not given
 
   /// Index into transform_names, or -1.
   int find(std::string_view transform) const;
@@ -50,10 +61,11 @@ struct Sequence {
 
 /// Reads the header of a sequence file as PLUS, IGSIO and 3D Slicer write it: a MetaImage header with a line
 /// `Seq_Frame0000_Field = value` for each field of each frame, or a NRRD header with `Seq_Frame0000_Field:=value`.
-/// Understood are, of a frame, `...Transform` (16 numbers by rows), `...TransformStatus` (absent: unknown),
-/// `Timestamp`, `Buttons`, `Distortion`, `Rejected` and `Actions` (Insonate's own, which others skip); of the header
-/// the fields that tell size and kind, and `...Transform` fields. All else that is well formed is skipped, images too:
-/// they are only checked to be there. `file` names it in messages.
+/// Of a frame it reads `...Transform` (16 numbers by rows), `...TransformStatus` (absent: unknown), `Timestamp` (of all
+/// frames or of none), `Buttons`, `Distortion`, `Rejected` and `Actions` (Insonate's own, which others skip); of the
+/// header the fields that give size, kind and orientation, and `...Transform` fields. It skips all else that is well
+/// formed, images too: they are only checked to be there. Frames that stand at most kLargestDisorderS behind a later
+/// one are sorted by their times. `file` names the file in messages.
 ///
 /// A pure function of the bytes. Takes memory and time in proportion to them, whatever they claim. Throws InputError
 /// for whatever is truncated, malformed, contradictory, or a sequence of a kind that is not read here (a separate data

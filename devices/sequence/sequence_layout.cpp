@@ -42,7 +42,7 @@ std::optional<std::size_t> list_axis(const ClaimedImages& claimed, const std::st
 /// Bytes of all images; 0 when a dimension is 0.
 std::uint64_t raw_bytes(const ClaimedImages& claimed, const std::string& file) {
   std::vector<std::uint64_t> factors = claimed.sizes;
-  factors.push_back(claimed.element_bytes);
+  factors.push_back(bytes_of(claimed.type));
   factors.push_back(claimed.channels);
   if (std::find(factors.begin(), factors.end(), 0u) != factors.end()) return 0;
   std::uint64_t product = 1;
@@ -57,7 +57,54 @@ std::uint64_t raw_bytes(const ClaimedImages& claimed, const std::string& file) {
   return product;
 }
 
+/// The form of an image, if the frames lie one behind the other: where they are counted last. 3D Slicer can count them
+/// first, so that each pixel's values of all frames lie side by side.
+std::optional<ImageForm> image_form(const ClaimedImages& claimed, std::optional<std::size_t> frame_axis) {
+  if (frame_axis && *frame_axis + 1 != claimed.sizes.size()) return std::nullopt;
+  ImageForm form;
+  form.channels = claimed.channels;
+  form.type = claimed.type;
+  form.big_endian = claimed.big_endian;
+  form.compressed = claimed.compressed;
+  form.frame_bytes = bytes_of(claimed.type) * claimed.channels;
+  std::vector<std::uint64_t> lengths;
+  for (std::size_t i = 0; i < claimed.sizes.size(); ++i) {
+    if (i == frame_axis) continue;
+    form.frame_bytes *= claimed.sizes[i];
+    const bool is_colour = i < claimed.kinds.size() && same_ignoring_case(claimed.kinds[i], "vector");
+    if (is_colour && i > 0) return std::nullopt;  // a plane of each colour
+    if (is_colour)
+      form.channels *= claimed.sizes[i];
+    else
+      lengths.push_back(claimed.sizes[i]);
+  }
+  if (lengths.size() < 2) return std::nullopt;
+  form.width = lengths[0];
+  form.height = lengths[1];
+  return form;
+}
+
 }  // namespace
+
+std::uint64_t bytes_of(PixelType type) {
+  switch (type) {
+    case PixelType::uint8:
+    case PixelType::int8:
+      return 1;
+    case PixelType::uint16:
+    case PixelType::int16:
+      return 2;
+    case PixelType::uint32:
+    case PixelType::int32:
+    case PixelType::float32:
+      return 4;
+    case PixelType::uint64:
+    case PixelType::int64:
+    case PixelType::float64:
+      break;
+  }
+  return 8;
+}
 
 bool dimensions_agree(std::optional<std::size_t> dimensions, const ClaimedImages& claimed) {
   const std::size_t sizes = claimed.sizes.size(), most = is_single(claimed) ? sizes + 1 : sizes;
@@ -76,6 +123,7 @@ SequenceLayout sequence_layout(const ClaimedImages& claimed, std::uint64_t bytes
   for (std::size_t i = 0; i < claimed.sizes.size(); ++i)
     if (i != frame_axis) single_pixel = single_pixel && claimed.sizes[i] == 1;
   layout.has_images = raw > 0 && !single_pixel;
+  if (layout.has_images) layout.form = image_form(claimed, frame_axis);
   if (raw == 0) return layout;
   // Transform-only files of PLUS say 1 x 1 and carry a pixel a frame; others say so and carry none, or a line end.
   if (single_pixel && (claimed.compressed || bytes_after <= 2)) return layout;

@@ -10,19 +10,37 @@
 
 namespace insonate {
 
+/// What an element of an image is.
+enum class PixelType { uint8, int8, uint16, int16, uint32, int32, uint64, int64, float32, float64 };
+
+/// Bytes an element takes.
+std::uint64_t bytes_of(PixelType type);
+
+/// The form of one frame's image in a file whose frames lie one behind the other.
+struct ImageForm {
+  std::uint64_t width = 0, height = 0;  ///< pixels, above 0; of a stack of slices the first one is meant
+  std::uint64_t channels = 1;           ///< values of a pixel, one behind the other
+  PixelType type = PixelType::uint8;
+  bool big_endian = false;
+  bool compressed = false;        ///< zlib (MetaImage) or gzip (NRRD)
+  std::uint64_t frame_bytes = 0;  ///< of one frame, not compressed
+};
+
 /// How many frames there are, and where their images end.
 struct SequenceLayout {
   std::uint64_t frames = 0;       ///< at least 1; only claimed, so nothing may be allocated by it alone
   bool has_images = false;        ///< false for transform-only files, whose images have no pixel or one
   std::uint64_t image_bytes = 0;  ///< of all frames, as stored; no more than there are
+  std::optional<ImageForm> form;  ///< of the images; empty without any, and where the frames do not lie one by one
 };
 
 /// What a header says of its images.
 struct ClaimedImages {
   std::vector<std::uint64_t> sizes;     ///< of each dimension
   std::vector<std::string_view> kinds;  ///< of each dimension; none: the last one counts the frames
-  std::uint64_t element_bytes = 1;
+  PixelType type = PixelType::uint8;
   std::uint64_t channels = 1;
+  bool big_endian = false;
   bool compressed = false;
   std::optional<std::uint64_t> compressed_bytes;  ///< where the header tells
   std::string_view sizes_name, sizes_text;        ///< for messages: "DimSize", "640 480 30"

@@ -21,12 +21,15 @@ namespace {
 constexpr std::string_view kFramePrefix = "Seq_Frame";
 constexpr std::string_view kTransform = "Transform";
 constexpr std::string_view kTransformStatus = "TransformStatus";
+constexpr std::string_view kOrientation = "UltrasoundImageOrientation",
+                           kNrrdOrientation = "ultrasound image orientation";
 // A tracked scan has a handful; the limit keeps the search within a frame short whatever the file holds.
 constexpr std::size_t kMostTransforms = 256;
 // The shortest line a frame needs, "Seq_Frame0_Timestamp=0\n": a file cannot hold more frames than such lines.
 constexpr std::size_t kLeastFrameBytes = 23;
 
 constexpr const char* kRecordAgain = "record the scan again";
+constexpr const char* kRecordWithTracker = "record it with a tracker, so that its frames have ProbeToTrackerTransform";
 
 std::optional<glm::dmat4> to_matrix(std::string_view value) {
   const std::vector<std::string_view> numbers = words(value);
@@ -57,7 +60,9 @@ public:
       if (is_nrrd_ ? is_nrrd_layout_field(name) : is_layout_field(name)) keep_once(name, value, line);
     };
     const auto keep_key = [this](std::string_view name, std::string_view value, std::size_t line) {
-      if (name.starts_with(kFramePrefix))
+      if (same_ignoring_case(name, kOrientation) || same_ignoring_case(name, kNrrdOrientation))
+        sequence_.image_orientation = value;
+      else if (name.starts_with(kFramePrefix))
         keep_frame_field(name, value, line);
       else
         keep_constant(name, value, line);
@@ -74,11 +79,15 @@ public:
         is_nrrd_ ? nrrd_layout(header_, data, sequence_.file) : metaimage_layout(header_, data.size, sequence_.file);
     sequence_.has_images = layout.has_images;
     sequence_.image_bytes = std::size_t(layout.image_bytes);
+    sequence_.image_form = layout.form;
     make_frames(layout.frames);
     read_statuses();
     read_values();
     check_complete();
-    check_times();
+    if (sequence_.has_times) {
+      sort_by_time();
+      check_times();
+    }
     return std::move(sequence_);
   }
 
@@ -131,7 +140,7 @@ private:
     if (!frame || underscore + 1 >= name.size())
       fail("line " + std::to_string(line), quoted(name) + " names no frame and field, as in 'Seq_Frame0000_Timestamp'",
            kExportAgain);
-    highest_frame_ = std::max<std::size_t>(highest_frame_, *frame);
+    highest_frame_ = std::max<std::size_t>(highest_frame_.value_or(0), *frame);
     name.remove_prefix(underscore + 1);
     // Of the many fields a frame may have only these are kept; the others are the writer's own business.
     if (name == "Timestamp" || name == "Buttons" || name == "Distortion" || name == "Rejected" || name == "Actions" ||
@@ -140,15 +149,18 @@ private:
   }
 
   void make_frames(std::uint64_t frames) {
+    if (fields_.empty() && highest_frame_)
+      fail("header", "its frames have no transforms, so it does not tell where the probe was", kRecordWithTracker);
     if (fields_.empty())
       fail("header", "no frame is described (there are no 'Seq_Frame0000_...' fields): it is a plain image",
            "give a tracked sequence (.igs.mha, .seq.mha or .seq.nrrd)");
-    if (frames > bytes_.front.size() / kLeastFrameBytes || highest_frame_ >= frames)
+    if (frames > bytes_.front.size() / kLeastFrameBytes || *highest_frame_ >= frames)
       fail("header",
            "DimSize says " + std::to_string(frames) + " frames, but the last one described is frame " +
-               std::to_string(highest_frame_),
+               std::to_string(*highest_frame_),
            kRecordAgain);
     sequence_.frames.resize(std::size_t(frames));
+    for (std::size_t f = 0; f < sequence_.frames.size(); ++f) sequence_.frames[f].number = f;
     seen_.resize(std::size_t(frames));
   }
 
@@ -237,9 +249,10 @@ private:
     given.matrix = *matrix;
   }
 
-  void check_complete() const {
+  void check_complete() {
+    sequence_.has_times = std::any_of(seen_.begin(), seen_.end(), [](const Seen& seen) { return seen.time; });
     for (std::size_t f = 0; f < seen_.size(); ++f) {
-      if (!seen_[f].time) fail(f, "it has no Timestamp");
+      if (sequence_.has_times && !seen_[f].time) fail(f, "it has no Timestamp");
       const std::vector<int>& matrices = seen_[f].matrices;
       for (const SequenceTransform& given : sequence_.frames[f].transforms)
         if (given.status == PoseStatus::ok && std::find(matrices.begin(), matrices.end(), given.name) == matrices.end())
@@ -247,18 +260,33 @@ private:
     }
   }
 
+  void sort_by_time() {
+    double latest_s = sequence_.frames.front().time_s;
+    for (const SequenceFrame& frame : sequence_.frames) {
+      const double behind_s = latest_s - frame.time_s;
+      if (behind_s > kLargestDisorderS) fail_time(frame, "lies before", latest_s);
+      if (behind_s > 0) ++sequence_.frames_out_of_order;
+      sequence_.worst_disorder_s = std::max(sequence_.worst_disorder_s, behind_s);
+      latest_s = std::max(latest_s, frame.time_s);
+    }
+    if (sequence_.frames_out_of_order > 0)
+      std::stable_sort(sequence_.frames.begin(), sequence_.frames.end(),
+                       [](const SequenceFrame& a, const SequenceFrame& b) { return a.time_s < b.time_s; });
+  }
+
   void check_times() const {
     for (std::size_t f = 1; f < sequence_.frames.size(); ++f) {
-      const double before = sequence_.frames[f - 1].time_s, now = sequence_.frames[f].time_s;
-      if (now > before && now - before <= kLongestStepS) continue;
-      char times[80];
-      std::snprintf(times, sizeof times, "%.17g s after %.17g s", now, before);
-      fail(f, std::string("its Timestamp ") +
-                  (now == before  ? "repeats that"
-                   : now < before ? "lies before that"
-                                  : "lies more than a day behind that") +
-                  " of the frame before it (" + times + ")");
+      const SequenceFrame& frame = sequence_.frames[f];
+      const double before_s = sequence_.frames[f - 1].time_s;
+      if (frame.time_s == before_s) fail_time(frame, "repeats", before_s);
+      if (frame.time_s - before_s > kLongestStepS) fail_time(frame, "lies more than a day behind", before_s);
     }
+  }
+
+  [[noreturn]] void fail_time(const SequenceFrame& frame, const std::string& how, double before_s) const {
+    char times[80];
+    std::snprintf(times, sizeof times, "%.17g s after %.17g s", frame.time_s, before_s);
+    fail(frame.number, "its Timestamp " + how + " that of the frame before it (" + times + ")");
   }
 
   CutBytes bytes_;
@@ -267,7 +295,7 @@ private:
   HeaderFields header_;
   std::vector<FrameField> fields_;
   std::unordered_map<std::string_view, int> name_indices_;
-  std::size_t highest_frame_ = 0;
+  std::optional<std::size_t> highest_frame_;  ///< of those that any field describes
   std::vector<Seen> seen_;
 };
 

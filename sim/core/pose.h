@@ -32,13 +32,21 @@ Pose operator*(const Pose& a_from_b, const Pose& b_from_c);
 /// Beyond that no tracker reaches.
 inline constexpr double kTrackerReachMm = 1e5;
 
-/// Why `matrix` is no rigid transform in mm, as the problem part of an InputError ("the rotation mirrors: its
-/// determinant is -1"); empty when it is one. Accepts what rounding to 6 decimals leaves: columns within 1e-4 of
-/// orthonormal, last row (0 0 0 1), and a translation up to `reach_mm`.
-std::optional<std::string> why_not_rigid(const glm::dmat4& matrix, double reach_mm = kTrackerReachMm);
+/// The largest entry of |R^T R - 1| that rounding to 6 decimals leaves, with a margin.
+inline constexpr double kRoundingToSixDecimals = 2e-4;
 
-/// The pose nearest to a matrix that why_not_rigid has let pass: what rounding left over is removed. A matrix that is
-/// orthonormal to double precision is kept to the bit, so that a pose written with 17 digits reads back equal.
+/// How far a matrix is from a rotation: the largest entry of |R^T R - 1|, 0 for a rotation.
+double orthonormal_error(const glm::dmat3& rotation);
+
+/// Why `matrix` is not a rigid transform in mm, as the problem part of an InputError ("the rotation mirrors: its
+/// determinant is -1"); empty when it is one. Accepts an orthonormal_error() up to `largest_error`, the last row
+/// (0 0 0 1), and a translation up to `reach_mm`.
+std::optional<std::string> why_not_rigid(const glm::dmat4& matrix, double reach_mm = kTrackerReachMm,
+                                         double largest_error = kRoundingToSixDecimals);
+
+/// The pose of a matrix that why_not_rigid() accepts. A matrix that is orthonormal to double precision is kept to the bit,
+/// so that a pose written with 17 digits reads back equal. Up to kRoundingToSixDecimals the rotation is that of the
+/// matrix's quaternion, beyond that the nearest one (least squares, from the polar decomposition).
 Pose pose_from_matrix(const glm::dmat4& matrix);
 
 /// The angle of the rotation that takes one pose's axes to the other's, in degrees from 0 to 180.

@@ -120,3 +120,23 @@ pixels=$(different "$work/bare.png" "$work/measured.png")
 drag_to 44
 await "it goes with its picture" is placed ""
 echo "passed"
+
+echo "a recording's own images lie beside the simulated picture, each tissue at the same place of both"
+kill "$trainer"
+"$program" --headless --seconds 3 --record "$work/scan.igs.mha" --record-images --out "$work/once" >"$work/log" 2>&1 \
+  || fail "no recording with images"
+start_trainer --replay "$work/scan-images.igs.mha"
+await "the run is shown" is replay_s 0.0
+drag_to 70
+await "the time follows the pointer" at_share 70
+await "the picture is drawn in full" at_rest
+# Without what is written around both pictures.
+shot "$work/simulated.png" ultrasound 110
+shot "$work/recorded.png" recorded 110
+alike() { compare -metric NCC "$1" "$2" null: 2>&1 || true; }
+likeness=$(alike "$work/simulated.png" "$work/recorded.png")
+awk -v l="$likeness" 'BEGIN { exit !(l > 0.9) }' || fail "the recorded image is another: correlation $likeness"
+# A place that is off by 8 pixels would be seen.
+convert "$work/recorded.png" -roll +8+0 "$work/elsewhere.png"
+shifted=$(alike "$work/simulated.png" "$work/elsewhere.png")
+awk -v l="$likeness" -v s="$shifted" 'BEGIN { exit !(s < l - 0.1) }' || fail "a shift does not show: $likeness, $shifted"

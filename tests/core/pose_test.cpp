@@ -58,6 +58,20 @@ TEST_CASE("what rounding to six decimals leaves in a matrix is removed") {
   CHECK(angle_between_deg(pose, exact) < 1e-4);
 }
 
+TEST_CASE("the rotation that is taken for a matrix is the nearest one") {
+  const glm::dmat3 exact = turned(33, glm::normalize(glm::dvec3(3, 1, -2)), {}).rotation;
+  glm::dmat3 stretch(1.0);
+  stretch[0] = {1 + 6e-4, 3e-4, -2e-4};
+  stretch[1] = {3e-4, 1 - 5e-4, 4e-4};
+  stretch[2] = {-2e-4, 4e-4, 1 + 2e-4};
+  // The polar decomposition: of a rotation times a symmetric positive stretch the rotation is nearest.
+  const glm::dmat4 matrix(exact * stretch);
+  REQUIRE(why_not_rigid(matrix));
+  REQUIRE_FALSE(why_not_rigid(matrix, kTrackerReachMm, 2e-3));
+  const glm::dmat3 nearest = pose_from_matrix(matrix).rotation;
+  for (int c = 0; c < 3; ++c) CHECK(glm::length(nearest[c] - exact[c]) < 1e-15);
+}
+
 TEST_CASE("the angle between poses is the rotation's, down to small angles and up to a half turn") {
   const glm::dvec3 axis = glm::normalize(glm::dvec3(1, 1, 0.2));
   const Pose a = turned(20, axis, {1, 2, 3});

@@ -32,7 +32,7 @@ TEST_CASE("a sequence with images is read as PLUS writes it") {
   CHECK(sequence.image_bytes == 60);
   REQUIRE(sequence.frames.size() == 5);
 
-  const std::vector<PoseSample> samples = probe_samples(sequence);
+  const std::vector<PoseSample> samples = probe_samples(sequence, "ProbeToTracker");
   REQUIRE(samples.size() == 5);
   const PoseStatus statuses[] = {PoseStatus::ok, PoseStatus::ok, PoseStatus::out_of_view, PoseStatus::missing,
                                  PoseStatus::ok};
@@ -168,8 +168,9 @@ TEST_CASE("the probe's transform is the one named, else to the patient, the refe
   CHECK(x(all, "") == 3);
   CHECK(x(without(all, "ProbeToPatient"), "") == 2);
   CHECK(x(without(without(all, "ProbeToPatient"), "ProbeToReference"), "") == 1);
-  CHECK(x(all, "StylusToTracker") == 4);
-  CHECK(x(all, "StylusToTrackerTransform") == 4);
+  // The tracker's frame leads on to the patient's, back along ProbeToTracker.
+  CHECK(x(all, "StylusToTracker") == 4 - 1 + 3);
+  CHECK(x(without(all, "ProbeToPatient"), "StylusToTrackerTransform") == 4);
 }
 
 TEST_CASE(

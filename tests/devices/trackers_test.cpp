@@ -117,7 +117,7 @@ TEST_CASE("every kind of tracker opens by the registry, and its form begins with
   replay->poll(0, samples);
   CHECK(samples.size() == 1);
   replay->poll(0.11, samples);
-  CHECK(same_bits(samples, read_recorded_scan(kLog, "ReferenceToTracker").samples));
+  CHECK(same_bits(samples, read_recorded_scan(kLog, {.transform = "ReferenceToTracker"}).samples));
   CHECK(replay->state().name == "replay of plus_images.igs.mha");
   REQUIRE(replay->recording());
   CHECK(replay->recording()->file == "plus_images.igs.mha");
@@ -125,7 +125,7 @@ TEST_CASE("every kind of tracker opens by the registry, and its form begins with
   CHECK(replay->recording()->transform == "ReferenceToTracker");
   CHECK_FALSE(replay->repeats());
   CHECK(open_tracker("replay:" + kLog + "?loop=1")->repeats());
-  CHECK(open_tracker("replay:" + kLog)->recording()->transform == "ProbeToTracker");
+  CHECK(open_tracker("replay:" + kLog)->recording()->transform == "ProbeToTracker, TrackerToReference");
   CHECK(open_tracker("mouse:")->recording() == nullptr);
   CHECK_NOTHROW(open_tracker("mouse:"));
   CHECK_NOTHROW(open_tracker("synthetic:"));

@@ -85,7 +85,7 @@ TEST_CASE("insonate-score prints the very score that the trainer comes to, and a
   expected.provenance.mode = AttemptMode::recording;
   expected.provenance.log = "ruq_poor.igs.mha";
   expected.provenance.log_digest = digest_of(read_file(log));
-  expected.provenance.log_transform = "ProbeToTracker";
+  expected.provenance.log_transform = "ProbeToTracker, TrackerToPatient";
   CHECK(outcome.output == to_json(expected));
   CHECK_FALSE(result_from_json(outcome.output, "output").passed);
   CHECK(read_file(report).find("Not passed") != std::string::npos);
