@@ -44,9 +44,9 @@ double orthonormal_error(const glm::dmat3& rotation);
 std::optional<std::string> why_not_rigid(const glm::dmat4& matrix, double reach_mm = kTrackerReachMm,
                                          double largest_error = kRoundingToSixDecimals);
 
-/// The pose of a matrix that why_not_rigid() accepts. A matrix that is orthonormal to double precision is kept to the bit,
-/// so that a pose written with 17 digits reads back equal. Up to kRoundingToSixDecimals the rotation is that of the
-/// matrix's quaternion, beyond that the nearest one (least squares, from the polar decomposition).
+/// The pose of a matrix that why_not_rigid() accepts. A matrix that is orthonormal to double precision is kept to the
+/// bit, so that a pose written with 17 digits reads back equal. Up to kRoundingToSixDecimals the rotation is that of
+/// the matrix's quaternion, beyond that the nearest one (least squares, from the polar decomposition).
 Pose pose_from_matrix(const glm::dmat4& matrix);
 
 /// The angle of the rotation that takes one pose's axes to the other's, in degrees from 0 to 180.
