@@ -172,7 +172,8 @@ TEST_CASE("a raw recording is read wherever a log is, by its name or as a URI") 
     CHECK(scan.recording.transform == "reports of spacemouse:");
     CHECK(scan.recording.digest == digest_of(kGood));
     CHECK_NOTHROW(check_is_of_probe(scan.recording));
-    CHECK_THROWS_WITH(read_log(named, {.transform = "ProbeToTracker"}), Catch::Contains("has no transforms to choose from"));
+    CHECK_THROWS_WITH(read_log(named, {.transform = "ProbeToTracker"}),
+                      Catch::Contains("has no transforms to choose from"));
   }
   CHECK(is_raw_log(file.path));
   CHECK_THROWS_WITH(read_log("replay:" + file.path.string()), Catch::Contains(file.path.string()));
