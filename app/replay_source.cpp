@@ -23,7 +23,7 @@ KeptRun kept_attempt(const std::filesystem::path& database, std::int64_t number)
   const std::string name = "attempt " + std::to_string(number);
   const Sequence log = parse_sequence(attempt.log, name);
   KeptRun run;
-  run.scan = {{name, "", probe_transform(log), recorded_actions(log)}, probe_samples(log)};
+  run.scan = {Recording{name, "", probe_transform(log), recorded_actions(log)}, probe_samples(log)};
   const std::uint32_t seed = result_from_json(attempt.score_json, name).provenance.seed;
   run.scenario = parse_scenario(attempt.scenario_text, attempt.scenario_file, seed);
   run.patient = attempt.patient;
