@@ -22,7 +22,7 @@ std::atomic<int> threads_given_up = 0;
 struct Loading::Shared {
   std::mutex mutex;
   std::condition_variable ended;
-  Progress progress{"Starting", 0};
+  Progress progress;
   std::shared_ptr<const Study> study;
   std::exception_ptr error;
   bool done = false, given_up = false;

@@ -19,7 +19,7 @@ public:
   Loading& operator=(const Loading&) = delete;
 
   struct Progress {
-    std::string what;
+    std::string what = "Starting";
     double share = 0;
   };
   Progress progress() const;

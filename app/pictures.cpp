@@ -109,7 +109,7 @@ const gl::Texture* Pictures::draw_body(const view::OrbitCamera& from, int width,
   view::VolumeStyle body;
   body.cut = body.plane = body.probe = false;
   body.skin = 0.35;
-  return volume_ = &volume_view_.render(width, height, *patient_, from, {}, body, budget_ms);
+  return volume_ = &volume_view_.render(width, height, *patient_, from, view::UltrasoundPlane(), body, budget_ms);
 }
 
 long Pictures::simulator_runs() const {

@@ -51,8 +51,7 @@ void Trainer::open_from_options() {
   find_calibration();
   ReplaySource replay = options_.replay;
   replay.database = options_.results;
-  load({{options_.case_folder, options_.ct, options_.scenario, std::nullopt, seed()},
-        options_.tracker,
+  load({StudySource{options_.case_folder, options_.ct, options_.scenario, std::nullopt, seed()}, options_.tracker,
         std::move(replay)});
 }
 
@@ -126,7 +125,7 @@ void Trainer::take_over_loaded() {
   // A trainer whose command line names something unusable goes on with what is built in.
   if (options_.exam) return;  // and never to anything but the exam that was asked for
   const bool asked_for_more = !requested_.source.is_bundled() || !requested_.tracker.empty() || requested_.replay.any();
-  if (!session_ && !setup_ && !replay_ && asked_for_more) load({});
+  if (!session_ && !setup_ && !replay_ && asked_for_more) load(Request());
 }
 
 void Trainer::begin(std::shared_ptr<const Study> study, const Request& request) {

@@ -113,7 +113,7 @@ bool Trainer::needs_setup(const Request& request) const {
 void Trainer::begin_setup() {
   if (setup_ || !study_ || replay_ || options_.exam) return;
   attempt([&] { open_setup(); });
-  if (!setup_ && !session_) load({});
+  if (!setup_ && !session_) load(Request());
 }
 
 void Trainer::open_setup() {
@@ -145,7 +145,7 @@ void Trainer::end_setup() {
   const Request again = current_;
   attempt([&] { begin(study_, again); });
   if (!session_ && options_.exam) return;
-  if (!session_) return load({});
+  if (!session_) return load(Request());
   if (setup_left_)
     calibration_warning_ = "The set-up is not complete: the step '" + missing +
                            "' is still to be made. The probe is where the tracker's first pose put it.";

@@ -18,12 +18,12 @@ RenderedWein render_wein(const std::string& file, const WeinScene& scene, bool b
     const WeinStages<double> stages =
         wein_reference(wein_field(scene.volume, scene.settings.reflection_length_mm), scene.probe, scene.depth_mm,
                        scene.settings, scene.patient_from_probe);
-    return {{in_single_precision(stages.intensity),
-             in_single_precision(stages.scan_echogenicity),
-             in_single_precision(stages.scan_reflection),
-             {},
-             {},
-             stages.grey},
+    return {WeinStages<float>{in_single_precision(stages.intensity),
+                              in_single_precision(stages.scan_echogenicity),
+                              in_single_precision(stages.scan_reflection),
+                              {},
+                              {},
+                              stages.grey},
             kMadeByReference};
   }
   const gl::HeadlessContext context;

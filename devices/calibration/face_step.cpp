@@ -62,7 +62,7 @@ std::string FaceStep::result() const {
 }
 
 void FaceStep::store(Calibration& calibration, std::int64_t now_s) const {
-  calibration.face = Dated<FaceSetup>{{found_, "touch", 0}, now_s};
+  calibration.face = Dated<FaceSetup>{FaceSetup{found_, "touch", 0}, now_s};
 }
 
 DrawnFaceStep::DrawnFaceStep(const Calibration& base, const ProbeDrawing& drawing) : SetupStep(base) {

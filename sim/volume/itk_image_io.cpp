@@ -1,5 +1,9 @@
 #include "sim/volume/itk_image_io.h"
 
+// Debian's itk_compiler_detection.h refuses every compiler but GNU's. This takes its place.
+#define ITK_COMPILER_DETECTION_H
+#define ITK_NOEXCEPT noexcept
+
 #include <gdcmTrace.h>
 #include <itkGDCMImageIO.h>
 #include <itkMetaImageIO.h>

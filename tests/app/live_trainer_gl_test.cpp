@@ -51,7 +51,7 @@ Calibration calibration_of(const std::string& uri) {
   Calibration calibration;
   calibration.tracker = tracker_identity(uri);
   calibration.tip = Dated<TipFit>{{}, kMade_s};
-  calibration.face = Dated<FaceSetup>{{{Pose{glm::dmat3(1.0), {0, 5, 0}}, 0, 0}, "touch", 0}, kMade_s};
+  calibration.face = Dated<FaceSetup>{FaceSetup{{Pose{glm::dmat3(1.0), {0, 5, 0}}, 0, 0}, "touch", 0}, kMade_s};
   MannequinSetup mannequin;
   mannequin.patient = mannequin.worst = "tiny";
   mannequin.landmarks.resize(7, {"a place", {}, {}, false});

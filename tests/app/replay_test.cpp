@@ -2,11 +2,16 @@
 
 #include <catch2/catch.hpp>
 
+#include "app/replay_source.h"
 #include "devices/live/probe_buttons.h"
+#include "devices/sequence/sequence.h"
 #include "scenarios/caliper.h"
 #include "scenarios/result_json.h"
+#include "scenarios/results/results_database.h"
 #include "sim/core/hash.h"
+#include "sim/core/input_error.h"
 #include "tests/app/tiny_session.h"
+#include "tests/scenarios/results/made_attempt.h"
 
 using namespace insonate;
 
@@ -298,4 +303,24 @@ TEST_CASE("a replay plays, pauses, steps by samples, and keeps to its ends") {
   replay.advance(200);
   CHECK(replay.time_s() == end_s);
   CHECK_FALSE(replay.playing());
+}
+
+// Its actions are read before its poses: when a pose is refused, they have to be given back once (tools/check-braces).
+TEST_CASE("an attempt whose log is damaged is refused in a sentence that names it and the frame") {
+  const RecordedScan taken = scan(3);
+  std::string log = write_sequence(taken.samples, taken.recording.actions);
+  const std::string matrix = "Seq_Frame0300_ProbeToPatientTransform = ";
+  const std::size_t number = log.find(matrix) + matrix.size();
+  REQUIRE(log.find(matrix) != std::string::npos);
+  log.replace(number, log.find(' ', number) - number, "2.5");
+
+  const ResultsFolder folder;
+  ResultsDatabase database = ResultsDatabase::open_or_make(folder / "results.db");
+  Attempt attempt = made_attempt("L-01", tiny_exam(0), log);
+  database.add(attempt);
+  ReplaySource source;
+  source.database = database.file();
+  source.attempt = attempt.number;
+  CHECK_THROWS_WITH(load_replay(source, StudySource(), [](std::string_view, double) {}),
+                    Catch::StartsWith("attempt 1: frame 300: ProbeToPatientTransform: "));
 }

@@ -200,7 +200,7 @@ TEST_CASE("a tracker with a calibration tells the probe's pose, and an old calib
   calibration.tracker = {"replay", ""};
   // A sensor 5 mm behind the face, and a mannequin that lies as the patient does.
   calibration.tip = Dated<TipFit>{{}, 1767225600};
-  calibration.face = Dated<FaceSetup>{{{Pose{glm::dmat3(1.0), {0, 5, 0}}, 0, 0}, "touch", 0}, 1767225600};
+  calibration.face = Dated<FaceSetup>{FaceSetup{{Pose{glm::dmat3(1.0), {0, 5, 0}}, 0, 0}, "touch", 0}, 1767225600};
   MannequinSetup mannequin;
   mannequin.patient = mannequin.worst = "tiny";
   mannequin.landmarks.resize(7, {"a place", {}, {}, false});

@@ -28,7 +28,7 @@ Calibration complete() {
   tip.used = 600;
   tip.rejected = 3;
   calibration.tip = Dated<TipFit>{tip, 1767225601};
-  calibration.face = Dated<FaceSetup>{{{dice.pose(100), 1.5, 0.4}, "touch", 0}, 1767225602};
+  calibration.face = Dated<FaceSetup>{FaceSetup{{dice.pose(100), 1.5, 0.4}, "touch", 0}, 1767225602};
   MannequinSetup setup;
   setup.patient = "a patient";
   setup.ct_from_mannequin = dice.pose(400);

@@ -97,7 +97,7 @@ TEST_CASE("insonate-devices calibrate makes the whole set-up from a recording, a
   CHECK(tracker.state().name == "a scan, calibrated " + utc_text(made_s(calibration)).substr(0, 10));
   CHECK_THAT(tracker.recording()->transform, Contains("SensorToTracker through lab.toml"));
   CHECK_THROWS_AS(
-      CalibratedTracker(std::make_unique<ReplayTracker>("x", scan, ReplayTracker::Options{}), Calibration{}, "x"),
+      CalibratedTracker(std::make_unique<ReplayTracker>("x", scan, ReplayTracker::Options{}), Calibration(), "x"),
       std::invalid_argument);
 }
 

@@ -199,7 +199,7 @@ TEST_CASE("other axes than before make what was measured with them worthless, th
 
 TEST_CASE("a button that is held over a dropout marks once, and again when it was let go") {
   struct Counting : SetupStep {
-    Counting() : SetupStep({}) {}
+    Counting() : SetupStep(Calibration()) {}
     void mark(double) override { ++marks; }
     void undo() override {}
     SetupView view() const override { return {}; }

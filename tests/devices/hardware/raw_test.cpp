@@ -197,8 +197,8 @@ TEST_CASE("what was recorded through a calibration is the sensor's, and scored o
   CHECK_THROWS_WITH(check_is_of_probe(scan.recording), Catch::Contains("--calibration"));
 
   Calibration calibration;
-  calibration.face = Dated<FaceSetup>{{{Pose{glm::dmat3(1.0), {0, 5, 0}}, 0, 0}, "touch", 0}, 0};
-  calibration.mannequin = Dated<MannequinSetup>{{}, 0};
+  calibration.face = Dated<FaceSetup>{FaceSetup{{Pose{glm::dmat3(1.0), {0, 5, 0}}, 0, 0}, "touch", 0}, 0};
+  calibration.mannequin = Dated<MannequinSetup>{MannequinSetup(), 0};
   calibration.mannequin->value.ct_from_mannequin = kStart;
   const RecordedScan of_probe = calibrated(scan, calibration, "lab.toml");
   CHECK_NOTHROW(check_is_of_probe(of_probe.recording));
@@ -208,7 +208,7 @@ TEST_CASE("what was recorded through a calibration is the sensor's, and scored o
   CHECK_FALSE(tracker.recording()->of_sensor);
   CHECK(same_bits(poll_until(tracker, 60, 10), of_probe.samples));
   CHECK_FALSE(same_bits(of_probe.samples, scan.samples));
-  CHECK_THROWS_AS(calibrated(scan, Calibration{}, "x"), std::invalid_argument);
+  CHECK_THROWS_AS(calibrated(scan, Calibration(), "x"), std::invalid_argument);
 }
 
 TEST_CASE("a rate and a stream that is cut anywhere replay to the bit too") {

@@ -137,7 +137,7 @@ void MockedUsb::submit(_UMockdevIoctlClient* client) {
   Transfer& transfer = transfers_.emplace_back();
   transfer.address = address_of(client);
   transfer.urb = umockdev_ioctl_data_resolve(umockdev_ioctl_client_get_arg(client), 0, sizeof(usbdevfs_urb), nullptr);
-  usbdevfs_urb urb{};
+  auto urb = usbdevfs_urb();
   if (transfer.urb) {
     std::memcpy(&urb, content(transfer.urb).data(), sizeof urb);
     transfer.room = std::size_t(urb.buffer_length);
