@@ -14,8 +14,14 @@ namespace {
 
 constexpr double kLeastSpacingMm = 1e-3, kMostSpacingMm = 100;
 constexpr double kFurthestOriginMm = 1e6;
+// A probe's face is longer than the one, no scanner's table than the other.
+constexpr double kLeastBodyMm = 20, kMostBodyMm = 3000;
 // Directions are often stored with 6 decimals, and as cosines of small angles lose a digit or two more.
 constexpr double kOrthogonalTolerance = 1e-3;
+
+// A CT of 4096 densities stored over all values of 32 bits has a slope of 1e-6, stored in 8 bits one of 16.
+constexpr double kLeastSlope = 1e-9, kMostSlope = 1e4, kMostIntercept = 1e5;
+const char* const kRescaleRemedy = "correct the header, or export the CT again in Hounsfield units";
 
 std::string with_number(double value) {
   char text[32];
@@ -39,6 +45,30 @@ void check_size(const std::string& file, std::uint64_t i, std::uint64_t j, std::
   }
   if (i * j * k > kMostVoxels)
     refuse(file, "it claims " + sizes + ", above the limit of 2^31 in all", "resample it to fewer voxels");
+}
+
+void check_body_size(const std::string& file, const Grid& grid) {
+  const glm::dvec3 size = glm::dvec3(grid.size) * grid.spacing;
+  for (int a = 0; a < 3; ++a)
+    if (size[a] < kLeastBodyMm || size[a] > kMostBodyMm)
+      refuse(file,
+             "the volume measures " + with_number(size.x) + " x " + with_number(size.y) + " x " + with_number(size.z) +
+                 " mm, where a body has " + with_number(kLeastBodyMm) + " to " + with_number(kMostBodyMm) +
+                 " mm along each axis",
+             "is its spacing in mm, and not in another unit?");
+}
+
+void check_rescale(const std::string& file, double slope, double intercept) {
+  if (!(slope >= kLeastSlope && slope <= kMostSlope))
+    refuse(file,
+           "its rescale slope is " + with_number(slope) + ", where a CT has one from " + with_number(kLeastSlope) +
+               " to " + with_number(kMostSlope),
+           kRescaleRemedy);
+  if (!(std::abs(intercept) <= kMostIntercept))
+    refuse(file,
+           "its rescale intercept is " + with_number(intercept) + ", where a CT has one within +-" +
+               with_number(kMostIntercept),
+           kRescaleRemedy);
 }
 
 Grid checked_grid(const std::string& file, Grid grid) {
@@ -79,9 +109,6 @@ Grid checked_grid(const std::string& file, const ImageFile& image) {
   if (dimensions != 3)
     refuse(file, "the image has " + std::to_string(dimensions) + " dimensions",
            dimensions < 3 ? "give a 3D volume" : "save one time point of it");
-  if (image.components() != 1)
-    refuse(file, "each voxel has " + std::to_string(image.components()) + " components, as in colour images",
-           "give a volume with one number a voxel");
   check_size(file, axes[0].size, axes[1].size, axes[2].size);
   Grid grid;
   for (int a = 0; a < 3; ++a) {

@@ -47,7 +47,7 @@ void check_refused(const std::vector<BadFile>& files) {
   }
 }
 
-const float kNan = std::numeric_limits<float>::quiet_NaN();
+const float kNan = std::numeric_limits<float>::quiet_NaN(), kInfinity = std::numeric_limits<float>::infinity();
 
 std::string nifti_with(const std::function<void(NiftiSpec&)>& change) {
   NiftiSpec spec;
@@ -85,6 +85,11 @@ TEST_CASE("NIfTI files that cannot be a CT are refused with the reason") {
   const std::string good = nifti({}, small_voxels());
   check_refused({
       {"a.nii", good.substr(0, 200), "the file ends within the header"},
+      {"a.nii", good + "x", "it claims 48 bytes of voxels, the file holds 49; correct the sizes"},
+      {"a.nii.gz", gzip(good + "x"), "it claims 48 bytes of voxels, the file holds 49; correct the sizes"},
+      {"a.nii.gz", gzip(good + std::string(17 << 20, 'x')), "the file holds more than 17"},
+      {"a.nii", nifti_with([](auto& s) { s.dim[1] = 3; }), "it claims 36 bytes of voxels, the file holds 48"},
+      {"a.nii", nifti_with([](auto& s) { s.datatype = 2; }), "it claims 24 bytes of voxels, the file holds 48"},
       {"a.nii", good.substr(0, 352), "it claims 48 bytes of voxels, the file holds 0"},
       {"a.nii", good.substr(0, good.size() - 1), "the file holds 47"},
       {"a.nii.gz", gzip(good.substr(0, 200)), "the file ends within the header"},
@@ -105,23 +110,42 @@ TEST_CASE("NIfTI files that cannot be a CT are refused with the reason") {
       {"a.nii", nifti_with([](auto& s) { s.datatype = 32; }), "data type 32"},      // complex
       {"a.nii", nifti_with([](auto& s) { s.datatype = 1; }), "data type 1"},        // bits
       {"a.nii", nifti_with([](auto& s) { s.datatype = 1536; }), "data type 1536"},  // long double
-      {"a.nii", nifti_with([](auto& s) { s.pixdim[1] = 0; }), "spacing along axis 1"},
+      {"a.nii", nifti_with([](auto& s) { s.pixdim[1] = 0; }), "the spacing along axis 1 is 0;"},
       {"a.nii", nifti_with([](auto& s) { s.pixdim[2] = -2; }), "spacing along axis 2"},
       {"a.nii", nifti_with([](auto& s) { s.pixdim[3] = kNan; }), "spacing along axis 3"},
       {"a.nii", nifti_with([](auto& s) { s.sform[0] = kNan; }), "not finite"},
-      {"a.nii", nifti_with([](auto& s) { s.sform = {1, 0, 0, 10, 1, 0, 0, 20, 0, 0, 3, 30}; }), "header"},
-      {"a.nii", nifti_with([](auto& s) { s.sform = {0, 0, 0, 10, 0, 0, 0, 20, 0, 0, 0, 30}; }), "header"},
-      {"a.nii", nifti_with([](auto& s) { s.sform[1] = 1; }), "header"},  // sheared
+      {"a.nii", nifti_with([](auto& s) { s.sform = {10, 0, 0, 10, 20, 0, 0, 20, 0, 0, 30, 30}; }), "by the sform"},
+      {"a.nii", nifti_with([](auto& s) { s.sform = {0, 0, 0, 10, 0, 0, 0, 20, 0, 0, 0, 30}; }),
+       "1 is 0 mm by the sform matrix and 10 mm by pixdim"},
+      {"a.nii", nifti_with([](auto& s) { s.sform[1] = 2; }), "axes of the sform matrix are not at right angles"},
+      {"a.nii", nifti_with([](auto& s) { s.units = 1; }), "its unit of length is the metre; save it in millimetres"},
+      {"a.nii", nifti_with([](auto& s) { s.units = 3; }), "its unit of length is the micrometre"},
+      {"a.nii", nifti_with([](auto& s) { s.intent = 1004; }), "each voxel is a matrix"},
+      {"a.nii", nifti_with([](auto& s) {
+         s.sform_code = 0, s.qform_code = 1, s.quaternion = {1, 1, 1};
+       }),
+       "quaternion"},
+      {"a.nii", nifti_with([](auto& s) { s.sform_code = 0, s.qform_code = 1, s.quaternion[0] = kNan; }), "quaternion"},
       {"a.nii", nifti_with([](auto& s) { s.vox_offset = kNan; }), "voxels begin"},
       {"a.nii", nifti_with([](auto& s) { s.vox_offset = -4; }), "voxels begin"},
+      {"a.nii", nifti_with([](auto& s) { s.vox_offset = 0; }), "begin at byte 0, and its header has 348 bytes"},
       {"a.nii", nifti_with([](auto& s) { s.vox_offset = 1e6; }), "the file holds 0"},
       {"a.nii", nifti_with([](auto& s) { s.magic = std::string("ni1\0", 4); }), "this is no NIfTI file"},
-      {"a.nii", nifti_with([](auto& s) { s.slope = 1e38f; }), ""},
+      {"a.nii", nifti_with([](auto& s) { s.slope = 1e30f; }), "its rescale slope is 1e+30"},
+      {"a.nii", nifti_with([](auto& s) { s.slope = 1e-30f; }), "its rescale slope is 1e-30"},
+      {"a.nii", nifti_with([](auto& s) { s.slope = -1; }), "its rescale slope is -1"},
+      {"a.nii", nifti_with([](auto& s) { s.slope = kNan; }), "its rescale slope is nan"},
+      {"a.nii", nifti_with([](auto& s) { s.slope = kInfinity; }), "its rescale slope is inf"},
+      {"a.nii", nifti_with([](auto& s) { s.inter = 1e30f; }), "its rescale intercept is 1e+30"},
+      {"a.nii", nifti_with([](auto& s) { s.inter = kNan; }), "its rescale intercept is nan"},
+      {"a.nii", nifti_with([](auto& s) { s.inter = -kInfinity; }), "its rescale intercept is -inf"},
+      {"a.nii", nifti_with([](auto& s) { s.slope = 0, s.inter = -1024; }), "its scl_slope is 0"},
   });
 }
 
 TEST_CASE("NRRD files that cannot be a CT are refused with the reason") {
   const std::string voxels = small_voxels();
+  const auto undirected = with_line(nrrd_lines(), "space directions", "");
   const auto gzipped = with_line(nrrd_lines(), "encoding", "encoding: gzip");
   check_refused({
       {"a.nrrd", nrrd_with("sizes", "sizes: 100000 100000 100000"), "above the limit of 4096"},
@@ -136,14 +160,28 @@ TEST_CASE("NRRD files that cannot be a CT are refused with the reason") {
       {"a.nrrd", nrrd_with("type", "type: block"), "the type is 'block'"},
       {"a.nrrd", nrrd_with("type", ""), "the type is ''"},
       {"a.nrrd", nrrd_with("encoding", "encoding: ascii"), "save it as raw or gzip"},
-      {"a.nrrd", nrrd_with("endian", ""), "cannot be read"},
+      {"a.nrrd", nrrd_with("endian", ""), "it does not give the order of its bytes; add: endian: little"},
+      {"a.nrrd", nrrd_with("sizes", "sizes: 3 3 2"), "it claims 36 bytes of voxels, the file holds 48"},
+      {"a.nrrd", nrrd(gzipped, gzip(voxels + "x")), "it claims 48 bytes of voxels, the file holds 49"},
+      {"a.nrrd", nrrd_with("space: ", "space: middle-earth"), "another field that its format does not allow"},
+      {"a.nrrd", nrrd_with("kinds", "kinds: 3-vector domain domain"), "field that its format does not allow"},
+      {"a.nrrd", nrrd_with("old min", "old min: -1024"), "asks for a rescale by 'old min'"},
+      {"a.nrrd", nrrd_with("oldmax", "oldmax: 3071"), "asks for a rescale by 'oldmax'"},
+      {"a.nrrd", nrrd_with("space units", R"(space units: "um" "um" "um")"),
+       "its unit of length is 'um'; save it in mm"},
+      {"a.nrrd", nrrd_with("units", R"(units: "mm" "mm" "cm")"), "its unit of length is 'cm'"},
+      {"a.nrrd", nrrd_with("space directions", ""), "it gives no spacing; add the space directions"},
+      {"a.nrrd", nrrd(with_line(undirected, "spacings", "spacings: 10 20"), voxels), "the spacings are '10 20'"},
+      {"a.nrrd", nrrd(with_line(undirected, "spacings", "spacings: 10 20 0"), voxels), "spacing along axis 3 is 0"},
+      {"a.nrrd", nrrd_with("space directions", "space directions: (10,0,0) none (0,0,30)"), "three vectors"},
       {"a.nrrd", nrrd_with("byte skip", "byte skip: -1"), "byte skip"},
-      {"a.nrrd", nrrd_with("space directions", "space directions: (1,0,0) (0,0,0) (0,0,3)"), ""},
-      {"a.nrrd", nrrd_with("space directions", "space directions: (1,0,0) (1,0,0) (0,0,3)"), ""},
-      {"a.nrrd", nrrd_with("space directions", "space directions: (1,0,0) (1,2,0) (0,0,3)"), "not orthogonal"},
-      {"a.nrrd", nrrd_with("space directions", "space directions: (nan,0,0) (0,2,0) (0,0,3)"), ""},
-      {"a.nrrd", nrrd_with("space directions", "space directions: (1e9,0,0) (0,2,0) (0,0,3)"), "spacing along axis 1"},
-      {"a.nrrd", nrrd_with("space origin", "space origin: (nan,0,0)"), ""},
+      {"a.nrrd", nrrd_with("space directions", "space directions: (10,0,0) (0,0,0) (0,0,30)"), "along axis 2 is 0"},
+      {"a.nrrd", nrrd_with("space directions", "space directions: (10,0,0) (20,0,0) (0,0,30)"), "singular"},
+      {"a.nrrd", nrrd_with("space directions", "space directions: (10,0,0) (10,20,0) (0,0,30)"), "not orthogonal"},
+      {"a.nrrd", nrrd_with("space directions", "space directions: (nan,0,0) (0,20,0) (0,0,30)"), "three vectors"},
+      {"a.nrrd", nrrd_with("space directions", "space directions: (1e9,0,0) (0,20,0) (0,0,30)"),
+       "spacing along axis 1"},
+      {"a.nrrd", nrrd_with("space origin", "space origin: (nan,0,0)"), "the space origin is '(nan,0,0)'"},
       {"a.nrrd", nrrd_with("space origin", "space origin: (1e9,0,0)"), "origin"},
       {"a.nrrd", nrrd(gzipped, gzip(voxels).substr(0, 30)), "damaged or cut off"},
       {"a.nrrd", nrrd(gzipped, gzip(voxels.substr(0, 40))), "the file holds 40"},
@@ -178,13 +216,20 @@ TEST_CASE("MetaImage files that cannot be a CT are refused with the reason") {
       {"a.mha", meta_with("ElementNumberOfChannels", "ElementNumberOfChannels = 3"), "3 components"},
       {"a.mha", meta_with("BinaryData ", "BinaryData = False"), "written as text"},
       {"a.mha", meta_with("HeaderSize", "HeaderSize = -1"), "HeaderSize"},
-      {"a.mha", meta_with("ElementSpacing", "ElementSpacing = 0 2 3"), ""},
-      {"a.mha", meta_with("ElementSpacing", "ElementSpacing = -1 2 3"), ""},
-      {"a.mha", meta_with("ElementSpacing", "ElementSpacing = 1 nan 3"), ""},
+      {"a.mha", meta_with("ElementSpacing", "ElementSpacing = 0 20 30"), "the spacing along axis 1 is 0;"},
+      {"a.mha", meta_with("ElementSpacing", "ElementSpacing = -10 20 30"), "the spacing along axis 1 is -10;"},
+      {"a.mha", meta_with("ElementSpacing", "ElementSpacing = 1 nan 3"), "the ElementSpacing is '1 nan 3'"},
+      {"a.mha", meta_with("ElementSpacing", ""), "it gives no ElementSpacing"},
+      {"a.mha", meta_with("DimSize", "DimSize = 3 3 2"), "it claims 36 bytes of voxels, the file holds 48"},
+      {"a.mha", meta_image(packed, zlib(voxels + "x")), "it claims 48 bytes of voxels, the file holds 49"},
+      {"a.mha", meta_with("DistanceUnits", "DistanceUnits = um"), "its unit of length is 'um'; save it in mm"},
+      {"a.mha", meta_with("ElementToIntensityFunctionSlope", "ElementToIntensityFunctionSlope = 2"), "ToIntensity"},
+      {"a.mha", meta_with("ElementToIntensityFunctionOffset", "ElementToIntensityFunctionOffset = nan"), "ToIntensity"},
+      {"a.mha", meta_with("Offset", "Offset = 1 2"), "the Offset is '1 2'"},
       {"a.mha", meta_with("TransformMatrix", "TransformMatrix = 1 0 0 1 0 0 0 0 1"), "singular"},
       {"a.mha", meta_with("TransformMatrix", "TransformMatrix = 1 0 0 0 0 0 0 0 1"), "singular"},
       {"a.mha", meta_with("TransformMatrix", "TransformMatrix = 1 0 0 1 1 0 0 0 1"), "not orthogonal"},
-      {"a.mha", meta_with("TransformMatrix", "TransformMatrix = nan 0 0 0 1 0 0 0 1"), "header"},
+      {"a.mha", meta_with("TransformMatrix", "TransformMatrix = nan 0 0 0 1 0 0 0 1"), "the TransformMatrix is 'nan"},
       {"a.mha", meta_with("Offset", "Offset = 1e30 0 0"), "origin"},
       {"a.mha", meta_image(packed, voxels), "damaged or cut off"},
       {"a.mha", meta_image(with_line(packed, "DimSize", "DimSize = 1024 1024 1024"), voxels), "cannot hold"},
