@@ -119,9 +119,8 @@ Volume<std::int16_t> read_dicom_folder(const fs::path& folder, CtSource& source)
   return ct;
 }
 
-/// Refuses a volume that shows nothing a CT can show, as after a wrong rescale.
-void check_is_body(const std::string& file, const Volume<std::int16_t>& ct, const CtSource& source) {
-  check_body_size(file, ct.grid);
+/// Refuses values that show nothing a CT can show, as after a wrong rescale.
+void check_values(const std::string& file, const Volume<std::int16_t>& ct, const CtSource& source) {
   const auto refuse = [&](const std::string& problem) {
     throw InputError(file, "voxels", problem,
                      "check the rescale slope and intercept, or export the CT again in Hounsfield units");
@@ -183,15 +182,11 @@ Volume<std::int16_t> unpacked(const std::string& bytes, CtSource& source) {
 
 /// Reads a DICOM folder in a process of its own, and if that dies of it, finds the file to blame.
 Volume<std::int16_t> read_dicom_folder_apart(const fs::path& folder, CtSource& source) {
-  std::uintmax_t bytes = 0;
-  std::vector<fs::path> files;
-  constexpr auto options = fs::directory_options::skip_permission_denied;
+  const std::vector<std::string> files = files_below(folder);
   std::error_code error;
-  for (fs::recursive_directory_iterator at(folder, options, error), end; at != end && !error; at.increment(error))
-    if (std::error_code ignored; at->is_regular_file(ignored)) {
-      files.push_back(at->path());
-      bytes += at->file_size(ignored);
-    }
+  std::uintmax_t bytes = 0;
+  for (const std::string& file : files)
+    if (const std::uintmax_t size = fs::file_size(file, error); !error) bytes += size;
   try {
     const std::string result = done_apart(bytes, [&] {
       CtSource found;
@@ -201,10 +196,11 @@ Volume<std::int16_t> read_dicom_folder_apart(const fs::path& folder, CtSource& s
     return unpacked(result, source);
   } catch (const WorkDied&) {
   }
-  for (const fs::path& file : files) try {
+  for (const fs::path file : files) try {
       done_apart(fs::file_size(file, error), [&] {
         scan_dicom_file(file);
         ImageFile(file, ImageFormat::dicom).read_voxels();
+        check_dicom_slice(file);
         return std::string();
       });
     } catch (const WorkDied&) {
@@ -215,12 +211,13 @@ Volume<std::int16_t> read_dicom_folder_apart(const fs::path& folder, CtSource& s
   throw InputError(folder.string(), "", "one of its DICOM files is damaged", "export the series again");
 }
 
-/// A CT file, read and not yet held against a body.
-Volume<std::int16_t> read_ct_file(const fs::path& file_name, CtSource& source) {
-  const fs::path& file = existing_file(file_name);
-  if (is_dicom_file(file))
+FileHeader ct_header(const fs::path& file) {
+  if (is_dicom_file(existing_file(file)))
     throw InputError(file.string(), "", "this is one DICOM file", "name the folder of its series");
-  const FileHeader header = check_file_header(file);
+  return check_file_header(file);
+}
+
+Volume<std::int16_t> read_ct_file(const fs::path& file, const FileHeader& header, CtSource& source) {
   ImageFile image(file, header.format);
   Volume<std::int16_t> ct{checked_grid(file.string(), image), {}};
   source = {format_name(header.format), header.stored_as, {}, 0, 0};
@@ -231,18 +228,27 @@ Volume<std::int16_t> read_ct_file(const fs::path& file_name, CtSource& source) {
 }  // namespace
 
 Volume<std::int16_t> read_ct(const fs::path& file_or_folder, CtSource* source) {
+  const std::string name = file_or_folder.string();
   CtSource found;
+  Volume<std::int16_t> ct;
   std::error_code error;
-  Volume<std::int16_t> ct = fs::is_directory(file_or_folder, error) ? read_dicom_folder_apart(file_or_folder, found)
-                                                                    : read_ct_file(file_or_folder, found);
-  check_is_body(file_or_folder.string(), ct, found);
+  if (fs::is_directory(file_or_folder, error)) {
+    ct = read_dicom_folder_apart(file_or_folder, found);
+    check_body_size(name, ct.grid.size, ct.grid.spacing);
+  } else {
+    // Before ITK sees the file: it takes the small numbers of a spacing in another unit for a singular orientation.
+    const FileHeader header = ct_header(file_or_folder);
+    check_body_size(name, header.size, header.spacing);
+    ct = read_ct_file(file_or_folder, header, found);
+  }
+  check_values(name, ct, found);
   if (source) *source = std::move(found);
   return ct;
 }
 
 Volume<std::int16_t> read_case_ct(const fs::path& file) {
   CtSource unused;
-  return read_ct_file(file, unused);
+  return read_ct_file(file, ct_header(file), unused);
 }
 
 Volume<std::uint8_t> read_labels(const fs::path& file) {

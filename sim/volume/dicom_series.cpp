@@ -28,8 +28,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostFiles = 100000;
-
 // Positions are decimal text, rounded by some scanners to 0.1 mm; a missing slice doubles a gap.
 constexpr double kUnevenShare = 0.1;
 // How far the stack may lean, and a slice lie beside the others: within it, no voxel is off by more than a thin slice.
@@ -133,24 +131,6 @@ std::optional<Axes> axes_of(const std::string& orientation) {
   return worst <= kUnitTolerance ? std::optional(axes) : std::nullopt;
 }
 
-std::vector<std::string> files_below(const fs::path& folder) {
-  std::vector<std::string> files;
-  std::error_code error;
-  constexpr auto options = fs::directory_options::skip_permission_denied;
-  for (fs::recursive_directory_iterator at(folder, options, error), end; at != end && !error; at.increment(error)) {
-    std::error_code ignored;
-    if (at->is_regular_file(ignored)) files.push_back(at->path().string());
-    if (files.size() > kMostFiles)
-      throw InputError(folder.string(), "", "there are more than " + std::to_string(kMostFiles) + " files below it",
-                       "name the folder of one study");
-  }
-  if (error)
-    throw InputError(folder.string(), "", "the folder cannot be read (" + error.message() + ")",
-                     "check its permissions");
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
 /// GDCM's scanner, silent, told which tags are wanted.
 gdcm::SmartPointer<gdcm::Scanner> make_scanner() {
   gdcm::Trace::DebugOff();
@@ -170,13 +150,7 @@ const char* const kCopyAgain = "copy the series again, or take the file out of t
 Contents contents_of(const fs::path& folder) {
   const std::vector<std::string> files = files_below(folder);
   const auto scanner = make_scanner();
-  bool scanned = false;
-  try {
-    scanned = scanner->Scan(files);
-  } catch (const std::exception&) {
-  }
-  if (!scanned && !files.empty())
-    throw InputError(folder.string(), "", "its files cannot be read as DICOM", "export the series again");
+  scanner->Scan(files);
 
   Contents contents;
   std::map<std::string, Stack> stacks;
@@ -411,6 +385,24 @@ void check_values_are_hounsfield(const fs::path& file, const gdcm::File& dicom) 
 }
 
 }  // namespace
+
+std::vector<std::string> files_below(const fs::path& folder, std::size_t most) {
+  std::vector<std::string> files;
+  std::error_code error;
+  constexpr auto options = fs::directory_options::skip_permission_denied;
+  for (fs::recursive_directory_iterator at(folder, options, error), end; at != end && !error; at.increment(error)) {
+    std::error_code ignored;
+    if (at->is_regular_file(ignored)) files.push_back(at->path().string());
+    if (files.size() > most)
+      throw InputError(folder.string(), "", "there are more than " + std::to_string(most) + " files below it",
+                       "name the folder of one study");
+  }
+  if (error)
+    throw InputError(folder.string(), "", "the folder cannot be read (" + error.message() + ")",
+                     "check its permissions");
+  std::sort(files.begin(), files.end());
+  return files;
+}
 
 bool is_dicom_file(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);

@@ -15,6 +15,10 @@ struct DicomSeries {
   std::vector<std::string> other_series;      ///< one line each for what lies in the folder beside it
 };
 
+/// All files below a folder, in the order of their names. Throws InputError when there are more than `most` or the
+/// folder cannot be read.
+std::vector<std::string> files_below(const std::filesystem::path& folder, std::size_t most = 100000);
+
 /// Looks through the folder and all below it, and takes the CT series with the most slices. Images of one series that
 /// differ in size, orientation or pixel spacing, as localizers do, count as series of their own. Reads headers only.
 /// Throws InputError when there is no CT series, a DICOM file is damaged, slices are missing, doubled, unevenly spaced

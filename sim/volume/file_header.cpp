@@ -51,6 +51,7 @@ std::string lower_case(std::string text) {
 /// What all three formats claim.
 struct Claim {
   std::array<std::uint64_t, 3> size{};
+  glm::dvec3 spacing{0.0};
   VoxelType type = VoxelType::int16;
   fs::path data_file;
   std::uint64_t data_offset = 0;         ///< where the voxels begin in that file, or the packed stream that holds them
@@ -133,13 +134,19 @@ std::vector<double> finite_numbers(std::string text, std::size_t count) {
   return numbers.size() == count ? numbers : std::vector<double>{};
 }
 
-void check_spacing(const fs::path& file, std::size_t axis, double spacing, const std::string& remedy) {
-  if (!(spacing > 0) || !std::isfinite(spacing))
-    refuse(file, "the spacing along axis " + std::to_string(axis + 1) + " is " + short_number(spacing), remedy);
+glm::dvec3 checked_spacing(const fs::path& file, const glm::dvec3& spacing, const std::string& remedy) {
+  for (int a = 0; a < 3; ++a)
+    if (!(spacing[a] > 0) || !std::isfinite(spacing[a]))
+      refuse(file, "the spacing along axis " + std::to_string(a + 1) + " is " + short_number(spacing[a]), remedy);
+  return spacing;
+}
+
+FileHeader header_of(ImageFormat format, const Claim& claim) {
+  return {format, to_string(claim.type), glm::ivec3(claim.size[0], claim.size[1], claim.size[2]), claim.spacing};
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
-// NIfTI: https://nifti.nimh.nih.gov, nifti1.h and nifti2.h; offsets are those headers' fields.
+// NIfTI: https://nifti.nimh.nih.gov, nifti1.h; offsets are that header's fields.
 
 /// A binary header with its byte order.
 class Bytes {
@@ -158,10 +165,9 @@ private:
   bool swapped_;
 };
 
-constexpr std::size_t kNifti1Bytes = 348, kNifti2Bytes = 540;
+constexpr std::size_t kNiftiBytes = 348;
 
 struct Nifti {
-  std::size_t header_bytes = kNifti1Bytes;
   std::array<std::int64_t, 8> dim{};
   int datatype = 0;
   std::array<double, 8> pixdim{};
@@ -175,7 +181,7 @@ struct Nifti {
   std::array<std::array<double, 4>, 3> matrix{};  ///< srow_x, y, z
 };
 
-Nifti parse_nifti1(const Bytes& header) {
+Nifti parse_nifti(const Bytes& header) {
   Nifti n;
   for (std::size_t d = 0; d < 8; ++d) {
     n.dim[d] = header.at<std::int16_t>(40 + 2 * d);
@@ -192,27 +198,6 @@ Nifti parse_nifti1(const Bytes& header) {
   n.by_matrix = header.at<std::int16_t>(254) > 0;
   for (std::size_t r = 0; r < 3; ++r)
     for (std::size_t c = 0; c < 4; ++c) n.matrix[r][c] = double(header.at<float>(280 + 16 * r + 4 * c));
-  return n;
-}
-
-Nifti parse_nifti2(const Bytes& header) {
-  Nifti n;
-  n.header_bytes = kNifti2Bytes;
-  for (std::size_t d = 0; d < 8; ++d) {
-    n.dim[d] = header.at<std::int64_t>(16 + 8 * d);
-    n.pixdim[d] = header.at<double>(104 + 8 * d);
-  }
-  n.datatype = header.at<std::int16_t>(12);
-  n.data_offset = double(header.at<std::int64_t>(168));
-  n.slope = header.at<double>(176);
-  n.intercept = header.at<double>(184);
-  n.units = header.at<std::int32_t>(500) & 7;
-  n.intent = header.at<std::int32_t>(504);
-  n.by_quaternion = header.at<std::int32_t>(344) > 0;
-  for (std::size_t q = 0; q < 3; ++q) n.quaternion[q] = header.at<double>(352 + 8 * q);
-  n.by_matrix = header.at<std::int32_t>(348) > 0;
-  for (std::size_t r = 0; r < 3; ++r)
-    for (std::size_t c = 0; c < 4; ++c) n.matrix[r][c] = header.at<double>(400 + 32 * r + 8 * c);
   return n;
 }
 
@@ -242,11 +227,12 @@ std::string first_bytes(const fs::path& file, std::size_t count, bool& packed) {
 
 /// Holds the placing in the patient against what ITK makes of it: it takes the sform, or else the qform, and the
 /// spacing from pixdim.
-void check_nifti_place(const fs::path& file, const Nifti& n) {
+glm::dvec3 check_nifti_place(const fs::path& file, const Nifti& n) {
   if (n.units == 1 || n.units == 3)
     refuse(file, std::string("its unit of length is the ") + (n.units == 1 ? "metre" : "micrometre"),
            "save it in millimetres");
-  for (std::size_t a = 0; a < 3; ++a) check_spacing(file, a, n.pixdim[a + 1], "correct the header's pixdim");
+  const glm::dvec3 spacing =
+      checked_spacing(file, {n.pixdim[1], n.pixdim[2], n.pixdim[3]}, "correct the header's pixdim");
   if (n.by_matrix) {
     std::array<glm::dvec3, 3> columns;
     for (std::size_t r = 0; r < 3; ++r)
@@ -255,7 +241,7 @@ void check_nifti_place(const fs::path& file, const Nifti& n) {
           refuse(file, "the sform matrix holds a number that is not finite", "correct it");
         if (c < 3) columns[c][int(r)] = n.matrix[r][c];
       }
-    if (n.by_quaternion) return;  // to fall back on
+    if (n.by_quaternion) return spacing;  // to fall back on
     for (std::size_t a = 0; a < 3; ++a)
       if (const double length = glm::length(columns[a]);
           std::abs(length - n.pixdim[a + 1]) > kSpacingShare * n.pixdim[a + 1])
@@ -273,24 +259,24 @@ void check_nifti_place(const fs::path& file, const Nifti& n) {
     for (const double q : n.quaternion) square += q * q;
     if (!(square <= 1 + kRightAngle)) refuse(file, "the qform's quaternion is not a rotation", "correct the header");
   }
+  return spacing;
 }
 
 FileHeader check_nifti(const fs::path& file) {
   bool packed = false;
-  const std::string bytes = first_bytes(file, kNifti2Bytes, packed);
+  const std::string bytes = first_bytes(file, kNiftiBytes, packed);
   const auto begins_with = [&](std::uint32_t length, bool swapped) {
-    return bytes.size() >= length && Bytes(bytes, swapped).at<std::uint32_t>(0) == length;
+    return bytes.size() >= sizeof length && Bytes(bytes, swapped).at<std::uint32_t>(0) == length;
   };
+  constexpr std::uint32_t kNifti2Bytes = 540;
+  if (begins_with(kNifti2Bytes, false) || begins_with(kNifti2Bytes, true))
+    refuse(file, "this is a NIfTI-2 file", "save it as NIfTI-1 or NRRD");
+  if (bytes.size() < kNiftiBytes) refuse(file, "the file ends within the header", "check that it is the right file");
   std::optional<Nifti> found;
-  for (const bool swapped : {false, true}) {
-    if (begins_with(kNifti1Bytes, swapped) && bytes.compare(344, 4, std::string("n+1\0", 4)) == 0)
-      found = parse_nifti1(Bytes(bytes, swapped));
-    if (begins_with(kNifti2Bytes, swapped) && bytes.compare(4, 4, std::string("n+2\0", 4)) == 0)
-      found = parse_nifti2(Bytes(bytes, swapped));
-  }
-  if (!found)
-    refuse(file, bytes.size() < kNifti1Bytes ? "the file ends within the header" : "this is no NIfTI file",
-           "check that it is the right file");
+  for (const bool swapped : {false, true})
+    if (begins_with(kNiftiBytes, swapped) && bytes.compare(344, 4, std::string("n+1\0", 4)) == 0)
+      found = parse_nifti(Bytes(bytes, swapped));
+  if (!found) refuse(file, "this is no NIfTI file", "check that it is the right file");
   const Nifti& n = *found;
 
   if (n.dim[0] < 1 || n.dim[0] > 7)
@@ -305,7 +291,7 @@ FileHeader check_nifti(const fs::path& file) {
   for (std::size_t a = 0; a < 3; ++a) {
     claim.size[a] = std::uint64_t(std::max<std::int64_t>(0, n.dim[a + 1]));
   }
-  check_nifti_place(file, n);
+  claim.spacing = check_nifti_place(file, n);
   constexpr int kMatrixIntent = 1004;
   if (n.intent == kMatrixIntent) refuse(file, "each voxel is a matrix, by the intent code 1004", "save the CT alone");
   if (n.slope != 0) check_rescale(file.string(), n.slope, n.intercept);
@@ -313,16 +299,16 @@ FileHeader check_nifti(const fs::path& file) {
     refuse(file, "its scl_slope is 0, which means no rescale, yet its scl_inter is " + short_number(n.intercept),
            "correct the header");
   claim.type = nifti_type(file, n.datatype);
-  if (!(n.data_offset >= double(n.header_bytes) && n.data_offset < 1e12))
+  if (!(n.data_offset >= double(kNiftiBytes) && n.data_offset < 1e12))
     refuse(file,
            "it claims that the voxels begin at byte " + short_number(n.data_offset) + ", and its header has " +
-               std::to_string(n.header_bytes) + " bytes",
+               std::to_string(kNiftiBytes) + " bytes",
            "save it again");
   claim.data_file = file;
   claim.packed = packed;
   (packed ? claim.packed_with_header : claim.data_offset) = std::uint64_t(n.data_offset);
   check_against_bytes(file, claim);
-  return {ImageFormat::nifti, to_string(claim.type)};
+  return header_of(ImageFormat::nifti, claim);
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -404,26 +390,24 @@ void check_nrrd_units(const fs::path& file, const std::string& units) {
     if (!unit.empty() && unit != "mm") refuse(file, "its unit of length is '" + unit + "'", "save it in mm");
 }
 
-/// Holds the placing in the patient against what ITK would guess or refuse.
-void check_nrrd_place(const fs::path& file, const TextHeader& header) {
+/// Holds the placing in the patient against what ITK would guess or refuse. Returns the spacing.
+glm::dvec3 check_nrrd_place(const fs::path& file, const TextHeader& header) {
   for (const char* key : {"space units", "units"}) check_nrrd_units(file, header.value(key));
-  if (const std::string directions = header.value("space directions"); !directions.empty()) {
-    const auto numbers = finite_numbers(directions, 9);
-    if (numbers.empty())
-      refuse(file, "the space directions are '" + directions + "'", "give three vectors of three numbers");
-    for (std::size_t a = 0; a < 3; ++a)
-      check_spacing(file, a, std::hypot(numbers[3 * a], numbers[3 * a + 1], numbers[3 * a + 2]),
-                    "correct the space directions");
-  } else {
-    const std::string spacings = header.value("spacings");
-    const auto numbers = finite_numbers(spacings, 3);
-    if (numbers.empty())
-      refuse(file, spacings.empty() ? "it gives no spacing" : "the spacings are '" + spacings + "'",
-             "add the space directions");
-    for (std::size_t a = 0; a < 3; ++a) check_spacing(file, a, numbers[a], "correct the spacings");
-  }
   if (const std::string origin = header.value("space origin"); !origin.empty() && finite_numbers(origin, 3).empty())
     refuse(file, "the space origin is '" + origin + "'", "give one vector of three numbers");
+  if (const std::string directions = header.value("space directions"); !directions.empty()) {
+    const auto n = finite_numbers(directions, 9);
+    if (n.empty()) refuse(file, "the space directions are '" + directions + "'", "give three vectors of three numbers");
+    return checked_spacing(file,
+                           {std::hypot(n[0], n[1], n[2]), std::hypot(n[3], n[4], n[5]), std::hypot(n[6], n[7], n[8])},
+                           "correct the space directions");
+  }
+  const std::string spacings = header.value("spacings");
+  const auto n = finite_numbers(spacings, 3);
+  if (n.empty())
+    refuse(file, spacings.empty() ? "it gives no spacing" : "the spacings are '" + spacings + "'",
+           "add the space directions");
+  return checked_spacing(file, {n[0], n[1], n[2]}, "correct the spacings");
 }
 
 FileHeader check_nrrd(const fs::path& file) {
@@ -481,7 +465,7 @@ FileHeader check_nrrd(const fs::path& file) {
   const std::string endian = lower_case(header.value("endian"));
   if (bytes_of(claim.type) > 1 && endian != "little" && endian != "big")
     refuse(file, "it does not give the order of its bytes", "add: endian: little");
-  check_nrrd_place(file, header);
+  claim.spacing = check_nrrd_place(file, header);
   for (const char* key : {"old min", "oldmin", "old max", "oldmax"})
     if (!header.value(key).empty())
       refuse(file, std::string("the header asks for a rescale by '") + key + "'", "save it in Hounsfield units");
@@ -493,7 +477,7 @@ FileHeader check_nrrd(const fs::path& file) {
     if (const std::string skip = header.value(key); !skip.empty() && skip != "0")
       refuse(file, std::string("the header asks for a ") + key, "save it without");
   check_against_bytes(file, claim);
-  return {ImageFormat::nrrd, to_string(claim.type)};
+  return header_of(ImageFormat::nrrd, claim);
 }
 
 /// The value of the first of the keys, which mean the same, that the header has.
@@ -503,7 +487,8 @@ std::string any_value(const TextHeader& header, const std::vector<std::string>& 
   return "";
 }
 
-void check_meta_place(const fs::path& file, const TextHeader& header) {
+/// Holds the placing in the patient against what ITK would guess or refuse. Returns the spacing.
+glm::dvec3 check_meta_place(const fs::path& file, const TextHeader& header) {
   const std::string units = header.value("distanceunits");
   if (!units.empty() && units != "?" && units != "mm")
     refuse(file, "its unit of length is '" + units + "'", "save it in mm");
@@ -512,13 +497,13 @@ void check_meta_place(const fs::path& file, const TextHeader& header) {
   if (numbers.empty())
     refuse(file, spacings.empty() ? "it gives no ElementSpacing" : "the ElementSpacing is '" + spacings + "'",
            "give three numbers in mm");
-  for (std::size_t a = 0; a < 3; ++a) check_spacing(file, a, numbers[a], "correct the ElementSpacing");
   const std::string matrix = any_value(header, {"transformmatrix", "rotation", "orientation"});
   if (!matrix.empty() && finite_numbers(matrix, 9).empty())
     refuse(file, "the TransformMatrix is '" + matrix + "'", "give nine numbers");
   const std::string offset = any_value(header, {"offset", "position", "origin"});
   if (!offset.empty() && finite_numbers(offset, 3).empty())
     refuse(file, "the Offset is '" + offset + "'", "give three numbers in mm");
+  return checked_spacing(file, {numbers[0], numbers[1], numbers[2]}, "correct the ElementSpacing");
 }
 
 FileHeader check_meta_image(const fs::path& file) {
@@ -546,7 +531,7 @@ FileHeader check_meta_image(const fs::path& file) {
     refuse(file, "the voxels are written as text", "save them as binary");
   if (const std::string skip = header.value("headersize"); !skip.empty() && skip != "0")
     refuse(file, "the header asks for a HeaderSize of " + skip, "save it without");
-  check_meta_place(file, header);
+  claim.spacing = check_meta_place(file, header);
   for (const auto& [key, none] :
        {std::pair("elementtointensityfunctionslope", 1.0), std::pair("elementtointensityfunctionoffset", 0.0)})
     if (const std::string value = header.value(key); !value.empty() && finite_numbers(value, 1) != std::vector{none})
@@ -557,7 +542,7 @@ FileHeader check_meta_image(const fs::path& file) {
   claim.data_file = local ? file : named_data_file(file, data_file);
   claim.data_offset = local ? header.bytes : 0;
   check_against_bytes(file, claim);
-  return {ImageFormat::meta_image, to_string(claim.type)};
+  return header_of(ImageFormat::meta_image, claim);
 }
 
 }  // namespace

@@ -47,8 +47,8 @@ void check_size(const std::string& file, std::uint64_t i, std::uint64_t j, std::
     refuse(file, "it claims " + sizes + ", above the limit of 2^31 in all", "resample it to fewer voxels");
 }
 
-void check_body_size(const std::string& file, const Grid& grid) {
-  const glm::dvec3 size = glm::dvec3(grid.size) * grid.spacing;
+void check_body_size(const std::string& file, const glm::ivec3& voxels, const glm::dvec3& spacing) {
+  const glm::dvec3 size = glm::dvec3(voxels) * spacing;
   for (int a = 0; a < 3; ++a)
     if (size[a] < kLeastBodyMm || size[a] > kMostBodyMm)
       refuse(file,
@@ -79,15 +79,16 @@ Grid checked_grid(const std::string& file, Grid grid) {
              "give a spacing from 0.001 to 100 mm");
     if (!(std::abs(grid.origin[a]) <= kFurthestOriginMm))
       refuse(file, "the origin is at " + with_number(grid.origin[a]) + " mm", "correct the origin");
-    for (int r = 0; r < 3; ++r)
-      if (!std::isfinite(grid.direction[a][r]))
-        refuse(file, "the direction matrix holds a number that is not finite", "correct the orientation");
   }
   const glm::dmat3 excess = glm::transpose(grid.direction) * grid.direction - glm::dmat3(1.0);
   double worst = 0;
+  bool orthogonal = true;  // false for what is not a number, too
   for (int c = 0; c < 3; ++c)
-    for (int r = 0; r < 3; ++r) worst = std::max(worst, std::abs(excess[c][r]));
-  if (worst > kOrthogonalTolerance) {
+    for (int r = 0; r < 3; ++r) {
+      worst = std::max(worst, std::abs(excess[c][r]));
+      orthogonal &= std::abs(excess[c][r]) <= kOrthogonalTolerance;
+    }
+  if (!orthogonal) {
     const double determinant = glm::determinant(grid.direction);
     if (std::abs(determinant) < kOrthogonalTolerance) refuse(file, "the direction matrix is singular", "correct it");
     refuse(file, "the axes are not orthogonal: they stretch or shear by " + with_number(worst),

@@ -18,7 +18,7 @@ void check_size(const std::string& file, std::uint64_t i, std::uint64_t j, std::
 
 /// Throws the InputError for a volume that is too small or too large for a body, as when its spacing is not in mm:
 /// under 20 mm or over 3 m along an axis.
-void check_body_size(const std::string& file, const Grid& grid);
+void check_body_size(const std::string& file, const glm::ivec3& size, const glm::dvec3& spacing);
 
 /// Throws the InputError for a rescale that no CT has: one that is not finite, shrinks all values to one, turns high
 /// into low, or moves them out of range.

@@ -1,5 +1,9 @@
 #include <catch2/catch.hpp>
+#include <sys/resource.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <csignal>
 #include <fstream>
 #include <functional>
 #include <limits>
@@ -7,6 +11,7 @@
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
 #include "sim/volume/ct_reader.h"
+#include "sim/volume/dicom_series.h"
 #include "tests/volume/temporary_folder.h"
 #include "tests/volume/volume_files.h"
 
@@ -29,6 +34,21 @@ std::string why_refused(const fs::path& file) {
   }
   return "";
 }
+
+/// A limit of this process, while it lives.
+struct Limited {
+  int resource;
+  rlimit before{};
+
+  Limited(int which, rlim_t value) : resource(which) {
+    getrlimit(decltype(RLIMIT_AS)(resource), &before);
+    const rlimit lower{value, before.rlim_max};
+    setrlimit(decltype(RLIMIT_AS)(resource), &lower);
+  }
+  Limited(const Limited&) = delete;
+  Limited& operator=(const Limited&) = delete;
+  ~Limited() { setrlimit(decltype(RLIMIT_AS)(resource), &before); }
+};
 
 struct BadFile {
   std::string name, bytes, told;
@@ -65,6 +85,18 @@ std::string meta_with(const std::string& key, const std::string& by) {
 
 }  // namespace
 
+TEST_CASE("a folder whose files cannot be looked through is refused") {
+  const TemporaryFolder folder;
+  {
+    const Limited limited(RLIMIT_NOFILE, 3);
+    CHECK(why_refused(folder.path).find("the folder cannot be read (Too many open files); check") != std::string::npos);
+  }
+  for (const char* name : {"a", "b", "c"}) folder.put(name, "x");
+  CHECK(files_below(folder.path, 3).size() == 3);
+  CHECK_THROWS_WITH(files_below(folder.path, 2),
+                    folder.path.string() + ": there are more than 2 files below it; name the folder of one study.");
+}
+
 TEST_CASE("what is no volume file is refused by name") {
   const TemporaryFolder folder;
   CHECK(why_refused(folder.path / "none.nii").find("there is no such file") != std::string::npos);
@@ -92,6 +124,9 @@ TEST_CASE("NIfTI files that cannot be a CT are refused with the reason") {
       {"a.nii", nifti_with([](auto& s) { s.datatype = 2; }), "it claims 24 bytes of voxels, the file holds 48"},
       {"a.nii", good.substr(0, 352), "it claims 48 bytes of voxels, the file holds 0"},
       {"a.nii", good.substr(0, good.size() - 1), "the file holds 47"},
+      {"a.nii", bytes_of_values<std::int32_t>({540}) + std::string(540, '\0'),
+       "this is a NIfTI-2 file; save it as NIfTI-1"},
+      {"a.nii", std::string("\0\0\2\x1c", 4) + std::string(540, '\0'), "this is a NIfTI-2 file"},
       {"a.nii.gz", gzip(good.substr(0, 200)), "the file ends within the header"},
       {"a.nii.gz", gzip(good.substr(0, good.size() - 1)), "the file holds 47"},
       {"a.nii.gz", gzip(good).substr(0, 60), "header"},
@@ -179,8 +214,8 @@ TEST_CASE("NRRD files that cannot be a CT are refused with the reason") {
       {"a.nrrd", nrrd_with("space directions", "space directions: (10,0,0) (20,0,0) (0,0,30)"), "singular"},
       {"a.nrrd", nrrd_with("space directions", "space directions: (10,0,0) (10,20,0) (0,0,30)"), "not orthogonal"},
       {"a.nrrd", nrrd_with("space directions", "space directions: (nan,0,0) (0,20,0) (0,0,30)"), "three vectors"},
-      {"a.nrrd", nrrd_with("space directions", "space directions: (1e9,0,0) (0,20,0) (0,0,30)"),
-       "spacing along axis 1"},
+      {"a.nrrd", nrrd_with("space directions", "space directions: (101,0,0) (0,20,0) (0,0,30)"),
+       "axis 1 is 101 mm; give a spacing"},
       {"a.nrrd", nrrd_with("space origin", "space origin: (nan,0,0)"), "the space origin is '(nan,0,0)'"},
       {"a.nrrd", nrrd_with("space origin", "space origin: (1e9,0,0)"), "origin"},
       {"a.nrrd", nrrd(gzipped, gzip(voxels).substr(0, 30)), "damaged or cut off"},
@@ -237,6 +272,74 @@ TEST_CASE("MetaImage files that cannot be a CT are refused with the reason") {
       {"a.mhd", meta_image(meta_lines(), "", "LIST"), "several files"},
       {"a.mhd", meta_image(meta_lines(), "", "slice%03d.raw 1 2 1"), "several files"},
   });
+}
+
+TEST_CASE("a volume that cannot be a person's CT is refused, and asks about the unit or the rescale") {
+  const auto sized = [](float spacing, std::int16_t voxels_along_i) {
+    NiftiSpec spec;
+    spec.dim = {3, voxels_along_i, 3, 2, 1, 1, 1, 1};
+    spec.pixdim = {1, spacing, spacing, spacing, 1, 1, 1, 1};
+    spec.sform = {spacing, 0, 0, 10, 0, spacing, 0, 20, 0, 0, spacing, 30};
+    std::vector<std::int16_t> values(std::size_t(voxels_along_i) * 6);
+    values[0] = 60;
+    return nifti(spec, bytes_of_values(values));
+  };
+  const auto valued = [](const std::vector<float>& first) {
+    std::vector<float> values(24, first.back());
+    std::copy(first.begin(), first.end(), values.begin());
+    return nrrd(with_line(nrrd_lines(), "type", "type: float"), bytes_of_values(values));
+  };
+  const std::string unit = "; is its spacing in mm, and not in another unit?";
+  check_refused({
+      {"a.nii", sized(0.0015f, 4), "the volume measures 0.006 x 0.0045 x 0.003 mm, where a body has 20 to 3000"},
+      {"a.nii", sized(0.0015f, 4), unit},
+      {"a.nii", sized(100, 31), "the volume measures 3100 x 300 x 200 mm, where a body has 20 to 3000 mm along each"},
+      {"a.nii", sized(9.9f, 4), "the volume measures 39.6 x 29.7 x 19.8 mm"},
+      {"a.nrrd", nrrd_with("space directions", "space directions: (0.01,0,0) (0,0.02,0) (0,0,0.03)"), unit},
+      {"a.mha", meta_with("ElementSpacing", "ElementSpacing = 0.01 0.02 0.03"), unit},
+      {"a.nrrd", valued({40}), "voxels: all voxels have the same value, 40 HU; check the rescale"},
+      {"a.nrrd", valued({-1e30f, -1e20f}), "all voxels have the same value, -1024 HU"},
+      {"a.nrrd", valued({-1000, -301}), "the values reach from -1000 to -301 HU, where those of a body reach"},
+      {"a.nrrd", valued({4000, 3072}), "the values reach from 3072 to 4000 HU, where those of a body reach"},
+      {"a.nrrd", valued({1e30f, 1e30f, 1e30f, 0}), "12 % of the voxels are above 32767 HU"},
+  });
+  const TemporaryFolder folder;
+  for (const auto& bytes : {sized(10, 4), sized(99, 30)}) CHECK(why_refused(folder.put("a.nii", bytes)).empty());
+  for (const auto& bytes : {valued({-1000, -300}), valued({4000, 3071}), valued({1e30f, 1e30f, 0})})
+    CHECK(why_refused(folder.put("a.nrrd", bytes)).empty());
+}
+
+TEST_CASE("an image of two dimensions by its own words is refused") {
+  auto lines = with_line(with_line(nrrd_lines(), "space directions", "spacings: 10 20 30"), "space origin", "");
+  lines = with_line(with_line(lines, "space: ", ""), "kinds", "kinds: vector domain domain");
+  check_refused({{"a.nrrd", nrrd(lines, small_voxels()), "the image has 2 dimensions; give a 3D volume"}});
+}
+
+TEST_CASE("a volume that does not fit into memory is refused") {
+#ifndef __SANITIZE_ADDRESS__  // whose own memory would count
+  const TemporaryFolder folder;
+  NiftiSpec spec;
+  spec.dim = {3, 512, 512, 128, 1, 1, 1, 1};
+  spec.pixdim = {1, 1, 1, 1, 1, 1, 1, 1};
+  spec.sform = {1, 0, 0, 10, 0, 1, 0, 20, 0, 0, 1, 30};
+  const fs::path file = folder.put("a.nii.gz", gzip(nifti(spec, std::string(std::size_t(1) << 26, '\0'))));
+  unsigned long pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  const Limited limited(RLIMIT_AS, rlim_t(pages) * rlim_t(sysconf(_SC_PAGESIZE)) + (rlim_t(32) << 20));
+  const std::string why = why_refused(file);
+  INFO(why);
+  CHECK(why.find("voxels: there is not enough memory for it; resample it") != std::string::npos);
+#endif
+}
+
+TEST_CASE("a volume that cannot be written is refused") {
+  const TemporaryFolder folder;
+  const Volume<std::uint8_t> labels{{{64, 64, 64}}, std::vector<std::uint8_t>(std::size_t(64) * 64 * 64)};
+  std::signal(SIGXFSZ, SIG_IGN);
+  const Limited limited(RLIMIT_FSIZE, 4096);
+  CHECK_THROWS_WITH(write_labels(folder.path / "a.nrrd", labels),
+                    Catch::Contains("a.nrrd: it cannot be written; check"));
+  CHECK(fs::is_empty(folder.path));
 }
 
 TEST_CASE("a volume file cut anywhere or with bytes changed is read or refused") {

@@ -275,6 +275,17 @@ TEST_CASE("an enhanced DICOM image of one frame has its rescale in its functiona
   }
 }
 
+TEST_CASE("enhanced DICOM images with their positions in groups, or several in a file, are refused as such") {
+  const TemporaryFolder folder;
+  write_series(folder.path);
+  for (int s = 0; s < kSlices; ++s) {
+    set_kind(file_of(folder.path, s), kEnhancedCtImage);
+    remove_tag(file_of(folder.path, s), 0x0020, 0x0032);
+  }
+  CHECK(why_refused(folder.path).find("these are enhanced images, which may hold several slices per file; convert") !=
+        std::string::npos);
+}
+
 TEST_CASE("no image of a DICOM series is left out without a word, whichever it is") {
   const auto cut_to = [](const fs::path& file, std::size_t size) {
     const std::string bytes = read_file(file).substr(0, size);
