@@ -112,7 +112,8 @@ Volume<std::int16_t> read_dicom_folder(const fs::path& folder, CtSource& source)
     const bool as_expected = axes.size() >= 2 && axes[0].size == std::uint64_t(ct.grid.size.x) &&
                              axes[1].size == std::uint64_t(ct.grid.size.y) && (axes.size() < 3 || axes[2].size == 1);
     if (!as_expected || image.components() != 1)
-      throw InputError(slice.string(), "header", "it is no grey image of the series' size", "export the series again");
+      throw InputError(slice.string(), "header", "it is not a grey image of the series' size",
+                       "export the series again");
     source.stored_as = to_string(image.voxel_type());
     append_hounsfield(slice, image, ct, source);
   }
@@ -135,6 +136,8 @@ void check_values(const std::string& file, const Volume<std::int16_t>& ct, const
     refuse(std::to_string(100 * source.too_dense / ct.voxels.size()) + " % of the voxels are above " +
            std::to_string(int(kMostHu)) + " HU, denser than any metal in a CT");
 }
+
+const char* const kExportAgain = "export the series again, or take the file out of the folder";
 
 /// A CT and its source as bytes, for the way from one process to another of the same program.
 std::string packed(const Volume<std::int16_t>& ct, const CtSource& source) {
@@ -196,7 +199,9 @@ Volume<std::int16_t> read_dicom_folder_apart(const fs::path& folder, CtSource& s
     return unpacked(result, source);
   } catch (const WorkDied&) {
   }
-  for (const fs::path file : files) try {
+  std::string blamed = folder.string();
+  std::string problem = "a DICOM file in it is damaged, or the series needs more memory than there is";
+  for (const std::string& file : files) try {
       done_apart(fs::file_size(file, error), [&] {
         scan_dicom_file(file);
         ImageFile(file, ImageFormat::dicom).read_voxels();
@@ -204,11 +209,13 @@ Volume<std::int16_t> read_dicom_folder_apart(const fs::path& folder, CtSource& s
         return std::string();
       });
     } catch (const WorkDied&) {
-      throw InputError(file.string(), "", "the DICOM file is damaged", "export the series again, or remove the file");
+      blamed = file;
+      problem = "the DICOM file is damaged";
+      break;
     } catch (const InputError&) {
       // No image, or one that says what is wrong with it: not what ended the process.
     }
-  throw InputError(folder.string(), "", "one of its DICOM files is damaged", "export the series again");
+  throw InputError(blamed, "", problem, kExportAgain);
 }
 
 FileHeader ct_header(const fs::path& file) {
@@ -260,7 +267,7 @@ Volume<std::uint8_t> read_labels(const fs::path& file) {
     for (std::size_t v = 0; v < labels.voxels.size(); ++v) {
       const double value = double(voxels[v]);
       if (!(value >= 0 && value <= 255 && value == std::floor(value)))
-        throw InputError(file.string(), voxel_at(labels.grid, v), "the value is no whole number from 0 to 255",
+        throw InputError(file.string(), voxel_at(labels.grid, v), "the value is not a whole number from 0 to 255",
                          "give a label volume, not a CT");
       labels.voxels[v] = std::uint8_t(value);
     }

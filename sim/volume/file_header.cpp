@@ -208,7 +208,7 @@ VoxelType nifti_type(const fs::path& file, int datatype) {
       {1024, VoxelType::int64}, {1280, VoxelType::uint64}};
   const auto known = types.find(datatype);
   if (known == types.end())
-    refuse(file, "the voxels have NIfTI's data type " + std::to_string(datatype) + ", no plain number",
+    refuse(file, "the voxels have NIfTI's data type " + std::to_string(datatype) + ", not one number per voxel",
            "save it with one integer or float a voxel");
   return known->second;
 }
@@ -276,7 +276,7 @@ FileHeader check_nifti(const fs::path& file) {
   for (const bool swapped : {false, true})
     if (begins_with(kNiftiBytes, swapped) && bytes.compare(344, 4, std::string("n+1\0", 4)) == 0)
       found = parse_nifti(Bytes(bytes, swapped));
-  if (!found) refuse(file, "this is no NIfTI file", "check that it is the right file");
+  if (!found) refuse(file, "this is not a NIfTI file", "check that it is the right file");
   const Nifti& n = *found;
 
   if (n.dim[0] < 1 || n.dim[0] > 7)
@@ -414,7 +414,7 @@ FileHeader check_nrrd(const fs::path& file) {
   const TextHeader header = read_text_header(file, ":", "");
   std::string magic(4, '\0');
   std::ifstream(file, std::ios::binary).read(magic.data(), 4);
-  if (magic != "NRRD") refuse(file, "this is no NRRD file", "check that it is the right file");
+  if (magic != "NRRD") refuse(file, "this is not an NRRD file", "check that it is the right file");
   static const std::map<std::string, VoxelType> types = {{"signed char", VoxelType::int8},
                                                          {"int8", VoxelType::int8},
                                                          {"int8_t", VoxelType::int8},
@@ -516,7 +516,7 @@ FileHeader check_meta_image(const fs::path& file) {
       {"MET_FLOAT", VoxelType::float32},   {"MET_DOUBLE", VoxelType::float64},
       {"MET_LONG", VoxelType::int32},      {"MET_ULONG", VoxelType::uint32}};  // 4 bytes on every machine
   if (header.value("ndims").empty() || header.value("elementdatafile").empty())
-    refuse(file, "this is no MetaImage file", "check that it is the right file");
+    refuse(file, "this is not a MetaImage file", "check that it is the right file");
   Claim claim;
   claim.size = three_sizes(file, header.value("ndims"), header.value("dimsize"));
   const auto type = types.find(header.value("elementtype"));

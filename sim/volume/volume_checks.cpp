@@ -38,7 +38,8 @@ std::string with_number(double value) {
 void check_size(const std::string& file, std::uint64_t i, std::uint64_t j, std::uint64_t k) {
   const std::string sizes = std::to_string(i) + " x " + std::to_string(j) + " x " + std::to_string(k) + " voxels";
   for (const std::uint64_t side : {i, j, k}) {
-    if (side < 2) refuse(file, "it claims " + sizes + ", which is no volume", "give a 3D volume of 2 or more slices");
+    if (side < 2)
+      refuse(file, "it claims " + sizes + ", which is not a volume", "give a 3D volume of 2 or more slices");
     if (side > kMostVoxelsASide)
       refuse(file, "it claims " + sizes + ", above the limit of " + std::to_string(kMostVoxelsASide) + " a side",
              "check that the file is whole, or crop it");

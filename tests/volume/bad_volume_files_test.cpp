@@ -109,7 +109,7 @@ TEST_CASE("what is no volume file is refused by name") {
   const std::string dicom = std::string(128, '\0') + "DICM" + std::string(600, '\0');
   for (const char* name : {"a.nii", "a.nii.gz", "a.nrrd", "a.nhdr", "a.mha", "a.mhd"})
     check_refused(
-        {{name, png, "this is no "}, {name, text, "this is no "}, {name, dicom, "name the folder of its series"}});
+        {{name, png, "this is not a"}, {name, text, "this is not a"}, {name, dicom, "name the folder of its series"}});
   check_refused({{"a.png", png, "does not end as a volume's does"}, {"noextension", text, "does not end as"}});
 }
 
@@ -134,9 +134,9 @@ TEST_CASE("NIfTI files that cannot be a CT are refused with the reason") {
       {"a.nii", nifti_with([](auto& s) { s.dim = {3, 4096, 4096, 4096, 1, 1, 1, 1}; }), "above the limit of 2^31"},
       {"a.nii", nifti_with([](auto& s) { s.dim = {3, 1024, 1024, 1024, 1, 1, 1, 1}; }), "the file holds 48"},
       {"a.nii.gz", gzip(nifti_with([](auto& s) { s.dim = {3, 1024, 1024, 1024, 1, 1, 1, 1}; })), "cannot hold"},
-      {"a.nii", nifti_with([](auto& s) { s.dim[1] = 0; }), "no volume"},
-      {"a.nii", nifti_with([](auto& s) { s.dim[2] = -3; }), "no volume"},
-      {"a.nii", nifti_with([](auto& s) { s.dim[3] = 1; }), "no volume"},
+      {"a.nii", nifti_with([](auto& s) { s.dim[1] = 0; }), "not a volume"},
+      {"a.nii", nifti_with([](auto& s) { s.dim[2] = -3; }), "not a volume"},
+      {"a.nii", nifti_with([](auto& s) { s.dim[3] = 1; }), "not a volume"},
       {"a.nii", nifti_with([](auto& s) { s.dim[0] = 0; }), "dimensions"},
       {"a.nii", nifti_with([](auto& s) { s.dim[0] = 9; }), "dimensions"},
       {"a.nii", nifti_with([](auto& s) { s.dim[0] = 2; }), "2 dimensions"},
@@ -165,7 +165,7 @@ TEST_CASE("NIfTI files that cannot be a CT are refused with the reason") {
       {"a.nii", nifti_with([](auto& s) { s.vox_offset = -4; }), "voxels begin"},
       {"a.nii", nifti_with([](auto& s) { s.vox_offset = 0; }), "begin at byte 0, and its header has 348 bytes"},
       {"a.nii", nifti_with([](auto& s) { s.vox_offset = 1e6; }), "the file holds 0"},
-      {"a.nii", nifti_with([](auto& s) { s.magic = std::string("ni1\0", 4); }), "this is no NIfTI file"},
+      {"a.nii", nifti_with([](auto& s) { s.magic = std::string("ni1\0", 4); }), "this is not a NIfTI file"},
       {"a.nii", nifti_with([](auto& s) { s.slope = 1e30f; }), "its rescale slope is 1e+30"},
       {"a.nii", nifti_with([](auto& s) { s.slope = 1e-30f; }), "its rescale slope is 1e-30"},
       {"a.nii", nifti_with([](auto& s) { s.slope = -1; }), "its rescale slope is -1"},
@@ -246,7 +246,7 @@ TEST_CASE("MetaImage files that cannot be a CT are refused with the reason") {
       {"a.mha", meta_with("DimSize", "DimSize = 4 3 -2"), "three whole numbers"},
       {"a.mha", meta_with("NDims", "NDims = 100"), "'100' dimensions"},
       {"a.mha", meta_with("NDims", "NDims = -1"), "'-1' dimensions"},
-      {"a.mha", meta_with("NDims", ""), "this is no MetaImage file"},
+      {"a.mha", meta_with("NDims", ""), "this is not a MetaImage file"},
       {"a.mha", meta_with("ElementType", "ElementType = MET_STRING"), "the ElementType is 'MET_STRING'"},
       {"a.mha", meta_with("ElementNumberOfChannels", "ElementNumberOfChannels = 3"), "3 components"},
       {"a.mha", meta_with("BinaryData ", "BinaryData = False"), "written as text"},

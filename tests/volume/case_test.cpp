@@ -216,7 +216,7 @@ TEST_CASE("a case that cannot be used is refused with the place and the reason")
       {"ct = \"ct.nrrd\"", "ct = \"case.toml\"", "does not end as a volume's does"},
       {"ct = \"ct.nrrd\"", "ct = 3", "'ct' is no text"},
       {"labels = \"labels.nrrd\"", "", "there are labels but no label volume"},
-      {"labels = \"labels.nrrd\"", "labels = \"ct.nrrd\"", "no whole number from 0 to 255"},
+      {"labels = \"labels.nrrd\"", "labels = \"ct.nrrd\"", "not a whole number from 0 to 255"},
       {"value = 7", "value = 8", "holds the value 7, which no [[label]] names"},
       {"value = 7", "value = 0", "[[label]] 1: 'value' is 0"},
       {"value = 7", "value = 256", "'value' is 256"},

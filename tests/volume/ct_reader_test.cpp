@@ -203,7 +203,7 @@ TEST_CASE("labels are whole numbers from 0 to 255 of any stored type") {
   CHECK(read(values).voxels[5] == 255);
   for (const float bad : {-1.0f, 256.0f, 0.5f, std::numeric_limits<float>::quiet_NaN()}) {
     values[5] = bad;
-    CHECK_THROWS_WITH(read(values), Catch::Contains("voxel (1, 1, 0)") && Catch::Contains("no whole number"));
+    CHECK_THROWS_WITH(read(values), Catch::Contains("voxel (1, 1, 0)") && Catch::Contains("not a whole number"));
   }
   Volume<std::uint8_t> labels{read(std::vector<float>(24, 3)).grid, counting<std::uint8_t>()};
   write_labels(folder.path / "b.nrrd", labels);

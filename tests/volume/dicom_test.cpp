@@ -182,8 +182,8 @@ TEST_CASE("a DICOM folder that gives no whole volume is refused with the reason"
       {"voxels: all voxels have the same value, 60 HU",
        [](int, DicomSlice& slice) { return slice.stored.assign(48, 1084), true; }},
       {"this is not a CT", [](int, DicomSlice& slice) { return slice.modality = "MR", true; }},
-      {"no volume", [](int s, DicomSlice&) { return s == 0; }},
-      {"no volume", [](int s, DicomSlice& slice) { return slice.columns = 1, slice.rows = 48, s < 9; }},
+      {"not a volume", [](int s, DicomSlice&) { return s == 0; }},
+      {"not a volume", [](int s, DicomSlice& slice) { return slice.columns = 1, slice.rows = 48, s < 9; }},
       {"its pixel spacing is 4.5\\3.5, and 4\\3.5 in the rest of series 3",
        [](int s, DicomSlice& slice) { return slice.between_rows_mm = s == 4 ? 4.5 : 4, true; }},
   };
