@@ -375,7 +375,7 @@ void check_values_are_hounsfield(const fs::path& file, const gdcm::File& dicom) 
                      "its rescale slope is " + or_none(slope_text) + " and its rescale intercept " +
                          or_none(intercept_text) + ", so its values are not known in Hounsfield units",
                      "export the original CT series");
-  check_rescale(file.string(), slope[0], intercept[0]);
+  check_rescale(file.string(), "rescale slope", slope[0], "rescale intercept", intercept[0]);
   // ITK takes the numbers from GDCM, which looks for them where the kind of image has them.
   const std::vector<double> applied = gdcm::ImageHelper::GetRescaleInterceptSlopeValue(dicom);
   if (applied != std::vector<double>{intercept[0], slope[0]})

@@ -294,7 +294,7 @@ FileHeader check_nifti(const fs::path& file) {
   claim.spacing = check_nifti_place(file, n);
   constexpr int kMatrixIntent = 1004;
   if (n.intent == kMatrixIntent) refuse(file, "each voxel is a matrix, by the intent code 1004", "save the CT alone");
-  if (n.slope != 0) check_rescale(file.string(), n.slope, n.intercept);
+  if (n.slope != 0) check_rescale(file.string(), "scl_slope", n.slope, "scl_inter", n.intercept);
   if (n.slope == 0 && n.intercept != 0)
     refuse(file, "its scl_slope is 0, which means no rescale, yet its scl_inter is " + short_number(n.intercept),
            "correct the header");

@@ -59,15 +59,16 @@ void check_body_size(const std::string& file, const glm::ivec3& voxels, const gl
              "is its spacing in mm, and not in another unit?");
 }
 
-void check_rescale(const std::string& file, double slope, double intercept) {
+void check_rescale(const std::string& file, const std::string& slope_name, double slope,
+                   const std::string& intercept_name, double intercept) {
   if (!(slope >= kLeastSlope && slope <= kMostSlope))
     refuse(file,
-           "its rescale slope is " + with_number(slope) + ", where a CT has one from " + with_number(kLeastSlope) +
+           "its " + slope_name + " is " + with_number(slope) + ", where a CT has one from " + with_number(kLeastSlope) +
                " to " + with_number(kMostSlope),
            kRescaleRemedy);
   if (!(std::abs(intercept) <= kMostIntercept))
     refuse(file,
-           "its rescale intercept is " + with_number(intercept) + ", where a CT has one within +-" +
+           "its " + intercept_name + " is " + with_number(intercept) + ", where a CT has one within +-" +
                with_number(kMostIntercept),
            kRescaleRemedy);
 }

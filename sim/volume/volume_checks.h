@@ -22,7 +22,9 @@ void check_body_size(const std::string& file, const glm::ivec3& size, const glm:
 
 /// Throws the InputError for a rescale that no CT has: one that is not finite, shrinks all values to one, turns high
 /// into low, or moves them out of range.
-void check_rescale(const std::string& file, double slope, double intercept);
+/// @param slope_name, intercept_name  as the file's format calls them
+void check_rescale(const std::string& file, const std::string& slope_name, double slope,
+                   const std::string& intercept_name, double intercept);
 
 /// The grid that an image's header describes. Throws InputError when that is no 3D scalar volume within the limits with
 /// finite positions, positive spacing and an orthogonal direction matrix. What rounding in the file left of
