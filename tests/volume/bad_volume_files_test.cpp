@@ -85,13 +85,17 @@ std::string meta_with(const std::string& key, const std::string& by) {
 
 }  // namespace
 
-TEST_CASE("a folder whose files cannot be looked through is refused") {
+TEST_CASE("a file that cannot be opened is refused, and a folder whose files cannot be looked through") {
   const TemporaryFolder folder;
+  const fs::path nii = folder.put("a.nii", nifti({}, small_voxels())),
+                 nrrd_file = folder.put("a.nrrd", nrrd(nrrd_lines(), small_voxels()));
   {
     const Limited limited(RLIMIT_NOFILE, 3);
+    for (const fs::path& file : {nii, nrrd_file})
+      CHECK(why_refused(file) == file.string() + ": header: it cannot be read; check its permissions.");
     CHECK(why_refused(folder.path).find("the folder cannot be read (Too many open files); check") != std::string::npos);
   }
-  for (const char* name : {"a", "b", "c"}) folder.put(name, "x");
+  folder.put("b", "x");
   CHECK(files_below(folder.path, 3).size() == 3);
   CHECK_THROWS_WITH(files_below(folder.path, 2),
                     folder.path.string() + ": there are more than 2 files below it; name the folder of one study.");
