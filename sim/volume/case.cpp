@@ -295,7 +295,7 @@ Case read_case(const fs::path& folder) {
   const TomlTable root(file.string(), "", parsed);
   Case subject = read_table(root);
   // The volumes last: a slip in the table is told without the wait.
-  subject.ct = read_ct(read_file_name(root, "ct", folder));
+  subject.ct = read_case_ct(read_file_name(root, "ct", folder));
   if (root.has("labels")) subject.labels = read_labels(read_file_name(root, "labels", folder));
   check_volumes(root, subject);
   return subject;

@@ -52,7 +52,7 @@ struct Case {
 ///
 ///     format = 1                           # of this file
 ///     name = "Abdomen phantom"
-///     ct = "ct.nrrd"                       # whatever read_ct() reads but a folder
+///     ct = "ct.nrrd"                       # whatever read_case_ct() reads
 ///     labels = "labels.nrrd"               # optional; on the CT's grid
 ///
 ///     [[label]]                            # as Label; each value in the label volume has one

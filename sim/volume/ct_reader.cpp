@@ -17,6 +17,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kLeastHu = -1024, kMostHu = 32767;
+// Fat is above -200 HU, dense bone and contrast agent are below 3071, where the scanners' usual 12 bits end.
+constexpr std::int16_t kLeastBodyHu = -300, kMostBodyHu = 3071;
+// Metal may exceed what is kept; a tenth of a CT cannot be metal.
+constexpr double kMostTooDense = 0.1;
 
 const char* format_name(ImageFormat format) {
   switch (format) {
@@ -76,7 +80,7 @@ const fs::path& existing_file(const fs::path& file) {
 }
 
 /// Adds an image's voxels to a CT whose grid is known, rounded and brought into range.
-void append_hounsfield(const fs::path& file, ImageFile& image, Volume<std::int16_t>& ct, std::size_t& clamped) {
+void append_hounsfield(const fs::path& file, ImageFile& image, Volume<std::int16_t>& ct, CtSource& source) {
   std::size_t count = 1;
   for (const ImageFile::Axis& axis : image.axes()) count *= axis.size;
   const auto bytes = image.read_voxels();
@@ -89,7 +93,8 @@ void append_hounsfield(const fs::path& file, ImageFile& image, Volume<std::int16
         throw InputError(file.string(), voxel_at(ct.grid, first + v), "the value is not a finite number",
                          "export the CT again");
       const double kept = std::clamp(hu, kLeastHu, kMostHu);
-      clamped += kept != hu;
+      source.clamped += kept != hu;
+      source.too_dense += hu > kMostHu;
       ct.voxels[first + v] = std::int16_t(std::lround(kept));
     }
   });
@@ -98,21 +103,41 @@ void append_hounsfield(const fs::path& file, ImageFile& image, Volume<std::int16
 Volume<std::int16_t> read_dicom_folder(const fs::path& folder, CtSource& source) {
   DicomSeries series = find_dicom_series(folder);
   Volume<std::int16_t> ct{series.grid, {}};
-  source = {format_name(ImageFormat::dicom), "", std::move(series.other_series), 0};
+  source = {format_name(ImageFormat::dicom), "", std::move(series.other_series), 0, 0};
   // Room for all is taken slice by slice: a header may claim more than its file gives.
   for (const fs::path& slice : series.slices) {
-    check_dicom_voxels(slice);
+    check_dicom_slice(slice);
     ImageFile image(slice, ImageFormat::dicom);
     const auto& axes = image.axes();
     const bool as_expected = axes.size() >= 2 && axes[0].size == std::uint64_t(ct.grid.size.x) &&
                              axes[1].size == std::uint64_t(ct.grid.size.y) && (axes.size() < 3 || axes[2].size == 1);
     if (!as_expected || image.components() != 1)
-      throw InputError(slice.string(), "header", "it is no grey image of the series' size", "export the series again");
+      throw InputError(slice.string(), "header", "it is not a grey image of the series' size",
+                       "export the series again");
     source.stored_as = to_string(image.voxel_type());
-    append_hounsfield(slice, image, ct, source.clamped);
+    append_hounsfield(slice, image, ct, source);
   }
   return ct;
 }
+
+/// Refuses values that show nothing a CT can show, as after a wrong rescale.
+void check_values(const std::string& file, const Volume<std::int16_t>& ct, const CtSource& source) {
+  const auto refuse = [&](const std::string& problem) {
+    throw InputError(file, "voxels", problem,
+                     "check the rescale slope and intercept, or export the CT again in Hounsfield units");
+  };
+  const auto [least, most] = std::minmax_element(ct.voxels.begin(), ct.voxels.end());
+  if (*least == *most) refuse("all voxels have the same value, " + std::to_string(*least) + " HU");
+  if (*most < kLeastBodyHu || *least > kMostBodyHu)
+    refuse("the values reach from " + std::to_string(*least) + " to " + std::to_string(*most) +
+           " HU, where those of a body reach from about " + std::to_string(kLeastBodyHu) + " to " +
+           std::to_string(kMostBodyHu) + " HU");
+  if (double(source.too_dense) > kMostTooDense * double(ct.voxels.size()))
+    refuse(std::to_string(100 * source.too_dense / ct.voxels.size()) + " % of the voxels are above " +
+           std::to_string(int(kMostHu)) + " HU, denser than any metal in a CT");
+}
+
+const char* const kExportAgain = "export the series again, or take the file out of the folder";
 
 /// A CT and its source as bytes, for the way from one process to another of the same program.
 std::string packed(const Volume<std::int16_t>& ct, const CtSource& source) {
@@ -125,6 +150,7 @@ std::string packed(const Volume<std::int16_t>& ct, const CtSource& source) {
     bytes += text;
   };
   add_number(source.clamped);
+  add_number(source.too_dense);
   add_text(source.stored_as);
   add_number(source.other_series.size());
   for (const std::string& line : source.other_series) add_text(line);
@@ -149,7 +175,7 @@ Volume<std::int16_t> unpacked(const std::string& bytes, CtSource& source) {
   };
   Volume<std::int16_t> ct;
   take(&ct.grid, sizeof ct.grid);
-  source = {format_name(ImageFormat::dicom), "", {}, take_number()};
+  source = {format_name(ImageFormat::dicom), "", {}, take_number(), take_number()};
   source.stored_as = take_text();
   for (std::uint64_t left = take_number(); left > 0; --left) source.other_series.push_back(take_text());
   ct.voxels.resize(ct.grid.count());
@@ -159,15 +185,11 @@ Volume<std::int16_t> unpacked(const std::string& bytes, CtSource& source) {
 
 /// Reads a DICOM folder in a process of its own, and if that dies of it, finds the file to blame.
 Volume<std::int16_t> read_dicom_folder_apart(const fs::path& folder, CtSource& source) {
-  std::uintmax_t bytes = 0;
-  std::vector<fs::path> files;
-  constexpr auto options = fs::directory_options::skip_permission_denied;
+  const std::vector<std::string> files = files_below(folder);
   std::error_code error;
-  for (fs::recursive_directory_iterator at(folder, options, error), end; at != end && !error; at.increment(error))
-    if (std::error_code ignored; at->is_regular_file(ignored)) {
-      files.push_back(at->path());
-      bytes += at->file_size(ignored);
-    }
+  std::uintmax_t bytes = 0;
+  for (const std::string& file : files)
+    if (const std::uintmax_t size = fs::file_size(file, error); !error) bytes += size;
   try {
     const std::string result = done_apart(bytes, [&] {
       CtSource found;
@@ -177,40 +199,63 @@ Volume<std::int16_t> read_dicom_folder_apart(const fs::path& folder, CtSource& s
     return unpacked(result, source);
   } catch (const WorkDied&) {
   }
-  for (const fs::path& file : files) try {
+  std::string blamed = folder.string();
+  std::string problem = "a DICOM file in it is damaged, or the series needs more memory than there is";
+  for (const std::string& file : files) try {
       done_apart(fs::file_size(file, error), [&] {
         scan_dicom_file(file);
         ImageFile(file, ImageFormat::dicom).read_voxels();
+        check_dicom_slice(file);
         return std::string();
       });
     } catch (const WorkDied&) {
-      throw InputError(file.string(), "", "the DICOM file is damaged", "export the series again, or remove the file");
+      blamed = file;
+      problem = "the DICOM file is damaged";
+      break;
     } catch (const InputError&) {
       // No image, or one that says what is wrong with it: not what ended the process.
     }
-  throw InputError(folder.string(), "", "one of its DICOM files is damaged", "export the series again");
+  throw InputError(blamed, "", problem, kExportAgain);
+}
+
+FileHeader ct_header(const fs::path& file) {
+  if (is_dicom_file(existing_file(file)))
+    throw InputError(file.string(), "", "this is one DICOM file", "name the folder of its series");
+  return check_file_header(file);
+}
+
+Volume<std::int16_t> read_ct_file(const fs::path& file, const FileHeader& header, CtSource& source) {
+  ImageFile image(file, header.format);
+  Volume<std::int16_t> ct{checked_grid(file.string(), image), {}};
+  source = {format_name(header.format), header.stored_as, {}, 0, 0};
+  append_hounsfield(file, image, ct, source);
+  return ct;
 }
 
 }  // namespace
 
 Volume<std::int16_t> read_ct(const fs::path& file_or_folder, CtSource* source) {
+  const std::string name = file_or_folder.string();
   CtSource found;
   Volume<std::int16_t> ct;
   std::error_code error;
   if (fs::is_directory(file_or_folder, error)) {
     ct = read_dicom_folder_apart(file_or_folder, found);
+    check_body_size(name, ct.grid.size, ct.grid.spacing);
   } else {
-    const fs::path& file = existing_file(file_or_folder);
-    if (is_dicom_file(file))
-      throw InputError(file.string(), "", "this is one DICOM file", "name the folder of its series");
-    const FileHeader header = check_file_header(file);
-    ImageFile image(file, header.format);
-    ct.grid = checked_grid(file.string(), image);
-    found = {format_name(header.format), header.stored_as, {}, 0};
-    append_hounsfield(file, image, ct, found.clamped);
+    // Before ITK sees the file: it takes the small numbers of a spacing in another unit for a singular orientation.
+    const FileHeader header = ct_header(file_or_folder);
+    check_body_size(name, header.size, header.spacing);
+    ct = read_ct_file(file_or_folder, header, found);
   }
+  check_values(name, ct, found);
   if (source) *source = std::move(found);
   return ct;
+}
+
+Volume<std::int16_t> read_case_ct(const fs::path& file) {
+  CtSource unused;
+  return read_ct_file(file, ct_header(file), unused);
 }
 
 Volume<std::uint8_t> read_labels(const fs::path& file) {
@@ -222,7 +267,7 @@ Volume<std::uint8_t> read_labels(const fs::path& file) {
     for (std::size_t v = 0; v < labels.voxels.size(); ++v) {
       const double value = double(voxels[v]);
       if (!(value >= 0 && value <= 255 && value == std::floor(value)))
-        throw InputError(file.string(), voxel_at(labels.grid, v), "the value is no whole number from 0 to 255",
+        throw InputError(file.string(), voxel_at(labels.grid, v), "the value is not a whole number from 0 to 255",
                          "give a label volume, not a CT");
       labels.voxels[v] = std::uint8_t(value);
     }

@@ -1,11 +1,14 @@
 #include "sim/volume/file_header.h"
 
+#include <glm/geometric.hpp>
 #include <zlib.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <map>
@@ -24,12 +27,20 @@ namespace fs = std::filesystem;
 
 // Deflate packs at most 1032 bytes into one (zlib's technical notes).
 constexpr std::uint64_t kMostDeflated = 1032;
-// What may follow the voxels in a packed stream, such as a tool's own extension.
-constexpr std::uint64_t kMostTrailing = 1u << 24;
+// How far beyond the claimed voxels a packed stream is counted.
+constexpr std::uint64_t kMostCounted = 1u << 24;
+// Headers in single precision, and matrices that were composed in it, keep this much.
+constexpr double kSpacingShare = 1e-2, kRightAngle = 1e-3;
 constexpr std::size_t kLongestTextHeader = 1u << 20;
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& problem, const std::string& remedy) {
   throw InputError(file.string(), "header", problem, remedy);
+}
+
+std::string short_number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", value);
+  return text;
 }
 
 std::string lower_case(std::string text) {
@@ -40,6 +51,7 @@ std::string lower_case(std::string text) {
 /// What all three formats claim.
 struct Claim {
   std::array<std::uint64_t, 3> size{};
+  glm::dvec3 spacing{0.0};
   VoxelType type = VoxelType::int16;
   fs::path data_file;
   std::uint64_t data_offset = 0;         ///< where the voxels begin in that file, or the packed stream that holds them
@@ -86,26 +98,55 @@ void check_against_bytes(const fs::path& file, const Claim& claim) {
     refuse(file, "there is no data file '" + claim.data_file.string() + "'", "put it beside the header");
   const std::uint64_t there = fs::file_size(claim.data_file, error);
   const std::uint64_t voxels = claim.size[0] * claim.size[1] * claim.size[2] * bytes_of(claim.type);
-  const std::string claims = "it claims " + std::to_string(voxels) + " bytes of voxels, ";
-  const char* const remedy = "copy the file again";
+  const auto refuse_when_different = [&](std::uint64_t held, bool all_counted) {
+    if (held == voxels) return;
+    refuse(file,
+           "it claims " + std::to_string(voxels) + " bytes of voxels, the file holds " +
+               (all_counted ? "" : "more than ") + std::to_string(held),
+           held < voxels ? "copy the file again" : "correct the sizes and the type in the header, or export it again");
+  };
   if (!claim.packed) {
-    const std::uint64_t held = there > claim.data_offset ? there - claim.data_offset : 0;
-    if (voxels > held) refuse(file, claims + "the file holds " + std::to_string(held), remedy);
+    refuse_when_different(there > claim.data_offset ? there - claim.data_offset : 0, true);
     return;
   }
   const std::uint64_t needed = claim.packed_with_header + voxels;
   if (needed / kMostDeflated > there)
-    refuse(file, claims + "which its " + std::to_string(there) + " packed bytes cannot hold", remedy);
-  const auto size = unpacked_size(claim.data_file, claim.data_offset, needed + kMostTrailing);
-  if (!size) refuse(file, "the packed data are damaged or cut off", remedy);
-  if (*size < needed)
-    refuse(file, claims + "the file holds " + std::to_string(*size - std::min(*size, claim.packed_with_header)),
-           remedy);
-  if (*size > needed + kMostTrailing) refuse(file, claims + "the file holds far more", remedy);
+    refuse(file,
+           "it claims " + std::to_string(voxels) + " bytes of voxels, which its " + std::to_string(there) +
+               " packed bytes cannot hold",
+           "copy the file again");
+  const auto size = unpacked_size(claim.data_file, claim.data_offset, needed + kMostCounted);
+  if (!size) refuse(file, "the packed data are damaged or cut off", "copy the file again");
+  refuse_when_different(*size - std::min(*size, claim.packed_with_header), *size <= needed + kMostCounted);
+}
+
+/// The numbers in a text that may have brackets and commas; empty when there are not `count` finite ones.
+std::vector<double> finite_numbers(std::string text, std::size_t count) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '(' || c == ')' || c == ','; }, ' ');
+  std::istringstream stream(text);
+  std::vector<double> numbers;
+  for (std::string word; stream >> word;) {
+    char* end = nullptr;
+    numbers.push_back(std::strtod(word.c_str(), &end));
+    if (*end != '\0' || !std::isfinite(numbers.back())) return {};
+  }
+  return numbers.size() == count ? numbers : std::vector<double>{};
+}
+
+glm::dvec3 checked_spacing(const fs::path& file, const glm::dvec3& spacing, const std::string& remedy) {
+  for (int a = 0; a < 3; ++a)
+    if (!(spacing[a] > 0) || !std::isfinite(spacing[a]))
+      refuse(file, "the spacing along axis " + std::to_string(a + 1) + " is " + short_number(spacing[a]), remedy);
+  return spacing;
+}
+
+FileHeader header_of(ImageFormat format, const Claim& claim) {
+  return {format, to_string(claim.type), glm::ivec3(claim.size[0], claim.size[1], claim.size[2]), claim.spacing};
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
-// NIfTI: https://nifti.nimh.nih.gov, nifti1.h and nifti2.h; offsets are those headers' fields.
+// NIfTI: https://nifti.nimh.nih.gov, nifti1.h; offsets are that header's fields.
 
 /// A binary header with its byte order.
 class Bytes {
@@ -124,18 +165,23 @@ private:
   bool swapped_;
 };
 
+constexpr std::size_t kNiftiBytes = 348;
+
 struct Nifti {
   std::array<std::int64_t, 8> dim{};
   int datatype = 0;
   std::array<double, 8> pixdim{};
   double data_offset = 0;
+  double slope = 0, intercept = 0;  ///< a slope of 0 means none
+  int units = 0;                    ///< of lengths: 1 metre, 2 mm, 3 micrometre, 0 unknown
+  int intent = 0;
+  bool by_quaternion = false;                     ///< qform_code > 0
+  std::array<double, 3> quaternion{};             ///< b, c, d
   bool by_matrix = false;                         ///< sform_code > 0
   std::array<std::array<double, 4>, 3> matrix{};  ///< srow_x, y, z
 };
 
-constexpr std::size_t kNifti1Bytes = 348, kNifti2Bytes = 540;
-
-Nifti parse_nifti1(const Bytes& header) {
+Nifti parse_nifti(const Bytes& header) {
   Nifti n;
   for (std::size_t d = 0; d < 8; ++d) {
     n.dim[d] = header.at<std::int16_t>(40 + 2 * d);
@@ -143,23 +189,15 @@ Nifti parse_nifti1(const Bytes& header) {
   }
   n.datatype = header.at<std::int16_t>(70);
   n.data_offset = double(header.at<float>(108));
+  n.slope = double(header.at<float>(112));
+  n.intercept = double(header.at<float>(116));
+  n.units = header.at<std::int8_t>(123) & 7;
+  n.intent = header.at<std::int16_t>(68);
+  n.by_quaternion = header.at<std::int16_t>(252) > 0;
+  for (std::size_t q = 0; q < 3; ++q) n.quaternion[q] = double(header.at<float>(256 + 4 * q));
   n.by_matrix = header.at<std::int16_t>(254) > 0;
   for (std::size_t r = 0; r < 3; ++r)
     for (std::size_t c = 0; c < 4; ++c) n.matrix[r][c] = double(header.at<float>(280 + 16 * r + 4 * c));
-  return n;
-}
-
-Nifti parse_nifti2(const Bytes& header) {
-  Nifti n;
-  for (std::size_t d = 0; d < 8; ++d) {
-    n.dim[d] = header.at<std::int64_t>(16 + 8 * d);
-    n.pixdim[d] = header.at<double>(104 + 8 * d);
-  }
-  n.datatype = header.at<std::int16_t>(12);
-  n.data_offset = double(header.at<std::int64_t>(168));
-  n.by_matrix = header.at<std::int32_t>(348) > 0;
-  for (std::size_t r = 0; r < 3; ++r)
-    for (std::size_t c = 0; c < 4; ++c) n.matrix[r][c] = header.at<double>(400 + 32 * r + 8 * c);
   return n;
 }
 
@@ -170,7 +208,7 @@ VoxelType nifti_type(const fs::path& file, int datatype) {
       {1024, VoxelType::int64}, {1280, VoxelType::uint64}};
   const auto known = types.find(datatype);
   if (known == types.end())
-    refuse(file, "the voxels have NIfTI's data type " + std::to_string(datatype) + ", no plain number",
+    refuse(file, "the voxels have NIfTI's data type " + std::to_string(datatype) + ", not one number per voxel",
            "save it with one integer or float a voxel");
   return known->second;
 }
@@ -187,22 +225,58 @@ std::string first_bytes(const fs::path& file, std::size_t count, bool& packed) {
   return bytes;
 }
 
+/// Holds the placing in the patient against what ITK makes of it: it takes the sform, or else the qform, and the
+/// spacing from pixdim.
+glm::dvec3 check_nifti_place(const fs::path& file, const Nifti& n) {
+  if (n.units == 1 || n.units == 3)
+    refuse(file, std::string("its unit of length is the ") + (n.units == 1 ? "metre" : "micrometre"),
+           "save it in millimetres");
+  const glm::dvec3 spacing =
+      checked_spacing(file, {n.pixdim[1], n.pixdim[2], n.pixdim[3]}, "correct the header's pixdim");
+  if (n.by_matrix) {
+    std::array<glm::dvec3, 3> columns;
+    for (std::size_t r = 0; r < 3; ++r)
+      for (std::size_t c = 0; c < 4; ++c) {
+        if (!std::isfinite(n.matrix[r][c]))
+          refuse(file, "the sform matrix holds a number that is not finite", "correct it");
+        if (c < 3) columns[c][int(r)] = n.matrix[r][c];
+      }
+    if (n.by_quaternion) return spacing;  // to fall back on
+    for (std::size_t a = 0; a < 3; ++a)
+      if (const double length = glm::length(columns[a]);
+          std::abs(length - n.pixdim[a + 1]) > kSpacingShare * n.pixdim[a + 1])
+        refuse(file,
+               "the spacing along axis " + std::to_string(a + 1) + " is " + short_number(length) +
+                   " mm by the sform matrix and " + short_number(n.pixdim[a + 1]) + " mm by pixdim",
+               "correct the header");
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double cosine = glm::dot(glm::normalize(columns[a]), glm::normalize(columns[(a + 1) % 3]));
+      if (std::abs(cosine) > kRightAngle)
+        refuse(file, "the axes of the sform matrix are not at right angles", "resample it to orthogonal axes");
+    }
+  } else if (n.by_quaternion) {
+    double square = 0;
+    for (const double q : n.quaternion) square += q * q;
+    if (!(square <= 1 + kRightAngle)) refuse(file, "the qform's quaternion is not a rotation", "correct the header");
+  }
+  return spacing;
+}
+
 FileHeader check_nifti(const fs::path& file) {
   bool packed = false;
-  const std::string bytes = first_bytes(file, kNifti2Bytes, packed);
+  const std::string bytes = first_bytes(file, kNiftiBytes, packed);
   const auto begins_with = [&](std::uint32_t length, bool swapped) {
-    return bytes.size() >= length && Bytes(bytes, swapped).at<std::uint32_t>(0) == length;
+    return bytes.size() >= sizeof length && Bytes(bytes, swapped).at<std::uint32_t>(0) == length;
   };
+  constexpr std::uint32_t kNifti2Bytes = 540;
+  if (begins_with(kNifti2Bytes, false) || begins_with(kNifti2Bytes, true))
+    refuse(file, "this is a NIfTI-2 file", "save it as NIfTI-1 or NRRD");
+  if (bytes.size() < kNiftiBytes) refuse(file, "the file ends within the header", "check that it is the right file");
   std::optional<Nifti> found;
-  for (const bool swapped : {false, true}) {
-    if (begins_with(kNifti1Bytes, swapped) && bytes.compare(344, 4, std::string("n+1\0", 4)) == 0)
-      found = parse_nifti1(Bytes(bytes, swapped));
-    if (begins_with(kNifti2Bytes, swapped) && bytes.compare(4, 4, std::string("n+2\0", 4)) == 0)
-      found = parse_nifti2(Bytes(bytes, swapped));
-  }
-  if (!found)
-    refuse(file, bytes.size() < kNifti1Bytes ? "the file ends within the header" : "this is no NIfTI file",
-           "check that it is the right file");
+  for (const bool swapped : {false, true})
+    if (begins_with(kNiftiBytes, swapped) && bytes.compare(344, 4, std::string("n+1\0", 4)) == 0)
+      found = parse_nifti(Bytes(bytes, swapped));
+  if (!found) refuse(file, "this is not a NIfTI file", "check that it is the right file");
   const Nifti& n = *found;
 
   if (n.dim[0] < 1 || n.dim[0] > 7)
@@ -216,22 +290,25 @@ FileHeader check_nifti(const fs::path& file) {
   Claim claim;
   for (std::size_t a = 0; a < 3; ++a) {
     claim.size[a] = std::uint64_t(std::max<std::int64_t>(0, n.dim[a + 1]));
-    if (!(n.pixdim[a + 1] > 0) || !std::isfinite(n.pixdim[a + 1]))
-      refuse(file, "the spacing along axis " + std::to_string(a + 1) + " is " + std::to_string(n.pixdim[a + 1]),
-             "correct the header's pixdim");
   }
-  for (const auto& row : n.matrix)
-    for (const double element : row)
-      if (n.by_matrix && !std::isfinite(element))
-        refuse(file, "the sform matrix holds a number that is not finite", "correct it");
+  claim.spacing = check_nifti_place(file, n);
+  constexpr int kMatrixIntent = 1004;
+  if (n.intent == kMatrixIntent) refuse(file, "each voxel is a matrix, by the intent code 1004", "save the CT alone");
+  if (n.slope != 0) check_rescale(file.string(), "scl_slope", n.slope, "scl_inter", n.intercept);
+  if (n.slope == 0 && n.intercept != 0)
+    refuse(file, "its scl_slope is 0, which means no rescale, yet its scl_inter is " + short_number(n.intercept),
+           "correct the header");
   claim.type = nifti_type(file, n.datatype);
-  if (!(n.data_offset >= 0 && n.data_offset < 1e12))
-    refuse(file, "it claims that the voxels begin at byte " + std::to_string(n.data_offset), "save it again");
+  if (!(n.data_offset >= double(kNiftiBytes) && n.data_offset < 1e12))
+    refuse(file,
+           "it claims that the voxels begin at byte " + short_number(n.data_offset) + ", and its header has " +
+               std::to_string(kNiftiBytes) + " bytes",
+           "save it again");
   claim.data_file = file;
   claim.packed = packed;
   (packed ? claim.packed_with_header : claim.data_offset) = std::uint64_t(n.data_offset);
   check_against_bytes(file, claim);
-  return {ImageFormat::nifti, to_string(claim.type)};
+  return header_of(ImageFormat::nifti, claim);
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -305,11 +382,39 @@ fs::path named_data_file(const fs::path& file, const std::string& name) {
   return file.parent_path() / name;
 }
 
+/// Refuses units of length other than mm: texts in quotation marks, or none.
+void check_nrrd_units(const fs::path& file, const std::string& units) {
+  std::istringstream stream(units);
+  std::string between, unit;
+  while (std::getline(stream, between, '"') && std::getline(stream, unit, '"'))
+    if (!unit.empty() && unit != "mm") refuse(file, "its unit of length is '" + unit + "'", "save it in mm");
+}
+
+/// Holds the placing in the patient against what ITK would guess or refuse. Returns the spacing.
+glm::dvec3 check_nrrd_place(const fs::path& file, const TextHeader& header) {
+  for (const char* key : {"space units", "units"}) check_nrrd_units(file, header.value(key));
+  if (const std::string origin = header.value("space origin"); !origin.empty() && finite_numbers(origin, 3).empty())
+    refuse(file, "the space origin is '" + origin + "'", "give one vector of three numbers");
+  if (const std::string directions = header.value("space directions"); !directions.empty()) {
+    const auto n = finite_numbers(directions, 9);
+    if (n.empty()) refuse(file, "the space directions are '" + directions + "'", "give three vectors of three numbers");
+    return checked_spacing(file,
+                           {std::hypot(n[0], n[1], n[2]), std::hypot(n[3], n[4], n[5]), std::hypot(n[6], n[7], n[8])},
+                           "correct the space directions");
+  }
+  const std::string spacings = header.value("spacings");
+  const auto n = finite_numbers(spacings, 3);
+  if (n.empty())
+    refuse(file, spacings.empty() ? "it gives no spacing" : "the spacings are '" + spacings + "'",
+           "add the space directions");
+  return checked_spacing(file, {n[0], n[1], n[2]}, "correct the spacings");
+}
+
 FileHeader check_nrrd(const fs::path& file) {
   const TextHeader header = read_text_header(file, ":", "");
   std::string magic(4, '\0');
   std::ifstream(file, std::ios::binary).read(magic.data(), 4);
-  if (magic != "NRRD") refuse(file, "this is no NRRD file", "check that it is the right file");
+  if (magic != "NRRD") refuse(file, "this is not an NRRD file", "check that it is the right file");
   static const std::map<std::string, VoxelType> types = {{"signed char", VoxelType::int8},
                                                          {"int8", VoxelType::int8},
                                                          {"int8_t", VoxelType::int8},
@@ -357,6 +462,13 @@ FileHeader check_nrrd(const fs::path& file) {
   if (encoding != "raw" && encoding != "gzip" && encoding != "gz")
     refuse(file, "the encoding is '" + encoding + "'", "save it as raw or gzip");
   claim.packed = encoding != "raw";
+  const std::string endian = lower_case(header.value("endian"));
+  if (bytes_of(claim.type) > 1 && endian != "little" && endian != "big")
+    refuse(file, "it does not give the order of its bytes", "add: endian: little");
+  claim.spacing = check_nrrd_place(file, header);
+  for (const char* key : {"old min", "oldmin", "old max", "oldmax"})
+    if (!header.value(key).empty())
+      refuse(file, std::string("the header asks for a rescale by '") + key + "'", "save it in Hounsfield units");
   std::string data_file = header.value("data file");
   if (data_file.empty()) data_file = header.value("datafile");
   claim.data_file = data_file.empty() ? file : named_data_file(file, data_file);
@@ -365,7 +477,33 @@ FileHeader check_nrrd(const fs::path& file) {
     if (const std::string skip = header.value(key); !skip.empty() && skip != "0")
       refuse(file, std::string("the header asks for a ") + key, "save it without");
   check_against_bytes(file, claim);
-  return {ImageFormat::nrrd, to_string(claim.type)};
+  return header_of(ImageFormat::nrrd, claim);
+}
+
+/// The value of the first of the keys, which mean the same, that the header has.
+std::string any_value(const TextHeader& header, const std::vector<std::string>& keys) {
+  for (const std::string& key : keys)
+    if (const std::string value = header.value(key); !value.empty()) return value;
+  return "";
+}
+
+/// Holds the placing in the patient against what ITK would guess or refuse. Returns the spacing.
+glm::dvec3 check_meta_place(const fs::path& file, const TextHeader& header) {
+  const std::string units = header.value("distanceunits");
+  if (!units.empty() && units != "?" && units != "mm")
+    refuse(file, "its unit of length is '" + units + "'", "save it in mm");
+  const std::string spacings = any_value(header, {"elementspacing", "elementsize"});
+  const auto numbers = finite_numbers(spacings, 3);
+  if (numbers.empty())
+    refuse(file, spacings.empty() ? "it gives no ElementSpacing" : "the ElementSpacing is '" + spacings + "'",
+           "give three numbers in mm");
+  const std::string matrix = any_value(header, {"transformmatrix", "rotation", "orientation"});
+  if (!matrix.empty() && finite_numbers(matrix, 9).empty())
+    refuse(file, "the TransformMatrix is '" + matrix + "'", "give nine numbers");
+  const std::string offset = any_value(header, {"offset", "position", "origin"});
+  if (!offset.empty() && finite_numbers(offset, 3).empty())
+    refuse(file, "the Offset is '" + offset + "'", "give three numbers in mm");
+  return checked_spacing(file, {numbers[0], numbers[1], numbers[2]}, "correct the ElementSpacing");
 }
 
 FileHeader check_meta_image(const fs::path& file) {
@@ -378,7 +516,7 @@ FileHeader check_meta_image(const fs::path& file) {
       {"MET_FLOAT", VoxelType::float32},   {"MET_DOUBLE", VoxelType::float64},
       {"MET_LONG", VoxelType::int32},      {"MET_ULONG", VoxelType::uint32}};  // 4 bytes on every machine
   if (header.value("ndims").empty() || header.value("elementdatafile").empty())
-    refuse(file, "this is no MetaImage file", "check that it is the right file");
+    refuse(file, "this is not a MetaImage file", "check that it is the right file");
   Claim claim;
   claim.size = three_sizes(file, header.value("ndims"), header.value("dimsize"));
   const auto type = types.find(header.value("elementtype"));
@@ -393,13 +531,18 @@ FileHeader check_meta_image(const fs::path& file) {
     refuse(file, "the voxels are written as text", "save them as binary");
   if (const std::string skip = header.value("headersize"); !skip.empty() && skip != "0")
     refuse(file, "the header asks for a HeaderSize of " + skip, "save it without");
+  claim.spacing = check_meta_place(file, header);
+  for (const auto& [key, none] :
+       {std::pair("elementtointensityfunctionslope", 1.0), std::pair("elementtointensityfunctionoffset", 0.0)})
+    if (const std::string value = header.value(key); !value.empty() && finite_numbers(value, 1) != std::vector{none})
+      refuse(file, "the header asks for a rescale by ElementToIntensityFunction", "save it in Hounsfield units");
   claim.packed = lower_case(header.value("compresseddata")) == "true";
   const std::string data_file = header.value("elementdatafile");
   const bool local = lower_case(data_file) == "local";
   claim.data_file = local ? file : named_data_file(file, data_file);
   claim.data_offset = local ? header.bytes : 0;
   check_against_bytes(file, claim);
-  return {ImageFormat::meta_image, to_string(claim.type)};
+  return header_of(ImageFormat::meta_image, claim);
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <glm/vec3.hpp>
+
 #include <filesystem>
 #include <string>
 
@@ -11,6 +13,8 @@ namespace insonate {
 struct FileHeader {
   ImageFormat format = ImageFormat::nifti;
   std::string stored_as;  ///< the voxel type on disk, before any rescale: "int32"
+  glm::ivec3 size{0};
+  glm::dvec3 spacing{0.0};  ///< mm
 };
 
 /// Reads the header of a NIfTI, NRRD or MetaImage file, chosen by the name's ending, and holds what it claims against

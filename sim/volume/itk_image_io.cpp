@@ -11,7 +11,6 @@
 #include <itkNrrdImageIO.h>
 
 #include <algorithm>
-#include <cctype>
 #include <functional>
 #include <iostream>
 #include <new>
@@ -43,33 +42,17 @@ private:
   std::streambuf* cout_;
 };
 
-/// The part of ITK's explanation that is meant for people, on one line.
-std::string in_short(const itk::ExceptionObject& error) {
-  std::string text = error.GetDescription();
-  if (const auto start = text.find("): "); start != std::string::npos) text.erase(0, start + 3);
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return std::iscntrl(c) || c > 126; }, ' ');
-  text.erase(std::unique(text.begin(), text.end(), [](char a, char b) { return a == ' ' && b == ' '; }), text.end());
-  constexpr std::size_t kLongest = 160;
-  if (text.size() > kLongest) text = text.substr(0, kLongest) + "...";
-  return text.empty() ? "no reason given" : text;
-}
-
-/// Runs a call into ITK; whatever it throws becomes one sentence about the file.
+/// Runs a call into ITK. What it throws is its own program's matter, so it becomes one sentence about the file.
 template <typename Call>
-auto guarded(const std::filesystem::path& file, const std::string& what, Call call) {
+auto guarded(const std::filesystem::path& file, const std::string& place, const std::string& problem,
+             const std::string& remedy, Call call) {
   const Silence silence;
   try {
     return call();
-  } catch (const InputError&) {
-    throw;
-  } catch (const itk::ExceptionObject& error) {
-    throw InputError(file.string(), what, "it cannot be read (" + in_short(error) + ")", "export or copy it again");
   } catch (const std::bad_alloc&) {
-    throw InputError(file.string(), what, "there is not enough memory for it", "resample it to fewer voxels");
-  } catch (const std::exception& error) {
-    throw InputError(file.string(), what, std::string("it cannot be read (") + error.what() + ")",
-                     "export or copy it again");
+    throw InputError(file.string(), place, "there is not enough memory for it", "resample it to fewer voxels");
+  } catch (const std::exception&) {
+    throw InputError(file.string(), place, problem, remedy);
   }
 }
 
@@ -86,6 +69,8 @@ itk::ImageIOBase::Pointer make_reader(ImageFormat format) {
   }
   return itk::GDCMImageIO::New().GetPointer();
 }
+
+const char* const kExportUncompressed = "export it again, uncompressed";
 
 using Itk = itk::IOComponentEnum;
 
@@ -104,7 +89,7 @@ VoxelType integer_type() {
   }
 }
 
-VoxelType from_itk(const std::filesystem::path& file, Itk component) {
+VoxelType from_itk(Itk component) {
   switch (component) {
     case Itk::CHAR:
       return VoxelType::int8;
@@ -128,13 +113,9 @@ VoxelType from_itk(const std::filesystem::path& file, Itk component) {
       return VoxelType::uint64;
     case Itk::FLOAT:
       return VoxelType::float32;
-    case Itk::DOUBLE:
+    default:  // a double: file headers with other types are refused before, and DICOM has no others
       return VoxelType::float64;
-    default:
-      break;
   }
-  throw InputError(file.string(), "header", "the voxels are neither integers of 8 to 64 bits nor floats",
-                   "convert it to int16");
 }
 
 Itk to_itk(VoxelType type) {
@@ -181,13 +162,16 @@ struct ImageFile::Reader {
 };
 
 ImageFile::ImageFile(const std::filesystem::path& file, ImageFormat format) : reader_(new Reader), file_(file) {
-  guarded(file, "header", [&] {
+  const bool dicom = format == ImageFormat::dicom;
+  const std::string problem = dicom ? "the header of its image is damaged or of a kind that is not read here"
+                                    : "it gives an orientation or another field that its format does not allow";
+  guarded(file, "header", problem, dicom ? kExportUncompressed : "save it again as NRRD by 3D Slicer", [&] {
     reader_->itk = make_reader(format);
     reader_->itk->SetFileName(file.string());
     reader_->itk->ReadImageInformation();
     const auto& io = *reader_->itk;
     components_ = int(io.GetNumberOfComponents());
-    type_ = from_itk(file, io.GetComponentType());
+    type_ = from_itk(io.GetComponentType());
     for (unsigned a = 0; a < io.GetNumberOfDimensions(); ++a)
       axes_.push_back({io.GetDimensions(a), io.GetSpacing(a), io.GetOrigin(a), io.GetDirection(a)});
   });
@@ -196,7 +180,8 @@ ImageFile::ImageFile(const std::filesystem::path& file, ImageFormat format) : re
 ImageFile::~ImageFile() = default;
 
 std::unique_ptr<std::byte[]> ImageFile::read_voxels() {
-  return guarded(file_, "voxels", [&] {
+  const std::string problem = "the voxels are damaged or packed in a way that is not read here";
+  return guarded(file_, "voxels", problem, kExportUncompressed, [&] {
     auto& io = *reader_->itk;
     itk::ImageIORegion whole(io.GetNumberOfDimensions());
     for (unsigned a = 0; a < io.GetNumberOfDimensions(); ++a) whole.SetSize(a, io.GetDimensions(a));
@@ -231,9 +216,8 @@ void write_nrrd(const std::filesystem::path& file, const Grid& grid, VoxelType t
       }
       io->SetIORegion(whole);
       io->Write(voxels);
-    } catch (const itk::ExceptionObject& error) {
-      throw InputError(file.string(), "", "it cannot be written (" + in_short(error) + ")",
-                       "check the folder's permissions and free space");
+    } catch (const itk::ExceptionObject&) {
+      throw InputError(file.string(), "", "it cannot be written", "check the folder's permissions and free space");
     }
   });
 }

@@ -22,7 +22,7 @@ enum class ImageFormat { nifti, nrrd, meta_image, dicom };
 
 /// An image file as ITK reads it, one dimension after the other as they are stored, not yet judged: sizes may be absurd
 /// and directions singular. Positions and directions are in LPS. ITK stays behind this class: its headers, its
-/// exceptions (each becomes an InputError) and its warnings (none are printed).
+/// exceptions (each becomes an InputError of other words) and its warnings (none are printed).
 class ImageFile {
 public:
   /// Reads the header and not a voxel.

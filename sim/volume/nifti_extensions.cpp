@@ -1,4 +1,4 @@
-// https://nifti.nimh.nih.gov, nifti1.h and nifti2.h: after the header four bytes, of which the first is not 0 when
+// https://nifti.nimh.nih.gov, nifti1.h: after the header four bytes, of which the first is not 0 when
 // extensions follow; each is its size in bytes (with these 8, a multiple of 16), its code, and its content.
 #include "sim/volume/nifti_extensions.h"
 
@@ -16,7 +16,7 @@
 namespace insonate {
 namespace {
 
-constexpr std::size_t kNifti1Bytes = 348, kNifti2Bytes = 540;
+constexpr std::size_t kHeaderBytes = 348;
 constexpr std::size_t kMostBytes = std::size_t(16) << 20;
 
 template <typename T>
@@ -41,27 +41,19 @@ std::vector<std::string> read_nifti_extensions(const std::filesystem::path& file
     bytes.resize(had + std::size_t(std::max(got, 0)));
     return bytes.size() == end;
   };
-  if (!read_to(kNifti1Bytes + 4)) return {};
+  if (!read_to(kHeaderBytes + 4)) return {};
 
-  std::size_t at = 0;
-  double voxels_at = 0;
   bool swapped = false;
-  for (const bool other_order : {false, true}) {
-    const auto length = number_at<std::uint32_t>(bytes, 0, other_order);
-    if (length != kNifti1Bytes && length != kNifti2Bytes) continue;
-    swapped = other_order;
-    at = length;
-    voxels_at = length == kNifti1Bytes ? double(number_at<float>(bytes, 108, swapped))
-                                       : double(number_at<std::int64_t>(bytes, 168, swapped));
-  }
-  if (at == 0 || !read_to(at + 4) || bytes[at] == 0) return {};
-  at += 4;
+  if (number_at<std::uint32_t>(bytes, 0, swapped) != kHeaderBytes) swapped = true;
+  if (number_at<std::uint32_t>(bytes, 0, swapped) != kHeaderBytes || bytes[kHeaderBytes] == 0) return {};
+  const double voxels_at = double(number_at<float>(bytes, 108, swapped));
 
   const auto refuse = [&](const std::string& problem) {
     throw InputError(file.string(), "header extension", problem, "write the file again");
   };
   if (!(voxels_at <= double(kMostBytes))) refuse("the header claims that the voxels begin beyond 16 MiB");
   std::vector<std::string> extensions;
+  std::size_t at = kHeaderBytes + 4;
   while (double(at) + 8 <= voxels_at) {
     if (!read_to(at + 8)) refuse("the file ends within it");
     const std::int32_t size = number_at<std::int32_t>(bytes, at, swapped);

@@ -14,8 +14,14 @@ namespace {
 
 constexpr double kLeastSpacingMm = 1e-3, kMostSpacingMm = 100;
 constexpr double kFurthestOriginMm = 1e6;
+// A probe's face is longer than the one, no scanner's table than the other.
+constexpr double kLeastBodyMm = 20, kMostBodyMm = 3000;
 // Directions are often stored with 6 decimals, and as cosines of small angles lose a digit or two more.
 constexpr double kOrthogonalTolerance = 1e-3;
+
+// A CT of 4096 densities stored over all values of 32 bits has a slope of 1e-6, stored in 8 bits one of 16.
+constexpr double kLeastSlope = 1e-9, kMostSlope = 1e4, kMostIntercept = 1e5;
+const char* const kRescaleRemedy = "correct the header, or export the CT again in Hounsfield units";
 
 std::string with_number(double value) {
   char text[32];
@@ -32,13 +38,39 @@ std::string with_number(double value) {
 void check_size(const std::string& file, std::uint64_t i, std::uint64_t j, std::uint64_t k) {
   const std::string sizes = std::to_string(i) + " x " + std::to_string(j) + " x " + std::to_string(k) + " voxels";
   for (const std::uint64_t side : {i, j, k}) {
-    if (side < 2) refuse(file, "it claims " + sizes + ", which is no volume", "give a 3D volume of 2 or more slices");
+    if (side < 2)
+      refuse(file, "it claims " + sizes + ", which is not a volume", "give a 3D volume of 2 or more slices");
     if (side > kMostVoxelsASide)
       refuse(file, "it claims " + sizes + ", above the limit of " + std::to_string(kMostVoxelsASide) + " a side",
              "check that the file is whole, or crop it");
   }
   if (i * j * k > kMostVoxels)
     refuse(file, "it claims " + sizes + ", above the limit of 2^31 in all", "resample it to fewer voxels");
+}
+
+void check_body_size(const std::string& file, const glm::ivec3& voxels, const glm::dvec3& spacing) {
+  const glm::dvec3 size = glm::dvec3(voxels) * spacing;
+  for (int a = 0; a < 3; ++a)
+    if (size[a] < kLeastBodyMm || size[a] > kMostBodyMm)
+      refuse(file,
+             "the volume measures " + with_number(size.x) + " x " + with_number(size.y) + " x " + with_number(size.z) +
+                 " mm, where a body has " + with_number(kLeastBodyMm) + " to " + with_number(kMostBodyMm) +
+                 " mm along each axis",
+             "is its spacing in mm, and not in another unit?");
+}
+
+void check_rescale(const std::string& file, const std::string& slope_name, double slope,
+                   const std::string& intercept_name, double intercept) {
+  if (!(slope >= kLeastSlope && slope <= kMostSlope))
+    refuse(file,
+           "its " + slope_name + " is " + with_number(slope) + ", where a CT has one from " + with_number(kLeastSlope) +
+               " to " + with_number(kMostSlope),
+           kRescaleRemedy);
+  if (!(std::abs(intercept) <= kMostIntercept))
+    refuse(file,
+           "its " + intercept_name + " is " + with_number(intercept) + ", where a CT has one within +-" +
+               with_number(kMostIntercept),
+           kRescaleRemedy);
 }
 
 Grid checked_grid(const std::string& file, Grid grid) {
@@ -49,15 +81,16 @@ Grid checked_grid(const std::string& file, Grid grid) {
              "give a spacing from 0.001 to 100 mm");
     if (!(std::abs(grid.origin[a]) <= kFurthestOriginMm))
       refuse(file, "the origin is at " + with_number(grid.origin[a]) + " mm", "correct the origin");
-    for (int r = 0; r < 3; ++r)
-      if (!std::isfinite(grid.direction[a][r]))
-        refuse(file, "the direction matrix holds a number that is not finite", "correct the orientation");
   }
   const glm::dmat3 excess = glm::transpose(grid.direction) * grid.direction - glm::dmat3(1.0);
   double worst = 0;
+  bool orthogonal = true;  // false for what is not a number, too
   for (int c = 0; c < 3; ++c)
-    for (int r = 0; r < 3; ++r) worst = std::max(worst, std::abs(excess[c][r]));
-  if (worst > kOrthogonalTolerance) {
+    for (int r = 0; r < 3; ++r) {
+      worst = std::max(worst, std::abs(excess[c][r]));
+      orthogonal &= std::abs(excess[c][r]) <= kOrthogonalTolerance;
+    }
+  if (!orthogonal) {
     const double determinant = glm::determinant(grid.direction);
     if (std::abs(determinant) < kOrthogonalTolerance) refuse(file, "the direction matrix is singular", "correct it");
     refuse(file, "the axes are not orthogonal: they stretch or shear by " + with_number(worst),
@@ -79,9 +112,6 @@ Grid checked_grid(const std::string& file, const ImageFile& image) {
   if (dimensions != 3)
     refuse(file, "the image has " + std::to_string(dimensions) + " dimensions",
            dimensions < 3 ? "give a 3D volume" : "save one time point of it");
-  if (image.components() != 1)
-    refuse(file, "each voxel has " + std::to_string(image.components()) + " components, as in colour images",
-           "give a volume with one number a voxel");
   check_size(file, axes[0].size, axes[1].size, axes[2].size);
   Grid grid;
   for (int a = 0; a < 3; ++a) {

@@ -15,7 +15,7 @@
 namespace insonate {
 
 inline const std::string kBallRecipe = R"(name = "Ball"
-grid = { from = [0, 0, 0], to = [24, 20, 16], voxel_mm = 1 }
+grid = { from = [0, 0, 0], to = [24, 20, 20], voxel_mm = 1 }
 options.radius_mm = { default = 6, least = 1, most = 9, about = "a radius" }
 labels = [{ name = "ball", tissue = "liver", hu = 60 }]
 shapes = [{ name = "ball", kind = "ellipsoid", centre = [12, 10, 8], radii = [7, 7, "radius_mm"], label = "ball" }]

@@ -62,7 +62,7 @@ TEST_CASE("insonate-case inspect tells what a case holds") {
   const Json about = place.inspect(place.made);
   CHECK(about["format"] == "case");
   CHECK(about["name"] == "Ball");
-  CHECK(about["size"] == Json({24, 20, 16}));
+  CHECK(about["size"] == Json({24, 20, 20}));
   CHECK(about["orientation"] == "LPS");
   CHECK(about["hu"]["most"] == 60);
   CHECK(about["hu"]["least"] == -1000);
@@ -73,7 +73,7 @@ TEST_CASE("insonate-case inspect tells what a case holds") {
 
   const Outcome words = place.run("inspect " + place.made.string());
   CHECK(words.code == 0);
-  for (const char* part : {"24 x 20 x 16 voxels", "i to the left, j to the back, k to the head", "From the front"})
+  for (const char* part : {"24 x 20 x 20 voxels", "i to the left, j to the back, k to the head", "From the front"})
     CHECK(contains(words.output, part));
 }
 
@@ -84,7 +84,7 @@ TEST_CASE("insonate-case inspect tells what a CT file holds") {
   CHECK(about["format"] == "NRRD");
   CHECK(about["stored_as"] == "int16");
   CHECK(about["clamped_voxels"] == 0);
-  CHECK(about["size"] == Json({24, 20, 16}));
+  CHECK(about["size"] == Json({24, 20, 20}));
   CHECK_FALSE(about.contains("labels"));
 }
 
@@ -94,8 +94,9 @@ TEST_CASE("insonate-case inspect tells what a DICOM folder holds, and the series
   fs::create_directories(folder);
   DicomSlice slice;
   slice.stored.assign(std::size_t(slice.columns) * std::size_t(slice.rows), 1084);  // 60 HU
+  slice.stored[0] = 24;                                                             // air
   for (int k = 0; k < 5; ++k) {
-    slice.position = {-20, -30, 100 + 2.5 * k};
+    slice.position = {-20, -30, 100 + 5.0 * k};
     write_dicom(folder / ("a" + std::to_string(k) + ".dcm"), slice);
   }
   slice.series = "1.2.3.5";
@@ -107,7 +108,7 @@ TEST_CASE("insonate-case inspect tells what a DICOM folder holds, and the series
   const Json about = place.inspect(folder);
   CHECK(about["format"] == "DICOM series");
   CHECK(about["size"] == Json({8, 6, 5}));
-  CHECK(about["spacing_mm"][2].get<double>() == Approx(2.5));
+  CHECK(about["spacing_mm"][2].get<double>() == Approx(5));
   CHECK(about["hu"]["percentiles"]["50"] == 60);
   REQUIRE(about["other_series"].size() == 1);
   CHECK(contains(about["other_series"][0].get<std::string>(), "SCOUT"));

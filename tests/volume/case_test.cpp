@@ -110,6 +110,51 @@ TEST_CASE("a case's numbers come back to the bit, the sign of zero too") {
   CHECK(same(read.landmarks[0].position, written.landmarks[0].position));
 }
 
+TEST_CASE("a case may be of any size and density, a person's CT may not") {
+  const TemporaryFolder folder;
+  Case subject = small_case();
+  std::fill(subject.ct.voxels.begin(), subject.ct.voxels.end(), std::int16_t(0));
+  write_case(folder.path / "case", subject);
+  CHECK(read_case(folder.path / "case").ct.voxels == subject.ct.voxels);
+  CHECK_THROWS_WITH(read_ct(folder.path / "case" / "ct.nrrd"), Catch::Contains("is its spacing in mm"));
+}
+
+TEST_CASE("a view goes to the end of a case's table, and one that cannot be read again does not") {
+  const TemporaryFolder folder;
+  const fs::path path = folder.path / "case", table = path / "case.toml";
+  const Case subject = small_case();
+  write_case(path, subject);
+  folder.put("case/case.toml", read_file(table) + "# a remark");  // without an end of line
+  ReferenceView view = subject.views[0];
+  CHECK_THROWS_WITH(append_view(path, view), Catch::Contains("the name 'hepatorenal' is taken"));
+  view.name = "second";
+  append_view(path, view);
+  CHECK(read_file(table).find("# a remark\n") != std::string::npos);
+  const Case read = read_case(path);
+  REQUIRE(read.views.size() == 2);
+  CHECK(read.views[1].name == "second");
+  view.name = "third";
+  view.targets = {"spleen"};
+  const std::string before = read_file(table);
+  CHECK_THROWS_WITH(append_view(path, view), Catch::Contains("no label is called 'spleen'"));
+  CHECK(read_file(table) == before);
+}
+
+TEST_CASE("a case whose folder cannot be made or replaced is refused, and an older one stays") {
+  const TemporaryFolder folder;
+  const Case subject = small_case();
+  // File systems take names of 255 bytes. Beside the folder goes ".NAME.PID.partial", and the older one takes ".old".
+  const std::size_t longest = 255 - (2 + std::to_string(getpid()).size() + std::string(".partial").size());
+  const auto of_length = [&](std::size_t length) { return folder.path / std::string(length, 'c'); };
+  CHECK_THROWS_WITH(write_case(of_length(longest + 1), subject),
+                    Catch::Contains("the folder cannot be made (File name"));
+  write_case(of_length(longest), subject);
+  CHECK_THROWS_WITH(write_case(of_length(longest), subject),
+                    Catch::Contains("it cannot be written (File name too long)"));
+  CHECK(read_case(of_length(longest)).name == subject.name);
+  CHECK(std::distance(fs::directory_iterator(folder.path), fs::directory_iterator()) == 1);
+}
+
 TEST_CASE("a case without labels is a case") {
   const TemporaryFolder folder;
   Case subject = small_case();
@@ -171,7 +216,7 @@ TEST_CASE("a case that cannot be used is refused with the place and the reason")
       {"ct = \"ct.nrrd\"", "ct = \"case.toml\"", "does not end as a volume's does"},
       {"ct = \"ct.nrrd\"", "ct = 3", "'ct' is no text"},
       {"labels = \"labels.nrrd\"", "", "there are labels but no label volume"},
-      {"labels = \"labels.nrrd\"", "labels = \"ct.nrrd\"", "no whole number from 0 to 255"},
+      {"labels = \"labels.nrrd\"", "labels = \"ct.nrrd\"", "not a whole number from 0 to 255"},
       {"value = 7", "value = 8", "holds the value 7, which no [[label]] names"},
       {"value = 7", "value = 0", "[[label]] 1: 'value' is 0"},
       {"value = 7", "value = 256", "'value' is 256"},

@@ -106,7 +106,7 @@ TEST_CASE("each format gives the same volume whatever the type and packing of it
       CHECK(source.stored_as == type.name);
       CHECK(source.clamped == 0);
       CHECK(ct.grid.size == glm::ivec3(4, 3, 2));
-      CHECK(glm::distance(ct.grid.spacing, glm::dvec3(1, 2, 3)) < 1e-9);
+      CHECK(glm::distance(ct.grid.spacing, glm::dvec3(10, 20, 30)) < 1e-9);
       CHECK(ct.voxels == hu_counting());
     }
   }
@@ -115,12 +115,12 @@ TEST_CASE("each format gives the same volume whatever the type and packing of it
 TEST_CASE("values are rescaled, rounded and brought into the Hounsfield range") {
   const TemporaryFolder folder;
   NiftiSpec spec;
-  spec.slope = 2;
+  spec.slope = 50;
   spec.inter = -1000;
   CtSource source;
   auto ct = read_bytes(folder, "a.nii", nifti(spec, bytes_of_values(hu_counting())), &source);
   CHECK(source.stored_as == "int16");
-  for (std::size_t v = 0; v < 24; ++v) CHECK(ct.voxels[v] == int(v) * 2 - 1000);
+  for (std::size_t v = 0; v < 24; ++v) CHECK(ct.voxels[v] == int(v) * 50 - 1000);
 
   std::vector<double> values(24, 0.0);
   values[0] = -3024;  // what some scanners write outside their field of view
@@ -143,19 +143,19 @@ TEST_CASE("a file's axes are honoured, in each format's own convention") {
   const std::string voxels = bytes_of_values(hu_counting());
   // In LPS, axis i runs to the head, j to the right, k to the front; corner at (10, 20, 30).
   glm::dmat4 expected(0.0);
-  expected[0] = glm::dvec4(0, 0, 1, 0);
-  expected[1] = glm::dvec4(-2, 0, 0, 0);
-  expected[2] = glm::dvec4(0, -3, 0, 0);
+  expected[0] = glm::dvec4(0, 0, 10, 0);
+  expected[1] = glm::dvec4(-20, 0, 0, 0);
+  expected[2] = glm::dvec4(0, -30, 0, 0);
   expected[3] = glm::dvec4(10, 20, 30, 1);
 
   NiftiSpec spec;  // RAS: x and y change sign
-  spec.sform = {0, 2, 0, -10, 0, 0, 3, -20, 1, 0, 0, 30};
+  spec.sform = {0, 20, 0, -10, 0, 0, 30, -20, 10, 0, 0, 30};
   CHECK(most_apart(read_bytes(folder, "a.nii", nifti(spec, voxels)).grid.matrix(), expected) < 1e-5);
 
-  auto lines = with_line(nrrd_lines(), "space directions", "space directions: (0,0,1) (-2,0,0) (0,-3,0)");
+  auto lines = with_line(nrrd_lines(), "space directions", "space directions: (0,0,10) (-20,0,0) (0,-30,0)");
   CHECK(most_apart(read_bytes(folder, "a.nrrd", nrrd(lines, voxels)).grid.matrix(), expected) < 1e-9);
   lines = with_line(lines, "space: ", "space: right-anterior-superior");
-  lines = with_line(lines, "space directions", "space directions: (0,0,1) (2,0,0) (0,3,0)");
+  lines = with_line(lines, "space directions", "space directions: (0,0,10) (20,0,0) (0,30,0)");
   lines = with_line(lines, "space origin", "space origin: (-10,-20,30)");
   CHECK(most_apart(read_bytes(folder, "a.nrrd", nrrd(lines, voxels)).grid.matrix(), expected) < 1e-9);
 
@@ -167,7 +167,7 @@ TEST_CASE("every right-angled and any oblique orientation survives writing and r
   const TemporaryFolder folder;
   Volume<std::int16_t> ct;
   ct.grid.size = {4, 3, 2};
-  ct.grid.spacing = {0.5, 1.25, 3};
+  ct.grid.spacing = {5.5, 12.25, 30};
   ct.grid.origin = {-101.5, 7.25, 1000.125};
   ct.voxels = hu_counting();
   std::array<int, 3> order{0, 1, 2};
@@ -203,7 +203,7 @@ TEST_CASE("labels are whole numbers from 0 to 255 of any stored type") {
   CHECK(read(values).voxels[5] == 255);
   for (const float bad : {-1.0f, 256.0f, 0.5f, std::numeric_limits<float>::quiet_NaN()}) {
     values[5] = bad;
-    CHECK_THROWS_WITH(read(values), Catch::Contains("voxel (1, 1, 0)") && Catch::Contains("no whole number"));
+    CHECK_THROWS_WITH(read(values), Catch::Contains("voxel (1, 1, 0)") && Catch::Contains("not a whole number"));
   }
   Volume<std::uint8_t> labels{read(std::vector<float>(24, 3)).grid, counting<std::uint8_t>()};
   write_labels(folder.path / "b.nrrd", labels);

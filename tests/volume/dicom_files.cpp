@@ -7,6 +7,7 @@
 #include <gdcmWriter.h>
 
 #include <cstring>
+#include <functional>
 #include <stdexcept>
 
 namespace insonate {
@@ -28,6 +29,8 @@ gdcm::TransferSyntax::TSType transfer_syntax(DicomCoding coding) {
       return gdcm::TransferSyntax::JPEG2000Lossless;
     case DicomCoding::rle:
       return gdcm::TransferSyntax::RLELossless;
+    case DicomCoding::big_endian:
+      return gdcm::TransferSyntax::ExplicitVRBigEndian;
   }
   return gdcm::TransferSyntax::ExplicitVRLittleEndian;
 }
@@ -37,6 +40,36 @@ void set_text(gdcm::DataSet& data, const std::string& text) {
   gdcm::Attribute<group, element> attribute;
   attribute.SetValue(text);
   data.Replace(attribute.GetAsDataElement());
+}
+
+void changed_file(const std::filesystem::path& file, const std::function<void(gdcm::File&)>& change) {
+  gdcm::Reader reader;
+  reader.SetFileName(file.c_str());
+  must(reader.Read(), "read");
+  change(reader.GetFile());
+  gdcm::Writer writer;
+  writer.SetFile(reader.GetFile());
+  writer.SetFileName(file.c_str());
+  writer.CheckFileMetaInformationOff();
+  must(writer.Write(), "write");
+}
+
+void changed(const std::filesystem::path& file, const std::function<void(gdcm::DataSet&)>& change) {
+  changed_file(file, [&](gdcm::File& dicom) { change(dicom.GetDataSet()); });
+}
+
+gdcm::DataElement sequence_of(const gdcm::Tag& tag, const gdcm::DataSet& one) {
+  gdcm::Item item;
+  item.SetVLToUndefined();
+  item.SetNestedDataSet(one);
+  gdcm::SmartPointer<gdcm::SequenceOfItems> items = new gdcm::SequenceOfItems;
+  items->SetLengthToUndefined();
+  items->AddItem(item);
+  gdcm::DataElement sequence(tag);
+  sequence.SetVR(gdcm::VR::SQ);
+  sequence.SetValue(*items);
+  sequence.SetVLToUndefined();
+  return sequence;
 }
 
 }  // namespace
@@ -88,16 +121,38 @@ void write_dicom(const std::filesystem::path& file, const DicomSlice& slice) {
   must(writer.Write(), "write");
 }
 
+void set_tag(const std::filesystem::path& file, std::uint16_t group, std::uint16_t element, const std::string& bytes) {
+  changed(file, [&](gdcm::DataSet& data) {
+    must(data.FindDataElement(gdcm::Tag(group, element)), "find the element");
+    gdcm::DataElement changed_element = data.GetDataElement(gdcm::Tag(group, element));
+    const std::string even = bytes + std::string(bytes.size() % 2, ' ');
+    changed_element.SetByteValue(even.data(), std::uint32_t(even.size()));
+    data.Replace(changed_element);
+  });
+}
+
+void set_kind(const std::filesystem::path& file, const std::string& sop_class) {
+  changed_file(file, [&](gdcm::File& dicom) {
+    set_text<0x0008, 0x0016>(dicom.GetDataSet(), sop_class);
+    set_text<0x0002, 0x0002>(dicom.GetHeader(), sop_class);
+  });
+}
+
 void remove_tag(const std::filesystem::path& file, std::uint16_t group, std::uint16_t element) {
-  gdcm::Reader reader;
-  reader.SetFileName(file.c_str());
-  must(reader.Read(), "read");
-  reader.GetFile().GetDataSet().Remove(gdcm::Tag(group, element));
-  gdcm::Writer writer;
-  writer.SetFile(reader.GetFile());
-  writer.SetFileName(file.c_str());
-  writer.CheckFileMetaInformationOff();
-  must(writer.Write(), "write");
+  changed(file, [&](gdcm::DataSet& data) { data.Remove(gdcm::Tag(group, element)); });
+}
+
+void move_rescale(const std::filesystem::path& file, std::uint16_t groups) {
+  changed(file, [&](gdcm::DataSet& data) {
+    gdcm::DataSet rescale;
+    for (const gdcm::Tag& tag : {gdcm::Tag(0x0028, 0x1052), gdcm::Tag(0x0028, 0x1053)}) {
+      rescale.Insert(data.GetDataElement(tag));
+      data.Remove(tag);
+    }
+    gdcm::DataSet group;
+    group.Insert(sequence_of({0x0028, 0x9145}, rescale));
+    data.Insert(sequence_of({0x5200, groups}, group));
+  });
 }
 
 }  // namespace insonate

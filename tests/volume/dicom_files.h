@@ -8,7 +8,7 @@
 
 namespace insonate {
 
-enum class DicomCoding { raw, jpeg, jpeg_ls, jpeg_2000, rle };
+enum class DicomCoding { raw, jpeg, jpeg_ls, jpeg_2000, rle, big_endian };
 
 /// One slice of a DICOM series, as a scanner would store it; written by GDCM.
 struct DicomSlice {
@@ -20,13 +20,23 @@ struct DicomSlice {
   int columns = 8, rows = 6;
   std::array<double, 3> position{0, 0, 0};
   std::array<double, 6> orientation{1, 0, 0, 0, 1, 0};
-  double between_columns_mm = 0.7, between_rows_mm = 0.8;
+  double between_columns_mm = 3.5, between_rows_mm = 4;
   double slope = 1, intercept = -1024;
   std::vector<std::uint16_t> stored;  ///< rows x columns
   DicomCoding coding = DicomCoding::raw;
 };
 
 void write_dicom(const std::filesystem::path& file, const DicomSlice& slice);
+
+/// Gives an element of a DICOM file, one that it has, other bytes.
+void set_tag(const std::filesystem::path& file, std::uint16_t group, std::uint16_t element, const std::string& bytes);
+
+/// Makes a DICOM file one of another kind, by its SOP class.
+void set_kind(const std::filesystem::path& file, const std::string& sop_class);
+
+/// Moves a file's rescale from the top of its data set to where images of the enhanced kind have it: to the functional
+/// groups (5200,`groups`), shared (9229) or per frame (9230).
+void move_rescale(const std::filesystem::path& file, std::uint16_t groups);
 
 /// Takes a tag out of a DICOM file.
 void remove_tag(const std::filesystem::path& file, std::uint16_t group, std::uint16_t element);

@@ -17,7 +17,9 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kSlices = 5;
-constexpr double kGapMm = 2.5;
+constexpr double kGapMm = 5;
+const char* const kReport = "1.2.840.10008.5.1.4.1.1.88.11";
+const char* const kEnhancedCtImage = "1.2.840.10008.5.1.4.1.1.2.1";
 
 /// Slice `s` of a small series; its stored values tell voxel and slice apart.
 DicomSlice small_slice(int s) {
@@ -31,12 +33,17 @@ std::int16_t expected_hu(int i, int j, int k) {
   return std::int16_t(1000 + k * 100 + j * 8 + i - 1024);
 }
 
-/// Writes the series with file names in an order that says nothing; `change` may alter or, returning false, leave out.
+/// The file of slice `s`; the names are in an order that says nothing.
+fs::path file_of(const fs::path& folder, int s) {
+  return folder / ("IM" + std::to_string((s * 3 + 1) % kSlices));
+}
+
+/// Writes the series; `change` may alter or, returning false, leave out.
 void write_series(const fs::path& folder, const std::function<bool(int, DicomSlice&)>& change = {}) {
   fs::create_directories(folder);
   for (int s = 0; s < kSlices; ++s) {
     DicomSlice slice = small_slice(s);
-    if (!change || change(s, slice)) write_dicom(folder / ("IM" + std::to_string((s * 3 + 1) % kSlices)), slice);
+    if (!change || change(s, slice)) write_dicom(file_of(folder, s), slice);
   }
 }
 
@@ -61,8 +68,8 @@ std::string why_refused(const fs::path& folder) {
 }  // namespace
 
 TEST_CASE("a DICOM series is the same volume in every coding") {
-  for (const DicomCoding coding :
-       {DicomCoding::raw, DicomCoding::jpeg, DicomCoding::jpeg_ls, DicomCoding::jpeg_2000, DicomCoding::rle}) {
+  for (const DicomCoding coding : {DicomCoding::raw, DicomCoding::big_endian, DicomCoding::jpeg, DicomCoding::jpeg_ls,
+                                   DicomCoding::jpeg_2000, DicomCoding::rle}) {
     INFO("coding " << int(coding));
     const TemporaryFolder folder;
     write_series(folder.path, [&](int, DicomSlice& slice) {
@@ -74,7 +81,7 @@ TEST_CASE("a DICOM series is the same volume in every coding") {
     CHECK(source.format == "DICOM series");
     CHECK(source.other_series.empty());
     check_voxels(ct);
-    CHECK(glm::distance(ct.grid.spacing, glm::dvec3(0.7, 0.8, kGapMm)) < 1e-9);
+    CHECK(glm::distance(ct.grid.spacing, glm::dvec3(3.5, 4, kGapMm)) < 1e-9);
     CHECK(glm::distance(ct.grid.origin, glm::dvec3(-10, 20, 100)) < 1e-9);
   }
 }
@@ -102,7 +109,7 @@ TEST_CASE("DICOM orientations are honoured, upright and oblique") {
   });
   const Volume<std::int16_t> coronal = read_ct(folder.path / "coronal");
   check_voxels(coronal);
-  CHECK(glm::distance(coronal.grid.patient_from_index({1, 2, 3}), glm::dvec3(-9.3, 27.5, 98.4)) < 1e-6);
+  CHECK(glm::distance(coronal.grid.patient_from_index({1, 2, 3}), glm::dvec3(-6.5, 35, 92)) < 1e-6);
 
   const double tilt = glm::radians(20.0);
   write_series(folder.path / "oblique", [&](int s, DicomSlice& slice) {
@@ -156,8 +163,8 @@ TEST_CASE("a DICOM folder that gives no whole volume is refused with the reason"
     const char* told;
     Change change;
   } cases[] = {
-      {"slices are missing between IM2 and IM3: 5 mm instead of 2.5 mm", [](int s, DicomSlice&) { return s != 3; }},
-      {"unevenly spaced", [](int s, DicomSlice& slice) { return slice.position[2] += s == 2 ? 0.5 : 0, true; }},
+      {"slices are missing between IM2 and IM3: 10 mm instead of 5 mm", [](int s, DicomSlice&) { return s != 3; }},
+      {"unevenly spaced", [](int s, DicomSlice& slice) { return slice.position[2] += s == 2 ? 1 : 0, true; }},
       {"two slices lie at the same place",
        [](int s, DicomSlice& slice) {
          if (s == 2) slice.position[2] -= kGapMm, slice.instance = "1.2.3.9";
@@ -168,11 +175,17 @@ TEST_CASE("a DICOM folder that gives no whole volume is refused with the reason"
          slice.position[1] += s * kGapMm * std::tan(glm::radians(15.0));
          return true;
        }},
-      {"this is no CT", [](int, DicomSlice& slice) { return slice.modality = "MR", true; }},
-      {"no volume", [](int s, DicomSlice&) { return s == 0; }},
-      {"no volume", [](int s, DicomSlice& slice) { return slice.columns = 1, slice.rows = 48, s < 9; }},
-      {"pixel spacing differs",
-       [](int s, DicomSlice& slice) { return slice.between_rows_mm = s == 4 ? 0.9 : 0.8, true; }},
+      {"the slices are shifted sideways by 50 mm between IM2 and IM0",
+       [](int s, DicomSlice& slice) { return slice.position[0] += s == 3 ? 50 : 0, true; }},
+      {"header: the volume measures 28 x 24 x 0.025 mm, where a body has 20 to 3000 mm along each axis; is its spacing",
+       [](int s, DicomSlice& slice) { return slice.position[2] = s * 0.005, true; }},
+      {"voxels: all voxels have the same value, 60 HU",
+       [](int, DicomSlice& slice) { return slice.stored.assign(48, 1084), true; }},
+      {"this is not a CT", [](int, DicomSlice& slice) { return slice.modality = "MR", true; }},
+      {"not a volume", [](int s, DicomSlice&) { return s == 0; }},
+      {"not a volume", [](int s, DicomSlice& slice) { return slice.columns = 1, slice.rows = 48, s < 9; }},
+      {"its pixel spacing is 4.5\\3.5, and 4\\3.5 in the rest of series 3",
+       [](int s, DicomSlice& slice) { return slice.between_rows_mm = s == 4 ? 4.5 : 4, true; }},
   };
   for (const auto& bad : cases) {
     const TemporaryFolder folder;
@@ -188,16 +201,210 @@ TEST_CASE("a DICOM folder that gives no whole volume is refused with the reason"
     for (int f = 0; f < kSlices; ++f) remove_tag(folder.path / ("IM" + std::to_string(f)), group, element);
     return why_refused(folder.path);
   };
-  CHECK(without(0x0020, 0x0032).find("do not say where they lie") != std::string::npos);
-  CHECK(without(0x0020, 0x0037).find("how they are oriented") != std::string::npos);
+  CHECK(without(0x0020, 0x0032).find("do not give their positions") != std::string::npos);
+  CHECK(without(0x0020, 0x0037).find("the orientation of the slices is missing") != std::string::npos);
+  const auto with_orientation = [](const std::string& orientation) {
+    const TemporaryFolder folder;
+    write_series(folder.path);
+    for (int s = 0; s < kSlices; ++s) set_tag(file_of(folder.path, s), 0x0020, 0x0037, orientation);
+    return why_refused(folder.path);
+  };
+  for (const char* bad : {"0\\0\\0\\0\\0\\0", "1\\0\\0\\0\\2\\0", "1\\0\\0\\0.6\\0.8\\0", "0\\0\\0\\0\\1\\0"})
+    CHECK(with_orientation(bad).find(std::string("the orientation of the slices is ") + bad +
+                                     ", which is not two perpendicular directions of length 1; export") !=
+          std::string::npos);
   CHECK(without(0x0028, 0x0030).find("pixel spacing") != std::string::npos);
   INFO(without(0x7fe0, 0x0010));
   CHECK(without(0x7fe0, 0x0010).find("voxels") != std::string::npos);
 }
 
+TEST_CASE("a DICOM image that does not give Hounsfield units is refused by name") {
+  using Change = std::function<void(const fs::path&)>;
+  const auto set = [](std::uint16_t element, const std::string& text) {
+    return [=](const fs::path& file) { set_tag(file, 0x0028, element, text); };
+  };
+  const struct {
+    const char* told;
+    Change change;
+  } cases[] = {
+      {"its rescale slope is missing and its rescale intercept -1024, so",
+       [](const fs::path& file) { remove_tag(file, 0x0028, 0x1053); }},
+      {"its rescale slope is 1 and its rescale intercept missing",
+       [](const fs::path& file) { remove_tag(file, 0x0028, 0x1052); }},
+      {"its rescale slope is missing and its rescale intercept missing", set(0x1052, "")},
+      {"and its rescale intercept nan", set(0x1052, "nan")},
+      {"its rescale slope is nan", set(0x1053, "nan")},
+      {"its rescale slope is one", set(0x1053, "one")},
+      {"its rescale slope is 1\\2", set(0x1053, "1\\2")},
+      {"its rescale slope is 1e400 and", set(0x1053, "1e400")},
+      {"its rescale slope is 1e+30, where a CT has one from 1e-09 to 10000", set(0x1053, "1e30")},
+      {"its rescale slope is 0, where", set(0x1053, "0")},
+      {"its rescale slope is -1, where", set(0x1053, "-1")},
+      {"its rescale intercept is 1e+30, where a CT has one within +-100000", set(0x1052, "1e30")},
+      {"its photometric interpretation is MONOCHROME1, where a CT has MONOCHROME2", set(0x0004, "MONOCHROME1")},
+      {"its photometric interpretation is PALETTE COLOR", set(0x0004, "PALETTE COLOR")},
+      {"its photometric interpretation is missing", set(0x0004, "")},
+      {"its rescale slope and intercept are not where its kind of image has them",
+       [](const fs::path& file) { move_rescale(file, 0x9229); }},
+  };
+  for (const auto& bad : cases)
+    for (const int s : {0, 2, kSlices - 1}) {
+      const TemporaryFolder folder;
+      write_series(folder.path);
+      const fs::path file = file_of(folder.path, s);
+      if (std::string(bad.told).find("slope is missing and its rescale intercept missing") != std::string::npos)
+        set_tag(file, 0x0028, 0x1053, "");
+      bad.change(file);
+      const std::string why = why_refused(folder.path);
+      INFO(bad.told << " in slice " << s << " -> " << why);
+      CHECK(why.find(file.string() + ": header: ") == 0);
+      CHECK(why.find(bad.told) != std::string::npos);
+    }
+}
+
+TEST_CASE("an enhanced DICOM image of one frame has its rescale in its functional groups") {
+  for (const std::uint16_t groups : {0x9229, 0x9230}) {
+    const TemporaryFolder folder;
+    write_series(folder.path);
+    for (int s = 0; s < kSlices; ++s) {
+      set_kind(file_of(folder.path, s), kEnhancedCtImage);
+      move_rescale(file_of(folder.path, s), groups);
+    }
+    INFO(why_refused(folder.path));
+    check_voxels(read_ct(folder.path));
+  }
+}
+
+TEST_CASE("enhanced DICOM images with their positions in groups, or several in a file, are refused as such") {
+  const TemporaryFolder folder;
+  write_series(folder.path);
+  for (int s = 0; s < kSlices; ++s) {
+    set_kind(file_of(folder.path, s), kEnhancedCtImage);
+    remove_tag(file_of(folder.path, s), 0x0020, 0x0032);
+  }
+  CHECK(why_refused(folder.path).find("these are enhanced images, which may hold several slices per file; convert") !=
+        std::string::npos);
+}
+
+TEST_CASE("no image of a DICOM series is left out without a word, whichever it is") {
+  const auto cut_to = [](const fs::path& file, std::size_t size) {
+    const std::string bytes = read_file(file).substr(0, size);
+    fs::remove(file);
+    std::ofstream(file, std::ios::binary) << bytes;
+  };
+  const auto position_of = [](const fs::path& file, const std::string& tag) { return read_file(file).find(tag); };
+  using Change = std::function<void(const fs::path&)>;
+  const struct {
+    const char* told;
+    Change change;
+  } cases[] = {
+      {": the file is empty, but it is named like the images of series 3", [&](const fs::path& f) { cut_to(f, 0); }},
+      {": this is not a DICOM file, but it is named like", [&](const fs::path& f) { cut_to(f, 100); }},
+      {": this is not a DICOM file, but it is named like",
+       [](const fs::path& f) { std::ofstream(f) << "Dear radiologist, please find enclosed the scan."; }},
+      {": the DICOM file is damaged", [&](const fs::path& f) { cut_to(f, 132); }},
+      {": the DICOM file is damaged", [&](const fs::path& f) { cut_to(f, 200); }},
+      {"header: the DICOM file is damaged or cut off before its image",
+       [&](const fs::path& f) {
+         cut_to(f, position_of(f, {"\x28\0\x10\0US", 6}));
+       }},
+      {"header: the DICOM file is damaged or cut off before its image",
+       [&](const fs::path& f) {
+         cut_to(f, position_of(f, {"\x28\0\x11\0US", 6}));
+       }},
+      {"header: its pixel spacing is missing, and 4\\3.5 in the rest of series 3",
+       [&](const fs::path& f) {
+         cut_to(f, position_of(f, {"\x28\0\x30\0", 4}));
+       }},
+      {"voxels: it holds no image of the size that its header gives",
+       [&](const fs::path& f) {
+         cut_to(f, position_of(f, {"\xe0\x7f\x10\0", 4}));
+       }},
+      {"voxels: the file ends before its image does", [&](const fs::path& f) { cut_to(f, fs::file_size(f) - 1); }},
+      {"header: its size is 7 x 6, and 8 x 6 in the rest of series 3",
+       [](const fs::path& f) { set_tag(f, 0x0028, 0x0011, std::string("\7\0", 2)); }},
+      {"header: its orientation is 1\\0\\0\\0\\0.866\\0.5, and 1\\0\\0\\0\\1\\0 in the rest of series 3",
+       [](const fs::path& f) { set_tag(f, 0x0020, 0x0037, "1\\0\\0\\0\\0.866\\0.5"); }},
+      {"header: its orientation is 0\\0\\0\\0\\0\\0, and",
+       [](const fs::path& f) { set_tag(f, 0x0020, 0x0037, "0\\0\\0\\0\\0\\0"); }},
+      {"header: its orientation is missing, and", [](const fs::path& f) { remove_tag(f, 0x0020, 0x0037); }},
+      {"header: its pixel spacing is 4\\4, and", [](const fs::path& f) { set_tag(f, 0x0028, 0x0030, "4\\4"); }},
+      {"header: it does not give its position, as the rest of series 3",
+       [](const fs::path& f) { set_tag(f, 0x0020, 0x0032, "nan\\0\\0"); }},
+  };
+  for (const auto& bad : cases)
+    for (const int s : {0, 2, kSlices - 1}) {
+      const TemporaryFolder folder;
+      write_series(folder.path);
+      const fs::path file = file_of(folder.path, s);
+      bad.change(file);
+      const std::string why = why_refused(folder.path);
+      INFO(bad.told << " in slice " << s << " -> " << why);
+      CHECK(why.find(file.string() + ": ") == 0);
+      CHECK(why.find(bad.told) != std::string::npos);
+    }
+}
+
+TEST_CASE("what only lies beside a DICOM series does not keep it from being read") {
+  const TemporaryFolder folder;
+  write_series(folder.path);
+  for (int s = 0; s < kSlices; ++s) fs::rename(file_of(folder.path, s), file_of(folder.path, s).string() + ".dcm");
+  // An operating system's notes, an empty marker, a report and a directory: the last two are DICOM without an image.
+  folder.put("._IM0.dcm", "");
+  folder.put("VERSION", "");
+  fs::create_directories(folder.path / "notes");
+  folder.put("notes/empty.dcm", "");
+  DicomSlice slice = small_slice(0);
+  slice.modality = "SR";
+  write_dicom(folder.path / "report.dcm", slice);
+  set_kind(folder.path / "report.dcm", kReport);
+  for (const std::uint16_t element : {0x0010, 0x0011}) remove_tag(folder.path / "report.dcm", 0x0028, element);
+  slice.modality = "CT";
+  // The same acquisition in another field of view, within the series.
+  for (int s = 0; s < 3; ++s) {
+    slice = small_slice(s);
+    slice.between_rows_mm = 2;
+    slice.instance = "1.2.3.7." + std::to_string(s);
+    write_dicom(folder.path / ("zoom" + std::to_string(s)), slice);
+  }
+  // Directions and spacing in other words.
+  set_tag(folder.path / "IM2.dcm", 0x0020, 0x0037, "1.0\\0.0\\0.0\\0\\1\\-0.0000001");
+  set_tag(folder.path / "IM2.dcm", 0x0028, 0x0030, "4.00\\3.50");
+  INFO(why_refused(folder.path));
+  CtSource source;
+  check_voxels(read_ct(folder.path, &source));
+  REQUIRE(source.other_series.size() == 1);
+  CHECK(source.other_series[0] == "series 3 'ABDOMEN 1.0' (CT, 3 images of 8 x 6)");
+
+  folder.put("lost.dcm", "");
+  CHECK(why_refused(folder.path).find((folder.path / "lost.dcm").string() + ": the file is empty") == 0);
+}
+
+TEST_CASE("a DICOM image in a coding that is not read here is refused by name") {
+  const TemporaryFolder folder;
+  write_series(folder.path, [](int, DicomSlice& slice) { return slice.coding = DicomCoding::jpeg, true; });
+  const fs::path file = file_of(folder.path, 0);
+  const std::string good = read_file(file);
+  const auto with = [&](const std::string& what, const std::string& by) {
+    const auto at = good.find(what);
+    REQUIRE(at != std::string::npos);
+    folder.put(file.filename().string(), std::string(good).replace(at, by.size(), by));
+    const std::string why = why_refused(folder.path);
+    INFO(why);
+    CHECK(why.find(file.string() + ": ") == 0);
+    return why;
+  };
+  // JPEG lossless becomes MPEG2, a video.
+  CHECK(with("1.2.840.10008.1.2.4.70", std::string("1.2.840.10008.1.2.4.100").substr(0, 22) + "0").find("header") !=
+        std::string::npos);
+  // The marker that begins the compressed image is lost.
+  CHECK(with("\xff\xd8\xff", std::string("\0\0\0", 3)).find("; export it again, uncompressed.") != std::string::npos);
+  CHECK(with("\xff\xd8\xff", std::string("\0\0\0", 3)).find("ITK") == std::string::npos);
+}
+
 TEST_CASE("a DICOM file cut anywhere or with bytes changed gives a volume or a reason") {
-  for (const DicomCoding coding :
-       {DicomCoding::raw, DicomCoding::jpeg, DicomCoding::jpeg_ls, DicomCoding::jpeg_2000, DicomCoding::rle}) {
+  for (const DicomCoding coding : {DicomCoding::raw, DicomCoding::big_endian, DicomCoding::jpeg, DicomCoding::jpeg_ls,
+                                   DicomCoding::jpeg_2000, DicomCoding::rle}) {
     INFO("coding " << int(coding));
     const TemporaryFolder folder;
     write_series(folder.path, [&](int, DicomSlice& slice) {

@@ -47,7 +47,10 @@ std::string nifti(const NiftiSpec& spec, const std::string& voxels) {
   put(bytes, 108, spec.vox_offset);
   put(bytes, 112, spec.slope);
   put(bytes, 116, spec.inter);
-  bytes[123] = 2;  // mm
+  put(bytes, 68, spec.intent);
+  bytes[123] = spec.units;
+  put(bytes, 252, spec.qform_code);
+  put(bytes, 256, spec.quaternion);
   put(bytes, 254, spec.sform_code);
   put(bytes, 280, spec.sform);
   bytes.replace(344, 4, spec.magic);
@@ -84,7 +87,7 @@ std::vector<std::string> nrrd_lines() {
           "dimension: 3",
           "space: left-posterior-superior",
           "sizes: 4 3 2",
-          "space directions: (1,0,0) (0,2,0) (0,0,3)",
+          "space directions: (10,0,0) (0,20,0) (0,0,30)",
           "kinds: domain domain domain",
           "endian: little",
           "encoding: raw",
@@ -99,7 +102,7 @@ std::vector<std::string> meta_lines() {
           "TransformMatrix = 1 0 0 0 1 0 0 0 1",
           "Offset = 10 20 30",
           "CenterOfRotation = 0 0 0",
-          "ElementSpacing = 1 2 3",
+          "ElementSpacing = 10 20 30",
           "DimSize = 4 3 2",
           "ElementType = MET_SHORT"};
 }

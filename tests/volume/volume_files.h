@@ -27,11 +27,15 @@ struct NiftiSpec {
   std::array<std::int16_t, 8> dim{3, 4, 3, 2, 1, 1, 1, 1};
   std::int16_t datatype = 4;  ///< int16
   std::int16_t bits = 16;
-  std::array<float, 8> pixdim{1, 1, 2, 3, 1, 1, 1, 1};
+  std::array<float, 8> pixdim{1, 10, 20, 30, 1, 1, 1, 1};
   float vox_offset = 352;
   float slope = 1, inter = 0;
+  char units = 2;           ///< mm
+  std::int16_t intent = 0;  ///< none
+  std::int16_t qform_code = 0;
+  std::array<float, 3> quaternion{};
   std::int16_t sform_code = 1;
-  std::array<float, 12> sform{1, 0, 0, 10, 0, 2, 0, 20, 0, 0, 3, 30};  ///< RAS, row by row
+  std::array<float, 12> sform{10, 0, 0, 10, 0, 20, 0, 20, 0, 0, 30, 30};  ///< RAS, row by row
   std::string magic = std::string("n+1\0", 4);
 };
 
@@ -47,7 +51,7 @@ std::string meta_image(const std::vector<std::string>& lines, const std::string&
 /// `lines` with the one that begins with `key` replaced, removed when `by` is empty, or added when there is none.
 std::vector<std::string> with_line(std::vector<std::string> lines, const std::string& key, const std::string& by);
 
-/// Lines for a volume of 4 x 3 x 2 voxels, 1 x 2 x 3 mm, int16, origin (10, 20, 30), axes as LPS.
+/// Lines for a volume of 4 x 3 x 2 voxels, 10 x 20 x 30 mm, int16, origin (10, 20, 30), axes as LPS.
 std::vector<std::string> nrrd_lines();
 std::vector<std::string> meta_lines();
 
