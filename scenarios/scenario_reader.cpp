@@ -11,6 +11,7 @@
 #include "sim/core/digest.h"
 #include "sim/core/files.h"
 #include "sim/core/suggest.h"
+#include "sim/core/toml_table.h"
 
 namespace insonate {
 namespace {
@@ -311,7 +312,7 @@ ReadScenario parse_every_variant(std::string_view text, const std::filesystem::p
   ReadScenario read;
   toml::table root;
   try {
-    root = toml::parse(text);
+    root = parse_toml_text(text);
   } catch (const toml::parse_error& error) {
     read.problems.push_back({{int(error.source().begin.line), int(error.source().begin.column)},
                              "this is no TOML: " + std::string(error.description()),
@@ -326,7 +327,7 @@ ReadScenario parse_every_variant(std::string_view text, const std::filesystem::p
     variants = read_variants(reader);
   }
   const auto read_with = [&](const Variant* variant) {
-    toml::table spelt = toml::parse(text);  // a copy would not know where in the text its values are
+    toml::table spelt = parse_toml_text(text);  // a copy would not know where in the text its values are
     if (variant) spell_out(spelt, *variant, read.problems);
     TableReader reader({&spelt}, "the scenario", read.problems);
     read.variants.push_back(read_tables(reader, variant));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <new>
 
 #include "scenarios/table_node.h"
 #include "sim/core/suggest.h"
@@ -30,11 +31,14 @@ TableReader::TableReader(const TableNode& table, std::string where, std::vector<
 
 TableReader::~TableReader() {
   if (ignores_others_) return;
-  const std::vector<std::string> known(asked_.begin(), asked_.end());
-  for (const auto& [key, node] : *table_->table)
-    if (!asked_.contains(std::string(key.str())))
-      problems_.push_back({place_of(key.source()), where_ + " has an unknown key '" + std::string(key.str()) + "'",
-                           suggest(key.str(), known)});
+  try {
+    for (const auto& [key, node] : *table_->table)
+      if (!asked_.contains(key.str()))
+        problems_.push_back({place_of(key.source()), where_ + " has an unknown key '" + std::string(key.str()) + "'",
+                             suggest(key.str(), {asked_.begin(), asked_.end()})});
+  } catch (const std::bad_alloc&) {
+    // A destructor cannot tell. Only a file with a mistake comes here, and whoever reads on needs memory too.
+  }
 }
 
 bool TableReader::has(const char* key) {

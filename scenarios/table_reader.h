@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <set>
@@ -75,7 +76,7 @@ private:
   std::unique_ptr<TableNode> table_;
   std::string where_;
   std::vector<ScenarioProblem>& problems_;
-  std::set<std::string> asked_;
+  std::set<std::string, std::less<>> asked_;
   bool ignores_others_ = false;
 };
 

@@ -1,12 +1,16 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <signal.h>
 
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <functional>
+#include <new>
 #include <string>
 
 #include "sim/core/input_error.h"
@@ -27,19 +31,36 @@ inline void refuse_unusable(const CLI::App& arguments) {
   for (const CLI::App* command : arguments.get_subcommands()) refuse_unusable(*command);
 }
 
+/// Throws InputError when not all that was printed has reached standard output.
+inline void finish_printing() {
+  errno = 0;
+  const bool failed = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
+  const std::string why = errno == 0 ? "" : std::string(" (") + std::strerror(errno) + ")";
+  if (failed)
+    throw InputError("standard output", "", "it cannot be written" + why, "make room, or send it to another file");
+}
+
 /// What every command-line program's main does around its work: parses the arguments, runs `work`, and turns what
 /// goes wrong into one sentence on standard error. Exit codes: 0 done, what `work` returns, 2 for input that cannot be
-/// used (wrong arguments too), 3 for a failure that is not the input's.
+/// used (wrong arguments and output that cannot be written too), 3 for a failure that is not the input's.
 inline int run_program(CLI::App& arguments, int argc, char** argv, const std::function<int()>& work) {
+  // A file that reaches the limit of its size is told in a sentence, as a full disk is, and ends no program.
+  signal(SIGXFSZ, SIG_IGN);
   try {
     arguments.parse(argc, argv);
     refuse_unusable(arguments);
-    return work();
+    const int code = work();
+    finish_printing();
+    return code;
   } catch (const CLI::ParseError& error) {
     return arguments.exit(error) == 0 ? 0 : 2;
   } catch (const InputError& error) {
     std::fprintf(stderr, "%s: %s\n", arguments.get_name().c_str(), error.what());
     return 2;
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "%s: there is not enough memory; close other programs, or give it less to work on\n",
+                 arguments.get_name().c_str());
+    return 3;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s: %s\n", arguments.get_name().c_str(), error.what());
     return 3;

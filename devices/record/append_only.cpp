@@ -12,7 +12,8 @@
 
 namespace insonate {
 
-AppendOnlyFile::AppendOnlyFile(std::filesystem::path file) : file_(std::move(file)) {
+AppendOnlyFile::AppendOnlyFile(std::filesystem::path file, std::string when_full)
+    : file_(std::move(file)), when_full_(std::move(when_full)) {
   std::error_code error;
   if (file_.has_parent_path()) std::filesystem::create_directories(file_.parent_path(), error);
   descriptor_ = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0644);
@@ -28,15 +29,20 @@ AppendOnlyFile::~AppendOnlyFile() {
 }
 
 void AppendOnlyFile::append(std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+  std::string_view rest = bytes;
+  while (!rest.empty()) {
+    const ssize_t written = ::write(descriptor_, rest.data(), rest.size());
     if (written < 0 && errno == EINTR) continue;
-    if (written <= 0)
-      throw InputError(file_.string(), "", std::string("it cannot be written on (") + std::strerror(errno) + ")",
-                       "make room on the disk and record again");
-    bytes.remove_prefix(std::size_t(written));
-    size_ += std::uint64_t(written);
+    if (written <= 0) {
+      const std::string why = std::strerror(errno);
+      // Half a line would run together with the next one.
+      if (rest.size() < bytes.size() && ::ftruncate(descriptor_, off_t(size_)) != 0)
+        size_ += bytes.size() - rest.size();
+      throw InputError(file_.string(), "", "it cannot be written on (" + why + ")", when_full_);
+    }
+    rest.remove_prefix(std::size_t(written));
   }
+  size_ += bytes.size();
 }
 
 bool is_being_written(const std::filesystem::path& file) {

@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <chrono>
+#include <cstring>
 #include <fstream>
+#include <limits>
 #include <string_view>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "devices/record/append_only.h"
@@ -121,6 +125,32 @@ bool let_go(const std::filesystem::path& working) {
   return true;
 }
 
+struct TemporaryFile {
+  std::filesystem::path path;
+  explicit TemporaryFile(std::filesystem::path file) : path(std::move(file)) {}
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  ~TemporaryFile() {
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
+  }
+};
+
+/// Whether a file begins with the bytes of another, or, unless it may go on, has the same bytes.
+bool begins_with(const std::filesystem::path& file, const std::filesystem::path& beginning, bool may_go_on) {
+  std::error_code error;
+  if (!may_go_on && std::filesystem::file_size(file, error) != std::filesystem::file_size(beginning, error))
+    return false;
+  std::ifstream whole(file, std::ios::binary), first(beginning, std::ios::binary);
+  std::array<char, 1 << 16> a, b;
+  do {
+    first.read(b.data(), std::streamsize(b.size()));
+    whole.read(a.data(), first.gcount());
+    if (whole.gcount() != first.gcount() || !std::equal(b.data(), b.data() + first.gcount(), a.data())) return false;
+  } while (first);
+  return first.eof();
+}
+
 std::filesystem::path with_ending(const std::filesystem::path& file, const char* ending) {
   std::filesystem::path named = file;
   return named += ending;
@@ -158,23 +188,29 @@ void refuse_existing(const std::filesystem::path& file) {
 
 void remove_working_files(const std::filesystem::path& file) {
   std::error_code error;
-  std::filesystem::remove(working_file(file), error);
   std::filesystem::remove(images_file(file), error);
+  std::filesystem::remove(working_file(file), error);
 }
 
 std::size_t recover_recording(const std::filesystem::path& file) {
   std::error_code error;
-  if (std::filesystem::exists(file, error))
-    throw InputError(file.string(), "", "there is such a file already", "move it away");
+  const bool is_there = std::filesystem::exists(file, error);
+  const auto refuse_file = [&] { throw InputError(file.string(), "", "there is such a file already", "move it away"); };
   const std::filesystem::path working = working_file(file), images = images_file(file);
+  if (is_there && !std::filesystem::exists(working, error)) refuse_file();
   check_is_file(working);
   if (!let_go(working))
     throw InputError(working.string(), "", "it is still being recorded to", "end the recording, which makes its file");
   Lines lines(working);
   const Head head = read_head(lines, working);
   const bool with_images = head.with_images();
+  // The pictures are removed first. So with a finished file beside it, a working file may have lost them.
+  const bool without_its_images = is_there && with_images && !std::filesystem::exists(images, error);
   std::uintmax_t image_bytes = with_images ? std::filesystem::file_size(images, error) : 0;
-  if (error) image_bytes = 0;
+  if (without_its_images)
+    image_bytes = std::numeric_limits<std::uintmax_t>::max();
+  else if (error)
+    image_bytes = 0;
   const Whole whole = whole_frames(lines, image_bytes);
   if (whole.frames == 0)
     throw InputError(working.string(), "", "it holds no whole frame", "record again, and remove this one");
@@ -182,18 +218,28 @@ std::size_t recover_recording(const std::filesystem::path& file) {
   const std::string dimensions =
       std::to_string(head.width) + " " + std::to_string(head.height) + " " + std::to_string(whole.frames);
   const std::string tail = with_images ? stream_end(whole.adler) : "";
-  write_atomically(file, [&](const std::filesystem::path& temporary) {
+  const auto write = [&](const std::filesystem::path& temporary) {
+    errno = 0;
     std::ofstream stream(temporary, std::ios::binary);
     stream << sequence_head(dimensions, with_images);
     if (with_images) stream << "CompressedDataSize = " << whole.image_bytes + tail.size() << "\n";
     copy_lines(working, whole.lines, stream);
     stream << kSequenceEnd;
-    if (with_images) copy(images, whole.image_bytes, stream);
-    stream << tail;
+    if (with_images && !without_its_images) copy(images, whole.image_bytes, stream);
+    if (!without_its_images) stream << tail;
     stream.close();
+    const std::string why = errno == 0 ? "" : std::string(" (") + std::strerror(errno) + ")";
     if (!stream)
-      throw InputError(file.string(), "", "it cannot be written", "check the folder's permissions and free space");
-  });
+      throw InputError(file.string(), "", "it cannot be written" + why,
+                       "check the folder's permissions and free space");
+  };
+  if (is_there) {
+    const TemporaryFile again(temporary_beside(file));
+    write(again.path);
+    if (!begins_with(file, again.path, without_its_images)) refuse_file();
+  } else {
+    write_atomically(file, write);
+  }
   remove_working_files(file);
   return whole.frames;
 }

@@ -24,12 +24,14 @@ std::string frame_end(std::uint64_t image_bytes, unsigned long adler);
 /// Throws InputError when the sequence file, or a working file that its recording left behind, is there already.
 void refuse_existing(const std::filesystem::path& file);
 
+/// The pictures first: without the other file nobody could tell what they are of.
 void remove_working_files(const std::filesystem::path& file);
 
 /// Makes the sequence file `file` of the working files that lie beside it, up to the last frame that is there as a
-/// whole, removes those and returns how many frames it has. Takes the same memory however long the recording is. Throws
-/// InputError when there is no such working file, when it is none, when it is still being recorded to, when it holds no
-/// whole frame (it stays then), or when `file` is there already.
+/// whole, removes those and returns how many frames it has. Takes the same memory however long the recording is. If
+/// `file` is there already and is that very sequence, only the working files are removed: the program was killed before
+/// it came to that. Throws InputError when there is no such working file, when it is none, when it is still being
+/// recorded to, when it holds no whole frame (it stays then), or when `file` is there already and holds anything else.
 std::size_t recover_recording(const std::filesystem::path& file);
 
 }  // namespace insonate

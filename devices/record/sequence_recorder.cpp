@@ -15,7 +15,7 @@ namespace insonate {
 /// The pictures' zlib stream. Each ends on a whole byte, so that the stream can be cut behind it.
 class SequenceRecorder::Pictures {
 public:
-  explicit Pictures(const std::filesystem::path& file) : file_(file) {
+  Pictures(const std::filesystem::path& file, std::string when_full) : file_(file, std::move(when_full)) {
     // The fastest level: the pictures are compressed while the run goes on.
     if (deflateInit(&stream_, Z_BEST_SPEED) != Z_OK) throw std::runtime_error("zlib cannot be set up");
   }
@@ -53,9 +53,11 @@ SequenceRecorder::SequenceRecorder(std::filesystem::path file, int width, int he
     throw InputError(file_.string(), "", "a recording is a sequence file, and its name does not end in .igs.mha",
                      "name it as in 'scan.igs.mha'");
   refuse_existing(file_);
-  text_ = std::make_unique<AppendOnlyFile>(working_file(file_));
+  const std::string when_full =
+      "make room on the disk and run 'insonate-devices recover " + file_.string() + "', which keeps what is whole";
+  text_ = std::make_unique<AppendOnlyFile>(working_file(file_), when_full);
   text_->append(working_head(width_, height_));
-  if (width_ > 0 && height_ > 0) pictures_ = std::make_unique<Pictures>(images_file(file_));
+  if (width_ > 0 && height_ > 0) pictures_ = std::make_unique<Pictures>(images_file(file_), when_full);
 }
 
 SequenceRecorder::~SequenceRecorder() {

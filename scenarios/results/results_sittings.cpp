@@ -83,9 +83,11 @@ std::int64_t ResultsDatabase::insert_part(std::int64_t sitting, std::string_view
 
 std::vector<Sitting> ResultsDatabase::sittings() {
   std::vector<Sitting> list;
+  // The newest part by its number: a clock that was set back since gives it an earlier time than the others. Beside
+  // max(), SQLite takes the columns of the row that has it.
   sqlite::Statement row(connection_,
-                        "SELECT number, learner, began_ms, max(kept_ms), title, scenario, scenario_digest, "
-                        "scenario_file, patient, seed FROM sitting JOIN sitting_part ON sitting = number "
+                        "SELECT number, learner, began_ms, kept_ms, title, scenario, scenario_digest, "
+                        "scenario_file, patient, seed, max(part) FROM sitting JOIN sitting_part ON sitting = number "
                         "GROUP BY number ORDER BY number");
   while (row.step())
     list.push_back({row.integer(0), row.text(1), row.integer(2), row.integer(3), row.text(4), row.text(5), row.text(6),

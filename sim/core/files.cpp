@@ -2,7 +2,10 @@
 
 #include <unistd.h>
 
+#include <cerrno>
+#include <chrono>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <system_error>
 
@@ -11,6 +14,28 @@
 namespace insonate {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+/// What the system said last of a file, in parentheses; empty when it said nothing.
+std::string reason() {
+  return errno == 0 ? "" : std::string(" (") + std::strerror(errno) + ")";
+}
+
+/// What temporary_beside() puts in front of the number of the process, and behind it.
+struct TemporaryName {
+  std::string front, back;
+  explicit TemporaryName(const fs::path& target)
+      : front("." + target.stem().string() + "."), back(".partial" + target.extension().string()) {}
+
+  bool matches(const std::string& name) const {
+    if (name.size() <= front.size() + back.size() || !name.starts_with(front) || !name.ends_with(back)) return false;
+    const std::string number = name.substr(front.size(), name.size() - front.size() - back.size());
+    return number.find_first_not_of("0123456789") == std::string::npos;
+  }
+};
+
+}  // namespace
 
 std::uintmax_t check_is_file(const fs::path& file) {
   std::error_code error;
@@ -29,11 +54,31 @@ std::string read_file(const fs::path& file, std::size_t limit) {
     throw InputError(file.string(), "",
                      "the file has " + std::to_string(size) + " bytes, above the limit of " + std::to_string(limit),
                      "check that it is the right file");
+  errno = 0;
   std::ifstream stream(file, std::ios::binary);
   std::string bytes(size, '\0');
   if (!stream.read(bytes.data(), std::streamsize(size)))
-    throw InputError(file.string(), "", "it cannot be read", "check its permissions");
+    throw InputError(file.string(), "", "it cannot be read" + reason(), "check its permissions");
   return bytes;
+}
+
+fs::path temporary_beside(const fs::path& target) {
+  const TemporaryName name(target);
+  fs::path temporary = target;
+  return temporary.replace_filename(name.front + std::to_string(getpid()) + name.back);
+}
+
+void remove_old_temporaries(const fs::path& target) {
+  const TemporaryName name(target);
+  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+  const fs::file_time_type day_before = fs::file_time_type::clock::now() - std::chrono::hours(24);
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    std::error_code unknown;
+    if (!name.matches(entry->path().filename().string())) continue;
+    const fs::file_time_type written = fs::last_write_time(entry->path(), unknown);
+    if (!unknown && written < day_before) fs::remove_all(entry->path(), unknown);
+  }
 }
 
 void write_atomically(const fs::path& file, const std::function<void(const fs::path&)>& write) {
@@ -42,9 +87,8 @@ void write_atomically(const fs::path& file, const std::function<void(const fs::p
   if (error)
     throw InputError(file.parent_path().string(), "", "the folder cannot be made (" + error.message() + ")",
                      "name a folder that may be written");
-  fs::path temporary = file;
-  temporary.replace_filename("." + file.stem().string() + "." + std::to_string(getpid()) + ".partial" +
-                             file.extension().string());
+  remove_old_temporaries(file);
+  const fs::path temporary = temporary_beside(file);
   try {
     write(temporary);
   } catch (...) {
@@ -61,11 +105,13 @@ void write_atomically(const fs::path& file, const std::function<void(const fs::p
 
 void write_file(const fs::path& file, std::string_view bytes) {
   write_atomically(file, [&](const fs::path& temporary) {
+    errno = 0;
     std::ofstream stream(temporary, std::ios::binary);
     stream.write(bytes.data(), std::streamsize(bytes.size()));
     stream.close();
     if (!stream)
-      throw InputError(file.string(), "", "it cannot be written", "check the folder's permissions and free space");
+      throw InputError(file.string(), "", "it cannot be written" + reason(),
+                       "check the folder's permissions and free space");
   });
 }
 

@@ -14,10 +14,18 @@ std::string read_file(const std::filesystem::path& file, std::size_t limit = 1u 
 /// Throws InputError when a file is missing, a folder, no file on a disk, or empty; returns how many bytes it has.
 std::uintmax_t check_is_file(const std::filesystem::path& file);
 
+/// The name beside `target` that this process fills before it renames it: `.STEM.PID.partial.EXTENSION`. It keeps the
+/// extension, for writers that choose their format by it.
+std::filesystem::path temporary_beside(const std::filesystem::path& target);
+
+/// Removes the temporary files or folders of `target` (temporary_beside) that are more than a day old. Killed programs
+/// left them: a program that runs removes its own.
+void remove_old_temporaries(const std::filesystem::path& target);
+
 /// Lets `write` fill a temporary name beside `file` and renames it into place when `write` returned, so that whoever
-/// looks sees the old file or the whole new one. Makes the parent folders. The temporary name keeps the extension, for
-/// writers that choose their format by it, and is removed when `write` throws. Throws InputError when the folder can't
-/// be made or the name not be taken.
+/// looks sees the old file or the whole new one. Makes the parent folders, and removes old temporaries of `file`. The
+/// temporary file is removed when `write` throws. Throws InputError when the folder can't be made or the name not be
+/// taken.
 void write_atomically(const std::filesystem::path& file,
                       const std::function<void(const std::filesystem::path& temporary)>& write);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <new>
 
 #include "sim/core/input_error.h"
 #include "sim/core/suggest.h"
@@ -26,9 +27,16 @@ std::string quoted(std::string_view key) {
 
 }  // namespace
 
+toml::table parse_toml_text(std::string_view text, std::string_view name) {
+  // A node takes some 200 bytes, and its text 4 at least, as in "a=1" and the line's end.
+  constexpr std::size_t kBytesPerByte = 64, kAtLeast = std::size_t(1) << 16;
+  ::operator delete(::operator new(kAtLeast + kBytesPerByte * text.size()));
+  return toml::parse(text, name);
+}
+
 toml::table parse_toml(const std::string& file, std::string_view text) {
   try {
-    return toml::parse(text, file);
+    return parse_toml_text(text, file);
   } catch (const toml::parse_error& error) {
     std::string problem(error.description());
     std::replace_if(

@@ -11,6 +11,10 @@
 
 namespace insonate {
 
+/// toml::parse(), which ends the program when an allocation fails in it. So this asks for the memory beforehand, and
+/// throws std::bad_alloc when it is not to be had. Throws toml::parse_error besides.
+toml::table parse_toml_text(std::string_view text, std::string_view name = {});
+
 /// Parses TOML text. Throws InputError with line and column when it is none.
 toml::table parse_toml(const std::string& file, std::string_view text);
 

@@ -1,11 +1,12 @@
 #include "sim/volume/case.h"
 
+#include <fcntl.h>
 #include <glm/geometric.hpp>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <set>
@@ -240,8 +241,8 @@ fs::path without_slash(const fs::path& folder) {
 /// A folder beside `target` that is gone again unless it was renamed.
 struct TemporaryFolder {
   fs::path path;
-  explicit TemporaryFolder(const fs::path& target) : path(target) {
-    path.replace_filename("." + target.filename().string() + "." + std::to_string(getpid()) + ".partial");
+  explicit TemporaryFolder(const fs::path& target) : path(temporary_beside(target)) {
+    remove_old_temporaries(target);
     std::error_code error;
     fs::remove_all(path, error);
     fs::create_directories(path, error);
@@ -257,21 +258,29 @@ struct TemporaryFolder {
   }
 };
 
-/// Renames a folder onto another, which makes way first and comes back when that fails.
+/// Renames a folder onto another, whose content is `from` afterwards where the file system can swap two names. There
+/// `to` names the old content or the new one at any moment. Elsewhere the old folder makes way first, and comes back
+/// when that fails.
 void replace_folder(const fs::path& from, const fs::path& to) {
   std::error_code error, ignored;
-  fs::path old = from;
-  old += ".old";
-  const bool replaces = fs::exists(to, ignored);
-  if (replaces) fs::rename(to, old, error);
-  if (!error) {
+  if (!fs::exists(to, ignored)) {
     fs::rename(from, to, error);
-    if (error && replaces) fs::rename(old, to, ignored);
+  } else if (renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_EXCHANGE) != 0) {
+    error.assign(errno, std::system_category());
+    if (error == std::errc::invalid_argument || error == std::errc::function_not_supported) {
+      fs::path old = from;
+      old += ".old";
+      fs::rename(to, old, error);
+      if (!error) {
+        fs::rename(from, to, error);
+        if (error) fs::rename(old, to, ignored);
+      }
+      if (!error) fs::remove_all(old, ignored);
+    }
   }
   if (error)
     throw InputError(to.string(), "", "it cannot be written (" + error.message() + ")",
                      "name a folder that may be written");
-  fs::remove_all(old, ignored);
 }
 
 }  // namespace
@@ -323,7 +332,7 @@ void check_case_can_be_written(const fs::path& folder) {
   // The lowest of the folders above that is there has to take a folder. Nothing but trying tells whether it will.
   fs::path above = fs::absolute(target, error).parent_path();
   while (above.has_relative_path() && !fs::exists(above, error)) above = above.parent_path();
-  const fs::path trial = above / ("." + name + "." + std::to_string(getpid()) + ".trial");
+  const fs::path trial = temporary_beside(above / name);
   fs::create_directory(trial, error);
   if (error)
     throw InputError(target.string(), "", "the folder cannot be made (" + error.message() + ")",

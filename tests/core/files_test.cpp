@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 
@@ -58,6 +59,22 @@ TEST_CASE("a write that fails leaves the old file and nothing beside it") {
   CHECK(entries(file.parent_path()) == 1);
   write_file(file, "new");
   CHECK(read_file(file) == "new");
+}
+
+TEST_CASE("what killed programs left of a file goes with its next write once it is a day old, and nothing else does") {
+  const TemporaryFolder folder;
+  const auto put = [&](const char* name, int hours) {
+    std::ofstream(folder.path / name) << "left";
+    fs::last_write_time(folder.path / name, fs::file_time_type::clock::now() - std::chrono::hours(hours));
+  };
+  for (const char* name : {".score.12.partial.json", "score.12.partial.json", ".score.12.partial.csv",
+                           ".other.12.partial.json", ".score.x.partial.json", ".score..partial.json"})
+    put(name, 48);
+  put(".score.13.partial.json", 1);
+  write_file(folder.path / "score.json", "{}");
+  CHECK_FALSE(fs::exists(folder.path / ".score.12.partial.json"));
+  CHECK(fs::exists(folder.path / ".score.13.partial.json"));
+  CHECK(entries(folder.path) == 7);
 }
 
 TEST_CASE("a picture is written as PNG or refused with its name") {

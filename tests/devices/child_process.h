@@ -19,11 +19,16 @@ public:
   /// Takes what was written since the last call.
   void listen();
   bool ended();
+  /// 128 and above for a signal. Call it once it has ended.
+  int exit_code() const { return exit_code_; }
+  /// Below 0 once it has ended.
+  pid_t pid() const { return pid_; }
 
   std::string out, err;
 
 private:
   pid_t pid_ = -1;
+  int exit_code_ = 0;
   int out_fd_ = -1, err_fd_ = -1;
 };
 

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/file.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <zlib.h>
@@ -14,6 +15,7 @@
 #include <thread>
 #include <vector>
 
+#include "devices/record/append_only.h"
 #include "devices/record/recording_files.h"
 #include "devices/record/sequence_recorder.h"
 #include "devices/sequence/probe_samples.h"
@@ -193,6 +195,66 @@ TEST_CASE("a recording that is still running is not recovered, nor recorded over
   recorder.add(hand(1)[1]);
   recorder.finish();
   CHECK(read_samples(file).size() == 2);
+}
+
+TEST_CASE("working files beside the very file that they make are removed, and beside any other they stay") {
+  const Folder folder;
+  const auto samples = hand(3);
+  for (const bool with_pictures : {false, true})
+    for (const bool pictures_are_gone : {false, true}) {
+      CAPTURE(with_pictures, pictures_are_gone);
+      const fs::path file = folder.path / "scan.igs.mha", kept = folder.path / "kept.igs.mha";
+      record_and_be_killed(file, samples, 50, with_pictures);
+      for (const auto& name : {working_file, images_file})
+        if (fs::exists(name(file))) fs::copy_file(name(file), name(kept));
+      CHECK(recover_recording(kept) == 50);
+      const std::string whole = read_file(kept);
+      if (pictures_are_gone) fs::remove(images_file(file));
+
+      std::string other = whole;
+      other[other.size() / 3] ^= 1;
+      write_file(file, other);
+      CHECK_THROWS_WITH(recover_recording(file), Catch::Contains("such a file already"));
+      CHECK(fs::exists(working_file(file)));
+
+      write_file(file, whole);
+      CHECK(recover_recording(file) == 50);
+      CHECK(read_file(file) == whole);
+      CHECK(folder.files() == 2);
+      fs::remove(file);
+      fs::remove(kept);
+    }
+}
+
+TEST_CASE("what the disk has no room for leaves the file as it was, and may be written when there is some") {
+  const Folder folder;
+  const pid_t child = fork();
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    signal(SIGXFSZ, SIG_IGN);
+    AppendOnlyFile file(folder.path / "some.txt");
+    file.append("a line\n");
+    rlimit before{}, narrow{};
+    getrlimit(RLIMIT_FSIZE, &before);
+    narrow = before;
+    narrow.rlim_cur = 10;
+    setrlimit(RLIMIT_FSIZE, &narrow);
+    bool refused = false;
+    try {
+      file.append("another line\n");
+    } catch (const InputError&) {
+      refused = true;
+    }
+    const bool as_before = fs::file_size(file.path()) == 7 && file.size() == 7;
+    setrlimit(RLIMIT_FSIZE, &before);
+    file.append("another line\n");
+    _exit(refused && as_before ? 0 : 1);
+  }
+  int status = 0;
+  REQUIRE(waitpid(child, &status, 0) == child);
+  CHECK(WIFEXITED(status));
+  CHECK(WEXITSTATUS(status) == 0);
+  CHECK(read_file(folder.path / "some.txt") == "a line\nanother line\n");
 }
 
 TEST_CASE("a program that is only just dying is waited for") {
