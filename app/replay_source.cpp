@@ -27,12 +27,15 @@ KeptRun kept_attempt(const std::filesystem::path& database, std::int64_t number)
   const std::uint32_t seed = result_from_json(attempt.score_json, name).provenance.seed;
   run.scenario = parse_scenario(attempt.scenario_text, attempt.scenario_file, seed);
   run.patient = attempt.patient;
+  parse_action_log(run.scan.recording.actions, name);
   return run;
 }
 
 KeptRun kept_run(const std::filesystem::path& log, const std::filesystem::path& database, std::int64_t attempt) {
   if (attempt > 0) return kept_attempt(database, attempt);
-  return {read_recorded_scan(log), std::nullopt, ""};
+  KeptRun run{read_recorded_scan(log), std::nullopt, ""};
+  parse_action_log(run.scan.recording.actions, run.scan.recording.file);  // before a patient is made for it
+  return run;
 }
 
 bool has_any(const std::filesystem::path& log, std::int64_t attempt) {
