@@ -27,6 +27,7 @@ KeptRun kept_attempt(const std::filesystem::path& database, std::int64_t number)
   const std::uint32_t seed = result_from_json(attempt.score_json, name).provenance.seed;
   run.scenario = parse_scenario(attempt.scenario_text, attempt.scenario_file, seed);
   run.patient = attempt.patient;
+  parse_action_log(run.scan.recording.actions, name);
   return run;
 }
 
@@ -35,6 +36,7 @@ KeptRun kept_run(const std::filesystem::path& log, const std::filesystem::path& 
   KeptRun run;
   run.scan = read_log(log);
   check_is_of_probe(run.scan.recording);
+  parse_action_log(run.scan.recording.actions, run.scan.recording.file);  // before a patient is made for it
   return run;
 }
 

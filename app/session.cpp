@@ -77,6 +77,14 @@ bool Console::operator==(const Console& other) const {
          frozen == other.frozen;
 }
 
+void check_source(const Tracker& tracker, bool exam) {
+  if (exam && tracker.repeats())
+    throw InputError(tracker.state().name, "option 'loop'", "an exam is scored from a log that comes once",
+                     "leave loop=1 out, or practise on a patient of your own, without a scenario");
+  if (tracker.recording()) check_is_of_probe(*tracker.recording());
+  if (exam && tracker.recording()) check_has_times(*tracker.recording());
+}
+
 Session::Session(std::shared_ptr<const Study> study, OpenTracker open, double predict_s, ExamRules rules)
     : study_(std::move(study)),
       open_(std::move(open)),
@@ -109,11 +117,7 @@ Tracker& Session::source() {
 
 std::unique_ptr<Tracker> Session::open_fresh() const {
   std::unique_ptr<Tracker> tracker = open_();
-  if (study_->scenario && tracker->repeats())
-    throw InputError(tracker->state().name, "option 'loop'", "an exam is scored from a log that comes once",
-                     "leave loop=1 out, or practise on a patient of your own, without a scenario");
-  if (tracker->recording()) check_is_of_probe(*tracker->recording());
-  if (study_->scenario && tracker->recording()) check_has_times(*tracker->recording());
+  check_source(*tracker, study_->scenario.has_value());
   return tracker;
 }
 

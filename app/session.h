@@ -44,6 +44,10 @@ enum class Activity { exam, practice };
 /// Whether an exam may be left, begun again and helped with, or is taken once and as it is.
 enum class ExamRules { open, strict };
 
+/// Throws InputError where no session can take its samples from a tracker: a sensor's poses without a calibration, and
+/// for an exam a log that loops.
+void check_source(const Tracker& tracker, bool exam);
+
 /// One person's time with one patient: where poses come from, the attempt at the exam that they make, and the machine.
 /// Knows no window and no graphics, so that a run looks the same with and without. Time is passed in.
 ///

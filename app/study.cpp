@@ -45,16 +45,18 @@ TrackerContext find_surroundings(const Volume<std::int16_t>& ct) {
 
 }  // namespace
 
+std::optional<Scenario> read_exam(const StudySource& source) {
+  if (source.kept) return source.kept;
+  if (!source.scenario.empty()) return read_scenario(source.scenario, source.seed);
+  if (source.is_bundled()) return read_scenario(assets_folder() / "scenarios" / "ruq_hepatorenal.toml", source.seed);
+  return std::nullopt;
+}
+
 Study load_study(const StudySource& source, const LoadProgress& progress) {
   Study study;
   const std::filesystem::path assets = assets_folder();
   study.tissues = read_tissue_table(assets / "tissues.toml");
-  if (source.kept)
-    study.scenario = source.kept;
-  else if (!source.scenario.empty())
-    study.scenario = read_scenario(source.scenario, source.seed);
-  else if (source.is_bundled())
-    study.scenario = read_scenario(assets / "scenarios" / "ruq_hepatorenal.toml", source.seed);
+  study.scenario = read_exam(source);
 
   if (!source.ct.empty()) {
     progress("Reading the CT", 0);

@@ -35,6 +35,9 @@ struct Study {
   TrackerContext surroundings;       ///< where the body is, and where a probe starts: on the belly, across
 };
 
+/// The exam of it; none: free practice. Throws InputError.
+std::optional<Scenario> read_exam(const StudySource& source);
+
 /// Called from the loading thread with what is being done and how much of that is done, from 0 to 1.
 using LoadProgress = std::function<void(const std::string& what, double share)>;
 

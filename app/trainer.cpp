@@ -4,7 +4,9 @@
 #include <exception>
 #include <utility>
 
+#include "devices/calibrated_tracker.h"
 #include "devices/live/steady_clock.h"
+#include "devices/registry.h"
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
 #include "sim/gl/upload.h"
@@ -94,13 +96,36 @@ bool Trainer::attempt(const std::function<void()>& action) {
   }
 }
 
+std::function<void()> Trainer::refusals(const Request& request) {
+  const bool calibrated = uses_calibration(request) && !setup_left_;
+  bool exam = false;
+  std::exception_ptr refused;
+  try {
+    if (calibrated && !needs_setup(request)) read_complete_calibration(options_.calibration);
+    const std::optional<Scenario> scenario = read_exam(request.source);
+    if (options_.exam && scenario) refuse_second_exam(*scenario);
+    exam = scenario.has_value();
+  } catch (const InputError&) {
+    refused = std::current_exception();
+  }
+  return [refused, exam, calibrated, uri = request.tracker] {
+    if (refused) std::rethrow_exception(refused);
+    const std::unique_ptr<Tracker> tracker = uri.empty() ? nullptr : open_unless_device(uri);
+    if (!tracker) return;
+    if (!calibrated) check_source(*tracker, exam);
+    if (const Recording* recording = tracker->recording()) parse_action_log(recording->actions, recording->file);
+  };
+}
+
 void Trainer::load(Request request) {
   requested_ = std::move(request);
   loaded_replay_.reset();
   if (!requested_.replay.any()) {
-    loading_ = std::make_unique<Loading>([source = requested_.source](const LoadProgress& progress) {
-      return std::make_shared<const Study>(load_study(source, progress));
-    });
+    loading_ = std::make_unique<Loading>(
+        [source = requested_.source, refuse = refusals(requested_)](const LoadProgress& progress) {
+          refuse();
+          return std::make_shared<const Study>(load_study(source, progress));
+        });
     return;
   }
   loaded_replay_ = std::make_shared<std::unique_ptr<Replay>>();
@@ -140,7 +165,7 @@ void Trainer::begin(std::shared_ptr<const Study> study, const Request& request) 
     return open_setup();
   }
   const Session::OpenTracker open = opener(uri, *study, uses_calibration(request) && !setup_left_);
-  if (options_.exam) refuse_second_exam(*study);
+  if (options_.exam) refuse_second_exam(*study->scenario);
   auto session = std::make_unique<Session>(study, open, options_.predict_ms / 1e3,
                                            options_.exam ? ExamRules::strict : ExamRules::open);
   if (options_.exam && std::as_const(*session).source().recording())

@@ -144,11 +144,14 @@ private:
     std::string tracker;  ///< URI; empty: the bundled log with the bundled exam, else the learner's own hand
     ReplaySource replay;  ///< what is looked at again, in place of a session
   };
+  /// Throws, on the loading thread, what the session will throw for reasons that have nothing to do with the patient: a
+  /// patient can take a minute to make.
+  std::function<void()> refusals(const Request& request);
   void load(Request request);
   void take_over_loaded();
   void begin(std::shared_ptr<const Study> study, const Request& request);
   std::uint32_t seed() const;
-  void refuse_second_exam(const Study& study);
+  void refuse_second_exam(const Scenario& exam);
   void keep_sitting();
   void begin_replay(std::shared_ptr<const Study> study, const Request& request);
   void show(std::shared_ptr<const Study> study, const Request& request);

@@ -15,11 +15,11 @@ std::uint32_t Trainer::seed() const {
   return std::random_device()();
 }
 
-void Trainer::refuse_second_exam(const Study& study) {
+void Trainer::refuse_second_exam(const Scenario& exam) {
   if (!results_)
     throw InputError("command line", "--exam", "there is no database to keep the attempt in",
                      "name one with --results");
-  results_->check_not_taken(options_.learner, study.scenario->digest);
+  results_->check_not_taken(options_.learner, exam.digest);
 }
 
 void Trainer::keep_sitting() {

@@ -79,6 +79,15 @@ std::unique_ptr<Tracker> open_tracker(std::string_view text, const TrackerContex
   return tracker;
 }
 
+std::unique_ptr<Tracker> open_unless_device(std::string_view text) {
+  TrackerUri uri = parse_tracker_uri(text);
+  const TrackerKind& kind = kind_of(uri);
+  if (!kind.make) return open_tracker(text);
+  take_filter_options(uri);
+  kind.make(uri, {});
+  return nullptr;
+}
+
 std::unique_ptr<RawSource> make_raw_source(const TrackerUri& uri, const TrackerContext& context) {
   const TrackerKind& kind = kind_of(uri);
   if (!kind.make)

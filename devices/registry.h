@@ -31,6 +31,10 @@ std::span<const TrackerKind> tracker_kinds();
 /// used.
 std::unique_ptr<Tracker> open_tracker(std::string_view uri, const TrackerContext& context = {});
 
+/// Opens the tracker that `uri` names unless it is a device, of which only the URI is checked: nullptr. Throws what
+/// open_tracker() throws, so that a caller can learn it before work that takes long.
+std::unique_ptr<Tracker> open_unless_device(std::string_view uri);
+
 /// The source of the tracker that `uri` names, for one whose samples come of bytes. Throws InputError as open_tracker()
 /// does, and for all others.
 std::unique_ptr<RawSource> make_raw_source(const TrackerUri& uri, const TrackerContext& context);

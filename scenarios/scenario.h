@@ -135,7 +135,9 @@ private:
 
 /// A scenario's text, as far as it can be read.
 struct ReadScenario {
-  std::vector<Scenario> variants;         ///< one when the file has no [[variant]]; none when it is no TOML
+  /// One when the file has no [[variant]]; none when it is not TOML or does not name a
+  /// format that is known.
+  std::vector<Scenario> variants;
   std::vector<ScenarioProblem> problems;  ///< of all variants, without looking at a case
 };
 
@@ -162,6 +164,10 @@ void check_metric(Metric metric, const SourcePlace& place, const Step& step, con
 
 /// The options that the built-in phantom out of `assets` does not take.
 std::vector<ScenarioProblem> problems_with_phantom(const Scenario& scenario, const std::filesystem::path& assets);
+
+/// What is wrong with how the scenario names its case, before the case is loaded: options that the phantom does not
+/// take, or a folder that is missing.
+std::vector<ScenarioProblem> problems_before_case(const Scenario& scenario, const std::filesystem::path& assets);
 
 /// The case that the scenario names: the built-in phantom out of `assets`, kept in `cache`, or a case folder. Throws
 /// ScenarioError for options that the phantom does not take, and InputError.

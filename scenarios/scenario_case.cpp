@@ -14,6 +14,10 @@ std::filesystem::path phantom_in(const std::filesystem::path& assets) {
   return assets / "phantoms" / "abdomen.toml";
 }
 
+std::filesystem::path folder_of_case(const Scenario& scenario) {
+  return scenario.file.parent_path() / scenario.case_name;
+}
+
 template <typename Named>
 std::vector<std::string> names_of(const std::vector<Named>& list) {
   std::vector<std::string> names;
@@ -94,19 +98,19 @@ std::vector<ScenarioProblem> problems_with_phantom(const Scenario& scenario, con
   return problems;
 }
 
+std::vector<ScenarioProblem> problems_before_case(const Scenario& scenario, const std::filesystem::path& assets) {
+  if (scenario.case_name == "abdomen") return problems_with_phantom(scenario, assets);
+  std::error_code error;
+  if (std::filesystem::exists(folder_of_case(scenario), error)) return {};
+  return {{scenario.case_place, "the case '" + scenario.case_name + "' is no folder beside the file",
+           "name a case folder, or \"abdomen\" for the built-in patient"}};
+}
+
 Case load_case(const Scenario& scenario, const std::filesystem::path& assets, const std::filesystem::path& cache,
                const Progress& progress) {
-  if (scenario.case_name != "abdomen") {
-    const std::filesystem::path folder = scenario.file.parent_path() / scenario.case_name;
-    std::error_code error;
-    if (!std::filesystem::exists(folder, error))
-      throw ScenarioError(scenario.file.string(),
-                          {{scenario.case_place, "the case '" + scenario.case_name + "' is no folder beside the file",
-                            "name a case folder, or \"abdomen\" for the built-in patient"}});
-    return read_case(folder);
-  }
-  std::vector<ScenarioProblem> problems = problems_with_phantom(scenario, assets);
+  std::vector<ScenarioProblem> problems = problems_before_case(scenario, assets);
   if (!problems.empty()) throw ScenarioError(scenario.file.string(), std::move(problems));
+  if (scenario.case_name != "abdomen") return read_case(folder_of_case(scenario));
   return cached_phantom(phantom_in(assets), scenario.phantom_options, cache, progress);
 }
 

@@ -338,6 +338,8 @@ ReadScenario parse_every_variant(std::string_view text, const std::filesystem::p
   };
   if (variants.empty()) read_with(nullptr);
   for (const Variant& variant : variants) read_with(&variant);
+  const auto format = root["format"].value<double>();
+  if (format != 1.0 && format != double(Scenario::kFormat)) read.variants.clear();
   return read;
 }
 

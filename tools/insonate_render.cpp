@@ -56,6 +56,23 @@ struct Rendered {
   std::string made_by;
 };
 
+constexpr double kLeastDepth_mm = 10, kMostDepth_mm = 400;
+
+/// Throws what reading the settings will throw, as far as it does not depend on a depth that is not known yet (0).
+void check_settings(const std::string& file, const std::string& model, const Probe& probe, double depth_mm) {
+  if (model == "W") {
+    read_wein_settings(file);
+  } else if (depth_mm > 0) {
+    read_settings(file, probe.frequency_mhz, depth_mm);
+  } else {
+    try {
+      read_settings(file, probe.frequency_mhz, kLeastDepth_mm);
+    } catch (const InputError&) {
+      read_settings(file, probe.frequency_mhz, kMostDepth_mm);
+    }
+  }
+}
+
 /// @param file  what the person who gave the CT calls it
 Rendered render(const std::string& file, const RenderedScene& scene) {
   const gl::HeadlessContext context;
@@ -108,7 +125,7 @@ int main(int argc, char** argv) {
   arguments.add_option("--pose", pose_file, "A file with 16 numbers, row-major patient_from_probe, instead of a view");
   arguments.add_option("--probe", probe_name, "curvilinear, linear or phased")->capture_default_str();
   arguments.add_option("--depth", depth_mm, "Imaging depth, mm (the view's or the probe's)")
-      ->check(CLI::Range(10.0, 400.0));
+      ->check(CLI::Range(kLeastDepth_mm, kMostDepth_mm));
   arguments.add_option("--model", model, "S, for training (Shams, Kutter), or W, for registration (Wein)")
       ->check(CLI::IsMember({"S", "W"}))
       ->capture_default_str();
@@ -176,14 +193,19 @@ int main(int argc, char** argv) {
     if (std::filesystem::path(out).extension() != ending)
       throw InputError(out, "", to_volume ? "a sweep is written as NRRD" : "a picture is written as PNG",
                        "name a file that ends in " + ending);
-    const Case subject = open_subject(subject_path);
+    // The patient comes last of what is read: it may take a minute to make.
     std::vector<Pose> by_hand;
-    if (*freehand) by_hand = read_sweep(freehand_file);
+    if (*freehand)
+      by_hand = read_sweep(freehand_file);
+    else if (!pose_file.empty())
+      by_hand = {read_pose(pose_file)};
+    if (!by_hand.empty() && depth_mm == 0) depth_mm = probe->depth_mm;
+    if (!settings_file.empty()) check_settings(settings_file, model, *probe, depth_mm);
+    const TissueTable table = read_tissue_table(assets_folder() / "tissues.toml");
+    const Case subject = open_subject(subject_path);
     Pose pose;
-    if (*freehand) {
+    if (!by_hand.empty()) {
       pose = by_hand.front();
-    } else if (!pose_file.empty()) {
-      pose = read_pose(pose_file);
     } else {
       const ReferenceView& view = choose_view(subject, subject_path, view_name);
       pose = view.patient_from_probe;
@@ -191,7 +213,6 @@ int main(int argc, char** argv) {
     }
     if (depth_mm == 0) depth_mm = probe->depth_mm;
 
-    const TissueTable table = read_tissue_table(assets_folder() / "tissues.toml");
     const std::vector<std::string> tissue_of = tissue_by_label(subject);
     const auto volume_of = [&] { return make_acoustic_volume(subject.ct, subject.labels, tissue_of, table); };
     if (model == "W") {

@@ -1,5 +1,6 @@
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "devices/calibrated_tracker.h"
@@ -32,11 +33,11 @@ struct Arguments {
   std::uint32_t seed = 0;
 };
 
-void keep(const Arguments& given, Attempt attempt) {
+void keep(ResultsDatabase& results, const Arguments& given, Attempt attempt) {
   attempt.learner = given.learner;
   attempt.finished_ms = now_since_1970_ms();
   if (!given.case_folder.empty()) attempt.patient = std::filesystem::absolute(given.case_folder).string();
-  ResultsDatabase::open_or_make(given.results).add(attempt);
+  results.add(attempt);
 }
 
 RecordedScan scan_of_probe(const Arguments& given) {
@@ -54,10 +55,16 @@ int score(const Arguments& given) {
   check_learner_id(given.learner, "command line", "--learner");
   const Scenario scenario = read_scenario(given.scenario, given.seed);
   const RecordedScan scan = scan_of_probe(given);
+  const ActionLog actions = parse_action_log(scan.recording.actions, given.log.string());
+  const TissueTable tissues = read_tissue_table(assets_folder() / "tissues.toml");
+  // The patient comes last of what is read: it may take a minute to make.
+  std::optional<ResultsDatabase> results;
+  if (std::error_code error; std::filesystem::exists(given.results, error))
+    results = ResultsDatabase::open(given.results);
   const Case subject = case_of(scenario, given.case_folder);
 
-  Runner runner(scenario, subject, read_tissue_table(assets_folder() / "tissues.toml"));
-  runner.feed(scan.samples, parse_action_log(scan.recording.actions, given.log.string()));
+  Runner runner(scenario, subject, tissues);
+  runner.feed(scan.samples, actions);
   runner.end();
   ExamResult result = runner.result();
   result.provenance.mode = AttemptMode::recording;
@@ -65,8 +72,10 @@ int score(const Arguments& given) {
   result.provenance.log_digest = scan.recording.digest;
   result.provenance.log_transform = scan.recording.transform;
 
-  if (!given.results.empty())
-    keep(given, attempt_of(runner, result, write_sequence(scan.samples, scan.recording.actions)));
+  if (!given.results.empty()) {
+    if (!results) results = ResultsDatabase::open_or_make(given.results);
+    keep(*results, given, attempt_of(runner, result, write_sequence(scan.samples, scan.recording.actions)));
+  }
   if (!given.report.empty()) write_file(given.report, report_html(result, runner.trace()));
   std::fputs(to_json(result).c_str(), stdout);
   return 0;

@@ -22,7 +22,6 @@ Attempt scored(ResultsDatabase& database, const Sitting& sitting, AttemptCases& 
   if (digest_of(sitting.scenario_text) != sitting.scenario_digest)
     throw InputError(database.file().string(), name, "its scenario is damaged", "remove it with --discard");
   const Scenario scenario = parse_scenario(sitting.scenario_text, sitting.scenario_file, sitting.seed);
-  Runner runner(scenario, cases.of(sitting.patient, scenario), tissues);
   std::vector<PoseSample> samples;
   std::map<double, std::string> actions;
   for (const std::string& part : database.parts(sitting.number)) {
@@ -31,7 +30,9 @@ Attempt scored(ResultsDatabase& database, const Sitting& sitting, AttemptCases& 
     samples.insert(samples.end(), some.begin(), some.end());
     actions.merge(recorded_actions(log));
   }
-  runner.feed(samples, parse_action_log(actions, name));
+  const ActionLog done = parse_action_log(actions, name);
+  Runner runner(scenario, cases.of(sitting.patient, scenario), tissues);
+  runner.feed(samples, done);
   runner.end();
   ExamResult result = runner.result();
   result.provenance.mode = AttemptMode::exam;

@@ -22,9 +22,11 @@ std::string compare(ResultsDatabase& database, std::int64_t number, AttemptCases
     const Attempt attempt = database.read(number);
     const std::uint32_t seed = result_from_json(attempt.score_json, name).provenance.seed;
     Scenario scenario = parse_scenario(attempt.scenario_text, attempt.scenario_file, seed);
-    Runner runner(scenario, cases.of(attempt.patient, scenario), tissues);
     const Sequence log = parse_sequence(attempt.log, name);
-    runner.feed(probe_samples(log), parse_action_log(recorded_actions(log), name));
+    const std::vector<PoseSample> samples = probe_samples(log);
+    const ActionLog actions = parse_action_log(recorded_actions(log), name);
+    Runner runner(scenario, cases.of(attempt.patient, scenario), tissues);
+    runner.feed(samples, actions);
     runner.end();
     return why_different(attempt.score_json, runner.result(), name);
   } catch (const InputError& error) {

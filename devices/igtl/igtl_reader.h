@@ -26,6 +26,9 @@ public:
   /// not_igtl means that the stream cannot be read on; crc that at least one message was not whole and was left out.
   Damage feed(ByteView bytes);
 
+  /// Whether the bytes so far end within a message, be it one that is passed over.
+  bool in_message() const { return in_body_ || !kept_.empty() || passing_ > 0; }
+
 private:
   std::function<bool(const Header&)> wanted_;
   std::function<void(const Header&, ByteView)> take_;

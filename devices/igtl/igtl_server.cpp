@@ -7,17 +7,40 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <set>
+#include <stdexcept>
 #include <system_error>
+#include <utility>
 
-#include "devices/live/steady_clock.h"
 #include "sim/core/input_error.h"
 
 namespace insonate::igtl {
+namespace {
 
-Server::Server(const Address& address, const std::string& what, double stuck_s)
-    : stuck_s_(stuck_s), woken_(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
+void check_size(std::size_t bytes, std::size_t most) {
+  if (bytes > most)
+    throw std::length_error("a message has " + std::to_string(bytes) + " bytes, more than " + std::to_string(most));
+}
+
+}  // namespace
+
+Server::Message::Message(Bytes b, std::uint64_t n, std::atomic<std::size_t>& h)
+    : bytes(std::move(b)), number(n), held(h) {
+  held.fetch_add(bytes.capacity(), std::memory_order_relaxed);
+}
+
+Server::Message::~Message() {
+  held.fetch_sub(bytes.capacity(), std::memory_order_relaxed);
+}
+
+Server::Server(const Address& address, const std::string& what, const ServerLimits& limits, Clock clock_s)
+    : limits_(limits),
+      clock_s_(std::move(clock_s)),
+      woken_(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)),
+      new_events_(limits.events) {
   try {
     listener_ = listen_on(address);
+    limit_buffers(listener_, limits_.send_buffer, limits_.receive_buffer);  // its connections inherit them
     address_ = bound_address(listener_);
   } catch (const std::system_error& error) {
     throw InputError(what, "",
@@ -39,103 +62,156 @@ void Server::wake() {
 }
 
 void Server::publish(Stream stream, Bytes message) {
-  auto shared = std::make_shared<const Bytes>(std::move(message));
-  {
-    const std::lock_guard lock(mutex_);
-    latest_[std::size_t(stream)].swap(shared);
-    ++numbers_[std::size_t(stream)];
-  }
+  const std::size_t which = std::size_t(stream);
+  check_size(message.capacity(), limits_.message_bytes);
+  forgotten_[which] = false;
+  new_latest_[which].put(std::make_unique<const Message>(std::move(message), ++published_[which], bytes_held_));
   wake();
 }
 
 void Server::forget(Stream stream) {
-  const std::lock_guard lock(mutex_);
-  latest_[std::size_t(stream)] = nullptr;
+  const std::size_t which = std::size_t(stream);
+  if (std::exchange(forgotten_[which], true)) return;
+  new_latest_[which].put(std::make_unique<const Message>(Bytes(), ++published_[which], bytes_held_));
+  wake();  // else the message stays in memory until the next
 }
 
 void Server::announce(Bytes event) {
-  auto shared = std::make_shared<const Bytes>(std::move(event));
-  {
-    const std::lock_guard lock(mutex_);
-    events_.push_back(std::move(shared));
-    ++event_end_;
-    if (events_.size() > kMostEvents) events_.pop_front();
-  }
+  check_size(event.capacity(), limits_.event_bytes);
+  const std::uint64_t number = ++announced_;
+  new_events_[number % new_events_.size()].put(std::make_unique<const Message>(std::move(event), number, bytes_held_));
   wake();
 }
 
-Server::Message Server::next_for(Client& client) {
-  client.sent = 0;
-  const std::lock_guard lock(mutex_);
-  const std::uint64_t oldest = event_end_ - events_.size();
-  client.next_event = std::max(client.next_event, oldest);
-  if (client.next_event < event_end_) return events_[std::size_t(client.next_event++ - oldest)];
+void Server::collect() {
   for (std::size_t stream = 0; stream < kStreams; ++stream)
-    if (std::exchange(client.taken[stream], numbers_[stream]) != numbers_[stream] && latest_[stream])
-      return latest_[stream];
+    if (Shared message = new_latest_[stream].take()) latest_[stream] = std::move(message);
+  bool any = false;
+  for (std::size_t i = 0; i < new_events_.size(); ++i) {
+    Shared event = new_events_[(event_end_ + i) % new_events_.size()].take();
+    if (!event) continue;
+    any = true;
+    events_.push_back(std::move(event));
+    if (events_.size() > limits_.events) events_.pop_front();
+  }
+  if (!any) return;
+  std::sort(events_.begin(), events_.end(), [](const Shared& a, const Shared& b) { return a->number < b->number; });
+  event_end_ = events_.back()->number + 1;
+}
+
+Server::Shared Server::next_for(Client& client) const {
+  for (const Shared& event : events_)
+    if (event->number >= client.next_event) {
+      client.next_event = event->number + 1;
+      return event;
+    }
+  for (std::size_t stream = 0; stream < kStreams; ++stream) {
+    const Shared& latest = latest_[stream];
+    if (latest && std::exchange(client.taken[stream], latest->number) != latest->number && !latest->bytes.empty())
+      return latest;
+  }
   return nullptr;
 }
 
-bool Server::send_to(Client& client) {
+void Server::begin_next(Client& client) {
+  const Shared next = next_for(client);
+  if (!next) return;
+  make_room_for(next);
+  client.sending = next;
+  client.sent = 0;
+  client.begun_s = now_s_;
+}
+
+void Server::make_room_for(const Shared& message) {
+  for (;;) {
+    std::set<Shared> sent{message};
+    Client* longest = nullptr;
+    for (Client& client : clients_) {
+      if (!client.sending) continue;
+      sent.insert(client.sending);
+      if (!longest || client.begun_s < longest->begun_s) longest = &client;
+    }
+    std::size_t bytes = 0;
+    for (const Shared& one : sent) bytes += one->bytes.capacity();
+    if (bytes <= limits_.sending_bytes || !longest) return;
+    let_go(*longest);
+  }
+}
+
+void Server::let_go(Client& client) {
+  client.socket = Socket();
+  client.sending = nullptr;
+}
+
+void Server::send_to(Client& client) {
   // Some pieces and then somebody else's turn.
   for (int piece = 0; piece < 16; ++piece) {
-    if (!client.sending) client.sending = next_for(client);
-    if (!client.sending) {
-      client.progress_s = steady_now_s();
-      return true;
-    }
-    const ssize_t count = ::send(client.socket.get(), client.sending->data() + client.sent,
-                                 client.sending->size() - client.sent, MSG_NOSIGNAL | MSG_DONTWAIT);
-    if (count < 0) return (errno == EAGAIN || errno == EINTR) && steady_now_s() - client.progress_s < stuck_s_;
-    client.progress_s = steady_now_s();
+    if (!client.sending) begin_next(client);
+    if (!client.sending) return;
+    const Bytes& bytes = client.sending->bytes;
+    const ssize_t count = ::send(client.socket.get(), bytes.data() + client.sent, bytes.size() - client.sent,
+                                 MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (count < 0) return errno == EAGAIN || errno == EINTR ? void() : let_go(client);
     client.sent += std::size_t(count);
-    if (client.sent == client.sending->size()) client.sending = nullptr;
+    if (client.sent == bytes.size()) client.sending = nullptr;
   }
-  return true;
 }
 
-bool Server::ignore_what_it_says(const Client& client) {
-  std::array<char, 4096> ignored;
-  const ssize_t count = ::recv(client.socket.get(), ignored.data(), ignored.size(), MSG_DONTWAIT);
-  return count > 0 || (count < 0 && (errno == EAGAIN || errno == EINTR));
+void Server::hear(Client& client) const {
+  std::array<std::uint8_t, 4096> bytes;
+  const ssize_t count = ::recv(client.socket.get(), bytes.data(), bytes.size(), MSG_DONTWAIT);
+  if (count < 0 && (errno == EAGAIN || errno == EINTR)) return;
+  client.heard_s = now_s_;
+  if (count <= 0 || client.heard.feed(ByteView(bytes).first(std::size_t(count))) == MessageReader::Damage::not_igtl)
+    let_go(client);
 }
 
-void Server::accept_all(std::vector<Client>& clients) {
-  for (;;) {
+bool Server::overdue(const Client& client) const {
+  return (client.sending && now_s_ - client.begun_s >= limits_.stuck_s) ||
+         (client.heard.in_message() && now_s_ - client.heard_s >= limits_.stuck_s);
+}
+
+void Server::accept_all() {
+  // Whoever else waits is accepted in the next turn.
+  for (std::size_t turn = 0; turn < limits_.clients; ++turn) {
     Socket socket(::accept4(listener_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
     // Without a descriptor to spare the listener stays ready: no reason to ask it all the time.
     if (!socket && (errno == EMFILE || errno == ENFILE)) std::this_thread::sleep_for(std::chrono::milliseconds(100));
     if (!socket) return;
-    if (clients.size() == kMostClients) continue;  // closed at once
-    Client& client = clients.emplace_back();
+    if (clients_.size() == limits_.clients) continue;  // closed at once
+    collect();                                         // what was announced before it came is not for it
+    Client& client = clients_.emplace_back();
     client.socket = std::move(socket);
-    client.progress_s = steady_now_s();
-    const std::lock_guard lock(mutex_);
     client.next_event = event_end_;
   }
 }
 
 void Server::run() {
-  std::vector<Client> clients;
   std::vector<pollfd> waiting;
   while (!ending_) {
     waiting.assign({{woken_.get(), POLLIN, 0}, {listener_.get(), POLLIN, 0}});
-    for (const Client& client : clients)
+    for (const Client& client : clients_)
       waiting.push_back({client.socket.get(), short(client.sending ? POLLIN | POLLOUT : POLLIN), 0});
     // The pause is for clients that are stuck: nothing happens on their sockets.
     ::poll(waiting.data(), waiting.size(), 1000);
     std::uint64_t count = 0;
     [[maybe_unused]] const ssize_t emptied = ::read(woken_.get(), &count, sizeof count);
-    for (std::size_t i = clients.size(); i-- > 0;) {
-      const bool spoke = waiting[i + 2].revents & (POLLIN | POLLHUP | POLLERR);
-      if ((spoke && !ignore_what_it_says(clients[i])) || !send_to(clients[i]))
-        clients.erase(clients.begin() + std::ptrdiff_t(i));
+    collect();
+    now_s_ = clock_s_();
+    for (std::size_t i = 0; i < clients_.size(); ++i) {
+      Client& client = clients_[i];
+      if (client.socket && waiting[i + 2].revents & (POLLIN | POLLHUP | POLLERR)) hear(client);
+      if (client.socket) send_to(client);
+      if (client.socket && overdue(client)) let_go(client);
     }
-    if (waiting[1].revents & POLLIN) accept_all(clients);
-    clients_ = clients.size();
+    const auto removed = [this] { std::erase_if(clients_, [](const Client& client) { return !client.socket; }); };
+    removed();
+    if (waiting[1].revents & POLLIN) accept_all();
     // Whoever came in has not been sent anything yet, and who had all its pieces may want more.
-    for (Client& client : clients)
-      if (!client.sending) client.sending = next_for(client);
+    for (Client& client : clients_)
+      if (client.socket && !client.sending) begin_next(client);
+    removed();
+    count_ = clients_.size();
   }
 }
 

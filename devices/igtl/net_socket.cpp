@@ -85,8 +85,15 @@ Socket listen_on(const Address& address) {
   Socket socket = new_socket(address);
   set(socket, SOL_SOCKET, SO_REUSEADDR, 1);
   if (::bind(socket.get(), reinterpret_cast<const sockaddr*>(&address.storage), address.size) != 0) fail("bind");
-  if (::listen(socket.get(), 16) != 0) fail("listen");
+  // Who finds the queue full tries again after a second only.
+  constexpr int kQueue = 64;
+  if (::listen(socket.get(), kQueue) != 0) fail("listen");
   return socket;
+}
+
+void limit_buffers(const Socket& socket, int send_bytes, int receive_bytes) {
+  set(socket, SOL_SOCKET, SO_SNDBUF, send_bytes);
+  set(socket, SOL_SOCKET, SO_RCVBUF, receive_bytes);
 }
 
 Address bound_address(const Socket& socket) {

@@ -50,6 +50,10 @@ int connect_error(const Socket& socket);
 /// Listens without waiting; port 0 takes a free one. Throws std::system_error.
 Socket listen_on(const Address& address);
 
+/// Limits what the kernel keeps of a connection, or of all that a listener accepts: so many bytes each way, of which
+/// Linux takes twice as many for what lies around them.
+void limit_buffers(const Socket& socket, int send_bytes, int receive_bytes);
+
 /// Where a socket is bound.
 Address bound_address(const Socket& socket);
 

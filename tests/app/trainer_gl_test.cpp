@@ -406,6 +406,70 @@ TEST_CASE("without a window there is nobody to answer a dialog: bad input passes
   CHECK_THROWS_AS(trainer.finish_loading(), InputError);
 }
 
+TEST_CASE("the trainer makes no patient for what it refuses without one") {
+  const test::TestContext context;
+  const TrainerFolder folder;
+  struct Cache {
+    fs::path path;
+    explicit Cache(const fs::path& p) : path(p) {
+      if (const char* set = std::getenv("XDG_CACHE_HOME")) before = set;
+      setenv("XDG_CACHE_HOME", path.c_str(), 1);
+    }
+    ~Cache() { before ? setenv("XDG_CACHE_HOME", before->c_str(), 1) : unsetenv("XDG_CACHE_HOME"); }
+    std::optional<std::string> before;
+  } const cache(folder.path / "cache");
+  const std::string log = read_file(folder.path / "scan.igs.mha"),
+                    exam = read_file(assets_folder() / "scenarios" / "ruq_hepatorenal.toml");
+  Options options;
+  options.headless = true;
+  options.out = folder.path / "out";
+  options.tracker = "mouse:";
+  const auto refused = [&](const Options& given, const std::string& words) {
+    Trainer trainer(given);
+    const auto load = [&] {
+      trainer.open_from_options();
+      trainer.finish_loading();
+    };
+    CHECK_THROWS_WITH(load(), Catch::Contains(words));
+    CHECK_FALSE(fs::exists(cache.path / "insonate"));  // the graphics driver has a cache of its own beside it
+  };
+  const auto with = [&](const std::function<void(Options&)>& change) {
+    Options changed = options;
+    change(changed);
+    return changed;
+  };
+  const auto tracked = [&](const std::string& uri) { return with([&](Options& o) { o.tracker = uri; }); };
+  const auto replayed = [&](const char* name, const std::string& bytes) {
+    return tracked("replay:" + folder.file(name, bytes).string());
+  };
+  refused(replayed("cut.igs.mha", log.substr(0, log.size() / 2)), "cut.igs.mha");
+  std::string acts = log;
+  const std::string frame = "Seq_Frame0001_";
+  acts.insert(acts.find(frame), frame + "Actions = dance\n");
+  refused(replayed("acts.igs.mha", acts), "dance");
+  refused(tracked("replay:" + (folder.path / "scan.igs.mha").string() + "?loop=1"), "leave loop=1 out");
+  refused(tracked("hydra:?handset=9"), "handset");
+  refused(with([&](Options& o) {
+            o.tracker = "hydra:";
+            o.calibration = folder.file("bad.toml", "x");
+          }),
+          "bad.toml");
+  refused(with([&](Options& o) { o.scenario = folder.file("bad_exam.toml", exam.substr(0, 300)); }), "bad_exam.toml");
+  refused(with([&](Options& o) { o.replay.log = folder.file("bad.igs.mha", acts); }), "dance");
+
+  const fs::path database = folder.path / "lab.db";
+  Sitting begun;
+  begun.learner = "L-01";
+  begun.scenario_text = exam;
+  ResultsDatabase::open_or_make(database).begin(begun, log);
+  refused(with([&](Options& o) {
+            o.exam = true;
+            o.learner = "L-01";
+            o.results = database;
+          }),
+          "the exam was begun at");
+}
+
 TEST_CASE("a replay has no session, keeps nothing, and gives way to what is opened next") {
   const test::TestContext context;
   const TrainerFolder folder;

@@ -41,13 +41,15 @@ std::string text_of(const std::filesystem::path& file) {
   return std::filesystem::file_size(file) > 0 ? read_file(file) : "";
 }
 
-Outcome run(const Folder& folder, const std::string& arguments) {
+Outcome run_command(const Folder& folder, const std::string& command) {
   const auto output = folder.path / "output";
   const auto errors = folder.path / "errors";
-  const int status = std::system(
-      (std::string(INSONATE_SCORE_PROGRAM) + " " + arguments + " >" + output.string() + " 2>" + errors.string())
-          .c_str());
+  const int status = std::system((command + " >" + output.string() + " 2>" + errors.string()).c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(output), text_of(errors)};
+}
+
+Outcome run(const Folder& folder, const std::string& arguments) {
+  return run_command(folder, INSONATE_SCORE_PROGRAM + (" " + arguments));
 }
 
 /// The bundled exam on a phantom that is made in seconds.
@@ -165,7 +167,7 @@ TEST_CASE("insonate-score check passes the bundled exam") {
   CHECK(outcome.output.find("no problems found") != std::string::npos);
 }
 
-TEST_CASE("insonate-score check tells of a scenario's text and of its case at once, in the order of the file") {
+TEST_CASE("insonate-score check tells of a scenario's text and then of its case") {
   const Folder folder;
   std::string exam = coarse_exam();
   const auto spoil = [&](const std::string& from, const std::string& to) { replace_first(exam, from, to); };
@@ -175,7 +177,7 @@ TEST_CASE("insonate-score check tells of a scenario's text and of its case at on
   const Outcome outcome = run(folder, "check " + file);
   INFO(outcome.errors);
   CHECK(outcome.code == 2);
-  CHECK(outcome.errors.find("2 problems") != std::string::npos);
+  CHECK(std::count(outcome.errors.begin(), outcome.errors.end(), '\n') == 2);
   CHECK(outcome.errors.find("'pass_mark'") < outcome.errors.find("did you mean 'hepatorenal'?"));
   CHECK(outcome.errors.find("did you mean 'hepatorenal'?") != std::string::npos);
 
@@ -183,7 +185,8 @@ TEST_CASE("insonate-score check tells of a scenario's text and of its case at on
   spoil("kind = \"find_view\"", "kind = \"find_vew\"");
   const Outcome unknown = run(folder, "check " + folder.file("kind.toml", exam).string());
   CHECK(unknown.code == 2);
-  CHECK(unknown.errors.find("3 problems") != std::string::npos);
+  CHECK(unknown.errors.find("2 problems") != std::string::npos);
+  CHECK(unknown.errors.find("did you mean 'hepatorenal'?") != std::string::npos);
   CHECK(unknown.errors.find("marks nothing") == std::string::npos);
   const Outcome text = run(folder, "check --without-case " + file);
   CHECK(text.code == 2);
@@ -220,6 +223,94 @@ TEST_CASE("insonate-score check tells what is wrong with every variant and its p
   told("${view}", "the view 'liver_lng'");
   told("plane_angel_deg", "did you mean 'plane_angle_deg'?");
   CHECK(outcome.errors.find("'hepatorenal', which") == std::string::npos);
+}
+
+TEST_CASE("insonate-score check tells of the text first, then of each patient, with progress on a terminal alone") {
+  const Folder folder;
+  std::string exam = coarse_exam();
+  replace_first(exam, "view = \"hepatorenal\"", "view = \"${view}\"");
+  replace_first(exam, "pass_mark_percent", "pass_mark");
+  replace_first(exam, "[phantom] ",
+                "[[variant]]\nname = \"one\"\nwords = { view = \"hepatorenal\" }\n\n"
+                "[[variant]]\nname = \"two\"\nwords = { view = \"hepatorenl\" }\n\n[phantom] ");
+  const std::string file = folder.file("exam.toml", exam).string();
+  const Outcome seen =
+      run_command(folder, "script -qefc '" INSONATE_SCORE_PROGRAM " check " + file + "' /dev/null </dev/null");
+  INFO(seen.output);
+  CHECK(seen.code == 2);
+  std::size_t before = 0;
+  for (const char* next :
+       {"'pass_mark'", "variant 1 of 2, one: ", "variant 2 of 2, two: ", " s left", "'hepatorenl'"}) {
+    const std::size_t at = seen.output.find(next, before);
+    INFO(next);
+    REQUIRE(at != std::string::npos);
+    before = at;
+  }
+
+  const Outcome piped = run(folder, "check " + file);
+  CHECK(piped.code == 2);
+  CHECK(piped.output.empty());
+  CHECK(std::count(piped.errors.begin(), piped.errors.end(), '\n') == 2);
+  CHECK(piped.errors.find("'hepatorenl'") != std::string::npos);
+  CHECK(piped.errors.find("variant 1 of") == std::string::npos);
+  CHECK(piped.errors.find('\r') == std::string::npos);
+}
+
+TEST_CASE("insonate-score makes no patient for what it refuses without one") {
+  const Folder folder;
+  const auto cache = folder.path / "cache";
+  const auto run_here = [&](const std::string& arguments) {
+    return run_command(folder, "XDG_CACHE_HOME=" + cache.string() + " " INSONATE_SCORE_PROGRAM " " + arguments);
+  };
+  const auto refused = [&](const std::string& arguments, const std::string& words) {
+    const Outcome outcome = run_here(arguments);
+    INFO(arguments << "\n" << outcome.output << outcome.errors);
+    CHECK(outcome.code != 0);
+    CHECK((outcome.output + outcome.errors).find(words) != std::string::npos);
+    CHECK_FALSE(std::filesystem::exists(cache));
+  };
+  const std::string exam = coarse_exam(), exam_file = folder.file("exam.toml", exam).string();
+  const auto spoilt = [&](const char* name, const std::string& from, const std::string& to) {
+    std::string text = exam;
+    replace_first(text, from, to);
+    return folder.file(name, text).string();
+  };
+  refused("check " + folder.file("cut.toml", exam.substr(0, exam.find("title") + 8)).string(), "this is no TOML");
+  refused("check " + folder.file("short.toml", exam.substr(0, exam.find("[[step]]"))).string(), "has no steps");
+  refused("check " + spoilt("newer.toml", "format = ", "format = 9"), "format 9");
+  refused("check " + spoilt("gone.toml", "case = \"abdomen\"", "case = \"gone\""), "is no folder beside the file");
+
+  const std::string log = read_file(kAssets / "logs" / "ruq_good.igs.mha");
+  const auto score = [&](const std::string& log_file) { return "--log " + log_file + " --scenario " + exam_file; };
+  const std::string good = folder.file("good.igs.mha", log).string();
+  std::string acts = log;
+  replace_first(acts, "Seq_Frame0001_FrameNumber", "Seq_Frame0001_Actions = dance\nSeq_Frame0001_FrameNumber");
+  refused(score(folder.file("cut.igs.mha", log.substr(0, 5000)).string()), "cut.igs.mha");
+  refused(score(folder.file("acts.igs.mha", acts).string()), "dance");
+  refused(score(good) + " --results " + folder.file("text.db", "no database").string(), "no database of results");
+  refused(score(good) + " --calibration " + folder.file("bad.toml", "x").string(), "bad.toml");
+  refused("--log " + good + " --scenario " + spoilt("typo.toml", "title", "tittle"), "did you mean 'title'?");
+
+  const std::string database = (folder.path / "lab.db").string();
+  ResultsDatabase opened = ResultsDatabase::open_or_make(database);
+  Attempt attempt;
+  attempt.learner = "L-01";
+  attempt.scenario_text = exam;
+  attempt.score_json = to_json(ExamResult());
+  attempt.trace_json = to_json(std::vector<TracePoint>());
+  attempt.log = "no sequence";
+  opened.add(attempt);
+  refused("rescore " + database, "it cannot be scored");
+  Sitting sitting;
+  sitting.learner = "L-02";
+  sitting.scenario_text = exam;
+  opened.begin(sitting, "no sequence");
+  sqlite::Connection(database, false).run("UPDATE sitting_part SET kept_ms = 0");
+  refused("hand-in " + database, ": sitting 1: ");
+
+  INFO("what is right does make one");
+  CHECK(run_here("check " + exam_file).code == 0);
+  CHECK(std::filesystem::exists(cache / "insonate" / "phantoms"));
 }
 
 TEST_CASE(

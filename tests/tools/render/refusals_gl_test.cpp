@@ -62,6 +62,24 @@ TEST_CASE("what insonate-render cannot do it says in a sentence, and leaves noth
   CHECK(after == before);
 }
 
+TEST_CASE("insonate-render makes no patient for what it refuses without one") {
+  const Scene scene;
+  scene.folder.file("bad.toml", "gain_db = 99\n");
+  scene.folder.file("bad_pose.txt", "1 2 3\n");
+  const auto refused = [&](const std::string& arguments, const std::string& sentence) {
+    const Outcome refusal = run(scene.folder, "XDG_CACHE_HOME=" + scene.in("cache") + " " INSONATE_RENDER_PROGRAM,
+                                arguments + " " + scene.in("image.png"));
+    INFO(arguments << ": " << refusal.errors);
+    CHECK(refusal.code == 2);
+    CHECK(refusal.errors.find(sentence) != std::string::npos);
+    CHECK_FALSE(fs::exists(scene.in("cache/insonate")));  // the graphics driver has a cache of its own beside it
+  };
+  refused("--settings " + scene.in("bad.toml"), "'gain_db' is 99");
+  refused("--depth 100 --settings " + scene.in("bad.toml"), "'gain_db' is 99");
+  refused("--model W --settings " + scene.in("bad.toml"), "the key 'gain_db' is unknown here");
+  refused("--pose " + scene.in("bad_pose.txt"), "bad_pose.txt");
+}
+
 TEST_CASE("a pose is 16 numbers as text, or JSON of them or of their rows, and what is wrong is told with its place") {
   const Scene scene;
   const auto outcome_of = [&](const char* name, const std::string& text) {
