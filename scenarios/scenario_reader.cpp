@@ -273,19 +273,19 @@ Scenario read_tables(TableReader& reader, const Variant* variant) {
 }
 
 std::string in_words(const ScenarioProblem& p) {
-  return "line " + std::to_string(p.place.line) + ", column " + std::to_string(p.place.column) + ": " + p.problem +
-         "; " + p.remedy;
+  return "line " + std::to_string(p.place.line) + ", column " + std::to_string(p.place.column) + ": " +
+         in_one_line(p.problem) + "; " + in_one_line(p.remedy);
 }
 
-std::string all_in_words(const std::vector<ScenarioProblem>& problems) {
-  std::string text = "correct them:";
-  for (const ScenarioProblem& p : problems) text += "\n  " + in_words(p);
-  return text;
+std::string all_in_words(const std::string& file, const std::vector<ScenarioProblem>& problems) {
+  constexpr std::size_t kMostTold = 100;
+  std::string text = in_one_line(file) + ": " + std::to_string(problems.size()) + " problems; correct them:";
+  for (std::size_t i = 0; i < std::min(problems.size(), kMostTold); ++i) text += "\n  " + in_words(problems[i]);
+  return text + (problems.size() > kMostTold ? "\n  and so on." : ".");
 }
 
 InputError as_input_error(const std::string& file, const std::vector<ScenarioProblem>& problems) {
-  if (problems.size() > 1)
-    return InputError(file, "", std::to_string(problems.size()) + " problems", all_in_words(problems));
+  if (problems.size() > 1) return InputError(all_in_words(file, problems));
   const ScenarioProblem& p = problems.front();
   return InputError(file, "line " + std::to_string(p.place.line) + ", column " + std::to_string(p.place.column),
                     p.problem, p.remedy);
@@ -310,6 +310,11 @@ std::vector<ScenarioProblem> in_order_of_file(std::vector<ScenarioProblem> probl
 
 ReadScenario parse_every_variant(std::string_view text, const std::filesystem::path& name) {
   ReadScenario read;
+  if (const int line = line_of_deep_key(text); line > 0) {
+    read.problems.push_back(
+        {{line, 1}, "a key has more than " + std::to_string(kMostKeyParts) + " parts between dots", "shorten it"});
+    return read;
+  }
   toml::table root;
   try {
     root = parse_toml_text(text);

@@ -43,7 +43,8 @@ std::vector<Entry> entries_of_csv(const std::string& file, std::string_view text
   if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   std::vector<Entry> entries;
   bool headed = false;
-  for (std::size_t line = 1; !text.empty(); ++line) {
+  // Of a file of far too many no more is kept than shows that.
+  for (std::size_t line = 1; !text.empty() && entries.size() <= kMostLearners; ++line) {
     const std::size_t end = text.find('\n');
     const std::string_view cell = unquoted(without_blanks(text.substr(0, end)));
     text = end == std::string_view::npos ? "" : text.substr(end + 1);
@@ -70,10 +71,8 @@ std::vector<std::string> read_roster(const std::filesystem::path& file) {
       file.extension() == ".toml" ? entries_of_toml(name, text) : entries_of_csv(name, text);
   if (entries.empty()) throw InputError(name, "", "it lists no learners", "write their ids into it");
   if (entries.size() > kMostLearners)
-    throw InputError(
-        name, "",
-        "it lists " + std::to_string(entries.size()) + " learners, above the limit of " + std::to_string(kMostLearners),
-        "check that it is the right file");
+    throw InputError(name, "", "the number of its learners is above the limit of " + std::to_string(kMostLearners),
+                     "check that it is the right file");
   std::map<std::string, std::string> places;
   std::vector<std::string> ids;
   for (const Entry& entry : entries) {

@@ -25,6 +25,25 @@ std::string quoted(std::string_view key) {
   return "'" + std::string(key) + "'";
 }
 
+/// Where the string that begins at `at` ends, one past its closing quotation marks; a string of one line that is not
+/// closed ends with the line.
+std::size_t end_of_string(std::string_view text, std::size_t at) {
+  const char quote = text[at];
+  const std::string three(3, quote);
+  const bool many_lines = text.substr(at).starts_with(three);
+  for (at += many_lines ? 3 : 1; at < text.size(); ++at) {
+    if (quote == '"' && text[at] == '\\')
+      ++at;
+    else if (!many_lines && text[at] == quote)
+      return at + 1;
+    else if (many_lines && text.substr(at).starts_with(three))
+      return std::min(text.find_first_not_of(quote, at), at + 5);  // two more may belong to the text
+    else if (!many_lines && text[at] == '\n')
+      return at;
+  }
+  return text.size();
+}
+
 }  // namespace
 
 toml::table parse_toml_text(std::string_view text, std::string_view name) {
@@ -34,7 +53,30 @@ toml::table parse_toml_text(std::string_view text, std::string_view name) {
   return toml::parse(text, name);
 }
 
+int line_of_deep_key(std::string_view text) {
+  int line = 1, dots = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    const char c = text[at];
+    std::size_t end = at + 1;
+    if (c == '"' || c == '\'')
+      end = end_of_string(text, at);
+    else if (c == '#')
+      end = std::min(text.find('\n', at), text.size());
+    else if (c == '.')
+      ++dots;
+    else if (std::string_view("\n=,[]{}").find(c) != std::string_view::npos)
+      dots = 0;
+    if (dots >= kMostKeyParts) return line;
+    line += int(std::count(text.begin() + std::ptrdiff_t(at), text.begin() + std::ptrdiff_t(end), '\n'));
+    at = end;
+  }
+  return 0;
+}
+
 toml::table parse_toml(const std::string& file, std::string_view text) {
+  if (const int line = line_of_deep_key(text); line > 0)
+    throw InputError(file, "line " + std::to_string(line),
+                     "a key has more than " + std::to_string(kMostKeyParts) + " parts between dots", "shorten it");
   try {
     return parse_toml_text(text, file);
   } catch (const toml::parse_error& error) {

@@ -15,7 +15,15 @@ namespace insonate {
 /// throws std::bad_alloc when it is not to be had. Throws toml::parse_error besides.
 toml::table parse_toml_text(std::string_view text, std::string_view name = {});
 
-/// Parses TOML text. Throws InputError with line and column when it is none.
+/// The most parts that a dotted key may have in a file of Insonate's. A table of tables is taken apart recursively: a
+/// key of some 30,000 parts would overflow the stack.
+inline constexpr int kMostKeyParts = 16;
+
+/// The line in which a dotted key has more than kMostKeyParts parts, from 1; 0 when there is none. To be asked before
+/// a text is parsed.
+int line_of_deep_key(std::string_view text);
+
+/// Parses TOML text. Throws InputError with line and column when it is none, and for keys of too many parts.
 toml::table parse_toml(const std::string& file, std::string_view text);
 
 /// A table of a TOML file that a person wrote, read key by key. Whatever is missing, of the wrong type or out of range

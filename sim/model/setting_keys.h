@@ -28,15 +28,20 @@ std::string in_words(const SettingValue& value);
 /// What a TOML value is as a value of the kind that `kind` shows; empty when it is of another.
 std::optional<SettingValue> value_of(const toml::node& node, const SettingValue& kind);
 
-/// Notes what is wrong instead of stopping there.
+/// Notes what is wrong instead of stopping there, up to kMostTold times: a file of another kind may be wrong in every
+/// line.
 class Problems {
 public:
+  static constexpr int kMostTold = 100;
+
   template <typename Check>
   void note(Check&& check) {
+    if (told_ >= kMostTold) return;
     try {
       check();
     } catch (const InputError& error) {
       sentences_ += (sentences_.empty() ? "" : "\n") + std::string(error.what());
+      ++told_;
     }
   }
   void throw_any() const {
@@ -45,6 +50,7 @@ public:
 
 private:
   std::string sentences_;
+  int told_ = 0;
 };
 
 /// A setting of S as files and messages know it.

@@ -83,3 +83,17 @@ TEST_CASE("a picture is written as PNG or refused with its name") {
   CHECK(read_file(folder.path / "grey.png").substr(1, 3) == "PNG");
   CHECK_THROWS_AS(write_png("/proc/none/grey.png", Image<std::uint8_t>(3, 2, 128)), InputError);
 }
+
+TEST_CASE("a refusal is one line that is safe to show, whatever it quotes") {
+  const InputError error("a\nb.toml", "key '\x1b[2J'", "it is '\xc2\x9b" + std::string(3000, 'x') + "\xc3\xa4'",
+                         "\xc3\xa4");
+  const std::string said = error.what();
+  CHECK(said.find_first_of("\n\x1b") == std::string::npos);
+  CHECK(said.find("\xc2\x9b") == std::string::npos);
+  CHECK(said.starts_with("a b.toml: key ' [2J': it is '  xxx"));
+  CHECK(said.ends_with("x...; \xc3\xa4."));
+  CHECK(said.size() < 1100);
+  // A character that does not fit is left out as a whole.
+  CHECK(in_one_line(std::string(999, 'x') + "\xc3\xa4") == std::string(999, 'x') + "...");
+  CHECK(in_one_line(std::string(998, 'x') + "\xc3\xa4") == std::string(998, 'x') + "\xc3\xa4");
+}

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <limits>
@@ -178,6 +179,14 @@ TEST_CASE("a settings file that cannot be used is refused with every place and r
     CHECK(why.find(bad.place) != std::string::npos);
     CHECK(why.find(bad.problem) != std::string::npos);
   }
+}
+
+TEST_CASE("of a file that is wrong throughout a hundred places are told") {
+  std::string text;
+  for (int i = 0; i < 1000; ++i) text += "key" + std::to_string(i) + " = 1\n";
+  for (const std::string& said :
+       {why_refused(text, [](const std::string& t) { read(t); }), why_refused(text, read_wein)})
+    CHECK(std::count(said.begin(), said.end(), '\n') == 99);
 }
 
 TEST_CASE("settings that no file could hold are told of by name") {

@@ -277,3 +277,31 @@ TEST_CASE("whatever becomes of a shipped scenario, it is read or refused in word
   CHECK(files > 1);
   CHECK(refused > 60 * files);
 }
+
+TEST_CASE("a key of too many parts is a problem in its line, and does not overflow the stack") {
+  std::string key = "a";
+  for (int i = 0; i < 500'000; ++i) key += ".a";
+  try {
+    parse_scenario("format = 2\n" + key + " = 1\n", "deep.toml");
+    FAIL("it was taken");
+  } catch (const ScenarioError& error) {
+    REQUIRE(error.problems().size() == 1);
+    CHECK(error.problems()[0].place.line == 2);
+  }
+}
+
+TEST_CASE("a refusal lists a hundred problems at most, each on a line that is safe to show") {
+  std::string text;
+  for (int i = 0; i < 1000; ++i) text += "key" + std::to_string(i) + " = 1\n";
+  try {
+    parse_scenario(text + "\"\\u001b[2J\\n\" = 1\n", "wrong.toml");
+    FAIL("it was taken");
+  } catch (const ScenarioError& error) {
+    const std::string said = error.what();
+    CHECK(error.problems().size() > 1000);
+    CHECK(std::count(said.begin(), said.end(), '\n') == 101);
+    CHECK(said.ends_with("\n  and so on."));
+  }
+  CHECK_THROWS_WITH(parse_scenario("\"\\u001b[2J\\n\" = 1\n", "wrong.toml"),
+                    Catch::Contains("[2J") && !Catch::Contains("\x1b") && !Catch::Contains("J\n"));
+}

@@ -1,0 +1,119 @@
+// A DICOM file as the middle slice of a series, beside the two others.
+//
+// The program decodes DICOM in a process of its own (sim/volume/apart.h), because GDCM ends damaged files by assertions
+// and believes the lengths that it reads. Among the tests the seeds go that way. The fuzzer decodes in its own process:
+// a process per input would be slow and its coverage unseen. What the wall holds off then ends the input and is no
+// finding: an assertion or a signal out of a library, and more memory than it can need. Left are Insonate's own code,
+// which alone is instrumented, and exceptions that are not InputError.
+#include <algorithm>
+#include <fstream>
+#include <iostream>
+
+#include "sim/core/files.h"
+#include "sim/volume/dicom_series.h"
+#include "sim/volume/itk_image_io.h"
+#include "tests/fuzz/volume_promises.h"
+
+#ifdef INSONATE_FUZZ_IN_PROCESS
+#include <dlfcn.h>
+#include <ucontext.h>
+
+#include <csetjmp>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+
+namespace {
+
+sigjmp_buf input_ends;
+volatile sig_atomic_t decoding = 0;
+
+/// Whether an address lies in this program and not in one of its libraries.
+bool is_own(const void* address) {
+  Dl_info there{}, here{};
+  return dladdr(address, &there) != 0 && dladdr(reinterpret_cast<const void*>(&is_own), &here) != 0 &&
+         there.dli_fbase == here.dli_fbase;
+}
+
+void on_signal(int number, siginfo_t*, void* context) {
+#ifdef __x86_64__
+  const auto at = static_cast<const ucontext_t*>(context)->uc_mcontext.gregs[REG_RIP];
+  if (decoding && !is_own(reinterpret_cast<const void*>(at))) siglongjmp(input_ends, number);
+#endif
+  std::signal(number, SIG_DFL);
+  std::raise(number);
+}
+
+}  // namespace
+
+extern "C" void __assert_fail(const char* assertion, const char* file, unsigned line, const char*) noexcept {
+  if (decoding) siglongjmp(input_ends, SIGABRT);
+  std::fprintf(stderr, "%s:%u: assertion failed: %s\n", file, line, assertion);
+  std::abort();
+}
+
+extern "C" void __sanitizer_malloc_hook(const volatile void*, std::size_t size) {
+  // Far below the wall's 512 MiB, which would take a second to fill, and far above what an input this small needs.
+  constexpr std::size_t kWall = std::size_t(16) << 20;
+  if (decoding && size > kWall) siglongjmp(input_ends, SIGABRT);
+}
+#endif
+
+namespace insonate::fuzz {
+namespace {
+
+namespace fs = std::filesystem;
+
+#ifdef INSONATE_FUZZ_IN_PROCESS
+/// What is read of a series: its grid, and the voxels of the slice in the middle.
+std::string broken_by_series(const fs::path& folder, const fs::path& middle) {
+  const DicomSeries series = find_dicom_series(folder);
+  if (series.slices.size() != std::size_t(series.grid.size.z)) return "there are not as many slices as the grid has";
+  if (const std::string broken = broken_in_grid(series.grid, series.grid.count()); !broken.empty()) return broken;
+  if (std::find(series.slices.begin(), series.slices.end(), middle) == series.slices.end()) return "";
+  check_dicom_voxels(middle);
+  ImageFile(middle, ImageFormat::dicom).read_voxels();
+  return "";
+}
+
+std::string broken_in(const fs::path& folder, const fs::path& middle) {
+  struct sigaction action {};
+  action.sa_sigaction = on_signal;
+  action.sa_flags = SA_SIGINFO | SA_NODEFER | SA_ONSTACK;
+  for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL}) sigaction(number, &action, nullptr);
+  // Left by a jump, what ITK prints would go on to the stream that swallowed it.
+  static std::streambuf* const cerr = std::cerr.rdbuf();
+  static std::streambuf* const cout = std::cout.rdbuf();
+  std::string broken;
+  if (sigsetjmp(input_ends, 1) == 0) {
+    decoding = 1;
+    broken = broken_by([&] { return broken_by_series(folder, middle); });
+  }
+  decoding = 0;
+  std::cerr.rdbuf(cerr);
+  std::cout.rdbuf(cout);
+  return broken;
+}
+#else
+std::string broken_in(const fs::path& folder, const fs::path&) {
+  const Volume<std::int16_t> ct = read_ct(folder);
+  return broken_in_grid(ct.grid, ct.voxels.size());
+}
+#endif
+
+/// The slices to either side, which the corpus holds as any other seed.
+fs::path folder_with_slices() {
+  fs::path folder;
+  for (const char* name : {"slice_below", "slice_above"})
+    folder = file_with(std::string("dicom/") + name, read_file(fs::path(INSONATE_FUZZ_CORPORA) / "dicom" / name))
+                 .parent_path();
+  return folder;
+}
+
+const Target target("dicom", [](std::string_view bytes) {
+  static const fs::path folder = folder_with_slices();
+  return broken_in(folder, file_with("dicom/slice_between", bytes));
+});
+
+}  // namespace
+}  // namespace insonate::fuzz

@@ -1,0 +1,11 @@
+// Sequence files, MetaImage and NRRD.
+#include "tests/devices/sequence_promises.h"
+#include "tests/fuzz/fuzz_target.h"
+
+namespace insonate::fuzz {
+namespace {
+
+const Target target("sequence", broken_sequence_promise);
+
+}  // namespace
+}  // namespace insonate::fuzz
