@@ -37,7 +37,7 @@ std::size_t end_of_string(std::string_view text, std::size_t at) {
     else if (!many_lines && text[at] == quote)
       return at + 1;
     else if (many_lines && text.substr(at).starts_with(three))
-      return std::min(text.find_first_not_of(quote, at), at + 5);  // two more may belong to the text
+      return std::min({text.find_first_not_of(quote, at), at + 5, text.size()});  // two more may belong to the text
     else if (!many_lines && text[at] == '\n')
       return at;
   }

@@ -40,4 +40,6 @@ TEST_CASE("what looks like a key of many parts and is none is taken") {
         std::string(
             "a = [0.5, 1.5, 2.5, 3.5, 4.5, 5.5, 6.5, 7.5, 8.5, 9.5, 0.5, 1.5, 2.5, 3.5, 4.5, 5.5, 6.5, 7.5]\n")})
     CHECK_NOTHROW(parse_toml("flat.toml", text));
+  for (const std::string ending : {R"("""a""")", R"('''a''')", R"("a)", R"("a\)", R"("""a\)", R"(')", R"(#)"})
+    CHECK(line_of_deep_key("a = " + ending) == 0);
 }
