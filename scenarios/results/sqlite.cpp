@@ -82,6 +82,9 @@ void Connection::fail(int code) const {
                  "check the permissions of the file and of its folder, where two more files lie beside it");
       break;
     case SQLITE_IOERR:
+      // The shared memory beside the database cannot grow.
+      if (handle() && sqlite3_extended_errcode(handle()) == SQLITE_IOERR_SHMSIZE)
+        throw_with("the disk is full", "make room on it and try again");
       throw_with("the disk does not read or write it (" + said + ")", "check the disk, or copy the file to another");
       break;
     case SQLITE_NOMEM:
