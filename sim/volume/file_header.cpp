@@ -177,6 +177,7 @@ struct Nifti {
   int intent = 0;
   bool by_quaternion = false;                     ///< qform_code > 0
   std::array<double, 3> quaternion{};             ///< b, c, d
+  std::array<double, 3> offset{};                 ///< qoffset_x, y, z
   bool by_matrix = false;                         ///< sform_code > 0
   std::array<std::array<double, 4>, 3> matrix{};  ///< srow_x, y, z
 };
@@ -195,6 +196,7 @@ Nifti parse_nifti(const Bytes& header) {
   n.intent = header.at<std::int16_t>(68);
   n.by_quaternion = header.at<std::int16_t>(252) > 0;
   for (std::size_t q = 0; q < 3; ++q) n.quaternion[q] = double(header.at<float>(256 + 4 * q));
+  for (std::size_t q = 0; q < 3; ++q) n.offset[q] = double(header.at<float>(268 + 4 * q));
   n.by_matrix = header.at<std::int16_t>(254) > 0;
   for (std::size_t r = 0; r < 3; ++r)
     for (std::size_t c = 0; c < 4; ++c) n.matrix[r][c] = double(header.at<float>(280 + 16 * r + 4 * c));
@@ -227,18 +229,26 @@ std::string first_bytes(const fs::path& file, std::size_t count, bool& packed) {
 
 /// Holds the placing in the patient against what ITK makes of it: it takes the sform, or else the qform, and the
 /// spacing from pixdim.
+/// ITK's singular value decomposition does not return from a matrix with numbers near the largest of single precision.
+void check_nifti_reach(const fs::path& file, const std::string& what, double number) {
+  if (!(std::abs(number) <= kFurthestOriginMm))
+    refuse(file, "the " + what + " holds " + short_number(number) + ", further than 1 km", "correct it");
+}
+
 glm::dvec3 check_nifti_place(const fs::path& file, const Nifti& n) {
   if (n.units == 1 || n.units == 3)
     refuse(file, std::string("its unit of length is the ") + (n.units == 1 ? "metre" : "micrometre"),
            "save it in millimetres");
   const glm::dvec3 spacing =
       checked_spacing(file, {n.pixdim[1], n.pixdim[2], n.pixdim[3]}, "correct the header's pixdim");
+  for (const double offset : n.offset) check_nifti_reach(file, "qform's offset", offset);
   if (n.by_matrix) {
     std::array<glm::dvec3, 3> columns;
     for (std::size_t r = 0; r < 3; ++r)
       for (std::size_t c = 0; c < 4; ++c) {
         if (!std::isfinite(n.matrix[r][c]))
           refuse(file, "the sform matrix holds a number that is not finite", "correct it");
+        check_nifti_reach(file, "sform matrix", n.matrix[r][c]);
         if (c < 3) columns[c][int(r)] = n.matrix[r][c];
       }
     if (n.by_quaternion) return spacing;  // to fall back on

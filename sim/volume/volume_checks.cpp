@@ -13,7 +13,6 @@ namespace insonate {
 namespace {
 
 constexpr double kLeastSpacingMm = 1e-3, kMostSpacingMm = 100;
-constexpr double kFurthestOriginMm = 1e6;
 // A probe's face is longer than the one, no scanner's table than the other.
 constexpr double kLeastBodyMm = 20, kMostBodyMm = 3000;
 // Directions are often stored with 6 decimals, and as cosines of small angles lose a digit or two more.

@@ -12,6 +12,8 @@ class ImageFile;
 /// The limits that read_ct() documents. 4096 voxels a side are twice what scanners write; 2^31 int16 voxels are 4 GiB.
 inline constexpr std::uint64_t kMostVoxelsASide = 4096;
 inline constexpr std::uint64_t kMostVoxels = std::uint64_t(1) << 31;
+/// How far the origin may lie from zero along an axis. A scanner's table is 2 m long.
+inline constexpr double kFurthestOriginMm = 1e6;
 
 /// Throws the InputError for sizes no volume may have: a side of fewer than 2 or too many voxels, or too many in all.
 void check_size(const std::string& file, std::uint64_t i, std::uint64_t j, std::uint64_t k);

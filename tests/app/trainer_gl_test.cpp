@@ -23,12 +23,13 @@ namespace fs = std::filesystem;
 namespace {
 
 /// A MetaImage of 1 mm voxels along y and z, all of them water.
+/// A CT of water, 24 mm wide and high, with a voxel of 1 HU: a CT of one value alone is refused.
 std::string water(int voxels_along_x, double spacing_x_mm) {
-  constexpr int kOthers = 4;
+  constexpr int kOthers = 24;
   return "ObjectType = Image\nNDims = 3\nDimSize = " + std::to_string(voxels_along_x) +
-         " 4 4\nElementSpacing = " + std::to_string(spacing_x_mm) +
-         " 1 1\nElementType = MET_SHORT\nElementDataFile = LOCAL\n" +
-         std::string(std::size_t(voxels_along_x) * kOthers * kOthers * sizeof(short), '\0');
+         " 24 24\nElementSpacing = " + std::to_string(spacing_x_mm) +
+         " 1 1\nElementType = MET_SHORT\nElementDataFile = LOCAL\n\1" +
+         std::string(std::size_t(voxels_along_x) * kOthers * kOthers * sizeof(short) - 1, '\0');
 }
 
 }  // namespace

@@ -157,6 +157,12 @@ TEST_CASE("NIfTI files that cannot be a CT are refused with the reason") {
       {"a.nii", nifti_with([](auto& s) { s.sform = {0, 0, 0, 10, 0, 0, 0, 20, 0, 0, 0, 30}; }),
        "1 is 0 mm by the sform matrix and 10 mm by pixdim"},
       {"a.nii", nifti_with([](auto& s) { s.sform[1] = 2; }), "axes of the sform matrix are not at right angles"},
+      // The largest numbers of single precision kept ITK busy for ever.
+      {"a.nii", nifti_with([](auto& s) { s.sform[3] = -1.7e38f; }),
+       "the sform matrix holds -1.7e+38, further than 1 km"},
+      {"a.nii", nifti_with([](auto& s) { s.qform_code = 1, s.sform[4] = 3e38f; }), "the sform matrix holds 3e+38"},
+      {"a.nii", nifti_with([](auto& s) { s.qoffset[1] = 2e6f; }), "the qform's offset holds 2e+06"},
+      {"a.nii", nifti_with([](auto& s) { s.qoffset[1] = kNan; }), "the qform's offset holds nan"},
       {"a.nii", nifti_with([](auto& s) { s.units = 1; }), "its unit of length is the metre; save it in millimetres"},
       {"a.nii", nifti_with([](auto& s) { s.units = 3; }), "its unit of length is the micrometre"},
       {"a.nii", nifti_with([](auto& s) { s.intent = 1004; }), "each voxel is a matrix"},

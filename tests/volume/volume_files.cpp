@@ -51,6 +51,7 @@ std::string nifti(const NiftiSpec& spec, const std::string& voxels) {
   bytes[123] = spec.units;
   put(bytes, 252, spec.qform_code);
   put(bytes, 256, spec.quaternion);
+  put(bytes, 268, spec.qoffset);
   put(bytes, 254, spec.sform_code);
   put(bytes, 280, spec.sform);
   bytes.replace(344, 4, spec.magic);

@@ -34,6 +34,7 @@ struct NiftiSpec {
   std::int16_t intent = 0;  ///< none
   std::int16_t qform_code = 0;
   std::array<float, 3> quaternion{};
+  std::array<float, 3> qoffset{};
   std::int16_t sform_code = 1;
   std::array<float, 12> sform{10, 0, 0, 10, 0, 20, 0, 20, 0, 0, 30, 30};  ///< RAS, row by row
   std::string magic = std::string("n+1\0", 4);

@@ -119,7 +119,7 @@ TEST_CASE("a sweep becomes a volume in which the patient's parts lie where they 
   const Scene scene;
   std::string poses;
   for (int plane = 0; plane < 8; ++plane)
-    poses += "1 0 0 0  0 1 0 9  0 0 1 " + std::to_string(2 * plane - 7) + "  0 0 0 1\n";
+    poses += "1 0 0 0  0 1 0 9  0 0 1 " + std::to_string(3 * plane - 10) + "  0 0 0 1\n";
   scene.folder.file("poses.txt", poses);
   const std::string volume = scene.in("swept.nrrd");
   for (const std::string& how :
