@@ -22,7 +22,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A MetaImage of 1 mm voxels along y and z, all of them water.
 /// A CT of water, 24 mm wide and high, with a voxel of 1 HU: a CT of one value alone is refused.
 std::string water(int voxels_along_x, double spacing_x_mm) {
   constexpr int kOthers = 24;
