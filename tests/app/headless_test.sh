@@ -163,11 +163,15 @@ refuses "nobody else is told where the probe is" "${exam[@]}" --igtl-server 1894
 refuses "drawn as the program draws it" "${exam[@]}" --shader-dir "$work"
 
 echo "what there is of a sitting that was broken off is handed in, or removed so that it can be taken again"
-for _ in $(seq 1 100); do
-  "$score" hand-in "$work/sitting.db" --sitting 1 >"$work/handed.txt" || fail "hand-in ended with $?"
-  grep -q 'only just' "$work/handed.txt" || break
-  sleep 0.5
-done
+# `hand_in ARGUMENT...`: hands in, once the sitting has been broken off for long enough.
+hand_in() {
+  for _ in $(seq 1 100); do
+    "$score" hand-in "$work/sitting.db" "$@" >"$work/handed.txt" || fail "hand-in ended with $?"
+    grep -q 'only just' "$work/handed.txt" || return 0
+    sleep 0.5
+  done
+}
+hand_in --sitting 1
 grep -q '^sitting 1, L-07, begun .*: attempt 1, ' "$work/handed.txt" || fail "$(cat "$work/handed.txt")"
 "$score" rescore "$work/sitting.db" >"$work/log" || fail "$(cat "$work/log")"
 "$score" report "$work/sitting.db" --out "$work/reports-sitting" >"$work/log" 2>&1 || fail "$(cat "$work/log")"
@@ -175,7 +179,7 @@ grep -q '"seed": 3,' "$work/reports-sitting/attempt-1/score.json" || fail "the s
 grep -q '"mode": "exam"' "$work/reports-sitting/attempt-1/score.json" || fail "it does not say that it was an exam"
 sit L-07 && fail "an exam that was handed in was begun again"
 grep -q "as attempt 1" "$work/log" || fail "$(cat "$work/log")"
-"$score" hand-in "$work/sitting.db" --sitting 2 --discard >"$work/handed.txt" || fail "hand-in ended with $?"
+hand_in --sitting 2 --discard
 grep -q '^sitting 2, L-08, begun .*: removed$' "$work/handed.txt" || fail "$(cat "$work/handed.txt")"
 [ "$("$score" hand-in "$work/sitting.db")" = "no exam was begun and not handed in" ] || fail "sittings are left"
 echo "passed"
