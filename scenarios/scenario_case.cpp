@@ -102,7 +102,7 @@ std::vector<ScenarioProblem> problems_before_case(const Scenario& scenario, cons
   if (scenario.case_name == "abdomen") return problems_with_phantom(scenario, assets);
   std::error_code error;
   if (std::filesystem::exists(folder_of_case(scenario), error)) return {};
-  return {{scenario.case_place, "the case '" + scenario.case_name + "' is no folder beside the file",
+  return {{scenario.case_place, "the case '" + scenario.case_name + "' is not a folder beside the file",
            "name a case folder, or \"abdomen\" for the built-in patient"}};
 }
 

@@ -44,7 +44,7 @@ inline void finish_printing() {
 /// goes wrong into one sentence on standard error. Exit codes: 0 done, what `work` returns, 2 for input that cannot be
 /// used (wrong arguments and output that cannot be written too), 3 for a failure that is not the input's.
 inline int run_program(CLI::App& arguments, int argc, char** argv, const std::function<int()>& work) {
-  // A file that reaches the limit of its size is told in a sentence, as a full disk is, and ends no program.
+  // A file at its size limit gets a sentence, as a full disk does, and does not end the program.
   signal(SIGXFSZ, SIG_IGN);
   try {
     arguments.parse(argc, argv);

@@ -18,7 +18,7 @@ bool is_raw_log(const std::filesystem::path& file);
 /// Throws InputError when the samples are a sensor's, which say nothing of the probe before they are calibrated.
 void check_is_of_probe(const Recording& recording);
 
-/// Throws InputError when the samples' times are assumed, for whoever scores them.
+/// Throws InputError if the times of the samples are assumed. Callers that score them use it.
 void check_has_times(const Recording& recording);
 
 }  // namespace insonate

@@ -20,7 +20,7 @@ struct RecordingOptions {
   std::string transform{};
   /// Frames a second of a recording whose frames have no times, Hz, above 0; 0: such a recording is refused.
   double rate_hz = 0;
-  /// Takes 1 Hz for such a recording instead, for whoever does not look at times.
+  /// Takes 1 Hz for such a recording instead, for callers that do not use its times.
   bool without_times = false;
 };
 

@@ -176,7 +176,7 @@ TEST_CASE("rotations are rounded up to 2e-3, counted, and refused beyond") {
   CHECK_THAT(refusal(text("1.0011")), Contains("frame 0") && Contains("stretches or shears by 0.0022"));
 }
 
-TEST_CASE("a refused pose reaches whoever reads a file, and nothing else happens") {
+TEST_CASE("a refused pose reaches the caller that reads a file, and nothing else happens") {
   TemporaryFolder folder;
   const std::filesystem::path file = folder.put(
       "scan.igs.mha", text_of({at("1", {transform("ProbeToPatient", "2.5 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1")})}));

@@ -1,4 +1,4 @@
-// Kills whoever writes at random moments, and looks after each kill whether what was committed is there, whether
+// Kills writing programs at random moments, and looks after each kill whether what was committed is there, whether
 // anything half written looks whole, and whether the next start works:
 //   kill_rounds [--rounds N] [--seed S] [--limits]
 // Half of the kills come after a random time, half at a random call of the system. With --limits nobody is killed:
@@ -164,7 +164,7 @@ private:
 
 int main(int argc, char** argv) {
   using namespace insonate;
-  CLI::App arguments("Kills whoever writes, and looks at what is there after that", "kill_rounds");
+  CLI::App arguments("Kills writing programs, and checks what is there afterwards", "kill_rounds");
   int rounds = 50;
   std::uint32_t seed = 1;
   bool limits = false;

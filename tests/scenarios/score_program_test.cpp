@@ -218,7 +218,7 @@ TEST_CASE("insonate-score check tells what is wrong with every variant and its p
   };
   told("fre_fluid", "the phantom's option 'fre_fluid': the recipe has no such option; did you mean 'free_fluid'?");
   told("900", "the phantom's option 'aorta_diameter_mm': '900' is out of range");
-  told("\"gone\"", "the case 'gone' is no folder beside the file");
+  told("\"gone\"", "the case 'gone' is not a folder beside the file");
   told("${view}", "the view 'hepatorenl'");
   told("${view}", "the view 'liver_lng'");
   told("plane_angel_deg", "did you mean 'plane_angle_deg'?");
@@ -278,7 +278,7 @@ TEST_CASE("insonate-score makes no patient for what it refuses without one") {
   refused("check " + folder.file("cut.toml", exam.substr(0, exam.find("title") + 8)).string(), "this is no TOML");
   refused("check " + folder.file("short.toml", exam.substr(0, exam.find("[[step]]"))).string(), "has no steps");
   refused("check " + spoilt("newer.toml", "format = ", "format = 9"), "format 9");
-  refused("check " + spoilt("gone.toml", "case = \"abdomen\"", "case = \"gone\""), "is no folder beside the file");
+  refused("check " + spoilt("gone.toml", "case = \"abdomen\"", "case = \"gone\""), "is not a folder beside the file");
 
   const std::string log = read_file(kAssets / "logs" / "ruq_good.igs.mha");
   const auto score = [&](const std::string& log_file) { return "--log " + log_file + " --scenario " + exam_file; };
