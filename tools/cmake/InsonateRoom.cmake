@@ -16,10 +16,25 @@ add_library(insonate_options INTERFACE)
 target_compile_options(insonate_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -ffp-contract=off
                                                   $<$<BOOL:${INSONATE_WERROR}>:-Werror>)
 
+# ccache has to be told that a precompiled header may stand for the text that it was made of.
 find_program(CCACHE ccache)
 if(CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE}")
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${CMAKE_COMMAND}" -E env CCACHE_SLOPPINESS=pch_defines,time_macros "${CCACHE}")
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(insonate_options INTERFACE -fpch-preprocess)
+  endif()
 endif()
+
+# The headers that most files include, compiled once. A file still names all it includes: only the presets release and
+# dev precompile, and each other preset compiles every file without.
+add_library(insonate_precompiled OBJECT "${CMAKE_SOURCE_DIR}/tools/cmake/precompiled.cpp")
+target_link_libraries(insonate_precompiled PRIVATE insonate_options)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  # GCC 12 suspects overflows within std::string's own functions, which it keeps to itself unless the header is
+  # precompiled.
+  target_compile_options(insonate_options INTERFACE -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow)
+endif()
+target_precompile_headers(insonate_precompiled PRIVATE "${CMAKE_SOURCE_DIR}/tools/cmake/precompiled.h")
 
 # insonate_room(<name> SOURCES <file>... [USES <room or library>...] [PRIVATELY <library>...])
 # makes the target insonate_<name> (alias insonate::<name>) of the current folder. USES are seen by the room's users
@@ -36,6 +51,7 @@ function(insonate_room name)
     add_library(insonate_${name} STATIC ${ROOM_SOURCES})
     target_include_directories(insonate_${name} PUBLIC "${include_root}")
     target_link_libraries(insonate_${name} PUBLIC ${ROOM_USES} PRIVATE insonate_options ${ROOM_PRIVATELY})
+    target_precompile_headers(insonate_${name} REUSE_FROM insonate_precompiled)
   else()
     add_library(insonate_${name} INTERFACE)
     target_include_directories(insonate_${name} INTERFACE "${include_root}")
@@ -44,11 +60,16 @@ function(insonate_room name)
   add_library(insonate::${name} ALIAS insonate_${name})
 endfunction()
 
-# insonate_program(<name> SOURCES <file>... USES <room or library>...) makes an executable of the project.
+# insonate_program(<name> SOURCES <file>... USES <room or library>... [PRECOMPILED <target>]) makes an executable of the
+# project, with the precompiled headers of insonate_precompiled unless another target is named.
 function(insonate_program name)
-  cmake_parse_arguments(PROGRAM "" "" "SOURCES;USES" ${ARGN})
+  cmake_parse_arguments(PROGRAM "" "PRECOMPILED" "SOURCES;USES" ${ARGN})
   add_executable(${name} ${PROGRAM_SOURCES})
   target_link_libraries(${name} PRIVATE insonate_options ${PROGRAM_USES})
+  if(NOT PROGRAM_PRECOMPILED)
+    set(PROGRAM_PRECOMPILED insonate_precompiled)
+  endif()
+  target_precompile_headers(${name} REUSE_FROM ${PROGRAM_PRECOMPILED})
   if(CMAKE_CXX_FLAGS MATCHES "fsanitize=address")
     target_sources(${name} PRIVATE "${CMAKE_SOURCE_DIR}/tests/sanitizer_settings.cpp")
   endif()
