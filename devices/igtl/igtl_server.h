@@ -45,9 +45,8 @@ struct ServerLimits {
 /// - If clients are in the middle of different messages with more than `sending_bytes` in all, the client that has been
 ///   at its message longest is let go.
 /// - What clients send is passed over by its headers. A client is let go if it sends no OpenIGTLink, or claims a body
-/// of
-///   more than MessageReader::kMostPassed, or is silent for `stuck_s` in the middle of a message. Nothing is allocated
-///   by a claimed size.
+///   of more than MessageReader::kMostPassed, or is silent for `stuck_s` in the middle of a message. Nothing is
+///   allocated by a claimed size.
 ///
 ///   Server server(numeric_address("127.0.0.1", 18944), "--igtl-server");
 ///   server.publish(Server::Stream::pose, make_transform("ProbeToRas", stamp, pose));  // each frame

@@ -516,6 +516,14 @@ glm::dvec3 check_meta_place(const fs::path& file, const TextHeader& header) {
   return checked_spacing(file, {numbers[0], numbers[1], numbers[2]}, "correct the ElementSpacing");
 }
 
+/// ITK unpacks as many bytes as the header says, and leaves voxels unset when it says none or too few.
+void check_packed_size(const fs::path& file, const Claim& claim, const std::string& given) {
+  const std::string there = std::to_string(fs::file_size(claim.data_file) - claim.data_offset);
+  if (given == there) return;
+  refuse(file, given.empty() ? "it gives no CompressedDataSize" : "the CompressedDataSize is '" + given + "'",
+         "write 'CompressedDataSize = " + there + "' into the header");
+}
+
 FileHeader check_meta_image(const fs::path& file) {
   const TextHeader header = read_text_header(file, "=", "elementdatafile");
   static const std::map<std::string, VoxelType> types = {
@@ -552,6 +560,7 @@ FileHeader check_meta_image(const fs::path& file) {
   claim.data_file = local ? file : named_data_file(file, data_file);
   claim.data_offset = local ? header.bytes : 0;
   check_against_bytes(file, claim);
+  if (claim.packed) check_packed_size(file, claim, header.value("compresseddatasize"));
   return header_of(ImageFormat::meta_image, claim);
 }
 

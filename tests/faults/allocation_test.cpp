@@ -219,6 +219,8 @@ TEST_CASE("readers of recordings outlive a failure at each allocation") {
   const auto samples = samples_of(0.2, 30, [](double t) { return turned(90 * t, {1, 2, 3}, {t, 2, 3}); });
   const std::string text = write_sequence(samples);
   CHECK(run_out_everywhere([&] { return double(probe_samples(parse_sequence(text, "scan")).size()); }) > 10);
+  const fs::path scan = folder.put("scan.igs.mha", text);
+  CHECK(run_out_everywhere([&] { return double(read_recorded_scan(scan).samples.size()); }) > 10);
   std::string raw = "insonate raw 1\ntracker spacemouse:\nstart 1 0 0 0 1 0 0 0 1 0 0 0\nopen 1 256f:c635\n";
   for (int i = 0; i < 20; ++i) raw += "read " + std::to_string(2 + i) + " 015e0151ff0000\n";
   CHECK(run_out_everywhere([&] { return double(parse_raw(raw, "run.raw").samples.size()); }) > 10);

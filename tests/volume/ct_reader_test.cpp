@@ -84,8 +84,11 @@ TEST_CASE("each format gives the same volume whatever the type and packing of it
       return with_line(with_line(nrrd_lines(), "type", std::string("type: ") + type.nrrd), "encoding",
                        "encoding: " + encoding);
     };
-    auto meta = with_line(meta_lines(), "ElementType", std::string("ElementType = ") + type.meta);
+    const std::string meta_type = std::string("ElementType = ") + type.meta, zipped = zlib(type.bytes);
+    const auto meta = with_line(meta_lines(), "ElementType", meta_type);
+    const auto packed_meta = with_line(packed_meta_lines(zipped), "ElementType", meta_type);
     folder.put("apart.raw", type.bytes);
+    folder.put("apart.zraw", zipped);
     const struct {
       std::string file, bytes, format;
     } files[] = {
@@ -96,7 +99,9 @@ TEST_CASE("each format gives the same volume whatever the type and packing of it
         {"b.nrrd", nrrd(nrrd_with("gzip"), gzip(type.bytes)), "NRRD"},
         {"a.nhdr", nrrd(with_line(nrrd_with("raw"), "data file", "data file: apart.raw"), ""), "NRRD"},
         {"a.mha", meta_image(meta, type.bytes), "MetaImage"},
+        {"b.mha", meta_image(packed_meta, zipped), "MetaImage"},
         {"a.mhd", meta_image(meta, "", "apart.raw"), "MetaImage"},
+        {"b.mhd", meta_image(packed_meta, "", "apart.zraw"), "MetaImage"},
     };
     for (const auto& file : files) {
       INFO(type.name << " in " << file.file);

@@ -108,4 +108,9 @@ std::vector<std::string> meta_lines() {
           "ElementType = MET_SHORT"};
 }
 
+std::vector<std::string> packed_meta_lines(const std::string& packed) {
+  return with_line(meta_lines(), "CompressedData",
+                   "CompressedData = True\nCompressedDataSize = " + std::to_string(packed.size()));
+}
+
 }  // namespace insonate

@@ -55,5 +55,7 @@ std::vector<std::string> with_line(std::vector<std::string> lines, const std::st
 /// Lines for a volume of 4 x 3 x 2 voxels, 10 x 20 x 30 mm, int16, origin (10, 20, 30), axes as LPS.
 std::vector<std::string> nrrd_lines();
 std::vector<std::string> meta_lines();
+/// The same for voxels that zlib has packed.
+std::vector<std::string> packed_meta_lines(const std::string& packed);
 
 }  // namespace insonate

@@ -54,9 +54,10 @@ MockedHid::MockedHid(Testbed& testbed, const Identity& identity, int number)
 }
 
 MockedHid::~MockedHid() {
+  umockdev_testbed_remove_device(testbed_.get(), usb_path_.c_str());
+  if (pulled_) pump([this] { return !node_->is_open_elsewhere(); });
   g_signal_handlers_disconnect_by_data(kernel_, this);
   umockdev_testbed_detach_ioctl(testbed_.get(), dev_.c_str(), nullptr);
-  umockdev_testbed_remove_device(testbed_.get(), usb_path_.c_str());
   g_object_unref(kernel_);
 }
 

@@ -32,7 +32,8 @@ public:
   /// Sends what fits of `reports`, and takes it out of there.
   void send(std::deque<Report>& reports);
 
-  /// Who has it open is told that it is gone; it stays in the lists until it is destroyed.
+  /// Whoever has it open learns that it is gone. It stays in the lists until it is destroyed. That waits until every
+  /// other process has closed it: umockdev ends a program that it cuts off in the middle of a call.
   void pull();
 
   Node& node() { return *node_; }

@@ -8,7 +8,9 @@
 #include <array>
 #include <chrono>
 #include <cstdlib>
+#include <filesystem>
 #include <stdexcept>
+#include <system_error>
 #include <thread>
 
 namespace insonate {
@@ -78,6 +80,24 @@ void Node::make_writable(bool writable) {
 
 void Node::allow(bool allowed) {
   chmod(path_.c_str(), allowed ? 0600 : 0);
+}
+
+bool Node::is_open_elsewhere() const {
+  namespace fs = std::filesystem;
+  struct stat mine {};
+  fstat(fd_, &mine);
+  for (const fs::directory_entry& process : fs::directory_iterator("/proc")) {
+    const std::string pid = process.path().filename().string();
+    if (pid.find_first_not_of("0123456789") != std::string::npos || pid == std::to_string(getpid())) continue;
+    std::error_code error;  // a process may end meanwhile
+    fs::directory_iterator file(process.path() / "fd", error);
+    for (; !error && file != fs::directory_iterator(); file.increment(error)) {
+      struct stat theirs {};
+      if (stat(file->path().c_str(), &theirs) == 0 && theirs.st_dev == mine.st_dev && theirs.st_ino == mine.st_ino)
+        return true;
+    }
+  }
+  return false;
 }
 
 Child::Child(const std::vector<std::string>& command) : ChildProcess(command, settings()) {}

@@ -47,6 +47,8 @@ public:
   void make_writable(bool writable);
   /// What root without its privileges may do, too.
   void allow(bool allowed);
+  /// Whether another process has it open.
+  bool is_open_elsewhere() const;
 
 private:
   std::string path_;
