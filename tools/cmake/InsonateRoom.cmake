@@ -29,7 +29,8 @@ endif()
 # dev precompile, and each other preset compiles every file without.
 add_library(insonate_precompiled OBJECT "${CMAKE_SOURCE_DIR}/tools/cmake/precompiled.cpp")
 target_link_libraries(insonate_precompiled PRIVATE insonate_options)
-if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13
+   AND NOT CMAKE_DISABLE_PRECOMPILE_HEADERS)
   # GCC 12 suspects overflows within std::string's own functions, which it keeps to itself unless the header is
   # precompiled.
   target_compile_options(insonate_options INTERFACE -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow)
