@@ -4,6 +4,7 @@
 #include "app/loading.h"
 #include "app/options.h"
 #include "app/window.h"
+#include "sim/core/input_error.h"
 #include "tools/program.h"
 
 int main(int argc, char** argv) {
@@ -14,6 +15,8 @@ int main(int argc, char** argv) {
   const int exit_code = run_program(arguments, argc, argv, [&] {
     check(options);
     if (!options.headless && !has_display()) {
+      if (options.mode == Mode::author || options.mode == Mode::setup)
+        throw InputError("insonate", "", "this needs a window, and there is no display", "start it where there is one");
       std::printf("There is no display: the session runs without a window, and leaves its results in %s.\n",
                   options.out.string().c_str());
       options.headless = true;

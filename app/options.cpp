@@ -8,121 +8,252 @@
 #include "sim/core/input_error.h"
 
 namespace insonate {
+namespace {
+
+CLI::Option* add_case(CLI::App& mode, Options& options) {
+  return mode.add_option("--case", options.case_folder, "The patient: a case folder")->type_name("FOLDER");
+}
+
+void add_patient(CLI::App& mode, Options& options) {
+  CLI::Option* const folder = add_case(mode, options);
+  mode.add_option("--ct", options.ct, "The patient: a CT (NIfTI, NRRD, MetaImage, or a folder of DICOM files)")
+      ->type_name("PATH")
+      ->excludes(folder);
+}
+
+CLI::Option* add_scenario(CLI::App& mode, Options& options) {
+  CLI::Option* const scenario =
+      mode.add_option("--scenario", options.scenario,
+                      "The exam: a scenario file (TOML); without it and without a patient the bundled one")
+          ->type_name("FILE");
+  mode.add_option("--seed", options.seed, "Draws the scenario's variant, if it has variants");
+  return scenario;
+}
+
+CLI::Option* add_tracker(CLI::App& mode, Options& options) {
+  std::string trackers = "Where the probe's poses come from:";
+  for (const TrackerKind& kind : tracker_kinds())
+    trackers += "\n  " + std::string(kind.form) + "\n      " + std::string(kind.summary);
+  CLI::Option* const tracker = mode.add_option("--tracker", options.tracker, trackers)->type_name("URI");
+  mode.add_option("--calibration", options.calibration,
+                  "The tracker's calibration, if it reports where its sensor is; `insonate setup` makes one")
+      ->type_name("FILE")
+      ->needs(tracker);
+  mode.add_option("--calibration-days", options.calibration_days, "Warn of a calibration that is older")
+      ->check(CLI::Range(0.0, 3650.0))
+      ->capture_default_str();
+  mode.add_option("--predict", options.predict_ms,
+                  "Predict a live tracker's pose at the time of the picture, at most so far ahead; 0: not at all")
+      ->check(CLI::Range(0.0, 1e3 * PoseHistory::kPredictS))
+      ->type_name("MS")
+      ->capture_default_str();
+  mode.add_option("--latency", options.latency,
+                  "Write a histogram of the time from a live tracker's reports to the picture (CSV)")
+      ->type_name("FILE");
+  return tracker;
+}
+
+/// The files that the set-up uses.
+void add_setup_files(CLI::App& mode, Options& options) {
+  mode.add_option("--landmarks", options.landmarks,
+                  "For the set-up: the patient's landmarks, if it is not the built-in patient")
+      ->type_name("FILE");
+  mode.add_option("--drawing", options.drawing, "For the set-up: the probe's drawing; its face need not be touched")
+      ->type_name("FILE");
+}
+
+void add_recording(CLI::App& mode, Options& options) {
+  mode.add_option("--record", options.record, "Record every sample of the run as a sequence file (.igs.mha)")
+      ->type_name("FILE");
+  mode.add_flag("--record-images", options.record_images,
+                "Record the ultrasound too, in a second file: FILE-images.igs.mha");
+  mode.add_option("--record-raw", options.record_raw,
+                  "Record what a live tracker's device sends, byte for byte; '--tracker raw:FILE' replays it")
+      ->type_name("FILE");
+}
+
+CLI::Option* add_results(CLI::App& mode, Options& options, const std::string& help) {
+  return mode.add_option("--results", options.results, help)->type_name("FILE");
+}
+
+CLI::Option* add_learner(CLI::App& mode, Options& options) {
+  return mode.add_option("--learner", options.learner, "Whose attempt it is: an id, not a name")->type_name("ID");
+}
+
+CLI::Option* add_headless(CLI::App& mode, Options& options) {
+  return mode.add_flag("--headless", options.headless, "Run without a window, as fast as possible");
+}
+
+void add_screen(CLI::App& mode, Options& options) {
+  mode.add_option("--seconds", options.seconds, "End after so many seconds of the session")
+      ->check(CLI::Range(0.0, 86400.0));
+  mode.add_option("--out", options.out, "Folder for report, score and pictures")
+      ->type_name("FOLDER")
+      ->capture_default_str();
+  mode.add_option("--screenshot", options.screenshot, "Write the whole screen as a PNG when the session ends")
+      ->type_name("FILE");
+  mode.add_option("--width", options.width, "Of the screen, pixels")
+      ->check(CLI::Range(1024, 7680))
+      ->capture_default_str();
+  mode.add_option("--height", options.height, "Of the screen, pixels")
+      ->check(CLI::Range(700, 4320))
+      ->capture_default_str();
+  mode.add_option("--quality", options.quality,
+                  "The ultrasound's cost: fast has fewer samples and pixels, exact has more samples;\n"
+                  "scores do not depend on it")
+      ->check(CLI::IsMember(quality_names()))
+      ->capture_default_str();
+  mode.add_option("--state-file", options.state_file, "Keep a JSON file that describes what the trainer is doing")
+      ->type_name("FILE");
+}
+
+/// What an exam does without: it is drawn as the program draws it, and nobody else learns where the probe is.
+void add_openings(CLI::App& mode, Options& options) {
+  mode.add_option("--shader-dir", options.shader_folder, "Take shaders from this folder and reload what changes")
+      ->type_name("FOLDER");
+  mode.add_option("--igtl-server", options.igtl_server,
+                  "Send picture, pose and events to OpenIGTLink clients such as 3D Slicer;\n"
+                  "only to this computer's own unless an address is given, as in 0.0.0.0:18944")
+      ->type_name("[ADDRESS:]PORT");
+}
+
+void add_practice(CLI::App& mode, Options& options) {
+  add_patient(mode, options);
+  add_scenario(mode, options);
+  add_tracker(mode, options);
+  add_setup_files(mode, options);
+  add_recording(mode, options);
+  add_results(mode, options,
+              "Store attempts in this database, those of replayed logs too; without it a window stores those that\n"
+              "are not of logs in ~/.local/share/insonate/results.db");
+  add_learner(mode, options);
+  add_headless(mode, options);
+  add_screen(mode, options);
+  add_openings(mode, options);
+}
+
+void add_exam(CLI::App& mode, Options& options) {
+  CLI::Option* const scenario = add_scenario(mode, options);
+  add_case(mode, options)->needs(scenario);
+  add_tracker(mode, options)->required();
+  add_setup_files(mode, options);
+  add_recording(mode, options);
+  CLI::Option* const results = add_results(mode, options,
+                                           "The database that the attempt is stored in; without it a window uses\n"
+                                           "~/.local/share/insonate/results.db");
+  add_learner(mode, options)->required();
+  add_headless(mode, options)->needs(results);
+  add_screen(mode, options);
+}
+
+void add_replay(CLI::App& mode, Options& options) {
+  CLI::Option* const log = mode.add_option("LOG", options.replay.log, "The recorded scan")->type_name("");
+  CLI::Option* const results =
+      add_results(mode, options, "The database that --attempt and --beside-attempt are in; it is only read");
+  CLI::Option* const attempt =
+      mode.add_option("--attempt", options.replay.attempt, "In place of LOG: an attempt of the database of --results")
+          ->check(CLI::PositiveNumber)
+          ->type_name("NUMBER")
+          ->excludes(log)
+          ->needs(results);
+  CLI::Option* const beside =
+      mode.add_option("--beside", options.replay.beside_log, "An expert's scan, to compare with")->type_name("LOG");
+  mode.add_option("--beside-attempt", options.replay.beside_attempt, "In place of --beside: an attempt of the database")
+      ->check(CLI::PositiveNumber)
+      ->type_name("NUMBER")
+      ->excludes(beside)
+      ->needs(results);
+  // An attempt brings its scenario, variant and patient along.
+  add_patient(mode, options);
+  add_scenario(mode, options);
+  for (const char* brought : {"--case", "--ct", "--scenario", "--seed"}) attempt->excludes(mode.get_option(brought));
+  add_headless(mode, options);
+  add_screen(mode, options);
+  add_openings(mode, options);
+}
+
+void add_author(CLI::App& mode, Options& options) {
+  add_case(mode, options)->required();
+  add_tracker(mode, options);
+  add_setup_files(mode, options);
+  add_recording(mode, options);
+  add_screen(mode, options);
+  add_openings(mode, options);
+}
+
+void add_setup(CLI::App& mode, Options& options) {
+  add_patient(mode, options);
+  add_tracker(mode, options)->required();
+  add_setup_files(mode, options);
+  add_screen(mode, options);
+}
+
+/// Refuses what stands before the mode: the mode's own options stand behind it, and not all of the others are its.
+void refuse_options_before(const CLI::App& arguments, const CLI::App& mode) {
+  for (const CLI::Option* option : arguments.get_options())
+    if (option->count() > 0)
+      throw CLI::ParseError("'" + option->get_name() + "' stands before '" + mode.get_name() +
+                                "'; write the mode first, and behind it the options it has.",
+                            2);
+}
+
+constexpr const char* kExitCodes = "\nExit codes: 0 done, 2 input that cannot be used, 3 any other failure.";
+
+struct ModeText {
+  Mode mode;
+  const char* name;
+  const char* summary;
+  void (*add)(CLI::App&, Options&);
+  const char* examples;
+};
+
+constexpr ModeText kModes[] = {
+    {Mode::practice, "practice", "Scan, with or without a scenario, as often as you like; the mode when none is named",
+     add_practice,
+     "Examples:\n"
+     "  insonate practice --tracker mouse:                the bundled exam, the probe in your hands\n"
+     "  insonate practice --ct abdomen.nii.gz             free practice on a CT of your own\n"
+     "  insonate practice --scenario exam.toml --tracker replay:scan.igs.mha\n"},
+    {Mode::exam, "exam",
+     "Take an exam that counts: once per learner and without help. What is left unfinished is\n"
+     "scored as it is. The variant is drawn at random unless --seed names one",
+     add_exam,
+     "Examples:\n"
+     "  insonate exam --learner L-07 --tracker auto:\n"
+     "  insonate exam --scenario exam.toml --learner L-07 --tracker hydra: --results lab.db\n"},
+    {Mode::replay, "replay",
+     "Look at a run again, at any time of it and at any speed, beside an expert's.\n"
+     "Nothing is scored or stored",
+     add_replay,
+     "Examples:\n"
+     "  insonate replay scan.igs.mha --beside expert.igs.mha --scenario exam.toml\n"
+     "  insonate replay --results lab.db --attempt 12 --beside-attempt 3\n"},
+    {Mode::author, "author", "Make reference views of a case: hold the probe, freeze, name, store", add_author,
+     "Examples:\n"
+     "  insonate author --case patient7 --tracker hydra: --calibration lab.toml\n"},
+    {Mode::setup, "setup", "Calibrate a tracker step by step, then practise; key F2 does the same", add_setup,
+     "Examples:\n"
+     "  insonate setup --tracker hydra: --calibration lab.toml\n"},
+};
+
+}  // namespace
 
 void declare(CLI::App& arguments, Options& options) {
   arguments.description(
       "A bedside ultrasound trainer: live ultrasound from CT, guided and scored.\n"
-      "With no arguments it replays the bundled scan of the built-in patient and scores it.");
-  arguments.add_option("--case", options.case_folder, "The patient: a case folder")->type_name("FOLDER");
-  arguments.add_option("--ct", options.ct, "The patient: a CT (NIfTI, NRRD, MetaImage, or a folder of DICOM files)")
-      ->type_name("PATH");
-  arguments.add_option("--scenario", options.scenario, "The exam: a scenario file (TOML)")->type_name("FILE");
-  arguments.add_option("--seed", options.seed, "Draws the scenario's variant, where it has any");
-  arguments.add_flag(
-      "--exam", options.exam,
-      "An exam that counts: once for a learner, without hints, practice or a second beginning, and what\n"
-      "is left unfinished is scored as it is; the variant is drawn unless --seed says which");
-  arguments.add_flag("--author", options.author,
-                     "Make reference views of the case folder: hold the probe, freeze, name, keep");
-  std::string trackers = "Where the probe's poses come from:";
-  for (const TrackerKind& kind : tracker_kinds())
-    trackers += "\n  " + std::string(kind.form) + "\n      " + std::string(kind.summary);
-  arguments.add_option("--tracker", options.tracker, trackers)->type_name("URI");
-  arguments
-      .add_option(
-          "--calibration", options.calibration,
-          "The tracker's calibration: it tells where its sensor is, not the probe. Key F2 makes it, step by step;\n"
-          "that begins by itself while there is none")
-      ->type_name("FILE");
-  arguments
-      .add_option("--landmarks", options.landmarks,
-                  "For the set-up: the patient's landmarks, if not the built-in one's")
-      ->type_name("FILE");
-  arguments
-      .add_option("--drawing", options.drawing, "For the set-up: the probe's drawing; its face need not be touched")
-      ->type_name("FILE");
-  arguments.add_option("--calibration-days", options.calibration_days, "Warn of a calibration that is older")
-      ->check(CLI::Range(0.0, 3650.0))
-      ->capture_default_str();
-  arguments.add_option("--record", options.record, "Record every sample of the run as a sequence file (.igs.mha)")
-      ->type_name("FILE");
-  arguments.add_flag("--record-images", options.record_images,
-                     "Record the ultrasound too, to a second file: FILE-images.igs.mha");
-  arguments
-      .add_option("--record-raw", options.record_raw,
-                  "Record what a live tracker's device sends, byte for byte; '--tracker raw:FILE' replays it")
-      ->type_name("FILE");
-  arguments
-      .add_option(
-          "--predict", options.predict_ms,
-          "Carry a live tracker's pose on to the time of the picture, for so long at most; 0: show it as it came")
-      ->check(CLI::Range(0.0, 1e3 * PoseHistory::kPredictS))
-      ->type_name("MS")
-      ->capture_default_str();
-  arguments
-      .add_option("--latency", options.latency,
-                  "Write a histogram of how long a live tracker's reports take to the picture (CSV)")
-      ->type_name("FILE");
-  arguments
-      .add_option("--replay", options.replay.log,
-                  "Look at a recorded scan again, at any time of it and at any speed; nothing of it is scored or kept")
-      ->type_name("LOG");
-  arguments
-      .add_option("--replay-attempt", options.replay.attempt, "The same of an attempt in the database of --results")
-      ->check(CLI::PositiveNumber)
-      ->type_name("NUMBER");
-  arguments.add_option("--beside", options.replay.beside_log, "For a replay: an expert's scan, to compare with")
-      ->type_name("LOG");
-  arguments.add_option("--beside-attempt", options.replay.beside_attempt, "The same of an attempt in that database")
-      ->check(CLI::PositiveNumber)
-      ->type_name("NUMBER");
-  arguments.add_flag("--headless", options.headless, "Run without a window, as fast as it goes, and write the results");
-  arguments.add_option("--seconds", options.seconds, "End after so many seconds of the session")
-      ->check(CLI::Range(0.0, 86400.0));
-  arguments.add_option("--out", options.out, "Folder for report, score and pictures")
-      ->type_name("FOLDER")
-      ->capture_default_str();
-  arguments
-      .add_option("--results", options.results,
-                  "Keep the attempts at exams in this database, replayed logs too; without it a window keeps those\n"
-                  "that are no replays in ~/.local/share/insonate/results.db")
-      ->type_name("FILE");
-  arguments.add_option("--learner", options.learner, "Whose attempts they are: an opaque id, no name")
-      ->type_name("ID")
-      ->capture_default_str();
-  arguments.add_option("--screenshot", options.screenshot, "Write the whole screen as a PNG when the session ends")
-      ->type_name("FILE");
-  arguments.add_option("--width", options.width, "Of the screen, pixels")
-      ->check(CLI::Range(1024, 7680))
-      ->capture_default_str();
-  arguments.add_option("--height", options.height, "Of the screen, pixels")
-      ->check(CLI::Range(700, 4320))
-      ->capture_default_str();
-  arguments
-      .add_option("--quality", options.quality,
-                  "What the ultrasound may cost: fast, balanced or exact, the first with fewer samples and pixels and\n"
-                  "the last with more samples; no score feels it")
-      ->check(CLI::IsMember(quality_names()))
-      ->capture_default_str();
-  arguments.add_option("--shader-dir", options.shader_folder, "Take shaders from this folder and reload what changes")
-      ->type_name("FOLDER");
-  arguments
-      .add_option("--igtl-server", options.igtl_server,
-                  "Send picture, pose and events to OpenIGTLink clients such as 3D Slicer;\n"
-                  "only to this computer's own unless an address is given, as in 0.0.0.0:18944")
-      ->type_name("[ADDRESS:]PORT");
-  arguments.add_option("--state-file", options.state_file, "Keep a JSON file that says what the trainer is doing")
-      ->type_name("FILE");
-  arguments.footer(
-      "Examples:\n"
-      "  insonate                                          the bundled exam, replayed\n"
-      "  insonate --tracker mouse:                         the same exam, the probe in your hands\n"
-      "  insonate --ct abdomen.nii.gz                      free practice on a CT of your own\n"
-      "  insonate --scenario exam.toml --tracker replay:scan.igs.mha\n"
-      "  insonate --author --case patient7 --tracker hydra:    an expert's planes become the case's views\n"
-      "  insonate --replay scan.igs.mha --beside expert.igs.mha --scenario exam.toml\n"
-      "  insonate --headless --out results                 score the bundled scan without a window\n"
-      "\nExit codes: 0 done, 2 input that cannot be used, 3 any other failure.");
+      "Without arguments it replays the bundled scan of the built-in patient and scores it.");
+  add_practice(arguments, options);
+  arguments.footer(std::string("Each mode lists its options: insonate exam --help\n") + kExitCodes);
+  for (const ModeText& text : kModes) {
+    CLI::App* const mode = arguments.add_subcommand(text.name, text.summary);
+    text.add(*mode, options);
+    mode->footer(std::string(text.examples) + kExitCodes);
+    mode->parse_complete_callback([&arguments, &options, mode, chosen = text.mode] {
+      refuse_options_before(arguments, *mode);
+      options.mode = chosen;
+    });
+  }
+  arguments.require_subcommand(0, 1);
 }
 
 namespace {
@@ -140,80 +271,27 @@ void check_record_raw(const Options& options) {
                      "name another, or remove it");
 }
 
-void refuse(const std::string& option, const std::string& problem, const std::string& remedy) {
-  throw InputError("command line", option, problem, remedy);
-}
-
 void check_replay(const Options& options) {
   const ReplaySource& replay = options.replay;
-  const bool kept = replay.attempt > 0 || replay.beside_attempt > 0;
-  if (!replay.log.empty() && replay.attempt > 0)
-    refuse("--replay-attempt", "--replay names a run already", "give one of them");
-  if (!replay.beside_log.empty() && replay.beside_attempt > 0)
-    refuse("--beside-attempt", "--beside names a run already", "give one of them");
-  if (!replay.any() && (kept || !replay.beside_log.empty()))
-    refuse("--beside", "there is no run to lay it beside", "name one with --replay or --replay-attempt");
-  if (!replay.any()) return;
-  if (kept && options.results.empty())
-    refuse(replay.attempt > 0 ? "--replay-attempt" : "--beside-attempt", "no database of results is named",
-           "name the one that the attempt is in: --results");
-  if (!kept && !options.results.empty())
-    refuse("--results", "nothing of a replay is kept", "leave it out, or name an attempt with --replay-attempt");
-  if (!options.tracker.empty()) refuse("--tracker", "a replay has no use for a tracker", "leave it out");
-  if (!options.record.empty() || options.record_images)
-    refuse("--record", "a replay is not recorded again", "leave it out");
-  const bool named = !options.scenario.empty() || !options.case_folder.empty() || !options.ct.empty();
-  if (replay.attempt > 0 && named)
-    refuse("--replay-attempt", "the attempt brings its scenario and patient along",
-           "leave --scenario, --case and --ct out");
-}
-
-void check_author(const Options& options) {
-  if (!options.author) return;
-  if (options.case_folder.empty())
-    refuse("--author", "there is no case to make views of", "name its folder with --case");
-  if (!options.scenario.empty()) refuse("--author", "views are not made in an exam", "leave --scenario out");
-  if (options.exam) refuse("--author", "views are not made in an exam", "leave --exam out");
-  if (options.headless) refuse("--author", "it needs a window", "leave --headless out");
-  if (options.replay.any()) refuse("--author", "a replay is not scanned in", "name the recorded scan with --tracker");
-}
-
-void check_exam(const Options& options) {
-  if (!options.exam) return;
-  if (options.learner == kNobodyInParticular)
-    refuse("--exam", "it does not say who takes it", "name the learner's id with --learner");
-  if (options.replay.any()) refuse("--exam", "a replay is no exam", "leave it out");
-  if (options.scenario.empty() && !(options.case_folder.empty() && options.ct.empty()))
-    refuse("--exam", "there is no scenario to be taken", "name it with --scenario");
-  if (options.headless && options.results.empty())
-    refuse("--exam", "it is not said where it is kept", "name a database with --results");
-  if (options.tracker.empty())
-    refuse("--exam", "it does not say what the learner scans with", "name a tracker, as in --tracker mouse:");
-  if (!options.igtl_server.empty())
-    refuse("--igtl-server", "in an exam that counts nobody else is told where the probe is", "leave it out");
-  if (!options.shader_folder.empty())
-    refuse("--shader-dir", "an exam that counts is drawn as the program draws it", "leave it out");
+  if (options.mode != Mode::replay) return;
+  if (!replay.any())
+    throw InputError("command line", "replay", "no run is named",
+                     "name a recorded scan, or an attempt as in --results lab.db --attempt 12");
+  if (!options.results.empty() && replay.attempt == 0 && replay.beside_attempt == 0)
+    throw InputError("command line", "--results", "a replay stores nothing", "leave it out, or name an --attempt");
 }
 
 }  // namespace
 
 void check(const Options& options) {
   check_replay(options);
-  check_author(options);
-  check_exam(options);
   if (!options.igtl_server.empty()) parse_server_address(options.igtl_server);
-  if (!options.case_folder.empty() && !options.ct.empty())
-    throw InputError("command line", "--ct", "--case and --ct both name a patient", "give one of them");
   check_learner_id(options.learner, "command line", "--learner");
-  if (!options.calibration.empty()) {
-    if (options.tracker.empty())
-      throw InputError("command line", "--calibration", "no tracker is named",
-                       "name the one it was made with: --tracker");
-    check_can_be_calibrated(options.tracker);
-  }
+  if (options.mode == Mode::exam && options.learner == kNobodyInParticular)
+    throw InputError("command line", "--learner", "'" + options.learner + "' can be anybody", "name the learner's id");
+  if (!options.calibration.empty() || options.mode == Mode::setup) check_can_be_calibrated(options.tracker);
   if (options.record_images && options.headless && options.record.empty())
-    throw InputError("command line", "--record-images", "it says that pictures are recorded, but not where",
-                     "give --record FILE too");
+    throw InputError("command line", "--record-images", "it does not say where to", "give --record FILE too");
   if (!options.record.empty()) refuse_existing(options.record);
   check_record_raw(options);
   std::error_code error;

@@ -15,43 +15,61 @@
 
 namespace insonate {
 
-/// What the command line asks of the trainer. Empty paths mean: what is built in.
+/// What the trainer is started for.
+enum class Mode {
+  practice,  ///< scan, with or without a scenario, as often as one likes; a recorded scan is watched the same way
+  exam,      ///< one attempt that counts, under strict rules
+  replay,    ///< look at a run again; nothing is scored or stored
+  author,    ///< make reference views of a case
+  setup,     ///< calibrate the tracker, then practise
+};
+
+/// The command line. An empty path or text means what is built in, unless its comment says otherwise.
 struct Options {
+  Mode mode = Mode::practice;
+
+  // The patient and the scenario
   std::filesystem::path case_folder;
   std::filesystem::path ct;  ///< a file or a DICOM folder
   std::filesystem::path scenario;
-  std::optional<std::uint32_t> seed;  ///< draws the scenario's variant; empty: 0, and of an exam that counts any
-  bool exam = false;                  ///< an exam that counts: taken once, under strict rules
-  bool author = false;                ///< views of the case folder are made
-  std::string tracker;                ///< a tracker's URI
-  std::filesystem::path calibration;  ///< of that tracker, whose samples are its sensor's; empty: they are the probe's
-  std::filesystem::path landmarks;    ///< of the patient, for the set-up; empty: the built-in patient's
-  std::filesystem::path drawing;      ///< of the probe, for the set-up; empty: its face is touched
-  double calibration_days = kCalibrationDays;  ///< older ones bring a warning
-  ReplaySource replay;                         ///< what is looked at again, in place of a session
-  std::filesystem::path record;                ///< where the run is recorded; empty: it is not
-  bool record_images = false;                  ///< what is recorded is so with the ultrasound, in a second file
-  std::filesystem::path record_raw;            ///< where the live tracker's bytes are recorded; empty: they are not
-  double predict_ms = 1e3 * PoseHistory::kPredictS;  ///< how far a live tracker's pose is carried on, at most
-  std::filesystem::path latency;  ///< where it is told how long a live tracker's reports take to the picture
-  bool headless = false;
-  std::filesystem::path screenshot;  ///< a PNG of the whole screen, taken at the end
-  double seconds = 0;                ///< end after so long; 0: at the exam's end (headless), never (window)
+  std::optional<std::uint32_t> seed;  ///< draws the scenario's variant; empty: 0, in an exam a random one
+
+  // The tracker
+  std::string tracker;                               ///< a tracker's URI
+  std::filesystem::path calibration;                 ///< of that tracker; empty: its samples are the probe's poses
+  double calibration_days = kCalibrationDays;        ///< an older calibration brings a warning, days
+  std::filesystem::path landmarks;                   ///< of the patient, for the set-up
+  std::filesystem::path drawing;                     ///< of the probe, for the set-up; empty: its face is touched
+  double predict_ms = 1e3 * PoseHistory::kPredictS;  ///< how far ahead a live tracker's pose is predicted, at most
+
+  // What is written
+  std::filesystem::path record;      ///< a sequence file of the run; empty: none
+  bool record_images = false;        ///< the recording has the ultrasound too, in a second file
+  std::filesystem::path record_raw;  ///< the live tracker's bytes; empty: not recorded
+  std::filesystem::path latency;     ///< a histogram of the live tracker's latency; empty: none
   std::filesystem::path out = "out";
+  std::filesystem::path results;  ///< database of results; empty: the user's own in a window, none without
+  std::string learner = kNobodyInParticular;
+
+  ReplaySource replay;  ///< of Mode::replay
+
+  // The screen
+  bool headless = false;
+  std::filesystem::path screenshot;  ///< a PNG of the whole screen, written at the end; empty: none
+  double seconds = 0;                ///< end after so many seconds; 0: at the exam's end (headless), never (window)
   std::string quality = name_of(Quality::balanced);  ///< of the ultrasound: one of quality_names()
   std::filesystem::path shader_folder;
   int width = 1280;
   int height = 800;
-  std::filesystem::path results;  ///< database of results; empty: the user's own in a window, none without
-  std::string learner = kNobodyInParticular;
-  std::string igtl_server;           ///< "[ADDRESS:]PORT" to tell OpenIGTLink clients at; empty: nobody is told
-  std::filesystem::path state_file;  ///< what the trainer is doing, for programs that drive it
+  std::string igtl_server;           ///< "[ADDRESS:]PORT" where OpenIGTLink clients connect; empty: no server
+  std::filesystem::path state_file;  ///< what the trainer is doing, for programs that drive it; empty: none
 };
 
-/// Declares the options on `arguments`, to be filled into `options` when they are parsed.
+/// Declares the modes and their options on `arguments`. Parsing fills in `options`. Each mode takes only the options
+/// that mean something in it.
 void declare(CLI::App& arguments, Options& options);
 
-/// Refuses combinations that contradict each other. Throws InputError.
+/// Checks what CLI11 cannot: files, URIs, and options that mean something only without a window. Throws InputError.
 void check(const Options& options);
 
 }  // namespace insonate

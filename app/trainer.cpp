@@ -41,7 +41,7 @@ Trainer::Trainer(Options options)
 }
 
 void Trainer::open_results() {
-  if (options_.replay.any()) return;  // nothing of a replay is kept
+  if (options_.mode == Mode::replay) return;
   if (!options_.results.empty()) {
     results_ = ResultsDatabase::open_or_make(options_.results);
   } else if (!options_.headless) {
@@ -59,8 +59,7 @@ void Trainer::open_from_options() {
 
 void Trainer::open(const std::filesystem::path& path) {
   attempt([&] {
-    if (options_.exam)
-      throw InputError(path.string(), "--exam", "an exam that counts is taken as it is", "open it without --exam");
+    if (in_exam()) throw InputError(path.string(), "", "an exam that counts is taken as it is", "open it in practice");
     Request next;
     const Material kind = kind_of_material(path);
     switch (kind) {
@@ -103,7 +102,7 @@ std::function<void()> Trainer::refusals(const Request& request) {
   try {
     if (calibrated && !needs_setup(request)) read_complete_calibration(options_.calibration);
     const std::optional<Scenario> scenario = read_exam(request.source);
-    if (options_.exam && scenario) refuse_second_exam(*scenario);
+    if (in_exam() && scenario) refuse_second_exam(*scenario);
     exam = scenario.has_value();
   } catch (const InputError&) {
     refused = std::current_exception();
@@ -148,7 +147,7 @@ void Trainer::take_over_loaded() {
   const std::unique_ptr<Loading> loaded = std::move(loading_);
   attempt([&] { begin(loaded->take(), requested_); });
   // A trainer whose command line names something unusable goes on with what is built in.
-  if (options_.exam) return;  // and never to anything but the exam that was asked for
+  if (in_exam()) return;  // and never to anything but the exam that was asked for
   const bool asked_for_more = !requested_.source.is_bundled() || !requested_.tracker.empty() || requested_.replay.any();
   if (!session_ && !setup_ && !replay_ && asked_for_more) load(Request());
 }
@@ -165,11 +164,11 @@ void Trainer::begin(std::shared_ptr<const Study> study, const Request& request) 
     return open_setup();
   }
   const Session::OpenTracker open = opener(uri, *study, uses_calibration(request) && !setup_left_);
-  if (options_.exam) refuse_second_exam(*study->scenario);
+  if (in_exam()) refuse_second_exam(*study->scenario);
   auto session = std::make_unique<Session>(study, open, options_.predict_ms / 1e3,
-                                           options_.exam ? ExamRules::strict : ExamRules::open);
-  if (options_.exam && std::as_const(*session).source().recording())
-    throw InputError(uri, "--exam", "a recorded scan is nobody's exam", "name the tracker that the learner holds");
+                                           in_exam() ? ExamRules::strict : ExamRules::open);
+  if (in_exam() && std::as_const(*session).source().recording())
+    throw InputError(uri, "", "a recorded scan is nobody's exam", "name the tracker that the learner holds");
   record_raw(*session, request);
   show(std::move(study), request);
   setup_.reset();
@@ -177,7 +176,7 @@ void Trainer::begin(std::shared_ptr<const Study> study, const Request& request) 
   picture_tools_ = {};
   step_controls_ = {};
   author_.reset();
-  if (options_.author && request.source.case_folder == options_.case_folder && !study_->scenario)
+  if (options_.mode == Mode::author && request.source.case_folder == options_.case_folder && !study_->scenario)
     author_.emplace(options_.case_folder);
   replay_.reset();
   reader_.forget();

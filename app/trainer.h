@@ -65,7 +65,7 @@ public:
   /// Ends an exam that counts and is left before its end: what there is of it is scored and kept.
   void hand_in_exam();
   /// Whether the exam that the trainer was started for cannot be taken: there is nothing to show then but why.
-  bool exam_refused() const { return options_.exam && !session_ && !setup_ && !loading_; }
+  bool exam_refused() const { return in_exam() && !session_ && !setup_ && !loading_; }
   /// Whether that is acknowledged too, and nothing is left to be done.
   bool is_over() const { return exam_refused() && problems_.empty(); }
 
@@ -139,6 +139,7 @@ public:
   bool attempt(const std::function<void()>& action);
 
 private:
+  bool in_exam() const { return options_.mode == Mode::exam; }
   struct Request {
     StudySource source;
     std::string tracker;  ///< URI; empty: the bundled log with the bundled exam, else the learner's own hand

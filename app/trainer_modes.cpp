@@ -11,19 +11,18 @@ namespace insonate {
 
 /// Of an exam that counts nobody knows the variant beforehand; the result keeps what was drawn.
 std::uint32_t Trainer::seed() const {
-  if (options_.seed || !options_.exam) return options_.seed.value_or(0);
+  if (options_.seed || !in_exam()) return options_.seed.value_or(0);
   return std::random_device()();
 }
 
 void Trainer::refuse_second_exam(const Scenario& exam) {
   if (!results_)
-    throw InputError("command line", "--exam", "there is no database to keep the attempt in",
-                     "name one with --results");
+    throw InputError("command line", "exam", "there is no database to keep the attempt in", "name one with --results");
   results_->check_not_taken(options_.learner, exam.digest);
 }
 
 void Trainer::keep_sitting() {
-  if (!options_.exam || !results_ || !session_->runner() || session_->result()) return;
+  if (!in_exam() || !results_ || !session_->runner() || session_->result()) return;
   if (!journal_) journal_.emplace(results_->file(), sitting_of(*session_, current_.source, options_.learner));
   try {
     journal_->take(*session_);
@@ -39,7 +38,7 @@ void Trainer::keep_sitting() {
 }
 
 void Trainer::hand_in_exam() {
-  if (!options_.exam || !session_ || session_->result()) return;
+  if (!in_exam() || !session_ || session_->result()) return;
   session_->hand_in();
   results_due_ = results_due_ || session_->result().has_value();
   write_results_if_due();

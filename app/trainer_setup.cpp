@@ -105,13 +105,15 @@ void Trainer::check_raw() {
 
 bool Trainer::needs_setup(const Request& request) const {
   std::error_code error;
-  if (options_.headless || setup_left_ || !uses_calibration(request)) return false;
+  if (options_.headless || setup_left_) return false;
+  if (options_.mode == Mode::setup && request.tracker == options_.tracker) return true;
+  if (!uses_calibration(request)) return false;
   return !std::filesystem::exists(options_.calibration, error) ||
          !why_incomplete(read_calibration(options_.calibration)).empty();
 }
 
 void Trainer::begin_setup() {
-  if (setup_ || !study_ || replay_ || options_.exam) return;
+  if (setup_ || !study_ || replay_ || in_exam()) return;
   attempt([&] { open_setup(); });
   if (!setup_ && !session_) load(Request());
 }
@@ -119,7 +121,8 @@ void Trainer::begin_setup() {
 void Trainer::open_setup() {
   const std::string uri = current_.tracker;
   const bool live = session_ && std::as_const(*session_).source().live();
-  if (uri.empty() || (!live && !uses_calibration(current_)))
+  const bool asked_for = options_.mode == Mode::setup && uri == options_.tracker;
+  if (uri.empty() || !(live || asked_for || uses_calibration(current_)))
     throw InputError("set-up", "", "no tracker with a sensor is used",
                      "start the trainer with one, as in 'insonate --tracker hydra:'");
   check_can_be_calibrated(uri);
@@ -137,6 +140,7 @@ void Trainer::open_setup() {
 void Trainer::end_setup() {
   if (!setup_) return;
   const std::string missing = why_incomplete(setup_->calibration());
+  if (options_.mode == Mode::setup) options_.mode = Mode::practice;
   options_.tracker = current_.tracker;
   if (missing.empty()) options_.calibration = setup_->file();
   why_not_calibrated_.clear();
@@ -144,7 +148,7 @@ void Trainer::end_setup() {
   setup_.reset();
   const Request again = current_;
   attempt([&] { begin(study_, again); });
-  if (!session_ && options_.exam) return;
+  if (!session_ && in_exam()) return;
   if (!session_) return load(Request());
   if (setup_left_)
     calibration_warning_ = "The set-up is not complete: the step '" + missing +

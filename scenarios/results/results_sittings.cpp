@@ -30,7 +30,7 @@ void ResultsDatabase::check_not_taken(const std::string& learner, const std::str
   if (const auto taken =
           found("SELECT number, 0 FROM attempt WHERE learner = ? AND scenario_digest = ? AND mode IN ('exam', '')"))
     throw ExamTaken(who, "", "the exam has been taken already, as attempt " + std::to_string(taken->first),
-                    "start another exam, or practise without --exam");
+                    "start another exam, or practise");
   if (const auto begun = found("SELECT number, began_ms FROM sitting WHERE learner = ? AND scenario_digest = ?"))
     throw ExamTaken(who, "", "the exam was begun at " + utc_time(begun->second) + " and is not handed in",
                     "end it where it is being taken, or have what there is of it scored with 'insonate-score hand-in " +

@@ -72,7 +72,7 @@ recovered=$(sed -n 's/.* with \([0-9]*\) frames$/\1/p' "$work/log")
 
 echo "an exam that counts is begun once, also when the program is killed in the middle"
 sit() {
-  "$trainer" --headless --exam --scenario "$scenario" --seed 3 --tracker "synthetic:1?live=1&rate=60" \
+  "$trainer" exam --headless --scenario "$scenario" --seed 3 --tracker "synthetic:1?live=1&rate=60" \
     --results "$work/sitting.db" --learner "$1" --seconds 3600 --out "$work/sitting" >"$work/log" 2>&1
 }
 for learner in L-07 L-08; do
@@ -102,9 +102,9 @@ grep -q '^report to picture: median' "$work/log" || fail "$(cat "$work/log")"
 echo "a replay shows an attempt as it shows its log, and keeps nothing"
 log="$INSONATE_ASSETS/logs/ruq_good.igs.mha"
 "$score" attempts "$work/results.db" >"$work/before.txt"
-"$trainer" --headless --replay "$log" --scenario "$scenario" --seconds 20 --out "$work/replayed" \
+"$trainer" replay "$log" --headless --scenario "$scenario" --seconds 20 --out "$work/replayed" \
   --screenshot "$work/replay.png" >"$work/log" 2>&1 || fail "$(cat "$work/log")"
-"$trainer" --headless --results "$work/results.db" --replay-attempt 1 --seconds 20 --out "$work/replayed" \
+"$trainer" replay --headless --results "$work/results.db" --attempt 1 --seconds 20 --out "$work/replayed" \
   --screenshot "$work/attempt.png" >"$work/log" 2>&1 || fail "$(cat "$work/log")"
 convert "$work/replay.png" -crop 700x330+40+110 +repage "$work/replay_picture.png"
 convert "$work/attempt.png" -crop 700x330+40+110 +repage "$work/attempt_picture.png"
@@ -116,11 +116,11 @@ convert "$work/attempt.png" -crop 700x330+40+110 +repage "$work/attempt_picture.
 cmp "$work/before.txt" "$work/after.txt" || fail "a replay was kept as an attempt"
 [ ! -e "$work/replayed" ] || fail "a replay left results: $(ls "$work/replayed")"
 
-# `refuses ARGUMENTS...`: exit code 2 and one line that names what is wrong.
+# `refuses WORDS ARGUMENTS...`: exit code 2 and a message with the words.
 refuses() {
   local words=$1 code=0
   shift
-  "$trainer" --out "$work/none" "$@" >"$work/refused.txt" 2>&1 || code=$?
+  "$trainer" "$@" --out "$work/none" >"$work/refused.txt" 2>&1 || code=$?
   [ "$code" = 2 ] || fail "exit code $code for: $* ($(cat "$work/refused.txt"))"
   grep -q -- "$words" "$work/refused.txt" || fail "no '$words' in: $(cat "$work/refused.txt")"
   [ ! -e "$work/none" ] || fail "results were written for: $*"
@@ -135,32 +135,39 @@ refuses cut.igs.mha --headless --tracker "replay:$work/cut.igs.mha"
 refuses missing --headless --case "$work/missing"
 refuses "leave loop=1 out" --headless --tracker "replay:$INSONATE_ASSETS/logs/ruq_good.igs.mha?loop=1"
 refuses mouse --headless --tracker mousse:
-refuses both --headless --case a --ct b
+refuses "--case excludes --ct" --headless --case a --ct b
 refuses width --headless --width 3
-refuses "no tracker is named" --headless --calibration a.toml
+refuses "--calibration requires --tracker" --headless --calibration a.toml
 refuses "has no sensor" --headless --tracker mouse: --calibration a.toml
 printf '[tracker]\nkind = "hydra"\n' >"$work/begun.toml"
 refuses "the step 'face' has not been made" --headless --tracker synthetic: --calibration "$work/begun.toml"
 refuses "such a file already" --headless --record "$work/run.igs.mha"
 refuses "igs.mha" --headless --record "$work/run.txt"
-refuses "not where" --headless --record-images
+refuses "where to" --headless --record-images
 refuses "no device that sends bytes" --headless --tracker synthetic: --record-raw "$work/run.raw"
 refuses "no device that sends bytes" --headless --tracker "replay:$INSONATE_ASSETS/logs/ruq_good.igs.mha" --record-raw "$work/run.raw"
 refuses "no tracker is named" --headless --record-raw "$work/run.raw"
-refuses missing.igs.mha --headless --replay "$work/missing.igs.mha"
-refuses cut.igs.mha --headless --replay "$log" --beside "$work/cut.igs.mha"
-refuses "no run to lay it beside" --headless --beside "$log"
-refuses "no database of results is named" --headless --replay-attempt 1
-refuses "no attempt" --headless --results "$work/results.db" --replay-attempt 99
-refuses "nothing of a replay is kept" --headless --replay "$log" --results "$work/none.db"
-refuses "names a run already" --headless --replay "$log" --results "$work/results.db" --replay-attempt 1
-refuses "no use for a tracker" --headless --replay "$log" --tracker mouse:
-refuses "brings its scenario" --headless --results "$work/results.db" --replay-attempt 1 --scenario "$scenario"
+refuses missing.igs.mha replay "$work/missing.igs.mha" --headless
+refuses cut.igs.mha replay "$log" --headless --beside "$work/cut.igs.mha"
+refuses "no run is named" replay --headless --beside "$log"
+refuses "--attempt requires --results" replay --headless --attempt 1
+refuses "no attempt" replay --headless --results "$work/results.db" --attempt 99
+refuses "a replay stores nothing" replay "$log" --headless --results "$work/none.db"
+refuses "LOG excludes --attempt" replay "$log" --headless --results "$work/results.db" --attempt 1
+refuses "not expected: .*--tracker" replay "$log" --headless --tracker mouse:
+refuses "excludes --scenario" replay --headless --results "$work/results.db" --attempt 1 --scenario "$scenario"
+refuses "stands before 'replay'" --headless replay "$log"
 [ ! -e "$work/none.db" ] || fail "a database was made for a replay"
 refuses shader-dir --headless --shader-dir "$work/missing"
-exam=(--headless --exam --learner L-01 --results "$work/results.db" --tracker mouse:)
-refuses "nobody else is told where the probe is" "${exam[@]}" --igtl-server 18944
-refuses "drawn as the program draws it" "${exam[@]}" --shader-dir "$work"
+exam=(exam --headless --learner L-01 --results "$work/results.db" --tracker mouse:)
+refuses "not expected: .*--igtl-server" "${exam[@]}" --igtl-server 18944
+refuses "not expected: .*--shader-dir" "${exam[@]}" --shader-dir "$work"
+refuses "--headless requires --results" exam --headless --learner L-01 --tracker mouse:
+refuses "--learner is required" exam --results "$work/results.db" --tracker mouse:
+refuses "--tracker is required" exam --learner L-01 --results "$work/results.db"
+refuses "can be anybody" exam --headless --learner anonymous --results "$work/results.db" --tracker mouse:
+refuses "this needs a window" setup --tracker hydra:
+refuses "has no sensor" setup --tracker mouse:
 
 echo "what there is of a sitting that was broken off is handed in, or removed so that it can be taken again"
 # `hand_in ARGUMENT...`: hands in, once the sitting has been broken off for long enough.

@@ -455,7 +455,7 @@ TEST_CASE("the trainer makes no patient for what it refuses without one") {
           }),
           "bad.toml");
   refused(with([&](Options& o) { o.scenario = folder.file("bad_exam.toml", exam.substr(0, 300)); }), "bad_exam.toml");
-  refused(with([&](Options& o) { o.replay.log = folder.file("bad.igs.mha", acts); }), "dance");
+  refused(with([&](Options& o) { o.mode = Mode::replay, o.replay.log = folder.file("bad.igs.mha", acts); }), "dance");
 
   const fs::path database = folder.path / "lab.db";
   Sitting begun;
@@ -463,7 +463,7 @@ TEST_CASE("the trainer makes no patient for what it refuses without one") {
   begun.scenario_text = exam;
   ResultsDatabase::open_or_make(database).begin(begun, log);
   refused(with([&](Options& o) {
-            o.exam = true;
+            o.mode = Mode::exam;
             o.learner = "L-01";
             o.results = database;
           }),
@@ -475,6 +475,7 @@ TEST_CASE("a replay has no session, keeps nothing, and gives way to what is open
   const TrainerFolder folder;
   Options options = folder.options();
   options.tracker.clear();
+  options.mode = Mode::replay;
   options.replay.log = folder.path / "scan.igs.mha";
   Trainer trainer(options);
   trainer.open_from_options();

@@ -153,14 +153,14 @@ TEST_CASE("an exam that counts is kept once for a learner, with the seed that dr
   options.results = folder.path / "lab.db";
   options.learner = "L-07";
   options.tracker = "mouse:";
-  options.exam = true;
+  options.mode = Mode::exam;
   const auto start = [](Trainer& trainer) {
     trainer.open_from_options();
     trainer.finish_loading();
   };
   {
     INFO("who has practised it may take it");
-    options.exam = false;
+    options.mode = Mode::practice;
     Trainer trainer(options);
     start(trainer);
     for (int i = 0; i < 1000 && !trainer.result_files(); ++i) {
@@ -168,7 +168,7 @@ TEST_CASE("an exam that counts is kept once for a learner, with the seed that dr
       trainer.write_results_if_due();
     }
     REQUIRE(trainer.result_files());
-    options.exam = true;
+    options.mode = Mode::exam;
   }
   {
     Trainer trainer(options);

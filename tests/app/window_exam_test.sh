@@ -174,7 +174,7 @@ grep -q '"passed": true' "$work/again.json" || fail "the exam was not passed"
 
 echo "an exam that cannot be taken says why, and then the program ends"
 kill "$trainer"
-start_trainer --scenario "$work/exam.toml" --tracker "replay:$work/run.igs.mha" --exam --learner L-07 --results "$work/lab.db"
+start_trainer exam --scenario "$work/exam.toml" --tracker "replay:$work/run.igs.mha" --learner L-07 --results "$work/lab.db"
 await "it is refused" contains problem "a recorded scan is nobody's exam"
 is overlay problem || fail "the refusal is not shown"
 xdotool key Return

@@ -4,7 +4,7 @@
 #   window_replay_test.sh PROGRAM ASSETS_FOLDER
 . "$(dirname "$0")/window_session.sh"
 logs="$INSONATE_ASSETS/logs"
-start_trainer --replay "$logs/ruq_poor.igs.mha" --beside "$logs/ruq_good.igs.mha"
+start_trainer replay "$logs/ruq_poor.igs.mha" --beside "$logs/ruq_good.igs.mha"
 
 # The x of a share of the time line, in per cent.
 along() { echo $(($(value timeline_x) + $(value timeline_w) * $1 / 100)); }
@@ -101,10 +101,10 @@ kill -0 "$trainer" || fail "the trainer ended by itself"
 
 echo "what was measured lies over the frozen picture from when it was placed"
 kill "$trainer"
-measured=(--replay "$logs/aorta_good.igs.mha" --scenario "$INSONATE_ASSETS/scenarios/aorta.toml")
+measured=("$logs/aorta_good.igs.mha" --scenario "$INSONATE_ASSETS/scenarios/aorta.toml")
 # Makes this variant's patient, which may take longer than a window is waited for.
-"$program" --headless "${measured[@]}" --seconds 0.1 --out "$work/once" >"$work/log" 2>&1 || fail "no patient for the run"
-start_trainer "${measured[@]}"
+"$program" replay --headless "${measured[@]}" --seconds 0.1 --out "$work/once" >"$work/log" 2>&1 || fail "no patient for the run"
+start_trainer replay "${measured[@]}"
 await "the run is shown" is replay_s 0.0
 drag_to 33
 await "the picture is frozen, and nothing is placed yet" is frozen true
@@ -125,7 +125,7 @@ echo "a recording's own images lie beside the simulated picture, each tissue at 
 kill "$trainer"
 "$program" --headless --seconds 3 --record "$work/scan.igs.mha" --record-images --out "$work/once" >"$work/log" 2>&1 \
   || fail "no recording with images"
-start_trainer --replay "$work/scan-images.igs.mha"
+start_trainer replay "$work/scan-images.igs.mha"
 await "the run is shown" is replay_s 0.0
 drag_to 70
 await "the time follows the pointer" at_share 70

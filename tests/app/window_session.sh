@@ -120,6 +120,6 @@ export DISPLAY
 # Starts the trainer with the given arguments.
 start_trainer() {
   rm -f "$state"
-  "$program" --seconds 500 --out "$work/out" --state-file "$state" "$@" >"$work/log" 2>&1 &
+  "$program" "$@" --seconds 500 --out "$work/out" --state-file "$state" >"$work/log" 2>&1 &
   trainer=$!
 }

@@ -88,6 +88,16 @@ await "the set-up closes" is overlay ""
 await "the session starts" is activity practice
 contains calibration_warning "not complete" || fail "no warning: $(value calibration_warning)"
 
+echo "the mode setup begins with the set-up even where the calibration is complete"
+kill "$trainer"
+wait "$trainer" 2>/dev/null || true
+start_trainer setup --tracker "replay:$work/pivot.igs.mha?loop=1" --calibration "$work/old.toml" --ct "$work/water.mha"
+await "the set-up opens" is overlay setup
+xdotool key Escape
+await "it is left for practice" is activity practice
+xdotool key F2
+await "and opens again" is overlay setup
+
 echo "a tracker without a sensor is refused in words"
 kill "$trainer"
 wait "$trainer" 2>/dev/null || true

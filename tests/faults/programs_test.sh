@@ -228,7 +228,7 @@ clocked "${score[@]}" --results "$work/lab.db" --learner L-2 >/dev/null
 "$bin/insonate-score" attempts "$work/lab.db" >"$work/list"
 [ "$(grep -o 'L-[0-9]' "$work/list" | tr -d '\n')" = L-1L-2 ] || fail "the order is another: $(cat "$work/list")"
 echo "+0" >"$work/clock"
-clocked "$bin/insonate" --headless --exam --scenario "$exam" --tracker "synthetic:1?live=1&rate=60" \
+clocked "$bin/insonate" exam --headless --scenario "$exam" --tracker "synthetic:1?live=1&rate=60" \
   --results "$work/sitting.db" --learner L-3 --out "$work/sitting" >"$work/log" 2>&1 &
 started=$!
 for _ in $(seq 1 300); do
