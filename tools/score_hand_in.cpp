@@ -88,10 +88,10 @@ int hand_in(const Given& given) {
 
 void add_hand_in_command(CLI::App& arguments, CommandRun& run) {
   const auto given = std::make_shared<Given>();
-  CLI::App* command = arguments.add_subcommand(
-      "hand-in",
-      "Scores the exams that were begun with `insonate exam` and never handed in, as when the power failed, each from what was "
-      "kept of it, and makes attempts of them");
+  CLI::App* command = arguments.add_subcommand("hand-in",
+                                               "Scores the exams that were begun with `insonate exam` and never handed "
+                                               "in, as when the power failed, each from what was "
+                                               "kept of it, and makes attempts of them");
   command->add_option("database", given->database, "The database")->required();
   CLI::Option* only = command->add_option("--sitting", given->sitting, "Only this one, by its number");
   only->check(CLI::PositiveNumber);
