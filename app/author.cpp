@@ -29,14 +29,14 @@ std::string view_name_of(const std::string& title) {
 
 void Author::see(const Session& session) {
   const auto picture = session.frozen_picture();
-  const Console& console = session.console();
-  if (picture == picture_ && console.depth_mm == depth_mm_ && console.probe.name == probe_) return;
+  const Machine& machine = session.machine();
+  if (picture == picture_ && machine.depth_mm == depth_mm_ && machine.probe == probe_) return;
   picture_ = picture;
-  depth_mm_ = console.depth_mm;
-  probe_ = console.probe.name;
+  depth_mm_ = machine.depth_mm;
+  probe_ = machine.probe;
   parts_.clear();
   if (!picture) return;
-  const InPicture seen = in_picture(session.study().subject, console.probe, console.depth_mm, *picture);
+  const InPicture seen = in_picture(session.study().subject, machine.transducer(), machine.depth_mm, *picture);
   const auto add = [&](const std::vector<std::string>& names, std::size_t most, bool landmarks) {
     for (std::size_t i = 0; i < std::min(names.size(), most); ++i)
       parts_.push_back({names[i], landmarks, wanted_.contains(names[i])});

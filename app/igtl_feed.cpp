@@ -106,7 +106,7 @@ void IgtlFeed::tell_events(const Session& session, std::uint64_t stamp) {
     finished_ = true;
     announce("exam finished: " + result_text(*session.result()), stamp);
   }
-  if (session.console().frozen != frozen_) {
+  if (session.machine().frozen != frozen_) {
     frozen_ = !frozen_;
     announce(frozen_ ? "frozen" : "live", stamp);
   }

@@ -205,7 +205,7 @@ void Keyboard::press(const KeyEvent& pressed, Trainer& trainer, ui::Screen& scre
   if (pressed.key == GLFW_KEY_O && (pressed.modifiers & GLFW_MOD_CONTROL) && !strict) return screen.ask_for_path();
   if (!trainer.session()) return;
   Session& session = *trainer.session();
-  Console& console = session.console();
+  const Machine& machine = session.machine();
   if (!repeated && pressed.key >= GLFW_KEY_1 && pressed.key <= GLFW_KEY_9)
     return choose(pressed.key - GLFW_KEY_1, trainer);
   switch (pressed.key) {
@@ -230,7 +230,7 @@ void Keyboard::press(const KeyEvent& pressed, Trainer& trainer, ui::Screen& scre
             [&] { session.holder() == Holder::learner ? session.give_back_probe() : session.take_probe(); });
       break;
     case GLFW_KEY_SPACE:
-      if (!repeated) console.frozen = !console.frozen;
+      if (!repeated) session.freeze(!machine.frozen);
       break;
     case GLFW_KEY_G:
       if (!repeated) trainer.guide().next(session);
@@ -243,17 +243,17 @@ void Keyboard::press(const KeyEvent& pressed, Trainer& trainer, ui::Screen& scre
       break;
     case GLFW_KEY_EQUAL:
     case GLFW_KEY_KP_ADD:
-      console.gain_db = std::min(console.gain_db + 1, 30.0);
+      session.set(ActionKind::gain, std::min(machine.gain_db + 1, Machine::kMostGain_db));
       break;
     case GLFW_KEY_MINUS:
     case GLFW_KEY_KP_SUBTRACT:
-      console.gain_db = std::max(console.gain_db - 1, -30.0);
+      session.set(ActionKind::gain, std::max(machine.gain_db - 1, -Machine::kMostGain_db));
       break;
     case GLFW_KEY_LEFT_BRACKET:
-      console.depth_mm = std::max(console.depth_mm - 5, Console::kLeastDepth_mm);
+      session.set(ActionKind::depth, machine.depth_mm - 5);
       break;
     case GLFW_KEY_RIGHT_BRACKET:
-      console.depth_mm = std::min(console.depth_mm + 5, Console::kMostDepth_mm);
+      session.set(ActionKind::depth, machine.depth_mm + 5);
       break;
     default:
       break;

@@ -23,6 +23,15 @@ std::vector<std::string> label_names(const Case& subject) {
   return names;
 }
 
+/// As the simulator takes them. The picture's size is left to the caller.
+Settings settings_of(const Machine& machine) {
+  Settings settings = trainer_settings(machine.frequency_mhz, machine.depth_mm);
+  settings.gain_db = machine.gain_db;
+  settings.dynamic_range_db = machine.dynamic_range_db;
+  for (std::size_t i = 0; i < machine.time_gain_db.size(); ++i) settings.tgc_db[i] += machine.time_gain_db[i];
+  return settings;
+}
+
 }  // namespace
 
 Pictures::Pictures(const gl::ShaderSources& sources, Quality level)
@@ -42,17 +51,17 @@ void Pictures::show(const Study& study) {
   camera_placed_ = false;
 }
 
-void Pictures::update(const std::optional<Pose>& pose, const Console& console, const PictureSizes& sizes,
+void Pictures::update(const std::optional<Pose>& pose, const Machine& machine, const PictureSizes& sizes,
                       double quality, double budget_ms, bool anatomy) {
   if (!patient_ || !pose) return;
-  if (console.probe.name != probe_name_ || console.depth_mm != depth_mm_) {
-    simulator_.set_probe(console.probe, console.depth_mm);
-    probe_name_ = console.probe.name;
-    depth_mm_ = console.depth_mm;
+  if (machine.probe != probe_name_ || machine.depth_mm != depth_mm_) {
+    simulator_.set_probe(machine.transducer(), machine.depth_mm);
+    probe_name_ = machine.probe;
+    depth_mm_ = machine.depth_mm;
   }
   const int width = std::max(sizes.ultrasound_width, 1), height = std::max(sizes.ultrasound_height, 1);
   const auto high = [&](int wide) { return std::max(1, wide * height / width); };
-  Settings settings = console.settings();
+  Settings settings = settings_of(machine);
   settings.image_width = std::min(width, 4096);
   settings.image_height = high(settings.image_width);
   if (ultrasound_ && settings == shown_ && *pose == shown_pose_) quality = std::max(quality, shown_quality_);
@@ -70,7 +79,7 @@ void Pictures::update(const std::optional<Pose>& pose, const Console& console, c
   plane.image = ultrasound_;
   plane.image_version = simulator_.image_version();
   plane.geometry = simulator_.geometry();
-  plane.probe = console.probe;
+  plane.probe = machine.transducer();
   plane.patient_from_probe = *pose;
   view::SliceStyle style;
   slice_ = anatomy ? &slice_view_.render(*patient_, plane, style) : nullptr;
@@ -91,10 +100,10 @@ void Pictures::update(const std::optional<Pose>& pose, const Console& console, c
 std::optional<Image<Rgba8>> Pictures::reference_picture(const ReferenceView& view) {
   const Probe* probe = find_probe(view.probe);
   if (!ultrasound_ || !probe) return std::nullopt;
-  Console untouched;
-  untouched.choose(*probe);
-  untouched.depth_mm = std::clamp(view.depth_mm, Console::kLeastDepth_mm, Console::kMostDepth_mm);
-  Settings settings = untouched.settings();
+  Machine untouched;
+  untouched.choose(view.probe);
+  untouched.depth_mm = std::clamp(view.depth_mm, Machine::kLeastDepth_mm, Machine::kMostDepth_mm);
+  Settings settings = settings_of(untouched);
   settings.image_width = shown_.image_width;
   settings.image_height = shown_.image_height;
   simulator_.set_probe(*probe, untouched.depth_mm);

@@ -35,12 +35,12 @@ public:
   ///                   picture that is there already is not drawn again with fewer
   /// @param budget_ms  for the volume view, which gets coarser while things move to stay within it
   void update(const Session& session, const PictureSizes& sizes, double quality, double budget_ms) {
-    update(session.shown_pose(), session.console(), sizes, quality, budget_ms, session.shows_anatomy());
+    update(session.shown_pose(), session.machine(), sizes, quality, budget_ms, session.shows_anatomy());
   }
   /// The same of a pose, or of none, and a machine that are at hand.
   /// @param anatomy  whether the patient is shown from within: without it there is no slice() and no blend(), and
   ///                 volume() shows the skin alone
-  void update(const std::optional<Pose>& pose, const Console& console, const PictureSizes& sizes, double quality,
+  void update(const std::optional<Pose>& pose, const Machine& machine, const PictureSizes& sizes, double quality,
               double budget_ms, bool anatomy = true);
 
   /// The ultrasound of a reference view as the machine shows it before anything on it was changed, with all of the

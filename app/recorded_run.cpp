@@ -31,6 +31,10 @@ std::string in_words(const Action& action) {
       return formatted("Frequency %.1f MHz", action.numbers[0]);
     case ActionKind::gain:
       return formatted("Gain %+.0f dB", action.numbers[0]);
+    case ActionKind::dynamic_range:
+      return formatted("Dynamic range %.0f dB", action.numbers[0]);
+    case ActionKind::time_gain:
+      return formatted("Time gain %d: %+.0f dB", action.slot(), action.numbers[1]);
     case ActionKind::freeze:
       return "Freeze";
     case ActionKind::unfreeze:
@@ -71,7 +75,7 @@ public:
     moment.newest_pose = session.newest_pose();
     if (sample.status == PoseStatus::ok) last_usable_s_ = moment.time_s;
     moment.last_usable_s = last_usable_s_;
-    moment.console = index_of(run_.consoles, session.console());
+    moment.machine = index_of(run_.machines, session.machine());
     tools_.see(session);
     moment.marks = index_of(run_.marks, shown_marks(session, tools_));
     if (const Runner* runner = session.runner()) {

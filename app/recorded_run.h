@@ -24,7 +24,7 @@ struct RunMoment {
   std::optional<Pose> shown_pose;       ///< of the picture, which may be frozen; empty before the first usable sample
   std::optional<Pose> newest_pose;      ///< of the probe
   std::optional<double> last_usable_s;  ///< when the newest usable sample came
-  std::size_t console = 0;              ///< index into RecordedRun::consoles
+  std::size_t machine = 0;              ///< index into RecordedRun::machines
   std::size_t marks = 0;                ///< index into RecordedRun::marks
   std::size_t step = 0;                 ///< of the scenario; 0 without one
   bool on_skin = false;                 ///< of the runner, as all below: false without a scenario
@@ -51,7 +51,7 @@ struct RunStretch {
 struct RecordedRun {
   std::string name;                      ///< of the log, for the screen
   std::vector<RunMoment> moments;        ///< at least one; times rise from 0
-  std::vector<Console> consoles;         ///< the settings there were, in their order
+  std::vector<Machine> machines;         ///< each setting of the machine, in their order
   std::vector<ShownMarks> marks;         ///< what lay over the picture, in its order
   std::vector<RunStretch> stretches;     ///< without gaps from 0 to the end; one without a scenario
   std::vector<RunEvent> events;          ///< in the order of time
@@ -62,7 +62,7 @@ struct RecordedRun {
   /// The moment that holds at a time: the last one that is not later, or the first.
   std::size_t index_at(double time_s) const;
   const RunMoment& at(double time_s) const { return moments[index_at(time_s)]; }
-  const Console& console_at(double time_s) const { return consoles[at(time_s).console]; }
+  const Machine& machine_at(double time_s) const { return machines[at(time_s).machine]; }
   const ShownMarks& marks_at(double time_s) const { return marks[at(time_s).marks]; }
   /// Index of the stretch that a time lies in; a boundary belongs to the later one.
   std::size_t stretch_at(double time_s) const;

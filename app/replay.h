@@ -25,7 +25,7 @@ public:
   /// s since the first sample, 0 to the run's duration.
   double time_s() const { return time_s_; }
   const RunMoment& moment() const { return run_.at(time_s_); }
-  const Console& console() const { return run_.console_at(time_s_); }
+  const Machine& machine() const { return run_.machine_at(time_s_); }
   const ShownMarks& marks() const { return run_.marks_at(time_s_); }
 
   /// The time of the expert's run that lies as far behind the beginning of its step, or its end once the expert had

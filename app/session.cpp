@@ -21,61 +21,27 @@ void push(MouseTracker& mouse, const Pose& from, const Pose& to) {
   mouse.move(step.translation, angle > 1e-12 ? angle * glm::axis(turn) : glm::dvec3(0.0));
 }
 
-Machine machine_of(const Console& console) {
-  Machine machine;
-  machine.probe = console.probe.name;
-  machine.depth_mm = console.depth_mm;
-  machine.frequency_mhz = console.frequency_mhz;
-  machine.gain_db = console.gain_db;
-  machine.frozen = console.frozen;
-  return machine;
+/// The knob that a scenario locks to lock this one.
+ActionKind lock_of(ActionKind knob) {
+  return knob == ActionKind::dynamic_range || knob == ActionKind::time_gain ? ActionKind::gain : knob;
 }
 
-void set_console(Console& console, const Machine& machine) {
-  if (const Probe* probe = find_probe(machine.probe)) console.probe = *probe;
-  console.depth_mm = std::clamp(machine.depth_mm, Console::kLeastDepth_mm, Console::kMostDepth_mm);
-  console.frequency_mhz = machine.frequency_mhz;
-  console.gain_db = machine.gain_db;
-  console.frozen = machine.frozen;
-}
-
-/// What the learner has set on the console since the machine was as it is.
-std::vector<Action> settings_since(const Machine& before, const Console& console) {
-  std::vector<Action> actions;
-  Machine machine = before;
-  const auto set = [&](ActionKind kind, double value) { actions.push_back({kind, {value}}); };
-  if (machine.probe != console.probe.name) {
-    actions.push_back({ActionKind::probe, {}, console.probe.name});
-    machine.choose(console.probe.name);
+/// Whether an action only replaces the value that another one has set.
+bool replaces(const Action& action, const Action& before) {
+  switch (action.kind) {
+    case ActionKind::depth:
+    case ActionKind::frequency:
+    case ActionKind::gain:
+    case ActionKind::dynamic_range:
+      return before.kind == action.kind;
+    case ActionKind::time_gain:
+      return before.kind == action.kind && before.slot() == action.slot();
+    default:
+      return false;
   }
-  if (machine.depth_mm != console.depth_mm) set(ActionKind::depth, console.depth_mm);
-  if (machine.frequency_mhz != console.frequency_mhz) set(ActionKind::frequency, console.frequency_mhz);
-  if (machine.gain_db != console.gain_db) set(ActionKind::gain, console.gain_db);
-  if (machine.frozen != console.frozen) actions.push_back({console.frozen ? ActionKind::freeze : ActionKind::unfreeze});
-  return actions;
 }
 
 }  // namespace
-
-void Console::choose(const Probe& chosen) {
-  probe = chosen;
-  depth_mm = chosen.depth_mm;
-  frequency_mhz = chosen.frequency_mhz;
-}
-
-Settings Console::settings() const {
-  Settings settings = trainer_settings(frequency_mhz, depth_mm);
-  settings.gain_db = gain_db;
-  settings.dynamic_range_db = dynamic_range_db;
-  for (std::size_t i = 0; i < tgc_db.size(); ++i) settings.tgc_db[i] += tgc_db[i];
-  return settings;
-}
-
-bool Console::operator==(const Console& other) const {
-  return probe.name == other.probe.name && depth_mm == other.depth_mm && frequency_mhz == other.frequency_mhz &&
-         gain_db == other.gain_db && dynamic_range_db == other.dynamic_range_db && tgc_db == other.tgc_db &&
-         frozen == other.frozen;
-}
 
 void check_source(const Tracker& tracker, bool exam) {
   if (exam && tracker.repeats())
@@ -97,9 +63,9 @@ Session::Session(std::shared_ptr<const Study> study, OpenTracker open, double pr
     learner_.reset(static_cast<MouseTracker*>(tracker_.release()));
     holder_ = Holder::learner;
   }
-  console_.choose(probes().front());
+  shown_.choose(probes().front().name);
   if (study_->scenario) {
-    set_console(console_, starting_machine(*study_->scenario, study_->subject));
+    shown_ = starting_machine(*study_->scenario, study_->subject);
     activity_ = Activity::exam;
   }
   begin_attempt();
@@ -136,12 +102,12 @@ void Session::begin_attempt() {
   last_usable_s_ = attempt_began_s_ = now_s_;
   marks_s_.clear();
   history_.clear();
-  console_.frozen = false;
-  acts_.clear();
+  shown_.apply({ActionKind::unfreeze}, std::nullopt);
+  machine_ = runner_ ? runner_->machine() : Machine();
+  restore_locked();
+  acts_ = actions_between(machine_, shown_);
   actions_.clear();
   latest_actions_.clear();
-  at_start_ = console_;
-  machine_ = acted_ = runner_ ? runner_->machine() : Machine();
   attempt_is_fresh_ = true;
   log_actions_.clear();
   if (const Recording* recording = source().recording())
@@ -198,41 +164,36 @@ void Session::move_probe(const std::function<Pose(const ProbeHand&, const Pose&)
 void Session::act(const Action& action) {
   if (source().recording()) return;
   if (strict() && action.kind == ActionKind::hint) return;
-  note_settings();
   acts_.push_back(action);
 }
 
-std::vector<Action> Session::settings() const {
-  return settings_since(Machine(), console_);
+void Session::set(const Action& action) {
+  if (locks(action.kind)) return;
+  const Machine before = shown_;
+  shown_.apply(action, newest_pose_);
+  if (shown_ == before || source().recording()) return;
+  if (!acts_.empty() && replaces(action, acts_.back())) acts_.pop_back();
+  acts_.push_back(action);
 }
 
 std::optional<Pose> Session::frozen_picture() const {
-  if (!console_.frozen) return std::nullopt;
+  if (!shown_.frozen) return std::nullopt;
   return source().recording() ? shown_pose_ : machine_.frozen_at;
 }
 
 bool Session::locks(ActionKind setting) const {
-  return strict() && runner_ && !result_ && runner_->scenario().locked.contains(setting);
+  return strict() && runner_ && !result_ && runner_->scenario().locked.contains(lock_of(setting));
 }
 
-/// Whoever sets the console need not know what is locked.
-void Session::undo_locked() {
-  if (locks(ActionKind::probe)) console_.probe = *find_probe(acted_.probe);
-  if (locks(ActionKind::depth)) console_.depth_mm = acted_.depth_mm;
-  if (locks(ActionKind::frequency)) console_.frequency_mhz = acted_.frequency_mhz;
+/// An exam begins with what it locks as the scenario has it, whatever was set in the attempt before.
+void Session::restore_locked() {
+  if (locks(ActionKind::probe)) shown_.probe = machine_.probe;
+  if (locks(ActionKind::depth)) shown_.depth_mm = machine_.depth_mm;
+  if (locks(ActionKind::frequency)) shown_.frequency_mhz = machine_.frequency_mhz;
   if (locks(ActionKind::gain)) {
-    console_.gain_db = acted_.gain_db;
-    console_.tgc_db = at_start_.tgc_db;
-    console_.dynamic_range_db = at_start_.dynamic_range_db;
-  }
-}
-
-/// What is on the console comes before what is done next.
-void Session::note_settings() {
-  undo_locked();
-  for (Action& setting : settings_since(acted_, console_)) {
-    acted_.apply(setting, newest_pose_);
-    acts_.push_back(std::move(setting));
+    shown_.gain_db = machine_.gain_db;
+    shown_.dynamic_range_db = machine_.dynamic_range_db;
+    shown_.time_gain_db = machine_.time_gain_db;
   }
 }
 
@@ -241,24 +202,20 @@ std::vector<Action> Session::actions_before(const PoseSample& sample) {
     const auto found = log_actions_.find(sample.time_s);
     return found == log_actions_.end() ? std::vector<Action>() : found->second;
   }
-  note_settings();
   return std::exchange(acts_, {});
 }
 
 void Session::take(const PoseSample& sample) {
-  const bool was_frozen = console_.frozen;
+  const bool was_frozen = shown_.frozen;
   const std::uint32_t pressed = presses_.see(sample);
   // A log with actions tells itself when the picture froze.
-  if ((pressed & kFreezeButton) && log_actions_.empty()) console_.frozen = !console_.frozen;
+  if ((pressed & kFreezeButton) && log_actions_.empty()) freeze(!shown_.frozen);
   if (pressed & kMarkButton) marks_s_.push_back(attempt_for_s());
   if (pressed & kGoOnButton) go_on_ = true;
   const std::vector<Action> actions = actions_before(sample);
-  if (source().recording() && !actions.empty()) {
-    Machine machine = machine_of(console_);
-    for (const Action& action : actions) machine.apply(action, newest_pose_);
-    set_console(console_, machine);
-  }
-  if (console_.frozen && !was_frozen) shown_pose_ = newest_pose_;
+  if (source().recording())
+    for (const Action& action : actions) shown_.apply(action, newest_pose_);
+  if (shown_.frozen && !was_frozen) shown_pose_ = newest_pose_;
   for (const Action& action : actions) machine_.apply(action, newest_pose_);
   if (!actions.empty()) latest_actions_[sample.time_s] = actions;
   if (runner_ && !result_) {
@@ -268,7 +225,7 @@ void Session::take(const PoseSample& sample) {
     machine_ = runner_->machine();
   }
   // What is measured in is what was sampled, not what was predicted of it.
-  if (console_.frozen && machine_.frozen_at) shown_pose_ = machine_.frozen_at;
+  if (shown_.frozen && machine_.frozen_at) shown_pose_ = machine_.frozen_at;
   if (sample.status != PoseStatus::ok) return;
   newest_pose_ = sample.patient_from_probe;
   last_usable_s_ = now_s_;
@@ -282,7 +239,7 @@ void Session::find_pose() {
     answer_ = history_.at(source().clock_s(now_s_), predict_s_);
     if (answer_->how != PoseAnswer::none) pose = answer_->patient_from_probe;
   }
-  if (!console_.frozen) shown_pose_ = pose;
+  if (!shown_.frozen) shown_pose_ = pose;
 }
 
 void Session::advance(double now_s) {
@@ -291,7 +248,6 @@ void Session::advance(double now_s) {
   if (!std::exchange(advanced_, true)) last_usable_s_ = attempt_began_s_ = now_s;
   samples_.clear();
   latest_actions_.clear();
-  undo_locked();
   if (holder_ == Holder::learner && tracker_ && tracker_->live()) {
     tracker_->poll(now_s, samples_);
     samples_.clear();

@@ -20,25 +20,6 @@
 
 namespace insonate {
 
-/// What the learner sets on the ultrasound machine.
-struct Console {
-  Probe probe;
-  double depth_mm = 160;
-  double frequency_mhz = 3.5;
-  double gain_db = 0;
-  double dynamic_range_db = 60;
-  std::array<double, 8> tgc_db{};  ///< on top of what the machine gives by itself; the sliders' middle is 0
-  bool frozen = false;
-
-  static constexpr double kLeastDepth_mm = Machine::kLeastDepth_mm, kMostDepth_mm = Machine::kMostDepth_mm;
-
-  /// Takes a probe with its own depth and frequency.
-  void choose(const Probe& chosen);
-  /// As the simulator takes them; picture size and samples are left to whoever draws.
-  Settings settings() const;
-  bool operator==(const Console&) const;
-};
-
 enum class Holder { tracker, learner };
 enum class Activity { exam, practice };
 /// Whether an exam may be left, begun again and helped with, or is taken once and as it is.
@@ -57,7 +38,7 @@ void check_source(const Tracker& tracker, bool exam);
 /// replayed log, from the beginning; a live tracker just goes on, and what it said while the learner had the probe is
 /// past; one that tells no place (Tracker::relative) goes on from where the learner has left the probe. Every sample of
 /// the source in charge is fed to the runner, in order, whatever the frame rate, with what the learner did before it:
-/// what he set on the console, and act(). A log that keeps such actions sets the console itself.
+/// set() and act(). A log that keeps such actions sets the machine itself.
 ///
 /// Under strict rules an exam is not left for practice, its probe does not change hands, it is not begun again once its
 /// first sample has come, there are no hints, and what the scenario locks of the machine stays as it is: what asks for
@@ -83,8 +64,8 @@ public:
   Activity activity() const { return activity_; }
   /// Whether the exam is taken under strict rules.
   bool strict() const { return rules_ == ExamRules::strict; }
-  /// Whether a setting of the machine stays as it is: in an exam under strict rules that locks it, until it is
-  /// finished. With the gain go the time gain and the dynamic range.
+  /// Whether a knob of the machine cannot be set: in an exam under strict rules that locks it, until it is finished.
+  /// The lock of the gain covers dynamic range and time gain too.
   bool locks(ActionKind setting) const;
   /// Whether the CT and the patient's inside may be seen: not in an exam under strict rules, which asks what the
   /// learner sees in the ultrasound, until it is finished.
@@ -102,16 +83,15 @@ public:
   const Runner* runner() const { return runner_.get(); }
   /// What the runner has been fed with.
   const std::vector<PoseSample>& exam_samples() const { return exam_samples_; }
-  /// Does something besides moving the probe: a caliper, an answer. Knobs and freezing need no call, the session sees
-  /// them on the console, in their order with what is done here. Nothing happens when the source is a log, which brings
-  /// its own actions.
+  /// Does something besides moving the probe and setting the machine: a caliper, an answer. Nothing happens when the
+  /// source is a log, which brings its own actions.
   void act(const Action& action);
   /// All that the exam under way has been handed, for whoever keeps it with the samples.
   const ActionLog& actions() const { return actions_; }
   /// What was done before the samples of the last advance(), in practice too.
   const ActionLog& latest_actions() const { return latest_actions_; }
-  /// What brings a machine that was never touched to where the console is now: for whoever records from the middle on.
-  std::vector<Action> settings() const;
+  /// The actions that bring an untouched machine to machine(), for a recording that begins in the middle.
+  std::vector<Action> settings() const { return actions_between(Machine(), shown_); }
   /// Complete marks with their provenance; empty until the exam is finished.
   const std::optional<ExamResult>& result() const { return result_; }
 
@@ -161,8 +141,16 @@ public:
   Tracker* tracker() { return tracker_.get(); }
   TrackerState tracker_state() const { return source().state(); }
 
-  Console& console() { return console_; }
-  const Console& console() const { return console_; }
+  // The machine
+  /// As it is set now. It always has a probe.
+  const Machine& machine() const { return shown_; }
+  /// Takes a probe, sets a knob, freezes or unfreezes, unless the exam locks it. While the source is a log this is for
+  /// whoever watches: it changes the picture, and no score.
+  void set(const Action& action);
+  void set(ActionKind knob, double value) { set(Action{knob, {value}}); }
+  void choose_probe(const std::string& name) { set({ActionKind::probe, {}, name}); }
+  void freeze(bool frozen) { set({frozen ? ActionKind::freeze : ActionKind::unfreeze}); }
+
   const Study& study() const { return *study_; }
   double now_s() const { return now_s_; }
 
@@ -174,8 +162,7 @@ private:
   void keep_result();
   void take(const PoseSample& sample);
   void find_pose();
-  void undo_locked();
-  void note_settings();
+  void restore_locked();
   std::vector<Action> actions_before(const PoseSample& sample);
   Tracker& source();
 
@@ -194,7 +181,7 @@ private:
   std::unique_ptr<Runner> runner_;
   std::vector<PoseSample> exam_samples_;
   std::optional<ExamResult> result_;
-  Console console_;
+  Machine shown_;  ///< with what was set since the last sample
   std::optional<Pose> shown_pose_, newest_pose_;
   PoseHistory history_;  ///< of a live tracker
   std::optional<PoseEstimate> answer_;
@@ -206,9 +193,7 @@ private:
   std::vector<double> marks_s_;
   ActionLog log_actions_;     ///< of the log that is replayed
   std::vector<Action> acts_;  ///< the learner's own, until the next sample
-  Machine acted_;             ///< as they leave it
-  Console at_start_;          ///< of this attempt
-  Machine machine_;           ///< as it was at the last sample; of a log the console says it
+  Machine machine_;           ///< as it was at the last sample
   ActionLog actions_;         ///< of this attempt
   bool advanced_ = false;
   std::vector<PoseSample> samples_;

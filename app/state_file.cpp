@@ -10,10 +10,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-void write_console(Json& state, const Console& console) {
-  state["frozen"] = console.frozen;
-  state["depth_mm"] = console.depth_mm;
-  state["gain_db"] = console.gain_db;
+void write_machine(Json& state, const Machine& machine) {
+  state["frozen"] = machine.frozen;
+  state["depth_mm"] = machine.depth_mm;
+  state["gain_db"] = machine.gain_db;
 }
 
 void write_pose(Json& state, const Pose& pose) {
@@ -69,7 +69,7 @@ void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::
     state["replay_playing"] = replay->playing();
     state["replay_speed"] = replay->speed();
     state["step"] = replay->moment().step;
-    write_console(state, replay->console());
+    write_machine(state, replay->machine());
     std::string placed;
     for (const ShownMarks::Placed& mark : replay->marks().placed) placed += in_short(mark.action);
     state["placed"] = placed;
@@ -85,7 +85,7 @@ void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::
     state["marks"] = session->marks_s().size();
     state["pose_answer"] = session->answer() ? to_string(session->answer()->how) : "";
     state["lost"] = session->lost_for_s().has_value();
-    write_console(state, session->console());
+    write_machine(state, session->machine());
     if (const auto& pose = session->shown_pose()) {
       const ui::Rect& space = screen.places().at("space");
       const glm::dvec2 face = trainer.pictures().camera.project(pose->translation, int(space.w), int(space.h));

@@ -87,12 +87,12 @@ std::vector<StepControls::Knob> StepControls::knobs(const Session& session) {
   std::vector<Knob> found;
   const auto* asked = active(session) ? dynamic_cast<const SetKnobs*>(step_of(session).task.get()) : nullptr;
   if (!asked) return found;
-  const Console& console = session.console();
+  const Machine& machine = session.machine();
   const Probe* probe = find_probe(asked->probe);
-  if (probe) found.push_back({"Probe", probe->title, console.probe.title, console.probe.name == probe->name});
-  if (asked->depth_mm) found.push_back(knob("Depth", *asked->depth_mm, console.depth_mm, 10, "cm"));
-  if (asked->gain_db) found.push_back(knob("Gain", *asked->gain_db, console.gain_db, 1, "dB"));
-  if (asked->frequency_mhz) found.push_back(knob("Frequency", *asked->frequency_mhz, console.frequency_mhz, 1, "MHz"));
+  if (probe) found.push_back({"Probe", probe->title, machine.transducer().title, machine.probe == probe->name});
+  if (asked->depth_mm) found.push_back(knob("Depth", *asked->depth_mm, machine.depth_mm, 10, "cm"));
+  if (asked->gain_db) found.push_back(knob("Gain", *asked->gain_db, machine.gain_db, 1, "dB"));
+  if (asked->frequency_mhz) found.push_back(knob("Frequency", *asked->frequency_mhz, machine.frequency_mhz, 1, "MHz"));
   return found;
 }
 

@@ -220,7 +220,7 @@ void Trainer::update(double now_s) {
 
 void Trainer::draw(const PictureSizes& sizes, double quality, double budget_ms) {
   try {
-    if (replay_) pictures_.update(replay_->moment().shown_pose, replay_->console(), sizes, quality, budget_ms);
+    if (replay_) pictures_.update(replay_->moment().shown_pose, replay_->machine(), sizes, quality, budget_ms);
     if (session_) pictures_.update(*session_, sizes, quality, budget_ms);
   } catch (const std::runtime_error& error) {
     // What was built when the file changed may not build for settings that come later.

@@ -21,6 +21,8 @@ constexpr std::array kKinds{
     KindOfAction{ActionKind::depth, "depth", 1, false},
     KindOfAction{ActionKind::frequency, "frequency", 1, false},
     KindOfAction{ActionKind::gain, "gain", 1, false},
+    KindOfAction{ActionKind::dynamic_range, "dynamic_range", 1, false},
+    KindOfAction{ActionKind::time_gain, "time_gain", 2, false},
     KindOfAction{ActionKind::freeze, "freeze", 0, false},
     KindOfAction{ActionKind::unfreeze, "unfreeze", 0, false},
     KindOfAction{ActionKind::caliper, "caliper", 5, false},
@@ -85,10 +87,8 @@ public:
     for (std::size_t i = 0; i < kind.numbers; ++i) action.numbers[i] = number(words[1 + i]);
     const bool takes_back = kind.kind == ActionKind::take_back;
     const bool has_slot = takes_back || kind.kind == ActionKind::caliper || kind.kind == ActionKind::ellipse;
-    const double least = takes_back ? 0 : 1;
-    if (has_slot &&
-        !(action.numbers[0] >= least && action.numbers[0] <= Action::kMostSlots && action.numbers[0] == action.slot()))
-      refuse("a slot is no whole number from 1 to 9");
+    if (has_slot) check_whole(action, "a slot", takes_back ? 0 : 1, Action::kMostSlots);
+    if (kind.kind == ActionKind::time_gain) check_whole(action, "a slider", 1, Action::kTimeGainSliders);
     if (kind.has_text && words.back().front() != ':') refuse("an action's text does not begin with ':'");
     if (kind.has_text) action.text = unescaped(words.back().substr(1));
     return action;
@@ -97,6 +97,12 @@ public:
 private:
   [[noreturn]] void refuse(const std::string& problem, const std::string& remedy = "record the scan again") const {
     throw InputError(file_, place_, problem, remedy);
+  }
+
+  void check_whole(const Action& action, const std::string& what, int least, int most) const {
+    const double number = action.numbers[0];
+    if (!(number >= least && number <= most && number == action.slot()))
+      refuse(what + " is not a whole number from " + std::to_string(least) + " to " + std::to_string(most));
   }
 
   const KindOfAction& kind_of(std::string_view word) const {

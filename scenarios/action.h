@@ -13,11 +13,13 @@ namespace insonate {
 
 /// What a learner does besides moving the probe. In brackets what the action says: numbers, then a text.
 enum class ActionKind {
-  probe,      ///< takes another probe [its name]; depth and frequency become that probe's own
-  depth,      ///< [mm]
-  frequency,  ///< [MHz]
-  gain,       ///< [dB]
-  freeze,     ///< the picture stands still: that of the last valid sample before the action
+  probe,          ///< takes another probe [its name]; depth and frequency become that probe's own
+  depth,          ///< [mm]
+  frequency,      ///< [MHz]
+  gain,           ///< [dB]
+  dynamic_range,  ///< [dB]
+  time_gain,      ///< [slider from 1 on, near to far; dB]
+  freeze,         ///< the picture stands still: that of the last valid sample before the action
   unfreeze,
   caliper,    ///< puts a caliper [slot from 1 on, x1, y1, x2, y2]; a slot put again has moved
   ellipse,    ///< [slot, x1, y1, x2, y2 of one axis' ends, half the other axis]
@@ -39,6 +41,7 @@ struct Action {
   static constexpr std::size_t kMostNumbers = 6;
   static constexpr double kLargestNumber = 1e6;
   static constexpr int kMostSlots = 9;
+  static constexpr int kTimeGainSliders = 8;
   static constexpr std::size_t kLongestText = 240;  ///< bytes; more is cut when it is written
 
   ActionKind kind{};

@@ -1,10 +1,15 @@
 #include "scenarios/machine.h"
 
 #include <algorithm>
-
-#include "sim/probe/probe.h"
+#include <stdexcept>
 
 namespace insonate {
+
+const Probe& Machine::transducer() const {
+  const Probe* found = find_probe(probe);
+  if (!found) throw std::logic_error("the machine has no probe yet");
+  return *found;
+}
 
 void Machine::choose(const std::string& name) {
   const Probe* chosen = find_probe(name);
@@ -28,6 +33,13 @@ void Machine::apply(const Action& action, const std::optional<Pose>& last_valid)
     case ActionKind::gain:
       gain_db = action.numbers[0];
       break;
+    case ActionKind::dynamic_range:
+      dynamic_range_db = std::clamp(action.numbers[0], kLeastDynamicRange_db, kMostDynamicRange_db);
+      break;
+    case ActionKind::time_gain:
+      time_gain_db.at(std::size_t(action.slot() - 1)) =
+          std::clamp(action.numbers[1], -kMostTimeGain_db, kMostTimeGain_db);
+      break;
     case ActionKind::freeze:
       if (!frozen) frozen_at = last_valid;
       frozen = true;
@@ -39,6 +51,25 @@ void Machine::apply(const Action& action, const std::optional<Pose>& last_valid)
     default:
       break;
   }
+}
+
+std::vector<Action> actions_between(const Machine& from, const Machine& to) {
+  std::vector<Action> actions;
+  Machine machine = from;
+  const auto set = [&](ActionKind kind, double value) { actions.push_back({kind, {value}}); };
+  if (machine.probe != to.probe) {
+    actions.push_back({ActionKind::probe, {}, to.probe});
+    machine.choose(to.probe);
+  }
+  if (machine.depth_mm != to.depth_mm) set(ActionKind::depth, to.depth_mm);
+  if (machine.frequency_mhz != to.frequency_mhz) set(ActionKind::frequency, to.frequency_mhz);
+  if (machine.gain_db != to.gain_db) set(ActionKind::gain, to.gain_db);
+  if (machine.dynamic_range_db != to.dynamic_range_db) set(ActionKind::dynamic_range, to.dynamic_range_db);
+  for (std::size_t i = 0; i < to.time_gain_db.size(); ++i)
+    if (machine.time_gain_db[i] != to.time_gain_db[i])
+      actions.push_back({ActionKind::time_gain, {double(i + 1), to.time_gain_db[i]}});
+  if (machine.frozen != to.frozen) actions.push_back({to.frozen ? ActionKind::freeze : ActionKind::unfreeze});
+  return actions;
 }
 
 Machine starting_machine(const Scenario& scenario, const Case& subject) {

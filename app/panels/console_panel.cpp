@@ -15,7 +15,6 @@ std::string formatted(const char* format, double value) {
 }
 
 void draw_probe_choice(const Theme& theme, Rect where, Session& session) {
-  Console& console = session.console();
   draw_text(where.take_top(theme.px(20)), theme.small_text, colour::kMuted, "Probe");
   where.take_top(theme.px(4));
   const float between = theme.px(5), count = float(probes().size());
@@ -23,44 +22,50 @@ void draw_probe_choice(const Theme& theme, Rect where, Session& session) {
   for (const Probe& probe : probes()) {
     const Rect place = where.take_top(height);
     where.take_top(between);
-    const bool chosen = console.probe.name == probe.name;
+    const bool chosen = session.machine().probe == probe.name;
     if (button(theme, probe.name.c_str(), place, probe.title.c_str(), chosen ? ButtonKind::chosen : ButtonKind::normal,
                chosen || !session.locks(ActionKind::probe)) &&
         !chosen)
-      console.choose(probe);
+      session.choose_probe(probe.name);
   }
 }
 
 void draw_knobs(const Theme& theme, Rect where, Session& session) {
-  Console& console = session.console();
+  const Machine& machine = session.machine();
+  const Probe& probe = machine.transducer();
   const float gap = theme.px(24);
   const float width = (where.w - gap) / 2, height = theme.px(46);
   const Rect left{where.x, where.y, width, height}, right{where.x + width + gap, where.y, width, height};
   const float next = theme.px(50);
-  slider(theme, "depth", left, "Depth", formatted("%.1f cm", console.depth_mm / 10), console.depth_mm,
-         Console::kLeastDepth_mm, Console::kMostDepth_mm, 5, console.probe.depth_mm, !session.locks(ActionKind::depth));
-  slider(theme, "gain", right, "Gain", formatted("%+.0f dB", console.gain_db), console.gain_db, -30, 30, 1, 0,
-         !session.locks(ActionKind::gain));
-  slider(theme, "frequency", {left.x, left.y + next, width, height}, "Frequency",
-         formatted("%.1f MHz", console.frequency_mhz), console.frequency_mhz, 1.5, 12, 0.5, console.probe.frequency_mhz,
-         !session.locks(ActionKind::frequency));
-  slider(theme, "range", {right.x, right.y + next, width, height}, "Dynamic range",
-         formatted("%.0f dB", console.dynamic_range_db), console.dynamic_range_db, 30, 90, 5, 60,
-         !session.locks(ActionKind::gain));
+  const auto knob = [&](const char* id, const Rect& place, const char* name, const std::string& text, ActionKind kind,
+                        double value, double least, double most, double step, double normal) {
+    if (slider(theme, id, place, name, text, value, least, most, step, normal, !session.locks(kind)))
+      session.set(kind, value);
+  };
+  knob("depth", left, "Depth", formatted("%.1f cm", machine.depth_mm / 10), ActionKind::depth, machine.depth_mm,
+       Machine::kLeastDepth_mm, Machine::kMostDepth_mm, 5, probe.depth_mm);
+  knob("gain", right, "Gain", formatted("%+.0f dB", machine.gain_db), ActionKind::gain, machine.gain_db,
+       -Machine::kMostGain_db, Machine::kMostGain_db, 1, 0);
+  knob("frequency", {left.x, left.y + next, width, height}, "Frequency", formatted("%.1f MHz", machine.frequency_mhz),
+       ActionKind::frequency, machine.frequency_mhz, 1.5, 12, 0.5, probe.frequency_mhz);
+  knob("range", {right.x, right.y + next, width, height}, "Dynamic range",
+       formatted("%.0f dB", machine.dynamic_range_db), ActionKind::dynamic_range, machine.dynamic_range_db,
+       Machine::kLeastDynamicRange_db, Machine::kMostDynamicRange_db, 5, Machine::kDynamicRange_db);
 }
 
 void draw_time_gain(const Theme& theme, Rect where, Session& session) {
-  Console& console = session.console();
-  constexpr double kReach_db = 20;
   Rect head = where.take_top(theme.px(20));
   draw_text(head, theme.small_text, colour::kMuted, "Time gain");
   draw_text(head, theme.small_text, colour::kFaint, "near to far", Align::right);
   where.take_top(theme.px(4));
-  const float width = where.w / float(console.tgc_db.size());
-  for (std::size_t i = 0; i < console.tgc_db.size(); ++i) {
+  const auto& sliders = session.machine().time_gain_db;
+  const float width = where.w / float(sliders.size());
+  for (std::size_t i = 0; i < sliders.size(); ++i) {
     const std::string id = "tgc" + std::to_string(i);
-    upright_slider(theme, id.c_str(), where.take_left(width), console.tgc_db[i], kReach_db,
-                   !session.locks(ActionKind::gain));
+    double value = sliders[i];
+    if (upright_slider(theme, id.c_str(), where.take_left(width), value, Machine::kMostTimeGain_db,
+                       !session.locks(ActionKind::time_gain)))
+      session.set({ActionKind::time_gain, {double(i + 1), value}});
   }
 }
 
@@ -69,7 +74,6 @@ void draw_time_gain(const Theme& theme, Rect where, Session& session) {
 ConsoleRequest draw_console_panel(const Theme& theme, const Rect& panel, Session& session,
                                   const std::function<void(const std::function<void()>&)>& attempt) {
   fill(panel, colour::kPanel, theme.px(4));
-  Console& console = session.console();
   Rect rest = panel.inset(theme.px(16), theme.px(10));
   const float gap = theme.px(28);
   draw_probe_choice(theme, rest.take_left(theme.px(112)), session);
@@ -87,9 +91,9 @@ ConsoleRequest draw_console_panel(const Theme& theme, const Rect& panel, Session
   Rect upper = buttons.take_top(height);
   buttons.take_top(between);
   Rect lower = buttons.take_top(height);
-  if (button(theme, "freeze", upper.take_left(theme.px(86)), console.frozen ? "Live" : "Freeze",
-             console.frozen ? ButtonKind::chosen : ButtonKind::normal))
-    console.frozen = !console.frozen;
+  if (button(theme, "freeze", upper.take_left(theme.px(86)), session.machine().frozen ? "Live" : "Freeze",
+             session.machine().frozen ? ButtonKind::chosen : ButtonKind::normal))
+    session.freeze(!session.machine().frozen);
   upper.take_left(between);
   const bool learner = session.holder() == Holder::learner;
   if (session.only_learner()) {

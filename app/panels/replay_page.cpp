@@ -104,9 +104,9 @@ void draw_paths(const Theme& theme, const Rect& panel, const Replay& replay, con
     drawing.path(path_until(expert, expert.duration_s()), kExpertInk & IM_COL32(255, 255, 255, 120), theme.px(1));
     drawing.path(path_until(expert, *expert_s), kExpertInk, theme.px(1.5f));
     const RunMoment& moment = expert.at(*expert_s);
-    const Console& console = expert.console_at(*expert_s);
+    const Machine& machine = expert.machine_at(*expert_s);
     if (moment.shown_pose)
-      drawing.fan(*moment.shown_pose, console.probe, console.depth_mm, kExpertInk, IM_COL32(226, 214, 244, 36));
+      drawing.fan(*moment.shown_pose, machine.transducer(), machine.depth_mm, kExpertInk, IM_COL32(226, 214, 244, 36));
   }
   drawing.path(path_until(replay.run(), replay.time_s()), colour::kAccent, theme.px(2));
   draw_image_outline(theme, drawing, replay);
@@ -120,7 +120,7 @@ void draw_replay_page(const Theme& theme, const ReplayPlaces& places, Trainer& t
   const Study& study = *trainer.study();
   const Scenario* scenario = study.scenario ? &*study.scenario : nullptr;
   draw_top(theme, places.top, replay, scenario);
-  UltrasoundPanel::draw_still(theme, places.ultrasound, study.subject.name, replay.console(), replay.marks(),
+  UltrasoundPanel::draw_still(theme, places.ultrasound, study.subject.name, replay.machine(), replay.marks(),
                               replay.run().lost_for_s(replay.time_s()), trainer.pictures());
   if (replay.run().images) recorded.draw(theme, places.recorded, replay, trainer.pictures());
   space.draw(theme, places.space, nullptr, trainer.pictures());

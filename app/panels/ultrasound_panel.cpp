@@ -75,15 +75,15 @@ void draw_mark(const Theme& theme, const Rect& panel, const Session& session) {
 }
 
 /// Returns where the next line goes.
-Rect draw_annotations(const Theme& theme, const Rect& panel, const std::string& patient, const Console& console) {
+Rect draw_annotations(const Theme& theme, const Rect& panel, const std::string& patient, const Machine& machine) {
   Rect line{panel.x + theme.px(16), panel.y + theme.px(12), panel.w * 0.27f, theme.px(24)};
   draw_text(line, theme.strong, colour::kText, patient);
   line.y += line.h;
   line.h = theme.px(19);
   for (const std::string& text :
-       {console.probe.title + formatted(", %.1f MHz", console.frequency_mhz),
-        formatted("Depth %.1f cm", console.depth_mm / 10), formatted("Gain %+.0f dB", console.gain_db),
-        formatted("Range %.0f dB", console.dynamic_range_db)}) {
+       {machine.transducer().title + formatted(", %.1f MHz", machine.frequency_mhz),
+        formatted("Depth %.1f cm", machine.depth_mm / 10), formatted("Gain %+.0f dB", machine.gain_db),
+        formatted("Range %.0f dB", machine.dynamic_range_db)}) {
     draw_text(line, theme.small_text, colour::kMuted, text);
     line.y += line.h;
   }
@@ -107,7 +107,7 @@ void draw_banner(const Theme& theme, const Rect& panel, std::optional<double> lo
 }
 
 std::string frozen_text(const Session& session, const PictureTools& tools) {
-  if (!session.console().frozen) return "";
+  if (!session.machine().frozen) return "";
   return PictureTools::ready(session) ? "Frozen:  " + tool_prompt(tools) : "Frozen";
 }
 
@@ -130,14 +130,14 @@ void draw_tracker_problem(const Theme& theme, const Rect& panel, const Session& 
 
 /// The picture with its scales; how it lies on the screen.
 PlaneOnScreen draw_picture(const Theme& theme, const Rect& panel, const gl::Texture& picture, const Pictures& pictures,
-                           const Console& console) {
+                           const Machine& machine) {
   const Rect area = UltrasoundPanel::picture_area(theme, panel);
   const PlaneOnScreen plane = UltrasoundPanel::plane(theme, panel, pictures);
   ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(std::uintptr_t(picture.name())), area.min(),
                                        area.max(), {1, 0}, {0, 1});
-  draw_depth_scale(theme, panel, plane, console.depth_mm);
-  draw_grey_scale(theme, panel, console.dynamic_range_db);
-  draw_marker(theme, plane, console.probe);
+  draw_depth_scale(theme, panel, plane, machine.depth_mm);
+  draw_grey_scale(theme, panel, machine.dynamic_range_db);
+  draw_marker(theme, plane, machine.transducer());
   return plane;
 }
 
@@ -177,14 +177,14 @@ void UltrasoundPanel::draw(const Theme& theme, const Rect& panel, Session& sessi
   fill(panel, colour::kImage, theme.px(4));
   const Rect area = picture_area(theme, panel);
   if (const gl::Texture* picture = pictures.ultrasound()) {
-    const PlaneOnScreen plane = draw_picture(theme, panel, *picture, pictures, session.console());
+    const PlaneOnScreen plane = draw_picture(theme, panel, *picture, pictures, session.machine());
     draw_marks(theme, panel, plane, shown_marks(session, tools));
     draw_picture_tools(theme, panel, session, tools, places);  // before the picture's own item, which lies under them
     take_mouse(theme, area, session, plane, tools);
   } else {
     draw_text(panel, theme.text, colour::kFaint, "Waiting for the probe", Align::centre);
   }
-  const Rect below = draw_annotations(theme, panel, session.study().subject.name, session.console());
+  const Rect below = draw_annotations(theme, panel, session.study().subject.name, session.machine());
   if (!session.marks_s().empty()) draw_text(below, theme.small_text, colour::kAccent, mark_text(session));
   draw_mark(theme, panel, session);
   draw_banner(theme, panel, session.lost_for_s(), frozen_text(session, tools));
@@ -192,15 +192,15 @@ void UltrasoundPanel::draw(const Theme& theme, const Rect& panel, Session& sessi
 }
 
 void UltrasoundPanel::draw_still(const Theme& theme, const Rect& panel, const std::string& patient,
-                                 const Console& console, const ShownMarks& marks, std::optional<double> lost_for_s,
+                                 const Machine& machine, const ShownMarks& marks, std::optional<double> lost_for_s,
                                  const Pictures& pictures) {
   fill(panel, colour::kImage, theme.px(4));
   if (const gl::Texture* picture = pictures.ultrasound())
-    draw_marks(theme, panel, draw_picture(theme, panel, *picture, pictures, console), marks);
+    draw_marks(theme, panel, draw_picture(theme, panel, *picture, pictures, machine), marks);
   else
     draw_text(panel, theme.text, colour::kFaint, "No pose has come yet", Align::centre);
-  draw_annotations(theme, panel, patient, console);
-  draw_banner(theme, panel, lost_for_s, console.frozen ? "Frozen" : "");
+  draw_annotations(theme, panel, patient, machine);
+  draw_banner(theme, panel, lost_for_s, machine.frozen ? "Frozen" : "");
 }
 
 }  // namespace insonate::ui

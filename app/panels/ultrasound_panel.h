@@ -27,7 +27,7 @@ public:
   static void draw(const Theme& theme, const Rect& panel, Session& session, const Pictures& pictures,
                    PictureTools& tools, std::map<std::string, Rect>& places);
   /// The same of a run that is over: nothing on it can be taken hold of.
-  static void draw_still(const Theme& theme, const Rect& panel, const std::string& patient, const Console& console,
+  static void draw_still(const Theme& theme, const Rect& panel, const std::string& patient, const Machine& machine,
                          const ShownMarks& marks, std::optional<double> lost_for_s, const Pictures& pictures);
 };
 

@@ -31,10 +31,10 @@ struct Desk {
     author.see(session);
   }
   void freeze(const Pose& pose) {
-    session.console().frozen = false;
+    session.freeze(false);
     hold(pose);
     hold(pose);
-    session.console().frozen = true;
+    session.freeze(true);
     hold(pose);
   }
   void want(const std::string& name) {
@@ -59,7 +59,7 @@ TEST_CASE("a frozen picture with a title and what it must show becomes a view of
   Desk desk;
   desk.hold(kHeld);
   CHECK(desk.author.parts().empty());
-  desk.session.console().depth_mm = 110;
+  desk.session.set(ActionKind::depth, 110);
   desk.freeze(kHeld);
   CHECK(names(desk.author.parts()) == std::vector<std::string>{"ball", "centre", "top"});
   CHECK_FALSE(desk.author.ready());
@@ -75,7 +75,7 @@ TEST_CASE("a frozen picture with a title and what it must show becomes a view of
   const ReferenceView& view = read.views[2];
   CHECK(view.name == "the_ball_as_we_hold_it");
   CHECK(view.title == "The ball, as we hold it");
-  CHECK(view.probe == desk.session.console().probe.name);
+  CHECK(view.probe == desk.session.machine().probe);
   CHECK(view.depth_mm == 110);
   CHECK(view.targets == std::vector<std::string>{"ball"});
   CHECK(view.landmarks == std::vector<std::string>{"centre"});
@@ -110,8 +110,8 @@ TEST_CASE("the way to a view that was made is shown at once, behind the case's o
   CHECK(guiding.there);
   CHECK(guiding.view->title == "As we hold it");
   CHECK(guiding.view->patient_from_probe == kHeld);
-  CHECK(guiding.view->depth_mm == desk.session.console().depth_mm);
-  desk.session.console().frozen = false;
+  CHECK(guiding.view->depth_mm == desk.session.machine().depth_mm);
+  desk.session.freeze(false);
   desk.hold(turned(0, {1, 0, 0}, {0, 0, 45}));
   CHECK_FALSE(guide.now(desk.session)->there);
 
@@ -144,10 +144,10 @@ TEST_CASE("what was chosen stays chosen in the next picture, and a view that is 
 
 TEST_CASE("a deeper picture of the same plane shows more") {
   Desk desk;
-  desk.session.console().depth_mm = 30;
+  desk.session.set(ActionKind::depth, 30);
   desk.freeze(Pose{});
   CHECK(desk.author.parts().empty());
-  desk.session.console().depth_mm = 50;
+  desk.session.set(ActionKind::depth, 50);
   desk.hold(Pose{});
   CHECK(names(desk.author.parts()) == std::vector<std::string>{"ball", "top"});
 }
@@ -156,7 +156,7 @@ TEST_CASE("what takes the most of the picture comes first") {
   Desk desk;
   const Pose along_z = turned(90, {0, 1, 0});
   const auto structures_at = [&](double depth_mm) {
-    desk.session.console().depth_mm = depth_mm;
+    desk.session.set(ActionKind::depth, depth_mm);
     desk.freeze(along_z);
     auto found = names(desk.author.parts());
     std::erase_if(found, [](const std::string& name) { return name == "centre" || name == "top"; });

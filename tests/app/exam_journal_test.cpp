@@ -69,7 +69,7 @@ TEST_CASE("of an exam that counts the database has all but its last second or tw
   Exam exam;
   ExamJournal journal(folder / "lab.db", exam.sitting());
   exam.run_calmly_to(journal, 100);
-  exam.session.console().gain_db = 3;
+  exam.session.set(ActionKind::gain, 3);
   exam.run_calmly_to(journal, 150);
   REQUIRE_FALSE(exam.session.result());
 

@@ -125,7 +125,7 @@ TEST_CASE("clients are told of pose, picture and events, and without clients no 
   picture.grey = Image<std::uint8_t>(6, 4, 9);
   picture.geometry.mm_per_pixel = 0.5;
   feed.show(picture);
-  session.console().frozen = true;
+  session.freeze(true);
   session.advance(0.1);
   feed.tell(session);
   std::vector<std::string> seen;

@@ -68,7 +68,7 @@ struct Desk {
     tools.see(*session);
   }
   void freeze(bool frozen = true) {
-    session->console().frozen = frozen;
+    session->freeze(frozen);
     pass();
   }
   void slide(double z_mm) {

@@ -49,7 +49,7 @@ void check_same(const Session& session, const PictureTools& tools, const Replay&
   if (moment.shown_pose) CHECK(*moment.shown_pose == *session.shown_pose());
   REQUIRE(moment.newest_pose.has_value() == session.newest_pose().has_value());
   if (moment.newest_pose) CHECK(*moment.newest_pose == *session.newest_pose());
-  CHECK(replay.console() == session.console());
+  CHECK(replay.machine() == session.machine());
   CHECK(replay.marks() == shown_marks(session, tools));
   if (!session.runner() || session.runner()->live().finished) return;
   const LiveExam& live = session.runner()->live();
@@ -121,8 +121,8 @@ TEST_CASE("a replayed run has its score, its steps, and what was done besides mo
   for (const RunEvent& event : run.events) words.push_back(event.words);
   CHECK(words == std::vector<std::string>{"Depth 12.0 cm", "Gain +4 dB", "Mark 1", "Freeze", "Caliper 1", "Live",
                                           "Frequency 5.0 MHz", "Probe Linear", "Probe Curvilinear", "Depth 14.0 cm"});
-  CHECK(run.console_at(log.samples[30].time_s).depth_mm != 120);
-  CHECK(run.console_at(log.samples[31].time_s).depth_mm == 120);
+  CHECK(run.machine_at(log.samples[30].time_s).depth_mm != 120);
+  CHECK(run.machine_at(log.samples[31].time_s).depth_mm == 120);
 }
 
 TEST_CASE("a replay has what lay over its pictures, from when it was placed until it was gone") {

@@ -113,7 +113,7 @@ TEST_CASE("what the learner does is recorded with the samples, and from the midd
   RunRecorder recorder(false);
   recorder.start(folder.path / "whole.igs.mha", true);
   run(session, recorder, 0, 0.2);
-  session.console().depth_mm = 95;
+  session.set(ActionKind::depth, 95);
   session.act({ActionKind::answer, {}, "a stone"});
   run(session, recorder, 0.2, 0.4);
   recorder.stop();
@@ -133,8 +133,8 @@ TEST_CASE("what the learner does is recorded with the samples, and from the midd
   Machine machine;
   for (const Action& action : rest.begin()->second) machine.apply(action, std::nullopt);
   CHECK(machine.depth_mm == 95);
-  CHECK(machine.probe == session.console().probe.name);
-  CHECK(machine.frequency_mhz == session.console().frequency_mhz);
+  CHECK(machine.probe == session.machine().probe);
+  CHECK(machine.frequency_mhz == session.machine().frequency_mhz);
 }
 
 TEST_CASE("pictures lie beside the samples, all of the first one's size and where they were") {

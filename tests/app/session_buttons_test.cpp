@@ -21,14 +21,14 @@ TEST_CASE("the probe's freeze button freezes the picture and thaws it, once each
   Session session(tiny_study(), replay_of(samples));
   session.advance(0);
   double now_s = run_until(session, 0, 0.9);
-  CHECK_FALSE(session.console().frozen);
+  CHECK_FALSE(session.machine().frozen);
   now_s = run_until(session, now_s, 2);
-  CHECK(session.console().frozen);
+  CHECK(session.machine().frozen);
   const Pose frozen = *session.shown_pose();
   now_s = run_until(session, now_s, 2.9);
   CHECK(*session.shown_pose() == frozen);
   run_until(session, now_s, 4);
-  CHECK_FALSE(session.console().frozen);
+  CHECK_FALSE(session.machine().frozen);
   CHECK_FALSE(*session.shown_pose() == frozen);
 }
 
@@ -52,7 +52,7 @@ TEST_CASE("the probe's mark and go-on buttons act once each time they are presse
   CHECK(session.marks_s()[1] == Approx(2.9).margin(0.04));
   CHECK(session.take_go_on());
   CHECK_FALSE(session.take_go_on());
-  CHECK_FALSE(session.console().frozen);
+  CHECK_FALSE(session.machine().frozen);
 
   INFO("a mark of the keyboard is in one sample, for the record");
   session.press(kMarkButton);
@@ -74,10 +74,10 @@ TEST_CASE("a button that is held when a session begins was pressed for somebody 
   Session session(tiny_study(), replay_of(samples));
   session.advance(0);
   const double now_s = run_until(session, 0, 1.5);
-  CHECK_FALSE(session.console().frozen);
+  CHECK_FALSE(session.machine().frozen);
   CHECK(session.marks_s().empty());
   run_until(session, now_s, 3);
-  CHECK(session.console().frozen);
+  CHECK(session.machine().frozen);
   CHECK(session.marks_s().size() == 1);
 }
 
@@ -93,7 +93,7 @@ TEST_CASE("a button that is held on the tracker while the probe changes hands wa
   session.advance(now_s);
   hold(0);
   hold(kMarkButton | kFreezeButton);
-  CHECK(session.console().frozen);
+  CHECK(session.machine().frozen);
   CHECK(session.marks_s().size() == 1);
   session.take_probe();
   hold(kMarkButton | kFreezeButton);
@@ -102,7 +102,7 @@ TEST_CASE("a button that is held on the tracker while the probe changes hands wa
   CHECK(session.marks_s().size() == 1);
   session.give_back_probe();
   hold(kMarkButton | kFreezeButton);
-  CHECK_FALSE(session.console().frozen);
+  CHECK_FALSE(session.machine().frozen);
   CHECK(session.marks_s().empty());
   hold(0);
   hold(kMarkButton);

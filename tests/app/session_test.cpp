@@ -329,11 +329,11 @@ TEST_CASE("a frozen picture stays while the exam goes on") {
   session.advance(0);
   double now_s = run_until(session, 0, 1);
   const Pose frozen = *session.shown_pose();
-  session.console().frozen = true;
+  session.freeze(true);
   now_s = run_until(session, now_s, 2);
   CHECK(*session.shown_pose() == frozen);
   CHECK(session.runner()->live().elapsed_s == Approx(2).margin(0.02));
-  session.console().frozen = false;
+  session.freeze(false);
   run_until(session, now_s, 2.1);
   CHECK_FALSE(*session.shown_pose() == frozen);
 }
@@ -343,12 +343,19 @@ TEST_CASE("what the learner does reaches the exam, and again when the exam is sc
   Session session(study, replay_of(searching_scan()));
   session.advance(0);
   double now_s = run_until(session, 0, 0.5);
-  session.console().depth_mm = 120;
-  session.console().gain_db = 4;
+  session.set(ActionKind::depth, 120);
+  session.set(ActionKind::gain, 4);
+  session.set(ActionKind::dynamic_range, 45);
+  session.set({ActionKind::time_gain, {2, 6}});
+  session.set({ActionKind::time_gain, {2, 9}});  // as a slider that is dragged
+  session.set({ActionKind::time_gain, {8, -3}});
   now_s = run_until(session, now_s, 0.7);
+  const Machine as_seen = session.machine();
+  CHECK(as_seen.time_gain_db[1] == 9);
+  CHECK(session.actions().begin()->second.size() == 5);
   CHECK(session.runner()->machine().depth_mm == 120);
   CHECK(session.runner()->machine().gain_db == 4);
-  session.console().frozen = true;
+  session.freeze(true);
   now_s = run_until(session, now_s, 0.8);
   REQUIRE(session.runner()->machine().frozen_at);
   CHECK(*session.runner()->machine().frozen_at == *session.shown_pose());
@@ -369,10 +376,12 @@ TEST_CASE("what the learner does reaches the exam, and again when the exam is sc
   Session again(study, [&] { return open_tracker("replay:" + file.string()); });
   again.advance(0);
   now_s = run_until(again, 0, 0.9, 23);
-  CHECK(again.console().depth_mm == 120);
-  CHECK(again.console().frozen);
+  CHECK(again.machine().depth_mm == 120);
+  CHECK(again.machine().dynamic_range_db == 45);
+  CHECK(again.machine().time_gain_db == as_seen.time_gain_db);
+  CHECK(again.machine().frozen);
   CHECK(*again.shown_pose() == *again.runner()->machine().frozen_at);
-  again.console().depth_mm = 50;  // a log's score is its own, whatever the one who watches sets
+  again.set(ActionKind::depth, 50);  // a log's score is its own, whatever the one who watches sets
   run_until(again, now_s, 10, 23);
   std::filesystem::remove(file);
   REQUIRE(again.result());
@@ -388,12 +397,12 @@ TEST_CASE("knobs and acts between two samples keep their order, in practice too"
     session.advance(0);
     session.advance(0.1);
     CHECK_FALSE(session.frozen_picture());
-    session.console().frozen = true;
+    session.freeze(true);
     CHECK_FALSE(session.frozen_picture());  // nobody has been told yet
     session.act({ActionKind::point, {1, 2}});
-    session.console().depth_mm = 95;
+    session.set(ActionKind::depth, 95);
     session.act({ActionKind::point, {3, 4}});
-    session.console().frozen = false;
+    session.freeze(false);
     session.advance(0.2);
     REQUIRE(session.latest_actions().size() == 1);
     const std::vector<Action> expected{{ActionKind::freeze},
@@ -402,7 +411,7 @@ TEST_CASE("knobs and acts between two samples keep their order, in practice too"
                                        {ActionKind::point, {3, 4}},
                                        {ActionKind::unfreeze}};
     CHECK(session.latest_actions().begin()->second == expected);
-    session.console().frozen = true;
+    session.freeze(true);
     session.advance(0.3);
     CHECK(session.frozen_picture() == session.newest_pose());
     CHECK(session.latest_actions().begin()->second == std::vector<Action>{{ActionKind::freeze}});
@@ -458,7 +467,7 @@ TEST_CASE("under strict rules an exam is taken once and as it is") {
 
   INFO("there are no hints, and freezing is no pause");
   session.act({ActionKind::hint});
-  session.console().frozen = true;
+  session.freeze(true);
   coming = {sample_at(12, turned(0, {1, 0, 0}, {1, 2, 3}))};
   session.advance(12);
   REQUIRE(session.actions().size() == 1);
@@ -494,34 +503,34 @@ TEST_CASE("what a scenario locks of the machine stays as it is in an exam, and i
     session.advance(10.2);
     CHECK(session.locks(ActionKind::depth) == strict);
     CHECK_FALSE(session.locks(ActionKind::frequency));
-    const Console before = session.console();
-    session.console().choose(*find_probe("linear"));
-    session.console().depth_mm = 55;
-    session.console().gain_db = 7;
-    session.console().tgc_db[3] = 12;
-    session.console().dynamic_range_db = 40;
-    session.console().frequency_mhz = 2.5;
+    const Machine before = session.machine();
+    session.choose_probe("linear");
+    session.set(ActionKind::depth, 55);
+    session.set(ActionKind::gain, 7);
+    session.set({ActionKind::time_gain, {4, 12}});
+    session.set(ActionKind::dynamic_range, 40);
+    session.set(ActionKind::frequency, 2.5);
     session.act({ActionKind::point, {1, 2}});
     coming = {sample_at(10.3, Pose{})};
     session.advance(10.3);
     const Machine& machine = session.runner()->machine();
-    CHECK(machine.probe == (strict ? before.probe.name : "linear"));
+    CHECK(machine.probe == (strict ? before.probe : "linear"));
     CHECK(machine.depth_mm == (strict ? before.depth_mm : 55));
     CHECK(machine.gain_db == (strict ? 0 : 7));
     CHECK(machine.frequency_mhz == 2.5);
-    CHECK(session.console().depth_mm == machine.depth_mm);
-    CHECK(session.console().tgc_db[3] == (strict ? 0 : 12));
-    CHECK(session.console().dynamic_range_db == (strict ? before.dynamic_range_db : 40));
-    CHECK(session.console().probe.name == machine.probe);
+    CHECK(session.machine().depth_mm == machine.depth_mm);
+    CHECK(session.machine().time_gain_db[3] == (strict ? 0 : 12));
+    CHECK(session.machine().dynamic_range_db == (strict ? before.dynamic_range_db : 40));
+    CHECK(session.machine().probe == machine.probe);
 
     INFO("also while no sample comes, and no longer than the exam");
-    session.console().gain_db = 9;
+    session.set(ActionKind::gain, 9);
     session.advance(10.4);
-    CHECK(session.console().gain_db == (strict ? 0 : 9));
+    CHECK(session.machine().gain_db == (strict ? 0 : 9));
     session.hand_in();
-    session.console().gain_db = 9;
+    session.set(ActionKind::gain, 9);
     session.advance(10.5);
-    CHECK(session.console().gain_db == 9);
+    CHECK(session.machine().gain_db == 9);
   }
 }
 

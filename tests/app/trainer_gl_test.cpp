@@ -82,7 +82,7 @@ TEST_CASE("where nothing changes nothing is drawn, and each change draws what it
   for (int i = 0; i < 5; ++i) trainer.draw(kSizes, 1, kNoBudget);
   CHECK(pictures.drawn() == drawn);
 
-  trainer.session()->console().gain_db = 3;
+  trainer.session()->set(ActionKind::gain, 3);
   trainer.draw(kSizes, 1, kNoBudget);
   CHECK(pictures.simulator_runs() == simulated + 1);  // display alone
   trainer.update(0.6);
@@ -112,13 +112,13 @@ TEST_CASE("fewer pixels are drawn of a picture that changes, and never of one th
   const long drawn = pictures.drawn();
   CHECK(width_at(0.75) == 400);
   CHECK(pictures.drawn() == drawn);
-  trainer.session()->console().gain_db = 3;
+  trainer.session()->set(ActionKind::gain, 3);
   CHECK(width_at(0.75) == 300);
   CHECK(width_at(0.8) == 320);
   CHECK(width_at(0.7) == 320);
   trainer.update(0.6);  // the probe moves
   CHECK(width_at(0.7) == 280);
-  trainer.session()->console().depth_mm += 20;
+  trainer.session()->set(ActionKind::depth, trainer.session()->machine().depth_mm + 20);
   CHECK(width_at(0.65) == 260);
 
   INFO("what a picture is held against has all pixels");
@@ -146,16 +146,16 @@ TEST_CASE("a shader that builds as it is and not for other settings is told of, 
   trainer.open_from_options();
   trainer.finish_loading();
   trainer.update(0.5);
-  double& depth_mm = trainer.session()->console().depth_mm;
-  depth_mm = 300;
+  const auto set_depth = [&](double mm) { trainer.session()->set(ActionKind::depth, mm); };
+  set_depth(240);
   trainer.draw(kSizes, 1, kNoBudget);
   const auto pixels = read_back(*trainer.pictures().ultrasound()).pixels;
   CHECK(trainer.shader_problem().empty());
 
-  depth_mm = 40;
+  set_depth(40);
   trainer.draw(kSizes, 1, kNoBudget);
   CHECK(trainer.shader_problem().find("too wide") != std::string::npos);
-  depth_mm = 300;
+  set_depth(240);
   trainer.draw(kSizes, 1, kNoBudget);
   CHECK((read_back(*trainer.pictures().ultrasound()).pixels == pixels));
 
@@ -165,7 +165,7 @@ TEST_CASE("a shader that builds as it is and not for other settings is told of, 
                       fs::last_write_time(options.shader_folder / "smooth.comp") + std::chrono::seconds(2));
   trainer.update(1.5);
   CHECK(trainer.shader_problem().empty());
-  depth_mm = 40;
+  set_depth(40);
   trainer.draw(kSizes, 1, kNoBudget);
   CHECK(trainer.shader_problem().empty());
   CHECK((read_back(*trainer.pictures().ultrasound()).pixels != pixels));
@@ -263,7 +263,7 @@ TEST_CASE("an OpenIGTLink client gets the picture that is on the screen, also on
   draw_until_seen();
   CHECK(grey == on_screen());
   const std::vector<std::uint8_t> before = grey;
-  trainer.session()->console().gain_db = 9;
+  trainer.session()->set(ActionKind::gain, 9);
   draw_until_seen();
   CHECK(grey == on_screen());
   CHECK(grey != before);
@@ -346,7 +346,7 @@ TEST_CASE("a CT that the device cannot hold is told of, and the patient on the s
   CHECK((pixels() == before));
   trainer.draw(kSizes, 1, kNoBudget);
   CHECK(pictures.drawn() == drawn);  // nothing was lost that would have to be drawn again
-  trainer.session()->console().gain_db = 6;
+  trainer.session()->set(ActionKind::gain, 6);
   trainer.draw(kSizes, 1, kNoBudget);
   CHECK((pixels()[0] != before[0]));
 }
@@ -468,6 +468,48 @@ TEST_CASE("the trainer makes no patient for what it refuses without one") {
             o.results = database;
           }),
           "the exam was begun at");
+}
+
+TEST_CASE("a replay shows the very picture that the learner saw, whatever knob was turned") {
+  const test::TestContext context;
+  const TrainerFolder folder;
+  Options options = folder.options();
+  options.tracker = "mouse:";
+  options.record = folder.path / "run.igs.mha";
+  Image<Rgba8> untouched, seen;
+  {
+    Trainer trainer(options);
+    trainer.open_from_options();
+    trainer.finish_loading();
+    trainer.update(0);
+    trainer.update(0.5);
+    trainer.draw(kSizes, 1, kNoBudget);
+    untouched = read_back(*trainer.pictures().ultrasound());
+    Session& session = *trainer.session();
+    session.set(ActionKind::gain, 5);
+    session.set(ActionKind::dynamic_range, 45);
+    for (int slider = 1; slider <= Action::kTimeGainSliders; ++slider)
+      session.set({ActionKind::time_gain, {double(slider), 8.0 - 2 * slider}});
+    trainer.update(1);
+    trainer.draw(kSizes, 1, kNoBudget);
+    seen = read_back(*trainer.pictures().ultrasound());
+    trainer.finish_recording();
+  }
+  CHECK(seen.pixels != untouched.pixels);
+  options.tracker.clear();
+  options.mode = Mode::replay;
+  options.replay.log = std::exchange(options.record, {});
+  Trainer trainer(options);
+  trainer.open_from_options();
+  trainer.finish_loading();
+  REQUIRE(trainer.replay());
+  const auto shown_at = [&](double time_s) {
+    trainer.replay()->seek(time_s);
+    trainer.draw(kSizes, 1, kNoBudget);
+    return read_back(*trainer.pictures().ultrasound()).pixels;
+  };
+  CHECK((shown_at(1e9) == seen.pixels));
+  CHECK((shown_at(0) == untouched.pixels));
 }
 
 TEST_CASE("a replay has no session, keeps nothing, and gives way to what is opened next") {

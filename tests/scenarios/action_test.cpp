@@ -19,6 +19,8 @@ std::vector<Action> one_of_each() {
           {ActionKind::depth, {120.1}},
           {ActionKind::frequency, {3.5}},
           {ActionKind::gain, {-6}},
+          {ActionKind::dynamic_range, {45.5}},
+          {ActionKind::time_gain, {8, -12.25}},
           {ActionKind::freeze},
           {ActionKind::unfreeze},
           {ActionKind::caliper, {2, -10.123456789012345, 40, 1.0 / 3, 41}},
@@ -63,7 +65,9 @@ TEST_CASE("what is wrong with a log's actions is said in words") {
   for (const char* bad : {"depth deep", "depth 1e7", "depth nan", "depth inf", "depth 1x"})
     CHECK(refusal(bad).find("no number") != std::string::npos);
   for (const char* bad : {"caliper 0 1 2 3 4", "caliper 1.5 1 2 3 4", "ellipse 10 1 2 3 4 5"})
-    CHECK(refusal(bad).find("slot") != std::string::npos);
+    CHECK(refusal(bad).find("a slot is not a whole number from 1 to 9") != std::string::npos);
+  for (const char* bad : {"time_gain 0 3", "time_gain 9 3", "time_gain 1.5 3"})
+    CHECK(refusal(bad).find("a slider is not a whole number from 1 to 8") != std::string::npos);
   CHECK(refusal("answer yes").find("begin with ':'") != std::string::npos);
   for (const char* bad : {"answer :50%", "answer :50%4", "answer :%zz"})
     CHECK(refusal(bad).find("hexadecimal") != std::string::npos);
