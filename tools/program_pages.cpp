@@ -47,9 +47,13 @@ bool takes_value(const CLI::Option& option) {
   return option.get_items_expected_max() > 0;
 }
 
-/// "FOLDER" or "TEXT": what the value is, without what it has to fulfil, which CLI11 appends behind a colon.
+/// "FOLDER" or "TEXT": what the value is, without what it has to fulfil, which CLI11 appends behind a colon. The kind
+/// "[ADDRESS:]PORT" has a colon of its own.
 std::string kind_of_value(const CLI::Option& option) {
-  return option.get_type_name().substr(0, option.get_type_name().find(':'));
+  const std::string type = option.get_type_name();
+  std::size_t colon = type.find(':');
+  while (colon + 1 < type.size() && type[colon + 1] == ']') colon = type.find(':', colon + 1);
+  return type.substr(0, colon);
 }
 
 /// The values that the option can have, if they are a few words.
@@ -207,6 +211,7 @@ std::string synopsis(const CLI::App& app) {
 std::string footer(const CLI::App& app) {
   constexpr std::string_view kExamples = "Examples:\n";
   std::string text = app.get_footer(), roff;
+  if (app.get_parent() && text == app.get_parent()->get_footer()) return "";  // CLI11 hands it on to commands
   if (text.starts_with(kExamples)) {
     text = text.substr(kExamples.size());
     roff += app.get_parent() ? ".PP\nExamples:\n.EX\n" : ".SH EXAMPLES\n.EX\n";
@@ -243,8 +248,8 @@ std::pair<std::string, std::string> name_and_rest(const std::string& description
   const std::size_t stop = std::min(description.find('.'), description.size());
   std::string name = description.substr(0, stop);
   std::replace(name.begin(), name.end(), '\n', ' ');
-  if (name.size() > 1 && std::islower(static_cast<unsigned char>(name[1])) != 0)
-    name[0] = char(std::tolower(static_cast<unsigned char>(name[0])));
+  const bool is_abbreviation = name.size() > 1 && std::isupper(static_cast<unsigned char>(name[1])) != 0;
+  if (!name.empty() && !is_abbreviation) name[0] = char(std::tolower(static_cast<unsigned char>(name[0])));
   const std::size_t rest = description.find_first_not_of(". \n", stop);
   return {name, rest == std::string::npos ? "" : description.substr(rest)};
 }

@@ -27,7 +27,7 @@ TransportError forbidden(const AttachedDevice& device) {
                 unsigned{device.vendor}, unsigned{device.product});
   return {TransportFault::forbidden,
           named(device) + " may not be opened by this user: install the package or run tools/install-udev-rule, " +
-              "and plug it in again; or put this line into /etc/udev/rules.d/70-insonate.rules: " + match +
+              "plug it in again, or put this line into /etc/udev/rules.d/70-insonate.rules: " + match +
               R"(, TAG+="uaccess", MODE="0660".)"};
 }
 

@@ -26,12 +26,14 @@ struct Sample {
     app.add_option("-o,--out", folder, "Where to")->type_name("FOLDER");
     app.add_option("--quality", word, "How well")->check(CLI::IsMember({"fast", "exact"}))->capture_default_str();
     app.add_option("--amount", amount, "How much")->check(CLI::Range(1.0, 400.0))->capture_default_str();
+    app.add_option("--port", file, "Where at")->type_name("[ADDRESS:]PORT");
     app.add_flag("--secret", loud, "Not for help")->group("");
+    app.footer("Examples:\n  insonate-sample look it\n\nMore of it.\nExit codes: 0 done.");
     CLI::App* look = app.add_subcommand("look", "Look at one");
     look->add_option("--log", file, "The log")->type_name("FILE")->required();
+    look->footer("Examples:\n  insonate-sample look --log a b");
     look->add_option("thing", thing, "What")->required();
     look->add_subcommand("closer", "Look closer")->add_flag("--loud", loud, "Loudly");
-    app.footer("Examples:\n  insonate-sample look it\n\nMore of it.\nExit codes: 0 done.");
     add_self_descriptions(app, {});
   }
 };
@@ -63,11 +65,14 @@ TEST_CASE("a man page has every option and command, with what they take") {
                  "\\fBinsonate\\-sample look\\fR [\\fIOPTION\\fR]... \\fB\\-\\-log\\fR \\fIFILE\\fR \\fIthing\\fR\n"));
   CHECK(contains(page, "\\fB\\-o\\fR, \\fB\\-\\-out\\fR \\fIFOLDER\\fR\nWhere to\n"));
   CHECK(contains(page, "\\fB\\-\\-quality\\fR \\fBfast\\fR|\\fBexact\\fR\nHow well\n(default: fast)\n"));
+  CHECK(contains(page, "\\fB\\-\\-port\\fR \\fI[ADDRESS:]PORT\\fR\n"));
   CHECK(contains(page, "How much\n(1 to 400; default: 2)\n"));
   CHECK(contains(page, ".SS look closer\nLook closer\n.TP\n\\fB\\-\\-loud\\fR\nLoudly\n"));
   CHECK(contains(page, "\\fB\\-\\-version\\fR\n"));
   CHECK(contains(page, ".SH EXAMPLES\n.EX\ninsonate\\-sample look it\n.EE\n.PP\nMore of it.\n.SH EXIT STATUS\n"));
   CHECK(contains(page, "\\fBinsonate\\-score\\fR(1)"));
+  CHECK(contains(page, ".PP\nExamples:\n.EX\ninsonate\\-sample look \\-\\-log a b\n.EE\n.SS look closer\n"));
+  CHECK(page.find("sample look \\-\\-log a") == page.rfind("sample look \\-\\-log a"));
   CHECK_FALSE(contains(page, "secret"));
   CHECK_FALSE(contains(page, "man\\-page"));
 }
@@ -80,7 +85,7 @@ TEST_CASE("a man page prints text that roff would take for its own") {
 }
 
 TEST_CASE("bash completes options, commands, words and folders, and leaves files to itself") {
-  CHECK(completed("insonate-sample --") == "--help --out --quality --amount --version\n");
+  CHECK(completed("insonate-sample --") == "--help --out --quality --amount --port --version\n");
   CHECK(completed("insonate-sample ''") == "look\n");
   CHECK(completed("insonate-sample --quality e") == "exact\n");
   CHECK(completed("insonate-sample --quality = e") == "exact\n");
