@@ -114,7 +114,7 @@ HelpAnswer draw_key_help(const Theme& theme, const Rect& screen, std::map<std::s
 bool draw_about(const Theme& theme, const Rect& screen, const std::string& device) {
   std::vector<AboutLine> lines = about_this_build();
   lines.push_back({"OpenGL", device});
-  const float width = theme.px(560), label = theme.px(90), gap = theme.px(8);
+  const float width = theme.px(620), label = theme.px(90), gap = theme.px(8);
   const float text = width - 2 * theme.px(28);
   const auto height_of = [&](const AboutLine& line) { return paragraph_height(theme.text, line.text, text - label); };
   float height = theme.px(188) + paragraph_height(theme.text, kNoMedicalDevice, text);
