@@ -69,13 +69,17 @@ inline int run_program(CLI::App& arguments, int argc, char** argv, const std::fu
   // A file at its size limit gets a sentence, as a full disk does, and does not end the program.
   signal(SIGXFSZ, SIG_IGN);
   try {
-    arguments.parse(argc, argv);
-    refuse_unusable(arguments);
-    const int code = work();
-    finish_printing();
-    return code;
-  } catch (const CLI::ParseError& error) {
-    return arguments.exit(error) == 0 ? 0 : 2;
+    try {
+      arguments.parse(argc, argv);
+      refuse_unusable(arguments);
+      const int code = work();
+      finish_printing();
+      return code;
+    } catch (const CLI::ParseError& error) {  // help, the version and the pages come this way too
+      if (arguments.exit(error) != 0) return 2;
+      finish_printing();
+      return 0;
+    }
   } catch (const InputError& error) {
     std::fprintf(stderr, "%s: %s\n", arguments.get_name().c_str(), error.what());
     return 2;

@@ -320,7 +320,7 @@ void add_paths(const CLI::App& app, std::vector<std::string>& paths) {
 }  // namespace
 
 std::string man_page(const CLI::App& program) {
-  const std::string name = program.get_name();
+  const std::string& name = program.get_name();
   std::string title = name;
   std::transform(title.begin(), title.end(), title.begin(), [](unsigned char c) { return char(std::toupper(c)); });
   const auto [summary, rest] = name_and_rest(program.get_description());
@@ -334,7 +334,7 @@ std::string man_page(const CLI::App& program) {
 }
 
 std::string bash_completion(const CLI::App& program) {
-  const std::string name = program.get_name();
+  const std::string& name = program.get_name();
   std::string function = "_" + name;
   std::replace(function.begin(), function.end(), '-', '_');
   std::vector<std::string> paths;
