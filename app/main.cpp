@@ -5,14 +5,27 @@
 #include "app/options.h"
 #include "app/window.h"
 #include "sim/core/input_error.h"
+#include "sim/gl/headless_context.h"
 #include "tools/program.h"
+
+namespace {
+
+/// The device that a session without a window would draw on; a window's is the display's own.
+std::vector<insonate::AboutLine> opengl_device() try {
+  const insonate::gl::HeadlessContext context;
+  return {{"OpenGL", insonate::gl::device_description()}};
+} catch (const std::exception& error) {
+  return {{"OpenGL", std::string("none, because ") + error.what()}};
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   using namespace insonate;
   CLI::App arguments("", "insonate");
   Options options;
   declare(arguments, options);
-  const int exit_code = run_program(arguments, argc, argv, [&] {
+  const auto work = [&] {
     check(options);
     if (!options.headless && !has_display()) {
       if (options.mode == Mode::author || options.mode == Mode::setup)
@@ -22,6 +35,7 @@ int main(int argc, char** argv) {
       options.headless = true;
     }
     return options.headless ? run_headless(options) : run_window(options);
-  });
+  };
+  const int exit_code = run_program(arguments, argc, argv, work, opengl_device);
   return leave_program(exit_code);
 }

@@ -86,14 +86,16 @@ int score(const Arguments& given) {
 int main(int argc, char** argv) {
   CLI::App arguments(
       "Scores a recorded scan against a scenario and prints the result as JSON. A failed exam is a result too: the "
-      "exit code is 0 for it, and 2 for input that cannot be used.\n\n"
+      "exit code is 0 for it, and 2 for input that cannot be used.",
+      "insonate-score");
+  arguments.footer(
+      "Examples:\n"
       "  insonate-score --log scan.igs.mha --scenario exam.toml --report scan.html\n"
       "  insonate-score --log scan.igs.mha --scenario exam.toml --results lab.db --learner L-07\n"
       "  insonate-score attempts lab.db\n"
       "  insonate-score report lab.db --attempt 12 --out reports\n"
       "  insonate-score pass-mark lab.db --novices novices.csv --experts experts.csv\n"
-      "  insonate-score check exam.toml",
-      "insonate-score");
+      "  insonate-score check exam.toml");
   Arguments given;
   arguments.add_option("--log", given.log,
                        "The recorded scan: a PLUS/IGSIO sequence file (.igs.mha), or what --record-raw has written");

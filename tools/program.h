@@ -12,10 +12,29 @@
 #include <functional>
 #include <new>
 #include <string>
+#include <vector>
 
 #include "sim/core/input_error.h"
+#include "tools/about.h"
+#include "tools/program_pages.h"
 
 namespace insonate {
+
+/// Adds `--version`, and what packages are made with, which no help shows: `--man-page` and `--bash-completion`.
+/// @param more_about  returns lines of `--version` that only this program has; may be empty
+inline void add_self_descriptions(CLI::App& program, const std::function<std::vector<AboutLine>()>& more_about) {
+  program.set_version_flag(
+      "--version",
+      [&program, more_about] {
+        return version_text(program.get_name(), more_about ? more_about() : std::vector<AboutLine>{});
+      },
+      "Print the version, the commit and the build, and exit");
+  const auto add_page = [&program](const std::string& flag, std::string (*page)(const CLI::App&)) {
+    program.add_flag_callback(flag, [&program, page] { throw CLI::CallForVersion(page(program), 0); })->group("");
+  };
+  add_page("--man-page", man_page);
+  add_page("--bash-completion", bash_completion);
+}
 
 /// Refuses what CLI11 lets pass: NaN, which lies in every range; infinity, where there is none; and an empty text,
 /// which would count as an option that was left out.
@@ -43,17 +62,24 @@ inline void finish_printing() {
 /// What every command-line program's main does around its work: parses the arguments, runs `work`, and turns what
 /// goes wrong into one sentence on standard error. Exit codes: 0 done, what `work` returns, 2 for input that cannot be
 /// used (wrong arguments and output that cannot be written too), 3 for a failure that is not the input's.
-inline int run_program(CLI::App& arguments, int argc, char** argv, const std::function<int()>& work) {
+/// @param more_about  returns lines of `--version` that only this program has
+inline int run_program(CLI::App& arguments, int argc, char** argv, const std::function<int()>& work,
+                       const std::function<std::vector<AboutLine>()>& more_about = {}) {
+  add_self_descriptions(arguments, more_about);
   // A file at its size limit gets a sentence, as a full disk does, and does not end the program.
   signal(SIGXFSZ, SIG_IGN);
   try {
-    arguments.parse(argc, argv);
-    refuse_unusable(arguments);
-    const int code = work();
-    finish_printing();
-    return code;
-  } catch (const CLI::ParseError& error) {
-    return arguments.exit(error) == 0 ? 0 : 2;
+    try {
+      arguments.parse(argc, argv);
+      refuse_unusable(arguments);
+      const int code = work();
+      finish_printing();
+      return code;
+    } catch (const CLI::ParseError& error) {  // help, the version and the pages come this way too
+      if (arguments.exit(error) != 0) return 2;
+      finish_printing();
+      return 0;
+    }
   } catch (const InputError& error) {
     std::fprintf(stderr, "%s: %s\n", arguments.get_name().c_str(), error.what());
     return 2;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "tools/about.h"
+
 namespace insonate::ui {
 
 Rect begin_overlay(const Theme& theme, const Rect& screen, const ImVec2& size) {
@@ -63,7 +65,7 @@ bool draw_problem(const Theme& theme, const Rect& screen, const std::string& pro
   return closed;
 }
 
-bool draw_key_help(const Theme& theme, const Rect& screen) {
+HelpAnswer draw_key_help(const Theme& theme, const Rect& screen, std::map<std::string, Rect>& places) {
   static constexpr std::array<std::array<const char*, 2>, 24> kKeys{{
       {"Arrow keys", "slide over the skin"},
       {"Page up, Page down", "lift, press"},
@@ -100,7 +102,38 @@ bool draw_key_help(const Theme& theme, const Rect& screen) {
     draw_text(line, theme.text, colour::kMuted, meaning);
   }
   Rect buttons = sheet.take_bottom(theme.px(38));
-  const bool closed = button(theme, "close_help", buttons.take_right(theme.px(120)), "Close", ButtonKind::primary);
+  HelpAnswer answer = HelpAnswer::none;
+  if (button(theme, "close_help", buttons.take_right(theme.px(120)), "Close", ButtonKind::primary))
+    answer = HelpAnswer::close;
+  places["about"] = buttons.take_left(theme.px(150));
+  if (button(theme, "about", places["about"], "About Insonate")) answer = HelpAnswer::about;
+  end_overlay();
+  return answer;
+}
+
+bool draw_about(const Theme& theme, const Rect& screen, const std::string& device) {
+  std::vector<AboutLine> lines = about_this_build();
+  lines.push_back({"OpenGL", device});
+  const float width = theme.px(620), label = theme.px(90), gap = theme.px(8);
+  const float text = width - 2 * theme.px(28);
+  const auto height_of = [&](const AboutLine& line) { return paragraph_height(theme.text, line.text, text - label); };
+  float height = theme.px(188) + paragraph_height(theme.text, kNoMedicalDevice, text);
+  for (const AboutLine& line : lines) height += height_of(line) + gap;
+
+  Rect sheet = begin_overlay(theme, screen, {width, height});
+  draw_text(sheet.take_top(theme.px(28)), theme.heading, colour::kText, "Insonate");
+  draw_text(sheet.take_top(theme.px(24)), theme.text, colour::kMuted, "A bedside ultrasound trainer");
+  sheet.take_top(theme.px(14));
+  for (const AboutLine& line : lines) {
+    Rect row = sheet.take_top(height_of(line));
+    draw_paragraph(row.take_left(label), theme.text, colour::kMuted, line.name);
+    draw_paragraph(row, theme.text, colour::kText, line.text);
+    sheet.take_top(gap);
+  }
+  Rect buttons = sheet.take_bottom(theme.px(38));
+  const bool closed = button(theme, "close_about", buttons.take_right(theme.px(120)), "Close", ButtonKind::primary);
+  sheet.take_top(gap);
+  draw_paragraph(sheet, theme.text, colour::kText, kNoMedicalDevice);
   end_overlay();
   return closed;
 }

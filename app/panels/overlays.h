@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -23,8 +24,14 @@ bool draw_loading(const Theme& theme, const Rect& screen, const Loading::Progres
 /// @param ends  there is nothing to go on with
 bool draw_problem(const Theme& theme, const Rect& screen, const std::string& problem, bool ends);
 
-/// True when it was closed.
-bool draw_key_help(const Theme& theme, const Rect& screen);
+enum class HelpAnswer { none, close, about };
+/// Keys and mouse, and the way to the About page.
+/// @param places  gets where its button for that page is
+HelpAnswer draw_key_help(const Theme& theme, const Rect& screen, std::map<std::string, Rect>& places);
+
+/// Which build of Insonate this is, and what it is not. True when it was closed.
+/// @param device  what OpenGL draws on
+bool draw_about(const Theme& theme, const Rect& screen, const std::string& device);
 
 /// Asks for a path to open; files may be dropped on the window as well.
 class OpenDialog {

@@ -211,6 +211,7 @@ std::string Screen::overlay(const Trainer& trainer) const {
   if (trainer.loading()) return "loading";
   if (trainer.setup()) return "setup";
   if (help_) return "help";
+  if (about_) return "about";
   if (asking_) return "open";
   const Session* session = trainer.session();
   if (session && session->result() && &*session->result() != closed_sheet_of_) return "score";
@@ -222,6 +223,7 @@ void Screen::dismiss(Trainer& trainer) {
   if (shown == "problem") trainer.problems().pop_front();
   if (shown == "loading") trainer.stop_loading();
   if (shown == "help") help_ = false;
+  if (shown == "about") about_ = false;
   if (shown == "open") stop_asking();
   if (shown == "score") closed_sheet_of_ = &*trainer.session()->result();
   if (shown.empty() && !text_field_.is_open()) trainer.picture_tools().cancel();
@@ -231,13 +233,13 @@ void Screen::dismiss(Trainer& trainer) {
 void Screen::confirm(Trainer& trainer) {
   const std::string shown = overlay(trainer);
   if (shown == "open") open_dialog_.confirm();
-  if (shown == "problem" || shown == "help") dismiss(trainer);
+  if (shown == "problem" || shown == "help" || shown == "about") dismiss(trainer);
   if (shown.empty()) step_on(trainer);
 }
 
 void Screen::go_on(Trainer& trainer) {
   const std::string shown = overlay(trainer);
-  if (shown == "problem" || shown == "help" || shown == "open") return dismiss(trainer);
+  if (shown == "problem" || shown == "help" || shown == "about" || shown == "open") return dismiss(trainer);
   if (shown.empty()) step_on(trainer);
   const bool over = trainer.session() && trainer.session()->result();
   if (over && (shown.empty() || shown == "score")) answer_score(trainer, ScoreAnswer::again);
@@ -279,7 +281,11 @@ void Screen::draw_overlay(Trainer& trainer) {
     if (draw_setup_page(theme_, screen_, *trainer.setup(), trainer.next_start(), trainer.pictures(), places_))
       trainer.end_setup();
   } else if (shown == "help") {
-    if (draw_key_help(theme_, screen_)) help_ = false;
+    const HelpAnswer answer = draw_key_help(theme_, screen_, places_);
+    if (answer != HelpAnswer::none) help_ = false;
+    about_ = answer == HelpAnswer::about;
+  } else if (shown == "about") {
+    if (draw_about(theme_, screen_, device_)) about_ = false;
   } else if (shown == "open") {
     const OpenDialog::Answer answer = open_dialog_.draw(theme_, screen_);
     if (answer != OpenDialog::Answer::none) stop_asking();

@@ -55,7 +55,7 @@ public:
     return types_text(trainer) && !(types_in_panel(trainer) ? text_field_.ready() : open_dialog_.ready());
   }
 
-  /// What lies over the screen: "problem", "loading", "setup", "help", "open", "score", or "" for nothing.
+  /// What lies over the screen: "problem", "loading", "setup", "help", "about", "open", "score", or "" for nothing.
   std::string overlay(const Trainer& trainer) const;
   void set_frames_per_second(double fps) { frames_per_second_ = fps; }
   /// Where the panels are, by name.
@@ -82,7 +82,7 @@ private:
   RecordedPanel recorded_panel_;
   OpenDialog open_dialog_;
   TextField text_field_;
-  bool help_ = false, asking_ = false, fonts_are_new_ = false;
+  bool help_ = false, about_ = false, asking_ = false, fonts_are_new_ = false;
   const ExamResult* closed_sheet_of_ = nullptr;
   double frames_per_second_ = 0;
   Rect screen_, top_, task_, ultrasound_, recorded_, volume_, slice_, blend_, console_, status_;

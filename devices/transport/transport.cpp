@@ -26,8 +26,8 @@ TransportError forbidden(const AttachedDevice& device) {
                     : R"(SUBSYSTEM=="usb", ATTR{idVendor}=="%04x", ATTR{idProduct}=="%04x")",
                 unsigned{device.vendor}, unsigned{device.product});
   return {TransportFault::forbidden,
-          named(device) + " may not be opened by this user: run tools/install-udev-rule once and plug it in again, " +
-              "or put this line into /etc/udev/rules.d/70-insonate.rules: " + match +
+          named(device) + " may not be opened by this user: install the package or run tools/install-udev-rule, " +
+              "plug it in again, or put this line into /etc/udev/rules.d/70-insonate.rules: " + match +
               R"(, TAG+="uaccess", MODE="0660".)"};
 }
 

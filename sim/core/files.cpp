@@ -118,11 +118,11 @@ void write_file(const fs::path& file, std::string_view bytes) {
 fs::path assets_folder() {
   std::error_code error;
   if (const char* named = std::getenv("INSONATE_ASSETS")) return named;
-  const fs::path bin = fs::read_symlink("/proc/self/exe", error).parent_path();
-  for (const fs::path& folder : {bin / "../share/insonate", fs::path(INSONATE_SOURCE_ASSETS)})
-    if (fs::is_directory(folder, error)) return fs::weakly_canonical(folder, error);
-  throw InputError("assets", "", "the bundled assets are neither beside the program nor in the source tree",
-                   "set INSONATE_ASSETS to their folder");
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  const fs::path folder = program.parent_path() / INSONATE_ASSETS_FROM_PROGRAM;
+  if (fs::is_directory(folder, error)) return fs::weakly_canonical(folder, error);
+  throw InputError(folder.lexically_normal().string(), "", "the bundled assets are not there",
+                   "install Insonate again, or set INSONATE_ASSETS to their folder");
 }
 
 fs::path cache_folder() {

@@ -32,8 +32,8 @@ void write_atomically(const std::filesystem::path& file,
 /// The same for bytes at hand.
 void write_file(const std::filesystem::path& file, std::string_view bytes);
 
-/// The folder of bundled assets: $INSONATE_ASSETS, or share/insonate beside the program's bin folder, or the source
-/// tree the program was built in. Throws InputError when none of them is there.
+/// The folder of bundled assets: $INSONATE_ASSETS, or share/insonate beside the folder that holds the program. An
+/// install has it there, and so has a build. Throws InputError when it is not there.
 std::filesystem::path assets_folder();
 
 /// $XDG_CACHE_HOME/insonate, else $HOME/.cache/insonate, else a folder under the system's temporary folder.

@@ -22,6 +22,12 @@ await "F1 shows the keys" is overlay help
 in_one_frame xdotool key Escape space
 await "Escape closes them" is overlay ""
 await "the space behind it freezes" is frozen true
+xdotool key F1
+await "F1 shows the keys again" is overlay help
+click "$(middle_x about)" "$(middle_y about)"
+await "About leads from there to what this build is" is overlay about
+xdotool key Return
+await "Return closes it" is overlay ""
 in_one_frame xdotool key space
 await "space lets go" is frozen false
 

@@ -113,7 +113,7 @@ started=""
 echo "what is printed and does not arrive"
 to_full() { "$@" >/dev/full; }
 for command in "${score[*]}" "$bin/insonate-score attempts $work/lab.db" "$bin/insonate-case inspect $work/patient" \
-  "$bin/insonate-devices check $scan" "${score[0]} check $exam"; do
+  "$bin/insonate-devices check $scan" "${score[0]} check $exam" "$bin/insonate --version" "$bin/insonate-case --help"; do
   # shellcheck disable=SC2086
   says 2 "standard output: it cannot be written" to_full $command
 done

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace insonate {
+
+/// One line of what a program reports about itself.
+struct AboutLine {
+  std::string name, text;
+};
+
+/// The version, the commit, the build and the licence of this program.
+std::vector<AboutLine> about_this_build();
+
+inline constexpr const char* kNoMedicalDevice =
+    "Insonate is a trainer. It is not a medical device and must not guide the care of a patient.";
+
+/// What `--version` prints: the lines of about_this_build(), those of `more`, and kNoMedicalDevice.
+/// @param program  the program's name
+std::string version_text(const std::string& program, const std::vector<AboutLine>& more);
+
+}  // namespace insonate

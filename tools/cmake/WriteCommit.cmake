@@ -1,0 +1,15 @@
+# Writes the header OUT with the short name of the commit that SOURCE is at, or "unknown" where SOURCE is not the root
+# of a git repository, as in an unpacked archive. "+" behind the name: files were changed since. The header stays
+# untouched while it says the same, so that nothing is built again.
+set(commit unknown)
+find_program(GIT git)
+if(GIT)
+  execute_process(COMMAND "${GIT}" -C "${SOURCE}" rev-parse --show-toplevel OUTPUT_VARIABLE root ERROR_QUIET
+                  OUTPUT_STRIP_TRAILING_WHITESPACE)
+  file(REAL_PATH "${SOURCE}" source)
+  if(root STREQUAL source)
+    execute_process(COMMAND "${GIT}" --no-optional-locks -C "${SOURCE}" describe --always --dirty=+ --abbrev=10 --exclude=*
+                    OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE)
+  endif()
+endif()
+file(CONFIGURE OUTPUT "${OUT}" CONTENT "#define INSONATE_COMMIT \"${commit}\"\n")
