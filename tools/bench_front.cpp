@@ -31,7 +31,6 @@ struct Setting {
   int lines;
   Settings settings;
   bool whole = true;  ///< draws every effect; what leaves one out is another picture, and no part of the front
-  gl::Representation representation = {};
 };
 
 std::string size_name(const Settings& settings) {
@@ -42,28 +41,9 @@ std::string size_name(const Settings& settings) {
 /// The level of quality that a setting is; "" for none.
 std::string quality_of(const Setting& setting, const Setting& balanced) {
   for (const Quality quality : kQualities)
-    if (setting.settings == at_quality(balanced.settings, quality) && setting.representation == balanced.representation)
-      return name_of(quality);
+    if (setting.settings == at_quality(balanced.settings, quality)) return name_of(quality);
   return "";
 }
-
-/// A simulator a representation, each with the scene's volume: what they draw with lies on the device from the start.
-class Simulators {
-public:
-  explicit Simulators(const Scene& scene) : scene_(scene) {}
-
-  gl::Simulator& with(const gl::Representation& representation) {
-    for (auto& [known, simulator] : simulators_)
-      if (known == representation) return simulator;
-    gl::Simulator simulator({}, gl::Scheme::of_device(), representation);
-    gl::upload_ct(scene_.file, scene_.volume.grid, [&] { simulator.set_volume(scene_.volume, scene_.table); });
-    return simulators_.emplace_back(representation, std::move(simulator)).second;
-  }
-
-private:
-  const Scene& scene_;
-  std::vector<std::pair<gl::Representation, gl::Simulator>> simulators_;
-};
 
 /// What is tried, the defaults first.
 std::vector<Setting> settings_to_try(const Request& request, const Scene& scene) {
@@ -91,17 +71,9 @@ std::vector<Setting> settings_to_try(const Request& request, const Scene& scene)
     setting.whole = whole;
     tried.push_back(setting);
   };
-  const auto kept_as = [&](const char* what, const gl::Representation& representation) {
-    changed(what, true, [](Settings&) {});
-    tried.back().representation = representation;
-  };
   const auto without = [&](const char* what, auto change) { changed(what, false, change); };
   changed("nothing skipped", true, [](Settings& s) { s.skipping = false; });
   changed("exact filtering", true, [](Settings& s) { s.exact_filter = true; });
-  kept_as("volume of half floats", {gl::VolumeFormat::float_16});
-  kept_as("volume of 32-bit floats", {gl::VolumeFormat::float_32});
-  kept_as("half floats between stages", {gl::VolumeFormat::normalized_16, true});
-  kept_as("stored gradient", {gl::VolumeFormat::normalized_16, false, true});
   without("no speckle", [](Settings& s) { s.speckle = false; });
   without("one plane", [](Settings& s) { s.slice_planes = 1; });
   without("no edge shadow", [](Settings& s) { s.edge_shadow = false; });
@@ -155,7 +127,8 @@ Table measure_front(const Request& request, const std::string& svg) {
   const gl::HeadlessContext context;
   tell_device();
   for_each_scene(request, [&](const Scene& scene) {
-    Simulators simulators(scene);
+    gl::Simulator simulator;
+    gl::upload_ct(scene.file, scene.volume.grid, [&] { simulator.set_volume(scene.volume, scene.table); });
     const std::vector<Setting> tried = settings_to_try(request, scene);
     const double range = tried.front().settings.dynamic_range_db;
 
@@ -167,17 +140,15 @@ Table measure_front(const Request& request, const std::string& svg) {
         simulate_reference(trilinear_field(scene.volume), scene.table, probe, scene.depth_mm, exact, scene.pose);
     const Display converged = displayed(reference, scene.probe, scene.depth_mm, exact);
 
-    const auto simulator_of = [&](const Setting& setting) -> gl::Simulator& {
-      gl::Simulator& simulator = simulators.with(setting.representation);
+    const auto set = [&](const Setting& setting) {
       probe.lines = setting.lines;
       simulator.set_probe(probe, scene.depth_mm);
       simulator.set_settings(setting.settings);
-      return simulator;
     };
     std::vector<std::vector<double>> frames_ms(tried.size());
     for (int round = 0; round < kRounds; ++round)
       for (std::size_t i = 0; i < tried.size(); ++i) {
-        gl::Simulator& simulator = simulator_of(tried[i]);
+        set(tried[i]);
         const auto frame = [&](const Pose& pose) {
           simulator.set_pose(pose);
           simulator.image();
@@ -191,7 +162,7 @@ Table measure_front(const Request& request, const std::string& svg) {
     std::vector<Cost> costs, costs_of_whole;
     for (std::size_t i = 0; i < tried.size(); ++i) {
       const Setting& setting = tried[i];
-      gl::Simulator& simulator = simulator_of(setting);
+      set(setting);
       simulator.set_pose(scene.pose);
       const Stages<float> stages = simulator.read_stages();
       errors.push_back(error_of(displayed(stages, scene.probe, scene.depth_mm, setting.settings), converged, range));

@@ -33,8 +33,9 @@ Texture stored_as(GLenum format, const Grid& grid, const std::vector<std::array<
 
 }  // namespace
 
-Texture density_volume(const AcousticVolume& volume, const glm::dvec3& half_voxels) {
+Texture density_volume(const AcousticVolume& volume, double reflection_length_mm) {
   const Grid& grid = volume.grid;
+  const glm::dvec3 half_voxels = reflection_length_mm / 2 / grid.spacing;
   const glm::tvec3<std::ptrdiff_t> stride(1, grid.size.x, std::ptrdiff_t(grid.size.x) * grid.size.y);
   std::vector<std::array<std::int16_t, 4>> voxels(grid.count());
   tbb::parallel_for(0, grid.size.z, [&](int z) {
@@ -63,10 +64,6 @@ Texture density_volume(const AcousticVolume& volume, const glm::dvec3& half_voxe
     }
   }
   return stored_as(GL_RGBA16_SNORM, grid, voxels);
-}
-
-Texture density_volume(const AcousticVolume& volume, double reflection_length_mm) {
-  return density_volume(volume, reflection_length_mm / 2 / volume.grid.spacing);
 }
 
 }  // namespace insonate::gl

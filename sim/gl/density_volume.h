@@ -1,7 +1,5 @@
 #pragma once
 
-#include <glm/vec3.hpp>
-
 #include "sim/gl/objects.h"
 #include "sim/model/acoustic_volume.h"
 
@@ -10,10 +8,6 @@ namespace insonate::gl {
 /// A CT with its gradient: (HU, its differences along the CT's axes i, j, k in eighths of HU) / 32767, with kAirMargin
 /// of air without a gradient around it. Differences above 4095 HU count as that. Eight bytes a voxel, or sixteen where
 /// a software renderer holds them, which fetches those faster. Throws TextureRefused.
-/// @param half_voxels  half of what the differences reach over, voxels along each axis, above 0
-Texture density_volume(const AcousticVolume& volume, const glm::dvec3& half_voxels);
-
-/// As model W reads it: differences over the reflection length.
 /// @param reflection_length_mm  0.01 to 20
 Texture density_volume(const AcousticVolume& volume, double reflection_length_mm);
 

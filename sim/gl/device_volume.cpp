@@ -5,10 +5,7 @@
 
 #include <algorithm>
 #include <limits>
-#include <stdexcept>
 #include <vector>
-
-#include "sim/gl/density_volume.h"
 
 namespace insonate::gl {
 namespace {
@@ -16,22 +13,11 @@ namespace {
 constexpr int kFirstHu = -1024;  // as in acoustic_volume.glsl
 constexpr int kLookupSize = 4096;
 
-GLenum sized_format(VolumeFormat format) {
-  switch (format) {
-    case VolumeFormat::normalized_16:
-      return GL_RG16_SNORM;
-    case VolumeFormat::float_16:
-      return GL_RG16F;
-    case VolumeFormat::float_32:
-      return GL_RG32F;
-  }
-  throw std::invalid_argument("no volume format");
-}
-
-// Whatever the format, numbers are those of the normalised one: shares of 32767.
-Texture upload(const AcousticVolume& volume, VolumeFormat format) {
+// Normalised whole numbers of 16 bits are exact. Eight bits would make steps of 16 HU over a CT's 4096, at which alone
+// an interface of soft tissue reflects 2e-4, as much as that of an organ.
+Texture upload(const AcousticVolume& volume) {
   const glm::ivec3 size = volume.grid.size + 2 * kAirMargin;
-  Texture texture = Texture::make_3d(sized_format(format), size.x, size.y, size.z, Filter::linear, Wrap::edge);
+  Texture texture = Texture::make_3d(GL_RG16_SNORM, size.x, size.y, size.z, Filter::linear, Wrap::edge);
   const AcousticVoxel outside;
   texture.write_inside(GL_RG, GL_SHORT, volume.voxels.data(),
                        {float(outside.hu) / 32767.0f, float(outside.echogenicity_cdb) / 32767.0f, 0, 0});
@@ -73,9 +59,8 @@ std::pair<glm::ivec3, glm::ivec3> body_box(const AcousticVolume& volume, const T
 
 }  // namespace
 
-DeviceVolume::DeviceVolume(const AcousticVolume& volume, const TissueTable& table, const Representation& representation)
-    : texture_(upload(volume, representation.volume)), tissue_lookup_(tabulate(table)) {
-  if (representation.stored_gradient) gradient_ = density_volume(volume, glm::dvec3(1));
+DeviceVolume::DeviceVolume(const AcousticVolume& volume, const TissueTable& table)
+    : texture_(upload(volume)), tissue_lookup_(tabulate(table)) {
   // Texels' centres lie at (i + 1/2) / size.
   const glm::dvec3 size(volume.grid.size + 2 * kAirMargin);
   const glm::dmat4 texture_from_index =

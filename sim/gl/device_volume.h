@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "sim/gl/objects.h"
-#include "sim/gl/representation.h"
 #include "sim/model/acoustic_volume.h"
 #include "sim/model/tissue.h"
 
@@ -20,13 +19,10 @@ class DeviceVolume {
 public:
   DeviceVolume() = default;
   /// Throws TextureRefused when the device cannot hold it.
-  DeviceVolume(const AcousticVolume& volume, const TissueTable& table, const Representation& representation = {});
+  DeviceVolume(const AcousticVolume& volume, const TissueTable& table);
 
   /// (HU, echogenicity in hundredths of a dB) / 32767, with the margin of air.
   const Texture& texture() const { return texture_; }
-  /// With a stored gradient: (HU, its differences between the voxels before and behind along each of the CT's axes in
-  /// eighths of HU) / 32767, placed as texture().
-  const Texture& gradient() const { return gradient_; }
   /// Impedance and absorption at each whole HU, as acoustic_volume.glsl reads it.
   const TexelBuffer& tissue_lookup() const { return tissue_lookup_; }
   /// Patient mm -> the texture's coordinates.
@@ -40,7 +36,7 @@ public:
   explicit operator bool() const { return bool(texture_); }
 
 private:
-  Texture texture_, gradient_;
+  Texture texture_;
   TexelBuffer tissue_lookup_;
   glm::dmat4 texture_from_patient_{1.0};
   glm::dvec3 body_low_{0.0}, body_high_{0.0};  ///< texture coordinates

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/gl/handed_on.h"
 #include "sim/gl/stage_tables.h"
 #include "sim/model/beam.h"
 #include "sim/model/scatterers.h"
@@ -12,10 +11,8 @@ namespace insonate::gl {
 namespace {
 
 // What all stages are compiled for, and what one is besides.
-Defines with(const Scheme& scheme, const Representation& representation, Defines defines = {}) {
+Defines with(const Scheme& scheme, Defines defines = {}) {
   defines.emplace_back("GROUP", std::to_string(scheme.group));
-  defines.emplace_back("STORED_GRADIENT", flag(representation.stored_gradient));
-  defines.push_back(handed_on_define(representation.half_floats));
   return defines;
 }
 
@@ -49,13 +46,12 @@ Defines beam_of(const Settings& settings) {
 
 }  // namespace
 
-LineStages::LineStages(const ShaderSources& sources, const Scheme& scheme, const Representation& representation)
+LineStages::LineStages(const ShaderSources& sources, const Scheme& scheme)
     : scheme_(scheme),
-      representation_(representation),
-      traverse_(sources, {"traverse.comp"}, with(scheme, representation, traversal({}, 1, scheme.lines_that_fill > 0))),
-      reverberation_(sources, {"reverberation.comp"}, with(scheme, representation, reverberation_of({}))),
-      beam_(sources, {"beam.comp"}, with(scheme, representation, beam_of({}))),
-      clutter_(sources, {"clutter.comp"}, with(scheme, representation)),
+      traverse_(sources, {"traverse.comp"}, with(scheme, traversal({}, 1, scheme.lines_that_fill > 0))),
+      reverberation_(sources, {"reverberation.comp"}, with(scheme, reverberation_of({}))),
+      beam_(sources, {"beam.comp"}, with(scheme, beam_of({}))),
+      clutter_(sources, {"clutter.comp"}, with(scheme)),
       clutter_tail_(sources, {"clutter_tail.comp"}) {}
 
 void LineStages::lay_out(const ScanLines& of_plane, int most_planes, const Settings& settings) {
@@ -64,10 +60,10 @@ void LineStages::lay_out(const ScanLines& of_plane, int most_planes, const Setti
   const std::size_t n = std::size_t(most_planes) * lines_.lines.size(), d = std::size_t(lines_.samples);
   line_buffer_ = Buffer(std::size_t(settings.slice_planes) * n * sizeof(PlacedLine), nullptr);
   air_line_buffer_ = Buffer(std::size_t(settings.slice_planes) * sizeof(PlacedLine), nullptr);
-  in_air_ = handed_on_fours(representation_.half_floats, d);
-  scan_ = handed_on_fours(representation_.half_floats, n * d);
+  in_air_ = TexelBuffer(GL_RGBA32F, d);
+  scan_ = TexelBuffer(GL_RGBA32F, n * d);
   middle_ = TexelBuffer();
-  echoes_ = handed_on_fours(representation_.half_floats, n * d);
+  echoes_ = TexelBuffer(GL_RGBA32F, n * d);
   mean_echo_ = TexelBuffer(GL_R32F, std::size_t(most_planes) * d);
   beam_changed_ = true;
 }
@@ -101,12 +97,11 @@ std::size_t LineStages::most_samples() const {
 void LineStages::traverse(const DeviceVolume& volume, std::span<const Pose> patient_from_plane,
                           const Settings& settings) {
   planes_ = int(patient_from_plane.size());
-  traverse_.define(with(scheme_, representation_, traversal(settings, lines_.dr_mm(), group_a_line())));
+  traverse_.define(with(scheme_, traversal(settings, lines_.dr_mm(), group_a_line())));
   if (settings.speckle) prepare_scatterers(settings);
-  if (keeps_middle_plane(settings) && !middle_) middle_ = handed_on_pairs(representation_.half_floats, most_samples());
+  if (keeps_middle_plane(settings) && !middle_) middle_ = TexelBuffer(GL_RG32F, most_samples());
   volume.texture().bind(0);
   scatterers_.bind(1);
-  if (representation_.stored_gradient) volume.gradient().bind(3);
   volume.tissue_lookup().bind(7);
   if (keeps_middle_plane(settings)) middle_.bind_storage(3);  // the line in air's is written over
 
@@ -136,8 +131,8 @@ void LineStages::dispatch(const Program& program, std::size_t groups) const {
 }
 
 void LineStages::prepare_beam(const Settings& settings) {
-  if (reverberates(settings)) reverberation_.define(with(scheme_, representation_, reverberation_of(settings)));
-  beam_.define(with(scheme_, representation_, beam_of(settings)));
+  if (reverberates(settings)) reverberation_.define(with(scheme_, reverberation_of(settings)));
+  beam_.define(with(scheme_, beam_of(settings)));
   if (!beam_changed_) return;
   if (reverberates(settings)) repeats_ = TexelBuffer(GL_R32F, most_samples());
   beam_window_ = half_beam_window(settings);

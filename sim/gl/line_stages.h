@@ -8,7 +8,6 @@
 #include "sim/gl/device_volume.h"
 #include "sim/gl/objects.h"
 #include "sim/gl/program.h"
-#include "sim/gl/representation.h"
 #include "sim/gl/scheme.h"
 #include "sim/model/settings.h"
 #include "sim/probe/probe.h"
@@ -37,7 +36,7 @@ struct SampleCounts {
 /// given; throws std::runtime_error when one does not build.
 class LineStages {
 public:
-  LineStages(const ShaderSources& sources, const Scheme& scheme, const Representation& representation = {});
+  LineStages(const ShaderSources& sources, const Scheme& scheme);
 
   /// Allocates. Throws DeviceRefused.
   /// @param of_plane     in the plane's own frame, the same for all
@@ -56,7 +55,7 @@ public:
 
   const ScanLines& lines() const { return lines_; }      ///< of a plane
   const TexelBuffer& scan() const { return scan_; }      ///< by sample: I, R, scatterers' echo (re, im)
-  const TexelBuffer& echoes() const { return echoes_; }  ///< by sample: R, T, S, V; both as handed_on.h says
+  const TexelBuffer& echoes() const { return echoes_; }  ///< by sample: R, T, S, V
   /// By plane and depth: mean of T S with its tail, with clutter.
   const TexelBuffer& mean_echo() const { return mean_echo_; }
   /// Waits for the device.
@@ -77,7 +76,6 @@ private:
   void dispatch(const Program& program, std::size_t groups) const;
 
   Scheme scheme_;
-  Representation representation_;
   Program traverse_, reverberation_, beam_, clutter_, clutter_tail_;
 
   ScanLines lines_;

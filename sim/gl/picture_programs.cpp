@@ -1,6 +1,5 @@
 #include "sim/gl/picture_programs.h"
 
-#include "sim/gl/handed_on.h"
 #include "sim/gl/stage_tables.h"
 
 namespace insonate::gl {
@@ -11,8 +10,7 @@ Defines conversion(const PictureVariant& variant) {
           {"TRANSMISSION_SMOOTHED", flag(variant.transmission_radius_px > 0)},
           {"SMOOTHED", variant.transmission_radius_px > 0 ? "vec2" : "float"},
           {"NOISE", flag(is_noisy(variant.settings))},
-          {"CLUTTER", flag(variant.settings.clutter)},
-          handed_on_define(variant.half_floats)};
+          {"CLUTTER", flag(variant.settings.clutter)}};
 }
 
 Defines smoothing(const PictureVariant& variant) {
@@ -28,7 +26,6 @@ Defines display(const Settings& settings) {
 Defines fusion(const PictureVariant& variant) {
   Defines defines = smoothing(variant);
   defines.push_back(display(variant.settings).front());
-  defines.push_back(handed_on_define(variant.half_floats));
   defines.emplace_back("TIME_GAIN", flag(has_time_gain(variant.settings)));
   defines.emplace_back("FRAME_MAXIMUM", flag(variant.settings.reference_level == ReferenceLevel::frame_maximum));
   defines.emplace_back("KEEP_FUSED", flag(variant.keeps_fused));
@@ -37,7 +34,7 @@ Defines fusion(const PictureVariant& variant) {
 
 // Until settings are known.
 PictureVariant plain(const Settings& settings) {
-  return {settings, 0, 0, false, false};
+  return {settings, 0, 0, false};
 }
 
 }  // namespace

@@ -13,7 +13,6 @@ struct PictureVariant {
   const Settings& settings;
   int reflection_radius_px, transmission_radius_px;  ///< of the smoothing windows
   bool keeps_fused;                                  ///< U is written, for whoever reads the stages
-  bool half_floats;                                  ///< of what is handed on, sim/gl/representation.h
 };
 
 /// The shaders of model S that bring what the lines hold (sim/gl/line_stages.h) to a picture.

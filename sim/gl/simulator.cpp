@@ -1,13 +1,13 @@
 #include "sim/gl/simulator.h"
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "sim/gl/device_volume.h"
 #include "sim/gl/fan_layout.h"
-#include "sim/gl/handed_on.h"
 #include "sim/gl/picture_programs.h"
 #include "sim/gl/settings_reach.h"
 #include "sim/gl/stage_tables.h"
@@ -26,14 +26,23 @@ Image<float> transposed(const Image<float>& rows) {
   return columns;
 }
 
+// What a stage has left for the next, four numbers a sample, each as an image. Waits for the device.
+std::array<Image<float>, 4> read_fours(const TexelBuffer& buffer, int width, int height) {
+  const Image<float> image(width, height);
+  std::array<Image<float>, 4> images{image, image, image, image};
+  std::vector<float> values(4 * image.pixels.size());
+  buffer.read(values.data(), values.size() * sizeof values.front());
+  for (std::size_t i = 0; i < values.size(); ++i) images[i % 4].pixels[i / 4] = values[i];
+  return images;
+}
+
 }  // namespace
 
 struct Simulator::State {
-  State(const ShaderSources& sources, const Scheme& given, const Representation& chosen)
-      : scheme(given), representation(chosen), line_stages(sources, given, chosen), programs(sources) {}
+  State(const ShaderSources& sources, const Scheme& given)
+      : scheme(given), line_stages(sources, given), programs(sources) {}
 
   const Scheme scheme;
-  const Representation representation;
   LineStages line_stages;
   PicturePrograms programs;
 
@@ -91,7 +100,7 @@ void Simulator::State::lay_out() {
   line_and_sample = TexelBuffer(GL_RG32F, pixels(), fan.line_and_sample.data());
   fan_blocks = Buffer(fan.blocks.size() * sizeof(glm::ivec2), fan.blocks.data());
   brightest = Buffer(fan.blocks.size() * sizeof(GLuint), nullptr);
-  picture = handed_on_pairs(representation.half_floats, pixels());
+  picture = TexelBuffer(GL_RG32F, pixels());
   fan_weights = TexelBuffer();
   fused = TexelBuffer();
   levels = TexelBuffer();
@@ -109,8 +118,8 @@ void Simulator::State::prepare() {
     if (is_noisy(settings)) prepare_noise();
   }
   prepare_fusion();
-  programs.build_from(*first_due, {settings, reflection_gaussian.radius, transmission_gaussian.radius, stages_are_read,
-                                   representation.half_floats});
+  programs.build_from(*first_due,
+                      {settings, reflection_gaussian.radius, transmission_gaussian.radius, stages_are_read});
   parameters = parameters_of(settings, line_stages.lines(), reflection_gaussian, transmission_gaussian);
   parameter_buffer.write(&parameters, sizeof parameters);
 }
@@ -211,14 +220,14 @@ void Simulator::State::run(Stage stage) {
   }
 }
 
-Simulator::Simulator(const ShaderSources& sources, const Scheme& scheme, const Representation& representation)
-    : state_(std::make_unique<State>(sources, scheme, representation)) {}
+Simulator::Simulator(const ShaderSources& sources, const Scheme& scheme)
+    : state_(std::make_unique<State>(sources, scheme)) {}
 Simulator::~Simulator() = default;
 Simulator::Simulator(Simulator&&) noexcept = default;
 Simulator& Simulator::operator=(Simulator&&) noexcept = default;
 
 void Simulator::set_volume(const AcousticVolume& volume, const TissueTable& table) {
-  state_->volume = DeviceVolume(volume, table, state_->representation);
+  state_->volume = DeviceVolume(volume, table);
   state_->due_from(Stage::traverse);
 }
 
@@ -270,7 +279,7 @@ const glm::dmat4& Simulator::texture_from_patient() const {
   return state_->volume.texture_from_patient();
 }
 std::size_t Simulator::volume_bytes() const {
-  return state_->volume.texture().bytes() + state_->volume.gradient().bytes();
+  return state_->volume.texture().bytes();
 }
 const std::array<long, kStageCount>& Simulator::runs() const {
   return state_->runs;
@@ -310,9 +319,8 @@ Stages<float> Simulator::read_stages() {
   const State& s = *state_;
   Stages<float> stages;
   const int n = int(s.line_stages.lines().lines.size()), d = s.line_stages.lines().samples;
-  const bool half_floats = s.representation.half_floats;
-  const auto scan = read_scan(s.line_stages.scan(), half_floats, d, n);
-  const auto echoes = read_echoes(s.line_stages.echoes(), half_floats, d, n);
+  const auto scan = read_fours(s.line_stages.scan(), d, n);
+  const auto echoes = read_fours(s.line_stages.echoes(), d, n);
   stages.intensity = transposed(scan[0]);
   stages.reflection = transposed(scan[1]);
   stages.reflection_beam = transposed(echoes[0]);

@@ -10,7 +10,6 @@
 #include "sim/gl/line_stages.h"
 #include "sim/gl/objects.h"
 #include "sim/gl/program.h"
-#include "sim/gl/representation.h"
 #include "sim/gl/scheme.h"
 #include "sim/gl/stage.h"
 #include "sim/model/acoustic_volume.h"
@@ -28,8 +27,7 @@ namespace insonate::gl {
 /// Throws std::runtime_error when shaders do not build or the device cannot hold the volume.
 class Simulator {
 public:
-  explicit Simulator(const ShaderSources& sources = {}, const Scheme& scheme = Scheme::of_device(),
-                     const Representation& representation = {});
+  explicit Simulator(const ShaderSources& sources = {}, const Scheme& scheme = Scheme::of_device());
   ~Simulator();
   Simulator(Simulator&&) noexcept;
   Simulator& operator=(Simulator&&) noexcept;

@@ -8,14 +8,14 @@
 layout(local_size_x = 64) in;
 
 #include "shared/simulation_parameters.h"
-#include "shared/handed_on.glsl"
+#include "shared/least_echo.glsl"
 
 layout(binding = 0) uniform samplerBuffer scan;      // a row a line: I, R, scatterers' echo (re, im)
 layout(binding = 1) uniform samplerBuffer at_depth;  // a sample: mean envelope -> 1, focused beam's reach in lines,
                                                      // exponent
 layout(binding = 2) uniform samplerBuffer repeats;   // a row a line: V before the window, with REVERBERATION
 layout(std140, binding = 1) uniform Window { vec4 window[32]; };         // weights from the middle line outwards
-layout(std430, binding = 0) writeonly buffer Echoes { HANDED_4 echoes[]; };  // a row a line: R, T, S, V
+layout(std430, binding = 0) writeonly buffer Echoes { vec4 echoes[]; };  // a row a line: R, T, S, V
 
 #if FOCUSED_BEAM == 1
 int reach;       // of the aperture at this sample, in lines to either side
@@ -41,7 +41,7 @@ float weight_at(int away) {
 float add(int first, int j, int k) {
   weights = vec4(weight_at(j), weights.xyz);
   int at = first + j, place = plane_row + clamp(at, 0, lines - 1) * samples + k;
-  vec4 value = scan_of(texelFetch(scan, place));
+  vec4 value = texelFetch(scan, place);
   vec4 weight = at >= 0 && at < lines ? weights : vec4(0.0);
   reflection += weight * value.y;
   re += weight * value.z;
@@ -80,6 +80,5 @@ void main() {
   vec4 envelope = sqrt(re * re + im * im) / total * here.x;
   for (int i = 0; i < 4; ++i)
     if (first + i < lines)
-      echoes[plane_row + (first + i) * samples + k] =
-          kept_echo(vec4(reflection[i], transmission[i], envelope[i], repeated[i]));
+      echoes[plane_row + (first + i) * samples + k] = vec4(reflection[i], transmission[i], envelope[i], repeated[i]);
 }

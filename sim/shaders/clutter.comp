@@ -4,7 +4,6 @@
 layout(local_size_x = GROUP) in;
 
 #include "shared/simulation_parameters.h"
-#include "shared/handed_on.glsl"
 
 layout(binding = 0) uniform samplerBuffer echoes;                             // a row a line: R, T, S, V
 layout(std430, binding = 0) writeonly buffer MeanEcho { float mean_echo[]; };  // a row a plane: mean of T S
@@ -14,7 +13,7 @@ void main() {
   if (k >= samples) return;
   float sum = 0.0;
   for (int line = 0; line < lines; ++line) {
-    vec4 value = echo_of(texelFetch(echoes, (plane * lines + line) * samples + k));
+    vec4 value = texelFetch(echoes, (plane * lines + line) * samples + k);
     sum += value.y * value.z;
   }
   mean_echo[plane * samples + k] = sum / float(lines);

@@ -7,7 +7,6 @@
 layout(local_size_x = 64, local_size_y = 1) in;
 
 #include "shared/simulation_parameters.h"
-#include "shared/handed_on.glsl"
 #include "shared/fan_blocks.glsl"
 #include "shared/gaussian.glsl"
 #include "shared/grey.glsl"
@@ -55,7 +54,7 @@ void main() {
   for (int i = 0; i < 4; ++i) {
     ivec2 pixel = first + ivec2(0, i);
     if (pixel.y >= height) break;
-    vec2 value = pixel_of(texelFetch(picture, index_of(pixel)).xy);
+    vec2 value = texelFetch(picture, index_of(pixel)).xy;
     vec3 place = texelFetch(fan, index_of(pixel)).xyz;
     bool inside = place.x > 0.0;
     float smoothed = reflection[i] * place.y + blend * transmission[i] * place.z;

@@ -5,7 +5,7 @@
 layout(local_size_x = GROUP) in;
 
 #include "shared/simulation_parameters.h"
-#include "shared/handed_on.glsl"
+#include "shared/least_echo.glsl"
 #include "shared/rows.glsl"
 
 layout(binding = 0) uniform samplerBuffer scan;                   // a row a line: I, R of the slice's middle plane
@@ -15,11 +15,11 @@ const int kMostReflectors = 64, kMostRepeats = 16;  // as in sim/model/reverbera
 const float kLeastRound = 1e-3, kLeastFromFace = 1e-2, kLeastReverberant = 1e-12;
 
 int row;  // where the line begins
-float intensity(int k) { return energy_of(texelFetch(scan, row + clamp(k, 0, samples - 1)).xy).x; }
+float intensity(int k) { return texelFetch(scan, row + clamp(k, 0, samples - 1)).x; }
 
 // A of a sample, and its R.
 vec2 reflected(int k) {
-  vec2 value = energy_of(texelFetch(scan, row + k).xy);
+  vec2 value = texelFetch(scan, row + k).xy;
   return value.x > kLeastReverberant ? vec2(min(value.y / (value.x * value.x), 1.0), value.y) : vec2(0.0);
 }
 

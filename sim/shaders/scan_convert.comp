@@ -6,14 +6,13 @@
 layout(local_size_x = 64, local_size_y = 1) in;
 
 #include "shared/simulation_parameters.h"
-#include "shared/handed_on.glsl"
 #include "shared/fan_blocks.glsl"
 
 layout(binding = 0) uniform samplerBuffer echoes;           // a row a line: R, T, S, V
 layout(binding = 1) uniform samplerBuffer line_and_sample;  // per pixel; line below -1 outside the fan
 layout(binding = 2) uniform samplerBuffer noise;            // per pixel, of mean 1
 layout(binding = 3) uniform samplerBuffer mean_echo;        // a sample: mean of T S over the lines, with its tail
-layout(std430, binding = 0) writeonly buffer Picture { HANDED_2 picture[]; };  // X, S
+layout(std430, binding = 0) writeonly buffer Picture { vec2 picture[]; };  // X, S
 layout(std430, binding = 1) writeonly buffer Sharp { SMOOTHED sharp[]; };  // R, T as far as smoothed; -1 outside the fan
 
 // The noise's mean at a place along the lines: of the electronics, and with CLUTTER what the side lobes bring.
@@ -29,7 +28,7 @@ float noise_at(float sample_position) {
 }
 
 vec4 echo_at(int sample_index, int line) {
-  return echo_of(texelFetch(echoes, line * samples + sample_index));
+  return texelFetch(echoes, line * samples + sample_index);
 }
 
 void convert(ivec2 pixel) {
@@ -53,7 +52,7 @@ void convert(ivec2 pixel) {
 #if NOISE == 1
   rest += noise_at(place.y) * texelFetch(noise, index_of(pixel)).x;
 #endif
-  picture[index_of(pixel)] = kept_pixel(vec2(rest, value.z));
+  picture[index_of(pixel)] = vec2(rest, value.z);
 #if REFLECTION_SMOOTHED == 1 || TRANSMISSION_SMOOTHED == 1
   sharp[index_of(pixel)] = inside ? SMOOTHED(value) : SMOOTHED(-1.0);
 #endif

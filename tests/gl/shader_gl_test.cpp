@@ -56,8 +56,8 @@ TEST_CASE("a shader that does not build keeps the last good program and names fi
 TEST_CASE("of programs that belong together none is taken when one does not build, and every problem is told") {
   const test::TestContext context;
   const EditedShaders shaders;
-  gl::Program first(shaders.read(), {"clutter.comp"}, {{"GROUP", "8"}, {"HALF_FLOATS", "0"}}),
-      second(shaders.read(), {"clutter_tail.comp"}), third(shaders.read(), {"maximum.comp"});
+  gl::Program first(shaders.read(), {"clutter.comp"}, {{"GROUP", "8"}}), second(shaders.read(), {"clutter_tail.comp"}),
+      third(shaders.read(), {"maximum.comp"});
   const std::array programs = {&first, &second, &third};
   const auto names = [&] { return std::array{first.name(), second.name(), third.name()}; };
   const auto before = names();

@@ -5,13 +5,13 @@
 // takes several times as long to store in an image.
 
 #include "shared/simulation_parameters.h"
-#include "shared/handed_on.glsl"
+#include "shared/least_echo.glsl"
 #include "shared/acoustic_volume.glsl"
 #include "shared/exact_filter.glsl"
 
 layout(binding = 1) uniform sampler3D scatterers;  // complex, unit variance at the lattice's points
 layout(binding = 2) uniform samplerBuffer in_air;  // I, R of a line that meets no body, by sample
-layout(std430, binding = 1) buffer Scan { HANDED_4 scan[]; };  // a row a line: I, R, scatterers' echo (re, im)
+layout(std430, binding = 1) buffer Scan { vec4 scan[]; };  // a row a line: I, R, scatterers' echo (re, im)
 
 // A line and the directions beside it, worked out in double precision for each pose: adding up single-precision
 // products here instead would move samples by a thousandth of a voxel, which shows at the surface of gas.
@@ -23,7 +23,7 @@ struct Line {
   vec4 beside, lattice_beside;        // with ELEVATION_FOCUS, the way to the plane for each mm of the slice's thickness
 };
 #if KEEP_MIDDLE == 1
-layout(std430, binding = 3) writeonly buffer Middle { HANDED_2 middle[]; };  // a row a line: I, R of the middle plane
+layout(std430, binding = 3) writeonly buffer Middle { vec2 middle[]; };  // a row a line: I, R of the middle plane
 #endif
 // Plane by plane, of each its slice's planes in turn.
 layout(std430, binding = 0) readonly buffer ScanLines { Line scan_lines[]; };
@@ -125,24 +125,6 @@ struct Surroundings {
   float along;  // their difference over the reflection length along the line
 };
 
-#if STORED_GRADIENT == 1
-layout(binding = 3) uniform sampler3D density;  // (HU, differences over two voxels in eighths of HU) / 32767
-
-// By the stored gradient, as if density went on as steeply as it does at the sample.
-Surroundings surroundings(float k, float along) {
-#if EXACT_FILTER == 1
-  vec4 here = exact_to_edge(density, place(k)) * 32767.0;
-#else
-  vec4 here = textureLod(density, place(k), 0.0) * 32767.0;
-#endif
-  vec3 a_voxel = here.yzw * (0.125 / 2.0), a_texture = a_voxel * vec3(textureSize(density, 0));
-  vec2 to_side = vec2(dot(a_texture, line.lateral.xyz), dot(a_texture, line.elevation.xyz));
-  vec4 beside = here.x + vec4(to_side.x, -to_side.x, to_side.y, -to_side.y);
-  float r = depth(k);
-  for (int i = 0; i < 4; ++i) beside[i] = with_gel(vec2(beside[i], 0.0), r).x;
-  return Surroundings(beside, dot(a_texture, line.along.xyz) * 2.0 * half_reflection_length);
-}
-#else
 // By differences; those along the line are known from its walk.
 Surroundings surroundings(float k, float along) {
   vec3 at = place(k);
@@ -150,7 +132,6 @@ Surroundings surroundings(float k, float along) {
   return Surroundings(vec4(hu_at(at + line.lateral.xyz, r), hu_at(at - line.lateral.xyz, r),
                            hu_at(at + line.elevation.xyz, r), hu_at(at - line.elevation.xyz, r)), along);
 }
-#endif
 
 // |cos| of the angle between the beam and the normal of the interface.
 float incidence(Surroundings around) {
@@ -227,13 +208,13 @@ bool is_heard(LogIntensity log_intensity) { return log_intensity.value > kLeastL
 // different planes hold none between them.
 void put(int slice_plane, int at, vec4 value) {
 #if KEEP_MIDDLE == 1
-  if (slice_plane == SLICE_PLANES / 2) middle[at] = kept_energy(value.xy);
+  if (slice_plane == SLICE_PLANES / 2) middle[at] = value.xy;
 #endif
 #if SLICE_PLANES > 1
   value *= line.lateral.w;
-  if (slice_plane > 0) value += scan_of(scan[at]);
+  if (slice_plane > 0) value += scan[at];
 #endif
-  scan[at] = kept_scan(value);
+  scan[at] = value;
 }
 
 // What a sample sends back of the intensity that arrives.
@@ -251,5 +232,5 @@ void put_silent(int slice_plane, int row, int k, int step) {
   for (int end = int(min(line.along.w + 1.0, float(samples))); k < end; k += step)
     put(slice_plane, row + k, vec4(0.0, 0.0, scatterers_echo(float(k), medium(float(k)))));
   for (; k < samples; k += step)
-    put(slice_plane, row + k, vec4(starts() ? vec2(0.0) : energy_of(texelFetch(in_air, k).xy), 0.0, 0.0));
+    put(slice_plane, row + k, vec4(starts() ? vec2(0.0) : texelFetch(in_air, k).xy, 0.0, 0.0));
 }
