@@ -37,6 +37,10 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
 endif()
 target_precompile_headers(insonate_precompiled PRIVATE "${CMAKE_SOURCE_DIR}/tools/cmake/precompiled.h")
 
+# What tools/room-diagram draws: each room's folder, and whom it uses.
+file(WRITE "${CMAKE_BINARY_DIR}/rooms/folders.txt" "")
+file(WRITE "${CMAKE_BINARY_DIR}/rooms/uses.txt" "")
+
 # insonate_room(<name> SOURCES <file>... [USES <room or library>...] [PRIVATELY <library>...])
 # makes the target insonate_<name> (alias insonate::<name>) of the current folder. USES are seen by the room's users
 # too, because its headers include them; what is linked PRIVATELY stays behind the room's wall.
@@ -59,6 +63,12 @@ function(insonate_room name)
     target_link_libraries(insonate_${name} INTERFACE ${ROOM_USES})
   endif()
   add_library(insonate::${name} ALIAS insonate_${name})
+  foreach(used IN LISTS ROOM_USES)
+    if(used MATCHES "^insonate::(.+)$")
+      file(APPEND "${CMAKE_BINARY_DIR}/rooms/uses.txt" "${name} ${CMAKE_MATCH_1}\n")
+    endif()
+  endforeach()
+  file(APPEND "${CMAKE_BINARY_DIR}/rooms/folders.txt" "${name} ${folder}\n")
 endfunction()
 
 # insonate_program(<name> SOURCES <file>... USES <room or library>... [PRECOMPILED <target>]) makes an executable of the
