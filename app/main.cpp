@@ -10,7 +10,7 @@
 
 namespace {
 
-/// The device that a session without a window would draw on; a window's is the display's own.
+/// The device that a session without a window would draw on; a window draws on the display's.
 std::vector<insonate::AboutLine> opengl_device() try {
   const insonate::gl::HeadlessContext context;
   return {{"OpenGL", insonate::gl::device_description()}};
@@ -26,14 +26,15 @@ int main(int argc, char** argv) {
   Options options;
   declare(arguments, options);
   const auto work = [&] {
+    const bool no_display = !options.headless && !has_display();
+    if (no_display && (options.mode == Mode::author || options.mode == Mode::setup))
+      throw InputError("command line", options.mode == Mode::author ? "author" : "setup",
+                       "this mode needs a window, and there is no display", "start it where there is one");
+    options.headless = options.headless || no_display;
     check(options);
-    if (!options.headless && !has_display()) {
-      if (options.mode == Mode::author || options.mode == Mode::setup)
-        throw InputError("insonate", "", "this needs a window, and there is no display", "start it where there is one");
+    if (no_display)
       std::printf("There is no display: the session runs without a window, and leaves its results in %s.\n",
                   options.out.string().c_str());
-      options.headless = true;
-    }
     return options.headless ? run_headless(options) : run_window(options);
   };
   const int exit_code = run_program(arguments, argc, argv, work, opengl_device);

@@ -1,5 +1,7 @@
 #include "app/options.h"
 
+#include <array>
+
 #include "app/igtl_feed.h"
 #include "devices/calibrated_tracker.h"
 #include "devices/record/raw_recorder.h"
@@ -14,11 +16,14 @@ CLI::Option* add_case(CLI::App& mode, Options& options) {
   return mode.add_option("--case", options.case_folder, "The patient: a case folder")->type_name("FOLDER");
 }
 
-void add_patient(CLI::App& mode, Options& options) {
+/// Returns the two options.
+std::array<CLI::Option*, 2> add_patient(CLI::App& mode, Options& options) {
   CLI::Option* const folder = add_case(mode, options);
-  mode.add_option("--ct", options.ct, "The patient: a CT (NIfTI, NRRD, MetaImage, or a folder of DICOM files)")
-      ->type_name("PATH")
-      ->excludes(folder);
+  CLI::Option* const ct =
+      mode.add_option("--ct", options.ct, "The patient: a CT (NIfTI, NRRD, MetaImage, or a folder of DICOM files)")
+          ->type_name("PATH")
+          ->excludes(folder);
+  return {folder, ct};
 }
 
 CLI::Option* add_scenario(CLI::App& mode, Options& options) {
@@ -107,7 +112,7 @@ void add_screen(CLI::App& mode, Options& options) {
       ->type_name("FILE");
 }
 
-/// What an exam does without: it is drawn as the program draws it, and nobody else learns where the probe is.
+/// Options that no exam has, because it is drawn as the program draws it, and nobody else may see the probe's pose.
 void add_openings(CLI::App& mode, Options& options) {
   mode.add_option("--shader-dir", options.shader_folder, "Take shaders from this folder and reload what changes")
       ->type_name("FOLDER");
@@ -134,7 +139,7 @@ void add_practice(CLI::App& mode, Options& options) {
 
 void add_exam(CLI::App& mode, Options& options) {
   CLI::Option* const scenario = add_scenario(mode, options);
-  add_case(mode, options)->needs(scenario);
+  for (CLI::Option* patient : add_patient(mode, options)) patient->needs(scenario);
   add_tracker(mode, options)->required();
   add_setup_files(mode, options);
   add_recording(mode, options);
@@ -188,13 +193,12 @@ void add_setup(CLI::App& mode, Options& options) {
   add_screen(mode, options);
 }
 
-/// Refuses what stands before the mode: the mode's own options stand behind it, and not all of the others are its.
+/// Throws InputError for an option before the mode: it would count as one of practice.
 void refuse_options_before(const CLI::App& arguments, const CLI::App& mode) {
   for (const CLI::Option* option : arguments.get_options())
     if (option->count() > 0)
-      throw CLI::ParseError("'" + option->get_name() + "' stands before '" + mode.get_name() +
-                                "'; write the mode first, and behind it the options it has.",
-                            2);
+      throw InputError("command line", option->get_name(), "it stands before '" + mode.get_name() + "'",
+                       "write the mode first and its options behind it");
 }
 
 constexpr const char* kExitCodes = "\nExit codes: 0 done, 2 input that cannot be used, 3 any other failure.";
@@ -248,10 +252,8 @@ void declare(CLI::App& arguments, Options& options) {
     CLI::App* const mode = arguments.add_subcommand(text.name, text.summary);
     text.add(*mode, options);
     mode->footer(std::string(text.examples) + kExitCodes);
-    mode->parse_complete_callback([&arguments, &options, mode, chosen = text.mode] {
-      refuse_options_before(arguments, *mode);
-      options.mode = chosen;
-    });
+    mode->preparse_callback([&arguments, mode](std::size_t) { refuse_options_before(arguments, *mode); });
+    mode->parse_complete_callback([&options, chosen = text.mode] { options.mode = chosen; });
   }
   arguments.require_subcommand(0, 1);
 }
@@ -291,7 +293,7 @@ void check(const Options& options) {
     throw InputError("command line", "--learner", "'" + options.learner + "' can be anybody", "name the learner's id");
   if (!options.calibration.empty() || options.mode == Mode::setup) check_can_be_calibrated(options.tracker);
   if (options.record_images && options.headless && options.record.empty())
-    throw InputError("command line", "--record-images", "it does not say where to", "give --record FILE too");
+    throw InputError("command line", "--record-images", "no file to record to is named", "give --record FILE too");
   if (!options.record.empty()) refuse_existing(options.record);
   check_record_raw(options);
   std::error_code error;

@@ -25,8 +25,9 @@ std::vector<std::string> label_names(const Case& subject) {
 
 /// As the simulator takes them. The picture's size is left to the caller.
 Settings settings_of(const Machine& machine) {
-  Settings settings = trainer_settings(machine.frequency_mhz, machine.depth_mm);
-  settings.gain_db = machine.gain_db;
+  // A log may hold any numbers; scores are computed from them as they are.
+  Settings settings = trainer_settings(std::clamp(machine.frequency_mhz, 1.0, 20.0), machine.depth_mm);
+  settings.gain_db = std::clamp(machine.gain_db, -60.0, 60.0);
   settings.dynamic_range_db = machine.dynamic_range_db;
   for (std::size_t i = 0; i < machine.time_gain_db.size(); ++i) settings.tgc_db[i] += machine.time_gain_db[i];
   return settings;

@@ -63,12 +63,16 @@ Session::Session(std::shared_ptr<const Study> study, OpenTracker open, double pr
     learner_.reset(static_cast<MouseTracker*>(tracker_.release()));
     holder_ = Holder::learner;
   }
-  shown_.choose(probes().front().name);
-  if (study_->scenario) {
-    shown_ = starting_machine(*study_->scenario, study_->subject);
-    activity_ = Activity::exam;
-  }
+  shown_ = first_machine();
+  if (study_->scenario) activity_ = Activity::exam;
   begin_attempt();
+}
+
+Machine Session::first_machine() const {
+  if (study_->scenario) return starting_machine(*study_->scenario, study_->subject);
+  Machine machine;
+  machine.choose(probes().front().name);
+  return machine;
 }
 
 const Tracker& Session::source() const {
@@ -102,9 +106,10 @@ void Session::begin_attempt() {
   last_usable_s_ = attempt_began_s_ = now_s_;
   marks_s_.clear();
   history_.clear();
+  // A recorded scan sets its knobs anew each time.
+  if (source().recording()) shown_ = first_machine();
   shown_.apply({ActionKind::unfreeze}, std::nullopt);
   machine_ = runner_ ? runner_->machine() : Machine();
-  restore_locked();
   acts_ = actions_between(machine_, shown_);
   actions_.clear();
   latest_actions_.clear();
@@ -172,6 +177,13 @@ void Session::set(const Action& action) {
   const Machine before = shown_;
   shown_.apply(action, newest_pose_);
   if (shown_ == before || source().recording()) return;
+  // Freezing and thawing between two samples is nothing: the picture stays as it was at the sample before.
+  if (shown_.frozen != before.frozen && !acts_.empty() &&
+      acts_.back().kind == (shown_.frozen ? ActionKind::unfreeze : ActionKind::freeze)) {
+    acts_.pop_back();
+    shown_.frozen_at = shown_.frozen ? machine_.frozen_at : std::nullopt;
+    return;
+  }
   if (!acts_.empty() && replaces(action, acts_.back())) acts_.pop_back();
   acts_.push_back(action);
 }
@@ -183,18 +195,6 @@ std::optional<Pose> Session::frozen_picture() const {
 
 bool Session::locks(ActionKind setting) const {
   return strict() && runner_ && !result_ && runner_->scenario().locked.contains(lock_of(setting));
-}
-
-/// An exam begins with what it locks as the scenario has it, whatever was set in the attempt before.
-void Session::restore_locked() {
-  if (locks(ActionKind::probe)) shown_.probe = machine_.probe;
-  if (locks(ActionKind::depth)) shown_.depth_mm = machine_.depth_mm;
-  if (locks(ActionKind::frequency)) shown_.frequency_mhz = machine_.frequency_mhz;
-  if (locks(ActionKind::gain)) {
-    shown_.gain_db = machine_.gain_db;
-    shown_.dynamic_range_db = machine_.dynamic_range_db;
-    shown_.time_gain_db = machine_.time_gain_db;
-  }
 }
 
 std::vector<Action> Session::actions_before(const PoseSample& sample) {
@@ -225,7 +225,7 @@ void Session::take(const PoseSample& sample) {
     machine_ = runner_->machine();
   }
   // What is measured in is what was sampled, not what was predicted of it.
-  if (shown_.frozen && machine_.frozen_at) shown_pose_ = machine_.frozen_at;
+  if (shown_.frozen && machine_.frozen_at) shown_pose_ = shown_.frozen_at = machine_.frozen_at;
   if (sample.status != PoseStatus::ok) return;
   newest_pose_ = sample.patient_from_probe;
   last_usable_s_ = now_s_;

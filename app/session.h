@@ -15,7 +15,6 @@
 #include "devices/tracker.h"
 #include "scenarios/runner.h"
 #include "sim/core/button_presses.h"
-#include "sim/model/settings.h"
 #include "sim/probe/probe.h"
 
 namespace insonate {
@@ -144,8 +143,8 @@ public:
   // The machine
   /// As it is set now. It always has a probe.
   const Machine& machine() const { return shown_; }
-  /// Takes a probe, sets a knob, freezes or unfreezes, unless the exam locks it. While the source is a log this is for
-  /// whoever watches: it changes the picture, and no score.
+  /// Takes a probe, sets a knob, freezes or unfreezes, unless the exam locks it. While the source is a log, this
+  /// changes the picture that the viewer sees, and no score.
   void set(const Action& action);
   void set(ActionKind knob, double value) { set(Action{knob, {value}}); }
   void choose_probe(const std::string& name) { set({ActionKind::probe, {}, name}); }
@@ -156,13 +155,13 @@ public:
 
 private:
   std::unique_ptr<Tracker> open_fresh() const;
+  Machine first_machine() const;
   void restart_tracker();
   void begin_attempt();
   void hold(Holder holder);
   void keep_result();
   void take(const PoseSample& sample);
   void find_pose();
-  void restore_locked();
   std::vector<Action> actions_before(const PoseSample& sample);
   Tracker& source();
 

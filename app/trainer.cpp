@@ -41,7 +41,7 @@ Trainer::Trainer(Options options)
 }
 
 void Trainer::open_results() {
-  if (options_.mode == Mode::replay) return;
+  if (options_.replay.any()) return;  // a replay stores nothing
   if (!options_.results.empty()) {
     results_ = ResultsDatabase::open_or_make(options_.results);
   } else if (!options_.headless) {

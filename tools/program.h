@@ -75,11 +75,18 @@ inline int run_program(CLI::App& arguments, int argc, char** argv, const std::fu
       const int code = work();
       finish_printing();
       return code;
-    } catch (const CLI::ParseError& error) {  // help, the version and the pages come this way too
-      if (arguments.exit(error) != 0) return 2;
+    } catch (const CLI::Success& asked) {  // help, the version and the pages
+      arguments.exit(asked);
       finish_printing();
       return 0;
     }
+  } catch (const CLI::ParseError& error) {
+    std::string command = arguments.get_name(), problem = in_one_line(error.what());
+    for (const CLI::App* mode : arguments.get_subcommands()) command += " " + mode->get_name();
+    if (problem.ends_with('.')) problem.pop_back();
+    std::fprintf(stderr, "%s: command line: %s; see '%s --help'.\n", arguments.get_name().c_str(), problem.c_str(),
+                 command.c_str());
+    return 2;
   } catch (const InputError& error) {
     std::fprintf(stderr, "%s: %s\n", arguments.get_name().c_str(), error.what());
     return 2;

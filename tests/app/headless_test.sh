@@ -116,12 +116,13 @@ convert "$work/attempt.png" -crop 700x330+40+110 +repage "$work/attempt_picture.
 cmp "$work/before.txt" "$work/after.txt" || fail "a replay was kept as an attempt"
 [ ! -e "$work/replayed" ] || fail "a replay left results: $(ls "$work/replayed")"
 
-# `refuses WORDS ARGUMENTS...`: exit code 2 and a message with the words.
+# `refuses WORDS ARGUMENTS...`: exit code 2 and one line with the words.
 refuses() {
   local words=$1 code=0
   shift
   "$trainer" "$@" --out "$work/none" >"$work/refused.txt" 2>&1 || code=$?
   [ "$code" = 2 ] || fail "exit code $code for: $* ($(cat "$work/refused.txt"))"
+  [ "$(wc -l <"$work/refused.txt")" = 1 ] || fail "more than a line for: $* ($(cat "$work/refused.txt"))"
   grep -q -- "$words" "$work/refused.txt" || fail "no '$words' in: $(cat "$work/refused.txt")"
   [ ! -e "$work/none" ] || fail "results were written for: $*"
 }
@@ -143,7 +144,7 @@ printf '[tracker]\nkind = "hydra"\n' >"$work/begun.toml"
 refuses "the step 'face' has not been made" --headless --tracker synthetic: --calibration "$work/begun.toml"
 refuses "such a file already" --headless --record "$work/run.igs.mha"
 refuses "igs.mha" --headless --record "$work/run.txt"
-refuses "where to" --headless --record-images
+refuses "no file to record to" --headless --record-images
 refuses "no device that sends bytes" --headless --tracker synthetic: --record-raw "$work/run.raw"
 refuses "no device that sends bytes" --headless --tracker "replay:$INSONATE_ASSETS/logs/ruq_good.igs.mha" --record-raw "$work/run.raw"
 refuses "no tracker is named" --headless --record-raw "$work/run.raw"
@@ -157,6 +158,7 @@ refuses "LOG excludes --attempt" replay "$log" --headless --results "$work/resul
 refuses "not expected: .*--tracker" replay "$log" --headless --tracker mouse:
 refuses "excludes --scenario" replay --headless --results "$work/results.db" --attempt 1 --scenario "$scenario"
 refuses "stands before 'replay'" --headless replay "$log"
+refuses "stands before 'exam'" --tracker mouse: exam --learner L-01 --results "$work/results.db"
 [ ! -e "$work/none.db" ] || fail "a database was made for a replay"
 refuses shader-dir --headless --shader-dir "$work/missing"
 exam=(exam --headless --learner L-01 --results "$work/results.db" --tracker mouse:)
@@ -166,8 +168,7 @@ refuses "--headless requires --results" exam --headless --learner L-01 --tracker
 refuses "--learner is required" exam --results "$work/results.db" --tracker mouse:
 refuses "--tracker is required" exam --learner L-01 --results "$work/results.db"
 refuses "can be anybody" exam --headless --learner anonymous --results "$work/results.db" --tracker mouse:
-refuses "this needs a window" setup --tracker hydra:
-refuses "has no sensor" setup --tracker mouse:
+refuses "this mode needs a window" setup --tracker hydra:
 
 echo "what there is of a sitting that was broken off is handed in, or removed so that it can be taken again"
 # `hand_in ARGUMENT...`: hands in, once the sitting has been broken off for long enough.

@@ -338,6 +338,32 @@ TEST_CASE("a frozen picture stays while the exam goes on") {
   CHECK_FALSE(*session.shown_pose() == frozen);
 }
 
+TEST_CASE("freezing and thawing between two samples is nothing, either way round") {
+  const auto study = tiny_study(false);
+  std::vector<PoseSample> coming{sample_at(0.1, Pose{})};
+  Session session(study, [&] { return std::make_unique<HandFed>(coming); });
+  session.advance(0.1);
+  session.freeze(true);
+  session.freeze(false);
+  coming = {sample_at(0.2, Pose{})};
+  session.advance(0.2);
+  CHECK(session.latest_actions().empty());
+  session.freeze(true);
+  coming = {sample_at(0.3, Pose{glm::dmat3(1.0), {1, 0, 0}})};
+  session.advance(0.3);
+  const std::optional<Pose> frozen_at = session.machine().frozen_at;
+  REQUIRE(frozen_at);
+  session.freeze(false);
+  session.freeze(true);
+  coming = {sample_at(0.4, Pose{glm::dmat3(1.0), {2, 0, 0}})};
+  session.advance(0.4);
+  CHECK(session.latest_actions().empty());
+  CHECK(session.machine().frozen);
+  CHECK(session.machine().frozen_at == frozen_at);
+  CHECK(session.frozen_picture() == frozen_at);
+  CHECK(session.shown_pose() == frozen_at);
+}
+
 TEST_CASE("what the learner does reaches the exam, and again when the exam is scored from a log that keeps it") {
   const auto study = tiny_study();
   Session session(study, replay_of(searching_scan()));

@@ -1,0 +1,45 @@
+// The ultrasound machine: what actions make of it, and the actions that lead from one to another.
+#include "scenarios/machine.h"
+
+#include <catch2/catch.hpp>
+
+using namespace insonate;
+
+TEST_CASE("the actions between two machines bring the knobs of one to those of the other") {
+  Machine from, to;
+  from.choose("curvilinear");
+  to.choose("linear");
+  to.depth_mm = 55;
+  to.frequency_mhz = 9;
+  to.gain_db = -4;
+  to.dynamic_range_db = 45;
+  to.time_gain_db = {1, 0, -2, 0, 3, 0, 0, 20};
+  to.frozen = true;
+  for (const Machine& untouched : {from, Machine()}) {
+    Machine machine = untouched;
+    for (const Action& action : actions_between(untouched, to)) machine.apply(action, std::nullopt);
+    CHECK(machine == to);
+  }
+  for (const Action& action : actions_between(to, from)) to.apply(action, std::nullopt);
+  CHECK(to == from);
+  CHECK(actions_between(from, from).empty());
+}
+
+TEST_CASE("a machine limits what an action asks for, and knows its own probes alone") {
+  Machine machine;
+  CHECK_THROWS_AS(machine.transducer(), std::logic_error);
+  machine.choose("curvilinear");
+  CHECK(machine.transducer().name == "curvilinear");
+  const auto set = [&](ActionKind kind, double value) { machine.apply({kind, {value}}, std::nullopt); };
+  set(ActionKind::depth, 1e6);
+  CHECK(machine.depth_mm == Machine::kMostDepth_mm);
+  set(ActionKind::dynamic_range, 0);
+  CHECK(machine.dynamic_range_db == Machine::kLeastDynamicRange_db);
+  set(ActionKind::dynamic_range, 1e6);
+  CHECK(machine.dynamic_range_db == Machine::kMostDynamicRange_db);
+  machine.apply({ActionKind::time_gain, {8, -1e6}}, std::nullopt);
+  CHECK(machine.time_gain_db[7] == -Machine::kMostTimeGain_db);
+  const Machine before = machine;
+  machine.apply({ActionKind::probe, {}, "none"}, std::nullopt);
+  CHECK(machine == before);
+}
