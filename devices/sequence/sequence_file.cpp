@@ -13,7 +13,7 @@
 namespace insonate {
 namespace {
 
-constexpr std::size_t kPiece = 1 << 20, kMostHeader = 1 << 30;
+constexpr std::size_t kPiece = 1 << 20;
 /// What of the images tells whether a compressed stream is whole: its magic in front, its size at the end.
 constexpr std::size_t kEnds = 64;
 
@@ -38,7 +38,7 @@ private:
 
 }  // namespace
 
-SequenceFile read_sequence_file(const std::filesystem::path& file) {
+SequenceFile read_sequence_file(const std::filesystem::path& file, std::size_t most_header) {
   check_is_file(file);
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw InputError(file.string(), "", "it cannot be read", "check its permissions");
@@ -51,8 +51,8 @@ SequenceFile read_sequence_file(const std::filesystem::path& file) {
     digest.add(piece);
     read.size += piece.size();
     if (!end.is_in(read.front)) {
-      if (read.front.size() > kMostHeader)
-        throw InputError(file.string(), "header", "it does not end within " + std::to_string(kMostHeader) + " bytes",
+      if (read.front.size() > most_header)
+        throw InputError(file.string(), "header", "it does not end within " + std::to_string(most_header) + " bytes",
                          "check that it is the right file");
       read.front += piece;
     } else if (const std::size_t needed = end.offset() + kEnds; read.front.size() < needed) {

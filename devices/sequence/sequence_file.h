@@ -16,8 +16,8 @@ struct SequenceFile {
   CutBytes bytes() const { return {front, size, back}; }
 };
 
-/// Reads a file of any size through once and keeps its header, which has 1 GiB at most; a file that has no header's end
-/// is kept up to there. Throws InputError as read_file() does.
-SequenceFile read_sequence_file(const std::filesystem::path& file);
+/// Reads a file of any size through once and keeps its header. Refuses a header of more than `most_header` bytes. A
+/// shorter file whose header does not end is kept as a whole. Throws InputError as read_file() does.
+SequenceFile read_sequence_file(const std::filesystem::path& file, std::size_t most_header = std::size_t(1) << 30);
 
 }  // namespace insonate

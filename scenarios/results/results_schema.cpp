@@ -2,6 +2,7 @@
 
 #include <array>
 #include <chrono>
+#include <optional>
 #include <thread>
 
 #include "sim/core/input_error.h"
@@ -126,17 +127,19 @@ bool behind(sqlite::Connection& connection, bool make, int schema) {
 /// SQLite does not wait for the other here.
 void use_write_ahead_log(sqlite::Connection& connection) {
   const auto give_up = std::chrono::steady_clock::now() + std::chrono::milliseconds(sqlite::Connection::kPatience_ms);
-  for (;;) {
+  std::optional<std::string> mode;
+  while (!mode) {
     try {
-      if (connection.text("PRAGMA journal_mode = WAL") == "wal") return;
+      mode = connection.text("PRAGMA journal_mode = WAL");
     } catch (const InputError&) {
       if (std::chrono::steady_clock::now() > give_up) throw;
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
-    if (std::chrono::steady_clock::now() > give_up)
-      throw InputError(connection.file().string(), "", "its folder does not allow a write-ahead log",
-                       "keep the database on a disk of this computer, not on the network");
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
+  // Another process makes SQLite fail. Another mode than the one asked for is its answer for good.
+  if (mode != "wal")
+    throw InputError(connection.file().string(), "", "its folder does not allow a write-ahead log",
+                     "keep the database on a disk of this computer, not on the network");
 }
 
 }  // namespace

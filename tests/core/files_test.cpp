@@ -1,6 +1,9 @@
 #include "sim/core/files.h"
 
 #include <catch2/catch.hpp>
+#include <sched.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <filesystem>
@@ -8,6 +11,7 @@
 
 #include "sim/core/image.h"
 #include "sim/core/input_error.h"
+#include "tests/core/system_faults.h"
 
 using namespace insonate;
 namespace fs = std::filesystem;
@@ -42,7 +46,15 @@ TEST_CASE("what cannot be read is named in one sentence") {
   std::ofstream(folder.path / "empty").close();
   CHECK(why_unreadable(folder.path / "empty").find("the file is empty") != std::string::npos);
   CHECK(why_unreadable("/dev/null").find("no ordinary file") != std::string::npos);
+  CHECK_THAT(why_unreadable(kShorterThanItClaims),
+             Catch::StartsWith(kShorterThanItClaims) && Catch::Contains(": it cannot be read; check its permissions."));
+  CHECK(why_unreadable(kUnreadable).find("it cannot be read (Invalid argument)") != std::string::npos);
   write_file(folder.path / "long", std::string(100, 'x'));
+  const auto why_not_opened = [&] {
+    const NoFilesToOpen limit;
+    return why_unreadable(folder.path / "long");
+  };
+  CHECK(why_not_opened().find("long: it cannot be read (Too many open files)") != std::string::npos);
   CHECK_THROWS_AS(read_file(folder.path / "long", 99), InputError);
   CHECK(read_file(folder.path / "long", 100).size() == 100);
 }
@@ -59,6 +71,38 @@ TEST_CASE("a write that fails leaves the old file and nothing beside it") {
   CHECK(entries(file.parent_path()) == 1);
   write_file(file, "new");
   CHECK(read_file(file) == "new");
+  CHECK_THROWS_WITH(write_file(file.parent_path(), "in the place of a folder"),
+                    Catch::Contains("deep: it cannot be written (Is a directory); name a file"));
+  CHECK(entries(folder.path) == 1);
+}
+
+TEST_CASE("a program without its assets says so, and how to name them") {
+  const TemporaryFolder folder;
+  REQUIRE(fs::is_directory(assets_folder()));
+  // Where neither the program's own folder nor the source tree is to be seen: behind a root of its own.
+  const pid_t child = fork();
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    unsetenv("INSONATE_ASSETS");
+    if (chdir(folder.path.c_str()) != 0 || (chroot(".") != 0 && (unshare(CLONE_NEWUSER) != 0 || chroot(".") != 0)))
+      _exit(2);
+    try {
+      assets_folder();
+    } catch (const InputError& error) {
+      const std::string_view said =
+          "assets: the bundled assets are neither beside the program nor in the source tree; set INSONATE_ASSETS to "
+          "their folder.";
+      _exit(error.what() == said ? 0 : 3);
+    }
+    _exit(1);
+  }
+  int status = 0;
+  REQUIRE(waitpid(child, &status, 0) == child);
+  REQUIRE(WIFEXITED(status));
+  if (WEXITSTATUS(status) == 2)
+    WARN("this system gives nobody but root a root folder of their own");
+  else
+    CHECK(WEXITSTATUS(status) == 0);
 }
 
 TEST_CASE("what killed programs left of a file goes with its next write once it is a day old, and nothing else does") {
@@ -82,6 +126,9 @@ TEST_CASE("a picture is written as PNG or refused with its name") {
   write_png(folder.path / "grey.png", Image<std::uint8_t>(3, 2, 128));
   CHECK(read_file(folder.path / "grey.png").substr(1, 3) == "PNG");
   CHECK_THROWS_AS(write_png("/proc/none/grey.png", Image<std::uint8_t>(3, 2, 128)), InputError);
+  const NoFilesToOpen limit;
+  CHECK_THROWS_WITH(write_png(folder.path / "new.png", Image<std::uint8_t>(3, 2, 128)),
+                    Catch::Contains("new.png: the picture cannot be written (Too many open files); check"));
 }
 
 TEST_CASE("a refusal is one line that is safe to show, whatever it quotes") {

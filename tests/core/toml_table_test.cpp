@@ -43,3 +43,12 @@ TEST_CASE("what looks like a key of many parts and is none is taken") {
   for (const std::string ending : {R"("""a""")", R"('''a''')", R"("a)", R"("a\)", R"("""a\)", R"(')", R"(#)"})
     CHECK(line_of_deep_key("a = " + ending) == 0);
 }
+
+TEST_CASE("what has to be a list and is none is refused with its place and its key") {
+  const toml::table parsed = parse_toml("lab.toml", "[tip]\nplace_mm = 3\nnames = 'navel'\n");
+  const TomlTable tip = TomlTable("lab.toml", "", parsed).table("tip");
+  CHECK_THROWS_WITH(tip.numbers("place_mm", 3),
+                    "lab.toml: line 2, column 12, [tip]: 'place_mm' is no list; write 3 numbers in square brackets.");
+  CHECK_THROWS_WITH(tip.texts("names"),
+                    "lab.toml: line 3, column 9, [tip]: 'names' is no list; write texts in square brackets.");
+}

@@ -8,9 +8,12 @@
 
 #include "devices/sequence/probe_samples.h"
 #include "devices/sequence/sequence.h"
+#include "devices/sequence/sequence_file.h"
 #include "sim/core/files.h"
 #include "sim/core/hash.h"
 #include "sim/core/input_error.h"
+#include "tests/core/system_faults.h"
+#include "tests/volume/temporary_folder.h"
 
 using namespace insonate;
 
@@ -129,6 +132,12 @@ TEST_CASE("every sequence file that is damaged in a way people meet is refused w
       {"Seq_Frame0001_Timestamp",
        "Seq_Frame0001_Distortion = 2\nSeq_Frame0001_Distortion = 2\nSeq_Frame0001_Timestamp",
        {"frame 1", "'Distortion' is given a second time"}},
+      {"Seq_Frame0001_Timestamp",
+       "Seq_Frame0001_Rejected = JUMP\nSeq_Frame0001_Rejected = JUMP\nSeq_Frame0001_Timestamp",
+       {"frame 1", "'Rejected' is given a second time, in line 14"}},
+      {"Seq_Frame0001_Timestamp",
+       "Seq_Frame0001_Actions = freeze\nSeq_Frame0001_Actions = freeze\nSeq_Frame0001_Timestamp",
+       {"frame 1", "'Actions' is given a second time, in line 14"}},
       {"Kinds", "TrackerToPatientTransform = 1 2 3\nKinds", {"line 7", "'TrackerToPatientTransform' is not 16"}},
       {"Kinds",
        "TrackerToPatientTransform = 2 0 0 0 0 2 0 0 0 0 2 0 0 0 0 1\nKinds",
@@ -155,6 +164,12 @@ TEST_CASE("an image without frames, and frames without the probe, are refused wi
   std::string image = kGood;
   image.erase(image.find("Seq_Frame0000"), image.find("ElementDataFile") - image.find("Seq_Frame0000"));
   CHECK(refusal(image).find("plain image") != std::string::npos);
+
+  std::string times = image;
+  times.insert(times.find("ElementDataFile"), "Seq_Frame0000_Timestamp = 1.5\nSeq_Frame0001_Timestamp = 2.5\n");
+  CHECK(refusal(times) ==
+        "scan.igs.mha: its frames have no transforms, so it does not tell where the probe was; record it with a "
+        "tracker, so that its frames have ProbeToTrackerTransform.");
 
   std::string stylus = kGood;
   for (std::size_t at; (at = stylus.find("ProbeToTracker")) != std::string::npos;) stylus.replace(at, 5, "Stylus");
@@ -190,6 +205,23 @@ TEST_CASE("a file cut short anywhere is refused") {
       CHECK_FALSE(sentence.empty());
     }
   }
+}
+
+TEST_CASE("a sequence file that the system does not read, or whose header does not end, is refused with its name") {
+  const TemporaryFolder folder;
+  const auto file = folder.put("scan.igs.mha", kGood);
+  {
+    const NoFilesToOpen limit;
+    CHECK_THROWS_WITH(read_sequence_file(file), Catch::Contains("scan.igs.mha: it cannot be read; check"));
+  }
+  CHECK_THROWS_WITH(read_sequence_file(kUnreadable),
+                    Catch::Contains(kUnreadable) && Catch::Contains("it cannot be read to its end; copy it again"));
+  // The header is read in pieces of 1 MiB, and the limit holds from one piece to the next.
+  const std::string endless = "ObjectType = Image\nComment = " + std::string(3 << 20, 'x');
+  const auto long_file = folder.put("endless.igs.mha", endless + "\nElementDataFile = LOCAL\n");
+  CHECK_THROWS_WITH(read_sequence_file(long_file, 2 << 20),
+                    Catch::Contains("endless.igs.mha: header: it does not end within 2097152 bytes; check"));
+  CHECK(read_sequence_file(long_file).size > endless.size());
 }
 
 TEST_CASE("flipped bits are taken or refused, with rigid poses at rising times where they are taken") {

@@ -212,6 +212,11 @@ TEST_CASE("image data that are damaged or end too early are refused when they ar
   folder.put("c.igs.mha", metaimage(kBytes2x3, 2, kTwelve.substr(0, 8)));
   ImageReader shorter(*raw.images);
   CHECK_THROWS_WITH(shorter.grey(1), Contains("ends before the last image"));
+  const std::string whole = metaimage(header, 2, data);
+  const RecordedScan zipped = read_recorded_scan(folder.put("d.igs.mha", whole));
+  folder.put("d.igs.mha", whole.substr(0, whole.size() - data.size() + 5));
+  ImageReader cut(*zipped.images);
+  CHECK_THROWS_WITH(cut.grey(1), Contains("d.igs.mha: image data: it ends before the last image; copy"));
   std::filesystem::remove(folder.path / "c.igs.mha");
   CHECK_THROWS_WITH(ImageReader(*raw.images), Contains("cannot be read"));
 }

@@ -25,6 +25,7 @@
 #include "sim/core/files.h"
 #include "sim/core/hash.h"
 #include "sim/core/input_error.h"
+#include "tests/core/system_faults.h"
 #include "tests/devices/test_samples.h"
 
 using namespace insonate;
@@ -255,6 +256,18 @@ TEST_CASE("what the disk has no room for leaves the file as it was, and may be w
   CHECK(WIFEXITED(status));
   CHECK(WEXITSTATUS(status) == 0);
   CHECK(read_file(folder.path / "some.txt") == "a line\nanother line\n");
+}
+
+TEST_CASE("pictures that cannot be read as far as their size promises are refused, and nothing is removed") {
+  const Folder folder;
+  const fs::path file = folder.path / "scan.igs.mha";
+  record_and_be_killed(file, hand(1), 10, true);
+  fs::remove(images_file(file));
+  fs::create_symlink(kShorterThanItClaims, images_file(file));
+  CHECK_THROWS_WITH(recover_recording(file),
+                    Catch::Contains("scan.igs.mha.recording.images: it cannot be read; check its permissions"));
+  CHECK(fs::exists(working_file(file)));
+  CHECK_FALSE(fs::exists(file));
 }
 
 TEST_CASE("a program that is only just dying is waited for") {

@@ -81,6 +81,7 @@ TEST_CASE("a tracker that cannot be opened is refused with what to write instead
       {"igtl://host:1x", {"':1x' is no port"}},
       {"igtl://[::1", {"bracket of the host is not closed"}},
       {"igtl://[::1]18944", {"'18944' is no port"}},
+      {"igtl://" + std::string(254, 'h'), {"a host's name has 253 characters at most"}},
       {"igtl://host/AVeryLongNameOfATransform", {"20 characters"}},
       {"igtl://host?frame=abc", {"option 'frame'", "'abc' is neither 'lps' nor 'ras'"}},
       {"igtl://host?speed=1", {"option 'speed'"}},

@@ -7,6 +7,7 @@
 
 #include <cstdlib>
 #include <functional>
+#include <limits>
 #include <new>
 #include <utility>
 
@@ -24,17 +25,20 @@
 #include "sim/model/settings_file.h"
 #include "sim/model/tissue.h"
 #include "sim/phantom/phantom.h"
+#include "sim/volume/ct_reader.h"
 #include "tests/scenarios/tiny_case.h"
 
 namespace {
 
 /// Of this thread: how many allocations still succeed, below 0 for all; and how many blocks are held.
 thread_local long allocations_left = -1;
+/// Of this thread: the largest block that there is memory for, in bytes.
+thread_local std::size_t largest_block = std::numeric_limits<std::size_t>::max();
 thread_local long blocks = 0;
 thread_local bool any_failed = false;
 
 void* allocate(std::size_t size, std::size_t alignment) {
-  if (allocations_left == 0) {
+  if (allocations_left == 0 || size > largest_block) {
     any_failed = true;
     throw std::bad_alloc();
   }
@@ -229,4 +233,15 @@ TEST_CASE("readers of recordings outlive a failure at each allocation") {
           return double(
               parse_actions("depth 120; caliper 1 -10.5 40 12 41; answer :a%20stone", "scan", "frame 1").size());
         }) >= 0);
+}
+
+TEST_CASE("a volume that the memory has no room for is refused in a sentence") {
+  const Folder folder;
+  const fs::path file = folder.path / "ct.nrrd";
+  const Case subject = tiny_case();
+  write_ct(file, subject.ct);
+  largest_block = subject.ct.voxels.size();  // in bytes: half of what the voxels take
+  CHECK_THROWS_WITH(read_ct(file), Catch::Contains("ct.nrrd: voxels: there is not enough memory for it; resample it"));
+  largest_block = std::numeric_limits<std::size_t>::max();
+  CHECK(read_ct(file).voxels == subject.ct.voxels);
 }

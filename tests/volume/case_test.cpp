@@ -182,6 +182,12 @@ TEST_CASE("a case replaces an older one whole, and nothing that is no case") {
   CHECK_THROWS_AS(write_case(folder.path / "thesis", subject), InputError);
   CHECK(read_file(folder.path / "thesis" / "chapter.tex") == "years of work");
   CHECK_THROWS_AS(write_case("/proc/none/case", subject), InputError);
+  CHECK_THROWS_WITH(write_case(folder.path / std::string(300, 'c') / "case", subject),
+                    Catch::Contains("/case: the folder cannot be made (File name too long); name a folder"));
+  fs::create_symlink("nowhere", folder.path / "link");
+  CHECK_THROWS_WITH(write_case(folder.path / "link", subject),
+                    Catch::Contains("/link: it cannot be written (Not a directory); name a folder"));
+  fs::remove(folder.path / "link");
 
   // The same is said without a case, and nothing is left behind.
   for (const fs::path& taken : {folder.path / "thesis", folder.path / "thesis" / "chapter.tex" / "case",

@@ -7,6 +7,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenarios/cases/import_case.h"
+#include "sim/model/tissue.h"
+#include "sim/volume/ct_reader.h"
+#include "tests/volume/temporary_folder.h"
+
 using namespace insonate;
 
 namespace {
@@ -86,4 +91,26 @@ TEST_CASE("a CT without a body has none") {
   CHECK(find_body(ct).empty());
   for (int k = 0; k < 30; ++k) ct.at({50, 40, k}) = 1000;  // a wire
   CHECK(find_body(ct).empty());
+}
+
+TEST_CASE("a CT in which nothing is as thick as a body is refused by its name") {
+  const TemporaryFolder folder;
+  Volume<std::int16_t> sheet;
+  sheet.grid.size = glm::ivec3(30);
+  sheet.voxels.assign(sheet.grid.count(), -1000);
+  Volume<std::uint8_t> mask{sheet.grid, std::vector<std::uint8_t>(sheet.grid.count())};
+  for (int k = 0; k < 30; ++k)
+    for (int i = 0; i < 30; ++i) {
+      sheet.at({i, 14, k}) = 40;
+      mask.at({i, 14, k}) = 1;
+    }
+  write_ct(folder.path / "ct.nrrd", sheet);
+  std::filesystem::create_directory(folder.path / "masks");
+  write_labels(folder.path / "masks" / "thing.nrrd", mask);
+  ImportRequest request;
+  request.ct = folder.path / "ct.nrrd";
+  request.labels = folder.path / "masks";
+  CHECK_THROWS_WITH(import_case(request, TissueTable{}),
+                    Catch::Contains("ct.nrrd: there is no body in it: nothing denser than -500 HU is thicker than "
+                                    "7 mm; give a CT in Hounsfield units"));
 }

@@ -10,6 +10,7 @@
 #include "scenarios/cases/plausibility.h"
 #include "sim/core/input_error.h"
 #include "sim/model/tissue.h"
+#include "tests/core/system_faults.h"
 #include "tests/scenarios/cases/labelled_files.h"
 #include "tests/volume/temporary_folder.h"
 
@@ -238,6 +239,19 @@ TEST_CASE("segmentations that cannot be used are refused in a sentence") {
     CHECK_THROWS_WITH(read_segmentation(path(bad.name), ct_grid(), bad.table), Catch::Contains(bad.word));
     CHECK_THROWS_AS(read_segmentation(path(bad.name), ct_grid(), bad.table), InputError);
   }
+  const NoFilesToOpen limit;
+  CHECK_THROWS_WITH(read_segmentation(path("no_masks"), ct_grid()),
+                    Catch::Contains("no_masks: the folder cannot be read (Too many open files); check it"));
+}
+
+TEST_CASE("a folder of masks may have 255 structures, as many as a label volume has values") {
+  const TemporaryFolder folder;
+  const std::string mask = mask_file([](int i, int, int) { return i == 0; });
+  for (int n = 100; n < 356; ++n) folder.put("part_" + std::to_string(n) + ".nii", mask);
+  CHECK_THROWS_WITH(read_segmentation(folder.path, ct_grid()),
+                    Catch::Contains("part_355.nii: there are more than 255 structures; take some out of the folder"));
+  std::filesystem::remove(folder.path / "part_355.nii");
+  CHECK_NOTHROW(read_segmentation(folder.path, ct_grid()));
 }
 
 namespace {

@@ -7,6 +7,7 @@
 #include "scenarios/results/results_schema.h"
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "tests/core/system_faults.h"
 #include "tests/scenarios/results/made_attempt.h"
 
 using namespace insonate;
@@ -66,6 +67,7 @@ TEST_CASE("files that are no database of results are refused and left as they ar
     refused(folder / name, words);
     CHECK(read_file(folder / name) == before);
   }
+  refused(kShorterThanItClaims, "cannot be opened for writing");
   std::filesystem::create_directory(folder / "folder.db");
   refused(folder / "folder.db", "");
   write_file(folder / "file", "x");
@@ -80,6 +82,13 @@ TEST_CASE("a missing and an empty file are no database to read, but one to make"
   CHECK_THROWS_AS(ResultsDatabase::open(folder / "empty.db"), InputError);
   make(folder / "empty.db");
   CHECK(ResultsDatabase::open(folder / "empty.db").attempts().size() == 1);
+}
+
+TEST_CASE("a database where SQLite cannot keep a log beside it is refused") {
+  sqlite::Connection in_memory(":memory:", true);
+  CHECK_THROWS_WITH(bring_up_to_date(in_memory, true, newest_results_schema()),
+                    ":memory:: its folder does not allow a write-ahead log; keep the database on a disk of this "
+                    "computer, not on the network.");
 }
 
 TEST_CASE("a damaged database is refused in a sentence") {
@@ -123,6 +132,15 @@ TEST_CASE("a damaged database is refused in a sentence") {
       run_sql(folder / "results.db", std::string("UPDATE attempt SET ") + change);
       refused(folder / "results.db", words);
     }
+  }
+  SECTION("an exam under way") {
+    Sitting sitting;
+    sitting.learner = "L-02";
+    sitting.scenario_text = kTinyScenario;
+    ResultsDatabase::open(folder / "results.db").begin(sitting, "the first part");
+    run_sql(folder / "results.db", "UPDATE sitting_part SET log = x'00'");
+    ResultsDatabase database = ResultsDatabase::open(folder / "results.db");
+    CHECK_THROWS_WITH(database.parts(sitting.number), Catch::Contains("results.db: sitting 1: its log is damaged"));
   }
   SECTION("something that would run") {
     run_sql(folder / "results.db", "CREATE TRIGGER t AFTER INSERT ON attempt BEGIN UPDATE attempt SET passed = 1; END");
