@@ -86,7 +86,7 @@ struct Desk {
     release(x, y);
     pass();
   }
-  /// All that the exam was handed, without the console's settings.
+  /// All that the exam was handed, without the machine's settings.
   std::vector<Action> done() const {
     std::vector<Action> all;
     for (const auto& [time_s, actions] : session->actions())
