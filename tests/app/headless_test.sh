@@ -116,13 +116,13 @@ convert "$work/attempt.png" -crop 700x330+40+110 +repage "$work/attempt_picture.
 cmp "$work/before.txt" "$work/after.txt" || fail "a replay was kept as an attempt"
 [ ! -e "$work/replayed" ] || fail "a replay left results: $(ls "$work/replayed")"
 
-# `refuses WORDS ARGUMENTS...`: exit code 2 and one line with the words.
+# `refuses WORDS ARGUMENTS...`: exit code 2 and one message with the words, whose further lines are a list.
 refuses() {
   local words=$1 code=0
   shift
   "$trainer" "$@" --out "$work/none" >"$work/refused.txt" 2>&1 || code=$?
   [ "$code" = 2 ] || fail "exit code $code for: $* ($(cat "$work/refused.txt"))"
-  [ "$(wc -l <"$work/refused.txt")" = 1 ] || fail "more than a line for: $* ($(cat "$work/refused.txt"))"
+  [ "$(grep -vc '^  ' "$work/refused.txt")" = 1 ] || fail "more than a message for: $* ($(cat "$work/refused.txt"))"
   grep -q -- "$words" "$work/refused.txt" || fail "no '$words' in: $(cat "$work/refused.txt")"
   [ ! -e "$work/none" ] || fail "results were written for: $*"
 }
