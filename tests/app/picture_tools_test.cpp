@@ -241,7 +241,7 @@ TEST_CASE("a step's calipers may lie in several pictures, and what counts nowher
   CHECK(practice.is_empty());
 }
 
-TEST_CASE("a point is clicked and dragged; a place is clicked and then named, in no telling order") {
+TEST_CASE("a point is clicked and dragged, and a place is clicked and then named, in no telling order") {
   Desk point(kPoint);
   point.freeze();
   point.click(3, 45);

@@ -284,7 +284,7 @@ TEST_CASE("a program that is only just dying is waited for") {
   CHECK(recover_recording(file) == 10);
 }
 
-TEST_CASE("a pause of hours is recorded and read back; a clock that was set is not recorded") {
+TEST_CASE("a pause of hours is recorded and read back, and a clock that was set is not recorded") {
   const Folder folder;
   const fs::path file = folder.path / "scan.igs.mha";
   std::vector<PoseSample> samples = hand(1);

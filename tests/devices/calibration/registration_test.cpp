@@ -71,7 +71,7 @@ TEST_CASE("landmarks without error give the very motion, whatever it is") {
   }
 }
 
-TEST_CASE("errors at the target are the published ones, and the held-out landmark tells them; the residual does not") {
+TEST_CASE("errors at the target are the published ones, and the held-out landmark, not the residual, tells them") {
   constexpr double kErrorMm = 2;  // RMS length, as DEVICES counts it
   constexpr int kRuns = 1500;
   struct {

@@ -250,7 +250,7 @@ TEST_CASE("a raw recording of OpenIGTLink holds the stream, and ends a connectio
              Catch::Contains("line 6: something is read, but no device is open"));
 }
 
-TEST_CASE("a raw recording that is damaged is refused with the place and the reason; a cut last line is left out") {
+TEST_CASE("a raw recording that is damaged is refused with the place and the reason, and a cut last line is left out") {
   REQUIRE(refusal(kGood).empty());
   const std::size_t whole = parse_raw(kGood, "scan.raw").samples.size();
   REQUIRE(whole == 3);
@@ -295,6 +295,7 @@ TEST_CASE("a raw recording that is damaged is refused with the place and the rea
     CAPTURE(length);
     CHECK(refusal(kGood.substr(0, length)).empty() == any);
   }
+  CHECK(refusal(kGood.substr(0, 20)) == "scan.raw: line 2: the recording ends in its first lines; record it again.");
 }
 
 TEST_CASE("a raw recording with any bytes changed is refused or gives samples that can be recorded") {
