@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "app/panels/screen.h"
-#include "app/trainer.h"
+#include "app/trainer/trainer.h"
 #include "devices/live/steady_clock.h"
 #include "scenarios/words.h"
 #include "sim/gl/headless_context.h"

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "app/panels/screen.h"
-#include "app/trainer.h"
+#include "app/trainer/trainer.h"
 
 struct GLFWwindow;
 

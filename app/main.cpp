@@ -1,12 +1,12 @@
 #include <cstdio>
 
 #include "app/headless.h"
-#include "app/loading.h"
-#include "app/options.h"
+#include "app/session/loading.h"
+#include "app/trainer/options.h"
 #include "app/window.h"
 #include "sim/core/input_error.h"
 #include "sim/gl/headless_context.h"
-#include "tools/program.h"
+#include "tools/cli/program.h"
 
 namespace {
 

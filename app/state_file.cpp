@@ -71,12 +71,12 @@ void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::
     state["step"] = replay->moment().step;
     write_machine(state, replay->machine());
     std::string placed;
-    for (const ShownMarks::Placed& mark : replay->marks().placed) placed += in_short(mark.action);
+    for (const ShownAnnotations::Placed& mark : replay->marks().placed) placed += in_short(mark.action);
     state["placed"] = placed;
     if (const auto& pose = replay->moment().shown_pose) write_pose(state, *pose);
   }
   if (const Session* session = trainer.session()) {
-    state["patient"] = session->study().subject.name;
+    state["patient"] = session->loaded_case().subject.name;
     state["activity"] = session->activity() == Activity::exam ? "exam" : "practice";
     state["holder"] = session->holder() == Holder::learner ? "learner" : "tracker";
     state["tracker"] = to_string(session->tracker_state().condition);
@@ -99,7 +99,7 @@ void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::
       state[std::string("plane_") + name + "_y"] = plane.screen(mm).y;
     }
     std::string placed;
-    const PictureMarks& marks = trainer.picture_tools().marks();
+    const Annotations& marks = trainer.picture_tools().marks();
     for (const auto& [slot, mark] : marks.measured()) placed += in_short(mark.action);
     if (marks.point()) placed += in_short(marks.point()->action);
     for (const auto& [name, mark] : marks.labels()) placed += in_short(mark.action);

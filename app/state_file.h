@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "app/panels/screen.h"
-#include "app/trainer.h"
+#include "app/trainer/trainer.h"
 
 namespace insonate {
 

@@ -16,9 +16,9 @@
 #include "app/keyboard.h"
 #include "app/mouse.h"
 #include "app/panels/screen.h"
-#include "app/quality_governor.h"
+#include "app/pictures/quality_governor.h"
 #include "app/state_file.h"
-#include "app/trainer.h"
+#include "app/trainer/trainer.h"
 #include "devices/live/steady_clock.h"
 
 namespace insonate {

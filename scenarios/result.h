@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "scenarios/attempt_mode.h"
-#include "scenarios/metric.h"
-#include "scenarios/motion_meter.h"
-#include "scenarios/view_meter.h"
+#include "scenarios/metrics/metric.h"
+#include "scenarios/metrics/motion_meter.h"
+#include "scenarios/metrics/view_meter.h"
 
 namespace insonate {
 

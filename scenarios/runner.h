@@ -9,14 +9,14 @@
 
 #include "scenarios/action.h"
 #include "scenarios/machine.h"
-#include "scenarios/motion_meter.h"
+#include "scenarios/metrics/motion_meter.h"
+#include "scenarios/metrics/view_meter.h"
 #include "scenarios/result.h"
 #include "scenarios/scenario.h"
-#include "scenarios/skin_contact.h"
 #include "scenarios/steps/step_task.h"
 #include "scenarios/steps/structures.h"
-#include "scenarios/view_meter.h"
 #include "sim/core/pose_sample.h"
+#include "sim/model/skin_contact.h"
 #include "sim/model/tissue.h"
 #include "sim/volume/case.h"
 

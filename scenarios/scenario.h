@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "scenarios/action.h"
-#include "scenarios/metric.h"
+#include "scenarios/metrics/metric.h"
 #include "sim/core/input_error.h"
 #include "sim/phantom/phantom.h"
 #include "sim/volume/case.h"

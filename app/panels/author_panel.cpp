@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "app/panels/choice_rows.h"
+#include "app/panels/widgets/choice_rows.h"
 
 namespace insonate::ui {
 namespace {

@@ -3,10 +3,10 @@
 #include <map>
 #include <string>
 
-#include "app/panels/text_field.h"
-#include "app/panels/theme.h"
-#include "app/panels/widgets.h"
-#include "app/trainer.h"
+#include "app/panels/widgets/text_field.h"
+#include "app/panels/widgets/theme.h"
+#include "app/panels/widgets/widgets.h"
+#include "app/trainer/trainer.h"
 
 namespace insonate::ui {
 

@@ -97,7 +97,7 @@ ConsoleRequest draw_console_panel(const Theme& theme, const Rect& panel, Session
   upper.take_left(between);
   const bool learner = session.holder() == Holder::learner;
   if (session.only_learner()) {
-    if (button(theme, "restart", upper, session.study().scenario ? "Start over" : "Back to the start",
+    if (button(theme, "restart", upper, session.loaded_case().scenario ? "Start over" : "Back to the start",
                ButtonKind::normal, !session.strict()))
       attempt([&] { session.start_over(); });
   } else if (button(theme, "hands", upper, learner ? "Give the probe back" : "Take the probe",
@@ -106,13 +106,13 @@ ConsoleRequest draw_console_panel(const Theme& theme, const Rect& panel, Session
   }
   if (button(theme, "help", lower.take_left(theme.px(86)), "Keys")) request = ConsoleRequest::help;
   lower.take_left(between);
-  const bool practising = session.activity() == Activity::practice && session.study().scenario;
+  const bool practising = session.activity() == Activity::practice && session.loaded_case().scenario;
   const Rect first = lower.take_left((lower.w - between) / 2);
   lower.take_left(between);
   if (practising) {
     if (button(theme, "exam", first, "Scored")) attempt([&] { session.start_over(); });
   } else if (button(theme, "practice", first, "Unscored", ButtonKind::normal,
-                    session.study().scenario.has_value() && !session.strict())) {
+                    session.loaded_case().scenario.has_value() && !session.strict())) {
     // Nobody leads the probe of a recorded scan.
     std::as_const(session).source().recording() ? session.take_probe() : session.practise();
   }

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "app/panels/theme.h"
-#include "app/panels/widgets.h"
-#include "app/session.h"
+#include "app/panels/widgets/theme.h"
+#include "app/panels/widgets/widgets.h"
+#include "app/session/session.h"
 
 namespace insonate::ui {
 

@@ -168,7 +168,7 @@ void draw_exam_panel(const Theme& theme, const Rect& panel, const Session& sessi
   if (!runner) {
     draw_text(upper, theme.heading, colour::kText, makes_views ? "Making views" : "Free practice");
     draw_text({rest.x, upper.y + upper.h, rest.w, theme.px(20)}, theme.text, colour::kMuted,
-              session.study().scenario ? "Nothing is scored. The Scored button begins the steps from the first."
+              session.loaded_case().scenario ? "Nothing is scored. The Scored button begins the steps from the first."
               : session.holder() == Holder::learner ? "Move the probe with the arrow keys or drag it over the patient."
                                                     : "The tracker moves the probe. Any arrow key takes it over.");
     return;

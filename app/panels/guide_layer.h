@@ -1,8 +1,8 @@
 #pragma once
 
-#include "app/guide.h"
-#include "app/panels/theme.h"
-#include "app/panels/widgets.h"
+#include "app/panels/widgets/theme.h"
+#include "app/panels/widgets/widgets.h"
+#include "app/session/guide.h"
 #include "sim/view/orbit_camera.h"
 
 namespace insonate::ui {

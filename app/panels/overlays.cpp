@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "tools/about.h"
+#include "tools/cli/about.h"
 
 namespace insonate::ui {
 

@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "app/panels/theme.h"
-#include "app/panels/widgets.h"
-#include "app/trainer.h"
+#include "app/panels/widgets/theme.h"
+#include "app/panels/widgets/widgets.h"
+#include "app/trainer/trainer.h"
 
 namespace insonate::ui {
 

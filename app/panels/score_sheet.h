@@ -3,8 +3,8 @@
 #include <optional>
 #include <string>
 
-#include "app/panels/theme.h"
-#include "app/panels/widgets.h"
+#include "app/panels/widgets/theme.h"
+#include "app/panels/widgets/widgets.h"
 #include "scenarios/result.h"
 #include "scenarios/results/report_files.h"
 

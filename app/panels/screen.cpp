@@ -13,7 +13,7 @@
 #include "app/panels/console_panel.h"
 #include "app/panels/exam_panel.h"
 #include "app/panels/guide_layer.h"
-#include "app/panels/replay_page.h"
+#include "app/panels/replay/replay_page.h"
 #include "app/panels/ultrasound_panel.h"
 #include "scenarios/steps/question.h"
 #include "sim/core/files.h"

@@ -5,16 +5,16 @@
 #include <string>
 
 #include "app/panels/overlays.h"
-#include "app/panels/recorded_panel.h"
+#include "app/panels/replay/recorded_panel.h"
 #include "app/panels/score_sheet.h"
-#include "app/panels/setup_page.h"
+#include "app/panels/setup/setup_page.h"
 #include "app/panels/task_panel.h"
-#include "app/panels/text_field.h"
-#include "app/panels/theme.h"
 #include "app/panels/ultrasound_panel.h"
 #include "app/panels/views_panel.h"
-#include "app/panels/widgets.h"
-#include "app/trainer.h"
+#include "app/panels/widgets/text_field.h"
+#include "app/panels/widgets/theme.h"
+#include "app/panels/widgets/widgets.h"
+#include "app/trainer/trainer.h"
 
 namespace insonate::ui {
 

@@ -4,8 +4,8 @@
 
 #include <span>
 
-#include "app/panels/widgets.h"
-#include "app/session.h"
+#include "app/panels/widgets/widgets.h"
+#include "app/session/session.h"
 #include "sim/core/pose.h"
 #include "sim/view/orbit_camera.h"
 

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "app/panels/choice_rows.h"
-#include "app/panels/marks_layer.h"
+#include "app/panels/annotation_layer.h"
+#include "app/panels/widgets/choice_rows.h"
 #include "scenarios/caliper.h"
 #include "scenarios/steps/mark_point.h"
 #include "scenarios/steps/measure.h"

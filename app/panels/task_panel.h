@@ -3,12 +3,12 @@
 #include <map>
 #include <string>
 
-#include "app/panels/text_field.h"
-#include "app/panels/theme.h"
-#include "app/panels/widgets.h"
-#include "app/picture_tools.h"
-#include "app/session.h"
-#include "app/step_controls.h"
+#include "app/panels/widgets/text_field.h"
+#include "app/panels/widgets/theme.h"
+#include "app/panels/widgets/widgets.h"
+#include "app/session/picture_tools.h"
+#include "app/session/session.h"
+#include "app/session/step_controls.h"
 
 namespace insonate::ui {
 

@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <string>
 
+#include "app/panels/annotation_layer.h"
 #include "app/panels/exam_panel.h"
-#include "app/panels/marks_layer.h"
 
 namespace insonate::ui {
 namespace {
@@ -178,13 +178,13 @@ void UltrasoundPanel::draw(const Theme& theme, const Rect& panel, Session& sessi
   const Rect area = picture_area(theme, panel);
   if (const gl::Texture* picture = pictures.ultrasound()) {
     const PlaneOnScreen plane = draw_picture(theme, panel, *picture, pictures, session.machine());
-    draw_marks(theme, panel, plane, shown_marks(session, tools));
+    draw_marks(theme, panel, plane, shown_annotations(session, tools));
     draw_picture_tools(theme, panel, session, tools, places);  // before the picture's own item, which lies under them
     take_mouse(theme, area, session, plane, tools);
   } else {
     draw_text(panel, theme.text, colour::kFaint, "Waiting for the probe", Align::centre);
   }
-  const Rect below = draw_annotations(theme, panel, session.study().subject.name, session.machine());
+  const Rect below = draw_annotations(theme, panel, session.loaded_case().subject.name, session.machine());
   if (!session.marks_s().empty()) draw_text(below, theme.small_text, colour::kAccent, mark_text(session));
   draw_mark(theme, panel, session);
   draw_banner(theme, panel, session.lost_for_s(), frozen_text(session, tools));
@@ -192,8 +192,8 @@ void UltrasoundPanel::draw(const Theme& theme, const Rect& panel, Session& sessi
 }
 
 void UltrasoundPanel::draw_still(const Theme& theme, const Rect& panel, const std::string& patient,
-                                 const Machine& machine, const ShownMarks& marks, std::optional<double> lost_for_s,
-                                 const Pictures& pictures) {
+                                 const Machine& machine, const ShownAnnotations& marks,
+                                 std::optional<double> lost_for_s, const Pictures& pictures) {
   fill(panel, colour::kImage, theme.px(4));
   if (const gl::Texture* picture = pictures.ultrasound())
     draw_marks(theme, panel, draw_picture(theme, panel, *picture, pictures, machine), marks);

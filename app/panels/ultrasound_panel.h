@@ -3,12 +3,12 @@
 #include <map>
 #include <string>
 
-#include "app/panels/theme.h"
-#include "app/panels/widgets.h"
-#include "app/picture_tools.h"
-#include "app/pictures.h"
-#include "app/plane_on_screen.h"
-#include "app/shown_marks.h"
+#include "app/panels/widgets/theme.h"
+#include "app/panels/widgets/widgets.h"
+#include "app/pictures/pictures.h"
+#include "app/replay/shown_annotations.h"
+#include "app/session/picture_tools.h"
+#include "app/session/plane_on_screen.h"
 
 namespace insonate::ui {
 
@@ -28,7 +28,7 @@ public:
                    PictureTools& tools, std::map<std::string, Rect>& places);
   /// The same of a run that is over: nothing on it can be taken hold of.
   static void draw_still(const Theme& theme, const Rect& panel, const std::string& patient, const Machine& machine,
-                         const ShownMarks& marks, std::optional<double> lost_for_s, const Pictures& pictures);
+                         const ShownAnnotations& marks, std::optional<double> lost_for_s, const Pictures& pictures);
 };
 
 }  // namespace insonate::ui

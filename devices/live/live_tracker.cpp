@@ -6,9 +6,9 @@
 #include <stop_token>
 #include <utility>
 
-#include "devices/live/hand_over.h"
-#include "devices/live/left_threads.h"
+#include "devices/live/detached_threads.h"
 #include "devices/live/raw_source.h"
+#include "devices/live/sample_conditioner.h"
 #include "devices/live/sample_ring.h"
 #include "devices/live/steady_clock.h"
 
@@ -28,8 +28,8 @@ public:
       : options_(options), source_(std::move(source)), ring_(options.capacity) {}
 
   // Before the thread begins
-  void set_filters(const FilterSettings& settings) { hand_over_ = HandOver(settings); }
-  const FilterSettings& filters() const { return hand_over_.filters(); }
+  void set_filters(const FilterSettings& settings) { conditioner_ = SampleConditioner(settings); }
+  const FilterSettings& filters() const { return conditioner_.filters(); }
   bool record_raw(const std::shared_ptr<RawTap>& tap) {
     auto* raw = dynamic_cast<RawSource*>(source_.get());
     if (!raw) return false;
@@ -42,7 +42,7 @@ public:
 
   // On the thread
   void run(const std::stop_token& stop) {
-    join_left_threads(stop);
+    join_detached_threads(stop);
     auto wait = options_.first_pause;
     while (!stop.stop_requested()) {
       if (open_source()) {
@@ -95,7 +95,7 @@ private:
       there = false;
     }
     // What came before the source was lost counts.
-    for (const PoseSample& sample : batch_.samples) hand_over(sample);
+    for (const PoseSample& sample : batch_.samples) conditioner(sample);
     if (!batch_.samples.empty()) {
       heard_s_ = steady_now_s();
       heard_ = brought_any_ = true;
@@ -104,17 +104,17 @@ private:
     return there;
   }
 
-  void hand_over(PoseSample sample) {
-    hand_over_.apply(sample, source_->origin());
+  void conditioner(PoseSample sample) {
+    conditioner_.apply(sample, source_->origin());
     ring_.push(sample);
   }
 
   void tell_silence() {
     if (!heard_) return;
-    const double now_s = steady_now_s(), last_s = hand_over_.last_time_s();
+    const double now_s = steady_now_s(), last_s = conditioner_.last_time_s();
     if (now_s - heard_s_ < seconds(options_.silence) || now_s - last_s < seconds(options_.heartbeat)) return;
     if (tap_) tap_->silent(now_s);
-    hand_over(silence_at(now_s));
+    conditioner(silence_at(now_s));
   }
 
   void tell(const std::string& problem) {
@@ -137,7 +137,7 @@ private:
   const Options options_;
   const std::unique_ptr<LiveSource> source_;
   LiveBatch batch_;
-  HandOver hand_over_;
+  SampleConditioner conditioner_;
   std::shared_ptr<RawTap> tap_;
   double heard_s_ = 0;        ///< when the source last brought a sample
   bool heard_ = false;        ///< whether it ever did
@@ -157,7 +157,7 @@ LiveTracker::LiveTracker(std::unique_ptr<LiveSource> source, const Options& opti
 LiveTracker::~LiveTracker() {
   if (!thread_.joinable()) return;
   thread_.request_stop();
-  if (!reader_->ends_within(ending_)) leave_thread(std::move(thread_));
+  if (!reader_->ends_within(ending_)) detach_thread(std::move(thread_));
 }
 
 void LiveTracker::set_filters(const FilterSettings& settings) {

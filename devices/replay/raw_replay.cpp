@@ -6,8 +6,8 @@
 #include <optional>
 #include <utility>
 
-#include "devices/live/hand_over.h"
 #include "devices/live/raw_source.h"
+#include "devices/live/sample_conditioner.h"
 #include "devices/registry.h"
 #include "devices/replay/replay_tracker.h"
 #include "devices/sequence/header_text.h"
@@ -111,7 +111,7 @@ private:
     line_ = 2;
     try {
       TrackerUri uri = parse_tracker_uri(scan_.tracker);
-      hand_over_ = HandOver(take_filter_options(uri));
+      conditioner_ = SampleConditioner(take_filter_options(uri));
       source_ = make_raw_source(uri, context);
     } catch (const InputError& error) {
       fail(std::string("its tracker cannot be made again (") + error.what() + ")", kRecordAgain);
@@ -130,7 +130,7 @@ private:
     else if (parts[0] == "read" && parts.size() <= 3)
       read(parts.size() == 3 ? parts[2] : std::string_view(), *time_s);
     else if (parts[0] == "silent" && parts.size() == 2)
-      hand_over(silence_at(*time_s));
+      conditioner(silence_at(*time_s));
     else
       fail(quoted(line) + " is none of 'open TIME DEVICE', 'read TIME BYTES' and 'silent TIME'", kRecordAgain);
   }
@@ -152,11 +152,11 @@ private:
     } catch (const SourceGone&) {
       open_ = false;
     }
-    for (const PoseSample& sample : batch.samples) hand_over(sample);
+    for (const PoseSample& sample : batch.samples) conditioner(sample);
   }
 
-  void hand_over(PoseSample sample) {
-    hand_over_.apply(sample, source_->origin());
+  void conditioner(PoseSample sample) {
+    conditioner_.apply(sample, source_->origin());
     scan_.samples.push_back(sample);
   }
 
@@ -166,7 +166,7 @@ private:
   double last_s_ = -std::numeric_limits<double>::infinity();
   std::unique_ptr<RawSource> source_;
   bool open_ = false;
-  HandOver hand_over_;
+  SampleConditioner conditioner_;
   RawScan scan_;
 };
 

@@ -7,7 +7,7 @@
 #include "sim/core/files.h"
 #include "sim/core/image.h"
 #include "sim/gl/headless_context.h"
-#include "sim/gl/simulator.h"
+#include "sim/imaging/simulator.h"
 #include "sim/volume/open_case.h"
 
 using namespace insonate;

@@ -1,10 +1,10 @@
 #include "scenarios/cases/add_view.h"
 
 #include "scenarios/cases/in_picture.h"
-#include "scenarios/skin_contact.h"
-#include "scenarios/view_meter.h"
+#include "scenarios/metrics/view_meter.h"
 #include "sim/core/input_error.h"
 #include "sim/core/suggest.h"
+#include "sim/model/skin_contact.h"
 
 namespace insonate {
 namespace {

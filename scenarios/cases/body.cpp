@@ -10,7 +10,7 @@
 #include <cmath>
 #include <vector>
 
-#include "scenarios/skin_contact.h"
+#include "sim/model/skin_contact.h"
 
 namespace insonate {
 namespace {

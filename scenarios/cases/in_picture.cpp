@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "scenarios/view_meter.h"
+#include "scenarios/metrics/view_meter.h"
 
 namespace insonate {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "scenarios/cases/acoustic_window.h"
 #include "scenarios/cases/structures.h"
-#include "scenarios/view_meter.h"
+#include "scenarios/metrics/view_meter.h"
 
 namespace insonate {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "scenarios/report.h"
+#include "scenarios/report/report.h"
 #include "scenarios/runner.h"
 
 namespace insonate {

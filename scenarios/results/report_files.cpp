@@ -2,7 +2,7 @@
 
 #include <system_error>
 
-#include "scenarios/report.h"
+#include "scenarios/report/report.h"
 #include "scenarios/result_json.h"
 #include "scenarios/results/score_csv.h"
 #include "scenarios/results/trace_json.h"

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <deque>
 
-#include "scenarios/motion_meter.h"
+#include "scenarios/format/table_reader.h"
+#include "scenarios/metrics/motion_meter.h"
+#include "scenarios/metrics/view_meter.h"
 #include "scenarios/steps/structures.h"
-#include "scenarios/table_reader.h"
-#include "scenarios/view_meter.h"
 #include "sim/core/suggest.h"
 
 namespace insonate {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <map>
 
+#include "scenarios/format/table_reader.h"
 #include "scenarios/steps/structures.h"
-#include "scenarios/table_reader.h"
 #include "scenarios/words.h"
 #include "sim/core/suggest.h"
 

@@ -6,10 +6,10 @@
 #include <array>
 
 #include "scenarios/caliper.h"
+#include "scenarios/format/table_reader.h"
+#include "scenarios/metrics/view_meter.h"
 #include "scenarios/steps/plane_region.h"
 #include "scenarios/steps/structures.h"
-#include "scenarios/table_reader.h"
-#include "scenarios/view_meter.h"
 #include "scenarios/words.h"
 #include "sim/core/suggest.h"
 

@@ -4,8 +4,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "scenarios/format/table_reader.h"
 #include "scenarios/steps/structures.h"
-#include "scenarios/table_reader.h"
 #include "scenarios/words.h"
 #include "sim/core/suggest.h"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "scenarios/motion_meter.h"
+#include "scenarios/metrics/motion_meter.h"
 #include "sim/core/suggest.h"
 #include "sim/probe/probe.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "scenarios/format/table_reader.h"
 #include "scenarios/steps/step_task.h"
-#include "scenarios/table_reader.h"
 
 namespace insonate {
 

@@ -8,7 +8,7 @@
 
 #include "scenarios/action.h"
 #include "scenarios/machine.h"
-#include "scenarios/metric.h"
+#include "scenarios/metrics/metric.h"
 #include "scenarios/result.h"
 #include "sim/core/pose.h"
 #include "sim/model/tissue.h"

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scenarios/insonation.h"
-#include "scenarios/path_grid.h"
+#include "scenarios/format/table_reader.h"
+#include "scenarios/metrics/path_grid.h"
+#include "scenarios/metrics/view_meter.h"
+#include "scenarios/metrics/visibility.h"
 #include "scenarios/steps/structures.h"
-#include "scenarios/table_reader.h"
-#include "scenarios/view_meter.h"
 #include "sim/core/suggest.h"
 
 namespace insonate {
@@ -40,9 +40,9 @@ public:
   void see(const Moment& moment) override {
     if (!moment.valid || moment.machine.frozen) return;
     const Probe* probe = find_probe(moment.machine.probe);
-    if (!insonation_ || insonation_->probe().name != moment.machine.probe ||
-        insonation_->depth_mm() != moment.machine.depth_mm)
-      insonation_.emplace(world_.subject, *probe, moment.machine.depth_mm, world_.tissues);
+    if (!visibility_ || visibility_->probe().name != moment.machine.probe ||
+        visibility_->depth_mm() != moment.machine.depth_mm)
+      visibility_.emplace(world_.subject, *probe, moment.machine.depth_mm, world_.tissues);
     path_.feed(moment.now_s, moment.patient_from_probe, [&](long, const Pose& pose, bool) { look_from(pose); });
   }
 
@@ -62,16 +62,16 @@ private:
   double coverage_percent() const { return total_ > 0 ? 100.0 * double(total_ - cells_.size()) / double(total_) : 0; }
 
   void look_from(const Pose& pose) {
-    insonation_->look_from(pose);
+    visibility_->look_from(pose);
     const std::size_t before = cells_.size();
-    std::erase_if(cells_, [&](const glm::dvec3& cell) { return insonation_->reaches(cell); });
+    std::erase_if(cells_, [&](const glm::dvec3& cell) { return visibility_->reaches(cell); });
     on_target_ = cells_.size() < before;
     ++looks_;
     const Pose probe_from_patient = pose.inverse();
     kept_ += std::all_of(landmarks_.begin(), landmarks_.end(), [&](const glm::dvec3& landmark) {
       const glm::dvec3 p = probe_from_patient.point(landmark);
       return std::abs(p.z) <= ViewMeter::kLandmarkDistance_mm &&
-             line_position(insonation_->probe(), insonation_->depth_mm(), glm::dvec2(p));
+             line_position(visibility_->probe(), visibility_->depth_mm(), glm::dvec2(p));
     });
   }
 
@@ -81,7 +81,7 @@ private:
   std::vector<glm::dvec3> cells_;  ///< not seen yet
   std::size_t total_;
   std::vector<glm::dvec3> landmarks_;
-  std::optional<Insonation> insonation_;
+  std::optional<Visibility> visibility_;
   long looks_ = 0;
   long kept_ = 0;
   bool on_target_ = false;  ///< the last look showed something new

@@ -7,8 +7,8 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "sim/gl/embedded_shaders.h"
-#include "sim/gl/scheme.h"
+#include "sim/gl/work_division.h"
+#include "sim/shaders/embedded_shaders.h"
 
 namespace insonate::gl {
 namespace fs = std::filesystem;
@@ -49,7 +49,7 @@ bool is_shader(const fs::directory_entry& entry) {
 // OpenGL itself only notes an error, which nobody looks at, and runs nothing.
 void refuse_too_many(const std::string& shader, const std::array<int, 3>& groups) {
   for (std::size_t axis = 0; axis < groups.size(); ++axis) {
-    if (groups[axis] <= Scheme{}.most_groups) continue;
+    if (groups[axis] <= WorkDivision{}.most_groups) continue;
     GLint most = 0;
     glGetIntegeri_v(GL_MAX_COMPUTE_WORK_GROUP_COUNT, GLuint(axis), &most);
     if (groups[axis] > most)
@@ -99,7 +99,8 @@ std::string_view ShaderSources::load(std::string_view name) const {
     const auto found = of_folder_->find(name);
     if (found != of_folder_->end()) return found->second;
   }
-  const std::string_view text = embedded_shader(name);
+  std::string_view text = embedded_shader(name);
+  if (text.empty() && own_) text = own_(name);
   if (text.empty()) throw std::runtime_error("there is no shader named " + std::string(name));
   return text;
 }

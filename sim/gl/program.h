@@ -20,7 +20,12 @@ class ShaderSources {
 public:
   static constexpr int kLinesPerFile = 10000;
 
+  /// Returns the text of a shader, or an empty one for a name that it does not know.
+  using Lookup = std::string_view (*)(std::string_view name);
+
   ShaderSources() = default;
+  /// The embedded shaders, and those of a program that has some of its own.
+  explicit ShaderSources(Lookup own) : own_(own) {}
   /// Takes files from `folder` (laid out as sim/shaders) where they exist there, else the embedded ones.
   explicit ShaderSources(const std::filesystem::path& folder);
 
@@ -35,6 +40,7 @@ private:
   void expand(std::string_view name, std::string& text, std::vector<std::string>& files) const;
 
   std::shared_ptr<const std::map<std::string, std::string, std::less<>>> of_folder_;  // by name
+  Lookup own_ = nullptr;
 };
 
 /// When the newest file of a folder was written; nothing when there is none.

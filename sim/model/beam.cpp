@@ -78,13 +78,13 @@ std::vector<double> focused_beam_sigma(const ScanLines& lines, const Settings& s
   return sigma;
 }
 
-int focused_reach(double sigma_lines) {
+int focused_radius(double sigma_lines) {
   return int(3 * sigma_lines + 1e-9);
 }
 
 std::vector<double> beam_weights_at(const Settings& settings, double sigma_lines) {
   if (!settings.focused_beam) return beam_weights(settings);
-  const int reach = focused_reach(sigma_lines);
+  const int reach = focused_radius(sigma_lines);
   std::vector<double> weights;
   for (int j = -reach; j <= reach; ++j)
     weights.push_back(j == 0 ? 1 : std::exp(-0.5 * j * j / (sigma_lines * sigma_lines)));

@@ -32,7 +32,7 @@ inline constexpr int kMostFocusedReach = 127;
 std::vector<double> focused_beam_sigma(const ScanLines& lines, const Settings& settings);
 
 /// How many lines to either side that is.
-int focused_reach(double sigma_lines);
+int focused_radius(double sigma_lines);
 
 /// The window at one sample, of whichever beam the settings ask for: odd in number, symmetric, sum 1.
 /// @param sigma_lines  of the focused beam there

@@ -46,7 +46,7 @@ std::uint8_t grey_level(const Settings& settings, double echo, double level);
 /// takes from sim/model and sim/probe the shaders are handed as well, and tests of its own hold it: the tissue table,
 /// the lines' and pixels' geometry, the scatterers' lattice, the beam's and the slice's weights, the levels of
 /// noise and clutter, and constants. All that is computed along lines and at pixels is written here once more. Checks
-/// none of what it is given, which is to be as a simulator takes it (sim/gl/simulator.h).
+/// none of what it is given, which is to be as a simulator takes it (sim/imaging/simulator.h).
 Stages<double> simulate_reference(const MediumField& field, const TissueTable& table, const Probe& probe,
                                   double depth_mm, const Settings& settings, const Pose& patient_from_probe);
 

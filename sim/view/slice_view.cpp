@@ -47,7 +47,7 @@ struct Inputs {
 }  // namespace
 
 struct SliceView::State {
-  explicit State(const gl::ShaderSources& sources) : program(sources, {"full_screen.vert", "slice.frag"}) {}
+  explicit State(const gl::ShaderSources& sources) : program(sources, {"view/full_screen.vert", "view/slice.frag"}) {}
 
   gl::Program program;
   gl::FullScreenTriangle triangle;

@@ -108,7 +108,7 @@ private:
 
 struct VolumeView::State {
   explicit State(const gl::ShaderSources& sources)
-      : program(sources, {"full_screen.vert", "volume_view.frag"},
+      : program(sources, {"view/full_screen.vert", "view/volume_view.frag"},
                 {{"VOXELS_PER_BLOCK", std::to_string(TissueClasses::kBlock)}}) {}
 
   gl::Program program;

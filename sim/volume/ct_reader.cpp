@@ -5,10 +5,10 @@
 #include <cstring>
 
 #include "sim/core/input_error.h"
-#include "sim/volume/apart.h"
 #include "sim/volume/dicom_series.h"
 #include "sim/volume/file_header.h"
 #include "sim/volume/itk_image_io.h"
+#include "sim/volume/subprocess.h"
 #include "sim/volume/volume_checks.h"
 
 namespace insonate {
@@ -184,31 +184,31 @@ Volume<std::int16_t> unpacked(const std::string& bytes, CtSource& source) {
 }
 
 /// Reads a DICOM folder in a process of its own, and if that dies of it, finds the file to blame.
-Volume<std::int16_t> read_dicom_folder_apart(const fs::path& folder, CtSource& source) {
+Volume<std::int16_t> read_dicom_folder_in_subprocess(const fs::path& folder, CtSource& source) {
   const std::vector<std::string> files = files_below(folder);
   std::error_code error;
   std::uintmax_t bytes = 0;
   for (const std::string& file : files)
     if (const std::uintmax_t size = fs::file_size(file, error); !error) bytes += size;
   try {
-    const std::string result = done_apart(bytes, [&] {
+    const std::string result = in_subprocess(bytes, [&] {
       CtSource found;
       const Volume<std::int16_t> ct = read_dicom_folder(folder, found);
       return packed(ct, found);
     });
     return unpacked(result, source);
-  } catch (const WorkDied&) {
+  } catch (const SubprocessDied&) {
   }
   std::string blamed = folder.string();
   std::string problem = "a DICOM file in it is damaged, or the series needs more memory than there is";
   for (const std::string& file : files) try {
-      done_apart(fs::file_size(file, error), [&] {
+      in_subprocess(fs::file_size(file, error), [&] {
         scan_dicom_file(file);
         ImageFile(file, ImageFormat::dicom).read_voxels();
         check_dicom_slice(file);
         return std::string();
       });
-    } catch (const WorkDied&) {
+    } catch (const SubprocessDied&) {
       blamed = file;
       problem = "the DICOM file is damaged";
       break;
@@ -240,7 +240,7 @@ Volume<std::int16_t> read_ct(const fs::path& file_or_folder, CtSource* source) {
   Volume<std::int16_t> ct;
   std::error_code error;
   if (fs::is_directory(file_or_folder, error)) {
-    ct = read_dicom_folder_apart(file_or_folder, found);
+    ct = read_dicom_folder_in_subprocess(file_or_folder, found);
     check_body_size(name, ct.grid.size, ct.grid.spacing);
   } else {
     // Before ITK sees the file: it takes the small numbers of a spacing in another unit for a singular orientation.

@@ -11,11 +11,11 @@
 #include <string>
 
 #include "sim/core/hash.h"
-#include "sim/gl/simulator.h"
-#include "sim/gl/wein_simulator.h"
+#include "sim/imaging/simulator.h"
+#include "sim/registration/wein_simulator.h"
 #include "tests/accuracy/stressed.h"
-#include "tests/gl/real_ct.h"
-#include "tests/gl/test_body.h"
+#include "tests/imaging/real_ct.h"
+#include "tests/imaging/test_body.h"
 
 using namespace insonate;
 using namespace insonate::test;

@@ -13,7 +13,7 @@
 
 #include "tests/accuracy/stress_bounds.h"
 #include "tests/accuracy/stressed.h"
-#include "tests/gl/test_schemes.h"
+#include "tests/imaging/test_divisions.h"
 
 using namespace insonate;
 using namespace insonate::test;

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "sim/reference/wein_reference.h"
+#include "sim/registration/wein_reference.h"
 #include "tests/accuracy/media.h"
 
 using namespace insonate;

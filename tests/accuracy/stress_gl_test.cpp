@@ -8,7 +8,7 @@
 
 #include "tests/accuracy/strains.h"
 #include "tests/accuracy/stressed.h"
-#include "tests/gl/test_schemes.h"
+#include "tests/imaging/test_divisions.h"
 
 using namespace insonate;
 using namespace insonate::test;
@@ -18,9 +18,9 @@ namespace {
 /// `strains` one by one on an ordinary scene, walked along either way. Of what echoes, enough is to be known well
 /// enough for its grey to be compared: least with few pixels (8192 samples, 0.40), 0.70 and more of all.
 void check_each(const std::vector<Strain>& strains) {
-  const gl::Scheme scheme = GENERATE(line_an_invocation(), line_a_group(32));
-  CAPTURE(scheme.lines_that_fill);
-  Stressed stressed(scheme);
+  const gl::WorkDivision division = GENERATE(line_an_invocation(), line_a_group(32));
+  CAPTURE(division.lines_that_fill);
+  Stressed stressed(division);
   for (const Strain& strain : strains) {
     INFO(strain.name);
     Scene scene = ordinary_scene();

@@ -13,8 +13,8 @@
 #include "sim/core/pose.h"
 #include "sim/model/acoustic_volume.h"
 #include "sim/model/settings.h"
-#include "sim/model/wein_settings.h"
 #include "sim/probe/probe.h"
+#include "sim/registration/wein_settings.h"
 
 /// What the pipeline is strained with: everything that a picture depends on, at the ends of its range.
 namespace insonate::test {

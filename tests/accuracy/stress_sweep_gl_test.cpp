@@ -7,11 +7,11 @@
 #include <cmath>
 #include <limits>
 
-#include "sim/gl/sweep_simulator.h"
+#include "sim/imaging/sweep_simulator.h"
 #include "tests/accuracy/stress_bounds.h"
 #include "tests/accuracy/stress_scene.h"
-#include "tests/gl/parity.h"
 #include "tests/gl/test_context.h"
+#include "tests/imaging/parity.h"
 
 using namespace insonate;
 using namespace insonate::test;

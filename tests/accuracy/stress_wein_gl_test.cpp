@@ -11,13 +11,13 @@
 #include <utility>
 #include <vector>
 
-#include "sim/gl/wein_simulator.h"
-#include "sim/model/wein_settings_file.h"
-#include "sim/reference/wein_reference.h"
+#include "sim/registration/wein_reference.h"
+#include "sim/registration/wein_settings_file.h"
+#include "sim/registration/wein_simulator.h"
 #include "tests/accuracy/strains.h"
 #include "tests/accuracy/stress_bounds.h"
-#include "tests/gl/parity.h"
 #include "tests/gl/test_context.h"
+#include "tests/imaging/parity.h"
 
 using namespace insonate;
 using namespace insonate::test;
@@ -54,8 +54,8 @@ std::string out_of_bounds(const WeinStages<Real>& stages, const Image<std::uint8
   return "";
 }
 
-/// What model W meets in a volume where the gradient is what sim/gl/density_volume.h stores: differences at the voxels,
-/// cut off beyond what 16 bits hold.
+/// What model W meets in a volume where the gradient is what sim/registration/density_volume.h stores: differences at
+/// the voxels, cut off beyond what 16 bits hold.
 class StoredMedium {
 public:
   StoredMedium(const AcousticVolume& volume, double reflection_length_mm)

@@ -10,7 +10,7 @@
 #include "sim/model/settings_file.h"
 #include "sim/probe/probe.h"
 #include "tests/accuracy/stress_bounds.h"
-#include "tests/gl/parity.h"
+#include "tests/imaging/parity.h"
 
 namespace insonate::test {
 namespace {

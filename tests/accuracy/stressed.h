@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "sim/gl/simulator.h"
+#include "sim/imaging/simulator.h"
 #include "sim/reference/reference.h"
 #include "tests/accuracy/stress_scene.h"
 #include "tests/gl/test_context.h"
@@ -26,9 +26,9 @@ struct Compared {
 /// of its bounds, and that both agree wherever single precision can.
 class Stressed {
 public:
-  /// @param scheme  the device's own when there is none
-  explicit Stressed(const std::optional<gl::Scheme>& scheme = {})
-      : simulator_({}, scheme ? *scheme : gl::Scheme::of_device()) {}
+  /// @param work division  the device's own when there is none
+  explicit Stressed(const std::optional<gl::WorkDivision>& division = {})
+      : simulator_({}, division ? *division : gl::WorkDivision::of_device()) {}
 
   Stages<float> shaders(const Scene& scene);
   Stages<double> reference(const Scene& scene, const MediumField& field) const;

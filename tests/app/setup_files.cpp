@@ -7,7 +7,7 @@
 #include <ctime>
 #include <filesystem>
 
-#include "devices/calibration/setup_step.h"
+#include "devices/calibration/steps/setup_step.h"
 #include "devices/live/probe_buttons.h"
 #include "devices/sequence/sequence.h"
 #include "sim/core/files.h"

@@ -6,7 +6,7 @@
 #include <map>
 #include <optional>
 
-#include "app/run_recorder.h"
+#include "app/recording/run_recorder.h"
 #include "devices/calibration/calibration.h"
 #include "devices/record/raw_recorder.h"
 #include "devices/record/recording_files.h"
@@ -20,7 +20,7 @@
 #include "sim/core/image.h"
 #include "sim/core/input_error.h"
 #include "sim/phantom/phantom.h"
-#include "tests/app/tiny_session.h"
+#include "tests/app/session/tiny_session.h"
 #include "tests/devices/numbered_reports.h"
 #include "tests/devices/test_samples.h"
 #include "tests/faults/kill_checks.h"
@@ -275,7 +275,7 @@ public:
   Runs() : Kind("the trainer's run recorder") {}
 
   void write(const fs::path& folder, const Promises&, const Commit& commit) override {
-    Session session(study_, replay_of(samples_));
+    Session session(loaded_case_, replay_of(samples_));
     RunRecorder recorder(true);
     recorder.start(folder / "run.igs.mha", false);
     double now_s = 0;
@@ -327,7 +327,7 @@ private:
     made.attempt = session.attempt();
     return made;
   }
-  std::shared_ptr<const Study> study_ = tiny_study();
+  std::shared_ptr<const LoadedCase> loaded_case_ = tiny_loaded_case();
   std::vector<PoseSample> samples_ = searching_scan();
 };
 

@@ -1,7 +1,6 @@
 // Tables of run times as CSV.
-#include "tools/bench_table.h"
-
 #include "tests/fuzz/fuzz_target.h"
+#include "tools/bench/table.h"
 
 namespace insonate::fuzz {
 namespace {

@@ -1,10 +1,10 @@
 // A DICOM file as the middle slice of a series, beside the two others.
 //
-// The program decodes DICOM in a process of its own (sim/volume/apart.h), because GDCM ends damaged files by assertions
-// and believes the lengths that it reads. Among the tests the seeds go that way. The fuzzer decodes in its own process:
-// a process per input would be slow and its coverage unseen. What the wall holds off then ends the input and is no
-// finding: an assertion or a signal out of a library, and more memory than it can need. Left are Insonate's own code,
-// which alone is instrumented, and exceptions that are not InputError.
+// The program decodes DICOM in a process of its own (sim/volume/subprocess.h), because GDCM ends damaged files by
+// assertions and believes the lengths that it reads. Among the tests the seeds go that way. The fuzzer decodes in its
+// own process: a process per input would be slow and its coverage unseen. What the wall holds off then ends the input
+// and is no finding: an assertion or a signal out of a library, and more memory than it can need. Left are Insonate's
+// own code, which alone is instrumented, and exceptions that are not InputError.
 #include <algorithm>
 #include <fstream>
 #include <iostream>

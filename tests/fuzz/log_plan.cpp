@@ -1,8 +1,8 @@
 // Plans of logs, and what their hands do in the picture.
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/scenarios/tiny_case.h"
-#include "tools/make_log_act.h"
-#include "tools/make_log_plan.h"
+#include "tools/make_log/act.h"
+#include "tools/make_log/plan.h"
 
 namespace insonate::fuzz {
 namespace {

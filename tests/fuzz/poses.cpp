@@ -2,7 +2,7 @@
 #include <cstdio>
 
 #include "tests/fuzz/fuzz_target.h"
-#include "tools/pose_file.h"
+#include "tools/cli/pose_file.h"
 
 namespace insonate::fuzz {
 namespace {

@@ -1,5 +1,5 @@
 // Sequence files, MetaImage and NRRD.
-#include "tests/devices/sequence_promises.h"
+#include "tests/devices/sequence/sequence_promises.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace insonate::fuzz {

@@ -9,9 +9,9 @@
 
 #include "sim/core/files.h"
 #include "sim/gl/program.h"
-#include "sim/gl/simulator.h"
-#include "tests/gl/test_body.h"
+#include "sim/imaging/simulator.h"
 #include "tests/gl/test_context.h"
+#include "tests/imaging/test_body.h"
 
 using namespace insonate;
 namespace fs = std::filesystem;
@@ -34,11 +34,12 @@ private:
 TEST_CASE("a shader that does not build keeps the last good program and names file and line") {
   const test::TestContext context;
   const EditedShaders shaders;
-  gl::Program program(shaders.read(), {"clutter_tail.comp"});
+  gl::Program program(shaders.read(), {"imaging/clutter_tail.comp"});
   const GLuint good = program.name();
   const auto reload = [&] { return gl::Program::reload(std::array{&program}, shaders.read()); };
 
-  shaders.write("clutter_tail.comp", "layout(local_size_x = 1) in;\n#include \"shared/broken.glsl\"\nvoid main() {}\n");
+  shaders.write("imaging/clutter_tail.comp",
+                "layout(local_size_x = 1) in;\n#include \"shared/broken.glsl\"\nvoid main() {}\n");
   shaders.write("shared/broken.glsl", "// fine\nfloat a = undefined_name;\n");
   const auto problem = reload();
   REQUIRE(problem);
@@ -56,22 +57,22 @@ TEST_CASE("a shader that does not build keeps the last good program and names fi
 TEST_CASE("of programs that belong together none is taken when one does not build, and every problem is told") {
   const test::TestContext context;
   const EditedShaders shaders;
-  gl::Program first(shaders.read(), {"clutter.comp"}, {{"GROUP", "8"}}), second(shaders.read(), {"clutter_tail.comp"}),
-      third(shaders.read(), {"maximum.comp"});
+  gl::Program first(shaders.read(), {"imaging/clutter.comp"}, {{"GROUP", "8"}}),
+      second(shaders.read(), {"imaging/clutter_tail.comp"}), third(shaders.read(), {"imaging/maximum.comp"});
   const std::array programs = {&first, &second, &third};
   const auto names = [&] { return std::array{first.name(), second.name(), third.name()}; };
   const auto before = names();
 
-  shaders.write("clutter.comp", "layout(local_size_x = 1) in;\nvoid main() {}\n");
-  shaders.write("clutter_tail.comp", "no_shader;\n");
-  shaders.write("maximum.comp", "none_either;\n");
+  shaders.write("imaging/clutter.comp", "layout(local_size_x = 1) in;\nvoid main() {}\n");
+  shaders.write("imaging/clutter_tail.comp", "no_shader;\n");
+  shaders.write("imaging/maximum.comp", "none_either;\n");
   const auto problem = gl::Program::reload(programs, shaders.read());
   REQUIRE(problem);
   CHECK(problem->find("clutter_tail.comp does not compile") != std::string::npos);
   CHECK(problem->find("maximum.comp does not compile") != std::string::npos);
   CHECK(names() == before);
 
-  for (const char* name : {"clutter_tail.comp", "maximum.comp"})
+  for (const char* name : {"imaging/clutter_tail.comp", "imaging/maximum.comp"})
     shaders.write(name, "layout(local_size_x = 1) in;\nvoid main() {}\n");
   CHECK_FALSE(gl::Program::reload(programs, shaders.read()));
   for (std::size_t i = 0; i < before.size(); ++i) CHECK(names()[i] != before[i]);
@@ -81,11 +82,11 @@ TEST_CASE("a program goes back to defines it was built for without building, unt
   const test::TestContext context;
   const EditedShaders shaders;
   const auto write_shader = [&](const std::string& body) {
-    shaders.write("clutter.comp", "layout(local_size_x = SIZE) in;\n" + body + "void main() {}\n");
+    shaders.write("imaging/clutter.comp", "layout(local_size_x = SIZE) in;\n" + body + "void main() {}\n");
   };
   const auto of_size = [](std::size_t size) { return gl::Defines{{"SIZE", std::to_string(size)}}; };
   write_shader("#if SIZE == 50\nundefined_name a;\n#endif\n");
-  gl::Program program(shaders.read(), {"clutter.comp"}, of_size(1));
+  gl::Program program(shaders.read(), {"imaging/clutter.comp"}, of_size(1));
   std::vector<GLuint> names = {0, program.name()};
   for (std::size_t size = 2; size <= gl::Program::kMostKept; ++size) {
     program.define(of_size(size));
@@ -133,11 +134,11 @@ TEST_CASE("a simulator whose shaders are being edited goes on with those it has,
   const std::vector<std::uint8_t> before = picture(edited);
 
   // One edit that would blacken the picture, and one that does not build.
-  shaders.write("scan_convert.comp", "layout(local_size_x = 1) in;\nvoid main() {}\n");
-  shaders.write("fuse.comp", "no_shader;\n");
+  shaders.write("imaging/scan_convert.comp", "layout(local_size_x = 1) in;\nvoid main() {}\n");
+  shaders.write("imaging/fuse.comp", "no_shader;\n");
   const auto problem = edited.reload(shaders.read());
   REQUIRE(problem);
-  CHECK(problem->find("fuse.comp") != std::string::npos);
+  CHECK(problem->find("imaging/fuse.comp") != std::string::npos);
   const auto runs = edited.runs();
   CHECK(picture(edited) == before);
   CHECK(edited.runs() == runs);

@@ -10,7 +10,7 @@
 
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
-#include "sim/model/wein_settings_file.h"
+#include "sim/registration/wein_settings_file.h"
 
 using namespace insonate;
 

@@ -4,7 +4,7 @@
 
 #include "devices/replay/replay_tracker.h"
 #include "devices/sequence/probe_samples.h"
-#include "scenarios/report.h"
+#include "scenarios/report/report.h"
 #include "scenarios/result_json.h"
 #include "scenarios/runner.h"
 #include "sim/core/files.h"

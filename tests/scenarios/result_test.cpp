@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "scenarios/report.h"
+#include "scenarios/report/report.h"
 #include "scenarios/result_json.h"
 #include "scenarios/runner.h"
 #include "sim/core/input_error.h"

@@ -9,7 +9,7 @@
 #include "sim/core/grid.h"
 #include "sim/core/image.h"
 #include "sim/gl/headless_context.h"
-#include "sim/gl/simulator.h"
+#include "sim/imaging/simulator.h"
 #include "sim/view/patient_textures.h"
 #include "sim/view/ultrasound_plane.h"
 

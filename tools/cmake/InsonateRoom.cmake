@@ -71,6 +71,30 @@ function(insonate_room name)
   file(APPEND "${CMAKE_BINARY_DIR}/rooms/folders.txt" "${name} ${folder}\n")
 endfunction()
 
+# insonate_embed(<variable> FUNCTION <name> HEADER <header> [FOLDER <folder>] FILES <file>...) adds to the build a C++
+# file, named in the variable, that holds the text of files of the current folder or of a folder in it. It defines the function that the header declares:
+# std::string_view FUNCTION(std::string_view name), with its namespace in FUNCTION, returns a file's text, or an empty
+# one for a name that is not there.
+function(insonate_embed variable)
+  cmake_parse_arguments(EMBED "" "FUNCTION;HEADER;FOLDER" "FILES" ${ARGN})
+  set(folder "${CMAKE_CURRENT_SOURCE_DIR}")
+  if(EMBED_FOLDER)
+    string(APPEND folder "/${EMBED_FOLDER}")
+  endif()
+  list(TRANSFORM EMBED_FILES PREPEND "${folder}/" OUTPUT_VARIABLE files)
+  list(JOIN EMBED_FILES "," names)
+  set(embedded "${CMAKE_CURRENT_BINARY_DIR}/embedded_files.cpp")
+  set(script "${CMAKE_SOURCE_DIR}/tools/cmake/EmbedFiles.cmake")
+  add_custom_command(
+    OUTPUT "${embedded}"
+    COMMAND "${CMAKE_COMMAND}" "-DFOLDER=${folder}" "-DFILES=${names}" "-DHEADER=${EMBED_HEADER}"
+            "-DFUNCTION=${EMBED_FUNCTION}" "-DOUTPUT=${embedded}" -P "${script}"
+    DEPENDS ${files} "${script}"
+    COMMENT "Embedding files of ${folder}"
+    VERBATIM)
+  set(${variable} "${embedded}" PARENT_SCOPE)
+endfunction()
+
 # insonate_program(<name> SOURCES <file>... USES <room or library>... [PRECOMPILED <target>]) makes an executable of the
 # project, with the precompiled headers of insonate_precompiled unless another target is named.
 function(insonate_program name)

@@ -21,8 +21,8 @@ const int samples = SAMPLES;          // a line
 const int row_samples = ROW_SAMPLES;  // what a line of the scan has room for: an even number
 // Images whose samples share a texel of the scan, as neighbours do where a call asks for many, so that one fetch brings
 // all of them: 4 greys or both terms of 2. 1 where images lie one behind the other.
-const int greys_abreast = ABREAST;
-const int terms_abreast = max(ABREAST / 2, 1);
+const int interleaved_greys = ABREAST;
+const int interleaved_terms = max(ABREAST / 2, 1);
 const int tile_words = TILE_WORDS;    // four pixels each, in a row of an image's tile in the grid
 const int tile_height = TILE_HEIGHT;  // pixels
 const int shadows = SHADOWS;          // 1: echogenicity is scaled by I

@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "devices/calibration/setup_step.h"
+#include "devices/calibration/steps/setup_step.h"
 #include "tests/devices/calibration/hand.h"
 
 using namespace insonate;

@@ -16,7 +16,7 @@
 #include "devices/crc16.h"
 #include "devices/hydra/hydra_tracker.h"
 #include "devices/igtl/igtl_message.h"
-#include "devices/live/hand_over.h"
+#include "devices/live/sample_conditioner.h"
 #include "devices/polhemus/polhemus_tracker.h"
 #include "devices/record/raw_recorder.h"
 #include "devices/registry.h"
@@ -71,7 +71,7 @@ public:
   Recorded(const File& file, const std::string& uri, const FilterSettings& filters, const AttachedDevice& device,
            const Make& make)
       : recorder_(std::make_shared<RawRecorder>(file.path, uri, kStart)),
-        hand_over_(filters),
+        conditioner_(filters),
         source_(make(bus, [this] { return now_s += 0.1 / 3; })) {
     bus->attached.devices = {device};
     source_->record_raw(recorder_);
@@ -83,12 +83,12 @@ public:
     for (std::size_t i = 0; i < std::max<std::size_t>(reports.size(), 1); ++i) {
       LiveBatch batch;
       source_->read(std::chrono::milliseconds(20), batch);
-      for (const PoseSample& sample : batch.samples) hand_over(sample);
+      for (const PoseSample& sample : batch.samples) conditioner(sample);
     }
   }
   void silence() {
     recorder_->silent(now_s);
-    hand_over(silence_at(now_s));
+    conditioner(silence_at(now_s));
   }
   void reopen() {
     source_->close();
@@ -100,12 +100,12 @@ public:
   std::vector<PoseSample> samples;
 
 private:
-  void hand_over(PoseSample sample) {
-    hand_over_.apply(sample, source_->origin());
+  void conditioner(PoseSample sample) {
+    conditioner_.apply(sample, source_->origin());
     samples.push_back(sample);
   }
   std::shared_ptr<RawRecorder> recorder_;
-  HandOver hand_over_;
+  SampleConditioner conditioner_;
   std::unique_ptr<RawSource> source_;
 };
 

@@ -5,7 +5,7 @@
 #include <atomic>
 #include <memory>
 
-#include "devices/live/left_threads.h"
+#include "devices/live/detached_threads.h"
 #include "tests/devices/live/scripted_source.h"
 
 using namespace insonate;
@@ -189,7 +189,7 @@ TEST_CASE("a device that does not let go keeps nobody waiting but the next that 
   LiveTracker next(std::make_unique<Slow>(second), options);
   samples.clear();
   next.poll(steady_now_s(), samples);
-  while (second->opened == 0 && waiting_for_left_threads() == 0) std::this_thread::sleep_for(milliseconds(1));
+  while (second->opened == 0 && waiting_for_detached_threads() == 0) std::this_thread::sleep_for(milliseconds(1));
   CHECK(second->opened == 0);
   CHECK(first->closing == 1);
   first->may_close = true;

@@ -10,8 +10,8 @@
 #include "scenarios/cases/import_case.h"
 #include "scenarios/cases/plausibility.h"
 #include "scenarios/cases/suggested_views.h"
-#include "scenarios/skin_contact.h"
-#include "scenarios/view_meter.h"
+#include "scenarios/metrics/view_meter.h"
+#include "sim/model/skin_contact.h"
 
 using namespace insonate;
 

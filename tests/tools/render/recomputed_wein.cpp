@@ -1,4 +1,4 @@
-// Model W from the volume, as sim/model/wein_settings.h defines it.
+// Model W from the volume, as sim/registration/wein_settings.h defines it.
 
 #include "tests/tools/render/recomputation.h"
 

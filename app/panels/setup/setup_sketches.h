@@ -1,0 +1,14 @@
+#pragma once
+
+#include "app/panels/widgets/theme.h"
+#include "app/panels/widgets/widgets.h"
+#include "app/pictures/pictures.h"
+#include "app/trainer/setup_wizard.h"
+
+namespace insonate::ui {
+
+/// A drawing of what the set-up asks for now: how to hold the probe and where to touch. The landmarks are shown on the
+/// patient's own body.
+void draw_setup_sketch(const Theme& theme, const Rect& area, const SetupWizard& wizard, Pictures& pictures);
+
+}  // namespace insonate::ui

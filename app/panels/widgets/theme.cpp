@@ -1,0 +1,68 @@
+#include "app/panels/widgets/theme.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "sim/core/input_error.h"
+
+namespace insonate::ui {
+namespace {
+
+// Latin with its accents, and the signs that the panels use beyond it: dashes, quotes, ellipsis, arrows.
+constexpr ImWchar kGlyphs[] = {0x0020, 0x017f, 0x2010, 0x2027, 0x2190, 0x2195, 0x2212, 0x2212, 0};
+
+ImFont* load(const std::filesystem::path& file, float size_px) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error))
+    throw InputError(file.string(), "", "the interface's font is missing", "install the program again");
+  ImFontConfig config;
+  config.OversampleH = 2;
+  config.OversampleV = 1;
+  config.PixelSnapH = false;
+  return ImGui::GetIO().Fonts->AddFontFromFileTTF(file.string().c_str(), size_px, &config, kGlyphs);
+}
+
+}  // namespace
+
+Theme::Theme(std::filesystem::path fonts) : folder_(std::move(fonts)) {
+  ImGuiStyle& style = ImGui::GetStyle();
+  style.WindowBorderSize = 0;
+  style.WindowRounding = 0;
+  style.WindowPadding = ImVec2(0, 0);
+  style.ItemSpacing = ImVec2(0, 0);
+  style.ScrollbarRounding = 6;
+  const auto set = [&](ImGuiCol which, ImU32 colour) { style.Colors[which] = ImGui::ColorConvertU32ToFloat4(colour); };
+  set(ImGuiCol_Text, colour::kText);
+  set(ImGuiCol_WindowBg, colour::kBackground);
+  set(ImGuiCol_FrameBg, colour::kRaised);
+  set(ImGuiCol_FrameBgHovered, colour::kRaised);
+  set(ImGuiCol_FrameBgActive, colour::kRaised);
+  set(ImGuiCol_TextSelectedBg, colour::kAccentDark);
+  set(ImGuiCol_ScrollbarBg, colour::kPanel);
+  set(ImGuiCol_ScrollbarGrab, colour::kLine);
+  set(ImGuiCol_ScrollbarGrabHovered, colour::kHovered);
+  set(ImGuiCol_ScrollbarGrabActive, colour::kHovered);
+}
+
+bool Theme::fit(float width, float height) {
+  // Steps of an eighth, so that dragging a window's edge does not rebuild the fonts all the way.
+  const float wanted = std::clamp(std::min(width / 1280, height / 800), 0.84f, 3.0f);
+  const float scale = wanted < 1 ? 0.875f : std::floor(wanted * 8) / 8;
+  if (scale == scale_) return false;
+  scale_ = scale;
+  ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
+  atlas.Clear();
+  const std::filesystem::path regular = folder_ / "Inter-Regular.otf", bold = folder_ / "Inter-SemiBold.otf";
+  text = load(regular, px(16));
+  small_text = load(regular, px(13.5f));
+  strong = load(bold, px(16));
+  large = load(regular, px(24));
+  title = load(bold, px(32));
+  heading = load(bold, px(20));
+  huge = load(bold, px(46));
+  atlas.Build();
+  return true;
+}
+
+}  // namespace insonate::ui

@@ -1,0 +1,194 @@
+#include "app/panels/widgets/widgets.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace insonate::ui {
+namespace {
+
+constexpr float kPi = 3.14159265f;
+
+ImVec2 size_of(ImFont* font, std::string_view text, float wrap = 0) {
+  return font->CalcTextSizeA(font->FontSize, 3e38f, wrap, text.data(), text.data() + text.size());
+}
+
+// The longest beginning that fits with an ellipsis behind it, cut between UTF-8 characters.
+std::string shortened(ImFont* font, std::string_view text, float width) {
+  static constexpr char kEllipsis[] = "\u2026";
+  std::size_t length = text.size();
+  while (length > 0) {
+    --length;
+    while (length > 0 && (static_cast<unsigned char>(text[length]) & 0xc0u) == 0x80u) --length;
+    std::string candidate = std::string(text.substr(0, length)) + kEllipsis;
+    if (size_of(font, candidate).x <= width) return candidate;
+  }
+  return kEllipsis;
+}
+
+struct Scale {
+  double least, most, step, normal;
+};
+
+/// Lets the mouse move a slider's value: dragged to `at_mouse`, a step with the wheel, to the normal with a double
+/// click. Whether the mouse is at it.
+bool handle(const char* id, const Rect& where, const Scale& scale, double at_mouse, double& value) {
+  ImGui::SetCursorScreenPos(where.min());
+  ImGui::InvisibleButton(id, {where.w, where.h});
+  const bool active = ImGui::IsItemActive(), hovered = ImGui::IsItemHovered();
+  const float wheel = hovered ? ImGui::GetIO().MouseWheel : 0;
+  const auto set = [&](double to) {
+    value = std::clamp(std::round(to / scale.step) * scale.step, scale.least, scale.most);
+  };
+  if (active) set(at_mouse);
+  if (wheel != 0) set(value + scale.step * wheel);
+  if (hovered && ImGui::IsMouseDoubleClicked(0)) value = scale.normal;
+  return active || hovered;
+}
+
+void draw_knob(const Theme& theme, const ImVec2& centre, float radius, bool lit) {
+  ImGui::GetWindowDrawList()->AddCircleFilled(centre, theme.px(radius), lit ? colour::kText : colour::kAccent, 24);
+}
+
+}  // namespace
+
+Rect Rect::take_left(float width) {
+  const Rect part{x, y, width, h};
+  x += width;
+  w -= width;
+  return part;
+}
+
+Rect Rect::take_right(float width) {
+  w -= width;
+  return {x + w, y, width, h};
+}
+
+Rect Rect::take_top(float height) {
+  const Rect part{x, y, w, height};
+  y += height;
+  h -= height;
+  return part;
+}
+
+Rect Rect::take_bottom(float height) {
+  h -= height;
+  return {x, y + h, w, height};
+}
+
+float text_width(ImFont* font, std::string_view text) {
+  return size_of(font, text).x;
+}
+
+void draw_text(const Rect& where, ImFont* font, ImU32 colour, std::string_view text, Align align) {
+  ImVec2 size = size_of(font, text);
+  std::string cut;
+  if (size.x > where.w + 0.5f) {
+    cut = shortened(font, text, where.w);
+    text = cut;
+    size = size_of(font, text);
+  }
+  const float free = where.w - size.x;
+  const float x = where.x + (align == Align::left ? 0 : align == Align::right ? free : free / 2);
+  const ImVec2 at(std::round(x), std::round(where.y + (where.h - size.y) / 2));
+  ImGui::GetWindowDrawList()->AddText(font, font->FontSize, at, colour, text.data(), text.data() + text.size());
+}
+
+float paragraph_height(ImFont* font, std::string_view text, float width) {
+  return size_of(font, text, width).y;
+}
+
+float draw_paragraph(const Rect& where, ImFont* font, ImU32 colour, std::string_view text) {
+  const ImVec4 clip(where.x, where.y, where.x + where.w + 1, where.y + where.h);
+  ImGui::GetWindowDrawList()->AddText(font, font->FontSize, where.min(), colour, text.data(), text.data() + text.size(),
+                                      where.w, &clip);
+  return paragraph_height(font, text, where.w);
+}
+
+void fill(const Rect& where, ImU32 colour, float rounding) {
+  ImGui::GetWindowDrawList()->AddRectFilled(where.min(), where.max(), colour, rounding);
+}
+
+void outline(const Rect& where, ImU32 colour, float rounding, float thickness) {
+  ImGui::GetWindowDrawList()->AddRect(where.min(), where.max(), colour, rounding, 0, thickness);
+}
+
+float draw_chip(const Theme& theme, const ImVec2& at, ImU32 background, ImU32 colour, std::string_view text) {
+  const Rect plate{at.x, at.y, text_width(theme.strong, text) + theme.px(24), theme.px(30)};
+  fill(plate, background, theme.px(4));
+  draw_text(plate, theme.strong, colour, text, Align::centre);
+  return plate.w;
+}
+
+bool button(const Theme& theme, const char* id, const Rect& where, std::string_view text, ButtonKind kind,
+            bool enabled) {
+  ImGui::SetCursorScreenPos(where.min());
+  const bool clicked = ImGui::InvisibleButton(id, {where.w, where.h}) && enabled;
+  const bool hovered = ImGui::IsItemHovered() && enabled;
+  ImU32 background = hovered ? colour::kHovered : colour::kRaised, ink = colour::kText;
+  if (kind == ButtonKind::chosen) background = colour::kAccentDark;
+  if (kind == ButtonKind::primary && enabled) {
+    background = colour::kAccent;
+    ink = colour::kBackground;
+  }
+  if (kind == ButtonKind::warning) {
+    background = colour::kAmber;
+    ink = colour::kBackground;
+  }
+  if (kind == ButtonKind::recording) {
+    background = colour::kRed;
+    ink = colour::kBackground;
+  }
+  if (!enabled) ink = colour::kFaint;
+  fill(where, background, theme.px(4));
+  if (hovered) outline(where, colour::kFaint, theme.px(4));
+  draw_text(where.inset(theme.px(6), 0), theme.text, ink, text, Align::centre);
+  return clicked;
+}
+
+bool slider(const Theme& theme, const char* id, const Rect& where, std::string_view name, std::string_view value_text,
+            double& value, double least, double most, double step, double normal, bool enabled) {
+  constexpr float kRadius = 7;
+  const double before = value;
+  const float left = where.x + theme.px(kRadius), right = where.x + where.w - theme.px(kRadius);
+  const double at_mouse = least + (most - least) * (ImGui::GetIO().MousePos.x - left) / (right - left);
+  const bool lit = enabled && handle(id, where, {least, most, step, normal}, at_mouse, value);
+
+  Rect line = where;
+  line.h = theme.px(20);
+  const float value_width = text_width(theme.strong, value_text);
+  draw_text({line.x, line.y, line.w - value_width - theme.px(8), line.h}, theme.small_text, colour::kMuted, name);
+  draw_text(line, theme.strong, colour::kText, value_text, Align::right);
+
+  const float y = std::round(where.y + line.h + theme.px(11));
+  const float x = left + float((value - least) / (most - least)) * (right - left);
+  const float half = theme.px(2);
+  fill({where.x, y - half, where.w, 2 * half}, colour::kRaised, half);
+  fill({where.x, y - half, x - where.x, 2 * half}, enabled ? colour::kAccent : colour::kHovered, half);
+  if (enabled) draw_knob(theme, {x, y}, kRadius, lit);
+  return value != before;
+}
+
+bool upright_slider(const Theme& theme, const char* id, const Rect& where, double& value, double reach, bool enabled) {
+  constexpr float kRadius = 5;
+  const double before = value;
+  const float top = where.y + theme.px(kRadius), bottom = where.y + where.h - theme.px(kRadius);
+  const double at_mouse = reach * (1 - 2.0 * (ImGui::GetIO().MousePos.y - top) / (bottom - top));
+  const bool lit = enabled && handle(id, where, {-reach, reach, 1, 0}, at_mouse, value);
+
+  const float x = std::round(where.x + where.w / 2), half = theme.px(1.5f);
+  const float middle = (top + bottom) / 2, y = middle - float(value / reach) * (bottom - top) / 2;
+  fill({x - half, where.y, 2 * half, where.h}, colour::kRaised, half);
+  fill({x - half, std::min(y, middle), 2 * half, std::abs(y - middle)}, colour::kAccent);
+  if (enabled) draw_knob(theme, {x, y}, kRadius, lit);
+  return value != before;
+}
+
+void draw_ring(const ImVec2& centre, float radius, float thickness, double share, ImU32 colour, ImU32 rest) {
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  list->AddCircle(centre, radius, rest, 64, thickness);
+  if (share <= 0) return;
+  list->PathArcTo(centre, radius, -kPi / 2, -kPi / 2 + float(std::min(share, 1.0)) * 2 * kPi, 64);
+  list->PathStroke(colour, 0, thickness);
+}
+
+}  // namespace insonate::ui

@@ -1,0 +1,67 @@
+#include "app/session/guide.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scenarios/guidance.h"
+
+namespace insonate {
+
+const ReferenceView* Guide::find_view(const LoadedCase& loaded_case, const std::string& name) const {
+  const auto made = std::find_if(made_.begin(), made_.end(), [&](const ReferenceView& v) { return v.name == name; });
+  return made == made_.end() ? loaded_case.subject.find_view(name) : &*made;
+}
+
+std::vector<std::string> Guide::names(const LoadedCase& loaded_case) const {
+  std::vector<std::string> names;
+  const auto add = [&](const std::string& name) {
+    if (find_view(loaded_case, name) && std::find(names.begin(), names.end(), name) == names.end())
+      names.push_back(name);
+  };
+  if (loaded_case.scenario)
+    for (const Step& step : loaded_case.scenario->steps) add(step.view);
+  for (const ReferenceView& view : loaded_case.subject.views) add(view.name);
+  for (const ReferenceView& view : made_) add(view.name);
+  return names;
+}
+
+/// The view that the step under way asks for; empty when it asks for none, nullptr when there is no step under way.
+const std::string* Guide::view_of_step(const Session& session) {
+  const Runner* runner = session.runner();
+  if (!runner || runner->live().finished) return nullptr;
+  return &runner->scenario().steps[runner->live().step].view;
+}
+
+void Guide::next(const Session& session) {
+  if (session.strict()) return;
+  if (view_of_step(session)) {
+    in_run_ = !in_run_;
+    return;
+  }
+  const std::vector<std::string> views = names(session.loaded_case());
+  auto at = std::find(views.begin(), views.end(), view_);
+  at = at == views.end() ? views.begin() : at + 1;
+  view_ = at == views.end() ? std::string() : *at;
+}
+
+std::optional<Guiding> Guide::now(const Session& session) const {
+  if (session.strict()) return std::nullopt;
+  const std::string* of_step = view_of_step(session);
+  if (of_step && !in_run_) return std::nullopt;
+  const ReferenceView* view = find_view(session.loaded_case(), of_step ? *of_step : view_);
+  const std::optional<Pose>& pose = session.newest_pose();
+  if (!view || !pose) return std::nullopt;
+  Guiding guiding;
+  guiding.view = view;
+  guiding.advice = in_words(move_to(*pose, view->patient_from_probe), *pose);
+  const glm::dvec3 middle(0, view->depth_mm / 2, 0), normal = view->patient_from_probe.rotation[2];
+  guiding.plane_distance_mm = std::abs(glm::dot(pose->point(middle) - view->patient_from_probe.point(middle), normal));
+  const double cosine = glm::dot(pose->rotation[2], normal);
+  guiding.plane_angle_deg = glm::degrees(std::acos(std::clamp(cosine, -1.0, 1.0)));
+  guiding.there = guiding.advice.empty();
+  return guiding;
+}
+
+}  // namespace insonate

@@ -1,0 +1,261 @@
+#include "app/session/picture_tools.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <utility>
+
+#include "scenarios/caliper.h"
+#include "scenarios/steps/mark_point.h"
+#include "scenarios/steps/measure.h"
+
+namespace insonate {
+namespace {
+
+glm::dvec2 place_of(const Action& point_or_label) {
+  return point_or_label.point(0);
+}
+
+Action with_place(Action point_or_label, const glm::dvec2& at) {
+  point_or_label.numbers[0] = at.x;
+  point_or_label.numbers[1] = at.y;
+  return point_or_label;
+}
+
+bool is_measured(const Action& action) {
+  return action.kind == ActionKind::caliper || action.kind == ActionKind::ellipse;
+}
+
+bool is_exam_of_log(const Session& session) {
+  return session.runner() && !session.result() && session.source().recording();
+}
+
+bool ends_step(const Action& action) {
+  return action.kind == ActionKind::go_on || action.kind == ActionKind::go_to || action.kind == ActionKind::answer;
+}
+
+}  // namespace
+
+std::string in_words(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+bool PictureTools::ready(const Session& session) {
+  return session.frozen_picture() && !is_exam_of_log(session);
+}
+
+void PictureTools::see(const Session& session) {
+  const Runner* runner = session.runner();
+  const auto step = runner && !session.result() ? std::optional(runner->live().step) : std::nullopt;
+  const bool another = session.attempt() != attempt_ || step != step_;
+  attempt_ = session.attempt();
+  step_ = step;
+  const auto picture = session.frozen_picture();
+  if (picture != picture_) drop();
+  if (picture != picture_ && free_choice()) {
+    marks_.clear();
+    done_.clear();
+  }
+  picture_ = picture;
+  if (another) begin_step(session);
+  if (!std::as_const(session).source().recording()) return;  // what was placed here is known already
+  for (const auto& [time_s, actions] : session.latest_actions())
+    for (const Action& action : actions) {
+      if (another && ends_step(action)) marks_.clear();
+      marks_.apply(action, picture);
+    }
+}
+
+void PictureTools::begin_step(const Session& session) {
+  drop();
+  marks_.clear();
+  done_.clear();
+  chosen_slot_.reset();
+  names_.clear();
+  measure_ = nullptr;
+  labels_ = nullptr;
+  tool_ = Tool::distance;
+  if (!step_) return;
+  const StepTask& task = *session.runner()->scenario().steps[*step_].task;
+  measure_ = dynamic_cast<const Measure*>(&task);
+  labels_ = dynamic_cast<const LabelStructures*>(&task);
+  if (measure_ && measure_->places() == ActionKind::ellipse) tool_ = Tool::ellipse;
+  if (dynamic_cast<const MarkPoint*>(&task)) tool_ = Tool::point;
+  if (!labels_) return;
+  tool_ = Tool::label;
+  names_ = labels_->structures;
+  std::sort(names_.begin(), names_.end());
+}
+
+void PictureTools::choose(Tool tool) {
+  if (!free_choice() || (tool != Tool::distance && tool != Tool::ellipse)) return;
+  drop();
+  tool_ = tool;
+}
+
+int PictureTools::slot() const {
+  if (chosen_slot_) return *chosen_slot_;
+  const int last = measure_ ? measure_->slots() : Action::kMostSlots;
+  for (int slot = 1; slot <= last; ++slot)
+    if (!marks_.measured().contains(slot)) return slot;
+  return last;
+}
+
+void PictureTools::choose_slot(int slot) {
+  if (!measure_ || slot < 1 || slot > measure_->slots()) return;
+  drop();
+  chosen_slot_ = slot;
+}
+
+std::string PictureTools::slot_name(int slot) const {
+  const auto found = marks_.measured().find(slot);
+  const bool ellipse =
+      found == marks_.measured().end() ? tool_ == Tool::ellipse : found->second.action.kind == ActionKind::ellipse;
+  if (!measure_ || measure_->slots() == 1) return ellipse ? "Area" : "Distance";
+  if (measure_->tool == Measure::Tool::volume) return "Length " + std::to_string(slot);
+  const MeasureTarget& target = measure_->targets[std::size_t(slot - 1)];
+  static constexpr std::array kAlong{", depth", ", width", ""};
+  return in_words(target.structures.front()) + kAlong[std::size_t(target.along)];
+}
+
+std::string PictureTools::total_text() const {
+  if (!measure_ || measure_->slots() == 1) return "";
+  std::vector<Action> placed;
+  for (const auto& [slot, mark] : marks_.measured()) placed.push_back(mark.action);
+  if (int(placed.size()) != measure_->slots()) return "";
+  return (measure_->tool == Measure::Tool::ratio ? "Ratio " : "Volume ") +
+         measure_->value_text(measure_->value(placed));
+}
+
+void PictureTools::name_place(Session& session, const std::string& name) {
+  if (!place_ || !labels_ || !ready(session)) return;
+  Action label{ActionKind::label, {}, name};
+  commit(session, with_place(std::move(label), *std::exchange(place_, std::nullopt)));
+}
+
+/// Takes the nearest handle within reach of what lies in this picture.
+bool PictureTools::grab(const Pose& picture, const glm::dvec2& at, double reach_mm) {
+  double nearest = reach_mm;
+  const auto look = [&](const Annotation& mark, std::size_t handle, const glm::dvec2& place) {
+    const double distance = glm::distance(at, place);
+    if (mark.patient_from_probe != picture || distance > nearest) return;
+    nearest = distance;
+    in_hand_ = mark.action;
+    handle_ = handle;
+  };
+  if (tool_ == Tool::point) {
+    if (marks_.point()) look(*marks_.point(), 0, place_of(marks_.point()->action));
+  } else if (tool_ == Tool::label) {
+    for (const auto& [name, mark] : marks_.labels()) look(mark, 0, place_of(mark.action));
+  } else {
+    for (const auto& [slot, mark] : marks_.measured()) {
+      const std::vector<glm::dvec2> places = handles(mark.action);
+      for (std::size_t i = 0; i < places.size(); ++i) look(mark, i, places[i]);
+    }
+  }
+  return handle_.has_value();
+}
+
+void PictureTools::begin(const glm::dvec2& at) {
+  if (tool_ == Tool::label) {
+    place_ = at;
+  } else if (tool_ == Tool::point) {
+    in_hand_ = with_place({ActionKind::point}, at);
+    handle_ = 0;
+  } else {
+    in_hand_ = Action{tool_ == Tool::ellipse ? ActionKind::ellipse : ActionKind::caliper,
+                      {double(slot()), at.x, at.y, at.x, at.y}};
+    drawing_ = first_press_ = true;
+    has_axis_ = false;
+  }
+}
+
+void PictureTools::press(Session& session, const glm::dvec2& at, double reach_mm) {
+  if (!ready(session)) return;
+  const auto picture = session.frozen_picture();
+  picture_ = picture;
+  if (drawing_) return move(at);
+  if (!grab(*picture, at, reach_mm)) begin(at);
+}
+
+void PictureTools::move(const glm::dvec2& at) {
+  if (!in_hand_) return;
+  if (drawing_)
+    in_hand_ = with_handle_at(*in_hand_, has_axis_ ? 2 : 1, at);
+  else if (handle_)
+    in_hand_ = is_measured(*in_hand_) ? with_handle_at(*in_hand_, *handle_, at) : with_place(*in_hand_, at);
+}
+
+void PictureTools::release(Session& session, const glm::dvec2& at, double reach_mm) {
+  if (!in_hand_) return;
+  move(at);
+  if (!drawing_) {
+    if (handle_) commit(session, *in_hand_);
+    return;
+  }
+  // A click sets the first end, a drag both.
+  if (std::exchange(first_press_, false) && caliper_length_mm(*in_hand_) <= reach_mm) return;
+  if (caliper_length_mm(*in_hand_) < kLeast_mm) return drop();
+  if (in_hand_->kind == ActionKind::ellipse && !std::exchange(has_axis_, true)) return;
+  if (in_hand_->kind == ActionKind::ellipse && in_hand_->numbers[5] < kLeast_mm / 2) return;
+  commit(session, *in_hand_);
+}
+
+void PictureTools::commit(Session& session, const Action& given) {
+  const Action action = given;  // drop() forgets what is in hand
+  drop();
+  const auto picture = session.frozen_picture();
+  if (!picture) return;
+  const Annotation* before = marks_.at_place_of(action);
+  if (before && before->action == action && before->patient_from_probe == *picture) return;
+  // What lay in another picture cannot be put back there.
+  const bool again = before && before->patient_from_probe == *picture;
+  done_.push_back({again ? before->action : take_back(action), *picture});
+  session.act(action);
+  marks_.apply(action, picture);
+  chosen_slot_.reset();
+}
+
+void PictureTools::drop() {
+  in_hand_.reset();
+  drawing_ = first_press_ = has_axis_ = false;
+  handle_.reset();
+  place_.reset();
+}
+
+bool PictureTools::cancel() {
+  const bool any = in_hand_ || place_;
+  drop();
+  return any;
+}
+
+void PictureTools::undo(Session& session) {
+  if (is_exam_of_log(session) || cancel() || done_.empty()) return;
+  const Undo last = done_.back();
+  done_.pop_back();
+  const auto picture = session.frozen_picture();
+  // Nothing can be put back into a picture that is gone.
+  const Action action = picture == last.picture ? last.action : take_back(last.action);
+  session.act(action);
+  marks_.apply(action, picture);
+}
+
+void PictureTools::clear(Session& session) {
+  if (is_exam_of_log(session)) return;
+  drop();
+  const auto remove = [&](const Action& placed) {
+    session.act(take_back(placed));
+    marks_.apply(take_back(placed), std::nullopt);
+  };
+  const Annotations all = marks_;
+  for (const auto& [slot, mark] : all.measured()) remove(mark.action);
+  if (all.point()) remove(all.point()->action);
+  for (const auto& [name, mark] : all.labels()) remove(mark.action);
+  done_.clear();
+  chosen_slot_.reset();
+}
+
+}  // namespace insonate

@@ -1,0 +1,291 @@
+#include "app/session/session.h"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include <algorithm>
+#include <utility>
+
+#include "devices/live/probe_buttons.h"
+#include "devices/replay/read_log.h"
+#include "sim/core/input_error.h"
+
+namespace insonate {
+namespace {
+
+/// The motion from one pose to another as MouseTracker takes it: in the probe's own frame.
+void push(MouseTracker& mouse, const Pose& from, const Pose& to) {
+  const Pose step = from.inverse() * to;
+  const glm::dquat turn = glm::normalize(glm::quat_cast(step.rotation));
+  const double angle = glm::angle(turn);
+  mouse.move(step.translation, angle > 1e-12 ? angle * glm::axis(turn) : glm::dvec3(0.0));
+}
+
+/// The knob that a scenario locks to lock this one.
+ActionKind lock_of(ActionKind knob) {
+  return knob == ActionKind::dynamic_range || knob == ActionKind::time_gain ? ActionKind::gain : knob;
+}
+
+/// Whether an action only replaces the value that another one has set.
+bool replaces(const Action& action, const Action& before) {
+  switch (action.kind) {
+    case ActionKind::depth:
+    case ActionKind::frequency:
+    case ActionKind::gain:
+    case ActionKind::dynamic_range:
+      return before.kind == action.kind;
+    case ActionKind::time_gain:
+      return before.kind == action.kind && before.slot() == action.slot();
+    default:
+      return false;
+  }
+}
+
+}  // namespace
+
+void check_source(const Tracker& tracker, bool exam) {
+  if (exam && tracker.repeats())
+    throw InputError(tracker.state().name, "option 'loop'", "an exam is scored from a log that comes once",
+                     "leave loop=1 out, or practise on a patient of your own, without a scenario");
+  if (tracker.recording()) check_is_of_probe(*tracker.recording());
+  if (exam && tracker.recording()) check_has_times(*tracker.recording());
+}
+
+Session::Session(std::shared_ptr<const LoadedCase> loaded_case, OpenTracker open, double predict_s, ExamRules rules)
+    : loaded_case_(std::move(loaded_case)),
+      open_(std::move(open)),
+      predict_s_(predict_s),
+      rules_(rules),
+      hand_(loaded_case_->subject.ct) {
+  tracker_ = open_fresh();
+  only_learner_ = dynamic_cast<MouseTracker*>(tracker_.get()) != nullptr;
+  if (only_learner_) {
+    learner_.reset(static_cast<MouseTracker*>(tracker_.release()));
+    holder_ = Holder::learner;
+  }
+  shown_ = first_machine();
+  if (loaded_case_->scenario) activity_ = Activity::exam;
+  begin_attempt();
+}
+
+Machine Session::first_machine() const {
+  if (loaded_case_->scenario) return starting_machine(*loaded_case_->scenario, loaded_case_->subject);
+  Machine machine;
+  machine.choose(probes().front().name);
+  return machine;
+}
+
+const Tracker& Session::source() const {
+  if (holder_ == Holder::learner) return *learner_;
+  return *tracker_;
+}
+
+Tracker& Session::source() {
+  if (holder_ == Holder::learner) return *learner_;
+  return *tracker_;
+}
+
+std::unique_ptr<Tracker> Session::open_fresh() const {
+  std::unique_ptr<Tracker> tracker = open_();
+  check_source(*tracker, loaded_case_->scenario.has_value());
+  return tracker;
+}
+
+void Session::restart_tracker() {
+  if (tracker_->live()) return;  // a device has no beginning, and opened twice it would be busy
+  tracker_ = open_fresh();
+}
+
+void Session::begin_attempt() {
+  ++attempt_;
+  runner_.reset();
+  exam_samples_.clear();
+  result_.reset();
+  if (activity_ == Activity::exam && loaded_case_->scenario)
+    runner_ = std::make_unique<Runner>(*loaded_case_->scenario, loaded_case_->subject, loaded_case_->tissues);
+  last_usable_s_ = attempt_began_s_ = now_s_;
+  marks_s_.clear();
+  history_.clear();
+  // A recorded scan sets its knobs anew each time.
+  if (source().recording()) shown_ = first_machine();
+  shown_.apply({ActionKind::unfreeze}, std::nullopt);
+  machine_ = runner_ ? runner_->machine() : Machine();
+  acts_ = actions_between(machine_, shown_);
+  actions_.clear();
+  latest_actions_.clear();
+  attempt_is_fresh_ = true;
+  log_actions_.clear();
+  if (const Recording* recording = source().recording())
+    log_actions_ = parse_action_log(recording->actions, recording->file);
+}
+
+void Session::start_over() {
+  if (strict() && runner_ && runner_->live().started) return;
+  activity_ = loaded_case_->scenario ? Activity::exam : Activity::practice;
+  if (holder_ == Holder::learner)
+    learner_ = std::make_unique<MouseTracker>(loaded_case_->surroundings.start);
+  else
+    restart_tracker();
+  shown_pose_.reset();
+  newest_pose_.reset();
+  begin_attempt();
+}
+
+void Session::practise() {
+  if (strict()) return;
+  activity_ = Activity::practice;
+  begin_attempt();
+}
+
+void Session::hold(Holder holder) {
+  holder_ = holder;
+  // The learner's hand has no buttons of its own, and knows nothing of those that are held on the tracker.
+  presses_ = holder == Holder::learner ? ButtonPresses(0) : ButtonPresses();
+}
+
+void Session::take_probe() {
+  if (holder_ == Holder::learner || strict()) return;
+  learner_ = std::make_unique<MouseTracker>(newest_pose_.value_or(loaded_case_->surroundings.start));
+  hold(Holder::learner);
+  practise();
+}
+
+void Session::give_back_probe() {
+  if (holder_ == Holder::tracker || only_learner_) return;
+  restart_tracker();  // may throw: then the learner keeps the probe
+  if (tracker_->relative()) left_place_.leave_at(learner_->pose());
+  hold(Holder::tracker);
+  if (loaded_case_->scenario) activity_ = Activity::exam;
+  begin_attempt();
+}
+
+void Session::move_probe(const std::function<Pose(const ProbeHand&, const Pose&)>& motion) {
+  take_probe();
+  if (holder_ != Holder::learner) return;
+  const Pose from = learner_->pose();
+  push(*learner_, from, motion(hand_, from));
+}
+
+void Session::act(const Action& action) {
+  if (source().recording()) return;
+  if (strict() && action.kind == ActionKind::hint) return;
+  acts_.push_back(action);
+}
+
+void Session::set(const Action& action) {
+  if (locks(action.kind)) return;
+  const Machine before = shown_;
+  shown_.apply(action, newest_pose_);
+  if (shown_ == before || source().recording()) return;
+  // Freezing and thawing between two samples is nothing: the picture stays as it was at the sample before.
+  if (shown_.frozen != before.frozen && !acts_.empty() &&
+      acts_.back().kind == (shown_.frozen ? ActionKind::unfreeze : ActionKind::freeze)) {
+    acts_.pop_back();
+    shown_.frozen_at = shown_.frozen ? machine_.frozen_at : std::nullopt;
+    return;
+  }
+  if (!acts_.empty() && replaces(action, acts_.back())) acts_.pop_back();
+  acts_.push_back(action);
+}
+
+std::optional<Pose> Session::frozen_picture() const {
+  if (!shown_.frozen) return std::nullopt;
+  return source().recording() ? shown_pose_ : machine_.frozen_at;
+}
+
+bool Session::locks(ActionKind setting) const {
+  return strict() && runner_ && !result_ && runner_->scenario().locked.contains(lock_of(setting));
+}
+
+std::vector<Action> Session::actions_before(const PoseSample& sample) {
+  if (source().recording()) {
+    const auto found = log_actions_.find(sample.time_s);
+    return found == log_actions_.end() ? std::vector<Action>() : found->second;
+  }
+  return std::exchange(acts_, {});
+}
+
+void Session::take(const PoseSample& sample) {
+  const bool was_frozen = shown_.frozen;
+  const std::uint32_t pressed = presses_.see(sample);
+  // A log with actions tells itself when the picture froze.
+  if ((pressed & kFreezeButton) && log_actions_.empty()) freeze(!shown_.frozen);
+  if (pressed & kMarkButton) marks_s_.push_back(attempt_for_s());
+  if (pressed & kGoOnButton) go_on_ = true;
+  const std::vector<Action> actions = actions_before(sample);
+  if (source().recording())
+    for (const Action& action : actions) shown_.apply(action, newest_pose_);
+  if (shown_.frozen && !was_frozen) shown_pose_ = newest_pose_;
+  for (const Action& action : actions) machine_.apply(action, newest_pose_);
+  if (!actions.empty()) latest_actions_[sample.time_s] = actions;
+  if (runner_ && !result_) {
+    runner_->feed(sample, actions);
+    exam_samples_.push_back(sample);
+    if (!actions.empty()) actions_[sample.time_s] = actions;
+    machine_ = runner_->machine();
+  }
+  // What is measured in is what was sampled, not what was predicted of it.
+  if (shown_.frozen && machine_.frozen_at) shown_pose_ = shown_.frozen_at = machine_.frozen_at;
+  if (sample.status != PoseStatus::ok) return;
+  newest_pose_ = sample.patient_from_probe;
+  last_usable_s_ = now_s_;
+}
+
+void Session::find_pose() {
+  answer_.reset();
+  std::optional<Pose> pose = newest_pose_;
+  if (source().live()) {
+    for (const PoseSample& sample : samples_) history_.add(sample);
+    answer_ = history_.at(source().clock_s(now_s_), predict_s_);
+    if (answer_->how != PoseAnswer::none) pose = answer_->patient_from_probe;
+  }
+  if (!shown_.frozen) shown_pose_ = pose;
+}
+
+void Session::advance(double now_s) {
+  now_s_ = now_s;
+  // A session that is made while the clock runs has not lost anything yet.
+  if (!std::exchange(advanced_, true)) last_usable_s_ = attempt_began_s_ = now_s;
+  samples_.clear();
+  latest_actions_.clear();
+  if (holder_ == Holder::learner && tracker_ && tracker_->live()) {
+    tracker_->poll(now_s, samples_);
+    samples_.clear();
+  }
+  source().poll(now_s, samples_);
+  if (holder_ == Holder::tracker) left_place_.move(samples_);
+  // One that does not tell of buttons would not tell that they are let go again.
+  const auto pressing = std::find_if(samples_.begin(), samples_.end(), tells_of_buttons);
+  if (pressing != samples_.end()) pressing->buttons |= std::exchange(pressed_, 0);
+  if (!samples_.empty()) samples_begin_attempt_ = std::exchange(attempt_is_fresh_, false);
+  for (const PoseSample& sample : samples_) take(sample);
+  find_pose();
+
+  if (runner_ && source().state().condition == TrackerCondition::finished) runner_->end();
+  keep_result();
+}
+
+void Session::hand_in() {
+  if (runner_) runner_->end();
+  keep_result();
+}
+
+void Session::keep_result() {
+  if (!runner_ || result_ || !runner_->live().finished) return;
+  result_ = runner_->result();
+  result_->provenance.mode = strict() ? AttemptMode::exam : AttemptMode::practice;
+  if (const Recording* recording = source().recording()) {
+    result_->provenance.mode = AttemptMode::recording;
+    result_->provenance.log = recording->file;
+    result_->provenance.log_digest = recording->digest;
+    result_->provenance.log_transform = recording->transform;
+  }
+}
+
+std::optional<double> Session::lost_for_s() const {
+  if (source().state().condition == TrackerCondition::finished) return std::nullopt;
+  const double lost_s = now_s_ - last_usable_s_;
+  return lost_s > kStale_s ? std::optional(lost_s) : std::nullopt;
+}
+
+}  // namespace insonate

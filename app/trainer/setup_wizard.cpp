@@ -1,0 +1,119 @@
+#include "app/trainer/setup_wizard.h"
+
+#include <cstdio>
+#include <ctime>
+#include <utility>
+
+namespace insonate {
+namespace {
+
+constexpr std::size_t kLandmarks = 3;
+static_assert(kSetupSteps[kLandmarks] == "landmarks");
+
+std::string figure(const char* format, double value) {
+  char text[48];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+/// What the steps say of themselves, in the order of kSetupSteps; empty for those that were not made.
+std::vector<std::string> figures(const Calibration& c) {
+  std::vector<std::string> made(kSetupSteps.size());
+  if (c.axes)
+    made[0] = c.axes->value.signs.none() ? figure("moves agree to %.0f\u00b0", c.axes->value.misfit_deg)
+                                         : "a mirrored axis was put right";
+  if (c.tip) made[1] = figure("residual %.2f mm", c.tip->value.residual_mm);
+  if (c.face) made[2] = figure("off the right angle by %.1f\u00b0", c.face->value.fit.skew_deg);
+  if (c.mannequin) made[3] = figure("accuracy %.1f mm", c.mannequin->value.accuracy_mm);
+  if (c.lag) made[4] = figure("%.0f ms late", c.lag->value.lag_s * 1e3);
+  return made;
+}
+
+}  // namespace
+
+SetupWizard::SetupWizard(std::unique_ptr<Tracker> sensor, Calibration base, SetupGiven given,
+                         std::filesystem::path file)
+    : sensor_(std::move(sensor)), calibration_(std::move(base)), given_(std::move(given)), file_(std::move(file)) {
+  const std::vector<std::string> made = figures(calibration_);
+  std::size_t first = 0;
+  while (first + 1 < made.size() && !made[first].empty()) ++first;
+  if (!made.back().empty() || !why_not(first).empty()) first = 0;
+  begin(first);
+}
+
+void SetupWizard::begin(std::size_t step) {
+  step_ = begin_setup_step(kSetupSteps[step], calibration_, given_);
+  current_ = step;
+  kept_ = false;
+}
+
+void SetupWizard::update(double now_s) {
+  samples_.clear();
+  sensor_->poll(now_s, samples_);
+  for (const PoseSample& sample : samples_) {
+    const PoseSample seen = presses_.only_pressed(sample);
+    if (!step_->view().done)
+      step_->feed(seen);
+    else if (seen.buttons != 0)
+      go_on();
+    keep_if_done();
+  }
+  keep_if_done();  // a drawn face is done without a sample
+}
+
+void SetupWizard::keep_if_done() {
+  if (kept_ || !step_->view().done) return;
+  kept_ = true;
+  step_->store(calibration_, std::int64_t(std::time(nullptr)));
+  write_calibration(file_, calibration_);
+}
+
+void SetupWizard::mark(double now_s) {
+  if (step_->view().done)
+    go_on();
+  else
+    step_->mark(sensor_->clock_s(now_s));
+}
+
+void SetupWizard::go_on() {
+  if (current_ + 1 == kSetupSteps.size())
+    finished_ = true;
+  else
+    go_to(current_ + 1);
+}
+
+void SetupWizard::undo() {
+  step_->undo();
+  kept_ = false;
+}
+
+std::string SetupWizard::why_not(std::size_t step) const {
+  return why_not_yet(kSetupSteps[step], calibration_, given_);
+}
+
+void SetupWizard::go_to(std::size_t step) {
+  given_.moved = false;
+  if (why_not(step).empty()) begin(step);
+}
+
+void SetupWizard::set_moved(bool moved) {
+  if (!can_be_moved()) return;
+  given_.moved = moved;
+  begin(kLandmarks);
+}
+
+std::vector<LandmarkPair> SetupWizard::landmarks() const {
+  if (given_.moved) return calibration_.mannequin->value.landmarks;
+  return given_.landmarks ? given_.landmarks->landmarks : std::vector<LandmarkPair>();
+}
+
+std::vector<SetupWizard::Row> SetupWizard::rows() const {
+  static constexpr const char* kTitles[kSetupSteps.size()] = {"Which way is which", "Probe tip", "Probe face",
+                                                              "Landmarks", "Lag"};
+  const std::vector<std::string> made = figures(calibration_);
+  std::vector<Row> rows;
+  for (std::size_t i = 0; i < kSetupSteps.size(); ++i) rows.push_back({kSetupSteps[i], kTitles[i], made[i]});
+  return rows;
+}
+
+}  // namespace insonate

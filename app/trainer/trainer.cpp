@@ -1,0 +1,339 @@
+#include "app/trainer/trainer.h"
+
+#include <cstdio>
+#include <exception>
+#include <utility>
+
+#include "devices/calibrated_tracker.h"
+#include "devices/live/steady_clock.h"
+#include "devices/registry.h"
+#include "sim/core/files.h"
+#include "sim/core/input_error.h"
+#include "sim/imaging/upload.h"
+
+namespace insonate {
+namespace {
+
+std::string bundled_log() {
+  return "replay:" + (assets_folder() / "logs" / "ruq_good.igs.mha").string();
+}
+
+/// What a person calls the patient of a loaded_case.
+std::string patient_of(const CaseSource& source) {
+  for (const std::filesystem::path& named : {source.ct, source.case_folder, source.scenario})
+    if (!named.empty()) return named.string();
+  return "the built-in patient";
+}
+
+gl::ShaderSources shaders_of(const Options& options) {
+  return options.shader_folder.empty() ? gl::ShaderSources() : gl::ShaderSources(options.shader_folder);
+}
+
+}  // namespace
+
+Trainer::Trainer(Options options)
+    : options_(std::move(options)),
+      shaders_changed_(gl::last_change(options_.shader_folder)),
+      pictures_(shaders_of(options_), quality_named(options_.quality)),
+      recorder_(options_.record_images) {
+  if (!options_.igtl_server.empty()) feed_ = std::make_unique<IgtlFeed>(parse_server_address(options_.igtl_server));
+  open_results();
+}
+
+void Trainer::open_results() {
+  if (options_.replay.any()) return;  // a replay stores nothing
+  if (!options_.results.empty()) {
+    results_ = ResultsDatabase::open_or_make(options_.results);
+  } else if (!options_.headless) {
+    attempt([&] { results_ = ResultsDatabase::open_or_make(own_results()); });
+  }
+}
+
+void Trainer::open_from_options() {
+  find_calibration();
+  ReplaySource replay = options_.replay;
+  replay.database = options_.results;
+  load({CaseSource{options_.case_folder, options_.ct, options_.scenario, std::nullopt, seed()}, options_.tracker,
+        std::move(replay)});
+}
+
+void Trainer::open(const std::filesystem::path& path) {
+  attempt([&] {
+    if (in_exam()) throw InputError(path.string(), "", "an exam that counts is taken as it is", "open it in practice");
+    Request next;
+    const Material kind = kind_of_material(path);
+    switch (kind) {
+      case Material::case_folder:
+        next.source.case_folder = path;
+        break;
+      case Material::ct:
+        next.source.ct = path;
+        break;
+      case Material::scenario:
+        next.source.scenario = path;
+        break;
+      case Material::tracker_log:
+      case Material::raw_log:
+        next = loading_ ? requested_ : current_;
+        next.replay = {};
+        next.tracker = (kind == Material::raw_log ? "raw:" : "replay:") + path.string();
+        if (loaded_case_ && !loading_) return begin(loaded_case_, next);
+        break;
+    }
+    load(next);
+  });
+}
+
+bool Trainer::attempt(const std::function<void()>& action) {
+  try {
+    action();
+    return true;
+  } catch (const std::exception& error) {
+    if (options_.headless) throw;
+    problems_.emplace_back(error.what());
+    return false;
+  }
+}
+
+std::function<void()> Trainer::refusals(const Request& request) {
+  const bool calibrated = uses_calibration(request) && !setup_left_;
+  bool exam = false;
+  std::exception_ptr refused;
+  try {
+    if (calibrated && !needs_setup(request)) read_complete_calibration(options_.calibration);
+    const std::optional<Scenario> scenario = read_exam(request.source);
+    if (in_exam() && scenario) refuse_second_exam(*scenario);
+    exam = scenario.has_value();
+  } catch (const InputError&) {
+    refused = std::current_exception();
+  }
+  return [refused, exam, calibrated, uri = request.tracker] {
+    if (refused) std::rethrow_exception(refused);
+    const std::unique_ptr<Tracker> tracker = uri.empty() ? nullptr : open_unless_device(uri);
+    if (!tracker) return;
+    if (!calibrated) check_source(*tracker, exam);
+    if (const Recording* recording = tracker->recording()) parse_action_log(recording->actions, recording->file);
+  };
+}
+
+void Trainer::load(Request request) {
+  requested_ = std::move(request);
+  loaded_replay_.reset();
+  if (!requested_.replay.any()) {
+    loading_ = std::make_unique<Loading>(
+        [source = requested_.source, refuse = refusals(requested_)](const LoadProgress& progress) {
+          refuse();
+          return std::make_shared<const LoadedCase>(load_case(source, progress));
+        });
+    return;
+  }
+  loaded_replay_ = std::make_shared<std::unique_ptr<Replay>>();
+  loading_ = std::make_unique<Loading>([request = requested_, replay = loaded_replay_](const LoadProgress& progress) {
+    LoadedReplay loaded = load_replay(request.replay, request.source, progress);
+    *replay = std::move(loaded.replay);
+    return loaded.loaded_case;
+  });
+}
+
+void Trainer::finish_loading() {
+  if (loading_) take_over_loaded();
+}
+
+void Trainer::stop_loading() {
+  if (session_ || setup_ || replay_) loading_.reset();
+}
+
+void Trainer::take_over_loaded() {
+  const std::unique_ptr<Loading> loaded = std::move(loading_);
+  attempt([&] { begin(loaded->take(), requested_); });
+  // A trainer whose command line names something unusable goes on with what is built in.
+  if (in_exam()) return;  // and never to anything but the exam that was asked for
+  const bool asked_for_more = !requested_.source.is_bundled() || !requested_.tracker.empty() || requested_.replay.any();
+  if (!session_ && !setup_ && !replay_ && asked_for_more) load(Request());
+}
+
+void Trainer::begin(std::shared_ptr<const LoadedCase> loaded_case, const Request& request) {
+  if (request.replay.any()) return begin_replay(std::move(loaded_case), request);
+  std::string uri = request.tracker;
+  if (uri.empty()) uri = request.source.is_bundled() ? bundled_log() : "mouse:";
+  if (needs_setup(request)) {
+    setup_.reset();
+    session_.reset();
+    replay_.reset();
+    show(std::move(loaded_case), request);
+    return open_setup();
+  }
+  const Session::OpenTracker open = opener(uri, *loaded_case, uses_calibration(request) && !setup_left_);
+  if (in_exam()) refuse_second_exam(*loaded_case->scenario);
+  auto session = std::make_unique<Session>(loaded_case, open, options_.predict_ms / 1e3,
+                                           in_exam() ? ExamRules::strict : ExamRules::open);
+  if (in_exam() && std::as_const(*session).source().recording())
+    throw InputError(uri, "", "a recorded scan is nobody's exam", "name the tracker that the learner holds");
+  record_raw(*session, request);
+  show(std::move(loaded_case), request);
+  setup_.reset();
+  session_ = std::move(session);
+  picture_tools_ = {};
+  step_controls_ = {};
+  author_.reset();
+  if (options_.mode == Mode::author && request.source.case_folder == options_.case_folder && !loaded_case_->scenario)
+    author_.emplace(options_.case_folder);
+  replay_.reset();
+  reader_.forget();
+  recorder_.begin_anew();
+  result_files_.reset();
+  best_frame_of_ = 0;
+}
+
+void Trainer::show(std::shared_ptr<const LoadedCase> loaded_case, const Request& request) {
+  if (loaded_case != loaded_case_) {
+    gl::upload_ct(patient_of(request.source), loaded_case->subject.ct.grid, [&] { pictures_.show(*loaded_case); });
+    guide_.forget_made();
+  }
+  loaded_case_ = std::move(loaded_case);
+  current_ = request;
+}
+
+void Trainer::update(double now_s) {
+  if (loading_ && loading_->done()) take_over_loaded();
+  if (!options_.shader_folder.empty() && now_s - shaders_looked_at_s_ > 0.5) {
+    shaders_looked_at_s_ = now_s;
+    reload_shaders();
+  }
+  if (setup_) attempt([&] { setup_->update(now_s); });
+  if (setup_ && setup_->finished()) end_setup();
+  if (replay_) replay_->advance(now_s);
+  if (!session_) return;
+  if (!options_.record.empty() && !recorded_) start_recording();
+  const bool had_result = session_->result().has_value();
+  session_->advance(now_s);
+  picture_tools_.see(*session_);
+  step_controls_.see(*session_);
+  if (author_) author_->see(*session_);
+  recorder_.take(*session_);
+  attempt([&] { recorder_.check(); });
+  attempt([&] { check_raw(); });
+  if (!session_->result()) result_files_.reset();
+  results_due_ = results_due_ || (!had_result && session_->result());
+  attempt([&] { keep_sitting(); });
+}
+
+void Trainer::draw(const PictureSizes& sizes, double quality, double budget_ms) {
+  try {
+    if (replay_) pictures_.update(replay_->moment().shown_pose, replay_->machine(), sizes, quality, budget_ms);
+    if (session_) pictures_.update(*session_, sizes, quality, budget_ms);
+  } catch (const std::runtime_error& error) {
+    // What was built when the file changed may not build for settings that come later.
+    if (options_.shader_folder.empty()) throw;
+    tell_of_shaders(error.what());
+  }
+  if (!session_) return;
+  if (!options_.latency.empty()) {
+    glFinish();
+    latency_.add(*session_, steady_now_s());
+  }
+  if (feed_) feed_->tell(*session_);
+  show_pictures();
+}
+
+void Trainer::show_pictures() {
+  const bool clients = feed_ && feed_->wants_pictures(), recording = recorder_.wants_pictures();
+  if ((clients && !clients_) || (recording && !records_pictures_)) reader_.ask_again();
+  clients_ = clients;
+  records_pictures_ = recording;
+  if (!clients && !recording) return reader_.forget();
+  reader_.ask(*session_, pictures_);
+  // Without a window nobody sees a frame that takes longer, and every picture counts.
+  while (const std::optional<DrawnPicture> picture = reader_.take(options_.headless)) {
+    if (clients) feed_->show(*picture);
+    recorder_.take(*picture);
+  }
+}
+
+void Trainer::start_recording() {
+  // What the command line names is taken once; later recordings lie beside it.
+  const bool named = !options_.record.empty() && !std::exchange(recorded_, true);
+  recorder_.start(options_.record.empty() ? options_.out / "recording.igs.mha" : options_.record, named);
+}
+
+void Trainer::finish_recording() {
+  recorder_.stop();
+  recorder_.wait();
+  attempt([&] { recorder_.check(); });
+}
+
+bool Trainer::best_frame_due() const {
+  if (!session_ || !session_->runner()) return false;
+  constexpr double kStep = 0.1;  // of the hold
+  const LiveExam& live = session_->runner()->live();
+  if (session_->attempt() != best_frame_of_ || live.step != best_step_) return live.hold_share > 0;
+  return live.hold_share > best_share_ + kStep;
+}
+
+void Trainer::keep_best_frame() {
+  if (!pictures_.ultrasound()) return;
+  const LiveExam& live = session_->runner()->live();
+  if (best_frame_of_ != session_->attempt()) best_frames_.clear();
+  best_frame_of_ = session_->attempt();
+  best_step_ = live.step;
+  best_share_ = live.hold_share;
+  best_frames_[live.step] = mirrored(read_back(*pictures_.ultrasound()));
+}
+
+const Image<Rgba8>* Trainer::best_frame() const {
+  return best_frames_.empty() ? nullptr : &best_frames_.rbegin()->second;
+}
+
+void Trainer::write_results_if_due() {
+  if (!std::exchange(results_due_, false) || !session_) return;
+  if (best_frame_of_ != session_->attempt()) best_frames_.clear();
+  attempt([&] { keep_and_report(); });
+}
+
+/// Each step's best picture and what it should look like.
+std::vector<ReportPicture> Trainer::report_pictures() {
+  std::vector<ReportPicture> pictures;
+  for (const auto& [step, frame] : best_frames_)
+    pictures.push_back(report_picture(step, ReportPicture::Kind::best, frame));
+  const std::vector<StepResult>& steps = session_->result()->steps;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const ReferenceView* view = loaded_case_->subject.find_view(steps[i].view);
+    if (const auto picture = view ? pictures_.reference_picture(*view) : std::nullopt)
+      pictures.push_back(report_picture(i, ReportPicture::Kind::reference, mirrored(*picture)));
+  }
+  return pictures;
+}
+
+void Trainer::keep_and_report() {
+  Attempt finished = finished_attempt(*session_, current_.source, options_.learner, report_pictures());
+  // A log that is only watched, as when the trainer starts, is nobody's attempt.
+  const bool replayed = std::as_const(*session_).source().recording() != nullptr;
+  std::exception_ptr not_kept;
+  if (results_ && (!replayed || !options_.results.empty())) {
+    try {
+      const std::int64_t sitting = journal_ ? journal_->finish(*session_) : 0;
+      if (journal_ && sitting == 0) results_->check_not_taken(options_.learner, loaded_case_->scenario->digest);
+      results_->add(finished, sitting);
+    } catch (const InputError&) {
+      not_kept = std::current_exception();  // the report is wanted all the more
+    }
+  }
+  result_files_ = write_report_files(options_.out, finished);
+  if (not_kept) std::rethrow_exception(not_kept);
+}
+
+void Trainer::reload_shaders() {
+  const auto changed = gl::last_change(options_.shader_folder);
+  if (changed == shaders_changed_) return;
+  shaders_changed_ = changed;
+  tell_of_shaders(pictures_.reload(gl::ShaderSources(options_.shader_folder)).value_or(""));
+}
+
+void Trainer::tell_of_shaders(const std::string& problem) {
+  if (problem == shader_problem_) return;
+  shader_problem_ = problem;
+  // The screen has room for its beginning; whoever edits shaders has a terminal.
+  if (!problem.empty()) std::fprintf(stderr, "insonate: %s\n", problem.c_str());
+}
+
+}  // namespace insonate

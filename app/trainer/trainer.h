@@ -1,0 +1,212 @@
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/pictures/igtl_feed.h"
+#include "app/pictures/picture_latency.h"
+#include "app/pictures/picture_reader.h"
+#include "app/pictures/pictures.h"
+#include "app/recording/exam_journal.h"
+#include "app/recording/results.h"
+#include "app/recording/run_recorder.h"
+#include "app/replay/replay_source.h"
+#include "app/session/author.h"
+#include "app/session/guide.h"
+#include "app/session/loaded_case.h"
+#include "app/session/loading.h"
+#include "app/session/picture_tools.h"
+#include "app/session/session.h"
+#include "app/session/step_controls.h"
+#include "app/trainer/options.h"
+#include "app/trainer/setup_wizard.h"
+#include "devices/record/raw_recorder.h"
+#include "scenarios/results/report_files.h"
+#include "scenarios/results/results_database.h"
+
+namespace insonate {
+
+/// The trainer without its screen: loads what is asked for on a thread of its own, runs the session, draws its
+/// pictures, writes the results, and collects what went wrong for a dialog. Needs an OpenGL context current, from
+/// construction to destruction, on the one thread that uses it.
+class Trainer {
+public:
+  /// Throws InputError when OpenIGTLink clients are asked for where nobody can listen, and when a database of results
+  /// is that cannot be used.
+  explicit Trainer(Options options);
+
+  /// Opens what the command line names, without waiting for it.
+  void open_from_options();
+  /// Opens a file or folder that a person dropped, typed or chose: a case, a CT, a scenario or a recorded scan. It
+  /// takes the place of what is being loaded.
+  void open(const std::filesystem::path& path);
+
+  /// What is being loaded; nullptr for nothing.
+  const Loading* loading() const { return loading_.get(); }
+  /// Waits until it is there.
+  void finish_loading();
+  /// Gives it up and goes on with the session there is; does nothing when there is none.
+  void stop_loading();
+
+  /// Takes over what was loaded and advances the session to `now_s`.
+  void update(double now_s);
+  /// Draws the pictures of the session, and tells OpenIGTLink clients.
+  void draw(const PictureSizes& sizes, double quality, double budget_ms);
+  /// Whether the view is held longer than when the best frame was kept: draw, then keep it.
+  bool best_frame_due() const;
+  void keep_best_frame();
+  /// Keeps the attempt when an exam has ended, and writes its report and score, once.
+  void write_results_if_due();
+
+  /// Ends an exam that counts and is left before its end: what there is of it is scored and kept.
+  void hand_in_exam();
+  /// Whether the exam that the trainer was started for cannot be taken: there is nothing to show then but why.
+  bool exam_refused() const { return in_exam() && !session_ && !setup_ && !loading_; }
+  /// Whether that is acknowledged too, and nothing is left to be done.
+  bool is_over() const { return exam_refused() && problems_.empty(); }
+
+  /// Starts recording, to the file of the command line, or else to the next free name beside it or in the folder of the
+  /// results: recording.igs.mha.
+  void start_recording();
+  /// Ends it; the files are made meanwhile.
+  void stop_recording() { recorder_.stop(); }
+  /// Ends it and waits for the files.
+  void finish_recording();
+  const RunRecorder& recorder() const { return recorder_; }
+  /// The last file that the tracker's bytes went to; empty when they are not recorded.
+  std::filesystem::path raw_file() const { return raw_ ? raw_->file() : std::filesystem::path(); }
+
+  /// The set-up of the tracker, while it is being made: there is no session then, as the tracker is the set-up's.
+  SetupWizard* setup() { return setup_.get(); }
+  const SetupWizard* setup() const { return setup_.get(); }
+  /// Begins it, with the session's tracker; where that has no sensor, that is a problem to acknowledge. It begins by
+  /// itself where the command line names a calibration that is still to be made.
+  void begin_setup();
+  /// Goes on with the session, through the calibration if it is complete.
+  void end_setup();
+
+  /// How to start the trainer so that it uses the calibration that is being made, as a sentence.
+  std::string next_start() const;
+
+  /// Measured while options().latency says where it is to be told.
+  const PictureLatency& latency() const { return latency_; }
+
+  /// The run that is looked at again; there is no session then, and nothing is scored or kept.
+  Replay* replay() { return replay_.get(); }
+  const Replay* replay() const { return replay_.get(); }
+  /// The patient that is shown, with the exam if there is one; nullptr before the first is loaded.
+  const LoadedCase* loaded_case() const { return loaded_case_.get(); }
+
+  /// Help for practice.
+  Guide& guide() { return guide_; }
+  const Guide& guide() const { return guide_; }
+
+  /// What makes views of a case folder; nullptr unless that is what the trainer was started for.
+  Author* author() { return author_ ? &*author_ : nullptr; }
+  const Author* author() const { return author_ ? &*author_ : nullptr; }
+  /// Keeps the view that is being made; what speaks against it is a problem to acknowledge.
+  void keep_view();
+
+  Session* session() { return session_.get(); }
+  const Session* session() const { return session_.get(); }
+  PictureTools& picture_tools() { return picture_tools_; }
+  const PictureTools& picture_tools() const { return picture_tools_; }
+  StepControls& step_controls() { return step_controls_; }
+  const StepControls& step_controls() const { return step_controls_; }
+  Pictures& pictures() { return pictures_; }
+  const Pictures& pictures() const { return pictures_; }
+  const Options& options() const { return options_; }
+  const std::optional<ResultFiles>& result_files() const { return result_files_; }
+  /// The ultrasound, marker on the left, when the view of the last step that was held for any time was held best;
+  /// nullptr when none was.
+  const Image<Rgba8>* best_frame() const;
+
+  /// What went wrong and nobody has acknowledged yet, the oldest first.
+  std::deque<std::string>& problems() { return problems_; }
+  const std::deque<std::string>& problems() const { return problems_; }
+  /// What makes the tracker's calibration doubtful, as sentences; empty when nothing does.
+  const std::string& calibration_warning() const { return calibration_warning_; }
+  /// What shaders being edited do not build with, when they were read or for the settings of a picture since; empty
+  /// when they do. There is no new picture then: it stays as it was, or black where the probe or its depth has changed.
+  const std::string& shader_problem() const { return shader_problem_; }
+
+  /// Runs `action` and turns what it throws into a problem to acknowledge, except without a window, where there is
+  /// nobody to do so: there it passes through. Whether it went well.
+  bool attempt(const std::function<void()>& action);
+
+private:
+  bool in_exam() const { return options_.mode == Mode::exam; }
+  struct Request {
+    CaseSource source;
+    std::string tracker;  ///< URI; empty: the bundled log with the bundled exam, else the learner's own hand
+    ReplaySource replay;  ///< what is looked at again, in place of a session
+  };
+  /// Throws, on the loading thread, what the session will throw for reasons that have nothing to do with the patient: a
+  /// patient can take a minute to make.
+  std::function<void()> refusals(const Request& request);
+  void load(Request request);
+  void take_over_loaded();
+  void begin(std::shared_ptr<const LoadedCase> loaded_case, const Request& request);
+  std::uint32_t seed() const;
+  void refuse_second_exam(const Scenario& exam);
+  void keep_sitting();
+  void begin_replay(std::shared_ptr<const LoadedCase> loaded_case, const Request& request);
+  void show(std::shared_ptr<const LoadedCase> loaded_case, const Request& request);
+  std::filesystem::path own_calibration() const;
+  void find_calibration();
+  bool uses_calibration(const Request& request) const;
+  bool needs_setup(const Request& request) const;
+  Session::OpenTracker opener(const std::string& uri, const LoadedCase& loaded_case, bool calibrated);
+  void record_raw(Session& session, const Request& request);
+  void check_raw();
+  void open_setup();
+  void reload_shaders();
+  void tell_of_shaders(const std::string& problem);
+  void open_results();
+  std::vector<ReportPicture> report_pictures();
+  void keep_and_report();
+  void show_pictures();
+
+  Options options_;
+  std::optional<std::filesystem::file_time_type> shaders_changed_;
+  double shaders_looked_at_s_ = 0;
+  std::string shader_problem_, calibration_warning_;
+  std::string why_not_calibrated_;  ///< by what an earlier set-up has left; a sentence, mostly empty
+
+  Request current_, requested_;
+  std::unique_ptr<Loading> loading_;
+
+  std::shared_ptr<const LoadedCase> loaded_case_;
+  std::unique_ptr<Session> session_;
+  PictureTools picture_tools_;
+  StepControls step_controls_;
+  std::shared_ptr<std::unique_ptr<Replay>> loaded_replay_;  ///< filled in by loading_; nullptr when it is of a session
+  std::unique_ptr<Replay> replay_;
+  Guide guide_;
+  std::optional<Author> author_;
+  std::unique_ptr<SetupWizard> setup_;
+  bool setup_left_ = false;  ///< before it was complete: the tracker is used without
+  Pictures pictures_;
+  PictureLatency latency_;
+  PictureReader reader_;
+  RunRecorder recorder_;
+  bool recorded_ = false;                            ///< to the command line's file
+  std::shared_ptr<const RawRecorder> raw_;           ///< of the newest session; nullptr when nobody asked for it
+  bool clients_ = false, records_pictures_ = false;  ///< who wanted pictures at the last frame
+  std::unique_ptr<IgtlFeed> feed_;                   ///< nullptr when no clients are asked for
+  std::optional<ResultFiles> result_files_;
+  bool results_due_ = false;
+  std::optional<ResultsDatabase> results_;
+  std::optional<ExamJournal> journal_;               ///< of an exam that counts, once it has begun
+  std::map<std::size_t, Image<Rgba8>> best_frames_;  ///< by step
+  int best_frame_of_ = 0;                            ///< the session's attempt; 0 for none
+  std::size_t best_step_ = 0;
+  double best_share_ = 0;
+  std::deque<std::string> problems_;
+};
+
+}  // namespace insonate

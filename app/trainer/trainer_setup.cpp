@@ -1,0 +1,158 @@
+// The trainer's trackers and their calibration: what a session opens, and the set-up that makes it.
+
+#include <cstdio>
+#include <ctime>
+#include <utility>
+
+#include "app/recording/run_files.h"
+#include "app/trainer/trainer.h"
+#include "devices/calibrated_tracker.h"
+#include "devices/registry.h"
+#include "sim/core/files.h"
+#include "sim/core/input_error.h"
+
+namespace insonate {
+namespace {
+
+/// The patient's landmarks. The built-in list is of the built-in patient and of no other.
+std::optional<LandmarkList> landmarks_for(const std::string& patient, const std::filesystem::path& file) {
+  LandmarkList list = read_landmark_list(file.empty() ? assets_folder() / "calibration" / "abdomen.toml" : file);
+  if (file.empty() && list.patient != patient) return std::nullopt;
+  return list;
+}
+
+std::string joined(const std::vector<std::string>& sentences) {
+  std::string text;
+  for (const std::string& sentence : sentences) text += (text.empty() ? "" : " ") + sentence;
+  return text;
+}
+
+}  // namespace
+
+std::filesystem::path Trainer::own_calibration() const {
+  return options_.out / "calibration.toml";
+}
+
+void Trainer::find_calibration() {
+  const std::filesystem::path file = own_calibration();
+  std::error_code error;
+  if (!options_.calibration.empty() || options_.tracker.empty() || !is_a_labs_own(options_.tracker)) return;
+  if (!std::filesystem::exists(file, error)) return;
+  // Nobody has named the file, so that nothing about it stops a session.
+  try {
+    const Calibration calibration = read_complete_calibration(file);
+    if (calibration.tracker == tracker_identity(options_.tracker)) {
+      options_.calibration = file;
+      std::fprintf(stderr, "insonate: the probe is placed by the set-up in %s, which --calibration would name\n",
+                   file.c_str());
+      return;
+    }
+    why_not_calibrated_ =
+        "The set-up in " + file.string() + " is of another tracker (" + calibration.tracker.words() + ").";
+  } catch (const InputError& unusable) {
+    why_not_calibrated_ = std::string("The last set-up is not used: ") + unusable.what();
+  }
+  std::fprintf(stderr, "insonate: %s\n", why_not_calibrated_.c_str());
+}
+
+std::string Trainer::next_start() const {
+  const std::string& uri = current_.tracker;
+  const bool plain = uri.find_first_of("?&* '\"$;") == std::string::npos;
+  const std::string command = "insonate --tracker " + (plain ? uri : "'" + uri + "'");
+  const std::filesystem::path file = options_.calibration.empty() ? own_calibration() : options_.calibration;
+  if (file == own_calibration() && is_a_labs_own(uri))
+    return "From the next start on it is used by itself, as long as you start in the same folder: " + command +
+           (options_.out == Options().out ? "" : " --out " + options_.out.string());
+  return "To use it from the next start on: " + command + " --calibration " + file.string();
+}
+
+bool Trainer::uses_calibration(const Request& request) const {
+  // What is dropped on the window is no tracker of the command line's.
+  return !options_.calibration.empty() && !request.tracker.empty() && request.tracker == options_.tracker;
+}
+
+Session::OpenTracker Trainer::opener(const std::string& uri, const LoadedCase& loaded_case, bool calibrated) {
+  calibration_warning_ = !calibrated && uri == options_.tracker ? why_not_calibrated_ : "";
+  if (!calibrated) return [uri, surroundings = loaded_case.surroundings] { return open_tracker(uri, surroundings); };
+  const Calibration calibration = read_complete_calibration(options_.calibration);
+  calibration_warning_ = joined(calibration_warnings(calibration, tracker_identity(uri),
+                                                     std::int64_t(std::time(nullptr)), options_.calibration_days));
+  if (!calibration_warning_.empty()) std::fprintf(stderr, "insonate: %s\n", calibration_warning_.c_str());
+  return [sensor = sensor_uri(uri, true), calibration, name = options_.calibration.filename().string()] {
+    return std::make_unique<CalibratedTracker>(open_tracker(sensor), calibration, name);
+  };
+}
+
+void Trainer::record_raw(Session& session, const Request& request) {
+  // What is dropped on the window is no tracker of the command line's.
+  if (options_.record_raw.empty() || request.tracker != options_.tracker || !session.tracker()) return;
+  const bool calibrated = uses_calibration(request) && !setup_left_;
+  const std::string uri = calibrated ? sensor_uri(request.tracker, true) : request.tracker;
+  // Each session begins a file of its own, as its recording does.
+  std::error_code error;
+  int part = 1;
+  while (std::filesystem::exists(part_of(options_.record_raw, part), error)) ++part;
+  const std::filesystem::path file = part_of(options_.record_raw, part);
+  raw_ = insonate::record_raw(*session.tracker(), file, uri, session.loaded_case().surroundings.start);
+}
+
+void Trainer::check_raw() {
+  if (!raw_ || raw_->problem().empty()) return;
+  const std::string problem = raw_->problem();
+  raw_.reset();
+  throw InputError(problem);
+}
+
+bool Trainer::needs_setup(const Request& request) const {
+  std::error_code error;
+  if (options_.headless || setup_left_) return false;
+  if (options_.mode == Mode::setup && request.tracker == options_.tracker) return true;
+  if (!uses_calibration(request)) return false;
+  return !std::filesystem::exists(options_.calibration, error) ||
+         !why_incomplete(read_calibration(options_.calibration)).empty();
+}
+
+void Trainer::begin_setup() {
+  if (setup_ || !loaded_case_ || replay_ || in_exam()) return;
+  attempt([&] { open_setup(); });
+  if (!setup_ && !session_) load(Request());
+}
+
+void Trainer::open_setup() {
+  const std::string uri = current_.tracker;
+  const bool live = session_ && std::as_const(*session_).source().live();
+  const bool asked_for = options_.mode == Mode::setup && uri == options_.tracker;
+  if (uri.empty() || !(live || asked_for || uses_calibration(current_)))
+    throw InputError("set-up", "", "no tracker with a sensor is used",
+                     "start the trainer with one, as in 'insonate --tracker hydra:'");
+  check_can_be_calibrated(uri);
+  const std::filesystem::path file = options_.calibration.empty() ? own_calibration() : options_.calibration;
+  Calibration base = calibration_to_go_on(file, tracker_identity(uri));
+  SetupGiven given;
+  given.landmarks = landmarks_for(loaded_case_->subject.name, options_.landmarks);
+  if (!options_.drawing.empty()) given.drawing = read_probe_drawing(options_.drawing);
+  session_.reset();  // which lets go of the tracker
+  calibration_warning_.clear();
+  setup_ = std::make_unique<SetupWizard>(open_tracker(sensor_uri(uri, false), loaded_case_->surroundings),
+                                         std::move(base), std::move(given), file);
+}
+
+void Trainer::end_setup() {
+  if (!setup_) return;
+  const std::string missing = why_incomplete(setup_->calibration());
+  if (options_.mode == Mode::setup) options_.mode = Mode::practice;
+  options_.tracker = current_.tracker;
+  if (missing.empty()) options_.calibration = setup_->file();
+  why_not_calibrated_.clear();
+  setup_left_ = !missing.empty();
+  setup_.reset();
+  const Request again = current_;
+  attempt([&] { begin(loaded_case_, again); });
+  if (!session_ && in_exam()) return;
+  if (!session_) return load(Request());
+  if (setup_left_)
+    calibration_warning_ = "The set-up is not complete: the step '" + missing +
+                           "' is still to be made. The probe is where the tracker's first pose put it.";
+}
+
+}  // namespace insonate

@@ -1,0 +1,100 @@
+#include <algorithm>
+#include <vector>
+
+#include "devices/calibration/steps/finding_step.h"
+#include "devices/calibration/steps/steps.h"
+
+namespace insonate {
+namespace {
+
+constexpr double kLongestPivotS = 60;
+constexpr double kPivotS = 10;
+/// So many poses are fitted again and again while they come: some milliseconds each time.
+constexpr std::size_t kFittedOnTheWay = 150;
+
+/// That many of the poses, or all, evenly spread.
+std::vector<Pose> some_of(const std::vector<Pose>& poses, std::size_t count) {
+  if (poses.size() <= count) return poses;
+  std::vector<Pose> picked;
+  for (std::size_t i = 0; i < count; ++i) picked.push_back(poses[i * poses.size() / count]);
+  return picked;
+}
+
+/// Pivoting between two marks.
+class PivotStep : public FindingStep {
+public:
+  explicit PivotStep(const Calibration& base) : FindingStep(base, "Probe tip") {}
+  void store(Calibration& calibration, std::int64_t now_s) const override;
+
+protected:
+  void marked(double time_s) override;
+  void taken_back(bool) override { reading_ = false; }
+  void take(const PoseSample& sample) override;
+  void ask(SetupView& view) const override;
+  std::string result() const override;
+
+private:
+  std::vector<Pose> poses_;
+  double spread_deg_ = 0, began_s_ = 0, lasted_s_ = 0, told_s_ = 0;
+  std::optional<double> residual_mm_;  ///< of a fit to what came so far, once there is one
+  bool reading_ = false;
+  TipFit found_;
+};
+
+void PivotStep::marked(double time_s) {
+  if (!reading_) {
+    reading_ = true;
+    poses_.clear();
+    spread_deg_ = lasted_s_ = 0;
+    residual_mm_.reset();
+    began_s_ = told_s_ = time_s;
+    return;
+  }
+  reading_ = false;
+  settle(fit_tip(poses_), found_);
+}
+
+void PivotStep::take(const PoseSample& sample) {
+  if (!reading_) return;
+  lasted_s_ = std::max(0.0, sample.time_s - began_s_);
+  if (sample.status == PoseStatus::ok) poses_.push_back(base_.tracker_from_sensor(sample.patient_from_probe));
+  if (sample.time_s - told_s_ > 0.25) {
+    told_s_ = sample.time_s;
+    spread_deg_ = pivot_spread_deg(poses_);
+    const auto fit = fit_tip(some_of(poses_, kFittedOnTheWay));
+    residual_mm_ = fit ? std::optional(fit->residual_mm) : std::nullopt;
+  }
+  const bool enough = lasted_s_ > kPivotS && spread_deg_ > 1.3 * kLeastPivotSpreadDeg;
+  if (enough || poses_.size() >= kMostStepPoses || lasted_s_ > kLongestPivotS) mark(sample.time_s);
+}
+
+void PivotStep::ask(SetupView& view) const {
+  view.reading = reading_;
+  view.task = reading_
+                  ? "Keep the tip in the dimple. Tilt the probe by 30 degrees to all sides, and turn it about its "
+                    "length."
+                  : "Put the probe's pointed tip into a dimple that stands fast, away from metal. Mark, then pivot "
+                    "for ten seconds.";
+  if (!reading_) return;
+  view.share = std::min({1.0, lasted_s_ / kPivotS, spread_deg_ / (1.3 * kLeastPivotSpreadDeg)});
+  view.feedback = worded("%.0f s, %zu poses, turned by %.0f of %.0f degrees", lasted_s_, poses_.size(), spread_deg_,
+                         1.3 * kLeastPivotSpreadDeg);
+  if (residual_mm_) view.feedback += worded(", residual %.2f mm", *residual_mm_);
+}
+
+std::string PivotStep::result() const {
+  return worded("residual %.2f mm over %zu poses (%zu rejected); the tip is known to %.2f mm", found_.residual_mm,
+                found_.used, found_.rejected, found_.tip_sd_mm);
+}
+
+void PivotStep::store(Calibration& calibration, std::int64_t now_s) const {
+  calibration.tip = Dated<TipFit>{found_, now_s};
+}
+
+}  // namespace
+
+std::unique_ptr<SetupStep> pivot_step(const Calibration& base) {
+  return std::make_unique<PivotStep>(base);
+}
+
+}  // namespace insonate

@@ -1,0 +1,22 @@
+#include "devices/live/sample_conditioner.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace insonate {
+
+void SampleConditioner::apply(PoseSample& sample, const std::optional<glm::dvec3>& origin) {
+  // Samples of one report share a time, and a clock may be read in another order than they are handed over.
+  sample.time_s = std::max(sample.time_s, std::nextafter(last_time_s_, HUGE_VAL));
+  last_time_s_ = sample.time_s;
+  filters_.apply(sample, origin);
+}
+
+PoseSample silence_at(double time_s) {
+  PoseSample silence;
+  silence.time_s = time_s;
+  silence.status = PoseStatus::missing;
+  return silence;
+}
+
+}  // namespace insonate

@@ -1,0 +1,256 @@
+#include "scenarios/report/report.h"
+
+#include <string_view>
+#include <utility>
+
+#include "scenarios/report/charts.h"
+#include "scenarios/report/embedded_files.h"
+#include "scenarios/report/path.h"
+#include "scenarios/words.h"
+
+namespace insonate {
+namespace {
+
+std::string escaped(std::string_view text) {
+  std::string html;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        html += "&amp;";
+        break;
+      case '<':
+        html += "&lt;";
+        break;
+      case '>':
+        html += "&gt;";
+        break;
+      case '"':
+        html += "&quot;";
+        break;
+      case '\'':
+        html += "&#39;";
+        break;
+      default:
+        html += c;
+    }
+  }
+  return html;
+}
+
+const char* in_words(StepOutcome outcome) {
+  switch (outcome) {
+    case StepOutcome::held:
+      return "view held";
+    case StepOutcome::done:
+      return "done";
+    case StepOutcome::went_on:
+      return "left by the learner";
+    case StepOutcome::timed_out:
+      return "time ran out";
+    case StepOutcome::scan_ended:
+      return "scan ended first";
+    case StepOutcome::skipped:
+      return "left out";
+    case StepOutcome::not_reached:
+      return "not reached";
+  }
+  return "";
+}
+
+std::string outcome_chip(StepOutcome outcome) {
+  return "<span class='outcome " + std::string(is_done(outcome) ? "good" : "bad") + "'>" + in_words(outcome) +
+         "</span>";
+}
+
+std::string bar(double share) {
+  return std::string("<div class='bar") + (share >= 1 ? " all" : "") + "'><i style='width:" + fixed(100 * share, 1) +
+         "%'></i></div>";
+}
+
+std::string row(const Mark& m) {
+  const double share = m.weight > 0 ? m.points / m.weight : 0;
+  const char* grade = share >= 1 ? "all" : share > 0 ? "some" : "none";
+  std::string html = "<tr class='" + std::string(grade) + "'><td><b>" + escaped(info(m.metric).words) + "</b>";
+  if (m.critical) html += " <span class='critical'>critical</span>";
+  html += "<small>" + escaped(m.why) + "</small></td>";
+  html += "<td class='number'>" + (m.value ? in_words(m.metric, *m.value) : "\u2013") + "</td>";
+  html += "<td class='number'>" + in_words(m.metric, m.full) + " \u2026 " + in_words(m.metric, m.zero) + "</td>";
+  html +=
+      "<td class='number'>" + short_number(m.points) + " of " + short_number(m.weight) + bar(share) + "</td></tr>\n";
+  return html;
+}
+
+std::string table(const std::vector<Mark>& marks) {
+  if (marks.empty()) return "<p class='quiet'>This part does not count.</p>";
+  std::string html =
+      "<table class='marks'><thead><tr><th>Criterion</th><th class='number'>Value</th><th class='number'>Full \u2026 "
+      "no points</th>"
+      "<th class='number'>Points</th></tr></thead><tbody>\n";
+  for (const Mark& m : marks) html += row(m);
+  return html + "</tbody></table>";
+}
+
+std::string base64(std::string_view bytes) {
+  static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    unsigned group = 0;
+    for (std::size_t j = 0; j < 3; ++j)
+      group = group << 8 | (i + j < bytes.size() ? static_cast<unsigned char>(bytes[i + j]) : 0u);
+    for (std::size_t j = 0; j < 4; ++j) text += i + j <= bytes.size() ? kDigits[group >> (18 - 6 * j) & 63u] : '=';
+  }
+  return text;
+}
+
+/// The learner's picture on the left, the one to compare it with on the right.
+std::string pictures_of(std::size_t step, const std::vector<ReportPicture>& pictures) {
+  struct Place {
+    ReportPicture::Kind kind;
+    const char* caption;
+    const char* missing;
+  };
+  std::string html;
+  bool any = false;
+  for (const Place& place : {Place{ReportPicture::Kind::best, "While the view was held best", "The view was not held"},
+                             Place{ReportPicture::Kind::reference, "Reference view", "No picture"}}) {
+    const ReportPicture* shown = nullptr;
+    for (const ReportPicture& picture : pictures)
+      if (picture.step == step && picture.kind == place.kind) shown = &picture;
+    html += "<figure>";
+    html += shown ? "<img alt='' src='data:image/png;base64," + base64(shown->png) + "'>"
+                  : "<div class='missing'>" + std::string(place.missing) + "</div>";
+    html += "<figcaption>" + std::string(place.caption) + "</figcaption></figure>";
+    any = any || shown;
+  }
+  return any ? "<div class='pictures'>" + html + "</div>" : "";
+}
+
+std::string section(const StepResult& step, std::size_t index, const std::vector<ReportPicture>& pictures) {
+  std::string html =
+      "<section><h2>" + std::to_string(index + 1) + ". " + escaped(step.title) + outcome_chip(step.outcome) + "</h2>";
+  if (step.outcome == StepOutcome::skipped) return html + "</section>\n";
+  if (step.outcome != StepOutcome::not_reached) {
+    html += "<p class='quiet'>From " + fixed(step.start_s, 1) + " s to " + fixed(step.end_s, 1) + " s. ";
+    if (step.judged_from_s)
+      html +=
+          std::string(step.outcome == StepOutcome::held ? "Judged over the hold" : "Never held long enough: judged") +
+          " from " + fixed(*step.judged_from_s, 1) + " s to " + fixed(*step.judged_to_s, 1) + " s.";
+    html += "</p>";
+  }
+  if (!step.counts) html += "<p class='quiet'>A warm-up, which does not count.</p>";
+  if (step.hints_taken > 0)
+    html += "<p class='quiet'>Hints taken: " + std::to_string(step.hints_taken) + ", for " +
+            short_number(step.lost_to_hints()) + " points.</p>";
+  for (const auto& [what, fact] : step.facts)
+    html += "<p class='quiet'>" + escaped(what) + ": " + escaped(fact) + "</p>";
+  return html + table(step.marks) + pictures_of(index, pictures) + "</section>\n";
+}
+
+/// A line for each step: what an examiner looks at first.
+std::string overview(const ExamResult& result) {
+  const auto line = [](const std::string& name, const std::string& outcome, double time_s,
+                       const std::vector<Mark>& marks) {
+    double points = 0, possible = 0;
+    for (const Mark& m : marks) {
+      points += m.points;
+      possible += m.weight;
+    }
+    return "<tr><td>" + name + "</td><td>" + outcome + "</td><td class='number'>" + fixed(time_s, 1) +
+           " s</td><td class='number'>" +
+           (possible > 0 ? short_number(points) + " of " + short_number(possible) + bar(points / possible)
+                         : std::string("does not count")) +
+           "</td></tr>\n";
+  };
+  std::string html = "<table class='overview'><tbody>\n";
+  for (std::size_t i = 0; i < result.steps.size(); ++i) {
+    const StepResult& step = result.steps[i];
+    html += line(std::to_string(i + 1) + ". " + escaped(step.title), outcome_chip(step.outcome),
+                 step.end_s - step.start_s, step.marks);
+  }
+  return html + line("Whole exam", "", result.motion.time_s, result.marks) + "</tbody></table>";
+}
+
+std::string verdict(const ExamResult& result) {
+  const char* state = !result.complete ? "open" : result.passed ? "passed" : "failed";
+  const char* word = !result.complete ? "Not finished" : result.passed ? "Passed" : "Not passed";
+  std::string html = "<div class='verdict " + std::string(state) + "'><div><strong>" + word +
+                     "</strong><span class='percent'>" + percentage(result) + "<small> %</small></span></div>";
+  html += "<div class='meter'><i style='width:" + fixed(result.percent, 1) +
+          "%'></i><b style='left:" + fixed(result.pass_mark_percent, 1) + "%'></b></div>";
+  html += "<p>" + short_number(result.points) + " of " + short_number(result.points_possible) + " points; " +
+          short_number(result.pass_mark_percent) + " % are needed.</p>";
+  if (!result.reasons.empty()) {
+    html += "<ul>";
+    for (const std::string& reason : result.reasons) html += "<li>" + escaped(reason) + "</li>";
+    html += "</ul>";
+  }
+  return html + overview(result) + "</div>\n";
+}
+
+/// What a reader has to know before he compares it with others.
+std::string kind_of_report(std::optional<AttemptMode> mode) {
+  if (!mode) return "Score report";
+  switch (*mode) {
+    case AttemptMode::exam:
+      return "Score report of an exam";
+    case AttemptMode::practice:
+      return "Score report of practice, which does not count as an exam";
+    case AttemptMode::recording:
+      return "Score report of a recorded scan";
+  }
+  return "";
+}
+
+std::string whose(const ReportSubject& subject) {
+  std::string rows;
+  for (const auto& [name, value] :
+       {std::pair{"Learner", &subject.learner}, {"Attempt", &subject.attempt}, {"Finished", &subject.finished}})
+    if (!value->empty())
+      rows.append("<tr><td>").append(name).append("</td><td>").append(escaped(*value)) += "</td></tr>";
+  return rows.empty() ? "" : "<table class='whose'>" + rows + "</table>";
+}
+
+std::string made_from(const ExamResult& result) {
+  const Provenance& p = result.provenance;
+  const auto line = [](const char* name, const std::string& value, const std::string& digest = {}) {
+    if (value.empty()) return std::string();
+    return "<tr><td>" + std::string(name) + "</td><td>" + escaped(value) +
+           (digest.empty() ? "" : " <code>" + escaped(digest) + "</code>") + "</td></tr>";
+  };
+  std::string options;
+  for (const auto& [name, value] : p.phantom_options)
+    options.append(options.empty() ? "" : ", ").append(name).append(" = ").append(value);
+  return "<section class='origin'><h2>Made from</h2><table>" + line("Scenario", p.scenario, p.scenario_digest) +
+         line("Case", p.case_name, p.case_digest) + line("Phantom options", options) +
+         line("Variant", p.variant.empty() ? "" : p.variant + ", drawn by seed " + std::to_string(p.seed)) +
+         line("Log", p.log, p.log_digest) + line("Transform", p.log_transform) +
+         line("Insonate", p.program_version + ", scoring " + std::to_string(p.scoring_version)) +
+         "</table></section>\n";
+}
+
+}  // namespace
+
+std::string report_html(const ExamResult& result, std::span<const TracePoint> trace, const ReportSubject& subject) {
+  std::string html =
+      "<!doctype html>\n<html lang='en'><head><meta charset='utf-8'>"
+      "<meta name='viewport' content='width=device-width, initial-scale=1'><title>" +
+      escaped(result.title) + "</title><style>\n" + std::string(report_file("report.css")) +
+      "</style></head>\n<body><main>\n";
+  html += "<header><div><p class='quiet'>" + kind_of_report(result.provenance.mode) + "</p><h1>" +
+          escaped(result.title) + "</h1><p class='quiet'>" + escaped(result.provenance.case_name) + "</p></div>" +
+          whose(subject) + "</header>\n" + verdict(result);
+  for (std::size_t i = 0; i < result.steps.size(); ++i) html += section(result.steps[i], i, subject.pictures);
+  html += "<section><h2>Whole exam</h2>" + table(result.marks) + "</section>\n";
+  if (!trace.empty()) {
+    html += "<section><h2>Over time</h2>" + time_charts_svg(result, trace) +
+            "<p class='legend'><i class='key held'></i>held <i class='key judged'></i>judged without a hold "
+            "<i class='key lost'></i>no tracking <i class='key full'></i>full points</p></section>\n";
+    html += "<section><h2>Way of the probe</h2>" + path_html(result, trace) + "<p class='legend'>";
+    for (std::size_t i = 0; i < result.steps.size(); ++i)
+      html += "<i class='key way" + std::to_string(i % 4) + "'></i>" + escaped(result.steps[i].title) + " ";
+    html += "</p></section>\n";
+  }
+  return html + made_from(result) + "</main></body></html>\n";
+}
+
+}  // namespace insonate

@@ -1,0 +1,48 @@
+#include "sim/imaging/fan_layout.h"
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+
+namespace insonate::gl {
+namespace {
+
+constexpr glm::ivec2 kOutside(1 << 20);  // in blocks: no picture reaches as far
+
+}  // namespace
+
+FanLayout::FanLayout(const Probe& probe, double depth_mm, const ScanLines& lines, int width, int height,
+                     const WorkDivision& division)
+    : geometry(image_geometry(probe, depth_mm, width, height)), inside(width, height) {
+  line_and_sample.assign(inside.pixels.size(), glm::vec2(-2));
+  std::size_t pixel = 0;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x, ++pixel)
+      if (const auto at = line_position(probe, depth_mm, geometry.plane_mm(x, y))) {
+        inside.pixels[pixel] = 1;
+        line_and_sample[pixel] = glm::vec2(at->line, at->r_mm / lines.dr_mm() - 0.5);
+      }
+
+  const auto touched = [&](const glm::ivec2& low) {
+    for (int y = low.y; y < std::min(low.y + kBlock.y, height); ++y)
+      for (int x = low.x; x < std::min(low.x + kBlock.x, width); ++x)
+        if (inside.at(x, y)) return true;
+    return false;
+  };
+  for (int y = 0; y * kBlock.y < height; ++y)
+    for (int x = 0; x * kBlock.x < width; ++x)
+      if (touched(glm::ivec2(x, y) * kBlock)) blocks.emplace_back(x, y);
+  groups = division.in_rows(blocks.size());
+  blocks.resize(std::size_t(groups.x) * std::size_t(groups.y), kOutside);
+}
+
+std::size_t FanLayout::pixels_in_blocks() const {
+  std::size_t count = 0;
+  for (const glm::ivec2& block : blocks) {
+    const glm::ivec2 size = glm::clamp(glm::ivec2(inside.width, inside.height) - block * kBlock, glm::ivec2(0), kBlock);
+    count += std::size_t(size.x) * std::size_t(size.y);
+  }
+  return count;
+}
+
+}  // namespace insonate::gl

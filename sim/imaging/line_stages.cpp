@@ -1,0 +1,174 @@
+#include "sim/imaging/line_stages.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/imaging/stage_tables.h"
+#include "sim/model/beam.h"
+#include "sim/model/scatterers.h"
+
+namespace insonate::gl {
+namespace {
+
+// What all stages are compiled for, and what one is besides.
+Defines with(const WorkDivision& division, Defines defines = {}) {
+  defines.emplace_back("GROUP", std::to_string(division.group));
+  return defines;
+}
+
+Defines traversal(const Settings& settings, double dr_mm, bool group_a_line) {
+  const double samples_a_length = settings.reflection_length_mm / dr_mm;
+  const auto is = [&](double whole) { return std::abs(samples_a_length - whole) < 1e-9; };
+  return {{"GROUP_A_LINE", flag(group_a_line)},
+          {"EDGES_AT", group_a_line ? "kEdgesAnywhere"  // each sample looks for itself
+                       : is(2)      ? "kEdgesAtSamples"
+                       : is(1)      ? "kEdgesAtMiddles"
+                                    : "kEdgesAnywhere"},
+          {"ABSORPTION", flag(settings.absorption)},
+          {"SPECKLE", flag(settings.speckle)},
+          {"EDGE_SHADOW", flag(settings.edge_shadow)},
+          {"EXACT_FILTER", flag(settings.exact_filter)},
+          {"SKIPPING", flag(settings.skipping)},
+          {"ELEVATION_FOCUS", flag(slice_bends(settings))},
+          {"SLICE_PLANES", std::to_string(settings.slice_planes)},
+          {"KEEP_MIDDLE", flag(keeps_middle_plane(settings))}};
+}
+
+Defines reverberation_of(const Settings& settings) {
+  return {{"IN_TISSUE", flag(settings.reverberation)}, {"AT_FACE", flag(settings.face_reflection > 0)}};
+}
+
+Defines beam_of(const Settings& settings) {
+  return {{"FOCUSED_BEAM", flag(settings.focused_beam)},
+          {"BEAM_HALF", settings.focused_beam ? "0" : std::to_string(settings.beam_lines / 2)},
+          {"REVERBERATION", flag(reverberates(settings))}};
+}
+
+}  // namespace
+
+LineStages::LineStages(const ShaderSources& sources, const WorkDivision& division)
+    : division_(division),
+      traverse_(sources, {"imaging/traverse.comp"}, with(division, traversal({}, 1, division.lines_that_fill > 0))),
+      reverberation_(sources, {"imaging/reverberation.comp"}, with(division, reverberation_of({}))),
+      beam_(sources, {"imaging/beam.comp"}, with(division, beam_of({}))),
+      clutter_(sources, {"imaging/clutter.comp"}, with(division)),
+      clutter_tail_(sources, {"imaging/clutter_tail.comp"}) {}
+
+void LineStages::lay_out(const ScanLines& of_plane, int most_planes, const Settings& settings) {
+  lines_ = of_plane;
+  most_planes_ = most_planes;
+  const std::size_t n = std::size_t(most_planes) * lines_.lines.size(), d = std::size_t(lines_.samples);
+  line_buffer_ = Buffer(std::size_t(settings.slice_planes) * n * sizeof(PlacedLine), nullptr);
+  air_line_buffer_ = Buffer(std::size_t(settings.slice_planes) * sizeof(PlacedLine), nullptr);
+  in_air_ = TexelBuffer(GL_RGBA32F, d);
+  scan_ = TexelBuffer(GL_RGBA32F, n * d);
+  middle_ = TexelBuffer();
+  echoes_ = TexelBuffer(GL_RGBA32F, n * d);
+  mean_echo_ = TexelBuffer(GL_R32F, std::size_t(most_planes) * d);
+  beam_changed_ = true;
+}
+
+void LineStages::prepare_scatterers(const Settings& settings) {
+  if (scatterers_ && scatterers_seed_ == settings.speckle_seed) return;
+  constexpr int side = ScattererLattice::kSide;
+  scatterers_ = Texture::make_3d(GL_RG16_SNORM, side, side, side, Filter::linear, Wrap::repeat);
+  scatterers_.write(GL_RG, GL_SHORT, make_scatterers(settings.speckle_seed).stored.data());
+  scatterers_seed_ = settings.speckle_seed;
+}
+
+std::size_t LineStages::set_lines() const {
+  return std::size_t(planes_) * lines_.lines.size();
+}
+
+bool LineStages::group_a_line() const {
+  // Of a sweep in parts, the same for each of them.
+  return std::size_t(most_planes_) * lines_.lines.size() < division_.lines_that_fill;
+}
+
+std::size_t LineStages::groups_of(std::size_t lines) const {
+  const std::size_t group = std::size_t(division_.group);
+  return (lines + group - 1) / group;
+}
+
+std::size_t LineStages::most_samples() const {
+  return std::size_t(most_planes_) * lines_.lines.size() * std::size_t(lines_.samples);
+}
+
+void LineStages::traverse(const DeviceVolume& volume, std::span<const Pose> patient_from_plane,
+                          const Settings& settings) {
+  planes_ = int(patient_from_plane.size());
+  traverse_.define(with(division_, traversal(settings, lines_.dr_mm(), group_a_line())));
+  if (settings.speckle) prepare_scatterers(settings);
+  if (keeps_middle_plane(settings) && !middle_) middle_ = TexelBuffer(GL_RG32F, most_samples());
+  volume.texture().bind(0);
+  scatterers_.bind(1);
+  volume.tissue_lookup().bind(7);
+  if (keeps_middle_plane(settings)) middle_.bind_storage(3);  // the line in air's is written over
+
+  std::vector<PlacedLine> placed;
+  for (const Pose& pose : patient_from_plane) {
+    const std::vector<PlacedLine> of_plane = placed_lines(volume, pose, lines_, settings);
+    placed.insert(placed.end(), of_plane.begin(), of_plane.end());
+  }
+  if (std::ranges::any_of(placed, meets_no_body)) walk(1, line_in_air(settings), air_line_buffer_, in_air_, uncounted_);
+  in_air_.bind(2);
+  walk(set_lines(), placed, line_buffer_, scan_, counters_);
+}
+
+void LineStages::walk(std::size_t lines, const std::vector<PlacedLine>& placed, Buffer& line_buffer,
+                      const TexelBuffer& scan, const Buffer& counters) {
+  line_buffer.write(placed.data(), placed.size() * sizeof(PlacedLine));
+  line_buffer.bind_storage(0);
+  scan.bind_storage(1);
+  counters.bind_storage(2);
+  dispatch(traverse_, group_a_line() ? lines : groups_of(lines));
+}
+
+// One row of work groups need not hold all lines.
+void LineStages::dispatch(const Program& program, std::size_t groups) const {
+  const glm::ivec2 in_rows = division_.in_rows(groups);
+  program.dispatch_groups(in_rows.x, in_rows.y);
+}
+
+void LineStages::prepare_beam(const Settings& settings) {
+  if (reverberates(settings)) reverberation_.define(with(division_, reverberation_of(settings)));
+  beam_.define(with(division_, beam_of(settings)));
+  if (!beam_changed_) return;
+  if (reverberates(settings)) repeats_ = TexelBuffer(GL_R32F, most_samples());
+  beam_window_ = half_beam_window(settings);
+  beam_at_depth_ = beam_by_depth(lines_, settings);
+  beam_changed_ = false;
+}
+
+void LineStages::beam(const Settings& settings) {
+  prepare_beam(settings);
+  if (reverberates(settings)) {
+    (keeps_middle_plane(settings) ? middle_ : scan_).bind(0);
+    repeats_.clear();
+    repeats_.bind_storage(0);
+    dispatch(reverberation_, groups_of(set_lines()));
+    repeats_.bind(2);
+  }
+  scan_.bind(0);
+  beam_window_.bind_uniform(1);
+  beam_at_depth_.bind(1);
+  echoes_.bind_storage(0);
+  beam_.dispatch(lines_.samples, (int(lines_.lines.size()) + 3) / 4, planes_);
+  if (!settings.clutter) return;
+  echoes_.bind(0);
+  mean_echo_.bind_storage(0);
+  clutter_.dispatch(lines_.samples, planes_);
+  clutter_tail_.dispatch(planes_, 1);
+}
+
+SampleCounts LineStages::sample_counts() const {
+  SampleCounts counts;
+  counters_.read(&counts, sizeof counts);
+  return counts;
+}
+
+std::vector<Program*> LineStages::programs() {
+  return {&traverse_, &reverberation_, &beam_, &clutter_, &clutter_tail_};
+}
+
+}  // namespace insonate::gl

@@ -1,0 +1,56 @@
+#include "sim/imaging/picture_programs.h"
+
+#include "sim/imaging/stage_tables.h"
+
+namespace insonate::gl {
+namespace {
+
+Defines conversion(const PictureVariant& variant) {
+  return {{"REFLECTION_SMOOTHED", flag(variant.reflection_radius_px > 0)},
+          {"TRANSMISSION_SMOOTHED", flag(variant.transmission_radius_px > 0)},
+          {"SMOOTHED", variant.transmission_radius_px > 0 ? "vec2" : "float"},
+          {"NOISE", flag(is_noisy(variant.settings))},
+          {"CLUTTER", flag(variant.settings.clutter)}};
+}
+
+Defines smoothing(const PictureVariant& variant) {
+  return {{"REFLECTION_RADIUS", std::to_string(variant.reflection_radius_px)},
+          {"TRANSMISSION_RADIUS", std::to_string(variant.transmission_radius_px)},
+          {"SMOOTHED", variant.transmission_radius_px > 0 ? "vec2" : "float"}};
+}
+
+Defines display(const Settings& settings) {
+  return {{"GREY_MAP", std::to_string(int(settings.grey_map))}};
+}
+
+Defines fusion(const PictureVariant& variant) {
+  Defines defines = smoothing(variant);
+  defines.push_back(display(variant.settings).front());
+  defines.emplace_back("TIME_GAIN", flag(has_time_gain(variant.settings)));
+  defines.emplace_back("FRAME_MAXIMUM", flag(variant.settings.reference_level == ReferenceLevel::frame_maximum));
+  defines.emplace_back("KEEP_FUSED", flag(variant.keeps_fused));
+  return defines;
+}
+
+// Until settings are known.
+PictureVariant plain(const Settings& settings) {
+  return {settings, 0, 0, false};
+}
+
+}  // namespace
+
+PicturePrograms::PicturePrograms(const ShaderSources& sources)
+    : scan_convert(sources, {"imaging/scan_convert.comp"}, conversion(plain({}))),
+      smooth(sources, {"imaging/smooth.comp"}, smoothing(plain({}))),
+      fuse(sources, {"imaging/fuse.comp"}, fusion(plain({}))),
+      maximum(sources, {"imaging/maximum.comp"}),
+      compress(sources, {"imaging/compress.comp"}, display({})) {}
+
+void PicturePrograms::build_from(Stage first, const PictureVariant& variant) {
+  if (first <= Stage::scan_convert) scan_convert.define(conversion(variant));
+  if (first <= Stage::smooth) smooth.define(smoothing(variant));
+  if (first <= Stage::fuse) fuse.define(fusion(variant));
+  compress.define(display(variant.settings));
+}
+
+}  // namespace insonate::gl

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <vector>
+
+#include "sim/gl/program.h"
+#include "sim/imaging/stage.h"
+#include "sim/model/settings.h"
+
+namespace insonate::gl {
+
+/// What the shaders of a picture's stages are compiled for, so that what a scene does not need costs it nothing.
+struct PictureVariant {
+  const Settings& settings;
+  int reflection_radius_px, transmission_radius_px;  ///< of the smoothing windows
+  bool keeps_fused;                                  ///< U is written, for whoever reads the stages
+};
+
+/// The shaders of model S that bring what the lines hold (sim/imaging/line_stages.h) to a picture.
+struct PicturePrograms {
+  /// Throws std::runtime_error when one does not build.
+  explicit PicturePrograms(const ShaderSources& sources);
+
+  /// Builds a stage and those behind it for a variant; does nothing for those that are built so. Throws
+  /// std::runtime_error.
+  void build_from(Stage first, const PictureVariant& variant);
+
+  /// For Program::reload().
+  std::vector<Program*> all() { return {&scan_convert, &smooth, &fuse, &maximum, &compress}; }
+
+  Program scan_convert, smooth, fuse, maximum, compress;
+};
+
+}  // namespace insonate::gl

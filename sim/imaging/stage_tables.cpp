@@ -1,0 +1,247 @@
+#include "sim/imaging/stage_tables.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/model/beam.h"
+#include "sim/model/noise.h"
+#include "sim/model/refraction.h"
+#include "sim/model/scatterers.h"
+
+namespace insonate::gl {
+namespace {
+
+constexpr double kLn10 = 2.302585092994046;
+
+// An interface counts as too weak for its tilt to be seen where it echoes this share of what the scatterers do: 0.004
+// dB. The beam's width carries it into shadows beside it, where scatterers are weaker: there clutter of as much covers
+// it, and without any the share is smaller, so that 30 dB of shadow do not bring it out.
+constexpr double kUnseenShare = 0.001, kUnseenShareInShadow = 1e-6;
+constexpr double kMostBlend = 1e-3;  // beside more echo than that, what rings would still show the tilt
+
+// What x line, y sample holds at a continuous place inside the fan, as scan_convert.comp reads it.
+double bilinear(const Image<double>& image, const glm::vec2& line_and_sample) {
+  const glm::dvec2 last(image.width - 1, image.height - 1);
+  const glm::dvec2 position = glm::clamp(glm::dvec2(line_and_sample), glm::dvec2(0), last);
+  const glm::ivec2 low(position), high = glm::min(low + 1, glm::ivec2(last));
+  const glm::dvec2 f = position - glm::dvec2(low);
+  return glm::mix(glm::mix(image.at(low.x, low.y), image.at(high.x, low.y), f.x),
+                  glm::mix(image.at(low.x, high.y), image.at(high.x, high.y), f.x), f.y);
+}
+
+// What of each pixel's window lies inside the fan, its rows first as smooth.comp and fuse.comp go.
+Image<float> inside_window(const Image<std::uint8_t>& inside, const Gaussian& gaussian) {
+  const int w = inside.width, h = inside.height, margin = gaussian.radius;
+  std::vector<float> weights;
+  for (int j = -margin; j <= margin; ++j) weights.push_back(float(std::exp(gaussian.exponent * j * j)));
+  const auto weight = [&](int j) { return weights[std::size_t(j + margin)]; };
+  Image<float> along_rows(w, h), whole(w, h);
+  for (int y = 0; y < h; ++y)
+    for (int x = 0; x < w; ++x)
+      if (inside.at(x, y))
+        for (int i = std::max(x - margin, 0); i <= std::min(x + margin, w - 1); ++i)
+          if (inside.at(i, y)) along_rows.at(x, y) += weight(i - x);
+  for (int y = 0; y < h; ++y)
+    for (int i = std::max(y - margin, 0); i <= std::min(y + margin, h - 1); ++i)
+      for (int x = 0; x < w; ++x) whole.at(x, y) += weight(i - y) * along_rows.at(x, i);
+  return whole;
+}
+
+constexpr float kFar = 1e9f;  // samples
+
+// The first and the last sample of a line that may meet the body, at a sample's width or `margin` beside it: the shader
+// rounds its own positions. The first behind the last where none between the face and the line's end does.
+std::pair<float, float> samples_in_body(const DeviceVolume& volume, const glm::dvec3& start, const glm::dvec3& along,
+                                        const glm::dvec3& margin, double last_sample) {
+  const auto [first, last] = volume.meets_body(start, along, margin);
+  if (last < first || last + 1 < 0 || first - 1 > last_sample) return {kFar, -kFar};
+  return {float(first - 1), float(last + 1)};
+}
+
+// The least and the most slice thickness that a line's samples, and what they margin, meet where planes bend; 0 both
+// where they do not.
+std::pair<double, double> bent_between(const ScanLines& lines, const Settings& settings) {
+  if (!slice_bends(settings)) return {0, 0};
+  const double margin = settings.reflection_length_mm / 2;
+  const double at_face = slice_thickness_at_mm(settings, lines.r_min_mm - margin),
+               at_end = slice_thickness_at_mm(settings, lines.r_max_mm + margin);
+  return {settings.slice_thickness_mm, std::max(at_face, at_end)};
+}
+
+}  // namespace
+
+bool meets_no_body(const PlacedLine& line) {
+  return line.start.w > line.along.w;
+}
+
+std::vector<PlacedLine> line_in_air(const Settings& settings) {
+  PlacedLine line{};
+  line.start = glm::vec4(-1, -1, -1, -kFar);  // beside the texture, and in the body before the face at most
+  line.along.w = -kFar;
+  std::vector<PlacedLine> planes(std::size_t(settings.slice_planes), line);
+  planes.front().lateral.w = 1;  // all planes are the same there, and are weighed where they are put
+  return planes;
+}
+
+std::vector<PlacedLine> placed_lines(const DeviceVolume& volume, const Pose& patient_from_probe, const ScanLines& lines,
+                                     const Settings& settings) {
+  const glm::dmat4 texture_from_probe = volume.texture_from_patient() * patient_from_probe.matrix();
+  glm::dmat4 lattice_from_probe = lattice_from_patient(settings.speckle_cell_mm) * patient_from_probe.matrix();
+  // Whole periods of the translation change nothing but cost the shader's single precision digits.
+  for (int axis = 0; axis < 3; ++axis) lattice_from_probe[3][axis] -= std::floor(lattice_from_probe[3][axis]);
+
+  const auto point = [](const glm::dmat4& map, const glm::dvec3& p) { return glm::dvec3(map * glm::dvec4(p, 1)); };
+  const auto step = [](const glm::dmat4& map, const glm::dvec3& d) { return glm::dvec3(map * glm::dvec4(d, 0)); };
+  const double dr = lines.dr_mm(), half_length = settings.reflection_length_mm / 2;
+  const std::pair<double, double> bent = bent_between(lines, settings);
+  std::vector<PlacedLine> placed;
+  placed.reserve(std::size_t(settings.slice_planes) * lines.lines.size());
+  for (const SlicePlane& plane : slice_planes(settings))
+    for (const ScanLine& line : lines.lines) {
+      const glm::dvec3 d = line.direction, lateral(d.y, -d.x, 0), elevation = glm::cross(d, lateral);
+      const double beside = slice_bends(settings) ? 0 : plane.offset * settings.slice_thickness_mm;
+      const glm::dvec3 first = line.start + glm::dvec3(0, 0, beside) + (lines.r_min_mm + dr / 2) * d;
+      const glm::dvec3 start = point(texture_from_probe, first), along = step(texture_from_probe, dr * d);
+      const glm::dvec3 to_side = step(texture_from_probe, half_length * lateral),
+                       to_elevation = step(texture_from_probe, half_length * elevation),
+                       elevated = step(texture_from_probe, {0, 0, plane.offset});
+      // Sound meets what lies half the reflection length around a sample. A bent line stays between where it is
+      // nearest to the imaging plane and where it is furthest from it.
+      const glm::dvec3 margin = glm::abs(to_side) + glm::abs(to_elevation) + half_length / dr * glm::abs(along) +
+                                (bent.second - bent.first) / 2 * glm::abs(elevated);
+      const glm::dvec3 middle = start + (bent.first + bent.second) / 2 * elevated;
+      const auto [first_met, last_met] = settings.skipping
+                                             ? samples_in_body(volume, middle, along, margin, lines.samples - 1)
+                                             : std::pair(-kFar, kFar);
+      placed.push_back({{start, first_met},
+                        {along, last_met},
+                        {to_side, plane.weight},
+                        {to_elevation, 0},
+                        {point(lattice_from_probe, first), 0},
+                        {step(lattice_from_probe, dr * d), 0},
+                        {elevated, 0},
+                        {step(lattice_from_probe, {0, 0, plane.offset}), 0}});
+    }
+  return placed;
+}
+
+Buffer half_beam_window(const Settings& settings) {
+  constexpr std::size_t kWeights = 128;
+  const std::vector<double> window = beam_weights(settings);
+  std::vector<float> half(window.begin() + std::ptrdiff_t(window.size() / 2), window.end());
+  half.resize(kWeights);
+  return Buffer(half.size() * sizeof(float), half.data());
+}
+
+TexelBuffer beam_by_depth(const ScanLines& lines, const Settings& settings) {
+  std::vector<glm::vec4> depths(std::size_t(lines.samples), glm::vec4(1, 0, 0, 0));
+  if (settings.speckle) {
+    const std::vector<double> scale = envelope_scale(lines, settings);
+    for (std::size_t k = 0; k < depths.size(); ++k) depths[k].x = float(scale[k]);
+  }
+  if (settings.focused_beam) {
+    const std::vector<double> sigma = focused_beam_sigma(lines, settings);
+    for (std::size_t k = 0; k < depths.size(); ++k) {
+      depths[k].y = float(focused_radius(sigma[k]));
+      depths[k].z = depths[k].y > 0 ? float(-0.5 / (sigma[k] * sigma[k])) : 0;
+    }
+  }
+  return TexelBuffer(GL_RGBA32F, depths.size(), depths.data());
+}
+
+Gaussian::Gaussian(double sigma_px, int limit_px) {
+  if (sigma_px < 0.05) return;
+  radius = std::min(int(std::ceil(3 * sigma_px)), limit_px);
+  exponent = -0.5 / (sigma_px * sigma_px);
+}
+
+bool reverberates(const Settings& settings) {
+  return settings.reverberation || settings.face_reflection > 0;
+}
+bool is_noisy(const Settings& settings) {
+  return settings.electronic_noise || settings.clutter;
+}
+bool has_time_gain(const Settings& settings) {
+  return std::ranges::any_of(settings.tgc_db, [](double db) { return db != 0; });
+}
+bool keeps_middle_plane(const Settings& settings) {
+  return settings.slice_planes > 1 && reverberates(settings);
+}
+
+double least_alpha_with_normal(const Settings& settings) {
+  if (!settings.skipping) return 0;
+  return std::clamp(clutter_share(settings), kUnseenShareInShadow, kUnseenShare) * std::min(settings.blend, kMostBlend);
+}
+
+SimulationParameters parameters_of(const Settings& settings, const ScanLines& lines, const Gaussian& reflection,
+                                   const Gaussian& transmission) {
+  const double dr = lines.dr_mm(), samples_a_length = settings.reflection_length_mm / dr;
+  SimulationParameters p{};
+  p.lines = int(lines.lines.size());
+  p.samples = lines.samples;
+  p.planes = 1;
+  p.width = settings.image_width;
+  p.height = settings.image_height;
+  p.r_min_mm = float(lines.r_min_mm);
+  p.dr_mm = float(dr);
+  p.half_reflection_length = float(samples_a_length / 2);
+  p.reflection_exponent = float(1 / samples_a_length);
+  p.absorption_per_sample = float(settings.frequency_mhz * dr / 100 * kLn10);
+  p.coupled_mm = float(coupled_mm(settings));
+  p.least_alpha_with_normal = float(least_alpha_with_normal(settings));
+  p.reflection_exponent_px = float(reflection.exponent);
+  p.transmission_exponent_px = float(transmission.exponent);
+  p.face_reflection = float(settings.face_reflection);
+  p.turn_kept = float(std::exp(-dr / kTurn_mm));
+  p.turn_per_step = float(dr / (settings.reflection_length_mm * kTurn_rad));
+  p.turn_loss = float(dr / kTurn_mm);
+  p.slice_thickness_mm = float(settings.slice_thickness_mm);
+  p.elevation_focus_mm = float(settings.elevation_focus_mm);
+  p.clutter_kept = float(std::exp(-dr / kClutterTail_mm));
+  p.slice_spread = float(slice_spread(settings));
+  p.two_way = settings.two_way;
+  p.blend = float(settings.blend);
+  p.clutter_share = float(clutter_share(settings));
+  p.noise_level = float(noise_level(settings));
+  p.gain_db = float(settings.gain_db);
+  p.dynamic_range_db = float(settings.dynamic_range_db);
+  p.fixed_level = float(settings.fixed_level);
+  for (int i = 0; i < 8; ++i) p.tgc_db[i / 4][i % 4] = float(settings.tgc_db[std::size_t(i)]);
+  return p;
+}
+
+TexelBuffer weights_of_pixels(const FanLayout& fan, const Gaussian& reflection, const Gaussian& transmission) {
+  const Image<float> of_reflection = inside_window(fan.inside, reflection);
+  const int channels = transmission.radius > 0 ? 4 : 2;
+  const Image<float> of_transmission = channels == 4 ? inside_window(fan.inside, transmission) : Image<float>();
+  std::vector<float> values;
+  values.reserve(std::size_t(channels) * fan.inside.pixels.size());
+  for (std::size_t i = 0; i < fan.inside.pixels.size(); ++i) {
+    const bool inside = fan.inside.pixels[i];
+    values.push_back(inside ? fan.line_and_sample[i].y + 1 : 0);
+    values.push_back(inside ? 1 / of_reflection.pixels[i] : 0);
+    if (channels == 4) values.insert(values.end(), {inside ? 1 / of_transmission.pixels[i] : 0, 0});
+  }
+  return TexelBuffer(channels == 4 ? GL_RGBA32F : GL_RG32F, fan.inside.pixels.size(), values.data());
+}
+
+TexelBuffer noise_of_lines(const ScanLines& lines, const Settings& settings) {
+  const Image<double> noise = electronic_noise(lines, settings);
+  std::vector<float> rows;
+  for (int line = 0; line < noise.width; ++line)
+    for (int k = 0; k < noise.height; ++k) rows.push_back(float(noise.at(line, k)));
+  return TexelBuffer(GL_R32F, rows.size(), rows.data());
+}
+
+TexelBuffer noise_of_pixels(const FanLayout& fan, const ScanLines& lines, const Settings& settings) {
+  const Image<double> of_samples = electronic_noise(lines, settings);
+  std::vector<float> of_pixels;
+  for (std::size_t i = 0; i < fan.inside.pixels.size(); ++i)
+    of_pixels.push_back(fan.inside.pixels[i] ? float(bilinear(of_samples, fan.line_and_sample[i])) : 0);
+  return TexelBuffer(GL_R32F, of_pixels.size(), of_pixels.data());
+}
+
+}  // namespace insonate::gl

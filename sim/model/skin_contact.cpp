@@ -1,0 +1,47 @@
+#include "sim/model/skin_contact.h"
+
+namespace insonate {
+namespace {
+
+constexpr double kMarch_mm = 0.5;  // below any voxel's size: no skin is stepped over
+constexpr double kPrecision_mm = 0.01;
+
+ScanLines face_of(const Probe& probe) {
+  Probe sparse = probe;
+  sparse.lines = SkinContact::kPlaces;
+  return scan_lines(sparse, SkinContact::kGel_mm, 1);
+}
+
+}  // namespace
+
+std::optional<double> distance_to_skin(const Volume<std::int16_t>& ct, const glm::dvec3& point,
+                                       const glm::dvec3& direction, double reach_mm) {
+  const glm::dvec3 start = ct.grid.index_from_patient(point);
+  const glm::dvec3 per_mm = ct.grid.index_from_patient(point + direction) - start;
+  const auto body_at = [&](double mm) { return sample_trilinear(ct, start + per_mm * mm) > kSkinHu; };
+  if (body_at(0)) return 0.0;
+  for (int k = 1; k * kMarch_mm <= reach_mm; ++k) {
+    if (!body_at(k * kMarch_mm)) continue;
+    double outside = (k - 1) * kMarch_mm;
+    double inside = k * kMarch_mm;
+    while (inside - outside > kPrecision_mm) {
+      const double middle = (outside + inside) / 2;
+      (body_at(middle) ? inside : outside) = middle;
+    }
+    return inside;
+  }
+  return std::nullopt;
+}
+
+SkinContact::SkinContact(const Volume<std::int16_t>& ct, const Probe& probe) : ct_(&ct), places_(face_of(probe)) {}
+
+bool SkinContact::at(const Pose& patient_from_probe) const {
+  int touching = 0;
+  for (const ScanLine& place : places_.lines)
+    touching += distance_to_skin(*ct_, patient_from_probe.point(place.start),
+                                 patient_from_probe.direction(place.direction), kGel_mm)
+                    .has_value();
+  return 2 * touching >= kPlaces;
+}
+
+}  // namespace insonate

@@ -1,0 +1,69 @@
+#include "sim/registration/density_volume.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "sim/gl/headless_context.h"
+#include "sim/imaging/device_volume.h"
+
+namespace insonate::gl {
+namespace {
+
+constexpr double kStepsPerHu = 8;  // of the stored gradient, as in wein_traverse.comp
+
+// Along a row of voxels `stride` apart, at a place between them; air beyond its ends.
+double between(const AcousticVoxel* row, std::ptrdiff_t stride, int count, double at) {
+  const double below = std::floor(at), share = at - below;
+  const auto hu = [&](double i) {
+    return i >= 0 && i < count ? double(row[std::ptrdiff_t(i) * stride].hu) : double(AcousticVoxel{}.hu);
+  };
+  return hu(below) + share * (hu(below + 1) - hu(below));
+}
+
+Texture stored_as(GLenum format, const Grid& grid, const std::vector<std::array<std::int16_t, 4>>& voxels) {
+  const glm::ivec3 size = grid.size + 2 * kAirMargin;
+  Texture texture = Texture::make_3d(format, size.x, size.y, size.z, Filter::linear, Wrap::edge);
+  texture.write_inside(GL_RGBA, GL_SHORT, voxels.data(), {float(AcousticVoxel{}.hu) / 32767.0f, 0, 0, 0});
+  return texture;
+}
+
+}  // namespace
+
+Texture density_volume(const AcousticVolume& volume, double reflection_length_mm) {
+  const Grid& grid = volume.grid;
+  const glm::dvec3 half_voxels = reflection_length_mm / 2 / grid.spacing;
+  const glm::tvec3<std::ptrdiff_t> stride(1, grid.size.x, std::ptrdiff_t(grid.size.x) * grid.size.y);
+  std::vector<std::array<std::int16_t, 4>> voxels(grid.count());
+  tbb::parallel_for(0, grid.size.z, [&](int z) {
+    for (int y = 0; y < grid.size.y; ++y)
+      for (int x = 0; x < grid.size.x; ++x) {
+        const glm::ivec3 i(x, y, z);
+        const std::size_t v = grid.offset(i);
+        const AcousticVoxel* here = volume.voxels.data() + v;
+        voxels[v][0] = here->hu;
+        for (int axis = 0; axis < 3; ++axis) {
+          const AcousticVoxel* row = here - i[axis] * stride[axis];
+          const double change = between(row, stride[axis], grid.size[axis], i[axis] + half_voxels[axis]) -
+                                between(row, stride[axis], grid.size[axis], i[axis] - half_voxels[axis]);
+          voxels[v][std::size_t(axis) + 1] =
+              std::int16_t(std::lround(std::clamp(kStepsPerHu * change, -32767.0, 32767.0)));
+        }
+      }
+  });
+  // A processor takes a voxel of floats as it is and has to unpack one of whole numbers: a tenth of an image's time
+  // (`insonate-bench batch`, llvmpipe). They take twice the memory, which a card would have to move.
+  if (is_software_renderer()) {
+    try {
+      return stored_as(GL_RGBA32F, grid, voxels);
+    } catch (const TextureRefused&) {
+      // The smaller ones may still fit.
+    }
+  }
+  return stored_as(GL_RGBA16_SNORM, grid, voxels);
+}
+
+}  // namespace insonate::gl

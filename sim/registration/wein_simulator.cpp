@@ -1,0 +1,346 @@
+#include "sim/registration/wein_simulator.h"
+
+#include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec4.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "sim/imaging/device_volume.h"
+#include "sim/imaging/fan_layout.h"
+#include "sim/imaging/view_limits.h"
+#include "sim/registration/density_volume.h"
+#include "sim/registration/pixel_table.h"
+#include "sim/registration/scan_stages.h"
+#include "sim/registration/wein_settings_file.h"
+#include "sim/shaders/shared/wein_parameters.h"
+
+namespace insonate::gl {
+namespace {
+
+// Of a chunk's scan lines, whose grey takes half as much again: bounds the memory. What a chunk costs besides its
+// images is that of about three of them (`insonate-bench batch`, llvmpipe), so those that a search asks for at once fit
+// one.
+constexpr std::size_t kChunkBytes = std::size_t(16) << 20;
+constexpr std::size_t kSampleBytes = 4;
+constexpr std::size_t kMostChunk = 2048;  // images, of which some tables have a row each
+
+// Below this no echo is left: with any compression it is less than half a step of what the scan holds.
+constexpr double kLeastIntensity = 1e-10;
+
+// Whole texels' worth of images where there is room for that.
+std::size_t images_of_chunk(std::size_t image_samples) {
+  const std::size_t fit = std::clamp<std::size_t>(kChunkBytes / (image_samples * kSampleBytes), 1, kMostChunk);
+  return fit < ScanStages::kInterleaved ? fit : fit - fit % ScanStages::kInterleaved;
+}
+
+constexpr const char* kName = "Wein simulator";
+
+void check_poses(std::span<const Pose> poses) {
+  for (const Pose& pose : poses) check_pose(kName, pose);
+}
+
+// As shaders write it.
+std::string literal(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "float(%.9g)", value);
+  return text;
+}
+
+}  // namespace
+
+struct WeinSimulator::State {
+  State(const AcousticVolume& volume, const Probe& probe, double depth_mm, const WeinSettings& wanted,
+        const ShaderSources& given, const WorkDivision& chosen);
+
+  const ScanStages& stages_for(std::size_t images) const { return images > 1 && abreast ? *abreast : alone; }
+  void traverse(std::span<const Pose> chunk, std::size_t first, const ScanStages& stages, const Program& program,
+                const TexelBuffer& scan);
+  void ran(WeinStage stage, std::size_t images, std::size_t pixels);
+  template <typename Work>
+  void by_chunks(std::span<const Pose> poses, const ScanStages& stages, const Program& program, const TexelBuffer& scan,
+                 Work&& work);
+  Defines constants(const AcousticVolume& volume) const;
+
+  WeinSettings settings;
+  ShaderSources sources;
+  const WorkDivision division;
+  const std::size_t group;  // the shaders' local size
+  ScanLines lines;
+  const int row_samples;  // of a line in a scan: even, so that no pair of samples lies in two lines
+  FanLayout fan;
+  const std::size_t image_samples, chunk_images;
+  const int tile_words;  // of an image in the grid, four pixels each
+  glm::dmat4 texture_from_patient{1.0};
+  WeinParameters parameters{};
+
+  std::optional<ScanStages> abreast;  // of calls with more than one image, where a software renderer draws them
+  ScanStages alone;
+  Program lc2;
+  Buffer parameter_buffer{sizeof(WeinParameters), nullptr}, similarities;
+  std::size_t similarities_held = 0;
+  TexelBuffer tiles;
+  std::vector<PixelPlace> pixel_places;
+  PixelTable fan_pixels, counted_pixels;
+  Texture density, probe_lines, places, sums, grid;
+  std::vector<glm::vec4> place_rows;
+
+  std::vector<Pose> drawn, compared;  // of the last calls
+  std::vector<float> similar;         // of `compared`
+
+  Buffer samples_walked{sizeof(GLuint), nullptr};  // by the last call
+  std::array<StageCount, kWeinStageCount> counts{};
+};
+
+WeinSimulator::State::State(const AcousticVolume& volume, const Probe& probe, double depth_mm,
+                            const WeinSettings& wanted, const ShaderSources& given, const WorkDivision& chosen)
+    : settings(wanted),
+      sources(given),
+      division(chosen),
+      group(std::size_t(division.group)),
+      lines(scan_lines(probe, depth_mm, wanted.samples)),
+      row_samples(lines.samples + lines.samples % 2),
+      fan(probe, depth_mm, lines, wanted.image_width, wanted.image_height),
+      image_samples(lines.lines.size() * std::size_t(row_samples)),
+      chunk_images(images_of_chunk(image_samples)),
+      tile_words((wanted.image_width + kWordPixels - 1) / kWordPixels),
+      abreast(std::min(std::size_t(chosen.images_per_invocation), chunk_images) >= ScanStages::kInterleaved
+                  ? std::optional<ScanStages>(std::in_place, given, constants(volume), ScanStages::kInterleaved,
+                                              chosen.images_per_invocation, image_samples, chunk_images)
+                  : std::nullopt),
+      alone(given, constants(volume), 1, chosen.images_per_invocation, image_samples, abreast ? 1 : chunk_images),
+      lc2(given, {"registration/lc2.comp"}, alone.compiled_in),
+      density(density_volume(volume, wanted.reflection_length_mm)) {
+  const int n = int(lines.lines.size());
+  const double dr = lines.dr_mm();
+  const glm::dvec3 size(volume.grid.size + 2 * kAirMargin);
+  const glm::dmat4 index_from_patient = glm::inverse(volume.grid.matrix());
+  for (int column = 0; column < 4; ++column)
+    texture_from_patient[column] = index_from_patient[column] / glm::dvec4(size, 1);
+  texture_from_patient[3] += glm::dvec4((kAirMargin + 0.5) / size, 0);  // texels' centres lie at (i + 1/2) / size
+
+  std::vector<glm::vec4> ways;
+  for (const ScanLine& line : lines.lines) {
+    ways.emplace_back(line.start + (lines.r_min_mm + dr / 2) * line.direction, 0);
+    ways.emplace_back(dr * line.direction, 0);
+  }
+  probe_lines = Texture::make_2d(GL_RGBA32F, 2, n, Filter::nearest);
+  probe_lines.write(GL_RGBA, GL_FLOAT, ways.data());
+
+  places = Texture::make_2d(GL_RGBA32F, 3, int(chunk_images), Filter::nearest);
+  place_rows.resize(3 * chunk_images);
+
+  parameters.columns = 1;
+  pixel_places = places_in_scan(fan, lines, row_samples);
+  fan_pixels = picture_pixels(pixel_places, wanted.image_width, wanted.image_height, group);
+}
+
+// What no call changes.
+Defines WeinSimulator::State::constants(const AcousticVolume& volume) const {
+  const double dr = lines.dr_mm();
+  const glm::dvec3 sides_by_dr = glm::dvec3(volume.grid.size + 2 * kAirMargin) * volume.grid.spacing / dr;
+  return {{"GROUP", std::to_string(group)},
+          {"LINES", std::to_string(lines.lines.size())},
+          {"SAMPLES", std::to_string(lines.samples)},
+          {"ROW_SAMPLES", std::to_string(row_samples)},
+          {"TILE_WORDS", std::to_string(tile_words)},
+          {"TILE_HEIGHT", std::to_string(settings.image_height)},
+          {"PATCHES", settings.similarity_patch > 0 ? "1" : "0"},
+          {"SHADOWS", settings.shadows ? "1" : "0"},
+          {"EXACT_FILTER", settings.exact_filter ? "1" : "0"},
+          // Sample k lies at (k + 1/2) dr behind r_min: the first one that is not nearer than the contact.
+          {"FIRST_FREE_SAMPLE", literal(std::ceil((settings.contact_mm - lines.r_min_mm) / dr - 0.5))},
+          {"DR_BY_LENGTH", literal(dr / settings.reflection_length_mm)},
+          {"COMPRESSION", literal(settings.compression)},
+          {"ONE_OVER_COMPRESSED_ONE", literal(1 / std::log1p(settings.compression))},
+          {"DARK_HU", literal(settings.dark_hu)},
+          {"ONE_OVER_HU_RANGE", literal(1 / (settings.bright_hu - settings.dark_hu))},
+          {"REFLECTION_SHARE", literal(settings.reflection_share)},
+          {"LAST_LOG_INTENSITY", literal(settings.shadows ? std::log(kLeastIntensity) : -1e30)},
+          {"SIDES_BY_DR",
+           "vec3(" + literal(sides_by_dr.x) + ", " + literal(sides_by_dr.y) + ", " + literal(sides_by_dr.z) + ")"}};
+}
+
+// Places a chunk's lines and walks along them.
+void WeinSimulator::State::traverse(std::span<const Pose> chunk, std::size_t first, const ScanStages& stages,
+                                    const Program& program, const TexelBuffer& scan) {
+  for (std::size_t i = 0; i < chunk.size(); ++i) {
+    const glm::dmat4 rows = glm::transpose(texture_from_patient * chunk[i].matrix());
+    for (int row = 0; row < 3; ++row) place_rows[3 * i + std::size_t(row)] = glm::vec4(rows[row]);
+  }
+  places.write(GL_RGBA, GL_FLOAT, place_rows.data());
+  parameters.images = int(chunk.size());
+  parameters.first = int(first);
+  parameter_buffer.write(&parameters, sizeof parameters);
+  parameter_buffer.bind_uniform(0);
+  density.bind(0);
+  probe_lines.bind(1);
+  places.bind(2);
+  scan.bind_storage(0);
+  samples_walked.bind_storage(1);
+  program.dispatch_groups(stages.turns(int(chunk.size())), (int(lines.lines.size()) + int(group) - 1) / int(group));
+}
+
+void WeinSimulator::State::ran(WeinStage stage, std::size_t images, std::size_t pixels) {
+  if (images == 0) return;
+  StageCount& count = counts[std::size_t(stage)];
+  ++count.runs;
+  count.evaluated = images * pixels;
+  count.possible = images * fan.inside.pixels.size();
+}
+
+template <typename Work>
+void WeinSimulator::State::by_chunks(std::span<const Pose> poses, const ScanStages& stages, const Program& program,
+                                     const TexelBuffer& scan, Work&& work) {
+  if (poses.empty()) return;
+  samples_walked.clear();
+  StageCount& count = counts[std::size_t(WeinStage::traverse)];
+  ++count.runs;
+  count.possible = poses.size() * lines.lines.size() * std::size_t(lines.samples);
+  for (std::size_t first = 0; first < poses.size(); first += chunk_images) {
+    const std::span<const Pose> chunk = poses.subspan(first, std::min(chunk_images, poses.size() - first));
+    traverse(chunk, first, stages, program, scan);
+    scan.bind(0);
+    work(int(chunk.size()));
+  }
+}
+
+WeinSimulator::WeinSimulator(const AcousticVolume& volume, const Probe& probe, double depth_mm,
+                             const WeinSettings& settings, const ShaderSources& sources, const WorkDivision& division) {
+  check_probe(kName, probe, depth_mm);
+  if (const auto why = why_not_valid(settings)) throw std::invalid_argument(std::string(kName) + ": " + *why);
+  state_ = std::make_unique<State>(volume, probe, depth_mm, settings, sources, division);
+}
+WeinSimulator::~WeinSimulator() = default;
+WeinSimulator::WeinSimulator(WeinSimulator&&) noexcept = default;
+WeinSimulator& WeinSimulator::operator=(WeinSimulator&&) noexcept = default;
+
+const ImageGeometry& WeinSimulator::geometry() const {
+  return state_->fan.geometry;
+}
+const Image<std::uint8_t>& WeinSimulator::inside() const {
+  return state_->fan.inside;
+}
+
+const Texture& WeinSimulator::simulate(std::span<const Pose> patient_from_probe) {
+  check_poses(patient_from_probe);
+  State& s = *state_;
+  if (s.grid && std::ranges::equal(patient_from_probe, s.drawn)) return s.grid;
+  s.drawn.clear();  // until all of them are
+  const int w = s.settings.image_width, h = s.settings.image_height;
+  const int count = std::max(int(patient_from_probe.size()), 1);
+  const int columns = std::clamp(int(std::lround(std::sqrt(double(count) * h / w))), 1, count);
+  const int rows = (count + columns - 1) / columns;
+  const int grid_width = columns * s.tile_words * kWordPixels;
+  const bool fits = s.grid && s.grid.width() == grid_width && s.grid.height() == rows * h;
+  if (!fits) {
+    s.grid = Texture::make_2d(GL_R8, grid_width, rows * h, Filter::nearest);
+    s.tiles = TexelBuffer(GL_R32UI, std::size_t(grid_width / kWordPixels) * std::size_t(rows * h));
+  }
+  if (!fits || count < columns * rows) s.tiles.clear();  // what no fan covers stays so
+  s.parameters.columns = columns;
+  const ScanStages& stages = s.stages_for(patient_from_probe.size());
+  if (s.fan_pixels)
+    s.by_chunks(patient_from_probe, stages, stages.traverse_grey, stages.grey_scan, [&](int images) {
+      s.fan_pixels.places.bind(1);
+      s.tiles.bind_storage(0);
+      stages.picture.dispatch(int(s.fan_pixels.columns), stages.turns(images));
+    });
+  s.grid.write(GL_RED, GL_UNSIGNED_BYTE, s.tiles.values());
+  s.ran(WeinStage::scan_convert, patient_from_probe.size(), s.fan_pixels.pixels);
+  s.drawn.assign(patient_from_probe.begin(), patient_from_probe.end());
+  return s.grid;
+}
+
+glm::ivec2 WeinSimulator::tile(int image) const {
+  const State& s = *state_;
+  return glm::ivec2(image % s.parameters.columns, image / s.parameters.columns) *
+         glm::ivec2(s.tile_words * kWordPixels, s.settings.image_height);
+}
+
+void WeinSimulator::set_ultrasound(const Image<float>& image) {
+  State& s = *state_;
+  if (image.width != s.fan.inside.width || image.height != s.fan.inside.height)
+    throw std::invalid_argument(std::string(kName) + ": the ultrasound image has another size than the simulated ones");
+  s.compared.clear();
+  s.counted_pixels = compared_pixels(s.pixel_places, image, s.settings.similarity_patch, s.group);
+  if (s.counted_pixels)
+    s.sums = Texture::make_2d(GL_RGBA32F, 3 * int(s.counted_pixels.columns), int(s.chunk_images), Filter::nearest);
+}
+
+std::vector<float> WeinSimulator::similarity(std::span<const Pose> patient_from_probe) {
+  check_poses(patient_from_probe);
+  State& s = *state_;
+  std::vector<float> result(patient_from_probe.size());
+  if (result.empty() || !s.counted_pixels) return result;
+  if (std::ranges::equal(patient_from_probe, s.compared)) return s.similar;
+  const std::size_t bytes = result.size() * sizeof(float);
+  if (s.similarities_held < result.size()) {
+    s.similarities = Buffer(bytes, nullptr);
+    s.similarities_held = result.size();
+  }
+  const ScanStages& stages = s.stages_for(patient_from_probe.size());
+  s.by_chunks(patient_from_probe, stages, stages.traverse_terms, stages.term_scan, [&](int images) {
+    s.counted_pixels.places.bind(1);
+    s.sums.bind_image(0, GL_WRITE_ONLY);
+    stages.parts.dispatch(int(s.counted_pixels.columns), stages.term_groups(images));
+    s.similarities.bind_storage(0);
+    s.sums.bind(0);
+    s.lc2.dispatch(images, 1);
+  });
+  s.similarities.read(result.data(), bytes);
+  s.ran(WeinStage::compare, result.size(), s.counted_pixels.pixels);
+  s.compared.assign(patient_from_probe.begin(), patient_from_probe.end());
+  s.similar = result;
+  return result;
+}
+
+StageCount WeinSimulator::count(WeinStage stage) const {
+  StageCount count = state_->counts[std::size_t(stage)];
+  if (stage != WeinStage::traverse || count.runs == 0) return count;
+  GLuint walked = 0;
+  state_->samples_walked.read(&walked, sizeof walked);
+  count.evaluated = walked;
+  return count;
+}
+
+WeinStages<float> WeinSimulator::read_stages(const Pose& patient_from_probe) {
+  State& s = *state_;
+  simulate({&patient_from_probe, 1});
+  const int n = int(s.lines.lines.size()), d = s.lines.samples;
+  Texture intensities = Texture::make_2d(GL_R32F, d, n, Filter::nearest);
+  intensities.clear();  // what lies behind a line's end is not written
+  intensities.bind_image(1, GL_WRITE_ONLY);
+  s.samples_walked.clear();
+  s.traverse({&patient_from_probe, 1}, 0, s.alone,
+             ScanStages::traverse_program(s.sources, s.alone.compiled_in, ScanStages::Leaves::intensity),
+             s.alone.term_scan);
+  const std::size_t count = std::size_t(n) * std::size_t(d), row = std::size_t(s.row_samples);
+  std::vector<std::array<std::uint16_t, 2>> terms(std::size_t(n) * row);
+  s.alone.term_scan.read(terms.data(), terms.size() * sizeof terms.front());
+  std::vector<float> intensity(count);
+  intensities.read(GL_RED, GL_FLOAT, intensity.data(), count * sizeof(float));
+  WeinStages<float> stages;
+  stages.intensity = stages.scan_echogenicity = stages.scan_reflection = Image<float>(n, d);
+  for (int line = 0; line < n; ++line)
+    for (int k = 0; k < d; ++k) {
+      const auto& both = terms[std::size_t(line) * row + std::size_t(k)];
+      stages.scan_echogenicity.at(line, k) = float(both[0]) / 65535;
+      stages.scan_reflection.at(line, k) = float(both[1]) / 65535;
+      stages.intensity.at(line, k) = intensity[std::size_t(line) * std::size_t(d) + std::size_t(k)];
+    }
+  stages.grey = Image<std::uint8_t>(s.settings.image_width, s.settings.image_height);
+  Image<std::uint8_t> tile(s.grid.width(), s.grid.height());
+  s.grid.read(GL_RED, GL_UNSIGNED_BYTE, tile.pixels.data(), tile.pixels.size());
+  for (int y = 0; y < stages.grey.height; ++y)
+    for (int x = 0; x < stages.grey.width; ++x) stages.grey.at(x, y) = tile.at(x, y);
+  return stages;
+}
+
+}  // namespace insonate::gl

@@ -1,0 +1,96 @@
+#include "app/pictures/quality_governor.h"
+
+#include <catch2/catch.hpp>
+
+using insonate::QualityGovernor;
+
+namespace {
+
+/// A governor with the loop around it: frames follow each other, each as long as it takes to draw.
+struct Run {
+  QualityGovernor governor;
+  double now_s = 1000;
+
+  void frame(double frame_s, bool computed) {
+    governor.see(now_s, frame_s, computed);
+    now_s += frame_s;
+  }
+  void move(int frames, double frame_s) {
+    for (int i = 0; i < frames; ++i) frame(frame_s, true);
+  }
+  /// As the window goes on: nothing changes, and what follows from the quality is computed.
+  /// @return  the pictures computed
+  int rest(double seconds) {
+    int computed = 0;
+    double drawn = governor.quality();
+    for (const double end_s = now_s + seconds; now_s < end_s;) {
+      const bool due = governor.quality() != drawn;
+      drawn = governor.quality();
+      computed += due ? 1 : 0;
+      frame(0.016, due);
+    }
+    return computed;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a machine that cannot keep up draws fewer pixels while the picture moves, and all of them once it stands") {
+  Run run;
+  run.move(30, 0.08);
+  const double of_motion = run.governor.quality();
+  CHECK(of_motion < 1);
+  CHECK(of_motion >= QualityGovernor::kLeast);
+
+  CHECK(run.rest(5) == 1);
+  CHECK(run.governor.quality() == 1);
+  run.move(2, 0.08);
+  CHECK(run.governor.quality() == of_motion);
+
+  run.move(1000, 0.08);
+  CHECK(run.governor.quality() == QualityGovernor::kLeast);
+  // Where a frame takes longer than a picture has to stand still for.
+  run.rest(5);
+  run.move(2, 3 * QualityGovernor::kRest_s);
+  CHECK(run.governor.quality() == QualityGovernor::kLeast);
+}
+
+TEST_CASE("a picture that comes alone is drawn in full, however slow the machine") {
+  Run run;
+  run.move(1000, 0.08);
+  for (int knob = 0; knob < 50; ++knob) {
+    run.rest(1);
+    run.frame(4.0, true);  // as of a shader that has to be built
+    CHECK(run.governor.quality() == 1);
+  }
+  CHECK(run.rest(5) == 0);
+}
+
+TEST_CASE("a few frames that waited for something else do not make the picture coarser") {
+  Run run;
+  for (int i = 0; i < 2000; ++i) run.frame(i % 20 < 5 ? 3.0 : 0.035, true);
+  CHECK(run.governor.quality() == 1);
+}
+
+TEST_CASE("a machine that can keep up again draws all pixels again, and one at its limit does not waver") {
+  Run run;
+  run.move(1000, 0.08);
+  REQUIRE(run.governor.quality() == QualityGovernor::kLeast);
+  run.move(1000, 0.02);
+  CHECK(run.governor.quality() == 1);
+
+  // What a frame costs goes with its pixels at most.
+  for (const double whole_s : {0.03, 0.046, 0.05, 0.06, 0.08, 0.1}) {
+    const auto settle = [&](int frames) {
+      int changes = 0;
+      for (int i = 0; i < frames; ++i) {
+        const double quality = run.governor.quality();
+        run.frame(whole_s * quality * quality, true);
+        changes += run.governor.quality() != quality ? 1 : 0;
+      }
+      return changes;
+    };
+    settle(200);
+    CHECK(settle(1000) == 0);
+  }
+}

@@ -1,0 +1,118 @@
+#include "app/session/guide.h"
+
+#include <catch2/catch.hpp>
+
+#include "devices/mouse/mouse_tracker.h"
+#include "tests/scenarios/tiny_case.h"
+
+using namespace insonate;
+
+namespace {
+
+std::shared_ptr<const LoadedCase> tiny_loaded_case() {
+  auto loaded_case = std::make_shared<LoadedCase>();
+  loaded_case->subject = tiny_case();
+  std::swap(loaded_case->subject.views[0], loaded_case->subject.views[1]);  // the exam's view is not the case's first
+  loaded_case->tissues = tiny_tissues();
+  std::string two_views = kTinyScenario;
+  const std::string view = "view = \"ball\"";
+  two_views.replace(two_views.rfind(view), view.size(), "view = \"bare\"");
+  loaded_case->scenario = parse_scenario(two_views, "exam.toml");
+  loaded_case->surroundings.start.translation = {0, 0, -40};
+  return loaded_case;
+}
+
+Session by_hand(const std::shared_ptr<const LoadedCase>& loaded_case) {
+  return Session(loaded_case,
+                 [loaded_case] { return std::make_unique<MouseTracker>(loaded_case->surroundings.start); });
+}
+
+}  // namespace
+
+TEST_CASE("in practice the guide leads to one view after the other, those of the exam first") {
+  const auto loaded_case = tiny_loaded_case();
+  Session session = by_hand(loaded_case);
+  session.practise();
+  session.advance(0);
+  session.advance(0.1);
+  Guide guide;
+  CHECK_FALSE(guide.now(session));
+  guide.next(session);
+  std::optional<Guiding> guiding = guide.now(session);
+  REQUIRE(guiding);
+  CHECK(guiding->view->name == "ball");
+  CHECK_FALSE(guiding->there);
+  CHECK(guiding->plane_distance_mm == Approx(40));
+  CHECK(guiding->advice == std::vector<std::string>{"Slide 40 mm towards the head."});
+
+  session.move_probe([](const ProbeHand&, const Pose& from) { return Pose{from.rotation, {0, 0, 0}}; });
+  session.advance(0.2);
+  guiding = guide.now(session);
+  REQUIRE(guiding);
+  CHECK(guiding->there);
+  CHECK(guiding->plane_distance_mm == Approx(0).margin(1e-9));
+
+  INFO("of a tilted probe the middle of the picture is off, 70 mm below the face");
+  session.move_probe([](const ProbeHand&, const Pose&) { return turned(30, {1, 0, 0}); });
+  session.advance(0.3);
+  guiding = guide.now(session);
+  REQUIRE(guiding);
+  CHECK_FALSE(guiding->there);
+  CHECK(guiding->plane_distance_mm == Approx(35));
+  CHECK(guiding->plane_angle_deg == Approx(30));
+
+  guide.next(session);
+  CHECK(guide.now(session)->view->name == "bare");
+  guide.next(session);
+  CHECK_FALSE(guide.now(session));
+}
+
+TEST_CASE("while a scenario is practised the guide leads to the view of the step under way") {
+  const auto loaded_case = tiny_loaded_case();
+  Session session = by_hand(loaded_case);
+  session.advance(0);
+  session.advance(0.1);
+  Guide guide;
+  CHECK_FALSE(guide.now(session));
+  guide.next(session);
+  REQUIRE(guide.now(session));
+  CHECK(guide.now(session)->view->name == "ball");
+  guide.next(session);
+  CHECK_FALSE(guide.now(session));
+  guide.next(session);
+
+  INFO("the next step's view is another");
+  session.act({ActionKind::go_on});
+  session.advance(0.2);
+  REQUIRE(session.runner()->live().step == 1);
+  REQUIRE(guide.now(session));
+  CHECK(guide.now(session)->view->name == "bare");
+
+  INFO("what is chosen without a scenario is another thing");
+  session.practise();
+  session.advance(0.3);
+  CHECK_FALSE(guide.now(session));
+}
+
+TEST_CASE("under strict rules there is no guide, not even after the exam") {
+  const auto loaded_case = tiny_loaded_case();
+  Session session(
+      loaded_case, [loaded_case] { return std::make_unique<MouseTracker>(loaded_case->surroundings.start); }, 0,
+      ExamRules::strict);
+  session.advance(0);
+  session.advance(0.1);
+  REQUIRE(session.newest_pose());
+  Guide guide;
+  guide.next(session);
+  CHECK_FALSE(guide.now(session));
+
+  INFO("whatever was asked for elsewhere");
+  Session practised = by_hand(loaded_case);
+  practised.advance(0);
+  practised.advance(0.1);
+  guide.next(practised);
+  REQUIRE(guide.now(practised));
+  CHECK_FALSE(guide.now(session));
+  session.hand_in();
+  CHECK_FALSE(guide.now(session));
+}

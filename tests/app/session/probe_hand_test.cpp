@@ -1,0 +1,111 @@
+#include "app/session/probe_hand.h"
+
+#include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <cmath>
+
+#include "sim/model/skin_contact.h"
+
+using namespace insonate;
+
+namespace {
+
+constexpr double kRadius_mm = 100;
+
+/// A cylinder of tissue along z.
+Volume<std::int16_t> cylinder() {
+  Volume<std::int16_t> ct;
+  ct.grid.size = {121, 121, 61};
+  ct.grid.spacing = glm::dvec3(2.0);
+  ct.grid.origin = {-120, -120, -60};
+  ct.voxels.resize(ct.grid.count());
+  for (int k = 0; k < ct.grid.size.z; ++k)
+    for (int j = 0; j < ct.grid.size.y; ++j)
+      for (int i = 0; i < ct.grid.size.x; ++i) {
+        const glm::dvec3 p = ct.grid.patient_from_index({i, j, k});
+        // A ramp two voxels wide, as a scanner draws an edge: without it the skin is a staircase.
+        const double inside = std::clamp((kRadius_mm - std::hypot(p.x, p.y)) / 4 + 0.5, 0.0, 1.0);
+        ct.at({i, j, k}) = std::int16_t(std::lround(-1000 + 1000 * inside));
+      }
+  return ct;
+}
+
+/// In front of the cylinder, marker to the right, `pressed_mm` into the skin.
+Pose in_front(double pressed_mm) {
+  return {glm::dmat3(glm::dvec3(-1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, -1)),
+          {0, -kRadius_mm + pressed_mm, 0}};
+}
+
+double pressed_mm(const Pose& pose) {
+  return kRadius_mm - std::hypot(pose.translation.x, pose.translation.y);
+}
+
+double off_normal_deg(const Pose& pose) {
+  const glm::dvec3 inward = -glm::normalize(glm::dvec3(pose.translation.x, pose.translation.y, 0));
+  return glm::degrees(std::acos(std::min(1.0, glm::dot(inward, pose.rotation[1]))));
+}
+
+}  // namespace
+
+TEST_CASE("sliding round a body keeps the face's pressure and its angle to the skin") {
+  const auto ct = cylinder();
+  const ProbeHand hand(ct);
+  Pose pose = in_front(3);
+  for (int i = 0; i < 150; ++i) pose = hand.slide(pose, {1, 0});
+  // 150 mm along a circle of 97 mm radius, where the face's middle runs, is 89 degrees: from the front to the side.
+  CHECK(glm::degrees(std::atan2(-pose.translation.x, -pose.translation.y)) == Approx(89).margin(4));
+  // The staircase of 2 mm voxels, and the slope taken over 36 mm of it.
+  CHECK(pressed_mm(pose) == Approx(3).margin(1.0));
+  CHECK(off_normal_deg(pose) < 6);
+}
+
+TEST_CASE("a probe that was tilted stays tilted while it slides") {
+  const auto ct = cylinder();
+  const ProbeHand hand(ct);
+  Pose pose = ProbeHand::turn(in_front(0), 20, 0, 0);
+  REQUIRE(off_normal_deg(pose) == Approx(20).margin(0.5));
+  for (int i = 0; i < 60; ++i) pose = hand.slide(pose, {1, 0});
+  CHECK(off_normal_deg(pose) == Approx(20).margin(6));
+}
+
+TEST_CASE("turns are about the middle of the face and in the probe's own frame") {
+  const Pose start = in_front(0);
+  const Pose rotated = ProbeHand::turn(start, 0, 90, 0);
+  CHECK(rotated.translation == start.translation);
+  CHECK(glm::dot(rotated.rotation[1], start.rotation[1]) == Approx(1));
+  CHECK(glm::dot(rotated.rotation[0], start.rotation[2]) == Approx(-1));  // right-hand rule about y: x turns to -z
+  const Pose rocked = ProbeHand::turn(start, 0, 0, 30);
+  CHECK(glm::dot(rocked.rotation[2], start.rotation[2]) == Approx(1));
+  CHECK(ProbeHand::turn(start, 0, 0, 0) == start);
+}
+
+TEST_CASE("pressing ends at what a patient bears, lifting where contact is long lost") {
+  const auto ct = cylinder();
+  const ProbeHand hand(ct);
+  Pose pose = in_front(0);
+  for (int i = 0; i < 100; ++i) pose = hand.press(pose, 1);
+  CHECK(pressed_mm(pose) == Approx(ProbeHand::kDeepest_mm).margin(0.5));
+  for (int i = 0; i < 100; ++i) pose = hand.press(pose, -1);
+  CHECK(pressed_mm(pose) == Approx(-ProbeHand::kFarthest_mm).margin(0.5));
+}
+
+TEST_CASE("a probe put by a line of sight lands on the skin there, or stays when there is none") {
+  const auto ct = cylinder();
+  const ProbeHand hand(ct);
+  const Pose from = in_front(2);
+  const Pose put = hand.put(from, {-500, 0, 20}, {1, 0, 0});
+  CHECK(put.translation.x == Approx(-kRadius_mm + 2).margin(1.0));
+  CHECK(put.translation.z == Approx(20).margin(1.0));
+  CHECK(off_normal_deg(put) < 6);
+  CHECK(hand.put(from, {-500, 0, 900}, {1, 0, 0}) == from);
+}
+
+TEST_CASE("a probe cannot be slid off the end of a body") {
+  const auto ct = cylinder();
+  const ProbeHand hand(ct);
+  Pose pose = in_front(0);
+  for (int i = 0; i < 200; ++i) pose = hand.slide(pose, {0, 1});
+  CHECK(std::abs(pose.translation.z) <= 62);
+}

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <string>
+
+#include "app/trainer/trainer.h"
+#include "devices/sequence/sequence.h"
+#include "sim/core/files.h"
+#include "sim/volume/case.h"
+#include "tests/scenarios/tiny_case.h"
+
+namespace insonate {
+
+/// A folder of its own for a test, with the tiny case, its exam, and a scan that shows the ball.
+class TrainerFolder {
+public:
+  TrainerFolder() : path(std::filesystem::temp_directory_path() / ("insonate-trainer-" + std::to_string(getpid()))) {
+    std::filesystem::create_directories(path);
+    setenv("XDG_DATA_HOME", (path / "data").c_str(), 1);  // not the user's own results
+    write_case(path / "tiny", tiny_case());
+    write_file(path / "exam.toml", kTinyScenario);
+    write_file(path / "scan.igs.mha", write_sequence(samples_of(4, 60, [](double t) {
+                 return Pose{glm::dmat3(1.0), {0, 1, std::max(2.0, 20 - 20 * t)}};
+               })));
+  }
+  ~TrainerFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path, ignored);
+  }
+
+  Options options() const {
+    Options options;
+    options.case_folder = path / "tiny";
+    options.scenario = path / "exam.toml";
+    options.tracker = "replay:" + (path / "scan.igs.mha").string();
+    options.out = path / "out";
+    return options;
+  }
+  std::filesystem::path file(const std::string& name, const std::string& bytes) const {
+    std::ofstream(path / name, std::ios::binary) << bytes;
+    return path / name;
+  }
+
+  std::filesystem::path path;
+};
+
+inline constexpr PictureSizes kSizes{320, 240, 160, 120};
+inline constexpr double kNoBudget = std::numeric_limits<double>::infinity();
+
+inline void open_and_wait(Trainer& trainer, const std::filesystem::path& path) {
+  trainer.open(path);
+  trainer.finish_loading();
+}
+
+}  // namespace insonate

@@ -1,0 +1,244 @@
+// A sweep as one set of lines on the graphics card: against the simulator of pictures plane by plane; the same whatever
+// a device takes at once; and nothing run that a change does not reach.
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "sim/imaging/line_stages.h"
+#include "sim/imaging/simulator.h"
+#include "sim/imaging/stage_tables.h"
+#include "tests/gl/test_context.h"
+#include "tests/imaging/test_divisions.h"
+#include "tests/imaging/test_sweeps.h"
+
+using namespace insonate;
+using test::by_hand;
+using test::everything;
+using test::of_the_paper;
+using test::simulator_of;
+using test::swept;
+using test::tissues;
+
+namespace {
+
+struct Volumes {
+  std::vector<float> fused;
+  std::vector<std::int16_t> grey;
+};
+
+Volumes volumes_of(const Sweep& sweep, const Settings& settings, const Grid& grid, const gl::WorkDivision& division) {
+  const test::TestContext context;
+  gl::SweepSimulator simulator = simulator_of(sweep, settings, grid, division);
+  Volumes volumes{simulator.read_fused().voxels, simulator.read_grey().voxels};
+  for (float& echo : volumes.fused)
+    if (std::isnan(echo)) echo = -1;  // which equals itself
+  return volumes;
+}
+
+template <typename Number>
+long count_of_different(const std::vector<Number>& a, const std::vector<Number>& b) {
+  REQUIRE(a.size() == b.size());
+  long count = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) count += a[i] != b[i];
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("the lines of many planes hold what each plane's picture holds, to the last bit") {
+  const gl::WorkDivision division = GENERATE(test::line_an_invocation(), test::line_a_group());
+  CAPTURE(division.lines_that_fill);
+  // Windows too wide for the array: one that went on into the next plane's lines would take its other end.
+  for (const bool focused : {false, true}) {
+    Settings settings = everything();
+    settings.focused_beam = focused;
+    settings.beam_lines = 21;
+    settings.f_number = 2;
+    settings.focus_mm = 20;
+    if (!focused) settings.elevation_focus_mm = 0;  // bent planes' lines start whatever they meet
+    Sweep sweep = by_hand();
+    sweep.patient_from_plane.push_back(test::on_the_skin(60, 2, 0));     // half of its lines meet no body
+    sweep.patient_from_plane.push_back(test::on_the_skin(0, -40, 180));  // and none of these does
+    const int n = sweep.probe.lines, d = settings.samples, planes = int(sweep.patient_from_plane.size());
+
+    const test::TestContext context;
+    const gl::DeviceVolume body(test::test_body(), tissues());
+    gl::LineStages stages({}, division);
+    stages.lay_out(scan_lines(sweep.probe, sweep.depth_mm, d), planes, settings);
+    gl::SimulationParameters parameters = gl::parameters_of(settings, stages.lines(), {}, {});
+    parameters.planes = planes;
+    const gl::Buffer block(sizeof parameters, &parameters);
+    block.bind_uniform(0);
+    stages.traverse(body, sweep.patient_from_plane, settings);
+    stages.beam(settings);
+    std::vector<std::array<float, 4>> scan(std::size_t(planes * n * d)), echoes(scan.size());
+    stages.scan().read(scan.data(), scan.size() * sizeof scan[0]);
+    stages.echoes().read(echoes.data(), echoes.size() * sizeof echoes[0]);
+
+    gl::Simulator simulator({}, division);
+    simulator.set_volume(test::test_body(), tissues());
+    simulator.set_probe(sweep.probe, sweep.depth_mm);
+    simulator.set_settings(settings);
+    for (int plane = 0; plane < planes; ++plane) {
+      CAPTURE(focused, plane);
+      simulator.set_pose(sweep.patient_from_plane[std::size_t(plane)]);
+      const Stages<float> picture = simulator.read_stages();
+      long differ = 0;
+      for (int line = 0; line < n; ++line)
+        for (int k = 0; k < d; ++k) {
+          const std::size_t at = std::size_t((plane * n + line) * d + k);
+          differ += scan[at][0] != picture.intensity.at(line, k) || scan[at][1] != picture.reflection.at(line, k);
+          differ += echoes[at] != std::array{picture.reflection_beam.at(line, k), picture.transmission.at(line, k),
+                                             picture.speckle.at(line, k), picture.repeated.at(line, k)};
+        }
+      CHECK(differ == 0);
+    }
+  }
+}
+
+TEST_CASE("a volume is the same to the last bit whatever lines, planes and voxels a device takes at once") {
+  const Sweep sweep = swept("curvilinear", 11);
+  Grid grid = sweep_grid(sweep, 5);
+  grid.size -= glm::ivec3(1, 2, 0);
+  if (grid.size.x % 2 == 0) --grid.size.x;
+  if (grid.size.y % 2 == 0) --grid.size.y;
+  REQUIRE(grid.count() % 4 != 0);  // the voxels that an invocation packs together
+  for (const Settings& settings : {everything(), of_the_paper()}) {
+    const Volumes at_once = volumes_of(sweep, settings, grid, {});
+    CHECK(std::ranges::count_if(at_once.grey, [](int grey) { return grey > 0; }) > 1000);
+    gl::WorkDivision rows, groups, parts, pairs;
+    rows.most_groups = 7;  // of lines 38, of voxels more
+    groups.group = 64;
+    // Four planes, and some slices of the volume; no divisor of either.
+    parts.most_texels = std::size_t(4 * sweep.probe.lines * settings.samples);
+    pairs.most_texels = 1;  // two planes, a slice
+    for (const gl::WorkDivision& division : {rows, groups, parts, pairs}) {
+      CAPTURE(division.most_groups, division.group, division.most_texels);
+      const Volumes got = volumes_of(sweep, settings, grid, division);
+      CHECK(count_of_different(got.fused, at_once.fused) == 0);
+      CHECK(count_of_different(got.grey, at_once.grey) == 0);
+    }
+  }
+}
+
+TEST_CASE("a sweep runs the first stage that a change reaches and those behind it, and nothing when it is still") {
+  const test::TestContext context;
+  for (const bool in_parts : {false, true}) {
+    CAPTURE(in_parts);
+    Sweep sweep = swept("curvilinear", 6);
+    Settings settings = everything();
+    settings.samples = 64;
+    settings.slice_planes = 1;
+    settings.skipping = false;
+    Grid grid = sweep_grid(sweep, 8);
+    gl::WorkDivision division = gl::WorkDivision::of_device();
+    if (in_parts) division.most_texels = 3 * 30 * 64;
+    gl::SweepSimulator simulator = simulator_of(sweep, settings, grid, division);
+    const auto after = [&](const std::function<void()>& change) {
+      const auto before = simulator.runs();
+      change();
+      simulator.set_settings(settings);
+      simulator.set_sweep(sweep);
+      simulator.set_grid(grid);
+      simulator.volume();
+      std::string ran;
+      for (int stage = 0; stage < gl::kSweepStageCount; ++stage)
+        if (simulator.runs()[std::size_t(stage)] > before[std::size_t(stage)]) ran += char('0' + stage);
+      return ran;
+    };
+    // Of parts the lines of the last alone are kept.
+    const auto lines_too = [&](const char* stages) { return std::string(in_parts ? "01235" : stages); };
+    CHECK(after([] {}) == "01235");
+    CHECK(after([] {}) == "");
+    CHECK(after([&] { sweep.patient_from_plane[1].translation.x += 0.5; }) == "01235");
+    CHECK(after([&] { settings.f_number = 5; }) == lines_too("1235"));
+    CHECK(after([&] { settings.noise_db += 3; }) == lines_too("235"));
+    CHECK(after([&] { grid.origin.x += 1; }) == lines_too("35"));
+    CHECK(after([&] { settings.gain_db += 6; }) == "5");
+    CHECK(after([&] { settings.tgc_db[3] += 6; }) == "5");
+    CHECK(after([&] { settings.dynamic_range_db -= 5; }) == "5");
+    CHECK(after([&] { settings.image_width = 100; }) == "");
+    CHECK(after([&] { settings.reflection_sigma_mm *= 2; }) == "");
+    CHECK(after([&] { settings.reference_level = ReferenceLevel::frame_maximum; }) == "45");
+    CHECK(after([&] { settings.gain_db -= 6; }) == "45");
+    CHECK(after([&] { settings.dynamic_range_db -= 5; }) == "5");
+    CHECK(simulator.read_grey().voxels == simulator_of(sweep, settings, grid, division).read_grey().voxels);
+
+    const gl::StageCount walked = simulator.count(gl::SweepStage::traverse);
+    const std::uint64_t planes = in_parts ? 3 + 3 + 2 : 6;  // the planes where parts meet are walked twice
+    CHECK(walked.possible == planes * 30 * 64);
+    CHECK(walked.evaluated == walked.possible);
+    CHECK(simulator.count(gl::SweepStage::compress).evaluated == grid.count());
+  }
+}
+
+TEST_CASE("a volume after a change is the volume that a new simulator makes") {
+  const test::TestContext context;
+  for (const bool in_parts : {false, true}) {
+    Sweep sweep = swept("curvilinear", 6);
+    Settings settings = everything();
+    settings.samples = 64;
+    settings.skipping = false;  // else normals that settings before have asked for would still be there
+    Grid grid = sweep_grid(sweep, 8);
+    gl::WorkDivision division = gl::WorkDivision::of_device();
+    if (in_parts) division.most_texels = 3 * 30 * 64;
+    gl::SweepSimulator simulator = simulator_of(sweep, settings, grid, division);
+    simulator.volume();
+    const std::vector<std::function<void()>> changes = {
+        [&] { settings.samples = 48; },
+        [&] { settings.reflection_length_mm *= 2; },
+        [&] { settings.slice_planes = 1; },
+        [&] { settings.clutter = false; },
+        [&] { settings.noise_db += 6; },
+        [&] { settings.electronic_noise = false; },
+        [&] { settings.speckle_seed = 7; },
+        [&] { settings.focused_beam = false; },
+        [&] { sweep.depth_mm = 90; },
+        [&] { sweep.probe.lines = 21; },
+        [&] { sweep.probe = test::small_probe("phased"); },
+        [&] { sweep.patient_from_plane.pop_back(); },
+        [&] { sweep.patient_from_plane[2].translation.x += 1; },
+        [&] { grid = sweep_grid(sweep, 6); },
+        [&] { settings.clutter = settings.electronic_noise = true; },
+    };
+    for (std::size_t i = 0; i < changes.size(); ++i) {
+      CAPTURE(in_parts, i);
+      changes[i]();
+      simulator.set_sweep(sweep);
+      simulator.set_settings(settings);
+      simulator.set_grid(grid);
+      const std::vector<std::int16_t> grey = simulator.read_grey().voxels;
+      CHECK(std::ranges::count_if(grey, [](int g) { return g > 20; }) > 100);
+      CHECK(grey == simulator_of(sweep, settings, grid, division).read_grey().voxels);
+    }
+
+    AcousticVolume liver = test::test_body();
+    liver.voxels.assign(liver.grid.count(), {60, 0});
+    simulator.set_volume(liver, tissues());
+    gl::SweepSimulator anew = simulator_of(sweep, settings, grid, division);
+    CHECK(simulator.read_grey().voxels != anew.read_grey().voxels);
+    anew.set_volume(liver, tissues());
+    CHECK(simulator.read_grey().voxels == anew.read_grey().voxels);
+
+    CHECK(!simulator.reload(gl::ShaderSources()));
+    CHECK(simulator.read_grey().voxels == anew.read_grey().voxels);
+  }
+}
+
+TEST_CASE("a volume beside its sweep is all outside, and one of its planes alone is refused") {
+  const test::TestContext context;
+  Sweep sweep = swept("linear", 3);
+  Grid grid = sweep_grid(sweep, 8);
+  grid.origin += glm::dvec3(2000);
+  gl::SweepSimulator simulator = simulator_of(sweep, of_the_paper(), grid);
+  CHECK(std::ranges::all_of(simulator.read_grey().voxels, [](int grey) { return grey == -1; }));
+  sweep.patient_from_plane.resize(1);
+  CHECK_THROWS_AS(simulator.set_sweep(sweep), std::invalid_argument);
+}

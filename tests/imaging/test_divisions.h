@@ -1,0 +1,22 @@
+#pragma once
+
+#include <limits>
+
+#include "sim/gl/work_division.h"
+
+/// Both ways to walk along a line, whichever the device would take.
+namespace insonate::test {
+
+inline gl::WorkDivision line_an_invocation(int group = 8) {
+  gl::WorkDivision division;
+  division.group = group;
+  return division;
+}
+
+inline gl::WorkDivision line_a_group(int group = 8) {
+  gl::WorkDivision division = line_an_invocation(group);
+  division.lines_that_fill = std::numeric_limits<std::size_t>::max();
+  return division;
+}
+
+}  // namespace insonate::test

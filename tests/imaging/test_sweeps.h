@@ -1,0 +1,74 @@
+#pragma once
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <cmath>
+
+#include "sim/imaging/sweep_simulator.h"
+#include "tests/imaging/test_body.h"
+
+/// Sweeps over the test body, and settings that show all of it.
+namespace insonate::test {
+
+inline constexpr double kDepth_mm = 110;
+
+inline const TissueTable& tissues() {
+  static const TissueTable table = read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml");
+  return table;
+}
+
+inline Probe small_probe(const char* name) {
+  Probe probe = *find_probe(name);
+  probe.lines = 30;  // no multiple of a work group, nor of the four lines that share their windows
+  return probe;
+}
+
+/// Over the rib, the cyst and the gas.
+inline Sweep swept(const char* probe_name, int planes = 9) {
+  const Probe probe = small_probe(probe_name);
+  return {probe, kDepth_mm, swept_planes(on_the_skin(0, 9, 0), planes, 40, 30)};
+}
+
+/// As a hand moves: each plane turned and moved against the one before by another way.
+inline Sweep by_hand() {
+  Sweep sweep{small_probe("curvilinear"), kDepth_mm, {}};
+  Pose patient_from_plane = on_the_skin(-6, 7, -12);
+  for (int k = 0; k < 9; ++k) {
+    sweep.patient_from_plane.push_back(patient_from_plane);
+    const glm::dmat4 turn =
+        glm::rotate(glm::dmat4(1.0), 0.03 + 0.02 * (k % 3), glm::normalize(glm::dvec3(1, 0.5 * std::sin(k), 0.2)));
+    patient_from_plane = patient_from_plane * Pose{glm::dmat3(turn), {std::cos(k), 0.3, 2.5 + k % 2}};
+  }
+  return sweep;
+}
+
+/// Every effect on, and enough of each to show.
+inline Settings everything() {
+  Settings settings = trainer_settings(3.5, kDepth_mm);
+  settings.samples = 150;
+  settings.reverberation = settings.clutter = settings.electronic_noise = settings.edge_shadow = true;
+  settings.face_reflection = 0.3;
+  settings.clutter_db = -15;
+  settings.noise_db = -80;
+  settings.slice_planes = 3;
+  settings.gain_db = 10;
+  return settings;
+}
+
+inline Settings of_the_paper() {
+  Settings settings = paper_settings(kDepth_mm, 150);
+  settings.blend = 1e-3;  // else its one brightest voxel leaves the rest black
+  return settings;
+}
+
+inline gl::SweepSimulator simulator_of(const Sweep& sweep, const Settings& settings, const Grid& grid,
+                                       const gl::WorkDivision& division = gl::WorkDivision::of_device()) {
+  gl::SweepSimulator simulator({}, division);
+  simulator.set_volume(test_body(), tissues());
+  simulator.set_sweep(sweep);
+  simulator.set_settings(settings);
+  simulator.set_grid(grid);
+  return simulator;
+}
+
+}  // namespace insonate::test

@@ -1,0 +1,43 @@
+// Pose files that cannot be used: the sentence names the place and what to write.
+#include "tools/cli/pose_file.h"
+
+#include <catch2/catch.hpp>
+
+#include "tests/volume/temporary_folder.h"
+
+using namespace insonate;
+
+namespace {
+
+const std::string kRows = "[[1,0,0,0],[0,1,0,9],[0,0,1,0],[0,0,0,1]]";
+
+}  // namespace
+
+TEST_CASE("a pose file that cannot be used is refused with the place of what is wrong") {
+  const TemporaryFolder folder;
+  const struct {
+    std::string text, says;
+  } bad[] = {
+      {"1 0 0 0\n0 1 x 0\n", "line 2, number 7 of 16: 'x' is no number; write the matrix patient_from_probe"},
+      {"1 0 0 0\n0 1 0 \x01\n", "line 2, number 8 of 16: what stands here is no number"},
+      {"1 0 0 0\n0 1 0 nan\n0 0 1 0\n0 0 0 1\n", "line 2, number 8 of 16: 'nan' is not finite; give a finite number"},
+      {"1 0 0 0 0 1 0 0 0 0 1 0 0 0 0", "there are 15 numbers, not 16 for a pose"},
+      {"2 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1", "give a rotation and a translation in mm"},
+      {"[1,0,0,0, 0,null,0,9, 0,0,1,0, 0,0,0,1]", "number 6 of 16: it is of type null"},
+      {"[1,0,0,0, 0,1,0,9, 0,0,1,0, 0,0,0,1, \"x\"]", "pose 2, number 1 of 16: it is of type string"},
+      {"[[1,0,0,0],[0,1,0],[0,0,1,0],[0,0,0,1,0]]", "row 2: it has not 4 numbers"},
+      {"[" + kRows + ", [1,0]]", "pose 2, matrix: it has not 16 numbers"},
+      {"[1,0,0,0,\n0,NaN,0,9, 0,0,1,0, 0,0,0,1]", "line 2: what stands here is no JSON, whose numbers are finite"},
+      {"[1,0,0,0, 0,1e999,0,9, 0,0,1,0, 0,0,0,1]", "a number is larger than double precision holds"},
+      {"{\"pose\": 3}", "there is no key 'patient_from_probe'"},
+      {"{\"patient_from_probe\": 3}", "'patient_from_probe' is no array"},
+  };
+  for (const auto& [text, says] : bad) {
+    const std::string file = folder.put("held.txt", text).string();
+    INFO(text);
+    CHECK_THROWS_WITH(read_poses(file), Catch::StartsWith(file + ": ") && Catch::Contains(says));
+  }
+  CHECK_THROWS_WITH(read_pose(folder.put("two.json", "[" + kRows + "," + kRows + "]").string()),
+                    Catch::Contains("two.json: there are 2 poses, not one; keep one of them"));
+  CHECK(read_pose(folder.put("one.json", kRows).string()).translation.y == 9);
+}

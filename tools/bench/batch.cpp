@@ -1,0 +1,139 @@
+#include <cstdio>
+#include <memory>
+
+#include "sim/core/hash.h"
+#include "sim/gl/headless_context.h"
+#include "sim/imaging/simulator.h"
+#include "sim/imaging/upload.h"
+#include "sim/registration/wein_simulator.h"
+#include "tools/bench/commands.h"
+#include "tools/bench/statistics.h"
+#include "tools/bench/texture_rate.h"
+
+namespace insonate::bench {
+namespace {
+
+// Of a frame, in one call or in so many: as many as a search asks for at once, and more where they come cheap.
+std::size_t images_a_frame() {
+  return gl::is_software_renderer() ? 256 : 512;
+}
+
+std::vector<Configuration> usual_sizes() {
+  std::vector<Configuration> sizes = {{128, 96, 128, 96}, {64, 64, 64, 64}};
+  if (!gl::is_software_renderer()) sizes.push_back({256, 256, 256, 256});  // the paper's tiles
+  return sizes;
+}
+
+// What registration asks for around a pose: as many of them, each by a fraction of a millimetre elsewhere.
+std::vector<Pose> poses_around(const Pose& pose, std::size_t images) {
+  std::vector<Pose> poses;
+  for (std::size_t i = 0; i < images; ++i) poses.push_back(wandering(pose, 7 * int(i)));
+  return poses;
+}
+
+Image<float> random_picture(int width, int height) {
+  Image<float> picture(width, height);
+  for (std::size_t i = 0; i < picture.pixels.size(); ++i) picture.pixels[i] = unit_float(hash(std::uint32_t(i)));
+  return picture;
+}
+
+}  // namespace
+
+Table measure_batch(const Request& request) {
+  Table table{{"device", "case", "view", "lines", "samples", "width", "height", "method", "images_a_call", "frames",
+               "q1_ms", "median_ms", "q3_ms", "images_a_second", "mpixels_a_second"},
+              {}};
+
+  const gl::HeadlessContext context;
+  tell_device();
+  const std::size_t images = images_a_frame();
+  const std::vector<Configuration> sizes = configurations(request, usual_sizes());
+  for_each_scene(request, [&](const Scene& scene) {
+    gl::Simulator trainer;
+    gl::upload_ct(scene.file, scene.volume.grid, [&] { trainer.set_volume(scene.volume, scene.table); });
+    std::printf("\n%s, view %s, ms an image of %zu\n", scene.name.c_str(), scene.view.c_str(), images);
+    std::printf(
+        "lines x samples  picture      what        one a call                all in one call           ratio\n");
+    Probe probe = scene.probe;
+    for (const Configuration& c : sizes) {
+      probe.lines = c.lines;
+      Settings training = trainer_settings(probe.frequency_mhz, scene.depth_mm);
+      WeinSettings registering;
+      training.samples = registering.samples = c.samples;
+      training.image_width = registering.image_width = c.width;
+      training.image_height = registering.image_height = c.height;
+      trainer.set_probe(probe, scene.depth_mm);
+      trainer.set_settings(training);
+      std::unique_ptr<gl::WeinSimulator> wein;
+      std::unique_ptr<gl::TextureRate> fetching;  // what the images of a call fetch
+      gl::upload_ct(scene.file, scene.volume.grid, [&] {
+        wein = std::make_unique<gl::WeinSimulator>(scene.volume, probe, scene.depth_mm, registering);
+        fetching = std::make_unique<gl::TextureRate>(scene.volume, registering.reflection_length_mm,
+                                                     images * std::size_t(c.lines) * std::size_t(c.samples));
+      });
+      wein->set_ultrasound(random_picture(c.width, c.height));
+
+      // One a call ends with the device's work, as a search that looks at each image before it asks for the next.
+      const auto each = [images](auto&& image_of) {
+        return [=](const Pose& pose) {
+          for (const Pose& at : poses_around(pose, images)) {
+            image_of(at);
+            glFinish();
+          }
+        };
+      };
+      const auto times = alternating_times(
+          scene.pose, request.frames,
+          {each([&](const Pose& pose) {
+             wein->simulate({&pose, 1});
+           }),
+           [&](const Pose& pose) { wein->simulate(poses_around(pose, images)); }, each([&](const Pose& pose) {
+             wein->similarity({&pose, 1});
+           }),
+           [&](const Pose& pose) { wein->similarity(poses_around(pose, images)); }, each([&](const Pose& pose) {
+             trainer.set_pose(pose);
+             trainer.image();
+           }),
+           [&](const Pose&) { fetching->run(); }});
+      std::vector<Spread> ms;
+      for (std::vector<double> of_method : times) {
+        for (double& time : of_method) time /= double(images);
+        ms.push_back(spread_of(of_method));
+      }
+      // Megapixels of what a second makes.
+      const auto mpixels_a_second = [&](const Spread& spread) { return c.width * c.height / spread.median / 1000; };
+      const auto add = [&](const char* method, std::size_t images_a_call, const Spread& spread) {
+        table.rows.push_back({gl::device_description(), scene.name, scene.view, std::to_string(c.lines),
+                              std::to_string(c.samples), std::to_string(c.width), std::to_string(c.height), method,
+                              std::to_string(images_a_call), std::to_string(request.frames),
+                              cell_of(spread.first_quartile, 5), cell_of(spread.median, 5),
+                              cell_of(spread.third_quartile, 5), cell_of(1000 / spread.median, 1),
+                              cell_of(mpixels_a_second(spread), 2)});
+      };
+      const auto tell = [&](const char* method, const Spread& one, const Spread& all) {
+        std::printf("%4d x %-4d      %4d x %-4d  %-10s  %.4f (%.4f to %.4f)  %.4f (%.4f to %.4f)  %5.2f\n", c.lines,
+                    c.samples, c.width, c.height, method, one.median, one.first_quartile, one.third_quartile,
+                    all.median, all.first_quartile, all.third_quartile, one.median / all.median);
+      };
+      tell("images", ms[0], ms[1]);
+      tell("LC2", ms[2], ms[3]);
+      tell("model S", ms[4], ms[1]);
+      const double mega_fetches =
+          c.lines * c.samples / 1000.0;  // an image's, a millisecond of which is a mega a second
+      std::printf(
+          "                              in one call: %.0f images/s, %.1f MPixel/s; %.0f of the %.0f million fetches/s "
+          "that the device makes when it does nothing else: %.0f %%\n",
+          1000 / ms[1].median, mpixels_a_second(ms[1]), mega_fetches / ms[1].median, mega_fetches / ms[5].median,
+          100 * ms[5].median / ms[1].median);
+      add("images", 1, ms[0]);
+      add("images", images, ms[1]);
+      add("LC2", 1, ms[2]);
+      add("LC2", images, ms[3]);
+      add("model S", 1, ms[4]);
+      add("fetches", images, ms[5]);
+    }
+  });
+  return table;
+}
+
+}  // namespace insonate::bench

@@ -1,0 +1,137 @@
+#include "tools/cli/pose_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdlib>
+#include <sstream>
+
+#include "sim/core/files.h"
+#include "sim/core/input_error.h"
+
+namespace insonate {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::size_t kNumbers = 16;
+constexpr char kWanted[] =
+    "write the matrix patient_from_probe row by row: 16 numbers as text, or as JSON, there also as 4 rows of 4";
+
+/// Which pose the number of that index is of, where it is not the first.
+std::string pose_of(std::size_t index) {
+  return index < kNumbers ? "" : "pose " + std::to_string(index / kNumbers + 1) + ", ";
+}
+
+std::string which(std::size_t index) {
+  return pose_of(index) + "number " + std::to_string(index % kNumbers + 1) + " of 16";
+}
+
+std::vector<double> numbers_of_text(const std::string& file, const std::string& text) {
+  std::vector<double> numbers;
+  std::istringstream lines(text);
+  std::string line, word;
+  for (int count = 1; std::getline(lines, line); ++count) {
+    std::istringstream words(line);
+    while (words >> word) {
+      const std::string place = "line " + std::to_string(count) + ", " + which(numbers.size());
+      char* end = nullptr;
+      numbers.push_back(std::strtod(word.c_str(), &end));
+      const bool legible = word.size() <= 40 &&
+                           std::all_of(word.begin(), word.end(), [](unsigned char c) { return std::isprint(c) != 0; });
+      const std::string held = legible ? "'" + word + "'" : "what stands here";
+      if (*end) throw InputError(file, place, held + " is no number", kWanted);
+      if (!std::isfinite(numbers.back()))
+        throw InputError(file, place, held + " is not finite", "give a finite number");
+    }
+  }
+  return numbers;
+}
+
+void add_numbers(const std::string& file, const Json& array, std::vector<double>& numbers) {
+  for (const Json& value : array) {
+    if (!value.is_number())
+      throw InputError(file, which(numbers.size()), std::string("it is of type ") + value.type_name(), kWanted);
+    numbers.push_back(value.get<double>());
+  }
+}
+
+bool holds_rows(const Json& array) {
+  return array.size() == 4 && array[0].is_array() && (array[0].empty() || !array[0][0].is_array()) &&
+         array[0].size() != kNumbers;
+}
+
+void add_matrix(const std::string& file, const Json& array, std::vector<double>& numbers) {
+  const std::size_t before = numbers.size();
+  const std::string pose = pose_of(before);
+  if (array.is_array() && holds_rows(array)) {
+    for (std::size_t row = 0; row < 4; ++row) {
+      if (!array[row].is_array() || array[row].size() != 4)
+        throw InputError(file, pose + "row " + std::to_string(row + 1), "it has not 4 numbers", kWanted);
+      add_numbers(file, array[row], numbers);
+    }
+  } else if (array.is_array()) {
+    add_numbers(file, array, numbers);
+  }
+  if (numbers.size() - before != kNumbers) throw InputError(file, pose + "matrix", "it has not 16 numbers", kWanted);
+}
+
+Json parsed(const std::string& file, const std::string& text) {
+  try {
+    return Json::parse(text);
+  } catch (const Json::parse_error& error) {
+    const auto end = text.begin() + std::ptrdiff_t(std::min(error.byte, text.size()));
+    throw InputError(file, "line " + std::to_string(1 + std::count(text.begin(), end, '\n')),
+                     "what stands here is no JSON, whose numbers are finite", kWanted);
+  } catch (const Json::out_of_range&) {
+    throw InputError(file, "", "a number is larger than double precision holds", "give finite numbers");
+  }
+}
+
+std::vector<double> numbers_of_json(const std::string& file, const std::string& text) {
+  const Json json = parsed(file, text);
+  if (json.is_object() && !json.contains("patient_from_probe"))
+    throw InputError(file, "", "there is no key 'patient_from_probe'", kWanted);
+  const Json& array = json.is_object() ? json.at("patient_from_probe") : json;
+  if (!array.is_array()) throw InputError(file, "", "'patient_from_probe' is no array", kWanted);
+  std::vector<double> numbers;
+  if (array.empty() || !array[0].is_array())
+    add_numbers(file, array, numbers);
+  else if (holds_rows(array))
+    add_matrix(file, array, numbers);
+  else
+    for (const Json& matrix : array) add_matrix(file, matrix, numbers);
+  return numbers;
+}
+
+}  // namespace
+
+std::vector<Pose> read_poses(const std::string& file) {
+  const std::string text = read_file(file, 1u << 24);
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  const bool is_json = first != std::string::npos && (text[first] == '[' || text[first] == '{');
+  const std::vector<double> numbers = is_json ? numbers_of_json(file, text) : numbers_of_text(file, text);
+  if (numbers.empty() || numbers.size() % kNumbers != 0)
+    throw InputError(file, "", "there are " + std::to_string(numbers.size()) + " numbers, not 16 for a pose", kWanted);
+  std::vector<Pose> poses;
+  for (std::size_t pose = 0; pose < numbers.size(); pose += kNumbers) {
+    glm::dmat4 matrix;
+    for (int i = 0; i < 16; ++i) matrix[i % 4][i / 4] = numbers[pose + std::size_t(i)];
+    if (const auto why = why_not_rigid(matrix))
+      throw InputError(file, numbers.size() > kNumbers ? "pose " + std::to_string(pose / kNumbers + 1) : "", *why,
+                       "give a rotation and a translation in mm");
+    poses.push_back(pose_from_matrix(matrix));
+  }
+  return poses;
+}
+
+Pose read_pose(const std::string& file) {
+  const std::vector<Pose> poses = read_poses(file);
+  if (poses.size() != 1)
+    throw InputError(file, "", "there are " + std::to_string(poses.size()) + " poses, not one", "keep one of them");
+  return poses.front();
+}
+
+}  // namespace insonate

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <signal.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <functional>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "sim/core/input_error.h"
+#include "tools/cli/about.h"
+#include "tools/cli/program_pages.h"
+
+namespace insonate {
+
+/// Adds `--version`, and what packages are made with, which no help shows: `--man-page` and `--bash-completion`.
+/// @param more_about  returns lines of `--version` that only this program has; may be empty
+inline void add_self_descriptions(CLI::App& program, const std::function<std::vector<AboutLine>()>& more_about) {
+  program.set_version_flag(
+      "--version",
+      [&program, more_about] {
+        return version_text(program.get_name(), more_about ? more_about() : std::vector<AboutLine>{});
+      },
+      "Print the version, the commit and the build, and exit");
+  const auto add_page = [&program](const std::string& flag, std::string (*page)(const CLI::App&)) {
+    program.add_flag_callback(flag, [&program, page] { throw CLI::CallForVersion(page(program), 0); })->group("");
+  };
+  add_page("--man-page", man_page);
+  add_page("--bash-completion", bash_completion);
+}
+
+/// Refuses what CLI11 lets pass: NaN, which lies in every range; infinity, where there is none; and an empty text,
+/// which would count as an option that was left out.
+inline void refuse_unusable(const CLI::App& arguments) {
+  for (const CLI::Option* option : arguments.get_options())
+    for (const std::string& given : option->results()) {
+      if (given.empty())
+        throw InputError(option->get_name(), "", "nothing is given behind it", "give a value or leave it out");
+      const bool real = option->get_type_name().find("FLOAT") != std::string::npos;
+      if (real && !std::isfinite(std::strtod(given.c_str(), nullptr)))
+        throw InputError(option->get_name(), "", "'" + given + "' is no finite number", "give one");
+    }
+  for (const CLI::App* command : arguments.get_subcommands()) refuse_unusable(*command);
+}
+
+/// Throws InputError when not all that was printed has reached standard output.
+inline void finish_printing() {
+  errno = 0;
+  const bool failed = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
+  const std::string why = errno == 0 ? "" : std::string(" (") + std::strerror(errno) + ")";
+  if (failed)
+    throw InputError("standard output", "", "it cannot be written" + why, "make room, or send it to another file");
+}
+
+/// What every command-line program's main does around its work: parses the arguments, runs `work`, and turns what
+/// goes wrong into one sentence on standard error. Exit codes: 0 done, what `work` returns, 2 for input that cannot be
+/// used (wrong arguments and output that cannot be written too), 3 for a failure that is not the input's.
+/// @param more_about  returns lines of `--version` that only this program has
+inline int run_program(CLI::App& arguments, int argc, char** argv, const std::function<int()>& work,
+                       const std::function<std::vector<AboutLine>()>& more_about = {}) {
+  add_self_descriptions(arguments, more_about);
+  // A file at its size limit gets a sentence, as a full disk does, and does not end the program.
+  signal(SIGXFSZ, SIG_IGN);
+  try {
+    try {
+      arguments.parse(argc, argv);
+      refuse_unusable(arguments);
+      const int code = work();
+      finish_printing();
+      return code;
+    } catch (const CLI::Success& asked) {  // help, the version and the pages
+      arguments.exit(asked);
+      finish_printing();
+      return 0;
+    }
+  } catch (const CLI::ParseError& error) {
+    std::string command = arguments.get_name(), problem = in_one_line(error.what());
+    for (const CLI::App* mode : arguments.get_subcommands()) command += " " + mode->get_name();
+    if (problem.ends_with('.')) problem.pop_back();
+    std::fprintf(stderr, "%s: command line: %s; see '%s --help'.\n", arguments.get_name().c_str(), problem.c_str(),
+                 command.c_str());
+    return 2;
+  } catch (const InputError& error) {
+    std::fprintf(stderr, "%s: %s\n", arguments.get_name().c_str(), error.what());
+    return 2;
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "%s: there is not enough memory; close other programs, or give it less to work on\n",
+                 arguments.get_name().c_str());
+    return 3;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s: %s\n", arguments.get_name().c_str(), error.what());
+    return 3;
+  }
+}
+
+}  // namespace insonate

@@ -1,0 +1,259 @@
+// insonate-render: one pose of one patient to a PNG, without a window; and, when asked, what the picture was made of.
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+
+#include "sim/core/files.h"
+#include "sim/core/input_error.h"
+#include "sim/core/suggest.h"
+#include "sim/gl/headless_context.h"
+#include "sim/imaging/simulator.h"
+#include "sim/imaging/sweep_simulator.h"
+#include "sim/imaging/upload.h"
+#include "sim/model/quality.h"
+#include "sim/model/settings_file.h"
+#include "sim/reference/reference.h"
+#include "sim/registration/wein_settings_file.h"
+#include "sim/volume/ct_reader.h"
+#include "tools/cli/pose_file.h"
+#include "tools/cli/program.h"
+#include "tools/cli/subject.h"
+#include "tools/render/stage_description.h"
+#include "tools/render/stage_files.h"
+#include "tools/render/stages.h"
+#include "tools/render/wein.h"
+
+using namespace insonate;
+
+namespace {
+
+constexpr double kLinearPivot_mm = 30;  // its lines meet nowhere; as a hand rocks it
+
+/// The poses of a probe that was swept by hand.
+std::vector<Pose> read_sweep(const std::string& file) {
+  constexpr std::size_t kMostPlanes = 2048;
+  std::vector<Pose> poses = read_poses(file);
+  if (poses.size() < 2 || poses.size() > kMostPlanes)
+    throw InputError(file, "", "it holds " + std::to_string(poses.size()) + " of the 2 to 2048 poses of a sweep",
+                     "write a matrix patient_from_probe for each plane, in the order of the sweep");
+  return poses;
+}
+
+const ReferenceView& choose_view(const Case& subject, const std::string& path, const std::string& name) {
+  std::vector<std::string> names;
+  for (const ReferenceView& view : subject.views) names.push_back(view.name);
+  if (names.empty()) throw InputError(path, "", "no view is marked and no body was found", "give a --pose");
+  if (name.empty()) return subject.views.front();
+  if (const ReferenceView* view = subject.find_view(name)) return *view;
+  throw InputError("--view", "", "there is no view named '" + name + "'", suggest(name, names));
+}
+
+struct Rendered {
+  Stages<float> stages;
+  std::string made_by;
+};
+
+constexpr double kLeastDepth_mm = 10, kMostDepth_mm = 400;
+
+/// Throws what reading the settings will throw, as far as it does not depend on a depth that is not known yet (0).
+void check_settings(const std::string& file, const std::string& model, const Probe& probe, double depth_mm) {
+  if (model == "W") {
+    read_wein_settings(file);
+  } else if (depth_mm > 0) {
+    read_settings(file, probe.frequency_mhz, depth_mm);
+  } else {
+    try {
+      read_settings(file, probe.frequency_mhz, kLeastDepth_mm);
+    } catch (const InputError&) {
+      read_settings(file, probe.frequency_mhz, kMostDepth_mm);
+    }
+  }
+}
+
+/// @param file  what the person who gave the CT calls it
+Rendered render(const std::string& file, const RenderedScene& scene) {
+  const gl::HeadlessContext context;
+  gl::Simulator simulator;
+  gl::upload_ct(file, scene.volume.grid, [&] { simulator.set_volume(scene.volume, scene.table); });
+  simulator.set_probe(scene.probe, scene.depth_mm);
+  simulator.set_settings(scene.settings);
+  simulator.set_pose(scene.patient_from_probe);
+  return {simulator.read_stages(), gl::device_description()};
+}
+
+/// @param file  what the person who gave the CT calls it
+Volume<std::int16_t> render_volume(const std::string& file, const AcousticVolume& volume, const TissueTable& table,
+                                   const Sweep& sweep, const Settings& settings, double voxel_mm) {
+  constexpr int kLongestSide = 512;
+  const Grid grid = sweep_grid(sweep, voxel_mm);
+  if (std::max({grid.size.x, grid.size.y, grid.size.z}) > kLongestSide)
+    throw InputError("--voxel", "", "the volume would have more than 512 voxels along a side", "take larger voxels");
+  const gl::HeadlessContext context;
+  gl::SweepSimulator simulator;
+  gl::upload_ct(file, volume.grid, [&] { simulator.set_volume(volume, table); });
+  simulator.set_sweep(sweep);
+  simulator.set_settings(settings);
+  simulator.set_grid(grid);
+  return simulator.read_grey();
+}
+
+Rendered render_by_reference(const RenderedScene& scene) {
+  return {in_single_precision(simulate_reference(trilinear_field(scene.volume), scene.table, scene.probe,
+                                                 scene.depth_mm, scene.settings, scene.patient_from_probe)),
+          kMadeByReference};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App arguments("Renders one ultrasound image of a patient to a PNG, or a sweep to a volume, without a window.",
+                     "insonate-render");
+  std::string subject_path, view_name, pose_file, probe_name = "curvilinear", model = "S", settings_file, stages_folder,
+                                                  out;
+  std::string freehand_file, quality_name = name_of(Quality::balanced);
+  double depth_mm = 0, sweep_deg = 0, voxel_mm = 1;
+  std::optional<double> pivot_mm;
+  int planes = 64;
+  std::optional<double> gain_db;
+  std::optional<int> width, height;
+  bool by_reference = false;
+  arguments.add_option("--case,--ct", subject_path, "A case folder, CT file or DICOM folder (the built-in abdomen)");
+  arguments.add_option("--view", view_name, "A view of the case by name (its first)");
+  arguments.add_option("--pose", pose_file, "A file with 16 numbers, row-major patient_from_probe, instead of a view");
+  arguments.add_option("--probe", probe_name, "curvilinear, linear or phased")->capture_default_str();
+  arguments.add_option("--depth", depth_mm, "Imaging depth, mm (the view's or the probe's)")
+      ->check(CLI::Range(kLeastDepth_mm, kMostDepth_mm));
+  arguments.add_option("--model", model, "S, for training (Shams, Kutter), or W, for registration (Wein)")
+      ->check(CLI::IsMember({"S", "W"}))
+      ->capture_default_str();
+  arguments.add_option("--settings", settings_file,
+                       "A TOML file: preset = \"paper\" or \"trainer\", and names of sim/model/settings.h over it; of "
+                       "model W, names of sim/registration/wein_settings.h");
+  CLI::Option* quality =
+      arguments
+          .add_option("--quality", quality_name,
+                      "fast, balanced or exact: what a picture may cost; other numbers of samples and pixels than the "
+                      "settings'")
+          ->check(CLI::IsMember(quality_names()))
+          ->capture_default_str();
+  CLI::Option* gain =
+      arguments.add_option("--gain", gain_db, "Gain, dB (the settings': 0)")->check(CLI::Range(-60.0, 60.0));
+  arguments.add_option("--width", width, "Pixels (the settings': 640, of model W 128)")->check(CLI::Range(1, 8192));
+  arguments.add_option("--height", height, "Pixels (the settings': 480, of model W 96)")->check(CLI::Range(1, 8192));
+  CLI::Option* stages_option = arguments.add_option("--stages", stages_folder,
+                                                    "A new folder for what crosses the stages, enough to recompute "
+                                                    "each: scanlines.json, the volume, and NRRD files that "
+                                                    "say what they hold; of model S, sets 'skipping' to false");
+  CLI::Option* reference_flag =
+      arguments.add_flag("--reference", by_reference, "Compute by the double-precision reference, without OpenGL");
+  CLI::Option* sweep = arguments.add_option("--sweep", sweep_deg,
+                                            "Tilt the plane through so many degrees, as a 3D probe does, and write a "
+                                            "volume: an NRRD of grey levels in the patient's frame (LPS), -1 outside");
+  sweep->check(CLI::Range(1.0, 150.0));
+  CLI::Option* freehand = arguments.add_option("--freehand", freehand_file,
+                                               "The same of a file with the poses of a 2D probe in the order of a "
+                                               "sweep, 16 numbers each as in --pose");
+  arguments.add_option("--planes", planes, "Of --sweep")->check(CLI::Range(2, 2048))->capture_default_str();
+  arguments
+      .add_option("--pivot", pivot_mm,
+                  "How far behind the face the plane of --sweep turns, mm (where the lines meet; linear: 30)")
+      ->check(CLI::Range(0.0, 200.0));
+  arguments.add_option("--voxel", voxel_mm, "Of the volume, mm")->check(CLI::Range(0.1, 10.0))->capture_default_str();
+  for (CLI::Option* of_volume : {sweep, freehand})
+    for (CLI::Option* of_picture : {stages_option, reference_flag}) of_volume->excludes(of_picture);
+  freehand->excludes(sweep);
+  arguments
+      .add_option("image", out,
+                  "The PNG to write, with the probe's marker on its left, as clinics show it; for a sweep, the NRRD")
+      ->required();
+
+  // With the stages before it, if they are asked for: their folder gets its name when the picture is there.
+  const auto write_all = [&](const Image<std::uint8_t>& grey, const auto& write_stages_to) {
+    const auto write_picture = [&] { write_png(out, mirrored(grey)); };
+    if (!*stages_option) return write_picture();
+    write_folder(stages_folder, [&](const std::filesystem::path& folder) {
+      write_stages_to(folder);
+      write_picture();
+    });
+  };
+  const auto work = [&] {
+    const Probe* probe = find_probe(probe_name);
+    if (!probe)
+      throw InputError("--probe", "", "there is no probe named '" + probe_name + "'",
+                       suggest(probe_name, probe_names()));
+    if (*stages_option) refuse_taken(stages_folder);
+    for (const CLI::Option* of_model_s : {quality, gain, sweep, freehand})
+      if (model == "W" && *of_model_s)
+        throw InputError(of_model_s->get_name(), "", "model W has no such thing", "leave it out or take --model S");
+    const bool to_volume = *sweep || *freehand;
+    const std::string ending = to_volume ? ".nrrd" : ".png";
+    if (std::filesystem::path(out).extension() != ending)
+      throw InputError(out, "", to_volume ? "a sweep is written as NRRD" : "a picture is written as PNG",
+                       "name a file that ends in " + ending);
+    // The patient comes last of what is read: it may take a minute to make.
+    std::vector<Pose> by_hand;
+    if (*freehand)
+      by_hand = read_sweep(freehand_file);
+    else if (!pose_file.empty())
+      by_hand = {read_pose(pose_file)};
+    if (!by_hand.empty() && depth_mm == 0) depth_mm = probe->depth_mm;
+    if (!settings_file.empty()) check_settings(settings_file, model, *probe, depth_mm);
+    const TissueTable table = read_tissue_table(assets_folder() / "tissues.toml");
+    const Case subject = open_subject(subject_path);
+    Pose pose;
+    if (!by_hand.empty()) {
+      pose = by_hand.front();
+    } else {
+      const ReferenceView& view = choose_view(subject, subject_path, view_name);
+      pose = view.patient_from_probe;
+      if (depth_mm == 0) depth_mm = view.depth_mm;
+    }
+    if (depth_mm == 0) depth_mm = probe->depth_mm;
+
+    const std::vector<std::string> tissue_of = tissue_by_label(subject);
+    const auto volume_of = [&] { return make_acoustic_volume(subject.ct, subject.labels, tissue_of, table); };
+    if (model == "W") {
+      WeinSettings settings = settings_file.empty() ? WeinSettings{} : read_wein_settings(settings_file);
+      settings.image_width = width.value_or(settings.image_width);
+      settings.image_height = height.value_or(settings.image_height);
+      const AcousticVolume volume = volume_of();
+      const WeinScene scene{volume, *probe, depth_mm, settings, pose};
+      const RenderedWein rendered = render_wein(subject_path, scene, by_reference);
+      write_all(rendered.stages.grey, [&](const auto& folder) { write_stages(folder, scene, rendered); });
+      return;
+    }
+    Settings settings = settings_file.empty() ? trainer_settings(probe->frequency_mhz, depth_mm)
+                                              : read_settings(settings_file, probe->frequency_mhz, depth_mm);
+    settings = at_quality(settings, quality_named(quality_name));
+    settings.gain_db = gain_db.value_or(settings.gain_db);
+    settings.image_width = width.value_or(settings.image_width);
+    settings.image_height = height.value_or(settings.image_height);
+
+    const AcousticVolume volume = volume_of();
+    if (to_volume) {
+      const double pivot =
+          pivot_mm.value_or(probe->kind == ProbeKind::linear ? kLinearPivot_mm : apex_behind_mm(*probe));
+      const Sweep swept{*probe, depth_mm, *freehand ? by_hand : swept_planes(pose, planes, sweep_deg, pivot)};
+      if (const auto back = turns_back_at(swept))
+        throw InputError(freehand_file, "pose " + std::to_string(*back + 1), "the sweep goes back here",
+                         "keep the poses of one way, in their order");
+      write_ct(out, render_volume(subject_path, volume, table, swept, settings, voxel_mm));
+      return;
+    }
+    // Where samples are skipped, R comes of a mean normal, which nobody else can recompute.
+    if (*stages_option) settings.skipping = false;
+    const RenderedScene scene{volume, subject.labels, tissue_of, table, *probe, depth_mm, settings, pose};
+    const auto [stages, made_by] = by_reference ? render_by_reference(scene) : render(subject_path, scene);
+    write_all(stages.grey, [&, &stages = stages, &made_by = made_by](const auto& folder) {
+      write_stages(folder, scene, stages, made_by);
+    });
+  };
+  return run_program(arguments, argc, argv, [&] {
+    gl::within_device(settings_file.empty() ? "command line" : settings_file,
+                      "take fewer samples, pixels or planes, or larger voxels", work);
+    return 0;
+  });
+}

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sim/core/image.h"
+#include "sim/core/pose.h"
+#include "sim/model/acoustic_volume.h"
+#include "sim/model/settings_file.h"
+#include "sim/probe/probe.h"
+#include "tools/render/stages.h"
+
+namespace insonate {
+
+/// What a picture of either model is made along, and how its pixels lie.
+struct StageGeometry {
+  StageGeometry(const Probe& probe, double depth_mm, int samples, int width, int height);
+  const Probe& probe;
+  double depth_mm;
+  ScanLines lines;
+  ImageGeometry image;
+};
+
+/// What `made_by` is where no device was in it.
+inline constexpr char kMadeByReference[] = "reference in double precision";
+
+/// Begins scanlines.json: what both models have.
+/// @param model  S or W
+nlohmann::ordered_json describe_geometry(const char* model, const StageGeometry& geometry,
+                                         const Pose& patient_from_probe, const AcousticVolume& volume,
+                                         const std::string& made_by);
+
+/// Adds every setting by its name.
+void describe_settings(nlohmann::ordered_json& text, const std::vector<std::pair<std::string, SettingValue>>& settings);
+
+/// The whole of model S's.
+nlohmann::ordered_json describe(const RenderedScene& scene, const StageGeometry& geometry, const std::string& made_by);
+
+/// Where each pixel lies among the lines: pixel_line, pixel_sample.
+void write_pixel_positions(const std::filesystem::path& folder, const StageGeometry& geometry);
+
+/// The volume that the sound went through, in the patient's frame (LPS): volume.nrrd, Hounsfield units, and
+/// volume_echogenicity.nrrd, hundredths of a dB.
+void write_hounsfield(const std::filesystem::path& folder, const AcousticVolume& volume);
+void write_echogenicity(const std::filesystem::path& folder, const AcousticVolume& volume);
+
+}  // namespace insonate

@@ -1,0 +1,115 @@
+#include "scenarios/results/pass_mark.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <string>
+
+#include "scenarios/results/roster.h"
+#include "sim/core/digest.h"
+#include "sim/core/files.h"
+#include "sim/core/input_error.h"
+#include "tools/score/commands.h"
+
+namespace insonate {
+namespace {
+
+struct Given {
+  std::filesystem::path database;
+  std::filesystem::path novices;
+  std::filesystem::path experts;
+  std::filesystem::path scenario;
+  std::string mode{name_of(AttemptMode::exam)};
+};
+
+using Ids = std::set<std::string>;
+
+Ids ids_of(const std::filesystem::path& roster) {
+  const std::vector<std::string> ids = read_roster(roster);
+  return {ids.begin(), ids.end()};
+}
+
+/// The digest of the exam that the mark is for: of the scenario named, or of the only one that either group took.
+std::string exam_of(const Given& given, const std::vector<AttemptSummary>& attempts, const Ids& novices,
+                    const Ids& experts) {
+  if (!given.scenario.empty()) return digest_of(read_file(given.scenario));
+  std::set<std::string> digests;
+  for (const AttemptSummary& attempt : attempts)
+    if (novices.contains(attempt.learner) || experts.contains(attempt.learner)) digests.insert(attempt.scenario_digest);
+  if (digests.size() > 1)
+    throw InputError(given.database.string(), "",
+                     "the two groups took " + std::to_string(digests.size()) + " different scenarios",
+                     "name the one to set a mark for with --scenario FILE");
+  return digests.empty() ? "" : *digests.begin();
+}
+
+/// The scores of a group, of the first complete attempt of each learner: later ones are those of practised people.
+std::vector<double> first_scores(const std::vector<AttemptSummary>& attempts, const std::string& exam, Ids group) {
+  std::vector<double> scores;
+  for (const AttemptSummary& attempt : attempts)
+    if (attempt.complete && attempt.scenario_digest == exam && group.erase(attempt.learner) > 0)
+      scores.push_back(attempt.percent);
+  return scores;
+}
+
+void print_group(const char* name, const GroupScores& scores, std::size_t listed) {
+  std::printf("%s: %d of %zu took it, mean %.2f %%, standard deviation %.2f %%\n", name, scores.count, listed,
+              scores.mean, scores.deviation);
+}
+
+void print_misjudged(const char* name, const Misjudged& share) {
+  std::printf("%s: %.1f %% observed, %.1f %% by the normal\n", name, share.observed_percent, share.theoretical_percent);
+}
+
+/// Those of one mode: with help, or the third time, people score otherwise than in an exam.
+std::vector<AttemptSummary> attempts_of(ResultsDatabase database, AttemptMode mode) {
+  std::vector<AttemptSummary> attempts = database.attempts();
+  std::erase_if(attempts, [&](const AttemptSummary& attempt) { return !is_of(attempt.mode, mode); });
+  return attempts;
+}
+
+int pass_mark(const Given& given) {
+  const Ids novices = ids_of(given.novices), experts = ids_of(given.experts);
+  for (const std::string& id : novices)
+    if (experts.contains(id))
+      throw InputError(given.experts.string(), "", "'" + id + "' is a novice as well",
+                       "let each learner be in one list");
+  const std::vector<AttemptSummary> attempts =
+      attempts_of(ResultsDatabase::open(given.database), find_attempt_mode(given.mode).value());
+  const std::string exam = exam_of(given, attempts, novices, experts);
+  try {
+    const PassMark mark =
+        contrasting_groups(first_scores(attempts, exam, novices), first_scores(attempts, exam, experts));
+    std::printf("pass mark: %.2f %%\n", mark.percent);
+    print_group("novices", mark.novices, novices.size());
+    print_group("experts", mark.experts, experts.size());
+    print_misjudged("false passes", mark.false_passes);
+    print_misjudged("false fails", mark.false_fails);
+  } catch (const std::domain_error& error) {
+    throw InputError(given.database.string(), "", error.what(),
+                     "let more learners of both groups take the exam, or count other attempts with --mode");
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_pass_mark_command(CLI::App& arguments, CommandRun& run) {
+  const auto given = std::make_shared<Given>();
+  CLI::App* command =
+      arguments.add_subcommand("pass-mark",
+                               "Says where a lab's own pass mark for an exam lies, by contrasting groups: where the "
+                               "normals through the scores of novices and of experts cross. Counts the first complete "
+                               "attempt of each learner");
+  command->add_option("database", given->database, "The database")->required();
+  command->add_option("--novices", given->novices, "Their ids: CSV with the header 'learner', or TOML")->required();
+  command->add_option("--experts", given->experts, "Theirs")->required();
+  command->add_option("--scenario", given->scenario, "The exam, when the groups took several: its very file");
+  add_mode_option(*command, given->mode, "What counts: exams, practice, or recorded scans")->capture_default_str();
+  command->callback([given, &run] { run = [given] { return pass_mark(*given); }; });
+}
+
+}  // namespace insonate

@@ -1,0 +1,54 @@
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "scenarios/results/report_files.h"
+#include "sim/core/input_error.h"
+#include "tools/score/commands.h"
+
+namespace insonate {
+namespace {
+
+struct Given {
+  std::filesystem::path database;
+  std::int64_t attempt = 0;
+  std::filesystem::path out = ".";
+  std::string home_page;
+};
+
+int report(const Given& given) {
+  if (!given.home_page.empty() && given.home_page.find("://") == std::string::npos)
+    throw InputError("command line", "--home-page", "'" + given.home_page + "' is no web address",
+                     "give one like https://lab.example/learners");
+  ResultsDatabase database = ResultsDatabase::open(given.database);
+  bool all = true;
+  for (const std::int64_t number : chosen_attempts(database, given.attempt)) try {
+      const Attempt attempt = database.read(number);
+      const std::filesystem::path folder = given.out / ("attempt-" + std::to_string(number));
+      std::printf("wrote %s\n", write_report_files(folder, attempt, given.home_page).report.c_str());
+    } catch (const InputError& error) {  // one that is damaged does not keep the others from theirs
+      std::fprintf(stderr, "insonate-score: %s\n", error.what());
+      all = false;
+    }
+  return all ? 0 : 2;
+}
+
+}  // namespace
+
+void add_report_command(CLI::App& arguments, CommandRun& run) {
+  const auto given = std::make_shared<Given>();
+  CLI::App* command = arguments.add_subcommand(
+      "report",
+      "Writes the reports of attempts in a database, each into a folder of its own: report.html, score.json, score.csv "
+      "and xapi.json, as they were at the end of the exam");
+  command->add_option("database", given->database, "The database")->required();
+  command->add_option("--attempt", given->attempt, "Only this one, by its number")->check(CLI::PositiveNumber);
+  command->add_option("--out", given->out, "The folder to make the folders in")->capture_default_str();
+  command->add_option("--home-page", given->home_page,
+                      "The web address that the learners' ids belong to, for xapi.json; without it one that stands for "
+                      "the database");
+  command->callback([given, &run] { run = [given] { return report(*given); }; });
+}
+
+}  // namespace insonate

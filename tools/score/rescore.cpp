@@ -1,0 +1,70 @@
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "devices/sequence/probe_samples.h"
+#include "scenarios/result_json.h"
+#include "scenarios/results/rescoring.h"
+#include "scenarios/results/results_database.h"
+#include "scenarios/runner.h"
+#include "sim/core/files.h"
+#include "tools/score/attempt_cases.h"
+#include "tools/score/commands.h"
+
+namespace insonate {
+namespace {
+
+/// Empty when the attempt comes out the same, else why not.
+std::string compare(ResultsDatabase& database, std::int64_t number, AttemptCases& cases, const TissueTable& tissues) {
+  const std::string name = "attempt " + std::to_string(number);
+  try {
+    const Attempt attempt = database.read(number);
+    const std::uint32_t seed = result_from_json(attempt.score_json, name).provenance.seed;
+    Scenario scenario = parse_scenario(attempt.scenario_text, attempt.scenario_file, seed);
+    const Sequence log = parse_sequence(attempt.log, name);
+    const std::vector<PoseSample> samples = probe_samples(log);
+    const ActionLog actions = parse_action_log(recorded_actions(log), name);
+    Runner runner(scenario, cases.of(attempt.patient, scenario), tissues);
+    runner.feed(samples, actions);
+    runner.end();
+    return why_different(attempt.score_json, runner.result(), name);
+  } catch (const InputError& error) {
+    return std::string("it cannot be scored: ") + error.what();
+  }
+}
+
+struct Given {
+  std::filesystem::path database;
+  std::int64_t attempt = 0;
+};
+
+int rescore(const Given& given) {
+  ResultsDatabase database = ResultsDatabase::open(given.database);
+  const TissueTable tissues = read_tissue_table(assets_folder() / "tissues.toml");
+  AttemptCases cases;
+  int same = 0, other = 0;
+  for (const std::int64_t number : chosen_attempts(database, given.attempt)) {
+    const std::string why = compare(database, number, cases, tissues);
+    std::printf("attempt %lld: %s\n", static_cast<long long>(number), why.empty() ? "the same" : why.c_str());
+    ++(why.empty() ? same : other);
+  }
+  std::printf("%d the same, %d not\n", same, other);
+  return other > 0 ? 1 : 0;
+}
+
+}  // namespace
+
+void add_rescore_command(CLI::App& arguments, CommandRun& run) {
+  const auto given = std::make_shared<Given>();
+  CLI::App* command = arguments.add_subcommand(
+      "rescore",
+      "Scores the attempts in a database again, each from its own log and scenario, and says which come out the same "
+      "to "
+      "the bit and why others do not. The database stays as it is. The exit code is 1 when any is not the same");
+  command->add_option("database", given->database, "The database")->required();
+  command->add_option("--attempt", given->attempt, "Only this one, by its number")->check(CLI::PositiveNumber);
+  command->callback([given, &run] { run = [given] { return rescore(*given); }; });
+}
+
+}  // namespace insonate
