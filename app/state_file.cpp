@@ -71,7 +71,8 @@ void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::
     state["step"] = replay->moment().step;
     write_machine(state, replay->machine());
     std::string placed;
-    for (const ShownAnnotations::Placed& mark : replay->marks().placed) placed += in_short(mark.action);
+    for (const ShownAnnotations::Placed& annotation : replay->annotations().placed)
+      placed += in_short(annotation.action);
     state["placed"] = placed;
     if (const auto& pose = replay->moment().shown_pose) write_pose(state, *pose);
   }
@@ -82,7 +83,7 @@ void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::
     state["tracker"] = to_string(session->tracker_state().condition);
     state["tracker_problem"] = session->tracker_state().problem;
     state["tracker_rejected"] = to_string(session->tracker_state().rejected);
-    state["marks"] = session->marks_s().size();
+    state["marks"] = session->event_markers_s().size();
     state["pose_answer"] = session->answer() ? to_string(session->answer()->how) : "";
     state["lost"] = session->lost_for_s().has_value();
     write_machine(state, session->machine());
@@ -99,10 +100,10 @@ void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::
       state[std::string("plane_") + name + "_y"] = plane.screen(mm).y;
     }
     std::string placed;
-    const Annotations& marks = trainer.picture_tools().marks();
-    for (const auto& [slot, mark] : marks.measured()) placed += in_short(mark.action);
-    if (marks.point()) placed += in_short(marks.point()->action);
-    for (const auto& [name, mark] : marks.labels()) placed += in_short(mark.action);
+    const Annotations& annotations = trainer.picture_tools().annotations();
+    for (const auto& [slot, annotation] : annotations.measured()) placed += in_short(annotation.action);
+    if (annotations.point()) placed += in_short(annotations.point()->action);
+    for (const auto& [name, annotation] : annotations.labels()) placed += in_short(annotation.action);
     state["placed"] = placed;
     state["can_measure"] = PictureTools::ready(*session);
     state["draft"] = trainer.step_controls().draft();

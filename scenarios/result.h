@@ -14,7 +14,7 @@
 namespace insonate {
 
 /// A criterion's mark and why.
-struct Mark {
+struct CriterionScore {
   Metric metric{};
   double full = 0;  ///< full, zero, weight, critical: as in the scenario
   double zero = 0;
@@ -57,7 +57,7 @@ struct StepResult {
   std::vector<std::pair<Metric, double>> values;  ///< what the step's kind measures besides, as far as it could
   std::vector<std::pair<std::string, std::string>> facts;  ///< what else is to be known: "answer", "a stone"
   MotionValues motion;
-  std::vector<Mark> marks;
+  std::vector<CriterionScore> criteria;
   int hints_taken = 0;
   double hint_cost = 0;  ///< taken from what the marks earn, which does not go below 0
 
@@ -102,8 +102,8 @@ struct ExamResult {
   bool passed = false;
   std::vector<std::string> reasons;  ///< of failing, one sentence each, the gravest first; empty when passed
   std::vector<StepResult> steps;
-  std::vector<Mark> marks;  ///< of the whole exam
-  MotionValues motion;      ///< of the whole exam
+  std::vector<CriterionScore> criteria;  ///< of the whole exam
+  MotionValues motion;                   ///< of the whole exam
 };
 
 }  // namespace insonate

@@ -89,9 +89,9 @@ MotionValues motion_from(const Json& json) {
   return motion;
 }
 
-Json json_of(const std::vector<Mark>& marks) {
+Json json_of(const std::vector<CriterionScore>& criteria) {
   Json list = Json::array();
-  for (const Mark& m : marks)
+  for (const CriterionScore& m : criteria)
     list.push_back({{"metric", info(m.metric).name},
                     {"value", or_null(m.value)},
                     {"full", m.full},
@@ -109,10 +109,10 @@ Metric metric_named(const std::string& name) {
   return *metric;
 }
 
-std::vector<Mark> marks_from(const Json& list) {
-  std::vector<Mark> marks;
+std::vector<CriterionScore> criteria_from(const Json& list) {
+  std::vector<CriterionScore> criteria;
   for (const Json& json : list) {
-    Mark m;
+    CriterionScore m;
     m.metric = metric_named(json.at("metric").get<std::string>());
     m.value = number_or_null(json, "value");
     json.at("full").get_to(m.full);
@@ -121,9 +121,9 @@ std::vector<Mark> marks_from(const Json& list) {
     json.at("critical").get_to(m.critical);
     json.at("points").get_to(m.points);
     json.at("why").get_to(m.why);
-    marks.push_back(std::move(m));
+    criteria.push_back(std::move(m));
   }
-  return marks;
+  return criteria;
 }
 
 Json json_of(const StepResult& step) {
@@ -149,7 +149,7 @@ Json json_of(const StepResult& step) {
           {"values", values},
           {"facts", facts},
           {"motion", json_of(step.motion)},
-          {"criteria", json_of(step.marks)}};
+          {"criteria", json_of(step.criteria)}};
 }
 
 StepResult step_from(const Json& json) {
@@ -178,7 +178,7 @@ StepResult step_from(const Json& json) {
   for (const auto& [name, value] : json.at("values").items()) step.values.emplace_back(metric_named(name), value);
   for (const auto& [what, fact] : json.at("facts").items()) step.facts.emplace_back(what, fact);
   step.motion = motion_from(json.at("motion"));
-  step.marks = marks_from(json.at("criteria"));
+  step.criteria = criteria_from(json.at("criteria"));
   return step;
 }
 
@@ -201,7 +201,7 @@ ExamResult result_from(const Json& json) {
   json.at("points_possible").get_to(result.points_possible);
   json.at("reasons").get_to(result.reasons);
   for (const Json& step : json.at("steps")) result.steps.push_back(step_from(step));
-  result.marks = marks_from(json.at("criteria"));
+  result.criteria = criteria_from(json.at("criteria"));
   result.motion = motion_from(json.at("motion"));
   const Json& made_from = json.at("made_from");
   each_field_of_provenance(result.provenance,
@@ -237,7 +237,7 @@ std::string to_json(const ExamResult& result) {
                      {"points_possible", result.points_possible},
                      {"reasons", result.reasons},
                      {"steps", steps},
-                     {"criteria", json_of(result.marks)},
+                     {"criteria", json_of(result.criteria)},
                      {"motion", json_of(result.motion)},
                      {"made_from", made_from}};
   // Names come from files; bytes that are no UTF-8 must not stop a score from being written.

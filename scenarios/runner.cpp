@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "scenarios/case_digest.h"
-#include "scenarios/marking.h"
+#include "scenarios/criterion_score.h"
 #include "scenarios/words.h"
 
 namespace insonate {
@@ -16,8 +16,8 @@ constexpr double kTraceStep_s = 0.1;
 
 constexpr char kNothingValid[] = "there was no valid pose to judge.";
 
-Mark mark_motion(const Criterion& criterion, const MotionValues& motion, bool task_done) {
-  Mark m = mark(criterion, motion.of(criterion.metric), kNothingValid);
+CriterionScore score_motion(const Criterion& criterion, const MotionValues& motion, bool task_done) {
+  CriterionScore m = score_criterion(criterion, motion.of(criterion.metric), kNothingValid);
   if (info(criterion.metric).economy && !task_done && m.value) {
     m.points = 0;
     m.why = in_words(criterion.metric, *m.value) + ": nothing, because the task was not done.";
@@ -208,7 +208,7 @@ void Runner::skip(std::size_t from, std::size_t to, double now) {
 /// Which step follows the one that has ended just now; none when the exam is over.
 std::optional<std::size_t> Runner::step_after(const StepResult& ended, double now) {
   double possible = 0;
-  for (const Mark& m : ended.marks) possible += m.weight;
+  for (const CriterionScore& m : ended.criteria) possible += m.weight;
   const bool good = possible > 0 ? ended.earned() >= possible / 2 : is_done(ended.outcome);
   const std::string& next = good ? step().if_good : step().if_poor;
   const std::size_t after = live_.step + 1, end = scenario_.steps.size();
@@ -227,7 +227,7 @@ void Runner::end_step(StepOutcome outcome, double now, Then then) {
   step_motion_.end(now);
   const StepResult& ended = ended_[live_.step].emplace(judge(outcome, now));
   if (ended.counts) {
-    for (const Mark& m : ended.marks) {
+    for (const CriterionScore& m : ended.criteria) {
       live_.points += m.points;
       live_.points_possible += m.weight;
     }
@@ -266,12 +266,12 @@ StepResult Runner::judge(StepOutcome outcome, double now) const {
   for (const Criterion& criterion : asked.criteria) {
     const MetricScope scope = info(criterion.metric).scope;
     if (scope == MetricScope::motion) {
-      result.marks.push_back(mark_motion(criterion, result.motion, is_done(outcome)));
+      result.criteria.push_back(score_motion(criterion, result.motion, is_done(outcome)));
       continue;
     }
     std::optional<double> value = result.value(criterion.metric);
     if (scope == MetricScope::picture && result.judged) value = result.judged->of(criterion.metric);
-    result.marks.push_back(mark(criterion, value, asked.task->why_no_value()));
+    result.criteria.push_back(score_criterion(criterion, value, asked.task->why_no_value()));
   }
   return result;
 }
@@ -303,14 +303,14 @@ ExamResult Runner::result() const {
     missed.view = scenario_.steps[i].view;
     missed.start_s = missed.end_s = last_s_;
     for (const Criterion& criterion : scenario_.steps[i].criteria)
-      missed.marks.push_back(mark(criterion, std::nullopt, "the step was not reached."));
+      missed.criteria.push_back(score_criterion(criterion, std::nullopt, "the step was not reached."));
     result.steps.push_back(std::move(missed));
   }
   const bool all_done = std::all_of(result.steps.begin(), result.steps.end(), [](const StepResult& s) {
     return !s.counts || s.outcome == StepOutcome::skipped || is_done(s.outcome);
   });
   for (const Criterion& criterion : scenario_.criteria)
-    result.marks.push_back(mark_motion(criterion, result.motion, all_done));
+    result.criteria.push_back(score_motion(criterion, result.motion, all_done));
   decide(result);
   return result;
 }

@@ -116,11 +116,12 @@ void draw_values(const Theme& theme, const Rect& panel, const std::vector<ShownA
 
 }  // namespace
 
-void draw_marks(const Theme& theme, const Rect& panel, const PlaneOnScreen& plane, const ShownAnnotations& marks) {
-  for (const ShownAnnotations::Placed& placed : marks.placed)
+void draw_annotations(const Theme& theme, const Rect& panel, const PlaneOnScreen& plane,
+                      const ShownAnnotations& annotations) {
+  for (const ShownAnnotations::Placed& placed : annotations.placed)
     draw_placed(theme, plane, placed.action, placed.in_hand ? colour::kAccent : colour::kText);
-  if (marks.unnamed_place) draw_place(theme, plane, *marks.unnamed_place, colour::kAccent, "?");
-  draw_values(theme, panel, marks.values);
+  if (annotations.unnamed_place) draw_place(theme, plane, *annotations.unnamed_place, colour::kAccent, "?");
+  draw_values(theme, panel, annotations.values);
 }
 
 void draw_picture_tools(const Theme& theme, const Rect& panel, Session& session, PictureTools& tools,
@@ -139,7 +140,7 @@ void draw_picture_tools(const Theme& theme, const Rect& panel, Session& session,
          {std::tuple{Tool::distance, "tool_distance", "Distance"}, {Tool::ellipse, "tool_ellipse", "Ellipse"}})
       if (add(id, text, tools.tool() == tool ? ButtonKind::chosen : ButtonKind::normal, true)) tools.choose(tool);
   if (add("tool_undo", "Undo", ButtonKind::normal, tools.can_undo())) tools.undo(session);
-  if (add("tool_clear", "Clear", ButtonKind::normal, tools.marks().any())) tools.clear(session);
+  if (add("tool_clear", "Clear", ButtonKind::normal, tools.annotations().any())) tools.clear(session);
 }
 
 void take_pointer(const Theme& theme, const PlaneOnScreen& plane, Session& session, PictureTools& tools) {

@@ -13,7 +13,8 @@ namespace insonate::ui {
 
 /// What is placed in the ultrasound picture, as machines draw it: small crosses, a dotted line between them, and a box
 /// of values in the corner.
-void draw_marks(const Theme& theme, const Rect& panel, const PlaneOnScreen& plane, const ShownAnnotations& marks);
+void draw_annotations(const Theme& theme, const Rect& panel, const PlaneOnScreen& plane,
+                      const ShownAnnotations& annotations);
 
 /// The buttons beside the frozen picture: what to measure with, undo, clear. Adds to `places` where they are.
 void draw_picture_tools(const Theme& theme, const Rect& panel, Session& session, PictureTools& tools,

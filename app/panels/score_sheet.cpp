@@ -57,7 +57,7 @@ void draw_verdict(const Theme& theme, Rect head, const ExamResult& result) {
   draw_text(head.take_top(theme.px(20)), theme.small_text, colour::kMuted, line);
 }
 
-void draw_mark(const Theme& theme, const Rect& row, const Mark& mark) {
+void draw_mark(const Theme& theme, const Rect& row, const CriterionScore& mark) {
   const Columns columns = columns_of(theme, row);
   const MetricInfo& metric = info(mark.metric);
   const double share = mark.weight > 0 ? mark.points / mark.weight : 1;
@@ -100,8 +100,8 @@ void draw_group(const Theme& theme, const Rect& row, const std::string& title, c
 }
 
 std::size_t row_count(const ExamResult& result) {
-  std::size_t rows = result.steps.size() + 1 + result.marks.size();
-  for (const StepResult& step : result.steps) rows += step.marks.size();
+  std::size_t rows = result.steps.size() + 1 + result.criteria.size();
+  for (const StepResult& step : result.steps) rows += step.criteria.size();
   return rows;
 }
 
@@ -109,11 +109,11 @@ void draw_rows(const Theme& theme, Rect rows, float height, const ExamResult& re
   for (std::size_t i = 0; i < result.steps.size(); ++i) {
     const StepResult& step = result.steps[i];
     draw_group(theme, rows.take_top(height), std::to_string(i + 1) + "  " + step.title, outcome_text(step));
-    for (const Mark& mark : step.marks) draw_mark(theme, rows.take_top(height), mark);
+    for (const CriterionScore& mark : step.criteria) draw_mark(theme, rows.take_top(height), mark);
   }
-  if (result.marks.empty()) return;
+  if (result.criteria.empty()) return;
   draw_group(theme, rows.take_top(height), "The whole exam", clock_text(result.motion.time_s));
-  for (const Mark& mark : result.marks) draw_mark(theme, rows.take_top(height), mark);
+  for (const CriterionScore& mark : result.criteria) draw_mark(theme, rows.take_top(height), mark);
 }
 
 }  // namespace

@@ -38,8 +38,9 @@ void draw_slots(const Theme& theme, Rect where, PictureTools& tools, std::map<st
   const Measure& measure = *tools.measuring();
   std::vector<Choice> choices;
   for (int slot = 1; slot <= measure.slots(); ++slot) {
-    const auto placed = tools.marks().measured().find(slot);
-    const std::string value = placed == tools.marks().measured().end() ? "\u2013" : value_text(placed->second.action);
+    const auto placed = tools.annotations().measured().find(slot);
+    const std::string value =
+        placed == tools.annotations().measured().end() ? "\u2013" : value_text(placed->second.action);
     choices.push_back({"slot_" + std::to_string(slot), tools.slot_name(slot) + "   " + value,
                        slot == tools.slot() ? ButtonKind::chosen : ButtonKind::normal});
   }
@@ -87,7 +88,7 @@ void draw_names(const Theme& theme, const Rect& where, Session& session, Picture
   std::vector<Choice> choices;
   for (const std::string& name : tools.names())
     choices.push_back({"name_" + name, in_words(name),
-                       tools.marks().labels().contains(name) ? ButtonKind::chosen : ButtonKind::normal,
+                       tools.annotations().labels().contains(name) ? ButtonKind::chosen : ButtonKind::normal,
                        tools.unnamed_place().has_value()});
   if (const auto clicked = rows_of_choices(theme, where, choices, places))
     tools.name_place(session, tools.names()[*clicked]);

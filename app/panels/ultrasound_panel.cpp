@@ -61,13 +61,15 @@ void draw_marker(const Theme& theme, const PlaneOnScreen& plane, const Probe& pr
 }
 
 std::string mark_text(const Session& session) {
-  return "Mark " + std::to_string(session.marks_s().size()) + " at " + clock_text(session.marks_s().back());
+  return "Mark " + std::to_string(session.event_markers_s().size()) + " at " +
+         clock_text(session.event_markers_s().back());
 }
 
 // A moment that has just been marked.
 void draw_mark(const Theme& theme, const Rect& panel, const Session& session) {
   constexpr double kShown_s = 2;
-  if (session.marks_s().empty() || session.attempt_for_s() - session.marks_s().back() > kShown_s) return;
+  if (session.event_markers_s().empty() || session.attempt_for_s() - session.event_markers_s().back() > kShown_s)
+    return;
   const std::string text = mark_text(session);
   const float width = text_width(theme.strong, text) + theme.px(24);
   draw_chip(theme, {panel.x + (panel.w - width) / 2, panel.y + theme.px(14)}, colour::kAccent, colour::kBackground,
@@ -178,25 +180,25 @@ void UltrasoundPanel::draw(const Theme& theme, const Rect& panel, Session& sessi
   const Rect area = picture_area(theme, panel);
   if (const gl::Texture* picture = pictures.ultrasound()) {
     const PlaneOnScreen plane = draw_picture(theme, panel, *picture, pictures, session.machine());
-    draw_marks(theme, panel, plane, shown_annotations(session, tools));
+    draw_annotations(theme, panel, plane, shown_annotations(session, tools));
     draw_picture_tools(theme, panel, session, tools, places);  // before the picture's own item, which lies under them
     take_mouse(theme, area, session, plane, tools);
   } else {
     draw_text(panel, theme.text, colour::kFaint, "Waiting for the probe", Align::centre);
   }
   const Rect below = draw_annotations(theme, panel, session.loaded_case().subject.name, session.machine());
-  if (!session.marks_s().empty()) draw_text(below, theme.small_text, colour::kAccent, mark_text(session));
+  if (!session.event_markers_s().empty()) draw_text(below, theme.small_text, colour::kAccent, mark_text(session));
   draw_mark(theme, panel, session);
   draw_banner(theme, panel, session.lost_for_s(), frozen_text(session, tools));
   draw_tracker_problem(theme, panel, session);
 }
 
 void UltrasoundPanel::draw_still(const Theme& theme, const Rect& panel, const std::string& patient,
-                                 const Machine& machine, const ShownAnnotations& marks,
+                                 const Machine& machine, const ShownAnnotations& annotations,
                                  std::optional<double> lost_for_s, const Pictures& pictures) {
   fill(panel, colour::kImage, theme.px(4));
   if (const gl::Texture* picture = pictures.ultrasound())
-    draw_marks(theme, panel, draw_picture(theme, panel, *picture, pictures, machine), marks);
+    draw_annotations(theme, panel, draw_picture(theme, panel, *picture, pictures, machine), annotations);
   else
     draw_text(panel, theme.text, colour::kFaint, "No pose has come yet", Align::centre);
   draw_annotations(theme, panel, patient, machine);

@@ -28,7 +28,8 @@ public:
                    PictureTools& tools, std::map<std::string, Rect>& places);
   /// The same of a run that is over: nothing on it can be taken hold of.
   static void draw_still(const Theme& theme, const Rect& panel, const std::string& patient, const Machine& machine,
-                         const ShownAnnotations& marks, std::optional<double> lost_for_s, const Pictures& pictures);
+                         const ShownAnnotations& annotations, std::optional<double> lost_for_s,
+                         const Pictures& pictures);
 };
 
 }  // namespace insonate::ui

@@ -95,7 +95,7 @@ void IgtlFeed::tell_events(const Session& session, std::uint64_t stamp) {
   exam_ = runner != nullptr;
   if (begins) {
     finished_ = false;
-    step_ = marks_ = 0;
+    step_ = sent_markers_ = 0;
     announce(runner ? "exam started: " + runner->scenario().title : "practice started", stamp);
   }
   if (runner && (begins || runner->live().step != step_)) {
@@ -110,7 +110,7 @@ void IgtlFeed::tell_events(const Session& session, std::uint64_t stamp) {
     frozen_ = !frozen_;
     announce(frozen_ ? "frozen" : "live", stamp);
   }
-  while (marks_ < session.marks_s().size()) announce("mark " + std::to_string(++marks_), stamp);
+  while (sent_markers_ < session.event_markers_s().size()) announce("mark " + std::to_string(++sent_markers_), stamp);
   if (session.lost_for_s().has_value() != lost_) {
     lost_ = !lost_;
     announce(lost_ ? "tracking lost" : "tracking", stamp);

@@ -42,7 +42,7 @@ private:
   std::string sent_status_;
   int attempt_ = 0;
   bool exam_ = false, finished_ = false, frozen_ = false, lost_ = false;
-  std::size_t step_ = 0, marks_ = 0;
+  std::size_t step_ = 0, sent_markers_ = 0;
 };
 
 /// With every `stride`-th pixel, the smallest stride that leaves at most `most` pixels; how it lies is told anew.

@@ -77,7 +77,7 @@ public:
     moment.last_usable_s = last_usable_s_;
     moment.machine = index_of(run_.machines, session.machine());
     tools_.see(session);
-    moment.marks = index_of(run_.marks, shown_annotations(session, tools_));
+    moment.annotations = index_of(run_.annotations, shown_annotations(session, tools_));
     if (const Runner* runner = session.runner()) {
       const LiveExam& live = runner->live();
       moment.step = live.step;
@@ -114,13 +114,13 @@ private:
   PictureTools tools_;  ///< as the screen's, in nobody's hand
 };
 
-std::vector<RunEvent> events_of(const RecordedScan& scan, const std::vector<double>& marks_s) {
+std::vector<RunEvent> events_of(const RecordedScan& scan, const std::vector<double>& event_markers_s) {
   std::vector<RunEvent> events;
   const double first_s = scan.samples.front().time_s;
   for (const auto& [time_s, actions] : parse_action_log(scan.recording.actions, scan.recording.file))
     for (const Action& action : actions) events.push_back({time_s - first_s, false, in_words(action)});
-  for (std::size_t i = 0; i < marks_s.size(); ++i)
-    events.push_back({marks_s[i], true, "Mark " + std::to_string(i + 1)});
+  for (std::size_t i = 0; i < event_markers_s.size(); ++i)
+    events.push_back({event_markers_s[i], true, "Mark " + std::to_string(i + 1)});
   std::stable_sort(events.begin(), events.end(),
                    [](const RunEvent& a, const RunEvent& b) { return a.time_s < b.time_s; });
   return events;
@@ -162,7 +162,7 @@ RecordedRun play_through(const std::shared_ptr<const LoadedCase>& loaded_case, c
     recorder.see(session, scan.samples[i]);
     if (progress && i % 64 == 0) progress(double(i) / double(scan.samples.size()));
   }
-  run.events = events_of(scan, session.marks_s());
+  run.events = events_of(scan, session.event_markers_s());
   run.result = session.result();
   run.images = scan.images;
   return run;

@@ -25,7 +25,7 @@ struct RunMoment {
   std::optional<Pose> newest_pose;      ///< of the probe
   std::optional<double> last_usable_s;  ///< when the newest usable sample came
   std::size_t machine = 0;              ///< index into RecordedRun::machines
-  std::size_t marks = 0;                ///< index into RecordedRun::marks
+  std::size_t annotations = 0;          ///< index into RecordedRun::annotations
   std::size_t step = 0;                 ///< of the scenario; 0 without one
   bool on_skin = false;                 ///< of the runner, as all below: false without a scenario
   bool within_tolerance = false;        ///< the picture is as the step asks for
@@ -49,21 +49,21 @@ struct RunStretch {
 /// All that can be seen of a run that is over, kept sample by sample, so that any time of it can be looked up at once.
 /// It is neither an attempt nor the makings of one.
 struct RecordedRun {
-  std::string name;                      ///< of the log, for the screen
-  std::vector<RunMoment> moments;        ///< at least one; times rise from 0
-  std::vector<Machine> machines;         ///< each setting of the machine, in their order
-  std::vector<ShownAnnotations> marks;   ///< what lay over the picture, in its order
-  std::vector<RunStretch> stretches;     ///< without gaps from 0 to the end; one without a scenario
-  std::vector<RunEvent> events;          ///< in the order of time
-  std::optional<ExamResult> result;      ///< empty without a scenario
-  std::optional<RecordedImages> images;  ///< of the moments, in their order; empty where the recording has none
+  std::string name;                           ///< of the log, for the screen
+  std::vector<RunMoment> moments;             ///< at least one; times rise from 0
+  std::vector<Machine> machines;              ///< each setting of the machine, in their order
+  std::vector<ShownAnnotations> annotations;  ///< what lay over the picture, in its order
+  std::vector<RunStretch> stretches;          ///< without gaps from 0 to the end; one without a scenario
+  std::vector<RunEvent> events;               ///< in the order of time
+  std::optional<ExamResult> result;           ///< empty without a scenario
+  std::optional<RecordedImages> images;       ///< of the moments, in their order; empty where the recording has none
 
   double duration_s() const { return moments.back().time_s; }
   /// The moment that holds at a time: the last one that is not later, or the first.
   std::size_t index_at(double time_s) const;
   const RunMoment& at(double time_s) const { return moments[index_at(time_s)]; }
   const Machine& machine_at(double time_s) const { return machines[at(time_s).machine]; }
-  const ShownAnnotations& marks_at(double time_s) const { return marks[at(time_s).marks]; }
+  const ShownAnnotations& annotations_at(double time_s) const { return annotations[at(time_s).annotations]; }
   /// Index of the stretch that a time lies in; a boundary belongs to the later one.
   std::size_t stretch_at(double time_s) const;
   /// How long no usable pose had come by then, once that is longer than Session::kStale_s; as Session::lost_for_s().

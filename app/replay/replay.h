@@ -26,7 +26,7 @@ public:
   double time_s() const { return time_s_; }
   const RunMoment& moment() const { return run_.at(time_s_); }
   const Machine& machine() const { return run_.machine_at(time_s_); }
-  const ShownAnnotations& marks() const { return run_.marks_at(time_s_); }
+  const ShownAnnotations& annotations() const { return run_.annotations_at(time_s_); }
 
   /// The time of the expert's run that lies as far behind the beginning of its step, or its end once the expert had
   /// gone on; empty without an expert, and where the expert never came to that step.

@@ -9,14 +9,14 @@ namespace {
 std::vector<ShownAnnotations::Placed> placed_in(const std::optional<Pose>& picture, const PictureTools& tools) {
   std::vector<ShownAnnotations::Placed> placed;
   const auto& hand = tools.in_hand();
-  const auto add = [&](const Annotation& mark) {
-    if (mark.patient_from_probe != picture) return;
-    if (hand && take_back(*hand) == take_back(mark.action)) return;
-    placed.push_back({mark.action});
+  const auto add = [&](const Annotation& annotation) {
+    if (annotation.patient_from_probe != picture) return;
+    if (hand && take_back(*hand) == take_back(annotation.action)) return;
+    placed.push_back({annotation.action});
   };
-  for (const auto& [slot, mark] : tools.marks().measured()) add(mark);
-  if (tools.marks().point()) add(*tools.marks().point());
-  for (const auto& [name, mark] : tools.marks().labels()) add(mark);
+  for (const auto& [slot, annotation] : tools.annotations().measured()) add(annotation);
+  if (tools.annotations().point()) add(*tools.annotations().point());
+  for (const auto& [name, annotation] : tools.annotations().labels()) add(annotation);
   if (hand) placed.push_back({*hand, true});
   return placed;
 }
@@ -30,9 +30,9 @@ std::vector<ShownAnnotations::Value> values_of(const std::optional<Pose>& pictur
     const std::string number = numbered ? std::to_string(action.slot()) + "   " : "";
     values.push_back({number + tools.slot_name(action.slot()), value_text(action), of});
   };
-  for (const auto& [slot, mark] : tools.marks().measured())
+  for (const auto& [slot, annotation] : tools.annotations().measured())
     if (!hand || hand->slot() != slot)
-      add(mark.action, picture == mark.patient_from_probe ? Of::picture : Of::other_picture);
+      add(annotation.action, picture == annotation.patient_from_probe ? Of::picture : Of::other_picture);
   if (hand && (hand->kind == ActionKind::caliper || hand->kind == ActionKind::ellipse)) add(*hand, Of::in_hand);
   if (const std::string total = tools.total_text(); !total.empty()) {
     const std::size_t blank = total.find(' ');

@@ -56,7 +56,7 @@ void PictureTools::see(const Session& session) {
   const auto picture = session.frozen_picture();
   if (picture != picture_) drop();
   if (picture != picture_ && free_choice()) {
-    marks_.clear();
+    annotations_.clear();
     done_.clear();
   }
   picture_ = picture;
@@ -64,14 +64,14 @@ void PictureTools::see(const Session& session) {
   if (!std::as_const(session).source().recording()) return;  // what was placed here is known already
   for (const auto& [time_s, actions] : session.latest_actions())
     for (const Action& action : actions) {
-      if (another && ends_step(action)) marks_.clear();
-      marks_.apply(action, picture);
+      if (another && ends_step(action)) annotations_.clear();
+      annotations_.apply(action, picture);
     }
 }
 
 void PictureTools::begin_step(const Session& session) {
   drop();
-  marks_.clear();
+  annotations_.clear();
   done_.clear();
   chosen_slot_.reset();
   names_.clear();
@@ -100,7 +100,7 @@ int PictureTools::slot() const {
   if (chosen_slot_) return *chosen_slot_;
   const int last = measure_ ? measure_->slots() : Action::kMostSlots;
   for (int slot = 1; slot <= last; ++slot)
-    if (!marks_.measured().contains(slot)) return slot;
+    if (!annotations_.measured().contains(slot)) return slot;
   return last;
 }
 
@@ -111,9 +111,9 @@ void PictureTools::choose_slot(int slot) {
 }
 
 std::string PictureTools::slot_name(int slot) const {
-  const auto found = marks_.measured().find(slot);
-  const bool ellipse =
-      found == marks_.measured().end() ? tool_ == Tool::ellipse : found->second.action.kind == ActionKind::ellipse;
+  const auto found = annotations_.measured().find(slot);
+  const bool ellipse = found == annotations_.measured().end() ? tool_ == Tool::ellipse
+                                                              : found->second.action.kind == ActionKind::ellipse;
   if (!measure_ || measure_->slots() == 1) return ellipse ? "Area" : "Distance";
   if (measure_->tool == Measure::Tool::volume) return "Length " + std::to_string(slot);
   const MeasureTarget& target = measure_->targets[std::size_t(slot - 1)];
@@ -124,7 +124,7 @@ std::string PictureTools::slot_name(int slot) const {
 std::string PictureTools::total_text() const {
   if (!measure_ || measure_->slots() == 1) return "";
   std::vector<Action> placed;
-  for (const auto& [slot, mark] : marks_.measured()) placed.push_back(mark.action);
+  for (const auto& [slot, annotation] : annotations_.measured()) placed.push_back(annotation.action);
   if (int(placed.size()) != measure_->slots()) return "";
   return (measure_->tool == Measure::Tool::ratio ? "Ratio " : "Volume ") +
          measure_->value_text(measure_->value(placed));
@@ -139,21 +139,21 @@ void PictureTools::name_place(Session& session, const std::string& name) {
 /// Takes the nearest handle within reach of what lies in this picture.
 bool PictureTools::grab(const Pose& picture, const glm::dvec2& at, double reach_mm) {
   double nearest = reach_mm;
-  const auto look = [&](const Annotation& mark, std::size_t handle, const glm::dvec2& place) {
+  const auto look = [&](const Annotation& annotation, std::size_t handle, const glm::dvec2& place) {
     const double distance = glm::distance(at, place);
-    if (mark.patient_from_probe != picture || distance > nearest) return;
+    if (annotation.patient_from_probe != picture || distance > nearest) return;
     nearest = distance;
-    in_hand_ = mark.action;
+    in_hand_ = annotation.action;
     handle_ = handle;
   };
   if (tool_ == Tool::point) {
-    if (marks_.point()) look(*marks_.point(), 0, place_of(marks_.point()->action));
+    if (annotations_.point()) look(*annotations_.point(), 0, place_of(annotations_.point()->action));
   } else if (tool_ == Tool::label) {
-    for (const auto& [name, mark] : marks_.labels()) look(mark, 0, place_of(mark.action));
+    for (const auto& [name, annotation] : annotations_.labels()) look(annotation, 0, place_of(annotation.action));
   } else {
-    for (const auto& [slot, mark] : marks_.measured()) {
-      const std::vector<glm::dvec2> places = handles(mark.action);
-      for (std::size_t i = 0; i < places.size(); ++i) look(mark, i, places[i]);
+    for (const auto& [slot, annotation] : annotations_.measured()) {
+      const std::vector<glm::dvec2> places = handles(annotation.action);
+      for (std::size_t i = 0; i < places.size(); ++i) look(annotation, i, places[i]);
     }
   }
   return handle_.has_value();
@@ -209,13 +209,13 @@ void PictureTools::commit(Session& session, const Action& given) {
   drop();
   const auto picture = session.frozen_picture();
   if (!picture) return;
-  const Annotation* before = marks_.at_place_of(action);
+  const Annotation* before = annotations_.at_place_of(action);
   if (before && before->action == action && before->patient_from_probe == *picture) return;
   // What lay in another picture cannot be put back there.
   const bool again = before && before->patient_from_probe == *picture;
   done_.push_back({again ? before->action : take_back(action), *picture});
   session.act(action);
-  marks_.apply(action, picture);
+  annotations_.apply(action, picture);
   chosen_slot_.reset();
 }
 
@@ -240,7 +240,7 @@ void PictureTools::undo(Session& session) {
   // Nothing can be put back into a picture that is gone.
   const Action action = picture == last.picture ? last.action : take_back(last.action);
   session.act(action);
-  marks_.apply(action, picture);
+  annotations_.apply(action, picture);
 }
 
 void PictureTools::clear(Session& session) {
@@ -248,12 +248,12 @@ void PictureTools::clear(Session& session) {
   drop();
   const auto remove = [&](const Action& placed) {
     session.act(take_back(placed));
-    marks_.apply(take_back(placed), std::nullopt);
+    annotations_.apply(take_back(placed), std::nullopt);
   };
-  const Annotations all = marks_;
-  for (const auto& [slot, mark] : all.measured()) remove(mark.action);
+  const Annotations all = annotations_;
+  for (const auto& [slot, annotation] : all.measured()) remove(annotation.action);
   if (all.point()) remove(all.point()->action);
-  for (const auto& [name, mark] : all.labels()) remove(mark.action);
+  for (const auto& [name, annotation] : all.labels()) remove(annotation.action);
   done_.clear();
   chosen_slot_.reset();
 }

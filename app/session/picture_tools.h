@@ -65,7 +65,7 @@ public:
   void clear(Session& session);
   bool can_undo() const { return drawing_ || place_ || !done_.empty(); }
 
-  const Annotations& marks() const { return marks_; }
+  const Annotations& annotations() const { return annotations_; }
   /// What is being placed or moved, as it would be if the pointer were let go now.
   const std::optional<Action>& in_hand() const { return in_hand_; }
 
@@ -89,7 +89,7 @@ private:
   std::vector<std::string> names_;
   std::optional<Pose> picture_;
 
-  Annotations marks_;
+  Annotations annotations_;
   std::vector<Undo> done_;  ///< what takes back each thing that was done
   std::optional<Action> in_hand_;
   bool drawing_ = false;               ///< what is in hand is new and has clicks to come

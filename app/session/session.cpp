@@ -104,7 +104,7 @@ void Session::begin_attempt() {
   if (activity_ == Activity::exam && loaded_case_->scenario)
     runner_ = std::make_unique<Runner>(*loaded_case_->scenario, loaded_case_->subject, loaded_case_->tissues);
   last_usable_s_ = attempt_began_s_ = now_s_;
-  marks_s_.clear();
+  event_markers_s_.clear();
   history_.clear();
   // A recorded scan sets its knobs anew each time.
   if (source().recording()) shown_ = first_machine();
@@ -210,7 +210,7 @@ void Session::take(const PoseSample& sample) {
   const std::uint32_t pressed = presses_.see(sample);
   // A log with actions tells itself when the picture froze.
   if ((pressed & kFreezeButton) && log_actions_.empty()) freeze(!shown_.frozen);
-  if (pressed & kMarkButton) marks_s_.push_back(attempt_for_s());
+  if (pressed & kMarkButton) event_markers_s_.push_back(attempt_for_s());
   if (pressed & kGoOnButton) go_on_ = true;
   const std::vector<Action> actions = actions_before(sample);
   if (source().recording())

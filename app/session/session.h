@@ -127,7 +127,7 @@ public:
   bool latest_begin_attempt() const { return samples_begin_attempt_; }
 
   /// Moments that were marked during this attempt, in seconds since it began.
-  const std::vector<double>& marks_s() const { return marks_s_; }
+  const std::vector<double>& event_markers_s() const { return event_markers_s_; }
   /// As if these buttons (ProbeButton) were pressed on the probe: the next sample has them.
   void press(std::uint32_t buttons) { pressed_ |= buttons; }
   /// Whether to go on was asked for since the last call.
@@ -189,7 +189,7 @@ private:
   ButtonPresses presses_;
   std::uint32_t pressed_ = 0;  ///< for the next sample
   bool go_on_ = false;
-  std::vector<double> marks_s_;
+  std::vector<double> event_markers_s_;
   ActionLog log_actions_;     ///< of the log that is replayed
   std::vector<Action> acts_;  ///< the learner's own, until the next sample
   Machine machine_;           ///< as it was at the last sample

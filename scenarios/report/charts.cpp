@@ -72,7 +72,7 @@ std::string steps_on(const Axes& axes, const ExamResult& result, const std::opti
     if (step.start_s > 0 && step.outcome != StepOutcome::not_reached)
       svg += print("<line class='step' x1='%.1f' x2='%.1f' y1='%.1f' y2='%.1f'/>", axes.x(step.start_s),
                    axes.x(step.start_s), axes.top, axes.top + kChartHeight);
-    for (const Mark& m : step.marks)
+    for (const CriterionScore& m : step.criteria)
       if (m.metric == shown && step.end_s > step.start_s)
         svg += print("<line class='full' x1='%.1f' x2='%.1f' y1='%.1f' y2='%.1f'/>", axes.x(step.start_s),
                      axes.x(step.end_s), axes.y(m.full), axes.y(m.full));

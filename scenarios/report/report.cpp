@@ -67,7 +67,7 @@ std::string bar(double share) {
          "%'></i></div>";
 }
 
-std::string row(const Mark& m) {
+std::string row(const CriterionScore& m) {
   const double share = m.weight > 0 ? m.points / m.weight : 0;
   const char* grade = share >= 1 ? "all" : share > 0 ? "some" : "none";
   std::string html = "<tr class='" + std::string(grade) + "'><td><b>" + escaped(info(m.metric).words) + "</b>";
@@ -80,13 +80,13 @@ std::string row(const Mark& m) {
   return html;
 }
 
-std::string table(const std::vector<Mark>& marks) {
-  if (marks.empty()) return "<p class='quiet'>This part does not count.</p>";
+std::string table(const std::vector<CriterionScore>& criteria) {
+  if (criteria.empty()) return "<p class='quiet'>This part does not count.</p>";
   std::string html =
       "<table class='marks'><thead><tr><th>Criterion</th><th class='number'>Value</th><th class='number'>Full \u2026 "
       "no points</th>"
       "<th class='number'>Points</th></tr></thead><tbody>\n";
-  for (const Mark& m : marks) html += row(m);
+  for (const CriterionScore& m : criteria) html += row(m);
   return html + "</tbody></table>";
 }
 
@@ -143,15 +143,15 @@ std::string section(const StepResult& step, std::size_t index, const std::vector
             short_number(step.lost_to_hints()) + " points.</p>";
   for (const auto& [what, fact] : step.facts)
     html += "<p class='quiet'>" + escaped(what) + ": " + escaped(fact) + "</p>";
-  return html + table(step.marks) + pictures_of(index, pictures) + "</section>\n";
+  return html + table(step.criteria) + pictures_of(index, pictures) + "</section>\n";
 }
 
 /// A line for each step: what an examiner looks at first.
 std::string overview(const ExamResult& result) {
   const auto line = [](const std::string& name, const std::string& outcome, double time_s,
-                       const std::vector<Mark>& marks) {
+                       const std::vector<CriterionScore>& criteria) {
     double points = 0, possible = 0;
-    for (const Mark& m : marks) {
+    for (const CriterionScore& m : criteria) {
       points += m.points;
       possible += m.weight;
     }
@@ -165,9 +165,9 @@ std::string overview(const ExamResult& result) {
   for (std::size_t i = 0; i < result.steps.size(); ++i) {
     const StepResult& step = result.steps[i];
     html += line(std::to_string(i + 1) + ". " + escaped(step.title), outcome_chip(step.outcome),
-                 step.end_s - step.start_s, step.marks);
+                 step.end_s - step.start_s, step.criteria);
   }
-  return html + line("Whole exam", "", result.motion.time_s, result.marks) + "</tbody></table>";
+  return html + line("Whole exam", "", result.motion.time_s, result.criteria) + "</tbody></table>";
 }
 
 std::string verdict(const ExamResult& result) {
@@ -240,7 +240,7 @@ std::string report_html(const ExamResult& result, std::span<const TracePoint> tr
           escaped(result.title) + "</h1><p class='quiet'>" + escaped(result.provenance.case_name) + "</p></div>" +
           whose(subject) + "</header>\n" + verdict(result);
   for (std::size_t i = 0; i < result.steps.size(); ++i) html += section(result.steps[i], i, subject.pictures);
-  html += "<section><h2>Whole exam</h2>" + table(result.marks) + "</section>\n";
+  html += "<section><h2>Whole exam</h2>" + table(result.criteria) + "</section>\n";
   if (!trace.empty()) {
     html += "<section><h2>Over time</h2>" + time_charts_svg(result, trace) +
             "<p class='legend'><i class='key held'></i>held <i class='key judged'></i>judged without a hold "

@@ -5,9 +5,10 @@
 namespace insonate {
 namespace {
 
-const Mark* find_mark(const std::vector<Mark>& marks, Metric metric) {
-  const auto found = std::find_if(marks.begin(), marks.end(), [&](const Mark& m) { return m.metric == metric; });
-  return found == marks.end() ? nullptr : &*found;
+const CriterionScore* find_score(const std::vector<CriterionScore>& criteria, Metric metric) {
+  const auto found =
+      std::find_if(criteria.begin(), criteria.end(), [&](const CriterionScore& m) { return m.metric == metric; });
+  return found == criteria.end() ? nullptr : &*found;
 }
 
 std::optional<double> value_of(const StepResult& step, const MetricInfo& metric) {
@@ -23,7 +24,7 @@ std::optional<double> value_of(const StepResult& step, const MetricInfo& metric)
 }
 
 void add(std::vector<Measured>& list, std::optional<std::size_t> step, Metric metric, std::optional<double> value,
-         const Mark* mark) {
+         const CriterionScore* mark) {
   // What was judged is told as it was judged.
   if (mark) value = mark->value;
   if (value || mark) list.push_back({step, metric, value, mark});
@@ -37,10 +38,10 @@ std::vector<Measured> measured(const ExamResult& result) {
     for (const MetricInfo& m : metrics())
       add(list, i, m.metric,
           result.steps[i].outcome == StepOutcome::not_reached ? std::nullopt : value_of(result.steps[i], m),
-          find_mark(result.steps[i].marks, m.metric));
+          find_score(result.steps[i].criteria, m.metric));
   for (const MetricInfo& m : metrics())
     add(list, std::nullopt, m.metric, m.scope == MetricScope::motion ? result.motion.of(m.metric) : std::nullopt,
-        find_mark(result.marks, m.metric));
+        find_score(result.criteria, m.metric));
   return list;
 }
 

@@ -12,8 +12,8 @@ namespace insonate {
 struct Measured {
   std::optional<std::size_t> step;  ///< counted from 0; empty for the whole exam
   Metric metric{};
-  std::optional<double> value;  ///< empty when it was judged but could not be measured
-  const Mark* mark = nullptr;   ///< in the result; nullptr when it was not judged
+  std::optional<double> value;           ///< empty when it was judged but could not be measured
+  const CriterionScore* mark = nullptr;  ///< in the result; nullptr when it was not judged
 };
 
 /// Everything that a result measured or judged, step by step and then the whole exam, each in the order of metrics().

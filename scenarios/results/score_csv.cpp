@@ -36,7 +36,7 @@ std::string score_csv(const Attempt& attempt, const ExamResult& result) {
       "full,zero,weight,critical,points,why\r\n";
   const bool kept = attempt.number > 0;
   for (const Measured& m : measured(result)) {
-    const auto of_mark = [&](double Mark::*field) { return m.mark ? number(m.mark->*field) : ""; };
+    const auto of_score = [&](double CriterionScore::*field) { return m.mark ? number(m.mark->*field) : ""; };
     csv += row({kept ? std::to_string(attempt.number) : "",
                 attempt.uuid,
                 kept ? as_cell(attempt.learner) : "",
@@ -53,11 +53,11 @@ std::string score_csv(const Attempt& attempt, const ExamResult& result) {
                 std::string(info(m.metric).name),
                 as_cell(info(m.metric).unit),
                 m.value ? number(*m.value) : "",
-                of_mark(&Mark::full),
-                of_mark(&Mark::zero),
-                of_mark(&Mark::weight),
+                of_score(&CriterionScore::full),
+                of_score(&CriterionScore::zero),
+                of_score(&CriterionScore::weight),
                 m.mark ? (m.mark->critical ? "1" : "0") : "",
-                of_mark(&Mark::points),
+                of_score(&CriterionScore::points),
                 m.mark ? as_cell(m.mark->why) : ""});
   }
   return csv;

@@ -82,11 +82,11 @@ TEST_CASE(
   CHECK(poor.motion.dropouts > good.motion.dropouts);
 
   // On no criterion that it is worse in does the poor scan outscore the good one.
-  const auto compare = [](const std::vector<Mark>& better, const std::vector<Mark>& worse) {
+  const auto compare = [](const std::vector<CriterionScore>& better, const std::vector<CriterionScore>& worse) {
     for (std::size_t i = 0; i < better.size(); ++i) CHECK(worse[i].points <= better[i].points);
   };
-  for (std::size_t i = 0; i < good.steps.size(); ++i) compare(good.steps[i].marks, poor.steps[i].marks);
-  compare(good.marks, poor.marks);
+  for (std::size_t i = 0; i < good.steps.size(); ++i) compare(good.steps[i].criteria, poor.steps[i].criteria);
+  compare(good.criteria, poor.criteria);
 }
 
 TEST_CASE("a log's score is the same to the bit at any replay speed and frame rate") {

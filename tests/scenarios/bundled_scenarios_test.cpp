@@ -69,8 +69,8 @@ std::filesystem::path file_of(const Row& row) {
 
 bool fails_by(const ExamResult& result, const std::string& kind) {
   return std::any_of(result.steps.begin(), result.steps.end(), [&](const StepResult& step) {
-    return step.kind == kind &&
-           std::any_of(step.marks.begin(), step.marks.end(), [](const Mark& m) { return m.fails_exam(); });
+    return step.kind == kind && std::any_of(step.criteria.begin(), step.criteria.end(),
+                                            [](const CriterionScore& m) { return m.fails_exam(); });
   });
 }
 
@@ -86,12 +86,12 @@ TEST_CASE("of each scenario's bundled logs the good one passes, the poor one fai
     CHECK(good.percent > 90);
     CHECK_FALSE(poor.passed);
     CHECK(poor.percent < 50);
-    const auto compare = [](const std::vector<Mark>& better, const std::vector<Mark>& worse) {
+    const auto compare = [](const std::vector<CriterionScore>& better, const std::vector<CriterionScore>& worse) {
       for (std::size_t k = 0; k < std::min(better.size(), worse.size()); ++k)
         CHECK(worse[k].points <= better[k].points);
     };
-    for (std::size_t i = 0; i < good.steps.size(); ++i) compare(good.steps[i].marks, poor.steps[i].marks);
-    compare(good.marks, poor.marks);
+    for (std::size_t i = 0; i < good.steps.size(); ++i) compare(good.steps[i].criteria, poor.steps[i].criteria);
+    compare(good.criteria, poor.criteria);
   }
 }
 

@@ -48,7 +48,7 @@ TEST_CASE("a result goes to JSON and back without losing a bit") {
     CHECK(back.motion.path_length_mm == result.motion.path_length_mm);
     CHECK(back.reasons == result.reasons);
     CHECK(back.steps[0].judged->tilt_deg == result.steps[0].judged->tilt_deg);
-    CHECK(back.steps[0].marks[0].value == result.steps[0].marks[0].value);
+    CHECK(back.steps[0].criteria[0].value == result.steps[0].criteria[0].value);
   }
 }
 
@@ -101,7 +101,7 @@ TEST_CASE("the report names the verdict, its reasons, and each criterion with va
     CHECK(html.find(one.result.passed ? ">Passed<" : ">Not passed<") != std::string::npos);
     for (const std::string& reason : one.result.reasons) CHECK(html.find(reason) != std::string::npos);
     for (const StepResult& step : one.result.steps)
-      for (const Mark& m : step.marks) {
+      for (const CriterionScore& m : step.criteria) {
         CHECK(html.find(std::string(info(m.metric).words).substr(0, 6)) != std::string::npos);
         CHECK(html.find(m.why) != std::string::npos);
       }

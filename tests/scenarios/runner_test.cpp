@@ -62,22 +62,22 @@ TEST_CASE("a scan's score can be computed by hand") {
   CHECK(first.longest_hold_s == 1.0);
   // Over the hold the distance falls from 8 to 4 mm in 0.2 s and stays there for 0.8 s: 0.2 * 6 + 0.8 * 4 = 4.4 mm.
   CHECK(first.judged->plane_distance_mm == Approx(4.4).margin(0.05));
-  REQUIRE(first.marks.size() == 2);
-  CHECK(first.marks[0].points == Approx(4 * (10 - first.judged->plane_distance_mm) / 8));
-  CHECK(first.marks[1].points == 2);  // the disc at 4.4 mm is 95 % of the largest, more than 80
+  REQUIRE(first.criteria.size() == 2);
+  CHECK(first.criteria[0].points == Approx(4 * (10 - first.judged->plane_distance_mm) / 8));
+  CHECK(first.criteria[1].points == 2);  // the disc at 4.4 mm is 95 % of the largest, more than 80
 
   const StepResult& second = result.steps[1];
   CHECK(second.outcome == StepOutcome::held);
   CHECK(second.start_s == first.end_s);
   CHECK(second.end_s == Approx(first.end_s + 0.5).margin(0.021));
-  CHECK(second.marks[0].points == 1);
+  CHECK(second.criteria[0].points == 1);
   // No time is lost between the steps.
   CHECK(first.motion.time_s + second.motion.time_s == Approx(result.motion.time_s));
   CHECK(second.motion.tracked_s == Approx(second.end_s - second.start_s));
 
   CHECK(result.motion.time_s == Approx(3.1).margin(0.021));
   CHECK(result.motion.path_length_mm == Approx(36));
-  CHECK(result.marks[0].points == 3);  // 36 mm of way are less than 50
+  CHECK(result.criteria[0].points == 3);  // 36 mm of way are less than 50
   CHECK(result.points == Approx(2.8 + 2 + 1 + 3).margin(0.03));
   CHECK(result.points_possible == 10);
   CHECK(result.percent == Approx(88).margin(0.3));
@@ -111,8 +111,8 @@ TEST_CASE("the exam's time limit ends it at once, and what was not reached earns
   CHECK(result.steps[0].end_s == 2);
   CHECK(result.steps[0].longest_hold_s == Approx(0.38).margin(0.021));
   CHECK(result.steps[1].outcome == StepOutcome::not_reached);
-  CHECK(result.steps[1].marks[0].points == 0);
-  CHECK(result.steps[1].marks[0].why == "the step was not reached.");
+  CHECK(result.steps[1].criteria[0].points == 0);
+  CHECK(result.steps[1].criteria[0].why == "the step was not reached.");
   CHECK(result.motion.time_s == Approx(2));
 }
 
@@ -131,10 +131,10 @@ TEST_CASE("an exam whose samples end early is scored as far as it came") {
 
 TEST_CASE("giving up at once earns nothing for being quick") {
   const ExamResult result = scored(samples_of(1.0, 50, approach));
-  REQUIRE(result.marks[0].metric == Metric::path_length_mm);
-  CHECK(*result.marks[0].value < 50);
-  CHECK(result.marks[0].points == 0);
-  CHECK(result.marks[0].why.find("the task was not done") != std::string::npos);
+  REQUIRE(result.criteria[0].metric == Metric::path_length_mm);
+  CHECK(*result.criteria[0].value < 50);
+  CHECK(result.criteria[0].points == 0);
+  CHECK(result.criteria[0].why.find("the task was not done") != std::string::npos);
 }
 
 TEST_CASE("a hold survives a loss of tracking of a blink, not a longer one") {
@@ -267,8 +267,8 @@ TEST_CASE("a pose that is not valid is never looked at") {
   }
   const ExamResult result = scored(samples);
   CHECK_FALSE(result.steps[0].judged);
-  CHECK(result.steps[0].marks[0].points == 0);
-  CHECK(result.steps[0].marks[0].why == "there was no valid pose to judge.");
+  CHECK(result.steps[0].criteria[0].points == 0);
+  CHECK(result.steps[0].criteria[0].why == "there was no valid pose to judge.");
   CHECK(*result.motion.of(Metric::dropout_percent) == Approx(100));
 
   // Neither is one that is called valid and is no number, nor one whose time goes back.
@@ -421,7 +421,7 @@ TEST_CASE("a scenario that does not fit the case does not start") {
 TEST_CASE("a better scan never earns less on what it is better in") {
   double last = 1e9;
   for (const double offset : {0.0, 2.5, 4.0, 6.0, 7.5}) {
-    const double points = scored(samples_of(4, 50, [&](double) { return at_z(offset); })).steps[0].marks[0].points;
+    const double points = scored(samples_of(4, 50, [&](double) { return at_z(offset); })).steps[0].criteria[0].points;
     CHECK(points <= last);
     last = points;
   }

@@ -120,8 +120,8 @@ void draw_replay_page(const Theme& theme, const ReplayPlaces& places, Trainer& t
   const LoadedCase& loaded_case = *trainer.loaded_case();
   const Scenario* scenario = loaded_case.scenario ? &*loaded_case.scenario : nullptr;
   draw_top(theme, places.top, replay, scenario);
-  UltrasoundPanel::draw_still(theme, places.ultrasound, loaded_case.subject.name, replay.machine(), replay.marks(),
-                              replay.run().lost_for_s(replay.time_s()), trainer.pictures());
+  UltrasoundPanel::draw_still(theme, places.ultrasound, loaded_case.subject.name, replay.machine(),
+                              replay.annotations(), replay.run().lost_for_s(replay.time_s()), trainer.pictures());
   if (replay.run().images) recorded.draw(theme, places.recorded, replay, trainer.pictures());
   space.draw(theme, places.space, nullptr, trainer.pictures());
   draw_paths(theme, places.space, replay, trainer.pictures().camera);

@@ -50,7 +50,7 @@ void check_same(const Session& session, const PictureTools& tools, const Replay&
   REQUIRE(moment.newest_pose.has_value() == session.newest_pose().has_value());
   if (moment.newest_pose) CHECK(*moment.newest_pose == *session.newest_pose());
   CHECK(replay.machine() == session.machine());
-  CHECK(replay.marks() == shown_annotations(session, tools));
+  CHECK(replay.annotations() == shown_annotations(session, tools));
   if (!session.runner() || session.runner()->live().finished) return;
   const LiveExam& live = session.runner()->live();
   CHECK(moment.step == live.step);
@@ -159,10 +159,12 @@ TEST_CASE("a replay has what lay over its pictures, from when it was placed unti
   act(140, {take_back(rib)});
 
   RecordedRun run;
-  const auto at = [&](std::size_t frame) -> const ShownAnnotations& { return run.marks_at(log.samples[frame].time_s); };
+  const auto at = [&](std::size_t frame) -> const ShownAnnotations& {
+    return run.annotations_at(log.samples[frame].time_s);
+  };
   const auto placed = [&](std::size_t frame) {
     std::vector<Action> actions;
-    for (const ShownAnnotations::Placed& mark : at(frame).placed) actions.push_back(mark.action);
+    for (const ShownAnnotations::Placed& annotation : at(frame).placed) actions.push_back(annotation.action);
     return actions;
   };
   using Actions = std::vector<Action>;
@@ -180,7 +182,7 @@ TEST_CASE("a replay has what lay over its pictures, from when it was placed unti
     CHECK(at(29) == ShownAnnotations{});
     CHECK(placed(30) == Actions{first});
     CHECK(at(30).values == std::vector{length_1});
-    CHECK(run.marks_at(log.samples[30].time_s - 0.001) == ShownAnnotations{});
+    CHECK(run.annotations_at(log.samples[30].time_s - 0.001) == ShownAnnotations{});
     CHECK(placed(39) == Actions{first});
     CHECK(placed(40) == Actions{moved});
     CHECK(at(50) == ShownAnnotations{});
@@ -198,7 +200,7 @@ TEST_CASE("a replay has what lay over its pictures, from when it was placed unti
     CHECK(at(120) == ShownAnnotations{});
     CHECK(placed(130) == Actions{ball, rib});
     CHECK(placed(140) == Actions{ball});
-    CHECK(run.marks_at(run.duration_s()) == ShownAnnotations{});
+    CHECK(run.annotations_at(run.duration_s()) == ShownAnnotations{});
   }
   SECTION("without one: until the picture moves on") {
     run = play_through(loaded_case, log);

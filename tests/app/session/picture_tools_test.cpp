@@ -94,8 +94,8 @@ struct Desk {
         if (action.kind >= ActionKind::caliper) all.push_back(action);
     return all;
   }
-  double length(int slot) const { return caliper_length_mm(tools.marks().measured().at(slot).action); }
-  bool is_empty() const { return !tools.marks().any() && !tools.in_hand(); }
+  double length(int slot) const { return caliper_length_mm(tools.annotations().measured().at(slot).action); }
+  bool is_empty() const { return !tools.annotations().any() && !tools.in_hand(); }
 };
 
 }  // namespace
@@ -109,7 +109,7 @@ TEST_CASE("two clicks or one drag make a caliper, and its ends can be dragged") 
   REQUIRE(desk.tools.in_hand());
   desk.tools.move({0, 70});
   CHECK(caliper_length_mm(*desk.tools.in_hand()) == 30);
-  CHECK(desk.tools.marks().measured().empty());
+  CHECK(desk.tools.annotations().measured().empty());
   desk.click(0, 80);
   CHECK(desk.length(1) == 40);
   CHECK(desk.tools.slot() == 2);
@@ -124,7 +124,7 @@ TEST_CASE("two clicks or one drag make a caliper, and its ends can be dragged") 
   desk.tools.move({0, 85});
   desk.release(0, 90);
   CHECK(desk.length(1) == 50);
-  CHECK(desk.tools.marks().measured().size() == 2);
+  CHECK(desk.tools.annotations().measured().size() == 2);
   desk.pass();
   const std::vector<Action> expected{{ActionKind::caliper, {1, 0, 40, 0, 80}},
                                      {ActionKind::caliper, {2, -20, 60, 20, 60}},
@@ -202,7 +202,7 @@ TEST_CASE("a step's calipers may lie in several pictures, and what counts nowher
   desk.click(0, 40);
   desk.click(0, 80);
   desk.freeze(false);
-  CHECK(desk.tools.marks().measured().size() == 1);
+  CHECK(desk.tools.annotations().measured().size() == 1);
   desk.slide(5);
   desk.freeze();
   INFO("an end that lies in another picture is not taken hold of in this one");
@@ -223,7 +223,7 @@ TEST_CASE("a step's calipers may lie in several pictures, and what counts nowher
   desk.freeze(false);
   desk.tools.undo(*desk.session);
   desk.pass();
-  CHECK(desk.tools.marks().measured().size() == 2);
+  CHECK(desk.tools.annotations().measured().size() == 2);
   CHECK_FALSE(desk.session->runner()->live().enough);
 
   Desk practice("");
@@ -235,7 +235,7 @@ TEST_CASE("a step's calipers may lie in several pictures, and what counts nowher
   practice.tools.choose(PictureTools::Tool::distance);
   practice.click(40, 40);
   practice.click(40, 80);
-  CHECK(practice.tools.marks().measured().at(1).action.kind == ActionKind::ellipse);
+  CHECK(practice.tools.annotations().measured().at(1).action.kind == ActionKind::ellipse);
   CHECK(practice.length(2) == 40);
   practice.freeze(false);
   CHECK(practice.is_empty());
@@ -272,7 +272,7 @@ TEST_CASE("a point is clicked and dragged, and a place is clicked and then named
   CHECK(desk.session->runner()->live().enough);
   desk.tools.undo(*desk.session);
   desk.pass();
-  CHECK(desk.tools.marks().labels().size() == 1);
+  CHECK(desk.tools.annotations().labels().size() == 1);
   CHECK_FALSE(desk.session->runner()->live().enough);
 }
 
@@ -286,7 +286,7 @@ TEST_CASE("another step and another attempt begin with nothing placed") {
   CHECK(desk.is_empty());
   CHECK(desk.tools.tool() == PictureTools::Tool::point);
   desk.click(0, 45);
-  CHECK(desk.tools.marks().point());
+  CHECK(desk.tools.annotations().point());
   desk.session->start_over();
   desk.pass();
   CHECK(desk.is_empty());

@@ -44,12 +44,12 @@ TEST_CASE("the probe's mark and go-on buttons act once each time they are presse
   Session session(tiny_loaded_case(), replay_of(samples));
   session.advance(100);
   double now_s = run_until(session, 100, 101.9);
-  CHECK(session.marks_s().size() == 1);
+  CHECK(session.event_markers_s().size() == 1);
   now_s = run_until(session, now_s, 104);
-  REQUIRE(session.marks_s().size() == 2);
+  REQUIRE(session.event_markers_s().size() == 2);
   // The first sample behind that time, and a frame until it is polled.
-  CHECK(session.marks_s()[0] == Approx(1).margin(0.04));
-  CHECK(session.marks_s()[1] == Approx(2.9).margin(0.04));
+  CHECK(session.event_markers_s()[0] == Approx(1).margin(0.04));
+  CHECK(session.event_markers_s()[1] == Approx(2.9).margin(0.04));
   CHECK(session.take_go_on());
   CHECK_FALSE(session.take_go_on());
   CHECK_FALSE(session.machine().frozen);
@@ -61,10 +61,10 @@ TEST_CASE("the probe's mark and go-on buttons act once each time they are presse
     session.advance(now_s + i / 60.0);
     for (const PoseSample& sample : session.latest_samples()) marked += sample.buttons == kMarkButton;
   }
-  CHECK(session.marks_s().size() == 3);
+  CHECK(session.event_markers_s().size() == 3);
   CHECK(marked == 1);
   session.start_over();
-  CHECK(session.marks_s().empty());
+  CHECK(session.event_markers_s().empty());
 }
 
 TEST_CASE("a button that is held when a session begins was pressed for somebody else") {
@@ -75,10 +75,10 @@ TEST_CASE("a button that is held when a session begins was pressed for somebody 
   session.advance(0);
   const double now_s = run_until(session, 0, 1.5);
   CHECK_FALSE(session.machine().frozen);
-  CHECK(session.marks_s().empty());
+  CHECK(session.event_markers_s().empty());
   run_until(session, now_s, 3);
   CHECK(session.machine().frozen);
-  CHECK(session.marks_s().size() == 1);
+  CHECK(session.event_markers_s().size() == 1);
 }
 
 TEST_CASE("a button that is held on the tracker while the probe changes hands was pressed once") {
@@ -94,17 +94,17 @@ TEST_CASE("a button that is held on the tracker while the probe changes hands wa
   hold(0);
   hold(kMarkButton | kFreezeButton);
   CHECK(session.machine().frozen);
-  CHECK(session.marks_s().size() == 1);
+  CHECK(session.event_markers_s().size() == 1);
   session.take_probe();
   hold(kMarkButton | kFreezeButton);
   session.press(kMarkButton);  // the keyboard's own
   hold(kMarkButton | kFreezeButton);
-  CHECK(session.marks_s().size() == 1);
+  CHECK(session.event_markers_s().size() == 1);
   session.give_back_probe();
   hold(kMarkButton | kFreezeButton);
   CHECK_FALSE(session.machine().frozen);
-  CHECK(session.marks_s().empty());
+  CHECK(session.event_markers_s().empty());
   hold(0);
   hold(kMarkButton);
-  CHECK(session.marks_s().size() == 1);
+  CHECK(session.event_markers_s().size() == 1);
 }

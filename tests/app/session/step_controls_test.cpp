@@ -70,7 +70,7 @@ TEST_CASE("an answer is drafted, and given once") {
   desk.controls.go_on(desk.session);
   desk.pass();
   CHECK(desk.step() == 1);
-  CHECK(desk.session.runner()->result().steps[0].marks[0].points == 1);
+  CHECK(desk.session.runner()->result().steps[0].criteria[0].points == 1);
   CHECK(desk.controls.draft().empty());
   CHECK_FALSE(desk.controls.can_answer());
   desk.controls.draft("no");

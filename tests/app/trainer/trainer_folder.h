@@ -42,6 +42,7 @@ public:
     return options;
   }
   std::filesystem::path file(const std::string& name, const std::string& bytes) const {
+    std::filesystem::create_directories((path / name).parent_path());
     std::ofstream(path / name, std::ios::binary) << bytes;
     return path / name;
   }

@@ -139,7 +139,7 @@ TEST_CASE("a shader that builds as it is and not for other settings is told of, 
   const std::string smooth = gl::ShaderSources().text("imaging/smooth.comp", files);
   fs::create_directories(folder.path / "shaders");
   // A picture of less depth has more pixels a millimetre.
-  folder.file("shaders/smooth.comp", "#if TRANSMISSION_RADIUS > 3\n#error too wide\n#endif\n" + smooth);
+  folder.file("shaders/imaging/smooth.comp", "#if TRANSMISSION_RADIUS > 3\n#error too wide\n#endif\n" + smooth);
   Options options = folder.options();
   options.shader_folder = folder.path / "shaders";
   Trainer trainer(options);
@@ -160,7 +160,7 @@ TEST_CASE("a shader that builds as it is and not for other settings is told of, 
   CHECK((read_back(*trainer.pictures().ultrasound()).pixels == pixels));
 
   INFO("once the file is mended the picture is drawn");
-  folder.file("shaders/smooth.comp", smooth);
+  folder.file("shaders/imaging/smooth.comp", smooth);
   fs::last_write_time(options.shader_folder / "imaging/smooth.comp",
                       fs::last_write_time(options.shader_folder / "imaging/smooth.comp") + std::chrono::seconds(2));
   trainer.update(1.5);

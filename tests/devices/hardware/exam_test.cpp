@@ -75,7 +75,7 @@ struct Exam {
 
 /// Single precision leaves 1e-5 mm and 1e-5 degrees of a pose. A metric that counts pixels or voxels may gain or lose
 /// one of some thousands by that; what is a count of movements or losses may not change at all.
-void check_same(const std::vector<Mark>& sent, const std::vector<Mark>& logged) {
+void check_same(const std::vector<CriterionScore>& sent, const std::vector<CriterionScore>& logged) {
   REQUIRE(sent.size() == logged.size());
   for (std::size_t i = 0; i < sent.size(); ++i) {
     CAPTURE(sent[i].why, logged[i].why);
@@ -103,8 +103,8 @@ TEST_CASE("a recorded exam that a mocked USB tracker sends scores as its log doe
     REQUIRE(sent.steps.size() == logged.steps.size());
     for (std::size_t i = 0; i < sent.steps.size(); ++i) {
       CHECK(sent.steps[i].outcome == logged.steps[i].outcome);
-      check_same(sent.steps[i].marks, logged.steps[i].marks);
+      check_same(sent.steps[i].criteria, logged.steps[i].criteria);
     }
-    check_same(sent.marks, logged.marks);
+    check_same(sent.criteria, logged.criteria);
   }
 }

@@ -90,7 +90,7 @@ TEST_CASE("the table has a row for each metric, and its numbers are the result's
     CHECK(std::stod(row["percent"]) == exam.result.percent);
     CHECK(found.emplace(row["step"] + " " + row["metric"], row).second);
   }
-  const Mark& mark = exam.result.steps[0].marks[0];
+  const CriterionScore& mark = exam.result.steps[0].criteria[0];
   auto& marked = found.at("1 plane_distance_mm");
   CHECK(std::stod(marked["value"]) == *mark.value);
   CHECK(std::stod(marked["points"]) == mark.points);
@@ -157,7 +157,7 @@ TEST_CASE("statements tell a learning record store of an attempt") {
   CHECK(result.at("extensions")
             .at("https://insonate.invalid/extensions/steps")[0]
             .at("metrics")
-            .at("plane_distance_mm") == *good.result.steps[0].marks[0].value);
+            .at("plane_distance_mm") == *good.result.steps[0].criteria[0].value);
 }
 
 TEST_CASE("of practice and recordings statements tell the score, and neither pass nor failure") {

@@ -21,7 +21,7 @@ TEST_CASE("a score is the same to the bit or it is said why not") {
   now.motion.path_length_mm = std::nextafter(now.motion.path_length_mm, 1e9);
   CHECK(why_different(json, now, "x").find("motion/path_length_mm: ") == 0);
   now = then;
-  now.steps[0].marks[0].points += 1;
+  now.steps[0].criteria[0].points += 1;
   CHECK(why_different(json, now, "x").find("steps/0/criteria/0/points") == 0);
   now = then;
   now.provenance.case_digest = "0123";

@@ -101,9 +101,9 @@ void check_alike(const ExamResult& a, const ExamResult& b, const std::function<d
   for (std::size_t i = 0; i < a.steps.size(); ++i) {
     CAPTURE(i);
     CHECK(b.steps[i].outcome == a.steps[i].outcome);
-    REQUIRE(b.steps[i].marks.size() == a.steps[i].marks.size());
-    for (std::size_t k = 0; k < a.steps[i].marks.size(); ++k) {
-      const Mark &one = a.steps[i].marks[k], &other = b.steps[i].marks[k];
+    REQUIRE(b.steps[i].criteria.size() == a.steps[i].criteria.size());
+    for (std::size_t k = 0; k < a.steps[i].criteria.size(); ++k) {
+      const CriterionScore &one = a.steps[i].criteria[k], &other = b.steps[i].criteria[k];
       CAPTURE(info(one.metric).name);
       REQUIRE(one.value);
       REQUIRE(other.value);
@@ -176,7 +176,7 @@ TEST_CASE("of two scans the one that is worse in a criterion never earns more by
   for (const double clumsy : {0.0, 0.15, 0.3, 0.5, 0.8, 1.2, 1.8})
     results.push_back(scored(Learner{clumsy}, Learner{clumsy}.samples(30)));
   int worse = 0;
-  const auto compare = [&](const std::vector<Mark>& a, const std::vector<Mark>& b) {
+  const auto compare = [&](const std::vector<CriterionScore>& a, const std::vector<CriterionScore>& b) {
     for (std::size_t k = 0; k < a.size(); ++k) {
       const MetricInfo& metric = info(a[k].metric);
       CAPTURE(metric.name, a[k].why, b[k].why);
@@ -191,12 +191,12 @@ TEST_CASE("of two scans the one that is worse in a criterion never earns more by
   };
   for (const ExamResult& a : results)
     for (const ExamResult& b : results) {
-      for (std::size_t i = 0; i < a.steps.size(); ++i) compare(a.steps[i].marks, b.steps[i].marks);
+      for (std::size_t i = 0; i < a.steps.size(); ++i) compare(a.steps[i].criteria, b.steps[i].criteria);
       const auto done = [](const ExamResult& result) {
         return std::all_of(result.steps.begin(), result.steps.end(),
                            [](const StepResult& s) { return is_done(s.outcome); });
       };
-      if (done(a) == done(b)) compare(a.marks, b.marks);  // economy is worth nothing where the task was not done
+      if (done(a) == done(b)) compare(a.criteria, b.criteria);  // economy is worth nothing where the task was not done
     }
   CHECK(worse > 100);
   // The calmest learner is nowhere worse than the clumsiest, and better in all.

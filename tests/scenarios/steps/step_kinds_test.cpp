@@ -14,7 +14,7 @@ TEST_CASE("knobs are set when all of them are as asked for long enough") {
              {{1.0, {{ActionKind::probe, {}, "linear"}}}, {2.0, {{ActionKind::depth, {55}}, {ActionKind::gain, {4}}}}});
   CHECK(right.steps[0].outcome == StepOutcome::done);
   CHECK(right.steps[0].end_s == Approx(2.4).margin(0.11));
-  CHECK(right.steps[0].marks[0].points == 1);
+  CHECK(right.steps[0].criteria[0].points == 1);
   const ExamResult two = scored(exam, 5, {{1.0, {{ActionKind::gain, {4}}, {ActionKind::depth, {55}}}}});
   CHECK(two.steps[0].outcome == StepOutcome::scan_ended);
   CHECK(*two.steps[0].value(Metric::knobs_right_percent) == Approx(200.0 / 3));
@@ -40,14 +40,14 @@ TEST_CASE("a distance is measured between calipers in a frozen picture, against 
   // The ball's diameter is 40 mm and its voxels are 2 mm wide: an edge may lie a voxel off at either end.
   CHECK(*right.value(Metric::measurement_error_mm) < 2.01);
   CHECK(*right.value(Metric::measurement_offset_mm) < 1);
-  CHECK(right.marks[0].points == Approx(1).margin(0.01));
+  CHECK(right.criteria[0].points == Approx(1).margin(0.01));
   CHECK(*right.judged_from_s == Approx(1.5));
   CHECK(right.judged->plane_distance_mm == Approx(0).margin(1e-9));
   CHECK(*measured(17).value(Metric::measurement_error_mm) ==
         Approx(*right.value(Metric::measurement_error_mm) + 6).margin(4.01));
   double last = 2;
   for (const double half : {20.0, 22.0, 24.0, 26.0}) {
-    const double points = measured(half).marks[0].points;
+    const double points = measured(half).criteria[0].points;
     CHECK(points <= last);
     last = points;
   }
@@ -55,8 +55,8 @@ TEST_CASE("a distance is measured between calipers in a frozen picture, against 
 
   const ExamResult running = scored(exam, 3, {{1.5, {caliper(1, -20, 60, 20, 60)}}, {2.0, {kGoOn}}});
   CHECK(running.steps[0].outcome == StepOutcome::went_on);
-  CHECK(running.steps[0].marks[0].points == 0);
-  CHECK(running.steps[0].marks[0].why == "nothing was measured in a frozen picture.");
+  CHECK(running.steps[0].criteria[0].points == 0);
+  CHECK(running.steps[0].criteria[0].why == "nothing was measured in a frozen picture.");
   // Of a slot the last caliper counts, and another slot's does not.
   const ExamResult moved = scored(exam, 3,
                                   {{1.0, {kFreeze}},
@@ -130,7 +130,7 @@ TEST_CASE("a point's error is its distance in space from the landmark or the str
   CHECK(error("structures = [\"ball\"]", 0, 60, 10) == 0);
   CHECK(error("structures = [\"ball\"]", 32, 60, 0) == Approx(12).margin(1e-6));  // the outermost voxel lies at 20
   const Scenario exam = exam_of(step("mark_point", "landmark = \"top\"", "point_error_mm", "full = 2\nzero = 20"));
-  CHECK(scored(exam, 3, {{2.0, {kGoOn}}}).steps[0].marks[0].why == "nothing was pointed at.");
+  CHECK(scored(exam, 3, {{2.0, {kGoOn}}}).steps[0].criteria[0].why == "nothing was pointed at.");
 }
 
 TEST_CASE("names belong on their structures") {
@@ -157,10 +157,10 @@ TEST_CASE("the first answer counts, and what is right may be what the patient ha
   const ExamResult yes = scored(exam, 3, {{1.0, {answer("yes"), answer("no")}}});
   CHECK(yes.steps[0].outcome == StepOutcome::done);
   CHECK(yes.steps[0].end_s == Approx(1));
-  CHECK(yes.steps[0].marks[0].points == 1);
+  CHECK(yes.steps[0].criteria[0].points == 1);
   CHECK(yes.steps[0].facts[0] == std::pair<std::string, std::string>("answer", "yes"));
-  CHECK(scored(exam, 3, {{1.0, {answer("no")}}}).steps[0].marks[0].points == 0);
-  CHECK(scored(exam, 3, {}).steps[0].marks[0].why == "there was no answer.");
+  CHECK(scored(exam, 3, {{1.0, {answer("no")}}}).steps[0].criteria[0].points == 0);
+  CHECK(scored(exam, 3, {}).steps[0].criteria[0].why == "there was no answer.");
 
   Case without = shared_case();
   for (std::uint8_t& label : without.labels.voxels) label = label == 1 ? 0 : label;
@@ -174,7 +174,7 @@ TEST_CASE("the first answer counts, and what is right may be what the patient ha
   const auto off = [&](const char* text) { return scored(number, 3, {{1.0, {answer(text)}}}).steps[0]; };
   CHECK(*off(" 32 ").value(Metric::answer_right_percent) == 100);
   CHECK(*off("32.5").value(Metric::answer_right_percent) == 0);
-  CHECK(off("32.5").marks[0].points == Approx(0.75));
+  CHECK(off("32.5").criteria[0].points == Approx(0.75));
   CHECK_FALSE(off("thirty").value(Metric::answer_error));
 
   const Scenario text =
@@ -210,7 +210,7 @@ TEST_CASE("a sweep covers the share of the organ that was in the slice and reach
   // More of the organ never earns less.
   double last = -1;
   for (const double to : {-20.0, -10.0, 0.0, 10.0, 20.0}) {
-    const double points = swept(-24, to, 40).marks[0].points;
+    const double points = swept(-24, to, 40).criteria[0].points;
     CHECK(points >= last);
     last = points;
   }
@@ -253,7 +253,7 @@ TEST_CASE("warm-ups are marked, earn nothing, and the exam's time and motion beg
               step("free_scan", "", "time_s", "full = 1\nzero = 9"));
   const ExamResult result =
       scored(exam, 30, {{10.0, {answer("b")}}, {15.0, {kGoOn}}}, [](double t) { return at_z(t); });
-  CHECK(result.steps[0].marks[0].points == 0);
+  CHECK(result.steps[0].criteria[0].points == 0);
   CHECK(result.points_possible == 1);
   CHECK(result.motion.time_s == Approx(5));
   // From 10 s to the last sample before going on, at 14.9 s.
@@ -284,7 +284,7 @@ TEST_CASE("where the order is free the learner turns to any step, and a step's l
   const auto go_to = [](const char* name) { return Action{ActionKind::go_to, {}, name}; };
   const ExamResult result = scored(exam, 9, {{2.0, {go_to("two")}}, {3.0, {answer("a")}}});
   CHECK(result.steps[1].start_s == 2);
-  CHECK(result.steps[1].marks[0].points == 1);
+  CHECK(result.steps[1].criteria[0].points == 1);
   CHECK(result.steps[0].start_s == 0);
   CHECK(result.steps[0].motion.time_s == 3);
   CHECK(result.steps[0].outcome == StepOutcome::timed_out);
@@ -292,7 +292,7 @@ TEST_CASE("where the order is free the learner turns to any step, and a step's l
   // In a fixed order there is no turning.
   const Scenario fixed_order = exam_of(step("question", "name = \"one\"\n" + question, "answer_right_percent") +
                                        step("question", "name = \"two\"\n" + question, "answer_right_percent"));
-  CHECK(scored(fixed_order, 9, {{2.0, {go_to("two"), answer("a")}}}).steps[0].marks[0].points == 1);
+  CHECK(scored(fixed_order, 9, {{2.0, {go_to("two"), answer("a")}}}).steps[0].criteria[0].points == 1);
 }
 
 TEST_CASE("who turns away from a step and comes back has made its way and taken its time all the same") {
@@ -312,7 +312,7 @@ TEST_CASE("who turns away from a step and comes back has made its way and taken 
   // What lies between the sample before a turn and the one behind it is no step's: at most 60 mm/s for 0.1 s.
   CHECK(detour.motion.path_length_mm == Approx(straight.motion.path_length_mm).margin(6));
   CHECK(detour.motion.tracked_s == Approx(straight.motion.tracked_s));
-  CHECK(detour.marks[0].points == Approx(straight.marks[0].points).margin(1e-9));
+  CHECK(detour.criteria[0].points == Approx(straight.criteria[0].points).margin(1e-9));
   REQUIRE(straight.motion.log_dimensionless_jerk);
   CHECK(*detour.motion.log_dimensionless_jerk <= *straight.motion.log_dimensionless_jerk + 1);
 }
@@ -329,7 +329,7 @@ TEST_CASE("a seed draws a variant, which spells out the steps and is kept in the
     ++drawn[exam.variant];
     CHECK(exam.variants == 2);
     const ExamResult result = scored(exam, 3, {{0.5, {kGoOn}}, {1.0, {answer(exam.variant == "rib" ? "b" : "a")}}});
-    CHECK(result.steps[1].marks[0].points == 1);
+    CHECK(result.steps[1].criteria[0].points == 1);
     CHECK(result.provenance.seed == seed);
     CHECK(result_from_json(to_json(result), "x").provenance.variant == exam.variant);
   }

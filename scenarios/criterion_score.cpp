@@ -1,4 +1,4 @@
-#include "scenarios/marking.h"
+#include "scenarios/criterion_score.h"
 
 #include <algorithm>
 
@@ -41,9 +41,9 @@ std::string why_not_done(const StepResult& step, std::size_t index) {
 }
 
 /// The criteria of one part of the exam that earned nothing, the critical ones only or the others only.
-void add_failed(const std::vector<Mark>& marks, const std::string& where, bool critical,
+void add_failed(const std::vector<CriterionScore>& criteria, const std::string& where, bool critical,
                 std::vector<std::string>& reasons) {
-  for (const Mark& m : marks)
+  for (const CriterionScore& m : criteria)
     if (m.points <= 0 && m.critical == critical)
       reasons.push_back(where + (critical ? ", critical: " : ": ") + std::string(info(m.metric).words) + ", " + m.why);
 }
@@ -52,18 +52,20 @@ void add_failed(const std::vector<Mark>& marks, const std::string& where, bool c
 
 double StepResult::earned() const {
   double sum = 0;
-  for (const Mark& m : marks) sum += m.points;
+  for (const CriterionScore& m : criteria) sum += m.points;
   return std::max(0.0, sum - hint_cost);
 }
 
 double StepResult::lost_to_hints() const {
   double sum = 0;
-  for (const Mark& m : marks) sum += m.points;
+  for (const CriterionScore& m : criteria) sum += m.points;
   return std::min(hint_cost, sum);
 }
 
-Mark mark(const Criterion& criterion, std::optional<double> value, const std::string& why_no_value) {
-  Mark m{criterion.metric, criterion.full, criterion.zero, criterion.weight, criterion.critical, value, 0, ""};
+CriterionScore score_criterion(const Criterion& criterion, std::optional<double> value,
+                               const std::string& why_no_value) {
+  CriterionScore m{
+      criterion.metric, criterion.full, criterion.zero, criterion.weight, criterion.critical, value, 0, ""};
   if (!value) {
     m.why = why_no_value;
     return m;
@@ -86,16 +88,16 @@ Mark mark(const Criterion& criterion, std::optional<double> value, const std::st
 void decide(ExamResult& result) {
   result.points = result.points_possible = 0;
   bool critical_failed = false;
-  const auto add = [&](const std::vector<Mark>& marks) {
-    for (const Mark& m : marks) {
+  const auto add = [&](const std::vector<CriterionScore>& criteria) {
+    for (const CriterionScore& m : criteria) {
       result.points += m.points;
       result.points_possible += m.weight;
       critical_failed = critical_failed || m.fails_exam();
     }
   };
   for (const StepResult& step : result.steps)
-    if (step.counts) add(step.marks);
-  add(result.marks);
+    if (step.counts) add(step.criteria);
+  add(result.criteria);
   for (const StepResult& step : result.steps)
     if (step.counts) result.points -= step.lost_to_hints();
   result.percent = result.points_possible > 0 ? 100 * result.points / result.points_possible : 0;
@@ -111,10 +113,11 @@ void decide(ExamResult& result) {
     for (std::size_t i = 0; i < result.steps.size(); ++i) {
       const StepResult& step = result.steps[i];
       if (!step.counts || step.outcome == StepOutcome::skipped) continue;
-      if (critical && !step.marks.empty() && !is_done(step.outcome)) result.reasons.push_back(why_not_done(step, i));
-      if (step.outcome != StepOutcome::not_reached) add_failed(step.marks, name_of(step, i), critical, result.reasons);
+      if (critical && !step.criteria.empty() && !is_done(step.outcome)) result.reasons.push_back(why_not_done(step, i));
+      if (step.outcome != StepOutcome::not_reached)
+        add_failed(step.criteria, name_of(step, i), critical, result.reasons);
     }
-    add_failed(result.marks, "Whole exam", critical, result.reasons);
+    add_failed(result.criteria, "Whole exam", critical, result.reasons);
   }
 }
 

@@ -1,4 +1,4 @@
-#include "scenarios/marking.h"
+#include "scenarios/criterion_score.h"
 
 #include <catch2/catch.hpp>
 
@@ -14,13 +14,13 @@ Criterion criterion(Metric metric, double full, double zero, double weight, bool
   return {metric, full, zero, weight, critical, {}};
 }
 
-ExamResult exam(std::vector<Mark> marks, double pass_mark_percent) {
+ExamResult exam(std::vector<CriterionScore> marks, double pass_mark_percent) {
   ExamResult result;
   result.pass_mark_percent = pass_mark_percent;
   StepResult step;
   step.title = "Ball";
   step.outcome = StepOutcome::held;
-  step.marks = std::move(marks);
+  step.criteria = std::move(marks);
   result.steps.push_back(step);
   decide(result);
   return result;
@@ -30,17 +30,17 @@ ExamResult exam(std::vector<Mark> marks, double pass_mark_percent) {
 
 TEST_CASE("points fall on a straight line from full to zero") {
   const Criterion less = criterion(Metric::plane_distance_mm, 5, 20, 3);
-  CHECK(mark(less, 0).points == 3);
-  CHECK(mark(less, 5).points == 3);
-  CHECK(mark(less, 12.5).points == Approx(1.5));
-  CHECK(mark(less, 20).points == 0);
-  CHECK(mark(less, 1e9).points == 0);
+  CHECK(score_criterion(less, 0).points == 3);
+  CHECK(score_criterion(less, 5).points == 3);
+  CHECK(score_criterion(less, 12.5).points == Approx(1.5));
+  CHECK(score_criterion(less, 20).points == 0);
+  CHECK(score_criterion(less, 1e9).points == 0);
 
   const Criterion more = criterion(Metric::target_in_view_percent, 80, 30, 2);
-  CHECK(mark(more, 95).points == 2);
-  CHECK(mark(more, 55).points == Approx(1));
-  CHECK(mark(more, 30).points == 0);
-  CHECK(mark(more, 0).points == 0);
+  CHECK(score_criterion(more, 95).points == 2);
+  CHECK(score_criterion(more, 55).points == Approx(1));
+  CHECK(score_criterion(more, 30).points == 0);
+  CHECK(score_criterion(more, 0).points == 0);
 }
 
 TEST_CASE("of no metric does a worse value ever earn more than a better one") {
@@ -53,8 +53,8 @@ TEST_CASE("of no metric does a worse value ever earn more than a better one") {
       const Criterion asked = criterion(m.metric, less ? std::min(one, other) : std::max(one, other),
                                         less ? std::max(one, other) : std::min(one, other), 3);
       CAPTURE(m.name, asked.full, asked.zero, a, b);
-      const double better = mark(asked, less ? std::min(a, b) : std::max(a, b)).points;
-      const double worse = mark(asked, less ? std::max(a, b) : std::min(a, b)).points;
+      const double better = score_criterion(asked, less ? std::min(a, b) : std::max(a, b)).points;
+      const double worse = score_criterion(asked, less ? std::max(a, b) : std::min(a, b)).points;
       CHECK(worse <= better);
       CHECK(worse >= 0);
       CHECK(better <= 3);
@@ -63,20 +63,21 @@ TEST_CASE("of no metric does a worse value ever earn more than a better one") {
 
 TEST_CASE("a mark says why") {
   const Criterion less = criterion(Metric::plane_distance_mm, 5, 20, 3);
-  CHECK(mark(less, 4.04).why == "4.0 mm: full points for 5.0 mm or less.");
-  CHECK(mark(less, 12.5).why == "12.5 mm: between full points at 5.0 mm and none at 20.0 mm.");
-  CHECK(mark(less, 33).why == "33.0 mm: nothing for 20.0 mm or more.");
+  CHECK(score_criterion(less, 4.04).why == "4.0 mm: full points for 5.0 mm or less.");
+  CHECK(score_criterion(less, 12.5).why == "12.5 mm: between full points at 5.0 mm and none at 20.0 mm.");
+  CHECK(score_criterion(less, 33).why == "33.0 mm: nothing for 20.0 mm or more.");
   const Criterion more = criterion(Metric::target_in_view_percent, 80, 30, 2);
-  CHECK(mark(more, 95).why == "95 %: full points for 80 % or more.");
-  CHECK(mark(more, 12).why == "12 %: nothing for 30 % or less.");
-  CHECK(mark(more, std::nullopt, "nothing was seen.").why == "nothing was seen.");
-  CHECK(mark(more, std::nullopt, "nothing was seen.").points == 0);
-  CHECK(mark(criterion(Metric::tilt_deg, 5, 20, 1), 3).why == "3.0\u00b0: full points for 5.0\u00b0 or less.");
+  CHECK(score_criterion(more, 95).why == "95 %: full points for 80 % or more.");
+  CHECK(score_criterion(more, 12).why == "12 %: nothing for 30 % or less.");
+  CHECK(score_criterion(more, std::nullopt, "nothing was seen.").why == "nothing was seen.");
+  CHECK(score_criterion(more, std::nullopt, "nothing was seen.").points == 0);
+  CHECK(score_criterion(criterion(Metric::tilt_deg, 5, 20, 1), 3).why ==
+        "3.0\u00b0: full points for 5.0\u00b0 or less.");
 }
 
 TEST_CASE("the exam is passed from the pass mark on") {
-  const Mark half = mark(criterion(Metric::plane_distance_mm, 0, 10, 2), 5);
-  const Mark all = mark(criterion(Metric::tilt_deg, 5, 20, 2), 0);
+  const CriterionScore half = score_criterion(criterion(Metric::plane_distance_mm, 0, 10, 2), 5);
+  const CriterionScore all = score_criterion(criterion(Metric::tilt_deg, 5, 20, 2), 0);
   const ExamResult passed = exam({half, all}, 75);
   CHECK(passed.points == 3);
   CHECK(passed.points_possible == 4);
@@ -94,18 +95,19 @@ TEST_CASE("who earns the pass mark's share of the points passes, whatever their 
   for (const double weight : {0.1, 0.3, 0.7, 1.0, 1.1, 2.3})
     for (const int all : {5, 10, 15, 20}) {
       CAPTURE(weight, all);
-      std::vector<Mark> marks;
+      std::vector<CriterionScore> criteria;
       for (int i = 0; i < all; ++i)
-        marks.push_back(mark(criterion(Metric::tilt_deg, 5, 20, weight), 5 * i < 4 * all ? 0 : 90));
-      CHECK(exam(marks, 80).passed);
-      marks.front().points = 0;
-      CHECK_FALSE(exam(marks, 80).passed);
+        criteria.push_back(score_criterion(criterion(Metric::tilt_deg, 5, 20, weight), 5 * i < 4 * all ? 0 : 90));
+      CHECK(exam(criteria, 80).passed);
+      criteria.front().points = 0;
+      CHECK_FALSE(exam(criteria, 80).passed);
     }
 }
 
 TEST_CASE("a failed score is never shown as the pass mark or above, nor the pass mark as another") {
   const auto reason = [](double percent, double pass_mark) {
-    return exam({mark(criterion(Metric::plane_distance_mm, 0, 100, 1), 100 - percent)}, pass_mark).reasons.front();
+    return exam({score_criterion(criterion(Metric::plane_distance_mm, 0, 100, 1), 100 - percent)}, pass_mark)
+        .reasons.front();
   };
   CHECK(reason(79.96, 80) == "The score is 79.96 %; 80 % are needed to pass.");
   CHECK(reason(79.65, 79.7) == "The score is 79.65 %; 79.7 % are needed to pass.");
@@ -113,14 +115,15 @@ TEST_CASE("a failed score is never shown as the pass mark or above, nor the pass
 }
 
 TEST_CASE("a critical criterion that earns nothing fails the exam alone, and is named") {
-  const Mark rest = mark(criterion(Metric::plane_distance_mm, 5, 20, 99), 0);
-  const ExamResult failed = exam({rest, mark(criterion(Metric::target_insonated_percent, 80, 30, 1, true), 10)}, 80);
+  const CriterionScore rest = score_criterion(criterion(Metric::plane_distance_mm, 5, 20, 99), 0);
+  const ExamResult failed =
+      exam({rest, score_criterion(criterion(Metric::target_insonated_percent, 80, 30, 1, true), 10)}, 80);
   CHECK(failed.percent == 99);
   CHECK_FALSE(failed.passed);
   REQUIRE(failed.reasons.size() == 1);
   CHECK(failed.reasons[0] == "Step 1 (Ball), critical: Target reached by the sound, 10 %: nothing for 30 % or less.");
 
-  CHECK(exam({rest, mark(criterion(Metric::target_insonated_percent, 80, 30, 1, true), 31)}, 80).passed);
+  CHECK(exam({rest, score_criterion(criterion(Metric::target_insonated_percent, 80, 30, 1, true), 31)}, 80).passed);
 }
 
 TEST_CASE("each metric has a name of its own that leads back to it") {
