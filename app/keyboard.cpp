@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "devices/live/probe_buttons.h"
-#include "scenarios/steps/question.h"
 
 namespace insonate {
 namespace {
@@ -142,7 +141,7 @@ void Keyboard::choose(int index, Trainer& trainer) {
   const auto which = std::size_t(index);
   if (Author* author = trainer.author()) return author->toggle(which);
   PictureTools& tools = trainer.picture_tools();
-  if (const Question* question = trainer.step_controls().question()) {
+  if (const AnswerInput* question = trainer.step_controls().question()) {
     if (which < question->choices.size()) trainer.step_controls().draft(question->choices[which]);
   } else if (tools.labelling()) {
     if (which < tools.names().size()) tools.name_place(*trainer.session(), tools.names()[which]);

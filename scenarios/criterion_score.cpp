@@ -16,7 +16,7 @@ std::string name_of(const StepResult& step, std::size_t index) {
 
 /// Why a step was not done, as a sentence; empty when it was.
 std::string why_not_done(const StepResult& step, std::size_t index) {
-  const bool holds = step.kind == "find_view";
+  const bool holds = step.holds_view;
   const std::string longest = holds ? " (longest: " + fixed(step.longest_hold_s, 1) + " s)" : "";
   switch (step.outcome) {
     case StepOutcome::held:

@@ -45,7 +45,8 @@ inline bool is_done(StepOutcome outcome) {
 struct StepResult {
   std::string title;
   std::string kind;
-  bool counts = true;  ///< false for a warm-up: its marks earn nothing
+  bool holds_view = false;  ///< it is done by holding a view; known while the runner decides, and not stored
+  bool counts = true;       ///< false for a warm-up: its marks earn nothing
   std::string view;
   StepOutcome outcome = StepOutcome::not_reached;
   double start_s = 0;  ///< since the start of the exam

@@ -125,7 +125,7 @@ void Runner::look(const PoseSample& raw, double now) {
     show(sample, now);
     record(sample, now);
     if (run_->done()) {
-      end_step(step().kind == "find_view" ? StepOutcome::held : StepOutcome::done, now);
+      end_step(step().task->holds_view() ? StepOutcome::held : StepOutcome::done, now);
       if (!live_.finished) show(sample, now);
     }
   }
@@ -252,6 +252,7 @@ StepResult Runner::judge(StepOutcome outcome, double now) const {
   StepResult result;
   result.title = asked.title;
   result.kind = asked.kind;
+  result.holds_view = asked.task->holds_view();
   result.counts = asked.counts;
   result.view = asked.view;
   result.outcome = outcome;
@@ -299,6 +300,7 @@ ExamResult Runner::result() const {
     StepResult missed;
     missed.title = scenario_.steps[i].title;
     missed.kind = scenario_.steps[i].kind;
+    missed.holds_view = scenario_.steps[i].task->holds_view();
     missed.counts = scenario_.steps[i].counts;
     missed.view = scenario_.steps[i].view;
     missed.start_s = missed.end_s = last_s_;

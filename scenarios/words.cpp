@@ -1,5 +1,6 @@
 #include "scenarios/words.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 
@@ -22,6 +23,11 @@ std::string in_words(Metric metric, double value) {
   const MetricInfo& m = info(metric);
   const bool degrees = m.unit == "\u00b0";
   return fixed(value, m.decimals) + (m.unit.empty() || degrees ? "" : " ") + std::string(m.unit);
+}
+
+std::string in_words(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
 }
 
 std::string percentage(const ExamResult& result) {

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <vector>
 
+#include "scenarios/words.h"
 #include "scenarios/caliper.h"
 
 namespace insonate::ui {

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "app/panels/widgets/choice_rows.h"
+#include "scenarios/words.h"
 
 namespace insonate::ui {
 namespace {

@@ -79,22 +79,21 @@ void draw_tracker(const Theme& theme, const Rect& where, const Session& session)
 }
 
 /// How far the step is, in a word or two.
-std::string progress_text(const LiveExam& live, const std::string& kind) {
+std::string progress_text(const LiveExam& live, const StepWords& words) {
   if (live.finished) return "Done";
-  if (kind == "find_view") return live.within_tolerance ? "Hold still" : "Searching";
-  if (live.within_tolerance) return "As asked";
-  if (live.enough && kind != "free_scan") return "Go on when ready";
-  if (live.hold_share > 0) return std::to_string(int(100 * live.hold_share)) + " % done";
-  return kind == "sweep" ? "Searching" : kind == "free_scan" ? "Looking around" : "To be done";
+  if (live.within_tolerance) return words.on_target;
+  if (words.shows_progress && live.enough) return "Go on when ready";
+  if (words.shows_progress && live.hold_share > 0) return std::to_string(int(100 * live.hold_share)) + " % done";
+  return words.under_way;
 }
 
-void draw_hold(const Theme& theme, const Rect& where, const LiveExam& live, const std::string& kind) {
+void draw_hold(const Theme& theme, const Rect& where, const LiveExam& live, const StepWords& words) {
   const ImVec2 centre{where.x + theme.px(28), where.y + where.h / 2};
   const bool on_target = live.within_tolerance && !live.finished;
   draw_ring(centre, theme.px(19), theme.px(5), live.finished ? 1.0 : live.hold_share, colour::kAccent, colour::kRaised);
   const Rect upper{where.x + theme.px(60), where.y + theme.px(11), where.w - theme.px(60), theme.px(21)};
   const Rect lower{upper.x, upper.y + upper.h, upper.w, theme.px(20)};
-  draw_text(upper, theme.strong, on_target ? colour::kAccent : colour::kText, progress_text(live, kind));
+  draw_text(upper, theme.strong, on_target ? colour::kAccent : colour::kText, progress_text(live, words));
   draw_text(lower, theme.small_text, colour::kMuted,
             live.finished                     ? "see the score sheet"
             : !live.started                   ? "not started"
@@ -180,7 +179,7 @@ void draw_exam_panel(const Theme& theme, const Rect& panel, const Session& sessi
   rest.take_right(theme.px(12));
   // Whether the view is found is what an exam asks.
   if (!session.strict() || live.finished) {
-    draw_hold(theme, rest.take_right(theme.px(190)), live, step.kind);
+    draw_hold(theme, rest.take_right(theme.px(190)), live, step.task->words());
     rest.take_right(theme.px(12));
   }
 

@@ -256,8 +256,8 @@ void Screen::step_on(Trainer& trainer) {
     return trainer.keep_view();
   }
   StepControls& controls = trainer.step_controls();
-  const Question* question = controls.question();
-  if (question && question->answer != Question::Answer::choice && !controls.can_answer()) return text_field_.open();
+  const AnswerInput* question = controls.question();
+  if (question && question->is_typed() && !controls.can_answer()) return text_field_.open();
   text_field_.close();
   controls.go_on(*trainer.session());
 }

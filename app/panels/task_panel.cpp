@@ -8,9 +8,6 @@
 #include "app/panels/annotation_layer.h"
 #include "app/panels/widgets/choice_rows.h"
 #include "scenarios/caliper.h"
-#include "scenarios/steps/mark_point.h"
-#include "scenarios/steps/measure.h"
-#include "scenarios/steps/question.h"
 #include "scenarios/words.h"
 
 namespace insonate::ui {
@@ -19,56 +16,51 @@ namespace {
 constexpr float kMargin = 8, kLine = 24, kTurns = 36;
 constexpr float kRight = 320;  ///< of hint and going on
 
-/// What a step lets choose from, as it is shown.
-std::vector<std::string> choice_texts(const Step& step) {
-  if (const auto* question = dynamic_cast<const Question*>(step.task.get())) return question->choices;
+/// What a step lets the learner choose from, as it is shown.
+std::vector<std::string> choice_texts(const StepInput& input) {
+  if (const auto* question = std::get_if<AnswerInput>(&input)) return question->choices;
   std::vector<std::string> texts;
-  if (const auto* labels = dynamic_cast<const LabelStructures*>(step.task.get()))
-    for (const std::string& name : labels->structures) texts.push_back(in_words(name));
+  if (const auto* labels = std::get_if<LabelInput>(&input))
+    for (const std::string& name : labels->names) texts.push_back(in_words(name));
   return texts;
 }
 
-/// Whether a step has more to show in its row than what to do.
-bool has_controls(const Step& step) {
-  return step.kind == "question" || step.kind == "measure" || step.kind == "label_structures" ||
-         step.kind == "set_knobs";
-}
-
 void draw_slots(const Theme& theme, Rect where, PictureTools& tools, std::map<std::string, Rect>& places) {
-  const Measure& measure = *tools.measuring();
+  const MeasureInput& measure = *tools.measuring();
   std::vector<Choice> choices;
-  for (int slot = 1; slot <= measure.slots(); ++slot) {
+  for (int slot = 1; slot <= int(measure.slots.size()); ++slot) {
     const auto placed = tools.annotations().measured().find(slot);
     const std::string value =
         placed == tools.annotations().measured().end() ? "\u2013" : value_text(placed->second.action);
     choices.push_back({"slot_" + std::to_string(slot), tools.slot_name(slot) + "   " + value,
                        slot == tools.slot() ? ButtonKind::chosen : ButtonKind::normal});
   }
-  const float walls = text_width(theme.text, measure.walls);
-  draw_text(where.take_left(walls), theme.text, colour::kMuted, measure.walls);
+  const float convention = text_width(theme.text, measure.convention);
+  draw_text(where.take_left(convention), theme.text, colour::kMuted, measure.convention);
   where.take_left(theme.px(16));
   if (const auto clicked = row_of_choices(theme, where, choices, places)) tools.choose_slot(int(*clicked) + 1);
 }
 
-void draw_knobs(const Theme& theme, Rect where, const std::vector<StepControls::Knob>& knobs) {
+void draw_settings(const Theme& theme, Rect where, const std::vector<SettingsInput::Setting>& settings) {
   const float gap = theme.px(8);
-  for (const StepControls::Knob& knob : knobs) {
-    const std::string is = knob.name + "  " + knob.is, asked = "asked: " + knob.asked;
+  for (const SettingsInput::Setting& setting : settings) {
+    const std::string is = setting.name + "  " + setting.now, asked = "asked: " + setting.wanted;
     const float width = text_width(theme.strong, is) + text_width(theme.small_text, asked) + theme.px(40);
     Rect plate = where.take_left(std::min(width, (where.w - gap)));
     where.take_left(gap);
-    fill(plate, knob.right ? colour::kAccentDark : colour::kRaised, theme.px(4));
+    fill(plate, setting.right ? colour::kAccentDark : colour::kRaised, theme.px(4));
     Rect text = plate.inset(theme.px(12), 0);
     draw_text(text.take_left(text_width(theme.strong, is) + theme.px(14)), theme.strong, colour::kText, is);
-    draw_text(text, theme.small_text, knob.right ? colour::kText : colour::kMuted, knob.right ? "as asked" : asked);
+    draw_text(text, theme.small_text, setting.right ? colour::kText : colour::kMuted,
+              setting.right ? "as asked" : asked);
   }
 }
 
 void draw_question(const Theme& theme, Rect where, StepControls& controls, TextField& field,
                    std::map<std::string, Rect>& places) {
-  const Question& question = *controls.question();
-  if (question.answer != Question::Answer::choice) {
-    const bool number = question.answer == Question::Answer::number;
+  const AnswerInput& question = *controls.question();
+  if (question.is_typed()) {
+    const bool number = question.form == AnswerInput::Form::number;
     const float unit = question.unit.empty() ? 0 : text_width(theme.text, question.unit) + theme.px(8);
     const Rect row = where.take_top(theme.px(kChoiceRow));
     const Rect box{row.x, row.y, std::min(row.w, number ? theme.px(180) + unit : theme.px(700)), row.h};
@@ -106,15 +98,11 @@ void draw_turns(const Theme& theme, Rect where, Session& session, StepControls& 
 }
 
 /// What to do now, where the instruction does not say it.
-std::string prompt(const Session& session, const PictureTools& tools, const StepControls& controls,
-                   const std::string& kind) {
-  if (const Question* question = controls.question())
-    return question->answer == Question::Answer::choice ? "Choose, then answer. The first answer counts."
-                                                        : "Type, then answer. The first answer counts.";
-  if (kind == "find_view") return "Held long enough, the view is taken by itself.";
-  if (kind == "sweep") return "Go on when you have seen all of it.";
-  if (kind == "set_knobs") return "Set right and left so for a moment, the knobs are taken by themselves.";
-  if (kind == "free_scan") return "Go on when you are ready.";
+std::string prompt(const Session& session, const PictureTools& tools, const StepControls& controls, const Step& step) {
+  if (const AnswerInput* question = controls.question())
+    return question->is_typed() ? "Type, then answer. The first answer counts."
+                                : "Choose, then answer. The first answer counts.";
+  if (const std::string own = step.task->words().prompt; !own.empty()) return own;
   if (!PictureTools::ready(session)) return "Freeze the picture (Space) first.";
   return tool_prompt(tools) + ". Drag moves what is placed, Backspace takes it back.";
 }
@@ -146,7 +134,7 @@ float task_panel_height(const Theme& theme, const Session& session, float width)
   const bool free = scenario.order == Scenario::Order::free;
   const float for_choices = width - theme.px(2 * 16 + kRight + 16);
   const bool two_rows = std::any_of(scenario.steps.begin(), scenario.steps.end(), [&](const Step& step) {
-    return need_two_rows(theme, for_choices, choice_texts(step));
+    return need_two_rows(theme, for_choices, choice_texts(step.task->input()));
   });
   return theme.px(2 * kMargin + kChoiceRow + kLine + (free ? kTurns : 0) + (two_rows ? kSecondChoiceRow : 0));
 }
@@ -154,7 +142,7 @@ float task_panel_height(const Theme& theme, const Session& session, float width)
 void draw_task_panel(const Theme& theme, const Rect& panel, Session& session, PictureTools& tools,
                      StepControls& controls, TextField& field, std::map<std::string, Rect>& places) {
   fill(panel, colour::kPanel, theme.px(4));
-  const bool typed = controls.question() && controls.question()->answer != Question::Answer::choice;
+  const bool typed = controls.question() && controls.question()->is_typed();
   if (!typed) field.close();
   Rect rest = panel.inset(theme.px(16), theme.px(kMargin));
   if (!StepControls::active(session))
@@ -184,8 +172,11 @@ void draw_task_panel(const Theme& theme, const Rect& panel, Session& session, Pi
   }
   rest.take_right(theme.px(16));
 
-  draw_line(theme, rest.take_bottom(theme.px(kLine)), live, controls,
-            has_controls(step) ? prompt(session, tools, controls, step.kind) : "");
+  const std::string what_to_do = prompt(session, tools, controls, step);
+  const std::vector<SettingsInput::Setting> settings = controls.settings(session);
+  // A step without controls has its prompt in their row, where it is larger.
+  const bool has_controls = controls.question() || tools.measuring() || tools.labelling() || !settings.empty();
+  draw_line(theme, rest.take_bottom(theme.px(kLine)), live, controls, has_controls ? what_to_do : "");
   Rect row = rest;
   row.h = theme.px(kChoiceRow);
   if (controls.question())
@@ -194,10 +185,10 @@ void draw_task_panel(const Theme& theme, const Rect& panel, Session& session, Pi
     draw_slots(theme, row, tools, places);
   else if (tools.labelling())
     draw_names(theme, rest, session, tools, places);
-  else if (has_controls(step))
-    draw_knobs(theme, row, StepControls::knobs(session));
+  else if (!settings.empty())
+    draw_settings(theme, row, settings);
   else
-    draw_text(row, theme.text, colour::kText, prompt(session, tools, controls, step.kind));
+    draw_text(row, theme.text, colour::kText, what_to_do);
 }
 
 }  // namespace insonate::ui

@@ -1,7 +1,6 @@
 #include "app/replay/shown_annotations.h"
 
 #include "scenarios/caliper.h"
-#include "scenarios/steps/measure.h"
 
 namespace insonate {
 namespace {
@@ -25,7 +24,7 @@ std::vector<ShownAnnotations::Value> values_of(const std::optional<Pose>& pictur
   using Of = ShownAnnotations::Value::Of;
   std::vector<ShownAnnotations::Value> values;
   const auto& hand = tools.in_hand();
-  const bool numbered = tools.free_choice() || (tools.measuring() && tools.measuring()->tool == Measure::Tool::ratio);
+  const bool numbered = tools.free_choice() || (tools.measuring() && tools.measuring()->numbered);
   const auto add = [&](const Action& action, Of of) {
     const std::string number = numbered ? std::to_string(action.slot()) + "   " : "";
     values.push_back({number + tools.slot_name(action.slot()), value_text(action), of});

@@ -8,8 +8,6 @@
 #include <utility>
 
 #include "scenarios/caliper.h"
-#include "scenarios/steps/mark_point.h"
-#include "scenarios/steps/measure.h"
 
 namespace insonate {
 namespace {
@@ -37,11 +35,6 @@ bool ends_step(const Action& action) {
 }
 
 }  // namespace
-
-std::string in_words(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
 
 bool PictureTools::ready(const Session& session) {
   return session.frozen_picture() && !is_exam_of_log(session);
@@ -75,18 +68,15 @@ void PictureTools::begin_step(const Session& session) {
   done_.clear();
   chosen_slot_.reset();
   names_.clear();
-  measure_ = nullptr;
-  labels_ = nullptr;
+  input_ = {};
   tool_ = Tool::distance;
   if (!step_) return;
-  const StepTask& task = *session.runner()->scenario().steps[*step_].task;
-  measure_ = dynamic_cast<const Measure*>(&task);
-  labels_ = dynamic_cast<const LabelStructures*>(&task);
-  if (measure_ && measure_->places() == ActionKind::ellipse) tool_ = Tool::ellipse;
-  if (dynamic_cast<const MarkPoint*>(&task)) tool_ = Tool::point;
-  if (!labels_) return;
+  input_ = session.runner()->scenario().steps[*step_].task->input();
+  if (measuring() && measuring()->places == ActionKind::ellipse) tool_ = Tool::ellipse;
+  if (std::holds_alternative<PointInput>(input_)) tool_ = Tool::point;
+  if (!labelling()) return;
   tool_ = Tool::label;
-  names_ = labels_->structures;
+  names_ = std::get<LabelInput>(input_).names;
   std::sort(names_.begin(), names_.end());
 }
 
@@ -98,40 +88,36 @@ void PictureTools::choose(Tool tool) {
 
 int PictureTools::slot() const {
   if (chosen_slot_) return *chosen_slot_;
-  const int last = measure_ ? measure_->slots() : Action::kMostSlots;
+  const int last = measuring() ? int(measuring()->slots.size()) : Action::kMostSlots;
   for (int slot = 1; slot <= last; ++slot)
     if (!annotations_.measured().contains(slot)) return slot;
   return last;
 }
 
 void PictureTools::choose_slot(int slot) {
-  if (!measure_ || slot < 1 || slot > measure_->slots()) return;
+  if (!measuring() || slot < 1 || slot > int(measuring()->slots.size())) return;
   drop();
   chosen_slot_ = slot;
 }
 
 std::string PictureTools::slot_name(int slot) const {
+  if (measuring()) return measuring()->slots[std::size_t(slot - 1)];
   const auto found = annotations_.measured().find(slot);
   const bool ellipse = found == annotations_.measured().end() ? tool_ == Tool::ellipse
                                                               : found->second.action.kind == ActionKind::ellipse;
-  if (!measure_ || measure_->slots() == 1) return ellipse ? "Area" : "Distance";
-  if (measure_->tool == Measure::Tool::volume) return "Length " + std::to_string(slot);
-  const MeasureTarget& target = measure_->targets[std::size_t(slot - 1)];
-  static constexpr std::array kAlong{", depth", ", width", ""};
-  return in_words(target.structures.front()) + kAlong[std::size_t(target.along)];
+  return ellipse ? "Area" : "Distance";
 }
 
 std::string PictureTools::total_text() const {
-  if (!measure_ || measure_->slots() == 1) return "";
+  if (!measuring() || measuring()->result.empty()) return "";
   std::vector<Action> placed;
   for (const auto& [slot, annotation] : annotations_.measured()) placed.push_back(annotation.action);
-  if (int(placed.size()) != measure_->slots()) return "";
-  return (measure_->tool == Measure::Tool::ratio ? "Ratio " : "Volume ") +
-         measure_->value_text(measure_->value(placed));
+  if (placed.size() != measuring()->slots.size()) return "";
+  return measuring()->result + " " + measuring()->result_text(placed);
 }
 
 void PictureTools::name_place(Session& session, const std::string& name) {
-  if (!place_ || !labels_ || !ready(session)) return;
+  if (!place_ || !labelling() || !ready(session)) return;
   Action label{ActionKind::label, {}, name};
   commit(session, with_place(std::move(label), *std::exchange(place_, std::nullopt)));
 }

@@ -9,9 +9,6 @@
 
 namespace insonate {
 
-struct Measure;
-struct LabelStructures;
-
 /// What the learner can place in the frozen picture: calipers and ellipses, and where a step asks for it a point or
 /// names. Takes the pointer in mm of the imaging plane and hands actions to the session. Knows no screen.
 ///
@@ -33,13 +30,14 @@ public:
   static bool ready(const Session& session);
   Tool tool() const { return tool_; }
   /// Whether the learner chooses what to measure with, as no step says it.
-  bool free_choice() const { return !measure_ && tool_ != Tool::point && tool_ != Tool::label; }
+  bool free_choice() const { return !measuring() && tool_ != Tool::point && tool_ != Tool::label; }
   /// Distance or ellipse; nothing happens where there is no free choice.
   void choose(Tool tool);
 
-  /// The step under way that is measured, or named, in; nullptr for none.
-  const Measure* measuring() const { return measure_; }
-  const LabelStructures* labelling() const { return labels_; }
+  /// What the step under way measures; nullptr if it measures nothing.
+  const MeasureInput* measuring() const { return std::get_if<MeasureInput>(&input_); }
+  /// Whether the step under way asks for names.
+  bool labelling() const { return std::holds_alternative<LabelInput>(input_); }
   /// Which caliper the next one will be.
   int slot() const;
   void choose_slot(int slot);
@@ -82,8 +80,7 @@ private:
 
   int attempt_ = 0;
   std::optional<std::size_t> step_;  ///< of the exam
-  const Measure* measure_ = nullptr;
-  const LabelStructures* labels_ = nullptr;
+  StepInput input_;                  ///< of that step
   Tool tool_ = Tool::distance;
   std::optional<int> chosen_slot_;
   std::vector<std::string> names_;
@@ -98,8 +95,5 @@ private:
   std::optional<std::size_t> handle_;  ///< of what is in hand, while it is moved
   std::optional<glm::dvec2> place_;    ///< clicked, without a name yet
 };
-
-/// A structure's name as a person reads it: "right kidney".
-std::string in_words(std::string name);
 
 }  // namespace insonate

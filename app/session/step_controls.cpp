@@ -2,21 +2,11 @@
 
 #include <utility>
 
-#include "scenarios/steps/question.h"
-#include "scenarios/steps/set_knobs.h"
-#include "scenarios/words.h"
-#include "sim/probe/probe.h"
-
 namespace insonate {
 namespace {
 
 const Step& step_of(const Session& session) {
   return session.runner()->scenario().steps[session.runner()->live().step];
-}
-
-StepControls::Knob knob(const char* name, const Range& asked, double is, double per_unit, const char* unit) {
-  return {name, short_number(asked.least / per_unit) + " to " + short_number(asked.most / per_unit) + " " + unit,
-          short_number(is / per_unit) + " " + unit, is >= asked.least && is <= asked.most};
 }
 
 }  // namespace
@@ -31,7 +21,7 @@ void StepControls::see(const Session& session) {
   if (session.attempt() == attempt_ && step == step_) return;
   attempt_ = session.attempt();
   step_ = step;
-  question_ = step ? dynamic_cast<const Question*>(step_of(session).task.get()) : nullptr;
+  input_ = step ? step_of(session).task->input() : StepInput();
   draft_.clear();
   asks_again_ = told_ = false;
 }
@@ -41,8 +31,7 @@ void StepControls::tell(Session& session, const Action& action) {
 }
 
 bool StepControls::can_answer() const {
-  if (!question_) return false;
-  return question_->answer == Question::Answer::number ? Question::number_in(draft_).has_value() : !draft_.empty();
+  return question() && question()->accepts(draft_);
 }
 
 void StepControls::answer(Session& session) {
@@ -51,7 +40,7 @@ void StepControls::answer(Session& session) {
 
 void StepControls::go_on(Session& session) {
   if (!active(session) || !session.runner()->live().started) return;
-  if (question_) return answer(session);
+  if (question()) return answer(session);
   if (!session.runner()->live().enough && !std::exchange(asks_again_, true)) return;
   asks_again_ = false;
   tell(session, {ActionKind::go_on});
@@ -83,17 +72,9 @@ void StepControls::turn_to(Session& session, std::size_t step) {
     tell(session, {ActionKind::go_to, {}, session.runner()->scenario().steps[step].name});
 }
 
-std::vector<StepControls::Knob> StepControls::knobs(const Session& session) {
-  std::vector<Knob> found;
-  const auto* asked = active(session) ? dynamic_cast<const SetKnobs*>(step_of(session).task.get()) : nullptr;
-  if (!asked) return found;
-  const Machine& machine = session.machine();
-  const Probe* probe = find_probe(asked->probe);
-  if (probe) found.push_back({"Probe", probe->title, machine.transducer().title, machine.probe == probe->name});
-  if (asked->depth_mm) found.push_back(knob("Depth", *asked->depth_mm, machine.depth_mm, 10, "cm"));
-  if (asked->gain_db) found.push_back(knob("Gain", *asked->gain_db, machine.gain_db, 1, "dB"));
-  if (asked->frequency_mhz) found.push_back(knob("Frequency", *asked->frequency_mhz, machine.frequency_mhz, 1, "MHz"));
-  return found;
+std::vector<SettingsInput::Setting> StepControls::settings(const Session& session) const {
+  const auto* asked = std::get_if<SettingsInput>(&input_);
+  return asked ? asked->compare(session.machine()) : std::vector<SettingsInput::Setting>();
 }
 
 }  // namespace insonate

@@ -8,20 +8,10 @@
 
 namespace insonate {
 
-struct Question;
-struct SetKnobs;
-
 /// What the learner does with the step of the exam under way as a whole: answers, takes hints, turns to another step
 /// and goes on. Hands actions to the session. Knows no screen.
 class StepControls {
 public:
-  /// One knob of a set_knobs step.
-  struct Knob {
-    std::string name;   ///< "Depth"
-    std::string asked;  ///< "11 to 13 cm"
-    std::string is;     ///< "16 cm"
-    bool right = false;
-  };
   /// A step that may be turned to, where the order is free.
   struct Turn {
     std::size_t step;
@@ -36,7 +26,7 @@ public:
   static bool active(const Session& session);
 
   /// The question under way; nullptr for none.
-  const Question* question() const { return question_; }
+  const AnswerInput* question() const { return std::get_if<AnswerInput>(&input_); }
   /// What is answered when it is confirmed: of a choice its text, else what is typed. The session hears nothing of it
   /// before.
   void draft(const std::string& answer) { draft_ = answer; }
@@ -60,15 +50,15 @@ public:
   static std::vector<Turn> turns(const Session& session);
   void turn_to(Session& session, std::size_t step);
 
-  /// Empty unless the step under way asks for knobs.
-  static std::vector<Knob> knobs(const Session& session);
+  /// The settings that the step under way asks for, beside the machine's; empty if it asks for none.
+  std::vector<SettingsInput::Setting> settings(const Session& session) const;
 
 private:
   void tell(Session& session, const Action& action);
 
   int attempt_ = 0;
   std::optional<std::size_t> step_;
-  const Question* question_ = nullptr;
+  StepInput input_;  ///< of the step under way
   std::string draft_;
   bool asks_again_ = false;
   bool told_ = false;  ///< something that the session has not taken yet: pressed twice, it would reach the next step

@@ -14,7 +14,10 @@ struct FindView : StepTask {
 
   static std::shared_ptr<const StepTask> read(TableReader& table, const Step& step);
 
-  const char* kind() const override { return "find_view"; }
+  StepWords words() const override {
+    return {"Held long enough, the view is taken by itself.", "Searching", "Hold still", false};
+  }
+  bool holds_view() const override { return true; }
   std::vector<Metric> metrics() const override { return {Metric::longest_hold_s}; }
   bool judges_picture() const override { return true; }
   std::vector<ActionKind> settings() const override;

@@ -11,7 +11,7 @@ class TableReader;
 struct FreeScan : StepTask {
   static std::shared_ptr<const StepTask> read(TableReader& table, const Step& step);
 
-  const char* kind() const override { return "free_scan"; }
+  StepWords words() const override { return {"Go on when you are ready.", "Looking around", "", false}; }
   StepBegin prepare(const StepWorld& world) const override;
 };
 

@@ -17,7 +17,7 @@ struct MarkPoint : StepTask {
 
   static std::shared_ptr<const StepTask> read(TableReader& table, const Step& step);
 
-  const char* kind() const override { return "mark_point"; }
+  StepInput input() const override { return PointInput{}; }
   std::vector<Metric> metrics() const override { return {Metric::point_error_mm}; }
   const char* why_no_value() const override { return "nothing was pointed at."; }
   void check(const Step& step, const LabelIndex& labels, const std::string& where,
@@ -34,7 +34,7 @@ struct LabelStructures : StepTask {
 
   static std::shared_ptr<const StepTask> read(TableReader& table, const Step& step);
 
-  const char* kind() const override { return "label_structures"; }
+  StepInput input() const override { return LabelInput{structures}; }
   std::vector<Metric> metrics() const override { return {Metric::labels_right_percent}; }
   void check(const Step& step, const LabelIndex& labels, const std::string& where,
              std::vector<ScenarioProblem>& problems) const override;

@@ -195,6 +195,26 @@ std::string Measure::value_text(double value) const {
   return length_text(value);
 }
 
+StepInput Measure::input() const {
+  MeasureInput input{places(), {}, walls, tool == Tool::ratio, "", {}};
+  if (slots() == 1) {
+    input.slots = {tool == Tool::ellipse ? "Area" : "Distance"};
+    return input;
+  }
+  input.result = tool == Tool::ratio ? "Ratio" : "Volume";
+  input.result_text = [this](const std::vector<Action>& placed) { return value_text(value(placed)); };
+  static constexpr std::array kAlong{", depth", ", width", ""};
+  for (int slot = 0; slot < slots(); ++slot) {
+    if (tool == Tool::volume) {
+      input.slots.push_back("Length " + std::to_string(slot + 1));
+    } else {
+      const MeasureTarget& target = targets[std::size_t(slot)];
+      input.slots.push_back(in_words(target.structures.front()) + kAlong[std::size_t(target.along)]);
+    }
+  }
+  return input;
+}
+
 std::shared_ptr<const StepTask> Measure::read(TableReader& table, const Step& step) {
   auto task = std::make_shared<Measure>();
   const std::vector<std::string> tools{"distance", "ellipse", "ratio", "volume"};

@@ -48,7 +48,7 @@ struct Measure : StepTask {
 
   static std::shared_ptr<const StepTask> read(TableReader& table, const Step& step);
 
-  const char* kind() const override { return "measure"; }
+  StepInput input() const override;
   std::vector<Metric> metrics() const override;
   bool judges_picture() const override { return true; }  ///< the frozen one
   const char* why_no_value() const override { return "nothing was measured in a frozen picture."; }

@@ -1,7 +1,6 @@
 #include "scenarios/steps/question.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "scenarios/format/table_reader.h"
@@ -34,7 +33,7 @@ public:
     result.facts.emplace_back("right answer", right_);
     bool right = *answer_ == right_;
     if (asked_.answer == Question::Answer::number) {
-      const auto number = Question::number_in(*answer_);
+      const auto number = AnswerInput::number_in(*answer_);
       if (number) result.values.emplace_back(Metric::answer_error, std::abs(*number - asked_.right_number));
       right = number && std::abs(*number - asked_.right_number) <= asked_.within;
     }
@@ -57,16 +56,6 @@ std::string choice_of(TableReader& table, const char* key, const std::vector<std
 }
 
 }  // namespace
-
-std::optional<double> Question::number_in(const std::string& text) {
-  const std::size_t first = text.find_first_not_of(" \t");
-  if (first == std::string::npos) return std::nullopt;
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data() + first, text.data() + text.size(), value);
-  const bool rest = std::any_of(end, text.data() + text.size(), [](char c) { return c != ' ' && c != '\t'; });
-  if (error != std::errc() || rest || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
 
 std::shared_ptr<const StepTask> Question::read(TableReader& table, const Step&) {
   auto task = std::make_shared<Question>();

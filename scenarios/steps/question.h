@@ -16,7 +16,7 @@ class TableReader;
 /// A choice is right by name, or by what is in the label map: with `finding` it is `if_present` that is right where one
 /// of those structures has a voxel, and `if_absent` where none has. So one file serves patients with and without.
 struct Question : StepTask {
-  enum class Answer { choice, number, text };
+  using Answer = AnswerInput::Form;
 
   Answer answer = Answer::choice;     ///< answer = "choice" (default), "number", or "text" for the examiner
   std::vector<std::string> choices;   ///< choices = ["yes", "no"]: 2 to 10, of a choice
@@ -28,12 +28,9 @@ struct Question : StepTask {
   std::string unit;                   ///< unit = "mm": of a number, as it is shown beside it; may be left out
   SourcePlace finding_place{};
 
-  /// What an answer says as a number; empty when it is none.
-  static std::optional<double> number_in(const std::string& answer);
-
   static std::shared_ptr<const StepTask> read(TableReader& table, const Step& step);
 
-  const char* kind() const override { return "question"; }
+  StepInput input() const override { return AnswerInput{answer, choices, unit}; }
   std::vector<Metric> metrics() const override;
   const char* why_no_value() const override { return "there was no answer."; }
   void check(const Step& step, const LabelIndex& labels, const std::string& where,

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "scenarios/metrics/motion_meter.h"
+#include "scenarios/words.h"
 #include "sim/core/suggest.h"
 #include "sim/probe/probe.h"
 
@@ -74,6 +75,25 @@ std::vector<ActionKind> SetKnobs::settings() const {
   if (frequency_mhz) asked.push_back(ActionKind::frequency);
   if (gain_db) asked.push_back(ActionKind::gain);
   return asked;
+}
+
+StepInput SetKnobs::input() const {
+  return SettingsInput{[this](const Machine& machine) {
+    std::vector<SettingsInput::Setting> settings;
+    const auto add = [&](const char* name, const std::optional<Range>& wanted, double now, double per_unit,
+                         const char* unit) {
+      if (!wanted) return;
+      const auto number = [&](double value) { return short_number(value / per_unit); };
+      settings.push_back({name, number(wanted->least) + " to " + number(wanted->most) + " " + unit,
+                          number(now) + " " + unit, now >= wanted->least && now <= wanted->most});
+    };
+    if (const Probe* wanted = find_probe(probe))
+      settings.push_back({"Probe", wanted->title, machine.transducer().title, machine.probe == wanted->name});
+    add("Depth", depth_mm, machine.depth_mm, 10, "cm");
+    add("Gain", gain_db, machine.gain_db, 1, "dB");
+    add("Frequency", frequency_mhz, machine.frequency_mhz, 1, "MHz");
+    return settings;
+  }};
 }
 
 StepBegin SetKnobs::prepare(const StepWorld&) const {

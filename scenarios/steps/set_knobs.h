@@ -16,7 +16,10 @@ struct SetKnobs : StepTask {
 
   static std::shared_ptr<const StepTask> read(TableReader& table, const Step& step);
 
-  const char* kind() const override { return "set_knobs"; }
+  StepInput input() const override;
+  StepWords words() const override {
+    return {"Set right and left so for a moment, the knobs are taken by themselves."};
+  }
   std::vector<Metric> metrics() const override { return {Metric::knobs_right_percent}; }
   std::vector<ActionKind> settings() const override;
   StepBegin prepare(const StepWorld& world) const override;

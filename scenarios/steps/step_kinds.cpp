@@ -1,6 +1,6 @@
 #include "scenarios/steps/step_kinds.h"
 
-#include <array>
+#include <vector>
 
 #include "scenarios/steps/find_view.h"
 #include "scenarios/steps/free_scan.h"
@@ -12,8 +12,10 @@
 
 namespace insonate {
 
-std::span<const StepKind> step_kinds() {
-  static constexpr std::array kKinds{
+namespace {
+
+std::vector<StepKind>& all_kinds() {
+  static std::vector<StepKind> kinds{
       StepKind{"find_view", ViewUse::required, FindView::read},
       StepKind{"sweep", ViewUse::none, Sweep::read},
       StepKind{"set_knobs", ViewUse::none, SetKnobs::read},
@@ -23,7 +25,17 @@ std::span<const StepKind> step_kinds() {
       StepKind{"question", ViewUse::none, Question::read},
       StepKind{"free_scan", ViewUse::none, FreeScan::read},
   };
-  return kKinds;
+  return kinds;
+}
+
+}  // namespace
+
+std::span<const StepKind> step_kinds() {
+  return all_kinds();
+}
+
+void add_step_kind(const StepKind& kind) {
+  all_kinds().push_back(kind);
 }
 
 }  // namespace insonate

@@ -19,6 +19,10 @@ struct StepKind {
   std::shared_ptr<const StepTask> (*read)(TableReader& table, const Step& step);
 };
 
+/// Returns all kinds, those of Insonate first.
 std::span<const StepKind> step_kinds();
+
+/// Adds a kind of a program's own, before it reads the first scenario. Its name must be new.
+void add_step_kind(const StepKind& kind);
 
 }  // namespace insonate

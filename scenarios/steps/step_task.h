@@ -10,6 +10,7 @@
 #include "scenarios/machine.h"
 #include "scenarios/metrics/metric.h"
 #include "scenarios/result.h"
+#include "scenarios/steps/step_input.h"
 #include "sim/core/pose.h"
 #include "sim/model/tissue.h"
 #include "sim/volume/case.h"
@@ -71,7 +72,12 @@ class StepTask {
 public:
   virtual ~StepTask() = default;
 
-  virtual const char* kind() const = 0;
+  /// What it takes from the learner besides the probe.
+  virtual StepInput input() const { return {}; }
+  /// What the screen says of it.
+  virtual StepWords words() const { return {}; }
+  /// Whether it is done by holding a view, so that it ends as held.
+  virtual bool holds_view() const { return false; }
   /// The step metrics that it measures.
   virtual std::vector<Metric> metrics() const { return {}; }
   /// Whether a picture is judged, so that criteria may ask for picture metrics.

@@ -23,7 +23,7 @@ struct Sweep : StepTask {
 
   static std::shared_ptr<const StepTask> read(TableReader& table, const Step& step);
 
-  const char* kind() const override { return "sweep"; }
+  StepWords words() const override { return {"Go on when you have seen all of it.", "Searching"}; }
   std::vector<Metric> metrics() const override;
   void check(const Step& step, const LabelIndex& labels, const std::string& where,
              std::vector<ScenarioProblem>& problems) const override;

@@ -142,13 +142,13 @@ TEST_CASE("where the order is free the learner turns to steps that are not over"
 TEST_CASE("knobs are shown as asked for and as set") {
   Desk desk(step("set_knobs", "probe = \"linear\"\ndepth_mm = [50, 65]\ngain_db = [-3, 3]"));
   desk.session.set(ActionKind::depth, 120);
-  std::vector<StepControls::Knob> knobs = StepControls::knobs(desk.session);
+  std::vector<SettingsInput::Setting> knobs = desk.controls.settings(desk.session);
   REQUIRE(knobs.size() == 3);
   CHECK((knobs[0].name == "Probe" && !knobs[0].right));
-  CHECK((knobs[1].asked == "5 to 6.5 cm" && knobs[1].is == "12 cm" && !knobs[1].right));
-  CHECK((knobs[2].asked == "-3 to 3 dB" && knobs[2].is == "0 dB" && knobs[2].right));
+  CHECK((knobs[1].wanted == "5 to 6.5 cm" && knobs[1].now == "12 cm" && !knobs[1].right));
+  CHECK((knobs[2].wanted == "-3 to 3 dB" && knobs[2].now == "0 dB" && knobs[2].right));
   desk.session.set(ActionKind::depth, 65);
-  CHECK(StepControls::knobs(desk.session)[1].right);
+  CHECK(desk.controls.settings(desk.session)[1].right);
 }
 
 TEST_CASE("a log takes nothing from who watches it") {
