@@ -184,8 +184,10 @@ void Keyboard::replay(const KeyEvent& pressed, Trainer& trainer, ui::Screen& scr
 }
 
 void Keyboard::press(const KeyEvent& pressed, Trainer& trainer, ui::Screen& screen) {
+  using ui::Overlay;
   const bool repeated = pressed.kind == KeyEvent::Kind::repeated;
-  if (screen.overlay(trainer) == "setup") {
+  const Overlay overlay = screen.overlay(trainer);
+  if (overlay == Overlay::setup) {
     if (!repeated) set_up(pressed, trainer);
     return;
   }
@@ -193,9 +195,9 @@ void Keyboard::press(const KeyEvent& pressed, Trainer& trainer, ui::Screen& scre
     if (!repeated) is_enter(pressed) ? screen.confirm(trainer) : screen.dismiss(trainer);
     return;
   }
-  const std::string overlay = screen.overlay(trainer);
-  if (pressed.key == GLFW_KEY_F1 && overlay != "problem" && !repeated && !trainer.replay()) return screen.toggle_help();
-  if (!overlay.empty()) return;
+  if (pressed.key == GLFW_KEY_F1 && overlay != Overlay::problem && !repeated && !trainer.replay())
+    return screen.toggle_help();
+  if (overlay != Overlay::none) return;
   if (trainer.replay()) return replay(pressed, trainer, screen);
   if (!(pressed.modifiers & GLFW_MOD_CONTROL)) tapped_.insert(pressed.key);
   if (pressed.key == GLFW_KEY_F2 && !repeated) return trainer.begin_setup();

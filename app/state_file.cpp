@@ -36,7 +36,7 @@ std::string in_short(const Action& placed) {
 void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::Screen& screen, long frames,
                  double quality) {
   Json state;
-  state["overlay"] = screen.overlay(trainer);
+  state["overlay"] = to_string(screen.overlay(trainer));
   state["problem"] = trainer.problems().empty() ? "" : trainer.problems().front();
   state["shader_problem"] = trainer.shader_problem();
   state["calibration_warning"] = trainer.calibration_warning();

@@ -7,8 +7,8 @@
 #include <tuple>
 #include <vector>
 
-#include "scenarios/words.h"
 #include "scenarios/caliper.h"
+#include "scenarios/words.h"
 
 namespace insonate::ui {
 namespace {

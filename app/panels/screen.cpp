@@ -15,7 +15,6 @@
 #include "app/panels/guide_layer.h"
 #include "app/panels/replay/replay_page.h"
 #include "app/panels/ultrasound_panel.h"
-#include "scenarios/steps/question.h"
 #include "sim/core/files.h"
 #include "sim/gl/headless_context.h"
 
@@ -31,6 +30,28 @@ void open_on_desktop(const std::filesystem::path& file) {
 }
 
 }  // namespace
+
+const char* to_string(Overlay overlay) {
+  switch (overlay) {
+    case Overlay::none:
+      return "";
+    case Overlay::problem:
+      return "problem";
+    case Overlay::loading:
+      return "loading";
+    case Overlay::setup:
+      return "setup";
+    case Overlay::help:
+      return "help";
+    case Overlay::about:
+      return "about";
+    case Overlay::open:
+      return "open";
+    case Overlay::score:
+      return "score";
+  }
+  return "";
+}
 
 Screen::ImGuiOwner::ImGuiOwner() {
   IMGUI_CHECKVERSION();
@@ -137,10 +158,10 @@ void Screen::draw_panels(Trainer& trainer) {
     const auto attempt = [&](const std::function<void()>& action) { trainer.attempt(action); };
     switch (draw_console_panel(theme_, console_, *session, attempt)) {
       case ConsoleRequest::help:
-        help_ = true;
+        page_ = Overlay::help;
         break;
       case ConsoleRequest::open:
-        asking_ = true;
+        page_ = Overlay::open;
         break;
       case ConsoleRequest::none:
         break;
@@ -206,43 +227,76 @@ void Screen::draw_status(Trainer& trainer) {
   draw_text(line, theme_.small_text, colour::kFaint, device_, Align::right);
 }
 
-std::string Screen::overlay(const Trainer& trainer) const {
-  if (!trainer.problems().empty()) return "problem";
-  if (trainer.loading()) return "loading";
-  if (trainer.setup()) return "setup";
-  if (help_) return "help";
-  if (about_) return "about";
-  if (asking_) return "open";
+Overlay Screen::overlay(const Trainer& trainer) const {
+  if (!trainer.problems().empty()) return Overlay::problem;
+  if (trainer.loading()) return Overlay::loading;
+  if (trainer.setup()) return Overlay::setup;
+  if (page_ != Overlay::none) return page_;
   const Session* session = trainer.session();
-  if (session && session->result() && &*session->result() != closed_sheet_of_) return "score";
-  return "";
+  if (session && session->result() && &*session->result() != closed_sheet_of_) return Overlay::score;
+  return Overlay::none;
 }
 
 void Screen::dismiss(Trainer& trainer) {
-  const std::string shown = overlay(trainer);
-  if (shown == "problem") trainer.problems().pop_front();
-  if (shown == "loading") trainer.stop_loading();
-  if (shown == "help") help_ = false;
-  if (shown == "about") about_ = false;
-  if (shown == "open") stop_asking();
-  if (shown == "score") closed_sheet_of_ = &*trainer.session()->result();
-  if (shown.empty() && !text_field_.is_open()) trainer.picture_tools().cancel();
+  switch (overlay(trainer)) {
+    case Overlay::none:
+      if (!text_field_.is_open() && trainer.session()) trainer.picture_tools().cancel();
+      break;
+    case Overlay::problem:
+      trainer.problems().pop_front();
+      break;
+    case Overlay::loading:
+      trainer.stop_loading();
+      break;
+    case Overlay::setup:
+      break;
+    case Overlay::help:
+    case Overlay::about:
+    case Overlay::open:
+      close_page();
+      break;
+    case Overlay::score:
+      closed_sheet_of_ = &*trainer.session()->result();
+      break;
+  }
   text_field_.close();
 }
 
 void Screen::confirm(Trainer& trainer) {
-  const std::string shown = overlay(trainer);
-  if (shown == "open") open_dialog_.confirm();
-  if (shown == "problem" || shown == "help" || shown == "about") dismiss(trainer);
-  if (shown.empty()) step_on(trainer);
+  switch (overlay(trainer)) {
+    case Overlay::none:
+      return step_on(trainer);
+    case Overlay::problem:
+    case Overlay::help:
+    case Overlay::about:
+      return dismiss(trainer);
+    case Overlay::open:
+      return open_dialog_.confirm();
+    case Overlay::loading:
+    case Overlay::setup:
+    case Overlay::score:
+      return;
+  }
 }
 
 void Screen::go_on(Trainer& trainer) {
-  const std::string shown = overlay(trainer);
-  if (shown == "problem" || shown == "help" || shown == "about" || shown == "open") return dismiss(trainer);
-  if (shown.empty()) step_on(trainer);
-  const bool over = trainer.session() && trainer.session()->result();
-  if (over && (shown.empty() || shown == "score")) answer_score(trainer, ScoreAnswer::again);
+  const Overlay shown = overlay(trainer);
+  switch (shown) {
+    case Overlay::problem:
+    case Overlay::help:
+    case Overlay::about:
+    case Overlay::open:
+      return dismiss(trainer);
+    case Overlay::loading:
+    case Overlay::setup:
+      return;
+    case Overlay::none:
+      step_on(trainer);
+      break;
+    case Overlay::score:
+      break;
+  }
+  if (trainer.session() && trainer.session()->result()) answer_score(trainer, ScoreAnswer::again);
 }
 
 /// Goes on with the exam, or keeps the view that is being made. What waits for something typed gets its field opened
@@ -262,38 +316,49 @@ void Screen::step_on(Trainer& trainer) {
   controls.go_on(*trainer.session());
 }
 
-void Screen::stop_asking() {
-  asking_ = false;
+void Screen::close_page() {
+  page_ = Overlay::none;
   open_dialog_.close();
 }
 
 void Screen::draw_overlay(Trainer& trainer) {
   Session* session = trainer.session();
   if (session && !session->result()) closed_sheet_of_ = nullptr;
-  const std::string shown = overlay(trainer);
-  if (shown == "problem") {
-    if (draw_problem(theme_, screen_, trainer.problems().front(), trainer.exam_refused()))
-      trainer.problems().pop_front();
-  } else if (shown == "loading") {
-    if (draw_loading(theme_, screen_, trainer.loading()->progress(), session || trainer.setup() || trainer.replay()))
-      trainer.stop_loading();
-  } else if (shown == "setup") {
-    if (draw_setup_page(theme_, screen_, *trainer.setup(), trainer.next_start(), trainer.pictures(), places_))
-      trainer.end_setup();
-  } else if (shown == "help") {
-    const HelpAnswer answer = draw_key_help(theme_, screen_, places_);
-    if (answer != HelpAnswer::none) help_ = false;
-    about_ = answer == HelpAnswer::about;
-  } else if (shown == "about") {
-    if (draw_about(theme_, screen_, device_)) about_ = false;
-  } else if (shown == "open") {
-    const OpenDialog::Answer answer = open_dialog_.draw(theme_, screen_);
-    if (answer != OpenDialog::Answer::none) stop_asking();
-    if (answer == OpenDialog::Answer::chosen) trainer.open(open_dialog_.path());
-  } else if (shown == "score") {
-    const bool watched = std::as_const(*session).source().recording() != nullptr;
-    answer_score(trainer, draw_score_sheet(theme_, screen_, *session->result(), trainer.result_files(), watched,
-                                           session->strict()));
+  switch (overlay(trainer)) {
+    case Overlay::none:
+      break;
+    case Overlay::problem:
+      if (draw_problem(theme_, screen_, trainer.problems().front(), trainer.exam_refused()))
+        trainer.problems().pop_front();
+      break;
+    case Overlay::loading:
+      if (draw_loading(theme_, screen_, trainer.loading()->progress(), session || trainer.setup() || trainer.replay()))
+        trainer.stop_loading();
+      break;
+    case Overlay::setup:
+      if (draw_setup_page(theme_, screen_, *trainer.setup(), trainer.next_start(), trainer.pictures(), places_))
+        trainer.end_setup();
+      break;
+    case Overlay::help: {
+      const HelpAnswer answer = draw_key_help(theme_, screen_, places_);
+      if (answer != HelpAnswer::none) page_ = answer == HelpAnswer::about ? Overlay::about : Overlay::none;
+      break;
+    }
+    case Overlay::about:
+      if (draw_about(theme_, screen_, device_)) page_ = Overlay::none;
+      break;
+    case Overlay::open: {
+      const OpenDialog::Answer answer = open_dialog_.draw(theme_, screen_);
+      if (answer != OpenDialog::Answer::none) close_page();
+      if (answer == OpenDialog::Answer::chosen) trainer.open(open_dialog_.path());
+      break;
+    }
+    case Overlay::score: {
+      const bool watched = std::as_const(*session).source().recording() != nullptr;
+      answer_score(trainer, draw_score_sheet(theme_, screen_, *session->result(), trainer.result_files(), watched,
+                                             session->strict()));
+      break;
+    }
   }
 }
 

@@ -18,6 +18,12 @@
 
 namespace insonate::ui {
 
+/// What lies over the screen; the later ones wait while an earlier one is there.
+enum class Overlay { none, problem, loading, setup, help, about, open, score };
+
+/// Returns the overlay's name, as state files have it: "problem"; "" for none.
+const char* to_string(Overlay overlay);
+
 /// The trainer's whole screen: owns ImGui and its OpenGL renderer, lays the panels out, and shows what lies over them.
 /// Draws into whatever framebuffer is bound, so it does not know whether there is a window. Needs an OpenGL context.
 class Screen {
@@ -37,8 +43,8 @@ public:
     return UltrasoundPanel::plane(theme_, ultrasound_, trainer.pictures());
   }
 
-  void toggle_help() { help_ = !help_; }
-  void ask_for_path() { asking_ = true; }
+  void toggle_help() { page_ = page_ == Overlay::help ? Overlay::none : Overlay::help; }
+  void ask_for_path() { page_ = Overlay::open; }
   /// Closes what lies over the screen without an answer, as Escape does.
   void dismiss(Trainer& trainer);
   /// Answers it as Enter does.
@@ -47,29 +53,31 @@ public:
   /// the next step of an exam, and after the exam begins the next attempt.
   void go_on(Trainer& trainer);
   /// Something lies over the screen: keys do not move the probe.
-  bool takes_keys(const Trainer& trainer) const { return !overlay(trainer).empty() || types_text(trainer); }
+  bool takes_keys(const Trainer& trainer) const { return overlay(trainer) != Overlay::none || types_text(trainer); }
   /// There is a field that text is typed into.
-  bool types_text(const Trainer& trainer) const { return overlay(trainer) == "open" || types_in_panel(trainer); }
+  bool types_text(const Trainer& trainer) const { return overlay(trainer) == Overlay::open || types_in_panel(trainer); }
   /// There will be one, which takes text from one of the next frames on.
   bool opens_text_field(const Trainer& trainer) const {
     return types_text(trainer) && !(types_in_panel(trainer) ? text_field_.ready() : open_dialog_.ready());
   }
 
-  /// What lies over the screen: "problem", "loading", "setup", "help", "about", "open", "score", or "" for nothing.
-  std::string overlay(const Trainer& trainer) const;
+  /// What lies over the screen now.
+  Overlay overlay(const Trainer& trainer) const;
   void set_frames_per_second(double fps) { frames_per_second_ = fps; }
   /// Where the panels are, by name.
   const std::map<std::string, Rect>& places() const { return places_; }
 
 private:
-  bool types_in_panel(const Trainer& trainer) const { return text_field_.is_open() && overlay(trainer).empty(); }
+  bool types_in_panel(const Trainer& trainer) const {
+    return text_field_.is_open() && overlay(trainer) == Overlay::none;
+  }
   void step_on(Trainer& trainer);
   void lay_out(const Trainer& trainer, float width, float height);
   void draw_panels(Trainer& trainer);
   void draw_overlay(Trainer& trainer);
   void draw_record_button(Trainer& trainer, const Rect& where);
   void draw_status(Trainer& trainer);
-  void stop_asking();
+  void close_page();
   void answer_score(Trainer& trainer, ScoreAnswer answer);
 
   struct ImGuiOwner {
@@ -82,7 +90,8 @@ private:
   RecordedPanel recorded_panel_;
   OpenDialog open_dialog_;
   TextField text_field_;
-  bool help_ = false, about_ = false, asking_ = false, fonts_are_new_ = false;
+  Overlay page_ = Overlay::none;  ///< what the person asked for: help, about or open
+  bool fonts_are_new_ = false;
   const ExamResult* closed_sheet_of_ = nullptr;
   double frames_per_second_ = 0;
   Rect screen_, top_, task_, ultrasound_, recorded_, volume_, slice_, blend_, console_, status_;

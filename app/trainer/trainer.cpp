@@ -140,7 +140,7 @@ void Trainer::finish_loading() {
 }
 
 void Trainer::stop_loading() {
-  if (session_ || setup_ || replay_) loading_.reset();
+  if (!std::holds_alternative<Idle>(mode_)) loading_.reset();
 }
 
 void Trainer::take_over_loaded() {
@@ -149,7 +149,7 @@ void Trainer::take_over_loaded() {
   // A trainer whose command line names something unusable goes on with what is built in.
   if (in_exam()) return;  // and never to anything but the exam that was asked for
   const bool asked_for_more = !requested_.source.is_bundled() || !requested_.tracker.empty() || requested_.replay.any();
-  if (!session_ && !setup_ && !replay_ && asked_for_more) load(Request());
+  if (std::holds_alternative<Idle>(mode_) && asked_for_more) load(Request());
 }
 
 void Trainer::begin(std::shared_ptr<const LoadedCase> loaded_case, const Request& request) {
@@ -157,9 +157,7 @@ void Trainer::begin(std::shared_ptr<const LoadedCase> loaded_case, const Request
   std::string uri = request.tracker;
   if (uri.empty()) uri = request.source.is_bundled() ? bundled_log() : "mouse:";
   if (needs_setup(request)) {
-    setup_.reset();
-    session_.reset();
-    replay_.reset();
+    mode_ = Idle();
     show(std::move(loaded_case), request);
     return open_setup();
   }
@@ -171,18 +169,17 @@ void Trainer::begin(std::shared_ptr<const LoadedCase> loaded_case, const Request
     throw InputError(uri, "", "a recorded scan is nobody's exam", "name the tracker that the learner holds");
   record_raw(*session, request);
   show(std::move(loaded_case), request);
-  setup_.reset();
-  session_ = std::move(session);
-  picture_tools_ = {};
-  step_controls_ = {};
-  author_.reset();
-  if (options_.mode == Mode::author && request.source.case_folder == options_.case_folder && !loaded_case_->scenario)
-    author_.emplace(options_.case_folder);
-  replay_.reset();
+  Scan scan{std::move(session), {}, {}, {}};
+  const bool authoring = options_.mode == Mode::author && request.source.case_folder == options_.case_folder;
+  if (in_exam())
+    mode_ = Exam{std::move(scan), nullptr};
+  else if (authoring && !loaded_case_->scenario)
+    mode_ = Authoring{std::move(scan), Author(options_.case_folder)};
+  else
+    mode_ = Practice{std::move(scan)};
   reader_.forget();
   recorder_.begin_anew();
   result_files_.reset();
-  best_frame_of_ = 0;
 }
 
 void Trainer::show(std::shared_ptr<const LoadedCase> loaded_case, const Request& request) {
@@ -200,39 +197,47 @@ void Trainer::update(double now_s) {
     shaders_looked_at_s_ = now_s;
     reload_shaders();
   }
-  if (setup_) attempt([&] { setup_->update(now_s); });
-  if (setup_ && setup_->finished()) end_setup();
-  if (replay_) replay_->advance(now_s);
-  if (!session_) return;
+  std::visit([&](auto& mode) { update(mode, now_s); }, mode_);
+}
+
+void Trainer::update(SettingUp& mode, double now_s) {
+  attempt([&] { mode.wizard->update(now_s); });
+  if (mode.wizard->finished()) end_setup();  // which ends the mode
+}
+
+template <std::derived_from<Scan> Mode>
+void Trainer::update(Mode& mode, double now_s) {
+  Session& session = *mode.session;
   if (!options_.record.empty() && !recorded_) start_recording();
-  const bool had_result = session_->result().has_value();
-  session_->advance(now_s);
-  picture_tools_.see(*session_);
-  step_controls_.see(*session_);
-  if (author_) author_->see(*session_);
-  recorder_.take(*session_);
+  const bool had_result = session.result().has_value();
+  session.advance(now_s);
+  mode.tools.see(session);
+  mode.controls.see(session);
+  if constexpr (std::is_same_v<Mode, Authoring>) mode.author.see(session);
+  recorder_.take(session);
   attempt([&] { recorder_.check(); });
   attempt([&] { check_raw(); });
-  if (!session_->result()) result_files_.reset();
-  results_due_ = results_due_ || (!had_result && session_->result());
-  attempt([&] { keep_sitting(); });
+  if (!session.result()) result_files_.reset();
+  results_due_ = results_due_ || (!had_result && session.result());
+  if constexpr (std::is_same_v<Mode, Exam>) attempt([&] { keep_sitting(mode); });  // which may end the mode
 }
 
 void Trainer::draw(const PictureSizes& sizes, double quality, double budget_ms) {
   try {
-    if (replay_) pictures_.update(replay_->moment().shown_pose, replay_->machine(), sizes, quality, budget_ms);
-    if (session_) pictures_.update(*session_, sizes, quality, budget_ms);
+    if (const Replay* run = replay())
+      pictures_.update(run->moment().shown_pose, run->machine(), sizes, quality, budget_ms);
+    if (session()) pictures_.update(*session(), sizes, quality, budget_ms);
   } catch (const std::runtime_error& error) {
     // What was built when the file changed may not build for settings that come later.
     if (options_.shader_folder.empty()) throw;
     tell_of_shaders(error.what());
   }
-  if (!session_) return;
+  if (!session()) return;
   if (!options_.latency.empty()) {
     glFinish();
-    latency_.add(*session_, steady_now_s());
+    latency_.add(*session(), steady_now_s());
   }
-  if (feed_) feed_->tell(*session_);
+  if (feed_) feed_->tell(*session());
   show_pictures();
 }
 
@@ -242,7 +247,7 @@ void Trainer::show_pictures() {
   clients_ = clients;
   records_pictures_ = recording;
   if (!clients && !recording) return reader_.forget();
-  reader_.ask(*session_, pictures_);
+  reader_.ask(*session(), pictures_);
   // Without a window nobody sees a frame that takes longer, and every picture counts.
   while (const std::optional<DrawnPicture> picture = reader_.take(options_.headless)) {
     if (clients) feed_->show(*picture);
@@ -262,57 +267,25 @@ void Trainer::finish_recording() {
   attempt([&] { recorder_.check(); });
 }
 
-bool Trainer::best_frame_due() const {
-  if (!session_ || !session_->runner()) return false;
-  constexpr double kStep = 0.1;  // of the hold
-  const LiveExam& live = session_->runner()->live();
-  if (session_->attempt() != best_frame_of_ || live.step != best_step_) return live.hold_share > 0;
-  return live.hold_share > best_share_ + kStep;
-}
-
-void Trainer::keep_best_frame() {
-  if (!pictures_.ultrasound()) return;
-  const LiveExam& live = session_->runner()->live();
-  if (best_frame_of_ != session_->attempt()) best_frames_.clear();
-  best_frame_of_ = session_->attempt();
-  best_step_ = live.step;
-  best_share_ = live.hold_share;
-  best_frames_[live.step] = mirrored(read_back(*pictures_.ultrasound()));
-}
-
-const Image<Rgba8>* Trainer::best_frame() const {
-  return best_frames_.empty() ? nullptr : &best_frames_.rbegin()->second;
-}
-
 void Trainer::write_results_if_due() {
-  if (!std::exchange(results_due_, false) || !session_) return;
-  if (best_frame_of_ != session_->attempt()) best_frames_.clear();
+  if (!std::exchange(results_due_, false) || !scan()) return;
+  scan()->best_frames.forget_older(*session());
   attempt([&] { keep_and_report(); });
 }
 
-/// Each step's best picture and what it should look like.
-std::vector<ReportPicture> Trainer::report_pictures() {
-  std::vector<ReportPicture> pictures;
-  for (const auto& [step, frame] : best_frames_)
-    pictures.push_back(report_picture(step, ReportPicture::Kind::best, frame));
-  const std::vector<StepResult>& steps = session_->result()->steps;
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    const ReferenceView* view = loaded_case_->subject.find_view(steps[i].view);
-    if (const auto picture = view ? pictures_.reference_picture(*view) : std::nullopt)
-      pictures.push_back(report_picture(i, ReportPicture::Kind::reference, mirrored(*picture)));
-  }
-  return pictures;
-}
-
 void Trainer::keep_and_report() {
-  Attempt finished = finished_attempt(*session_, current_.source, options_.learner, report_pictures());
+  const Session& session = *scan()->session;
+  Attempt finished = finished_attempt(session, current_.source, options_.learner,
+                                      scan()->best_frames.report_pictures(session, pictures_));
   // A log that is only watched, as when the trainer starts, is nobody's attempt.
-  const bool replayed = std::as_const(*session_).source().recording() != nullptr;
+  const bool replayed = session.source().recording() != nullptr;
   std::exception_ptr not_kept;
   if (results_ && (!replayed || !options_.results.empty())) {
     try {
-      const std::int64_t sitting = journal_ ? journal_->finish(*session_) : 0;
-      if (journal_ && sitting == 0) results_->check_not_taken(options_.learner, loaded_case_->scenario->digest);
+      auto* exam = std::get_if<Exam>(&mode_);
+      ExamJournal* journal = exam ? exam->journal.get() : nullptr;
+      const std::int64_t sitting = journal ? journal->finish(session) : 0;
+      if (journal && sitting == 0) results_->check_not_taken(options_.learner, loaded_case_->scenario->digest);
       results_->add(finished, sitting);
     } catch (const InputError&) {
       not_kept = std::current_exception();  // the report is wanted all the more

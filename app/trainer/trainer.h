@@ -2,7 +2,6 @@
 
 #include <deque>
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,19 +10,14 @@
 #include "app/pictures/picture_latency.h"
 #include "app/pictures/picture_reader.h"
 #include "app/pictures/pictures.h"
-#include "app/recording/exam_journal.h"
 #include "app/recording/results.h"
 #include "app/recording/run_recorder.h"
 #include "app/replay/replay_source.h"
-#include "app/session/author.h"
 #include "app/session/guide.h"
 #include "app/session/loaded_case.h"
 #include "app/session/loading.h"
-#include "app/session/picture_tools.h"
-#include "app/session/session.h"
-#include "app/session/step_controls.h"
+#include "app/trainer/modes.h"
 #include "app/trainer/options.h"
-#include "app/trainer/setup_wizard.h"
 #include "devices/record/raw_recorder.h"
 #include "scenarios/results/report_files.h"
 #include "scenarios/results/results_database.h"
@@ -57,15 +51,15 @@ public:
   /// Draws the pictures of the session, and tells OpenIGTLink clients.
   void draw(const PictureSizes& sizes, double quality, double budget_ms);
   /// Whether the view is held longer than when the best frame was kept: draw, then keep it.
-  bool best_frame_due() const;
-  void keep_best_frame();
+  bool best_frame_due() const { return scan() && scan()->best_frames.due(*session()); }
+  void keep_best_frame() { scan()->best_frames.keep(*session(), pictures_); }
   /// Keeps the attempt when an exam has ended, and writes its report and score, once.
   void write_results_if_due();
 
   /// Ends an exam that counts and is left before its end: what there is of it is scored and kept.
   void hand_in_exam();
   /// Whether the exam that the trainer was started for cannot be taken: there is nothing to show then but why.
-  bool exam_refused() const { return in_exam() && !session_ && !setup_ && !loading_; }
+  bool exam_refused() const { return in_exam() && std::holds_alternative<Idle>(mode_) && !loading_; }
   /// Whether that is acknowledged too, and nothing is left to be done.
   bool is_over() const { return exam_refused() && problems_.empty(); }
 
@@ -81,8 +75,11 @@ public:
   std::filesystem::path raw_file() const { return raw_ ? raw_->file() : std::filesystem::path(); }
 
   /// The set-up of the tracker, while it is being made: there is no session then, as the tracker is the set-up's.
-  SetupWizard* setup() { return setup_.get(); }
-  const SetupWizard* setup() const { return setup_.get(); }
+  SetupWizard* setup() { return const_cast<SetupWizard*>(std::as_const(*this).setup()); }
+  const SetupWizard* setup() const {
+    const auto* mode = std::get_if<SettingUp>(&mode_);
+    return mode ? mode->wizard.get() : nullptr;
+  }
   /// Begins it, with the session's tracker; where that has no sensor, that is a problem to acknowledge. It begins by
   /// itself where the command line names a calibration that is still to be made.
   void begin_setup();
@@ -96,8 +93,11 @@ public:
   const PictureLatency& latency() const { return latency_; }
 
   /// The run that is looked at again; there is no session then, and nothing is scored or kept.
-  Replay* replay() { return replay_.get(); }
-  const Replay* replay() const { return replay_.get(); }
+  Replay* replay() { return const_cast<Replay*>(std::as_const(*this).replay()); }
+  const Replay* replay() const {
+    const auto* mode = std::get_if<Playback>(&mode_);
+    return mode ? mode->replay.get() : nullptr;
+  }
   /// The patient that is shown, with the exam if there is one; nullptr before the first is loaded.
   const LoadedCase* loaded_case() const { return loaded_case_.get(); }
 
@@ -106,24 +106,29 @@ public:
   const Guide& guide() const { return guide_; }
 
   /// What makes views of a case folder; nullptr unless that is what the trainer was started for.
-  Author* author() { return author_ ? &*author_ : nullptr; }
-  const Author* author() const { return author_ ? &*author_ : nullptr; }
+  Author* author() { return const_cast<Author*>(std::as_const(*this).author()); }
+  const Author* author() const {
+    const auto* mode = std::get_if<Authoring>(&mode_);
+    return mode ? &mode->author : nullptr;
+  }
   /// Keeps the view that is being made; what speaks against it is a problem to acknowledge.
   void keep_view();
 
-  Session* session() { return session_.get(); }
-  const Session* session() const { return session_.get(); }
-  PictureTools& picture_tools() { return picture_tools_; }
-  const PictureTools& picture_tools() const { return picture_tools_; }
-  StepControls& step_controls() { return step_controls_; }
-  const StepControls& step_controls() const { return step_controls_; }
+  /// The session of practice, an exam or authoring; nullptr in another mode.
+  Session* session() { return scan() ? scan()->session.get() : nullptr; }
+  const Session* session() const { return scan() ? scan()->session.get() : nullptr; }
+  /// Those of the session; only where there is one.
+  PictureTools& picture_tools() { return scan()->tools; }
+  const PictureTools& picture_tools() const { return scan()->tools; }
+  StepControls& step_controls() { return scan()->controls; }
+  const StepControls& step_controls() const { return scan()->controls; }
   Pictures& pictures() { return pictures_; }
   const Pictures& pictures() const { return pictures_; }
   const Options& options() const { return options_; }
   const std::optional<ResultFiles>& result_files() const { return result_files_; }
   /// The ultrasound, marker on the left, when the view of the last step that was held for any time was held best;
   /// nullptr when none was.
-  const Image<Rgba8>* best_frame() const;
+  const Image<Rgba8>* best_frame() const { return scan() ? scan()->best_frames.last() : nullptr; }
 
   /// What went wrong and nobody has acknowledged yet, the oldest first.
   std::deque<std::string>& problems() { return problems_; }
@@ -139,6 +144,9 @@ public:
   bool attempt(const std::function<void()>& action);
 
 private:
+  Scan* scan() { return scan_of(mode_); }
+  const Scan* scan() const { return scan_of(const_cast<TrainerMode&>(mode_)); }
+  /// Whether the trainer was started for an exam that counts, whatever it does now.
   bool in_exam() const { return options_.mode == Mode::exam; }
   struct Request {
     CaseSource source;
@@ -153,7 +161,12 @@ private:
   void begin(std::shared_ptr<const LoadedCase> loaded_case, const Request& request);
   std::uint32_t seed() const;
   void refuse_second_exam(const Scenario& exam);
-  void keep_sitting();
+  void keep_sitting(Exam& exam);
+  void update(Idle&, double) {}
+  void update(Playback& mode, double now_s) { mode.replay->advance(now_s); }
+  void update(SettingUp& mode, double now_s);
+  template <std::derived_from<Scan> Mode>
+  void update(Mode& mode, double now_s);
   void begin_replay(std::shared_ptr<const LoadedCase> loaded_case, const Request& request);
   void show(std::shared_ptr<const LoadedCase> loaded_case, const Request& request);
   std::filesystem::path own_calibration() const;
@@ -167,7 +180,6 @@ private:
   void reload_shaders();
   void tell_of_shaders(const std::string& problem);
   void open_results();
-  std::vector<ReportPicture> report_pictures();
   void keep_and_report();
   void show_pictures();
 
@@ -181,14 +193,9 @@ private:
   std::unique_ptr<Loading> loading_;
 
   std::shared_ptr<const LoadedCase> loaded_case_;
-  std::unique_ptr<Session> session_;
-  PictureTools picture_tools_;
-  StepControls step_controls_;
-  std::shared_ptr<std::unique_ptr<Replay>> loaded_replay_;  ///< filled in by loading_; nullptr when it is of a session
-  std::unique_ptr<Replay> replay_;
+  TrainerMode mode_;
+  std::shared_ptr<std::unique_ptr<Replay>> loaded_replay_;  ///< filled in by loading_; nullptr unless it loads a replay
   Guide guide_;
-  std::optional<Author> author_;
-  std::unique_ptr<SetupWizard> setup_;
   bool setup_left_ = false;  ///< before it was complete: the tracker is used without
   Pictures pictures_;
   PictureLatency latency_;
@@ -201,11 +208,6 @@ private:
   std::optional<ResultFiles> result_files_;
   bool results_due_ = false;
   std::optional<ResultsDatabase> results_;
-  std::optional<ExamJournal> journal_;               ///< of an exam that counts, once it has begun
-  std::map<std::size_t, Image<Rgba8>> best_frames_;  ///< by step
-  int best_frame_of_ = 0;                            ///< the session's attempt; 0 for none
-  std::size_t best_step_ = 0;
-  double best_share_ = 0;
   std::deque<std::string> problems_;
 };
 

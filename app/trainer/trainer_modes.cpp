@@ -21,14 +21,17 @@ void Trainer::refuse_second_exam(const Scenario& exam) {
   results_->check_not_taken(options_.learner, exam.digest);
 }
 
-void Trainer::keep_sitting() {
-  if (!in_exam() || !results_ || !session_->runner() || session_->result()) return;
-  if (!journal_) journal_.emplace(results_->file(), sitting_of(*session_, current_.source, options_.learner));
+void Trainer::keep_sitting(Exam& exam) {
+  const Session& session = *exam.session;
+  if (!results_ || !session.runner() || session.result()) return;
+  if (!exam.journal)
+    exam.journal =
+        std::make_unique<ExamJournal>(results_->file(), sitting_of(session, current_.source, options_.learner));
   try {
-    journal_->take(*session_);
+    exam.journal->take(session);
   } catch (const ExamTaken&) {
     recorder_.stop();
-    session_.reset();  // nobody takes an exam twice
+    mode_ = Idle();  // nobody takes an exam twice
     throw;
   } catch (const InputError& error) {
     const std::string told = std::string("The exam goes on, but is not kept while it lasts: ") + error.what();
@@ -38,27 +41,25 @@ void Trainer::keep_sitting() {
 }
 
 void Trainer::hand_in_exam() {
-  if (!in_exam() || !session_ || session_->result()) return;
-  session_->hand_in();
-  results_due_ = results_due_ || session_->result().has_value();
+  if (!in_exam() || !session() || session()->result()) return;
+  session()->hand_in();
+  results_due_ = results_due_ || session()->result().has_value();
   write_results_if_due();
 }
 
 void Trainer::keep_view() {
-  if (!author_ || !session_) return;
+  if (!author()) return;
   attempt([&] {
-    if (const std::optional<ReferenceView> made = author_->keep(*session_)) guide_.add(*made);
+    if (const std::optional<ReferenceView> made = author()->keep(*session())) guide_.add(*made);
   });
 }
 
 void Trainer::begin_replay(std::shared_ptr<const LoadedCase> loaded_case, const Request& request) {
   recorder_.stop();
   show(std::move(loaded_case), request);
-  setup_.reset();
-  session_.reset();
   result_files_.reset();
   results_due_ = false;
-  replay_ = std::move(*std::exchange(loaded_replay_, nullptr));
+  mode_ = Playback{std::move(*std::exchange(loaded_replay_, nullptr))};
 }
 
 }  // namespace insonate

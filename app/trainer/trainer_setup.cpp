@@ -113,14 +113,14 @@ bool Trainer::needs_setup(const Request& request) const {
 }
 
 void Trainer::begin_setup() {
-  if (setup_ || !loaded_case_ || replay_ || in_exam()) return;
+  if (setup() || !loaded_case_ || replay() || in_exam()) return;
   attempt([&] { open_setup(); });
-  if (!setup_ && !session_) load(Request());
+  if (std::holds_alternative<Idle>(mode_)) load(Request());
 }
 
 void Trainer::open_setup() {
   const std::string uri = current_.tracker;
-  const bool live = session_ && std::as_const(*session_).source().live();
+  const bool live = session() && std::as_const(*session()).source().live();
   const bool asked_for = options_.mode == Mode::setup && uri == options_.tracker;
   if (uri.empty() || !(live || asked_for || uses_calibration(current_)))
     throw InputError("set-up", "", "no tracker with a sensor is used",
@@ -131,25 +131,25 @@ void Trainer::open_setup() {
   SetupGiven given;
   given.landmarks = landmarks_for(loaded_case_->subject.name, options_.landmarks);
   if (!options_.drawing.empty()) given.drawing = read_probe_drawing(options_.drawing);
-  session_.reset();  // which lets go of the tracker
+  mode_ = Idle();  // which lets go of the tracker
   calibration_warning_.clear();
-  setup_ = std::make_unique<SetupWizard>(open_tracker(sensor_uri(uri, false), loaded_case_->surroundings),
-                                         std::move(base), std::move(given), file);
+  mode_ = SettingUp{std::make_unique<SetupWizard>(open_tracker(sensor_uri(uri, false), loaded_case_->surroundings),
+                                                  std::move(base), std::move(given), file)};
 }
 
 void Trainer::end_setup() {
-  if (!setup_) return;
-  const std::string missing = why_incomplete(setup_->calibration());
+  if (!setup()) return;
+  const std::string missing = why_incomplete(setup()->calibration());
   if (options_.mode == Mode::setup) options_.mode = Mode::practice;
   options_.tracker = current_.tracker;
-  if (missing.empty()) options_.calibration = setup_->file();
+  if (missing.empty()) options_.calibration = setup()->file();
   why_not_calibrated_.clear();
   setup_left_ = !missing.empty();
-  setup_.reset();
+  mode_ = Idle();
   const Request again = current_;
   attempt([&] { begin(loaded_case_, again); });
-  if (!session_ && in_exam()) return;
-  if (!session_) return load(Request());
+  if (!session() && in_exam()) return;
+  if (!session()) return load(Request());
   if (setup_left_)
     calibration_warning_ = "The set-up is not complete: the step '" + missing +
                            "' is still to be made. The probe is where the tracker's first pose put it.";

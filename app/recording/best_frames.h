@@ -1,0 +1,36 @@
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "app/pictures/pictures.h"
+#include "app/session/session.h"
+#include "scenarios/report/report.h"
+#include "sim/core/image.h"
+
+namespace insonate {
+
+/// Keeps, for each step of an attempt, the ultrasound picture of the moment at which its view was held best.
+class BestFrames {
+public:
+  /// Whether the view is held for longer than in the frame that is kept, by a tenth of what the step asks for: draw,
+  /// then keep().
+  bool due(const Session& session) const;
+  /// Keeps the picture that was drawn last, marker on the left.
+  void keep(const Session& session, const Pictures& pictures);
+  /// Forgets frames of attempts before the session's.
+  void forget_older(const Session& session);
+
+  /// Returns the last step's; nullptr when no view was held.
+  const Image<Rgba8>* last() const { return frames_.empty() ? nullptr : &frames_.rbegin()->second; }
+  /// Returns for the report each step's best frame, and what the step's view should look like.
+  std::vector<ReportPicture> report_pictures(const Session& session, Pictures& pictures) const;
+
+private:
+  std::map<std::size_t, Image<Rgba8>> frames_;  ///< by step
+  int attempt_ = 0;                             ///< whose frames these are; 0 for none
+  std::size_t step_ = 0;                        ///< of the newest
+  double share_ = 0;                            ///< of the hold, when it was kept
+};
+
+}  // namespace insonate
