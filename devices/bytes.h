@@ -9,7 +9,7 @@ namespace insonate {
 
 using Bytes = std::span<const std::uint8_t>;
 
-/// Little-endian numbers at an offset; the caller has checked the length.
+/// Reads the little-endian number at byte `offset`. The caller has checked that `bytes` is long enough.
 constexpr std::uint16_t u16_at(Bytes bytes, std::size_t offset) {
   return std::uint16_t(bytes[offset] | bytes[offset + 1] << 8);
 }

@@ -10,36 +10,37 @@
 
 namespace insonate {
 
-/// What a calibration calls the tracker of a URI: its kind, what the URI names (a serial number, a host), and its
-/// option `sensor` or `handset`. Of a recording nothing but the kind, as a file's name says nothing of the tracker that
-/// it came from. Throws InputError when the URI is none.
+/// Returns the identity under which a calibration names the tracker of `uri`: its kind, the subject of the URI (a
+/// serial number or a host), and its option `sensor` or `handset`. For a recording it returns the kind alone, because a
+/// file's name does not identify the tracker that was recorded. Throws InputError if `uri` is not a tracker URI.
 TrackerIdentity tracker_identity(std::string_view uri);
 
-/// Whether a URI names a tracker as a lab's own set-up may be kept for it: a device whose sensor sits on a probe. A
-/// recording or a made-up hand is another one each time.
+/// Returns whether a lab can keep a set-up for the tracker of `uri`: true for a device whose sensor sits on a probe. A
+/// recording or a synthetic hand can be a different one each time.
 bool is_a_labs_own(std::string_view uri);
 
-/// Throws InputError for a URI whose tracker places the probe in the patient by itself, such as 'mouse:'.
+/// Throws InputError if the tracker of `uri` places the probe in the patient by itself, such as 'mouse:', or is
+/// 'auto:', which is not one particular tracker.
 void check_can_be_calibrated(std::string_view uri);
 
-/// The tracker of a URI as its sensor tells of itself, not placed on the patient: as it comes, to calibrate it, or
-/// through the filters, to scan with it, unless the URI says itself which.
+/// Returns `uri` changed so that the tracker reports the raw pose of its sensor, not placed in the patient. The samples
+/// are unfiltered, to calibrate with them, or `filtered`, to scan with them. Options that the URI sets itself stay.
 std::string sensor_uri(std::string_view uri, bool filtered);
 
-/// What a set-up of a tracker goes on with: the file's calibration, or an empty one when there is no file. Throws
-/// InputError when the file is unusable or another tracker's.
+/// Returns the calibration from which the set-up of `tracker` continues: the one in `file`, or an empty one if there is
+/// no such file. Throws InputError if the file is unusable or belongs to another tracker.
 Calibration calibration_to_go_on(const std::filesystem::path& file, const TrackerIdentity& tracker);
 
-/// A recorded scan of a sensor's poses as the probe's in the patient. `name` is the calibration's, for the scan's
-/// provenance. Throws std::invalid_argument when the calibration is not complete.
+/// Converts a recorded scan of sensor poses to one of probe poses in the patient. `name` is the calibration's name, for
+/// the scan's provenance. Throws std::invalid_argument if the calibration is not complete.
 RecordedScan calibrated(RecordedScan scan, const Calibration& calibration, const std::string& name);
 
-/// A tracker whose samples hold the pose of its sensor, and which so becomes one of the probe's in the patient. Times,
-/// statuses and buttons stay as they are.
+/// Turns a tracker of sensor poses into a tracker of probe poses in the patient. Times, statuses and buttons stay as
+/// they are.
 class CalibratedTracker : public Tracker {
 public:
-  /// @param name  of the calibration, for the state and a recording's provenance
-  /// Throws std::invalid_argument when the calibration is not complete.
+  /// @param name  the calibration's name, for the state and a recording's provenance
+  /// Throws std::invalid_argument if the calibration is not complete.
   CalibratedTracker(std::unique_ptr<Tracker> sensor, Calibration calibration, const std::string& name);
 
   const Recording* recording() const override { return recording_ ? &*recording_ : nullptr; }

@@ -4,8 +4,8 @@
 
 namespace insonate {
 
-/// CRC-16 with polynomial 0x1021, the highest bit first, neither reflected nor inverted; `start` is the register's
-/// first value. From 0 it is the one that catalogues call XMODEM ("123456789" gives 0x31c3).
+/// Returns the CRC-16 with polynomial 0x1021, most significant bit first, neither reflected nor inverted. `start` is
+/// the initial value of the register. With 0 it is the CRC that catalogues call XMODEM ("123456789" gives 0x31c3).
 constexpr std::uint16_t crc16_1021(Bytes bytes, std::uint16_t start) {
   std::uint16_t crc = start;
   for (const std::uint8_t byte : bytes) {
@@ -15,7 +15,7 @@ constexpr std::uint16_t crc16_1021(Bytes bytes, std::uint16_t start) {
   return crc;
 }
 
-/// CRC-16/ARC: polynomial 0x8005, the lowest bit first, from 0 ("123456789" gives 0xbb3d).
+/// Returns the CRC-16/ARC: polynomial 0x8005, least significant bit first, initial value 0 ("123456789" gives 0xbb3d).
 constexpr std::uint16_t crc16_arc(Bytes bytes) {
   std::uint16_t crc = 0;
   for (const std::uint8_t byte : bytes) {

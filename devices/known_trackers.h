@@ -7,18 +7,18 @@ namespace insonate {
 
 enum class Bus { hid, usb };
 
-/// A tracker that can be told by its USB vendor and product numbers.
+/// A tracker that is recognised by its USB vendor and product numbers.
 struct KnownTracker {
   Bus bus;
   std::uint16_t vendor;
   std::uint16_t product;  ///< or kAnyProduct
   std::string_view name;
-  std::string_view note;  ///< what a person should know of it now; may be empty
+  std::string_view note;  ///< what users should know about it at present; may be empty
 };
 
 inline constexpr std::uint16_t kAnyProduct = 0;
 
-/// The tracker with these numbers on this bus, or nullptr.
+/// Returns the tracker with these numbers on this bus, or nullptr if it is unknown.
 const KnownTracker* known_tracker(Bus bus, std::uint16_t vendor, std::uint16_t product);
 
 }  // namespace insonate

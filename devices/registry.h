@@ -11,32 +11,31 @@
 
 namespace insonate {
 
-/// A kind of tracker. A new one is a folder with its class and a function that opens or makes it, and a line in
-/// registry.cpp. One of the two is there.
+/// A kind of tracker. A new kind needs a folder with its class and a function that opens or makes it, and an entry in
+/// registry.cpp. Exactly one of `open` and `make` is set.
 struct TrackerKind {
   std::string_view scheme;   ///< "replay"
   std::string_view form;     ///< "replay:FILE[?speed=2&loop=1]"
-  std::string_view summary;  ///< one line for people
+  std::string_view summary;  ///< one line for users
   std::unique_ptr<Tracker> (*open)(const TrackerUri& uri, const TrackerContext& context);
-  /// The source of a LiveTracker.
+  /// Makes the source of a LiveTracker.
   std::unique_ptr<RawSource> (*make)(const TrackerUri& uri, const TrackerContext& context) = nullptr;
 };
 
-/// Every kind this build has.
+/// Returns all kinds of tracker in this build.
 std::span<const TrackerKind> tracker_kinds();
 
-/// Opens the tracker that `uri` names. `filter` and `distortion`
-/// are options of every live tracker (take_filter_options). Throws
-/// InputError when there is no such kind, an option or its value is not allowed, or what it names (a file) cannot be
-/// used.
+/// Opens the tracker that `uri` names. Every live tracker accepts the options `filter` and `distortion`
+/// (take_filter_options). Throws InputError if there is no such kind, if an option or its value is not allowed, or if
+/// the file that the URI names cannot be used.
 std::unique_ptr<Tracker> open_tracker(std::string_view uri, const TrackerContext& context = {});
 
-/// Opens the tracker that `uri` names unless it is a device, of which only the URI is checked: nullptr. Throws what
-/// open_tracker() throws, so that a caller can learn it before work that takes long.
+/// Opens the tracker that `uri` names, unless it is a device. For a device it checks the URI alone and returns nullptr.
+/// Throws what open_tracker() throws, so that a caller detects errors before long work.
 std::unique_ptr<Tracker> open_unless_device(std::string_view uri);
 
-/// The source of the tracker that `uri` names, for one whose samples come of bytes. Throws InputError as open_tracker()
-/// does, and for all others.
+/// Returns the source of the tracker that `uri` names, if its samples are parsed from a device's bytes. Throws
+/// InputError for all other trackers, and as open_tracker() does.
 std::unique_ptr<RawSource> make_raw_source(const TrackerUri& uri, const TrackerContext& context);
 
 }  // namespace insonate

@@ -9,36 +9,38 @@
 
 namespace insonate {
 
-/// Why the bytes of a report were not taken.
+/// Why a parser refused the bytes of a report.
 enum class ReportFault {
   none,
-  length,    ///< shorter or longer than such a report is
-  header,    ///< does not begin as such a report does
-  checksum,  ///< its own checksum disagrees
+  length,    ///< shorter or longer than a report of this kind
+  header,    ///< does not begin like a report of this kind
+  checksum,  ///< the report's own checksum does not match
 };
 
 std::string_view to_string(ReportFault fault);
 
-/// What a parser makes of a report's bytes; `report` is meaningful only without a fault.
+/// Result of parsing a report's bytes. `report` is meaningful only if there is no fault.
 template <typename Report>
 struct Parsed {
   ReportFault fault = ReportFault::none;
   Report report;
 };
 
-/// One sensor of a tracker that tells place and direction, in the tracker's own frame and as the device says it.
+/// Reading of one sensor that measures position and orientation, in the tracker's own frame and as the device reports
+/// it.
 struct SensorReading {
   std::uint32_t sensor = 0;  ///< from 0
-  /// ok, or `invalid` when the device flags an error or gives numbers that are no pose; then the pose means nothing.
+  /// ok, or `invalid` if the device flags an error or its numbers are not a pose. In that case the pose is meaningless.
   PoseStatus status = PoseStatus::invalid;
-  Pose tracker_from_sensor;                 ///< mm
-  std::uint32_t buttons = 0;                ///< as the device numbers them
-  std::optional<std::uint32_t> distortion;  ///< as the device grades it; empty of one that does not say
+  Pose tracker_from_sensor;   ///< mm
+  std::uint32_t buttons = 0;  ///< numbered as the device numbers them
+  std::optional<std::uint32_t>
+      distortion;  ///< distortion grade as the device reports it; empty if the device reports none
 };
 
-/// Sets pose and status from millimetres and a quaternion, which is normalised. `invalid` when a number is not finite,
-/// the place is farther than 10 m, or the quaternion's length is off 1 by more than a tenth: rounding to 16 bits leaves
-/// 1e-4, and what is that far off is no rotation.
+/// Sets pose and status from a position in millimetres and a quaternion, which is normalised. The status is `invalid`
+/// if a number is not finite, if the position is farther than 10 m, or if the quaternion's length differs from 1 by
+/// more than 0.1. Rounding to 16 bits leaves an error of 1e-4, so a larger difference means that it is not a rotation.
 void set_pose(SensorReading& reading, const glm::dvec3& mm, double w, double x, double y, double z);
 
 }  // namespace insonate

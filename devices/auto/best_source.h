@@ -10,10 +10,10 @@
 
 namespace insonate {
 
-/// The first of several devices that can be opened, looked for again each time it is lost.
+/// The first of several devices that can be opened. The search is repeated each time the device is lost.
 class BestSource : public RawSource {
 public:
-  /// From the best to the worst.
+  /// `sources` are ordered from the best to the worst.
   explicit BestSource(std::vector<std::unique_ptr<RawSource>> sources) : sources_(std::move(sources)) {}
 
   std::string name() const override { return "the best tracker that is plugged in, without a calibration"; }
@@ -32,11 +32,11 @@ public:
 private:
   std::vector<std::unique_ptr<RawSource>> sources_;
   RawSource* opened_ = nullptr;
-  std::atomic<bool> relative_{false};  ///< of the one that is or was open
+  std::atomic<bool> relative_{false};  ///< of the source that is or was open
 };
 
-/// auto: those that tell place and direction before the one that tells direction and the one that tells speed. Throws
-/// InputError.
+/// Makes auto:. Trackers that measure position and orientation come first, then the one that measures orientation, then
+/// the one that measures speed. Throws InputError.
 std::unique_ptr<RawSource> make_best(const TrackerUri& uri, const TrackerContext& context);
 
 }  // namespace insonate

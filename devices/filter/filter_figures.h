@@ -5,28 +5,28 @@
 
 #include "devices/filter/sample_filters.h"
 
-// What the filters do to made-up hands, in figures: insonate-devices bench prints them, and the tests hold them against
-// what the headers promise. The same every time.
+// Measures the filters on synthetic hand motions. insonate-devices bench prints the results, and the tests compare them
+// with what the headers promise. The results are the same every time.
 
 namespace insonate {
 
-/// A sensor with 0.10 mm of white noise on each axis, before and after the filters.
+/// Effect of the filters on a sensor with 0.10 mm of white noise on each axis.
 struct SmoothingFigures {
-  double rest_before_mm = 0;  ///< RMS of an axis of a sensor that lies still
+  double rest_before_mm = 0;  ///< RMS of one axis of a sensor at rest
   double rest_after_mm = 0;
-  double lag_s = 0;  ///< behind a sweep to and fro of 100 mm/s at its middle, to 0.25 ms
+  double lag_s = 0;  ///< lag behind a sinusoidal sweep at its middle, where the speed is 100 mm/s, to 0.25 ms
 };
 SmoothingFigures measure_smoothing(const FilterSettings& settings, double rate_hz);
 
-/// How far the shown pose is from where the probe is when the newest sample is `ahead_s` old, RMS, along a hand's
-/// smooth way at about 90 mm/s with 0.10 mm of noise on each axis.
+/// RMS distance between the shown pose and the true pose of the probe when the newest sample is `ahead_s` old. The hand
+/// moves smoothly at about 90 mm/s, with 0.10 mm of noise on each axis.
 struct PredictionFigures {
-  double held_mm = 0;       ///< the newest sample as it is
-  double predicted_mm = 0;  ///< PoseHistory's answer
+  double held_mm = 0;       ///< with the newest sample as it is
+  double predicted_mm = 0;  ///< with PoseHistory's prediction
 };
 PredictionFigures measure_prediction(double rate_hz, double ahead_s);
 
-/// Samples that no hand has made, put among a hand's: single ones elsewhere, and spells of the other hemisphere.
+/// Results for impossible samples among those of a hand: single strays, and spells in the other hemisphere.
 struct RejectionFigures {
   std::size_t good = 0, good_rejected = 0;
   std::size_t strays = 0, strays_rejected = 0;
@@ -34,14 +34,14 @@ struct RejectionFigures {
 };
 RejectionFigures measure_rejection(const FilterSettings& settings, double rate_hz);
 
-/// A hand that passes a piece of steel again and again, which draws the readings towards it by up to 100 mm, and a
-/// tracker that grades each reading by how far it is off. How well a real one does that, only it can tell.
+/// Results for a hand that passes a piece of steel again and again. The steel shifts the readings towards it by up to
+/// 100 mm. The tracker grades each reading by its error. Only a real tracker can show how well it grades.
 struct DistortionFigures {
-  double worst_before_mm = 0, worst_after_mm = 0;  ///< off where the probe is, among the samples that are handed over
+  double worst_before_mm = 0, worst_after_mm = 0;  ///< distance from the true position, among the samples that pass
   double rms_before_mm = 0, rms_after_mm = 0;
-  double rejected = 0;  ///< share of the samples
+  double rejected = 0;  ///< fraction of the samples
 };
-/// At 60 Hz, with the gate's limit on a scale where a millimetre is one grade.
+/// Measures at 60 Hz, with the gate's limit on a scale where 1 mm is one grade.
 DistortionFigures measure_distortion(std::uint32_t most_distortion);
 
 }  // namespace insonate

@@ -11,37 +11,37 @@
 
 namespace insonate {
 
-/// What is done to a tracker's samples between the device and whoever uses them.
+/// The filters that are applied to a tracker's samples before they are published.
 struct FilterSettings {
   bool outlier = false;     ///< OutlierGate
   bool one_euro = false;    ///< OneEuroFilter
-  bool distortion = false;  ///< rejects what the tracker itself grades worse than most_distortion
-  /// On the tracker's own scale (PoseSample::distortion); samples without a grade pass.
+  bool distortion = false;  ///< rejects samples that the tracker itself grades worse than most_distortion
+  /// Limit on the tracker's own scale (PoseSample::distortion). Samples without a grade pass.
   std::uint32_t most_distortion = 0;
 
-  /// Those that need no figure from a person.
+  /// Returns the default filters: those that need no number from a person.
   static FilterSettings usual() { return {.outlier = true, .one_euro = true}; }
   bool operator==(const FilterSettings&) const = default;
 };
 
-/// The settings as a person writes them: "1euro,outlier", or "off".
+/// Returns the settings in the form of a URI option: "1euro,outlier", or "off".
 std::string to_string(const FilterSettings& settings);
 
-/// Takes `filter` and `distortion` out of a tracker's options: `?filter=off`, `?filter=1euro,outlier`,
-/// `?distortion=20`. When `filter` is not given the usual ones are on, or none where `?raw=1` asks for the poses as
-/// they come, and `distortion` is where its limit is given. Throws InputError when a filter is unknown, or when
-/// `distortion` has no limit or none that is a whole number.
+/// Removes `filter` and `distortion` from a tracker's options and returns their settings. Examples: `?filter=off`,
+/// `?filter=1euro,outlier`, `?distortion=20`. Without `filter` the usual filters are on, or none if `?raw=1` asks for
+/// raw poses. A given `distortion` limit switches that filter on. Throws InputError if a filter is unknown, or if
+/// `distortion` has no limit or one that is not a whole number.
 FilterSettings take_filter_options(TrackerUri& uri);
 
-/// The filters of one tracker. A rejected sample becomes `invalid`, loses its pose and says why (PoseSample::rejected):
-/// the others see that the tracker said something at that time, and nothing moves. Those that are not ok pass
-/// untouched.
+/// The filters of one tracker. A rejected sample becomes `invalid`, loses its pose and gets a reason
+/// (PoseSample::rejected). So consumers see that the tracker sent something at that time, but nothing moves. Samples
+/// that are not ok pass unchanged.
 class SampleFilters {
 public:
   explicit SampleFilters(const FilterSettings& settings) : settings_(settings) {}
   SampleFilters() : SampleFilters(FilterSettings()) {}
 
-  /// To be called for each sample, in order. `origin` is that of a magnetic tracker in the samples' frame.
+  /// Call it for each sample, in order. `origin` is that of a magnetic tracker in the samples' frame.
   void apply(PoseSample& sample, const std::optional<glm::dvec3>& origin = {});
 
   const FilterSettings& settings() const { return settings_; }

@@ -4,7 +4,7 @@
 
 namespace insonate {
 
-/// Every HID device that is plugged in, once each interface, by hidapi and the kernel's hidraw.
+/// All HID devices that are plugged in, through hidapi and the kernel's hidraw, with one entry per interface.
 class HidBus : public DeviceBus {
 public:
   AttachedDevices devices() override;

@@ -8,8 +8,8 @@
 
 namespace insonate {
 
-/// One handset of a Razer Hydra. The magnetic field has two sides that look the same: the handset must lie in its dock
-/// when the device is started, and one that comes close to the base later can come back mirrored.
+/// One handset of a Razer Hydra. The magnetic field looks the same on two sides. So the handset must lie in its dock
+/// when the device is started, and a handset that later comes close to the base can come back mirrored.
 class HydraSource : public MagneticSource {
 public:
   HydraSource(std::shared_ptr<DeviceBus> bus, const std::string& serial, std::size_t handset,
@@ -25,7 +25,7 @@ private:
   ReportNumbers numbers_{256};
 };
 
-/// hydra:[SERIAL][?handset=2&raw=1]. Throws InputError.
+/// Makes hydra:[SERIAL][?handset=2&raw=1]. Throws InputError.
 std::unique_ptr<RawSource> make_hydra(const TrackerUri& uri, const TrackerContext& context);
 
 }  // namespace insonate

@@ -10,13 +10,13 @@
 
 namespace insonate::igtl {
 
-/// The addresses of a host. A name is asked for on a thread that nobody waits for, because the answer may take as long
-/// as the network likes, and longer than whoever asked lives.
+/// Looks up the addresses of a host. A name is resolved on a detached thread, because the network may take any time to
+/// answer, even longer than the caller lives.
 class HostLookup {
 public:
   HostLookup(const std::string& host, std::uint16_t port);
 
-  /// Empty until the answer is there; no addresses when there is no such host.
+  /// Returns nothing until the answer has arrived, and an empty list if there is no such host.
   std::optional<std::vector<Address>> answer() const;
 
 private:

@@ -12,9 +12,9 @@
 #include "sim/core/image.h"
 #include "sim/core/pose.h"
 
-// Messages of OpenIGTLink as bytes and as values: pure functions, no sockets. The format is that of
-// https://github.com/openigtlink/OpenIGTLink/tree/master/Documents/Protocol: numbers big-endian, a header of 58 bytes,
-// a body of the size that the header tells. Lengths in mm.
+// Converts OpenIGTLink messages between bytes and values: pure functions, no sockets. The format is that of
+// https://github.com/openigtlink/OpenIGTLink/tree/master/Documents/Protocol: big-endian numbers, a header of 58 bytes,
+// and a body of the size that the header states. Lengths are in mm.
 namespace insonate::igtl {
 
 inline constexpr std::size_t kHeaderBytes = 58;
@@ -26,13 +26,13 @@ using ByteView = std::span<const std::uint8_t>;
 struct Header {
   std::uint16_t version = 1;
   std::string type;         ///< up to 12 characters: "TRANSFORM"
-  std::string name;         ///< of the device, up to 20: "ProbeToTracker"
-  std::uint64_t stamp = 0;  ///< seconds since 1970 in units of 2^-32; 0 when the sender tells none
+  std::string name;         ///< name of the device, up to 20 characters: "ProbeToTracker"
+  std::uint64_t stamp = 0;  ///< seconds since 1970 in units of 2^-32; 0 if the sender gives none
   std::uint64_t body_bytes = 0;
   std::uint64_t crc = 0;  ///< of the body
 };
 
-/// CRC-64 of ECMA-182: polynomial 0x42F0E1EBA9EA3693, starting at 0, unreflected.
+/// Returns the CRC-64 of ECMA-182: polynomial 0x42F0E1EBA9EA3693, initial value 0, not reflected.
 std::uint64_t crc64(ByteView bytes, std::uint64_t before = 0);
 
 Header parse_header(std::span<const std::uint8_t, kHeaderBytes> bytes);
@@ -43,36 +43,37 @@ struct Parts {
   ByteView metadata_index;
   ByteView metadata;
 };
-/// Empty when the sizes in it do not fit.
+/// Splits a body. Returns nothing if the sizes in it do not fit.
 std::optional<Parts> parts_of(const Header& header, ByteView body);
 
-/// The value of a key of the metadata, at most 64 characters; empty when there is none.
+/// Returns the metadata value of `key`, cut to 64 characters; empty if there is none.
 std::string metadata_value(const Parts& parts, std::string_view key);
 
-/// The matrix of a TRANSFORM. Empty when the content has another size; any numbers pass.
+/// Returns the matrix of a TRANSFORM. Empty if the content has another size; the numbers are not checked.
 std::optional<glm::dmat4> parse_transform(ByteView content);
 
-/// What a STATUS says.
+/// Content of a STATUS message.
 struct Status {
-  std::uint16_t code = 0;  ///< 1: all is well; the others are the protocol's
-  std::string text;        ///< for people; at most 200 characters
+  std::uint16_t code = 0;  ///< 1: no error; the protocol defines the others
+  std::string text;        ///< for users; at most 200 characters
 };
 inline constexpr std::uint16_t kStatusOk = 1;
 std::optional<Status> parse_status(ByteView content);
 
-/// Seconds since 1970 as a header's stamp, and back.
+/// Converts seconds since 1970 to a header's time stamp, and back.
 std::uint64_t stamp_of(double seconds);
 double seconds_of(std::uint64_t stamp);
 
-// Whole messages, header version 1. A name longer than 20 characters is cut.
+// The next functions return whole messages with header version 1. Names longer than 20 characters are cut.
 
 Bytes make_message(std::string_view type, std::string_view name, std::uint64_t stamp, ByteView body);
 Bytes make_transform(std::string_view name, std::uint64_t stamp, const Pose& pose);
 Bytes make_status(std::string_view name, std::uint64_t stamp, const Status& status);
-/// Text beyond 65535 bytes is cut.
+/// Cuts text beyond 65535 bytes.
 Bytes make_string(std::string_view name, std::uint64_t stamp, std::string_view text);
-/// A grey picture in space: its pixel (0, 0) is the first, rows go along `image_from`'s x and columns along its y, both
-/// of length `mm_per_pixel`, and the origin of `pose` is the middle of the picture. Coordinates are said to be RAS.
+/// Makes an IMAGE message of a greyscale picture in space. Its pixel (0, 0) comes first. Rows run along the x axis of
+/// `pose` and columns along its y axis, both with `mm_per_pixel`. The translation of `pose` is the centre of the
+/// picture. The message declares its coordinates as RAS.
 Bytes make_image(std::string_view name, std::uint64_t stamp, const Image<std::uint8_t>& picture, const Pose& pose,
                  double mm_per_pixel);
 

@@ -6,36 +6,38 @@
 
 namespace insonate::igtl {
 
-/// Cuts a stream of bytes, as it comes in pieces of any size, into messages.
+/// Splits a stream of bytes, which arrives in pieces of any size, into messages.
 ///
-/// It keeps one header and one body of at most kMostKept bytes, whatever the stream announces: bodies of types that
-/// nobody asked for and bodies that are too large are passed over by their size, unseen.
+/// It stores one header and one body of at most kMostKept bytes, whatever sizes the stream announces. Bodies of
+/// unwanted types and bodies that are too large are skipped by their size.
 class MessageReader {
 public:
   /// Enough for every kind of message with a few numbers or a sentence in it.
   static constexpr std::uint64_t kMostKept = 64 * 1024;
-  /// A volume of 512 x 512 x 256 voxels of 16 bits with room to spare; what announces more is no message.
+  /// A volume of 512 x 512 x 256 voxels of 16 bits, with room to spare. A larger announced body means that it is not a
+  /// message.
   static constexpr std::uint64_t kMostPassed = 512ull * 1024 * 1024;
 
   enum class Damage { none, crc, not_igtl };
 
-  /// `wanted` says whether a message's body is kept; `take` gets the bodies of those that are whole.
+  /// `wanted` returns whether to store a message's body. `take` receives the bodies that arrived undamaged.
   MessageReader(std::function<bool(const Header&)> wanted, std::function<void(const Header&, ByteView)> take)
       : wanted_(std::move(wanted)), take_(std::move(take)) {}
 
-  /// not_igtl means that the stream cannot be read on; crc that at least one message was not whole and was left out.
+  /// Parses the next bytes. Returns not_igtl if the stream cannot be read further, or crc if at least one message was
+  /// damaged and was skipped.
   Damage feed(ByteView bytes);
 
-  /// Whether the bytes so far end within a message, be it one that is passed over.
+  /// Returns whether the bytes so far end inside a message, including a skipped one.
   bool in_message() const { return in_body_ || !kept_.empty() || passing_ > 0; }
 
 private:
   std::function<bool(const Header&)> wanted_;
   std::function<void(const Header&, ByteView)> take_;
-  Bytes kept_;  ///< of the message under way: of its header, or in_body_ of its body
+  Bytes kept_;  ///< bytes of the current message: of its header, or of its body if in_body_
   Header header_;
   bool in_body_ = false;
-  std::uint64_t passing_ = 0;  ///< bytes yet to be passed over
+  std::uint64_t passing_ = 0;  ///< bytes still to skip
 };
 
 }  // namespace insonate::igtl

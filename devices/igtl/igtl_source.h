@@ -16,25 +16,26 @@
 
 namespace insonate::igtl {
 
-/// Where a client connects to and what it takes from there.
+/// Where a client connects, and which transform it takes.
 struct ClientRequest {
   std::string host;
   std::uint16_t port = kDefaultPort;
-  std::string name;           ///< of the transform; empty: the first that comes
+  std::string name;           ///< name of the transform; empty: the first that arrives
   bool ras = false;           ///< transforms lead to RAS instead of LPS
-  bool sender_times = false;  ///< steps between samples are those of the messages' own times
-  SenderClock clock;          ///< that takes them to ours
+  bool sender_times = false;  ///< steps between samples follow the senders' time stamps
+  SenderClock clock;          ///< converts the sender's times to ours
 };
 
-/// Poses from an OpenIGTLink server: its TRANSFORM messages. Reading never waits longer than asked, and what the server
-/// sends is bounded by MessageReader, whatever it is.
+/// Receives poses from an OpenIGTLink server: its TRANSFORM messages. read() never waits longer than its timeout.
+/// MessageReader bounds the memory used, whatever the server sends.
 ///
-/// Samples are stamped when their bytes arrive, or with `sender_times` by their messages' own stamps (SenderClock).
+/// Samples are stamped when their bytes arrive, or with `sender_times` by the stamps of their messages (SenderClock).
 class ClientSource : public RawSource {
 public:
-  static constexpr double kConnect_s = 3.0;      ///< a host that has not answered by then is asked again later
-  static constexpr double kNameMissing_s = 2.0;  ///< after so long without the transform that was named, say so
-  static constexpr double kStatusTold_s = 5.0;   ///< for so long a STATUS is told that nothing has revoked
+  static constexpr double kConnect_s = 3.0;      ///< a host that has not answered by then is tried again later
+  static constexpr double kNameMissing_s = 2.0;  ///< users are informed if the named transform is missing for this long
+  static constexpr double kStatusTold_s =
+      5.0;  ///< a STATUS error is shown for this long, unless a later STATUS revokes it
 
   explicit ClientSource(ClientRequest request);
 
@@ -62,24 +63,25 @@ private:
   std::vector<Address> untried_;
   Socket socket_;
   bool connected_ = false;
-  double since_s_ = 0;  ///< of the lookup, then of the try to connect, then of the connection or the newest sample
+  double since_s_ = 0;  ///< start of the lookup, then of the attempt to connect, then of the connection, then time of
+                        ///< the newest sample
   std::unique_ptr<MessageReader> reader_;
-  LiveBatch* batch_ = nullptr;  ///< where the message goes that is being read
+  LiveBatch* batch_ = nullptr;  ///< where the message being read goes
   double arrival_s_ = 0;
 
-  std::string followed_;             ///< the transform that is taken
-  std::vector<std::string> others_;  ///< names that came but are not taken, some of them
-  std::string status_;               ///< what the server's last STATUS complained of
-  double status_s_ = 0;              ///< when that came
-  std::uint64_t damaged_ = 0;        ///< messages whose CRC was wrong
-  std::string failure_;              ///< why the last connection failed, until a sample comes
+  std::string followed_;             ///< name of the transform that is used
+  std::vector<std::string> others_;  ///< up to six names of other transforms that arrived
+  std::string status_;               ///< error text of the server's last STATUS
+  double status_s_ = 0;              ///< when the last STATUS arrived
+  std::uint64_t damaged_ = 0;        ///< number of messages with a wrong CRC
+  std::string failure_;              ///< why the last connection failed; cleared when a sample arrives
   SenderClock clock_;
 };
 
-/// igtl://host[:port][/name][?frame=ras&time=sender]. Opens nothing yet. Throws InputError.
+/// Makes igtl://host[:port][/name][?frame=ras&time=sender]. Does not connect yet. Throws InputError.
 std::unique_ptr<RawSource> make_igtl(const TrackerUri& uri, const TrackerContext& context);
 
-/// Takes the URI apart. Throws InputError.
+/// Parses the URI. Throws InputError.
 ClientRequest client_request(const TrackerUri& uri);
 
 }  // namespace insonate::igtl

@@ -9,7 +9,7 @@
 
 namespace insonate::igtl {
 
-/// A socket's descriptor, closed at the end.
+/// Owns a socket's descriptor and closes it when destroyed.
 class Socket {
 public:
   Socket() = default;
@@ -28,7 +28,7 @@ private:
   int descriptor_ = -1;
 };
 
-/// Where to connect or listen, IPv4 or IPv6.
+/// An address to connect to or listen at, IPv4 or IPv6.
 struct Address {
   sockaddr_storage storage{};
   socklen_t size = 0;
@@ -38,23 +38,24 @@ struct Address {
   bool is_loopback() const;
 };
 
-/// An address in numbers; an empty one (size 0) when `text` is none. Never asks the network.
+/// Returns the numeric address in `text`; its size is 0 if `text` is not one. Never queries the network.
 Address numeric_address(const std::string& text, std::uint16_t port);
 
-/// Starts to connect without waiting; the socket turns writable when that ended, well or not. Throws std::system_error.
+/// Starts to connect without waiting. The socket becomes writable when the attempt has ended, successful or not. Throws
+/// std::system_error.
 Socket begin_connect(const Address& address);
 
-/// How a begun connection ended: 0, or an errno.
+/// Returns how a begun connection ended: 0, or an errno.
 int connect_error(const Socket& socket);
 
-/// Listens without waiting; port 0 takes a free one. Throws std::system_error.
+/// Listens without waiting; port 0 chooses a free one. Throws std::system_error.
 Socket listen_on(const Address& address);
 
-/// Limits what the kernel keeps of a connection, or of all that a listener accepts: so many bytes each way, of which
-/// Linux takes twice as many for what lies around them.
+/// Limits the kernel's buffers of a connection, or of all connections that a listener accepts, in bytes per direction.
+/// Linux doubles the values to cover its own overhead.
 void limit_buffers(const Socket& socket, int send_bytes, int receive_bytes);
 
-/// Where a socket is bound.
+/// Returns the address to which a socket is bound.
 Address bound_address(const Socket& socket);
 
 }  // namespace insonate::igtl

@@ -5,14 +5,15 @@
 
 namespace insonate {
 
-/// Takes a thread that was asked to end, from an owner who does not wait for it. The process waits for it at its end.
+/// Takes over a thread that has been asked to end, from an owner that does not wait for it. The process waits for the
+/// thread at its exit.
 void detach_thread(std::jthread thread);
 
-/// Waits until every thread that was left before has ended; returns at once when the calling thread, whose token `stop`
-/// is, was itself asked to end, so that no two ever wait for each other.
+/// Waits until all threads that were detached before have ended. Returns at once if the calling thread, whose token is
+/// `stop`, has itself been asked to end, so that no two threads wait for each other.
 void join_detached_threads(const std::stop_token& stop);
 
-/// How many threads wait in join_detached_threads() now, for a thread that was left.
+/// Returns how many threads are waiting in join_detached_threads() now.
 int waiting_for_detached_threads();
 
 }  // namespace insonate

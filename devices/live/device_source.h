@@ -15,7 +15,7 @@
 
 namespace insonate {
 
-/// Which devices on a bus a tracker can use, and what people call them.
+/// Which devices on a bus a tracker can use, and what users call them.
 struct DeviceKind {
   struct Model {
     std::uint16_t vendor;
@@ -24,25 +24,25 @@ struct DeviceKind {
   };
   std::string_view name;  ///< "Razer Hydra"
   std::span<const Model> models;
-  int interface_number = -1;  ///< the HID's that sends poses; -1 for a device with one
-  bool steady = true;         ///< sends without end, so that silence is a fault
+  int interface_number = -1;  ///< number of the HID interface that sends poses; -1 for a device with a single interface
+  bool steady = true;         ///< true: the device sends continuously, so silence is a fault
 };
 
-/// The device that a tracker is to use: the first of its kind that is plugged in, or the one with the serial number.
-/// Throws TransportError, `absent`, with the sentence that says what is there instead: nothing, other serial numbers,
-/// or a device that waits for its firmware.
+/// Returns the device that a tracker uses: the first of its kind that is plugged in, or the one with serial number
+/// `serial`. Throws TransportError with fault `absent` if there is none. Its sentence states what is there instead:
+/// nothing, other serial numbers, or a device that waits for its firmware.
 AttachedDevice find_device(const DeviceKind& kind, const std::string& serial, const AttachedDevices& attached);
 
-/// The policy that all trackers on a bus share: find the device, start it, start it again when it says nothing, count
-/// what it sends, and let go of it when it is lost. What its bytes mean is for the class that derives.
+/// The behaviour that all trackers on a bus share: find the device, start it, start it again when it is silent, count
+/// its reports, and release it when it is lost. The derived class interprets the bytes.
 class DeviceSource : public RawSource {
 public:
-  /// A device that was told to send and does not is told again after so long. The Hydra needs this long.
+  /// A device that was asked to send and is silent for this long is asked again. The Hydra needs this long to start.
   static constexpr double kStartS = 5;
-  /// For so long after an incident people are told of it.
+  /// Users are informed of an incident for this long.
   static constexpr double kToldS = 2;
 
-  /// `clock_s` is the tests' to replace.
+  /// `clock_s` is replaced by the tests.
   DeviceSource(const DeviceKind& kind, std::shared_ptr<DeviceBus> bus, std::string serial,
                std::function<double()> clock_s = steady_now_s);
 
@@ -56,19 +56,19 @@ public:
   const ReportTally& tally() const { return tally_; }
 
 protected:
-  /// What follows the device's name, for people.
+  /// Text that follows the device's name, for users.
   virtual std::string_view remark() const { return ""; }
 
-  /// Sends what makes the device send poses. Called when it was opened, and again whenever it has been silent for
-  /// kStartS. Throws TransportError.
+  /// Sends the commands that make the device send poses. Called after the device was opened, and again whenever it has
+  /// been silent for kStartS. Throws TransportError.
   virtual void start(Transport& transport, const AttachedDevice& device) = 0;
 
-  /// Sends what ends it. May throw: nobody minds.
+  /// Sends the commands that stop it. May throw: errors are ignored.
   virtual void stop(Transport&) {}
 
-  /// Takes what one read brought, which is nothing when the time ran out; `time_s` is when it came. Appends samples and
-  /// counts in `tally`; what else people should know goes into the batch's note. Returns whether it was what the device
-  /// sends once it has started.
+  /// Parses the bytes of one read, which are empty if the read timed out. `time_s` is their time of arrival. Appends
+  /// samples, and counts reports in `tally`. Other facts that users should know go into the batch's note. Returns
+  /// whether the bytes are what the device sends once it has started.
   virtual bool take(Bytes bytes, double time_s, LiveBatch& batch, ReportTally& tally) = 0;
 
 private:
@@ -83,9 +83,9 @@ private:
   AttachedDevice device_;
   std::unique_ptr<Transport> transport_;
   std::vector<std::uint8_t> buffer_;
-  double asked_s_ = 0;    ///< when it was last told to send
+  double asked_s_ = 0;    ///< when the device was last asked to send
   double heard_s_ = 0;    ///< when it last sent what it should
-  bool started_ = false;  ///< whether it ever did since it was opened
+  bool started_ = false;  ///< whether it has done so since it was opened
   int starts_ = 0;
   std::uint64_t incidents_ = 0;
   double incident_s_ = 0;

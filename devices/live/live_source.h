@@ -12,41 +12,41 @@
 
 namespace insonate {
 
-/// What one read brought.
+/// Result of one read.
 struct LiveBatch {
-  std::vector<PoseSample> samples;  ///< time_s by steady_now_s(), taken as soon as the bytes were there
-  std::string note;                 ///< what people should know while the device is open, as a sentence; mostly empty
+  std::vector<PoseSample> samples;  ///< time_s is from steady_now_s(), taken as soon as the bytes arrived
+  std::string note;                 ///< what users should know while the device is open, as a sentence; usually empty
 };
 
-/// A device that gives poses in real time, as a LiveTracker's thread sees it: every call comes from that one thread,
-/// but name() and relative().
+/// A device that delivers poses in real time, as seen by a LiveTracker's thread. That one thread makes all calls except
+/// name() and relative().
 ///
-/// A source that is gone is opened again, after a pause, for as long as the tracker lives; so a device that is plugged
-/// in late, pulled and plugged in again needs nothing more than to say that it is gone.
+/// A source that is gone is opened again, after a pause, for as long as the tracker lives. So a source for a device
+/// that is plugged in late, or pulled out and plugged in again, only has to report that it is gone.
 class LiveSource {
 public:
   virtual ~LiveSource() = default;
 
-  /// What people call it: "Razer Hydra".
+  /// Returns the name that users know it by: "Razer Hydra".
   virtual std::string name() const = 0;
 
-  /// Looks for the device and starts it, which may take a second or two: a bus is listed, a device has to answer. Only
-  /// the tracker's thread waits. Throws SourceGone when it is not there, busy or forbidden, and leaves nothing open
-  /// then.
+  /// Finds the device and starts it. This may take a second or two, because a bus is listed and a device has to answer;
+  /// only the tracker's thread waits. Throws SourceGone if the device is absent, busy or forbidden, and then leaves
+  /// nothing open.
   virtual void open() = 0;
 
-  /// Waits for samples, no longer than `timeout`, and appends to `batch` what came, which may be nothing. Equal or
-  /// falling times are the LiveTracker's to mend. Throws SourceGone when the device is lost.
+  /// Waits for samples, at most `timeout`, and appends those that arrived to `batch`, possibly none. The LiveTracker
+  /// corrects equal or falling times. Throws SourceGone if the device is lost.
   virtual void read(std::chrono::milliseconds timeout, LiveBatch& batch) = 0;
 
-  /// Of a magnetic tracker, where its own origin lies in the frame of its samples: it may take a sensor for its mirror
-  /// image through that point.
+  /// Returns a magnetic tracker's own origin in the frame of its samples; empty for other devices. A magnetic tracker
+  /// can report a sensor as its mirror image through that point.
   virtual std::optional<glm::dvec3> origin() const { return std::nullopt; }
 
-  /// Tracker::relative(). By any thread.
+  /// See Tracker::relative(). Any thread may call it.
   virtual bool relative() const { return false; }
 
-  /// Lets go of the device, which may take as long. Called after each open() that went well.
+  /// Releases the device, which may take as long as open(). Called after each open() that succeeded.
   virtual void close() noexcept = 0;
 };
 

@@ -11,34 +11,35 @@
 
 namespace insonate {
 
-/// A device read by a thread of its own. Whoever polls never waits for it, and whoever ends it hardly.
+/// Reads a device on its own thread. poll() never waits for it, and the destructor waits at most `ending`.
 ///
-/// Its clock is steady_now_s(), and that is what it has to be polled with. The thread starts with the first poll, so
-/// that a tracker which is only asked for its name opens nothing, and ends with the tracker. A device that does not let
-/// go within `ending` is left to its thread, and what is opened next waits for that on a thread of its own: nobody
-/// opens a device that is just being closed.
+/// Its clock is steady_now_s(), and it must be polled with that. The thread starts with the first poll, so a tracker
+/// that is only asked for its name opens nothing. The thread ends with the tracker. If a device does not close within
+/// `ending`, its thread is detached. The thread of the next tracker waits for detached threads before it opens its
+/// device, so no device is opened while it is still being closed.
 ///
-/// Once a sample has come, silence is told by samples of its own: when nothing has come for `silence`, whether the
-/// device is gone or says nothing, a sample `missing` follows, and others at `heartbeat` for as long as it lasts. So an
-/// exam's time goes on without its tracker.
+/// After the first sample, silence is reported by samples too. If nothing has arrived for `silence`, because the device
+/// is gone or silent, the tracker adds a sample `missing`, and further ones every `heartbeat` while the silence lasts.
+/// So the time of an exam continues without its tracker.
 class LiveTracker : public Tracker {
 public:
   struct Options {
-    /// Samples that wait for the next poll: half a second of eight sensors at 1000 Hz.
+    /// Samples that can wait for the next poll: half a second of eight sensors at 1000 Hz.
     std::size_t capacity = 4096;
-    std::chrono::milliseconds read{20};          ///< the longest that a read waits
-    std::chrono::milliseconds first_pause{250};  ///< before a source that is gone is opened again; doubles each time
+    std::chrono::milliseconds read{20};  ///< the longest wait of a read
+    std::chrono::milliseconds first_pause{
+        250};  ///< before a source that is gone is opened again; doubles each time up to longest_pause
     std::chrono::milliseconds longest_pause{2000};
     std::chrono::milliseconds silence{500};
     std::chrono::milliseconds heartbeat{100};
-    std::chrono::milliseconds ending{40};  ///< the longest that ending waits
+    std::chrono::milliseconds ending{40};  ///< the longest wait of the destructor
   };
 
   LiveTracker(std::unique_ptr<LiveSource> source, const Options& options);
   explicit LiveTracker(std::unique_ptr<LiveSource> source) : LiveTracker(std::move(source), Options()) {}
   ~LiveTracker() override;
 
-  /// What is done to the samples, on the thread, before anybody sees them: nothing until told. To be set before the
+  /// Sets the filters that the thread applies to each sample before it is returned; none by default. Call it before the
   /// first poll.
   void set_filters(const FilterSettings& settings);
   const FilterSettings& filters() const;
@@ -55,7 +56,7 @@ protected:
 
 private:
   class Reader;
-  std::shared_ptr<Reader> reader_;  ///< the thread's too, which may outlive this
+  std::shared_ptr<Reader> reader_;  ///< shared with the thread, which may outlive this object
   std::chrono::milliseconds ending_;
   std::string problem_;
   std::jthread thread_;

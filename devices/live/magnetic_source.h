@@ -10,7 +10,7 @@
 
 namespace insonate {
 
-/// A device on a bus that tells where its sensor is, from an origin of its own.
+/// A device on a bus that measures where its sensor is, relative to its own origin.
 class MagneticSource : public DeviceSource {
 public:
   MagneticSource(const DeviceKind& kind, std::shared_ptr<DeviceBus> bus, const std::string& serial,

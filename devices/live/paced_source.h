@@ -10,11 +10,11 @@
 
 namespace insonate {
 
-/// Gives made-up or recorded samples in real time at a steady rate, each stamped when it is given, as a device would:
-/// to try on a desk what else needs one, and to measure.
+/// Delivers synthetic or recorded samples in real time at a steady rate, stamped when they are delivered, as from a
+/// device. It replaces a device in trials and in measurements.
 class PacedSource : public LiveSource {
 public:
-  /// `sample` is called with 0, 1, 2... on the thread that reads; the time of what it returns is replaced.
+  /// The reading thread calls `sample` with 0, 1, 2... and replaces the time of the returned sample.
   PacedSource(std::string name, std::function<PoseSample(std::uint64_t index)> sample, double rate_hz);
 
   std::string name() const override { return name_; }
@@ -22,7 +22,7 @@ public:
   void read(std::chrono::milliseconds timeout, LiveBatch& batch) override;
   void close() noexcept override {}
 
-  /// How many samples were given; by anybody.
+  /// Returns how many samples were delivered. Any thread may call it.
   std::uint64_t given() const { return given_.load(std::memory_order_relaxed); }
 
 private:

@@ -7,11 +7,11 @@
 
 namespace insonate {
 
-/// Brings a sensor's pose in its tracker's frame to the probe's in the patient, before anybody has calibrated: where
-/// the sensor first is, the probe is at its start, and the sensor's axes then are the probe's.
+/// Converts a sensor's pose in its tracker's frame to the probe's in the patient, without a calibration. Where the
+/// sensor is first seen, the probe is at its start pose, and the sensor's axes at that time are the probe's.
 class Placement {
 public:
-  /// `raw`: hand over the sensor's pose in the tracker's frame as it is, for who calibrates.
+  /// @param raw  true: return the sensor's pose in the tracker's frame unchanged, for a calibration
   Placement(const Pose& start, bool raw) : start_(start), raw_(raw) {}
 
   Pose patient_from_probe(const Pose& tracker_from_sensor) {
@@ -20,12 +20,12 @@ public:
     return *patient_from_tracker_ * tracker_from_sensor;
   }
 
-  /// What people have to know of how the probe got where it is; empty for the sensor's own pose.
+  /// Returns what users must know about this placement; empty for raw poses.
   std::string_view remark() const {
     return raw_ ? "" : ", not calibrated: the probe began where the sensor was first seen";
   }
 
-  /// The tracker's own origin in the frame that the poses come in.
+  /// Returns the tracker's own origin in the frame of the returned poses.
   glm::dvec3 origin() const { return patient_from_tracker_ ? patient_from_tracker_->translation : glm::dvec3(0); }
 
 private:

@@ -4,16 +4,16 @@
 
 namespace insonate {
 
-/// What a button on the probe does, as a bit of PoseSample::buttons, whatever tracker it is on.
+/// Function of a button on the probe, as a bit of PoseSample::buttons, for every tracker.
 enum ProbeButton : std::uint32_t {
-  kFreezeButton = 1,  ///< freezes the picture, and thaws it
-  kMarkButton = 2,    ///< marks what the picture shows
-  kGoOnButton = 4,    ///< goes on to the next step
+  kFreezeButton = 1,  ///< freezes and unfreezes the picture
+  kMarkButton = 2,    ///< sets an event marker at what the picture shows
+  kGoOnButton = 4,    ///< continues with the next step
 };
 
 enum class ButtonsOf { hydra, polhemus, spacemouse };
 
-/// A device's own button bits as probe buttons. Those without a meaning are left out.
+/// Converts a device's own button bits to probe buttons. Buttons without a function are dropped.
 std::uint32_t probe_buttons(ButtonsOf device, std::uint32_t device_bits);
 
 }  // namespace insonate

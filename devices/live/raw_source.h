@@ -9,30 +9,30 @@
 
 namespace insonate {
 
-/// Is told what a source gets from its device, before anybody has made anything of it. Called on the thread that reads;
-/// times by steady_now_s(), never falling.
+/// Receives what a source gets from its device, before it is parsed. Called on the reading thread. Times are from
+/// steady_now_s() and never fall.
 class RawTap {
 public:
   virtual ~RawTap() = default;
-  /// The source was opened. A source that is no device on a bus gives a device without numbers.
+  /// The source was opened. A source that is not a device on a bus passes a device without numbers.
   virtual void opened(const AttachedDevice& device, double time_s) noexcept = 0;
-  /// A read brought these bytes, or none in its time.
+  /// A read returned these bytes; empty if it timed out.
   virtual void came(Bytes bytes, double time_s) noexcept = 0;
-  /// A sample `missing` was handed over, because nothing had come for long.
+  /// The tracker published a sample `missing`, because nothing had arrived for a long time.
   virtual void silent(double time_s) noexcept = 0;
 };
 
-/// A source whose samples come of bytes: what it got can be recorded, and gives the same samples again.
+/// A source whose samples are parsed from bytes. Its bytes can be recorded, and give the same samples again.
 class RawSource : public LiveSource {
 public:
-  /// From the next open() on `tap` is told; null for nobody.
+  /// From the next open() on, `tap` receives what the device sends. Null: nobody does.
   virtual void record_raw(std::shared_ptr<RawTap> tap) { tap_ = std::move(tap); }
 
-  /// What open() does, with a device that a tap was told of and nothing behind it. False, and nothing is done, when the
-  /// source is not for such a device.
+  /// Does what open() does, with a device that a tap was passed, but without hardware. Returns false, and does nothing,
+  /// if the source does not support such a device.
   virtual bool replay_open(const AttachedDevice& device, double time_s) = 0;
 
-  /// What read() does with what came. Throws SourceGone where that would.
+  /// Does what read() does with received bytes. Throws SourceGone where read() would.
   virtual void replay_read(Bytes bytes, double time_s, LiveBatch& batch) = 0;
 
 protected:

@@ -7,33 +7,33 @@
 
 namespace insonate {
 
-/// What became of a device's reports since its tracker was opened.
+/// Counts a device's reports since its tracker was opened, by what became of them.
 struct ReportTally {
   std::uint64_t taken = 0;
   std::uint64_t cut = 0;      ///< too short or too long
   std::uint64_t foreign = 0;  ///< not what such a tracker sends
   std::uint64_t corrupt = 0;
   std::uint64_t repeated = 0;
-  std::uint64_t late = 0;    ///< came after a newer one
-  std::uint64_t missed = 0;  ///< never came, by the device's own numbering
+  std::uint64_t late = 0;    ///< arrived after a newer one
+  std::uint64_t missed = 0;  ///< never arrived, by the device's own numbering
 
   void count(ReportFault fault);
   std::uint64_t incidents() const { return cut + foreign + corrupt + repeated + late + missed; }
-  /// "3 corrupt, 5 missed"; empty without incidents.
+  /// Returns "3 corrupt, 5 missed", for example; empty if there were no incidents.
   std::string incidents_in_words() const;
 };
 
-/// Follows the number that a device gives to each report.
+/// Follows the numbers that a device gives to its reports.
 class ReportNumbers {
 public:
-  /// The numbers run from 0 to `modulus` - 1 and begin again; at most 2^32.
+  /// The numbers run from 0 to `modulus` - 1 and start over; `modulus` is at most 2^32.
   explicit ReportNumbers(std::uint64_t modulus) : modulus_(modulus) {}
 
-  /// Whether the report with this number is to be used: not one that has come before or comes after a newer one. A
-  /// device that began to count anew is followed after kStubborn reports. Counts in `tally`.
+  /// Returns whether the report with this number is new. It is not if it arrived before or is older than the newest
+  /// one. A device that restarted its numbering is accepted after kStubborn reports. Counts in `tally`.
   bool is_news(std::uint64_t number, ReportTally& tally);
 
-  /// The next number is taken as it comes: the device was opened again.
+  /// Accepts any next number: the device was opened again.
   void restart() { any_ = false; }
 
 private:

@@ -7,17 +7,17 @@
 
 namespace insonate {
 
-/// The last that happens to a live source's samples before anybody sees them: their times are made to rise strictly,
-/// and the filters have their turn. A function of the samples and their order alone.
+/// The last step for a live source's samples before they are published: it makes their times rise strictly and applies
+/// the filters. Its results depend on nothing but the samples and their order.
 class SampleConditioner {
 public:
   explicit SampleConditioner(const FilterSettings& settings) : filters_(settings) {}
   SampleConditioner() : SampleConditioner(FilterSettings()) {}
 
-  /// To be called for each sample, in order. `origin` is the source's (LiveSource::origin).
+  /// Call it for each sample, in order. `origin` is the source's (LiveSource::origin).
   void apply(PoseSample& sample, const std::optional<glm::dvec3>& origin);
 
-  /// Of the newest sample.
+  /// Returns the time of the newest sample.
   double last_time_s() const { return last_time_s_; }
   const FilterSettings& filters() const { return filters_.settings(); }
 
@@ -26,7 +26,7 @@ private:
   double last_time_s_ = -std::numeric_limits<double>::infinity();
 };
 
-/// What stands for a silence at a time: a sample that is `missing`.
+/// Returns the sample that represents silence at a time: its status is `missing`.
 PoseSample silence_at(double time_s);
 
 }  // namespace insonate

@@ -9,19 +9,19 @@
 
 namespace insonate {
 
-/// A bounded queue from one thread to one other. Neither ever waits, takes a lock or allocates; what comes while it is
-/// full is dropped and counted.
+/// A bounded queue from one thread to one other. Neither thread ever waits, takes a lock or allocates. Items that
+/// arrive while it is full are dropped and counted.
 template <typename T>
 class SampleRing {
   static_assert(std::is_trivially_copyable_v<T>);
 
 public:
-  /// Has room for at least `capacity` items: the next power of two.
+  /// Makes room for at least `capacity` items, rounded up to a power of two.
   explicit SampleRing(std::size_t capacity) : items_(std::bit_ceil(capacity)) {}
 
   std::size_t capacity() const { return items_.size(); }
 
-  /// Only by the one thread that fills. False when the item was dropped.
+  /// Only for the one thread that fills the queue. Returns false if the item was dropped.
   bool push(const T& item) {
     const std::uint64_t written = written_.load(std::memory_order_relaxed);
     if (written - read_.load(std::memory_order_acquire) == items_.size()) {
@@ -33,7 +33,7 @@ public:
     return true;
   }
 
-  /// Only by the one thread that empties: appends to `out` what was there when it was called, the oldest first.
+  /// Only for the one thread that empties the queue. Appends to `out` what was there when it was called, oldest first.
   void drain(std::vector<T>& out) {
     const std::uint64_t written = written_.load(std::memory_order_acquire);
     std::uint64_t read = read_.load(std::memory_order_relaxed);
@@ -41,7 +41,7 @@ public:
     read_.store(read, std::memory_order_release);
   }
 
-  /// By anybody.
+  /// Any thread may call it.
   std::uint64_t dropped() const { return dropped_.load(std::memory_order_relaxed); }
 
 private:

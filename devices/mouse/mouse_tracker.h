@@ -12,26 +12,26 @@
 
 namespace insonate {
 
-/// A probe moved by whoever holds the mouse and the keyboard. The window pushes motions in, in the probe's own frame
-/// (+x to the marker, +y along the beam, +z elevation; it turns about the middle of its face); samples come out at a
+/// A probe that the user moves with the mouse and the keyboard. The window pushes motions in the probe's own frame (+x
+/// towards the marker, +y along the beam, +z elevation; it rotates about the middle of its face). Samples come at a
 /// steady 60 Hz from the first poll on, as from a device.
 ///
-/// What was moved since the last poll is spread evenly over the samples that poll brings, so that the motion stays
-/// smooth when the window draws at another rate.
+/// Motions since the last poll are spread evenly over the samples that the poll returns. So the motion stays smooth if
+/// the window draws at another rate.
 class MouseTracker : public Tracker {
 public:
   static constexpr double kRateHz = 60.0;
 
   explicit MouseTracker(const Pose& patient_from_probe);
 
-  /// Moves the probe by `mm` and turns it by the rotation vector `rad` (axis times angle). Pushes add up until the
+  /// Moves the probe by `mm` and rotates it by the rotation vector `rad` (axis times angle). Calls add up until the
   /// next poll.
   void move(const glm::dvec3& mm, const glm::dvec3& rad);
 
-  /// Keeps moving at these rates, until others are set.
+  /// Moves the probe at these rates until others are set.
   void move_steadily(const glm::dvec3& mm_per_s, const glm::dvec3& rad_per_s);
 
-  /// Puts the probe at a pose and forgets pending moves: to take over from another tracker, or to return to a view.
+  /// Puts the probe at a pose and discards pending motions, to continue from another tracker or to return to a view.
   void place(const Pose& patient_from_probe);
 
   /// Bit b is set while button b is held.
@@ -45,7 +45,7 @@ protected:
   void collect(double now_s, std::vector<PoseSample>& samples) override;
 
 private:
-  glm::dquat rotation_;  ///< a quaternion, as a matrix would drift from orthonormal over many small turns
+  glm::dquat rotation_;  ///< a quaternion, because a matrix would drift from orthonormal over many small rotations
   glm::dvec3 translation_;
   glm::dvec3 pending_mm_{0}, pending_rad_{0};
   glm::dvec3 mm_per_s_{0}, rad_per_s_{0};
@@ -54,7 +54,7 @@ private:
   std::optional<double> start_s_;
 };
 
-/// mouse: takes no options and begins at the context's start. Throws InputError.
+/// Opens mouse:, which takes no options and begins at the context's start. Throws InputError.
 std::unique_ptr<Tracker> open_mouse(const TrackerUri& uri, const TrackerContext& context);
 
 }  // namespace insonate

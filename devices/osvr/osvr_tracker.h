@@ -10,10 +10,10 @@
 
 namespace insonate {
 
-/// The head tracker of an OSVR HDK as a probe that turns on the spot, the start's or where it is put
-/// (Tracker::relative): it tells no place. Held with its y
-/// axis up and its z axis towards the user when it is opened, it is the probe at its start; from there its turns are
-/// the probe's. About the vertical it drifts, as nothing but gravity corrects it.
+/// The head tracker of an OSVR HDK as a probe that rotates on the spot: at its start, or where it is put
+/// (Tracker::relative). It measures no position. The sensor is held with its y axis up and its z axis towards the user
+/// when it is opened; the probe is then at its start orientation. From there the sensor's rotations are the probe's.
+/// The rotation about the vertical drifts, because only gravity corrects the sensor.
 class OsvrSource : public DeviceSource {
 public:
   OsvrSource(std::shared_ptr<DeviceBus> bus, const std::string& serial, const Pose& start,
@@ -31,7 +31,7 @@ private:
   ReportNumbers numbers_{256};
 };
 
-/// osvr:[SERIAL]. Throws InputError.
+/// Makes osvr:[SERIAL]. Throws InputError.
 std::unique_ptr<RawSource> make_osvr(const TrackerUri& uri, const TrackerContext& context);
 
 }  // namespace insonate

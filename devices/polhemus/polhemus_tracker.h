@@ -13,10 +13,10 @@
 namespace insonate {
 
 /// One sensor of a Polhemus Patriot, Patriot HS, Liberty HS or Viper. The tracker's frame has +x forward, +y right and
-/// +z down from the source; its own hemisphere setting stays as it is.
+/// +z down from the source. The device's own hemisphere setting is not changed.
 class PolhemusSource : public MagneticSource {
 public:
-  /// After so long without the sensor, while others come, people are told.
+  /// Users are informed if the sensor has been missing for this long while others arrive.
   static constexpr double kSensorMissingS = 2;
 
   /// `sensor` counts from 0.
@@ -36,11 +36,11 @@ private:
   std::vector<PolhemusRecord> records_;
   ReportNumbers numbers_{std::uint64_t{1} << 32};
   bool viper_ = false;
-  std::uint32_t others_ = 0;        ///< sensors that came beside the one that is followed, a bit each
-  std::optional<double> sensor_s_;  ///< when it last came, or the first of the others did
+  std::uint32_t others_ = 0;        ///< other sensors that arrived, one bit each
+  std::optional<double> sensor_s_;  ///< when the sensor last arrived, or else when another sensor first did
 };
 
-/// polhemus:[SERIAL][?sensor=1&raw=1]. Throws InputError.
+/// Makes polhemus:[SERIAL][?sensor=1&raw=1]. Throws InputError.
 std::unique_ptr<RawSource> make_polhemus(const TrackerUri& uri, const TrackerContext& context);
 
 }  // namespace insonate

@@ -7,19 +7,19 @@
 
 namespace insonate {
 
-/// A file that is made new and only ever appended to, by one: others can tell while it is (is_being_written). What
-/// append() has returned from is the operating system's: the program may be killed then. An append() that throws leaves
-/// the file as it was, so that it can be tried again.
+/// A new file with one writer that only appends. is_being_written() detects a file that is still open. Once append()
+/// has returned, the operating system holds the bytes, so they survive if the program is killed. If append() throws,
+/// the file is as it was, so the caller can try again.
 class AppendOnlyFile {
 public:
-  /// Throws InputError when the file is there already or cannot be made. Makes the parent folders.
-  /// @param when_full  what to do when append() cannot write
+  /// Throws InputError if the file already exists or cannot be created. Creates the parent folders.
+  /// @param when_full  remedy for the error message when append() cannot write
   explicit AppendOnlyFile(std::filesystem::path file, std::string when_full = "make room on the disk and record again");
   ~AppendOnlyFile();
   AppendOnlyFile(const AppendOnlyFile&) = delete;
   AppendOnlyFile& operator=(const AppendOnlyFile&) = delete;
 
-  /// Throws InputError when not all of it can be written.
+  /// Throws InputError if not all bytes can be written.
   void append(std::string_view bytes);
 
   std::uint64_t size() const { return size_; }
@@ -32,7 +32,7 @@ private:
   std::uint64_t size_ = 0;
 };
 
-/// Whether an AppendOnlyFile has it open, of this program or another.
+/// Returns whether an AppendOnlyFile of this or another program has the file open.
 bool is_being_written(const std::filesystem::path& file);
 
 }  // namespace insonate

@@ -13,10 +13,11 @@
 
 namespace insonate {
 
-/// Writes down what a tracker's device sends, byte for byte, for `raw:FILE` to give the same samples again, and for who
-/// wants to see what a device really sends.
+/// Records what a tracker's device sends, byte for byte. `raw:FILE` replays the file to the same samples, and the file
+/// shows what a device really sends.
 ///
-/// The file is text, a line for each event, only ever appended to; what happened is the operating system's at once:
+/// The file is text, one event per line. It is only appended to, and each event is passed to the operating system at
+/// once:
 ///
 ///     insonate raw 1
 ///     tracker hydra:A1?handset=2
@@ -26,23 +27,22 @@ namespace insonate {
 ///     read 12.274
 ///     silent 12.8
 ///
-/// `tracker` is the tracker's URI, `start` the pose that it began with (TrackerContext::start: the rotation's columns
-/// and the translation, mm). `open` has the USB numbers of the device that was opened, 0000:0000 where there is none;
-/// `read` the bytes of one read, in hexadecimal digits, none when nothing came in time; `silent` stands for a sample
-/// `missing` that was handed over. Times are seconds on the tracker's clock in the fewest digits that give the same
-/// number again.
+/// `tracker` is the tracker's URI. `start` is its start pose (TrackerContext::start: the rotation's columns, then the
+/// translation in mm). `open` has the USB numbers of the opened device, 0000:0000 if it has none. `read` has the bytes
+/// of one read as hexadecimal digits, none if it timed out. `silent` stands for a published sample `missing`. Times are
+/// seconds on the tracker's clock, with the fewest digits that give the same number again.
 ///
-/// Where the file cannot be written on, recording ends and problem() says why; the tracker goes on.
+/// If the file cannot be written any more, recording ends and problem() returns the reason; the tracker continues.
 class RawRecorder : public RawTap {
 public:
-  /// Throws InputError when the file is there already or cannot be made.
+  /// Throws InputError if the file already exists or cannot be created.
   RawRecorder(const std::filesystem::path& file, std::string_view uri, const Pose& start);
 
   void opened(const AttachedDevice& device, double time_s) noexcept override;
   void came(Bytes bytes, double time_s) noexcept override;
   void silent(double time_s) noexcept override;
 
-  /// Why nothing is recorded any more, as a sentence; empty while all is well. By any thread.
+  /// Returns why recording has ended, as a sentence; empty while it works. Any thread may call it.
   std::string problem() const;
   const std::filesystem::path& file() const { return file_.path(); }
 
@@ -54,11 +54,11 @@ private:
   std::string problem_;
 };
 
-/// Throws InputError when the tracker of `uri` has no device whose bytes could be recorded. To be called before its
+/// Throws InputError if the tracker of `uri` has no device whose bytes can be recorded. Call it before the tracker's
 /// first poll.
 void check_sends_bytes(Tracker& tracker, std::string_view uri);
 
-/// Records what the tracker of `uri` gets, from its first poll on; to be called before that. Throws InputError as
+/// Records what the tracker of `uri` receives, from its first poll on. Call it before that. Throws InputError as
 /// check_sends_bytes() and RawRecorder do.
 std::shared_ptr<const RawRecorder> record_raw(Tracker& tracker, const std::filesystem::path& file, std::string_view uri,
                                               const Pose& start = {});

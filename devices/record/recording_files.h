@@ -5,33 +5,33 @@
 #include <filesystem>
 #include <string>
 
-// The working files of a recording, from which its sequence file is made: what they are called and what is in them.
+// Names and contents of a recording's working files, from which its sequence file is made.
 
 namespace insonate {
 
-/// FILE.recording, which holds the frames' lines.
+/// Returns FILE.recording, which holds the frames' lines.
 std::filesystem::path working_file(const std::filesystem::path& file);
-/// FILE.recording.images, which holds their pictures, if there are any.
+/// Returns FILE.recording.images, which holds the frames' pictures, if there are any.
 std::filesystem::path images_file(const std::filesystem::path& file);
 
-/// The working file's first line, with the size of a picture or 0 0.
+/// Returns the first line of the working file, with the size of a picture, or 0 0.
 std::string working_head(int width, int height);
 
-/// The line behind a frame's own: how far its picture reaches in the file of images, and the Adler-32 of all pictures
-/// up to there.
+/// Returns the line that ends a frame: the end of its picture in the images file in bytes, and the Adler-32 of all
+/// pictures up to there.
 std::string frame_end(std::uint64_t image_bytes, unsigned long adler);
 
-/// Throws InputError when the sequence file, or a working file that its recording left behind, is there already.
+/// Throws InputError if the sequence file, or a working file that a recording left behind, already exists.
 void refuse_existing(const std::filesystem::path& file);
 
-/// The pictures first: without the other file nobody could tell what they are of.
+/// Removes the images file first, because it cannot be interpreted without the other file.
 void remove_working_files(const std::filesystem::path& file);
 
-/// Makes the sequence file `file` of the working files that lie beside it, up to the last frame that is there as a
-/// whole, removes those and returns how many frames it has. Takes the same memory however long the recording is. If
-/// `file` is there already and is that very sequence, only the working files are removed: the program was killed before
-/// it came to that. Throws InputError when there is no such working file, when it is none, when it is still being
-/// recorded to, when it holds no whole frame (it stays then), or when `file` is there already and holds anything else.
+/// Makes the sequence file `file` from its working files, up to the last complete frame, removes these and returns the
+/// number of frames. Its memory use does not grow with the recording. If `file` already exists and is exactly that
+/// sequence, it only removes the working files: the program was killed before it did so. Throws InputError if there is
+/// no working file, if it is not one, if it is still being recorded to, if it holds no complete frame (it is then
+/// kept), or if `file` already exists and holds anything else.
 std::size_t recover_recording(const std::filesystem::path& file);
 
 }  // namespace insonate

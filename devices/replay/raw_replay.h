@@ -13,24 +13,25 @@
 
 namespace insonate {
 
-/// The samples that a raw recording's tracker handed over when it was recorded (raw_recorder.h has the format): the
-/// bytes go through the same parser, policy and filters again, at the times that they came.
+/// The samples that a raw recording's tracker published when it was recorded (raw_recorder.h describes the format). The
+/// bytes pass through the same parser, source and filters again, with the recorded times.
 struct RawScan {
-  std::string tracker;  ///< URI of what was recorded
+  std::string tracker;  ///< URI of the recorded tracker
   std::vector<PoseSample> samples;
 };
 
-/// A pure function of the bytes; `file` names them in messages. A last line that is cut, as by a crash, is left out.
-/// Throws InputError when they are no such recording, or damaged, or nothing of it became a sample.
+/// Parses a recording. The result depends on the bytes alone; `file` names them in error messages. An incomplete last
+/// line, as after a crash, is ignored. Throws InputError if the bytes are not a raw recording, if they are damaged, or
+/// if they give no sample.
 RawScan parse_raw(std::string_view bytes, const std::string& file);
 
-/// Whether bytes begin as such a recording.
+/// Returns whether the bytes begin like a raw recording.
 bool is_raw_recording(std::string_view bytes);
 
-/// Throws InputError as parse_raw() does, and of a file above 1 GiB.
+/// Reads and parses a file. Throws InputError as parse_raw() does, and for a file above 1 GiB.
 RecordedScan read_raw_scan(const std::filesystem::path& file);
 
-/// raw:FILE[?speed=2&loop=1]. Throws InputError; of a file above 1 GiB too.
+/// Opens raw:FILE[?speed=2&loop=1]. Throws InputError, also for a file above 1 GiB.
 std::unique_ptr<Tracker> open_raw(const TrackerUri& uri, const TrackerContext& context);
 
 }  // namespace insonate

@@ -6,19 +6,20 @@
 
 namespace insonate {
 
-/// A recorded scan, whichever way it was recorded: a sequence file, or what a tracker's device sent (raw_recorder.h),
-/// which is played through its parser. `replay:FILE` and `raw:FILE` name the file as a tracker's URI does.
-/// @param options  of a sequence file, see probe_track()
-/// Throws InputError, also when a transform is asked for of a file that has none.
+/// Reads a recorded scan of either format: a sequence file, or a raw recording of what a tracker's device sent
+/// (raw_recorder.h), which is passed through the tracker's parser. `file` may also be a tracker URI, `replay:FILE` or
+/// `raw:FILE`.
+/// @param options  for a sequence file; see probe_track()
+/// Throws InputError, also if a transform is requested from a file that has none.
 RecordedScan read_log(const std::filesystem::path& file, const RecordingOptions& options = {});
 
-/// Whether a file begins as a raw recording. Throws InputError when it is no file.
+/// Returns whether a file begins like a raw recording. Throws InputError if it is not a file.
 bool is_raw_log(const std::filesystem::path& file);
 
-/// Throws InputError when the samples are a sensor's, which say nothing of the probe before they are calibrated.
+/// Throws InputError if the samples are a sensor's: without a calibration they do not give the probe's pose.
 void check_is_of_probe(const Recording& recording);
 
-/// Throws InputError if the times of the samples are assumed. Callers that score them use it.
+/// Throws InputError if the times of the samples are assumed. Callers that score the samples use it.
 void check_has_times(const Recording& recording);
 
 }  // namespace insonate

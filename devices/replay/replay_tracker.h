@@ -11,17 +11,18 @@
 
 namespace insonate {
 
-/// A recorded run, delivered again: the log's own samples to the bit, with the log's own times. The speed decides only
-/// when they come. When looping, the times of each further round go on from those of the round before, so that they
-/// keep rising; the poses stay the log's.
+/// Replays a recorded run: exactly the log's samples, bit for bit, with the log's times. The speed only decides when
+/// they come. In a loop, the times of each further pass continue from those of the pass before, so that they keep
+/// rising; the poses stay the log's.
 class ReplayTracker : public Tracker {
 public:
   struct Options {
     double speed = 1.0;  ///< > 0; 2 replays in half the time
-    bool loop = false;   ///< begin again at the end
+    bool loop = false;   ///< restart at the end
   };
 
-  /// `samples` are at least one, with strictly rising times; else throws std::invalid_argument.
+  /// Throws std::invalid_argument unless `samples` holds at least one sample, their times rise strictly, and the speed
+  /// is above 0.
   ReplayTracker(std::string name, std::vector<PoseSample> samples, const Options& options,
                 std::optional<Recording> recording = std::nullopt);
 
@@ -37,19 +38,19 @@ private:
   std::vector<PoseSample> log_;
   Options options_;
   std::optional<Recording> recording_;
-  double round_s_;                 ///< how long a round takes on the log's clock, with the step back to its beginning
-  std::optional<double> start_s_;  ///< of the first poll
+  double round_s_;                 ///< duration of a pass on the log's clock, including the step back to its beginning
+  std::optional<double> start_s_;  ///< time of the first poll
   std::size_t next_ = 0;           ///< index into the log
-  std::size_t round_ = 0;          ///< how often the log has been through
+  std::size_t round_ = 0;          ///< number of complete passes
   double last_time_s_ = 0;
 };
 
-/// The speed and loop of a replay's URI, which may have no other options than `allowed`, and which names a file. Throws
-/// InputError.
+/// Returns the speed and loop options of a replay's URI. Throws InputError if the URI has options that are not in
+/// `allowed`, or names no file.
 ReplayTracker::Options replay_options(const TrackerUri& uri, std::initializer_list<std::string_view> allowed);
 
-/// replay:FILE[?speed=2&loop=1&transform=ProbeToTracker&rate=25], with speeds from 0.01 to 1000 and rates from 0.01 to
-/// 10,000 Hz; for transform and rate see RecordingOptions. Throws InputError.
+/// Opens replay:FILE[?speed=2&loop=1&transform=ProbeToTracker&rate=25]. Speeds are 0.01 to 1000, rates 0.01 to 10,000
+/// Hz; see RecordingOptions for transform and rate. Throws InputError.
 std::unique_ptr<Tracker> open_replay(const TrackerUri& uri, const TrackerContext& context);
 
 }  // namespace insonate

@@ -7,17 +7,17 @@
 
 namespace insonate {
 
-/// A file's bytes of which only both ends need be at hand: its images are of no interest, and may be larger than the
+/// A file's bytes of which only both ends need to be in memory. Its images are not needed, and may be larger than the
 /// memory.
 struct CutBytes {
-  std::string_view front;  ///< the first ones
-  std::uint64_t size = 0;  ///< of all
-  std::string_view back;   ///< the last ones
+  std::string_view front;  ///< the first bytes
+  std::uint64_t size = 0;  ///< number of all bytes
+  std::string_view back;   ///< the last bytes
 
-  /// All of them.
+  /// Makes a CutBytes of a whole file.
   static CutBytes whole(std::string_view bytes) { return {bytes, bytes.size(), bytes}; }
 
-  /// Those from `offset` on, which is no more than there is in front.
+  /// Returns the bytes from `offset` on. `offset` is at most the size of `front`.
   CutBytes from(std::size_t offset) const {
     const std::uint64_t left = size - offset;
     const auto kept = std::size_t(std::min<std::uint64_t>(back.size(), left));

@@ -7,28 +7,29 @@
 #include <string_view>
 #include <vector>
 
-// The words and numbers of a text header, whatever the locale.
+// Splits a text header into words and numbers, independently of the locale.
 
 namespace insonate {
 
-/// Header fields by name, as they stand in the file's bytes.
+/// Header fields by name, as views of the file's bytes.
 using HeaderFields = std::map<std::string_view, std::string_view>;
 
-/// The remedy for a header that its writer got wrong.
+/// The remedy for a header that its writer wrote incorrectly.
 inline constexpr const char* kExportAgain = "record or export the file again";
 
-/// Without blanks and carriage returns at both ends.
+/// Returns `text` without blanks and carriage returns at both ends.
 std::string_view trimmed(std::string_view text);
 
 bool same_ignoring_case(std::string_view a, std::string_view b);
 
-/// The parts between blanks.
+/// Returns the parts between blanks.
 std::vector<std::string_view> words(std::string_view text);
 
-/// `text` for a message: in quotes, short, and without what a terminal could trip over.
+/// Returns `text` for a message: in quotes, shortened to 60 characters, and without characters that a terminal could
+/// interpret.
 std::string quoted(std::string_view text);
 
-/// The number that the whole of `text` is, or nothing.
+/// Returns the number that the whole of `text` represents, or nothing.
 template <typename Number>
 std::optional<Number> to_number(std::string_view text) {
   Number number{};

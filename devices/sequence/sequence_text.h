@@ -8,29 +8,29 @@
 
 #include "sim/core/pose_sample.h"
 
-// A sequence file's text piece by piece, for those that write one at once and those that write one as it grows.
+// The parts of a sequence file's text, for writers of a whole file and writers of a growing one.
 
 namespace insonate {
 
-/// The header's lines in front of the frames'. `size` is that of a frame's picture in pixels and of how many frames
-/// there are, as "640 480 30"; "0 0 30" for transforms only.
+/// Returns the header's lines before those of the frames. `size` gives a picture's size in pixels and the number of
+/// frames, as "640 480 30", or "0 0 30" for transforms only.
 std::string sequence_head(const std::string& size, bool compressed);
 
-/// Appends the lines of a frame: the pose as ProbeToPatient, to the last bit, its status, buttons,
-/// distortion, rejection, times.
-/// Of a sample that is not ok the pose is not kept. With `probe_from_pixel` also where its picture lies, as
-/// ImageToProbe; with `actions`, one line of printable characters, what was done since the frame before. IGSIO reads
-/// lines of at most 1000 characters, the field's name among them.
+/// Appends the lines of a frame: the pose as ProbeToPatient, exact to the last bit, its status, buttons, distortion,
+/// rejection and times. The pose of a sample that is not ok is not stored. With `probe_from_pixel` it appends the
+/// picture's position as ImageToProbe. With `actions`, one line of printable characters, it appends what was done since
+/// the previous frame. IGSIO reads lines of at most 1000 characters, including the field's name.
 void append_frame(std::string& text, std::size_t index, const PoseSample& sample,
                   const glm::dmat4* probe_from_pixel = nullptr, std::string_view actions = {});
 
-/// The line behind the frames', after which the pictures' bytes follow.
+/// The line after those of the frames; the pictures' bytes follow it.
 inline constexpr std::string_view kSequenceEnd = "ElementDataFile = LOCAL\n";
 
-/// No scan pauses for longer. More is a clock that was set while it ran, and would keep whoever replays it waiting.
+/// No scan pauses for longer. A longer step means that a clock was set during the scan, and a replay would wait that
+/// long.
 inline constexpr double kLongestStepS = 24 * 3600;
 
-/// Why no one could read `sample` back after one of the time `before_s`; empty when one can.
+/// Returns why `sample` could not be read back after a sample with time `before_s`; empty if it could.
 std::string why_not_recordable(const PoseSample& sample, double before_s);
 
 }  // namespace insonate

@@ -10,17 +10,19 @@
 
 namespace insonate {
 
-/// A SpaceMouse, which tells no place: how far its cap is pushed is how fast the probe moves. As seen on the screen,
-/// with the marker on the left: the cap pushed right moves the probe right, down presses it in, and towards the user
-/// moves it out of the picture; turning goes likewise. Begins at the context's start.
+/// A SpaceMouse as a probe. It measures no position: the displacement of its cap sets the probe's velocity. As seen on
+/// the screen with the marker on the left: the cap pushed right moves the probe right, pushed down presses it in, and
+/// pushed towards the user moves it out of the picture. Rotations correspond likewise. The probe begins at the
+/// context's start.
 class SpaceMouseSource : public DeviceSource {
 public:
-  /// At full travel; chosen so that the trunk is crossed in a few seconds.
+  /// Speeds at full travel, chosen so that the probe crosses the trunk in a few seconds.
   static constexpr double kMmPerS = 60, kRadPerS = 1;
-  /// A cap that is held away from rest reports every 8 ms or so. After so long without a word it counts as let go:
-  /// the probe must not run away on a report that was lost.
+  /// A displaced cap reports about every 8 ms. After this long without a report it counts as released: the probe must
+  /// not run away because a report was lost.
   static constexpr double kLetGoS = 0.1;
-  /// From where it began, so that a cap that is held down loses no probe: more than a patient is long.
+  /// Largest distance from the start, so that a cap that is held down does not lose the probe: more than a patient's
+  /// length.
   static constexpr double kReachMm = 2000;
 
   SpaceMouseSource(std::shared_ptr<DeviceBus> bus, const std::string& serial, const Pose& start, double speed,
@@ -41,10 +43,10 @@ private:
   glm::dvec3 push_{0}, turn_{0};  ///< in the probe's frame
   std::uint32_t buttons_ = 0;
   double now_s_ = 0;
-  double told_s_ = 0;  ///< of the last report of the cap
+  double told_s_ = 0;  ///< time of the cap's last report
 };
 
-/// spacemouse:[SERIAL][?speed=1], with speeds from 0.1 to 10. Throws InputError.
+/// Makes spacemouse:[SERIAL][?speed=1], with a speed factor from 0.1 to 10. Throws InputError.
 std::unique_ptr<RawSource> make_spacemouse(const TrackerUri& uri, const TrackerContext& context);
 
 }  // namespace insonate

@@ -10,14 +10,14 @@
 
 namespace insonate {
 
-/// A made-up hand that scans the front of the abdomen: it glides over the skin and fans on the spot in smooth moves
+/// A synthetic hand that scans the front of the abdomen. It glides over the skin and fans on the spot in smooth moves
 /// with pauses between, trembles, and loses the tracker now and then.
 ///
-/// Sample i is a function of seed, rate, body and i alone, so polls of any rhythm give the same samples. The skin is
-/// taken to be the ellipse that fits the body's bounding box.
+/// Sample i depends on seed, rate, body and i alone, so the rhythm of polling does not change the samples. The skin is
+/// approximated by the ellipse that fits the body's bounding box.
 class SyntheticTracker : public Tracker {
 public:
-  /// Throws std::invalid_argument when the body's box is empty.
+  /// Throws std::invalid_argument if the body's bounding box is empty.
   SyntheticTracker(std::uint32_t seed, double rate_hz, const TrackerContext& body);
 
   double clock_s(double now_s) const override { return start_s_ ? now_s - *start_s_ : 0.0; }
@@ -57,8 +57,9 @@ private:
   std::optional<double> start_s_;
 };
 
-/// synthetic:[SEED][?rate=60&live=1], the seed a whole number (1 unless given), the rate from 1 to 1000 Hz. With live=1
-/// a LiveTracker that gives the same samples in real time, stamped as they come. Throws InputError.
+/// Opens synthetic:[SEED][?rate=60&live=1]. The seed is a whole number (1 by default), the rate is 1 to 1000 Hz. With
+/// live=1 it returns a LiveTracker that delivers the same samples in real time, stamped as they come. Throws
+/// InputError.
 std::unique_ptr<Tracker> open_synthetic(const TrackerUri& uri, const TrackerContext& context);
 
 }  // namespace insonate

@@ -4,8 +4,8 @@
 
 namespace insonate {
 
-/// A device cannot be used now, or no longer: what() is a sentence for people that says what to do ("The tracker is not
-/// plugged in.").
+/// Thrown when a device cannot be used, or can no longer be used. what() is a sentence for users that states what to do
+/// ("The tracker is not plugged in.").
 class SourceGone : public std::runtime_error {
 public:
   using std::runtime_error::runtime_error;

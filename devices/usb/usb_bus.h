@@ -4,7 +4,7 @@
 
 namespace insonate {
 
-/// Every USB device that is plugged in, by libusb; opened are its first interface and two bulk endpoints.
+/// All USB devices that are plugged in, through libusb. open() uses a device's first interface and two bulk endpoints.
 class UsbBus : public DeviceBus {
 public:
   AttachedDevices devices() override;
