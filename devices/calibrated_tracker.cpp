@@ -6,7 +6,7 @@
 
 #include "devices/calibration/utc.h"
 #include "devices/filter/sample_filters.h"
-#include "devices/tracker_uri.h"
+#include "devices/registry.h"
 #include "sim/core/digest.h"
 #include "sim/core/input_error.h"
 
@@ -14,33 +14,29 @@ namespace insonate {
 
 TrackerIdentity tracker_identity(std::string_view uri) {
   const TrackerUri parsed = parse_tracker_uri(uri);
-  const bool recorded = parsed.scheme == "replay" || parsed.scheme == "raw";
-  if (recorded) return {parsed.scheme, ""};
+  if (kind_of(parsed).poses == PosesOf::recording) return {parsed.scheme, ""};
   const char* const part = parsed.options.contains("handset") ? "handset" : "sensor";
   return {parsed.scheme, parsed.subject, int(parsed.number(part, 1, 1, 16))};
 }
 
 bool is_a_labs_own(std::string_view uri) {
-  const std::string_view scheme = uri.substr(0, uri.find(':'));
-  return scheme == "hydra" || scheme == "polhemus" || scheme == "igtl";
+  return kind_of(parse_tracker_uri(uri)).poses == PosesOf::sensor;
 }
 
 void check_can_be_calibrated(std::string_view uri) {
-  constexpr std::string_view kPlaced[] = {"mouse", "spacemouse", "osvr"};
-  const std::string scheme = parse_tracker_uri(uri).scheme;
-  if (std::find(std::begin(kPlaced), std::end(kPlaced), scheme) != std::end(kPlaced))
+  const PosesOf poses = kind_of(parse_tracker_uri(uri)).poses;
+  if (poses == PosesOf::probe)
     throw InputError("tracker '" + std::string(uri) + "'", "", "it moves the probe in the patient and has no sensor",
                      "leave the calibration out");
-  if (scheme == "auto")
+  if (poses == PosesOf::any)
     throw InputError("tracker '" + std::string(uri) + "'", "", "a calibration belongs to one tracker, not to the best",
                      "name it, with its serial number if there are two of a kind");
 }
 
 std::string sensor_uri(std::string_view uri, bool filtered) {
   const TrackerUri parsed = parse_tracker_uri(uri);
-  const bool places = parsed.scheme == "hydra" || parsed.scheme == "polhemus";
   std::string text(uri);
-  if (!places || parsed.options.contains("raw")) return text;
+  if (!kind_of(parsed).places_sensor || parsed.options.contains("raw")) return text;
   text += parsed.options.empty() ? "?raw=1" : "&raw=1";
   if (!filtered || parsed.options.contains("filter")) return text;
   FilterSettings filters = FilterSettings::usual();

@@ -22,32 +22,67 @@ namespace insonate {
 namespace {
 
 constexpr TrackerKind kKinds[] = {
-    {"replay", "replay:FILE[?speed=2&loop=1&transform=ProbeToTracker&rate=25]",
-     "a recorded .igs.mha, .seq.mha or .seq.nrrd file", open_replay},
-    {"raw", "raw:FILE[?speed=2&loop=1]", "what a tracker's device sent, recorded with --record-raw", open_raw},
-    {"synthetic", "synthetic:[SEED][?rate=60&live=1]",
-     "a made-up hand that scans the front of the abdomen, also as from a device", open_synthetic},
-    {"auto", "auto:", "of Polhemus, Hydra, OSVR and SpaceMouse the first that can be opened", nullptr, make_best},
-    {"polhemus", "polhemus:[SERIAL][?sensor=1&distortion=20&raw=1]", "a Polhemus Patriot, Liberty HS or Viper", nullptr,
-     make_polhemus},
-    {"hydra", "hydra:[SERIAL][?handset=2&raw=1]", "a Razer Hydra's handset", nullptr, make_hydra},
-    {"osvr", "osvr:[SERIAL]", "an OSVR head tracker, which turns the probe where it was put", nullptr, make_osvr},
-    {"spacemouse", "spacemouse:[SERIAL][?speed=1]", "a 3Dconnexion SpaceMouse, which moves the probe at a rate",
-     nullptr, make_spacemouse},
-    {"igtl", "igtl://HOST[:18944][/NAME][?frame=ras&time=sender]", "TRANSFORM messages of an OpenIGTLink server",
-     nullptr, igtl::make_igtl},
-    {"mouse", "mouse:", "the mouse and the keyboard, in the trainer's window", open_mouse},
+    {.scheme = "replay",
+     .form = "replay:FILE[?speed=2&loop=1&transform=ProbeToTracker&rate=25]",
+     .summary = "a recorded .igs.mha, .seq.mha or .seq.nrrd file",
+     .poses = PosesOf::recording,
+     .open = open_replay},
+    {.scheme = "raw",
+     .form = "raw:FILE[?speed=2&loop=1]",
+     .summary = "what a tracker's device sent, recorded with --record-raw",
+     .poses = PosesOf::recording,
+     .open = open_raw},
+    {.scheme = "synthetic",
+     .form = "synthetic:[SEED][?rate=60&live=1]",
+     .summary = "a made-up hand that scans the front of the abdomen, also as from a device",
+     .poses = PosesOf::made_up,
+     .open = open_synthetic},
+    {.scheme = "auto",
+     .form = "auto:",
+     .summary = "of Polhemus, Hydra, OSVR and SpaceMouse the first that can be opened",
+     .poses = PosesOf::any,
+     .make = make_best},
+    {.scheme = "polhemus",
+     .form = "polhemus:[SERIAL][?sensor=1&distortion=20&raw=1]",
+     .summary = "a Polhemus Patriot, Liberty HS or Viper",
+     .poses = PosesOf::sensor,
+     .make = make_polhemus,
+     .device = &kPolhemusDevice,
+     .places_sensor = true,
+     .in_auto = true},
+    {.scheme = "hydra",
+     .form = "hydra:[SERIAL][?handset=2&raw=1]",
+     .summary = "a Razer Hydra's handset",
+     .poses = PosesOf::sensor,
+     .make = make_hydra,
+     .device = &kHydraDevice,
+     .places_sensor = true,
+     .in_auto = true},
+    {.scheme = "osvr",
+     .form = "osvr:[SERIAL]",
+     .summary = "an OSVR head tracker, which turns the probe where it was put",
+     .poses = PosesOf::probe,
+     .make = make_osvr,
+     .device = &kOsvrDevice,
+     .in_auto = true},
+    {.scheme = "spacemouse",
+     .form = "spacemouse:[SERIAL][?speed=1]",
+     .summary = "a 3Dconnexion SpaceMouse, which moves the probe at a rate",
+     .poses = PosesOf::probe,
+     .make = make_spacemouse,
+     .device = &kSpaceMouseDevice,
+     .in_auto = true},
+    {.scheme = "igtl",
+     .form = "igtl://HOST[:18944][/NAME][?frame=ras&time=sender]",
+     .summary = "TRANSFORM messages of an OpenIGTLink server",
+     .poses = PosesOf::sensor,
+     .make = igtl::make_igtl},
+    {.scheme = "mouse",
+     .form = "mouse:",
+     .summary = "the mouse and the keyboard, in the trainer's window",
+     .poses = PosesOf::probe,
+     .open = open_mouse},
 };
-
-const TrackerKind& kind_of(const TrackerUri& uri) {
-  std::vector<std::string> schemes;
-  for (const TrackerKind& kind : kKinds) {
-    if (kind.scheme == uri.scheme) return kind;
-    schemes.emplace_back(kind.scheme);
-  }
-  throw InputError("tracker '" + uri.text + "'", "", "there is no kind of tracker '" + uri.scheme + "'",
-                   suggest(uri.scheme, schemes));
-}
 
 std::unique_ptr<Tracker> open_kind(const TrackerKind& kind, const TrackerUri& uri, const TrackerContext& context) {
   if (kind.open) return kind.open(uri, context);
@@ -58,6 +93,16 @@ std::unique_ptr<Tracker> open_kind(const TrackerKind& kind, const TrackerUri& ur
 
 std::span<const TrackerKind> tracker_kinds() {
   return kKinds;
+}
+
+const TrackerKind& kind_of(const TrackerUri& uri) {
+  std::vector<std::string> schemes;
+  for (const TrackerKind& kind : kKinds) {
+    if (kind.scheme == uri.scheme) return kind;
+    schemes.emplace_back(kind.scheme);
+  }
+  throw InputError("tracker '" + uri.text + "'", "", "there is no kind of tracker '" + uri.scheme + "'",
+                   suggest(uri.scheme, schemes));
 }
 
 std::unique_ptr<Tracker> open_tracker(std::string_view text, const TrackerContext& context) {

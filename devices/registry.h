@@ -4,6 +4,7 @@
 #include <span>
 #include <string_view>
 
+#include "devices/live/device_source.h"
 #include "devices/live/raw_source.h"
 #include "devices/tracker.h"
 #include "devices/tracker_context.h"
@@ -11,19 +12,36 @@
 
 namespace insonate {
 
-/// A kind of tracker. A new kind needs a folder with its class and a function that opens or makes it, and an entry in
+/// Whose poses a kind of tracker reports. It decides whether a set-up can place it on the patient.
+enum class PosesOf {
+  probe,      ///< the probe's in the patient, moved by a hand at a desk: there is no sensor to set up
+  sensor,     ///< a sensor's on a dummy probe, which a lab sets up once
+  recording,  ///< whatever was recorded; a file's name says nothing of the tracker
+  made_up,    ///< a synthetic hand's
+  any,        ///< of the first tracker that can be opened
+};
+
+/// A kind of tracker. A new one is a folder with its class and a function that opens or makes it, and an entry in
 /// registry.cpp. Exactly one of `open` and `make` is set.
 struct TrackerKind {
   std::string_view scheme;   ///< "replay"
   std::string_view form;     ///< "replay:FILE[?speed=2&loop=1]"
-  std::string_view summary;  ///< one line for users
-  std::unique_ptr<Tracker> (*open)(const TrackerUri& uri, const TrackerContext& context);
+  std::string_view summary;  ///< one line for people
+  PosesOf poses;
+  /// Opens a tracker that is not a device.
+  std::unique_ptr<Tracker> (*open)(const TrackerUri& uri, const TrackerContext& context) = nullptr;
   /// Makes the source of a LiveTracker.
   std::unique_ptr<RawSource> (*make)(const TrackerUri& uri, const TrackerContext& context) = nullptr;
+  const DeviceKind* device = nullptr;  ///< on HID or USB
+  bool places_sensor = false;          ///< guesses where the sensor is on the patient, unless the URI has raw=1
+  bool in_auto = false;                ///< auto: tries it, in the order of the table
 };
 
 /// Returns all kinds of tracker in this build.
 std::span<const TrackerKind> tracker_kinds();
+
+/// Returns the kind that a URI names. Throws InputError when there is none.
+const TrackerKind& kind_of(const TrackerUri& uri);
 
 /// Opens the tracker that `uri` names. Every live tracker accepts the options `filter` and `distortion`
 /// (take_filter_options). Throws InputError if there is no such kind, if an option or its value is not allowed, or if

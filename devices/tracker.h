@@ -13,6 +13,7 @@
 
 namespace insonate {
 
+class MouseTracker;
 class RawTap;
 
 enum class TrackerCondition {
@@ -76,6 +77,10 @@ public:
   /// Returns whether the samples report how the probe rotates or moves but not its absolute position, as from a sensor
   /// that measures orientation alone. Such a probe can be placed anywhere and continues from there.
   virtual bool relative() const { return false; }
+
+  /// Returns the tracker as one that the program itself moves, for the learner's mouse and keyboard; nullptr for all
+  /// others.
+  virtual MouseTracker* steered() { return nullptr; }
 
   /// Passes everything that the device sends to `tap` from the first poll on, before it is parsed; raw_recorder.h
   /// records it. A null `tap` receives nothing. Call it before the first poll. Returns false, and does nothing, if

@@ -58,9 +58,10 @@ Session::Session(std::shared_ptr<const LoadedCase> loaded_case, OpenTracker open
       rules_(rules),
       hand_(loaded_case_->subject.ct) {
   tracker_ = open_fresh();
-  only_learner_ = dynamic_cast<MouseTracker*>(tracker_.get()) != nullptr;
-  if (only_learner_) {
-    learner_.reset(static_cast<MouseTracker*>(tracker_.release()));
+  if (MouseTracker* own_hand = tracker_->steered()) {
+    only_learner_ = true;
+    tracker_.release();
+    learner_.reset(own_hand);
     holder_ = Holder::learner;
   }
   shown_ = first_machine();

@@ -3,10 +3,7 @@
 #include <string>
 #include <utility>
 
-#include "devices/hydra/hydra_tracker.h"
-#include "devices/osvr/osvr_tracker.h"
-#include "devices/polhemus/polhemus_tracker.h"
-#include "devices/spacemouse/spacemouse_tracker.h"
+#include "devices/registry.h"
 #include "devices/transport/transport.h"
 #include "sim/core/input_error.h"
 
@@ -46,7 +43,8 @@ std::unique_ptr<RawSource> make_best(const TrackerUri& uri, const TrackerContext
     throw InputError("tracker '" + uri.text + "'", "", "whatever is plugged in has no name to be given",
                      "write just 'auto:', or name the kind of tracker");
   std::vector<std::unique_ptr<RawSource>> sources;
-  for (const auto make : {make_polhemus, make_hydra, make_osvr, make_spacemouse}) sources.push_back(make(uri, context));
+  for (const TrackerKind& kind : tracker_kinds())
+    if (kind.in_auto) sources.push_back(kind.make(uri, context));
   return std::make_unique<BestSource>(std::move(sources));
 }
 

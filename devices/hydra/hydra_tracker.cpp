@@ -7,14 +7,17 @@
 namespace insonate {
 namespace {
 
-constexpr DeviceKind::Model kModels[] = {{0x1532, 0x0300}};
-constexpr DeviceKind kKind{.name = "Razer Hydra", .models = kModels, .interface_number = 0};
+constexpr DeviceKind::Model kModels[] = {{0x1532, 0x0300, "Razer Hydra"}};
+// The bumper, and the buttons 1 and 2.
+constexpr ButtonMeaning kButtons[] = {{0, kFreezeButton}, {2, kMarkButton}, {3, kGoOnButton}};
 
 }  // namespace
 
+const DeviceKind kHydraDevice{.name = "Razer Hydra", .models = kModels, .interface_number = 0};
+
 HydraSource::HydraSource(std::shared_ptr<DeviceBus> bus, const std::string& serial, std::size_t handset,
                          const Placement& placement, std::function<double()> clock_s)
-    : MagneticSource(kKind, std::move(bus), serial, placement, std::move(clock_s)), handset_(handset) {}
+    : MagneticSource(kHydraDevice, std::move(bus), serial, placement, std::move(clock_s)), handset_(handset) {}
 
 void HydraSource::start(Transport& transport, const AttachedDevice&) {
   transport.send(hydra_mode(true));
@@ -32,7 +35,7 @@ bool HydraSource::take(Bytes bytes, double time_s, LiveBatch& batch, ReportTally
   if (parsed.fault != ReportFault::none) return false;
   if (!numbers_.is_news(parsed.report.sequence, tally)) return true;
   const SensorReading& reading = parsed.report.handsets[handset_].reading;
-  PoseSample sample{time_s, reading.status, {}, probe_buttons(ButtonsOf::hydra, reading.buttons)};
+  PoseSample sample{time_s, reading.status, {}, probe_buttons(kButtons, reading.buttons)};
   if (reading.status == PoseStatus::ok)
     sample.patient_from_probe = placement_.patient_from_probe(reading.tracker_from_sensor);
   batch.samples.push_back(sample);

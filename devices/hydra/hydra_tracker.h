@@ -25,6 +25,9 @@ private:
   ReportNumbers numbers_{256};
 };
 
+/// Its models, whose numbers the devices' public drivers and their makers' manuals give.
+extern const DeviceKind kHydraDevice;
+
 /// Makes hydra:[SERIAL][?handset=2&raw=1]. Throws InputError.
 std::unique_ptr<RawSource> make_hydra(const TrackerUri& uri, const TrackerContext& context);
 

@@ -3,29 +3,24 @@
 #include <algorithm>
 #include <utility>
 
-#include "devices/known_trackers.h"
-
 namespace insonate {
 namespace {
 
 /// More than any report: a HID's has 64 bytes, a Viper's largest frame 540.
 constexpr std::size_t kRoom = 4096;
 
+/// Returns the model of a device that can be used; nullptr if it is not of this kind or not ready.
 const DeviceKind::Model* model_of(const DeviceKind& kind, const AttachedDevice& device) {
-  for (const DeviceKind::Model& model : kind.models)
-    if (model.vendor == device.vendor && (model.product == kAnyProduct || model.product == device.product))
-      return &model;
-  return nullptr;
+  const DeviceKind::Model* model = kind.find(device.vendor, device.product);
+  return model && model->usable ? model : nullptr;
 }
 
-/// What people should know of a relative of the device that is plugged in but cannot be used yet.
-std::string waiting_relative(const DeviceKind& kind, const AttachedDevices& attached) {
+/// Returns a sentence about a device of this kind that is plugged in but not ready; empty if there is none.
+std::string waiting_device(const DeviceKind& kind, const AttachedDevices& attached) {
   for (const AttachedDevice& device : attached.devices) {
-    const bool relative = std::any_of(kind.models.begin(), kind.models.end(),
-                                      [&](const DeviceKind::Model& model) { return model.vendor == device.vendor; });
-    const KnownTracker* known = known_tracker(Bus::usb, device.vendor, device.product);
-    if (relative && known && !known->note.empty() && !model_of(kind, device))
-      return "The " + std::string(known->name) + " at " + device.path + " " + std::string(known->note) + ".";
+    const DeviceKind::Model* model = kind.find(device.vendor, device.product);
+    if (model && !model->usable)
+      return "The " + std::string(model->name) + " at " + device.path + " " + std::string(model->note) + ".";
   }
   return "";
 }
@@ -39,6 +34,12 @@ public:
 
 }  // namespace
 
+const DeviceKind::Model* DeviceKind::find(std::uint16_t vendor, std::uint16_t product) const {
+  for (const Model& model : models)
+    if (model.vendor == vendor && (model.product == kAnyProduct || model.product == product)) return &model;
+  return nullptr;
+}
+
 AttachedDevice find_device(const DeviceKind& kind, const std::string& serial, const AttachedDevices& attached) {
   const std::string name(kind.name);
   std::string others;
@@ -50,7 +51,7 @@ AttachedDevice find_device(const DeviceKind& kind, const std::string& serial, co
     if (serial.empty() || device.serial == serial) return device;
     others += (others.empty() ? "" : ", ") + (device.serial.empty() ? "one without a number" : device.serial);
   }
-  std::string sentence = waiting_relative(kind, attached);
+  std::string sentence = waiting_device(kind, attached);
   if (!others.empty())
     sentence = "No " + name + " has the serial number " + serial + ": plugged in is " + others + ".";
   else if (!attached.problem.empty())

@@ -15,15 +15,27 @@
 
 namespace insonate {
 
-/// Which devices on a bus a tracker can use, and what users call them.
+enum class Bus { hid, usb };
+
+/// A USB product number that stands for all of a vendor's.
+inline constexpr std::uint16_t kAnyProduct = 0;
+
+/// Which devices on a bus a tracker can use, and what users call them. Each tracker's folder has one.
 struct DeviceKind {
   struct Model {
     std::uint16_t vendor;
-    std::uint16_t product;  ///< or kAnyProduct
+    std::uint16_t product;    ///< or kAnyProduct; particular models come before it
+    std::string_view name;    ///< "Polhemus Viper"
+    std::string_view note{};  ///< what a user should know about it; may be empty
     Endpoints endpoints{};
+    bool usable = true;  ///< false: the device has to be made ready first, as the note says
   };
   std::string_view name;  ///< "Razer Hydra"
+  Bus bus = Bus::hid;
   std::span<const Model> models;
+
+  /// Returns the model of a device on this bus, usable or not; nullptr if it is another kind's.
+  const Model* find(std::uint16_t vendor, std::uint16_t product) const;
   int interface_number = -1;  ///< number of the HID interface that sends poses; -1 for a device with a single interface
   bool steady = true;         ///< true: the device sends continuously, so silence is a fault
 };

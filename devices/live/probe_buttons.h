@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 namespace insonate {
 
@@ -11,9 +12,18 @@ enum ProbeButton : std::uint32_t {
   kGoOnButton = 4,    ///< continues with the next step
 };
 
-enum class ButtonsOf { hydra, polhemus, spacemouse };
+/// A device's own button bit, and what it means.
+struct ButtonMeaning {
+  std::uint32_t device_bit;  ///< 0 to 31
+  ProbeButton button;
+};
 
-/// Converts a device's own button bits to probe buttons. Buttons without a function are dropped.
-std::uint32_t probe_buttons(ButtonsOf device, std::uint32_t device_bits);
+/// Returns a device's button bits as probe buttons. Bits without a meaning are dropped.
+inline std::uint32_t probe_buttons(std::span<const ButtonMeaning> meanings, std::uint32_t device_bits) {
+  std::uint32_t buttons = 0;
+  for (const ButtonMeaning& meaning : meanings)
+    if (device_bits >> meaning.device_bit & 1) buttons |= meaning.button;
+  return buttons;
+}
 
 }  // namespace insonate

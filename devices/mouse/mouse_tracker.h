@@ -38,6 +38,7 @@ public:
   void hold_buttons(std::uint32_t buttons) { buttons_ = buttons; }
 
   Pose pose() const;
+  MouseTracker* steered() override { return this; }
 
   double clock_s(double now_s) const override { return start_s_ ? now_s - *start_s_ : 0.0; }
 

@@ -5,8 +5,10 @@
 namespace insonate {
 namespace {
 
-constexpr DeviceKind::Model kModels[] = {{0x1532, 0x0b00}, {0x03eb, 0x2421}};
-constexpr DeviceKind kKind{.name = "OSVR head tracker", .models = kModels};
+constexpr DeviceKind::Model kModels[] = {
+    {0x1532, 0x0b00, "OSVR HDK head tracker", "tells orientation only"},
+    {0x03eb, 0x2421, "OSVR HDK head tracker", "tells orientation only"},
+};
 
 /// Half a turn about z: the sensor's x is right and its y up, the probe's x is to the marker, on the left, and its y
 /// down the beam.
@@ -14,9 +16,11 @@ const glm::dquat kProbeFromSensor(0, 0, 0, 1);
 
 }  // namespace
 
+const DeviceKind kOsvrDevice{.name = "OSVR head tracker", .models = kModels};
+
 OsvrSource::OsvrSource(std::shared_ptr<DeviceBus> bus, const std::string& serial, const Pose& start,
                        std::function<double()> clock_s)
-    : DeviceSource(kKind, std::move(bus), serial, std::move(clock_s)), start_(start) {}
+    : DeviceSource(kOsvrDevice, std::move(bus), serial, std::move(clock_s)), start_(start) {}
 
 void OsvrSource::start(Transport&, const AttachedDevice&) {
   numbers_.restart();

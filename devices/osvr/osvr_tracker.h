@@ -31,6 +31,9 @@ private:
   ReportNumbers numbers_{256};
 };
 
+/// Its models, whose numbers the devices' public drivers and their makers' manuals give.
+extern const DeviceKind kOsvrDevice;
+
 /// Makes osvr:[SERIAL]. Throws InputError.
 std::unique_ptr<RawSource> make_osvr(const TrackerUri& uri, const TrackerContext& context);
 

@@ -9,14 +9,20 @@ namespace insonate {
 namespace {
 
 constexpr std::uint16_t kVendor = 0x0f44, kViper = 0xbf01;
+constexpr std::string_view kWaits = "waits for its firmware: load it with the maker's software, then plug in again";
 constexpr DeviceKind::Model kModels[] = {
-    {kVendor, 0xef12, {0x02, 0x82}},  // Patriot
-    {kVendor, 0xef20, {0x04, 0x88}},  // Patriot HS
-    {kVendor, 0xff20, {0x04, 0x88}},  // Liberty HS
-    {kVendor, kViper, {0x02, 0x81}},  // Viper
+    {kVendor, 0xef12, "Polhemus Patriot", "", {0x02, 0x82}},
+    {kVendor, 0xef20, "Polhemus Patriot HS", "", {0x04, 0x88}},
+    {kVendor, 0xff20, "Polhemus Liberty HS", "", {0x04, 0x88}},
+    {kVendor, kViper, "Polhemus Viper", "", {0x02, 0x81}},
+    {kVendor, 0xef11, "Polhemus tracker", kWaits, {}, false},
+    {kVendor, 0xef21, "Polhemus tracker", kWaits, {}, false},
+    {kVendor, 0xff11, "Polhemus tracker", kWaits, {}, false},
+    {kVendor, 0xff21, "Polhemus tracker", kWaits, {}, false},
+    {kVendor, 0x0001, "Polhemus tracker", kWaits, {}, false},
 };
+constexpr ButtonMeaning kButtons[] = {{0, kFreezeButton}, {1, kMarkButton}};  // a stylus has one button or two
 constexpr std::uint32_t kMostSensors = 16;
-constexpr DeviceKind kKind{.name = "Polhemus tracker", .models = kModels};
 
 void send(Transport& transport, std::string_view text) {
   transport.send({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
@@ -24,9 +30,11 @@ void send(Transport& transport, std::string_view text) {
 
 }  // namespace
 
+const DeviceKind kPolhemusDevice{.name = "Polhemus tracker", .bus = Bus::usb, .models = kModels};
+
 PolhemusSource::PolhemusSource(std::shared_ptr<DeviceBus> bus, const std::string& serial, std::uint32_t sensor,
                                const Placement& placement, std::function<double()> clock_s)
-    : MagneticSource(kKind, std::move(bus), serial, placement, std::move(clock_s)), sensor_(sensor) {}
+    : MagneticSource(kPolhemusDevice, std::move(bus), serial, placement, std::move(clock_s)), sensor_(sensor) {}
 
 void PolhemusSource::start(Transport& transport, const AttachedDevice& device) {
   viper_ = device.product == kViper;
@@ -67,8 +75,7 @@ bool PolhemusSource::take(Bytes bytes, double time_s, LiveBatch& batch, ReportTa
       continue;
     }
     if (!numbers_.is_news(record.frame, tally)) continue;
-    PoseSample sample{
-        time_s, reading.status, {}, probe_buttons(ButtonsOf::polhemus, reading.buttons), reading.distortion};
+    PoseSample sample{time_s, reading.status, {}, probe_buttons(kButtons, reading.buttons), reading.distortion};
     if (sample.status == PoseStatus::ok)
       sample.patient_from_probe = placement_.patient_from_probe(reading.tracker_from_sensor);
     batch.samples.push_back(sample);

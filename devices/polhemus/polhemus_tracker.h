@@ -40,6 +40,9 @@ private:
   std::optional<double> sensor_s_;  ///< when the sensor last arrived, or else when another sensor first did
 };
 
+/// Its models, whose numbers the devices' public drivers and their makers' manuals give.
+extern const DeviceKind kPolhemusDevice;
+
 /// Makes polhemus:[SERIAL][?sensor=1&raw=1]. Throws InputError.
 std::unique_ptr<RawSource> make_polhemus(const TrackerUri& uri, const TrackerContext& context);
 

@@ -5,15 +5,20 @@
 #include <algorithm>
 
 #include "devices/hid/hid_bus.h"
-#include "devices/known_trackers.h"
 #include "devices/live/probe_buttons.h"
 #include "devices/spacemouse/spacemouse_report.h"
 
 namespace insonate {
 namespace {
 
-constexpr DeviceKind::Model kModels[] = {{0x046d, 0xc626}, {0x256f, kAnyProduct}};
-constexpr DeviceKind kKind{.name = "SpaceMouse", .models = kModels, .steady = false};
+constexpr std::string_view kDesk = "moves the probe at a desk";
+constexpr DeviceKind::Model kModels[] = {
+    {0x046d, 0xc626, "3Dconnexion SpaceNavigator", kDesk},
+    {0x256f, 0xc635, "3Dconnexion SpaceMouse Compact", kDesk},
+    {0x256f, 0xc62e, "3Dconnexion SpaceMouse Wireless", kDesk},
+    {0x256f, kAnyProduct, "3Dconnexion SpaceMouse", kDesk},
+};
+constexpr ButtonMeaning kButtons[] = {{0, kFreezeButton}, {1, kMarkButton}};  // left, right
 
 /// The cap's axes (right, to the user, down) in the probe's frame (marker, beam, elevation).
 glm::dvec3 probe_from_cap(const glm::dvec3& cap) {
@@ -22,9 +27,11 @@ glm::dvec3 probe_from_cap(const glm::dvec3& cap) {
 
 }  // namespace
 
+const DeviceKind kSpaceMouseDevice{.name = "SpaceMouse", .models = kModels, .steady = false};
+
 SpaceMouseSource::SpaceMouseSource(std::shared_ptr<DeviceBus> bus, const std::string& serial, const Pose& start,
                                    double speed, std::function<double()> clock_s)
-    : DeviceSource(kKind, std::move(bus), serial, std::move(clock_s)),
+    : DeviceSource(kSpaceMouseDevice, std::move(bus), serial, std::move(clock_s)),
       speed_(speed),
       rotation_(glm::normalize(glm::quat_cast(start.rotation))),
       began_(start.translation),
@@ -62,10 +69,8 @@ bool SpaceMouseSource::take(Bytes bytes, double time_s, LiveBatch& batch, Report
       if (report.buttons) buttons_ = *report.buttons;
     }
   }
-  batch.samples.push_back({time_s,
-                           PoseStatus::ok,
-                           {glm::mat3_cast(rotation_), translation_},
-                           probe_buttons(ButtonsOf::spacemouse, buttons_)});
+  batch.samples.push_back(
+      {time_s, PoseStatus::ok, {glm::mat3_cast(rotation_), translation_}, probe_buttons(kButtons, buttons_)});
   return understood;
 }
 

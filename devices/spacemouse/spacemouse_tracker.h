@@ -46,6 +46,9 @@ private:
   double told_s_ = 0;  ///< time of the cap's last report
 };
 
+/// Its models, whose numbers the devices' public drivers and their makers' manuals give.
+extern const DeviceKind kSpaceMouseDevice;
+
 /// Makes spacemouse:[SERIAL][?speed=1], with a speed factor from 0.1 to 10. Throws InputError.
 std::unique_ptr<RawSource> make_spacemouse(const TrackerUri& uri, const TrackerContext& context);
 

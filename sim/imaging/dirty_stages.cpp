@@ -68,7 +68,7 @@ DirtyStages dirty_stages(const Settings& before, const Settings& now) {
              &S::speckle_seed, &S::speckle_cell_mm, &S::slice_planes, &S::slice_thickness_mm, &S::elevation_focus_mm,
              &S::edge_shadow, &S::image_width, &S::image_height, &S::exact_filter, &S::skipping) ||
       (keeps_middle_plane(to) && !keeps_middle_plane(from)) ||
-      least_alpha_with_normal(to) < least_alpha_with_normal(from))  // interfaces are seen that were not
+      least_alpha_with_normal(to) != least_alpha_with_normal(from))  // other interfaces are worth a normal
     dirty.first = Stage::traverse;
   else if (differ(&S::beam_window, &S::beam_lines, &S::focused_beam, &S::focus_mm, &S::f_number, &S::reverberation,
                   &S::face_reflection, &S::clutter, &S::two_way))

@@ -40,8 +40,6 @@ public:
   /// What shaders are compiled for (effects that are on or off, numbers of lines and planes, a smoothing's radius in
   /// pixels) is compiled when the next picture is due: 50 to 200 ms a stage with llvmpipe, 0.7 s if it is all of them,
   /// and nothing for what one of the last sixteen pictures of other settings had.
-  /// Normals of weak interfaces that the settings before these asked for are kept: with skipping on, a picture may be
-  /// off by a grey level from a new simulator's.
   /// Throws std::invalid_argument on settings that why_not_valid() (sim/model/settings_file.h) finds fault with.
   void set_settings(const Settings& settings);
   /// Throws std::invalid_argument on a pose that check_pose() (sim/imaging/view_limits.h) finds fault with: not rigid,

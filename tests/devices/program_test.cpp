@@ -8,14 +8,19 @@
 #include <array>
 #include <cstdio>
 #include <filesystem>
+#include <sstream>
 #include <string>
 #include <vector>
 
-#include "devices/known_trackers.h"
+#include "devices/hydra/hydra_tracker.h"
+#include "devices/osvr/osvr_tracker.h"
+#include "devices/polhemus/polhemus_tracker.h"
 #include "devices/record/recording_files.h"
+#include "devices/registry.h"
 #include "devices/sequence/probe_samples.h"
 #include "devices/sequence/sequence.h"
 #include "devices/sequence/sequence_text.h"
+#include "devices/spacemouse/spacemouse_tracker.h"
 #include "sim/core/files.h"
 #include "tests/devices/test_samples.h"
 
@@ -174,13 +179,13 @@ TEST_CASE("insonate-devices says what is wrong in one line and exits with 2") {
 }
 
 TEST_CASE("trackers are known by their numbers, the more particular name first") {
-  CHECK(known_tracker(Bus::hid, 0x1532, 0x0300)->name == "Razer Hydra");
-  CHECK(known_tracker(Bus::hid, 0x256f, 0xc635)->name == "3Dconnexion SpaceMouse Compact");
-  CHECK(known_tracker(Bus::hid, 0x256f, 0xffff)->name == "3Dconnexion SpaceMouse");
-  CHECK(known_tracker(Bus::usb, 0x0f44, 0xbf01)->note.empty());
-  CHECK(contains(std::string(known_tracker(Bus::usb, 0x0f44, 0xff21)->note), "firmware"));
-  CHECK(known_tracker(Bus::usb, 0x1532, 0x0300) == nullptr);
-  CHECK(known_tracker(Bus::hid, 0x1234, 0x5678) == nullptr);
+  CHECK(kHydraDevice.find(0x1532, 0x0300)->name == "Razer Hydra");
+  CHECK(kSpaceMouseDevice.find(0x256f, 0xc635)->name == "3Dconnexion SpaceMouse Compact");
+  CHECK(kSpaceMouseDevice.find(0x256f, 0xffff)->name == "3Dconnexion SpaceMouse");
+  CHECK(kPolhemusDevice.find(0x0f44, 0xbf01)->usable);
+  CHECK_FALSE(kPolhemusDevice.find(0x0f44, 0xff21)->usable);
+  CHECK(contains(std::string(kPolhemusDevice.find(0x0f44, 0xff21)->note), "firmware"));
+  CHECK(kOsvrDevice.find(0x1532, 0x0300) == nullptr);
 }
 
 TEST_CASE("insonate-devices watch says whose pose it shows, and that only a device can be recorded raw") {
@@ -209,4 +214,25 @@ TEST_CASE("insonate-devices watch says whose pose it shows, and that only a devi
   CHECK(replayed.exit_code == 2);
   CHECK(contains(replayed.output, "nothing in it became a sample"));
   std::filesystem::remove(file);
+}
+
+TEST_CASE("the udev rules open every device that a tracker uses") {
+  const std::string rules = read_file(std::filesystem::path(INSONATE_ASSETS_FOLDER) / "udev" / "70-insonate.rules");
+  for (const TrackerKind& kind : tracker_kinds()) {
+    if (!kind.device) continue;
+    const std::string node = kind.device->bus == Bus::hid ? "KERNEL==\"hidraw*\"" : "SUBSYSTEM==\"usb\"";
+    for (const DeviceKind::Model& model : kind.device->models) {
+      char vendor[40], product[40];
+      std::snprintf(vendor, sizeof vendor, "{idVendor}==\"%04x\"", model.vendor);
+      std::snprintf(product, sizeof product, "{idProduct}==\"%04x\"", model.product);
+      CAPTURE(vendor, product);
+      bool opened = false;
+      std::istringstream lines(rules);
+      for (std::string line; std::getline(lines, line);)
+        opened |= line.starts_with(node) && line.find(vendor) != std::string::npos &&
+                  line.find("uaccess") != std::string::npos &&
+                  (line.find("idProduct") == std::string::npos || line.find(product) != std::string::npos);
+      CHECK(opened);
+    }
+  }
 }

@@ -63,7 +63,7 @@ TEST_CASE("a change runs the first stage it reaches and those behind it") {
   CHECK(f.after([&] { f.simulator.set_pose(test::on_the_skin(1, 9, 0)); }) == "01234");
   CHECK(f.after([&] { f.settings.f_number = 5; }) == "1234");
   CHECK(f.after([&] { f.settings.reflection_sigma_mm = 2; }) == "234");
-  CHECK(f.after([&] { f.settings.blend *= 2; }) == "234");
+  CHECK(f.after([&] { f.settings.blend *= 2; }) == "01234");  // weaker interfaces count
   CHECK(f.after([&] { f.settings.gain_db = 6; }) == "4");
   CHECK(f.after([&] { f.settings.tgc_db[3] += 6; }) == "4");
   CHECK(f.after([&] { f.settings.dynamic_range_db = 50; }) == "4");
@@ -170,6 +170,8 @@ TEST_CASE("a picture after a change is the picture that a new simulator draws") 
       [](Settings& s) { s.clutter = s.electronic_noise = false; },
       // one that reaches the beam alone, and one that makes interfaces seen that were not
       [](Settings& s) { s.two_way = !s.two_way, s.blend *= 1e-4; },
+      // and back: weak interfaces are not seen any more
+      [](Settings& s) { s.blend *= 1e4, s.clutter = true, s.clutter_db = 0; },
   };
   Fixture f;
   for (std::size_t i = 0; i < std::size(changes); ++i) {
@@ -179,5 +181,6 @@ TEST_CASE("a picture after a change is the picture that a new simulator draws") 
     gl::Simulator fresh;
     set_up(fresh, f.settings);
     CHECK(f.simulator.read_stages().grey.pixels == fresh.read_stages().grey.pixels);
+    CHECK(f.simulator.read_stages().fused.pixels == fresh.read_stages().fused.pixels);
   }
 }

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "devices/hid/hid_bus.h"
-#include "devices/known_trackers.h"
 #include "devices/registry.h"
 #include "devices/usb/usb_bus.h"
 #include "tools/devices/commands.h"
@@ -13,12 +12,20 @@
 namespace insonate::devices {
 namespace {
 
+/// Returns the model of a device that one of the trackers uses, or could once it is ready; nullptr if none does.
+const DeviceKind::Model* known_model(Bus bus, const AttachedDevice& device) {
+  for (const TrackerKind& kind : tracker_kinds())
+    if (kind.device && kind.device->bus == bus)
+      if (const DeviceKind::Model* model = kind.device->find(device.vendor, device.product)) return model;
+  return nullptr;
+}
+
 /// Prints the known trackers of a bus, or with `all` every device of it; returns how many known ones there are.
 int list_bus(Bus bus, const char* bus_name, const AttachedDevices& attached, bool all) {
   int known_ones = 0;
   if (!attached.problem.empty()) std::printf("  %s cannot be asked: %s\n", bus_name, attached.problem.c_str());
   for (const AttachedDevice& device : attached.devices) {
-    const KnownTracker* known = known_tracker(bus, device.vendor, device.product);
+    const DeviceKind::Model* known = known_model(bus, device);
     if (!known && !all) continue;
     known_ones += known != nullptr;
     const std::string name = known ? std::string(known->name) : device.name.empty() ? "a device" : device.name;

@@ -81,7 +81,9 @@ struct Bench {
 };
 
 std::string absent(const AttachedDevices& attached, const std::string& serial) {
-  constexpr DeviceKind::Model models[] = {{0x1532, 0x0300, {}}, {0x0f44, 0xbf01, {}}};
+  constexpr DeviceKind::Model models[] = {{0x1532, 0x0300, "Gadget"},
+                                          {0x0f44, 0xbf01, "Gadget"},
+                                          {0x0f44, 0x0001, "Gadget", "waits for its firmware", {}, false}};
   try {
     find_device({.name = "Gadget", .models = models, .interface_number = 0}, serial, attached);
     return "";
@@ -102,7 +104,7 @@ TEST_CASE("a device is found by its numbers and its serial, and what is there in
   mouse_part.interface_number = 1;
   mouse_part.path = "/dev/hidraw1";
   stranger.product = 1;
-  constexpr DeviceKind::Model models[] = {{0x1532, 0x0300, {}}};
+  constexpr DeviceKind::Model models[] = {{0x1532, 0x0300, "Gadget"}};
   const DeviceKind kind{.name = "Gadget", .models = models, .interface_number = 0};
   const AttachedDevices two{{stranger, mouse_part, kHydra, second}, ""};
   CHECK(find_device(kind, "", two).path == "/dev/hidraw3");
