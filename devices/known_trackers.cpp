@@ -5,7 +5,7 @@ namespace {
 
 constexpr std::string_view kWaits = "waits for its firmware: load it with the maker's software, then plug in again";
 
-// As the devices' public drivers and their makers' manuals give them. The more particular lines come first.
+// Numbers from the devices' public drivers and their makers' manuals. More specific entries come first.
 constexpr KnownTracker kKnown[] = {
     {Bus::hid, 0x1532, 0x0300, "Razer Hydra", ""},
     {Bus::hid, 0x1532, 0x0b00, "OSVR HDK head tracker", "tells orientation only"},

@@ -23,6 +23,7 @@ namespace insonate {
 /// So the time of an exam continues without its tracker.
 class LiveTracker : public Tracker {
 public:
+  /// Limits and intervals of a LiveTracker; the tests change them.
   struct Options {
     /// Samples that can wait for the next poll: half a second of eight sensors at 1000 Hz.
     std::size_t capacity = 4096;

@@ -10,10 +10,10 @@ struct Line {
 };
 
 constexpr Line kLines[] = {
-    {ButtonsOf::hydra, 0, kFreezeButton},       // the bumper
-    {ButtonsOf::hydra, 2, kMarkButton},         // 1
-    {ButtonsOf::hydra, 3, kGoOnButton},         // 2
-    {ButtonsOf::polhemus, 0, kFreezeButton},    // a stylus has one button, or two
+    {ButtonsOf::hydra, 0, kFreezeButton},       // bumper
+    {ButtonsOf::hydra, 2, kMarkButton},         // button 1
+    {ButtonsOf::hydra, 3, kGoOnButton},         // button 2
+    {ButtonsOf::polhemus, 0, kFreezeButton},    // a stylus has one or two buttons
     {ButtonsOf::polhemus, 1, kMarkButton},      //
     {ButtonsOf::spacemouse, 0, kFreezeButton},  // left
     {ButtonsOf::spacemouse, 1, kMarkButton},    // right

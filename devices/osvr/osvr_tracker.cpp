@@ -8,8 +8,8 @@ namespace {
 constexpr DeviceKind::Model kModels[] = {{0x1532, 0x0b00}, {0x03eb, 0x2421}};
 constexpr DeviceKind kKind{.name = "OSVR head tracker", .models = kModels};
 
-/// Half a turn about z: the sensor's x is right and its y up, the probe's x is to the marker, on the left, and its y
-/// down the beam.
+/// 180 degrees about z. The sensor's x is right and its y up; the probe's x points to the marker, on the left, and its
+/// y down the beam.
 const glm::dquat kProbeFromSensor(0, 0, 0, 1);
 
 }  // namespace

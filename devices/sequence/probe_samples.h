@@ -60,6 +60,7 @@ std::vector<PoseSample> probe_samples(const Sequence& sequence, std::string_view
 /// Returns the recorded actions, which are everything but motion, by the times of the frames that report them.
 std::map<double, std::string> recorded_actions(const Sequence& sequence);
 
+/// A recorded scan: its provenance, samples and images.
 struct RecordedScan {
   Recording recording;
   std::vector<PoseSample> samples;
