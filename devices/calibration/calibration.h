@@ -46,8 +46,7 @@ struct MannequinSetup {
   /// The mannequin's frame is the tracker's frame at the time when the landmarks were first touched. If the tracker's
   /// base or the mannequin has been moved since then, this is not the identity.
   Pose mannequin_from_tracker;
-  double accuracy_mm = 0, residual_mm = 0,
-         worst_mm = 0;  ///< see Registration; from when the landmarks were last touched
+  double accuracy_mm = 0, residual_mm = 0, worst_mm = 0;  ///< of the last touched landmarks; see Registration
   std::string worst;
   std::vector<LandmarkPair> landmarks;  ///< touched_mm in the mannequin's frame
 };

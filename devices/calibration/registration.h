@@ -42,10 +42,10 @@ inline constexpr double kMostLandmarkResidualMm = 40;
 
 /// Fits a rigid motion to pairs of landmarks: the least squares solution by unit quaternions (Horn, J. Opt. Soc. Am. A
 /// 4, 1987; the same as that of Kabsch, Acta Cryst. A32, 1976), with the scale fixed at 1. With a localisation error of
-/// 2 mm the error at a target among the landmarks is 1.0 to 1.2 mm for 6 landmarks and 0.9 to 1.0 mm for 8
-/// (Fitzpatrick, West and Maurer, IEEE TMI 17, 1998). Refused with fewer than kLeastLandmarks to fit or none held out,
-/// if they lie near a line or a plane, if a mirrored body fits better, or if the residual shows that landmarks were
-/// mixed up.
+/// 2 mm, the error at a target among 6 landmarks is 1.0 to 1.2 mm, and among 8 it is 0.9 to 1.0 mm (Fitzpatrick, West
+/// and Maurer, IEEE TMI 17, 1998). Refused with fewer than kLeastLandmarks to fit or none held out, or if the landmarks
+/// lie near a line or a plane. Also refused if a mirrored body fits better, or if the residual shows that landmarks
+/// were mixed up.
 Outcome<Registration> register_landmarks(std::span<const LandmarkPair> pairs);
 
 }  // namespace insonate

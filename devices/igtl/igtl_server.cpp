@@ -58,8 +58,7 @@ Server::~Server() {
 
 void Server::wake() {
   const std::uint64_t one = 1;
-  [[maybe_unused]] const ssize_t written =
-      ::write(woken_.get(), &one, sizeof one);  // fails only if the thread has been woken already
+  [[maybe_unused]] const ssize_t written = ::write(woken_.get(), &one, sizeof one);  // fails only if already woken
 }
 
 void Server::publish(Stream stream, Bytes message) {

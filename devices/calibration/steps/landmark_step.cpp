@@ -29,8 +29,7 @@ protected:
 
 private:
   std::string patient_;
-  std::vector<LandmarkPair>
-      pairs_;  ///< ct_mm holds the target of the fit: after a move, places in the mannequin's frame
+  std::vector<LandmarkPair> pairs_;  ///< ct_mm: target of the fit; if moved, places in the mannequin's frame
   bool moved_ = false;
   Registration found_;
 };
