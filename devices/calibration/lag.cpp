@@ -17,7 +17,7 @@ constexpr double kSmoothS = 0.015;
 /// Two peaks this far apart are two different explanations.
 constexpr double kOtherPeakS = 0.06;
 constexpr double kOtherPeakShare = 0.8;
-/// Longer than a set-up session. It limits the memory if a clock is wrong.
+/// Length of a set-up session. It limits the memory if a clock is wrong.
 constexpr double kLongestS = 600;
 
 /// Correlates late[i + shift] with early[i] over their overlap. Returns 0 if that is less than half of the shorter one,

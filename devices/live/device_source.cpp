@@ -132,7 +132,7 @@ void DeviceSource::close() noexcept {
   try {
     stop(*transport_);
   } catch (const std::exception&) {
-    // The device is gone or keeps sending; the next start handles both.
+    // The device is gone, or keeps its mode. The next start handles both.
   }
   transport_.reset();
 }

@@ -58,7 +58,7 @@ ProbeTrack probe_track(const Sequence& sequence, const RecordingOptions& options
 /// Returns the samples of probe_track() alone.
 std::vector<PoseSample> probe_samples(const Sequence& sequence, std::string_view transform = {});
 
-/// Returns the recorded actions, which are everything but motion, by the times of the frames that report them.
+/// Returns what was done besides moving, by the times of the frames that report them.
 std::map<double, std::string> recorded_actions(const Sequence& sequence);
 
 /// A recorded scan: its provenance, samples and images.
