@@ -6,7 +6,7 @@
 namespace insonate {
 namespace {
 
-/// One more than the last step that counts anything.
+/// Returns one more than the index of the last bin that is not empty.
 std::size_t used_steps(const LatencyHistogram& histogram) {
   std::size_t used = histogram.counts().size();
   while (used > 0 && histogram.counts()[used - 1] == 0) --used;

@@ -12,7 +12,7 @@
 namespace insonate {
 namespace {
 
-// Above every count that means anything, below what a whole number holds.
+// Above every meaningful count, and below the largest integer.
 constexpr double kMostMissing = 1e15;
 
 double median(std::vector<double> values) {

@@ -64,7 +64,7 @@ inline constexpr double kGapIntervals = 1.8;
 inline constexpr double kJumpMmPerS = 3000, kJumpLeastMm = 10;
 inline constexpr double kJumpDegPerS = 1080, kJumpLeastDeg = 15;
 
-/// Checks samples with rising times, at least one.
+/// Checks samples with rising times. Without samples the report is empty.
 /// @param has_times  false if the times mean nothing
 LogReport check_log(const std::vector<PoseSample>& samples, bool has_times = true);
 

@@ -11,7 +11,7 @@
 namespace insonate {
 namespace {
 
-// The velocity is a line fitted through the newest samples, as many as DEVICES found best.
+// Number of newest samples through which a line is fitted for the velocity. DEVICES found this number best.
 constexpr std::size_t kFitted = 13;
 
 }  // namespace
@@ -41,8 +41,7 @@ void PoseHistory::add(const PoseSample& sample) {
     usable_.push_back({sample.time_s, sample.patient_from_probe});
   else if (!usable_.empty())
     usable_.back().unusable_from_s = std::min(usable_.back().unusable_from_s, sample.time_s);
-  // The newest usable sample stays however old it is, with those that say where it was going: the picture is frozen
-  // there.
+  // The newest usable sample is kept however old it is, with those that give its velocity: the picture is frozen there.
   while (!usable_.empty() && usable_.front().time_s < usable_.back().time_s - kKeptS) usable_.pop_front();
 }
 
@@ -79,8 +78,8 @@ Pose PoseHistory::predict(std::size_t index, double ahead_s) const {
   while (first > 0 && index - first + 1 < kFitted && last.time_s - usable_[first - 1].time_s <= kBridgeS) --first;
   const auto count = double(index - first + 1);
 
-  // Slopes of the least-squares lines through translation and turn against time, both taken relative to the last
-  // sample: the prediction sets out from there, so that the pose does not jump.
+  // Slopes of the least-squares lines through translation and rotation against time, both relative to the last sample.
+  // The prediction starts from that sample, so the pose does not jump.
   double mean_s = 0, spread = 0;
   for (std::size_t i = first; i <= index; ++i) mean_s += (usable_[i].time_s - last.time_s) / count;
   glm::dvec3 mm(0), rad(0);

@@ -20,6 +20,7 @@ enum class PoseAnswer {
 
 std::string_view to_string(PoseAnswer answer);
 
+/// A pose returned by PoseHistory, and how it was determined.
 struct PoseEstimate {
   PoseAnswer how = PoseAnswer::none;
   Pose patient_from_probe;  ///< meaningless if `how` is none

@@ -23,8 +23,7 @@ struct Recording {
   std::string digest;                       ///< digest of exactly the bytes that were parsed (sim/core/digest.h)
   std::string transform;                    ///< the transform that was taken for the probe's: "ProbeToPatient"
   std::map<double, std::string> actions{};  ///< actions by frame time, for frames that have some; see SequenceFrame
-  bool of_sensor =
-      false;  ///< true: the samples are poses of a sensor in its tracker's frame, not of the probe in the patient
+  bool of_sensor = false;  ///< true: the poses are a sensor's in its tracker's frame, not the probe's in the patient
   RecordingRepairs repairs{};
   /// Rate in Hz from which frames without times got their times. Empty if the frames have times of their own.
   std::optional<double> assumed_rate_hz{};

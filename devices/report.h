@@ -32,10 +32,9 @@ struct SensorReading {
   std::uint32_t sensor = 0;  ///< from 0
   /// ok, or `invalid` if the device flags an error or its numbers are not a pose. In that case the pose is meaningless.
   PoseStatus status = PoseStatus::invalid;
-  Pose tracker_from_sensor;   ///< mm
-  std::uint32_t buttons = 0;  ///< numbered as the device numbers them
-  std::optional<std::uint32_t>
-      distortion;  ///< distortion grade as the device reports it; empty if the device reports none
+  Pose tracker_from_sensor;                 ///< mm
+  std::uint32_t buttons = 0;                ///< numbered as the device numbers them
+  std::optional<std::uint32_t> distortion;  ///< the device's own grade; empty if it reports none
 };
 
 /// Sets pose and status from a position in millimetres and a quaternion, which is normalised. The status is `invalid`

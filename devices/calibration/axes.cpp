@@ -16,9 +16,9 @@ namespace insonate {
 namespace {
 
 constexpr double kNeverDeg = 180;
-/// Moves by hand are as straight and square as that.
+/// Tolerance for the straightness and the right angles of moves by hand.
 constexpr double kMostOffSquareDeg = 35;
-/// Possibilities that fit nearly as well as the best are told apart by how few signs they change.
+/// Among combinations within this of the best misfit, the one with the fewest sign changes is chosen.
 constexpr double kAsGoodDeg = 8;
 
 double angle_deg(const glm::dvec3& a, const glm::dvec3& b) {
@@ -29,7 +29,7 @@ glm::dvec3 way(const StraightMove& move, const AxisSigns& signs) {
   return signs.position * (move.to.translation - move.from.translation);
 }
 
-/// A direction of the tracker's frame as the probe saw it when a move began.
+/// Converts a direction from the tracker's frame to the probe's at the start of a move.
 glm::dvec3 seen(const StraightMove& move, const AxisSigns& signs, const glm::dvec3& direction) {
   return glm::transpose(signs.apply(move.from).rotation) * direction;
 }
@@ -70,7 +70,7 @@ std::optional<Refusal> why_unusable(const AxesMoves& moves) {
     std::snprintf(text, sizeof text, "The move %s was %.0f mm long; move 100 mm or more.", name, mm);
     return Refusal{text};
   }
-  // Signs leave these angles as they are.
+  // Sign changes do not affect these angles.
   const AxisSigns as_they_are;
   const glm::dvec3 right = way(moves.right, as_they_are), up = way(moves.up, as_they_are),
                    head = way(moves.to_head, as_they_are), lying = way(moves.lying, as_they_are);

@@ -9,7 +9,7 @@
 
 namespace insonate {
 
-/// What has to change its sign for a tracker to move as hands do: +1 or -1 for each coordinate of the position and for
+/// Sign changes that make a tracker's poses move as a hand does: +1 or -1 for each coordinate of the position and for
 /// each of the quaternion's x, y and z. Public drivers of one device disagree on such signs (DEVICES).
 struct AxisSigns {
   glm::dvec3 position{1};
@@ -17,39 +17,42 @@ struct AxisSigns {
 
   Pose apply(const Pose& pose) const;
   bool none() const { return position == glm::dvec3(1) && quaternion == glm::dvec3(1); }
-  /// "mirrored: the position's x; the quaternion's y and z", or "no axis is mirrored".
+  /// Returns "mirrored: the position's x; the quaternion's y and z", or "no axis is mirrored".
   std::string words() const;
 };
 
-/// The probe moved straight, without being turned meanwhile.
+/// A straight move of the probe without rotation.
 struct StraightMove {
   Pose from, to;  ///< tracker_from_sensor, mm
 };
 
-/// Four moves of 100 mm or so. Nothing needs to be known of where the tracker's base stands or how the sensor sits on
-/// the probe.
+/// Four moves of about 100 mm. Neither the placement of the tracker's base nor of the sensor on the probe has to be
+/// known.
 struct AxesMoves {
-  StraightMove right;    ///< the probe stands upright, its marker to the patient's right; moved to the right
+  StraightMove right;    ///< the probe stands upright, marker to the patient's right; moved to the right
   StraightMove up;       ///< held as before; moved up, away from the table
-  StraightMove to_head;  ///< still upright, turned so that the marker points to the head; moved to the head
-  StraightMove lying;    ///< laid over so that the marker points up; moved up
+  StraightMove to_head;  ///< still upright, rotated so that the marker points to the head; moved to the head
+  StraightMove lying;    ///< laid on its side so that the marker points up; moved up
 };
 
+/// The result of check_axes().
 struct AxesFinding {
   AxisSigns signs;
-  /// The largest angle, degrees, by which the moves then disagree: towards the marker was always the same direction of
-  /// the probe, and so was up while it stood upright. A hand leaves 5 to 15.
+  /// The largest angle (degrees) by which the moves disagree with these signs. The direction towards the marker must be
+  /// the same in the probe's frame in all moves, and so must the direction up while the probe stood upright. Moves by
+  /// hand leave 5 to 15.
   double misfit_deg = 0;
 };
 
 inline constexpr double kLeastMoveMm = 50;
 inline constexpr double kMostAxesMisfitDeg = 30;
 
-/// Finds which signs make the four moves agree, all 40 possibilities compared (the position's coordinates one at a
-/// time or all, as a hemisphere jump leaves them; the quaternion's in any combination). No sign changes where the moves
-/// agree without; else the fewest that make them agree. Several possibilities may differ only by how base and sensor
-/// are turned, which later steps find anyway: then it does not matter which. Refused when a move is too short, when
-/// moves are not at right angles to each other, or when no signs make them agree.
+/// Finds the signs that make the four moves agree, by comparing all 40 combinations: the position's coordinates one at
+/// a time or all together, as a hemisphere jump leaves them, and the quaternion's in any combination. If the moves
+/// agree without a change, no sign changes; else the combination with the fewest changes that makes them agree is used.
+/// Several combinations may differ only in the orientation of base and sensor, which later steps determine anyway; then
+/// the choice does not matter. Refused if a move is too short, if the moves are not at right angles to each other, or
+/// if no signs make them agree.
 Outcome<AxesFinding> check_axes(const AxesMoves& moves);
 
 }  // namespace insonate

@@ -32,7 +32,7 @@ std::int64_t made_s(const Calibration& calibration) {
 std::vector<std::string> calibration_warnings(const Calibration& calibration, const TrackerIdentity& tracker,
                                               std::int64_t now_s, double days) {
   std::vector<std::string> warnings;
-  // A recording does not tell which tracker it came from.
+  // A recording does not identify the tracker it came from.
   if (calibration.tracker != tracker && tracker.kind != "replay" && tracker.kind != "raw")
     warnings.push_back("The calibration was made with another tracker (" + calibration.tracker.words() + "); this is " +
                        tracker.words() + ".");

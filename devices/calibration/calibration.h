@@ -15,8 +15,8 @@
 
 namespace insonate {
 
-/// Which sensor of which tracker: its URI's scheme, its serial number where it tells one, and which of its sensors or
-/// handsets, as each sits on the probe in a way of its own.
+/// Identifies a sensor of a tracker: the scheme of the tracker's URI, its serial number if the URI has one, and the
+/// number of the sensor or handset. Each sensor has its own placement on the probe.
 struct TrackerIdentity {
   std::string kind;
   std::string serial;
@@ -25,75 +25,82 @@ struct TrackerIdentity {
   std::string words() const;  ///< "hydra, serial 1234, sensor 2"
 };
 
-/// A step of the set-up and when it was made, in seconds since 1970 (UTC).
+/// A result of a set-up step and the time when it was made, in seconds since 1970 (UTC).
 template <typename T>
 struct Dated {
   T value;
   std::int64_t made_s = 0;
 };
 
+/// The result of the step "face".
 struct FaceSetup {
   FaceFit fit;
   std::string method;     ///< "touch" or "drawing"
-  double tip_off_mm = 0;  ///< how far the drawing's tip lay from the one found by pivoting; 0 when touched
+  double tip_off_mm = 0;  ///< distance from the drawing's tip to the one found by pivoting; 0 if touched
 };
 
+/// The result of the step "landmarks".
 struct MannequinSetup {
-  std::string patient;  ///< whose landmarks they are
+  std::string patient;  ///< the patient to whom the landmarks belong
   Pose ct_from_mannequin;
-  /// The mannequin's frame is the tracker's as it was when the landmarks were first touched. Where the tracker's base
-  /// or the mannequin was moved since, this is no longer the identity.
+  /// The mannequin's frame is the tracker's frame at the time when the landmarks were first touched. If the tracker's
+  /// base or the mannequin has been moved since then, this is not the identity.
   Pose mannequin_from_tracker;
-  double accuracy_mm = 0, residual_mm = 0, worst_mm = 0;  ///< of the last time landmarks were touched: Registration
+  double accuracy_mm = 0, residual_mm = 0, worst_mm = 0;  ///< of the last touched landmarks; see Registration
   std::string worst;
   std::vector<LandmarkPair> landmarks;  ///< touched_mm in the mannequin's frame
 };
 
-/// All that turns the poses of a tracker's sensor into the probe's in the patient. Each step is there once it was made.
+/// Everything that converts the poses of a tracker's sensor to the probe's in the patient. The result of a step is
+/// empty until the step has been made.
 struct Calibration {
   TrackerIdentity tracker;
   std::optional<Dated<AxesFinding>> axes;
   std::optional<Dated<TipFit>> tip;
   std::optional<Dated<FaceSetup>> face;
   std::optional<Dated<MannequinSetup>> mannequin;
-  std::optional<Dated<KnockLag>> lag;  ///< told, not applied: samples keep their times
+  std::optional<Dated<KnockLag>> lag;  ///< reported, not applied: samples keep their times
 
-  /// What the tracker says with its axes put right.
+  /// Returns the tracker's pose with its axis signs corrected.
   Pose tracker_from_sensor(const Pose& raw) const { return axes ? axes->value.signs.apply(raw) : raw; }
 
-  /// ct_from_mannequin * mannequin_from_tracker * tracker_from_sensor(raw) * sensor_from_face. Needs face and
-  /// mannequin: why_incomplete() is empty.
+  /// Returns ct_from_mannequin * mannequin_from_tracker * tracker_from_sensor(raw) * sensor_from_face. Requires face
+  /// and mannequin: why_incomplete() must be empty.
   Pose patient_from_probe(const Pose& raw) const;
 };
 
-/// The step that a trainer cannot do without and that is missing: "face" or "landmarks"; empty when none is.
+/// Returns the first missing step that a trainer requires, "face" or "landmarks"; empty if none is missing.
 std::string why_incomplete(const Calibration& calibration);
 
-/// When the older of the two was made that a trainer cannot do without, in seconds since 1970. Meaningful when
-/// why_incomplete() is empty.
+/// Returns when the older of the two required steps was made, in seconds since 1970. Meaningful if why_incomplete() is
+/// empty.
 std::int64_t made_s(const Calibration& calibration);
 
-/// After so long a set-up is checked again: sensors slip and mannequins are moved, and a week is a course.
+/// A set-up older than this is checked again: sensors slip, mannequins are moved, and a week is the length of a course.
 inline constexpr double kCalibrationDays = 7;
 
-/// What a person should know before trusting it: that it is older than `days` or belongs to another tracker. Sentences.
+/// Returns warnings about a calibration, as sentences: that it is older than `days`, or that it belongs to another
+/// tracker.
+/// @param now_s  seconds since 1970
 std::vector<std::string> calibration_warnings(const Calibration& calibration, const TrackerIdentity& tracker,
                                               std::int64_t now_s, double days = kCalibrationDays);
 
-/// The file's text (TOML; docs/calibration.md has every key). parse_calibration() reads it back to the same bits.
+/// Returns the file's text (TOML; docs/calibration.md describes every key). parse_calibration() reads it back bit for
+/// bit.
 std::string to_toml(const Calibration& calibration);
 
-/// Throws InputError for whatever is not as to_toml() writes it: keys that are missing or unknown, numbers out of
-/// range, transforms that are not rigid, steps that rest on others that are not there.
+/// Parses the text of a calibration file. Throws InputError if it differs from what to_toml() writes: missing or
+/// unknown keys, numbers out of range, transforms that are not rigid, or steps whose required steps are missing.
 Calibration parse_calibration(std::string_view text, const std::string& file);
 
-/// Throws InputError, also when the file has more than 1 MiB.
+/// Reads and parses a file. Throws InputError, also if the file has more than 1 MiB.
 Calibration read_calibration(const std::filesystem::path& file);
 
-/// The same for who cannot do without a step: throws InputError as well when why_incomplete() names one.
+/// Does the same for callers that need all required steps: also throws InputError if why_incomplete() names a missing
+/// one.
 Calibration read_complete_calibration(const std::filesystem::path& file);
 
-/// Under a temporary name, then renamed. Throws InputError when that cannot be done.
+/// Writes under a temporary name and renames the file. Throws InputError if that fails.
 void write_calibration(const std::filesystem::path& file, const Calibration& calibration);
 
 }  // namespace insonate

@@ -16,13 +16,12 @@ namespace insonate {
 namespace {
 
 constexpr std::size_t kMostBytes = 1u << 20;
-/// Beyond that nothing of a set-up lies (why_not_rigid has the same reach).
+/// Nothing in a set-up is farther away (why_not_rigid has the same limit).
 constexpr double kReachMm = 1e5;
-/// A Viper has as many.
+/// As many as a Viper has.
 constexpr int kMostSensors = 16;
 
-/// The sections' keys stand once, in the fields() below, for whoever goes through them: a KeyList, a Reader or a
-/// Writer.
+/// The keys of each section are listed once, in fields() below. A KeyList, a Reader and a Writer all traverse them.
 class KeyList {
 public:
   void signs(const char* key, glm::dvec3&) { keys.emplace_back(key); }
@@ -128,7 +127,7 @@ public:
   std::string done() && { return std::move(text_); }
 
 private:
-  // With a point, so that TOML takes it for a number that may be minus zero.
+  // With a decimal point, so that TOML reads a float, which can be minus zero.
   static std::string digits(double value) {
     char text[40];
     std::snprintf(text, sizeof text, "%.17g", value);
@@ -177,7 +176,7 @@ public:
                   "touch " + std::to_string(kLeastLandmarks + 1) + " or more");
   }
 
-  /// The fields of a table that may have `others` besides.
+  /// Reads the fields of a table that may also have the keys `others`.
   template <typename T>
   static T read(const TomlTable& table, std::vector<std::string> others) {
     T value;

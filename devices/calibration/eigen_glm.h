@@ -4,7 +4,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
-// Between the project's vectors and Eigen's. For this room's .cpp files only.
+// Converts between the project's vectors and Eigen's. Only for the .cpp files of this folder.
 
 namespace insonate {
 

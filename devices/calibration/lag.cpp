@@ -14,14 +14,14 @@ namespace {
 
 constexpr double kStepS = 0.005;
 constexpr double kSmoothS = 0.015;
-/// Two peaks that far apart are two explanations.
+/// Two peaks this far apart are two different explanations.
 constexpr double kOtherPeakS = 0.06;
 constexpr double kOtherPeakShare = 0.8;
-/// A session of set-up; keeps a strange clock from asking for memory without a bound.
+/// Length of a set-up session. It limits the memory if a clock is wrong.
 constexpr double kLongestS = 600;
 
-/// Of late[i + shift] with early[i], over the part where both are; 0 where that is less than half of either, or where
-/// one does not change.
+/// Correlates late[i + shift] with early[i] over their overlap. Returns 0 if that is less than half of the shorter one,
+/// or if a signal is constant.
 double correlation_at(const Signal& late, const Signal& early, long shift) {
   const long begin = std::max(0L, -shift), end = std::min(long(early.values.size()), long(late.values.size()) - shift);
   const double count = double(end - begin);
@@ -35,7 +35,7 @@ double correlation_at(const Signal& late, const Signal& early, long shift) {
   return power > 1e-12 * aa * bb ? (ab - a * b / count) / std::sqrt(power) : 0;
 }
 
-/// The vertex of the parabola through three values about the middle one, in steps from -0.5 to 0.5.
+/// Returns the vertex of the parabola through three values, relative to the middle one, in steps from -0.5 to 0.5.
 double vertex(double before, double at, double after) {
   const double bend = before - 2 * at + after;
   return bend < 0 ? std::clamp(0.5 * (before - after) / bend, -0.5, 0.5) : 0;
@@ -56,7 +56,7 @@ std::vector<double> smoothed(const std::vector<double>& values, double step_s) {
   return out;
 }
 
-/// `early` about each of the times: what stopping_of() would show of short blows.
+/// Returns the signal that stopping_of() would give for short knocks at these times.
 Signal blows_at(std::span<const double> times_s, const Signal& like) {
   Signal signal{like.begin_s, like.step_s, std::vector<double>(like.values.size())};
   for (const double time_s : times_s)
@@ -116,7 +116,7 @@ Signal stopping_of(std::span<const PoseSample> samples) {
     for (const std::vector<double>& axis : along) squares += std::pow((axis[i + 1] - axis[i]) / kStepS, 2);
     return std::sqrt(squares);
   };
-  // Speeds lie between the steps, their loss on them again.
+  // Speeds lie between the steps, their differences on the steps again.
   signal.values.assign(count, 0);
   for (std::size_t i = 1; i + 1 < count; ++i) signal.values[i] = std::max(0.0, (speed(i - 1) - speed(i)) / kStepS);
   return signal;
@@ -126,7 +126,7 @@ Outcome<KnockLag> knock_lag(std::span<const PoseSample> samples, std::span<const
   if (key_times_s.size() < kLeastKnocks)
     return Refusal{"There were " + std::to_string(key_times_s.size()) + " blows; strike the key at least " +
                    std::to_string(kLeastKnocks) + " times."};
-  // What the hand did before and after is no blow.
+  // Motion before and after the knocks is ignored.
   std::vector<PoseSample> about;
   for (const PoseSample& sample : samples)
     if (sample.time_s > key_times_s.front() - 0.5 && sample.time_s < key_times_s.back() + kMostLagS + 0.3)

@@ -8,21 +8,23 @@
 
 namespace insonate {
 
-/// Values at even steps of a clock.
+/// Values at equal time steps.
 struct Signal {
   double begin_s = 0;
   double step_s = 0.005;
   std::vector<double> values;
 };
 
+/// The result of lag_between().
 struct LagFit {
-  double lag_s = 0;        ///< how much later the one signal shows what the other shows; negative: earlier
-  double correlation = 0;  ///< of the signals at that lag, from -1 to 1
+  double lag_s = 0;        ///< delay of the late signal behind the early one; negative: it is ahead
+  double correlation = 0;  ///< correlation of the signals at that lag, from -1 to 1
 };
 
+/// The result of knock_lag().
 struct KnockLag {
-  double lag_s = 0;     ///< how much later the tracker shows a knock than the key did
-  double spread_s = 0;  ///< standard deviation of the single knocks about it
+  double lag_s = 0;     ///< delay between a knock at the key and the same knock in the tracker's samples
+  double spread_s = 0;  ///< standard deviation of the single knocks about `lag_s`
   std::size_t knocks = 0;
 };
 
@@ -30,21 +32,21 @@ inline constexpr double kLeastLagS = -0.1, kMostLagS = 0.5;
 inline constexpr double kLeastCorrelation = 0.3;
 inline constexpr std::size_t kLeastKnocks = 8;
 
-/// How much `late` lags behind `early`, two signals of one kind and step on one clock (the speed of two sensors on one
-/// hand, say): the peak of their normalised cross-correlation from kLeastLagS to kMostLagS, refined by a parabola.
-/// Refused when they hardly correlate, or when another lag explains them nearly as well, as with a steady rhythm.
-/// Throws std::invalid_argument when the steps differ.
+/// Returns the lag of `late` behind `early`: two signals of the same kind and step on one clock, such as the speeds of
+/// two sensors on one hand. The lag is the peak of their normalised cross-correlation from kLeastLagS to kMostLagS,
+/// refined by a parabola. Refused if the correlation is too weak, or if another lag explains them almost as well, as
+/// with a steady rhythm. Throws std::invalid_argument if the steps differ.
 Outcome<LagFit> lag_between(const Signal& late, const Signal& early);
 
-/// How sharply the probe is stopped, mm/s^2: the loss of its speed, smoothed over 15 ms. Samples that are not ok are
-/// bridged. Empty with fewer than two usable samples.
+/// Returns the deceleration of the probe in mm/s^2: the loss of its speed, smoothed over 15 ms. It interpolates over
+/// samples that are not ok. Empty with fewer than two usable samples.
 Signal stopping_of(std::span<const PoseSample> samples);
 
-/// The lag of a tracker, measured with what every lab has: a key (the space bar, or a button of the tracker) is struck
-/// with the probe itself, several times and not in a steady rhythm, and the times of the key are compared with those at
-/// which the tracker shows the probe being stopped. Both on the tracker's clock. What is measured is from the blow to
-/// the sample's time stamp, less the delay of the keyboard (5 to 20 ms): no delay of drawing or of the screen. Refused
-/// with fewer than kLeastKnocks, or as lag_between() refuses.
+/// Measures the lag of a tracker with what every lab has. The user strikes a key (the space bar, or a button of the
+/// tracker) with the probe itself, several times in an uneven rhythm. The times of the key are compared with the times
+/// at which the tracker shows that the probe stops, both on the tracker's clock. The result is the time from the knock
+/// to the sample's time stamp, less the delay of the keyboard (5 to 20 ms). It does not include the delay of drawing or
+/// of the screen. Refused with fewer than kLeastKnocks, or where lag_between() refuses.
 Outcome<KnockLag> knock_lag(std::span<const PoseSample> samples, std::span<const double> key_times_s);
 
 }  // namespace insonate

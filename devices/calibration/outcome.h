@@ -6,13 +6,13 @@
 
 namespace insonate {
 
-/// Why measurements cannot be used: one sentence, for whoever made them, that says what to do.
+/// The reason why measurements cannot be used: one sentence for the person who made them, which states what to do.
 struct Refusal {
   std::string sentence;
 };
 
-/// What measurements say, or why they say nothing. Other than an InputError it is nothing exceptional: a hand that
-/// slips is asked again.
+/// The result of measurements, or the reason why there is none. Unlike an InputError it is not exceptional: if a hand
+/// slips, the step is repeated.
 template <typename T>
 class Outcome {
 public:
@@ -22,7 +22,7 @@ public:
   explicit operator bool() const { return value_.has_value(); }
   const T& operator*() const { return *value_; }
   const T* operator->() const { return &*value_; }
-  const std::string& refusal() const { return refusal_; }  ///< empty when there is a value
+  const std::string& refusal() const { return refusal_; }  ///< empty if there is a value
 
 private:
   std::optional<T> value_;

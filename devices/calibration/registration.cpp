@@ -26,7 +26,7 @@ glm::dvec3 centre_of(const Points& points) {
   return sum / double(points.size());
 }
 
-/// Sum of b a^T over points taken from their centres.
+/// Returns the sum of b a^T over points relative to their centroids.
 Eigen::Matrix3d moment_of(const Points& b, const Points& a) {
   const glm::dvec3 b_centre = centre_of(b), a_centre = centre_of(a);
   Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
@@ -34,8 +34,8 @@ Eigen::Matrix3d moment_of(const Points& b, const Points& a) {
   return moment;
 }
 
-// Horn's quaternion is the eigenvector to the largest eigenvalue of a symmetric matrix made of the points' moment. Over
-// all orthogonal matrices a reflection is best where the moment's determinant is negative.
+// Horn's quaternion is the eigenvector of the largest eigenvalue of a symmetric matrix made from the points' moment.
+// Among all orthogonal matrices a reflection fits best if the moment's determinant is negative.
 Fit fit_rigid(const Points& from, const Points& to) {
   const Eigen::Matrix3d m = moment_of(to, from);
   Eigen::Matrix4d horn;
@@ -43,7 +43,7 @@ Fit fit_rigid(const Points& from, const Points& to) {
       0, m(0, 0) - m(1, 1) - m(2, 2), m(0, 1) + m(1, 0), m(2, 0) + m(0, 2),    //
       0, 0, m(1, 1) - m(0, 0) - m(2, 2), m(1, 2) + m(2, 1),                    //
       0, 0, 0, m(2, 2) - m(0, 0) - m(1, 1);
-  const Eigen::Matrix4d lower = horn.transpose();  // the half that the solver looks at
+  const Eigen::Matrix4d lower = horn.transpose();  // the triangle that the solver reads
   const Eigen::Vector4d q = Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d>(lower).eigenvectors().col(3);
   Fit fit;
   fit.mirrored = m.determinant() < 0;
@@ -52,7 +52,7 @@ Fit fit_rigid(const Points& from, const Points& to) {
   return fit;
 }
 
-/// RMS distances from the best line and the best plane.
+/// RMS distances from the best-fitting line and plane.
 struct Spread {
   double off_line_mm, off_plane_mm;
   bool enough() const { return off_line_mm >= kLeastOffLineMm && off_plane_mm >= kLeastOffPlaneMm; }
@@ -87,7 +87,7 @@ double rms_error_mm(const Pose& ct_from_touched, const Pairs& pairs) {
   return std::sqrt(squares / double(pairs.size()));
 }
 
-// By leaving each of all landmarks out in turn, for the one in error draws a fit to itself that it takes part in.
+// Leaves out each landmark once, because a landmark in error would pull a fit that includes it towards itself.
 void find_worst(std::span<const LandmarkPair> pairs, Registration& found) {
   for (std::size_t out = 0; out < pairs.size(); ++out) {
     std::vector<const LandmarkPair*> others;

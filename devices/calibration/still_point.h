@@ -8,18 +8,19 @@
 
 namespace insonate {
 
-/// Where a point was that was held still.
+/// Position of a point that was held still.
 struct StillPoint {
   glm::dvec3 mean_mm{0};
-  double wander_mm = 0;  ///< RMS distance of the single readings from the mean: the tracker's noise and the hand's
+  double wander_mm = 0;  ///< RMS distance of the single readings from the mean: noise of the tracker and of the hand
 };
 
-/// A hand that rests on something stays within 1 mm; magnetic trackers add 0.3 mm (DEVICES). Twice that has moved.
+/// A hand that rests on something stays within 1 mm; magnetic trackers add 0.3 mm (DEVICES). At twice that the point
+/// has moved.
 inline constexpr double kMostWanderMm = 2.5;
 inline constexpr std::size_t kLeastStillReadings = 10;
 
-/// The mean of readings (mm, any frame) of a point at rest. Refused with fewer than kLeastStillReadings, or when they
-/// wander by more than kMostWanderMm.
+/// Returns the mean of readings (mm, any frame) of a point at rest. Refused with fewer than kLeastStillReadings, or if
+/// they wander by more than kMostWanderMm.
 Outcome<StillPoint> still_point(std::span<const glm::dvec3> readings_mm);
 
 }  // namespace insonate

@@ -21,12 +21,12 @@ constexpr double kPi = 3.14159265358979323846;
 
 struct Fit {
   glm::dvec3 tip{0}, pivot{0};
-  double least_turn = 0;  ///< RMS length by which the unit vector moved that moved least
+  double least_turn = 0;  ///< smallest RMS displacement of any unit vector under the rotations
 };
 
-// The pivot falls out of the least squares when rotations and positions are taken from their means, and what stays is
-// M tip = -m with M = mean((R - Rm)^T (R - Rm)) and m = mean((R - Rm)^T (p - pm)). The smallest eigenvalue of M tells
-// how well the rotations span.
+// Relative to the means of rotations and positions, the pivot drops out of the least squares. What remains is M tip =
+// -m with M = mean((R - Rm)^T (R - Rm)) and m = mean((R - Rm)^T (p - pm)). The smallest eigenvalue of M shows how well
+// the rotations span.
 template <typename Poses>
 Fit least_squares(const Poses& poses) {
   Eigen::Matrix3d mean_rotation = Eigen::Matrix3d::Zero();
@@ -61,7 +61,7 @@ double degrees_of(double turn) {
   return std::asin(std::min(turn, 1.0)) * 180 / kPi;
 }
 
-// The fit to three poses whose median distance over all of them is the least.
+// Returns the fit to three poses that has the smallest median distance over all poses.
 Fit least_median(std::span<const Pose> poses, double& least_mm) {
   constexpr std::uint32_t kTrials = 300;
   constexpr std::size_t kJudged = 1000;
@@ -73,7 +73,7 @@ Fit least_median(std::span<const Pose> poses, double& least_mm) {
     std::array<Pose, 3> three;
     for (std::uint32_t i = 0; i < 3; ++i) three[i] = poses[hash(trial, i) % poses.size()];
     const Fit fit = least_squares(three);
-    // Three poses close together say nothing, and would win among poses that say nothing either.
+    // Three poses close together determine nothing, and could win among other such triples.
     if (degrees_of(fit.least_turn) < kLeastPivotSpreadDeg / 2) continue;
     distances.clear();
     for (std::size_t i = 0; i < poses.size(); i += stride) distances.push_back(distance_mm(fit, poses[i]));
@@ -111,8 +111,8 @@ Outcome<TipFit> fit_tip(std::span<const Pose> poses) {
   Fit fit = least_median(poses, median_mm);
   if (!std::isfinite(median_mm)) return turned_too_little(spread_deg);
 
-  // For noise of a standard deviation s along each axis the median distance is 1.538 s, and 99 % are within 3.368 s
-  // (chi distribution of three degrees of freedom). The floor is for poses without noise.
+  // For noise with standard deviation s along each axis, the median distance is 1.538 s, and 99 % are within 3.368 s
+  // (chi distribution with three degrees of freedom). The floor is for poses without noise.
   std::vector<Pose> kept;
   double sigma_mm = median_mm / 1.538;
   for (int round = 0; round < 3; ++round) {

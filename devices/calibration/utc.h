@@ -7,10 +7,10 @@
 
 namespace insonate {
 
-/// Seconds since 1970 as "2026-03-01T09:30:00Z".
+/// Converts seconds since 1970 to "2026-03-01T09:30:00Z".
 std::string utc_text(std::int64_t seconds);
 
-/// And back; empty for anything else, or a date that is none.
+/// Converts back. Empty for any other format or an invalid date.
 std::optional<std::int64_t> utc_seconds(std::string_view text);
 
 }  // namespace insonate

@@ -16,15 +16,15 @@ namespace insonate {
 namespace {
 
 constexpr double kNoise_mm = 0.1, kSeconds = 30, kPi = glm::pi<double>();
-/// The filters' own beginning is no part of what they do.
+/// The start-up of the filters is excluded.
 constexpr double kFrom_s = 1;
 
-/// From 0 to 1, never 0.
+/// Uniform in 0 to 1, never 0.
 double uniform(std::uint32_t index, std::uint32_t purpose) {
   return (hash(index, purpose) + 1.0) / 4294967296.0;
 }
 
-/// Of a normal distribution, by Box and Muller.
+/// Normally distributed, by the Box-Muller method.
 double normal(std::uint32_t index, std::uint32_t purpose) {
   return std::sqrt(-2 * std::log(uniform(index, 2 * purpose))) * std::cos(2 * kPi * uniform(index, 2 * purpose + 1));
 }
@@ -35,12 +35,12 @@ glm::dvec3 resting(double) {
   return {300, 50, -80};
 }
 
-/// 100 mm/s at the middle, to and fro every two seconds.
+/// Sinusoidal sweep with 100 mm/s at its middle and a period of 2 s.
 glm::dvec3 sweeping(double time_s) {
   return {300 + 100 / kPi * std::sin(kPi * time_s), 50, -80};
 }
 
-/// Smooth, never the same twice, 90 mm/s RMS.
+/// Smooth, never repeats, 90 mm/s RMS.
 glm::dvec3 scanning(double time_s) {
   return {300 + 34 * std::sin(2.1 * time_s) + 12 * std::sin(5.3 * time_s), 50 + 27 * std::sin(2.7 * time_s + 1),
           -80 + 11 * std::sin(4.1 * time_s + 2)};
@@ -62,7 +62,7 @@ std::vector<PoseSample> filtered(std::vector<PoseSample> samples, const FilterSe
   return samples;
 }
 
-/// RMS along the first axis, off a way that is taken `lag_s` late.
+/// Returns the RMS deviation along the first axis from `way` delayed by `lag_s`.
 double off_mm(const std::vector<PoseSample>& samples, const Way& way, double lag_s) {
   double squares = 0;
   std::size_t count = 0;
@@ -122,7 +122,7 @@ RejectionFigures measure_rejection(const FilterSettings& settings, double rate_h
       mm = -mm;
       made[i] = Made::mirrored;
     } else if (uniform(i, 40) < 0.02) {
-      // Somewhere from 30 to 500 mm away.
+      // 30 to 500 mm away, in any direction.
       const glm::dvec3 to = glm::normalize(glm::dvec3(normal(i, 5), normal(i, 6), normal(i, 7)));
       mm += to * (30 + 470 * uniform(i, 41));
       made[i] = Made::stray;
@@ -142,7 +142,8 @@ RejectionFigures measure_rejection(const FilterSettings& settings, double rate_h
 }
 
 DistortionFigures measure_distortion(std::uint32_t most_distortion) {
-  // Steel near the sensor costs up to 100 mm; beside the hand's way, and felt within a few centimetres.
+  // Steel near the sensor causes errors up to 100 mm. It is beside the hand's path, and has an effect within a few
+  // centimetres.
   const glm::dvec3 steel(345, 50, -80);
   constexpr double kMost_mm = 100, kReach_mm = 12;
   const std::vector<PoseSample> there = noisy(scanning, 60);
@@ -152,7 +153,7 @@ DistortionFigures measure_distortion(std::uint32_t most_distortion) {
     const glm::dvec3 to_steel = steel - mm;
     const double off_mm = kMost_mm * std::exp(-glm::length(to_steel) / kReach_mm);
     mm += off_mm * glm::normalize(to_steel);
-    // A grade is no measure of the error to the millimetre.
+    // The grade only approximates the error.
     told[i].distortion = std::uint32_t(std::max(0.0, off_mm * (0.75 + 0.5 * uniform(i, 50))));
   }
   const std::vector<PoseSample> kept = filtered(told, {.distortion = true, .most_distortion = most_distortion});

@@ -8,7 +8,7 @@
 namespace insonate {
 namespace {
 
-/// How much of a new value a first-order low pass takes, sampled every `step_s`.
+/// Returns the weight of a new value in a first-order low-pass filter that is sampled every `step_s`.
 double share(double cutoff_hz, double step_s) {
   return 1 / (1 + 1 / (glm::two_pi<double>() * cutoff_hz * step_s));
 }

@@ -7,13 +7,13 @@
 namespace insonate {
 namespace {
 
-/// A velocity tells where a hand is for no longer (PoseHistory::kPredictS), and how far it can have gone is no limit
-/// any more after a quarter of a second.
+/// A velocity predicts the position of a hand for kCarry_s at most (PoseHistory::kPredictS). After kReach_s the
+/// possible distance no longer grows.
 constexpr double kCarry_s = 0.030, kReach_s = 0.250;
-/// Samples that were read in one go have stamps that tell nothing of how quick they followed each other.
+/// Samples from one read have stamps that do not show how quickly they followed each other.
 constexpr double kLeastStep_s = 0.0005;
 
-/// The pose as a tracker tells it that has the hemisphere wrong: the position mirrored through its origin.
+/// Returns the pose as a tracker reports it in the wrong hemisphere: the position mirrored through its origin.
 Pose mirror_image(const Pose& pose, const glm::dvec3& origin) {
   return {pose.rotation, 2.0 * origin - pose.translation};
 }
@@ -30,7 +30,7 @@ bool OutlierGate::follows(const Track& track, double time_s, const Pose& pose) c
 OutlierGate::Track OutlierGate::carried_on(const Track& track, double time_s, const Pose& pose) {
   const double step_s = time_s - track.time_s;
   if (step_s < kLeastStep_s) return {time_s, pose, track.mm_per_s};
-  // A step over a longer gap tells no velocity, and the noise of a single step must not carry far.
+  // A step over a longer gap gives no velocity, and the noise of a single step must not carry far.
   if (step_s > kReach_s) return {time_s, pose};
   glm::dvec3 mm_per_s = (pose.translation - track.pose.translation) / step_s;
   mm_per_s = 0.5 * (mm_per_s + track.mm_per_s);

@@ -45,7 +45,7 @@ std::string to_string(const FilterSettings& settings) {
 FilterSettings take_filter_options(TrackerUri& uri) {
   const auto raw = uri.options.find("raw");
   FilterSettings settings = raw != uri.options.end() && raw->second == "1" ? FilterSettings() : FilterSettings::usual();
-  constexpr double kWorst = 4294967295;  // a grade has 32 bits at most
+  constexpr double kWorst = 4294967295;  // a grade has at most 32 bits
   const double limit = uri.number("distortion", 0, 0, kWorst);
   if (limit != std::floor(limit))
     throw InputError("tracker '" + uri.text + "'", "option 'distortion'", "the limit is no whole number", "change it");
@@ -70,7 +70,7 @@ FilterSettings take_filter_options(TrackerUri& uri) {
 
 void SampleFilters::apply(PoseSample& sample, const std::optional<glm::dvec3>& origin) {
   if (sample.status != PoseStatus::ok) return;
-  // What is bent is no reading for the others to learn from.
+  // A distorted reading must not change the state of the other filters.
   if (settings_.distortion && sample.distortion.value_or(0) > settings_.most_distortion)
     sample.rejected = Rejection::distortion;
   else if (settings_.outlier && !outliers_.accepts(sample.time_s, sample.patient_from_probe, origin))

@@ -11,7 +11,7 @@
 namespace insonate {
 namespace {
 
-/// The printable ASCII of what a device says of itself.
+/// Converts a device's own text to printable ASCII; other characters become '?'.
 std::string narrow(const wchar_t* text) {
   std::string narrowed;
   for (; text && *text; ++text) narrowed += *text >= L' ' && *text <= L'~' ? char(*text) : '?';
@@ -23,7 +23,7 @@ public:
   HidTransport(AttachedDevice device, hid_device* handle) : device_(std::move(device)), handle_(handle, &hid_close) {}
 
   std::size_t read(std::span<std::uint8_t> into, std::chrono::milliseconds timeout) override {
-    // Below 0 is none to hidapi: it would wait for ever.
+    // To hidapi a negative timeout means no timeout: it would wait forever.
     const auto wait_ms = int(std::max<std::chrono::milliseconds::rep>(timeout.count(), 1));
     const int got = hid_read_timeout(handle_.get(), into.data(), into.size(), wait_ms);
     if (got < 0) throw gone(device_, narrow(hid_error(handle_.get())));
@@ -58,7 +58,7 @@ AttachedDevices HidBus::devices() {
 
 std::unique_ptr<Transport> HidBus::open(const AttachedDevice& device, Endpoints) {
   if (hid_device* handle = hid_open_path(device.path.c_str())) return std::make_unique<HidTransport>(device, handle);
-  // hidapi tells why in words alone, in the user's language; the file tells again.
+  // hidapi reports the reason only as text, in the user's language. Accessing the file again gives the errno.
   if (access(device.path.c_str(), R_OK | W_OK) == 0) throw busy(device);
   if (errno == EACCES || errno == EPERM) throw forbidden(device);
   throw gone(device, std::strerror(errno));

@@ -27,7 +27,7 @@ T number_at(ByteView bytes, std::size_t at) {
   return number;
 }
 
-/// Up to the first zero byte; what no screen can show becomes a question mark.
+/// Returns the text up to the first zero byte; characters that are not printable become question marks.
 std::string text_of(ByteView bytes) {
   std::string text;
   for (const std::uint8_t byte : bytes) {
@@ -46,7 +46,7 @@ void put_float(Bytes& bytes, double number) {
   put(bytes, std::bit_cast<std::uint32_t>(float(number)));
 }
 
-/// Cut to `width`, padded with zeros.
+/// Cuts the text to `width`, or pads it with zeros.
 void put_text(Bytes& bytes, std::string_view text, std::size_t width) {
   text = text.substr(0, width);
   bytes.insert(bytes.end(), text.begin(), text.end());
@@ -77,7 +77,7 @@ Header parse_header(std::span<const std::uint8_t, kHeaderBytes> bytes) {
 
 std::optional<Parts> parts_of(const Header& header, ByteView body) {
   if (header.version < 2) return Parts{body, {}, {}};
-  // u16 size of the extended header, u16 of the metadata's index, u32 of the metadata, u32 message number.
+  // u16 size of the extended header, u16 size of the metadata's index, u32 size of the metadata, u32 message number
   constexpr std::size_t kLeast = 12;
   if (body.size() < kLeast) return std::nullopt;
   const std::size_t extended = number_at<std::uint16_t>(body, 0), index = number_at<std::uint16_t>(body, 2);
@@ -89,8 +89,8 @@ std::optional<Parts> parts_of(const Header& header, ByteView body) {
 }
 
 std::string metadata_value(const Parts& parts, std::string_view key) {
-  // u16 count, then for each u16 size of the key, u16 encoding, u32 size of the value; keys and values lie one behind
-  // the other.
+  // u16 count, then for each entry u16 size of the key, u16 encoding, u32 size of the value. Keys and values are stored
+  // one after the other.
   constexpr std::size_t kEntry = 8, kMostText = 64;
   const ByteView index = parts.metadata_index;
   std::uint64_t at = 0;
@@ -116,7 +116,7 @@ std::optional<glm::dmat4> parse_transform(ByteView content) {
 }
 
 std::optional<Status> parse_status(ByteView content) {
-  // u16 code, i64 subcode, 20 characters of an error's name, the text
+  // u16 code, i64 subcode, 20 characters of the error's name, then the text
   constexpr std::size_t kText = 30;
   if (content.size() < kText) return std::nullopt;
   const ByteView text = content.subspan(kText);
@@ -165,7 +165,7 @@ Bytes make_status(std::string_view name, std::uint64_t stamp, const Status& stat
 Bytes make_string(std::string_view name, std::uint64_t stamp, std::string_view text) {
   text = text.substr(0, 0xFFFF);
   Bytes body;
-  put<std::uint16_t>(body, 106);  // UTF-8 by IANA's numbers of character sets
+  put<std::uint16_t>(body, 106);  // UTF-8 in IANA's numbering of character sets
   put(body, std::uint16_t(text.size()));
   body.insert(body.end(), text.begin(), text.end());
   return make_message("STRING", name, stamp, body);
@@ -175,7 +175,7 @@ Bytes make_image(std::string_view name, std::uint64_t stamp, const Image<std::ui
                  double mm_per_pixel) {
   Bytes body;
   body.reserve(72 + picture.pixels.size());
-  put<std::uint16_t>(body, 1);            // version of the image's own header
+  put<std::uint16_t>(body, 1);            // version of the IMAGE header
   body.insert(body.end(), {1, 3, 1, 1});  // one component, unsigned bytes, big-endian, RAS
   const std::array<std::uint16_t, 3> size{std::uint16_t(picture.width), std::uint16_t(picture.height), 1};
   for (const std::uint16_t n : size) put(body, n);

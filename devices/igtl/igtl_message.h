@@ -23,6 +23,7 @@ inline constexpr std::uint16_t kDefaultPort = 18944;
 using Bytes = std::vector<std::uint8_t>;
 using ByteView = std::span<const std::uint8_t>;
 
+/// Header of a message.
 struct Header {
   std::uint16_t version = 1;
   std::string type;         ///< up to 12 characters: "TRANSFORM"

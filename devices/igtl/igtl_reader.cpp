@@ -6,7 +6,7 @@
 namespace insonate::igtl {
 namespace {
 
-/// Versions that exist; another first pair of bytes is somebody else's protocol.
+/// Checks the version among others; a different first pair of bytes belongs to another protocol.
 bool plausible(const Header& header) {
   return header.version >= 1 && header.version <= 3 && !header.type.empty() &&
          header.body_bytes <= MessageReader::kMostPassed;

@@ -40,7 +40,7 @@ Server::Server(const Address& address, const std::string& what, const ServerLimi
       new_events_(limits.events) {
   try {
     listener_ = listen_on(address);
-    limit_buffers(listener_, limits_.send_buffer, limits_.receive_buffer);  // its connections inherit them
+    limit_buffers(listener_, limits_.send_buffer, limits_.receive_buffer);  // its connections inherit these limits
     address_ = bound_address(listener_);
   } catch (const std::system_error& error) {
     throw InputError(what, "",
@@ -58,7 +58,7 @@ Server::~Server() {
 
 void Server::wake() {
   const std::uint64_t one = 1;
-  [[maybe_unused]] const ssize_t written = ::write(woken_.get(), &one, sizeof one);  // full means woken already
+  [[maybe_unused]] const ssize_t written = ::write(woken_.get(), &one, sizeof one);  // fails only if already woken
 }
 
 void Server::publish(Stream stream, Bytes message) {
@@ -73,7 +73,7 @@ void Server::forget(Stream stream) {
   const std::size_t which = std::size_t(stream);
   if (std::exchange(forgotten_[which], true)) return;
   new_latest_[which].put(std::make_unique<const Message>(Bytes(), ++published_[which], bytes_held_));
-  wake();  // else the message stays in memory until the next
+  wake();  // otherwise the message stays in memory until the next one
 }
 
 void Server::announce(Bytes event) {
@@ -144,7 +144,7 @@ void Server::let_go(Client& client) {
 }
 
 void Server::send_to(Client& client) {
-  // Some pieces and then somebody else's turn.
+  // Some pieces, then another client.
   for (int piece = 0; piece < 16; ++piece) {
     if (!client.sending) begin_next(client);
     if (!client.sending) return;
@@ -172,14 +172,14 @@ bool Server::overdue(const Client& client) const {
 }
 
 void Server::accept_all() {
-  // Whoever else waits is accepted in the next turn.
+  // Further connections are accepted in the next iteration.
   for (std::size_t turn = 0; turn < limits_.clients; ++turn) {
     Socket socket(::accept4(listener_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
-    // Without a descriptor to spare the listener stays ready: no reason to ask it all the time.
+    // If no descriptor is free, the listener stays ready. The pause avoids a busy loop.
     if (!socket && (errno == EMFILE || errno == ENFILE)) std::this_thread::sleep_for(std::chrono::milliseconds(100));
     if (!socket) return;
     if (clients_.size() == limits_.clients) continue;  // closed at once
-    collect();                                         // what was announced before it came is not for it
+    collect();                                         // events announced before it connected are not sent to it
     Client& client = clients_.emplace_back();
     client.socket = std::move(socket);
     client.next_event = event_end_;
@@ -192,7 +192,7 @@ void Server::run() {
     waiting.assign({{woken_.get(), POLLIN, 0}, {listener_.get(), POLLIN, 0}});
     for (const Client& client : clients_)
       waiting.push_back({client.socket.get(), short(client.sending ? POLLIN | POLLOUT : POLLIN), 0});
-    // The pause is for clients that are stuck: nothing happens on their sockets.
+    // The timeout is for clients that are stuck: nothing happens on their sockets.
     ::poll(waiting.data(), waiting.size(), 1000);
     std::uint64_t count = 0;
     [[maybe_unused]] const ssize_t emptied = ::read(woken_.get(), &count, sizeof count);
@@ -207,7 +207,7 @@ void Server::run() {
     const auto removed = [this] { std::erase_if(clients_, [](const Client& client) { return !client.socket; }); };
     removed();
     if (waiting[1].revents & POLLIN) accept_all();
-    // Whoever came in has not been sent anything yet, and who had all its pieces may want more.
+    // New clients have not been sent anything yet, and clients that received all their pieces may need more.
     for (Client& client : clients_)
       if (client.socket && !client.sending) begin_next(client);
     removed();

@@ -19,13 +19,13 @@ namespace {
 
 constexpr std::size_t kMostNames = 6;
 
-/// Whether something happened on the socket before the time was over.
+/// Returns whether an event happened on the socket within `timeout`.
 bool wait_for(const Socket& socket, short events, std::chrono::milliseconds timeout) {
   pollfd waiting{socket.get(), events, 0};
   return ::poll(&waiting, 1, int(timeout.count())) > 0;
 }
 
-/// From a patient's frame in RAS to LPS: half a turn about the long axis.
+/// Converts from a patient's frame in RAS to LPS: 180 degrees about the long axis.
 Pose lps_from_ras(const Pose& ras_from_probe) {
   const Pose half_turn{glm::dmat3(-1, 0, 0, 0, -1, 0, 0, 0, 1), glm::dvec3(0)};
   return half_turn * ras_from_probe;
@@ -135,7 +135,7 @@ void ClientSource::read(std::chrono::milliseconds timeout, LiveBatch& batch) {
 }
 
 void ClientSource::receive(LiveBatch& batch) {
-  // Read in a few pieces and then return, so that a server that sends without end does not keep the thread.
+  // Reads a few pieces and then returns, so that a server that sends without end does not block the thread.
   std::array<std::uint8_t, 16384> bytes;
   for (int piece = 0; piece < 16; ++piece) {
     const ssize_t count = ::recv(socket_.get(), bytes.data(), bytes.size(), 0);

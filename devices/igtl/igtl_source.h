@@ -34,8 +34,7 @@ class ClientSource : public RawSource {
 public:
   static constexpr double kConnect_s = 3.0;      ///< a host that has not answered by then is tried again later
   static constexpr double kNameMissing_s = 2.0;  ///< users are informed if the named transform is missing for this long
-  static constexpr double kStatusTold_s =
-      5.0;  ///< a STATUS error is shown for this long, unless a later STATUS revokes it
+  static constexpr double kStatusTold_s = 5.0;   ///< a STATUS error is shown this long unless revoked
 
   explicit ClientSource(ClientRequest request);
 
@@ -63,8 +62,7 @@ private:
   std::vector<Address> untried_;
   Socket socket_;
   bool connected_ = false;
-  double since_s_ = 0;  ///< start of the lookup, then of the attempt to connect, then of the connection, then time of
-                        ///< the newest sample
+  double since_s_ = 0;  ///< start of the current phase: lookup, connecting, connection; then time of the newest sample
   std::unique_ptr<MessageReader> reader_;
   LiveBatch* batch_ = nullptr;  ///< where the message being read goes
   double arrival_s_ = 0;

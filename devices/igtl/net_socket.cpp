@@ -39,7 +39,7 @@ std::string Address::text() const {
 }
 
 std::uint16_t Address::port() const {
-  // The port lies at the same place in both.
+  // The port is at the same offset in both address families.
   return ntohs(reinterpret_cast<const sockaddr_in*>(&storage)->sin_port);
 }
 
@@ -64,7 +64,7 @@ Address numeric_address(const std::string& text, std::uint16_t port) {
 
 Socket begin_connect(const Address& address) {
   Socket socket = new_socket(address);
-  // A host that vanished without a word is noticed after some five seconds, however long it would be silent.
+  // Detects a host that vanished silently after about 5 s.
   set(socket, SOL_SOCKET, SO_KEEPALIVE, 1);
   set(socket, IPPROTO_TCP, TCP_KEEPIDLE, 2);
   set(socket, IPPROTO_TCP, TCP_KEEPINTVL, 1);
@@ -85,7 +85,7 @@ Socket listen_on(const Address& address) {
   Socket socket = new_socket(address);
   set(socket, SOL_SOCKET, SO_REUSEADDR, 1);
   if (::bind(socket.get(), reinterpret_cast<const sockaddr*>(&address.storage), address.size) != 0) fail("bind");
-  // Who finds the queue full tries again after a second only.
+  // A client that finds the queue full only retries after 1 s.
   constexpr int kQueue = 64;
   if (::listen(socket.get(), kQueue) != 0) fail("listen");
   return socket;

@@ -10,7 +10,7 @@ namespace {
 
 struct Left {
   std::mutex mutex;
-  std::vector<std::jthread> threads;  // joined when they are destroyed
+  std::vector<std::jthread> threads;  // their destructors join them
   std::atomic<int> waiting{0};
 };
 
@@ -30,7 +30,7 @@ void join_detached_threads(const std::stop_token& stop) {
   std::vector<std::jthread> threads;
   {
     const std::lock_guard lock(left().mutex);
-    // Asked under the lock: who is among the threads has been asked to end before it was put there.
+    // Checked under the lock: a thread is asked to end before it is put into the list.
     if (!stop.stop_requested()) threads.swap(left().threads);
   }
   if (threads.empty()) return;

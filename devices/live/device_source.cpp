@@ -6,7 +6,7 @@
 namespace insonate {
 namespace {
 
-/// More than any report: a HID's has 64 bytes, a Viper's largest frame 540.
+/// More than any report: a HID report has 64 bytes, a Viper's largest frame 540.
 constexpr std::size_t kRoom = 4096;
 
 /// Returns the model of a device that can be used; nullptr if it is not of this kind or not ready.
@@ -25,7 +25,7 @@ std::string waiting_device(const DeviceKind& kind, const AttachedDevices& attach
   return "";
 }
 
-/// What a recorded device is sent to and read from: nothing.
+/// The transport of a recorded device: sends and reads nothing.
 class NoTransport : public Transport {
 public:
   std::size_t read(std::span<std::uint8_t>, std::chrono::milliseconds) override { return 0; }
@@ -117,7 +117,7 @@ std::string DeviceSource::note(double now_s) {
   if (kind_.steady && now_s - heard_s_ >= kStartS)
     return "The " + name + " is plugged in but sends no poses, and was started " + std::to_string(starts_) +
            " times: unplug it and plug it in again.";
-  // Each change would be a new message, so the numbers are renewed only with the first incident after a pause.
+  // Each change would be a new message. So the counts are updated only with the first incident after a pause.
   if (started_ && tally_.incidents() != incidents_) {
     if (told_.empty())
       told_ = "Reports of the " + name + " were damaged or lost: " + tally_.incidents_in_words() + " so far.";
@@ -133,7 +133,7 @@ void DeviceSource::close() noexcept {
   try {
     stop(*transport_);
   } catch (const std::exception&) {
-    // It is gone, or stays as it was: the next start finds out.
+    // The device is gone, or keeps its mode. The next start handles both.
   }
   transport_.reset();
 }

@@ -21,13 +21,13 @@ double seconds(std::chrono::milliseconds duration) {
 
 }  // namespace
 
-/// What the thread does, and all that it needs.
+/// The thread's function and all its state.
 class LiveTracker::Reader {
 public:
   Reader(std::unique_ptr<LiveSource> source, const Options& options)
       : options_(options), source_(std::move(source)), ring_(options.capacity) {}
 
-  // Before the thread begins
+  // Called before the thread starts.
   void set_filters(const FilterSettings& settings) { conditioner_ = SampleConditioner(settings); }
   const FilterSettings& filters() const { return conditioner_.filters(); }
   bool record_raw(const std::shared_ptr<RawTap>& tap) {
@@ -40,7 +40,7 @@ public:
 
   bool relative() const { return source_->relative(); }
 
-  // On the thread
+  // Called on the thread.
   void run(const std::stop_token& stop) {
     join_detached_threads(stop);
     auto wait = options_.first_pause;
@@ -59,10 +59,10 @@ public:
     end_.notify_all();
   }
 
-  // On the polling thread
+  // Called on the polling thread.
   void drain(std::vector<PoseSample>& samples, std::string& problem) {
     ring_.drain(samples);
-    // Who cannot have it now keeps what it knew.
+    // If the lock is taken now, the previous problem is kept.
     if (const std::unique_lock lock(mutex_, std::try_to_lock); lock) problem = told_;
   }
   std::uint64_t dropped() const { return ring_.dropped(); }
@@ -94,7 +94,7 @@ private:
       problem = error.what();
       there = false;
     }
-    // What came before the source was lost counts.
+    // Samples that arrived before the source was lost are published.
     for (const PoseSample& sample : batch_.samples) conditioner(sample);
     if (!batch_.samples.empty()) {
       heard_s_ = steady_now_s();
@@ -139,11 +139,11 @@ private:
   LiveBatch batch_;
   SampleConditioner conditioner_;
   std::shared_ptr<RawTap> tap_;
-  double heard_s_ = 0;        ///< when the source last brought a sample
+  double heard_s_ = 0;        ///< when the source last delivered a sample
   bool heard_ = false;        ///< whether it ever did
   bool brought_any_ = false;  ///< whether it did since it was opened
 
-  // Between the threads
+  // Shared between the threads.
   SampleRing<PoseSample> ring_;
   std::mutex mutex_;
   std::string told_;

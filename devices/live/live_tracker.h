@@ -23,12 +23,12 @@ namespace insonate {
 /// So the time of an exam continues without its tracker.
 class LiveTracker : public Tracker {
 public:
+  /// Limits and intervals of a LiveTracker; the tests change them.
   struct Options {
     /// Samples that can wait for the next poll: half a second of eight sensors at 1000 Hz.
     std::size_t capacity = 4096;
-    std::chrono::milliseconds read{20};  ///< the longest wait of a read
-    std::chrono::milliseconds first_pause{
-        250};  ///< before a source that is gone is opened again; doubles each time up to longest_pause
+    std::chrono::milliseconds read{20};          ///< the longest wait of a read
+    std::chrono::milliseconds first_pause{250};  ///< before a source is opened again; doubles up to longest_pause
     std::chrono::milliseconds longest_pause{2000};
     std::chrono::milliseconds silence{500};
     std::chrono::milliseconds heartbeat{100};

@@ -25,7 +25,7 @@ public:
 /// A source whose samples are parsed from bytes. Its bytes can be recorded, and give the same samples again.
 class RawSource : public LiveSource {
 public:
-  /// From the next open() on, `tap` receives what the device sends. Null: nobody does.
+  /// From the next open() on, `tap` receives what the device sends. Null receives nothing.
   virtual void record_raw(std::shared_ptr<RawTap> tap) { tap_ = std::move(tap); }
 
   /// Does what open() does, with a device that a tap was passed, but without hardware. Returns false, and does nothing,

@@ -44,7 +44,7 @@ bool ReportNumbers::is_news(std::uint64_t number, ReportTally& tally) {
     ++tally.late;
     return false;
   }
-  // A jump backwards that lasts is a device that began anew, not one that lost half of its reports.
+  // A lasting jump backwards means a device that restarted its numbering, not one that lost half of its reports.
   if (any_ && ahead <= modulus_ / 2) tally.missed += ahead - 1;
   any_ = true;
   late_in_a_row_ = 0;

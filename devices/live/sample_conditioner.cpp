@@ -6,7 +6,7 @@
 namespace insonate {
 
 void SampleConditioner::apply(PoseSample& sample, const std::optional<glm::dvec3>& origin) {
-  // Samples of one report share a time, and a clock may be read in another order than they are handed over.
+  // Samples of one report share a time, and the clock may be read in a different order than samples are published.
   sample.time_s = std::max(sample.time_s, std::nextafter(last_time_s_, HUGE_VAL));
   last_time_s_ = sample.time_s;
   filters_.apply(sample, origin);

@@ -41,7 +41,7 @@ void MouseTracker::collect(double now_s, std::vector<PoseSample>& samples) {
   pending_mm_ = pending_rad_ = glm::dvec3(0);
   for (; next_ < due; ++next_) {
     translation_ += rotation_ * step_mm;
-    // A probe at rest keeps its pose to the bit, so that nobody draws it anew for what normalising rounds.
+    // A probe at rest keeps its pose bit for bit. Otherwise rounding in normalize() would cause a redraw.
     if (step_turn != glm::dquat(1, 0, 0, 0)) rotation_ = glm::normalize(rotation_ * step_turn);
     samples.push_back({double(next_) / kRateHz, PoseStatus::ok, pose(), buttons_});
   }

@@ -10,8 +10,8 @@ constexpr DeviceKind::Model kModels[] = {
     {0x03eb, 0x2421, "OSVR HDK head tracker", "tells orientation only"},
 };
 
-/// Half a turn about z: the sensor's x is right and its y up, the probe's x is to the marker, on the left, and its y
-/// down the beam.
+/// 180 degrees about z. The sensor's x is right and its y up; the probe's x points to the marker, on the left, and its
+/// y down the beam.
 const glm::dquat kProbeFromSensor(0, 0, 0, 1);
 
 }  // namespace

@@ -14,11 +14,11 @@ constexpr double kMmPerCm = 10;
 constexpr std::size_t kHeader = 8, kBody = 40;
 constexpr int kMostStations = 16;
 
-// Viper: what follows the size, before the sensors and after them.
+// Viper: sizes of the frame's parts before the sensors, per sensor, and after them.
 constexpr std::size_t kViperHeader = 8, kViperInfo = 16, kViperSensor = 32, kViperCrc = 4;
 constexpr std::uint32_t kMostSensors = 16;
 
-/// What the first bytes kept are.
+/// Classification of the first stored bytes.
 struct Front {
   enum { nothing, begun, damaged, complete } what;
   std::size_t length = 0;  ///< of a complete record

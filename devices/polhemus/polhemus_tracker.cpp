@@ -43,8 +43,8 @@ void PolhemusSource::start(Transport& transport, const AttachedDevice& device) {
     transport.send(viper::command(viper::kUnits, viper::kSet, {kCentimetres, kQuaternions}));
     transport.send(viper::command(viper::kContinuous, viper::kSet));
   } else {
-    // Stop what runs; binary, centimetres; header, time, frame, distortion, place and quaternion; no waiting for full
-    // USB buffers; then without end.
+    // Stop any output; binary; centimetres; output list: header, time, frame, distortion, position and quaternion; do
+    // not wait for full USB buffers; then send continuously.
     for (const char* command : {"P\r", "F1\r", "U1\r", "O*,8,9,11,3,7\r", "@B0\r", "C\r"}) send(transport, command);
   }
   stream_.restart();

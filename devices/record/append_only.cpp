@@ -20,7 +20,7 @@ AppendOnlyFile::AppendOnlyFile(std::filesystem::path file, std::string when_full
   if (descriptor_ < 0)
     throw InputError(file_.string(), "", std::string("it cannot be written (") + std::strerror(errno) + ")",
                      "name a new file in a folder that may be written");
-  // Only a sign for others, and not every file system has it.
+  // The lock only signals to others, and not every file system supports it. So an error is ignored.
   ::flock(descriptor_, LOCK_EX | LOCK_NB);
 }
 
@@ -35,7 +35,7 @@ void AppendOnlyFile::append(std::string_view bytes) {
     if (written < 0 && errno == EINTR) continue;
     if (written <= 0) {
       const std::string why = std::strerror(errno);
-      // Half a line would run together with the next one.
+      // A partial line would run into the next one.
       if (rest.size() < bytes.size() && ::ftruncate(descriptor_, off_t(size_)) != 0)
         size_ += bytes.size() - rest.size();
       throw InputError(file_.string(), "", "it cannot be written on (" + why + ")", when_full_);

@@ -8,7 +8,7 @@
 namespace insonate {
 namespace {
 
-/// The fewest digits that read back to the same double, whatever the locale.
+/// Returns the fewest digits that read back to the same double, in any locale.
 std::string shown(double number) {
   char digits[32];
   return {digits, std::to_chars(digits, digits + sizeof digits, number).ptr};

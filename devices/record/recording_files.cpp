@@ -25,15 +25,15 @@ constexpr std::string_view kHead = "insonate recording 1 ", kFrameEnd = "frame "
 /// No screen is wider.
 constexpr int kLargestPicture = 16384;
 
-/// No line of a recording is longer: a frame's has 16 numbers.
+/// Longer than any line of a recording: a frame's line has 16 numbers.
 constexpr std::size_t kLongestLine = 4096;
 
-/// The lines of a working file, one after the other, so that it may be larger than the memory.
+/// Reads the lines of a working file one by one, because the file may be larger than the memory.
 class Lines {
 public:
   explicit Lines(const std::filesystem::path& file) : stream_(file, std::ios::binary), buffer_(kLongestLine) {}
 
-  /// False when there is no further line that is whole.
+  /// Returns false if there is no further complete line.
   bool next() {
     stream_.getline(buffer_.data(), std::streamsize(buffer_.size()));
     if (!stream_ || stream_.eof()) return false;
@@ -48,13 +48,13 @@ private:
   std::string_view line_;
 };
 
-/// The first line's: the size of a picture.
+/// Content of the first line: the size of a picture.
 struct Head {
   int width = 0, height = 0;
   bool with_images() const { return width > 0 && height > 0; }
 };
 
-/// Throws InputError when the file does not begin as a working file.
+/// Throws InputError if the file does not begin like a working file.
 Head read_head(Lines& lines, const std::filesystem::path& working) {
   const bool any = lines.next();
   const auto parts = words(any ? lines.line() : std::string_view());
@@ -66,14 +66,14 @@ Head read_head(Lines& lines, const std::filesystem::path& working) {
   return {*width, *height};
 }
 
-/// What of a recording is there as a whole.
+/// The complete part of a recording.
 struct Whole {
-  std::size_t frames = 0, lines = 0;  ///< the frames' lines, their ends among them
+  std::size_t frames = 0, lines = 0;  ///< `lines` counts the frames' lines, including their end lines
   std::uint64_t image_bytes = 0;
   std::uint32_t adler = 1;
 };
 
-/// Counts the frames whose lines are all there, and whose pictures lie within `images` bytes.
+/// Counts the frames whose lines are all present and whose pictures lie within the first `images` bytes.
 Whole whole_frames(Lines& lines, std::uint64_t images) {
   Whole whole;
   for (std::size_t count = 1; lines.next(); ++count) {
@@ -87,7 +87,7 @@ Whole whole_frames(Lines& lines, std::uint64_t images) {
   return whole;
 }
 
-/// The lines that whole_frames() has counted, without the frames' ends.
+/// Copies the lines that whole_frames() counted, without the frames' end lines.
 void copy_lines(const std::filesystem::path& working, std::size_t count, std::ofstream& to) {
   Lines lines(working);
   bool there = lines.next();
@@ -96,7 +96,7 @@ void copy_lines(const std::filesystem::path& working, std::size_t count, std::of
   if (!there) throw InputError(working.string(), "", "it has changed while it was read", "try again");
 }
 
-/// The last bytes of a zlib stream that is cut where a picture ends: an empty last block, and the checksum.
+/// Returns the last bytes of a zlib stream that is cut at the end of a picture: an empty last block, and the checksum.
 std::string stream_end(std::uint32_t adler) {
   std::string end("\x01\x00\x00\xff\xff", 5);
   for (int shift = 24; shift >= 0; shift -= 8) end += char(adler >> shift & 0xff);
@@ -114,7 +114,8 @@ void copy(const std::filesystem::path& from, std::uint64_t bytes, std::ofstream&
   if (bytes > 0) throw InputError(from.string(), "", "it cannot be read", "check its permissions");
 }
 
-/// Whether nobody writes the file: a program that was killed holds it for the moment that it takes to die.
+/// Returns whether the file is not being written. A killed program still holds it for a moment until it has ended, so
+/// this waits for up to 1 s.
 bool let_go(const std::filesystem::path& working) {
   constexpr std::chrono::milliseconds kPatience(1000), kPause(20);
   const auto end = std::chrono::steady_clock::now() + kPatience;
@@ -136,7 +137,7 @@ struct TemporaryFile {
   }
 };
 
-/// Whether a file begins with the bytes of another, or, unless it may go on, has the same bytes.
+/// Returns whether a file begins with the bytes of another, or, unless `may_go_on`, has exactly the same bytes.
 bool begins_with(const std::filesystem::path& file, const std::filesystem::path& beginning, bool may_go_on) {
   std::error_code error;
   if (!may_go_on && std::filesystem::file_size(file, error) != std::filesystem::file_size(beginning, error))
@@ -204,7 +205,7 @@ std::size_t recover_recording(const std::filesystem::path& file) {
   Lines lines(working);
   const Head head = read_head(lines, working);
   const bool with_images = head.with_images();
-  // The pictures are removed first. So with a finished file beside it, a working file may have lost them.
+  // The images file is removed first. So beside a finished file, a working file may have lost its images.
   const bool without_its_images = is_there && with_images && !std::filesystem::exists(images, error);
   std::uintmax_t image_bytes = with_images ? std::filesystem::file_size(images, error) : 0;
   if (without_its_images)

@@ -29,9 +29,10 @@ void remove_working_files(const std::filesystem::path& file);
 
 /// Makes the sequence file `file` from its working files, up to the last complete frame, removes these and returns the
 /// number of frames. Its memory use does not grow with the recording. If `file` already exists and is exactly that
-/// sequence, it only removes the working files: the program was killed before it did so. Throws InputError if there is
-/// no working file, if it is not one, if it is still being recorded to, if it holds no complete frame (it is then
-/// kept), or if `file` already exists and holds anything else.
+/// sequence, it only removes the working files: the program was killed before it did so.
+///
+/// Throws InputError if there is no working file, if it is not one, or if it is still being recorded to. Also throws it
+/// if the working file holds no complete frame (it is then kept), or if `file` already exists with other content.
 std::size_t recover_recording(const std::filesystem::path& file);
 
 }  // namespace insonate

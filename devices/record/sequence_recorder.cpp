@@ -12,17 +12,17 @@
 
 namespace insonate {
 
-/// The pictures' zlib stream. Each ends on a whole byte, so that the stream can be cut behind it.
+/// The zlib stream of the pictures. Each picture ends on a whole byte, so that the stream can be cut after it.
 class SequenceRecorder::Pictures {
 public:
   Pictures(const std::filesystem::path& file, std::string when_full) : file_(file, std::move(when_full)) {
-    // The fastest level: the pictures are compressed while the run goes on.
+    // The fastest level, because the pictures are compressed during the run.
     if (deflateInit(&stream_, Z_BEST_SPEED) != Z_OK) throw std::runtime_error("zlib cannot be set up");
   }
   ~Pictures() { deflateEnd(&stream_); }
 
   void add(const Image<std::uint8_t>& picture) {
-    stream_.next_in = const_cast<Bytef*>(picture.pixels.data());  // which zlib only reads
+    stream_.next_in = const_cast<Bytef*>(picture.pixels.data());  // zlib only reads them
     stream_.avail_in = uInt(picture.pixels.size());
     do {
       stream_.next_out = buffer_.data();
@@ -91,7 +91,7 @@ void SequenceRecorder::add(const PoseSample& sample, const Image<std::uint8_t>& 
 }
 
 void SequenceRecorder::flush() {
-  // The pictures first: a frame's line says that its picture is there.
+  // The pictures come first, because a frame's line states that its picture is present.
   if (pictures_) pictures_->flush();
   text_->append(pending_);
   pending_.clear();

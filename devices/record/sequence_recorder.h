@@ -40,14 +40,15 @@ public:
   SequenceRecorder(const SequenceRecorder&) = delete;
   SequenceRecorder& operator=(const SequenceRecorder&) = delete;
 
-  /// Adds a frame without a picture. Throws std::invalid_argument if the sample could not be read back: its time is not
-  /// after the previous one, or its pose is ok but not rigid.
+  /// Adds a frame without a picture. Throws std::invalid_argument if the recorder has pictures, or if the sample could
+  /// not be read back: its time is not after the previous one or is more than a day later, or its pose is ok but not
+  /// rigid.
   /// @param actions  what was done since the previous sample (SequenceFrame::actions); one line of printable characters
   void add(const PoseSample& sample, std::string_view actions = {});
 
   /// Adds a frame with its greyscale picture, which has the recorder's size. Row 0 is nearest to the probe, and columns
   /// run towards the marker. `probe_from_pixel` maps (column, row, 0), the centre of that pixel, to mm in the probe's
-  /// frame.
+  /// frame. Throws std::invalid_argument if the picture has another size, or as the other add() does.
   void add(const PoseSample& sample, const Image<std::uint8_t>& picture, const glm::dmat4& probe_from_pixel,
            std::string_view actions = {});
 

@@ -87,7 +87,7 @@ private:
     throw InputError(file_, line_ == 0 ? "" : "line " + std::to_string(line_), problem, remedy);
   }
 
-  /// Whether there is another line that was written as a whole.
+  /// Returns whether there is another complete line.
   bool more() const { return rest_.find('\n') != std::string_view::npos; }
 
   std::string_view next_line() {

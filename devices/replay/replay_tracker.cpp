@@ -17,8 +17,8 @@ ReplayTracker::ReplayTracker(std::string name, std::vector<PoseSample> samples, 
   if (!(options_.speed > 0)) throw std::invalid_argument("the replay's speed is not above 0");
   for (std::size_t i = 1; i < log_.size(); ++i)
     if (!(log_[i].time_s > log_[i - 1].time_s)) throw std::invalid_argument("the log's times do not rise");
-  // The step from the last sample to the first of the next round is as long as a step is on average; a log of one
-  // sample repeats every second.
+  // The step from the last sample to the first of the next pass is the average step. A log of one sample repeats every
+  // second.
   const double duration = log_.back().time_s - log_.front().time_s;
   round_s_ = log_.size() > 1 ? duration + duration / double(log_.size() - 1) : 1.0;
 }
@@ -41,7 +41,7 @@ void ReplayTracker::collect(double now_s, std::vector<PoseSample>& samples) {
     PoseSample sample = log_[next_++];
     if (round_ > 0) {
       sample.time_s += double(round_) * round_s_;
-      // Steps of less than the clock's resolution must not vanish in the sum.
+      // Steps smaller than the resolution of a double must not vanish in the sum.
       sample.time_s = std::max(sample.time_s, std::nextafter(last_time_s_, HUGE_VAL));
     }
     last_time_s_ = sample.time_s;

@@ -32,7 +32,7 @@ constexpr std::pair<std::string_view, PixelType> kTypes[] = {
     {"MET_LONG_LONG", PixelType::int64},   {"MET_FLOAT", PixelType::float32}, {"MET_DOUBLE", PixelType::float64},
     {"MET_ULONG_LONG", PixelType::uint64}, {"MET_OTHER", PixelType::uint8},   {"MET_NONE", PixelType::uint8}};
 
-/// The fields of one header, with the errors that name its file.
+/// The fields of one header. Error messages name its file.
 class Layout {
 public:
   Layout(const HeaderFields& fields, const std::string& file) : fields_(fields), file_(file) {}
@@ -52,7 +52,7 @@ public:
     read_sizes(claimed);
     claimed.type = pixel_type();
     claimed.big_endian = flag("BinaryDataByteOrderMSB", false) || flag("ElementByteOrderMSB", false);
-    // Where the colours are a dimension, they are no further channels.
+    // If the colours are a dimension of their own, they are not counted as channels too.
     const bool coloured = !claimed.kinds.empty() && same_ignoring_case(claimed.kinds.front(), "vector");
     claimed.channels = coloured ? 1 : channels();
     claimed.compressed = flag("CompressedData", false);

@@ -13,7 +13,7 @@ constexpr std::string_view kMagic = "NRRD000";
 constexpr std::string_view kLayoutFields[] = {"type",   "dimension", "sizes",    "kinds",     "encoding",
                                               "endian", "byte skip", "byteskip", "line skip", "lineskip"};
 
-// Elements by every name that the format has for them (teem.sourceforge.net/nrrd/format.html).
+// Elements by all names that the format defines (teem.sourceforge.net/nrrd/format.html).
 constexpr std::pair<std::string_view, PixelType> kTypes[] = {
     {"signed char", PixelType::int8},
     {"int8", PixelType::int8},
@@ -73,7 +73,7 @@ void read_sizes(const HeaderFields& fields, ClaimedImages& claimed, const std::s
     numbers = numbers && size;
     claimed.sizes.push_back(size.value_or(0));
   }
-  // Columns and rows, perhaps slices and colours, and the frames.
+  // Columns and rows, optionally slices and colours, and the frames.
   if (!numbers || claimed.sizes.size() > 5 ||
       !dimensions_agree(to_number<std::size_t>(value(fields, "dimension")), claimed))
     fail(file, "dimension is " + quoted(value(fields, "dimension")) + " and sizes " + quoted(value(fields, "sizes")) +
@@ -93,9 +93,9 @@ bool is_compressed(const HeaderFields& fields, const std::string& file) {
   fail(file, "encoding is " + quoted(encoding) + ", which is not read", "save the sequence as gzip or raw");
 }
 
-/// Whether the bytes begin as gzip does and end with that size of what they hold (RFC 1952: modulo 2^32).
+/// Returns whether the bytes begin like gzip and end with the size of their content (RFC 1952: modulo 2^32).
 bool is_whole_gzip(const CutBytes& data, std::uint64_t raw_bytes) {
-  constexpr std::size_t kLeast = 18;  // head and tail
+  constexpr std::size_t kLeast = 18;  // header and trailer
   if (data.size < kLeast || !data.front.starts_with("\x1f\x8b")) return false;
   std::uint32_t size = 0;
   for (int i = 0; i < 4; ++i)

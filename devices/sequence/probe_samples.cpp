@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::string_view kProbe = "Probe", kPatient = "Patient", kSuffix = "Transform";
 
-/// Where the probe is followed to, best first. A way to the patient is taken even if no frame has a status for it:
-/// poses of the tracker's frame instead would be in a wrong place, and without a word.
+/// Targets to which the probe is followed, best first. A path to the patient is used even if no frame has a status for
+/// it. Otherwise poses in the tracker's frame would be used instead, and the probe would silently be in a wrong place.
 constexpr std::pair<std::string_view, PathLinks> kUsualWays[] = {
     {kPatient, PathLinks::with_a_status},  {kPatient, PathLinks::all},    {"Reference", PathLinks::with_a_status},
     {"Tracker", PathLinks::with_a_status}, {"Reference", PathLinks::all}, {"Tracker", PathLinks::all}};
@@ -27,7 +27,7 @@ TransformPath direct(const Sequence& sequence, int index) {
   return {link};
 }
 
-/// Follows a path on to the patient's frame, where the sequence knows a way.
+/// Extends a path to the patient's frame if the sequence has a path there.
 void go_on_to_patient(const Sequence& sequence, std::string_view from, TransformPath& path) {
   auto onward = find_path(sequence, from, kPatient, PathLinks::with_a_status);
   if (!onward) onward = find_path(sequence, from, kPatient, PathLinks::all);
@@ -40,7 +40,7 @@ void go_on_to_patient(const Sequence& sequence, std::string_view from, Transform
                      "record it with a tracker, so that its frames have ProbeToTrackerTransform");
   std::string names;
   for (const std::string& name : sequence.transform_names) names += (names.empty() ? "" : ", ") + name;
-  // The frame that a person most likely means is neither the patient's reference nor a picture's.
+  // The transform that the user most likely means comes neither from the patient's reference nor from a picture.
   const auto tool =
       std::find_if(sequence.transform_names.begin(), sequence.transform_names.end(),
                    [](const auto& name) { return !name.starts_with("Reference") && !name.starts_with("Image"); });
@@ -80,15 +80,15 @@ std::optional<std::string> why_not_pose(const glm::dmat4& matrix) {
   return why_not_rigid(matrix, kTrackerReachMm, kRecordedRotationError);
 }
 
-/// A matrix as a pose, its rotation's error noted.
+/// Converts a matrix to a pose and records its rotation's error.
 Pose rounded(const glm::dmat4& matrix, double& worst_error) {
   worst_error = std::max(worst_error, orthonormal_error(glm::dmat3(matrix)));
   return pose_from_matrix(matrix);
 }
 
-/// The pose at the end of a path that is ok in a frame. Links are rounded one by one, so that their errors do not add
-/// up. A path may lead through a frame that is not in mm, such as that of an image's pixels: then its matrix has to be
-/// rigid as a whole.
+/// Returns the pose at the end of a path that is ok in a frame. Links are rounded one by one, so that their errors do
+/// not add up. A path may lead through a frame that is not in mm, such as an image's pixels. Then the matrix of the
+/// whole path has to be rigid.
 Pose pose_in(const Sequence& sequence, std::size_t frame, const TransformPath& path, double& worst_error) {
   PoseStatus status = PoseStatus::ok;
   Pose pose;
@@ -118,7 +118,7 @@ void read_pose(const Sequence& sequence, std::size_t frame, const TransformPath&
   repairs.worst_rotation_error = std::max(repairs.worst_rotation_error, error);
 }
 
-/// The rate of frames without times; 0 where the frames have times.
+/// Returns the rate for frames without times; 0 if the frames have times.
 double assumed_rate_hz(const Sequence& sequence, const RecordingOptions& options) {
   if (sequence.has_times && options.rate_hz > 0)
     throw InputError(sequence.file, "", "its frames have times of their own", "leave '?rate=' out");
@@ -130,7 +130,7 @@ double assumed_rate_hz(const Sequence& sequence, const RecordingOptions& options
   return 1;
 }
 
-/// Whether columns and rows lie as on a screen; scan lines as rows ("FM") are not a picture yet.
+/// Returns whether columns and rows lie as on a screen. Scan lines stored as rows ("FM") are not yet a picture.
 bool is_b_mode(const Sequence& sequence) {
   return sequence.image_orientation.empty() || sequence.image_orientation.find_first_of("FNfn") != 0;
 }
@@ -156,7 +156,7 @@ RecordedImages images_of(const Sequence& sequence, const std::string& probe, con
 }
 
 RecordedScan scan_of(const Sequence& sequence, ProbeTrack track) {
-  // Member by member: g++ 12 destroys the members of a nested aggregate twice if a later initializer throws.
+  // Assigned member by member: g++ 12 destroys the members of a nested aggregate twice if a later initializer throws.
   RecordedScan scan;
   scan.recording.file = sequence.file;
   scan.recording.transform = std::move(track.transform);

@@ -49,17 +49,19 @@ inline constexpr double kRecordedRotationError = 2e-3;
 ///
 /// A sample is ok if every link of its path is ok. Otherwise it has the status of the first link that is not, and
 /// Pose{}. Frames without the transform are missing. A rotation that is orthonormal up to rounding error is kept bit
-/// for bit. A larger error up to kRecordedRotationError is repaired with the nearest rotation and counted. Throws
-/// InputError if no transform fits, if a pose that is ok is not rigid, if the frames have no times and the options give
-/// no rate, or if they have times and a rate is given.
+/// for bit. A larger error up to kRecordedRotationError is repaired with the nearest rotation and counted.
+///
+/// Throws InputError if no transform fits or a pose that is ok is not rigid. Also throws it if the frames have no times
+/// and the options give no rate, or if they have times and a rate is given.
 ProbeTrack probe_track(const Sequence& sequence, const RecordingOptions& options = {});
 
 /// Returns the samples of probe_track() alone.
 std::vector<PoseSample> probe_samples(const Sequence& sequence, std::string_view transform = {});
 
-/// Returns the recorded actions, which are everything but motion, by the times of the frames that report them.
+/// Returns what was done besides moving, by the times of the frames that report them.
 std::map<double, std::string> recorded_actions(const Sequence& sequence);
 
+/// A recorded scan: its provenance, samples and images.
 struct RecordedScan {
   Recording recording;
   std::vector<PoseSample> samples;

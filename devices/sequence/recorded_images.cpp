@@ -55,7 +55,7 @@ double value_at(const std::uint8_t* bytes, const ImageForm& form) {
   return 0;
 }
 
-/// Luminance of a pixel; of one or two channels the first is the grey value.
+/// Returns the luminance of a pixel. With one or two channels the first is the grey value.
 double brightness_at(const std::uint8_t* bytes, const ImageForm& form) {
   if (form.channels < 3) return value_at(bytes, form);
   const std::uint64_t step = bytes_of(form.type);
@@ -65,7 +65,7 @@ double brightness_at(const std::uint8_t* bytes, const ImageForm& form) {
 
 }  // namespace
 
-/// The images' bytes, from any place on.
+/// Reads the images' bytes from any offset.
 class ImageReader::Bytes {
 public:
   explicit Bytes(const RecordedImages& images) : images_(images), stream_(images.file, std::ios::binary) {
@@ -92,10 +92,10 @@ public:
   }
 
 private:
-  /// From where decompressing can go on.
+  /// A restart point for decompression.
   struct Place {
     z_stream state{};
-    std::uint64_t file_at = 0;  ///< of the compressed byte that comes next
+    std::uint64_t file_at = 0;  ///< offset of the next compressed byte in the file
   };
 
   [[noreturn]] void fail_end() const {
@@ -110,7 +110,7 @@ private:
     stream_.seekg(std::streamoff(at));
   }
 
-  /// Makes the place from which to go on to `from`: where the stream is, one that was passed before, or the beginning.
+  /// Moves to the best place to continue to `from`: the current position, a restart point, or the beginning.
   void go_to(std::uint64_t from) {
     const auto behind = places_.upper_bound(from);
     const auto place = behind == places_.begin() ? places_.end() : std::prev(behind);
@@ -120,7 +120,7 @@ private:
     state_ = {};
     input_.resize(kPiece);
     if (place == places_.end()) {
-      // 15 bits of window, and whichever of zlib's and gzip's headers is there.
+      // 15 bits of window; detects zlib's or gzip's header.
       if (inflateInit2(&state_, 15 + 32) != Z_OK) throw std::bad_alloc();
       at_ = 0;
       file_at_ = images_.offset;
@@ -158,7 +158,7 @@ private:
 
   void keep_place() {
     if (at_ < (places_.empty() ? 0 : places_.rbegin()->first) + kBetweenPlaces) return;
-    // In its place before it is copied to: zlib ties a state to its address.
+    // The state is created in the map before the copy: zlib ties a state to its address.
     Place& place = places_[at_];
     if (inflateCopy(&place.state, &state_) != Z_OK) throw std::bad_alloc();
     place.file_at = file_at_ - state_.avail_in;
@@ -169,8 +169,8 @@ private:
   std::vector<std::uint8_t> input_;
   z_stream state_{};
   bool inflating_ = false;
-  std::uint64_t at_ = 0;       ///< of the images' bytes, that come next
-  std::uint64_t file_at_ = 0;  ///< of the file's bytes, that are read next
+  std::uint64_t at_ = 0;       ///< offset of the next byte of the images
+  std::uint64_t file_at_ = 0;  ///< offset of the next byte to read from the file
   std::map<std::uint64_t, Place> places_;
 };
 

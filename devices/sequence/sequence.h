@@ -23,6 +23,7 @@ struct SequenceTransform {
   glm::dmat4 matrix{0.0};  ///< finite if status is ok, not necessarily rigid; otherwise zero
 };
 
+/// One frame of a sequence file.
 struct SequenceFrame {
   std::size_t number = 0;                     ///< number of the frame and its image in the file, from 0
   double time_s = 0;                          ///< the file's Timestamp: since some start or since 1970; 0 without one

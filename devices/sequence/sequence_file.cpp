@@ -14,13 +14,14 @@ namespace insonate {
 namespace {
 
 constexpr std::size_t kPiece = 1 << 20;
-/// What of the images tells whether a compressed stream is whole: its magic in front, its size at the end.
+/// Bytes of the images that show whether a compressed stream is complete: its magic number at the front, its size at
+/// the end.
 constexpr std::size_t kEnds = 64;
 
-/// Finds the end of a header that grows piece by piece.
+/// Finds the end of a header that arrives in pieces.
 class HeaderEnd {
 public:
-  /// Whether the header ends in `text`; looks only at lines that were not there before.
+  /// Returns whether the header ends in `text`; examines only new lines.
   bool is_in(const std::string& text) {
     for (std::size_t end; !found_ && (end = text.find('\n', at_)) != std::string::npos; at_ = end + 1) {
       const std::string_view line = trimmed(std::string_view(text).substr(at_, end - at_));

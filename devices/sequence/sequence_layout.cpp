@@ -17,13 +17,14 @@ std::size_t count_kinds(const ClaimedImages& claimed, std::initializer_list<std:
   }));
 }
 
-/// A picture alone, perhaps in colour: a file of PLUS with one frame.
+/// Returns whether there is a single image, possibly in colour: a PLUS file with one frame.
 bool is_single(const ClaimedImages& claimed) {
   const std::size_t domains = count_kinds(claimed, {"domain"});
   return domains == 2 && domains + count_kinds(claimed, {"vector"}) == claimed.kinds.size();
 }
 
-/// Which dimension counts the frames: the one whose kind says so, else the last. Nothing where there is but one frame.
+/// Returns which dimension counts the frames: the one whose kind states it, else the last. Nothing if there is only one
+/// frame.
 std::optional<std::size_t> list_axis(const ClaimedImages& claimed, const std::string& file) {
   if (claimed.kinds.empty()) return claimed.sizes.size() - 1;
   const bool each = claimed.kinds.size() == claimed.sizes.size();
@@ -39,7 +40,7 @@ std::optional<std::size_t> list_axis(const ClaimedImages& claimed, const std::st
   return std::size_t(std::find_if(claimed.kinds.begin(), claimed.kinds.end(), is_list) - claimed.kinds.begin());
 }
 
-/// Bytes of all images; 0 when a dimension is 0.
+/// Returns the bytes of all images; 0 if a dimension is 0.
 std::uint64_t raw_bytes(const ClaimedImages& claimed, const std::string& file) {
   std::vector<std::uint64_t> factors = claimed.sizes;
   factors.push_back(bytes_of(claimed.type));
@@ -57,8 +58,8 @@ std::uint64_t raw_bytes(const ClaimedImages& claimed, const std::string& file) {
   return product;
 }
 
-/// The form of an image, if the frames lie one behind the other: where they are counted last. 3D Slicer can count them
-/// first, so that each pixel's values of all frames lie side by side.
+/// Returns the form of an image if the frames are stored one after the other, which means that their dimension is the
+/// last. 3D Slicer can put it first, so that each pixel's values of all frames are adjacent.
 std::optional<ImageForm> image_form(const ClaimedImages& claimed, std::optional<std::size_t> frame_axis) {
   if (frame_axis && *frame_axis + 1 != claimed.sizes.size()) return std::nullopt;
   ImageForm form;
@@ -72,7 +73,7 @@ std::optional<ImageForm> image_form(const ClaimedImages& claimed, std::optional<
     if (i == frame_axis) continue;
     form.frame_bytes *= claimed.sizes[i];
     const bool is_colour = i < claimed.kinds.size() && same_ignoring_case(claimed.kinds[i], "vector");
-    if (is_colour && i > 0) return std::nullopt;  // a plane of each colour
+    if (is_colour && i > 0) return std::nullopt;  // one plane per colour
     if (is_colour)
       form.channels *= claimed.sizes[i];
     else
@@ -125,9 +126,10 @@ SequenceLayout sequence_layout(const ClaimedImages& claimed, std::uint64_t bytes
   layout.has_images = raw > 0 && !single_pixel;
   if (layout.has_images) layout.form = image_form(claimed, frame_axis);
   if (raw == 0) return layout;
-  // Transform-only files of PLUS say 1 x 1 and carry a pixel a frame; others say so and carry none, or a line end.
+  // PLUS's transform-only files state 1 x 1 and hold one pixel per frame. Others state this and hold none, or a line
+  // end.
   if (single_pixel && (claimed.compressed || bytes_after <= 2)) return layout;
-  // Writers that fill the compressed size in at the end leave a 0 behind when they are stopped before.
+  // Writers that fill in the compressed size at the end leave 0 if they are stopped before.
   layout.image_bytes = claimed.compressed ? std::max<std::uint64_t>(claimed.compressed_bytes.value_or(1), 1) : raw;
   if (bytes_after < layout.image_bytes)
     throw InputError(file, "image data",

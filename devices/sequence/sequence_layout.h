@@ -31,8 +31,7 @@ struct SequenceLayout {
   std::uint64_t frames = 0;       ///< at least 1; only a claim, so do not allocate memory by it alone
   bool has_images = false;        ///< false for transform-only files, whose images have zero pixels or one
   std::uint64_t image_bytes = 0;  ///< bytes of all frames, as stored; no more than there are
-  std::optional<ImageForm>
-      form;  ///< form of the images; empty without images, or if frames are not stored one after the other
+  std::optional<ImageForm> form;  ///< empty without images, or if frames are not stored one after the other
 };
 
 /// What a header states about its images.

@@ -23,9 +23,9 @@ constexpr std::string_view kTransform = "Transform";
 constexpr std::string_view kTransformStatus = "TransformStatus";
 constexpr std::string_view kOrientation = "UltrasoundImageOrientation",
                            kNrrdOrientation = "ultrasound image orientation";
-// A tracked scan has a handful; the limit keeps the search within a frame short whatever the file holds.
+// A tracked scan has a few transforms. The limit keeps the search within a frame short for any file.
 constexpr std::size_t kMostTransforms = 256;
-// The shortest line a frame needs, "Seq_Frame0_Timestamp=0\n": a file cannot hold more frames than such lines.
+// Length of the shortest line of a frame, "Seq_Frame0_Timestamp=0\n": a file cannot hold more frames than such lines.
 constexpr std::size_t kLeastFrameBytes = 23;
 
 constexpr const char* kRecordAgain = "record the scan again";
@@ -43,7 +43,7 @@ std::optional<glm::dmat4> to_matrix(std::string_view value) {
   return glm::transpose(rows);
 }
 
-/// Which buttons a status word like SWITCH2_IS_ON tells of.
+/// Returns the buttons that a status word such as SWITCH2_IS_ON reports.
 std::uint32_t buttons_of(std::string_view status) {
   const std::size_t digit = status.find_first_of("123");
   return digit == std::string_view::npos ? 0 : 1u << (status[digit] - '1');
@@ -67,7 +67,7 @@ public:
       else
         keep_constant(name, value, line);
     };
-    // PLUS writes the transforms of a NRRD's header as fields, other writers as keys.
+    // PLUS writes the transforms in a NRRD header as fields, other writers as keys.
     const auto keep_field = [&](std::string_view name, std::string_view value, std::size_t line) {
       keep_layout(name, value, line);
       keep_key(name, value, line);
@@ -98,14 +98,14 @@ private:
     std::string_view value;
     std::size_t line;
   };
-  /// What of a frame has been read already.
+  /// Which fields of a frame have been read already.
   struct Seen {
     bool time = false;
     bool buttons = false;
     bool distortion = false;
     bool rejected = false;
     bool actions = false;
-    std::vector<int> statuses;  ///< transforms, by index of name
+    std::vector<int> statuses;  ///< transforms, by index of their name
     std::vector<int> matrices;
   };
 
@@ -134,7 +134,7 @@ private:
   }
 
   void keep_frame_field(std::string_view name, std::string_view value, std::size_t line) {
-    // The index ends at the first underscore after the prefix, which has one itself.
+    // The index ends at the first underscore after the prefix, which contains one itself.
     const std::size_t underscore = std::min(name.find('_', kFramePrefix.size()), name.size());
     const auto frame = to_number<std::uint32_t>(name.substr(kFramePrefix.size(), underscore - kFramePrefix.size()));
     if (!frame || underscore + 1 >= name.size())
@@ -142,7 +142,7 @@ private:
            kExportAgain);
     highest_frame_ = std::max<std::size_t>(highest_frame_.value_or(0), *frame);
     name.remove_prefix(underscore + 1);
-    // Of the many fields a frame may have only these are kept; the others are the writer's own business.
+    // Of a frame's many possible fields only these are stored; the others concern only the writer.
     if (name == "Timestamp" || name == "Buttons" || name == "Distortion" || name == "Rejected" || name == "Actions" ||
         name.ends_with(kTransform) || name.ends_with(kTransformStatus))
       fields_.push_back({*frame, name, value, line});
@@ -184,7 +184,8 @@ private:
     return true;
   }
 
-  /// Comes before the values: whether a matrix has to make sense is its status's to say, and either may stand first.
+  /// Runs before the values are read, because a status decides whether its matrix must be valid, and either may come
+  /// first.
   void read_statuses() {
     for (const FrameField& field : fields_) {
       if (!field.name.ends_with(kTransformStatus)) continue;
@@ -295,7 +296,7 @@ private:
   HeaderFields header_;
   std::vector<FrameField> fields_;
   std::unordered_map<std::string_view, int> name_indices_;
-  std::optional<std::size_t> highest_frame_;  ///< of those that any field describes
+  std::optional<std::size_t> highest_frame_;  ///< highest frame that any field describes
   std::vector<Seen> seen_;
 };
 

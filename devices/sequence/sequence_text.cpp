@@ -6,7 +6,7 @@
 namespace insonate {
 namespace {
 
-// The shortest decimal that reads back to the same double, at most 17 digits, whatever the locale.
+// The shortest decimal that reads back to the same double, at most 17 digits, in any locale.
 void append(std::string& text, double number) {
   char digits[32];
   text.append(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
@@ -41,7 +41,7 @@ std::string_view igsio_word(const PoseSample& sample) {
 }  // namespace
 
 std::string sequence_head(const std::string& size, bool compressed) {
-  // RAI is ITK's name for axes that run from right, anterior and inferior, which makes them LPS. MF: the picture's
+  // RAI is ITK's name for axes that start at right, anterior and inferior, which makes them LPS. MF: the picture's
   // columns run to the marked side, its rows away from the probe.
   return std::string(
              "ObjectType = Image\n"

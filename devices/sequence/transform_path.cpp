@@ -15,7 +15,7 @@ struct Edge {
   TransformLink link;
 };
 
-/// For each transform of the frames whether any of them has a status for it.
+/// Returns for each transform of the frames whether any frame has a status for it.
 std::vector<bool> with_a_status(const Sequence& sequence) {
   std::vector<bool> found(sequence.transform_names.size());
   for (const SequenceFrame& frame : sequence.frames)
@@ -24,7 +24,7 @@ std::vector<bool> with_a_status(const Sequence& sequence) {
   return found;
 }
 
-/// Both directions of each transform; those of the frames come before those of the header.
+/// Returns both directions of each transform. Those of the frames come before those of the header.
 std::vector<Edge> edges_of(const Sequence& sequence, PathLinks links) {
   std::vector<Edge> edges;
   const auto add = [&](const std::string& name, int index, const glm::dmat4* constant) {

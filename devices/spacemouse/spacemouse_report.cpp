@@ -6,7 +6,7 @@ namespace insonate {
 namespace {
 
 enum Number : std::uint8_t { kPush = 1, kTurn = 2, kButtons = 3 };
-constexpr double kFullTravel = 350;  // as public drivers have it; a hard push can go beyond
+constexpr double kFullTravel = 350;  // as in public drivers; a hard push can exceed it
 
 glm::dvec3 axes(Bytes bytes, std::size_t offset) {
   glm::dvec3 axes;

@@ -20,7 +20,7 @@ constexpr DeviceKind::Model kModels[] = {
 };
 constexpr ButtonMeaning kButtons[] = {{0, kFreezeButton}, {1, kMarkButton}};  // left, right
 
-/// The cap's axes (right, to the user, down) in the probe's frame (marker, beam, elevation).
+/// Converts the cap's axes (right, towards the user, down) to the probe's frame (marker, beam, elevation).
 glm::dvec3 probe_from_cap(const glm::dvec3& cap) {
   return {-cap.x, cap.z, cap.y};
 }
@@ -52,13 +52,13 @@ void SpaceMouseSource::move(double elapsed_s) {
 }
 
 bool SpaceMouseSource::take(Bytes bytes, double time_s, LiveBatch& batch, ReportTally& tally) {
-  // What the cap did until now, it did at the rate that it told last, but not after it fell silent.
+  // Until now the cap moved at the rate it last reported, but no longer than kLetGoS after that report.
   if (now_s_ > 0) move(std::clamp(std::min(time_s, told_s_ + kLetGoS) - now_s_, 0.0, kLetGoS));
   now_s_ = time_s;
   bool understood = false;
   if (!bytes.empty()) {
     const Parsed<SpaceMouseReport> parsed = parse_spacemouse(bytes);
-    // Reports of the battery and the like are no incident.
+    // Reports of the battery and the like are not incidents.
     if (parsed.fault != ReportFault::header) tally.count(parsed.fault);
     understood = parsed.fault == ReportFault::none;
     if (understood) {

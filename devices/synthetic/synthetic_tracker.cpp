@@ -18,14 +18,14 @@
 namespace insonate {
 namespace {
 
-// Physiological tremor of a hand: 8 to 12 Hz and about a tenth of a millimetre (Elble and Koller, Tremor, 1990).
+// Physiological tremor of a hand: 8 to 12 Hz and about 0.1 mm (Elble and Koller, Tremor, 1990).
 constexpr double kTremorMm = 0.1;
 constexpr double kTremorHz[] = {8.3, 9.7, 11.6};
-// Static noise of a magnetic tracker in a clean field is 0.08 to 0.3 mm; uniform in +-0.15 mm is 0.087 mm RMS.
+// Static noise of a magnetic tracker in a clean field is 0.08 to 0.3 mm; uniform noise in +-0.15 mm is 0.087 mm RMS.
 constexpr double kNoiseMm = 0.15;
 constexpr double kDropoutsPerSecond = 0.08;
 
-// What a random number is drawn for.
+// Purpose of a random number.
 enum Purpose : std::uint32_t {
   kDuration,
   kPause,
@@ -45,7 +45,7 @@ enum Purpose : std::uint32_t {
   kDropoutStatus,
 };
 
-/// The way of a hand's reach from 0 to 1: the path of least jerk (Flash and Hogan, J. Neurosci. 1985).
+/// Progress of a hand's reaching movement from 0 to 1: the minimum-jerk path (Flash and Hogan, J. Neurosci. 1985).
 double least_jerk(double t) {
   return t * t * t * (10 - 15 * t + 6 * t * t);
 }
@@ -75,7 +75,7 @@ SyntheticTracker::Move SyntheticTracker::move_after(const Move& before) const {
   move.duration_s = between(1.2, 4.0, random(kDuration, n));
   move.pause_s = between(0.2, 1.2, random(kPause, n));
   move.from = move.to = before.to;
-  // Half of the moves glide to another place, half look around from where the probe is.
+  // Half of the moves glide to another place; the others only tilt and rock the probe on the spot.
   if (random(kKind, n) < 0.5) {
     move.to.around = between(-0.9, 0.9, random(kAround, n));
     move.to.along = between(0.25, 0.75, random(kAlong, n));
@@ -122,7 +122,7 @@ Pose SyntheticTracker::trembling(const Pose& pose, std::uint32_t index, double t
 }
 
 PoseStatus SyntheticTracker::status_at(double time_s) const {
-  // At most one dropout begins in each second; it may last into the next.
+  // At most one dropout begins in each second; it may continue into the next.
   const double second = std::floor(time_s);
   for (const double slot : {second, second - 1}) {
     if (slot < 1) continue;
@@ -162,7 +162,7 @@ std::unique_ptr<Tracker> open_synthetic(const TrackerUri& uri, const TrackerCont
   return std::make_unique<LiveTracker>(std::make_unique<PacedSource>(
       "made-up hand, live",
       [hand = std::shared_ptr<SyntheticTracker>(std::move(hand)), rate_hz](std::uint64_t index) {
-        // Polled in the middle between two samples, so that rounding neither skips nor doubles one.
+        // Polls in the middle between two samples, so that rounding neither skips nor doubles one.
         std::vector<PoseSample> one;
         hand->poll(index == 0 ? 0 : (double(index) + 0.5) / rate_hz, one);
         return one.at(0);

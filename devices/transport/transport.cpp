@@ -19,7 +19,8 @@ std::string named(const AttachedDevice& device) {
 
 TransportError forbidden(const AttachedDevice& device) {
   char match[96];
-  // A HID is opened by its own node, whose parent has the numbers; a USB device by the node that has them.
+  // A HID device is opened through its own node, whose parent has the numbers. A USB device is opened through the node
+  // that has them.
   const bool hid = device.path.starts_with('/');
   std::snprintf(match, sizeof match,
                 hid ? R"(KERNEL=="hidraw*", ATTRS{idVendor}=="%04x", ATTRS{idProduct}=="%04x")"

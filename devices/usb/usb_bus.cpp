@@ -13,7 +13,7 @@ namespace {
 constexpr int kInterface = 0;
 constexpr unsigned kSendTimeoutMs = 200;
 
-/// A context of its own for each listing and each open device: whoever lists again sees what was plugged in since.
+/// A separate context for each listing and each open device, so that a new listing shows what was plugged in since.
 class Context {
 public:
   Context() : problem_(libusb_init(&context_)) {}
@@ -30,7 +30,7 @@ private:
   int problem_;
 };
 
-/// The devices of a context, for as long as the list lives.
+/// The devices of a context, while the list lives.
 class List {
 public:
   explicit List(const Context& context) : count_(libusb_get_device_list(context.get(), &list_)) {}
@@ -52,9 +52,10 @@ std::string place(libusb_device* device) {
          std::to_string(libusb_get_device_address(device));
 }
 
-/// What the kernel has read from the device when it was plugged in; asking the device itself would need it opened.
+/// Returns what the kernel read from the device when it was plugged in. Asking the device itself would require opening
+/// it.
 std::string kernel_knows(libusb_device* device, const char* attribute) {
-  std::array<std::uint8_t, 7> ports;  // as many as USB's tree is deep
+  std::array<std::uint8_t, 7> ports;  // maximum depth of the USB tree
   const int depth = libusb_get_port_numbers(device, ports.data(), int(ports.size()));
   if (depth <= 0) return "";
   std::string name = std::to_string(libusb_get_bus_number(device)) + "-" + std::to_string(ports[0]);
@@ -86,7 +87,7 @@ public:
 
   std::size_t read(std::span<std::uint8_t> into, std::chrono::milliseconds timeout) override {
     int got = 0;
-    // A timeout of 0 is none to libusb: it would wait for ever.
+    // To libusb a timeout of 0 means no timeout: it would wait forever.
     const auto wait_ms = unsigned(std::max<std::chrono::milliseconds::rep>(timeout.count(), 1));
     const int error = libusb_bulk_transfer(handle_.get(), endpoints_.in, into.data(), int(into.size()), &got, wait_ms);
     if (error == LIBUSB_ERROR_PIPE)
@@ -98,7 +99,7 @@ public:
 
   void send(std::span<const std::uint8_t> bytes) override {
     int sent = 0;
-    // libusb takes no pointer to const, and only reads.
+    // libusb takes a pointer to non-const, but only reads.
     const int error = libusb_bulk_transfer(handle_.get(), endpoints_.out, const_cast<std::uint8_t*>(bytes.data()),
                                            int(bytes.size()), &sent, kSendTimeoutMs);
     if (error == LIBUSB_ERROR_PIPE) libusb_clear_halt(handle_.get(), endpoints_.out);
@@ -107,11 +108,11 @@ public:
   }
 
 private:
-  /// A device that is pulled out during a transfer shows as an input/output error at least as often as by its own
-  /// error, so whatever has no better name counts as a possible loss.
+  /// A device that is pulled out during a transfer causes an input/output error at least as often as its own error. So
+  /// every error without a specific meaning counts as a possible loss.
   [[noreturn]] void fail(int error) const { throw gone(device_, libusb_strerror(error)); }
 
-  std::unique_ptr<Context> context_;  // outlives the handle
+  std::unique_ptr<Context> context_;  // must outlive the handle
   AttachedDevice device_;
   std::unique_ptr<libusb_device_handle, decltype(&libusb_close)> handle_;
   Endpoints endpoints_;
@@ -142,7 +143,7 @@ std::unique_ptr<Transport> UsbBus::open(const AttachedDevice& device, Endpoints 
   if (context->problem() != LIBUSB_SUCCESS) throw gone(device, libusb_strerror(context->problem()));
   libusb_device_handle* handle = nullptr;
   {
-    // Given back before the transport is made, because a transport that fails takes the context with it.
+    // The list is freed before the transport is made, because a transport that fails destroys the context.
     const List list(*context);
     for (libusb_device* candidate : list.devices()) {
       if (place(candidate) != device.path) continue;

@@ -24,7 +24,7 @@ protected:
   std::string result() const override;
 
 private:
-  std::vector<Pose> ends_;  ///< two a move, raw
+  std::vector<Pose> ends_;  ///< two per move, raw
   std::optional<Pose> newest_;
   bool waiting_ = false;  ///< for the pose of the last mark
   AxesFinding found_;
@@ -83,7 +83,7 @@ void AxesStep::store(Calibration& calibration, std::int64_t now_s) const {
   const bool had_signs = calibration.axes || !found_.signs.none();
   calibration.axes = Dated<AxesFinding>{found_, now_s};
   if (!other || !had_signs) return;
-  // What was measured with other axes is worth nothing.
+  // Results measured with other axes are invalid.
   calibration.tip.reset();
   calibration.face.reset();
   calibration.mannequin.reset();

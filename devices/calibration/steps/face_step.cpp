@@ -4,7 +4,7 @@
 namespace insonate {
 namespace {
 
-/// A sharp corner that stands fast, touched with the tip and then with four places of the probe.
+/// A sharp fixed corner, touched with the tip and then with four places of the probe.
 class FaceStep : public TouchingStep {
 public:
   explicit FaceStep(const Calibration& base) : TouchingStep(base, "Probe face", 5) {}
@@ -20,7 +20,7 @@ private:
   FaceFit found_;
 };
 
-/// The face from its drawing: nothing to do.
+/// The face from its drawing; the user has nothing to do.
 class DrawnFaceStep : public SetupStep {
 public:
   DrawnFaceStep(const Calibration& base, const ProbeDrawing& drawing);

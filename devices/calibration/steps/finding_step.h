@@ -8,8 +8,8 @@
 
 namespace insonate {
 
-/// A step that is done when it has found one thing: what all such steps do and show alike. What was found is the
-/// derived step's to keep.
+/// A step that ends when it has found one result: the common behaviour of such steps. The derived step stores the
+/// result.
 class FindingStep : public SetupStep {
 public:
   void mark(double time_s) final;
@@ -19,19 +19,19 @@ public:
 protected:
   FindingStep(const Calibration& base, std::string title) : SetupStep(base), title_(std::move(title)) {}
 
-  /// "Now", while nothing is found.
+  /// Called by mark() while nothing is found.
   virtual void marked(double time_s) = 0;
-  /// Takes the last mark back, or all of them.
+  /// Removes the last mark, or all marks.
   virtual void taken_back(bool all) = 0;
-  /// Fills in what is asked for and what comes of it, while nothing is found.
+  /// Fills in the task and the feedback while nothing is found.
   virtual void ask(SetupView& view) const = 0;
-  /// SetupView::part, also when done.
+  /// Returns SetupView::part, also when done.
   virtual std::size_t part() const { return 0; }
-  /// What was found, in words.
+  /// Returns what was found, in words.
   virtual std::string result() const = 0;
 
   bool done() const { return done_; }
-  /// Keeps what was found in `found` and is done, or refuses; whether it is done.
+  /// Stores the outcome's value in `found` and ends the step, or stores the refusal. Returns whether the step is done.
   template <typename T>
   bool settle(const Outcome<T>& outcome, T& found) {
     if (outcome) found = *outcome;
@@ -39,7 +39,7 @@ protected:
     refusal_ = outcome.refusal();
     return done_;
   }
-  /// Why the last try does not count; empty when it does.
+  /// Sets why the last attempt does not count; empty if it does.
   void refuse(std::string sentence) { refusal_ = std::move(sentence); }
 
 private:

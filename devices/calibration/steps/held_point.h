@@ -10,12 +10,12 @@
 
 namespace insonate {
 
-/// Reads a point of the probe that is held still after a mark.
+/// Reads a point of the probe that is held still for kReadS after a mark.
 class HeldPoint {
 public:
   static constexpr double kReadS = 0.5;
 
-  /// @param point_of  the point (mm) that a usable pose puts somewhere
+  /// @param point_of  returns the point (mm) for a usable pose
   void begin(double time_s, std::function<glm::dvec3(const Pose&)> point_of) {
     end_s_ = time_s + kReadS;
     point_of_ = std::move(point_of);
@@ -24,10 +24,10 @@ public:
   }
   void stop() { reading_ = false; }
   bool reading() const { return reading_; }
-  /// Of what was read so far; refused when that is too little or wandered too far.
+  /// Returns the point from the readings so far. Refused if these are too few or wandered too far.
   Outcome<StillPoint> so_far() const { return still_point(readings_); }
 
-  /// The point, or why there is none, once it was read long enough.
+  /// Returns the point, or the refusal, once it was read long enough; empty before.
   std::optional<Outcome<StillPoint>> take(const PoseSample& sample) {
     if (!reading_) return std::nullopt;
     if (sample.time_s < end_s_) {

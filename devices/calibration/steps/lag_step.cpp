@@ -7,7 +7,7 @@
 namespace insonate {
 namespace {
 
-/// Blows on a key.
+/// Knocks on a key.
 class LagStep : public FindingStep {
 public:
   static constexpr std::size_t kBlows = 10;

@@ -11,7 +11,7 @@ class LandmarkStep : public TouchingStep {
 public:
   LandmarkStep(const Calibration& base, const LandmarkList& list)
       : TouchingStep(base, "Landmarks", list.landmarks.size()), patient_(list.patient), pairs_(list.landmarks) {}
-  /// The landmarks of the last time again: the base or the mannequin was moved.
+  /// The landmarks of the last set-up again, after the base or the mannequin was moved.
   explicit LandmarkStep(const Calibration& base)
       : TouchingStep(base, "Landmarks, moved", base.mannequin->value.landmarks.size()),
         patient_(base.mannequin->value.patient),
@@ -29,7 +29,7 @@ protected:
 
 private:
   std::string patient_;
-  std::vector<LandmarkPair> pairs_;  ///< ct_mm holds what is fitted to: when moved, places in the mannequin's frame
+  std::vector<LandmarkPair> pairs_;  ///< ct_mm: target of the fit; if moved, places in the mannequin's frame
   bool moved_ = false;
   Registration found_;
 };

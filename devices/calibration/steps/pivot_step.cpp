@@ -9,10 +9,10 @@ namespace {
 
 constexpr double kLongestPivotS = 60;
 constexpr double kPivotS = 10;
-/// So many poses are fitted again and again while they come: some milliseconds each time.
+/// Number of poses for the repeated fits while poses arrive; each takes some milliseconds.
 constexpr std::size_t kFittedOnTheWay = 150;
 
-/// That many of the poses, or all, evenly spread.
+/// Returns `count` of the poses, evenly spread, or all if there are fewer.
 std::vector<Pose> some_of(const std::vector<Pose>& poses, std::size_t count) {
   if (poses.size() <= count) return poses;
   std::vector<Pose> picked;
@@ -36,7 +36,7 @@ protected:
 private:
   std::vector<Pose> poses_;
   double spread_deg_ = 0, began_s_ = 0, lasted_s_ = 0, told_s_ = 0;
-  std::optional<double> residual_mm_;  ///< of a fit to what came so far, once there is one
+  std::optional<double> residual_mm_;  ///< residual of a fit to the poses so far, if there is one
   bool reading_ = false;
   TipFit found_;
 };

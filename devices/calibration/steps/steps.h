@@ -4,7 +4,7 @@
 
 #include "devices/calibration/steps/setup_step.h"
 
-// The steps that begin_setup_step() makes, each in a file of its own.
+// The steps that begin_setup_step() makes, each implemented in its own file.
 
 namespace insonate {
 
@@ -12,22 +12,22 @@ namespace insonate {
 std::unique_ptr<SetupStep> axes_step(const Calibration& base);
 /// Pivoting between two marks.
 std::unique_ptr<SetupStep> pivot_step(const Calibration& base);
-/// A sharp corner that stands fast, touched with the tip and then with four places of the probe.
+/// A sharp fixed corner, touched with the tip and then with four places of the probe.
 std::unique_ptr<SetupStep> face_step(const Calibration& base);
-/// The face from its drawing: nothing to do.
+/// The face from its drawing; the user has nothing to do.
 std::unique_ptr<SetupStep> drawn_face_step(const Calibration& base, const ProbeDrawing& drawing);
 /// The mannequin's landmarks, touched with the tip.
 std::unique_ptr<SetupStep> landmark_step(const Calibration& base, const LandmarkList& list);
-/// The landmarks of the last time again: the base or the mannequin was moved.
+/// The landmarks of the last set-up again, after the base or the mannequin was moved.
 std::unique_ptr<SetupStep> moved_landmark_step(const Calibration& base);
-/// Blows on a key.
+/// Knocks on a key.
 std::unique_ptr<SetupStep> lag_step(const Calibration& base);
 
-/// For a step that collects poses: enough for a minute of the fastest tracker; keeps a forgotten step from filling the
+/// Limit for a step that collects poses: a minute of the fastest tracker. It keeps a forgotten step from filling the
 /// memory.
 inline constexpr std::size_t kMostStepPoses = 60000;
 
-/// A view's words, as printf makes them; at most 300 characters.
+/// Formats a view's text like printf; at most 299 characters.
 __attribute__((format(printf, 1, 2))) std::string worded(const char* format, ...);
 
 }  // namespace insonate

@@ -8,7 +8,7 @@
 
 namespace insonate {
 
-/// A row of touches, each after a mark.
+/// A series of touches, each after a mark.
 class TouchingStep : public FindingStep {
 protected:
   TouchingStep(const Calibration& base, std::string title, std::size_t touches)
@@ -19,11 +19,11 @@ protected:
   std::size_t part() const override { return points_.size(); }
   void take(const PoseSample& sample) override;
 
-  /// What to touch, as a task.
+  /// Returns the task for a touch: what to touch.
   virtual std::string task(std::size_t touch) const = 0;
-  /// The point that a pose says of a touch, mm.
+  /// Returns the point (mm) that a pose gives for a touch.
   virtual glm::dvec3 point(std::size_t touch, const Pose& tracker_from_sensor) const = 0;
-  /// Settles what the touches say.
+  /// Computes the result from all touches.
   virtual void finish() = 0;
 
   std::vector<glm::dvec3> points_;
