@@ -18,8 +18,9 @@ namespace insonate {
 
 /// Holds a recipe's text and the values of its options in this run.
 ///
-/// Wherever a recipe takes a number it also takes a text: arithmetic over numbers and option names ("aorta_diameter_mm
-/// / 2 + 1"), with + - * / ( ), min(a, b) and max(a, b). A true option counts as 1, a false one as 0.
+/// Wherever a recipe takes a number it also takes arithmetic over numbers and option names, as a text:
+/// "aorta_diameter_mm / 2 + 1". The operators are + - * / ( ), min(a, b) and max(a, b). A true option counts as 1, a
+/// false one as 0.
 class Recipe {
 public:
   /// Parses the text and its [options], and replaces the recipe's own values by those given. Throws InputError.

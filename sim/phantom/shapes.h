@@ -33,7 +33,7 @@ inline constexpr float kReach_mm = 30.0f;
 class Points;
 
 /// A solid, defined by its signed distance in mm, negative inside. The distance is exact to first order near the
-/// surface, which is all that partial volume, gaps and shells need. Farther away only its order is right.
+/// surface, which is all that partial volume, gaps and shells need. Farther away only the ordering of distances holds.
 class Shape {
 public:
   explicit Shape(const Bounds& bounds) : bounds_(bounds) {}
