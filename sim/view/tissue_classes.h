@@ -16,13 +16,11 @@ struct TissueClasses {
   glm::ivec3 step{1};  ///< CT voxels per voxel, along each axis
 
   std::vector<std::array<std::uint8_t, 4>> tissue;  ///< colour times coverage, and the coverage by organs and bone
-  std::vector<std::array<std::uint8_t, 2>>
-      body;  ///< opacity of 1 mm times coverage, and the share of the patient's body
+  std::vector<std::array<std::uint8_t, 2>> body;    ///< opacity of 1 mm times coverage, and share of the body
 
-  static constexpr int kBlock = 2;  ///< voxels per side of a block
-  glm::ivec3 blocks{0};             ///< blocks along each axis
-  std::vector<std::uint8_t>
-      distance;  ///< per block: blocks (Chebyshev) to the nearest one where something changes, at most 255
+  static constexpr int kBlock = 2;     ///< voxels per side of a block
+  glm::ivec3 blocks{0};                ///< blocks along each axis
+  std::vector<std::uint8_t> distance;  ///< per block: blocks (Chebyshev) to the nearest change, at most 255
 };
 
 /// Returns the classes of a CT. Labels define organs. Density also defines bone, so that a CT without labels shows its
