@@ -6,29 +6,31 @@
 
 namespace insonate {
 
-/// Whether a sample says which buttons are held. A tracker that does not see its probe does not see them let go either;
-/// in a log of PLUS, whose status words tell of switches, there is no room then for the switch.
+/// Returns whether a sample reports which buttons are held. A tracker that has lost its probe cannot report that a
+/// button was released. A PLUS log reports switches in its status words, so a sample with another status has no room
+/// for them.
 inline bool tells_of_buttons(const PoseSample& sample) {
   return sample.status == PoseStatus::ok || sample.status == PoseStatus::switched ||
          sample.status == PoseStatus::invalid;
 }
 
-/// Finds the moments at which buttons are pressed, each once however long it is held.
+/// Finds the moments at which buttons are pressed. Each press counts once, however long the button is held.
 ///
-/// A button that is held while tracking is lost and found again was pressed once.
+/// A button that is held while tracking is lost and found again counts as pressed once.
 class ButtonPresses {
 public:
-  /// @param held  before the first sample; unless told, what is held then was pressed for somebody else
+  /// @param held  the buttons held before the first sample, as bits. By default all: a button that is held in the first
+  /// sample was pressed before this object existed and does not count.
   explicit ButtonPresses(std::uint32_t held = ~std::uint32_t(0)) : held_(held) {}
 
-  /// To be shown every sample, in order; the bits of the buttons that it presses.
+  /// Returns the bits of the buttons that this sample presses. The caller passes every sample, in order.
   std::uint32_t see(const PoseSample& sample) {
     const std::uint32_t pressed = sample.buttons & ~held_;
     held_ = tells_of_buttons(sample) ? sample.buttons : held_ | sample.buttons;
     return pressed;
   }
 
-  /// The sample with those buttons alone that it presses.
+  /// Returns the sample with only the bits of newly pressed buttons set. Counts as a call of see().
   PoseSample only_pressed(PoseSample sample) {
     sample.buttons = see(sample);
     return sample;

@@ -6,11 +6,11 @@
 
 namespace insonate {
 
-/// Names a content by 16 hexadecimal digits, to tell later whether two scores come from the same inputs. It finds
-/// accidents and old versions; it does not stand against someone who wants a collision (XXH3, 64 bits).
+/// Returns a digest of `bytes` as 16 hexadecimal digits (XXH3, 64 bits). It shows later whether two scores come from
+/// the same inputs. It detects accidents and old versions; it does not resist deliberate collisions.
 std::string digest_of(std::string_view bytes);
 
-/// The same of a content that comes in pieces.
+/// Computes the same digest for content that arrives in pieces.
 class Digest {
 public:
   Digest();
@@ -19,7 +19,7 @@ public:
   Digest& operator=(const Digest&) = delete;
 
   void add(std::string_view bytes);
-  /// What digest_of() says of all that was added.
+  /// Returns what digest_of() returns for everything added so far.
   std::string text() const;
 
 private:

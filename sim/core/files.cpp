@@ -17,12 +17,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What the system said last of a file, in parentheses; empty when it said nothing.
+/// Returns the text of the last system error in parentheses; empty if there is none.
 std::string reason() {
   return errno == 0 ? "" : std::string(" (") + std::strerror(errno) + ")";
 }
 
-/// What temporary_beside() puts in front of the number of the process, and behind it.
+/// The parts of a temporary name before and after the process id.
 struct TemporaryName {
   std::string front, back;
   explicit TemporaryName(const fs::path& target)

@@ -6,7 +6,8 @@
 namespace insonate {
 namespace {
 
-/// Of what fits an int. std::floor is a call into the library, which shows where millions of voxels are sampled.
+/// For values that fit an int. std::floor is a library call, whose cost is noticeable when millions of voxels are
+/// sampled.
 int floor_of(double x) {
   const int cut = int(x);
   return cut - (x < cut);
@@ -26,7 +27,7 @@ glm::dmat4 Grid::matrix() const {
 }
 
 double sample_trilinear(const Volume<std::int16_t>& ct, const glm::dvec3& index) {
-  // Compared before the cast: a position far outside does not fit an int.
+  // Compare before the cast: a position far outside does not fit an int.
   if (!(glm::all(glm::greaterThanEqual(index, glm::dvec3(-1))) &&
         glm::all(glm::lessThan(index, glm::dvec3(ct.grid.size)))))
     return kAirHu;

@@ -10,12 +10,12 @@
 
 namespace insonate {
 
-/// Where the voxels of a volume lie in the patient (LPS, mm). Voxel centres sit at whole indices.
+/// Places the voxels of a volume in the patient (LPS, mm). Voxel centres have integer indices.
 struct Grid {
   glm::ivec3 size{0};         ///< voxels along i, j, k; i runs fastest in memory
   glm::dvec3 spacing{1.0};    ///< mm between centres along i, j, k; > 0, may differ
   glm::dvec3 origin{0.0};     ///< patient position of the centre of voxel (0, 0, 0), mm
-  glm::dmat3 direction{1.0};  ///< column c is the patient direction of axis c; any rotation, or a reflection
+  glm::dmat3 direction{1.0};  ///< column c is the patient direction of axis c; any rotation or reflection
 
   bool operator==(const Grid&) const = default;
 
@@ -30,32 +30,32 @@ struct Grid {
   glm::dvec3 patient_from_index(const glm::dvec3& index) const { return origin + direction * (spacing * index); }
   glm::dvec3 index_from_patient(const glm::dvec3& p) const;
 
-  /// The affine map as a matrix: continuous index -> patient mm.
+  /// Returns the affine map from continuous index to patient mm.
   glm::dmat4 matrix() const;
 
-  /// The middle of the volume's box, patient mm.
+  /// Returns the centre of the volume's box, patient mm.
   glm::dvec3 centre() const { return patient_from_index((glm::dvec3(size) - 1.0) / 2.0); }
 };
 
-/// A value at every voxel of a grid.
+/// Holds one value per voxel of a grid.
 template <typename T>
 struct Volume {
   Grid grid;
-  std::vector<T> voxels;  ///< grid.count() values, i fastest; empty when there is no such volume
+  std::vector<T> voxels;  ///< grid.count() values, i fastest; empty if there is no volume
 
   bool empty() const { return voxels.empty(); }
   const T& at(const glm::ivec3& i) const { return voxels[grid.offset(i)]; }
   T& at(const glm::ivec3& i) { return voxels[grid.offset(i)]; }
 };
 
-/// Hounsfield units of what lies outside every CT.
+/// The Hounsfield units assumed outside every CT.
 inline constexpr double kAirHu = -1000.0;
 
-/// The Hounsfield unit at a continuous index: trilinear between centres, air outside. Within one voxel of the border
-/// the value runs linearly into air, as the GPU's clamp-to-border sampling does.
+/// Returns the Hounsfield units at a continuous index: trilinear between centres, air outside. Within one voxel of the
+/// border the value falls linearly to air, as with the GPU's clamp-to-border sampling.
 double sample_trilinear(const Volume<std::int16_t>& ct, const glm::dvec3& index);
 
-/// The label of the nearest voxel, 0 outside.
+/// Returns the label of the nearest voxel, 0 outside the volume.
 std::uint8_t sample_nearest(const Volume<std::uint8_t>& labels, const glm::dvec3& index);
 
 }  // namespace insonate

@@ -7,8 +7,9 @@ namespace insonate {
 inline constexpr std::uint32_t kHashFirst = 0x85ebca6bu, kHashSecond = 0xc2b2ae35u;  ///< multipliers of a round
 inline constexpr std::uint32_t kHashNext = 0x9e3779b9u;                              ///< added between rounds
 
-/// A counter-based random number: the same key gives the same 32 well-mixed bits on every machine, in any order and
-/// from any thread. Mixing steps of MurmurHash3's 32-bit finaliser (Appleby, public domain), one round a key.
+/// Returns a counter-based random number: the same key gives the same 32 well-mixed bits on every machine, in any order
+/// and from any thread. Uses the mixing steps of MurmurHash3's 32-bit finaliser (Appleby, public domain), one round per
+/// key.
 constexpr std::uint32_t hash(std::uint32_t h) {
   h ^= h >> 16;
   h *= kHashFirst;
@@ -26,7 +27,7 @@ constexpr std::uint32_t hash(std::uint32_t a, std::uint32_t b, std::uint32_t c, 
   return hash(hash(hash(a, b), c), d);
 }
 
-/// From 32 random bits to [0, 1): 24 bits, so that float holds it exactly.
+/// Maps 32 random bits to [0, 1). Uses 24 of them, which a float holds exactly.
 constexpr float unit_float(std::uint32_t bits) {
   return float(bits >> 8) * (1.0f / 16777216.0f);
 }

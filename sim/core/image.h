@@ -9,7 +9,7 @@
 
 namespace insonate {
 
-/// Values on a rectangle, rows from the top down, x fastest.
+/// Holds one value per pixel, rows from top to bottom, x fastest.
 template <typename T>
 struct Image {
   int width = 0;
@@ -22,7 +22,7 @@ struct Image {
   const T& at(int x, int y) const { return pixels[std::size_t(y) * std::size_t(width) + std::size_t(x)]; }
 };
 
-/// With left and right exchanged. People see ultrasound this way, on the screen and in PNG files: the pipeline's
+/// Returns the image with left and right exchanged. Screens and PNG files show ultrasound this way: the pipeline's
 /// pictures have the probe's marker (+x) on the right, clinics have it on the left.
 template <typename T>
 Image<T> mirrored(const Image<T>& image) {
@@ -36,7 +36,7 @@ Image<T> mirrored(const Image<T>& image) {
 
 using Rgba8 = std::array<std::uint8_t, 4>;
 
-/// Writes a PNG under a temporary name and renames it. Throws InputError when it cannot be written.
+/// Writes a PNG under a temporary name and renames it. Throws InputError if it cannot be written.
 void write_png(const std::filesystem::path& file, const Image<std::uint8_t>& grey);
 void write_png(const std::filesystem::path& file, const Image<Rgba8>& image);
 

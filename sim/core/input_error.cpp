@@ -9,7 +9,7 @@ bool is_control(unsigned char c) {
   return c < ' ' || c == 0x7f;
 }
 
-/// Of UTF-8: any byte of a character but its first.
+/// Returns whether `c` is a continuation byte of UTF-8.
 bool goes_on(char c) {
   return (static_cast<unsigned char>(c) & 0xc0) == 0x80;
 }

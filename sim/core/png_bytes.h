@@ -7,7 +7,8 @@
 
 namespace insonate {
 
-/// A picture as the bytes of a PNG file, for what keeps it elsewhere than in a file.
+/// Returns a picture encoded as PNG, for storage elsewhere than in a file. Throws std::runtime_error if the encoding
+/// fails.
 std::string png_bytes(const Image<std::uint8_t>& grey);
 
 }  // namespace insonate

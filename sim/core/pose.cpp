@@ -16,11 +16,11 @@ namespace {
 constexpr double kLastRowTolerance = 1e-4;
 constexpr double kSingular = 1e-4;
 
-// Far above what a few products in double precision leave, far below what six decimals do.
+// Far above the rounding of a few products in double precision, far below that of six decimals.
 constexpr double kRoundingError = 1e-12;
 
-// Newton's iteration for the polar decomposition (Higham, SIAM J. Sci. Stat. Comput. 7, 1986). Its error squares in
-// each round, so that from 2e-3 four rounds reach double precision.
+// Newton's iteration for the polar decomposition (Higham, SIAM J. Sci. Stat. Comput. 7, 1986). Its error squares with
+// each iteration, so that from 2e-3 four iterations reach double precision.
 glm::dmat3 nearest_rotation(glm::dmat3 matrix) {
   for (int round = 0; round < 4; ++round) matrix = 0.5 * (matrix + glm::transpose(glm::inverse(matrix)));
   return matrix;
@@ -80,7 +80,7 @@ std::optional<std::string> why_not_rigid(const glm::dmat4& m, double reach_mm, d
 Pose pose_from_matrix(const glm::dmat4& m) {
   if (orthonormal_error(glm::dmat3(m)) < kRoundingError) return {glm::dmat3(m), glm::dvec3(m[3])};
   const glm::dmat3 rotation(m);
-  // The scores of recordings depend on the last bits of what rounding is replaced by.
+  // Keep this path: the scores of stored recordings depend on its last bits.
   if (orthonormal_error(rotation) <= kRoundingToSixDecimals)
     return {glm::mat3_cast(glm::normalize(glm::quat_cast(rotation))), glm::dvec3(m[3])};
   return {nearest_rotation(rotation), glm::dvec3(m[3])};

@@ -6,7 +6,7 @@
 namespace insonate {
 namespace {
 
-/// Insertions, deletions and replacements that turn one word into the other (Levenshtein 1966).
+/// Returns the number of insertions, deletions and replacements that turn one word into the other (Levenshtein 1966).
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t(0));

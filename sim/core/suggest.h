@@ -6,8 +6,8 @@
 
 namespace insonate {
 
-/// The remedy for a name that nobody knows: "did you mean 'hepatorenal'?" when a known name is within a few typing
-/// slips of it, else "use one of 'a', 'b', 'c'". Made to end an InputError.
+/// Returns the remedy for an unknown name, made to end an InputError: "did you mean 'hepatorenal'?" if a known name is
+/// within a few typing slips of it, else "use one of 'a', 'b', 'c'".
 std::string suggest(std::string_view unknown, const std::vector<std::string>& known);
 
 }  // namespace insonate

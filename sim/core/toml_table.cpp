@@ -25,8 +25,8 @@ std::string quoted(std::string_view key) {
   return "'" + std::string(key) + "'";
 }
 
-/// Where the string that begins at `at` ends, one past its closing quotation marks; a string of one line that is not
-/// closed ends with the line.
+/// Returns the end of the string that begins at `at`, one past its closing quotation marks. An unclosed single-line
+/// string ends with the line.
 std::size_t end_of_string(std::string_view text, std::size_t at) {
   const char quote = text[at];
   const std::string three(3, quote);
@@ -37,7 +37,8 @@ std::size_t end_of_string(std::string_view text, std::size_t at) {
     else if (!many_lines && text[at] == quote)
       return at + 1;
     else if (many_lines && text.substr(at).starts_with(three))
-      return std::min({text.find_first_not_of(quote, at), at + 5, text.size()});  // two more may belong to the text
+      return std::min(
+          {text.find_first_not_of(quote, at), at + 5, text.size()});  // up to two more may belong to the text
     else if (!many_lines && text[at] == '\n')
       return at;
   }
@@ -47,7 +48,7 @@ std::size_t end_of_string(std::string_view text, std::size_t at) {
 }  // namespace
 
 toml::table parse_toml_text(std::string_view text, std::string_view name) {
-  // A node takes some 200 bytes, and its text 4 at least, as in "a=1" and the line's end.
+  // A node takes some 200 bytes and its text at least 4, as "a=1" and a line end do.
   constexpr std::size_t kBytesPerByte = 64, kAtLeast = std::size_t(1) << 16;
   ::operator delete(::operator new(kAtLeast + kBytesPerByte * text.size()));
   return toml::parse(text, name);

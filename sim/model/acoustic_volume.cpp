@@ -29,14 +29,14 @@ double texture_db(double hu_above_mean) {
   return kTextureDbPerHu * hu_above_mean * fade;
 }
 
-/// Echogenicity by density alone, for each int16 Hounsfield unit.
+/// Returns the echogenicity by density alone, for each int16 value of HU.
 std::vector<std::int16_t> tabulate(const TissueTable& table) {
   std::vector<std::int16_t> by_hu(1u << 16);
   for (int hu = -32768; hu <= 32767; ++hu) by_hu[std::size_t(hu + 32768)] = centidecibel(table.at(hu).echogenicity_db);
   return by_hu;
 }
 
-/// Per label value, its mean density. Sums are of whole numbers, so the order in which threads add them is no matter.
+/// Returns the mean density per label value. The sums are of integers, so they do not depend on the order of threads.
 std::array<double, kLabels> mean_densities(const Volume<std::int16_t>& ct, const Volume<std::uint8_t>& labels) {
   std::array<std::atomic<std::int64_t>, kLabels> sums{}, counts{};
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, ct.voxels.size(), 1u << 18), [&](const auto& range) {
@@ -113,7 +113,7 @@ public:
   }
 
 private:
-  // Beyond the grid there is air.
+  // Voxels beyond the grid count as air.
   bool is_amid_air(const glm::ivec3& i) const {
     if (ct_.at(i) > densest_air_) return false;
     const glm::ivec3 low = glm::max(i - 1, 0), high = glm::min(i + 1, ct_.grid.size - 1);
@@ -142,7 +142,7 @@ private:
           for (int dx = -1; dx <= 1; ++dx)
             add(ct_.at(glm::clamp(i + neighbour_ * glm::ivec3(dx, dy, dz), glm::ivec3(0), last)));
     }
-    return int(std::lround(double(sum) / count));  // the voxel itself counts, so there is always one
+    return int(std::lround(double(sum) / count));  // never divides by 0: the voxel itself counts
   }
 
   std::int16_t by_density(int hu) const { return by_hu_[std::size_t(hu + 32768)]; }
@@ -152,7 +152,7 @@ private:
   std::vector<std::int16_t> by_hu_;
   int densest_air_;
   glm::ivec3 reach_{1}, neighbour_{1};
-  std::array<std::ptrdiff_t, 27> around_{};  ///< from a voxel away from the border to its neighbours and itself
+  std::array<std::ptrdiff_t, 27> around_{};  ///< offsets from a voxel, not at the border, to its neighbours and itself
   std::array<double, kLabels> means_{};
   std::array<double, kLabels> tissue_db_{};
   std::array<bool, kLabels> has_tissue_{};

@@ -7,50 +7,51 @@
 
 namespace insonate {
 
-/// What the simulator keeps of a voxel: 4 bytes, one texture fetch.
+/// The acoustic data of a voxel: 4 bytes, one texture fetch.
 struct AcousticVoxel {
-  std::int16_t hu = -1000;                ///< gives impedance and absorption through the tissue table
-  std::int16_t echogenicity_cdb = -6000;  ///< backscatter relative to liver in hundredths of a dB; -6000: none
+  std::int16_t hu = -1000;                ///< determines impedance and absorption through the tissue table
+  std::int16_t echogenicity_cdb = -6000;  ///< backscatter relative to liver in hundredths of a dB; -6000: no echo
 };
 
 using AcousticVolume = Volume<AcousticVoxel>;
 
 // Texture: CT noise and structure of +-10 to 15 HU within an organ becomes +-1 to 2 dB of grain. Beyond 30 HU from the
-// label's mean the voxel is no texture but partial volume at the organ's rim; the shift fades out by 60 HU, so that
+// label's mean, the voxel is not texture but partial volume at the organ's rim. The shift fades out by 60 HU, so that
 // rims get no dark or bright seam. Estimates, chosen by eye on real scans.
 inline constexpr double kTextureDbPerHu = 0.1;
 inline constexpr double kTextureHu = 30;
 inline constexpr double kRimHu = 60;
 
-// A voxel counts as partial volume when two opposite neighbours at this distance enclose its density with a margin on
-// both sides. The distance spans half the blur of an edge in resampled thick slices; the margin is above the noise of
+// A voxel counts as partial volume if two opposite neighbours at this distance enclose its density with a margin on
+// both sides. The distance spans half the blur of an edge in resampled thick slices. The margin is above the noise of
 // an abdominal CT (10 to 15 HU), so that noise in a cyst does not fill it with echoes.
 inline constexpr double kEdgeReach_mm = 2;
 inline constexpr int kEdgeMarginHu = 20;
 
-// Without labels a voxel's density is taken as the mean over its neighbourhood of what is as dense as it within the
-// noise: unenhanced kidney (30 HU) and fluid (15 HU) are closer together than the noise of one voxel.
+// Without labels, a voxel's density is a mean over those neighbours that are as dense as it within the noise.
+// Unenhanced kidney (30 HU) and fluid (15 HU) differ by less than the noise of one voxel.
 inline constexpr double kNeighbour_mm = 3;
-inline constexpr int kAlikeHu = 36;  ///< three standard deviations of it
+inline constexpr int kAlikeHu = 36;  ///< three standard deviations of the noise
 
-// What a labelled voxel is kept within: the range of the tissue table.
+// The range to which a labelled voxel is clamped: that of the tissue table.
 inline constexpr double kLeastEchogenicityDb = -60, kMostEchogenicityDb = 30;
 
-// What has no more than the least does not scatter at all; a voxel's steps are hundredths of a dB. Of what has e dB the
-// scatterers' amplitude is 10^(e/10) - 10^(kSilentDb/10): it begins where silence ends.
+// A voxel with the least echogenicity does not scatter at all; voxels store steps of 0.01 dB. At e dB the scatterers'
+// amplitude is 10^(e/10) - 10^(kSilentDb/10), so that it starts from 0 at the limit of silence.
 inline constexpr double kSilentDb = kLeastEchogenicityDb + 0.005;
 
-/// From Hounsfield units, and labels where there are any, to what the sound meets.
+/// Returns the acoustic volume of a CT, from its Hounsfield units and, if there are any, its labels. Throws InputError
+/// for an unknown tissue, and std::invalid_argument for labels of another size or more than 256 label values.
 ///
-/// Echogenicity comes from the label's tissue, shifted by the voxel's own density relative to its label's mean so that
-/// parenchyma keeps its texture. Without a label it comes from the density of the voxel and of those neighbours that
-/// differ from it by no more than noise; there a voxel on a steep gradient that passes through fluid's density is
-/// partial volume, not fluid, and takes the brighter of its neighbours. With
+/// With a label, the echogenicity is that of the label's tissue, shifted by the voxel's own density relative to its
+/// label's mean. The shift preserves the texture of parenchyma. Without a label, the echogenicity follows the density
+/// of the voxel and of those neighbours that differ from it by no more than noise. There, a voxel on a steep gradient
+/// that passes through fluid's density is partial volume, not fluid, and takes the brighter of its neighbours. With
 ///
 ///     g(x) = kTextureDbPerHu x clamp((kRimHu - |x|) / (kRimHu - kTextureHu), 0, 1)         dB of x HU
 ///     T(h) = the table's echogenicity at h Hounsfield units                                dB
 ///
-/// a voxel of H HU becomes, rounded to hundredths of a dB (without a label T and g each for itself):
+/// a voxel of H HU becomes, rounded to hundredths of a dB (without a label, T and g are rounded separately):
 ///
 ///     with a label of a tissue t    t's echogenicity + g(H - the mean HU of all voxels of that label), clamped to
 ///                                   kLeastEchogenicityDb and kMostEchogenicityDb
@@ -58,10 +59,11 @@ inline constexpr double kSilentDb = kLeastEchogenicityDb + 0.005;
 ///                                   0, e along each axis that are within kAlikeHu of H; e is kNeighbour_mm in voxels,
 ///                                   rounded, at least 1; at the border the grid's outermost voxels stand in
 ///
-/// and without a label at least T of the two voxels at -e and e along each axis whose lower one lies kEdgeMarginHu or
-/// more below H and the higher one as much above; here e is kEdgeReach_mm in voxels, as above, and both lie in the
-/// grid. But of air amid air, where a voxel without a label and its 26 neighbours are TissueTable::densest_air_hu() or
-/// less, it is kLeastEchogenicityDb: no sound gets there, and what surrounds the body need not be looked at.
+/// Without a label there are two exceptions. First, for each axis take the two voxels at -e and e, with e being
+/// kEdgeReach_mm in voxels, rounded as above. If both lie in the grid, the lower lies kEdgeMarginHu or more below H,
+/// and the higher as much above H, the result is at least T of both. Second, if a voxel and its 26 neighbours are
+/// TissueTable::densest_air_hu() or less, the result is kLeastEchogenicityDb: no sound gets there, and the air around
+/// the body can be skipped.
 /// @param labels     on the CT's grid, or empty
 /// @param tissue_of  per label value, the tissue's name in the table ("" for none); 256 entries, or empty
 AcousticVolume make_acoustic_volume(const Volume<std::int16_t>& ct, const Volume<std::uint8_t>& labels,

@@ -11,7 +11,7 @@
 namespace insonate {
 namespace {
 
-double window(BeamWindow shape, double t) {  // t in (-1, 1) across the aperture
+double window(BeamWindow shape, double t) {  // t is in (-1, 1) across the aperture
   switch (shape) {
     case BeamWindow::box:
       return 1.0;
@@ -23,7 +23,7 @@ double window(BeamWindow shape, double t) {  // t in (-1, 1) across the aperture
   return 1.0;
 }
 
-// Cubic B-spline over its value at 0: the autocorrelation of the hat function.
+// Returns the cubic B-spline relative to its value at 0: the autocorrelation of the hat function.
 double interpolation_correlation(double cells) {
   const double d = std::abs(cells);
   if (d >= 2) return 0;
@@ -31,7 +31,7 @@ double interpolation_correlation(double cells) {
   return 1 - 1.5 * d * d + 0.75 * d * d * d;
 }
 
-// Between the lines in the middle, mm; 0 where there is only one.
+// Returns the distance between the two middle lines, mm; 0 for a single line.
 double line_spacing_mm(const ScanLines& lines, double r_mm) {
   if (lines.lines.size() < 2) return 0;
   const std::size_t middle = lines.lines.size() / 2;
@@ -59,7 +59,7 @@ std::vector<double> beam_weights(const Settings& settings) {
 }
 
 double focused_beam_fwhm_mm(const Settings& settings, double r_mm) {
-  constexpr double kOfSincSquared = 0.8859;  // its full width at half maximum
+  constexpr double kOfSincSquared = 0.8859;  // full width at half maximum of sinc^2
   const double lambda = 1.54 / settings.frequency_mhz, waist = kOfSincSquared * lambda * settings.f_number;
   const double spread = 2 * std::log(2.0) * lambda / (glm::pi<double>() * waist);
   const double sent = std::hypot(waist, (r_mm - settings.focus_mm) * spread);
@@ -122,7 +122,7 @@ std::vector<double> envelope_scale(const ScanLines& lines, const Settings& setti
   const std::vector<double> sigma = focused_beam_sigma(lines, settings);
   std::vector<double> weights = beam_weights(settings);
   const std::vector<SlicePlane> planes = slice_planes(settings);
-  const auto of_planes = [&](double r) {  // variance that their sum leaves
+  const auto of_planes = [&](double r) {  // variance of the sum over the planes
     const double cells = slice_thickness_at_mm(settings, r) / settings.speckle_cell_mm;
     double variance = 0;
     for (const SlicePlane& a : planes)
@@ -137,7 +137,7 @@ std::vector<double> envelope_scale(const ScanLines& lines, const Settings& setti
     double variance = 0;
     for (std::size_t d = 0; d < weights.size(); ++d) {
       const double correlation = interpolation_correlation(double(d) * spacing / settings.speckle_cell_mm);
-      if (correlation == 0) break;  // and so are all beyond
+      if (correlation == 0) break;  // all farther lines have correlation 0 too
       double overlap = 0;
       for (std::size_t i = d; i < weights.size(); ++i) overlap += weights[i] * weights[i - d];
       variance += (d == 0 ? 1 : 2) * overlap * correlation;

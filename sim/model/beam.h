@@ -7,66 +7,70 @@
 
 namespace insonate {
 
-/// The window (4) over the lines of the active aperture: `beam_lines` weights, symmetric, sum 1.
+/// Returns the window (4) over the lines of the active aperture: `beam_lines` weights, symmetric, sum 1.
 std::vector<double> beam_weights(const Settings& settings);
 
-/// Lateral full width at half maximum, mm, of a beam sent with a fixed focus F and received with a moving one, at a
-/// distance r >= 0 from the face. With N the f-number and lambda = 1.54 mm MHz / frequency:
+/// Returns the lateral full width at half maximum, mm, of a beam at a distance r >= 0 from the face. The beam is
+/// transmitted with a fixed focus F and received with a dynamic one. With N the f-number and lambda = 1.54 mm MHz /
+/// frequency:
 ///
 ///     w         0.8859 lambda N
 ///     sent      hypot(w, (r - F) 2 ln 2 lambda / (pi w))
 ///     received  w max(1, r/F)
 ///     both      (1/sent^2 + 1/received^2)^(-1/2)
 ///
-/// w is the width of sinc^2(x / (lambda N)), the intensity that an evenly weighted aperture makes at its focus (Szabo,
-/// Diagnostic Ultrasound Imaging, 6). What is sent is a Gaussian beam about a waist as wide (Siegman, Lasers, 17.1).
-/// What is received keeps N until the aperture F/N is all in use. Both together is the product of two Gaussians: 0.626
-/// lambda N at the focus, where sinc^4 has 0.638.
+/// w is the width of sinc^2(x / (lambda N)), the intensity of an evenly weighted aperture at its focus (Szabo,
+/// Diagnostic Ultrasound Imaging, 6). The transmitted beam is Gaussian with a waist of that width (Siegman, Lasers,
+/// 17.1). The received beam keeps N until the whole aperture F/N is in use. The combined beam is the product of two
+/// Gaussians: 0.626 lambda N at the focus, where sinc^4 has 0.638.
 double focused_beam_fwhm_mm(const Settings& settings, double r_mm);
 
-/// Most lines to either side that a focused beam's window reaches.
+/// The largest half width of a focused beam's window, in lines to either side.
 inline constexpr int kMostFocusedReach = 127;
 
-/// The focused beam's window at each sample as the standard deviation in lines of a Gaussian, which is cut off at three
-/// of them or kMostFocusedReach lines; wider beams are narrowed to fit.
+/// Returns the focused beam's window at each sample, as the standard deviation of a Gaussian, in lines. The window is
+/// cut off at three standard deviations or kMostFocusedReach lines. Wider beams are narrowed to fit; 0 for a single
+/// line.
 std::vector<double> focused_beam_sigma(const ScanLines& lines, const Settings& settings);
 
-/// How many lines to either side that is.
+/// Returns the half width of that window, in lines to either side.
 int focused_radius(double sigma_lines);
 
-/// The window at one sample, of whichever beam the settings ask for: odd in number, symmetric, sum 1.
-/// @param sigma_lines  of the focused beam there
+/// Returns the window at one sample, for the beam that the settings select: an odd number of weights, symmetric, sum 1.
+/// @param sigma_lines  standard deviation of the focused beam at this sample, in lines
 std::vector<double> beam_weights_at(const Settings& settings, double sigma_lines);
 
-/// Full width at half maximum of the slice in elevation, mm, at a distance r from the face: slice_thickness_mm, where
-/// there is an elevation focus F that of a Gaussian beam about its waist, sent and received by one lens,
+/// Returns the full width at half maximum of the slice in elevation, mm, at a distance r from the face. Without an
+/// elevation focus it is slice_thickness_mm. With an elevation focus F it is the width of a Gaussian beam about its
+/// waist, transmitted and received by one lens:
 ///
 ///     hypot(slice_thickness_mm, (r - F) ln 2 lambda / (pi slice_thickness_mm))      lambda = 1.54 mm MHz / frequency
 ///
 /// (Siegman, Lasers, 17.1, both ways; Goldstein, Ultrasound in Medicine and Biology 14, 1988: slice thickness).
 double slice_thickness_at_mm(const Settings& settings, double r_mm);
 
-/// Whether there are several planes, and they lie further apart away from a focus.
+/// Returns whether there are several planes whose distances grow away from an elevation focus.
 bool slice_bends(const Settings& settings);
 
-/// How much thicker the slice is far from its focus, a mm; 0 where there is none.
+/// Returns how much thicker the slice gets far from its focus, mm per mm; 0 without an elevation focus.
 double slice_spread(const Settings& settings);
 
-/// A plane of lines beside the imaging plane, which sees its share of the sound.
+/// One of the parallel planes of lines that sample the beam in elevation.
 struct SlicePlane {
-  double offset;  ///< in elevation, in thicknesses of the slice
-  double weight;  ///< of I, R and the scatterers' amplitudes; all sum to 1
+  double offset;  ///< distance from the imaging plane in elevation, in thicknesses of the slice
+  double weight;  ///< weight of its I, R and scatterer amplitudes; all sum to 1
 };
 
-/// The slice's thickness as `slice_planes` planes: the middles of equal parts of four standard deviations, weighted by
-/// the Gaussian across the beam. With an elevation focus they bend as the thickness does.
+/// Returns `slice_planes` planes that sample the slice's thickness: at the middles of equal parts of four standard
+/// deviations, with weights of the Gaussian across the beam. With an elevation focus, their distances follow the
+/// thickness.
 std::vector<SlicePlane> slice_planes(const Settings& settings);
 
-/// What the speckle's envelope is multiplied by at each sample so that fully developed speckle has a mean of 1.
+/// Returns the factor on the speckle's envelope at each sample that gives fully developed speckle a mean of 1.
 ///
-/// Where lines lie closer together than the scatterers' cells, neighbouring lines see the same scatterers and their
-/// window averages less away; without this the near field of a fan would be brighter than its depth. The correlation
-/// between lines a distance d apart is that of linear interpolation: the cubic B-spline in d / cell.
+/// Where lines are closer together than the scatterers' cells, neighbouring lines see the same scatterers, and their
+/// window averages out less. Without this factor the near field of a fan would be brighter than its depth. The
+/// correlation between lines a distance d apart is that of linear interpolation: the cubic B-spline in d / cell.
 std::vector<double> envelope_scale(const ScanLines& lines, const Settings& settings);
 
 }  // namespace insonate

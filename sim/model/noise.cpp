@@ -12,9 +12,9 @@ namespace {
 
 constexpr std::uint32_t kSeed = 0x6e6f6973u;
 
-// Complex normal number whose magnitude has mean 1 (Box and Muller 1958).
+// Returns a complex normal number whose magnitude has mean 1 (Box and Muller 1958).
 std::complex<double> complex_normal(std::uint32_t line, std::uint32_t place) {
-  const double share = unit_float(hash(kSeed, line, place, 0)) + 0x1p-25;  // in (0, 1): half the numbers' spacing
+  const double share = unit_float(hash(kSeed, line, place, 0)) + 0x1p-25;  // in (0, 1): adds half the numbers' spacing
   const double phase = 2 * glm::pi<double>() * unit_float(hash(kSeed, line, place, 1));
   return std::polar(std::sqrt(-4 / glm::pi<double>() * std::log(share)), phase);
 }

@@ -7,7 +7,7 @@
 namespace insonate {
 namespace {
 
-/// A number of samples or pixels.
+/// Scales a number of samples or pixels.
 int scaled(int count, double share) {
   constexpr int kMost = 8192;
   return std::clamp(int(std::lround(share * count)), 1, kMost);

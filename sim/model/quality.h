@@ -8,24 +8,24 @@
 
 namespace insonate {
 
-/// Points of the front of run time against error that `insonate-bench front` measures: what a frame costs, and how far
-/// its grey levels are from the converged reference. docs/benchmarks has both, by device.
+/// Selects a point on the Pareto front of run time against error that `insonate-bench front` measures: the cost of a
+/// frame, and the distance of its grey levels from the converged reference. docs/benchmarks has both, by device.
 ///
 ///     fast      three quarters of the samples, and of the pixels along each side
-///     balanced  trainer_settings(): two samples a reflection length, 640 x 480
+///     balanced  trainer_settings(): two samples per reflection length, 640 x 480
 ///     exact     four times the samples
 enum class Quality { fast, balanced, exact };
 inline constexpr std::array kQualities = {Quality::fast, Quality::balanced, Quality::exact};
 
-/// "fast", "balanced", "exact".
+/// Returns "fast", "balanced" or "exact".
 std::string name_of(Quality quality);
-/// In the order of kQualities.
+/// Returns the names in the order of kQualities.
 std::vector<std::string> quality_names();
-/// Throws std::invalid_argument for a name that is none of them.
+/// Returns the quality of that name. Throws std::invalid_argument for any other name.
 Quality quality_named(const std::string& name);
 
-/// Settings at another quality; samples and pixels stay within 1 and 8192.
-/// @param balanced  as trainer_settings() gives them, of any picture size
+/// Returns settings at another quality; samples and pixels stay within 1 and 8192.
+/// @param balanced  as trainer_settings() returns them, for any picture size
 Settings at_quality(Settings balanced, Quality quality);
 
 }  // namespace insonate

@@ -16,25 +16,26 @@
 #include "sim/core/toml_table.h"
 #include "sim/model/settings_file.h"
 
-/// A struct of settings as keys of a TOML file: what settings_file.cpp and wein_settings_file.cpp share.
+/// Maps a struct of settings to keys of a TOML file. settings_file.cpp and wein_settings_file.cpp share it.
 namespace insonate::keys {
 
 constexpr std::size_t kLargestFile = 1u << 20;
 
 std::string in_quotes(const std::string& text);
-/// "from 0.5 to 30"
+/// Returns a text such as "from 0.5 to 30".
 std::string from_to(double least, double most);
 std::string in_words(const SettingValue& value);
-/// What a TOML value is as a value of the kind that `kind` shows; empty when it is of another.
+/// Returns a TOML value converted to the same kind as `kind`; nothing if it is of another kind.
 std::optional<SettingValue> value_of(const toml::node& node, const SettingValue& kind);
 
-/// Notes what is wrong instead of stopping there, up to kMostTold times: a file of another kind may be wrong in every
-/// line.
+/// Collects errors instead of stopping at the first one, at most kMostTold: a file of another kind may have an error in
+/// every line.
 class Problems {
 public:
   static constexpr int kMostTold = 100;
 
   template <typename Check>
+  /// Runs `check` and stores the InputError that it throws, if any.
   void note(Check&& check) {
     if (told_ >= kMostTold) return;
     try {
@@ -44,6 +45,7 @@ public:
       ++told_;
     }
   }
+  /// Throws one InputError with all stored errors, if there are any.
   void throw_any() const {
     if (!sentences_.empty()) throw InputError(sentences_);
   }
@@ -53,14 +55,14 @@ private:
   int told_ = 0;
 };
 
-/// A setting of S as files and messages know it.
+/// Describes a setting of S for files and messages.
 template <typename S>
 struct Key {
   std::string name;
-  std::string wanted;  ///< "a whole number from 1 to 8192"
+  std::string wanted;  ///< the accepted values: "a whole number from 1 to 8192"
   std::function<SettingValue(const S&)> get;
-  std::function<void(S&, const SettingValue&)> set;  ///< of a value that is allowed
-  std::function<bool(const SettingValue&)> allowed;  ///< of a value of the right kind
+  std::function<void(S&, const SettingValue&)> set;  ///< requires an allowed value
+  std::function<bool(const SettingValue&)> allowed;  ///< requires a value of the right kind
 };
 
 template <typename S>
@@ -72,7 +74,7 @@ Key<S> flag(const char* name, bool S::*member) {
 
 template <typename S, typename Integer>
 Key<S> whole(const char* name, Integer S::*member, Integer least, Integer most, bool odd = false) {
-  // Written out: %g would round the largest.
+  // Not by %g, which would round the largest numbers.
   const std::string range = "from " + std::to_string(least) + " to " + std::to_string(most);
   return {name, (odd ? "an odd number " : "a whole number ") + range,
           [=](const S& s) { return std::int64_t(s.*member); },
@@ -89,7 +91,7 @@ Key<S> number(const char* name, double S::*member, double least, double most) {
           [=](S& s, const SettingValue& value) { s.*member = std::get<double>(value); },
           [=](const SettingValue& value) {
             const double x = std::get<double>(value);
-            return x >= least && x <= most;  // not so for NaN
+            return x >= least && x <= most;  // false for NaN
           }};
 }
 
@@ -107,7 +109,7 @@ Key<S> numbers(const char* name, std::array<double, N> S::*member, double least,
           }};
 }
 
-/// @param names  of the enumerators, in their order
+/// @param names  the names of the enumerators, in their order
 template <typename S, typename Enum>
 Key<S> choice(const char* name, Enum S::*member, const std::vector<std::string>& names) {
   std::string wanted;
@@ -126,9 +128,9 @@ Key<S> choice(const char* name, Enum S::*member, const std::vector<std::string>&
           }};
 }
 
-/// What the file says, over what `S` holds by itself; every unknown key, wrong kind and value out of range goes to
-/// `problems`.
-/// @param others  keys of the file that are none of S
+/// Returns the defaults of `S` overridden by the file's values. Adds every unknown key, wrong kind and value out of
+/// range to `problems`.
+/// @param others  keys of the file that do not belong to S
 template <typename S>
 S written_in(const TomlTable& root, const toml::table& parsed, const std::vector<Key<S>>& keys,
              const std::vector<std::string>& others, Problems& problems) {

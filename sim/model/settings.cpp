@@ -6,7 +6,7 @@
 namespace insonate {
 
 double coupled_mm(const Settings& settings) {
-  constexpr double kRounding_mm = 1e-5;  // so that no sample's reflection length ends on either side of it
+  constexpr double kRounding_mm = 1e-5;  // keeps the end of a sample's reflection length off the boundary
   return std::max(settings.gel_mm, settings.reflection_length_mm / 2 + kRounding_mm);
 }
 
@@ -27,21 +27,21 @@ Settings paper_settings(double depth_mm, int samples) {
 }
 
 Settings trainer_settings(double frequency_mhz, double depth_mm) {
-  constexpr double kSoftTissueAbsorption = 0.5;                // dB/(cm MHz), what machines assume of an abdomen
-  constexpr double kAxialResolutionCycles = 0.6 * 3.5 / 1.54;  // of the pulse: 0.6 mm at 3.5 MHz
+  constexpr double kSoftTissueAbsorption = 0.5;                // dB/(cm MHz), what machines assume for an abdomen
+  constexpr double kAxialResolutionCycles = 0.6 * 3.5 / 1.54;  // length of the pulse in cycles: 0.6 mm at 3.5 MHz
   constexpr int kFewestSamples = 16, kMostSamples = 8192;
   Settings settings;
   settings.frequency_mhz = frequency_mhz;
-  // Two samples a reflection length, which share their edges in the volume: about the axial resolution.
+  // Two samples per reflection length, which share their edges in the volume. The length is about the axial resolution.
   const double axial_resolution_mm = kAxialResolutionCycles * 1.54 / frequency_mhz;
   settings.samples = std::clamp(int(std::lround(2 * depth_mm / axial_resolution_mm)), kFewestSamples, kMostSamples);
   settings.reflection_length_mm = 2 * depth_mm / settings.samples;
   settings.focused_beam = true;
-  settings.focus_mm = std::clamp(depth_mm / 2, 5.0, 400.0);  // where sonographers are taught to look
+  settings.focus_mm = std::clamp(depth_mm / 2, 5.0, 400.0);  // sonographers are taught to look there
   settings.slice_planes = 3;
   settings.reverberation = settings.edge_shadow = settings.clutter = settings.electronic_noise = true;
   settings.face_reflection = 0.02;
-  settings.transmission_sigma_mm = 1;  // a beam passes a limb in part: its shadow has soft edges
+  settings.transmission_sigma_mm = 1;  // a beam passes a limb in part, so its shadow has soft edges
   const double two_way_db = 2 * kSoftTissueAbsorption * frequency_mhz * depth_mm / 10;
   for (std::size_t i = 0; i < settings.tgc_db.size(); ++i)
     settings.tgc_db[i] = std::min(two_way_db * double(i) / double(settings.tgc_db.size() - 1), kMostTimeGainDb);

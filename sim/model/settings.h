@@ -8,56 +8,58 @@ namespace insonate {
 /// The shape of the receive beam across scan lines.
 enum class BeamWindow { box, triangle, hann };
 
-/// Against what the image is compressed.
+/// The reference level of the log compression.
 enum class ReferenceLevel {
   frame_maximum,  ///< the brightest pixel of each frame is white, as in the paper
-  fixed           ///< a fixed level is white, so that the picture does not pump while the probe moves
+  fixed           ///< a fixed level is white, so that brightness stays constant while the probe moves
 };
 
-/// How echoes between black and white, as a share g from 0 to 1 of the dynamic range, become grey. Machines offer such
-/// maps and publish none: but for the paper's these curves are this project's own.
+/// Maps echoes between black and white, as a share g from 0 to 1 of the dynamic range, to grey. Machines offer such
+/// maps but their curves are not published: except for the paper's, these curves are this project's own.
 enum class GreyMap {
   linear,    ///< g, as in the paper
   soft,      ///< g^0.75: lifts weak echoes
-  contrast,  ///< g^1.5: sinks them, so that fluid stands out
-  s_curve    ///< g^2 (3 - 2 g): parts the middle greys and presses both ends together
+  contrast,  ///< g^1.5: suppresses weak echoes, so that fluid stands out
+  s_curve    ///< g^2 (3 - 2 g): spreads the middle greys and compresses both ends
 };
 
-/// Time gain at most: 10^30 and the gain over it are what single precision holds, and sound that has lost as much is
-/// silent.
+/// The largest time gain, dB. Single precision can hold 10^30 and the gain on top of it, and sound that has lost as
+/// much is silent.
 inline constexpr double kMostTimeGainDb = 300;
 
-/// Everything that decides how model S turns a volume, a pose and a probe into a picture. Numbers in brackets are the
-/// equations of Kutter, Shams, Navab 2009. A field added here gets its line in settings_file.cpp.
+/// All settings of model S: how it turns a volume, a pose and a probe into a picture. Numbers in brackets are the
+/// equations of Kutter, Shams, Navab 2009. A field added here also needs its line in settings_file.cpp.
 struct Settings {
   // Traversal
-  int samples = 512;                  ///< a line, 1 to 8192
+  int samples = 512;                  ///< samples per line, 1 to 8192
   double reflection_length_mm = 0.6;  ///< l: the distance over which two media count as one interface, 0.01 to 20 (1)
   double frequency_mhz = 3.5;         ///< 0.5 to 30
-  bool edge_shadow = false;           ///< what refraction at grazing incidence takes from a line, see refraction.h
-  bool absorption = true;             ///< frequency-dependent absorption in (5); off in the paper's own mode
+  bool edge_shadow = false;  ///< subtracts the sound that refraction takes at grazing incidence, see refraction.h
+  bool absorption = true;    ///< frequency-dependent absorption in (5); off in the paper's mode
 
-  /// Coupling gel between face and skin, 0 (none) to 100, see coupled_mm(). 6: an estimate of what a hand squeezes on.
+  /// Thickness of the coupling gel between face and skin, 0 (none) to 100, see coupled_mm(). 6: an estimate of what a
+  /// hand squeezes on.
   double gel_mm = 6;
 
-  /// Weigh the voxels around a sample in single precision, where a device's own filter has weights of as few as 8 bits.
+  /// Weights the voxels around a sample in single precision. The weights of a device's own filter may have as few as 8
+  /// bits.
   bool exact_filter = false;
 
-  bool skipping = true;  ///< leave out what cannot change a pixel by a grey level
+  bool skipping = true;  ///< skips work that cannot change a pixel by a grey level
 
   // Beam width (4)
   BeamWindow beam_window = BeamWindow::hann;
   int beam_lines = 7;         ///< n_a: lines under the window, odd, 1 (none) to 255
-  bool focused_beam = false;  ///< the width follows from focus and aperture instead, see focused_beam_fwhm_mm()
+  bool focused_beam = false;  ///< derives the width from focus and aperture instead, see focused_beam_fwhm_mm()
   double focus_mm = 80;       ///< depth of the transmit focus, 5 to 400
   double f_number = 6;        ///< focus over the width of the active aperture, 0.5 to 30
 
-  int slice_planes = 1;           ///< planes that stand for the beam in elevation, odd, 1 (infinitely thin) to 31
+  int slice_planes = 1;           ///< planes that sample the beam in elevation, odd, 1 (infinitely thin) to 31
   double slice_thickness_mm = 3;  ///< full width at half maximum in elevation, 0.1 to 20
-  double elevation_focus_mm = 0;  ///< where it is so, see slice_thickness_at_mm(), to 400; 0: at every depth
+  double elevation_focus_mm = 0;  ///< depth where it holds, see slice_thickness_at_mm(), to 400; 0: every depth
 
-  bool reverberation = false;  ///< between strong interfaces in the tissue, see reverberation.h
-  double face_reflection = 0;  ///< of the sound that comes back, what the probe's face sends in again, 0 (none) to 1
+  bool reverberation = false;  ///< reverberation between strong interfaces in the tissue, see reverberation.h
+  double face_reflection = 0;  ///< share of the returning sound that the probe's face reflects, 0 (none) to 1
 
   // Speckle
   bool speckle = true;
@@ -66,17 +68,17 @@ struct Settings {
 
   // Fusion (6)
   double reflection_sigma_mm = 0.45;  ///< s1: smoothing of the reflections in the image, 0 (none) to 1000
-  double transmission_sigma_mm = 0;   ///< s2: the same of the transmission, 0 to 1000
-  double blend = 4e-5;                ///< b: scattered against reflected echo, 0 to 1000
-  bool two_way = true;                ///< T = (I/I0)^2: the scattered echo goes back the way it came; off in the paper
+  double transmission_sigma_mm = 0;   ///< s2: smoothing of the transmission in the image, 0 (none) to 1000
+  double blend = 4e-5;                ///< b: weight of the scattered against the reflected echo, 0 to 1000
+  bool two_way = true;  ///< T = (I/I0)^2: the scattered echo is attenuated on its way back too; off in the paper
 
   // Receiver
-  bool clutter = false;           ///< what the beam's side lobes bring from beside, see clutter_share()
-  double clutter_db = -30;        ///< it beside the scatterers' mean echo from its depth, -100 to 0
-  bool electronic_noise = false;  ///< in the echo before any gain, so that it shows where time gain is high
-  double noise_db = -103;         ///< its mean beside fixed_level, -200 to 0
+  bool clutter = false;           ///< adds the echo from the beam's side lobes, see clutter_share()
+  double clutter_db = -30;        ///< clutter relative to the scatterers' mean echo from its depth, -100 to 0
+  bool electronic_noise = false;  ///< added to the echo before any gain, so that it shows where time gain is high
+  double noise_db = -103;         ///< mean of the noise relative to fixed_level, -200 to 0
 
-  // Display (7): as machines' controls of the same names (Szabo, Diagnostic Ultrasound Imaging, 10)
+  // Display (7): like the controls of the same names on machines (Szabo, Diagnostic Ultrasound Imaging, 10)
   double gain_db = 0;              ///< -60 to 60
   std::array<double, 8> tgc_db{};  ///< time gain at 8 depths from face to full depth, linear between; -300 to 300
   double dynamic_range_db = 55;    ///< beta, 1 to 200
@@ -90,17 +92,19 @@ struct Settings {
   bool operator==(const Settings&) const = default;
 };
 
-/// Nearer to the face than this air counts as water: as far as there is gel, or else half the reflection length. The
-/// face's lens is matched to tissue (Szabo, Diagnostic Ultrasound Imaging, 5), so sound leaves it as it leaves water,
-/// and where air lies against it nearly all is reflected. An interface is spread over half the reflection length to
-/// either side, so this one lies so far behind the face that lines, which begin there, meet the whole of it.
+/// Returns the distance from the face, mm, within which air counts as water: the gel's thickness, or half the
+/// reflection length plus 1e-5 mm if that is more. The face's lens is matched to tissue (Szabo, Diagnostic Ultrasound
+/// Imaging, 5), so sound leaves it as it leaves water, and air against it reflects nearly all. An interface is spread
+/// over half the reflection length to either side. The interface to air therefore lies so far behind the face that
+/// lines, which begin there, meet the whole of it.
 double coupled_mm(const Settings& settings);
 
-/// As in the paper: no absorption, reflection length = sample distance, one-way transmission, frame's maximum, no
-/// noise, no clutter, a beam equally wide at every depth.
+/// Returns the paper's settings: no absorption, reflection length = sample distance, one-way transmission, frame's
+/// maximum, no noise, no clutter, a beam equally wide at every depth.
 Settings paper_settings(double depth_mm, int samples);
 
-/// What the trainer starts with: every effect on, TGC set to the mean absorption of soft tissue up to `depth_mm`.
+/// Returns the trainer's initial settings: every effect on, TGC set to the mean absorption of soft tissue up to
+/// `depth_mm`.
 Settings trainer_settings(double frequency_mhz, double depth_mm);
 
 }  // namespace insonate

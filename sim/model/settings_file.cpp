@@ -14,7 +14,7 @@ using namespace keys;
 constexpr const char* kPreset = "preset";
 const std::vector<std::string> kPresets = {"paper", "trainer"};
 
-/// Every field of Settings, in its order; the ranges are those that its comments give.
+/// Returns the keys of all fields of Settings, in their order. The ranges are those that its comments give.
 const std::vector<Key<Settings>>& all_keys() {
   using S = Settings;
   static const std::vector<Key<Settings>> all = {
@@ -82,7 +82,7 @@ Settings read_settings(const std::filesystem::path& toml_file, double frequency_
   settings.frequency_mhz = frequency_mhz;
   for (const Key<Settings>& key : all_keys())
     if (root.has(key.name)) key.set(settings, key.get(written));
-  if (const auto why = why_not_valid(settings))  // the paper's reflection length, of so many samples over such a depth
+  if (const auto why = why_not_valid(settings))  // the paper's reflection length follows from `samples` and the depth
     root.fail(root.has(kPreset) ? kPreset : "", "with this preset " + *why, "give that key a value of its own");
   return settings;
 }

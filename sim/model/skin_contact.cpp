@@ -3,7 +3,7 @@
 namespace insonate {
 namespace {
 
-constexpr double kMarch_mm = 0.5;  // below any voxel's size: no skin is stepped over
+constexpr double kMarch_mm = 0.5;  // below any voxel's size, so no skin is missed
 constexpr double kPrecision_mm = 0.01;
 
 ScanLines face_of(const Probe& probe) {

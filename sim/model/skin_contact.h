@@ -8,22 +8,25 @@
 
 namespace insonate {
 
-/// Body begins here on the way in from the air: half way between air (-1000 HU) and fat (about -100).
+/// The density of the body's surface: half way between air (-1000 HU) and fat (about -100 HU).
 inline constexpr double kSkinHu = -500;
 
-/// How far a point moves along a unit direction (patient, mm) until it meets the body, found to 0.01 mm; empty when it
-/// does not within `reach_mm`. 0 when it starts inside.
+/// Returns how far a point moves along a unit direction (patient, mm) until it meets the body, to 0.01 mm. Returns
+/// nothing if it does not within `reach_mm`, and 0 if it starts inside.
 std::optional<double> distance_to_skin(const Volume<std::int16_t>& ct, const glm::dvec3& point,
                                        const glm::dvec3& direction, double reach_mm);
 
-/// Whether the face of a probe is on the skin: along the beam there is body within the thickness of coupling gel at
-/// half of the places or more that are looked at, evenly spread across the face. Deeper than the skin counts as on it.
+/// Detects whether a probe's face is on the skin. It tests evenly spaced places across the face. The face is on the
+/// skin if at half of the places or more there is body along the beam within the thickness of coupling gel. A face
+/// deeper than the skin counts as on it.
 class SkinContact {
 public:
   static constexpr double kGel_mm = 6;
   static constexpr int kPlaces = 5;
 
+  /// @param ct  must outlive this object
   SkinContact(const Volume<std::int16_t>& ct, const Probe& probe);
+  /// Returns whether the face is on the skin at this pose.
   bool at(const Pose& patient_from_probe) const;
 
 private:

@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t kLargestFile = 1u << 20;
 constexpr int kMostKnots = 256;
 
-// Beyond every tissue and metal in the sources, so that what is refused is a slip of the keyboard.
+// Beyond every tissue and metal in the sources, so that a refused value is a typing error.
 constexpr double kLeastImpedance = 1e-4, kMostImpedance = 100;
 constexpr double kMostAbsorption = 1000;
 constexpr double kLeastEchogenicity = -60, kMostEchogenicity = 30;

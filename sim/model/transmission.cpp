@@ -7,8 +7,8 @@ namespace insonate {
 namespace {
 
 constexpr int kLeastHu = -1024;
-constexpr int kMostHu = 3071;         // what a 12-bit scanner writes; metal beyond it is as good as bone
-constexpr double kAirBelowHu = -500;  // half way between air and fat: gel fills what is below
+constexpr int kMostHu = 3071;         // what a 12-bit scanner writes; denser metal counts as bone
+constexpr double kAirBelowHu = -500;  // half way between air and fat; gel fills what is below
 
 }  // namespace
 
@@ -35,7 +35,7 @@ Transmission::Transmission(const Volume<std::int16_t>& ct, const TissueTable& ti
 const Transmission::Medium& Transmission::medium(const glm::dvec3& index, double distance_mm) const {
   double hu = sample_trilinear(*ct_, index);
   if (distance_mm < kGel_mm && hu < kAirBelowHu) hu = 0;
-  constexpr double kHalfBelow = kLeastHu - 0.5;  // what lies above it is cut to the nearest whole number
+  constexpr double kHalfBelow = kLeastHu - 0.5;  // truncation after subtracting it rounds to the nearest integer
   return medium_of_hu_[std::size_t(std::clamp(hu, double(kLeastHu), double(kMostHu)) - kHalfBelow)];
 }
 

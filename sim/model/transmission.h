@@ -10,40 +10,43 @@
 
 namespace insonate {
 
-/// A scan line through the voxels of a grid: the map from the patient is affine, so that sample positions are too.
+/// A scan line in the voxel indices of a grid. The map from the patient is affine, so sample positions are evenly
+/// spaced too.
 struct VoxelLine {
   glm::dvec3 start{0.0};     ///< continuous index where the line's first sample begins
-  glm::dvec3 per_step{0.0};  ///< from sample to sample; sample k begins at start + k per_step
+  glm::dvec3 per_step{0.0};  ///< step from sample to sample; sample k begins at start + k per_step
 
   glm::dvec3 at(double step) const { return start + step * per_step; }
 };
 
+/// Returns line number `line` of `set` in the indices of `grid`.
 VoxelLine voxel_line(const Grid& grid, const ScanLines& set, std::size_t line, const Pose& patient_from_probe);
 
-/// How much sound arrives along scan lines: model S's transmission (Kutter, Shams, Navab 2009, equations 1 and 5) with
-/// the reflection length equal to the sample distance, on the CPU in double precision.
+/// Computes the sound that arrives along scan lines: model S's transmission (Kutter, Shams, Navab 2009, equations 1 and
+/// 5), with the reflection length equal to the sample distance, on the CPU in double precision.
 class Transmission {
 public:
-  /// Air nearer to the face than this is filled with coupling gel, as in the trainer's picture.
+  /// Air nearer to the face than this counts as coupling gel, as in the trainer's picture.
   static constexpr double kGel_mm = 6;
 
+  /// @param ct  must outlive this object
   Transmission(const Volume<std::int16_t>& ct, const TissueTable& tissues, double sample_distance_mm,
                double frequency_mhz);
 
-  /// One-way intensity relative to the emitted at the middle of each sample of a line through the CT, into
-  /// `intensity`: as many as it holds, the nearest first.
+  /// Writes to `intensity` the one-way intensity, relative to the emitted one, at the middle of each sample of a line
+  /// through the CT: as many samples as it holds, the nearest first.
   void along(const VoxelLine& line, std::span<double> intensity) const;
 
 private:
   struct Medium {
     double impedance_mrayl;
-    double half_step;  ///< what absorption lets through over half a sample distance
+    double half_step;  ///< share that absorption passes over half a sample distance
   };
   const Medium& medium(const glm::dvec3& index, double distance_mm) const;
 
   const Volume<std::int16_t>* ct_;
   double dr_mm_;
-  std::vector<Medium> medium_of_hu_;  ///< from kLeastHu up, one a Hounsfield unit
+  std::vector<Medium> medium_of_hu_;  ///< from kLeastHu up, one per Hounsfield unit
 };
 
 }  // namespace insonate

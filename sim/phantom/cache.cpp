@@ -19,11 +19,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Raised whenever the same recipe would give other voxels, or the files another layout.
+// Raise it when the same recipe would give other voxels, or when the layout of the files changes.
 constexpr const char* kMakerVersion = "phantom maker 1";
 constexpr const char* kDigestsFile = "digests.txt";
 
-// 128 bits against damage and mix-ups, not against an attacker: who can write the cache can write the digests too.
+// 128 bits protect against damage and mix-ups, not against an attacker, who can write the digests as well as the cache.
 std::string digest(const std::string& bytes) {
   XXH128_canonical_t canonical;
   XXH128_canonicalFromHash(&canonical, XXH3_128bits(bytes.data(), bytes.size()));
@@ -37,7 +37,7 @@ std::string digest(const std::string& bytes) {
 }
 
 std::string key_of(const std::string& recipe_text, const std::vector<std::pair<std::string, std::string>>& options) {
-  // Lengths before the parts, so that no two lists of parts run together to the same text.
+  // Lengths precede the parts, so that no two lists of parts give the same text.
   std::string all;
   const auto add = [&](const std::string& part) { all += std::to_string(part.size()) + ":" + part; };
   add(kMakerVersion);
@@ -49,7 +49,7 @@ std::string key_of(const std::string& recipe_text, const std::vector<std::pair<s
   return digest(all);
 }
 
-// One line a file: its digest and its name.
+// One line per file: its digest and its name.
 std::string digests_of(const fs::path& folder) {
   std::map<std::string, std::string> digests;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
@@ -62,7 +62,7 @@ std::string digests_of(const fs::path& folder) {
   return text;
 }
 
-// The digests are written last, so a folder without them was never finished.
+// The digests are written last, so a folder without them is unfinished.
 bool is_whole(const fs::path& folder) {
   try {
     return fs::is_directory(folder) && read_file(folder / kDigestsFile) == digests_of(folder);
@@ -73,9 +73,9 @@ bool is_whole(const fs::path& folder) {
   }
 }
 
-// A cached folder held while it is read, together with others who read it, or alone to throw it away. It falls with the
-// process, so none is ever left behind. Where a file system has no such locks nothing is held, and a reader whose files
-// are thrown away makes the phantom again.
+// Locks a cached folder: shared while it is read, alone to remove it. The lock ends with the process, so none is ever
+// left behind. On a file system without such locks nothing is locked, and a reader whose files are removed makes the
+// phantom again.
 class FolderLock {
 public:
   enum class Kind { shared, alone };
@@ -96,7 +96,7 @@ private:
   bool held_ = false;
 };
 
-// Gone under its name at once, and from the disk after that.
+// Removes a folder: its name disappears at once, its files after that.
 void throw_away(const fs::path& folder) {
   const FolderLock lock(folder, FolderLock::Kind::alone);
   if (!lock.held()) return;
@@ -107,13 +107,13 @@ void throw_away(const fs::path& folder) {
   if (!error) fs::remove_all(gone, error);
 }
 
-// When a folder was last used is the time of its own last change, by the file system's clock.
+// A folder's modification time records its last use, by the file system's clock.
 void mark_used(const fs::path& folder) {
   utimensat(AT_FDCWD, folder.c_str(), nullptr, 0);
 }
 
-// Keeps the phantoms used last, of which `newest` is one. What a process that ended too early left half written or half
-// thrown away, under a name with a leading dot, goes when it is a day older.
+// Keeps the most recently used phantoms, including `newest`. A process that ended too early leaves half-written or
+// half-removed folders under names with a leading dot. They are removed when they are a day older than `newest`.
 void tidy(const fs::path& newest) {
   std::error_code error;
   const fs::file_time_type day_before = fs::last_write_time(newest, error) - std::chrono::hours(24);
@@ -145,7 +145,7 @@ Case cached_phantom(const fs::path& recipe, const std::vector<std::pair<std::str
         mark_used(folder);
         return subject;
       } catch (const InputError&) {
-        // Whole, yet not to be read: written by another version of the reader, or thrown away meanwhile. Made again.
+        // Complete but unreadable: written by another version of the reader, or removed meanwhile. Make it again.
       }
     }
   }
@@ -157,9 +157,9 @@ Case cached_phantom(const fs::path& recipe, const std::vector<std::pair<std::str
     write_file(folder / kDigestsFile, digests_of(folder));
     tidy(folder);
   } catch (const InputError&) {
-    // The case is whole all the same: a cache that cannot be written costs the time to make it again.
+    // The case is complete all the same. A cache that cannot be written costs only the time to make it again.
   } catch (const fs::filesystem_error&) {
-    // As above: somebody else throws it away while its digests are taken.
+    // As above: another process removes the folder while its digests are computed.
   }
   return subject;
 }

@@ -10,20 +10,21 @@
 namespace insonate {
 
 glm::vec3 Frame::part_from_patient(const glm::vec3& p) const {
-  const glm::vec3 q = (p - origin) * rotation;  // a row vector from the left: the transpose, which is the inverse
+  const glm::vec3 q = (p - origin) * rotation;  // row vector times matrix: the transpose, which is the inverse
   return {flipped ? -q.x : q.x, q.y, q.z};
 }
 
 namespace {
 
-// The lesser of two distances, the seam between them filled over `blend` (Quilez's quadratic polynomial form).
+// Returns the smaller of two distances, with the seam between them filled over `blend` (Quilez's quadratic polynomial
+// form).
 float smooth_min(float a, float b, float blend) {
   if (blend <= 0) return std::min(a, b);
   const float h = std::max(blend - std::abs(a - b), 0.0f) / blend;
   return std::min(a, b) - h * h * blend * 0.25f;
 }
 
-// What is cut off only takes points further out.
+// Further cuts only move these points farther outside.
 bool out_of_reach(const Points& points, const float* distances) {
   return *std::min_element(distances, distances + points.count()) > kReach_mm;
 }
@@ -154,7 +155,7 @@ public:
 
   void distances(Points& points, float* out) const override {
     const std::vector<float>& d = points.distances_to(*shape_);
-    const float near = kLimit * amplitude_ + 2.0f;  // bumps further from the surface would be seen by nobody
+    const float near = kLimit * amplitude_ + 2.0f;  // bumps farther from the surface would be invisible
     std::vector<std::size_t> bumpy;
     for (std::size_t n = 0; n < d.size(); ++n) {
       out[n] = d[n];

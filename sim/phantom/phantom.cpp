@@ -18,11 +18,11 @@
 namespace insonate {
 namespace {
 
-// What is measured together: small enough that most shapes are out of reach of it, large enough to spread the search
-// for those that are not.
+// The side of a block of points. It is small enough that most shapes are out of its range, and large enough to share
+// the search for those that are not.
 constexpr double kBlock_mm = 8;
 
-// Passes a share on when it has grown by a hundredth, from one thread at a time.
+// Reports progress when it has grown by a hundredth, from one thread at a time.
 class ProgressCounter {
 public:
   ProgressCounter(const Progress& report, std::size_t total) : report_(report), total_(total) {}
@@ -66,7 +66,8 @@ public:
         }
     Points points(std::move(x), std::move(y), std::move(z));
 
-    // From the last shape, which displaces all others, back to the first; what is still free shows the next below.
+    // Traverse from the last shape, which displaces all others, back to the first. The share that is still free shows
+    // the next shape below.
     std::vector<float> hu(points.count(), 0.0f), free(points.count(), 1.0f);
     std::vector<int> label(points.count(), -1);
     const auto pitch = float(grid.spacing.x);
@@ -103,7 +104,7 @@ public:
   }
 
 private:
-  // Label by label: a texture is made fastest for many points at once.
+  // Adds textures label by label: a texture is evaluated fastest for many points at once.
   void add_textures(const Points& points, const std::vector<int>& label, std::vector<float>& hu) const {
     std::vector<bool> done(plan_.labels.size(), false);
     std::vector<std::size_t> alike;
@@ -125,9 +126,10 @@ private:
   std::vector<Texture> textures_;
 };
 
-// The pose of a probe pressed into the skin: from the aim back along the beam to where the body ends for good.
+// Returns the pose of a probe pressed into the skin. The skin is the last boundary of the body along the beam, from the
+// aim backwards.
 Pose pose_on_skin(const PlannedView& planned, const Volume<std::int16_t>& ct, const std::string& recipe_name) {
-  constexpr double kSkinHu = -500;  // half way between air and soft tissue: the surface within a fraction of a voxel
+  constexpr double kSkinHu = -500;  // half way between air and soft tissue: within a fraction of a voxel of the surface
   const double step = ct.grid.spacing.x / 4;
   const double longest = glm::length(ct.grid.spacing * glm::dvec3(ct.grid.size));
   double skin = -1;
@@ -161,7 +163,7 @@ Case make_phantom(const std::string& recipe_name, const std::string& recipe_text
   subject.landmarks = plan.landmarks;
   for (const PaintedLabel& label : plan.labels) subject.label_table.push_back(label.label);
 
-  const int block = std::max(2, int(std::lround(kBlock_mm / plan.grid.spacing.x)));  // voxels a side
+  const int block = std::max(2, int(std::lround(kBlock_mm / plan.grid.spacing.x)));  // voxels per side
   const glm::ivec3 blocks = (plan.grid.size + block - 1) / block;
   ProgressCounter counter(progress, std::size_t(blocks.x) * std::size_t(blocks.y) * std::size_t(blocks.z));
   const Painter painter(plan);

@@ -190,7 +190,7 @@ private:
     return table.vector(key, -kFar_mm, kFar_mm);
   }
 
-  // Three numbers, or the names of two landmarks: from the first towards the second.
+  // Reads three numbers, or the names of two landmarks: the direction is from the first towards the second.
   glm::dvec3 marker(RecipeTable& table) {
     const toml::node* node = table.node("marker");
     if (node == nullptr || !node->is_array() || node->as_array()->size() != 2)
@@ -208,7 +208,7 @@ private:
 
 PhantomPlan plan_phantom(const Recipe& recipe) {
   RecipeTable root(recipe, recipe.root(), "");
-  root.has("options");  // read with the recipe itself
+  root.has("options");  // the Recipe constructor has read it
   PhantomPlan plan;
   plan.name = root.text("name");
   plan.seed = std::uint32_t(root.number_or("seed", 1, 0, 4294967295.0));

@@ -12,40 +12,42 @@
 
 namespace insonate {
 
-/// What a label looks like in CT.
+/// A label with its appearance in CT.
 struct PaintedLabel {
   Label label;
   float hu = 0;
-  float texture_hu = 0;  ///< standard deviation of the texture
-  float grain_mm = 2;    ///< its coarseness
+  float texture_hu = 0;  ///< standard deviation of the texture; 0 for none
+  float grain_mm = 2;    ///< coarseness of the texture
 };
 
+/// A shape with its label.
 struct PaintedShape {
   ShapePtr shape;
-  std::size_t label = 0;  ///< into PhantomPlan::labels
+  std::size_t label = 0;  ///< index into PhantomPlan::labels
 };
 
-/// A reference view before the skin is known.
+/// A reference view before the position of the skin is known.
 struct PlannedView {
   ReferenceView view;        ///< without its pose
-  glm::dvec3 aim{0.0};       ///< what the central beam goes through
-  glm::dvec3 beam{0, 1, 0};  ///< the beam's direction, into the body; unit
-  glm::dvec3 marker{0.0};    ///< lateral direction of the marker; unit, square to the beam
-  double press_mm = 8;       ///< how deep under the skin the face's middle lies
+  glm::dvec3 aim{0.0};       ///< patient point on the central beam, mm
+  glm::dvec3 beam{0, 1, 0};  ///< direction of the beam into the body; unit
+  glm::dvec3 marker{0.0};    ///< lateral direction of the marker; unit, perpendicular to the beam
+  double press_mm = 8;       ///< depth of the face's middle under the skin
 };
 
-/// A recipe read and checked: everything that is needed to make the case.
+/// A recipe after reading and checking: all that is needed to make the case.
 struct PhantomPlan {
   std::string name;
   std::uint32_t seed = 0;
   Grid grid;
   std::vector<PaintedLabel> labels;
-  std::vector<PaintedShape> shapes;  ///< a later one displaces the earlier ones where it lies
+  std::vector<PaintedShape> shapes;  ///< a later shape displaces earlier ones where they overlap
   std::vector<Landmark> landmarks;
   std::vector<PlannedView> views;
 };
 
-/// Throws InputError for anything in the recipe that is missing, misspelt, doubled or out of range.
+/// Returns the plan of a recipe. Throws InputError for anything in the recipe that is missing, misspelt, doubled or out
+/// of range.
 PhantomPlan plan_phantom(const Recipe& recipe);
 
 }  // namespace insonate

@@ -170,7 +170,7 @@ std::vector<std::vector<double>> RecipeTable::rows(const std::string& key, std::
 }
 
 std::vector<const toml::table*> RecipeTable::tables(const std::string& key) {
-  ask(key).tables(key);  // checks that it is a list of tables
+  ask(key).tables(key);  // throws if it is not a list of tables
   std::vector<const toml::table*> tables;
   if (const toml::node* list = node(key))
     for (const toml::node& entry : *list->as_array()) tables.push_back(entry.as_table());

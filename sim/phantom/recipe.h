@@ -16,25 +16,26 @@
 
 namespace insonate {
 
-/// A recipe's text, and the values that its options have in this run.
+/// Holds a recipe's text and the values of its options in this run.
 ///
-/// Wherever a recipe takes a number it also takes a text: arithmetic over numbers and option names
-/// ("aorta_diameter_mm / 2 + 1"), with + - * / ( ), min(a, b) and max(a, b). A true option counts 1, a false one 0.
+/// Wherever a recipe takes a number it also takes arithmetic over numbers and option names, as a text:
+/// "aorta_diameter_mm / 2 + 1". The operators are + - * / ( ), min(a, b) and max(a, b). A true option counts as 1, a
+/// false one as 0.
 class Recipe {
 public:
-  /// Parses the text and its [options], and puts the given values in place of the recipe's own. Throws InputError.
+  /// Parses the text and its [options], and replaces the recipe's own values by those given. Throws InputError.
   Recipe(std::string name, const std::string& text, const std::vector<std::pair<std::string, std::string>>& options);
 
-  /// Puts a value in place of the recipe's own, or says why not.
+  /// Replaces an option's value, or returns why it cannot.
   std::optional<OptionProblem> set_option(const std::string& option, const std::string& value);
 
   const std::string& name() const { return name_; }
   const toml::table& root() const { return root_; }
 
-  /// The value of a text of arithmetic; `where` is blamed when it has none.
+  /// Returns the value of an arithmetic text. Throws InputError at `where` if it has none.
   double evaluate(const std::string& expression, const toml::node& where) const;
 
-  /// Throws an InputError that points at `where` in the text.
+  /// Throws an InputError with the line and column of `where`.
   [[noreturn]] void refuse(const toml::node& where, const std::string& problem, const std::string& remedy) const;
 
 private:
@@ -49,12 +50,12 @@ private:
   std::map<std::string, Option> options_;
 };
 
-/// One table of a recipe, read key by key: numbers may be arithmetic, and finish() refuses every key that was never
-/// asked for. Each reader throws InputError with line and column when the value is missing, of another type or out of
+/// Reads one table of a recipe key by key. Numbers may be arithmetic, and finish() refuses every key that was never
+/// asked for. Each reader throws InputError with line and column if the value is missing, of another type or out of
 /// range.
 class RecipeTable {
 public:
-  /// `what` names the table in messages: "shape 'liver'"; empty for the recipe's top level.
+  /// @param what  the table's name in messages: "shape 'liver'"; empty for the recipe's top level
   RecipeTable(const Recipe& recipe, const toml::table& table, const std::string& what)
       : recipe_(recipe), table_(table), plain_(recipe.name(), what, table) {}
 
@@ -63,7 +64,7 @@ public:
   std::vector<std::string> texts(const std::string& key) { return ask(key).texts(key); }
   bool flag_or(const std::string& key, bool otherwise) { return has(key) ? plain_.boolean(key) : otherwise; }
 
-  /// A text of lower-case letters, digits and underscores, for which a case's files have room.
+  /// Returns the `name` key's text: lower-case letters, digits and underscores, as a case's files require.
   std::string name();
 
   double number(const std::string& key, double least, double most);
@@ -71,21 +72,22 @@ public:
   glm::dvec3 vector(const std::string& key, double least, double most);
   glm::dvec3 vector_or(const std::string& key, const glm::dvec3& otherwise, double least, double most);
 
-  /// At least `count` rows of `fewest` to `widest` numbers.
+  /// Returns at least `count` rows of `fewest` to `widest` numbers each.
   std::vector<std::vector<double>> rows(const std::string& key, std::size_t count, std::size_t fewest,
                                         std::size_t widest, double least, double most);
 
-  /// The array of tables under a key; empty when it is missing.
+  /// Returns the array of tables under a key; empty if the key is missing.
   std::vector<const toml::table*> tables(const std::string& key);
 
-  /// The value under a key as it stands; null when it is missing.
+  /// Returns the value under a key, unparsed; null if the key is missing.
   const toml::node* node(const std::string& key) { return has(key) ? table_.get(key) : nullptr; }
 
-  /// Points at the key's value, or at the table when there is none.
+  /// Throws an InputError with the line and column of the key's value, or of the table if the key is missing.
   [[noreturn]] void refuse(const std::string& key, const std::string& problem, const std::string& remedy) const {
     plain_.fail(key, problem, remedy);
   }
 
+  /// Throws InputError for every key that no reader has asked for.
   void finish() const { plain_.allow_only(asked_); }
 
 private:
@@ -102,7 +104,7 @@ private:
   std::vector<std::string> asked_;
 };
 
-/// The remedy for a name that a map does not have.
+/// Returns the remedy for a name that is missing from a map.
 template <typename Value>
 std::string suggest_from(const std::string& unknown, const std::map<std::string, Value>& known) {
   std::vector<std::string> names;

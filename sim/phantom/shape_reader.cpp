@@ -9,8 +9,8 @@
 namespace insonate {
 namespace {
 
-constexpr double kFar_mm = 2000;  // no coordinate in a patient is further out
-constexpr double kThin_mm = 0.2;  // nothing thinner can be told from nothing at any pitch
+constexpr double kFar_mm = 2000;  // no coordinate in a patient is larger
+constexpr double kThin_mm = 0.2;  // anything thinner is invisible at any voxel size
 
 }  // namespace
 

@@ -8,13 +8,14 @@
 
 namespace insonate {
 
-/// Turns a recipe's [[shape]] tables into shapes, in their order: a shape may refer to those before it.
+/// Converts a recipe's `shapes` tables into shapes, in their order. A shape can refer to those before it.
 class ShapeReader {
 public:
   ShapeReader(const Recipe& recipe, std::uint32_t seed, std::map<std::string, Frame> frames)
       : recipe_(recipe), seed_(seed), frames_(std::move(frames)) {}
 
-  /// Reads every key but `label`. A shape whose `when` is off is empty, and may be referred to all the same.
+  /// Reads every key except `label`, and returns the shape. A shape whose `when` is off is empty; later shapes can
+  /// still refer to it. Throws InputError.
   ShapePtr read(RecipeTable& table);
 
 private:
@@ -35,7 +36,8 @@ private:
   std::map<std::string, LoftForm> lofts_;
 };
 
-/// The frame a table's `frame` key names; the patient's own when it has none.
+/// Returns the frame that a table's `frame` key names; the patient's own if there is no such key. Throws InputError for
+/// an unknown name.
 Frame frame_of(RecipeTable& table, const std::map<std::string, Frame>& frames);
 
 }  // namespace insonate

@@ -40,7 +40,7 @@ Points::Points(std::vector<float> x_mm, std::vector<float> y_mm, std::vector<flo
   const auto [low_z, high_z] = std::minmax_element(z.begin(), z.end());
   bounds_ = {{*low_x, *low_y, *low_z}, {*high_x, *high_y, *high_z}};
   if (count() == 1) return;
-  // A true distance changes by no more than the way gone; one that is exact to first order may change a little faster.
+  // A true distance changes by at most the distance moved. One that is exact to first order may change a little faster.
   constexpr float kSteepest = 2.0f;
   const glm::vec3 middle = 0.5f * (bounds_.low + bounds_.high);
   slack_mm_ = kSteepest * glm::length(bounds_.high - middle);
@@ -204,7 +204,7 @@ LoftSection LoftForm::section_at(float z) const {
   const LoftSection& before = sections[i == 0 ? 0 : i - 1];
   const LoftSection& after = sections[std::min(i + 2, sections.size() - 1)];
   const float t = std::clamp((z - from.z) / (to.z - from.z), 0.0f, 1.0f);
-  // A cubic Hermite spline whose slopes heed that sections are unevenly spaced.
+  // A cubic Hermite spline with slopes for unevenly spaced sections.
   const auto at = [&](float LoftSection::*member) {
     const float width = to.z - from.z;
     const auto slope = [&](const LoftSection& a, const LoftSection& b) {

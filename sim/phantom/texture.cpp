@@ -6,7 +6,7 @@
 namespace insonate {
 namespace {
 
-// Slope at a lattice point along one of the cube's twelve edge directions, times the way from the lattice point.
+// Slope at a lattice point, along one of the cube's twelve edge directions, times the offset from the lattice point.
 float slope(std::uint32_t bits, float x, float y, float z) {
   const bool skip_x = bits % 3 == 0, skip_y = bits % 3 == 1;
   const float u = skip_x ? y : x;
@@ -18,19 +18,19 @@ float fade(float t) {
   return t * t * t * (t * (t * 6.0f - 15.0f) + 10.0f);
 }
 
-// The whole number at or below, for numbers that an int holds; faster than the library's floor.
+// Rounds down, for values that fit an int; faster than the library's floor.
 float below(float value) {
   const auto whole = float(int(value));
   return whole > value ? whole - 1.0f : whole;
 }
 
-// The lattice cell around a position, and where in it the position lies.
+// The lattice cell that holds a position, and the position within it.
 struct Cell {
   std::uint32_t i, j, k;
   float x, y, z;
 };
 
-// Along the cell's edge in x that lies dj and dk further up.
+// Interpolates along the cell's edge in x at offsets dj and dk.
 float edge(std::uint32_t seed, const Cell& cell, std::uint32_t dj, std::uint32_t dk) {
   const std::uint32_t column = hash(hash(seed, cell.k + dk), cell.j + dj);
   const float y = cell.y - float(dj), z = cell.z - float(dk);
@@ -50,19 +50,19 @@ float gradient_noise(std::uint32_t seed, const glm::vec3& p) {
   return low + w * (high - low);
 }
 
-// Standard deviation of the two layers' sum, measured over 10^6 points.
+// Standard deviation of the sum of the two layers, measured over 10^6 points.
 constexpr float kStandardDeviation = 0.33f;
 
-// Both layers at one position in units of the grain.
+// Returns both layers at one position in units of the grain.
 float noise(std::uint32_t seed, const glm::vec3& p) {
-  // A turn by the quaternion (0.5, 0.5, 0.3, 0.64), normalised, and a scale of 1.7 that no lattice step repeats.
+  // Rotation by the quaternion (0.5, 0.5, 0.3, 0.64), normalised, and a scale of 1.7 that no lattice step repeats.
   const glm::vec3 turned =
       1.7f * glm::vec3(0.3337f * p.x - 0.1363f * p.y + 0.9328f * p.z, 0.9387f * p.x + 0.1486f * p.y - 0.3141f * p.z,
                        -0.0958f * p.x + 0.9795f * p.y + 0.1774f * p.z);
   return (gradient_noise(seed, p) + 0.6f * gradient_noise(hash(seed), turned)) / kStandardDeviation;
 }
 
-// All of it in one loop without a branch, so that the compiler takes several positions at once.
+// One loop without branches, so that the compiler vectorizes it.
 [[gnu::flatten]] void fill_noise(std::uint32_t seed, float per_mm, const float* x, const float* y, const float* z,
                                  std::size_t count, float* out) {
   for (std::size_t n = 0; n < count; ++n) out[n] = noise(seed, glm::vec3(x[n], y[n], z[n]) * per_mm);

@@ -10,18 +10,19 @@ namespace insonate {
 
 class Points;
 
-/// Smooth noise in space: zero mean, standard deviation about 1, wavelengths from one to a few times the grain and
-/// nothing finer, no visible lattice. A pure function of seed and position, so that any thread may ask in any order.
+/// Smooth noise in space with zero mean and a standard deviation of about 1. Its wavelengths are one to a few times the
+/// grain and nothing finer; no lattice is visible. It is a pure function of seed and position, so any thread can
+/// evaluate it in any order.
 ///
-/// Two layers of gradient noise (Perlin, "An image synthesizer", 1985; the smooth step of his "Improving noise", 2002),
-/// the second finer and turned against the first.
+/// It sums two layers of gradient noise (Perlin, "An image synthesizer", 1985; the smooth step of his "Improving
+/// noise", 2002). The second layer is finer and rotated against the first.
 class Texture {
 public:
   Texture(std::uint32_t seed, float grain_mm) : seed_(seed), per_mm_(1.0f / grain_mm) {}
 
   float at(const glm::vec3& position_mm) const;
 
-  /// The same at those of the points that `which` names, in that order, several times as fast.
+  /// Returns the noise at the points with the indices `which`, in that order, several times as fast.
   std::vector<float> at(const Points& points, const std::vector<std::size_t>& which) const;
 
 private:

@@ -25,7 +25,7 @@ glm::vec3 catmull_rom(const glm::vec3& before, const glm::vec3& from, const glm:
                                           t * (3.0f * (from - to) + after - before)));
 }
 
-// The spline as beads close enough that the straight pieces between them cannot be told from it.
+// Samples the spline at beads so close that the straight pieces between them are indistinguishable from it.
 std::vector<TubePoint> beads_along(const std::vector<TubePoint>& points, const TubeForm& form) {
   if (!form.smooth && form.bead_mm == 0) return points;
   std::vector<TubePoint> beads{points.front()};
@@ -37,7 +37,7 @@ std::vector<TubePoint> beads_along(const std::vector<TubePoint>& points, const T
     const int steps = std::max(1, int(std::ceil(glm::length(to.position - from.position) / kStep_mm)));
     for (int step = 1; step <= steps; ++step) {
       const float t = float(step) / float(steps);
-      // The radius eases in and out, so that it has no kink at a point either.
+      // The radius eases in and out, so that it has no kink at a point.
       const float eased = t * t * (3.0f - 2.0f * t);
       beads.push_back({form.smooth ? catmull_rom(before, from.position, to.position, after, t)
                                    : glm::mix(from.position, to.position, t),
@@ -103,9 +103,9 @@ public:
   }
 
 private:
-  // Of a long tube only the pieces near a block matter. Between the block's middle and any point of it a distance
-  // changes by no more than the half diagonal, so a piece that is two of those further off than the nearest is nearest
-  // nowhere. Empty when all of the tube is out of reach.
+  // Returns the pieces of a long tube that matter for a block. Between the block's middle and any of its points a
+  // distance changes by at most the half diagonal. A piece that is two half diagonals farther away than the nearest one
+  // is therefore nowhere the nearest. Returns nothing if the whole tube is out of range.
   std::vector<const Segment*> segments_near(const Bounds& block) const {
     const glm::vec3 middle = 0.5f * (block.low + block.high);
     const float half_diagonal = glm::length(block.high - middle);
@@ -133,7 +133,7 @@ private:
     return distance;
   }
 
-  // Brings `out` down to the segment's distances.
+  // Lowers `out` to the segment's distances where these are smaller.
   void lower_to(const Segment& segment, const float* x, const float* y, const float* z, std::size_t count,
                 float* out) const {
     if (form_.flatness == 1.0f)
@@ -142,7 +142,7 @@ private:
       lower_to<true>(segment, form_, x, y, z, count, out);
   }
 
-  // All of it by value and without a branch, so that the compiler takes several points at once.
+  // Everything is by value and without branches, so that the compiler vectorizes the loop.
   template <bool kFlat>
   [[gnu::flatten]] static void lower_to(const Segment segment, const TubeForm form, const float* x, const float* y,
                                         const float* z, std::size_t count, float* out) {
@@ -169,7 +169,8 @@ private:
     return glm::length(p - foot.at) - foot.radius;
   }
 
-  // An ellipse of half axes radius and flatness * radius, to first order as for the ellipsoid.
+  // The section is an ellipse of half axes radius and flatness * radius; its distance is exact to first order, as for
+  // the ellipsoid.
   static float flat_distance(const Segment& segment, const TubeForm& form, const glm::vec3& p) {
     const Foot foot = foot_of(segment, p);
     const glm::vec3 off = p - foot.at, look = form.flat_towards - foot.at;
@@ -182,7 +183,7 @@ private:
     return f < 1e-3f ? on_axis : beside;
   }
 
-  // Neighbouring segments, looked at one by one only when their common bounds are near.
+  // Neighbouring segments, tested one by one only if their common bounds are near.
   struct Stretch {
     std::size_t begin, end;
     Bounds bounds;

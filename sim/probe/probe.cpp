@@ -9,7 +9,7 @@
 namespace insonate {
 namespace {
 
-// Angle of a line from the central beam, from -fov/2 to fov/2 at position 0 to 1 across the field of view.
+// Returns the angle of a line from the central beam: -fov/2 to fov/2 for `across` from 0 to 1 over the field of view.
 double angle_at(const Probe& probe, double across) {
   return glm::radians(probe.field_of_view_deg) * (across - 0.5);
 }
@@ -26,7 +26,7 @@ Extent fan_extent(const Probe& probe, double depth_mm) {
     return {{-half_width, 0}, {half_width, depth_mm}};
   }
   const double reach = probe.radius_mm + depth_mm;
-  // Beyond a half turn the fan is widest at its equator, not at its deep corners.
+  // Beyond 180 degrees the fan is widest at its equator, not at its deep corners.
   const double half_width = reach * std::sin(std::min(half, glm::radians(90.0)));
   const double top = std::min(probe.radius_mm * std::cos(half), reach * std::cos(half)) - probe.radius_mm;
   return {{-half_width, top}, {half_width, depth_mm}};
@@ -36,16 +36,16 @@ Extent fan_extent(const Probe& probe, double depth_mm) {
 
 const std::vector<Probe>& probes() {
   static const std::vector<Probe> all = [] {
-    Probe curvilinear;  // as common abdominal arrays are: 60 mm radius, 60 degrees, 2 to 5 MHz
+    Probe curvilinear;  // like common abdominal arrays: 60 mm radius, 60 degrees, 2 to 5 MHz
     curvilinear.name = "curvilinear";
     curvilinear.title = "Curvilinear";
-    Probe linear;  // as common vascular arrays are: 38 to 40 mm, 5 to 10 MHz
+    Probe linear;  // like common vascular arrays: 38 to 40 mm, 5 to 10 MHz
     linear.name = "linear";
     linear.title = "Linear";
     linear.kind = ProbeKind::linear;
     linear.frequency_mhz = 7.5;
     linear.depth_mm = 50;
-    Probe phased;  // as common cardiac arrays are: about 20 mm, 90 degrees, 1 to 5 MHz
+    Probe phased;  // like common cardiac arrays: about 20 mm, 90 degrees, 1 to 5 MHz
     phased.name = "phased";
     phased.title = "Phased";
     phased.kind = ProbeKind::phased;

@@ -22,7 +22,7 @@ std::vector<Pose> swept_planes(const Pose& patient_from_probe, int planes, doubl
 std::optional<std::size_t> turns_back_at(const Sweep& sweep) {
   constexpr double kResting_mm = 0.05;
   const glm::dvec3 middle(0, sweep.depth_mm / 2, 0);
-  double way = 0;  // of the planes until now, along their z
+  double way = 0;  // last step of the planes that moved, along their z
   for (std::size_t k = 1; k < sweep.patient_from_plane.size(); ++k) {
     const Pose before_from_patient = sweep.patient_from_plane[k - 1].inverse();
     const double step_mm = before_from_patient.point(sweep.patient_from_plane[k].point(middle)).z;
@@ -71,7 +71,7 @@ Grid sweep_grid(const Sweep& sweep, double voxel_mm) {
       high = glm::max(high, middle_from_patient.point(p));
     }
   Grid grid;
-  // A voxel to spare at each side, for the fan's edges beyond its outer lines.
+  // One extra voxel at each side, for the fan's edges beyond its outer lines.
   grid.size = glm::ivec3(glm::ceil((high - low) / voxel_mm)) + 3;
   grid.spacing = glm::dvec3(voxel_mm);
   grid.direction = middle.rotation;

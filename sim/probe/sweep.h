@@ -9,54 +9,57 @@
 
 namespace insonate {
 
-/// A probe's imaging plane in several places: what a 3D probe gives that swings its plane through the body, by a motor
-/// or by steering, and what a hand gives that moves a tracked 2D probe.
+/// A probe's imaging plane at several poses. A 3D probe produces it by swinging its plane through the body, by a motor
+/// or by steering; a hand produces it by moving a tracked 2D probe.
 ///
-/// Planes are in the order of the sweep, at least two. To lie between two neighbours, a point has them on its two
-/// sides: a sweep goes one way, and its planes do not cross in front of the face.
+/// Planes are in the order of the sweep, at least two. A point lies between two neighbouring planes if they are on its
+/// two sides. This requires that a sweep goes one way and that its planes do not cross in front of the face.
 struct Sweep {
-  Probe probe;                           ///< of each plane
+  Probe probe;                           ///< the probe of each plane
   double depth_mm = 160;                 ///< along each line, 0.1 to 1000
-  std::vector<Pose> patient_from_plane;  ///< rigid; the plane is that of x and y
+  std::vector<Pose> patient_from_plane;  ///< rigid; the imaging plane is the plane of x and y
 
   bool operator==(const Sweep&) const = default;
 };
 
-/// The planes of a 3D probe: tilted about an axis along x that lies `pivot_mm` behind the face's middle, from
-/// -sweep_deg/2 (first plane) to sweep_deg/2 (last), which is towards +z, at equal angles.
+/// Returns the planes of a 3D probe. They are tilted about an axis along x that lies `pivot_mm` behind the face's
+/// middle, at equal angles from -sweep_deg/2 (first plane) to sweep_deg/2 (last plane, towards +z).
 /// @param planes     2 to 4096
 /// @param sweep_deg  above 0, up to 150
 /// @param pivot_mm   0 or more: the radius on which the face swings
 std::vector<Pose> swept_planes(const Pose& patient_from_probe, int planes, double sweep_deg, double pivot_mm);
 
-/// The first plane that goes back the way the planes before it came, as its middle shows, half the depth from the face;
-/// empty for a sweep that goes one way. Where a hand rests planes may lie within a twentieth of a millimetre.
+/// Returns the index of the first plane that moves against the direction of the planes before it; nothing for a sweep
+/// that goes one way. A plane's motion is that of its middle, at half the depth from the face. Steps below 0.05 mm do
+/// not count, because the hand may rest.
 std::optional<std::size_t> turns_back_at(const Sweep& sweep);
 
-/// All lines of a sweep, patient mm, plane by plane: line i of plane p is at p * probe.lines + i.
+/// Returns all lines of a sweep, patient mm, plane by plane: line i of plane p is at p * probe.lines + i.
+/// @param samples  per line, 1 to 8192
 ScanLines scan_lines(const Sweep& sweep, int samples);
 
-/// Where a point of the patient lies in a sweep: between two neighbouring planes, and among the lines of each where it
-/// is nearest to them.
+/// The position of a patient point in a sweep: between two neighbouring planes, and, projected onto each, among its
+/// lines.
 struct SweepPosition {
-  int plane;             ///< the one before the point: 0 to planes - 2
-  double share;          ///< of the way to the next, by distances to the two: 0 to 1
-  LinePosition in_this;  ///< among the lines of `plane`
-  LinePosition in_next;
+  int plane;             ///< the plane before the point: 0 to planes - 2
+  double share;          ///< distance to `plane` over the sum of the distances to both planes: 0 to 1
+  LinePosition in_this;  ///< position among the lines of `plane`
+  LinePosition in_next;  ///< position among the lines of the next plane
 };
 
-/// Empty before the first plane, behind the last, and where it is outside the fan of either neighbour.
+/// Returns the position of a point; nothing before the first plane, behind the last, and outside the fan of either
+/// neighbour.
 std::optional<SweepPosition> sweep_position(const Sweep& sweep, const glm::dvec3& patient_mm);
 
-/// A grid of cubic voxels around all lines of a sweep. Its axes are those of the sweep's middle plane: i lateral, j
-/// into the depth, k along the elevation.
+/// Returns a grid of cubic voxels around all lines of a sweep. Its axes are those of the sweep's middle plane: i
+/// lateral, j into the depth, k along the elevation.
 /// @param voxel_mm  above 0
 Grid sweep_grid(const Sweep& sweep, double voxel_mm);
 
-/// A value at each sample of a sweep.
+/// Holds one value per sample of a sweep.
 struct SweepValues {
-  int samples = 0;             ///< a line; sample k at (k + 1/2) depth / samples from the face
-  int lines = 0;               ///< a plane
+  int samples = 0;             ///< samples per line; sample k is at (k + 1/2) depth / samples from the face
+  int lines = 0;               ///< lines per plane
   std::vector<double> values;  ///< samples fastest, then lines, then planes
 };
 

@@ -10,7 +10,7 @@ namespace insonate::view {
 namespace {
 
 constexpr double kSteepest_deg = 89;
-constexpr double kPictureMiddle_mm = 70;  // depth, of abdominal pictures
+constexpr double kPictureMiddle_mm = 70;  // depth of the middle of abdominal pictures
 constexpr double kNearest_mm = 50, kFarthest_mm = 5000;
 
 }  // namespace
@@ -20,7 +20,7 @@ OrbitCamera OrbitCamera::framing(const Grid& volume) {
   camera.centre = volume.centre();
   camera.yaw_deg = 20;
   camera.pitch_deg = -12;
-  // The sphere around the box, less a quarter: a body is rounder than its box.
+  // The sphere around the box, minus a quarter: a body is rounder than its box.
   const double radius = 0.75 * glm::length(glm::dvec3(volume.size) * volume.spacing) / 2;
   camera.distance_mm =
       std::clamp(radius / std::sin(glm::radians(camera.field_of_view_deg / 2)), kNearest_mm, kFarthest_mm);
@@ -28,7 +28,7 @@ OrbitCamera OrbitCamera::framing(const Grid& volume) {
 }
 
 OrbitCamera OrbitCamera::facing(const Grid& volume, const Pose& patient_from_probe) {
-  // Where a teacher stands at the bed: in front of the patient, nearer to the feet.
+  // The direction to a teacher at the bed: in front of the patient, nearer to the feet.
   const glm::dvec3 teacher = glm::normalize(glm::dvec3(0.15, -1, -0.45));
   const glm::dvec3 normal =
       patient_from_probe.rotation[2] * (glm::dot(patient_from_probe.rotation[2], teacher) < 0 ? -1.0 : 1.0);

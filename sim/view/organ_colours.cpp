@@ -7,16 +7,16 @@ namespace insonate::view {
 namespace {
 
 struct Known {
-  std::initializer_list<std::string_view> words;  // any of them as a whole word of the name
+  std::initializer_list<std::string_view> words;  // any of them, as a whole word of the name
   OrganColour look;
 };
 
 constexpr OrganColour kNotDrawn{};
 
-// Searched in this order, so that what lies within an organ comes before it ("liver_vein"). The colours are the muted
+// Searched in this order: a structure within an organ comes before the organ ("liver_vein"). The colours are the muted
 // ones of anatomical atlases: arteries red, veins blue, bile green, bone ivory.
 const Known kKnown[] = {
-    // Carry no form of their own, or would hide all the rest.
+    // These have no shape of their own, or would hide everything else.
     {{"skin", "fat", "muscle", "muscles", "subcutaneous", "body", "air", "iliopsoas", "gluteus", "autochthon", "fascia",
       "diaphragm", "abdominal_wall"},
      kNotDrawn},
@@ -47,7 +47,8 @@ const Known kKnown[] = {
      {{0.90f, 0.85f, 0.73f}, 0.9f}},
 };
 
-// Letters around it would make it another word; a phrase is found as it is written.
+// Returns whether `name` holds `word` without letters next to it, which would make it another word. A phrase must match
+// as written.
 bool has_word(std::string_view name, std::string_view word) {
   const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
   for (std::size_t at = name.find(word); at != std::string_view::npos; at = name.find(word, at + 1)) {

@@ -15,8 +15,8 @@ gl::Texture upload(GLenum format, const glm::ivec3& size, gl::Filter filter, GLe
   return texture;
 }
 
-// Patient mm -> [0, 1] over a box of `voxels` voxels of the grid's, whose first is the grid's first. Voxel centres lie
-// at (i + 1/2) / voxels.
+// Maps patient mm to [0, 1] over a box of `voxels` voxels of the grid, which begins at the grid's first voxel. Voxel
+// centres lie at (i + 1/2) / voxels.
 glm::dmat4 box_from_patient(const Grid& grid, const glm::dvec3& voxels) {
   const glm::dmat4 box_from_index = glm::translate(glm::scale(glm::dmat4(1.0), 1.0 / voxels), glm::dvec3(0.5));
   return box_from_index * glm::inverse(grid.matrix());

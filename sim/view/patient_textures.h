@@ -10,11 +10,11 @@
 
 namespace insonate::view {
 
-/// A patient as the views see it: made once per patient, in some tenths of a second, from the CT, its labels and the
-/// simulator's texture.
+/// Holds the textures of a patient that the views draw. It is made once per patient, in some tenths of a second, from
+/// the CT, its labels and the simulator's texture. Needs a current OpenGL context.
 class PatientTextures {
 public:
-  /// @param acoustic_volume  gl::Simulator::volume_texture() of the same CT; outlives this
+  /// @param acoustic_volume  gl::Simulator::volume_texture() of the same CT; must outlive this object
   /// @param labels           on the CT's grid, or empty
   PatientTextures(const gl::Texture& acoustic_volume, const Volume<std::int16_t>& ct,
                   const Volume<std::uint8_t>& labels, const OrganColours& colours);
@@ -22,26 +22,26 @@ public:
   const Grid& grid() const { return grid_; }
   const OrganColours& colours() const { return colours_; }
 
-  /// (HU, ...) / 32767 at the CT's own resolution, air outside.
+  /// (HU, ...) / 32767 at the CT's own resolution; air outside.
   const gl::Texture& acoustic_volume() const { return *acoustic_volume_; }
-  /// R8UI, the CT's size; a single 0 when there are no labels.
+  /// R8UI, the CT's size; a single 0 if there are no labels.
   const gl::Texture& labels() const { return labels_; }
-  /// Patient mm -> coordinates of those two.
+  /// Maps patient mm to texture coordinates of acoustic_volume() and labels().
   glm::dmat4 texture_from_patient() const;
 
-  /// What is drawn in space: the arrays of TissueClasses as RGBA8, RG8 and R8UI.
+  /// The arrays of TissueClasses, for drawing in 3D: RGBA8, RG8 and R8UI.
   const gl::Texture& tissue() const { return tissue_; }
   const gl::Texture& body() const { return body_; }
   const gl::Texture& distance() const { return distance_; }
-  /// Patient mm -> coordinates of tissue() and body().
+  /// Maps patient mm to texture coordinates of tissue() and body().
   glm::dmat4 tissue_from_patient() const;
-  /// The side of their voxels, the smallest of the three, mm.
+  /// Returns the smallest side of the voxels of tissue() and body(), mm.
   double tissue_voxel_mm() const;
 
 private:
   Grid grid_;
   OrganColours colours_;
-  glm::ivec3 step_{1};  // voxels of the CT in one of tissue()
+  glm::ivec3 step_{1};  // CT voxels per voxel of tissue(), along each axis
   const gl::Texture* acoustic_volume_ = nullptr;
   gl::Texture labels_, tissue_, body_, distance_;
 };

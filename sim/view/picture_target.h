@@ -9,12 +9,12 @@ struct PictureTarget {
   gl::Texture texture;
   gl::Framebuffer framebuffer;
 
-  /// Makes it anew when it has another size.
+  /// Makes new textures if the size differs.
   void resize(int width, int height);
 };
 
-/// While it lives, drawing goes into rows [first, end) of a target without blending or tests; then the framebuffer
-/// binding, viewport and switches are as they were, so that a view can be drawn amid another program's frame.
+/// Directs drawing, while it exists, into rows [first, end) of a target, without blending or tests. The destructor
+/// restores the framebuffer binding, viewport and switches, so that a view can be drawn within another program's frame.
 class DrawingInto {
 public:
   DrawingInto(const PictureTarget& target, int first_row, int end_row);

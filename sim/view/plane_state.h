@@ -6,7 +6,7 @@
 
 namespace insonate::view {
 
-/// What tells two planes apart without looking at the pixels.
+/// Compares two planes without reading their pixels.
 struct PlaneState {
   const gl::Texture* image = nullptr;
   long image_version = 0;

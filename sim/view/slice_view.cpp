@@ -9,9 +9,9 @@
 namespace insonate::view {
 namespace {
 
-// For an outlined label whose organ has no colour: amber, which no tissue has.
+// The outline of a label whose organ has no colour: amber, which no tissue has.
 constexpr glm::vec3 kPlainOutline(0.95f, 0.70f, 0.20f);
-// Muted organ colours, brightened: a thin line on grey needs more of it.
+// Brightens the muted organ colours, because a thin line on grey needs more brightness.
 constexpr float kOutlineBrightness = 1.35f;
 
 glm::dmat4 plane_from_pixel(const ImageGeometry& geometry) {

@@ -13,36 +13,40 @@
 
 namespace insonate::view {
 
+/// How the slice view is drawn.
 struct SliceStyle {
-  double window_hu = 400;              ///< width of the grey scale, > 0
-  double level_hu = 40;                ///< its middle
-  double ultrasound = 0;               ///< 0 the CT alone, 1 the ultrasound alone inside the fan, between: their mix
-  double outside_fan = 0.4;            ///< brightness of the CT outside the fan, 0 to 1
+  double window_hu = 400;    ///< width of the grey scale, > 0
+  double level_hu = 40;      ///< middle of the grey scale
+  double ultrasound = 0;     ///< inside the fan: 0 is the CT alone, 1 the ultrasound alone, between: their mix
+  double outside_fan = 0.4;  ///< brightness of the CT outside the fan, 0 to 1
   std::vector<std::uint8_t> outlined;  ///< label values whose edges are drawn in their organs' colours
   bool operator==(const SliceStyle&) const = default;
 };
 
-/// The CT in the plane of the ultrasound picture, on exactly that picture's pixels, alone or mixed with it.
+/// Draws the CT in the plane of the ultrasound picture, on exactly that picture's pixels, alone or mixed with it.
 class SliceView {
 public:
+  /// Throws std::runtime_error if the shader does not compile. Needs a current OpenGL context.
   explicit SliceView(const gl::ShaderSources& sources = {});
   ~SliceView();
   SliceView(SliceView&&) noexcept;
   SliceView& operator=(SliceView&&) noexcept;
 
-  /// RGBA8, alpha 255, row 0 is the top, the size of plane.geometry. Drawn anew only when something changed; valid
-  /// until the next call. Leaves the framebuffer binding, viewport and switches as they were.
-  /// @param patient  compared by address: call forget() after changing what lies there
-  /// @param plane    with an image
+  /// Returns the picture: RGBA8, alpha 255, row 0 is the top, the size of plane.geometry. It is redrawn only if
+  /// something changed, and valid until the next call. Leaves the framebuffer binding, viewport and switches as they
+  /// were.
+  /// @param patient  compared by address: call forget() after changing the object there
+  /// @param plane    must have an image
   const gl::Texture& render(const PatientTextures& patient, const UltrasoundPlane& plane, const SliceStyle& style = {});
 
-  /// The next render() draws.
+  /// Makes the next render() redraw.
   void forget();
 
-  /// How often it has drawn.
+  /// Returns how often it has drawn.
   long renders() const;
 
-  /// Builds the shader from other sources; when it does not build it goes on as it was, and that is told of.
+  /// Rebuilds the shader from `sources`. If it fails to compile, the view keeps its current one and its log is
+  /// returned.
   std::optional<std::string> reload(const gl::ShaderSources& sources);
 
 private:

@@ -12,10 +12,10 @@ namespace {
 
 constexpr double kVoxel_mm = 2;
 
-// Compact bone is above 300 HU, spongy bone from 100 to 300; enhanced vessels and kidneys stay below 200 in the portal
-// phase in which abdomens are scanned.
+// Compact bone is above 300 HU, spongy bone from 100 to 300 HU. Enhanced vessels and kidneys stay below 200 HU in the
+// portal phase, in which abdomens are scanned.
 constexpr float kBoneFromHu = 180, kBoneFullHu = 320;
-// From air to fat: the middle, where the skin is drawn, is a voxel half full.
+// From air to fat. The skin is drawn at the middle, where a voxel is half full.
 constexpr float kBodyFromHu = -900, kBodyFullHu = -150;
 
 constexpr OrganColour kBone{{0.90f, 0.85f, 0.73f}, 0.9f};
@@ -40,7 +40,7 @@ struct Box {
     return axis == 0 ? 1 : axis == 1 ? std::size_t(size.x) : std::size_t(size.x) * std::size_t(size.y);
   }
 
-  /// `visit(x, y, z, offset)` for all, planes in parallel.
+  /// Calls `visit(x, y, z, offset)` for all voxels, planes in parallel.
   template <typename Visit>
   void for_each(const Visit& visit) const {
     tbb::parallel_for(0, size.z, [&](int z) {
@@ -50,7 +50,7 @@ struct Box {
   }
 };
 
-/// Each voxel the mean of what the CT has in it.
+/// Sets each voxel to the mean of the CT voxels in it.
 void gather(const Volume<std::int16_t>& ct, const Volume<std::uint8_t>& labels, const OrganColours& colours,
             TissueClasses& classes) {
   const Box box{classes.size};
@@ -82,7 +82,8 @@ void gather(const Volume<std::int16_t>& ct, const Volume<std::uint8_t>& labels, 
 
 constexpr std::uint8_t kHalf = 128;
 
-/// All voxels reached from `seeds` through neighbours for which `passes` holds; each gets `mark`.
+/// Writes `mark` to all voxels reached from `seeds` through neighbours for which `passes` holds, and returns their
+/// number.
 template <typename Passes>
 std::size_t flood(const Box& box, const std::vector<std::size_t>& seeds, std::vector<std::uint8_t>& marks,
                   std::uint8_t mark, const Passes& passes) {
@@ -109,14 +110,14 @@ std::size_t flood(const Box& box, const std::vector<std::size_t>& seeds, std::ve
   return reached;
 }
 
-/// Makes the body solid: gas within it is body, and takes away what is not joined to it.
+/// Makes the body solid: gas within it counts as body, and objects that are not joined to it are removed.
 void keep_body(const glm::dmat3& direction, TissueClasses& classes) {
   const Box box{classes.size};
   auto& body = classes.body;
   const auto is_air = [&](std::size_t at) { return body[at][1] < kHalf; };
   const auto is_body = [&](std::size_t at) { return body[at][1] >= kHalf; };
 
-  // From the sides only: a lung or bowel that the scan's top or bottom cuts open stays within.
+  // Flood from the sides only: a lung or bowel that the scan's top or bottom cuts open stays part of the body.
   std::vector<std::size_t> rim;
   for (int axis = 0; axis < 3; ++axis) {
     if (std::abs(direction[axis].z) > 0.7) continue;
@@ -146,7 +147,8 @@ void keep_body(const glm::dmat3& direction, TissueClasses& classes) {
   std::vector<std::uint8_t> kept(box.count(), 0);
   flood(box, {seed}, kept, 1, [&](std::size_t at) { return marks[at] == kPart; });
 
-  // Partial volume stays on both sides of the surface, so that it lies where it is, not on a voxel's face.
+  // Partial volume stays on both sides of the surface. The surface thus keeps its true position, not that of a voxel's
+  // face.
   std::vector<std::uint8_t> solid(box.count());
   box.for_each([&](int x, int y, int z, std::size_t at) {
     bool same = true;
@@ -182,7 +184,7 @@ void smooth(const Box& box, std::vector<std::array<std::uint8_t, N>>& values) {
   }
 }
 
-/// Marks the blocks in which, or within a voxel of which, there is tissue or the body's surface.
+/// Returns 1 for each block that holds, or has within one voxel, tissue or the body's surface; else 0.
 std::vector<std::uint8_t> busy_blocks(const TissueClasses& classes) {
   const Box box{classes.size}, blocks{classes.blocks};
   std::vector<std::uint8_t> busy(blocks.count(), 0);
@@ -201,8 +203,8 @@ std::vector<std::uint8_t> busy_blocks(const TissueClasses& classes) {
   return busy;
 }
 
-/// Chebyshev distances by passes along the axes: the distance to the nearest busy block within d steps along x, then y,
-/// then z is the largest of the three, because the steps are independent.
+/// Returns Chebyshev distances by passes along the axes. The distance is the largest of the steps along x, y and z,
+/// which are independent.
 std::vector<std::uint8_t> distances(const glm::ivec3& size, const std::vector<std::uint8_t>& busy) {
   constexpr std::uint8_t kFar = 255;
   const Box blocks{size};

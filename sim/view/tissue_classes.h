@@ -9,22 +9,23 @@
 
 namespace insonate::view {
 
-/// What a volume view draws of a patient, worked out once: ray casting then costs two fetches a sample, whatever the
-/// number of labels, and organs get smooth surfaces, which labels as such do not have.
+/// The data of a patient for volume rendering, computed once. Ray casting then costs two fetches per sample, for any
+/// number of labels. Organs get smooth surfaces, which labels alone do not have.
 struct TissueClasses {
   glm::ivec3 size{0};  ///< voxels of about 2 mm, x fastest
-  glm::ivec3 step{1};  ///< voxels of the CT in each of them
+  glm::ivec3 step{1};  ///< CT voxels per voxel, along each axis
 
-  std::vector<std::array<std::uint8_t, 4>> tissue;  ///< colour times coverage, and the coverage of organs and bone
-  std::vector<std::array<std::uint8_t, 2>> body;    ///< the opacity of 1 mm times coverage; share of the patient's body
+  std::vector<std::array<std::uint8_t, 4>> tissue;  ///< colour times coverage, and the coverage by organs and bone
+  std::vector<std::array<std::uint8_t, 2>> body;    ///< opacity of 1 mm times coverage, and share of the body
 
-  static constexpr int kBlock = 2;     ///< voxels a side
+  static constexpr int kBlock = 2;     ///< voxels per side of a block
   glm::ivec3 blocks{0};                ///< blocks along each axis
-  std::vector<std::uint8_t> distance;  ///< per block: blocks (Chebyshev) to the nearest one where something changes
+  std::vector<std::uint8_t> distance;  ///< per block: blocks (Chebyshev) to the nearest change, at most 255
 };
 
-/// Organs as their labels say; bone also by density, so that a CT without labels shows its skeleton. The body is the
-/// largest thing that the air around it does not reach: neither the scanner's table nor gas in the bowel has a skin.
+/// Returns the classes of a CT. Labels define organs. Density also defines bone, so that a CT without labels shows its
+/// skeleton. The body is the largest object that is not connected to the surrounding air; neither the scanner's table
+/// nor gas in the bowel has a skin.
 TissueClasses classify_tissue(const Volume<std::int16_t>& ct, const Volume<std::uint8_t>& labels,
                               const OrganColours& colours);
 

@@ -6,13 +6,13 @@
 
 namespace insonate::view {
 
-/// An ultrasound picture and where it lies in the patient.
+/// An ultrasound picture and its pose in the patient.
 struct UltrasoundPlane {
   const gl::Texture* image =
-      nullptr;             ///< null for none; as gl::Simulator::image() gives it; alpha is 0 outside the fan
-  long image_version = 0;  ///< another number whenever the pixels changed: gl::Simulator::image_version()
-  ImageGeometry geometry;  ///< how its pixels lie in the probe's plane
-  Probe probe;             ///< whose shape is drawn
+      nullptr;             ///< as gl::Simulator::image() returns it, alpha is 0 outside the fan; null for none
+  long image_version = 0;  ///< changes whenever the pixels change: gl::Simulator::image_version()
+  ImageGeometry geometry;  ///< places its pixels in the probe's plane
+  Probe probe;             ///< the probe to draw
   Pose patient_from_probe;
 };
 

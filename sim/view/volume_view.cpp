@@ -17,8 +17,8 @@ namespace {
 
 constexpr int kCoarsest = 4;
 
-// A sample every half voxel, sparser where pixels are: four samples lie in an edge that smoothing has spread over two
-// voxels, so that steps do not show.
+// One sample every half voxel, fewer where pixels are coarser. Smoothing spreads an edge over two voxels, so that four
+// samples lie in it and no steps show.
 constexpr double kStepInVoxels = 0.5;
 double step_mm(const PatientTextures& patient, int scale) {
   return kStepInVoxels * patient.tissue_voxel_mm() * (1 + 0.35 * (scale - 1));
@@ -45,7 +45,7 @@ VolumeViewParameters parameters_for(const PatientTextures& patient, const OrbitC
   p.down = axis(1, slope);
   p.into = axis(2, 1);
   p.picture = glm::vec4(width, height, 2 * slope / height, 0);
-  // Texels reach half a pixel around their centres.
+  // Texels extend half a pixel around their centres.
   p.image_geometry = glm::vec4(glm::vec2(g.top_left_mm - g.mm_per_pixel / 2), g.mm_per_pixel, 0);
   p.probe_shape = curved ? glm::vec4(plane.probe.radius_mm, glm::radians(plane.probe.field_of_view_deg / 2), 0, 0)
                          : glm::vec4(0, plane.probe.width_mm / 2, 0, 0);
@@ -69,8 +69,8 @@ struct Inputs {
   bool operator==(const Inputs&) const = default;
 };
 
-/// How long drawing takes, learnt from what whole pictures took: parts of one differ, the patient lies in the middle.
-/// The device is asked for a time only when the next part is due, when it has long been done, so that nobody waits.
+/// Measures how long drawing takes, from whole pictures: parts differ, because the patient lies in the middle. The
+/// device time of a part is read only when the next part begins. By then it has long been ready, so that nothing waits.
 class Pace {
 public:
   void begin(bool first_part) {
@@ -83,7 +83,7 @@ public:
     pending_pixels_ = pixels;
     pending_is_last_ = last_part;
   }
-  /// Of one pixel, ms; nothing before the first whole picture.
+  /// Returns the time per pixel, ms; nothing before the first whole picture.
   std::optional<double> pixel_ms() {
     collect();
     return pixel_ms_;
@@ -118,9 +118,9 @@ struct VolumeView::State {
   Pace pace;
 
   std::optional<Inputs> drawn;
-  int scale = 1;         // of the picture shown
-  int moving_scale = 1;  // of the last picture drawn while things moved
-  int full_rows = 0;     // of the full picture, drawn so far
+  int scale = 1;         // scale of the picture shown
+  int moving_scale = 1;  // scale of the last picture drawn while inputs changed
+  int full_rows = 0;     // rows of the full picture drawn so far
   long renders = 0;
 
   int choose_scale(double full_pixels, double budget_ms);
@@ -128,8 +128,8 @@ struct VolumeView::State {
             const UltrasoundPlane& plane, const VolumeViewParameters& values);
 };
 
-// The finest that fits the budget. A finer one than the last is taken only when it fits with room to spare, so that the
-// picture does not flicker between two sharpnesses.
+// Returns the finest scale that fits the budget. A finer scale than the last is chosen only if it fits with room to
+// spare, so that the picture does not flicker between two sharpnesses.
 int VolumeView::State::choose_scale(double full_pixels, double budget_ms) {
   if (std::isinf(budget_ms)) return 1;
   const std::optional<double> pixel_ms = pace.pixel_ms();

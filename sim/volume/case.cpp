@@ -44,7 +44,7 @@ std::vector<std::string> names_of(const std::vector<Named>& all) {
   return names;
 }
 
-/// A name that other files and other entries refer to.
+/// Reads a name that other files and other entries refer to.
 std::string read_identifier(const TomlTable& entry, std::string_view key) {
   const std::string name = entry.text(key);
   const bool plain = std::all_of(name.begin(), name.end(),
@@ -54,7 +54,7 @@ std::string read_identifier(const TomlTable& entry, std::string_view key) {
   return name;
 }
 
-/// A file beside case.toml: a case may be moved as a whole, and names nothing outside its folder.
+/// Reads the name of a file beside case.toml. A case can be moved as a whole, so it names nothing outside its folder.
 fs::path read_file_name(const TomlTable& root, std::string_view key, const fs::path& folder) {
   const fs::path name = root.text(key);
   if (name != name.filename() || name == "." || name == "..")
@@ -107,7 +107,7 @@ std::vector<Entry> read_entries(const TomlTable& root, std::string_view key, Rea
   return all;
 }
 
-/// What entries say of each other.
+/// Refuses entries that contradict each other or refer to missing ones.
 void check_references(const TomlTable& root, const Case& subject) {
   std::set<int> values;
   for (const TomlTable& entry : root.tables("label"))
@@ -123,7 +123,7 @@ void check_references(const TomlTable& root, const Case& subject) {
   }
 }
 
-/// What the entries say of the volumes.
+/// Refuses entries that contradict the volumes.
 void check_volumes(const TomlTable& root, const Case& subject) {
   if (subject.labels.empty()) {
     if (!subject.label_table.empty())
@@ -133,7 +133,7 @@ void check_volumes(const TomlTable& root, const Case& subject) {
   const Grid &ct = subject.ct.grid, &labels = subject.labels.grid;
   if (labels.size != ct.size)
     root.fail("labels", "the labels have other sizes than the CT", "resample them onto the CT's grid");
-  // Corner by corner, so that a small angle counts by what it moves.
+  // Compare the corners: a small angle then counts by the distance it moves them.
   for (int corner = 0; corner < 8; ++corner) {
     const glm::dvec3 index(corner & 1 ? ct.size.x - 1 : 0, corner & 2 ? ct.size.y - 1 : 0,
                            corner & 4 ? ct.size.z - 1 : 0);
@@ -178,7 +178,7 @@ std::string quoted_list(const std::vector<std::string>& texts) {
 }
 
 std::string exactly(double value) {
-  if (value == 0 && std::signbit(value)) return "-0.0";  // "-0" would be a whole number, which has no such sign
+  if (value == 0 && std::signbit(value)) return "-0.0";  // "-0" would be an integer in TOML, which has no negative zero
   char text[40];
   std::snprintf(text, sizeof text, "%.17g", value);
   return text;
@@ -216,7 +216,7 @@ std::string case_table(const Case& subject) {
   return out;
 }
 
-/// Everything of case.toml but the volumes it names.
+/// Reads all of case.toml except the volumes it names.
 Case read_table(const TomlTable& root) {
   if (const int format = root.whole_number("format", 1, 1 << 30); format != kFormat)
     root.fail(
@@ -233,12 +233,12 @@ Case read_table(const TomlTable& root) {
   return subject;
 }
 
-/// The name without a trailing slash: beside it goes the temporary folder.
+/// Returns the name without a trailing slash, so that the temporary folder goes beside the folder.
 fs::path without_slash(const fs::path& folder) {
   return folder.has_filename() ? folder : folder.parent_path();
 }
 
-/// A folder beside `target` that is gone again unless it was renamed.
+/// A temporary folder beside `target`. The destructor removes it unless it was renamed.
 struct TemporaryFolder {
   fs::path path;
   explicit TemporaryFolder(const fs::path& target) : path(temporary_beside(target)) {
@@ -258,9 +258,9 @@ struct TemporaryFolder {
   }
 };
 
-/// Renames a folder onto another, whose content is `from` afterwards where the file system can swap two names. There
-/// `to` names the old content or the new one at any moment. Elsewhere the old folder makes way first, and comes back
-/// when that fails.
+/// Replaces folder `to` by folder `from`. Where the file system can swap two names, `from` holds the old content
+/// afterwards, and `to` names the old content or the new one at any moment. Elsewhere the old folder is renamed first,
+/// and restored if the replacement fails.
 void replace_folder(const fs::path& from, const fs::path& to) {
   std::error_code error, ignored;
   if (!fs::exists(to, ignored)) {
@@ -303,7 +303,7 @@ Case read_case(const fs::path& folder) {
   const toml::table parsed = parse_toml(file.string(), read_file(file, kLargestTable));
   const TomlTable root(file.string(), "", parsed);
   Case subject = read_table(root);
-  // The volumes last: a slip in the table is told without the wait.
+  // Read the volumes last: a mistake in the table is then reported without waiting for them.
   subject.ct = read_case_ct(read_file_name(root, "ct", folder));
   if (root.has("labels")) subject.labels = read_labels(read_file_name(root, "labels", folder));
   check_volumes(root, subject);
@@ -329,7 +329,7 @@ void check_case_can_be_written(const fs::path& folder) {
   if (fs::exists(target, error) && !fs::exists(target / kTableFile, error) &&
       !(fs::is_directory(target, error) && fs::is_empty(target, error)))
     throw InputError(target.string(), "", "something that is no case is in the way", "name another folder");
-  // The lowest of the folders above that is there has to take a folder. Nothing but trying tells whether it will.
+  // The lowest existing parent folder must accept a new folder. Only a trial shows whether it does.
   fs::path above = fs::absolute(target, error).parent_path();
   while (above.has_relative_path() && !fs::exists(above, error)) above = above.parent_path();
   const fs::path trial = temporary_beside(above / name);
@@ -345,7 +345,7 @@ void write_case(const fs::path& folder, const Case& subject) {
   check_case_can_be_written(folder);
   const fs::path target = without_slash(folder);
 
-  // What could not be read again is not written: the table goes through the reader's own checks.
+  // Refuse to write what could not be read again: the table goes through the reader's own checks.
   const std::string table = case_table(subject);
   const toml::table parsed = parse_toml((target / kTableFile).string(), table);
   const TomlTable root((target / kTableFile).string(), "", parsed);

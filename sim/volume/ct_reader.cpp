@@ -17,9 +17,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kLeastHu = -1024, kMostHu = 32767;
-// Fat is above -200 HU, dense bone and contrast agent are below 3071, where the scanners' usual 12 bits end.
+// Fat is above -200 HU. Dense bone and contrast agent are below 3071 HU, where the scanners' usual 12 bits end.
 constexpr std::int16_t kLeastBodyHu = -300, kMostBodyHu = 3071;
-// Metal may exceed what is kept; a tenth of a CT cannot be metal.
+// Metal may exceed int16's range, but a tenth of a CT cannot be metal.
 constexpr double kMostTooDense = 0.1;
 
 const char* format_name(ImageFormat format) {
@@ -36,7 +36,7 @@ const char* format_name(ImageFormat format) {
   return "DICOM series";
 }
 
-/// Calls `use(span of the voxels' own type)`.
+/// Calls `use` with a pointer of the voxels' own type.
 template <typename Use>
 void with_typed(VoxelType type, const std::byte* bytes, Use use) {
   switch (type) {
@@ -79,7 +79,7 @@ const fs::path& existing_file(const fs::path& file) {
   return file;
 }
 
-/// Adds an image's voxels to a CT whose grid is known, rounded and brought into range.
+/// Appends an image's voxels, rounded and clamped, to a CT whose grid is known.
 void append_hounsfield(const fs::path& file, ImageFile& image, Volume<std::int16_t>& ct, CtSource& source) {
   std::size_t count = 1;
   for (const ImageFile::Axis& axis : image.axes()) count *= axis.size;
@@ -104,7 +104,7 @@ Volume<std::int16_t> read_dicom_folder(const fs::path& folder, CtSource& source)
   DicomSeries series = find_dicom_series(folder);
   Volume<std::int16_t> ct{series.grid, {}};
   source = {format_name(ImageFormat::dicom), "", std::move(series.other_series), 0, 0};
-  // Room for all is taken slice by slice: a header may claim more than its file gives.
+  // Allocate slice by slice: a header may claim more than its file holds.
   for (const fs::path& slice : series.slices) {
     check_dicom_slice(slice);
     ImageFile image(slice, ImageFormat::dicom);
@@ -120,7 +120,7 @@ Volume<std::int16_t> read_dicom_folder(const fs::path& folder, CtSource& source)
   return ct;
 }
 
-/// Refuses values that show nothing a CT can show, as after a wrong rescale.
+/// Refuses values that cannot come from a CT of a body, as after a wrong rescale.
 void check_values(const std::string& file, const Volume<std::int16_t>& ct, const CtSource& source) {
   const auto refuse = [&](const std::string& problem) {
     throw InputError(file, "voxels", problem,
@@ -139,7 +139,7 @@ void check_values(const std::string& file, const Volume<std::int16_t>& ct, const
 
 const char* const kExportAgain = "export the series again, or take the file out of the folder";
 
-/// A CT and its source as bytes, for the way from one process to another of the same program.
+/// Serializes a CT and its source, to pass them between two processes of the same program.
 std::string packed(const Volume<std::int16_t>& ct, const CtSource& source) {
   std::string bytes(reinterpret_cast<const char*>(&ct.grid), sizeof ct.grid);
   const auto add_number = [&](std::uint64_t number) {
@@ -183,7 +183,7 @@ Volume<std::int16_t> unpacked(const std::string& bytes, CtSource& source) {
   return ct;
 }
 
-/// Reads a DICOM folder in a process of its own, and if that dies of it, finds the file to blame.
+/// Reads a DICOM folder in a subprocess. If the subprocess dies, finds the file that caused it.
 Volume<std::int16_t> read_dicom_folder_in_subprocess(const fs::path& folder, CtSource& source) {
   const std::vector<std::string> files = files_below(folder);
   std::error_code error;
@@ -213,7 +213,7 @@ Volume<std::int16_t> read_dicom_folder_in_subprocess(const fs::path& folder, CtS
       problem = "the DICOM file is damaged";
       break;
     } catch (const InputError&) {
-      // No image, or one that says what is wrong with it: not what ended the process.
+      // This file is not an image, or its damage is detected: it did not end the process.
     }
   throw InputError(blamed, "", problem, kExportAgain);
 }
@@ -243,7 +243,8 @@ Volume<std::int16_t> read_ct(const fs::path& file_or_folder, CtSource* source) {
     ct = read_dicom_folder_in_subprocess(file_or_folder, found);
     check_body_size(name, ct.grid.size, ct.grid.spacing);
   } else {
-    // Before ITK sees the file: it takes the small numbers of a spacing in another unit for a singular orientation.
+    // Check before ITK opens the file: ITK takes the small numbers of a spacing in another unit for a singular
+    // orientation.
     const FileHeader header = ct_header(file_or_folder);
     check_body_size(name, header.size, header.spacing);
     ct = read_ct_file(file_or_folder, header, found);

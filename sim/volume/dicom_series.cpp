@@ -28,13 +28,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Positions are decimal text, rounded by some scanners to 0.1 mm; a missing slice doubles a gap.
+// Positions are decimal text, rounded by some scanners to 0.1 mm. A missing slice doubles a gap.
 constexpr double kUnevenShare = 0.1;
-// How far the stack may lean, and a slice lie beside the others: within it, no voxel is off by more than a thin slice.
+// How far the stack may lean, and a slice may be shifted sideways. Within it, no voxel is off by more than a thin
+// slice.
 constexpr double kMostLeanMm = 1;
-// Directions are decimal text of 16 characters at most; anonymisers and converters keep 4 decimals or more.
+// Directions are decimal text of at most 16 characters; anonymisers and converters keep 4 decimals or more.
 constexpr double kUnitTolerance = 1e-3;
-// Images whose normals differ by more than 60 degrees are not of one stack: a localizer is perpendicular to it.
+// Images whose normals differ by more than 60 degrees are not in one stack: a localizer is perpendicular to it.
 constexpr double kSameWay = 0.5;
 
 const gdcm::Tag kMediaStorage(0x0002, 0x0002), kSopClass(0x0008, 0x0016), kSopInstance(0x0008, 0x0018),
@@ -50,11 +51,11 @@ struct Slice {
   glm::dvec3 position{0.0};
 };
 
-/// What belongs together: images of one series that agree in size, orientation and pixel spacing.
+/// Images of one series that agree in size, orientation and pixel spacing.
 struct Stack {
   std::string series, sop_class, number, description, modality, orientation, pixel_spacing;
   int columns = 0, rows = 0, frames = 1;
-  bool placed = true;  ///< its slices give their positions
+  bool placed = true;  ///< its slices state their positions
   std::vector<Slice> slices;
 
   std::string size() const { return std::to_string(columns) + " x " + std::to_string(rows); }
@@ -70,12 +71,12 @@ struct Stack {
     return kind == gdcm::MediaStorage::EnhancedCTImageStorage ||
            kind == gdcm::MediaStorage::LegacyConvertedEnhancedCTImageStorage;
   }
-  // Series without a modality come from anonymisers, OT from converters.
+  // Series without a modality come from anonymisers, modality OT from converters.
   bool may_be_ct() const { return modality == "CT" || modality.empty() || modality == "OT"; }
   bool is_ct() const { return may_be_ct() && frames == 1 && placed; }
 };
 
-/// What a folder holds: stacks, the largest first, and files that are not DICOM.
+/// The content of a folder: stacks, the largest first, and files that are not DICOM.
 struct Contents {
   std::vector<Stack> stacks;
   std::vector<fs::path> others;
@@ -89,7 +90,7 @@ std::string printable(std::string text) {
   return text;
 }
 
-/// DICOM's decimal strings, separated by backslashes; empty when there are not `count` finite ones.
+/// Parses DICOM's decimal strings, separated by backslashes. Returns nothing if there are not `count` finite ones.
 std::vector<double> decimals(const std::string& text, std::size_t count) {
   std::vector<double> values;
   const char* at = text.c_str();
@@ -105,7 +106,7 @@ std::vector<double> decimals(const std::string& text, std::size_t count) {
   return values.size() == count ? values : std::vector<double>{};
 }
 
-/// The same numbers as one text however they are written, and other text as it is.
+/// Returns one text for the same numbers, however they are written, and any other text unchanged.
 std::string same_text(const std::string& text, std::size_t count) {
   std::string all;
   for (const double value : decimals(text, count)) {
@@ -121,7 +122,7 @@ struct Axes {
   glm::dvec3 normal() const { return glm::cross(row, column); }
 };
 
-/// The two directions of an image; none when they are not perpendicular or not of length 1.
+/// Returns the two directions of an image; nothing if they are not perpendicular or not of length 1.
 std::optional<Axes> axes_of(const std::string& orientation) {
   const auto o = decimals(orientation, 6);
   if (o.empty()) return std::nullopt;
@@ -131,7 +132,7 @@ std::optional<Axes> axes_of(const std::string& orientation) {
   return worst <= kUnitTolerance ? std::optional(axes) : std::nullopt;
 }
 
-/// GDCM's scanner, silent, told which tags are wanted.
+/// Returns a silent GDCM scanner for the tags that this file uses.
 gdcm::SmartPointer<gdcm::Scanner> make_scanner() {
   gdcm::Trace::DebugOff();
   gdcm::Trace::WarningOff();
@@ -145,8 +146,8 @@ gdcm::SmartPointer<gdcm::Scanner> make_scanner() {
 
 const char* const kCopyAgain = "copy the series again, or take the file out of the folder";
 
-/// Puts images together. Reports and directories, which are DICOM without an image, are passed over; damaged files are
-/// not.
+/// Sorts the images of a folder into stacks. Skips reports and directories, which are DICOM without an image. Refuses
+/// damaged files.
 Contents contents_of(const fs::path& folder) {
   const std::vector<std::string> files = files_below(folder);
   const auto scanner = make_scanner();
@@ -197,20 +198,20 @@ Contents contents_of(const fs::path& folder) {
     stack.slices.push_back({file, value(kSopInstance), p.empty() ? glm::dvec3(0.0) : glm::dvec3(p[0], p[1], p[2])});
   }
   for (auto& [key, stack] : stacks) contents.stacks.push_back(std::move(stack));
-  // The most slices first; of equals the first by identifier, so that the choice is always the same.
+  // The most slices first; ties by identifier, so that the choice is always the same.
   std::stable_sort(contents.stacks.begin(), contents.stacks.end(),
                    [](const Stack& a, const Stack& b) { return a.slices.size() > b.slices.size(); });
   return contents;
 }
 
-/// A file's name without what numbers the files of a series, decimal or hexadecimal.
+/// Returns a file's name without decimal or hexadecimal digits, which number the files of a series.
 std::string unnumbered(const fs::path& file) {
   std::string name = file.filename().string();
   std::erase_if(name, [](unsigned char c) { return std::isxdigit(c); });
   return name;
 }
 
-/// Refuses a file that is not DICOM but lies among the stack's files under a name like theirs: an image that was lost.
+/// Refuses a file that is not DICOM but is named like the stack's files and lies among them: it is a lost image.
 void check_for_lost_files(const Stack& stack, const std::vector<fs::path>& others) {
   std::set<std::pair<fs::path, std::string>> names;
   for (const Slice& slice : stack.slices) {
@@ -219,7 +220,7 @@ void check_for_lost_files(const Stack& stack, const std::vector<fs::path>& other
   }
   for (const fs::path& file : others) {
     const fs::path folder = file.parent_path();
-    // Names with a leading dot are notes of an operating system, as of macOS on foreign disks.
+    // Names with a leading dot are metadata of an operating system, such as macOS writes on foreign disks.
     if (file.filename().string().front() == '.') continue;
     if (!names.count({folder, unnumbered(file)}) && !names.count({folder, file.extension().string()})) continue;
     std::error_code error;
@@ -246,7 +247,7 @@ double middle_of(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-/// Refuses an image of the stack's series that is not of the stack but belongs where the stack has no slice.
+/// Refuses an image of the stack's series that is not in the stack but fills a gap in it.
 void check_for_strays(const Stack& stack, const Axes& axes, double gap, const std::vector<Stack>& all) {
   const auto height = [&](const Slice& slice) { return glm::dot(slice.position, axes.normal()); };
   const auto fills_a_gap = [&](const Slice& stray) {
@@ -278,7 +279,7 @@ void check_for_strays(const Stack& stack, const Axes& axes, double gap, const st
   }
 }
 
-/// Sorts the stack's slices along its normal and finds the grid they fill.
+/// Sorts the stack's slices along its normal and returns the grid they fill.
 Grid ordered(const std::string& folder, Stack& stack, const std::vector<Stack>& all) {
   const auto refuse = [&](const std::string& problem, const std::string& remedy) {
     throw InputError(folder, stack.name(), problem, remedy);
@@ -293,13 +294,13 @@ Grid ordered(const std::string& folder, Stack& stack, const std::vector<Stack>& 
   if (spacing.empty()) refuse("the slices do not give their pixel spacing", "export the series again");
   const glm::dvec3 normal = axes->normal();
   grid.direction = glm::dmat3(axes->row, axes->column, normal);
-  grid.spacing = {spacing[1], spacing[0], 1};  // DICOM: between rows first, then between columns
+  grid.spacing = {spacing[1], spacing[0], 1};  // DICOM gives the distance between rows first, then between columns
 
   auto& slices = stack.slices;
   std::stable_sort(slices.begin(), slices.end(), [&](const Slice& a, const Slice& b) {
     return glm::dot(a.position, normal) < glm::dot(b.position, normal);
   });
-  // The same image twice, as when a folder was copied into itself, is one image.
+  // Keep one of identical images, as in a folder that was copied into itself.
   slices.erase(
       std::unique(slices.begin(), slices.end(),
                   [](const Slice& a, const Slice& b) { return !a.instance.empty() && a.instance == b.instance; }),
@@ -340,7 +341,7 @@ Grid ordered(const std::string& folder, Stack& stack, const std::vector<Stack>& 
   return checked_grid(folder, grid);
 }
 
-/// An element's text within the first items of nested sequences; empty when it is not there.
+/// Returns an element's text within the first items of nested sequences; empty if it does not exist.
 std::string text_in(const gdcm::DataSet& data, const std::vector<gdcm::Tag>& sequences, const gdcm::Tag& tag) {
   std::vector<gdcm::SmartPointer<gdcm::SequenceOfItems>> opened;
   const gdcm::DataSet* within = &data;
@@ -354,7 +355,7 @@ std::string text_in(const gdcm::DataSet& data, const std::vector<gdcm::Tag>& seq
   return bytes ? printable(std::string(bytes->GetPointer(), bytes->GetLength())) : "";
 }
 
-/// A rescale element: at the top, or, where an image is of the enhanced kind, in its functional groups.
+/// Returns a rescale element's text: from the top level or, in an enhanced image, from its functional groups.
 std::string rescale_text(const gdcm::DataSet& header, const gdcm::Tag& tag) {
   std::string text = text_in(header, {}, tag);
   for (const gdcm::Tag& groups : {kSharedGroups, kFrameGroups})
@@ -376,7 +377,7 @@ void check_values_are_hounsfield(const fs::path& file, const gdcm::File& dicom) 
                          or_none(intercept_text) + ", so its values are not known in Hounsfield units",
                      "export the original CT series");
   check_rescale(file.string(), "rescale slope", slope[0], "rescale intercept", intercept[0]);
-  // ITK takes the numbers from GDCM, which looks for them where the kind of image has them.
+  // ITK takes the numbers from GDCM, which searches them where the kind of image should have them.
   const std::vector<double> applied = gdcm::ImageHelper::GetRescaleInterceptSlopeValue(dicom);
   if (applied != std::vector<double>{intercept[0], slope[0]})
     throw InputError(file.string(), "header",
@@ -416,7 +417,7 @@ void check_dicom_slice(const fs::path& file) {
   if (!reader.Read())
     throw InputError(file.string(), "header", "the DICOM file is damaged or cut off", "export the series again");
   check_values_are_hounsfield(file, reader.GetFile());
-  // Compressed voxels that end early do not decode; of raw ones GDCM makes up the rest.
+  // Compressed voxels that end early do not decode. GDCM invents the rest of raw ones.
   const gdcm::TransferSyntax syntax = reader.GetFile().GetHeader().GetDataSetTransferSyntax();
   if (syntax.IsEncapsulated()) return;
   const bool big_endian = syntax == gdcm::TransferSyntax::ExplicitVRBigEndian;
@@ -429,7 +430,7 @@ void check_dicom_slice(const fs::path& file) {
   bits.SetFromDataSet(header);
   const std::uint64_t needed = std::uint64_t(rows.GetValue()) * columns.GetValue() * bits.GetValue() / 8;
 
-  // The element (7fe0,0010) with the image's own length; an icon's, if there is one, has another.
+  // The element (7fe0,0010) with the image's own length. An icon image has another length.
   const std::string bytes = read_file(file);
   const char* const tag = big_endian ? "\x7f\xe0\x00\x10" : "\xe0\x7f\x10\x00";
   for (std::size_t at = 0; (at = bytes.find(tag, at, 4)) != std::string::npos; ++at) {

@@ -27,9 +27,9 @@ namespace fs = std::filesystem;
 
 // Deflate packs at most 1032 bytes into one (zlib's technical notes).
 constexpr std::uint64_t kMostDeflated = 1032;
-// How far beyond the claimed voxels a packed stream is counted.
+// How many bytes beyond the claimed voxels a packed stream is counted.
 constexpr std::uint64_t kMostCounted = 1u << 24;
-// Headers in single precision, and matrices that were composed in it, keep this much.
+// The precision of headers in single precision and of matrices computed in it.
 constexpr double kSpacingShare = 1e-2, kRightAngle = 1e-3;
 constexpr std::size_t kLongestTextHeader = 1u << 20;
 
@@ -48,19 +48,19 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-/// What all three formats claim.
+/// The claims of a header, common to the three formats.
 struct Claim {
   std::array<std::uint64_t, 3> size{};
   glm::dvec3 spacing{0.0};
   VoxelType type = VoxelType::int16;
   fs::path data_file;
-  std::uint64_t data_offset = 0;         ///< where the voxels begin in that file, or the packed stream that holds them
+  std::uint64_t data_offset = 0;         ///< start of the voxels in that file, or of the packed stream that holds them
   bool packed = false;                   ///< by zlib or gzip
   std::uint64_t packed_with_header = 0;  ///< bytes in the packed stream that come before the voxels
 };
 
-/// Unpacks a zlib or gzip stream to nowhere and counts; stops beyond `enough`. Empty when the stream is damaged or cut
-/// off: ITK would fill what is missing with zeros.
+/// Unpacks a zlib or gzip stream, discards the data and returns their size. Stops beyond `enough`. Returns nothing if
+/// the stream is damaged or truncated: ITK would fill the missing part with zeros.
 std::optional<std::uint64_t> unpacked_size(const fs::path& file, std::uint64_t offset, std::uint64_t enough) {
   constexpr std::size_t kChunk = 1u << 18;
   constexpr int kZlibOrGzip = 15 + 32;
@@ -78,7 +78,7 @@ std::optional<std::uint64_t> unpacked_size(const fs::path& file, std::uint64_t o
       unpacker.avail_in = uInt(stream.gcount());
       if (unpacker.avail_in == 0) break;
     }
-    // gzip allows one stream after another.
+    // gzip allows several streams in a row.
     if (state == Z_STREAM_END && inflateReset(&unpacker) != Z_OK) break;
     unpacker.next_out = reinterpret_cast<Bytef*>(plain.data());
     unpacker.avail_out = uInt(kChunk);
@@ -120,7 +120,7 @@ void check_against_bytes(const fs::path& file, const Claim& claim) {
   refuse_when_different(*size - std::min(*size, claim.packed_with_header), *size <= needed + kMostCounted);
 }
 
-/// The numbers in a text that may have brackets and commas; empty when there are not `count` finite ones.
+/// Returns the numbers in a text that may have brackets and commas; nothing if there are not `count` finite ones.
 std::vector<double> finite_numbers(std::string text, std::size_t count) {
   std::replace_if(
       text.begin(), text.end(), [](char c) { return c == '(' || c == ')' || c == ','; }, ' ');
@@ -215,7 +215,7 @@ VoxelType nifti_type(const fs::path& file, int datatype) {
   return known->second;
 }
 
-/// The first bytes of a file, unpacked if it is gzip; `packed` says whether.
+/// Returns the first bytes of a file, unpacked if it is gzip; `packed` reports whether it is.
 std::string first_bytes(const fs::path& file, std::size_t count, bool& packed) {
   std::string bytes(count, '\0');
   const gzFile stream = gzopen(file.c_str(), "rb");
@@ -227,14 +227,15 @@ std::string first_bytes(const fs::path& file, std::size_t count, bool& packed) {
   return bytes;
 }
 
-/// Holds the placing in the patient against what ITK makes of it: it takes the sform, or else the qform, and the
-/// spacing from pixdim.
-/// ITK's singular value decomposition does not return from a matrix with numbers near the largest of single precision.
+/// Refuses a number beyond 1 km. ITK's singular value decomposition does not return for a matrix with numbers near the
+/// largest of single precision.
 void check_nifti_reach(const fs::path& file, const std::string& what, double number) {
   if (!(std::abs(number) <= kFurthestOriginMm))
     refuse(file, "the " + what + " holds " + short_number(number) + ", further than 1 km", "correct it");
 }
 
+/// Checks the placement in the patient as ITK reads it: from the sform, else the qform, with the spacing from pixdim.
+/// Returns the spacing.
 glm::dvec3 check_nifti_place(const fs::path& file, const Nifti& n) {
   if (n.units == 1 || n.units == 3)
     refuse(file, std::string("its unit of length is the ") + (n.units == 1 ? "metre" : "micrometre"),
@@ -251,7 +252,7 @@ glm::dvec3 check_nifti_place(const fs::path& file, const Nifti& n) {
         check_nifti_reach(file, "sform matrix", n.matrix[r][c]);
         if (c < 3) columns[c][int(r)] = n.matrix[r][c];
       }
-    if (n.by_quaternion) return spacing;  // to fall back on
+    if (n.by_quaternion) return spacing;  // ITK falls back on the qform
     for (std::size_t a = 0; a < 3; ++a)
       if (const double length = glm::length(columns[a]);
           std::abs(length - n.pixdim[a + 1]) > kSpacingShare * n.pixdim[a + 1])
@@ -333,8 +334,8 @@ std::string trimmed(const std::string& text) {
 
 struct TextHeader {
   std::map<std::string, std::string>
-      values;               ///< by key in lower case, the last one wins as in the formats' own readers
-  std::uint64_t bytes = 0;  ///< up to and with the line that ends it
+      values;               ///< by key in lower case; the last one wins, as in the formats' own readers
+  std::uint64_t bytes = 0;  ///< up to and including the line that ends it
 
   std::string value(const std::string& key) const {
     const auto found = values.find(key);
@@ -384,7 +385,8 @@ std::array<std::uint64_t, 3> three_sizes(const fs::path& file, const std::string
   return {numbers[0], numbers[1], numbers[2]};
 }
 
-/// A data file named by a detached header. ITK would read lists and patterns of files too, which no check here covers.
+/// Returns the path of a data file that a detached header names. ITK would also read lists and patterns of files, which
+/// no check here covers.
 fs::path named_data_file(const fs::path& file, const std::string& name) {
   if (lower_case(name).rfind("list", 0) == 0 || name.find('%') != std::string::npos ||
       name.find(' ') != std::string::npos)
@@ -392,7 +394,7 @@ fs::path named_data_file(const fs::path& file, const std::string& name) {
   return file.parent_path() / name;
 }
 
-/// Refuses units of length other than mm: texts in quotation marks, or none.
+/// Refuses units of length other than mm. `units` holds texts in quotation marks, or nothing.
 void check_nrrd_units(const fs::path& file, const std::string& units) {
   std::istringstream stream(units);
   std::string between, unit;
@@ -400,7 +402,7 @@ void check_nrrd_units(const fs::path& file, const std::string& units) {
     if (!unit.empty() && unit != "mm") refuse(file, "its unit of length is '" + unit + "'", "save it in mm");
 }
 
-/// Holds the placing in the patient against what ITK would guess or refuse. Returns the spacing.
+/// Refuses a placement in the patient that ITK would guess or refuse. Returns the spacing.
 glm::dvec3 check_nrrd_place(const fs::path& file, const TextHeader& header) {
   for (const char* key : {"space units", "units"}) check_nrrd_units(file, header.value(key));
   if (const std::string origin = header.value("space origin"); !origin.empty() && finite_numbers(origin, 3).empty())
@@ -490,14 +492,14 @@ FileHeader check_nrrd(const fs::path& file) {
   return header_of(ImageFormat::nrrd, claim);
 }
 
-/// The value of the first of the keys, which mean the same, that the header has.
+/// Returns the value of the first of these synonymous keys that the header has; empty if it has none.
 std::string any_value(const TextHeader& header, const std::vector<std::string>& keys) {
   for (const std::string& key : keys)
     if (const std::string value = header.value(key); !value.empty()) return value;
   return "";
 }
 
-/// Holds the placing in the patient against what ITK would guess or refuse. Returns the spacing.
+/// Refuses a placement in the patient that ITK would guess or refuse. Returns the spacing.
 glm::dvec3 check_meta_place(const fs::path& file, const TextHeader& header) {
   const std::string units = header.value("distanceunits");
   if (!units.empty() && units != "?" && units != "mm")
@@ -516,7 +518,8 @@ glm::dvec3 check_meta_place(const fs::path& file, const TextHeader& header) {
   return checked_spacing(file, {numbers[0], numbers[1], numbers[2]}, "correct the ElementSpacing");
 }
 
-/// ITK unpacks as many bytes as the header says, and leaves voxels unset when it says none or too few.
+/// Refuses a wrong CompressedDataSize. ITK unpacks as many bytes as the header states, and leaves voxels unset if it
+/// states none or too few.
 void check_packed_size(const fs::path& file, const Claim& claim, const std::string& given) {
   const std::string there = std::to_string(fs::file_size(claim.data_file) - claim.data_offset);
   if (given == there) return;

@@ -9,7 +9,7 @@
 
 namespace insonate {
 
-/// What a volume file's own header says, read before ITK sees the file.
+/// Holds what a volume file's own header states, read before ITK opens the file.
 struct FileHeader {
   ImageFormat format = ImageFormat::nifti;
   std::string stored_as;  ///< the voxel type on disk, before any rescale: "int32"
@@ -17,9 +17,9 @@ struct FileHeader {
   glm::dvec3 spacing{0.0};  ///< mm
 };
 
-/// Reads the header of a NIfTI, NRRD or MetaImage file, chosen by the name's ending, and holds what it claims against
-/// the limits and against the bytes that are there. ITK's parsers believe a header: they allocate what it claims, fill
-/// what is missing with zeros, and replace a spacing of 0 by 1. Throws InputError.
+/// Reads the header of a NIfTI, NRRD or MetaImage file, chosen by the file name's ending. Checks its claims against the
+/// limits and against the bytes in the file. ITK's parsers trust a header: they allocate what it claims, fill missing
+/// voxels with zeros, and replace a spacing of 0 by 1. Throws InputError.
 FileHeader check_file_header(const std::filesystem::path& file);
 
 }  // namespace insonate

@@ -1,5 +1,5 @@
-// Included before all else where clang compiles what includes ITK: these two headers of Debian's know GCC alone, and
-// refuse a compiler that they do not know. GCC is what they take this one for; nothing else does.
+// CMakeLists.txt includes this first in the source that includes ITK, where the compiler is clang. These two headers of
+// Debian's know only GCC and refuse any other compiler. They see this compiler as GCC; no other header does.
 #pragma once
 
 #pragma push_macro("__clang__")

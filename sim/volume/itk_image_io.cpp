@@ -1,6 +1,6 @@
 #include "sim/volume/itk_image_io.h"
 
-// Debian's itk_compiler_detection.h refuses every compiler but GNU's. This takes its place.
+// Debian's itk_compiler_detection.h refuses every compiler but GNU's. These definitions replace it.
 #define ITK_COMPILER_DETECTION_H
 #define ITK_NOEXCEPT noexcept
 
@@ -22,7 +22,7 @@
 namespace insonate {
 namespace {
 
-/// While it lives, what ITK and its libraries would print goes nowhere: what is wrong reaches the user as an exception.
+/// Discards, while it exists, what ITK and its libraries would print. Errors reach the user as exceptions.
 class Silence {
 public:
   Silence() : cerr_(std::cerr.rdbuf(nowhere_.rdbuf())), cout_(std::cout.rdbuf(nowhere_.rdbuf())) {
@@ -42,7 +42,8 @@ private:
   std::streambuf* cout_;
 };
 
-/// Runs a call into ITK. What it throws is its own program's matter, so it becomes one sentence about the file.
+/// Runs a call into ITK. Replaces its exceptions, whose texts are meant for ITK's developers, by one sentence about the
+/// file.
 template <typename Call>
 auto guarded(const std::filesystem::path& file, const std::string& place, const std::string& problem,
              const std::string& remedy, Call call) {
@@ -113,7 +114,7 @@ VoxelType from_itk(Itk component) {
       return VoxelType::uint64;
     case Itk::FLOAT:
       return VoxelType::float32;
-    default:  // a double: file headers with other types are refused before, and DICOM has no others
+    default:  // a double: check_file_header() refuses other types, and DICOM has no others
       return VoxelType::float64;
   }
 }

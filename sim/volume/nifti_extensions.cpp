@@ -1,5 +1,5 @@
-// https://nifti.nimh.nih.gov, nifti1.h: after the header four bytes, of which the first is not 0 when
-// extensions follow; each is its size in bytes (with these 8, a multiple of 16), its code, and its content.
+// Format: https://nifti.nimh.nih.gov, nifti1.h. Four bytes follow the header; the first is not 0 if extensions follow.
+// Each extension is its size in bytes (including these 8, a multiple of 16), its code, and its content.
 #include "sim/volume/nifti_extensions.h"
 
 #include <zlib.h>

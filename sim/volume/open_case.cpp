@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 constexpr double kBodyHu = -300;
 constexpr double kThickMm = 20;
 
-/// Where a ray from outside first meets 20 mm of body.
+/// Returns where a ray from outside first meets 20 mm of body; nothing if it does not within `reach_mm`.
 std::optional<glm::dvec3> skin_along(const Volume<std::int16_t>& ct, const glm::dvec3& from,
                                      const glm::dvec3& direction, double reach_mm) {
   constexpr double kStepMm = 0.5;

@@ -1,5 +1,5 @@
-// Own code where ITK has filters: theirs evaluate 64 coefficients a voxel, this goes axis by axis and is an order of
-// magnitude faster, on the path between choosing a patient and seeing one.
+// This file replaces ITK's filters, which evaluate 64 coefficients per voxel. It resamples one axis at a time and is an
+// order of magnitude faster. The user waits for it between choosing a patient and seeing one.
 
 #include <glm/common.hpp>
 #include <glm/matrix.hpp>
@@ -18,13 +18,13 @@ namespace insonate {
 namespace {
 
 constexpr double kSpacingTolerance = 0.2;
-constexpr std::size_t kLanes = 64;  // neighbouring lines filtered together, so that strides cost nothing
+constexpr std::size_t kLanes = 64;  // neighbouring lines are filtered together, so that strides cost nothing
 
-// Nearer to an old sample than this, a new one counts as on it, in old indices. Spacings that headers keep in single
-// precision add up to 6e-5 over a thousand samples; a CT's steepest edges change by less than half a unit over 1e-4.
+// A new sample nearer to an old sample than this counts as on it, in old indices. Spacings that headers hold in single
+// precision add up to 6e-5 over a thousand samples. A CT's steepest edges change by less than half a unit over 1e-4.
 constexpr double kOnSample = 1e-4;
 
-/// Where the new samples of an axis lie among the old ones, in old indices.
+/// Places the new samples of an axis among the old ones, in old indices.
 struct AxisPlan {
   int before = 0, after = 0;  ///< samples
   double first = 0, step = 0;
@@ -33,22 +33,22 @@ struct AxisPlan {
     const double exact = first + step * sample, whole = std::round(exact);
     return std::abs(exact - whole) < kOnSample ? whole : exact;
   }
-  /// The old samples to either side: one and the same where a new sample is on it, as what lies beyond has no part in
-  /// the spline's value there, and rounding would else decide which side counts.
+  /// Each returns the old sample on one side. Both return the same one where a new sample is on an old one: the samples
+  /// beyond do not contribute to the spline's value there, and rounding would otherwise decide which side counts.
   int below(int sample) const { return std::clamp(int(std::floor(position(sample))), 0, before - 1); }
   int above(int sample) const { return std::clamp(int(std::ceil(position(sample))), 0, before - 1); }
 };
 
-/// An index mirrored at the ends of 0 .. n - 1, as the spline continues there.
+/// Returns an index mirrored at the ends of 0 .. n - 1, as the spline continues there.
 std::size_t mirrored(int i, int n) {
   const int period = 2 * (n - 1);
   i = ((i % period) + period) % period;
   return std::size_t(i < n ? i : period - i);
 }
 
-/// Samples to coefficients of the cubic B-spline through them, in place, for `lanes` lines side by side: the recursive
-/// filter of M. Unser, Splines: a perfect fit for signal and image processing, IEEE Signal Processing Magazine 16(6),
-/// 1999, box 2, with mirrored ends.
+/// Converts samples to the coefficients of the cubic B-spline through them, in place, for `lanes` lines side by side.
+/// This is the recursive filter of M. Unser, Splines: a perfect fit for signal and image processing, IEEE Signal
+/// Processing Magazine 16(6), 1999, box 2, with mirrored ends.
 void to_coefficients(float* samples, int n, std::size_t lanes) {
   static const float pole = float(std::sqrt(3.0) - 2.0);
   constexpr int kHorizon = 24;  // |pole|^24 is below float's last bit
@@ -115,7 +115,8 @@ std::vector<float> resample_axis(const std::vector<float>& in, const AxisPlan& a
   return out;
 }
 
-/// Rounds, and cuts what overshoots the range of the old voxels around: eight, fewer in an old plane, one on a voxel.
+/// Rounds, and clamps overshoot to the range of the surrounding old voxels: eight, fewer in an old plane, one on a
+/// voxel.
 void cut_overshoot(const Volume<std::int16_t>& ct, const std::array<AxisPlan, 3>& axes,
                    const std::vector<float>& smooth, Volume<std::int16_t>& out) {
   tbb::parallel_for(tbb::blocked_range<int>(0, out.grid.size.z), [&](const auto& slices) {
@@ -159,7 +160,7 @@ Volume<std::int16_t> resample_isotropic(const Volume<std::int16_t>& ct, double s
     const double box = old.size[a] * old.spacing[a];
     const double samples = std::max(2.0, std::round(box / spacing_mm));
     sides[std::size_t(a)] = std::uint64_t(std::min(samples, 1e9));
-    // The new samples' box has the old one's centre; the two differ by less than one new voxel.
+    // The new samples' box has the same centre as the old one; the sizes differ by less than one new voxel.
     first[a] = ((box - (samples - 1) * spacing_mm) / old.spacing[a] - 1) / 2;
     axes[std::size_t(a)] = {old.size[a], int(sides[std::size_t(a)]), first[a], spacing_mm / old.spacing[a]};
   }

@@ -16,10 +16,10 @@
 namespace insonate {
 namespace {
 
-// What comes through the pipe first: what the rest is.
+// The first byte through the pipe. It states what the rest is.
 constexpr char kResult = 'R', kInputError = 'E';
 
-// How much address space this process has already taken.
+// Returns how much address space this process already uses.
 rlim_t taken_bytes() {
   unsigned long pages = 0;
   std::ifstream("/proc/self/statm") >> pages;
@@ -54,7 +54,7 @@ std::string receive_all(int pipe_end) {
 }
 
 [[noreturn]] void work_and_send(int pipe_end, std::uintmax_t bytes, const std::function<std::string()>& work) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);  // who waits for the result may leave
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // the parent, which waits for the result, may end
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_AS, taken_bytes() + (rlim_t(512) << 20) + 64 * rlim_t(bytes));
   limit(RLIMIT_CPU, 10 + rlim_t(bytes >> 20));
@@ -62,7 +62,7 @@ std::string receive_all(int pipe_end) {
   const int nowhere = open("/dev/null", O_WRONLY);
   dup2(nowhere, STDOUT_FILENO);
   dup2(nowhere, STDERR_FILENO);
-  // A test runner's or sanitizer's own handlers would report the death as the parent's.
+  // The handlers of a test runner or sanitizer would report the death as the parent's.
   for (int death : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL}) signal(death, SIG_DFL);
   char kind = kResult;
   std::string told;

@@ -7,18 +7,19 @@
 
 namespace insonate {
 
-/// The process that worked apart ended before its work did.
+/// Thrown if the subprocess ends before its work is complete.
 struct SubprocessDied : std::runtime_error {
   SubprocessDied() : std::runtime_error("the work ended its process") {}
 };
 
-/// Does `work` in a process of its own, forked from this one, and returns what it returns.
+/// Runs `work` in a subprocess, forked from this process, and returns its result.
 ///
-/// GDCM as Debian builds it checks damaged files by assertions, and an assertion ends the program; elsewhere it
-/// believes a length that it reads and takes gigabytes. What a person hands over must not be able to do that, so DICOM
-/// is read apart. The process prints nothing. It is ended when it takes more memory or processor time than `bytes` of
-/// input can need: 64 times as much and 512 MiB, a second a MiB and 10 seconds; or when it waits for 2 minutes longer
-/// than that. An InputError from `work` passes through; anything else that keeps it from returning is SubprocessDied.
+/// Debian's build of GDCM checks damaged files by assertions, and a failed assertion ends the program. Elsewhere GDCM
+/// trusts a length that it reads and allocates gigabytes. A user's file must not be able to do that, so DICOM is read
+/// in a subprocess. The subprocess prints nothing. It is killed if it takes more memory or processor time than `bytes`
+/// of input can need: 64 times as much plus 512 MiB, and 1 s per MiB plus 10 s. It is also killed if it takes more than
+/// 120 s plus 1 s per MiB of wall time. An InputError from `work` is rethrown; any other failure to return throws
+/// SubprocessDied.
 std::string in_subprocess(std::uintmax_t bytes, const std::function<std::string()>& work);
 
 }  // namespace insonate

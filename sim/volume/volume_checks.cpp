@@ -13,12 +13,12 @@ namespace insonate {
 namespace {
 
 constexpr double kLeastSpacingMm = 1e-3, kMostSpacingMm = 100;
-// A probe's face is longer than the one, no scanner's table than the other.
+// A probe's face is longer than the least size, and no scanner's table is longer than the most.
 constexpr double kLeastBodyMm = 20, kMostBodyMm = 3000;
-// Directions are often stored with 6 decimals, and as cosines of small angles lose a digit or two more.
+// Directions are often stored with 6 decimals. As cosines of small angles they lose one or two more digits.
 constexpr double kOrthogonalTolerance = 1e-3;
 
-// A CT of 4096 densities stored over all values of 32 bits has a slope of 1e-6, stored in 8 bits one of 16.
+// A CT of 4096 densities stored over all values of 32 bits has a slope of 1e-6; stored in 8 bits, one of 16.
 constexpr double kLeastSlope = 1e-9, kMostSlope = 1e4, kMostIntercept = 1e5;
 const char* const kRescaleRemedy = "correct the header, or export the CT again in Hounsfield units";
 
@@ -83,7 +83,7 @@ Grid checked_grid(const std::string& file, Grid grid) {
   }
   const glm::dmat3 excess = glm::transpose(grid.direction) * grid.direction - glm::dmat3(1.0);
   double worst = 0;
-  bool orthogonal = true;  // false for what is not a number, too
+  bool orthogonal = true;  // also false for NaN
   for (int c = 0; c < 3; ++c)
     for (int r = 0; r < 3; ++r) {
       worst = std::max(worst, std::abs(excess[c][r]));
@@ -95,7 +95,7 @@ Grid checked_grid(const std::string& file, Grid grid) {
     refuse(file, "the axes are not orthogonal: they stretch or shear by " + with_number(worst),
            "resample it to orthogonal axes");
   }
-  // Gram-Schmidt; the third axis keeps its side, for a reflection is legitimate.
+  // Gram-Schmidt. The third axis keeps its side, because a reflection is legitimate.
   glm::dmat3& d = grid.direction;
   d[0] = glm::normalize(d[0]);
   d[1] = glm::normalize(d[1] - glm::dot(d[1], d[0]) * d[0]);
