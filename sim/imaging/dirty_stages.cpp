@@ -6,7 +6,7 @@
 namespace insonate::gl {
 namespace {
 
-// What the others leave unused is as if it had never been set.
+// Returns the settings with all unused ones at their defaults, so that changes of these compare equal.
 Settings in_use(Settings settings) {
   const Settings unset;
   const auto forget = [&](auto... members) { ((settings.*members = unset.*members), ...); };
@@ -33,7 +33,7 @@ Settings in_use_by_sweeps(Settings settings) {
   return settings;
 }
 
-// Where a sweep does what a picture's stage does.
+// Returns the stage of a sweep that does the work of a picture's stage.
 SweepStage sweep_stage(Stage of_picture) {
   switch (of_picture) {
     case Stage::traverse:
@@ -68,7 +68,7 @@ DirtyStages dirty_stages(const Settings& before, const Settings& now) {
              &S::speckle_seed, &S::speckle_cell_mm, &S::slice_planes, &S::slice_thickness_mm, &S::elevation_focus_mm,
              &S::edge_shadow, &S::image_width, &S::image_height, &S::exact_filter, &S::skipping) ||
       (keeps_middle_plane(to) && !keeps_middle_plane(from)) ||
-      least_alpha_with_normal(to) < least_alpha_with_normal(from))  // interfaces are seen that were not
+      least_alpha_with_normal(to) < least_alpha_with_normal(from))  // interfaces become visible
     dirty.first = Stage::traverse;
   else if (differ(&S::beam_window, &S::beam_lines, &S::focused_beam, &S::focus_mm, &S::f_number, &S::reverberation,
                   &S::face_reflection, &S::clutter, &S::two_way))
