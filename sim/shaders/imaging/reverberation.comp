@@ -56,7 +56,7 @@ float counted(float round_trip, float least) {
 // leaves the share `gain`.
 void repeat(int k, float echo, float apart, float gain) {
   float position = float(k) + apart;
-  // The spline of a position less than one sample behind the line's end still covers the last sample.
+  // The spline of a position less than two samples behind the last sample still covers that sample.
   for (int n = 0; n < kMostRepeats && position < float(samples + 1); ++n, position += apart) {
     echo *= gain;
     if (echo < kLeastEcho) return;
