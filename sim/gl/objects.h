@@ -130,8 +130,8 @@ private:
 };
 
 /// Owns a table, or the data that one stage passes to the next: shaders write it as a buffer and read it as texels
-/// (samplerBuffer). A software renderer is fastest so: storing to an image takes several times as long, and reading
-/// values of a buffer, or texels of a texture, takes longer than reading these texels.
+/// (samplerBuffer). This is fastest on a software renderer: storing to an image takes several times as long, and
+/// reading values of a buffer, or texels of a texture, takes longer than reading these texels.
 class TexelBuffer {
 public:
   TexelBuffer() = default;

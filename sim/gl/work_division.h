@@ -26,7 +26,7 @@ struct WorkDivision {
   int group = 8;
 
   /// From this number of lines on, traversed at once, one invocation takes one line. Fewer lines take one work group
-  /// each. 0: an invocation always takes a line.
+  /// each. 0: one invocation always takes one line.
   std::size_t lines_that_fill = 0;
 
   /// Images of model W that one invocation processes one after the other, where a call asks for many. A software

@@ -28,9 +28,9 @@ public:
   /// Maps patient mm to the texture's coordinates.
   const glm::dmat4& texture_from_patient() const { return texture_from_patient_; }
 
-  /// Returns the part of a ray that may meet anything but the air around the body, or may have it within `margin` along
+  /// Returns the part of a ray that may meet anything but the air around the body, or pass within `margin` of it along
   /// the axes. It runs from start + first * step to start + last * step (texture coordinates); last < first if there is
-  /// none.
+  /// no such part.
   std::pair<double, double> meets_body(const glm::dvec3& start, const glm::dvec3& step, const glm::dvec3& margin) const;
 
   explicit operator bool() const { return bool(texture_); }

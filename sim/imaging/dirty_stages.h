@@ -15,6 +15,7 @@ struct DirtyStages {
   bool beam = false;           ///< something that the beam's windows depend on changed
 };
 
+/// Returns what a change of settings from `before` to `now` invalidates.
 DirtyStages dirty_stages(const Settings& before, const Settings& now);
 
 /// The same for a sweep's volume, which uses neither the picture's size nor its smoothing.

@@ -32,6 +32,7 @@ public:
   Simulator(Simulator&&) noexcept;
   Simulator& operator=(Simulator&&) noexcept;
 
+  /// Uploads a patient. Throws TextureRefused if the device cannot hold the volume.
   void set_volume(const AcousticVolume& volume, const TissueTable& table);
   /// Throws std::invalid_argument for a probe or a depth that check_probe() (sim/imaging/view_limits.h) refuses.
   /// @param depth_mm  0.1 to 1000

@@ -5,7 +5,7 @@
 namespace insonate::gl {
 
 /// The stages of model S in the order they run; each reads what the one before it wrote. Reverberation and clutter
-/// follow from the traversal's results and are part of the beam's stage, of which all samples count. Where white is a
+/// follow from the traversal's results and are part of the beam's stage, whose samples all count. Where white is a
 /// fixed level, the fuse stage also maps to grey. Compress is a separate stage only where each frame sets its own
 /// white.
 enum class Stage { traverse, beam, scan_convert, smooth, fuse, compress };

@@ -23,8 +23,8 @@ using Part = SweepConversion::Part;
 
 constexpr std::size_t kGroupVoxels = 4 * 64;  // per work group of sweep_compress.comp
 
-// Returns parts with as many planes as a buffer holds samples and placed lines of, at least the two that enclose
-// voxels.
+// Returns parts of as many planes as a buffer has room for, both as samples and as placed lines. A part has at least
+// two planes, because voxels lie between planes.
 std::vector<Part> parts_of(const Sweep& sweep, const Settings& settings, const WorkDivision& division) {
   const int planes = int(sweep.patient_from_plane.size());
   const std::size_t placed = std::size_t(settings.slice_planes) * sizeof(PlacedLine) / (4 * sizeof(float));

@@ -34,10 +34,12 @@ public:
   SweepSimulator(SweepSimulator&&) noexcept;
   SweepSimulator& operator=(SweepSimulator&&) noexcept;
 
+  /// Uploads a patient. Throws TextureRefused if the device cannot hold the volume.
   void set_volume(const AcousticVolume& volume, const TissueTable& table);
   /// Throws std::invalid_argument for fewer than two planes, and for poses, a probe or a depth that check_pose() and
   /// check_probe() (sim/imaging/view_limits.h) refuse. The previous sweep then stays.
   void set_sweep(const Sweep& sweep);
+  /// Places the volume.
   /// @param grid  where the voxels lie in the patient, for example sweep_grid() (sim/probe/sweep.h): sizes of 1 or more
   ///              and spacings above 0, which are not checked; volume() refuses too many voxels
   void set_grid(const Grid& grid);

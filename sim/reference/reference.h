@@ -21,8 +21,8 @@ struct Medium {
 };
 using MediumField = std::function<Medium(const glm::dvec3& patient_mm)>;
 
-/// Within the gel layer all air counts as gel. The skin's outermost voxels are less dense than kCouplingTissueHu. Of
-/// such a voxel a share counts as gel, which grows linearly down to kCouplingAirHu. If tissue turned into gel at one
+/// Within the gel layer all air counts as gel. Voxels less dense than kCouplingTissueHu, such as the skin's outermost
+/// ones, count as gel in part. The share of gel grows linearly down to kCouplingAirHu. If tissue turned into gel at one
 /// density, echoes of the skin would come and go while the probe moves.
 inline constexpr double kCouplingTissueHu = -150, kCouplingAirHu = kMostAirHu;
 

@@ -11,10 +11,10 @@ namespace insonate {
 /// bilinear in each of the two planes and mixed by its share of the way between them. NaN outside the sweep.
 Volume<double> convert_sweep_reference(const Sweep& sweep, const SweepValues& values, const Grid& grid);
 
-/// The results of model S of a sweep, in double precision. U (6) follows at each sample of the planes' lines from what
-/// simulate_reference() computes per plane, without the smoothing of pictures. It is then converted to the voxels. Gain
-/// and log compression (7) follow there, at the depth that scan conversion gives a voxel by the same interpolation as
-/// U.
+/// The results of model S of a sweep, in double precision. simulate_reference() runs on each plane. From its results
+/// follows U (6) at each sample of the planes' lines, without the smoothing of pictures, and is converted to the
+/// voxels. Gain and log compression (7) follow there, at the voxel's depth, which scan conversion interpolates as it
+/// does U.
 struct ReferenceVolume {
   Volume<double> fused;       ///< U before gain; NaN outside the sweep
   Volume<std::int16_t> grey;  ///< 0 to 255; -1 outside the sweep

@@ -41,7 +41,7 @@ PixelTable picture_pixels(const std::vector<PixelPlace>& places, int width, int 
 /// Returns the table for lc2_parts.comp: the pixels inside the fan whose value is not NaN, with the values scaled to
 /// mean 0 and variance 1. LC2 does not depend on gain and offset, but single precision would. A flat image has 0
 /// everywhere. With up to kMostPatches patches, and groups of up to 128, the sums of all columns fit a texture.
-/// @param patch  side in pixels of the squares that are each compared by itself, one column per square; 0: one square
+/// @param patch  side in pixels of the squares that are each compared by itself, one column each; 0: the whole picture
 PixelTable compared_pixels(const std::vector<PixelPlace>& places, const Image<float>& image, int patch,
                            std::size_t group);
 

@@ -11,7 +11,7 @@ namespace insonate {
 template <typename Real>
 struct WeinStages {
   Image<Real> intensity;          ///< I, 0 to 1
-  Image<Real> scan_echogenicity;  ///< E, scaled by I if the settings say so, 0 to 1
+  Image<Real> scan_echogenicity;  ///< E, scaled by I with WeinSettings::shadows, 0 to 1
   Image<Real> scan_reflection;    ///< R, 0 to 1
   Image<Real> echogenicity;       ///< E, scan-converted: the first term of LC2
   Image<Real> reflection;         ///< R, scan-converted: the second term of LC2
