@@ -15,7 +15,7 @@ namespace {
 constexpr const char* kVariable = "INSONATE_EGL_DEVICE";
 
 std::vector<EGLDeviceEXT> devices() {
-  // The first two are the halves of EGL_EXT_device_base.
+  // EGL_EXT_device_enumeration is the half of EGL_EXT_device_base that lists devices.
   for (const char* extension : {"EGL_EXT_device_enumeration", "EGL_EXT_device_base"}) {
     EGLint count = 0;
     if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, extension) || !eglQueryDevicesEXT(0, nullptr, &count)) continue;
@@ -36,7 +36,7 @@ EglDisplay on(EGLDeviceEXT device) {
   return {[device] { return eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device, nullptr); }, is_software(device)};
 }
 
-// As Mesa reads it.
+// True if LIBGL_ALWAYS_SOFTWARE is on, with the same values as in Mesa.
 bool software_is_asked_for() {
   const char* value = std::getenv("LIBGL_ALWAYS_SOFTWARE");
   if (!value) return false;

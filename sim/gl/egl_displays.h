@@ -5,17 +5,17 @@
 
 namespace insonate::gl {
 
-/// What an EGL context without a window may be made on.
+/// A display on which an EGL context without a window can be created.
 struct EglDisplay {
-  std::function<void*()> open;  ///< gives the display, not yet initialised, or EGL_NO_DISPLAY
-  bool is_software;             ///< is known to be; others may turn out to be
+  std::function<void*()> open;  ///< returns the display, not yet initialised, or EGL_NO_DISPLAY
+  bool is_software;             ///< true where this is known; other displays may turn out to be software
 };
 
-/// All of them, best first.
+/// Returns all displays, best first.
 ///
-/// Graphics cards in EGL's order, then Mesa's surfaceless platform, which takes a card of its own choice or none, then
-/// software renderers. With LIBGL_ALWAYS_SOFTWARE, which drivers other than Mesa's do not know, no cards.
-/// INSONATE_EGL_DEVICE=n, counted from 0, leaves that one of EGL's devices alone; throws InputError when there is none.
+/// Graphics cards come in EGL's order. Mesa's surfaceless platform follows, which chooses a card itself or takes none.
+/// Software renderers come last. LIBGL_ALWAYS_SOFTWARE removes the cards; drivers other than Mesa's ignore it.
+/// INSONATE_EGL_DEVICE=n, counted from 0, leaves only that EGL device. Throws InputError if it does not exist.
 std::vector<EglDisplay> egl_displays();
 
 }  // namespace insonate::gl

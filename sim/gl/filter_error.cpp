@@ -14,10 +14,10 @@
 namespace insonate::gl {
 namespace {
 
-constexpr int kSide = 8;  // few enough voxels that single precision places a sample among them to 5e-7
+constexpr int kSide = 8;  // few enough voxels that single precision positions a sample to 5e-7 of a voxel
 constexpr std::uint32_t kPlaces = 16384;
 
-// Between voxels that are 0 and 1 in turn along all axes.
+// Returns the exact trilinear value between voxels that alternate between 0 and 1 along all axes.
 double exact_value(const glm::vec4& place) {
   double product = 1;
   for (int axis = 0; axis < 3; ++axis) {

@@ -32,9 +32,9 @@ EGLContext new_context(EGLDisplay display, HeadlessContext::Kind kind) {
 
 }  // namespace
 
-/// A display with a context that is current; `context` is null where it gives none.
+/// A display and its current context; `context` is null if the display gives none.
 struct HeadlessContext::Current {
-  EGLDisplay display = EGL_NO_DISPLAY;  ///< initialised, or none
+  EGLDisplay display = EGL_NO_DISPLAY;  ///< initialised, or EGL_NO_DISPLAY
   EGLContext context = EGL_NO_CONTEXT;
 
   Current(EGLDisplay opened, Kind kind) {
@@ -63,7 +63,7 @@ struct HeadlessContext::Current {
 HeadlessContext::HeadlessContext(Kind kind) {
   bool any_display = false;
   for (const EglDisplay& display : egl_displays()) {
-    if (current_ && display.is_software) break;  // is no better
+    if (current_ && display.is_software) break;  // cannot be better than the one found
     auto tried = std::make_unique<Current>(display.open(), kind);
     any_display |= tried->display != EGL_NO_DISPLAY;
     if (!tried->context) continue;
@@ -73,7 +73,7 @@ HeadlessContext::HeadlessContext(Kind kind) {
   }
   if (!any_display)
     throw std::runtime_error("no EGL display without a window: install libegl1 and a driver (Mesa's will do)");
-  if (!current_ || !current_->make_current())  // what was left for it may have taken its place
+  if (!current_ || !current_->make_current())  // an attempt after it may have replaced it as the current context
     throw std::runtime_error(
         "the graphics driver gives no OpenGL 4.5 core context: update it, or use Mesa's software one");
 }

@@ -5,14 +5,14 @@
 
 namespace insonate::gl {
 
-/// An OpenGL 4.5 core context without a window, current on the thread that made it until it is destroyed.
+/// Provides an OpenGL 4.5 core context without a window. It is current on the thread that created it until destruction.
 ///
-/// Made through EGL, on a graphics card if one gives such a context, else on a software renderer; egl_displays() has
-/// the order, and how to choose. Throws InputError for a choice that there is not, std::runtime_error naming what is
-/// missing when nothing gives such a context.
+/// EGL creates the context, on a graphics card if one gives such a context, otherwise on a software renderer.
+/// egl_displays() describes the order and how to choose. The constructor throws InputError if the chosen device does
+/// not exist. If no device gives such a context, it throws std::runtime_error that names what is missing.
 class HeadlessContext {
 public:
-  /// A debugged context tells of errors by KHR_debug, if it is asked to; drivers are slower for it.
+  /// A debugged context can report errors by KHR_debug, and makes drivers slower.
   enum class Kind { ordinary, debugged };
   explicit HeadlessContext(Kind kind = Kind::ordinary);
   ~HeadlessContext();
@@ -24,10 +24,10 @@ private:
   std::unique_ptr<Current> current_;
 };
 
-/// The current context's renderer and version, for reports and benchmarks.
+/// Returns the current context's renderer and version, for reports and benchmarks.
 std::string device_description();
 
-/// Whether the current context's renderer runs on the processor.
+/// Returns true if the current context's renderer runs on the processor.
 bool is_software_renderer();
 
 }  // namespace insonate::gl

@@ -13,13 +13,13 @@ std::string why_refused(int width, int height, int depth, int limit) {
                    : "the device has no memory for " + texture;
 }
 
-// What was reported before is not about what comes next. A lost context reports without end.
+// Errors reported so far do not concern the next call. A lost context reports errors without end, hence the limit.
 void forget_errors() {
   for (int i = 0; i < 100 && glGetError() != GL_NO_ERROR; ++i) {
   }
 }
 
-// Of a texel buffer's formats, as its constructor's comment lists them.
+// Returns the bytes per texel of the formats that TexelBuffer's constructor lists.
 std::size_t texel_bytes(GLenum format) {
   switch (format) {
     case GL_R16:
@@ -175,7 +175,7 @@ void Texture::bind_image(GLuint unit, GLenum access) const {
 Texture Texture::seen_as(GLenum format) const {
   Texture view;
   GLuint name = 0;
-  glGenTextures(1, &name);  // a view takes a name that is no texture yet
+  glGenTextures(1, &name);  // glTextureView() needs a name that is not yet a texture
   view.object_ = Object<TextureKind>(name);
   view.format_ = format;
   view.width_ = width_;

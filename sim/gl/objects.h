@@ -7,10 +7,11 @@
 #include <stdexcept>
 #include <utility>
 
-/// OpenGL's objects as move-only values: each is deleted by its one owner, with the context it was made in current.
+/// OpenGL's objects as move-only values. One owner deletes each of them, and the context that created it must be
+/// current then.
 namespace insonate::gl {
 
-/// The name of an OpenGL object and how to delete it.
+/// Owns the name of an OpenGL object; Kind::destroy() deletes it.
 template <typename Kind>
 class Object {
 public:
@@ -35,17 +36,17 @@ struct BufferKind {
   static void destroy(GLuint name) { glDeleteBuffers(1, &name); }
 };
 
-/// Bytes on the device.
+/// Owns bytes in the device's memory.
 class Buffer {
 public:
   Buffer() = default;
-  /// Storage of fixed size, filled from `data` when there is any. Throws std::invalid_argument for no bytes, which
-  /// OpenGL refuses, and DeviceRefused when the device has no memory for as many.
+  /// Allocates storage of fixed size and fills it from `data` unless that is null. Throws std::invalid_argument for 0
+  /// bytes, which OpenGL refuses, and DeviceRefused if the device has not enough memory.
   Buffer(std::size_t bytes, const void* data);
 
   /// Replaces the first `bytes` bytes.
   void write(const void* data, std::size_t bytes);
-  /// Reads `bytes` bytes from `offset` on. Waits for the device.
+  /// Reads `bytes` bytes from `offset` on. Blocks until the device has finished.
   void read(void* data, std::size_t bytes, std::size_t offset = 0) const;
   /// Sets every byte to 0.
   void clear();
@@ -61,16 +62,16 @@ struct TextureKind {
   static void destroy(GLuint name) { glDeleteTextures(1, &name); }
 };
 
-/// The device does not hold what it was asked to; what() says how much that is, and the limit.
+/// The device cannot hold what was asked for; what() states how much that is, and the limit.
 class DeviceRefused : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The device does not take a texture: a side is above its limit, or it has no memory for it.
+/// The device does not accept a texture: a side is above its limit, or its memory does not suffice.
 class TextureRefused : public DeviceRefused {
 public:
   TextureRefused(int width, int height, int depth, int limit);
-  /// The longest side that the device takes, when that is what is wrong; 0 when it is the memory.
+  /// Returns the longest side that the device accepts if a side is too long; 0 if memory does not suffice.
   int limit() const { return limit_; }
 
 private:
@@ -79,44 +80,43 @@ private:
 
 enum class Filter { nearest, linear };
 
-/// What a texture gives outside [0, 1].
+/// What a texture returns outside [0, 1].
 enum class Wrap { edge, repeat };
 
-/// A 2D or 3D texture with one level and immutable storage.
+/// Owns a 2D or 3D texture with one level and immutable storage.
 class Texture {
 public:
   Texture() = default;
 
-  /// Throws TextureRefused.
+  /// Allocate a texture. Throw TextureRefused.
   /// @param format  sized internal format, such as GL_RGBA32F
   static Texture make_2d(GLenum format, int width, int height, Filter filter, Wrap wrap = Wrap::edge);
   static Texture make_3d(GLenum format, int width, int height, int depth, Filter filter, Wrap wrap);
 
-  /// Sets everything to 0.
+  /// Sets every texel to 0.
   void clear();
-  /// Uploads everything; `pixels` are tightly packed values of `type` in `layout` (GL_RG, GL_SHORT, ...). Throws
-  /// TextureRefused: a device may look for memory no sooner than here.
+  /// Uploads all texels; `pixels` are tightly packed values of `type` in `layout` (GL_RG, GL_SHORT, ...). Throws
+  /// TextureRefused, because some devices allocate memory only here.
   void write(GLenum layout, GLenum type, const void* pixels);
   /// The same from a buffer that shaders have written.
   void write(GLenum layout, GLenum type, const Buffer& pixels);
-  /// Some slices of a 3D texture from such a buffer.
+  /// The same for `count` slices of a 3D texture, from slice `first` on.
   void write_slices(GLenum layout, GLenum type, int first, int count, const Buffer& pixels);
-  /// The same as write() for all of a 3D texture but a margin of one texel on every side, which becomes `margin`
-  /// (RGBA).
+  /// Uploads all of a 3D texture except a margin of one texel on every side, which becomes `margin` (RGBA).
   void write_inside(GLenum layout, GLenum type, const void* pixels, const std::array<float, 4>& margin);
-  /// Reads everything back, tightly packed.
+  /// Reads all texels back, tightly packed.
   void read(GLenum layout, GLenum type, void* pixels, std::size_t bytes) const;
 
   void bind(GLuint unit) const { glBindTextureUnit(unit, object_.name()); }
   void bind_image(GLuint unit, GLenum access) const;
-  /// The same texels in another format of as many bytes, such as GL_R32UI for GL_RGBA8: of a 2D texture. It may outlive
-  /// this one.
+  /// Returns a view of a 2D texture's texels in another format of equal size, such as GL_R32UI for GL_RGBA8. The view
+  /// may outlive this texture.
   Texture seen_as(GLenum format) const;
 
   int width() const { return width_; }
   int height() const { return height_; }
   int depth() const { return depth_; }
-  /// What it takes of the device's memory, as the device tells of the format that it chose.
+  /// Returns the device memory that the texture takes, in bytes, from the channel sizes that the device reports.
   std::size_t bytes() const;
   GLuint name() const { return object_.name(); }
   explicit operator bool() const { return bool(object_); }
@@ -129,14 +129,14 @@ private:
   int width_ = 0, height_ = 0, depth_ = 0;
 };
 
-/// A table, or what one stage hands to the next: written as values of a buffer, read as texels of it (samplerBuffer).
-/// That is how a software renderer is fastest: storing to an image takes it several times as long, and gathering values
-/// or a texture's texels takes longer than gathering these.
+/// Owns a table, or the data that one stage passes to the next: shaders write it as a buffer and read it as texels
+/// (samplerBuffer). This is fastest on a software renderer: storing to an image takes several times as long, and
+/// reading values of a buffer, or texels of a texture, takes longer than reading these texels.
 class TexelBuffer {
 public:
   TexelBuffer() = default;
-  /// So many texels, filled from `values` when there are any. Throws std::runtime_error when shaders cannot have that
-  /// many on the device, or it has no memory for them.
+  /// Allocates `texels` texels and fills them from `values` unless that is null. Throws DeviceRefused if they are more
+  /// than the device allows shaders, or its memory does not suffice.
   /// @param format  GL_R16, GL_R32F, GL_R32UI, GL_RG16, GL_RG16F, GL_RG32F, GL_RGBA16, GL_RGBA16F, GL_RGBA32F or
   ///                GL_RGBA32I
   TexelBuffer(GLenum format, std::size_t texels, const void* values = nullptr);
@@ -157,13 +157,13 @@ struct FramebufferKind {
   static void destroy(GLuint name) { glDeleteFramebuffers(1, &name); }
 };
 
-/// A texture to draw into.
+/// Binds a texture as the target of drawing.
 class Framebuffer {
 public:
   Framebuffer() = default;
-  /// @param colour  outlives the framebuffer
+  /// @param colour  must outlive the framebuffer
   explicit Framebuffer(const Texture& colour);
-  /// Binds it and sets the viewport to the whole of it.
+  /// Binds the framebuffer and sets the viewport to all of it.
   void bind() const;
 
 private:
@@ -175,7 +175,7 @@ struct VertexArrayKind {
   static void destroy(GLuint name) { glDeleteVertexArrays(1, &name); }
 };
 
-/// Draws a triangle that covers the viewport; the vertex shader makes its corners from gl_VertexID.
+/// Draws a triangle that covers the viewport. The vertex shader makes its corners from gl_VertexID.
 class FullScreenTriangle {
 public:
   FullScreenTriangle();
@@ -189,10 +189,10 @@ struct QueryKind {
   static void destroy(GLuint name) { glDeleteQueries(1, &name); }
 };
 
-/// Times what the device does between begin() and end().
+/// Measures how long the device takes for the work between begin() and end().
 ///
-/// By two time stamps with a flush behind the first: Mesa's software renderer draws tile by tile, and its elapsed-time
-/// query knows only the last tile.
+/// It uses two time stamps with a flush behind the first. Mesa's software renderer draws tile by tile, and its
+/// elapsed-time query covers only the last tile.
 class Timer {
 public:
   Timer();
@@ -201,7 +201,7 @@ public:
     glFlush();
   }
   void end() { glQueryCounter(end_.name(), GL_TIMESTAMP); }
-  /// Waits for the device. Milliseconds.
+  /// Returns the time in milliseconds. Blocks until the device has finished.
   double milliseconds() const;
 
 private:

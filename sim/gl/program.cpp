@@ -35,18 +35,18 @@ struct ShaderKind {
   static void destroy(GLuint name) { glDeleteShader(name); }
 };
 
-// Through links to folders too, and past what may not be read.
+// Also follows links to folders, and skips folders that may not be read.
 constexpr fs::directory_options kAsFilesOpen =
     fs::directory_options::follow_directory_symlink | fs::directory_options::skip_permission_denied;
 
-// A folder may hold other things too, large ones, or be named by mistake.
+// A folder may also hold other files, even large ones, or be named by mistake.
 bool is_shader(const fs::directory_entry& entry) {
   static constexpr std::array kEndings = {".comp", ".vert", ".frag", ".glsl", ".h"};
   std::error_code error;
   return std::ranges::count(kEndings, entry.path().extension().string()) > 0 && entry.is_regular_file(error);
 }
 
-// OpenGL itself only notes an error, which nobody looks at, and runs nothing.
+// OpenGL itself only records an error, which nobody reads, and runs nothing.
 void refuse_too_many(const std::string& shader, const std::array<int, 3>& groups) {
   for (std::size_t axis = 0; axis < groups.size(); ++axis) {
     if (groups[axis] <= WorkDivision{}.most_groups) continue;
@@ -199,10 +199,10 @@ void Program::dispatch(int x, int y, int z) const {
 void Program::dispatch_groups(int x, int y, int z) const {
   refuse_too_many(shaders_.front(), {x, y, z});
   use();
-  // What it writes over may still be drawn or copied.
+  // Earlier draws or copies may still read what this overwrites.
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   glDispatchCompute(GLuint(x), GLuint(y), GLuint(z));
-  // For the next shader, and for what writes, clears or reads the same objects without one.
+  // For the next shader, and for calls that write, clear or read the same objects without a shader.
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
                   GL_BUFFER_UPDATE_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
 }

@@ -19,7 +19,7 @@ void Readback::begin(const Texture& texture) {
   if (full()) throw std::logic_error("too many pictures are being read back");
   const int width = texture.width(), height = texture.height();
   Buffer pixels(std::size_t(width) * std::size_t(height), nullptr);
-  // From a framebuffer and not from the texture itself: Mesa's drivers wait when a texture is read into a buffer.
+  // Through a framebuffer, not from the texture: Mesa's drivers block when a texture is read into a buffer.
   GLuint name = 0;
   glCreateFramebuffers(1, &name);
   const Object<FramebufferKind> source(name);

@@ -10,26 +10,28 @@
 
 namespace insonate::gl {
 
-/// Brings grey pictures back from the device without waiting for it: what is asked for in one frame is there in one of
-/// the next. Pixels go through buffers of the device, each behind a fence.
+/// Reads grey pictures back from the device without blocking: a picture requested in one frame arrives during one of
+/// the next. Pixels go through device buffers, each followed by a fence.
 class Readback {
 public:
-  /// So many may be under way: a device that is slower than that has nothing to gain from more.
+  /// Most pictures in flight: a device that is slower than that gains nothing from more.
   static constexpr std::size_t kMost = 3;
 
   bool full() const { return under_way_.size() == kMost; }
 
-  /// Starts to read the red channel of an 8-bit texture as it is now. Throws std::logic_error when full().
+  /// Starts to read the red channel of an 8-bit texture as it is now. Throws std::logic_error if full().
   void begin(const Texture& texture);
 
-  /// The picture that was asked for first of those under way, once it is there. @param wait  for it, if there is any
+  /// Returns the oldest picture in flight once it has arrived; empty before, and if there is none. Throws
+  /// std::runtime_error if the device does not report when it has finished.
+  /// @param wait  blocks until the picture arrives
   std::optional<Image<std::uint8_t>> take(bool wait = false);
 
-  /// Gives up what is under way.
+  /// Drops all pictures in flight.
   void forget() { under_way_.clear(); }
 
 private:
-  /// A sign of the device that it has done everything asked of it before.
+  /// Signals when the device has done everything that was submitted before.
   class Fence {
   public:
     Fence() : sync_(glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0)) {}

@@ -11,9 +11,9 @@ namespace {
 
 constexpr GLenum kSubgroupSize = 0x9532;  // GL_SUBGROUP_SIZE_KHR, younger than some headers
 
-constexpr int kImagesInTurn = 8;  // twice as many would save one image in a hundred
+constexpr int kImagesInTurn = 8;  // twice as many would save the time of one image in a hundred
 
-constexpr std::size_t kLinesThatFill = 8192;  // 8 vectors of 32 on 32 processors, reckoned as the header says
+constexpr std::size_t kLinesThatFill = 8192;  // 8 vectors of 32 on 32 processors, estimated as the header describes
 
 }  // namespace
 

@@ -13,8 +13,8 @@ namespace {
 constexpr int kFirstHu = -1024;  // as in acoustic_volume.glsl
 constexpr int kLookupSize = 4096;
 
-// Normalised whole numbers of 16 bits are exact. Eight bits would make steps of 16 HU over a CT's 4096, at which alone
-// an interface of soft tissue reflects 2e-4, as much as that of an organ.
+// Normalised 16-bit integers are exact. 8 bits would make steps of 16 HU over a CT's 4096. A single such step, as an
+// interface of soft tissue, reflects 2e-4, as much as that of an organ.
 Texture upload(const AcousticVolume& volume) {
   const glm::ivec3 size = volume.grid.size + 2 * kAirMargin;
   Texture texture = Texture::make_3d(GL_RG16_SNORM, size.x, size.y, size.z, Filter::linear, Wrap::edge);
@@ -24,7 +24,7 @@ Texture upload(const AcousticVolume& volume) {
   return texture;
 }
 
-// What acoustic_volume.glsl reads between two whole HU: values at the first, and what they rise by to the next.
+// Returns what acoustic_volume.glsl reads per whole HU: the values, and their increase to the next HU.
 TexelBuffer tabulate(const TissueTable& table) {
   std::vector<glm::vec4> lookup;
   for (int i = 0; i < kLookupSize; ++i) {
@@ -35,7 +35,7 @@ TexelBuffer tabulate(const TissueTable& table) {
   return TexelBuffer(GL_RGBA32F, lookup.size(), lookup.data());
 }
 
-// The least box of indices around all voxels that sound can tell from the air outside.
+// Returns the smallest box of indices around all voxels that sound can distinguish from the air outside.
 std::pair<glm::ivec3, glm::ivec3> body_box(const AcousticVolume& volume, const TissueTable& table) {
   const AcousticVoxel outside;
   const int densest_air = table.densest_air_hu();
@@ -67,7 +67,7 @@ DeviceVolume::DeviceVolume(const AcousticVolume& volume, const TissueTable& tabl
       glm::translate(glm::scale(glm::dmat4(1.0), 1.0 / size), glm::dvec3(kAirMargin + 0.5));
   texture_from_patient_ = texture_from_index * glm::inverse(volume.grid.matrix());
 
-  // A voxel is felt up to its neighbours' centres.
+  // Interpolation carries a voxel as far as its neighbours' centres.
   const auto [low, high] = body_box(volume, table);
   body_low_ = (glm::dvec3(low + kAirMargin) - 0.5) / size;
   body_high_ = (glm::dvec3(high + kAirMargin) + 1.5) / size;

@@ -11,26 +11,26 @@
 
 namespace insonate::gl {
 
-/// Voxels of air around a volume on the card, so that sampling beyond it needs no look at where it ends.
+/// Voxels of air around a volume on the card, so that samples beyond the volume need no test of where it ends.
 inline constexpr int kAirMargin = 1;
 
-/// A patient on the graphics card: the volume as sound meets it, and what its Hounsfield units mean.
+/// Holds a patient on the graphics card: the volume that sound meets, and the tissue table for its Hounsfield units.
 class DeviceVolume {
 public:
   DeviceVolume() = default;
-  /// Throws TextureRefused when the device cannot hold it.
+  /// Uploads both. Throws TextureRefused if the device cannot hold the volume.
   DeviceVolume(const AcousticVolume& volume, const TissueTable& table);
 
   /// (HU, echogenicity in hundredths of a dB) / 32767, with the margin of air.
   const Texture& texture() const { return texture_; }
-  /// Impedance and absorption at each whole HU, as acoustic_volume.glsl reads it.
+  /// Impedance and absorption at each whole HU, as shared/acoustic_volume.glsl reads them.
   const TexelBuffer& tissue_lookup() const { return tissue_lookup_; }
-  /// Patient mm -> the texture's coordinates.
+  /// Maps patient mm to the texture's coordinates.
   const glm::dmat4& texture_from_patient() const { return texture_from_patient_; }
 
-  /// The part of a ray where it may meet anything but the air that is around the body, or may have it within `margin`
-  /// along the axes: from start + first * step to start + last * step (texture coordinates), with last < first where it
-  /// meets nothing else.
+  /// Returns the part of a ray that may meet anything but the air around the body, or pass within `margin` of it along
+  /// the axes. It runs from start + first * step to start + last * step (texture coordinates); last < first if there is
+  /// no such part.
   std::pair<double, double> meets_body(const glm::dvec3& start, const glm::dvec3& step, const glm::dvec3& margin) const;
 
   explicit operator bool() const { return bool(texture_); }

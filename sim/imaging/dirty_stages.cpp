@@ -6,7 +6,7 @@
 namespace insonate::gl {
 namespace {
 
-// What the others leave unused is as if it had never been set.
+// Returns the settings with all unused ones at their defaults, so that changes of these compare equal.
 Settings in_use(Settings settings) {
   const Settings unset;
   const auto forget = [&](auto... members) { ((settings.*members = unset.*members), ...); };
@@ -33,7 +33,7 @@ Settings in_use_by_sweeps(Settings settings) {
   return settings;
 }
 
-// Where a sweep does what a picture's stage does.
+// Returns the stage of a sweep that does the work of a picture's stage.
 SweepStage sweep_stage(Stage of_picture) {
   switch (of_picture) {
     case Stage::traverse:

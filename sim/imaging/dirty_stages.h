@@ -7,17 +7,18 @@
 
 namespace insonate::gl {
 
-/// What a change of settings reaches of a picture. Settings that others leave unused, such as the focus of a beam that
-/// has none, dirty nothing.
+/// Which stages a change of settings invalidates for a picture. Settings that others leave unused, such as the focus of
+/// a beam without one, invalidate nothing.
 struct DirtyStages {
-  std::optional<Stage> first;  ///< stage to run again, with those behind it; none when the picture stays as it is
-  bool layout = false;         ///< the number of samples, planes or pixels
-  bool beam = false;           ///< what the beam's windows hang on
+  std::optional<Stage> first;  ///< first stage to run again, with all behind it; empty if the picture does not change
+  bool layout = false;         ///< the number of samples, slice planes or pixels changed
+  bool beam = false;           ///< something that the beam's windows depend on changed
 };
 
+/// Returns what a change of settings from `before` to `now` invalidates.
 DirtyStages dirty_stages(const Settings& before, const Settings& now);
 
-/// The same of a sweep's volume, which uses neither the picture's size nor its smoothing.
+/// The same for a sweep's volume, which uses neither the picture's size nor its smoothing.
 struct DirtySweepStages {
   std::optional<SweepStage> first;
   bool layout = false;

@@ -7,7 +7,7 @@
 namespace insonate::gl {
 namespace {
 
-constexpr glm::ivec2 kOutside(1 << 20);  // in blocks: no picture reaches as far
+constexpr glm::ivec2 kOutside(1 << 20);  // in blocks: beyond every picture
 
 }  // namespace
 

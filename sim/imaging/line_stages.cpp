@@ -10,7 +10,7 @@
 namespace insonate::gl {
 namespace {
 
-// What all stages are compiled for, and what one is besides.
+// Adds what all stages are compiled for to the defines of one.
 Defines with(const WorkDivision& division, Defines defines = {}) {
   defines.emplace_back("GROUP", std::to_string(division.group));
   return defines;
@@ -20,7 +20,7 @@ Defines traversal(const Settings& settings, double dr_mm, bool group_a_line) {
   const double samples_a_length = settings.reflection_length_mm / dr_mm;
   const auto is = [&](double whole) { return std::abs(samples_a_length - whole) < 1e-9; };
   return {{"GROUP_A_LINE", flag(group_a_line)},
-          {"EDGES_AT", group_a_line ? "kEdgesAnywhere"  // each sample looks for itself
+          {"EDGES_AT", group_a_line ? "kEdgesAnywhere"  // each sample fetches its own ends
                        : is(2)      ? "kEdgesAtSamples"
                        : is(1)      ? "kEdgesAtMiddles"
                                     : "kEdgesAnywhere"},
@@ -81,7 +81,7 @@ std::size_t LineStages::set_lines() const {
 }
 
 bool LineStages::group_a_line() const {
-  // Of a sweep in parts, the same for each of them.
+  // For a sweep in parts, the answer is the same for each part.
   return std::size_t(most_planes_) * lines_.lines.size() < division_.lines_that_fill;
 }
 
@@ -103,7 +103,7 @@ void LineStages::traverse(const DeviceVolume& volume, std::span<const Pose> pati
   volume.texture().bind(0);
   scatterers_.bind(1);
   volume.tissue_lookup().bind(7);
-  if (keeps_middle_plane(settings)) middle_.bind_storage(3);  // the line in air's is written over
+  if (keeps_middle_plane(settings)) middle_.bind_storage(3);  // the results of the line in air are overwritten
 
   std::vector<PlacedLine> placed;
   for (const Pose& pose : patient_from_plane) {
@@ -124,7 +124,7 @@ void LineStages::walk(std::size_t lines, const std::vector<PlacedLine>& placed, 
   dispatch(traverse_, group_a_line() ? lines : groups_of(lines));
 }
 
-// One row of work groups need not hold all lines.
+// In rows, because one row of work groups need not hold all lines.
 void LineStages::dispatch(const Program& program, std::size_t groups) const {
   const glm::ivec2 in_rows = division_.in_rows(groups);
   program.dispatch_groups(in_rows.x, in_rows.y);

@@ -16,49 +16,48 @@ namespace insonate::gl {
 
 struct PlacedLine;
 
-/// What the traversal did, modulo 2^32. A line ends where it has lost its energy; one that meets no body does not
-/// start. Where a work group walks along a line, it ends with the stretch of it in which the energy is lost, and the
-/// samples of that stretch behind count too: they were worked out.
+/// What the traversal did, modulo 2^32. A line ends where it has lost its energy; a line that does not meet the body
+/// does not start. Where a work group traverses a line, it ends with the stretch in which the energy is lost. The
+/// remaining samples of that stretch count too, because they were computed.
 struct SampleCounts {
-  std::uint32_t walked = 0;   ///< samples, of planes x lines x samples
-  std::uint32_t normals = 0;  ///< of these, with the normal worked out; edge shadows look around all of them
+  std::uint32_t walked = 0;   ///< samples traversed, of slice planes x lines x samples
+  std::uint32_t normals = 0;  ///< of these, samples with a normal; edge shadows sample around all of them
 };
 
-/// The stages of model S that know scan lines and neither pictures nor volumes: traversal, and the beam with all that
-/// hangs on it, reverberation and clutter. They run on the lines of one plane, for a picture, or of a set of planes,
-/// for a volume, each of them where its own pose says.
+/// Runs the stages of model S that depend on scan lines alone: traversal, and the beam with reverberation and clutter.
+/// They run on the lines of one plane, for a picture, or of several planes, for a volume. Each plane has its own pose.
 ///
-/// What they hand on has a row a line, plane by plane, in one buffer: a texture near square, which would hold as many,
-/// is slower to store to (see TexelBuffer), and no device needs it where work groups go in rows.
+/// Their results have one row per line, plane by plane, in one buffer. A near-square texture of the same capacity is
+/// slower to store to (see TexelBuffer), and no device needs it where work groups are laid out in rows.
 ///
-/// They read the block of parameters (sim/shaders/shared/simulation_parameters.h), which whoever runs them binds as
-/// uniform block 0 before, with the number of planes. Each builds its shaders when it runs, for the settings it is
-/// given; throws std::runtime_error when one does not build.
+/// They read the block of parameters (sim/shaders/shared/simulation_parameters.h). The caller binds it as uniform block
+/// 0 before each stage, with the number of planes. Each stage builds its shaders when it runs, for the settings that it
+/// is given, and throws std::runtime_error if one does not compile.
 class LineStages {
 public:
   LineStages(const ShaderSources& sources, const WorkDivision& division);
 
-  /// Allocates. Throws DeviceRefused.
-  /// @param of_plane     in the plane's own frame, the same for all
-  /// @param most_planes  together, 1 or more
+  /// Allocates the buffers. Throws DeviceRefused.
+  /// @param of_plane     in the plane's own frame, the same for all planes
+  /// @param most_planes  traversed together, 1 or more
   void lay_out(const ScanLines& of_plane, int most_planes, const Settings& settings);
-  /// Notes that something changed that the beam's windows hang on; a new layout does so by itself.
+  /// Notes that something changed on which the beam's windows depend; lay_out() implies it.
   void change_beam() { beam_changed_ = true; }
 
-  /// Counts samples anew.
+  /// Sets the counts of samples to 0.
   void restart_counts() { counters_.clear(); }
-  /// Places the lines and walks along them.
-  /// @param patient_from_plane  1 to most_planes
+  /// Places the lines and traverses them.
+  /// @param patient_from_plane  1 to most_planes poses
   void traverse(const DeviceVolume& volume, std::span<const Pose> patient_from_plane, const Settings& settings);
-  /// Behind traverse() with the same settings, but for those that reach no further back than here.
+  /// Runs the beam's stages. Call it after traverse(), with settings that differ at most in what the traversal ignores.
   void beam(const Settings& settings);
 
-  const ScanLines& lines() const { return lines_; }      ///< of a plane
+  const ScanLines& lines() const { return lines_; }      ///< per plane
   const TexelBuffer& scan() const { return scan_; }      ///< by sample: I, R, scatterers' echo (re, im)
   const TexelBuffer& echoes() const { return echoes_; }  ///< by sample: R, T, S, V
-  /// By plane and depth: mean of T S with its tail, with clutter.
+  /// By plane and depth: mean of T S with its tail; only with clutter.
   const TexelBuffer& mean_echo() const { return mean_echo_; }
-  /// Waits for the device.
+  /// Returns the counts since restart_counts(). Blocks until the device has finished.
   SampleCounts sample_counts() const;
 
   /// For Program::reload().
@@ -72,21 +71,21 @@ private:
   std::size_t most_samples() const;
   void walk(std::size_t lines, const std::vector<PlacedLine>& placed, Buffer& line_buffer, const TexelBuffer& scan,
             const Buffer& counters);
-  std::size_t groups_of(std::size_t lines) const;  // where an invocation takes a line
+  std::size_t groups_of(std::size_t lines) const;  // where one invocation takes one line
   void dispatch(const Program& program, std::size_t groups) const;
 
   WorkDivision division_;
   Program traverse_, reverberation_, beam_, clutter_, clutter_tail_;
 
   ScanLines lines_;
-  int most_planes_ = 1, planes_ = 1;  // of the last traversal
+  int most_planes_ = 1, planes_ = 1;  // planes_: of the last traversal
   Texture scatterers_;
-  std::uint32_t scatterers_seed_ = 0;  // of those there are
+  std::uint32_t scatterers_seed_ = 0;  // of scatterers_
   Buffer line_buffer_, air_line_buffer_, beam_window_;
   TexelBuffer beam_at_depth_;
   bool beam_changed_ = true;
 
-  TexelBuffer in_air_;  // by sample, as scan(): of a line that meets no body
+  TexelBuffer in_air_;  // by sample, as scan(): of a line that does not meet the body
   TexelBuffer scan_, middle_, repeats_, echoes_, mean_echo_;
   Buffer counters_{sizeof(SampleCounts), nullptr}, uncounted_{sizeof(SampleCounts), nullptr};
 };

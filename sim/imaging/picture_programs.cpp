@@ -32,7 +32,7 @@ Defines fusion(const PictureVariant& variant) {
   return defines;
 }
 
-// Until settings are known.
+// The variant for shaders that are built before settings are known.
 PictureVariant plain(const Settings& settings) {
   return {settings, 0, 0, false};
 }

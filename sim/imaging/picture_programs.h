@@ -8,20 +8,20 @@
 
 namespace insonate::gl {
 
-/// What the shaders of a picture's stages are compiled for, so that what a scene does not need costs it nothing.
+/// What the shaders of a picture's stages are compiled for, so that a scene does not pay for what it does not need.
 struct PictureVariant {
   const Settings& settings;
   int reflection_radius_px, transmission_radius_px;  ///< of the smoothing windows
-  bool keeps_fused;                                  ///< U is written, for whoever reads the stages
+  bool keeps_fused;                                  ///< U is written, for a caller that reads the stages
 };
 
-/// The shaders of model S that bring what the lines hold (sim/imaging/line_stages.h) to a picture.
+/// The shaders of model S that convert the results on the lines (sim/imaging/line_stages.h) to a picture.
 struct PicturePrograms {
-  /// Throws std::runtime_error when one does not build.
+  /// Throws std::runtime_error if one does not compile.
   explicit PicturePrograms(const ShaderSources& sources);
 
-  /// Builds a stage and those behind it for a variant; does nothing for those that are built so. Throws
-  /// std::runtime_error.
+  /// Builds a stage and those behind it for a variant; does nothing for those that are built for it already. Throws
+  /// std::runtime_error if one does not compile.
   void build_from(Stage first, const PictureVariant& variant);
 
   /// For Program::reload().

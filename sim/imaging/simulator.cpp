@@ -18,7 +18,7 @@
 namespace insonate::gl {
 namespace {
 
-// The stages have a row a line, Stages a column.
+// Transposes an image: the stages store one row per line, Stages one column per line.
 Image<float> transposed(const Image<float>& rows) {
   Image<float> columns(rows.height, rows.width);
   for (int y = 0; y < rows.height; ++y)
@@ -26,7 +26,8 @@ Image<float> transposed(const Image<float>& rows) {
   return columns;
 }
 
-// What a stage has left for the next, four numbers a sample, each as an image. Waits for the device.
+// Reads back a stage's result of four numbers per sample, each number as an image. Blocks until the device has
+// finished.
 std::array<Image<float>, 4> read_fours(const TexelBuffer& buffer, int width, int height) {
   const Image<float> image(width, height);
   std::array<Image<float>, 4> images{image, image, image, image};
@@ -46,35 +47,35 @@ struct Simulator::State {
   LineStages line_stages;
   PicturePrograms programs;
 
-  // What the user set.
+  // Inputs from the caller.
   Settings settings;
   Probe probe;
   double depth_mm = 160;
   Pose patient_from_probe;
-  bool stages_are_read = false;  // by read_stages(), which asks for U where grey is all that a picture needs
+  bool stages_are_read = false;  // set by read_stages(), which needs U even where a picture needs only grey
 
-  // What follows from that.
+  // Derived from these.
   FanLayout fan;
   Gaussian reflection_gaussian, transmission_gaussian;
 
-  // What the stages read.
+  // Inputs of the stages.
   DeviceVolume volume;
   SimulationParameters parameters{};
   Buffer parameter_buffer{sizeof(SimulationParameters), nullptr};
   TexelBuffer line_and_sample, noise, fan_weights;  // by pixel
   Buffer fan_blocks;
-  double noise_length_mm = 0;  // the noise's grain
+  double noise_length_mm = 0;  // grain of the noise
 
-  // What they write.
+  // Results of the stages.
   TexelBuffer picture, sharp, half_smoothed, fused, levels;  // by pixel
   Buffer brightest;                                          // by block of the fan
   Buffer maximum_buffer{sizeof(GLuint), nullptr};
-  Texture image, image_words;  // the picture, and each of its pixels as one number
+  Texture image, image_words;  // the picture, and a view of it with one number per pixel
 
   bool layout_changed = true;  // probe, depth, sample count or picture size
   std::optional<Stage> first_due = Stage::traverse;
   std::array<long, kStageCount> runs{};
-  int slice_planes_walked = 0;  // when the traversal last ran
+  int slice_planes_walked = 0;  // by the last traversal
 
   std::size_t pixels() const { return std::size_t(settings.image_width) * std::size_t(settings.image_height); }
   bool frame_sets_white() const { return settings.reference_level == ReferenceLevel::frame_maximum; }
@@ -91,7 +92,7 @@ struct Simulator::State {
   void prepare_noise();
 };
 
-// Allocates what depends on the number of lines, samples and pixels, and works out where each pixel lies.
+// Allocates what depends on the number of lines, samples and pixels, and computes where each pixel lies.
 void Simulator::State::lay_out() {
   line_stages.lay_out(scan_lines(probe, depth_mm, settings.samples), 1, settings);
   const int w = settings.image_width, h = settings.image_height;
@@ -110,7 +111,7 @@ void Simulator::State::lay_out() {
   layout_changed = false;
 }
 
-// Everything that the stages due read and that is not another stage's.
+// Prepares everything that the outdated stages read and that is not the result of another stage.
 void Simulator::State::prepare() {
   if (layout_changed) lay_out();
   if (*first_due <= Stage::scan_convert) {

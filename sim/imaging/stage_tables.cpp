@@ -16,13 +16,13 @@ namespace {
 
 constexpr double kLn10 = 2.302585092994046;
 
-// An interface counts as too weak for its tilt to be seen where it echoes this share of what the scatterers do: 0.004
-// dB. The beam's width carries it into shadows beside it, where scatterers are weaker: there clutter of as much covers
-// it, and without any the share is smaller, so that 30 dB of shadow do not bring it out.
+// An interface is too weak for its tilt to be visible if it echoes less than this share of what the scatterers do:
+// 0.004 dB. The beam's width carries the echo into neighbouring shadows, where scatterers are weaker. Clutter of as
+// much covers it there. Without clutter the share is smaller, so that 30 dB of shadow do not reveal the tilt.
 constexpr double kUnseenShare = 0.001, kUnseenShareInShadow = 1e-6;
-constexpr double kMostBlend = 1e-3;  // beside more echo than that, what rings would still show the tilt
+constexpr double kMostBlend = 1e-3;  // limit for the blend above: beyond it, reverberation would still show the tilt
 
-// What x line, y sample holds at a continuous place inside the fan, as scan_convert.comp reads it.
+// Samples an image (x line, y sample) at a continuous place inside the fan, as scan_convert.comp does.
 double bilinear(const Image<double>& image, const glm::vec2& line_and_sample) {
   const glm::dvec2 last(image.width - 1, image.height - 1);
   const glm::dvec2 position = glm::clamp(glm::dvec2(line_and_sample), glm::dvec2(0), last);
@@ -32,7 +32,7 @@ double bilinear(const Image<double>& image, const glm::vec2& line_and_sample) {
                   glm::mix(image.at(low.x, high.y), image.at(high.x, high.y), f.x), f.y);
 }
 
-// What of each pixel's window lies inside the fan, its rows first as smooth.comp and fuse.comp go.
+// Returns the part of each pixel's window that lies inside the fan, rows first, as smooth.comp and fuse.comp do.
 Image<float> inside_window(const Image<std::uint8_t>& inside, const Gaussian& gaussian) {
   const int w = inside.width, h = inside.height, margin = gaussian.radius;
   std::vector<float> weights;
@@ -52,8 +52,8 @@ Image<float> inside_window(const Image<std::uint8_t>& inside, const Gaussian& ga
 
 constexpr float kFar = 1e9f;  // samples
 
-// The first and the last sample of a line that may meet the body, at a sample's width or `margin` beside it: the shader
-// rounds its own positions. The first behind the last where none between the face and the line's end does.
+// Returns the first and the last sample of a line that may meet the body within `margin` beside it. Both leave one
+// sample of tolerance, because the shader rounds its own positions. First > last if no sample does.
 std::pair<float, float> samples_in_body(const DeviceVolume& volume, const glm::dvec3& start, const glm::dvec3& along,
                                         const glm::dvec3& margin, double last_sample) {
   const auto [first, last] = volume.meets_body(start, along, margin);
@@ -61,8 +61,8 @@ std::pair<float, float> samples_in_body(const DeviceVolume& volume, const glm::d
   return {float(first - 1), float(last + 1)};
 }
 
-// The least and the most slice thickness that a line's samples, and what they margin, meet where planes bend; 0 both
-// where they do not.
+// Returns the smallest and the largest slice thickness that a line's samples, and their margin, meet where slice planes
+// bend, mm; (0, 0) where they do not bend.
 std::pair<double, double> bent_between(const ScanLines& lines, const Settings& settings) {
   if (!slice_bends(settings)) return {0, 0};
   const double margin = settings.reflection_length_mm / 2;
@@ -79,10 +79,10 @@ bool meets_no_body(const PlacedLine& line) {
 
 std::vector<PlacedLine> line_in_air(const Settings& settings) {
   PlacedLine line{};
-  line.start = glm::vec4(-1, -1, -1, -kFar);  // beside the texture, and in the body before the face at most
+  line.start = glm::vec4(-1, -1, -1, -kFar);  // outside the texture; no sample from the face on lies in the body
   line.along.w = -kFar;
   std::vector<PlacedLine> planes(std::size_t(settings.slice_planes), line);
-  planes.front().lateral.w = 1;  // all planes are the same there, and are weighed where they are put
+  planes.front().lateral.w = 1;  // all slice planes give the same there; they are weighted where they are stored
   return planes;
 }
 
@@ -90,7 +90,7 @@ std::vector<PlacedLine> placed_lines(const DeviceVolume& volume, const Pose& pat
                                      const Settings& settings) {
   const glm::dmat4 texture_from_probe = volume.texture_from_patient() * patient_from_probe.matrix();
   glm::dmat4 lattice_from_probe = lattice_from_patient(settings.speckle_cell_mm) * patient_from_probe.matrix();
-  // Whole periods of the translation change nothing but cost the shader's single precision digits.
+  // Whole periods of the translation change nothing, but would cost digits of the shader's single precision.
   for (int axis = 0; axis < 3; ++axis) lattice_from_probe[3][axis] -= std::floor(lattice_from_probe[3][axis]);
 
   const auto point = [](const glm::dmat4& map, const glm::dvec3& p) { return glm::dvec3(map * glm::dvec4(p, 1)); };
@@ -108,8 +108,8 @@ std::vector<PlacedLine> placed_lines(const DeviceVolume& volume, const Pose& pat
       const glm::dvec3 to_side = step(texture_from_probe, half_length * lateral),
                        to_elevation = step(texture_from_probe, half_length * elevation),
                        elevated = step(texture_from_probe, {0, 0, plane.offset});
-      // Sound meets what lies half the reflection length around a sample. A bent line stays between where it is
-      // nearest to the imaging plane and where it is furthest from it.
+      // Sound meets what lies within half the reflection length of a sample. A bent line stays between its smallest and
+      // its largest distance from the imaging plane.
       const glm::dvec3 margin = glm::abs(to_side) + glm::abs(to_elevation) + half_length / dr * glm::abs(along) +
                                 (bent.second - bent.first) / 2 * glm::abs(elevated);
       const glm::dvec3 middle = start + (bent.first + bent.second) / 2 * elevated;

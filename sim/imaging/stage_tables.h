@@ -12,10 +12,10 @@
 #include "sim/probe/probe.h"
 #include "sim/shaders/shared/simulation_parameters.h"
 
-/// What model S's stages read that no stage writes, worked out on the processor.
+/// The tables that model S's stages read and no stage writes, computed on the processor.
 namespace insonate::gl {
 
-/// A scan line as `Line` in shared/line_sample.glsl: in the volume's texture and in the scatterers' lattice.
+/// A scan line in the volume's texture and in the scatterers' lattice, laid out as `Line` in shared/line_sample.glsl.
 struct PlacedLine {
   glm::vec4 start, along;
   glm::vec4 lateral, elevation;
@@ -23,24 +23,24 @@ struct PlacedLine {
   glm::vec4 beside, lattice_beside;
 };
 
-/// The lines of all slice planes where the probe now is, plane by plane.
+/// Returns the lines of all slice planes for a pose of the probe, slice plane by slice plane.
 std::vector<PlacedLine> placed_lines(const DeviceVolume& volume, const Pose& patient_from_probe, const ScanLines& lines,
                                      const Settings& settings);
 
-/// That none of its samples, nor what they look at beside it, lies in the body: it is not walked along.
+/// True if neither the line's samples nor the points used for their gradients touch the body. Such a line is skipped.
 bool meets_no_body(const PlacedLine& line);
 
-/// What such lines carry is that of one line in each plane which is, before it is weighed.
+/// Returns one line in air per slice plane, before weighting. Its results are those of all lines that meet no body.
 std::vector<PlacedLine> line_in_air(const Settings& settings);
 
-/// The beam's window from the middle line outwards, 128 weights, as beam.comp takes it.
+/// Returns the beam's window from the middle line outwards, 128 weights, as beam.comp reads it.
 Buffer half_beam_window(const Settings& settings);
 
-/// What beam.comp asks of each sample's depth: the factor that makes the envelope's mean 1, and of a focused beam
-/// the margin in lines and the Gaussian's exponent.
+/// Returns what beam.comp reads per sample depth: the factor that makes the envelope's mean 1 and, for a focused beam,
+/// its radius in lines and the Gaussian's exponent.
 TexelBuffer beam_by_depth(const ScanLines& lines, const Settings& settings);
 
-/// A smoothing window out to three sigma or the picture's size, in pixels.
+/// A smoothing window, cut off at three sigma or at the picture's size, in pixels.
 struct Gaussian {
   int radius = 0;       ///< 0 for none
   double exponent = 0;  ///< -1/(2 sigma^2)
@@ -50,28 +50,29 @@ struct Gaussian {
   bool operator==(const Gaussian&) const = default;
 };
 
-/// Whether anything repeats (sim/model/reverberation.h), and whether anything adds noise (sim/model/noise.h).
+/// True if the settings ask for reverberation (sim/model/reverberation.h), for noise or clutter (sim/model/noise.h),
+/// and for time gain other than 0.
 bool reverberates(const Settings& settings);
 bool is_noisy(const Settings& settings);
 bool has_time_gain(const Settings& settings);
-/// Reverberation is of the slice's middle plane, which the traversal then keeps beside the sum of all.
+/// True if the traversal must keep the slice's middle plane beside the sum of all planes: reverberation needs it.
 bool keeps_middle_plane(const Settings& settings);
 
-/// The alpha of (1) below which an interface's tilt is not looked at, because its echo is not seen.
+/// Returns the alpha of (1) below which an interface's tilt is not computed, because its echo is not visible.
 double least_alpha_with_normal(const Settings& settings);
 
-/// The block of parameters that all shaders read.
+/// Returns the block of parameters that all shaders of model S read.
 SimulationParameters parameters_of(const Settings& settings, const ScanLines& lines, const Gaussian& reflection,
                                    const Gaussian& transmission);
 
-/// What fuse.comp asks of each pixel: its sample + 1, or 0 outside the fan, and 1 over what of its windows of R and of
-/// T lies inside the fan; RG32F when there is no window of T, else RGBA32F.
+/// Returns what fuse.comp reads per pixel: its sample + 1, or 0 outside the fan; then 1 / the part of its windows of R
+/// and of T that lies inside the fan. RG32F if there is no window of T, else RGBA32F.
 TexelBuffer weights_of_pixels(const FanLayout& fan, const Gaussian& reflection, const Gaussian& transmission);
 
-/// The receiver's noise, mean 1, a row a line.
+/// Returns the receiver's noise, mean 1, one row per line.
 TexelBuffer noise_of_lines(const ScanLines& lines, const Settings& settings);
 
-/// The receiver's noise, mean 1, as scan conversion brings it to each pixel of the fan; 0 outside.
+/// Returns the receiver's noise, mean 1, scan-converted to each pixel of the fan; 0 outside.
 TexelBuffer noise_of_pixels(const FanLayout& fan, const ScanLines& lines, const Settings& settings);
 
 }  // namespace insonate::gl

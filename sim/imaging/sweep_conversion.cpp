@@ -24,7 +24,7 @@ SweepParameters parameters_of(const Sweep& sweep, int planes, int samples, const
   p.height = grid.size.y;
   p.depth_mm = float(sweep.depth_mm);
   p.face_width_mm = float(sweep.probe.width_mm);
-  p.apex_behind_mm = float(apex_behind_mm(sweep.probe));  // not read for linear
+  p.apex_behind_mm = float(apex_behind_mm(sweep.probe));  // unused for linear probes
   p.field_of_view = float(glm::radians(sweep.probe.field_of_view_deg));
   return p;
 }
@@ -52,7 +52,7 @@ void SweepConversion::lay_out(const Grid& grid) {
 }
 
 void SweepConversion::convert(const Sweep& sweep, const Part& part, const TexelBuffer& values, int samples) {
-  // Chained in double precision: single would lose digits to the patient's far origin.
+  // The matrices are chained in double precision: single precision would lose digits to the patient's far origin.
   std::vector<glm::vec4> rows;
   for (int plane = part.first; plane < part.first + part.planes; ++plane) {
     const Pose plane_from_patient = sweep.patient_from_plane[std::size_t(plane)].inverse();

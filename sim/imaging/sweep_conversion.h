@@ -9,37 +9,38 @@
 
 namespace insonate::gl {
 
-/// Scan conversion of a sweep to a volume on the graphics card: each voxel takes from the two planes on its sides, by
-/// its distances to them, bilinear among the lines and samples of each. Exact filtering in single precision.
+/// Converts a sweep to a volume on the graphics card. Each voxel mixes the two planes on its sides by its distances to
+/// them, bilinear among the lines and samples of each. Filtering is exact in single precision.
 ///
-/// The planes may come part by part. Needs an OpenGL 4.5 context, current whenever it is used. Throws
-/// std::runtime_error when its shader does not build.
+/// The planes may come in parts. Needs an OpenGL 4.5 context that is current at every use. Throws std::runtime_error if
+/// its shader does not compile.
 class SweepConversion {
 public:
   explicit SweepConversion(const ShaderSources& sources = {}, const WorkDivision& division = {});
 
-  /// Places the volume, and allocates it if it has another size. Throws DeviceRefused.
+  /// Places the volume, and allocates it if its size has changed. Throws DeviceRefused.
   /// @param grid  where the voxels lie in the patient
   void lay_out(const Grid& grid);
 
-  /// Neighbouring planes of a sweep. A part begins with the plane that the part before it ends with, because voxels lie
-  /// between planes; the first one makes the volume anew, the others add to it.
+  /// Neighbouring planes of a sweep. A part begins with the last plane of the part before it, because voxels lie
+  /// between planes. The first part starts the volume again; the others add to it.
   struct Part {
     int first = 0;   ///< plane of the sweep
     int planes = 2;  ///< 2 or more
   };
-  /// @param values   at each sample of the part's lines: R32F, a row a line, plane by plane
-  /// @param samples  a line
+  /// Converts one part.
+  /// @param values   at each sample of the part's lines: R32F, one row per line, plane by plane
+  /// @param samples  per line
   void convert(const Sweep& sweep, const Part& part, const TexelBuffer& values, int samples);
 
-  /// The volume's slices, as many together as a shader can have in a buffer.
+  /// A run of the volume's slices, as many as fit one buffer of a shader.
   struct Slab {
     int first_slice, slices;
-    TexelBuffer voxels;  ///< RG32F: the value, and its share of the imaging depth along the line; 0, -1 outside
+    TexelBuffer voxels;  ///< RG32F: value, share of the imaging depth along the line; 0, -1 outside
   };
   const std::vector<Slab>& slabs() const { return slabs_; }
 
-  /// The values read back; NaN outside the sweep.
+  /// Reads the values back; NaN outside the sweep.
   Volume<float> read() const;
 
   /// For Program::reload().

@@ -21,9 +21,10 @@ namespace {
 
 using Part = SweepConversion::Part;
 
-constexpr std::size_t kGroupVoxels = 4 * 64;  // that a work group of sweep_compress.comp serves
+constexpr std::size_t kGroupVoxels = 4 * 64;  // per work group of sweep_compress.comp
 
-// As many planes together as a buffer holds samples and placed lines, but the two at least that voxels lie between.
+// Returns parts of as many planes as a buffer has room for, both as samples and as placed lines. A part has at least
+// two planes, because voxels lie between planes.
 std::vector<Part> parts_of(const Sweep& sweep, const Settings& settings, const WorkDivision& division) {
   const int planes = int(sweep.patient_from_plane.size());
   const std::size_t placed = std::size_t(settings.slice_planes) * sizeof(PlacedLine) / (4 * sizeof(float));
@@ -61,26 +62,26 @@ struct SweepSimulator::State {
   SweepConversion conversion;
   Program fuse, maximum, compress;
 
-  // What the user set.
+  // Inputs from the caller.
   Settings settings;
   Sweep sweep;
   Grid grid;
   DeviceVolume volume;
 
-  // What follows from that, and what the stages write.
+  // Derived from these, and results of the stages.
   std::vector<Part> parts;
   Buffer parameter_buffer{sizeof(SimulationParameters), nullptr};
   TexelBuffer noise;           // by sample of a plane
-  double noise_length_mm = 0;  // the noise's grain
+  double noise_length_mm = 0;  // grain of the noise
   TexelBuffer fused;           // by sample of a part
   Buffer maximum_buffer{sizeof(GLuint), nullptr};
-  Buffer packed;  // voxels of a slab
+  Buffer packed;  // voxels of one slab
   Texture grey;
 
-  bool lines_changed = true, grid_changed = true;  // their numbers
+  bool lines_changed = true, grid_changed = true;  // in number
   std::optional<SweepStage> first_due = SweepStage::traverse;
   std::array<long, kSweepStageCount> runs{};
-  std::uint64_t samples = 0, slice_samples = 0, voxels = 0;  // when they last ran
+  std::uint64_t samples = 0, slice_samples = 0, voxels = 0;  // of the last run
 
   bool is_whole() const { return !sweep.patient_from_plane.empty() && grid.count() > 0 && volume; }
   bool needed(SweepStage stage) const {
@@ -113,12 +114,12 @@ void SweepSimulator::State::lay_out() {
   conversion.lay_out(grid);
   if (grid_changed) {
     grey = Texture::make_3d(GL_RG8, grid.size.x, grid.size.y, grid.size.z, Filter::linear, Wrap::edge);
-    packed = Buffer((voxels_of(conversion.slabs().front()) + 3) / 4 * 8, nullptr);  // whole fours, two bytes a voxel
+    packed = Buffer((voxels_of(conversion.slabs().front()) + 3) / 4 * 8, nullptr);  // 2 bytes per voxel, in fours
     grid_changed = false;
   }
 }
 
-// Everything that the stages due read and that is not another stage's.
+// Prepares everything that the outdated stages read and that is not the result of another stage.
 void SweepSimulator::State::prepare() {
   lay_out();
   if (is_noisy(settings) && (!noise || noise_length_mm != settings.reflection_length_mm)) {
@@ -173,7 +174,7 @@ void SweepSimulator::State::run() {
   prepare();
   SweepStage first = *first_due;
   if (first < SweepStage::maximum) {
-    if (parts.size() > 1) first = SweepStage::traverse;  // the lines' stages have kept the last part alone
+    if (parts.size() > 1) first = SweepStage::traverse;  // the lines' stages keep only the last part
     if (first == SweepStage::traverse) line_stages.restart_counts();
     for (const Part& part : parts) run_part(part, first);
   } else {

@@ -17,7 +17,7 @@
 namespace insonate {
 namespace {
 
-/// The one asked for last is kept: drawing it takes longer than a small picture.
+/// Returns the lattice for a seed. It keeps the last one: drawing a lattice takes longer than a small picture.
 std::shared_ptr<const ScattererLattice> lattice_of(std::uint32_t seed) {
   thread_local std::uint32_t kept_seed = 0;
   thread_local std::shared_ptr<const ScattererLattice> kept;
@@ -28,7 +28,7 @@ std::shared_ptr<const ScattererLattice> lattice_of(std::uint32_t seed) {
   return kept;
 }
 
-/// The lattice's complex amplitude at a patient position: trilinear, brought back to variance 1.
+/// Samples the lattice's complex amplitude at a patient position: trilinear, scaled back to variance 1.
 class Scatterers {
 public:
   explicit Scatterers(const Settings& settings)
@@ -74,8 +74,8 @@ double bilinear(const Image<double>& image, double x, double y) {
          fy * ((1 - fx) * image.at(x0, y1) + fx * image.at(x1, y1));
 }
 
-/// A Gaussian over the pixels inside the fan, along rows and then columns, out to three sigma; below a twentieth of a
-/// pixel it is none.
+/// Smooths by a Gaussian over the pixels inside the fan, along rows and then columns, cut off at three sigma. Below a
+/// twentieth of a pixel it returns the image unchanged.
 Image<double> smoothed(const Image<double>& image, const Image<std::uint8_t>& inside, double sigma_px) {
   if (sigma_px < 0.05) return image;
   const int radius = std::min(int(std::ceil(3 * sigma_px)), std::max(image.width, image.height) - 1);
@@ -99,7 +99,7 @@ Image<double> smoothed(const Image<double>& image, const Image<std::uint8_t>& in
   return sum;
 }
 
-/// Of a share from 0 to 1 of the dynamic range.
+/// Maps a share of the dynamic range, 0 to 1, to grey, 0 to 1.
 double grey_of(GreyMap map, double g) {
   switch (map) {
     case GreyMap::linear:
@@ -179,7 +179,7 @@ ReferenceScan traverse_reference(const MediumField& field, const TissueTable& ta
       const double hu_before = hu(place(r - l / 2), r - l / 2), hu_behind = hu(place(r + l / 2), r + l / 2);
       const double before = table.at(hu_before).impedance_mrayl, behind = table.at(hu_behind).impedance_mrayl;
       const double alpha = std::pow((behind - before) / (behind + before), 2);  // (1)
-      // Impedance is a function of density, so their gradients have one direction.
+      // Impedance is a function of density, so both gradients have the same direction.
       const double left = hu(p - l / 2 * lateral, r), right = hu(p + l / 2 * lateral, r);
       const double below = hu(p - l / 2 * elevation, r), above = hu(p + l / 2 * elevation, r);
       const glm::dvec3 gradient(right - left, hu_behind - hu_before, above - below);

@@ -13,44 +13,47 @@
 
 namespace insonate {
 
-/// What lies at a point, however it is stored: the reference also takes fields given by a formula, against which its
-/// own accuracy can be measured.
+/// The medium at a point, independent of its storage. The reference also takes fields given by a formula, against which
+/// its own accuracy can be measured.
 struct Medium {
   double hu = -1000;
   double echogenicity_db = -60;
 };
 using MediumField = std::function<Medium(const glm::dvec3& patient_mm)>;
 
-/// Within the gel layer all air is gel. Of what is less dense than kCouplingTissueHu, as the skin's outermost voxels
-/// are, a share is, evenly more down to kCouplingAirHu: were there a density at which tissue turned into gel at once,
-/// echoes of the skin would come and go while the probe moves.
+/// Within the gel layer all air counts as gel. Voxels less dense than kCouplingTissueHu, such as the skin's outermost
+/// ones, count as gel in part. The share of gel grows linearly down to kCouplingAirHu. If tissue turned into gel at one
+/// density, echoes of the skin would come and go while the probe moves.
 inline constexpr double kCouplingTissueHu = -150, kCouplingAirHu = kMostAirHu;
 
-/// What the sound meets where the field has `medium`, at a distance from the face along the line: nearer than
-/// coupled_mm() (sim/model/settings.h) water without any echo takes the place of air.
+/// Returns what sound meets where the field has `medium`, at distance r_mm from the face along the line. Nearer than
+/// coupled_mm() (sim/model/settings.h), water without echo takes the place of air.
 Medium with_gel(const Medium& medium, double r_mm, double coupled_mm);
 
-/// The trilinear field of a volume, with air outside.
+/// Returns the trilinear field of a volume, with air outside. The volume must outlive it.
 MediumField trilinear_field(const AcousticVolume& volume);
 
-/// Gain and time gain at a share of the imaging depth, 0 to 1, as a factor on U.
+/// Returns gain and time gain at a share of the imaging depth, 0 to 1, as a factor on U.
 double time_gain(const Settings& settings, double depth_share);
 
-/// What is left of an echo where those below kLeastEcho are none.
+/// Returns the echo, or 0 if it is not above kLeastEcho.
 double heard(double echo);
 
-/// Log compression (7) and the grey map: 255 at `level`, 0 where `echo` is the dynamic range below it, or nothing.
+/// Returns grey after log compression (7) and the grey map: 255 at `level`, 0 if `echo` is 0 or lies the dynamic range
+/// below `level`.
 std::uint8_t grey_level(const Settings& settings, double echo, double level);
 
-/// Model S in double precision, as MODEL.md's formulas read, in plain loops: the measure of everything faster. What it
-/// takes from sim/model and sim/probe the shaders are handed as well, and tests of its own hold it: the tissue table,
-/// the lines' and pixels' geometry, the scatterers' lattice, the beam's and the slice's weights, the levels of
-/// noise and clutter, and constants. All that is computed along lines and at pixels is written here once more. Checks
-/// none of what it is given, which is to be as a simulator takes it (sim/imaging/simulator.h).
+/// Runs model S in double precision and plain loops, as the formulas of sim/model/stages.h read. Everything faster is
+/// measured against it.
+///
+/// It shares with the shaders what sim/model and sim/probe provide, which has tests of its own: the tissue table, the
+/// geometry of lines and pixels, the scatterers' lattice, the weights of the beam and the slice, the levels of noise
+/// and clutter, and constants. Everything computed along lines and at pixels is written here a second time. The
+/// arguments are not checked; they must be such as a simulator accepts (sim/imaging/simulator.h).
 Stages<double> simulate_reference(const MediumField& field, const TissueTable& table, const Probe& probe,
                                   double depth_mm, const Settings& settings, const Pose& patient_from_probe);
 
-/// The first step alone: I and R along given lines, and the scatterers' echo.
+/// The results of the first step alone: I and R along given lines, and the scatterers' echo.
 struct ReferenceScan {
   Image<double> intensity, reflection;  ///< x line, y sample
   Image<double> echo_re, echo_im;

@@ -10,7 +10,7 @@
 namespace insonate {
 namespace {
 
-// What one round counts as.
+// Returns what one round trip counts as.
 double counted(double round, double least) {
   return round > least ? round * std::pow(1 - std::pow(least / round, 2), 8) : 0;
 }
@@ -51,7 +51,7 @@ Image<double> reverberation_reference(const Image<double>& intensity, const Imag
     const auto repeat = [&](const Reflector& deep, double echo, double apart_mm, double gain) {
       for (int n = 1; n <= kMostRepeats && apart_mm > 0; ++n) {
         const double position = deep.sample + n * apart_mm / dr;
-        if (position >= d + 1) break;  // the spline reaches before the line's end from behind it
+        if (position >= d + 1) break;  // the spline of a later position no longer covers the last sample
         echo *= gain;
         for (int k = std::max(int(position) - 1, 0); k <= std::min(int(position) + 2, d - 1); ++k)
           repeats.at(line, k) += heard(cubic_b_spline(k - position) * echo);

@@ -6,7 +6,8 @@
 
 namespace insonate {
 
-/// V of sim/model/reverberation.h before the beam's width, from I and R of the scan lines; all x line, y sample.
+/// Returns V of sim/model/reverberation.h before the beam's width, from I and R of the scan lines; all x line, y
+/// sample.
 Image<double> reverberation_reference(const Image<double>& intensity, const Image<double>& reflection,
                                       const ScanLines& lines, const Settings& settings);
 

@@ -9,7 +9,7 @@
 namespace insonate {
 namespace {
 
-// The outer lines and samples hold up to the fan's edges, half a step beyond them.
+// Positions beyond the outer lines and samples, up to half a step to the fan's edges, take their values.
 double bilinear(const SweepValues& values, int plane, double line, double sample) {
   line = std::clamp(line, 0.0, values.lines - 1.0);
   sample = std::clamp(sample, 0.0, values.samples - 1.0);
@@ -23,7 +23,7 @@ double bilinear(const SweepValues& values, int plane, double line, double sample
          fi * ((1 - fk) * at(next_i, k) + fk * at(next_i, next_k));
 }
 
-// U (6) at each sample of a plane, behind those that are there.
+// Appends U (6) at each sample of a plane to the values.
 void append_fused(SweepValues& values, const Stages<double>& stages, const Image<double>& noise, int plane,
                   double dr_mm, const Settings& settings) {
   const double tail = std::exp(-dr_mm / kClutterTail_mm);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kStepsPerHu = 8;  // of the stored gradient, as in wein_traverse.comp
 
-// Along a row of voxels `stride` apart, at a place between them; air beyond its ends.
+// Returns HU at a position between the voxels of a row, which lie `stride` apart; air beyond the row's ends.
 double between(const AcousticVoxel* row, std::ptrdiff_t stride, int count, double at) {
   const double below = std::floor(at), share = at - below;
   const auto hu = [&](double i) {
@@ -54,13 +54,13 @@ Texture density_volume(const AcousticVolume& volume, double reflection_length_mm
         }
       }
   });
-  // A processor takes a voxel of floats as it is and has to unpack one of whole numbers: a tenth of an image's time
-  // (`insonate-bench batch`, llvmpipe). They take twice the memory, which a card would have to move.
+  // A processor uses a voxel of floats as it is, but has to unpack one of integers, which costs a tenth of an image's
+  // time (`insonate-bench batch`, llvmpipe). Floats take twice the memory, which a card would have to move.
   if (is_software_renderer()) {
     try {
       return stored_as(GL_RGBA32F, grid, voxels);
     } catch (const TextureRefused&) {
-      // The smaller ones may still fit.
+      // The integers may still fit.
     }
   }
   return stored_as(GL_RGBA16_SNORM, grid, voxels);

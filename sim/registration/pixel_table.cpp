@@ -30,7 +30,8 @@ PixelTable table_of(const std::vector<std::vector<PixelPlace>>& columns, const P
   return result;
 }
 
-// About 64 pixels a column, `together` in one after the other, so that a group takes neighbours at a step.
+// Divides pixels into columns of about 64, with `together` pixels in sequence, so that a group takes neighbours per
+// step.
 PixelTable shared_out(const std::vector<PixelPlace>& pixels, std::size_t together, const PixelPlace& filler,
                       std::size_t group, std::size_t most_columns) {
   if (pixels.empty()) return {};
@@ -45,8 +46,8 @@ PixelTable shared_out(const std::vector<PixelPlace>& pixels, std::size_t togethe
   return table_of(columns, filler, group);
 }
 
-// An image's pixels in strips so wide, each from top to bottom: a work group that goes down a strip comes by the few
-// scan lines that pass through it, sample after sample, so that what it fetches is in the cache from the step before.
+// Returns an image's pixels in strips of width `strip`, each from top to bottom. A work group that goes down a strip
+// meets the few scan lines that pass through it, sample after sample. So the previous step has cached what it fetches.
 std::vector<std::size_t> strip_by_strip(int width, int height, int strip) {
   std::vector<std::size_t> result;
   for (int first = 0; first < width; first += strip)

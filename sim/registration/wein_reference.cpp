@@ -15,7 +15,7 @@ double voxel_hu(const AcousticVolume& volume, const glm::ivec3& i) {
   return volume.grid.contains(i) ? volume.at(i).hu : AcousticVoxel{}.hu;
 }
 
-/// Along one axis of the grid, at a whole index plus a distance in voxels.
+/// Returns HU along one axis of the grid, at a whole index plus a distance in voxels.
 double hu_along(const AcousticVolume& volume, glm::ivec3 i, int axis, double distance) {
   const double floor = std::floor(distance), f = distance - floor;
   i[axis] += int(floor);
@@ -50,7 +50,7 @@ struct Explained {
   double explained = 0, variance = 0;  ///< sums of squares
 };
 
-/// How much of what u varies by the best sum of the terms and a constant explains.
+/// Returns how much of u's variance the best linear combination of the terms and a constant explains.
 Explained explained_by(std::vector<double> u, std::vector<std::vector<double>> terms) {
   if (u.empty() || *std::max_element(u.begin(), u.end()) == *std::min_element(u.begin(), u.end())) return {};
   const auto centre = [](std::vector<double>& values) {
@@ -60,7 +60,8 @@ Explained explained_by(std::vector<double> u, std::vector<std::vector<double>> t
   centre(u);
   const double variance = dot(u, u);
 
-  // The constant goes with the means. What is left is made orthogonal, term by term, and taken out of the image.
+  // Subtracting the means takes out the constant. The terms are then made orthogonal, one after the other, and
+  // subtracted from the image.
   std::vector<std::vector<double>> basis;
   for (std::vector<double>& term : terms) {
     centre(term);

@@ -2,35 +2,35 @@
 
 namespace insonate {
 
-/// Everything that decides how model W, the one for registration, turns a CT, a pose and a probe into an image: W.
-/// Wein, S. Brunke, A. Khamene, M. R. Callstrom, N. Navab, "Automatic CT-ultrasound registration for diagnostic imaging
-/// and image-guided intervention", Medical Image Analysis 12 (2008).
+/// All parameters by which model W, the model for registration, turns a CT, a pose and a probe into an image: W. Wein,
+/// S. Brunke, A. Khamene, M. R. Callstrom, N. Navab, "Automatic CT-ultrasound registration for diagnostic imaging and
+/// image-guided intervention", Medical Image Analysis 12 (2008).
 ///
-/// With mu = HU + 1000, l the reflection length and g = l grad mu, each l of the way reflects the share
-/// dR = |d . g| |g| / (2 mu)^2 back to the probe and lets dT = 1 - (|g| / (2 mu))^2 pass; |g| / (2 mu) is at most 1,
-/// and mu at least that of air. An echo is an energy, so it counts alike whether mu rises or falls along the beam. With
-/// dr between the samples
+/// With mu = HU + 1000, l the reflection length and g = l grad mu, each l of the path reflects the share dR = |d . g|
+/// |g| / (2 mu)^2 back to the probe and transmits dT = 1 - (|g| / (2 mu))^2. |g| / (2 mu) is at most 1, and mu at least
+/// that of air. An echo is an energy, so it counts the same whether mu rises or falls along the beam. With dr between
+/// the samples
 ///     I(r + dr) = I(r) dT^(dr/l),  I(face) = 1
 ///     R = ln(1 + a I dR) / ln(1 + a)                                       reflection, 0 to 1
-///     E = the share of the way that HU has gone from dark_hu to bright_hu   echogenicity, 0 to 1
-/// so that neither depends on dr. The gradient is taken on the CT's voxels, as differences over l along the CT's axes,
-/// and is interpolated between them as mu itself is; outside the CT there is none.
+///     E = clamp((HU - dark_hu) / (bright_hu - dark_hu), 0, 1)              echogenicity, 0 to 1
+/// so that neither depends on dr. The gradient is computed at the CT's voxels, from differences over l along the CT's
+/// axes, and is interpolated between them as mu is. Outside the CT the gradient is 0.
 struct WeinSettings {
-  int samples = 96;                 ///< a line, 1 to 8192
+  int samples = 96;                 ///< per line, 1 to 8192
   double reflection_length_mm = 2;  ///< l, 0.01 to 20
   double contact_mm = 6;  ///< nearer to the face than this, air counts as water and nothing reflects: 0 (none) to 100
 
   double compression = 1000;      ///< a of the reflection's logarithm, 0.001 to 1e6
-  double dark_hu = -50;           ///< soft tissue's range, between fat, -1000 to 3000 ...
-  double bright_hu = 150;         ///< ... and enhanced parenchyma, as much; kLeastHuRange or more above dark_hu
-  bool shadows = true;            ///< E too is scaled by I, so that a shadow holds no echo; the paper leaves E as it is
+  double dark_hu = -50;           ///< lower end of soft tissue's range, at fat, -1000 to 3000
+  double bright_hu = 150;         ///< upper end, at enhanced parenchyma, -1000 to 3000; dark_hu + kLeastHuRange or more
+  bool shadows = true;            ///< E is also scaled by I, so that a shadow holds no echo; not so in the paper
   double reflection_share = 0.5;  ///< s in the image, s R + (1 - s) E, 0 to 1
 
   bool exact_filter = false;  ///< as in Settings
 
-  int similarity_patch = 0;  ///< pixels: LC2 of patches of so many squared, weighted by the ultrasound's variance in
-                             ///< them; 0 (of the whole picture), or kLeastPatch to kMostPatch with at
-                             ///< most kMostPatches in a picture
+  int similarity_patch = 0;  ///< side of LC2's patches in pixels; patches are weighted by the ultrasound's
+                             ///< variance in them; 0: the whole picture; else kLeastPatch to kMostPatch, with at most
+                             ///< kMostPatches in a picture
 
   int image_width = 128;  ///< 1 to 8192
   int image_height = 96;  ///< 1 to 8192
@@ -38,15 +38,16 @@ struct WeinSettings {
 
 inline constexpr double kLeastHuRange = 1;
 inline constexpr int kLeastPatch = 4, kMostPatch = 128;
-/// What textures 16384 wide, as every device has, hold the sums of: three texels each, in work groups of up to 128.
+/// Most patches whose sums fit textures 16384 wide, which every device has: three texels each, in work groups of up to
+/// 128.
 inline constexpr int kMostPatches = 5376;
 
-/// The mu of air, below which none counts: its density is 1.2e-3 of water's, whose mu is 1000.
+/// The mu of air, the least that counts: air's density is 1.2e-3 of water's, whose mu is 1000.
 inline constexpr double kAirMu = 1.2;
 
-/// Nearer to the face than WeinSettings::contact_mm, what is no denser than kContactAirHu counts as water, what is as
-/// dense as kContactTissueHu as itself, and what lies between as its share of both: HU. Were there a density at which
-/// tissue turned into water at once, the picture would jump while the probe moves.
+/// Nearer to the face than WeinSettings::contact_mm, HU of kContactAirHu and below count as water. HU of
+/// kContactTissueHu and above count unchanged; values between are mixed linearly. If tissue turned into water at one
+/// density, the picture would jump while the probe moves.
 inline constexpr double kContactTissueHu = -150, kContactAirHu = -301;
 
 }  // namespace insonate

@@ -8,7 +8,7 @@ namespace {
 
 using namespace keys;
 
-/// Every field of WeinSettings, in its order; the ranges are those that its comments give.
+/// All fields of WeinSettings, in their order; the ranges are those of their comments.
 const std::vector<Key<WeinSettings>>& all_keys() {
   using W = WeinSettings;
   static const std::vector<Key<W>> all = {

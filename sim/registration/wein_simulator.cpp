@@ -24,17 +24,16 @@
 namespace insonate::gl {
 namespace {
 
-// Of a chunk's scan lines, whose grey takes half as much again: bounds the memory. What a chunk costs besides its
-// images is that of about three of them (`insonate-bench batch`, llvmpipe), so those that a search asks for at once fit
-// one.
+// Bounds the memory of a chunk's scan lines; their grey takes half as much again. The fixed overhead of a chunk equals
+// about three images (`insonate-bench batch`, llvmpipe), so the images that a search asks for at once fit one chunk.
 constexpr std::size_t kChunkBytes = std::size_t(16) << 20;
 constexpr std::size_t kSampleBytes = 4;
-constexpr std::size_t kMostChunk = 2048;  // images, of which some tables have a row each
+constexpr std::size_t kMostChunk = 2048;  // images; some tables have one row per image
 
-// Below this no echo is left: with any compression it is less than half a step of what the scan holds.
+// Below this no echo is left: with any compression, it is less than half a step of what the scan stores.
 constexpr double kLeastIntensity = 1e-10;
 
-// Whole texels' worth of images where there is room for that.
+// Returns the number of images per chunk: whole texels of interleaved images if that many fit.
 std::size_t images_of_chunk(std::size_t image_samples) {
   const std::size_t fit = std::clamp<std::size_t>(kChunkBytes / (image_samples * kSampleBytes), 1, kMostChunk);
   return fit < ScanStages::kInterleaved ? fit : fit - fit % ScanStages::kInterleaved;
@@ -46,7 +45,7 @@ void check_poses(std::span<const Pose> poses) {
   for (const Pose& pose : poses) check_pose(kName, pose);
 }
 
-// As shaders write it.
+// Returns a number as a GLSL expression.
 std::string literal(double value) {
   char text[40];
   std::snprintf(text, sizeof text, "float(%.9g)", value);
@@ -73,14 +72,14 @@ struct WeinSimulator::State {
   const WorkDivision division;
   const std::size_t group;  // the shaders' local size
   ScanLines lines;
-  const int row_samples;  // of a line in a scan: even, so that no pair of samples lies in two lines
+  const int row_samples;  // per line of a scan: even, so that no pair of samples spans two lines
   FanLayout fan;
   const std::size_t image_samples, chunk_images;
-  const int tile_words;  // of an image in the grid, four pixels each
+  const int tile_words;  // per row of an image in the grid, four pixels each
   glm::dmat4 texture_from_patient{1.0};
   WeinParameters parameters{};
 
-  std::optional<ScanStages> abreast;  // of calls with more than one image, where a software renderer draws them
+  std::optional<ScanStages> abreast;  // for calls with several images, with a software renderer
   ScanStages alone;
   Program lc2;
   Buffer parameter_buffer{sizeof(WeinParameters), nullptr}, similarities;
@@ -92,7 +91,7 @@ struct WeinSimulator::State {
   std::vector<glm::vec4> place_rows;
 
   std::vector<Pose> drawn, compared;  // of the last calls
-  std::vector<float> similar;         // of `compared`
+  std::vector<float> similar;         // for `compared`
 
   Buffer samples_walked{sizeof(GLuint), nullptr};  // by the last call
   std::array<StageCount, kWeinStageCount> counts{};
@@ -141,7 +140,7 @@ WeinSimulator::State::State(const AcousticVolume& volume, const Probe& probe, do
   fan_pixels = picture_pixels(pixel_places, wanted.image_width, wanted.image_height, group);
 }
 
-// What no call changes.
+// Returns the defines that no call changes.
 Defines WeinSimulator::State::constants(const AcousticVolume& volume) const {
   const double dr = lines.dr_mm();
   const glm::dvec3 sides_by_dr = glm::dvec3(volume.grid.size + 2 * kAirMargin) * volume.grid.spacing / dr;
@@ -154,7 +153,7 @@ Defines WeinSimulator::State::constants(const AcousticVolume& volume) const {
           {"PATCHES", settings.similarity_patch > 0 ? "1" : "0"},
           {"SHADOWS", settings.shadows ? "1" : "0"},
           {"EXACT_FILTER", settings.exact_filter ? "1" : "0"},
-          // Sample k lies at (k + 1/2) dr behind r_min: the first one that is not nearer than the contact.
+          // Sample k lies at (k + 1/2) dr behind r_min. This is the first sample that is not nearer than the contact.
           {"FIRST_FREE_SAMPLE", literal(std::ceil((settings.contact_mm - lines.r_min_mm) / dr - 0.5))},
           {"DR_BY_LENGTH", literal(dr / settings.reflection_length_mm)},
           {"COMPRESSION", literal(settings.compression)},
@@ -167,7 +166,7 @@ Defines WeinSimulator::State::constants(const AcousticVolume& volume) const {
            "vec3(" + literal(sides_by_dr.x) + ", " + literal(sides_by_dr.y) + ", " + literal(sides_by_dr.z) + ")"}};
 }
 
-// Places a chunk's lines and walks along them.
+// Places a chunk's lines and traverses them.
 void WeinSimulator::State::traverse(std::span<const Pose> chunk, std::size_t first, const ScanStages& stages,
                                     const Program& program, const TexelBuffer& scan) {
   for (std::size_t i = 0; i < chunk.size(); ++i) {
@@ -232,7 +231,7 @@ const Texture& WeinSimulator::simulate(std::span<const Pose> patient_from_probe)
   check_poses(patient_from_probe);
   State& s = *state_;
   if (s.grid && std::ranges::equal(patient_from_probe, s.drawn)) return s.grid;
-  s.drawn.clear();  // until all of them are
+  s.drawn.clear();  // stays empty until all are drawn
   const int w = s.settings.image_width, h = s.settings.image_height;
   const int count = std::max(int(patient_from_probe.size()), 1);
   const int columns = std::clamp(int(std::lround(std::sqrt(double(count) * h / w))), 1, count);
@@ -243,7 +242,7 @@ const Texture& WeinSimulator::simulate(std::span<const Pose> patient_from_probe)
     s.grid = Texture::make_2d(GL_R8, grid_width, rows * h, Filter::nearest);
     s.tiles = TexelBuffer(GL_R32UI, std::size_t(grid_width / kWordPixels) * std::size_t(rows * h));
   }
-  if (!fits || count < columns * rows) s.tiles.clear();  // what no fan covers stays so
+  if (!fits || count < columns * rows) s.tiles.clear();  // pixels that no fan covers stay 0
   s.parameters.columns = columns;
   const ScanStages& stages = s.stages_for(patient_from_probe.size());
   if (s.fan_pixels)
@@ -315,7 +314,7 @@ WeinStages<float> WeinSimulator::read_stages(const Pose& patient_from_probe) {
   simulate({&patient_from_probe, 1});
   const int n = int(s.lines.lines.size()), d = s.lines.samples;
   Texture intensities = Texture::make_2d(GL_R32F, d, n, Filter::nearest);
-  intensities.clear();  // what lies behind a line's end is not written
+  intensities.clear();  // the traversal does not write behind a line's end
   intensities.bind_image(1, GL_WRITE_ONLY);
   s.samples_walked.clear();
   s.traverse({&patient_from_probe, 1}, 0, s.alone,

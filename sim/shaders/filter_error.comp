@@ -1,4 +1,7 @@
-// What a device's own trilinear filter gives at places of a texture, for whoever knows what it should give.
+// Filter error: samples a texture with the device's own trilinear filter, for comparison with exact values.
+//
+// Reads the texture and the places. Writes one value per place.
+// Dispatch: one invocation per place, in work groups of 64.
 
 layout(local_size_x = 64) in;
 

@@ -1,33 +1,39 @@
-// Beam width (4): reflections and scatterers' echoes across the lines of the active aperture. Scatterers add up as
-// complex amplitudes before their envelope is taken, which is what makes speckle.
+// Beam width, (4) of Kutter, Shams, Navab 2009: weighted means across the lines of the active aperture,
 //
-// An invocation serves four neighbouring lines, whose apertures overlap: a value is read once for all four. It is
-// compiled for the beam's half width BEAM_HALF, so that a narrow aperture needs no loop. A plane's window ends at its own
-// outer lines: the first line of the next plane lies at the array's other end.
+//     R(i) = sum_j w(j) R(i + j) / sum_j w(j),  V alike
+//     S(i) = scale |sum_j w(j) echo(i + j)| / sum_j w(j)
+//
+// Scatterers add up as complex amplitudes before their envelope is taken, which is what makes speckle. Only lines of
+// the same plane count: the first line of the next plane lies at the array's other end.
+//
+// Reads the scan of the traversal, the tables by depth, the window and, with REVERBERATION, V. Writes R, T, S, V.
+// Dispatch: samples x lines / 4 x planes invocations, in work groups of 64 x 1 x 1. An invocation computes one sample
+// of four neighbouring lines. Their apertures overlap, so it reads each value once for all four. The beam's half width
+// BEAM_HALF is compiled in, so that a narrow aperture needs no loop.
 
 layout(local_size_x = 64) in;
 
 #include "shared/simulation_parameters.h"
 #include "shared/least_echo.glsl"
 
-layout(binding = 0) uniform samplerBuffer scan;      // a row a line: I, R, scatterers' echo (re, im)
-layout(binding = 1) uniform samplerBuffer at_depth;  // a sample: mean envelope -> 1, focused beam's reach in lines,
-                                                     // exponent
-layout(binding = 2) uniform samplerBuffer repeats;   // a row a line: V before the window, with REVERBERATION
+layout(binding = 0) uniform samplerBuffer scan;      // one row per line: I, R, scatterers' echo (re, im)
+layout(binding = 1) uniform samplerBuffer at_depth;  // per sample: factor that makes the mean envelope 1, radius of the
+                                                     // focused beam in lines, exponent of its Gaussian
+layout(binding = 2) uniform samplerBuffer repeats;   // one row per line: V before the window, with REVERBERATION
 layout(std140, binding = 1) uniform Window { vec4 window[32]; };         // weights from the middle line outwards
-layout(std430, binding = 0) writeonly buffer Echoes { vec4 echoes[]; };  // a row a line: R, T, S, V
+layout(std430, binding = 0) writeonly buffer Echoes { vec4 echoes[]; };  // one row per line: R, T, S, V
 
 #if FOCUSED_BEAM == 1
-int reach;       // of the aperture at this sample, in lines to either side
-float exponent;  // of its Gaussian
+int reach;       // radius of the aperture at this sample, lines
+float exponent;  // of the aperture's Gaussian
 #else
 const int reach = BEAM_HALF;
 #endif
 vec4 reflection = vec4(0.0), re = vec4(0.0), im = vec4(0.0), repeated = vec4(0.0), total = vec4(0.0);
-int plane_row;             // where the plane's lines begin
-vec4 weights = vec4(0.0);  // each of the four lines' for the line that is being added
+int plane_row;             // index of the plane's first sample
+vec4 weights = vec4(0.0);  // of the line that is being added, for each of the four lines
 
-// Of a line so many lines away from the aperture's middle.
+// Returns the weight of a line `away` lines from the aperture's middle.
 float weight_at(int away) {
 #if FOCUSED_BEAM == 1
   return abs(away) <= reach ? exp(exponent * float(away * away)) : 0.0;
@@ -37,7 +43,8 @@ float weight_at(int away) {
 #endif
 }
 
-// Adds line first + j, one behind the line added before, and gives its intensity.
+// Adds line first + j and returns its intensity. Each call must take the line behind the previous call's line, because
+// `weights` moves on by one line per call.
 float add(int first, int j, int k) {
   weights = vec4(weight_at(j), weights.xyz);
   int at = first + j, place = plane_row + clamp(at, 0, lines - 1) * samples + k;
@@ -65,7 +72,7 @@ void main() {
 #endif
 
   for (int j = -reach; j < 0; ++j) add(first, j, k);
-  vec4 intensity;  // a statement each: in what order a constructor's arguments are worked out is left open
+  vec4 intensity;  // one statement each: GLSL leaves open in which order a constructor's arguments are evaluated
   intensity.x = add(first, 0, k);
   intensity.y = add(first, 1, k);
   intensity.z = add(first, 2, k);

@@ -1,12 +1,16 @@
-// The scatterers' mean echo over a plane's lines at each depth, of which side lobes bring a share to every line. Neighbouring
-// samples are neighbours in memory, so an invocation takes a sample and goes through the lines.
+// Clutter: the scatterers' mean echo over a plane's lines at each depth, sum of T S / lines. Side lobes bring a share
+// of it to every line (clutter_share(), sim/model/noise.h).
+//
+// Reads the echoes of the beam's stage. Writes the mean echo.
+// Dispatch: samples x planes invocations, in work groups of GROUP x 1. An invocation takes one sample and loops over
+// the lines, because neighbouring samples are neighbours in memory.
 
 layout(local_size_x = GROUP) in;
 
 #include "shared/simulation_parameters.h"
 
-layout(binding = 0) uniform samplerBuffer echoes;                             // a row a line: R, T, S, V
-layout(std430, binding = 0) writeonly buffer MeanEcho { float mean_echo[]; };  // a row a plane: mean of T S
+layout(binding = 0) uniform samplerBuffer echoes;                             // one row per line: R, T, S, V
+layout(std430, binding = 0) writeonly buffer MeanEcho { float mean_echo[]; };  // one row per plane: mean of T S
 
 void main() {
   int k = int(gl_GlobalInvocationID.x), plane = int(gl_GlobalInvocationID.y);

@@ -1,4 +1,12 @@
-// Log compression (7) where each frame's brightest pixel is white; fuse.comp does it where white is a fixed level.
+// Log compression, (7) of Kutter, Shams, Navab 2009, where each frame's brightest pixel is white:
+//
+//     grey = m(clamp(1 - (white_db - level) / dynamic_range_db, 0, 1)),  m the grey map
+//
+// fuse.comp does this where white is a fixed level.
+//
+// Reads the levels of fuse.comp and their maximum. Writes the image.
+// Dispatch: one work group of 64 x 1 per block of the fan (shared/fan_blocks.glsl). An invocation serves four pixels of
+// a column.
 
 layout(local_size_x = 64, local_size_y = 1) in;
 
@@ -6,8 +14,8 @@ layout(local_size_x = 64, local_size_y = 1) in;
 #include "shared/fan_blocks.glsl"
 #include "shared/grey.glsl"
 
-layout(binding = 0) uniform samplerBuffer levels;                       // of U behind the gains, dB
-layout(std430, binding = 0) readonly buffer Maximum { uint maximum; };  // as ordered() gives it
+layout(binding = 0) uniform samplerBuffer levels;                       // U after the gains, dB
+layout(std430, binding = 0) readonly buffer Maximum { uint maximum; };  // as ordered() encodes it
 layout(binding = 0, r32ui) writeonly uniform uimage2D image;           // grey, grey, grey, 1 inside the fan; packed
 
 void main() {

@@ -1,8 +1,15 @@
-// Fusion (6): reflected and scattered echo, both through the speckle. Where R and T are smoothed, smooth.comp has done so
-// along the rows; here follow the columns.
+// Fusion, (6) of Kutter, Shams, Navab 2009: reflected and scattered echo, both multiplied by the speckle,
 //
-// An invocation serves four pixels of a column, whose windows overlap: a value is read once for all four. Where white
-// is a fixed level it goes on to grey; where each frame sets its own, to the brightest level of its block.
+//     U = X + S (G_s1 R + b G_s2 T),  X as in scan_convert.comp
+//
+// Where R and T are smoothed, smooth.comp has smoothed them along the rows. This stage smooths along the columns. Where
+// white is a fixed level, it goes on to grey (7). Where each frame sets its own white, it stores the levels and the
+// brightest level of its block.
+//
+// Reads X and S, the half-smoothed R and T, and the table of the fan. Writes the image or, with FRAME_MAXIMUM, the
+// levels; with KEEP_FUSED also U.
+// Dispatch: one work group of 64 x 1 per block of the fan (shared/fan_blocks.glsl). An invocation serves four pixels of
+// a column. Their windows overlap, so it reads each value once for all four.
 
 layout(local_size_x = 64, local_size_y = 1) in;
 
@@ -13,15 +20,15 @@ layout(local_size_x = 64, local_size_y = 1) in;
 #include "shared/time_gain.glsl"
 
 layout(binding = 0) uniform samplerBuffer picture;        // X, S
-layout(binding = 1) uniform samplerBuffer half_smoothed;  // of R, T: the sums of their windows along the rows
-layout(binding = 2) uniform samplerBuffer fan;            // per pixel: sample + 1, or 0 outside; of R's and of T's
-                                                          // window, 1 / its sum
+layout(binding = 1) uniform samplerBuffer half_smoothed;  // sums of R's and T's windows along the rows
+layout(binding = 2) uniform samplerBuffer fan;            // per pixel: sample + 1, or 0 outside; 1 / sum of R's window,
+                                                          // 1 / sum of T's window, each inside the fan
 #if KEEP_FUSED == 1
 layout(std430, binding = 1) writeonly buffer Fused { float fused[]; };  // U
 #endif
 #if FRAME_MAXIMUM == 1
-layout(std430, binding = 2) writeonly buffer Levels { float levels[]; };  // of U behind the gains, dB
-layout(std430, binding = 0) buffer Brightest { uint brightest[]; };  // a block, as ordered() gives it; 0 for none
+layout(std430, binding = 2) writeonly buffer Levels { float levels[]; };  // U after the gains, dB
+layout(std430, binding = 0) buffer Brightest { uint brightest[]; };  // per block, as ordered() encodes it; 0 for none
 #else
 layout(binding = 1, r32ui) writeonly uniform uimage2D image;  // grey, grey, grey, 1 inside the fan; packed
 #endif

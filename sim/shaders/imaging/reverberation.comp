@@ -1,6 +1,10 @@
-// Echoes of sound that goes to and fro between strong interfaces, and between them and the probe's face: the formula is
-// in sim/model/reverberation.h. An invocation takes a line: it lists the samples that reflect much, few as a rule, and
-// adds what each makes with those before it.
+// Reverberation: V, the echoes of sound that goes to and fro between strong interfaces, and between them and the
+// probe's face. sim/model/reverberation.h gives the formula.
+//
+// Reads I and R of the slice's middle plane. Adds to V, which is 0 before.
+// Dispatch: one invocation per line of all planes, in rows of work groups of GROUP (shared/rows.glsl). An invocation
+// lists the samples that reflect strongly, which are few as a rule. It adds the echoes that each makes with those
+// before.
 
 layout(local_size_x = GROUP) in;
 
@@ -8,22 +12,22 @@ layout(local_size_x = GROUP) in;
 #include "shared/least_echo.glsl"
 #include "shared/rows.glsl"
 
-layout(binding = 0) uniform samplerBuffer scan;                   // a row a line: I, R of the slice's middle plane
-layout(std430, binding = 0) buffer Repeats { float repeats[]; };  // a row a line: V, 0 before
+layout(binding = 0) uniform samplerBuffer scan;                   // one row per line: I, R of the slice's middle plane
+layout(std430, binding = 0) buffer Repeats { float repeats[]; };  // one row per line: V, 0 before
 
-const int kMostReflectors = 64, kMostRepeats = 16;  // as in sim/model/reverberation.h, with the next
+const int kMostReflectors = 64, kMostRepeats = 16;  // these and the next line as in sim/model/reverberation.h
 const float kLeastRound = 1e-3, kLeastFromFace = 1e-2, kLeastReverberant = 1e-12;
 
-int row;  // where the line begins
+int row;  // index of the line's first sample
 float intensity(int k) { return texelFetch(scan, row + clamp(k, 0, samples - 1)).x; }
 
-// A of a sample, and its R.
+// Returns A and R of a sample.
 vec2 reflected(int k) {
   vec2 value = texelFetch(scan, row + k).xy;
   return value.x > kLeastReverberant ? vec2(min(value.y / (value.x * value.x), 1.0), value.y) : vec2(0.0);
 }
 
-// What rounding added is carried along: a repeat lies as far away as c does, and is as steep as its spline.
+// A compensated (Kahan) sum. A repeat lies as far away as c does and is as steep as its spline, so an error of c shows.
 struct Sum { float value, excess; };
 Sum added(Sum sum, float term) {
   precise float less = term - sum.excess;
@@ -32,7 +36,7 @@ Sum added(Sum sum, float term) {
   return Sum(value, excess);
 }
 
-// Adds `echo` around a place between two samples, by the cubic B-spline.
+// Adds `echo` at a position between two samples: the cubic B-spline shares it among the nearest four.
 void add(float position, float echo) {
   int low = int(floor(position));
   float f = position - float(low), g = 1.0 - f;
@@ -41,17 +45,18 @@ void add(float position, float echo) {
     if (low - 1 + i >= 0 && low - 1 + i < samples && share[i] > kLeastEcho) repeats[row + low - 1 + i] += share[i];
 }
 
-// What counts of a round that leaves so much.
+// Returns what a round trip that leaves the share `round_trip` counts as: 0 for `least` and below.
 float counted(float round_trip, float least) {
   float share = least / max(round_trip, least);
   float above = 1.0 - share * share, squared = above * above, to_the_fourth = squared * squared;
   return round_trip * to_the_fourth * to_the_fourth;
 }
 
-// Sample k, which lies `apart` behind another reflector, with what a round between them leaves.
+// Adds the repeats of sample k, which lies `apart` samples behind another reflector. A round trip between the two
+// leaves the share `gain`.
 void repeat(int k, float echo, float apart, float gain) {
   float position = float(k) + apart;
-  // The spline reaches before the line's end from a sample behind it.
+  // The spline of a position less than two samples behind the last sample still covers that sample.
   for (int n = 0; n < kMostRepeats && position < float(samples + 1); ++n, position += apart) {
     echo *= gain;
     if (echo < kLeastEcho) return;
@@ -64,14 +69,14 @@ void main() {
   if (line >= planes * lines) return;
   row = line * samples;
 
-  // Listed first: renderers that run lanes in step would spend on every sample what only these need.
+  // The list comes first: renderers that run lanes in lockstep would spend on every sample what only these need.
   int at[kMostReflectors];
   int count = 0;
   for (int k = 0; k < samples && count < kMostReflectors; ++k)
     if (reflected(k).x > kLeastRound) at[count++] = k;
 
   float length_in_samples = 2.0 * half_reflection_length;
-  int near = max(int(ceil(length_in_samples - 1e-3)), 1);  // l in whole samples
+  int near = max(int(ceil(length_in_samples - 1e-3)), 1);  // l in whole samples, rounded up
   float share = min(reflection_exponent, 1.0);
   float strength[kMostReflectors], place[kMostReflectors], behind[kMostReflectors];
   for (int j = 0; j < count; ++j) {
@@ -91,7 +96,7 @@ void main() {
 #if IN_TISSUE == 1
     for (int i = 0;;) {
       float apart = 0.0, gain = 0.0;
-      for (; i < j && gain == 0.0; ++i) {  // most pairs leave nothing, and only what is found is worth a repeat
+      for (; i < j && gain == 0.0; ++i) {  // finds the next pair that leaves something
         apart = c - place[i];
         float between = min(before / behind[i], 1.0);
         float separate = clamp(2.0 * apart / length_in_samples - 1.0, 0.0, 1.0);

@@ -1,21 +1,29 @@
-// Backward warp from the lines to the picture, bilinear, and what of the fusion (6) needs no smoothing. Where each pixel
-// lies among the lines is worked out once per probe and depth, so this stage knows no probe.
+// Scan conversion: a backward warp from the lines to the picture, bilinear, and the part of the fusion (6) that needs
+// no smoothing:
 //
-// U = X + S (R + b T), with R and T as they are smoothed: X is all the rest, and holds what of R and T is not smoothed.
+//     U = X + S (R + b T)
+//
+// R and T stand here for what smooth.comp smooths. X holds all the rest, which includes S R and b S T where R and T are
+// not smoothed. The position of each pixel among the lines is computed once per probe and depth, so this stage does not
+// depend on the probe.
+//
+// Reads the echoes, the pixels' positions, the noise and the mean echo. Writes X and S, and R and T where smoothed.
+// Dispatch: one work group of 64 x 1 per block of the fan (shared/fan_blocks.glsl). An invocation serves four pixels of
+// a column.
 
 layout(local_size_x = 64, local_size_y = 1) in;
 
 #include "shared/simulation_parameters.h"
 #include "shared/fan_blocks.glsl"
 
-layout(binding = 0) uniform samplerBuffer echoes;           // a row a line: R, T, S, V
+layout(binding = 0) uniform samplerBuffer echoes;           // one row per line: R, T, S, V
 layout(binding = 1) uniform samplerBuffer line_and_sample;  // per pixel; line below -1 outside the fan
-layout(binding = 2) uniform samplerBuffer noise;            // per pixel, of mean 1
-layout(binding = 3) uniform samplerBuffer mean_echo;        // a sample: mean of T S over the lines, with its tail
+layout(binding = 2) uniform samplerBuffer noise;            // per pixel, with mean 1
+layout(binding = 3) uniform samplerBuffer mean_echo;        // per sample: mean of T S over the lines, with its tail
 layout(std430, binding = 0) writeonly buffer Picture { vec2 picture[]; };  // X, S
-layout(std430, binding = 1) writeonly buffer Sharp { SMOOTHED sharp[]; };  // R, T as far as smoothed; -1 outside the fan
+layout(std430, binding = 1) writeonly buffer Sharp { SMOOTHED sharp[]; };  // R, T where smoothed; -1 outside the fan
 
-// The noise's mean at a place along the lines: of the electronics, and with CLUTTER what the side lobes bring.
+// Returns the noise's mean at a place along the lines: the electronic noise and, with CLUTTER, what side lobes bring.
 float noise_at(float sample_position) {
 #if CLUTTER == 1
   float position = clamp(sample_position, 0.0, float(samples - 1));
@@ -36,7 +44,7 @@ void convert(ivec2 pixel) {
   bool inside = place.x > -1.0;
   ivec2 last = ivec2(samples, lines) - 1;
   vec2 position = clamp(place.yx, vec2(0.0), vec2(last));
-  // On the last sample that is low itself: a difference to a louder one would leave nothing of its own digits.
+  // On the last sample, `low` is that sample. Interpolating from a much louder one before would cancel all its digits.
   ivec2 low = ivec2(position), high = min(low + 1, last);
   vec2 f = position - vec2(low);
   vec4 value = mix(mix(echo_at(low.x, low.y), echo_at(high.x, low.y), f.x),

@@ -1,7 +1,10 @@
-// The Gaussians G_s1 and G_s2 of (6) along the rows of the picture; along its columns they run where R and T are fused,
-// which also divides by what of the window lies inside the fan. Pixels outside the fan add nothing and stay 0.
+// Smoothing: the Gaussians G_s1 and G_s2 of the fusion, (6) of Kutter, Shams, Navab 2009, along the rows of the
+// picture. fuse.comp smooths along the columns and divides by the part of the window that lies inside the fan. Pixels
+// outside the fan add nothing and stay 0.
 //
-// An invocation serves four pixels of a row, whose windows overlap: a value is read once for all four.
+// Reads R and T of scan_convert.comp. Writes the sums of their windows.
+// Dispatch: one work group of 16 x 4 per block of the fan (shared/fan_blocks.glsl). An invocation serves four pixels of
+// a row. Their windows overlap, so it reads each value once for all four.
 
 layout(local_size_x = 16, local_size_y = 4) in;
 
@@ -10,9 +13,9 @@ layout(local_size_x = 16, local_size_y = 4) in;
 #include "shared/gaussian.glsl"
 
 layout(binding = 0) uniform samplerBuffer sharp;                                          // R, T; -1 outside the fan
-layout(std430, binding = 0) writeonly buffer HalfSmoothed { SMOOTHED half_smoothed[]; };  // the windows' sums of R, T
+layout(std430, binding = 0) writeonly buffer HalfSmoothed { SMOOTHED half_smoothed[]; };  // sums of R's and T's windows
 
-// At the distance j from the first of the four pixels.
+// Returns R and T at distance j from the first of the four pixels; -1 outside the fan.
 vec2 sharp_at(ivec2 first, int j) {
   int x = first.x + j;
   vec2 value = texelFetch(sharp, index_of(ivec2(clamp(x, 0, width - 1), first.y))).xy;

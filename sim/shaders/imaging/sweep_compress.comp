@@ -1,5 +1,12 @@
-// Gain, log compression (7) and grey map of a sweep's volume, whose voxels lie in a row here, and with FIND_MAXIMUM the
-// level that is white where the brightest voxel is. An invocation serves four voxels.
+// Gain, log compression (7) and grey map of a sweep's volume:
+//
+//     grey = m(clamp(1 - (white_db - level) / dynamic_range_db, 0, 1)),  m the grey map
+//
+// With FIND_MAXIMUM, the stage instead finds the level that is white where the brightest voxel is white.
+//
+// Reads U and the depth of each voxel of a slab. Writes grey and 1 per voxel, or the maximum.
+// Dispatch: one invocation per four voxels, in rows of work groups of 64 (shared/rows.glsl). The voxels are numbered
+// through the slab.
 
 layout(local_size_x = 64) in;
 
@@ -8,8 +15,8 @@ layout(local_size_x = 64) in;
 #include "shared/rows.glsl"
 #include "shared/time_gain.glsl"
 
-layout(binding = 0) uniform samplerBuffer swept;              // U, share of the imaging depth; depth -1 outside
-layout(std430, binding = 0) buffer Maximum { uint maximum; };  // as ordered() gives it; 0 for none
+layout(binding = 0) uniform samplerBuffer swept;              // per voxel: U, share of the imaging depth; -1 outside
+layout(std430, binding = 0) buffer Maximum { uint maximum; };  // as ordered() encodes it; 0 for none
 #if FIND_MAXIMUM == 0
 layout(std430, binding = 1) writeonly buffer Volume { uvec2 volume[]; };  // four voxels: grey, 1 inside; packed
 #endif
@@ -26,7 +33,7 @@ void serve(int quad) {
     float level = level_at(4 * quad + i);
     if (level != kOutsideFan) most = max(most, ordered(level));
   }
-  // Few invocations find more than what is known by then, and only these need to be waited for.
+  // Few invocations find more than the maximum so far. Only these pay for the atomic operation, which may have to wait.
   if (most > maximum) atomicMax(maximum, most);
 }
 #else

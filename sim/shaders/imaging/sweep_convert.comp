@@ -1,13 +1,16 @@
-// Backward warp from the lines of a sweep to a volume: a voxel finds the two planes on its sides and its place among
-// the lines of each, and takes from each by its distance. An invocation a voxel.
+// Scan conversion of a sweep: a backward warp from its lines to a volume. A voxel finds the two planes on its sides and
+// its position among the lines of each. It mixes the bilinear values of both by its distances to them.
+//
+// Reads the values on the lines and the planes' matrices. Writes the value and the depth of each voxel of a slab.
+// Dispatch: width x height x slices invocations, one per voxel, in work groups of 32 x 4 x 1.
 
 layout(local_size_x = 32, local_size_y = 4) in;
 
 #include "shared/sweep_parameters.h"
 
-layout(binding = 0) uniform samplerBuffer values;            // a row a line, plane by plane
-layout(binding = 1) uniform samplerBuffer plane_from_voxel;  // a plane: the three rows of a matrix, voxel -> plane, mm
-layout(std430, binding = 0) writeonly buffer Slices { vec2 slices[]; };  // value, share of the depth along the lines;
+layout(binding = 0) uniform samplerBuffer values;            // one row per line, plane by plane
+layout(binding = 1) uniform samplerBuffer plane_from_voxel;  // per plane: three rows of a matrix, voxel -> plane, mm
+layout(std430, binding = 0) writeonly buffer Slices { vec2 slices[]; };  // value, share of the depth along the line;
                                                                          // 0, -1 outside the sweep
 const vec2 kOutside = vec2(0.0, -1.0);
 
@@ -20,7 +23,7 @@ vec2 in_plane(int plane, vec4 voxel) {
 
 float height_above(int plane, vec4 voxel) { return dot(texelFetch(plane_from_voxel, 3 * plane + 2), voxel); }
 
-// Across the face or the field of view, 0 to 1 inside, and mm along the line from the face.
+// Returns x: the position across the face or the field of view, 0 to 1 inside; y: mm from the face along the line.
 vec2 across_and_depth(vec2 p) {
   if (probe_kind == kLinear) return vec2(p.x / face_width_mm + 0.5, p.y);
   float below_apex = p.y + apex_behind_mm, from_apex = length(vec2(p.x, below_apex));
@@ -28,7 +31,7 @@ vec2 across_and_depth(vec2 p) {
   return vec2(atan(p.x, below_apex) / field_of_view + 0.5, probe_kind == kPhased && p.y < 0.0 ? -1.0 : r);
 }
 
-// Bilinear in one plane, and its share of the depth; kOutside outside its fan.
+// Returns the bilinear value in one plane and the point's share of the depth; kOutside outside the plane's fan.
 vec2 value_at(int plane, vec2 p) {
   vec2 at = across_and_depth(p);
   if (at.x < 0.0 || at.x > 1.0 || at.y < 0.0 || at.y > depth_mm) return kOutside;
@@ -47,11 +50,11 @@ void main() {
   if (at.x >= width || at.y >= height) return;
   vec4 voxel = vec4(at.xy, at.z + first_slice, 1.0);
 
-  // The voxel lies on other sides of the first and the last plane; halving what is between keeps that true.
+  // Bisection: the voxel lies on different sides of planes `low` and `high`, and each step keeps that true.
   int low = 0, high = planes - 1;
   float height_low = height_above(low, voxel), height_high = height_above(high, voxel);
   vec2 found = kOutside;
-  // On a plane counts as before it: the part that ends with the plane has served the voxel.
+  // A voxel on a plane counts as before it: the part that ends with the plane has already converted the voxel.
   bool between = height_low * height_high <= 0.0 && (height_low != 0.0 || is_first_part == 1);
   if (between) {
     while (high - low > 1) {

@@ -1,5 +1,9 @@
-// LC2 of an image: the share of the ultrasound image's variance that the two terms and a constant explain, of its parts'
-// sums put together, or of each part by itself where the parts are patches.
+// LC2 of an image: the share of the ultrasound image's variance that the two terms and a constant explain
+// (sim/registration/wein_reference.h). It follows from the sums of all parts combined or, where the parts are patches,
+// from each part by itself.
+//
+// Reads the sums of lc2_parts.comp. Writes one similarity per image, 0 to 1.
+// Dispatch: one invocation per image of the chunk, in work groups of GROUP.
 
 layout(local_size_x = GROUP) in;
 
@@ -10,12 +14,12 @@ layout(std430, binding = 0) writeonly buffer Similarities { float similarity[]; 
 
 const float kLeastVariance = 1e-10;  // of a term: kLeastTermDeviation squared
 
-// Sums of squares and products of u, E and R: how much of uu is explained.
+// Returns how much of uu is explained, from the sums of squares (uu, EE, RR) and products (uE, ER, Ru).
 float explained_by(vec3 squares, vec3 products, float count) {
   float least = kLeastVariance * count;
   float ee = squares.y, rr = squares.z, ue = products.x, er = products.y, ru = products.z;
   float explained = 0.0;
-  if (ee >= least) {  // E, and what of R is not E's
+  if (ee >= least) {  // E, and the part of R that is orthogonal to E
     explained = ue * ue / ee;
     ru -= er * ue / ee;
     rr -= er * er / ee;

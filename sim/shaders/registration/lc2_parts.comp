@@ -1,17 +1,20 @@
-// LC2's sums over a part of an image's pixels, an invocation a part, of the images that share the scan's texels: of the
-// ultrasound image u and the terms E and R, which are converted from the scan lines on the way. Kept as means and
-// products of differences, which single precision can hold: sums of squares less squares of sums would leave nothing of
-// a flat image.
+// Sums for LC2 over one part of an image's pixels: of the ultrasound image u and of the terms E and R, which the stage
+// converts from the scan lines. It keeps means and products of differences, which single precision can hold. Sums of
+// squares minus squares of sums would cancel to nothing for a flat image.
+//
+// Reads the scan and the table of pixels. Writes three texels per part and image.
+// Dispatch: parts x groups of images invocations, in work groups of GROUP x 1. An invocation sums one part of all
+// images that share the scan's texels.
 
 layout(local_size_x = GROUP) in;
 
 #include "shared/wein_parameters.h"
 #include "shared/wein_scan.glsl"
 
-layout(binding = 0, rgba32f) writeonly uniform image2D sums;  // a row an image, three texels a part
+layout(binding = 0, rgba32f) writeonly uniform image2D sums;  // one row per image, three texels per part
 
 struct Sums {
-  vec3 origin, sum, squares, products;  // of differences from the origin, which is the first pixel's values
+  vec3 origin, sum, squares, products;  // of differences from `origin`, the first pixel's values
 };
 
 void main() {
@@ -21,7 +24,7 @@ void main() {
   float count = 0.0;
   int length = steps();
   for (int i = 0; i < length; ++i) {
-    ivec4 pixel = pixel_at(i);  // its w: u
+    ivec4 pixel = pixel_at(i);  // w: u, as a float's bits
     float counts = pixel.x < 0 ? 0.0 : 1.0, u = intBitsToFloat(pixel.w);
     vec4 terms = scanned_at(pixel, group);
     count += counts;

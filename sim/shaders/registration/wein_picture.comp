@@ -1,5 +1,9 @@
-// Scan conversion of a chunk's images, each into its tile of the grid: a work group takes a run of the fan's pixels, an
-// invocation four neighbours at once, which it stores as one, of several images one after the other.
+// Scan conversion of model W: converts each image of a chunk into its tile of the grid.
+//
+// Reads the scan and the table of pixels. Writes the grid.
+// Dispatch: columns of the pixel table x runs of IMAGES_IN_TURN images, in work groups of GROUP x 1. A work group takes
+// a run of the fan's pixels. An invocation converts four neighbouring pixels and stores them as one word. It converts
+// the images of its run one after the other.
 
 layout(local_size_x = GROUP) in;
 
@@ -8,7 +12,7 @@ layout(local_size_x = GROUP) in;
 
 layout(std430, binding = 0) writeonly buffer Grid { uint grid[]; };  // four pixels each, row by row
 
-// Of the images that share a texel.
+// Returns the grey levels of the images that share a texel; 0 outside the fan.
 vec4 greys_of(ivec4 pixel, int image_group) { return pixel.x < 0 ? vec4(0.0) : scanned_at(pixel, image_group); }
 
 void main() {
@@ -17,7 +21,7 @@ void main() {
   int row_words = columns * tile_words, count = steps();
   for (int i = 0; i < count; i += 4) {
     ivec4 a = pixel_at(i), b = pixel_at(i + 1), c = pixel_at(i + 2), d = pixel_at(i + 3);
-    int in_tile = (a.w >> 16) * row_words + (a.w & 0xffff);  // for all four
+    int in_tile = (a.w >> 16) * row_words + (a.w & 0xffff);  // offset of all four in the tile, in words
     ivec2 tile = first_tile;
     for (int image = first_image; image < end; image += interleaved_greys) {
       int group = image / interleaved_greys;

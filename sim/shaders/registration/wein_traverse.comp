@@ -1,12 +1,22 @@
-// Model W along a scan line, an invocation a line, of several images of a chunk in turn: of each sample either both
-// terms, echogenicity and reflection, or the grey that a picture makes of them, which takes half the room. The gradient
-// is stored with the density, so a sample costs one fetch. Groups follow each other image by image along the same few
-// lines: poses of a search lie close together, so the voxels are still in the cache.
+// Traversal of model W along a scan line of several images of a chunk, with the symbols of
+// sim/registration/wein_settings.h:
 //
-// Samples are computed in pairs, so that a processor works at one while the other waits for a division: the same sample
-// of two images where images lie abreast in the scan, else two neighbours on the line. Stored at once is a texel of
-// images abreast, which takes one pair's terms or two pairs' greys, or else what comes of a pair. Where the device has
-// integers of 64 bits it is a single value, as llvmpipe takes as long again for each value of a vector.
+//     I(r + dr) = I(r) dT^(dr/l),  I(face) = 1
+//     R = ln(1 + a I dR) / ln(1 + a)
+//     E = clamp((HU - dark_hu) / (bright_hu - dark_hu), 0, 1),  times I with shadows
+//
+// Reads the volume, the lines and the poses. The gradient is stored with the density, so a sample costs one fetch.
+// Writes per sample either both terms, E and R, or with GREY the grey level that a picture makes of them, which takes
+// half the memory.
+// Dispatch: runs of IMAGES_IN_TURN images x lines / GROUP work groups of GROUP. An invocation traverses one line of the
+// images of its run, one after the other. Consecutive work groups traverse the same few lines in one image after the
+// other. Poses of a search lie close together, so the voxels are still in the cache.
+//
+// Samples are computed in pairs, so that a processor computes one while the other waits for a division. Where images
+// are interleaved in the scan, a pair is the same sample of two images. Elsewhere it is two neighbouring samples on the
+// line. One store writes a texel of interleaved images, that is one pair's terms or two pairs' greys. Elsewhere it
+// writes the result of one pair. Where the device has 64-bit integers, the store is one scalar: llvmpipe takes as long
+// again for each component of a vector.
 
 #ifdef GL_ARB_gpu_shader_int64
 #extension GL_ARB_gpu_shader_int64 : enable
@@ -23,36 +33,36 @@ layout(local_size_x = GROUP) in;
 #include "shared/exact_filter.glsl"
 
 layout(binding = 0) uniform sampler3D density;  // (HU, gradient along the CT's axes in eighths of HU) / 32767
-layout(binding = 1) uniform sampler2D probe_lines;  // a row a line, probe's frame, mm: sample 0, the way to the next
-layout(binding = 2) uniform sampler2D places;       // a row an image: the rows of texture_from_probe
+layout(binding = 1) uniform sampler2D probe_lines;  // one row per line, probe's frame, mm: sample 0, step to the next
+layout(binding = 2) uniform sampler2D places;       // one row per image: the rows of texture_from_probe
 #if GREY == 1 && ABREAST == 1
 #define Stored uint
 #else
 #define Stored Words
 #endif
 layout(std430, binding = 0) writeonly buffer Scan { Stored scan[]; };  // as shared/wein_scan.glsl reads it
-layout(std430, binding = 1) buffer Counter { uint samples_walked; };  // of a call
+layout(std430, binding = 1) buffer Counter { uint samples_walked; };  // of one call
 #ifdef INTENSITY
 layout(binding = 1, r32f) writeonly uniform image2D intensities;  // of the first image
 #endif
 
 const float kAirMu = 1.2;
 const float kContactTissueHu = -150.0, kContactAirHu = -301.0;
-const float kNothing = -1e6;  // the logarithm of what total reflection lets pass, in effect
+const float kNothing = -1e6;  // stands for ln 0, what total reflection transmits
 
-// Of an image, in the volume's texture.
+// A scan line of one image, in coordinates of the volume's texture.
 struct Line {
-  vec3 start, along;  // sample 0, the way to the next
+  vec3 start, along;  // sample 0, step to the next
   vec3 direction;     // unit, along the CT's axes
 };
 
-// Of a pair of samples.
+// The terms of a pair of samples.
 struct Terms {
   vec2 echogenicity, reflection, intensity;
 };
 
 const int kSamplesAPair = ABREAST == 1 ? 2 : 1, kImagesAPair = 2 / kSamplesAPair;
-const int kPairs = GREY == 1 && ABREAST == 4 ? 2 : 1, kImages = kPairs * kImagesAPair;  // walked along at once
+const int kPairs = GREY == 1 && ABREAST == 4 ? 2 : 1, kImages = kPairs * kImagesAPair;  // traversed at once
 
 int line;
 
@@ -75,7 +85,7 @@ vec4 density_at(Line of_image, float k) {
 #endif
 }
 
-// Where a line leaves the CT and its margin of air, counted in samples; before the first where it misses them.
+// Returns where a line leaves the CT and its margin of air, counted in samples; -1 where it misses them.
 float last_in_ct(Line of_image) {
   vec3 along = mix(of_image.along, vec3(1e-12), lessThan(abs(of_image.along), vec3(1e-12)));
   vec3 low = -of_image.start / along, high = (1.0 - of_image.start) / along;
@@ -84,13 +94,14 @@ float last_in_ct(Line of_image) {
   return first <= last ? last : -1.0;
 }
 
-// ln(1 - share) without the cancellation in 1 - share: by its series for small ones, of which thousands may add up.
+// ln(1 - share) without the cancellation in 1 - share. Small shares take its series, because thousands may add up.
 vec2 log_of_rest(vec2 share) {
   vec2 series = -share * (1.0 + share * (0.5 + share * (1.0 / 3.0)));
   return mix(log(1.0 - share), series, lessThan(share, vec2(0.01)));
 }
 
-// Of a pair whose first sample is the k-th. Takes ln I on to the next pair: that of each image, or of the one twice.
+// Returns the terms of the pair whose first sample is k. Advances ln I to the next pair: per image, or the same value
+// twice for a single image.
 Terms terms_of(Line one, Line other, int k, inout vec2 log_intensity) {
   vec2 steps = vec2(k, k + kSamplesAPair - 1);
   vec4 here = density_at(one, steps.x), there = density_at(other, steps.y);
@@ -119,16 +130,17 @@ Terms terms_of(Line one, Line other, int k, inout vec2 log_intensity) {
 
 uint greys_of(Terms terms) { return packUnorm2x16(mix(terms.echogenicity, terms.reflection, reflection_share)); }
 
-// How many samples were walked, of all images, before nothing was left of any.
+// Traverses a line of kImages images from `image` on until no sound is left in any. Returns the number of samples
+// traversed, over all these images.
 int walk(int image) {
   Line ways[2 * kPairs];
-  float last = first_free_sample;  // nearer to the face there is water wherever there is no body
+  float last = first_free_sample;  // nearer to the face, air outside the body counts as water
   for (int i = 0; i < 2 * kPairs; ++i) {
     ways[i] = line_of(min(image + i / kSamplesAPair, images - 1));
     last = max(last, last_in_ct(ways[i]));
   }
 #ifdef INTENSITY
-  int end = samples;  // the only stage that does not come to nothing behind the CT
+  int end = samples;  // the intensity is the only result that is not 0 behind the CT
 #else
   int end = int(min(last + 2.0, float(samples)));
 #endif

@@ -1,17 +1,17 @@
-// The volume as sound meets it, and what its Hounsfield units mean.
+// The volume that the simulation samples, and the tissue table for its Hounsfield units.
 
 // (HU, echogenicity in hundredths of a dB) / 32767, with a voxel of air all around
 layout(binding = 0) uniform sampler3D acoustic_volume;
 
-// Impedance (MRayl) and absorption (dB/(cm MHz)) at each whole HU from -1024 on, and what they rise by to the next; linear
-// between, which is exact because the tissue table's knots sit at whole HU.
+// One texel per whole HU from -1024 on: impedance (MRayl), absorption (dB/(cm MHz)), and the increase of both to the
+// next HU. Values between are linear, which is exact because the tissue table's knots lie at whole HU.
 layout(binding = 7) uniform samplerBuffer tissue_at_hu;
 
 const float kFirstHu = -1024.0;
-const vec2 kGel = vec2(0.0, -6000.0);         // water's density, and no echo
-const vec2 kOutside = vec2(-1000.0, -6000.0);  // beyond the volume, and all around the body
+const vec2 kGel = vec2(0.0, -6000.0);         // water's density, without echo
+const vec2 kOutside = vec2(-1000.0, -6000.0);  // outside the volume and around the body
 
-// Of what lies within the gel layer, the share that is gel: as in sim/reference/reference.h.
+// Returns the share of gel in what lies within the gel layer, 0 to 1, as in sim/reference/reference.h.
 const float kCouplingTissueHu = -150.0, kCouplingAirHu = -301.0;
 float gel_share(float hu) { return clamp((kCouplingTissueHu - hu) / (kCouplingTissueHu - kCouplingAirHu), 0.0, 1.0); }
 

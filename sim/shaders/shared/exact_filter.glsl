@@ -1,5 +1,5 @@
-// Trilinear filtering with weights in single precision. A device's own may have weights of as few as 8 bits, which
-// differences of near samples feel; `insonate-bench filter` measures them.
+// Trilinear filtering with weights in single precision. A device's own filter may have weights of as few as 8 bits,
+// which shows in differences between near samples. `insonate-bench filter` measures it.
 
 vec4 weighed(sampler3D texels, ivec3 low, ivec3 high, vec3 f) {
   vec4 row_00 = mix(texelFetch(texels, low, 0), texelFetch(texels, ivec3(high.x, low.yz), 0), f.x);
@@ -11,7 +11,7 @@ vec4 weighed(sampler3D texels, ivec3 low, ivec3 high, vec3 f) {
   return mix(mix(row_00, row_10, f.y), mix(row_01, row_11, f.y), f.z);
 }
 
-// As textureLod(texels, at, 0.0) of a texture that goes on as its edge ...
+// As textureLod(texels, at, 0.0) of a texture with clamped edges ...
 vec4 exact_to_edge(sampler3D texels, vec3 at) {
   ivec3 last = textureSize(texels, 0) - 1;
   vec3 position = clamp(at * vec3(last + 1) - 0.5, vec3(0.0), vec3(last));
@@ -19,7 +19,7 @@ vec4 exact_to_edge(sampler3D texels, vec3 at) {
   return weighed(texels, low, min(low + 1, last), position - vec3(low));
 }
 
-// ... and of one that repeats, with a power of two of texels a side.
+// ... and of a repeating texture whose sides are powers of two.
 vec4 exact_repeating(sampler3D texels, vec3 at) {
   ivec3 last = textureSize(texels, 0) - 1;
   vec3 position = at * vec3(last + 1) - 0.5, below = floor(position);

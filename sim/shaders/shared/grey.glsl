@@ -1,14 +1,14 @@
-// From level to grey: log compression (7) and the grey map, which is known when a shader is compiled.
+// From level to grey: log compression (7) and the grey map GREY_MAP, a compile-time constant.
 
 #include "shared/least_echo.glsl"
 
-const float kSilent = -1e30;       // level of a pixel without any echo
-const float kOutsideFan = 1e30;    // and of one outside the fan
+const float kSilent = -1e30;       // level of a pixel without echo
+const float kOutsideFan = 1e30;    // level of a pixel outside the fan
 
-// In decibels, because gains may reach beyond single precision's range and their decibels do not.
+// In decibels, because gains may exceed the range of single precision and their decibels do not.
 float level_db(float echo) { return echo > kLeastEcho ? 4.342944819 * log(echo) : kSilent; }
 
-// Exponents and curve as GreyMap says.
+// Exponents and curve are those of GreyMap (sim/model/settings.h).
 float mapped(float g) {
   if (GREY_MAP == 1) return pow(g, 0.75);
   if (GREY_MAP == 2) return pow(g, 1.5);
@@ -25,7 +25,7 @@ uint grey_pixel(float level, float white_db) {
   return level == kOutsideFan ? 0u : packUnorm4x8(vec4(vec3(grey_at(level, white_db)), 1.0));
 }
 
-// Levels as whole numbers in the same order, which is what a maximum over invocations takes.
+// Maps a level to an unsigned number that sorts in the same order, so that atomicMax() finds the brightest.
 uint ordered(float level) {
   uint bits = floatBitsToUint(level);
   return (bits & 0x80000000u) != 0u ? ~bits : bits | 0x80000000u;

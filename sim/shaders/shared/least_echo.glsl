@@ -1,4 +1,4 @@
-// As in sim/model/stages.h: weaker echoes are none. They would come to single precision's denormal numbers, about which a
-// processor is many times as long as about others, and whose logarithms, which time gain would show, differ by device.
+// As in sim/model/stages.h: weaker echoes count as 0. They would become denormal numbers of single precision, which a
+// processor computes many times more slowly. Their logarithms, which time gain would show, differ by device.
 const float kLeastEcho = 1e-30;
-const float kLeastIntensity = 1e-15;  // whose square is kLeastEcho
+const float kLeastIntensity = 1e-15;  // its square is kLeastEcho

@@ -1,54 +1,56 @@
 // A scan line of model S and what sound meets at a sample of it: reflection coefficient, transmission, the scatterers'
-// echo. Whoever includes this walks along lines. Fetches from the volume are what it costs, so it makes as few as the
-// sampling allows. What is written has a row a line: invocations that each walk along a row stay in the processor's
-// cache, a column each would touch a page a step. It goes to a buffer, as what all stages hand on: a software renderer
-// takes several times as long to store in an image.
+// echo. The file that includes this one traverses the lines.
+//
+// Fetches from the volume dominate the cost, so this code makes as few as the sampling allows. The result has one row
+// per line: invocations that each write along a row stay in the processor's cache, while one column each would touch
+// one page per step. The result is a buffer, as between all stages: a software renderer takes several times as long to
+// store to an image.
 
 #include "shared/simulation_parameters.h"
 #include "shared/least_echo.glsl"
 #include "shared/acoustic_volume.glsl"
 #include "shared/exact_filter.glsl"
 
-layout(binding = 1) uniform sampler3D scatterers;  // complex, unit variance at the lattice's points
-layout(binding = 2) uniform samplerBuffer in_air;  // I, R of a line that meets no body, by sample
-layout(std430, binding = 1) buffer Scan { vec4 scan[]; };  // a row a line: I, R, scatterers' echo (re, im)
+layout(binding = 1) uniform sampler3D scatterers;  // complex, variance 1 at the lattice's points
+layout(binding = 2) uniform samplerBuffer in_air;  // I, R of a line that does not meet the body, by sample
+layout(std430, binding = 1) buffer Scan { vec4 scan[]; };  // one row per line: I, R, scatterers' echo (re, im)
 
-// A line and the directions beside it, worked out in double precision for each pose: adding up single-precision
-// products here instead would move samples by a thousandth of a voxel, which shows at the surface of gas.
+// A line and the directions beside it, computed in double precision for each pose. Sums of single-precision products
+// here would move samples by a thousandth of a voxel, which shows at the surface of gas.
 struct Line {
-  vec4 start, along;        // in the volume's texture: of sample 0, and to the next; start.w and along.w: the first and
-                            // the last sample that may lie in the body, in this order unless none does
-  vec4 lateral, elevation;  // half the reflection length to either side; lateral.w: the plane's weight
+  vec4 start, along;        // in the volume's texture: sample 0, step to the next; start.w and along.w: first and last
+                            // sample that may lie in the body, first > last if none does
+  vec4 lateral, elevation;  // half the reflection length to either side; lateral.w: the slice plane's weight
   vec4 lattice_start, lattice_along;  // in the scatterers' lattice
-  vec4 beside, lattice_beside;        // with ELEVATION_FOCUS, the way to the plane for each mm of the slice's thickness
+  vec4 beside, lattice_beside;        // with ELEVATION_FOCUS: step to the slice plane per mm of the slice's thickness
 };
 #if KEEP_MIDDLE == 1
-layout(std430, binding = 3) writeonly buffer Middle { vec2 middle[]; };  // a row a line: I, R of the middle plane
+layout(std430, binding = 3) writeonly buffer Middle { vec2 middle[]; };  // one row per line: I, R of the middle plane
 #endif
-// Plane by plane, of each its slice's planes in turn.
+// Plane by plane; within each, one slice plane after the other.
 layout(std430, binding = 0) readonly buffer ScanLines { Line scan_lines[]; };
 layout(std430, binding = 2) buffer Counters { uint samples_walked, normals_taken; };
 
-// Where the ends of the reflection length lie. Ends that meet those of the next samples are fetched once for all.
+// Where the ends of the reflection length lie. Ends that coincide with those of the next samples are fetched once.
 const int kEdgesAtSamples = 2;  // l = 2 dr: on the neighbouring samples
 const int kEdgesAtMiddles = 1;  // l = dr: halfway between samples, as in the paper
 const int kEdgesAnywhere = 0;
 
-const float kMeanCosine = 0.5;           // |d . n| over all directions, for interfaces too weak to be looked at
+const float kMeanCosine = 0.5;           // |d . n| over all directions, for interfaces too weak to need a normal
 // As in sim/model/refraction.h.
 const float kLeastHu = -150.0, kMostHu = 150.0, kLogSpeedBelowWater = 5e-4, kLogSpeedAboveWater = 7.6e-4;
 const float kScattererScale = 4.0;     // the lattice stores a quarter of its normally distributed numbers
 const float kLn10 = 2.302585093;
-// As in sim/model/acoustic_volume.h: in hundredths of a dB, and 10 to the power of a thousandth of that.
+// As in sim/model/acoustic_volume.h: the level in hundredths of a dB, and 10^(level / 1000).
 const float kSilentEchogenicity = -5999.5, kSilentAmplitude = 1.00115195e-6;
-// Of 10^-33. Intensity takes part in each echo at least once, and none below 10^-30 counts (least_echo.glsl); the planes
-// of a slice add up to that, so each is known to a thousandth of it.
+// ln 10^-33. Intensity is a factor of each echo at least once, and echoes below 10^-30 count as 0 (least_echo.glsl).
+// The planes of a slice add up to one echo, so each is known to a thousandth of that limit.
 const float kLeastLogIntensity = -76.0;
 
 Line line;
 uint walked = 0u, normals = 0u;  // by this invocation
 
-// Of a line in air, which is one line in each of the slice's planes, or of the planes.
+// Returns the number of lines to traverse: those of all planes, or 1 for the line in air.
 int line_count() { return min(planes * lines, scan_lines.length() / SLICE_PLANES); }
 
 void place_line(int slice_plane, int index) {
@@ -58,7 +60,7 @@ void place_line(int slice_plane, int index) {
 
 bool starts() { return line.start.w <= line.along.w; }
 
-// Where a place along the line lies, counted in samples. With ELEVATION_FOCUS planes bend as the slice's thickness does.
+// Positions along the line, counted in samples. With ELEVATION_FOCUS the planes bend as the slice's thickness does.
 float depth(float k) { return r_min_mm + (k + 0.5) * dr_mm; }
 #if ELEVATION_FOCUS == 1
 float thickness_mm(float k) {
@@ -82,12 +84,12 @@ vec2 voxel(vec3 at) {
 #endif
 }
 
-// Coupling gel fills what air there is between the face and the skin, up to its thickness.
+// Coupling gel replaces the air between the face and the skin, up to the thickness of its layer.
 vec2 with_gel(vec2 voxel, float r) { return r < coupled_mm ? mix(voxel, kGel, gel_share(voxel.x)) : voxel; }
 
 struct Medium { float hu, impedance, absorption, echogenicity; };
 
-// At a place along the line, counted in samples.
+// Returns the medium at a position along the line, counted in samples.
 Medium medium(float k) {
   vec2 here = kOutside;
   if (k >= line.start.w && k <= line.along.w) here = voxel(place(k));
@@ -98,15 +100,15 @@ Medium medium(float k) {
 
 float hu_at(vec3 at, float r) { return with_gel(voxel(at), r).x; }
 
-// ln(1 - alpha) without the cancellation in 1 - alpha: by its series for weak interfaces, as 4 Z1 Z2 / (Z1 + Z2)^2 for
-// strong ones.
+// ln(1 - alpha) without the cancellation in 1 - alpha. Weak interfaces take its series, strong ones
+// 4 Z1 Z2 / (Z1 + Z2)^2.
 float log_transmission(float alpha, float z1, float z2) {
   if (alpha < 0.03) return -alpha * (1.0 + alpha * (0.5 + alpha * (1.0 / 3.0 + alpha * 0.25)));
   return log(4.0 * z1 * z2 / ((z1 + z2) * (z1 + z2)));
 }
 
-// Trilinear interpolation between independent numbers has less variance between lattice points than at them; dividing
-// by what the weights leave keeps the speckle from showing the lattice.
+// Trilinear interpolation between independent numbers has less variance between lattice points than at them. Division
+// by the root of the variance that the weights leave keeps the lattice from showing in the speckle.
 vec2 scatterer(vec3 lattice) {
   vec3 f = fract(lattice * vec3(textureSize(scatterers, 0)) - 0.5);
   vec3 kept = f * f + (1.0 - f) * (1.0 - f);
@@ -118,14 +120,14 @@ vec2 scatterer(vec3 lattice) {
   return stored * (kScattererScale * inversesqrt(kept.x * kept.y * kept.z));
 }
 
-// How density changes around a sample, of which that of impedance has the direction: no look at the tissue table is
-// needed.
+// The change of density around a sample. Its gradient has the direction of the impedance's gradient, so that no fetch
+// from the tissue table is needed.
 struct Surroundings {
-  vec4 beside;  // densities half the reflection length beside it: to both sides in the plane, and in elevation
-  float along;  // their difference over the reflection length along the line
+  vec4 beside;  // HU at half the reflection length: to both sides in the plane, and in elevation
+  float along;  // difference over the reflection length along the line
 };
 
-// By differences; those along the line are known from its walk.
+// Takes differences beside the line; the difference along the line is known from the traversal.
 Surroundings surroundings(float k, float along) {
   vec3 at = place(k);
   float r = depth(k);
@@ -139,7 +141,7 @@ float incidence(Surroundings around) {
   return abs(around.along) * inversesqrt(max(around.along * around.along + dot(across, across), 1e-30));
 }
 
-// Complex amplitude of what scatters at a sample.
+// Returns the complex amplitude of the scatterers at a sample.
 vec2 scatterers_echo(float k, Medium here) {
   float above_silence = max(here.echogenicity - kSilentEchogenicity, 0.0);
   vec2 echo = vec2(kSilentAmplitude * (exp(above_silence * (kLn10 / 1000.0)) - 1.0), 0.0);
@@ -147,17 +149,17 @@ vec2 scatterers_echo(float k, Medium here) {
   return echo;
 }
 
-// What sound meets at a sample, however much of it arrives there.
+// What sound meets at a sample, whatever intensity arrives there.
 struct Sample {
   float alpha, cosine;  // of the interface
-  float change;         // of the logarithm of intensity, but for what turns off the line
-  vec2 turn;            // of the sound, in units of kTurn_rad
+  float change;         // of ln I, without the loss by refraction
+  vec2 turn;            // rotation of the sound's direction by refraction, in units of kTurn_rad
   vec2 echo;            // of the scatterers
 };
 
 float absorbed(Medium here) { return ABSORPTION == 1 ? here.absorption * absorption_per_sample : 0.0; }
 
-// Sample k, with the reflection length's ends before and behind it.
+// Computes sample k from the media at the sample and at the ends of the reflection length before and behind it.
 Sample sample_at(float k, Medium here, Medium before, Medium behind) {
   Sample met;
   met.alpha = (behind.impedance - before.impedance) / (behind.impedance + before.impedance);  // (1)
@@ -182,14 +184,14 @@ Sample sample_at(float k, Medium here, Medium before, Medium behind) {
   return met;
 }
 
-// How the logarithm of intensity changes where sound that is turned so far leaves the line.
+// Returns the change of ln I where sound that refraction has rotated by `turn` leaves the line.
 float change_by(vec2 turn) {
   float turned = dot(turn, turn), to_the_fourth = turned * turned;
   return -2.0 * to_the_fourth / (2.0 + to_the_fourth) * turn_loss;
 }
 
-// The logarithm of the intensity that arrives at a sample. What rounding added to it is carried along: thousands of
-// small losses would add up to more error than is allowed.
+// ln of the intensity that arrives at a sample, as a compensated (Kahan) sum. Otherwise thousands of small losses would
+// add up to a larger error than is allowed.
 struct LogIntensity { float value, excess; };
 
 // The first sample lies half a step behind the face.
@@ -204,8 +206,8 @@ LogIntensity changed(LogIntensity log_intensity, float change) {
 
 bool is_heard(LogIntensity log_intensity) { return log_intensity.value > kLeastLogIntensity; }
 
-// The planes of the slice add up. Where sound goes to and fro is a matter of the middle one alone: layers that lie in
-// different planes hold none between them.
+// Stores a sample; the planes of the slice add up by their weights. Reverberation needs the middle plane alone: layers
+// that lie in different planes hold no sound between them.
 void put(int slice_plane, int at, vec4 value) {
 #if KEEP_MIDDLE == 1
   if (slice_plane == SLICE_PLANES / 2) middle[at] = value.xy;
@@ -217,7 +219,7 @@ void put(int slice_plane, int at, vec4 value) {
   scan[at] = value;
 }
 
-// What a sample sends back of the intensity that arrives.
+// Stores what a sample sends back of the intensity that arrives.
 void put(int slice_plane, int at, Sample met, LogIntensity log_intensity) {
   float intensity = is_heard(log_intensity) ? exp(log_intensity.value) : 0.0;
   float heard = intensity > kLeastIntensity ? intensity : 0.0;
@@ -226,8 +228,8 @@ void put(int slice_plane, int at, Sample met, LogIntensity log_intensity) {
   put(slice_plane, at, vec4(intensity, reflection, met.echo));
 }
 
-// Sample k and every `step`th behind it, at which no sound arrives. What nothing is heard of still scatters in the
-// apertures of the lines beside it, as far as the body goes.
+// Stores sample k and every `step`th sample behind it, where no sound arrives. As far as the body extends, such samples
+// still scatter in the apertures of the lines beside this one.
 void put_silent(int slice_plane, int row, int k, int step) {
   for (int end = int(min(line.along.w + 1.0, float(samples))); k < end; k += step)
     put(slice_plane, row + k, vec4(0.0, 0.0, scatterers_echo(float(k), medium(float(k)))));

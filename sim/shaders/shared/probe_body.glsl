@@ -1,10 +1,10 @@
-// The probe's housing as a signed distance, mm, in the probe's frame: a head that ends in the face, a grip and the
-// marker on the +x side. The shape is a plain one of this project's own; face and marker are where they must be.
+// The probe's housing as a signed distance, mm, in the probe's frame: a head that ends in the face, a grip, and the
+// marker on the +x side. The plain shape is this project's own. Face and marker are where a real probe has them.
 
 const float kHeadDepth = 26.0, kHeadHalfThickness = 9.0, kGripLength = 115.0, kLens = 2.5;
-const vec4 kProbeSphere = vec4(0.0, -55.0, 0.0, 85.0);  // around all of it
+const vec4 kProbeSphere = vec4(0.0, -55.0, 0.0, 85.0);  // encloses the whole probe: centre, radius
 
-// Across the face: how far beyond it (< 0 within the head), and how far beyond its lateral edge.
+// Returns the distance beyond the face (< 0 within the head), and the distance beyond its lateral edge.
 vec2 face_distance(vec2 p) {
   if (probe_shape.x == 0.0) return vec2(p.y, abs(p.x) - probe_shape.y);
   vec2 q = vec2(p.x, p.y + probe_shape.x);
@@ -37,7 +37,7 @@ float probe_distance(vec3 p) {
   return min(housing_distance(p), marker_distance(p));
 }
 
-// Where a ray meets the probe, mm along it; < 0 where it does not.
+// Returns the distance along a ray to the probe, mm; -1 where the ray misses it.
 float meet_probe(vec3 origin, vec3 direction) {
   vec3 towards = kProbeSphere.xyz - origin;
   float middle = dot(towards, direction);

@@ -1,5 +1,5 @@
-// The parameters of the simulation's stages: read by the shaders and written by C++, which both include this file.
-// std140: every group of four scalars below fills one 16-byte row.
+// The parameters of model S's stages. The shaders read them and C++ writes them; both include this file. Layout std140:
+// each group of four scalars below fills one 16-byte row.
 #ifdef __cplusplus
 #pragma once
 #include <glm/vec4.hpp>
@@ -9,8 +9,8 @@ struct SimulationParameters {
 #else
 layout(std140, binding = 0) uniform SimulationParameters {
 #endif
-  int lines;    // N, of a plane
-  int samples;  // D
+  int lines;    // N, per plane
+  int samples;  // D, per line
   int width;    // of the picture, pixels
   int height;
 
@@ -19,9 +19,9 @@ layout(std140, binding = 0) uniform SimulationParameters {
   float half_reflection_length;  // l/2 in samples
   float reflection_exponent;     // dr/l
 
-  float absorption_per_sample;  // f dr/100 ln 10: times dB/(cm MHz), the natural logarithm that a sample takes
+  float absorption_per_sample;  // f dr/100 ln 10: times dB/(cm MHz), the loss in ln I per sample
   float coupled_mm;
-  float least_alpha_with_normal;  // a weaker interface's tilt is not looked at
+  float least_alpha_with_normal;  // weaker interfaces take a mean tilt instead of their normal
   float clutter_share;            // of the mean echo from the same depth; 0 for none
 
   float face_reflection;
@@ -41,15 +41,15 @@ layout(std140, binding = 0) uniform SimulationParameters {
 
   float turn_loss;  // dr/kTurn_mm
   float slice_thickness_mm;
-  float slice_spread;  // of the slice's thickness, a mm from its focus
+  float slice_spread;  // growth of the slice's thickness per mm from its focus
   float elevation_focus_mm;
 
-  int planes;       // whose lines are worked on together, one after the other: 1 for a picture
-  int first_plane;  // of a sweep's, the first of these
-  int noise_step;   // lines that the noise is shifted by from a plane to the next
+  int planes;       // whose lines are processed together, stored one after the other: 1 for a picture
+  int first_plane;  // index of the first of these in the sweep
+  int noise_step;   // shift of the noise from one plane to the next, lines
   int unused_1;     // std140: a row has 16 bytes
 
-  vec4 tgc_db[2];  // at 8 depths from the face to full depth
+  vec4 tgc_db[2];  // time gain at 8 depths from the face to full depth
 #ifdef __cplusplus
 };
 }  // namespace insonate::gl

@@ -1,4 +1,4 @@
-// What the slice's shader is told: read by it and written by C++, which both include this file (std140).
+// The parameters of the slice's shader. The shader reads them and C++ writes them; both include this file (std140).
 #ifdef __cplusplus
 #pragma once
 #include <glm/mat4x4.hpp>
@@ -14,8 +14,8 @@ layout(std140, binding = 0) uniform SliceParameters {
 
   float window_hu;
   float level_hu;
-  float ultrasound;   // share of the ultrasound inside the fan
-  float outside_fan;  // brightness of the CT outside it
+  float ultrasound;   // share of the ultrasound inside the fan, 0 to 1
+  float outside_fan;  // brightness of the CT outside the fan
 
   vec4 outline[256];  // per label: colour of its edge, alpha 0 for none
 #ifdef __cplusplus

@@ -1,5 +1,6 @@
-// Gain and time gain, dB, at a share of the imaging depth: linear between eight depths, as what each stretch between two
-// of them adds. Looking the two up would be a load for each pixel.
+// Returns gain and time gain, dB, at a share of the imaging depth. Time gain is linear between eight depths. It is
+// summed over what each of the seven intervals adds, because a lookup of the two neighbours would cost one load per
+// pixel.
 float gain_at_db(float depth_share) {
 #if TIME_GAIN == 1
   float depth = 7.0 * depth_share;

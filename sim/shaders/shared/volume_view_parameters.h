@@ -1,4 +1,5 @@
-// What the volume view's shader is told: read by it and written by C++, which both include this file (std140).
+// The parameters of the volume view's shader. The shader reads them and C++ writes them; both include this file
+// (std140).
 #ifdef __cplusplus
 #pragma once
 #include <glm/mat4x4.hpp>
@@ -14,9 +15,9 @@ layout(std140, binding = 0) uniform VolumeViewParameters {
   mat4 texture_from_patient;  // patient mm -> coordinates of the CT's texture
   mat4 probe_from_patient;
   vec4 eye;      // patient mm
-  vec4 right;    // a ray's direction is into + right x + down y, x and y from -1 to 1 over the picture
+  vec4 right;    // a ray's direction is into + x right + y down, x and y from -1 to 1 over the picture
   vec4 down;
-  vec4 into;     // unit
+  vec4 into;     // unit vector
   vec4 picture;  // width, height, mm per pixel at 1 mm from the eye, unused
 
   vec4 image_geometry;  // of the ultrasound: left and top edge in the probe's plane, mm; mm per pixel; unused
@@ -24,8 +25,8 @@ layout(std140, binding = 0) uniform VolumeViewParameters {
 
   float step_mm;
   float voxel_mm;  // of the tissue texture
-  float skin;      // opacity face on
-  float cut_face;  // opacity
+  float skin;      // opacity of the skin seen face on
+  float cut_face;  // opacity of the cut's face
 
   int cut;
   int show_plane;

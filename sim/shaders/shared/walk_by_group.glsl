@@ -1,19 +1,21 @@
-// A line a work group, whose invocations take neighbouring samples, a stretch of the line at a time. What hangs on the
-// samples before is found by scans over the stretch, and carried into the next. Each sample fetches the ends of its own
-// reflection length: its neighbours fetch the same at the same time, which a card's texture cache serves.
+// Traverses one line per work group. Its invocations take neighbouring samples, one stretch of GROUP samples at a time.
+// What depends on the samples before is found by scans (prefix sums) over the stretch and carried into the next
+// stretch. Each sample fetches the ends of its own reflection length. Its neighbours fetch the same ones at the same
+// time, which a card's texture cache serves.
 //
-// Invocations of a group wait for each other: all of them must come to each barrier, so what the loops around one go on
-// by is the same for all. Sample k is the same invocation's in each plane of the slice, whose sums so need no barrier.
+// Invocations of a group wait for each other. All of them must reach each barrier, so the conditions of the loops
+// around a barrier are the same for all. Sample k belongs to the same invocation in each slice plane, so that the sums
+// over these need no barrier.
 
 const int kLast = GROUP - 1;
-shared float changes[GROUP];  // of the logarithm of intensity, from the stretch's start to behind each sample
+shared float changes[GROUP];  // of ln I, from the stretch's start to behind each sample
 shared vec2 turns[GROUP];
 
-// A level joins neighbouring parts of the stretch, twice as long as those of the level before: to each sample of the
-// back part it adds what the front part's last sample has. None of what a level reads is written by it. Rounding keeps
-// numbers in order, so sums in this order never rise from sample to sample where nothing that they add is positive.
+// A level joins neighbouring parts of the stretch, twice as long as those of the level before. It adds the value of the
+// front part's last sample to each sample of the back part. A level writes nothing that it reads. Rounding keeps
+// numbers in order, so these sums never rise from sample to sample if no addend is positive.
 void scan_changes(int me, float change) {
-  barrier();  // behind whoever still reads those of the stretch before
+  barrier();  // until all have read the sums of the stretch before
   changes[me] = change;
   for (int part = 1; part < GROUP; part *= 2) {
     barrier();
@@ -22,7 +24,8 @@ void scan_changes(int me, float change) {
   barrier();
 }
 
-// The same where less is kept of a turn the further it has come. The first sample brings in what came `before`.
+// The same for a rotation, which decays with distance. The first sample adds what is left of `before`, the rotation in
+// front of the stretch.
 void scan_turns(int me, vec2 turn, vec2 before) {
   float kept = turn_kept, kept_over_part = turn_kept;  // kept: from the front part's last sample to this one
   barrier();
@@ -42,11 +45,11 @@ void walk(int slice_plane, int index) {
   place_line(slice_plane, index);
   int me = int(gl_LocalInvocationID.x), row = index * samples, end = starts() ? samples : 0, first = 0;
   LogIntensity arriving = arriving_first(medium(0.0));  // at the stretch's first sample
-  vec2 turn = vec2(0.0);                                // behind its last
+  vec2 turn = vec2(0.0);                                // rotation behind its last sample
   for (; first < end && (SKIPPING == 0 || is_heard(arriving)); first += GROUP) {
     int k = first + me;
     float position = float(k);
-    Sample met = Sample(0.0, 0.0, 0.0, vec2(0.0), vec2(0.0));  // behind the line's end
+    Sample met = Sample(0.0, 0.0, 0.0, vec2(0.0), vec2(0.0));  // stays so behind the line's end
     if (k < samples) {
       met = sample_at(position, medium(position), medium(position - half_reflection_length),
                       medium(position + half_reflection_length));

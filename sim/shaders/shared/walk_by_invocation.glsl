@@ -1,4 +1,5 @@
-// A line an invocation: from the face into the depth, because the intensity at a sample depends on all before it.
+// Traverses one line per invocation, from the face into the depth, because the intensity at a sample depends on all
+// samples before it.
 
 void walk(int slice_plane, int index) {
   place_line(slice_plane, index);

@@ -1,4 +1,7 @@
-// A triangle that covers the viewport.
+// Full-screen pass: a triangle that covers the viewport.
+//
+// Reads nothing but gl_VertexID. Writes the position and the fragment's place in the viewport.
+// Draw: one triangle (FullScreenTriangle, sim/gl/objects.h).
 layout(location = 0) out vec2 uv;  // [0, 1] from the bottom left
 
 void main() {

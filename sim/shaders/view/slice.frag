@@ -1,4 +1,7 @@
-// The CT in the ultrasound picture's plane, mixed with that picture, pixel by pixel.
+// Slice view: the CT in the plane of the ultrasound picture, mixed with that picture, and the outlines of the labels.
+//
+// Reads the CT, the ultrasound picture and the labels. Writes the colour.
+// Draw: full-screen pass, one fragment per pixel of the ultrasound picture.
 
 #include "shared/slice_parameters.h"
 #include "shared/hounsfield.glsl"
@@ -19,7 +22,7 @@ uint label_at(vec2 pixel) {
   return texelFetch(labels, voxel, 0).x;
 }
 
-// The colour of the label whose inner edge runs through the pixel.
+// Returns the colour of the label whose inner edge runs through the pixel; alpha 0 where none does.
 vec4 outline_at(vec2 pixel) {
   uint here = label_at(pixel);
   if (here == 0u || outline[here].a == 0.0) return vec4(0.0);

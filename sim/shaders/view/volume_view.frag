@@ -1,5 +1,9 @@
-// Direct volume rendering by ray casting: skin, organs and bone front to back, with the ultrasound picture, the cut's
-// face and the probe where they lie in depth. VOXELS_PER_BLOCK is defined by whoever builds it.
+// Volume view: direct volume rendering by ray casting. It composites skin, organs and bone front to back. The
+// ultrasound picture, the face of the cut and the probe take their places in depth.
+//
+// Reads the CT, the ultrasound picture, the tissue and body textures and the distances between blocks. Writes the
+// colour. Draw: full-screen pass, one ray per fragment. The C++ side defines VOXELS_PER_BLOCK, the side of a block in
+// voxels.
 
 #include "shared/volume_view_parameters.h"
 #include "shared/hounsfield.glsl"
@@ -18,7 +22,7 @@ const vec3 kSkinColour = vec3(0.95, 0.78, 0.68);
 const vec3 kFanEdge = vec3(0.36, 0.72, 0.88);
 const float kCutWindow_hu = 400.0, kCutLevel_hu = 40.0;
 
-vec4 sum = vec4(0.0);  // colour times opacity, opacity: what lies in front of the point the ray has come to
+vec4 sum = vec4(0.0);  // colour times opacity, opacity: what lies between the eye and the ray's present point
 
 void composite(vec3 shade, float opacity) {
   sum += (1.0 - sum.a) * opacity * vec4(shade, 1.0);
@@ -28,8 +32,8 @@ vec3 background(vec2 at) {
   return mix(vec3(0.085, 0.095, 0.115), vec3(0.045, 0.050, 0.062), smoothstep(0.2, 1.5, length(at)));
 }
 
-// A soft lamp at the viewer's upper left shoulder, and a little of the room: what a surface's colour is multiplied by,
-// and the highlight.
+// Returns the factor for a surface's colour and the highlight. The light is a soft lamp at the viewer's upper left
+// shoulder, and a little light from the room.
 vec2 lighting(vec3 normal, vec3 view) {
   vec3 lamp = normalize(-into.xyz - 0.45 * normalize(right.xyz) - 0.6 * normalize(down.xyz));
   float diffuse = max(dot(normal, lamp), 0.0);
@@ -38,7 +42,7 @@ vec2 lighting(vec3 normal, vec3 view) {
   return vec2(0.22 + 0.12 * from_above + 0.72 * diffuse, highlight);
 }
 
-// Central differences over one voxel, patient mm: x the opacity's, y the body's.
+// Returns gradients by central differences over one voxel, per patient mm: [0] of the opacity, [1] of the body's share.
 mat2x3 gradients(vec3 at, vec3 step_uv) {
   vec2 dx = textureLod(body, at + vec3(step_uv.x, 0, 0), 0.0).xy - textureLod(body, at - vec3(step_uv.x, 0, 0), 0.0).xy;
   vec2 dy = textureLod(body, at + vec3(0, step_uv.y, 0), 0.0).xy - textureLod(body, at - vec3(0, step_uv.y, 0), 0.0).xy;
@@ -47,7 +51,7 @@ mat2x3 gradients(vec3 at, vec3 step_uv) {
   return mat2x3(to_patient * (vec3(dx.x, dy.x, dz.x) / step_uv), to_patient * (vec3(dx.y, dy.y, dz.y) / step_uv));
 }
 
-// The normal that faces the viewer; where there is no gradient, as on a cut, the viewer's own direction.
+// Returns the normal that faces the viewer. Where there is no gradient, as on a cut, it is the direction to the viewer.
 vec3 facing(vec3 gradient, vec3 view) {
   float size = length(gradient);
   if (size < 1e-4) return -view;
@@ -59,12 +63,13 @@ float fan_at(vec2 uv) {
   return all(equal(uv, clamp(uv, 0.0, 1.0))) ? textureLod(ultrasound_image, uv, 0.0).a : 0.0;
 }
 
-// The picture's plane at a point: the ultrasound inside the fan, the fan's edge, the CT on the cut around it.
+// Composites the picture's plane at a point: ultrasound inside the fan, the fan's edge, and the CT on the cut around
+// it.
 void composite_plane(vec3 patient, float t, float slant) {
   if (show_plane == 1) {
     vec2 image_mm = image_geometry.z * vec2(textureSize(ultrasound_image, 0));
     vec2 uv = ((probe_from_patient * vec4(patient, 1.0)).xy - image_geometry.xy) / image_mm;
-    // The share of the fan around the point, over about a pixel of the screen, the slant of the plane allowed for.
+    // The share of the fan around the point, over about one pixel of the screen, corrected for the plane's slant.
     vec2 reach = picture.z * t / max(slant, 0.25) / image_mm;
     float fan = 0.25 * (fan_at(uv + reach * vec2(0.9, 0.4)) + fan_at(uv + reach * vec2(-0.4, 0.9)) +
                         fan_at(uv + reach * vec2(-0.9, -0.4)) + fan_at(uv + reach * vec2(0.4, -0.9)));
@@ -84,20 +89,20 @@ void composite_plane(vec3 patient, float t, float slant) {
   composite(shade, inside * cut_face);
 }
 
-// A ray on its way through the patient.
+// The state of a ray on its way through the patient.
 struct March {
-  vec3 box_origin, box_direction;  // in coordinates of the tissue's texture, per mm
-  float t;                         // mm from the eye
-  float before, t_before;          // share of body at the sample before, and where; -1 for none yet
-  float here;                      // the same at t
+  vec3 box_origin, box_direction;  // in coordinates of the tissue texture; direction per mm
+  float t;                         // distance from the eye, mm
+  float before, t_before;          // share of the body at the previous sample, -1 for none yet, and its t
+  float here;                      // share of the body at t
   bool in_organ;
-  vec2 light;  // of the organ's surface where the ray entered it
+  vec2 light;  // of the organ's surface where the ray entered the organ
 };
 
 const int kNothing = 0, kSkin = 1, kOrgan = 2;
 
-// Goes on until the ray meets the skin or an organ, or `stop`. Kept apart from the shading of what it meets because a
-// software renderer runs all code of a loop's body for all samples, whatever its branches say.
+// Advances until the ray meets the skin or an organ, or `stop`, and returns which. The shading of what it meets is kept
+// out of this loop: a software renderer runs all code of a loop's body for all samples, whatever its branches select.
 int march_to_event(inout March march, float stop) {
   vec3 blocks_per_uv = vec3(textureSize(body, 0)) / float(VOXELS_PER_BLOCK);
   vec3 safe = mix(march.box_direction, vec3(1e-9), lessThan(abs(march.box_direction), vec3(1e-9)));
@@ -105,10 +110,10 @@ int march_to_event(inout March march, float stop) {
   bvec3 forward = greaterThan(safe, vec3(0.0));
   ivec3 last_block = textureSize(block_distance, 0) - 1;
 
-  // The bounds of both loops are guards, far above need.
+  // The bounds of both loops are guards far above what is needed.
   for (int i = 0; i < 4096; ++i) {
     vec3 uv;
-    for (int leap = 0; leap < 1024; ++leap) {  // over blocks in which nothing changes
+    for (int leap = 0; leap < 1024; ++leap) {  // skips blocks in which nothing changes
       uv = march.box_origin + march.t * march.box_direction;
       ivec3 block = clamp(ivec3(uv * blocks_per_uv), ivec3(0), last_block);
       int empty = int(texelFetch(block_distance, block, 0).x);
@@ -134,7 +139,7 @@ int march_to_event(inout March march, float stop) {
       if (sum.a >= kOpaque) return kNothing;
     }
     march.in_organ = coverage > 0.0;
-    // Smoothing has spread every edge over two voxels: where nothing is, a whole voxel can be stepped over.
+    // Smoothing has spread every edge over two voxels, so a step of a whole voxel is safe where there is nothing.
     march.t += organ.a == 0.0 && (march.here == 0.0 || march.here == 1.0) ? max(step_mm, voxel_mm) : step_mm;
   }
   return kNothing;
@@ -146,7 +151,7 @@ void main() {
   direction = normalize(direction);
   vec3 from = eye.xyz;
 
-  // The plane, the probe and the part of the ray that is left of the patient.
+  // Distances to the plane and the probe, and the part of the ray within the patient that they leave.
   vec4 probe_eye = probe_from_patient * vec4(from, 1.0);
   vec3 probe_direction = mat3(probe_from_patient) * direction;
   float t_plane = -probe_eye.z / probe_direction.z;
@@ -162,13 +167,13 @@ void main() {
   vec3 low = min(a, b), high = max(a, b);
   float t = max(max(low.x, low.y), max(low.z, 0.0));
   float end = min(min(high.x, high.y), high.z);
-  if (cut == 1) t = max(t, t_plane);  // what never meets the plane lies wholly in front of it
+  if (cut == 1) t = max(t, t_plane);  // a ray that never meets the plane lies wholly in front of it
   end = min(end, t_probe);
 
   float plane_at = meets_plane && t_plane < t_probe && (show_plane == 1 || cut == 1) ? t_plane : kNever;
   vec3 voxel_uv = 1.0 / vec3(textureSize(body, 0));
   March march = March(box_origin, box_direction, t, -1.0, t, 0.0, false, vec2(0.0));
-  for (int part = 0; part < 2; ++part) {  // before the plane, and behind it
+  for (int part = 0; part < 2; ++part) {  // in front of the plane, and behind it
     float stop = part == 0 ? min(plane_at, end) : end;
     for (int i = 0; i < 256 && march.t < stop && sum.a < kOpaque; ++i) {
       int event = march_to_event(march, stop);
@@ -177,7 +182,7 @@ void main() {
       mat2x3 gradient = gradients(box_origin + t_event * box_direction, voxel_uv);
       vec3 normal = facing(gradient[event == kSkin ? 1 : 0], direction);
       if (event == kSkin) {
-        // Seen as glass is: more where it turns away, and from within less.
+        // The skin looks like glass: more opaque where it turns away from the viewer, less when seen from within.
         float rim = 1.0 - abs(dot(normal, direction));
         float side = march.here > march.before ? 1.0 : 0.5;
         vec2 light = lighting(normal, direction);
