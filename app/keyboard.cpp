@@ -237,7 +237,7 @@ void Keyboard::press(const KeyEvent& pressed, Trainer& trainer, ui::Screen& scre
       if (!repeated) trainer.guide().next(session);
       break;
     case GLFW_KEY_M:
-      if (!repeated) session.press(kMarkButton);
+      if (!repeated) session.press(kEventMarkerButton);
       break;
     case GLFW_KEY_R:
       if (!repeated) trainer.recorder().running() ? trainer.stop_recording() : trainer.start_recording();

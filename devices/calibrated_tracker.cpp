@@ -19,7 +19,7 @@ TrackerIdentity tracker_identity(std::string_view uri) {
   return {parsed.scheme, parsed.subject, int(parsed.number(part, 1, 1, 16))};
 }
 
-bool is_a_labs_own(std::string_view uri) {
+bool can_store_setup(std::string_view uri) {
   return kind_of(parse_tracker_uri(uri)).poses == PosesOf::sensor;
 }
 
@@ -44,7 +44,7 @@ std::string sensor_uri(std::string_view uri, bool filtered) {
   return text + "&filter=" + to_string(filters);
 }
 
-Calibration calibration_to_go_on(const std::filesystem::path& file, const TrackerIdentity& tracker) {
+Calibration calibration_to_continue(const std::filesystem::path& file, const TrackerIdentity& tracker) {
   Calibration calibration;
   calibration.tracker = tracker;
   std::error_code error;

@@ -17,7 +17,7 @@ TrackerIdentity tracker_identity(std::string_view uri);
 
 /// Returns whether a lab can keep a set-up for the tracker of `uri`: true for a device whose sensor sits on a probe. A
 /// recording or a synthetic hand can be a different one each time.
-bool is_a_labs_own(std::string_view uri);
+bool can_store_setup(std::string_view uri);
 
 /// Throws InputError if the tracker of `uri` places the probe in the patient by itself, such as 'mouse:', or is
 /// 'auto:', which is not one particular tracker.
@@ -29,7 +29,7 @@ std::string sensor_uri(std::string_view uri, bool filtered);
 
 /// Returns the calibration from which the set-up of `tracker` continues: the one in `file`, or an empty one if there is
 /// no such file. Throws InputError if the file is unusable or belongs to another tracker.
-Calibration calibration_to_go_on(const std::filesystem::path& file, const TrackerIdentity& tracker);
+Calibration calibration_to_continue(const std::filesystem::path& file, const TrackerIdentity& tracker);
 
 /// Converts a recorded scan of sensor poses to one of probe poses in the patient. `name` is the calibration's name, for
 /// the scan's provenance. Throws std::invalid_argument if the calibration is not complete.

@@ -116,7 +116,7 @@ LogReport check_log(const std::vector<PoseSample>& samples, bool has_times) {
   ButtonPresses presses;
   if (!has_times) return report;
   for (const PoseSample& sample : samples)
-    if (presses.see(sample) & kMarkButton) report.marks_s.push_back(sample.time_s);
+    if (presses.see(sample) & kEventMarkerButton) report.marks_s.push_back(sample.time_s);
   return report;
 }
 

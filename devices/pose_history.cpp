@@ -92,7 +92,7 @@ Pose PoseHistory::predict(std::size_t index, double ahead_s) const {
   if (!(spread > 0)) return last.pose;
   mm *= ahead_s / spread;
   rad *= ahead_s / spread;
-  return {last.pose.rotation * glm::mat3_cast(turn_by(rad)), last.pose.translation + mm};
+  return {last.pose.rotation * glm::mat3_cast(rotation_from_vector(rad)), last.pose.translation + mm};
 }
 
 }  // namespace insonate

@@ -11,7 +11,7 @@
 namespace insonate {
 
 /// Returns the rotation that the rotation vector `rad` describes.
-inline glm::dquat turn_by(const glm::dvec3& rad) {
+inline glm::dquat rotation_from_vector(const glm::dvec3& rad) {
   const double angle = glm::length(rad);
   return angle > 0 ? glm::angleAxis(angle, rad / angle) : glm::dquat(1, 0, 0, 0);
 }

@@ -45,7 +45,7 @@ TrackerState Tracker::state() const {
   state.name = name_;
   state.last_status = last_status_;
   state.distortion = distortion_;
-  if (rejected_ != Rejection::none && clock_s(now_s_) - rejected_s_ <= kToldRejectedS) state.rejected = rejected_;
+  if (rejected_ != Rejection::none && clock_s(now_s_) - rejected_s_ <= kShowRejectionS) state.rejected = rejected_;
   state.delivered = delivered_;
   state.usable = usable_;
   state.progress = progress();

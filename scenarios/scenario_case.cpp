@@ -6,6 +6,7 @@
 #include "scenarios/steps/structures.h"
 #include "sim/core/files.h"
 #include "sim/core/suggest.h"
+#include "sim/core/text.h"
 
 namespace insonate {
 namespace {
@@ -16,14 +17,6 @@ std::filesystem::path phantom_in(const std::filesystem::path& assets) {
 
 std::filesystem::path folder_of_case(const Scenario& scenario) {
   return scenario.file.parent_path() / scenario.case_name;
-}
-
-template <typename Named>
-std::vector<std::string> names_of(const std::vector<Named>& list) {
-  std::vector<std::string> names;
-  names.reserve(list.size());
-  for (const Named& one : list) names.push_back(one.name);
-  return names;
 }
 
 /// What a metric needs and the view lacks, as the end of a sentence; empty when it can be measured.

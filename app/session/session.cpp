@@ -211,8 +211,8 @@ void Session::take(const PoseSample& sample) {
   const std::uint32_t pressed = presses_.see(sample);
   // A log with actions tells itself when the picture froze.
   if ((pressed & kFreezeButton) && log_actions_.empty()) freeze(!shown_.frozen);
-  if (pressed & kMarkButton) event_markers_s_.push_back(attempt_for_s());
-  if (pressed & kGoOnButton) go_on_ = true;
+  if (pressed & kEventMarkerButton) event_markers_s_.push_back(attempt_for_s());
+  if (pressed & kContinueButton) go_on_ = true;
   const std::vector<Action> actions = actions_before(sample);
   if (source().recording())
     for (const Action& action : actions) shown_.apply(action, newest_pose_);
@@ -256,7 +256,7 @@ void Session::advance(double now_s) {
   source().poll(now_s, samples_);
   if (holder_ == Holder::tracker) left_place_.move(samples_);
   // One that does not tell of buttons would not tell that they are let go again.
-  const auto pressing = std::find_if(samples_.begin(), samples_.end(), tells_of_buttons);
+  const auto pressing = std::find_if(samples_.begin(), samples_.end(), reports_buttons);
   if (pressing != samples_.end()) pressing->buttons |= std::exchange(pressed_, 0);
   if (!samples_.empty()) samples_begin_attempt_ = std::exchange(attempt_is_fresh_, false);
   for (const PoseSample& sample : samples_) take(sample);

@@ -31,7 +31,7 @@ std::vector<std::string> figures(const Calibration& c) {
 
 }  // namespace
 
-SetupWizard::SetupWizard(std::unique_ptr<Tracker> sensor, Calibration base, SetupGiven given,
+SetupWizard::SetupWizard(std::unique_ptr<Tracker> sensor, Calibration base, SetupInput given,
                          std::filesystem::path file)
     : sensor_(std::move(sensor)), calibration_(std::move(base)), given_(std::move(given)), file_(std::move(file)) {
   const std::vector<std::string> made = figures(calibration_);

@@ -18,7 +18,7 @@ public:
   /// @param base    what is there of the tracker's calibration; its steps are kept until they are made again
   /// @param file    where it is kept
   /// Begins with the first step that is still to be made.
-  SetupWizard(std::unique_ptr<Tracker> sensor, Calibration base, SetupGiven given, std::filesystem::path file);
+  SetupWizard(std::unique_ptr<Tracker> sensor, Calibration base, SetupInput given, std::filesystem::path file);
 
   /// Takes what has come from the tracker up to `now_s`. Throws InputError when the file cannot be written.
   void update(double now_s);
@@ -61,7 +61,7 @@ private:
 
   std::unique_ptr<Tracker> sensor_;
   Calibration calibration_;
-  SetupGiven given_;
+  SetupInput given_;
   std::filesystem::path file_;
   std::unique_ptr<SetupStep> step_;
   std::size_t current_ = 0;

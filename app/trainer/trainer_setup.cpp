@@ -36,7 +36,7 @@ std::filesystem::path Trainer::own_calibration() const {
 void Trainer::find_calibration() {
   const std::filesystem::path file = own_calibration();
   std::error_code error;
-  if (!options_.calibration.empty() || options_.tracker.empty() || !is_a_labs_own(options_.tracker)) return;
+  if (!options_.calibration.empty() || options_.tracker.empty() || !can_store_setup(options_.tracker)) return;
   if (!std::filesystem::exists(file, error)) return;
   // Nobody has named the file, so that nothing about it stops a session.
   try {
@@ -60,7 +60,7 @@ std::string Trainer::next_start() const {
   const bool plain = uri.find_first_of("?&* '\"$;") == std::string::npos;
   const std::string command = "insonate --tracker " + (plain ? uri : "'" + uri + "'");
   const std::filesystem::path file = options_.calibration.empty() ? own_calibration() : options_.calibration;
-  if (file == own_calibration() && is_a_labs_own(uri))
+  if (file == own_calibration() && can_store_setup(uri))
     return "From the next start on it is used by itself, as long as you start in the same folder: " + command +
            (options_.out == Options().out ? "" : " --out " + options_.out.string());
   return "To use it from the next start on: " + command + " --calibration " + file.string();
@@ -127,8 +127,8 @@ void Trainer::open_setup() {
                      "start the trainer with one, as in 'insonate --tracker hydra:'");
   check_can_be_calibrated(uri);
   const std::filesystem::path file = options_.calibration.empty() ? own_calibration() : options_.calibration;
-  Calibration base = calibration_to_go_on(file, tracker_identity(uri));
-  SetupGiven given;
+  Calibration base = calibration_to_continue(file, tracker_identity(uri));
+  SetupInput given;
   given.landmarks = landmarks_for(loaded_case_->subject.name, options_.landmarks);
   if (!options_.drawing.empty()) given.drawing = read_probe_drawing(options_.drawing);
   mode_ = Idle();  // which lets go of the tracker

@@ -30,7 +30,7 @@ Pose OneEuroFilter::smooth(double time_s, const Pose& pose) {
   const double mm_hz = options_.least_hz + options_.hz_per_mm_per_s * glm::length(last.mm_per_s);
   const double rad_hz = options_.least_hz + options_.hz_per_rad_per_s * glm::length(last.rad_per_s);
   last.mm += share(mm_hz, step_s) * mm;
-  last.turn = glm::normalize(last.turn * turn_by(share(rad_hz, step_s) * rad));
+  last.turn = glm::normalize(last.turn * rotation_from_vector(share(rad_hz, step_s) * rad));
   last.time_s = time_s;
   return {glm::mat3_cast(last.turn), last.mm};
 }

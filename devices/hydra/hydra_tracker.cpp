@@ -9,7 +9,7 @@ namespace {
 
 constexpr DeviceKind::Model kModels[] = {{0x1532, 0x0300, "Razer Hydra"}};
 // The bumper, and the buttons 1 and 2.
-constexpr ButtonMeaning kButtons[] = {{0, kFreezeButton}, {2, kMarkButton}, {3, kGoOnButton}};
+constexpr ButtonMeaning kButtons[] = {{0, kFreezeButton}, {2, kEventMarkerButton}, {3, kContinueButton}};
 
 }  // namespace
 
@@ -33,7 +33,7 @@ bool HydraSource::take(Bytes bytes, double time_s, LiveBatch& batch, ReportTally
   const Parsed<HydraReport> parsed = parse_hydra(bytes);
   tally.count(parsed.fault);
   if (parsed.fault != ReportFault::none) return false;
-  if (!numbers_.is_news(parsed.report.sequence, tally)) return true;
+  if (!numbers_.is_new(parsed.report.sequence, tally)) return true;
   const SensorReading& reading = parsed.report.handsets[handset_].reading;
   PoseSample sample{time_s, reading.status, {}, probe_buttons(kButtons, reading.buttons)};
   if (reading.status == PoseStatus::ok)

@@ -202,7 +202,7 @@ double ClientSource::time_of(const Header& header, double arrival_s) {
 }
 
 std::string ClientSource::note(double now_s) const {
-  if (!status_.empty() && now_s - status_s_ < kStatusTold_s) return where_ + " reports: " + status_;
+  if (!status_.empty() && now_s - status_s_ < kStatusShown_s) return where_ + " reports: " + status_;
   if (now_s - since_s_ > kNameMissing_s) {
     if (others_.empty()) return where_ + " is connected but sends no transform.";
     std::string names;

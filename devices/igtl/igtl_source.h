@@ -34,7 +34,7 @@ class ClientSource : public RawSource {
 public:
   static constexpr double kConnect_s = 3.0;      ///< a host that has not answered by then is tried again later
   static constexpr double kNameMissing_s = 2.0;  ///< users are informed if the named transform is missing for this long
-  static constexpr double kStatusTold_s = 5.0;   ///< a STATUS error is shown this long unless revoked
+  static constexpr double kStatusShown_s = 5.0;  ///< a STATUS error is shown this long unless revoked
 
   explicit ClientSource(ClientRequest request);
 

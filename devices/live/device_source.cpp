@@ -122,7 +122,7 @@ std::string DeviceSource::note(double now_s) {
     if (told_.empty())
       told_ = "Reports of the " + name + " were damaged or lost: " + tally_.incidents_in_words() + " so far.";
     incident_s_ = now_s;
-  } else if (now_s - incident_s_ >= kToldS) {
+  } else if (now_s - incident_s_ >= kIncidentShownS) {
     told_.clear();
   }
   incidents_ = tally_.incidents();

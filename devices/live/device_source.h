@@ -52,7 +52,7 @@ public:
   /// A device that was asked to send and is silent for this long is asked again. The Hydra needs this long to start.
   static constexpr double kStartS = 5;
   /// Users are informed of an incident for this long.
-  static constexpr double kToldS = 2;
+  static constexpr double kIncidentShownS = 2;
 
   /// `clock_s` is replaced by the tests.
   DeviceSource(const DeviceKind& kind, std::shared_ptr<DeviceBus> bus, std::string serial,

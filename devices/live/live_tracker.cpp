@@ -47,7 +47,7 @@ public:
     while (!stop.stop_requested()) {
       if (open_source()) {
         brought_any_ = false;
-        while (!stop.stop_requested() && read_source()) tell_silence();
+        while (!stop.stop_requested() && read_source()) publish_silence();
         source_->close();
         if (brought_any_) wait = options_.first_pause;
       }
@@ -109,7 +109,7 @@ private:
     ring_.push(sample);
   }
 
-  void tell_silence() {
+  void publish_silence() {
     if (!heard_) return;
     const double now_s = steady_now_s(), last_s = conditioner_.last_time_s();
     if (now_s - heard_s_ < seconds(options_.silence) || now_s - last_s < seconds(options_.heartbeat)) return;
@@ -130,7 +130,7 @@ private:
     while (!stop.stop_requested() && std::chrono::steady_clock::now() < end) {
       const auto beat = std::min(end, std::chrono::steady_clock::now() + options_.heartbeat);
       stopped.wait_until(lock, stop, beat, [] { return false; });
-      tell_silence();
+      publish_silence();
     }
   }
 

@@ -7,9 +7,9 @@ namespace insonate {
 
 /// Function of a button on the probe, as a bit of PoseSample::buttons, for every tracker.
 enum ProbeButton : std::uint32_t {
-  kFreezeButton = 1,  ///< freezes and unfreezes the picture
-  kMarkButton = 2,    ///< sets an event marker at what the picture shows
-  kGoOnButton = 4,    ///< continues with the next step
+  kFreezeButton = 1,       ///< freezes and unfreezes the picture
+  kEventMarkerButton = 2,  ///< sets an event marker at what the picture shows
+  kContinueButton = 4,     ///< continues with the next step
 };
 
 /// A device's own button bit, and what it means.

@@ -34,7 +34,7 @@ std::string ReportTally::incidents_in_words() const {
   return words;
 }
 
-bool ReportNumbers::is_news(std::uint64_t number, ReportTally& tally) {
+bool ReportNumbers::is_new(std::uint64_t number, ReportTally& tally) {
   const std::uint64_t ahead = (number + modulus_ - last_) % modulus_;
   if (any_ && ahead == 0) {
     ++tally.repeated;

@@ -31,7 +31,7 @@ public:
 
   /// Returns whether the report with this number is new. It is not if it arrived before or is older than the newest
   /// one. A device that restarted its numbering is accepted after kStubborn reports. Counts in `tally`.
-  bool is_news(std::uint64_t number, ReportTally& tally);
+  bool is_new(std::uint64_t number, ReportTally& tally);
 
   /// Accepts any next number: the device was opened again.
   void restart() { any_ = false; }

@@ -37,7 +37,7 @@ void MouseTracker::collect(double now_s, std::vector<PoseSample>& samples) {
   if (due <= next_) return;
   const double share = 1.0 / double(due - next_);
   const glm::dvec3 step_mm = pending_mm_ * share + mm_per_s_ / kRateHz;
-  const glm::dquat step_turn = turn_by(pending_rad_ * share + rad_per_s_ / kRateHz);
+  const glm::dquat step_turn = rotation_from_vector(pending_rad_ * share + rad_per_s_ / kRateHz);
   pending_mm_ = pending_rad_ = glm::dvec3(0);
   for (; next_ < due; ++next_) {
     translation_ += rotation_ * step_mm;

@@ -31,7 +31,7 @@ bool OsvrSource::take(Bytes bytes, double time_s, LiveBatch& batch, ReportTally&
   const Parsed<OsvrReport> parsed = parse_osvr(bytes);
   tally.count(parsed.fault);
   if (parsed.fault != ReportFault::none) return false;
-  if (!numbers_.is_news(parsed.report.sequence, tally)) return true;
+  if (!numbers_.is_new(parsed.report.sequence, tally)) return true;
   if (!sensor_from_world_) sensor_from_world_ = glm::conjugate(parsed.report.world_from_sensor);
   const glm::dquat turned =
       kProbeFromSensor * *sensor_from_world_ * parsed.report.world_from_sensor * glm::conjugate(kProbeFromSensor);

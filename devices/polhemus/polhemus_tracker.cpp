@@ -21,7 +21,7 @@ constexpr DeviceKind::Model kModels[] = {
     {kVendor, 0xff21, "Polhemus tracker", kWaits, {}, false},
     {kVendor, 0x0001, "Polhemus tracker", kWaits, {}, false},
 };
-constexpr ButtonMeaning kButtons[] = {{0, kFreezeButton}, {1, kMarkButton}};  // a stylus has one button or two
+constexpr ButtonMeaning kButtons[] = {{0, kFreezeButton}, {1, kEventMarkerButton}};  // a stylus has one button or two
 constexpr std::uint32_t kMostSensors = 16;
 
 void send(Transport& transport, std::string_view text) {
@@ -74,7 +74,7 @@ bool PolhemusSource::take(Bytes bytes, double time_s, LiveBatch& batch, ReportTa
       if (reading.sensor < kMostSensors) others_ |= 1u << reading.sensor;
       continue;
     }
-    if (!numbers_.is_news(record.frame, tally)) continue;
+    if (!numbers_.is_new(record.frame, tally)) continue;
     PoseSample sample{time_s, reading.status, {}, probe_buttons(kButtons, reading.buttons), reading.distortion};
     if (sample.status == PoseStatus::ok)
       sample.patient_from_probe = placement_.patient_from_probe(reading.tracker_from_sensor);

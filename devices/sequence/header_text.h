@@ -9,6 +9,8 @@
 
 // Splits a text header into words and numbers, independently of the locale.
 
+#include "sim/core/text.h"
+
 namespace insonate {
 
 /// Header fields by name, as views of the file's bytes.
@@ -16,9 +18,6 @@ using HeaderFields = std::map<std::string_view, std::string_view>;
 
 /// The remedy for a header that its writer wrote incorrectly.
 inline constexpr const char* kExportAgain = "record or export the file again";
-
-/// Returns `text` without blanks and carriage returns at both ends.
-std::string_view trimmed(std::string_view text);
 
 bool same_ignoring_case(std::string_view a, std::string_view b);
 

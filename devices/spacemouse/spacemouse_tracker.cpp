@@ -18,7 +18,7 @@ constexpr DeviceKind::Model kModels[] = {
     {0x256f, 0xc62e, "3Dconnexion SpaceMouse Wireless", kDesk},
     {0x256f, kAnyProduct, "3Dconnexion SpaceMouse", kDesk},
 };
-constexpr ButtonMeaning kButtons[] = {{0, kFreezeButton}, {1, kMarkButton}};  // left, right
+constexpr ButtonMeaning kButtons[] = {{0, kFreezeButton}, {1, kEventMarkerButton}};  // left, right
 
 /// Converts the cap's axes (right, towards the user, down) to the probe's frame (marker, beam, elevation).
 glm::dvec3 probe_from_cap(const glm::dvec3& cap) {

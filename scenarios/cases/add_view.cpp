@@ -4,20 +4,10 @@
 #include "scenarios/metrics/view_meter.h"
 #include "sim/core/input_error.h"
 #include "sim/core/suggest.h"
+#include "sim/core/text.h"
 #include "sim/model/skin_contact.h"
 
 namespace insonate {
-namespace {
-
-template <typename Named>
-std::vector<std::string> names_of(const std::vector<Named>& all) {
-  std::vector<std::string> names;
-  for (const Named& one : all) names.push_back(one.name);
-  return names;
-}
-
-}  // namespace
-
 void add_view(const std::filesystem::path& case_folder, const ReferenceView& view, const TissueTable& tissues) {
   Case subject = read_case(case_folder);
   const auto refuse = [&](const std::string& problem, const std::string& remedy) {

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "sim/core/input_error.h"
+#include "sim/core/text.h"
 #include "sim/volume/nifti_extensions.h"
 
 namespace insonate {
@@ -16,13 +17,6 @@ namespace fs = std::filesystem;
 [[noreturn]] void refuse(const fs::path& file, const std::string& problem) {
   throw InputError(file.string(), "label table in the header", problem,
                    "write the file again, or name its labels with --label-table");
-}
-
-std::string trimmed(std::string_view text) {
-  constexpr std::string_view kBlank = " \t\r\n";
-  const auto from = text.find_first_not_of(kBlank);
-  if (from == std::string_view::npos) return "";
-  return std::string(text.substr(from, text.find_last_not_of(kBlank) - from + 1));
 }
 
 LabelNames parse_table(const fs::path& file, const std::string& xml) {
@@ -38,7 +32,7 @@ LabelNames parse_table(const fs::path& file, const std::string& xml) {
     if (error != std::errc() || end != key.data() + key.size() || value < 0 || value > 255)
       refuse(file, "it names the value '" + std::string(key) + "', which is no whole number from 0 to 255");
     if (value == 0) continue;
-    const std::string name = trimmed(label.child_value());
+    const std::string name(trimmed(label.child_value()));
     if (name.empty()) refuse(file, "the value " + std::to_string(value) + " has no name");
     if (!names.emplace(value, name).second) refuse(file, "it names the value " + std::to_string(value) + " twice");
   }

@@ -278,10 +278,10 @@ std::string in_words(const ScenarioProblem& p) {
 }
 
 std::string all_in_words(const std::string& file, const std::vector<ScenarioProblem>& problems) {
-  constexpr std::size_t kMostTold = 100;
+  constexpr std::size_t kMostReported = 100;
   std::string text = in_one_line(file) + ": " + std::to_string(problems.size()) + " problems; correct them:";
-  for (std::size_t i = 0; i < std::min(problems.size(), kMostTold); ++i) text += "\n  " + in_words(problems[i]);
-  return text + (problems.size() > kMostTold ? "\n  and so on." : ".");
+  for (std::size_t i = 0; i < std::min(problems.size(), kMostReported); ++i) text += "\n  " + in_words(problems[i]);
+  return text + (problems.size() > kMostReported ? "\n  and so on." : ".");
 }
 
 InputError as_input_error(const std::string& file, const std::vector<ScenarioProblem>& problems) {

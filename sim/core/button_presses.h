@@ -9,7 +9,7 @@ namespace insonate {
 /// Returns whether a sample reports which buttons are held. A tracker that has lost its probe cannot report that a
 /// button was released. A PLUS log reports switches in its status words, so a sample with another status has no room
 /// for them.
-inline bool tells_of_buttons(const PoseSample& sample) {
+inline bool reports_buttons(const PoseSample& sample) {
   return sample.status == PoseStatus::ok || sample.status == PoseStatus::switched ||
          sample.status == PoseStatus::invalid;
 }
@@ -26,7 +26,7 @@ public:
   /// Returns the bits of the buttons that this sample presses. The caller passes every sample, in order.
   std::uint32_t see(const PoseSample& sample) {
     const std::uint32_t pressed = sample.buttons & ~held_;
-    held_ = tells_of_buttons(sample) ? sample.buttons : held_ | sample.buttons;
+    held_ = reports_buttons(sample) ? sample.buttons : held_ | sample.buttons;
     return pressed;
   }
 

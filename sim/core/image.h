@@ -22,6 +22,18 @@ struct Image {
   const T& at(int x, int y) const { return pixels[std::size_t(y) * std::size_t(width) + std::size_t(x)]; }
 };
 
+/// Samples an image between its pixels, linearly along both axes. Positions beyond the outer pixels' middles take their
+/// values. @param x, y  in pixels; whole numbers are the middles
+inline double bilinear(const Image<double>& image, double x, double y) {
+  x = std::clamp(x, 0.0, image.width - 1.0);
+  y = std::clamp(y, 0.0, image.height - 1.0);
+  const int x0 = int(x), x1 = std::min(x0 + 1, image.width - 1);
+  const int y0 = int(y), y1 = std::min(y0 + 1, image.height - 1);
+  const double fx = x - x0, fy = y - y0;
+  return (1 - fy) * ((1 - fx) * image.at(x0, y0) + fx * image.at(x1, y0)) +
+         fy * ((1 - fx) * image.at(x0, y1) + fx * image.at(x1, y1));
+}
+
 /// Returns the image with left and right exchanged. Screens and PNG files show ultrasound this way: the pipeline's
 /// pictures have the probe's marker (+x) on the right, clinics have it on the left.
 template <typename T>

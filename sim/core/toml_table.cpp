@@ -2,27 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <new>
 
 #include "sim/core/input_error.h"
 #include "sim/core/suggest.h"
+#include "sim/core/text.h"
 
 namespace insonate {
 namespace {
 
 std::string line_and_column(const toml::source_position& at) {
   return "line " + std::to_string(at.line) + ", column " + std::to_string(at.column);
-}
-
-std::string with_number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", value);
-  return text;
-}
-
-std::string quoted(std::string_view key) {
-  return "'" + std::string(key) + "'";
 }
 
 /// Returns the end of the string that begins at `at`, one past its closing quotation marks. An unclosed single-line
@@ -99,7 +89,7 @@ void TomlTable::fail(std::string_view key, const std::string& problem, const std
 void TomlTable::allow_only(const std::vector<std::string>& keys) const {
   for (const auto& [key, value] : *table_)
     if (std::find(keys.begin(), keys.end(), key.str()) == keys.end())
-      fail(key.str(), "the key " + quoted(key.str()) + " is unknown here", suggest(key.str(), keys));
+      fail(key.str(), "the key " + in_quotes(key.str()) + " is unknown here", suggest(key.str(), keys));
 }
 
 std::vector<std::string> TomlTable::keys() const {
@@ -110,51 +100,51 @@ std::vector<std::string> TomlTable::keys() const {
 
 const toml::node& TomlTable::required(std::string_view key, const char* kind) const {
   const toml::node* node = table_->get(key);
-  if (!node) fail("", "the key " + quoted(key) + " is missing", std::string("add it: ") + kind);
+  if (!node) fail("", "the key " + in_quotes(key) + " is missing", std::string("add it: ") + kind);
   return *node;
 }
 
 double TomlTable::number(std::string_view key, double least, double most) const {
   const auto value = required(key, "a number").value<double>();
   if (!value || !(*value >= least && *value <= most))
-    fail(key, quoted(key) + (value ? " is " + with_number(*value) : " is no number"),
-         "give a number from " + with_number(least) + " to " + with_number(most));
+    fail(key, in_quotes(key) + (value ? " is " + number_text(*value) : " is no number"),
+         "give a number from " + number_text(least) + " to " + number_text(most));
   return *value;
 }
 
 int TomlTable::whole_number(std::string_view key, int least, int most) const {
   const auto* value = required(key, "a whole number").as_integer();
   if (!value || value->get() < least || value->get() > most)
-    fail(key, quoted(key) + (value ? " is " + std::to_string(value->get()) : " is no whole number"),
+    fail(key, in_quotes(key) + (value ? " is " + std::to_string(value->get()) : " is no whole number"),
          "give a whole number from " + std::to_string(least) + " to " + std::to_string(most));
   return int(value->get());
 }
 
 bool TomlTable::boolean(std::string_view key) const {
   const auto* value = required(key, "true or false").as_boolean();
-  if (!value) fail(key, quoted(key) + " is neither true nor false", "write true or false without quotes");
+  if (!value) fail(key, in_quotes(key) + " is neither true nor false", "write true or false without quotes");
   return value->get();
 }
 
 std::string TomlTable::text(std::string_view key) const {
   const auto* value = required(key, "a text in quotes").as_string();
-  if (!value || value->get().empty()) fail(key, quoted(key) + " is no text", "write a text in quotes");
+  if (!value || value->get().empty()) fail(key, in_quotes(key) + " is no text", "write a text in quotes");
   return value->get();
 }
 
 std::vector<double> TomlTable::numbers(std::string_view key, int count) const {
   const std::string wanted = std::to_string(count) + " numbers in square brackets";
   const toml::array* array = required(key, wanted.c_str()).as_array();
-  if (!array) fail(key, quoted(key) + " is no list", "write " + wanted);
+  if (!array) fail(key, in_quotes(key) + " is no list", "write " + wanted);
   std::vector<double> values;
   for (const toml::node& element : *array) {
     const auto value = element.value<double>();
     if (!value || !std::isfinite(*value))
-      fail(key, quoted(key) + " holds something that is no finite number", "write " + wanted);
+      fail(key, in_quotes(key) + " holds something that is no finite number", "write " + wanted);
     values.push_back(*value);
   }
   if (values.size() != std::size_t(count))
-    fail(key, quoted(key) + " has " + std::to_string(values.size()) + " numbers", "write " + wanted);
+    fail(key, in_quotes(key) + " has " + std::to_string(values.size()) + " numbers", "write " + wanted);
   return values;
 }
 
@@ -162,11 +152,11 @@ std::vector<std::string> TomlTable::texts(std::string_view key) const {
   std::vector<std::string> values;
   if (!has(key)) return values;
   const toml::array* array = table_->get(key)->as_array();
-  if (!array) fail(key, quoted(key) + " is no list", "write texts in square brackets");
+  if (!array) fail(key, in_quotes(key) + " is no list", "write texts in square brackets");
   for (const toml::node& element : *array) {
     const auto* value = element.as_string();
     if (!value || value->get().empty())
-      fail(key, quoted(key) + " holds something that is no text", "put each in quotes");
+      fail(key, in_quotes(key) + " holds something that is no text", "put each in quotes");
     values.push_back(value->get());
   }
   return values;
@@ -174,7 +164,7 @@ std::vector<std::string> TomlTable::texts(std::string_view key) const {
 
 TomlTable TomlTable::table(std::string_view key) const {
   const toml::table* table = required(key, "a table").as_table();
-  if (!table) fail(key, quoted(key) + " is no table", "write it as [" + std::string(key) + "]");
+  if (!table) fail(key, in_quotes(key) + " is no table", "write it as [" + std::string(key) + "]");
   return {file_, (name_.empty() ? "[" : name_ + " [") + std::string(key) + "]", *table};
 }
 
@@ -183,9 +173,10 @@ std::vector<TomlTable> TomlTable::tables(std::string_view key) const {
   if (!has(key)) return all;
   const toml::array* array = table_->get(key)->as_array();
   const std::string heading = "[[" + std::string(key) + "]]";
-  if (!array) fail(key, quoted(key) + " is no list of tables", "write each as " + heading);
+  if (!array) fail(key, in_quotes(key) + " is no list of tables", "write each as " + heading);
   for (const toml::node& element : *array) {
-    if (!element.is_table()) fail(key, quoted(key) + " holds something that is no table", "write each as " + heading);
+    if (!element.is_table())
+      fail(key, in_quotes(key) + " holds something that is no table", "write each as " + heading);
     all.emplace_back(file_, heading + " " + std::to_string(all.size() + 1), *element.as_table());
   }
   return all;

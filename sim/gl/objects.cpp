@@ -172,7 +172,7 @@ void Texture::bind_image(GLuint unit, GLenum access) const {
   glBindImageTexture(unit, object_.name(), 0, GL_TRUE, 0, access, format_);  // all slices of a 3D texture
 }
 
-Texture Texture::seen_as(GLenum format) const {
+Texture Texture::view_as(GLenum format) const {
   Texture view;
   GLuint name = 0;
   glGenTextures(1, &name);  // glTextureView() needs a name that is not yet a texture

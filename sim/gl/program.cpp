@@ -91,13 +91,13 @@ ShaderSources::ShaderSources(const fs::path& folder) {
     if (stream)
       texts[entry.path().lexically_relative(folder).generic_string()] = {std::istreambuf_iterator(stream), {}};
   }
-  of_folder_ = std::make_shared<const decltype(texts)>(std::move(texts));
+  folder_texts_ = std::make_shared<const decltype(texts)>(std::move(texts));
 }
 
 std::string_view ShaderSources::load(std::string_view name) const {
-  if (of_folder_) {
-    const auto found = of_folder_->find(name);
-    if (found != of_folder_->end()) return found->second;
+  if (folder_texts_) {
+    const auto found = folder_texts_->find(name);
+    if (found != folder_texts_->end()) return found->second;
   }
   std::string_view text = embedded_shader(name);
   if (text.empty() && own_) text = own_(name);

@@ -39,7 +39,7 @@ private:
   std::string_view load(std::string_view name) const;
   void expand(std::string_view name, std::string& text, std::vector<std::string>& files) const;
 
-  std::shared_ptr<const std::map<std::string, std::string, std::less<>>> of_folder_;  // by name
+  std::shared_ptr<const std::map<std::string, std::string, std::less<>>> folder_texts_;  // by name
   Lookup own_ = nullptr;
 };
 

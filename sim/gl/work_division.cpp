@@ -11,7 +11,7 @@ namespace {
 
 constexpr GLenum kSubgroupSize = 0x9532;  // GL_SUBGROUP_SIZE_KHR, younger than some headers
 
-constexpr int kImagesInTurn = 8;  // twice as many would save the time of one image in a hundred
+constexpr int kImagesPerInvocation = 8;  // twice as many would save the time of one image in a hundred
 
 constexpr std::size_t kLinesThatFill = 8192;  // 8 vectors of 32 on 32 processors, estimated as the header describes
 
@@ -24,7 +24,7 @@ WorkDivision WorkDivision::of_device() {
   if (epoxy_has_gl_extension("GL_KHR_shader_subgroup")) glGetIntegerv(kSubgroupSize, &lanes);
   division.group = std::clamp(lanes, 4, 128);
   if (software)
-    division.images_per_invocation = kImagesInTurn;
+    division.images_per_invocation = kImagesPerInvocation;
   else
     division.lines_that_fill = kLinesThatFill;
   return division;

@@ -17,7 +17,7 @@ Settings in_use(Settings settings) {
     forget(&S::beam_window, &S::beam_lines);
   else
     forget(&S::focus_mm, &S::f_number);
-  if (!settings.absorption && !settings.focused_beam && !slice_bends(settings)) forget(&S::frequency_mhz);
+  if (!settings.absorption && !settings.focused_beam && !has_elevation_focus(settings)) forget(&S::frequency_mhz);
   if (!settings.clutter) forget(&S::clutter_db);
   if (!settings.electronic_noise) forget(&S::noise_db);
   if (!settings.electronic_noise && settings.reference_level == ReferenceLevel::frame_maximum) forget(&S::fixed_level);

@@ -29,7 +29,7 @@ Defines traversal(const Settings& settings, double dr_mm, bool group_a_line) {
           {"EDGE_SHADOW", flag(settings.edge_shadow)},
           {"EXACT_FILTER", flag(settings.exact_filter)},
           {"SKIPPING", flag(settings.skipping)},
-          {"ELEVATION_FOCUS", flag(slice_bends(settings))},
+          {"ELEVATION_FOCUS", flag(has_elevation_focus(settings))},
           {"SLICE_PLANES", std::to_string(settings.slice_planes)},
           {"KEEP_MIDDLE", flag(keeps_middle_plane(settings))}};
 }

@@ -73,14 +73,14 @@ struct Simulator::State {
   Texture image, image_words;  // the picture, and a view of it with one number per pixel
 
   bool layout_changed = true;  // probe, depth, sample count or picture size
-  std::optional<Stage> first_due = Stage::traverse;
+  std::optional<Stage> first_outdated = Stage::traverse;
   std::array<long, kStageCount> runs{};
   int slice_planes_walked = 0;  // by the last traversal
 
   std::size_t pixels() const { return std::size_t(settings.image_width) * std::size_t(settings.image_height); }
   bool frame_sets_white() const { return settings.reference_level == ReferenceLevel::frame_maximum; }
 
-  void due_from(Stage stage) { first_due = std::min(first_due.value_or(stage), stage); }
+  void invalidate_from(Stage stage) { first_outdated = std::min(first_outdated.value_or(stage), stage); }
 
   void lay_out();
   void prepare();
@@ -106,7 +106,7 @@ void Simulator::State::lay_out() {
   fused = TexelBuffer();
   levels = TexelBuffer();
   image = Texture::make_2d(GL_RGBA8, w, h, Filter::linear);
-  image_words = image.seen_as(GL_R32UI);
+  image_words = image.view_as(GL_R32UI);
   image.clear();
   layout_changed = false;
 }
@@ -114,12 +114,12 @@ void Simulator::State::lay_out() {
 // Prepares everything that the outdated stages read and that is not the result of another stage.
 void Simulator::State::prepare() {
   if (layout_changed) lay_out();
-  if (*first_due <= Stage::scan_convert) {
+  if (*first_outdated <= Stage::scan_convert) {
     prepare_smoothing();
     if (is_noisy(settings)) prepare_noise();
   }
   prepare_fusion();
-  programs.build_from(*first_due,
+  programs.build_from(*first_outdated,
                       {settings, reflection_gaussian.radius, transmission_gaussian.radius, stages_are_read});
   parameters = parameters_of(settings, line_stages.lines(), reflection_gaussian, transmission_gaussian);
   parameter_buffer.write(&parameters, sizeof parameters);
@@ -158,15 +158,15 @@ bool Simulator::State::needed(Stage stage) const {
 }
 
 void Simulator::State::run_through(Stage last) {
-  if (!first_due || *first_due > last || !volume) return;
+  if (!first_outdated || *first_outdated > last || !volume) return;
   prepare();
   parameter_buffer.bind_uniform(0);
-  for (Stage stage = *first_due; stage <= last; stage = Stage(int(stage) + 1)) {
+  for (Stage stage = *first_outdated; stage <= last; stage = Stage(int(stage) + 1)) {
     if (!needed(stage)) continue;
     run(stage);
     ++runs[std::size_t(stage)];
   }
-  first_due = last == Stage::compress ? std::nullopt : std::optional(Stage(int(last) + 1));
+  first_outdated = last == Stage::compress ? std::nullopt : std::optional(Stage(int(last) + 1));
 }
 
 void Simulator::State::run(Stage stage) {
@@ -229,7 +229,7 @@ Simulator& Simulator::operator=(Simulator&&) noexcept = default;
 
 void Simulator::set_volume(const AcousticVolume& volume, const TissueTable& table) {
   state_->volume = DeviceVolume(volume, table);
-  state_->due_from(Stage::traverse);
+  state_->invalidate_from(Stage::traverse);
 }
 
 void Simulator::set_probe(const Probe& probe, double depth_mm) {
@@ -238,7 +238,7 @@ void Simulator::set_probe(const Probe& probe, double depth_mm) {
   state_->probe = probe;
   state_->depth_mm = depth_mm;
   state_->layout_changed = true;
-  state_->due_from(Stage::traverse);
+  state_->invalidate_from(Stage::traverse);
 }
 
 void Simulator::set_settings(const Settings& settings) {
@@ -247,7 +247,7 @@ void Simulator::set_settings(const Settings& settings) {
   const DirtyStages dirty = dirty_stages(state_->settings, settings);
   state_->layout_changed |= dirty.layout;
   if (dirty.beam) state_->line_stages.change_beam();
-  if (dirty.first) state_->due_from(*dirty.first);
+  if (dirty.first) state_->invalidate_from(*dirty.first);
   state_->settings = settings;
 }
 
@@ -255,7 +255,7 @@ void Simulator::set_pose(const Pose& patient_from_probe) {
   if (patient_from_probe == state_->patient_from_probe) return;
   check_pose("simulator", patient_from_probe);
   state_->patient_from_probe = patient_from_probe;
-  state_->due_from(Stage::traverse);
+  state_->invalidate_from(Stage::traverse);
 }
 
 void Simulator::run_through(Stage last) {
@@ -315,7 +315,7 @@ StageCount Simulator::count(Stage stage) const {
 }
 
 Stages<float> Simulator::read_stages() {
-  if (!std::exchange(state_->stages_are_read, true)) state_->due_from(Stage::fuse);
+  if (!std::exchange(state_->stages_are_read, true)) state_->invalidate_from(Stage::fuse);
   run_through(Stage::compress);
   const State& s = *state_;
   Stages<float> stages;
@@ -346,7 +346,7 @@ std::optional<std::string> Simulator::reload(const ShaderSources& sources) {
   std::vector<Program*> programs = state_->line_stages.programs();
   for (Program* program : state_->programs.all()) programs.push_back(program);
   const std::optional<std::string> problem = Program::reload(programs, sources);
-  if (!problem) state_->due_from(Stage::traverse);
+  if (!problem) state_->invalidate_from(Stage::traverse);
   return problem;
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/core/image.h"
 #include "sim/model/beam.h"
 #include "sim/model/noise.h"
 #include "sim/model/refraction.h"
@@ -21,16 +22,6 @@ constexpr double kLn10 = 2.302585092994046;
 // much covers it there. Without clutter the share is smaller, so that 30 dB of shadow do not reveal the tilt.
 constexpr double kUnseenShare = 0.001, kUnseenShareInShadow = 1e-6;
 constexpr double kMostBlend = 1e-3;  // limit for the blend above: beyond it, reverberation would still show the tilt
-
-// Samples an image (x line, y sample) at a continuous place inside the fan, as scan_convert.comp does.
-double bilinear(const Image<double>& image, const glm::vec2& line_and_sample) {
-  const glm::dvec2 last(image.width - 1, image.height - 1);
-  const glm::dvec2 position = glm::clamp(glm::dvec2(line_and_sample), glm::dvec2(0), last);
-  const glm::ivec2 low(position), high = glm::min(low + 1, glm::ivec2(last));
-  const glm::dvec2 f = position - glm::dvec2(low);
-  return glm::mix(glm::mix(image.at(low.x, low.y), image.at(high.x, low.y), f.x),
-                  glm::mix(image.at(low.x, high.y), image.at(high.x, high.y), f.x), f.y);
-}
 
 // Returns the part of each pixel's window that lies inside the fan, rows first, as smooth.comp and fuse.comp do.
 Image<float> inside_window(const Image<std::uint8_t>& inside, const Gaussian& gaussian) {
@@ -64,7 +55,7 @@ std::pair<float, float> samples_in_body(const DeviceVolume& volume, const glm::d
 // Returns the smallest and the largest slice thickness that a line's samples, and their margin, meet where slice planes
 // bend, mm; (0, 0) where they do not bend.
 std::pair<double, double> bent_between(const ScanLines& lines, const Settings& settings) {
-  if (!slice_bends(settings)) return {0, 0};
+  if (!has_elevation_focus(settings)) return {0, 0};
   const double margin = settings.reflection_length_mm / 2;
   const double at_face = slice_thickness_at_mm(settings, lines.r_min_mm - margin),
                at_end = slice_thickness_at_mm(settings, lines.r_max_mm + margin);
@@ -102,7 +93,7 @@ std::vector<PlacedLine> placed_lines(const DeviceVolume& volume, const Pose& pat
   for (const SlicePlane& plane : slice_planes(settings))
     for (const ScanLine& line : lines.lines) {
       const glm::dvec3 d = line.direction, lateral(d.y, -d.x, 0), elevation = glm::cross(d, lateral);
-      const double beside = slice_bends(settings) ? 0 : plane.offset * settings.slice_thickness_mm;
+      const double beside = has_elevation_focus(settings) ? 0 : plane.offset * settings.slice_thickness_mm;
       const glm::dvec3 first = line.start + glm::dvec3(0, 0, beside) + (lines.r_min_mm + dr / 2) * d;
       const glm::dvec3 start = point(texture_from_probe, first), along = step(texture_from_probe, dr * d);
       const glm::dvec3 to_side = step(texture_from_probe, half_length * lateral),
@@ -190,14 +181,14 @@ SimulationParameters parameters_of(const Settings& settings, const ScanLines& li
   p.half_reflection_length = float(samples_a_length / 2);
   p.reflection_exponent = float(1 / samples_a_length);
   p.absorption_per_sample = float(settings.frequency_mhz * dr / 100 * kLn10);
-  p.coupled_mm = float(coupled_mm(settings));
+  p.coupling_depth_mm = float(coupling_depth_mm(settings));
   p.least_alpha_with_normal = float(least_alpha_with_normal(settings));
   p.reflection_exponent_px = float(reflection.exponent);
   p.transmission_exponent_px = float(transmission.exponent);
   p.face_reflection = float(settings.face_reflection);
-  p.turn_kept = float(std::exp(-dr / kTurn_mm));
-  p.turn_per_step = float(dr / (settings.reflection_length_mm * kTurn_rad));
-  p.turn_loss = float(dr / kTurn_mm);
+  p.turn_kept = float(std::exp(-dr / kDeflection_mm));
+  p.turn_per_step = float(dr / (settings.reflection_length_mm * kDeflection_rad));
+  p.turn_loss = float(dr / kDeflection_mm);
   p.slice_thickness_mm = float(settings.slice_thickness_mm);
   p.elevation_focus_mm = float(settings.elevation_focus_mm);
   p.clutter_kept = float(std::exp(-dr / kClutterTail_mm));
@@ -240,7 +231,9 @@ TexelBuffer noise_of_pixels(const FanLayout& fan, const ScanLines& lines, const 
   const Image<double> of_samples = electronic_noise(lines, settings);
   std::vector<float> of_pixels;
   for (std::size_t i = 0; i < fan.inside.pixels.size(); ++i)
-    of_pixels.push_back(fan.inside.pixels[i] ? float(bilinear(of_samples, fan.line_and_sample[i])) : 0);
+    of_pixels.push_back(fan.inside.pixels[i] ? float(bilinear(of_samples, double(fan.line_and_sample[i].x),
+                                                              double(fan.line_and_sample[i].y)))
+                                             : 0);
   return TexelBuffer(GL_R32F, of_pixels.size(), of_pixels.data());
 }
 

@@ -79,7 +79,7 @@ struct SweepSimulator::State {
   Texture grey;
 
   bool lines_changed = true, grid_changed = true;  // in number
-  std::optional<SweepStage> first_due = SweepStage::traverse;
+  std::optional<SweepStage> first_outdated = SweepStage::traverse;
   std::array<long, kSweepStageCount> runs{};
   std::uint64_t samples = 0, slice_samples = 0, voxels = 0;  // of the last run
 
@@ -90,7 +90,7 @@ struct SweepSimulator::State {
   std::size_t voxels_of(const SweepConversion::Slab& slab) const {
     return std::size_t(grid.size.x) * std::size_t(grid.size.y) * std::size_t(slab.slices);
   }
-  void due_from(SweepStage stage) { first_due = std::min(first_due.value_or(stage), stage); }
+  void invalidate_from(SweepStage stage) { first_outdated = std::min(first_outdated.value_or(stage), stage); }
 
   void lay_out();
   void prepare();
@@ -170,9 +170,9 @@ void SweepSimulator::State::for_each_slab(const Program& program, Work&& then) {
 }
 
 void SweepSimulator::State::run() {
-  if (!first_due || !is_whole()) return;
+  if (!first_outdated || !is_whole()) return;
   prepare();
-  SweepStage first = *first_due;
+  SweepStage first = *first_outdated;
   if (first < SweepStage::maximum) {
     if (parts.size() > 1) first = SweepStage::traverse;  // the lines' stages keep only the last part
     if (first == SweepStage::traverse) line_stages.restart_counts();
@@ -190,7 +190,7 @@ void SweepSimulator::State::run() {
   count_what_ran(first);
   for (int stage = int(first); stage < kSweepStageCount; ++stage)
     if (needed(SweepStage(stage))) ++runs[std::size_t(stage)];
-  first_due.reset();
+  first_outdated.reset();
 }
 
 void SweepSimulator::State::count_what_ran(SweepStage first) {
@@ -210,7 +210,7 @@ SweepSimulator& SweepSimulator::operator=(SweepSimulator&&) noexcept = default;
 
 void SweepSimulator::set_volume(const AcousticVolume& volume, const TissueTable& table) {
   state_->volume = DeviceVolume(volume, table);
-  state_->due_from(SweepStage::traverse);
+  state_->invalidate_from(SweepStage::traverse);
 }
 
 void SweepSimulator::set_sweep(const Sweep& sweep) {
@@ -222,14 +222,14 @@ void SweepSimulator::set_sweep(const Sweep& sweep) {
   state_->lines_changed |= sweep.probe != before.probe || sweep.depth_mm != before.depth_mm ||
                            sweep.patient_from_plane.size() != before.patient_from_plane.size();
   state_->sweep = sweep;
-  state_->due_from(SweepStage::traverse);
+  state_->invalidate_from(SweepStage::traverse);
 }
 
 void SweepSimulator::set_grid(const Grid& grid) {
   if (grid == state_->grid) return;
   state_->grid_changed |= grid.size != state_->grid.size;
   state_->grid = grid;
-  state_->due_from(SweepStage::scan_convert);
+  state_->invalidate_from(SweepStage::scan_convert);
 }
 
 void SweepSimulator::set_settings(const Settings& settings) {
@@ -238,7 +238,7 @@ void SweepSimulator::set_settings(const Settings& settings) {
   const DirtySweepStages dirty = dirty_sweep_stages(state_->settings, settings);
   state_->lines_changed |= dirty.layout;
   if (dirty.beam) state_->line_stages.change_beam();
-  if (dirty.first) state_->due_from(*dirty.first);
+  if (dirty.first) state_->invalidate_from(*dirty.first);
   state_->settings = settings;
 }
 
@@ -282,7 +282,7 @@ std::optional<std::string> SweepSimulator::reload(const ShaderSources& sources) 
   std::vector<Program*> programs = s.line_stages.programs();
   for (Program* program : {&s.conversion.program(), &s.fuse, &s.maximum, &s.compress}) programs.push_back(program);
   const std::optional<std::string> problem = Program::reload(programs, sources);
-  if (!problem) s.due_from(SweepStage::traverse);
+  if (!problem) s.invalidate_from(SweepStage::traverse);
   return problem;
 }
 

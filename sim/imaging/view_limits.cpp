@@ -28,7 +28,7 @@ void check_probe(const char* simulator, const Probe& probe, double depth_mm) {
 }
 
 void check_pose(const char* simulator, const Pose& patient_from_probe) {
-  if (const auto why = why_not_rigid(patient_from_probe.matrix(), kMostReachMm))
+  if (const auto why = why_not_rigid(patient_from_probe.matrix(), kMostDistanceMm))
     throw std::invalid_argument(std::string(simulator) + ": the pose: " + *why);
 }
 

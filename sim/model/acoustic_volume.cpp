@@ -62,7 +62,7 @@ public:
                  const std::vector<std::string>& tissue_of, const TissueTable& table)
       : ct_(ct), labels_(labels), by_hu_(tabulate(table)), densest_air_(table.densest_air_hu()) {
     for (int axis = 0; axis < 3; ++axis) {
-      reach_[axis] = std::max(1, int(std::lround(kEdgeReach_mm / ct.grid.spacing[axis])));
+      reach_[axis] = std::max(1, int(std::lround(kEdgeRadius_mm / ct.grid.spacing[axis])));
       neighbour_[axis] = std::max(1, int(std::lround(kNeighbour_mm / ct.grid.spacing[axis])));
     }
     const std::ptrdiff_t row = ct.grid.size.x, slice = row * ct.grid.size.y;

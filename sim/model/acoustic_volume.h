@@ -25,7 +25,7 @@ inline constexpr double kRimHu = 60;
 // A voxel counts as partial volume if two opposite neighbours at this distance enclose its density with a margin on
 // both sides. The distance spans half the blur of an edge in resampled thick slices. The margin is above the noise of
 // an abdominal CT (10 to 15 HU), so that noise in a cyst does not fill it with echoes.
-inline constexpr double kEdgeReach_mm = 2;
+inline constexpr double kEdgeRadius_mm = 2;
 inline constexpr int kEdgeMarginHu = 20;
 
 // Without labels, a voxel's density is a mean over those neighbours that are as dense as it within the noise.
@@ -60,7 +60,7 @@ inline constexpr double kSilentDb = kLeastEchogenicityDb + 0.005;
 ///                                   rounded, at least 1; at the border the grid's outermost voxels stand in
 ///
 /// Without a label there are two exceptions. First, for each axis take the two voxels at -e and e, with e being
-/// kEdgeReach_mm in voxels, rounded as above. If both lie in the grid, the lower lies kEdgeMarginHu or more below H,
+/// kEdgeRadius_mm in voxels, rounded as above. If both lie in the grid, the lower lies kEdgeMarginHu or more below H,
 /// and the higher as much above H, the result is at least T of both. Second, if a voxel and its 26 neighbours are
 /// TissueTable::densest_air_hu() or less, the result is kLeastEchogenicityDb: no sound gets there, and the air around
 /// the body can be skipped.

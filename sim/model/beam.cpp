@@ -73,7 +73,7 @@ std::vector<double> focused_beam_sigma(const ScanLines& lines, const Settings& s
   for (int k = 0; k < lines.samples; ++k) {
     const double r = lines.r_min_mm + (k + 0.5) * lines.dr_mm(), spacing = line_spacing_mm(lines, r);
     sigma.push_back(
-        spacing > 0 ? std::min(of_fwhm * focused_beam_fwhm_mm(settings, r) / spacing, kMostFocusedReach / 3.0) : 0);
+        spacing > 0 ? std::min(of_fwhm * focused_beam_fwhm_mm(settings, r) / spacing, kMaxFocusedRadius / 3.0) : 0);
   }
   return sigma;
 }
@@ -91,7 +91,7 @@ std::vector<double> beam_weights_at(const Settings& settings, double sigma_lines
   return with_sum_1(std::move(weights));
 }
 
-bool slice_bends(const Settings& settings) {
+bool has_elevation_focus(const Settings& settings) {
   return settings.slice_planes > 1 && settings.elevation_focus_mm > 0;
 }
 

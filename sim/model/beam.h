@@ -26,10 +26,10 @@ std::vector<double> beam_weights(const Settings& settings);
 double focused_beam_fwhm_mm(const Settings& settings, double r_mm);
 
 /// The largest half width of a focused beam's window, in lines to either side.
-inline constexpr int kMostFocusedReach = 127;
+inline constexpr int kMaxFocusedRadius = 127;
 
 /// Returns the focused beam's window at each sample, as the standard deviation of a Gaussian, in lines. The window is
-/// cut off at three standard deviations or kMostFocusedReach lines. Wider beams are narrowed to fit; 0 for a single
+/// cut off at three standard deviations or kMaxFocusedRadius lines. Wider beams are narrowed to fit; 0 for a single
 /// line.
 std::vector<double> focused_beam_sigma(const ScanLines& lines, const Settings& settings);
 
@@ -50,7 +50,7 @@ std::vector<double> beam_weights_at(const Settings& settings, double sigma_lines
 double slice_thickness_at_mm(const Settings& settings, double r_mm);
 
 /// Returns whether there are several planes whose distances grow away from an elevation focus.
-bool slice_bends(const Settings& settings);
+bool has_elevation_focus(const Settings& settings);
 
 /// Returns how much thicker the slice gets far from its focus, mm per mm; 0 without an elevation focus.
 double slice_spread(const Settings& settings);

@@ -10,8 +10,8 @@ namespace insonate {
 /// - ln c1) tan(incidence): much at grazing incidence and little elsewhere. Sound that is deflected far within a short
 /// distance leaves the line. With b the deflection across the line, rad, in two components, I of (5) becomes
 ///
-///     b(r + dr) = b(r) e^(-dr/kTurn_mm) + grad(ln c) dr               across the line, by differences over l
-///     I(r + dr) = I(r) ... e^(-s dr/kTurn_mm),  s = 2 q/(2 + q),  q = (|b(r + dr)|/kTurn_rad)^4
+///     b(r + dr) = b(r) e^(-dr/kDeflection_mm) + grad(ln c) dr               across the line, by differences over l
+///     I(r + dr) = I(r) ... e^(-s dr/kDeflection_mm),  s = 2 q/(2 + q),  q = (|b(r + dr)|/kDeflection_rad)^4
 ///
 /// A plane interface thus costs the root of 1 + q/2, which is 0.1 dB at 30 degrees between fat and liver, and the limb
 /// of a cyst, a vessel or a kidney casts a thin shadow. s is limited to 2, because a beam of some width passes a limb
@@ -21,7 +21,8 @@ inline constexpr double kLogSpeedBelowWater = 5e-4;    ///< per HU: fat (-100 HU
 inline constexpr double kLogSpeedAboveWater = 7.6e-4;  ///< per HU: water, liver (60 HU) 1595 m/s (Mast, ARLO 1, 2000)
 inline constexpr double kLeastHu = -150;               ///< fat mixed with some gas
 inline constexpr double kMostHu = 150;                 ///< the densest soft tissue
-inline constexpr double kTurn_rad = 0.1;               ///< half angle of an aperture of f-number 5
-inline constexpr double kTurn_mm = 5;  ///< estimate: over which kTurn_rad separates sound from a beam about 1 mm wide
+inline constexpr double kDeflection_rad = 0.1;         ///< half angle of an aperture of f-number 5
+inline constexpr double kDeflection_mm =
+    5;  ///< estimate: over which kDeflection_rad separates sound from a beam about 1 mm wide
 
 }  // namespace insonate

@@ -30,7 +30,7 @@ ScattererLattice make_scatterers(std::uint32_t seed) {
 
 glm::dmat4 lattice_from_patient(double cell_mm) {
   const glm::dmat4 turned =
-      glm::rotate(glm::dmat4(1.0), ScattererLattice::kTurn_rad, glm::normalize(ScattererLattice::kTurnAxis));
+      glm::rotate(glm::dmat4(1.0), ScattererLattice::kRotation_rad, glm::normalize(ScattererLattice::kRotationAxis));
   return glm::scale(glm::dmat4(1.0), glm::dvec3(1.0 / (cell_mm * ScattererLattice::kSide))) * turned;
 }
 

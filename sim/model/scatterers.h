@@ -28,9 +28,9 @@ struct ScattererLattice {
   static constexpr double kTail = 0.01625;       ///< gives the signal to noise ratio of a Rayleigh distribution, 1.913
   static constexpr double kVariance = 0.991235;  ///< 1 + 2 kTail (m4 - 3) + kTail^2 (m6 - 6 m4 + 9), m4 = 2.7,
                                                  ///< m6 = 10.9286: the moments of x
-  static constexpr double kTurn_rad = 0.6;  ///< rotation of the lattice against the patient's axes, so that no scan
-                                            ///< line or image row runs along its axes
-  static constexpr glm::dvec3 kTurnAxis{1.0, 0.7, 0.4};  ///< axis of this rotation, right-handed; of any length
+  static constexpr double kRotation_rad = 0.6;  ///< rotation of the lattice against the patient's axes, so that no scan
+                                                ///< line or image row runs along its axes
+  static constexpr glm::dvec3 kRotationAxis{1.0, 0.7, 0.4};  ///< axis of this rotation, right-handed; of any length
 
   std::vector<std::int16_t> stored;  ///< kSide^3 pairs (re, im), x fastest
 };
@@ -38,8 +38,8 @@ struct ScattererLattice {
 /// Returns the lattice of a seed, any number.
 ScattererLattice make_scatterers(std::uint32_t seed);
 
-/// Returns the map from patient mm to lattice periods: a rotation by kTurn_rad about kTurnAxis, then one period per
-/// kSide cells. Point i of an axis is at (i + 1/2) / kSide of a period. Between points, amplitudes are interpolated
+/// Returns the map from patient mm to lattice periods: a rotation by kRotation_rad about kRotationAxis, then one period
+/// per kSide cells. Point i of an axis is at (i + 1/2) / kSide of a period. Between points, amplitudes are interpolated
 /// linearly along the three axes and divided by the root of the sum of the eight squared weights, which keeps their
 /// variance at 1.
 /// @param cell_mm  distance between two points, above 0

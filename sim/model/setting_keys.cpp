@@ -1,35 +1,20 @@
 #include "sim/model/setting_keys.h"
 
-#include <cstdio>
-
 namespace insonate::keys {
-namespace {
-
-std::string with_number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", value);
-  return text;
-}
-
-}  // namespace
-
-std::string in_quotes(const std::string& text) {
-  return "'" + text + "'";
-}
 
 std::string from_to(double least, double most) {
-  return "from " + with_number(least) + " to " + with_number(most);
+  return "from " + number_text(least) + " to " + number_text(most);
 }
 
 std::string in_words(const SettingValue& value) {
   struct {
     std::string operator()(bool b) const { return b ? "true" : "false"; }
     std::string operator()(std::int64_t n) const { return std::to_string(n); }
-    std::string operator()(double x) const { return with_number(x); }
+    std::string operator()(double x) const { return number_text(x); }
     std::string operator()(const std::string& text) const { return in_quotes(text); }
     std::string operator()(const std::vector<double>& list) const {
       std::string text;
-      for (double x : list) text += (text.empty() ? "[" : ", ") + with_number(x);
+      for (double x : list) text += (text.empty() ? "[" : ", ") + number_text(x);
       return text.empty() ? "[]" : text + "]";
     }
   } words;

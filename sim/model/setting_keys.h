@@ -13,6 +13,7 @@
 
 #include "sim/core/input_error.h"
 #include "sim/core/suggest.h"
+#include "sim/core/text.h"
 #include "sim/core/toml_table.h"
 #include "sim/model/settings_file.h"
 
@@ -21,23 +22,22 @@ namespace insonate::keys {
 
 constexpr std::size_t kLargestFile = 1u << 20;
 
-std::string in_quotes(const std::string& text);
 /// Returns a text such as "from 0.5 to 30".
 std::string from_to(double least, double most);
 std::string in_words(const SettingValue& value);
 /// Returns a TOML value converted to the same kind as `kind`; nothing if it is of another kind.
 std::optional<SettingValue> value_of(const toml::node& node, const SettingValue& kind);
 
-/// Collects errors instead of stopping at the first one, at most kMostTold: a file of another kind may have an error in
-/// every line.
+/// Collects errors instead of stopping at the first one, at most kMostReported: a file of another kind may have an
+/// error in every line.
 class Problems {
 public:
-  static constexpr int kMostTold = 100;
+  static constexpr int kMostReported = 100;
 
   template <typename Check>
   /// Runs `check` and stores the InputError that it throws, if any.
   void note(Check&& check) {
-    if (told_ >= kMostTold) return;
+    if (told_ >= kMostReported) return;
     try {
       check();
     } catch (const InputError& error) {

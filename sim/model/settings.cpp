@@ -5,7 +5,7 @@
 
 namespace insonate {
 
-double coupled_mm(const Settings& settings) {
+double coupling_depth_mm(const Settings& settings) {
   constexpr double kRounding_mm = 1e-5;  // keeps the end of a sample's reflection length off the boundary
   return std::max(settings.gel_mm, settings.reflection_length_mm / 2 + kRounding_mm);
 }

@@ -37,8 +37,8 @@ struct Settings {
   bool edge_shadow = false;  ///< subtracts the sound that refraction takes at grazing incidence, see refraction.h
   bool absorption = true;    ///< frequency-dependent absorption in (5); off in the paper's mode
 
-  /// Thickness of the coupling gel between face and skin, 0 (none) to 100, see coupled_mm(). 6: an estimate of what a
-  /// hand squeezes on.
+  /// Thickness of the coupling gel between face and skin, 0 (none) to 100, see coupling_depth_mm(). 6: an estimate of
+  /// what a hand squeezes on.
   double gel_mm = 6;
 
   /// Weights the voxels around a sample in single precision. The weights of a device's own filter may have as few as 8
@@ -97,7 +97,7 @@ struct Settings {
 /// Imaging, 5), so sound leaves it as it leaves water, and air against it reflects nearly all. An interface is spread
 /// over half the reflection length to either side. The interface to air therefore lies so far behind the face that
 /// lines, which begin there, meet the whole of it.
-double coupled_mm(const Settings& settings);
+double coupling_depth_mm(const Settings& settings);
 
 /// Returns the paper's settings: no absorption, reflection length = sample distance, one-way transmission, frame's
 /// maximum, no noise, no clutter, a beam equally wide at every depth.

@@ -30,7 +30,7 @@ inline constexpr double kLeastEcho = 1e-30;
 /// in dB/(cm MHz) one way, f = frequency_mhz and dr in mm (Szabo, Diagnostic Ultrasound Imaging, 4: an attenuation in
 /// proportion to frequency). The paper has no absorption.
 ///
-/// Coupling: nearer to the face than coupled_mm(), air counts as water without echo (kCouplingAirHu,
+/// Coupling: nearer to the face than coupling_depth_mm(), air counts as water without echo (kCouplingAirHu,
 /// sim/reference/reference.h). Beyond, air reflects by (1) as anywhere, so that a face that does not touch shows
 /// nothing. Where the slice has several planes (sim/model/beam.h), I, R and the scatterers' echo are their sums by
 /// weight. An R or T below kLeastEcho is 0.

@@ -26,7 +26,7 @@ float smooth_min(float a, float b, float blend) {
 
 // Further cuts only move these points farther outside.
 bool out_of_reach(const Points& points, const float* distances) {
-  return *std::min_element(distances, distances + points.count()) > kReach_mm;
+  return *std::min_element(distances, distances + points.count()) > kRange_mm;
 }
 
 class Union : public Shape {

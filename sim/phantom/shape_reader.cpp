@@ -56,7 +56,7 @@ ShapePtr ShapeReader::read(RecipeTable& table) {
     mirror.flipped = true;
     shape = make_union({shape, make_placed(shape, mirror)}, 0);
   }
-  const auto blend = float(table.number_or("edge_mm", 0, 0, kReach_mm));
+  const auto blend = float(table.number_or("edge_mm", 0, 0, kRange_mm));
   if (std::vector<ShapePtr> around = parts(table, "inside"); !around.empty()) {
     const auto inset = float(table.number_or("inset_mm", 0, -20, 20));
     for (ShapePtr& one : around)
@@ -75,7 +75,7 @@ ShapePtr ShapeReader::read(RecipeTable& table) {
 
 ShapePtr ShapeReader::solid(RecipeTable& table, const std::string& name) {
   const std::string kind = table.text("kind");
-  const auto blend = [&] { return float(table.number_or("blend_mm", 0, 0, kReach_mm)); };
+  const auto blend = [&] { return float(table.number_or("blend_mm", 0, 0, kRange_mm)); };
   const auto several = [&](const std::string& key) {
     std::vector<ShapePtr> shapes = parts(table, key);
     if (shapes.empty()) table.refuse(key, "'" + key + "' names no shape", "name at least one");

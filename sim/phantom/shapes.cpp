@@ -49,7 +49,7 @@ Points::Points(std::vector<float> x_mm, std::vector<float> y_mm, std::vector<flo
 
 DistanceRange Points::range_of(const Shape& shape) {
   const float way = bounds_.distance_to(shape.bounds());
-  if (way > kReach_mm) return {way, way};
+  if (way > kRange_mm) return {way, way};
   const float distance = middle_ ? middle_->distances_to(shape)[0] : distances_to(shape)[0];
   return {distance - slack_mm_, distance + slack_mm_};
 }
@@ -60,10 +60,10 @@ const std::vector<float>& Points::distances_to(const Shape& shape) {
   std::vector<float> values(count());
   const float way = bounds_.distance_to(shape.bounds());
   DistanceRange range{way, way};
-  if (way <= kReach_mm && middle_) range = range_of(shape);
-  if (range.least > kReach_mm)
+  if (way <= kRange_mm && middle_) range = range_of(shape);
+  if (range.least > kRange_mm)
     std::fill(values.begin(), values.end(), range.least);
-  else if (middle_ && range.most < -kReach_mm)
+  else if (middle_ && range.most < -kRange_mm)
     std::fill(values.begin(), values.end(), range.most);
   else
     shape.distances(*this, values.data());

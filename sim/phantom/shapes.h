@@ -28,7 +28,7 @@ inline constexpr Bounds kEverywhere{glm::vec3(-1e6f), glm::vec3(1e6f)};
 
 /// The largest range of any blend, gap or offset, mm. Where a surface is farther away than that, any distance between
 /// this one and the true one is good enough.
-inline constexpr float kReach_mm = 30.0f;
+inline constexpr float kRange_mm = 30.0f;
 
 class Points;
 
@@ -72,7 +72,7 @@ public:
   /// most shapes.
   DistanceRange range_of(const Shape& shape);
 
-  /// Returns the shape's signed distances at the points, mm. Where the whole block is farther than kReach_mm from the
+  /// Returns the shape's signed distances at the points, mm. Where the whole block is farther than kRange_mm from the
   /// surface, it returns a value between that and the true distance. The reference is valid as long as this object.
   const std::vector<float>& distances_to(const Shape& shape);
 

@@ -94,7 +94,7 @@ public:
   void distances(Points& points, float* out) const override {
     const std::vector<const Segment*> near = segments_near(points.bounds());
     if (near.empty()) {
-      std::fill_n(out, points.count(), kReach_mm);
+      std::fill_n(out, points.count(), kRange_mm);
       return;
     }
     std::fill_n(out, points.count(), 1e6f);
@@ -110,7 +110,7 @@ private:
     const glm::vec3 middle = 0.5f * (block.low + block.high);
     const float half_diagonal = glm::length(block.high - middle);
     const Bounds point{middle, middle};
-    float nearest = kReach_mm + half_diagonal;
+    float nearest = kRange_mm + half_diagonal;
     std::vector<std::pair<float, const Segment*>> candidates;
     for (const Stretch& stretch : stretches_) {
       if (stretch.bounds.distance_to(point) > nearest + 2.0f * half_diagonal) continue;
@@ -121,7 +121,7 @@ private:
       }
     }
     std::vector<const Segment*> near;
-    if (nearest >= kReach_mm + half_diagonal) return near;
+    if (nearest >= kRange_mm + half_diagonal) return near;
     for (const auto& [distance, segment] : candidates)
       if (distance <= nearest + 2.0f * half_diagonal) near.push_back(segment);
     return near;

@@ -19,7 +19,7 @@ std::vector<Pose> swept_planes(const Pose& patient_from_probe, int planes, doubl
   return placed;
 }
 
-std::optional<std::size_t> turns_back_at(const Sweep& sweep) {
+std::optional<std::size_t> reversal_index(const Sweep& sweep) {
   constexpr double kResting_mm = 0.05;
   const glm::dvec3 middle(0, sweep.depth_mm / 2, 0);
   double way = 0;  // last step of the planes that moved, along their z

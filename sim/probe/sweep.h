@@ -32,7 +32,7 @@ std::vector<Pose> swept_planes(const Pose& patient_from_probe, int planes, doubl
 /// Returns the index of the first plane that moves against the direction of the planes before it; nothing for a sweep
 /// that goes one way. A plane's motion is that of its middle, at half the depth from the face. Steps below 0.05 mm do
 /// not count, because the hand may rest.
-std::optional<std::size_t> turns_back_at(const Sweep& sweep);
+std::optional<std::size_t> reversal_index(const Sweep& sweep);
 
 /// Returns all lines of a sweep, patient mm, plane by plane: line i of plane p is at p * probe.lines + i.
 /// @param samples  per line, 1 to 8192

@@ -64,16 +64,6 @@ private:
   glm::dmat4 lattice_from_patient_;
 };
 
-double bilinear(const Image<double>& image, double x, double y) {
-  x = std::clamp(x, 0.0, image.width - 1.0);
-  y = std::clamp(y, 0.0, image.height - 1.0);
-  const int x0 = std::min(int(x), std::max(image.width - 2, 0)), x1 = std::min(x0 + 1, image.width - 1);
-  const int y0 = std::min(int(y), std::max(image.height - 2, 0)), y1 = std::min(y0 + 1, image.height - 1);
-  const double fx = x - x0, fy = y - y0;
-  return (1 - fy) * ((1 - fx) * image.at(x0, y0) + fx * image.at(x1, y0)) +
-         fy * ((1 - fx) * image.at(x0, y1) + fx * image.at(x1, y1));
-}
-
 /// Smooths by a Gaussian over the pixels inside the fan, along rows and then columns, cut off at three sigma. Below a
 /// twentieth of a pixel it returns the image unchanged.
 Image<double> smoothed(const Image<double>& image, const Image<std::uint8_t>& inside, double sigma_px) {
@@ -116,8 +106,8 @@ double grey_of(GreyMap map, double g) {
 
 }  // namespace
 
-Medium with_gel(const Medium& medium, double r_mm, double coupled_mm) {
-  if (r_mm >= coupled_mm) return medium;
+Medium with_gel(const Medium& medium, double r_mm, double coupling_depth_mm) {
+  if (r_mm >= coupling_depth_mm) return medium;
   const double gel = std::clamp((kCouplingTissueHu - medium.hu) / (kCouplingTissueHu - kCouplingAirHu), 0.0, 1.0);
   return {(1 - gel) * medium.hu, (1 - gel) * medium.echogenicity_db + gel * kLeastEchogenicityDb};
 }
@@ -147,7 +137,7 @@ MediumField trilinear_field(const AcousticVolume& volume) {
 ReferenceScan traverse_reference(const MediumField& field, const TissueTable& table, const ScanLines& lines,
                                  const Settings& settings, const Pose& patient_from_probe, const SlicePlane& plane) {
   const int count = int(lines.lines.size());
-  const double dr = lines.dr_mm(), l = settings.reflection_length_mm, coupled = coupled_mm(settings);
+  const double dr = lines.dr_mm(), l = settings.reflection_length_mm, coupled = coupling_depth_mm(settings);
   const Scatterers scatterers(settings);
   ReferenceScan scan{Image<double>(count, lines.samples), Image<double>(count, lines.samples),
                      Image<double>(count, lines.samples), Image<double>(count, lines.samples)};
@@ -201,9 +191,9 @@ ReferenceScan traverse_reference(const MediumField& field, const TissueTable& ta
           return std::clamp(density, kLeastHu, kMostHu) * (density < 0 ? kLogSpeedBelowWater : kLogSpeedAboveWater);
         };
         const glm::dvec2 rise(log_speed(right) - log_speed(left), log_speed(above) - log_speed(below));
-        turn = std::exp(-dr / kTurn_mm) * turn + dr / l * rise;
-        const double q = std::pow(glm::length(turn) / kTurn_rad, 4);
-        intensity *= std::exp(-2 * q / (2 + q) * dr / kTurn_mm);
+        turn = std::exp(-dr / kDeflection_mm) * turn + dr / l * rise;
+        const double q = std::pow(glm::length(turn) / kDeflection_rad, 4);
+        intensity *= std::exp(-2 * q / (2 + q) * dr / kDeflection_mm);
       }
     }
   }

@@ -27,8 +27,8 @@ using MediumField = std::function<Medium(const glm::dvec3& patient_mm)>;
 inline constexpr double kCouplingTissueHu = -150, kCouplingAirHu = kMostAirHu;
 
 /// Returns what sound meets where the field has `medium`, at distance r_mm from the face along the line. Nearer than
-/// coupled_mm() (sim/model/settings.h), water without echo takes the place of air.
-Medium with_gel(const Medium& medium, double r_mm, double coupled_mm);
+/// coupling_depth_mm() (sim/model/settings.h), water without echo takes the place of air.
+Medium with_gel(const Medium& medium, double r_mm, double coupling_depth_mm);
 
 /// Returns the trilinear field of a volume, with air outside. The volume must outlive it.
 MediumField trilinear_field(const AcousticVolume& volume);

@@ -32,8 +32,8 @@ PixelTable table_of(const std::vector<std::vector<PixelPlace>>& columns, const P
 
 // Divides pixels into columns of about 64, with `together` pixels in sequence, so that a group takes neighbours per
 // step.
-PixelTable shared_out(const std::vector<PixelPlace>& pixels, std::size_t together, const PixelPlace& filler,
-                      std::size_t group, std::size_t most_columns) {
+PixelTable divided(const std::vector<PixelPlace>& pixels, std::size_t together, const PixelPlace& filler,
+                   std::size_t group, std::size_t most_columns) {
   if (pixels.empty()) return {};
   const std::size_t units = pixels.size() / together,
                     groups = std::clamp<std::size_t>(pixels.size() / (64 * group), 1, most_columns / group);
@@ -89,7 +89,7 @@ PixelTable picture_pixels(const std::vector<PixelPlace>& places, int width, int 
       four[0].w = y << 16 | word;
       if (touched) pixels.insert(pixels.end(), four.begin(), four.end());
     }
-  return shared_out(pixels, kWordPixels, PixelPlace(-1, 0, 0, -1), group, 512 * group);
+  return divided(pixels, kWordPixels, PixelPlace(-1, 0, 0, -1), group, 512 * group);
 }
 
 PixelTable compared_pixels(const std::vector<PixelPlace>& places, const Image<float>& image, int patch,
@@ -121,7 +121,7 @@ PixelTable compared_pixels(const std::vector<PixelPlace>& places, const Image<fl
       patches.resize(std::max(patches.size(), in + 1));
       patches[in].push_back(pixels.back());
     }
-  return patches.empty() ? shared_out(pixels, 1, kNowhere, group, kMostPatches) : table_of(patches, kNowhere, group);
+  return patches.empty() ? divided(pixels, 1, kNowhere, group, kMostPatches) : table_of(patches, kNowhere, group);
 }
 
 }  // namespace insonate::gl

@@ -20,11 +20,12 @@ struct ScanStages {
 
   /// Throws std::runtime_error if a shader does not compile or the device's memory does not suffice for the scans.
   /// @param constants  the defines of shared/wein_parameters.h, except those that are added here
-  /// @param abreast    interleaved images: 1 or kInterleaved
-  /// @param in_turn    WorkDivision::images_per_invocation, rounded up here to a multiple of `abreast`
+  /// @param interleaved    interleaved images: 1 or kInterleaved
+  /// @param wanted_per_invocation  WorkDivision::images_per_invocation, rounded up here to a multiple of
+  /// `interleaved`
   /// @param samples    capacity per image
-  /// @param images     most images in a chunk, a multiple of `abreast`
-  ScanStages(const ShaderSources& sources, const Defines& constants, std::size_t abreast, int in_turn,
+  /// @param images     most images in a chunk, a multiple of `interleaved`
+  ScanStages(const ShaderSources& sources, const Defines& constants, std::size_t interleaved, int wanted_per_invocation,
              std::size_t samples, std::size_t images);
 
   /// Builds the traversal.
@@ -32,7 +33,7 @@ struct ScanStages {
   static Program traverse_program(const ShaderSources& sources, Defines compiled_in, Leaves leaves);
 
   /// Returns how many work groups `images` images take; each processes images_per_invocation of them.
-  int turns(int images) const { return (images + images_per_invocation - 1) / images_per_invocation; }
+  int image_groups(int images) const { return (images + images_per_invocation - 1) / images_per_invocation; }
   /// Returns how many groups of images with shared texels of terms `images` images form.
   int term_groups(int images) const { return (images + interleaved_terms - 1) / interleaved_terms; }
 

@@ -24,16 +24,6 @@ double hu_along(const AcousticVolume& volume, glm::ivec3 i, int axis, double dis
   return (1 - f) * voxel_hu(volume, i) + f * voxel_hu(volume, next);
 }
 
-double bilinear(const Image<double>& scan, double line, double sample) {
-  line = std::clamp(line, 0.0, scan.width - 1.0);
-  sample = std::clamp(sample, 0.0, scan.height - 1.0);
-  const int x0 = int(line), x1 = std::min(x0 + 1, scan.width - 1);
-  const int y0 = int(sample), y1 = std::min(y0 + 1, scan.height - 1);
-  const double fx = line - x0, fy = sample - y0;
-  return (1 - fy) * ((1 - fx) * scan.at(x0, y0) + fx * scan.at(x1, y0)) +
-         fy * ((1 - fx) * scan.at(x0, y1) + fx * scan.at(x1, y1));
-}
-
 double mean_of(const std::vector<double>& values) {
   double sum = 0;
   for (double value : values) sum += value;

@@ -58,7 +58,7 @@ struct WeinSimulator::State {
   State(const AcousticVolume& volume, const Probe& probe, double depth_mm, const WeinSettings& wanted,
         const ShaderSources& given, const WorkDivision& chosen);
 
-  const ScanStages& stages_for(std::size_t images) const { return images > 1 && abreast ? *abreast : alone; }
+  const ScanStages& stages_for(std::size_t images) const { return images > 1 && interleaved ? *interleaved : alone; }
   void traverse(std::span<const Pose> chunk, std::size_t first, const ScanStages& stages, const Program& program,
                 const TexelBuffer& scan);
   void ran(WeinStage stage, std::size_t images, std::size_t pixels);
@@ -79,7 +79,7 @@ struct WeinSimulator::State {
   glm::dmat4 texture_from_patient{1.0};
   WeinParameters parameters{};
 
-  std::optional<ScanStages> abreast;  // for calls with several images, with a software renderer
+  std::optional<ScanStages> interleaved;  // for calls with several images, with a software renderer
   ScanStages alone;
   Program lc2;
   Buffer parameter_buffer{sizeof(WeinParameters), nullptr}, similarities;
@@ -93,7 +93,7 @@ struct WeinSimulator::State {
   std::vector<Pose> drawn, compared;  // of the last calls
   std::vector<float> similar;         // for `compared`
 
-  Buffer samples_walked{sizeof(GLuint), nullptr};  // by the last call
+  Buffer samples_traversed{sizeof(GLuint), nullptr};  // by the last call
   std::array<StageCount, kWeinStageCount> counts{};
 };
 
@@ -109,11 +109,11 @@ WeinSimulator::State::State(const AcousticVolume& volume, const Probe& probe, do
       image_samples(lines.lines.size() * std::size_t(row_samples)),
       chunk_images(images_of_chunk(image_samples)),
       tile_words((wanted.image_width + kWordPixels - 1) / kWordPixels),
-      abreast(std::min(std::size_t(chosen.images_per_invocation), chunk_images) >= ScanStages::kInterleaved
-                  ? std::optional<ScanStages>(std::in_place, given, constants(volume), ScanStages::kInterleaved,
-                                              chosen.images_per_invocation, image_samples, chunk_images)
-                  : std::nullopt),
-      alone(given, constants(volume), 1, chosen.images_per_invocation, image_samples, abreast ? 1 : chunk_images),
+      interleaved(std::min(std::size_t(chosen.images_per_invocation), chunk_images) >= ScanStages::kInterleaved
+                      ? std::optional<ScanStages>(std::in_place, given, constants(volume), ScanStages::kInterleaved,
+                                                  chosen.images_per_invocation, image_samples, chunk_images)
+                      : std::nullopt),
+      alone(given, constants(volume), 1, chosen.images_per_invocation, image_samples, interleaved ? 1 : chunk_images),
       lc2(given, {"registration/lc2.comp"}, alone.compiled_in),
       density(density_volume(volume, wanted.reflection_length_mm)) {
   const int n = int(lines.lines.size());
@@ -182,8 +182,9 @@ void WeinSimulator::State::traverse(std::span<const Pose> chunk, std::size_t fir
   probe_lines.bind(1);
   places.bind(2);
   scan.bind_storage(0);
-  samples_walked.bind_storage(1);
-  program.dispatch_groups(stages.turns(int(chunk.size())), (int(lines.lines.size()) + int(group) - 1) / int(group));
+  samples_traversed.bind_storage(1);
+  program.dispatch_groups(stages.image_groups(int(chunk.size())),
+                          (int(lines.lines.size()) + int(group) - 1) / int(group));
 }
 
 void WeinSimulator::State::ran(WeinStage stage, std::size_t images, std::size_t pixels) {
@@ -198,7 +199,7 @@ template <typename Work>
 void WeinSimulator::State::by_chunks(std::span<const Pose> poses, const ScanStages& stages, const Program& program,
                                      const TexelBuffer& scan, Work&& work) {
   if (poses.empty()) return;
-  samples_walked.clear();
+  samples_traversed.clear();
   StageCount& count = counts[std::size_t(WeinStage::traverse)];
   ++count.runs;
   count.possible = poses.size() * lines.lines.size() * std::size_t(lines.samples);
@@ -249,7 +250,7 @@ const Texture& WeinSimulator::simulate(std::span<const Pose> patient_from_probe)
     s.by_chunks(patient_from_probe, stages, stages.traverse_grey, stages.grey_scan, [&](int images) {
       s.fan_pixels.places.bind(1);
       s.tiles.bind_storage(0);
-      stages.picture.dispatch(int(s.fan_pixels.columns), stages.turns(images));
+      stages.picture.dispatch(int(s.fan_pixels.columns), stages.image_groups(images));
     });
   s.grid.write(GL_RED, GL_UNSIGNED_BYTE, s.tiles.values());
   s.ran(WeinStage::scan_convert, patient_from_probe.size(), s.fan_pixels.pixels);
@@ -304,7 +305,7 @@ StageCount WeinSimulator::count(WeinStage stage) const {
   StageCount count = state_->counts[std::size_t(stage)];
   if (stage != WeinStage::traverse || count.runs == 0) return count;
   GLuint walked = 0;
-  state_->samples_walked.read(&walked, sizeof walked);
+  state_->samples_traversed.read(&walked, sizeof walked);
   count.evaluated = walked;
   return count;
 }
@@ -316,7 +317,7 @@ WeinStages<float> WeinSimulator::read_stages(const Pose& patient_from_probe) {
   Texture intensities = Texture::make_2d(GL_R32F, d, n, Filter::nearest);
   intensities.clear();  // the traversal does not write behind a line's end
   intensities.bind_image(1, GL_WRITE_ONLY);
-  s.samples_walked.clear();
+  s.samples_traversed.clear();
   s.traverse({&patient_from_probe, 1}, 0, s.alone,
              ScanStages::traverse_program(s.sources, s.alone.compiled_in, ScanStages::Leaves::intensity),
              s.alone.term_scan);

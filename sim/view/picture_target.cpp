@@ -18,7 +18,7 @@ void PictureTarget::resize(int width, int height) {
   framebuffer = gl::Framebuffer(texture);
 }
 
-DrawingInto::DrawingInto(const PictureTarget& target, int first_row, int end_row)
+ScopedDrawTarget::ScopedDrawTarget(const PictureTarget& target, int first_row, int end_row)
     : blend_(glIsEnabled(GL_BLEND)),
       depth_test_(glIsEnabled(GL_DEPTH_TEST)),
       cull_face_(glIsEnabled(GL_CULL_FACE)),
@@ -32,7 +32,7 @@ DrawingInto::DrawingInto(const PictureTarget& target, int first_row, int end_row
   glScissor(0, first_row, target.texture.width(), end_row - first_row);
 }
 
-DrawingInto::~DrawingInto() {
+ScopedDrawTarget::~ScopedDrawTarget() {
   glBindFramebuffer(GL_FRAMEBUFFER, GLuint(framebuffer_));
   glViewport(viewport_[0], viewport_[1], viewport_[2], viewport_[3]);
   glScissor(scissor_[0], scissor_[1], scissor_[2], scissor_[3]);

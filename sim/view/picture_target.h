@@ -15,12 +15,12 @@ struct PictureTarget {
 
 /// Directs drawing, while it exists, into rows [first, end) of a target, without blending or tests. The destructor
 /// restores the framebuffer binding, viewport and switches, so that a view can be drawn within another program's frame.
-class DrawingInto {
+class ScopedDrawTarget {
 public:
-  DrawingInto(const PictureTarget& target, int first_row, int end_row);
-  ~DrawingInto();
-  DrawingInto(const DrawingInto&) = delete;
-  DrawingInto& operator=(const DrawingInto&) = delete;
+  ScopedDrawTarget(const PictureTarget& target, int first_row, int end_row);
+  ~ScopedDrawTarget();
+  ScopedDrawTarget(const ScopedDrawTarget&) = delete;
+  ScopedDrawTarget& operator=(const ScopedDrawTarget&) = delete;
 
 private:
   GLint framebuffer_ = 0, viewport_[4] = {}, scissor_[4] = {};

@@ -76,7 +76,7 @@ const gl::Texture& SliceView::render(const PatientTextures& patient, const Ultra
   plane.image->bind(1);
   patient.labels().bind(2);
   {
-    const DrawingInto drawing(s.target, 0, plane.geometry.height);
+    const ScopedDrawTarget drawing(s.target, 0, plane.geometry.height);
     s.program.use();
     s.triangle.draw();
   }

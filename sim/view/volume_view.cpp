@@ -150,7 +150,7 @@ void VolumeView::State::draw(const PictureTarget& target, int first_row, int end
   patient.tissue().bind(2);
   patient.body().bind(3);
   patient.distance().bind(4);
-  const DrawingInto drawing(target, first_row, end_row);
+  const ScopedDrawTarget drawing(target, first_row, end_row);
   program.use();
   pace.begin(first_row == 0);
   triangle.draw();

@@ -16,6 +16,7 @@
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
 #include "sim/core/suggest.h"
+#include "sim/core/text.h"
 #include "sim/core/toml_table.h"
 #include "sim/volume/ct_reader.h"
 
@@ -35,13 +36,6 @@ template <typename Named>
 const Named* find_named(const std::vector<Named>& all, std::string_view name) {
   const auto found = std::find_if(all.begin(), all.end(), [&](const Named& one) { return one.name == name; });
   return found == all.end() ? nullptr : &*found;
-}
-
-template <typename Named>
-std::vector<std::string> names_of(const std::vector<Named>& all) {
-  std::vector<std::string> names;
-  for (const Named& one : all) names.push_back(one.name);
-  return names;
 }
 
 /// Reads a name that other files and other entries refer to.

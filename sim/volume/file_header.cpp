@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "sim/core/input_error.h"
+#include "sim/core/text.h"
 #include "sim/volume/volume_checks.h"
 
 namespace insonate {
@@ -326,12 +327,6 @@ FileHeader check_nifti(const fs::path& file) {
 // NRRD (https://teem.sourceforge.net/nrrd/format.html) and MetaImage (https://itk.org/Wiki/ITK/MetaIO/Documentation):
 // lines of text.
 
-std::string trimmed(const std::string& text) {
-  const auto from = text.find_first_not_of(" \t\r");
-  if (from == std::string::npos) return "";
-  return text.substr(from, text.find_last_not_of(" \t\r") - from + 1);
-}
-
 struct TextHeader {
   std::map<std::string, std::string>
       values;               ///< by key in lower case; the last one wins, as in the formats' own readers
@@ -357,7 +352,7 @@ TextHeader read_text_header(const fs::path& file, const std::string& separator, 
     }
     if (last.empty() && trimmed(line).empty()) return header;
     if (const auto at = line.find(separator); at != std::string::npos && line[0] != '#') {
-      const std::string key = lower_case(trimmed(line.substr(0, at)));
+      const std::string key = lower_case(std::string(trimmed(line.substr(0, at))));
       header.values[key] = trimmed(line.substr(at + separator.size()));
       if (key == last) return header;
     }

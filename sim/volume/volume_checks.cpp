@@ -4,9 +4,9 @@
 #include <glm/matrix.hpp>
 
 #include <cmath>
-#include <cstdio>
 
 #include "sim/core/input_error.h"
+#include "sim/core/text.h"
 #include "sim/volume/itk_image_io.h"
 
 namespace insonate {
@@ -21,12 +21,6 @@ constexpr double kOrthogonalTolerance = 1e-3;
 // A CT of 4096 densities stored over all values of 32 bits has a slope of 1e-6; stored in 8 bits, one of 16.
 constexpr double kLeastSlope = 1e-9, kMostSlope = 1e4, kMostIntercept = 1e5;
 const char* const kRescaleRemedy = "correct the header, or export the CT again in Hounsfield units";
-
-std::string with_number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", value);
-  return text;
-}
 
 [[noreturn]] void refuse(const std::string& file, const std::string& problem, const std::string& remedy) {
   throw InputError(file, "header", problem, remedy);
@@ -52,8 +46,8 @@ void check_body_size(const std::string& file, const glm::ivec3& voxels, const gl
   for (int a = 0; a < 3; ++a)
     if (size[a] < kLeastBodyMm || size[a] > kMostBodyMm)
       refuse(file,
-             "the volume measures " + with_number(size.x) + " x " + with_number(size.y) + " x " + with_number(size.z) +
-                 " mm, where a body has " + with_number(kLeastBodyMm) + " to " + with_number(kMostBodyMm) +
+             "the volume measures " + number_text(size.x) + " x " + number_text(size.y) + " x " + number_text(size.z) +
+                 " mm, where a body has " + number_text(kLeastBodyMm) + " to " + number_text(kMostBodyMm) +
                  " mm along each axis",
              "is its spacing in mm, and not in another unit?");
 }
@@ -62,13 +56,13 @@ void check_rescale(const std::string& file, const std::string& slope_name, doubl
                    const std::string& intercept_name, double intercept) {
   if (!(slope >= kLeastSlope && slope <= kMostSlope))
     refuse(file,
-           "its " + slope_name + " is " + with_number(slope) + ", where a CT has one from " + with_number(kLeastSlope) +
-               " to " + with_number(kMostSlope),
+           "its " + slope_name + " is " + number_text(slope) + ", where a CT has one from " + number_text(kLeastSlope) +
+               " to " + number_text(kMostSlope),
            kRescaleRemedy);
   if (!(std::abs(intercept) <= kMostIntercept))
     refuse(file,
-           "its " + intercept_name + " is " + with_number(intercept) + ", where a CT has one within +-" +
-               with_number(kMostIntercept),
+           "its " + intercept_name + " is " + number_text(intercept) + ", where a CT has one within +-" +
+               number_text(kMostIntercept),
            kRescaleRemedy);
 }
 
@@ -76,10 +70,10 @@ Grid checked_grid(const std::string& file, Grid grid) {
   for (int a = 0; a < 3; ++a) {
     const double spacing = grid.spacing[a];
     if (!(spacing >= kLeastSpacingMm && spacing <= kMostSpacingMm))
-      refuse(file, "the spacing along axis " + std::to_string(a + 1) + " is " + with_number(spacing) + " mm",
+      refuse(file, "the spacing along axis " + std::to_string(a + 1) + " is " + number_text(spacing) + " mm",
              "give a spacing from 0.001 to 100 mm");
     if (!(std::abs(grid.origin[a]) <= kFurthestOriginMm))
-      refuse(file, "the origin is at " + with_number(grid.origin[a]) + " mm", "correct the origin");
+      refuse(file, "the origin is at " + number_text(grid.origin[a]) + " mm", "correct the origin");
   }
   const glm::dmat3 excess = glm::transpose(grid.direction) * grid.direction - glm::dmat3(1.0);
   double worst = 0;
@@ -92,7 +86,7 @@ Grid checked_grid(const std::string& file, Grid grid) {
   if (!orthogonal) {
     const double determinant = glm::determinant(grid.direction);
     if (std::abs(determinant) < kOrthogonalTolerance) refuse(file, "the direction matrix is singular", "correct it");
-    refuse(file, "the axes are not orthogonal: they stretch or shear by " + with_number(worst),
+    refuse(file, "the axes are not orthogonal: they stretch or shear by " + number_text(worst),
            "resample it to orthogonal axes");
   }
   // Gram-Schmidt. The third axis keeps its side, because a reflection is legitimate.

@@ -24,8 +24,8 @@ std::vector<PoseSample> pressed_now_and_then() {
   for (int i = 0; i < 400 * kRate_hz; ++i) {
     const double time_s = i / kRate_hz;
     PoseSample sample{time_s, PoseStatus::ok, Pose{glm::dmat3(1.0), {0, 1, 10 * std::sin(time_s)}}, 0};
-    if (time_s > 1 && time_s < 2) sample.buttons = kMarkButton;
-    if (std::fmod(time_s, 6) > 4 && std::fmod(time_s, 6) < 5) sample.buttons = kGoOnButton;
+    if (time_s > 1 && time_s < 2) sample.buttons = kEventMarkerButton;
+    if (std::fmod(time_s, 6) > 4 && std::fmod(time_s, 6) < 5) sample.buttons = kContinueButton;
     // Tracking is lost while they are held.
     if (std::abs(std::fmod(time_s, 3) - 1.5) < 0.2) sample = {time_s, PoseStatus::missing, Pose{}, 0};
     samples.push_back(sample);
@@ -38,7 +38,7 @@ std::vector<PoseSample> pressed_now_and_then() {
 int main(int argc, char** argv) {
   if (argc != 3) return 2;
   const std::filesystem::path folder = argv[1];
-  const SetupGiven given{.landmarks = read_landmark_list(argv[2]), .drawing = {}, .moved = false};
+  const SetupInput given{.landmarks = read_landmark_list(argv[2]), .drawing = {}, .moved = false};
   const Lab lab;
   Hand pivoting(lab, 1), whole(lab, 2);
   pivoting.pivot(12);

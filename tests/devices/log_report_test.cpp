@@ -105,9 +105,9 @@ TEST_CASE("a jump is a step that no hand makes, in place or in turn") {
 
 TEST_CASE("marks are told, each once, also when tracking is lost while the button is held") {
   auto samples = steady();
-  for (std::size_t i = 300; i < 340; ++i) samples[i].buttons = kMarkButton | kFreezeButton;
+  for (std::size_t i = 300; i < 340; ++i) samples[i].buttons = kEventMarkerButton | kFreezeButton;
   for (std::size_t i = 310; i < 320; ++i) samples[i] = {samples[i].time_s, PoseStatus::missing, Pose{}, 0};
-  for (std::size_t i = 500; i < 510; ++i) samples[i].buttons = kMarkButton;
+  for (std::size_t i = 500; i < 510; ++i) samples[i].buttons = kEventMarkerButton;
   CHECK(check_log(samples).marks_s == std::vector{samples[300].time_s, samples[500].time_s});
 }
 

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "devices/calibration/calibration.h"
-#include "devices/calibration/given.h"
+#include "devices/calibration/setup_input.h"
 #include "devices/replay/raw_replay.h"
 #include "devices/sequence/probe_samples.h"
 #include "devices/sequence/sequence.h"

@@ -1,7 +1,7 @@
 // What a person hands to the set-up: the patient's landmarks and the probe's drawing.
 #include <set>
 
-#include "devices/calibration/given.h"
+#include "devices/calibration/setup_input.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace insonate::fuzz {

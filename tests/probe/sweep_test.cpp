@@ -112,7 +112,7 @@ TEST_CASE("a sweep that goes back is told from one that goes one way or rests") 
   const auto at = [](const std::vector<double>& elevations_mm) {
     Sweep sweep{*find_probe("linear"), 60, {}};
     for (const double z : elevations_mm) sweep.patient_from_plane.push_back({glm::dmat3(1.0), {0, 0, z}});
-    return turns_back_at(sweep);
+    return reversal_index(sweep);
   };
   CHECK(!at({0, 5, 10, 15}));
   CHECK(!at({15, 10, 5, 0}));
@@ -120,7 +120,7 @@ TEST_CASE("a sweep that goes back is told from one that goes one way or rests") 
   CHECK(at({0, 5, 10, 5, 0}) == 3u);
   CHECK(at({0, 0, -5, -4}) == 3u);
   const Sweep swept{*find_probe("curvilinear"), 160, swept_planes({}, 33, 120, 60)};
-  CHECK(!turns_back_at(swept));
+  CHECK(!reversal_index(swept));
 }
 
 TEST_CASE("the grid of a sweep holds all of it, with cubic voxels along the middle plane's axes") {

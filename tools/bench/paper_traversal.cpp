@@ -77,7 +77,7 @@ void PaperTraversal::run(const Pose& patient_from_probe) {
   glUniform1f(kHalfLength, float(l / 2));
   glUniform1f(kExponent, float(dr / l));
   glUniform1f(kAbsorption, float(settings_.absorption ? settings_.frequency_mhz * dr / 100 * kLn10 : 0));
-  glUniform1f(kGel, float(coupled_mm(settings_)));
+  glUniform1f(kGel, float(coupling_depth_mm(settings_)));
   glUniform1i(kSamples, lines_.samples);
   volume_.texture().bind(0);
   line_buffer_.bind_storage(0);

@@ -120,8 +120,8 @@ private:
   std::size_t next_ = 0;
 };
 
-SetupGiven given_of(const Request& request) {
-  SetupGiven given;
+SetupInput given_of(const Request& request) {
+  SetupInput given;
   given.moved = request.moved;
   if (!request.drawing.empty()) given.drawing = read_probe_drawing(request.drawing);
   given.landmarks = read_landmark_list(request.landmarks.empty() ? assets_folder() / "calibration" / "abdomen.toml"
@@ -131,8 +131,8 @@ SetupGiven given_of(const Request& request) {
 
 int calibrate(const Request& request) {
   check_can_be_calibrated(request.uri);
-  Calibration calibration = calibration_to_go_on(request.out, tracker_identity(request.uri));
-  const SetupGiven given = given_of(request);
+  Calibration calibration = calibration_to_continue(request.out, tracker_identity(request.uri));
+  const SetupInput given = given_of(request);
   std::vector<std::string> steps = request.steps;
   if (steps.empty()) steps.assign(kSetupSteps.begin(), kSetupSteps.end());
   Bench bench(request.uri);

@@ -237,7 +237,7 @@ int main(int argc, char** argv) {
       const double pivot =
           pivot_mm.value_or(probe->kind == ProbeKind::linear ? kLinearPivot_mm : apex_behind_mm(*probe));
       const Sweep swept{*probe, depth_mm, *freehand ? by_hand : swept_planes(pose, planes, sweep_deg, pivot)};
-      if (const auto back = turns_back_at(swept))
+      if (const auto back = reversal_index(swept))
         throw InputError(freehand_file, "pose " + std::to_string(*back + 1), "the sweep goes back here",
                          "keep the poses of one way, in their order");
       write_ct(out, render_volume(subject_path, volume, table, swept, settings, voxel_mm));

@@ -27,7 +27,7 @@ Json echogenicity_constants() {
   return {{"texture_db_per_hu", kTextureDbPerHu},
           {"texture_hu", kTextureHu},
           {"rim_hu", kRimHu},
-          {"edge_reach_mm", kEdgeReach_mm},
+          {"edge_reach_mm", kEdgeRadius_mm},
           {"edge_margin_hu", kEdgeMarginHu},
           {"neighbour_mm", kNeighbour_mm},
           {"alike_hu", kAlikeHu},
@@ -42,8 +42,8 @@ Json scatterer_constants() {
           {"scale", Lattice::kScale},
           {"tail", Lattice::kTail},
           {"variance", Lattice::kVariance},
-          {"turn_rad", Lattice::kTurn_rad},
-          {"turn_axis", json(Lattice::kTurnAxis)},
+          {"turn_rad", Lattice::kRotation_rad},
+          {"turn_axis", json(Lattice::kRotationAxis)},
           {"hash", {{"first", kHashFirst}, {"second", kHashSecond}, {"next", kHashNext}}}};
 }
 
@@ -107,7 +107,7 @@ Json describe(const RenderedScene& scene, const StageGeometry& geometry, const s
   text["frequency_mhz"] = scene.settings.frequency_mhz;
   text["coupling_air_hu"] = kCouplingAirHu;
   text["coupling_tissue_hu"] = kCouplingTissueHu;
-  text["coupled_mm"] = coupled_mm(scene.settings);
+  text["coupling_depth_mm"] = coupling_depth_mm(scene.settings);
   describe_settings(text, named_settings(scene.settings));
   for (const TissueKnot& knot : scene.table.knots)
     text["tissues"].push_back({{"hu", knot.hu},
@@ -136,8 +136,8 @@ Json describe(const RenderedScene& scene, const StageGeometry& geometry, const s
                         {"log_speed_above_water", kLogSpeedAboveWater},
                         {"least_hu", kLeastHu},
                         {"most_hu", kMostHu},
-                        {"turn_rad", kTurn_rad},
-                        {"turn_mm", kTurn_mm}};
+                        {"turn_rad", kDeflection_rad},
+                        {"turn_mm", kDeflection_mm}};
   text["envelope_scale"] = envelope_scale(lines, scene.settings);
   const std::vector<SlicePlane> planes = slice_planes(scene.settings);
   for (std::size_t i = 0; i < planes.size(); ++i)

@@ -10,7 +10,7 @@ namespace insonate {
 
 Tissue tissue_along(const ScanLines& lines, const RenderedScene& scene, const SlicePlane& plane) {
   const MediumField field = trilinear_field(scene.volume);
-  const double l = scene.settings.reflection_length_mm, coupled = coupled_mm(scene.settings);
+  const double l = scene.settings.reflection_length_mm, coupled = coupling_depth_mm(scene.settings);
   const int n = int(lines.lines.size()), d = lines.samples;
   const Image<float> empty(n, d);
   Tissue tissue{empty, empty, empty, empty, empty, empty};

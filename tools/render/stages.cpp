@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kImpedance = "Z, MRayl; water in place of air within coupled_mm";
+constexpr const char* kImpedance = "Z, MRayl; water in place of air within coupling_depth_mm";
 constexpr const char* kAlpha = "alpha (1): ((Z(r + l/2) - Z(r - l/2)) / (Z(r + l/2) + Z(r - l/2)))^2";
 
 void write_tissue(const fs::path& folder, const Tissue& tissue) {

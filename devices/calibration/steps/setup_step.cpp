@@ -22,7 +22,7 @@ std::string worded(const char* format, ...) {
   return text;
 }
 
-std::string why_not_yet(std::string_view step, const Calibration& base, const SetupGiven& given) {
+std::string why_not_yet(std::string_view step, const Calibration& base, const SetupInput& given) {
   const bool touches = step == "landmarks" || (step == "face" && !given.drawing);
   if (touches && !base.tip) return "The probe's tip is not known yet; make the step 'pivot' first.";
   if (step == "landmarks" && given.moved && !base.mannequin)
@@ -31,7 +31,7 @@ std::string why_not_yet(std::string_view step, const Calibration& base, const Se
   return "";
 }
 
-std::unique_ptr<SetupStep> begin_setup_step(std::string_view step, const Calibration& base, const SetupGiven& given) {
+std::unique_ptr<SetupStep> begin_setup_step(std::string_view step, const Calibration& base, const SetupInput& given) {
   if (step == "axes") return axes_step(base);
   if (step == "pivot") return pivot_step(base);
   if (step == "face" && given.drawing) return drawn_face_step(base, *given.drawing);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "devices/calibration/calibration.h"
-#include "devices/calibration/given.h"
+#include "devices/calibration/setup_input.h"
 #include "sim/core/button_presses.h"
 #include "sim/core/pose_sample.h"
 
@@ -59,7 +59,7 @@ private:
 };
 
 /// Input that the steps may need besides the tracker.
-struct SetupGiven {
+struct SetupInput {
   std::optional<LandmarkList> landmarks{};
   std::optional<ProbeDrawing> drawing{};  ///< with it the face does not have to be touched
   bool moved = false;                     ///< only the tracker's base or the mannequin was moved since the last set-up
@@ -69,9 +69,9 @@ struct SetupGiven {
 inline constexpr std::array<std::string_view, 5> kSetupSteps{"axes", "pivot", "face", "landmarks", "lag"};
 
 /// Returns which earlier step is missing for a step to begin, as a sentence; empty if it can begin.
-std::string why_not_yet(std::string_view step, const Calibration& base, const SetupGiven& given);
+std::string why_not_yet(std::string_view step, const Calibration& base, const SetupInput& given);
 
 /// Begins a step for which why_not_yet() is empty. Throws std::invalid_argument for an unknown name.
-std::unique_ptr<SetupStep> begin_setup_step(std::string_view step, const Calibration& base, const SetupGiven& given);
+std::unique_ptr<SetupStep> begin_setup_step(std::string_view step, const Calibration& base, const SetupInput& given);
 
 }  // namespace insonate

@@ -1,7 +1,7 @@
 // Scan conversion of model W: converts each image of a chunk into its tile of the grid.
 //
 // Reads the scan and the table of pixels. Writes the grid.
-// Dispatch: columns of the pixel table x runs of IMAGES_IN_TURN images, in work groups of GROUP x 1. A work group takes
+// Dispatch: columns of the pixel table x runs of IMAGES_PER_INVOCATION images, in work groups of GROUP x 1. A work group takes
 // a run of the fan's pixels. An invocation converts four neighbouring pixels and stores them as one word. It converts
 // the images of its run one after the other.
 
@@ -16,7 +16,7 @@ layout(std430, binding = 0) writeonly buffer Grid { uint grid[]; };  // four pix
 vec4 greys_of(ivec4 pixel, int image_group) { return pixel.x < 0 ? vec4(0.0) : scanned_at(pixel, image_group); }
 
 void main() {
-  int first_image = int(gl_WorkGroupID.y) * IMAGES_IN_TURN, end = min(first_image + IMAGES_IN_TURN, images);
+  int first_image = int(gl_WorkGroupID.y) * IMAGES_PER_INVOCATION, end = min(first_image + IMAGES_PER_INVOCATION, images);
   ivec2 first_tile = ivec2((first + first_image) % columns, (first + first_image) / columns);
   int row_words = columns * tile_words, count = steps();
   for (int i = 0; i < count; i += 4) {

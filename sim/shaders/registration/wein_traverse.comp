@@ -8,7 +8,7 @@
 // Reads the volume, the lines and the poses. The gradient is stored with the density, so a sample costs one fetch.
 // Writes per sample either both terms, E and R, or with GREY the grey level that a picture makes of them, which takes
 // half the memory.
-// Dispatch: runs of IMAGES_IN_TURN images x lines / GROUP work groups of GROUP. An invocation traverses one line of the
+// Dispatch: runs of IMAGES_PER_INVOCATION images x lines / GROUP work groups of GROUP. An invocation traverses one line of the
 // images of its run, one after the other. Consecutive work groups traverse the same few lines in one image after the
 // other. Poses of a search lie close together, so the voxels are still in the cache.
 //
@@ -35,13 +35,13 @@ layout(local_size_x = GROUP) in;
 layout(binding = 0) uniform sampler3D density;  // (HU, gradient along the CT's axes in eighths of HU) / 32767
 layout(binding = 1) uniform sampler2D probe_lines;  // one row per line, probe's frame, mm: sample 0, step to the next
 layout(binding = 2) uniform sampler2D places;       // one row per image: the rows of texture_from_probe
-#if GREY == 1 && ABREAST == 1
+#if GREY == 1 && INTERLEAVED == 1
 #define Stored uint
 #else
 #define Stored Words
 #endif
 layout(std430, binding = 0) writeonly buffer Scan { Stored scan[]; };  // as shared/wein_scan.glsl reads it
-layout(std430, binding = 1) buffer Counter { uint samples_walked; };  // of one call
+layout(std430, binding = 1) buffer Counter { uint samples_traversed; };  // of one call
 #ifdef INTENSITY
 layout(binding = 1, r32f) writeonly uniform image2D intensities;  // of the first image
 #endif
@@ -61,8 +61,8 @@ struct Terms {
   vec2 echogenicity, reflection, intensity;
 };
 
-const int kSamplesAPair = ABREAST == 1 ? 2 : 1, kImagesAPair = 2 / kSamplesAPair;
-const int kPairs = GREY == 1 && ABREAST == 4 ? 2 : 1, kImages = kPairs * kImagesAPair;  // traversed at once
+const int kSamplesAPair = INTERLEAVED == 1 ? 2 : 1, kImagesAPair = 2 / kSamplesAPair;
+const int kPairs = GREY == 1 && INTERLEAVED == 4 ? 2 : 1, kImages = kPairs * kImagesAPair;  // traversed at once
 
 int line;
 
@@ -132,7 +132,7 @@ uint greys_of(Terms terms) { return packUnorm2x16(mix(terms.echogenicity, terms.
 
 // Traverses a line of kImages images from `image` on until no sound is left in any. Returns the number of samples
 // traversed, over all these images.
-int walk(int image) {
+int traverse_line(int image) {
   Line ways[2 * kPairs];
   float last = first_free_sample;  // nearer to the face, air outside the body counts as water
   for (int i = 0; i < 2 * kPairs; ++i) {
@@ -159,7 +159,7 @@ int walk(int image) {
 #if GREY == 0
     scan[at++] = words_of(uvec2(packUnorm2x16(vec2(terms[0].echogenicity.x, terms[0].reflection.x)),
                                 packUnorm2x16(vec2(terms[0].echogenicity.y, terms[0].reflection.y))));
-#elif ABREAST == 1
+#elif INTERLEAVED == 1
     scan[at++] = greys_of(terms[0]);
 #else
     scan[at++] = words_of(uvec2(greys_of(terms[0]), greys_of(terms[1])));
@@ -169,15 +169,15 @@ int walk(int image) {
     imageStore(intensities, ivec2(k + 1, line), vec4(terms[0].intensity.y));
 #endif
   }
-  int walked = min(k, samples) * min(kImages, images - image);
+  int traversed = min(k, samples) * min(kImages, images - image);
   for (; k < samples; k += kSamplesAPair) scan[at++] = Stored(0u);
-  return walked;
+  return traversed;
 }
 
 void main() {
-  int first_image = int(gl_WorkGroupID.x) * IMAGES_IN_TURN, end = min(first_image + IMAGES_IN_TURN, images), walked = 0;
+  int first_image = int(gl_WorkGroupID.x) * IMAGES_PER_INVOCATION, end = min(first_image + IMAGES_PER_INVOCATION, images), traversed = 0;
   line = int(gl_WorkGroupID.y * gl_WorkGroupSize.x + gl_LocalInvocationID.x);
   if (line >= lines) return;
-  for (int image = first_image; image < end; image += kImages) walked += walk(image);
-  atomicAdd(samples_walked, uint(walked));
+  for (int image = first_image; image < end; image += kImages) traversed += traverse_line(image);
+  atomicAdd(samples_traversed, uint(traversed));
 }

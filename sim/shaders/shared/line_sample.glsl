@@ -29,7 +29,7 @@ layout(std430, binding = 3) writeonly buffer Middle { vec2 middle[]; };  // one 
 #endif
 // Plane by plane; within each, one slice plane after the other.
 layout(std430, binding = 0) readonly buffer ScanLines { Line scan_lines[]; };
-layout(std430, binding = 2) buffer Counters { uint samples_walked, normals_taken; };
+layout(std430, binding = 2) buffer Counters { uint samples_traversed, normals_taken; };
 
 // Where the ends of the reflection length lie. Ends that coincide with those of the next samples are fetched once.
 const int kEdgesAtSamples = 2;  // l = 2 dr: on the neighbouring samples
@@ -48,7 +48,7 @@ const float kSilentEchogenicity = -5999.5, kSilentAmplitude = 1.00115195e-6;
 const float kLeastLogIntensity = -76.0;
 
 Line line;
-uint walked = 0u, normals = 0u;  // by this invocation
+uint traversed = 0u, normals = 0u;  // by this invocation
 
 // Returns the number of lines to traverse: those of all planes, or 1 for the line in air.
 int line_count() { return min(planes * lines, scan_lines.length() / SLICE_PLANES); }
@@ -85,7 +85,7 @@ vec2 voxel(vec3 at) {
 }
 
 // Coupling gel replaces the air between the face and the skin, up to the thickness of its layer.
-vec2 with_gel(vec2 voxel, float r) { return r < coupled_mm ? mix(voxel, kGel, gel_share(voxel.x)) : voxel; }
+vec2 with_gel(vec2 voxel, float r) { return r < coupling_depth_mm ? mix(voxel, kGel, gel_share(voxel.x)) : voxel; }
 
 struct Medium { float hu, impedance, absorption, echogenicity; };
 
@@ -153,7 +153,7 @@ vec2 scatterers_echo(float k, Medium here) {
 struct Sample {
   float alpha, cosine;  // of the interface
   float change;         // of ln I, without the loss by refraction
-  vec2 turn;            // rotation of the sound's direction by refraction, in units of kTurn_rad
+  vec2 turn;            // rotation of the sound's direction by refraction, in units of kDeflection_rad
   vec2 echo;            // of the scatterers
 };
 

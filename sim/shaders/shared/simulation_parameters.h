@@ -20,7 +20,7 @@ layout(std140, binding = 0) uniform SimulationParameters {
   float reflection_exponent;     // dr/l
 
   float absorption_per_sample;  // f dr/100 ln 10: times dB/(cm MHz), the loss in ln I per sample
-  float coupled_mm;
+  float coupling_depth_mm;
   float least_alpha_with_normal;  // weaker interfaces take a mean tilt instead of their normal
   float clutter_share;            // of the mean echo from the same depth; 0 for none
 
@@ -36,10 +36,10 @@ layout(std140, binding = 0) uniform SimulationParameters {
 
   float dynamic_range_db;  // beta
   float clutter_kept;      // e^(-dr/kClutterTail_mm), see sim/model/noise.h
-  float turn_kept;         // e^(-dr/kTurn_mm), see sim/model/refraction.h
-  float turn_per_step;     // dr/(l kTurn_rad)
+  float turn_kept;         // e^(-dr/kDeflection_mm), see sim/model/refraction.h
+  float turn_per_step;     // dr/(l kDeflection_rad)
 
-  float turn_loss;  // dr/kTurn_mm
+  float turn_loss;  // dr/kDeflection_mm
   float slice_thickness_mm;
   float slice_spread;  // growth of the slice's thickness per mm from its focus
   float elevation_focus_mm;

@@ -21,8 +21,8 @@ const int samples = SAMPLES;          // per line
 const int row_samples = ROW_SAMPLES;  // room for samples in a line of the scan: an even number
 // Images whose samples share a texel of the scan, so that one fetch brings all of them: 4 greys, or both terms of 2
 // images. Neighbouring images share where a call asks for many. 1 where images lie one behind the other.
-const int interleaved_greys = ABREAST;
-const int interleaved_terms = max(ABREAST / 2, 1);
+const int interleaved_greys = INTERLEAVED;
+const int interleaved_terms = max(INTERLEAVED / 2, 1);
 const int tile_words = TILE_WORDS;    // of four pixels, in a row of an image's tile in the grid
 const int tile_height = TILE_HEIGHT;  // pixels
 const int shadows = SHADOWS;          // 1: echogenicity is scaled by I

@@ -26,7 +26,7 @@ RecordedScan scan(double search_s, double first_s = 0) {
   });
   for (PoseSample& sample : scan.samples) {
     if (std::fmod(sample.time_s + 1, 2.3) < 0.35) sample.status = PoseStatus::missing;
-    if (std::abs(sample.time_s - 1) < 0.2 && sample.status == PoseStatus::ok) sample.buttons = kMarkButton;
+    if (std::abs(sample.time_s - 1) < 0.2 && sample.status == PoseStatus::ok) sample.buttons = kEventMarkerButton;
     sample.time_s += first_s;
   }
   scan.recording.file = "scan.igs.mha";

@@ -11,7 +11,7 @@ TEST_CASE("the probe's freeze button freezes the picture and thaws it, once each
   for (PoseSample& sample : samples) {
     const bool freezes = std::abs(sample.time_s - 1.25) < 0.25, thaws = std::abs(sample.time_s - 3.15) < 0.15;
     sample.status = PoseStatus::ok;
-    sample.buttons = freezes || thaws ? kFreezeButton | kMarkButton : kMarkButton;
+    sample.buttons = freezes || thaws ? kFreezeButton | kEventMarkerButton : kEventMarkerButton;
     // While the button is held the tracker is lost for a moment.
     if (std::abs(sample.time_s - 1.25) < 0.05) {
       sample.status = PoseStatus::missing;
@@ -37,8 +37,8 @@ TEST_CASE("the probe's mark and go-on buttons act once each time they are presse
   for (PoseSample& sample : samples) {
     sample.status = PoseStatus::ok;
     const bool first = std::abs(sample.time_s - 1.25) < 0.25, second = std::abs(sample.time_s - 3) < 0.1;
-    sample.buttons = first || second ? std::uint32_t(kMarkButton) : 0;
-    if (std::abs(sample.time_s - 2) < 0.2) sample.buttons = kGoOnButton;
+    sample.buttons = first || second ? std::uint32_t(kEventMarkerButton) : 0;
+    if (std::abs(sample.time_s - 2) < 0.2) sample.buttons = kContinueButton;
     if (std::abs(sample.time_s - 1.25) < 0.1) sample = {sample.time_s, PoseStatus::missing, Pose{}, 0};
   }
   Session session(tiny_loaded_case(), replay_of(samples));
@@ -55,11 +55,11 @@ TEST_CASE("the probe's mark and go-on buttons act once each time they are presse
   CHECK_FALSE(session.machine().frozen);
 
   INFO("a mark of the keyboard is in one sample, for the record");
-  session.press(kMarkButton);
+  session.press(kEventMarkerButton);
   std::size_t marked = 0;
   for (int i = 1; i <= 30; ++i) {
     session.advance(now_s + i / 60.0);
-    for (const PoseSample& sample : session.latest_samples()) marked += sample.buttons == kMarkButton;
+    for (const PoseSample& sample : session.latest_samples()) marked += sample.buttons == kEventMarkerButton;
   }
   CHECK(session.event_markers_s().size() == 3);
   CHECK(marked == 1);
@@ -70,7 +70,7 @@ TEST_CASE("the probe's mark and go-on buttons act once each time they are presse
 TEST_CASE("a button that is held when a session begins was pressed for somebody else") {
   auto samples = searching_scan();
   for (PoseSample& sample : samples)
-    sample.buttons = sample.time_s < 1 || sample.time_s > 2 ? kFreezeButton | kMarkButton : 0;
+    sample.buttons = sample.time_s < 1 || sample.time_s > 2 ? kFreezeButton | kEventMarkerButton : 0;
   Session session(tiny_loaded_case(), replay_of(samples));
   session.advance(0);
   const double now_s = run_until(session, 0, 1.5);
@@ -92,19 +92,19 @@ TEST_CASE("a button that is held on the tracker while the probe changes hands wa
   };
   session.advance(now_s);
   hold(0);
-  hold(kMarkButton | kFreezeButton);
+  hold(kEventMarkerButton | kFreezeButton);
   CHECK(session.machine().frozen);
   CHECK(session.event_markers_s().size() == 1);
   session.take_probe();
-  hold(kMarkButton | kFreezeButton);
-  session.press(kMarkButton);  // the keyboard's own
-  hold(kMarkButton | kFreezeButton);
+  hold(kEventMarkerButton | kFreezeButton);
+  session.press(kEventMarkerButton);  // the keyboard's own
+  hold(kEventMarkerButton | kFreezeButton);
   CHECK(session.event_markers_s().size() == 1);
   session.give_back_probe();
-  hold(kMarkButton | kFreezeButton);
+  hold(kEventMarkerButton | kFreezeButton);
   CHECK_FALSE(session.machine().frozen);
   CHECK(session.event_markers_s().empty());
   hold(0);
-  hold(kMarkButton);
+  hold(kEventMarkerButton);
   CHECK(session.event_markers_s().size() == 1);
 }

@@ -22,8 +22,8 @@ struct Folder {
   ~Folder() { fs::remove_all(path); }
 };
 
-SetupGiven given() {
-  SetupGiven made;
+SetupInput given() {
+  SetupInput made;
   made.landmarks = read_landmark_list(std::string(INSONATE_ASSETS_FOLDER) + "/calibration/abdomen.toml");
   return made;
 }

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "devices/calibration/calibration.h"
-#include "devices/calibration/given.h"
+#include "devices/calibration/setup_input.h"
 #include "devices/calibration/utc.h"
 #include "sim/core/input_error.h"
 #include "tests/devices/calibration/synthetic.h"

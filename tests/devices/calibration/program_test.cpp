@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "devices/calibrated_tracker.h"
-#include "devices/calibration/given.h"
+#include "devices/calibration/setup_input.h"
 #include "devices/calibration/utc.h"
 #include "devices/replay/replay_tracker.h"
 #include "devices/sequence/sequence.h"

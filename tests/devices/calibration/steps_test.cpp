@@ -19,7 +19,7 @@ std::size_t make(SetupStep& step, const std::vector<PoseSample>& samples, std::s
 }
 
 /// The whole set-up as a hand makes it in a lab.
-Calibration set_up(const Lab& lab, const SetupGiven& given, double touch_error_mm) {
+Calibration set_up(const Lab& lab, const SetupInput& given, double touch_error_mm) {
   Hand hand(lab, 7);
   hand.axes();
   hand.pivot(14);
@@ -100,7 +100,7 @@ TEST_CASE("with the probe's drawing the face is not touched, and the tip that wa
                                                                     {&FacePoints::other_end, lab.face.other_end},
                                                                     {&FacePoints::tail, lab.face.tail}};
   for (const auto& [which, point] : points) drawing.face.*which = lab.sensor_from_face.point(point) + off;
-  SetupGiven given{.landmarks = patient(), .drawing = drawing};
+  SetupInput given{.landmarks = patient(), .drawing = drawing};
   const Calibration calibration = set_up(lab, given, 0);
   CHECK(calibration.face->value.method == "drawing");
   CHECK(calibration.face->value.tip_off_mm == Approx(4).margin(0.1));
@@ -114,7 +114,7 @@ TEST_CASE("with the probe's drawing the face is not touched, and the tip that wa
 
 TEST_CASE("when the base was moved the old landmarks are found again, and nothing else changes") {
   Lab lab;
-  SetupGiven given{.landmarks = patient()};
+  SetupInput given{.landmarks = patient()};
   Calibration calibration = set_up(lab, given, 1);
   const double before = worst_error_mm(lab, calibration);
   const Pose ct_from_mannequin = calibration.mannequin->value.ct_from_mannequin;
@@ -139,7 +139,7 @@ TEST_CASE("when the base was moved the old landmarks are found again, and nothin
 TEST_CASE("a hand that slips is asked again, and takes a touch back") {
   const Lab lab;
   Calibration base;
-  const SetupGiven given{.landmarks = patient()};
+  const SetupInput given{.landmarks = patient()};
   CHECK_THAT(why_not_yet("face", base, given), Contains("'pivot' first"));
   CHECK_THAT(why_not_yet("landmarks", base, given), Contains("'pivot' first"));
 

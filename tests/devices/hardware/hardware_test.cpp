@@ -128,22 +128,22 @@ TEST_CASE("a device that may not be opened comes with the rule that allows it") 
 TEST_CASE("reports are followed by the device's own numbers") {
   ReportTally tally;
   ReportNumbers numbers(256);
-  for (const int number : {250, 251, 254, 255, 0, 1}) CHECK(numbers.is_news(std::uint64_t(number), tally));
+  for (const int number : {250, 251, 254, 255, 0, 1}) CHECK(numbers.is_new(std::uint64_t(number), tally));
   CHECK(tally.missed == 2);
-  CHECK_FALSE(numbers.is_news(1, tally));
+  CHECK_FALSE(numbers.is_new(1, tally));
   CHECK(tally.repeated == 1);
-  CHECK_FALSE(numbers.is_news(0, tally));
+  CHECK_FALSE(numbers.is_new(0, tally));
   CHECK(tally.late == 1);
-  CHECK(numbers.is_news(2, tally));
+  CHECK(numbers.is_new(2, tally));
   // A device that begins to count anew is believed after some reports, and nothing counts as missed.
   std::uint64_t number = 200;
-  for (; !numbers.is_news(number, tally); ++number) REQUIRE(number < 210);
+  for (; !numbers.is_new(number, tally); ++number) REQUIRE(number < 210);
   CHECK(number == 207);
-  CHECK(numbers.is_news(208, tally));
+  CHECK(numbers.is_new(208, tally));
   CHECK(tally.missed == 2);
   CHECK(tally.late == 8);
   numbers.restart();
-  CHECK(numbers.is_news(100, tally));
+  CHECK(numbers.is_new(100, tally));
   CHECK(tally.missed == 2);
   CHECK(tally.incidents_in_words() == "1 repeated, 8 late, 2 missed");
 }
@@ -168,7 +168,7 @@ TEST_CASE("a Hydra is started, begins where the probe does, and is let go as a g
   const glm::dvec3 moved = kStart.rotation * (glm::transpose(turned) * glm::dvec3(7, 0, 0));
   CHECK(glm::distance(batch.samples[1].patient_from_probe.translation, kStart.translation + moved) < 1e-9);
   CHECK(batch.samples[0].buttons == 0);
-  CHECK(batch.samples[1].buttons == (kFreezeButton | kMarkButton | kGoOnButton));
+  CHECK(batch.samples[1].buttons == (kFreezeButton | kEventMarkerButton | kContinueButton));
 
   bench.source.close();
   CHECK(bench.bus->sent.back() == Report(gamepad.begin(), gamepad.end()));
@@ -356,8 +356,8 @@ TEST_CASE("a SpaceMouse moves the probe at a rate, as seen on the screen, and st
   CHECK(angle_between_deg(turned.patient_from_probe, kStart) == Approx(glm::degrees(0.2)));
   CHECK(glm::distance(turned.patient_from_probe.rotation[1], kStart.rotation[1]) < 1e-9);
   CHECK(glm::dot(turned.patient_from_probe.rotation[2], kStart.rotation[0]) > 0);
-  CHECK(turned.buttons == (kFreezeButton | kMarkButton));
-  CHECK(after(0.01, {23, 80}).buttons == (kFreezeButton | kMarkButton));
+  CHECK(turned.buttons == (kFreezeButton | kEventMarkerButton));
+  CHECK(after(0.01, {23, 80}).buttons == (kFreezeButton | kEventMarkerButton));
   CHECK(bench.source.tally().incidents() == 0);
 }
 

@@ -145,8 +145,8 @@ TEST_CASE("what a server complains of is told for a while, or until it says that
     return batch.note;
   };
   CHECK(said(make_status("", 0, {13, "the camera warms up"}), 2) == "there:18944 reports: the camera warms up");
-  CHECK(said({}, 2 + ClientSource::kStatusTold_s - 0.1) == "there:18944 reports: the camera warms up");
-  CHECK(said({}, 2 + ClientSource::kStatusTold_s).find("reports") == std::string::npos);
+  CHECK(said({}, 2 + ClientSource::kStatusShown_s - 0.1) == "there:18944 reports: the camera warms up");
+  CHECK(said({}, 2 + ClientSource::kStatusShown_s).find("reports") == std::string::npos);
   CHECK(said(make_status("", 0, {13, "again"}), 20) == "there:18944 reports: again");
   CHECK(said(make_status("", 0, {kStatusOk, ""}), 21).find("reports") == std::string::npos);
 }

@@ -22,7 +22,7 @@ public:
     for (const auto& knot : about_.at("tissues"))
       knots_.push_back({knot.at("hu"), knot.at("impedance_mrayl"), knot.at("absorption_db_cm_mhz")});
     l_ = setting("reflection_length_mm");
-    coupled_mm_ = value("coupled_mm");
+    coupled_mm_ = value("coupling_depth_mm");
     coupling_air_hu_ = about_.at("coupling_air_hu");
     coupling_tissue_hu_ = about_.at("coupling_tissue_hu");
     silent_db_ = about_.at("silent_db");

@@ -8,7 +8,7 @@ layout(location = 1) uniform float dr_mm;
 layout(location = 2) uniform float half_length_mm;  // l/2
 layout(location = 3) uniform float exponent;        // dr/l
 layout(location = 4) uniform float absorption;      // times dB/(cm MHz), the natural logarithm that a sample takes
-layout(location = 5) uniform float coupled_mm;
+layout(location = 5) uniform float coupling_depth_mm;
 
 struct Line {
   vec4 start, along, lateral, elevation;  // in the volume's texture: a point, and steps of 1 mm
@@ -22,7 +22,7 @@ layout(location = 1) out vec4 carried;  // I behind this sample, and what the ne
 
 float density(vec3 at, float r) {
   float hu = textureLod(acoustic_volume, at, 0.0).r * 32767.0;
-  return r < coupled_mm ? (1.0 - gel_share(hu)) * hu : hu;
+  return r < coupling_depth_mm ? (1.0 - gel_share(hu)) * hu : hu;
 }
 
 // ln(1 - alpha), by its series where 1 - alpha would lose the digits of a weak interface.

@@ -41,7 +41,7 @@ void scan_turns(int me, vec2 turn, vec2 before) {
   barrier();
 }
 
-void walk(int slice_plane, int index) {
+void traverse_line(int slice_plane, int index) {
   place_line(slice_plane, index);
   int me = int(gl_LocalInvocationID.x), row = index * samples, end = starts() ? samples : 0, first = 0;
   LogIntensity arriving = arriving_first(medium(0.0));  // at the stretch's first sample
@@ -53,7 +53,7 @@ void walk(int slice_plane, int index) {
     if (k < samples) {
       met = sample_at(position, medium(position), medium(position - half_reflection_length),
                       medium(position + half_reflection_length));
-      ++walked;
+      ++traversed;
     }
 #if EDGE_SHADOW == 1
     scan_turns(me, met.turn, turn);

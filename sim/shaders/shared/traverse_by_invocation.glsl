@@ -1,7 +1,7 @@
 // Traverses one line per invocation, from the face into the depth, because the intensity at a sample depends on all
 // samples before it.
 
-void walk(int slice_plane, int index) {
+void traverse_line(int slice_plane, int index) {
   place_line(slice_plane, index);
   int row = index * samples, end = starts() ? samples : 0, k = 0;
   Medium here = medium(0.0), before = medium(-half_reflection_length);
@@ -25,6 +25,6 @@ void walk(int slice_plane, int index) {
     if (EDGES_AT == kEdgesAtSamples) before = here;
     here = next;
   }
-  walked += uint(k);
+  traversed += uint(k);
   put_silent(slice_plane, row, k, 1);
 }

@@ -1,4 +1,4 @@
-#include "devices/calibration/given.h"
+#include "devices/calibration/setup_input.h"
 
 #include <glm/geometric.hpp>
 

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace insonate {
+
+// Texts as error sentences and readers of files need them.
+
+/// Returns the text without blanks, tabs and line ends at its ends.
+std::string_view trimmed(std::string_view text);
+
+/// Returns the text between single quotation marks: "'depth_mm'".
+std::string in_quotes(std::string_view text);
+
+/// Returns a number with up to six significant digits: "0.25", "1e+30".
+std::string number_text(double value);
+
+/// Returns the names of things that have one, in their order.
+template <typename Named>
+std::vector<std::string> names_of(const std::vector<Named>& all) {
+  std::vector<std::string> names;
+  names.reserve(all.size());
+  for (const Named& one : all) names.push_back(one.name);
+  return names;
+}
+
+}  // namespace insonate
