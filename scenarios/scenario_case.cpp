@@ -26,7 +26,7 @@ std::vector<std::string> names_of(const std::vector<Named>& list) {
   return names;
 }
 
-/// What a metric needs and the view lacks, as the end of a sentence; empty when it can be measured.
+/// Returns what a metric needs and the view lacks, as the end of a sentence. Empty if the metric can be measured.
 std::string lacking(const MetricInfo& metric, const ReferenceView& view, const Case& subject) {
   if (metric.needs_targets) {
     if (subject.labels.empty()) return "but the case has no labels";
