@@ -18,6 +18,7 @@ struct GuidingMove {
   double rotation_deg = 0;   ///< -180 to 180; positive: clockwise, seen from the probe's handle
 };
 
+/// Returns the movement from the probe's pose to a reference pose.
 GuidingMove move_to(const Pose& patient_from_probe, const Pose& reference);
 
 /// Movements up to these limits count as no difference: in_words() does not mention them.

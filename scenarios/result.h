@@ -27,6 +27,7 @@ struct CriterionScore {
   bool fails_exam() const { return critical && points <= 0; }
 };
 
+/// How a step ended.
 enum class StepOutcome {
   held,        ///< the view was held for the required time
   done,        ///< a step of another kind was completed
@@ -42,6 +43,7 @@ inline bool is_done(StepOutcome outcome) {
   return outcome == StepOutcome::held || outcome == StepOutcome::done;
 }
 
+/// The result of one step.
 struct StepResult {
   std::string title;
   std::string kind;
@@ -88,6 +90,7 @@ struct Provenance {
   std::string log_transform;  ///< the transform used as the probe's pose: "ProbeToPatient"
 };
 
+/// The result of an exam: its scores and the inputs that they were computed from.
 struct ExamResult {
   /// Incremented whenever the same samples could get a different score.
   static constexpr int kScoringVersion = 3;

@@ -80,6 +80,7 @@ struct Step {
   bool sound = true;                     ///< its kind and the keys of that kind are valid
 };
 
+/// The whole exam: the top-level keys of the file.
 struct Scenario {
   /// format = 2: the version of these rules that the file is written for. Format 2 allows everything that format 1
   /// allows.

@@ -38,8 +38,10 @@ struct Anatomy {
   std::vector<Recess> recesses;
 };
 
+/// Finds the organs, vessels and recesses of a case. Omits structures that are missing or smaller than 1000 voxels.
 Anatomy find_anatomy(const Case& subject, const std::vector<StructureShape>& shapes);
 
+/// Returns the landmarks of an anatomy, named as import_case() documents.
 std::vector<Landmark> landmarks_of(const Anatomy& anatomy);
 
 /// Return the names that landmarks_of() gives to the ends of an organ's long axis: at first_pole and at second_pole.

@@ -18,6 +18,7 @@ struct ImportRequest {
   std::string name;              ///< name of the case; "Patient" if empty, because a file's name may be a person's
 };
 
+/// The result of an import.
 struct ImportedCase {
   Case subject;
   std::vector<std::string> notes;  ///< one sentence for each guess, change or omission

@@ -14,6 +14,7 @@ using LabelNames = std::map<int, std::string>;
 /// Returns a label table of TotalSegmentator's task `total`, for files without their own: "total" for version 2,
 /// "total_v1" for version 1. Returns nothing for another name.
 std::optional<LabelNames> standard_label_table(std::string_view name);
+/// Returns the names that standard_label_table() knows.
 std::vector<std::string> standard_label_tables();
 
 /// Returns the tissue (a [tissue.*] of assets/tissues.toml) of a structure, by TotalSegmentator's lower-case name for

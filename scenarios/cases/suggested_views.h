@@ -14,6 +14,7 @@ namespace insonate {
 /// this share of their section in its plane is visible.
 inline constexpr double kLeastClear = 0.5, kLeastSection = 0.25;
 
+/// The result of suggest_views().
 struct SuggestedViews {
   std::vector<ReferenceView> views;
   std::vector<std::string> notes;  ///< one sentence per view: how much it shows, or why it is left out

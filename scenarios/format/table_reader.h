@@ -14,6 +14,7 @@ namespace insonate {
 /// Returns the shortest text that restores the same number.
 std::string plain(double number);
 
+/// An inclusive range of numbers.
 struct Range {
   double least;
   double most;

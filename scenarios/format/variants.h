@@ -23,6 +23,7 @@ struct Variant {
 
 inline constexpr std::size_t kMostVariants = 32;
 
+/// Reads the [[variant]] tables of a scenario, at most kMostVariants.
 std::vector<Variant> read_variants(TableReader& scenario);
 
 /// Returns the index of the variant that a seed selects among `count`; 0 if there is none.

@@ -52,6 +52,7 @@ enum class MetricScope {
   motion    ///< any interval of samples: also usable for the whole exam
 };
 
+/// The description of a metric.
 struct MetricInfo {
   Metric metric;
   std::string_view name;   ///< name in scenario files and JSON: "plane_distance_mm"
@@ -69,6 +70,7 @@ struct MetricInfo {
 /// Returns all metrics, in the order of the enumeration.
 std::span<const MetricInfo> metrics();
 
+/// Returns the description of a metric.
 const MetricInfo& info(Metric metric);
 
 /// Returns the metric of that name, if it exists.

@@ -19,9 +19,12 @@ public:
   static constexpr double kHalfSlice_mm = 2.5;  ///< maximum distance from the plane that counts as in the picture
   static constexpr double kArrives = 0.01;      ///< -20 dB of intensity
 
+  /// Keeps a reference to the case. `depth_mm` is the depth of the picture from the face.
   Visibility(const Case& subject, const Probe& probe, double depth_mm, const TissueTable& tissues);
 
+  /// Sets the pose of the probe for the following queries.
   void look_from(const Pose& patient_from_probe);
+  /// Returns true if the point lies within kHalfSlice_mm of the plane and in the fan, and the sound reaches it.
   bool reaches(const glm::dvec3& patient_mm);
 
   const Probe& probe() const { return probe_; }

@@ -25,6 +25,7 @@ struct AttemptSummary {
   bool passed = false;
 };
 
+/// Summary of a learner for a list.
 struct LearnerSummary {
   std::string id;
   int attempts = 0;

@@ -9,6 +9,7 @@ namespace insonate {
 
 class TableReader;
 
+/// Whether a kind of step takes the key 'view'.
 enum class ViewUse { none, optional, required };
 
 /// A kind of step: its name in the file, whether it takes the key 'view', and the function that reads its own keys. The
@@ -19,6 +20,7 @@ struct StepKind {
   std::shared_ptr<const StepTask> (*read)(TableReader& table, const Step& step);
 };
 
+/// Returns all kinds of steps.
 std::span<const StepKind> step_kinds();
 
 }  // namespace insonate

@@ -25,6 +25,7 @@ struct Change {
   std::vector<std::string> worse;
 };
 
+/// The result of comparing two runs.
 struct Comparison {
   std::vector<Change> changes;             ///< rows with equal settings, in the order of the earlier run
   std::vector<std::string> gone, arrived;  ///< settings that are in only one run

@@ -22,6 +22,7 @@ struct Display {
 template <typename Real>
 Display displayed(const Stages<Real>& stages, const Probe& probe, double depth_mm, const Settings& settings);
 
+/// The error of a displayed picture.
 struct DisplayError {
   double db = 0;    ///< RMS over the pixels that are neither black nor white in the converged picture
   double grey = 0;  ///< RMS over the fan

@@ -14,6 +14,7 @@ struct Point {
   bool leaves_out = false;   ///< leaves out an effect, so that its picture is not comparable
 };
 
+/// The settings of one scene.
 struct Panel {
   std::string title;
   std::vector<Point> points;

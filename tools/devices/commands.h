@@ -7,6 +7,7 @@
 /// The commands of insonate-devices, each in its own file. To add one, add a file, a line here and one in main.
 namespace insonate::devices {
 
+/// A command: its parser and its work.
 struct Command {
   const CLI::App* parser;     ///< knows whether the command was given
   std::function<int()> work;  ///< called after parsing; returns the exit code

@@ -45,6 +45,7 @@ struct PlannedLoss {
   PoseStatus status = PoseStatus::missing;  ///< status = "MISSING", "OUT_OF_VIEW", "OUT_OF_VOLUME" or "INVALID"
 };
 
+/// The whole plan.
 struct LogPlan {
   std::filesystem::path scenario;   ///< names the case; path relative to the plan
   std::uint32_t scenario_seed = 0;  ///< selects the scenario's variant

@@ -20,6 +20,7 @@ struct WeinScene {
   const Pose& patient_from_probe;
 };
 
+/// A picture of model W.
 struct RenderedWein {
   WeinStages<float> stages;  ///< without the terms after scan conversion; the marker (+x) on the right
   std::string made_by;       ///< the device, or the reference
