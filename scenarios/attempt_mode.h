@@ -11,7 +11,7 @@ namespace insonate {
 enum class AttemptMode {
   exam,      ///< a graded attempt: taken once, without help (ExamRules::strict)
   practice,  ///< a live run, repeatable at will, with the ghost plane and hints available
-  recording  ///< a recorded scan, scored later
+  recording  ///< a recorded scan that was scored
 };
 
 /// The modes' names in files and on command lines: "exam", "practice" and "recording".

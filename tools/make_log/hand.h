@@ -14,6 +14,7 @@ struct MadeLog {
   std::vector<PoseSample> samples;
   ActionLog actions;  ///< by the samples' times
 };
+
 /// Simulates a hand that moves a probe over a case. It makes minimum-jerk reaches (Flash and Hogan 1985) that overshoot
 /// and are corrected, fans, and rests with drift and tremor, while the face follows the skin. Then it simulates a
 /// tracker with noise and losses. The same plan and case produce the same samples. Throws InputError if a view is not
