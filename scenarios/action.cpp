@@ -58,7 +58,7 @@ void append_escaped(std::string& to, std::string_view text) {
   }
 }
 
-/// The parts of a text between a separator, without blanks around them and without empty ones.
+/// Returns the parts of a text between separators, trimmed of blanks, without empty parts.
 std::vector<std::string_view> parts(std::string_view text, char separator) {
   std::vector<std::string_view> found;
   while (!text.empty()) {

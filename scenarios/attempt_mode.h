@@ -7,29 +7,31 @@
 
 namespace insonate {
 
-/// How an attempt came about: scores of one kind are not to be compared with those of another.
+/// The circumstances of an attempt. Do not compare scores of different modes.
 enum class AttemptMode {
-  exam,      ///< it counted: taken once, without help (ExamRules::strict)
-  practice,  ///< a live run as often as one likes, with the ghost plane and hints at hand
+  exam,      ///< a graded attempt: taken once, without help (ExamRules::strict)
+  practice,  ///< a live run, repeatable at will, with the ghost plane and hints available
   recording  ///< a recorded scan that was scored
 };
 
-/// As files and command lines have it: "exam", "practice" or "recording".
+/// The modes' names in files and on command lines: "exam", "practice" and "recording".
 inline constexpr std::array<std::string_view, 3> kAttemptModes{"exam", "practice", "recording"};
 
-/// Empty for attempts of databases that did not say it yet (results_schema.cpp).
+/// Returns the mode's name. Returns an empty string for attempts from databases that do not record the mode
+/// (results_schema.cpp).
 inline std::string name_of(std::optional<AttemptMode> mode) {
   return mode ? std::string(kAttemptModes[std::size_t(*mode)]) : std::string();
 }
 
-/// Empty for a name that is none.
+/// Returns the mode of that name, or nothing for an unknown name.
 inline std::optional<AttemptMode> find_attempt_mode(std::string_view name) {
   for (std::size_t i = 0; i < kAttemptModes.size(); ++i)
     if (kAttemptModes[i] == name) return AttemptMode(i);
   return std::nullopt;
 }
 
-/// Whether an attempt is one of those asked for. One that does not say may have counted, and is taken to have.
+/// Returns true if the attempt has the mode `asked`. An attempt without a recorded mode may have been graded and is
+/// treated as an exam.
 inline bool is_of(std::optional<AttemptMode> mode, AttemptMode asked) {
   return mode.value_or(AttemptMode::exam) == asked;
 }

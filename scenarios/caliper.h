@@ -9,27 +9,27 @@
 
 namespace insonate {
 
-/// The geometry of what a caliper or an ellipse measures: of actions of those two kinds, in mm of the plane they lie
-/// in.
+/// The geometry of calipers and ellipses. The arguments are actions of those two kinds; coordinates are mm in the plane
+/// of the picture.
 
-/// Between the two ends; of an ellipse the axis that was drawn first.
+/// Returns a caliper's length between its two ends, or the length of the ellipse axis that was drawn first.
 double caliper_length_mm(const Action& placed);
 double ellipse_area_mm2(const Action& ellipse);
-/// By the formula pi / 6 times its three axes.
+/// Returns pi / 6 times the product of the three axes.
 double ellipsoid_volume_ml(double first_mm, double second_mm, double third_mm);
 
-/// Where it can be taken hold of: a caliper's two ends; of an ellipse also the ends of its other axis.
+/// Returns the points that the learner can drag: the two ends, and for an ellipse also the ends of its other axis.
 std::vector<glm::dvec2> handles(const Action& placed);
-/// The same with one of its handles moved. An end of an ellipse's other axis stays on that axis.
+/// Returns `placed` with one handle moved to `to`. An end of an ellipse's other axis stays on that axis.
 Action with_handle_at(Action placed, std::size_t handle, const glm::dvec2& to);
-/// Points of the outline of an ellipse, the last one followed by the first.
+/// Returns points on the outline of an ellipse. The outline closes from the last point to the first.
 std::vector<glm::dvec2> outline(const Action& ellipse, std::size_t points);
 
-/// As machines write them: "23.4 mm", from 100 mm on "12.34 cm"; "4.56 cm²"; "123 ml".
+/// Return values as ultrasound machines display them: "23.4 mm", from 100 mm on "12.34 cm"; "4.56 cm²"; "123 ml".
 std::string length_text(double mm);
 std::string area_text(double mm2);
 std::string volume_text(double ml);
-/// The length of a caliper, the area of an ellipse.
+/// Returns the length of a caliper or the area of an ellipse as text.
 std::string value_text(const Action& placed);
 
 }  // namespace insonate

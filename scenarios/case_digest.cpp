@@ -8,8 +8,7 @@
 namespace insonate {
 namespace {
 
-/// The parts one after the other, those of varying length with their length, so that "ab" + "c" differs from
-/// "a" + "bc".
+/// Concatenates parts. A part of variable length is preceded by its length, so that "ab" + "c" differs from "a" + "bc".
 class Parts {
 public:
   void add(double number) { all_.append(reinterpret_cast<const char*>(&number), sizeof number); }
@@ -27,7 +26,7 @@ public:
     add(double(list.size()));
     for (const std::string& text : list) add(text);
   }
-  /// By their own digest: a copy of all voxels would be large.
+  /// Adds the digest of the voxels, because a copy of all voxels would be large.
   template <typename T>
   void add_voxels(const std::vector<T>& voxels) {
     add(insonate::digest_of(std::string_view(reinterpret_cast<const char*>(voxels.data()), voxels.size() * sizeof(T))));

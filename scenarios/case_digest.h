@@ -6,8 +6,8 @@
 
 namespace insonate {
 
-/// The digest (sim/core/digest.h) of all that scoring reads of a case: grid, CT, labels, their names, landmarks and
-/// views.
+/// Returns the digest (sim/core/digest.h) of everything that scoring reads from a case: grid, CT, labels, their names,
+/// landmarks and views.
 std::string digest_of(const Case& subject);
 
 }  // namespace insonate

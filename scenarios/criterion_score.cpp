@@ -7,14 +7,14 @@
 namespace insonate {
 namespace {
 
-/// What summing up points may be off by rounding, in per cent: eight of ten criteria of 0.1 points each are 80 %.
+/// Rounding error of summed points, in per cent: eight of ten criteria of 0.1 points each are 80 %.
 constexpr double kRounding_percent = 1e-9;
 
 std::string name_of(const StepResult& step, std::size_t index) {
   return "Step " + std::to_string(index + 1) + " (" + step.title + ")";
 }
 
-/// Why a step was not done, as a sentence; empty when it was.
+/// Returns why a step was not done, as a sentence; empty if it was done or skipped.
 std::string why_not_done(const StepResult& step, std::size_t index) {
   const bool holds = step.holds_view;
   const std::string longest = holds ? " (longest: " + fixed(step.longest_hold_s, 1) + " s)" : "";
@@ -40,7 +40,7 @@ std::string why_not_done(const StepResult& step, std::size_t index) {
   return "";
 }
 
-/// The criteria of one part of the exam that earned nothing, the critical ones only or the others only.
+/// Adds the criteria of one part of the exam that earned nothing: only the critical ones, or only the others.
 void add_failed(const std::vector<CriterionScore>& criteria, const std::string& where, bool critical,
                 std::vector<std::string>& reasons) {
   for (const CriterionScore& m : criteria)

@@ -7,13 +7,13 @@
 
 namespace insonate {
 
-/// The mark of one criterion: points fall on a straight line from `full` to `zero`. Without a value there are none, and
-/// `why_no_value` says why.
+/// Returns the score of one criterion. Points fall linearly from `full` to `zero`. Without a value, the criterion earns
+/// no points and `why_no_value` gives the reason.
 CriterionScore score_criterion(const Criterion& criterion, std::optional<double> value,
                                const std::string& why_no_value = {});
 
-/// Adds up the marks, decides, and gives the reasons: fills points, percent, passed and reasons of a result whose steps
-/// and marks are there. An exam is passed when the percentage reaches the pass mark and no critical criterion failed.
+/// Fills the points, percent, passed and reasons of a result from its steps and criterion scores. An exam is passed if
+/// the percentage is at least the pass mark and no critical criterion failed.
 void decide(ExamResult& result);
 
 }  // namespace insonate

@@ -12,8 +12,8 @@
 namespace insonate {
 namespace {
 
-/// Which way of the patient (LPS) a direction points: the greatest part of it, and a second that is at least half of
-/// that.
+/// Returns the patient direction (LPS) that a vector points to: its largest component, and a second one if it is at
+/// least half as large.
 std::string direction_words(const glm::dvec3& direction) {
   static constexpr std::array<std::array<const char*, 2>, 3> kWays{
       {{"the patient's left", "the patient's right"}, {"the back", "the front"}, {"the head", "the feet"}}};
@@ -29,11 +29,11 @@ std::string direction_words(const glm::dvec3& direction) {
 
 GuidingMove move_to(const Pose& patient_from_probe, const Pose& reference) {
   const glm::dmat3 turn = glm::transpose(patient_from_probe.rotation) * reference.rotation;
-  const glm::dvec3 beam = turn[1];  // of the reference, in the probe's frame
+  const glm::dvec3 beam = turn[1];  // beam of the reference, in the probe's frame
   GuidingMove move;
   move.rock_deg = glm::degrees(std::asin(std::clamp(-beam.x, -1.0, 1.0)));
   move.tilt_deg = glm::degrees(std::atan2(beam.z, beam.y));
-  // What is left once tilt and rock are undone turns about the beam alone.
+  // Without tilt and rock, the remaining rotation is about the beam only.
   const double a = std::atan2(beam.z, beam.y), b = glm::radians(move.rock_deg);
   const glm::dvec3 lateral(std::cos(b), std::cos(a) * std::sin(b), std::sin(a) * std::sin(b));
   const glm::dvec3 elevation(0, -std::sin(a), std::cos(a));

@@ -25,7 +25,7 @@ constexpr std::array kOutcomes{OutcomeName{StepOutcome::held, "held"},
                                OutcomeName{StepOutcome::skipped, "skipped"},
                                OutcomeName{StepOutcome::not_reached, "not_reached"}};
 
-/// Each field once, for writing and for reading: `Visit` is called with a key and the field.
+/// Lists each field once, for both writing and reading: calls `visit` with a key and the field.
 template <typename Values, typename Visit>
 void each_field_of_motion(Values& v, Visit&& visit) {
   visit("time_s", v.time_s);
@@ -52,7 +52,7 @@ void each_field_of_provenance(Values& v, Visit&& visit) {
   visit("log_transform", v.log_transform);
 }
 
-/// Those that cannot always be said.
+/// The fields that may be empty.
 template <typename Values, typename Visit>
 void each_optional_field_of_motion(Values& v, Visit&& visit) {
   visit("log_dimensionless_jerk", v.log_dimensionless_jerk);
@@ -240,7 +240,7 @@ std::string to_json(const ExamResult& result) {
                      {"criteria", json_of(result.criteria)},
                      {"motion", json_of(result.motion)},
                      {"made_from", made_from}};
-  // Names come from files; bytes that are no UTF-8 must not stop a score from being written.
+  // Names come from files. Invalid UTF-8 in them must not prevent the score from being written.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -7,11 +7,11 @@
 
 namespace insonate {
 
-/// A result as JSON: `"format": 2`, keys spelled with their units, numbers with as many digits as bring back the same
-/// double. Made for programs; people get the report.
+/// Returns a result as JSON for programs; people read the report. It has `"format": 2`, keys that include their units,
+/// and numbers with enough digits to restore the same double.
 std::string to_json(const ExamResult& result);
 
-/// The way back. Throws InputError naming `name` when the text is no such JSON.
+/// Parses the output of to_json(). Throws InputError naming `name` if the text is not such JSON.
 ExamResult result_from_json(std::string_view text, const std::string& name);
 
 }  // namespace insonate

@@ -74,7 +74,7 @@ void Runner::feed(const PoseSample& sample, std::span<const Action> before) {
   double now = sample.time_s - first_s_;
   pass_limits(now);
   if (live_.finished) return;
-  now = std::max(now, step_start_s_);  // a step may have begun at a limit that lies a rounding later
+  now = std::max(now, step_start_s_);  // a step may have begun at a limit that is later by a rounding error
   last_s_ = now;
   for (const Action& action : std::exchange(waiting_, {}))
     if (!live_.finished) act(action, now);
@@ -86,7 +86,7 @@ void Runner::end() {
   end_step(run_->enough() ? StepOutcome::done : StepOutcome::scan_ended, last_s_, Then::finish);
 }
 
-/// Ends whatever had to end by `now`.
+/// Ends all steps, and the exam, whose limits `now` has reached.
 void Runner::pass_limits(double now) {
   while (!live_.finished) {
     const double limit = std::min(step_limit_s(), exam_limit_s());
@@ -98,7 +98,7 @@ void Runner::pass_limits(double now) {
 
 void Runner::act(const Action& given, double now) {
   Action action = given;
-  if (action.text.size() > Action::kLongestText) action.text.resize(Action::kLongestText);  // as a log would keep it
+  if (action.text.size() > Action::kLongestText) action.text.resize(Action::kLongestText);  // as a log stores it
   machine_.apply(action, last_valid_);
   if (action.kind == ActionKind::go_on) return end_step(run_->enough() ? StepOutcome::done : StepOutcome::went_on, now);
   if (action.kind == ActionKind::go_to) return go_to(action.text, now);
@@ -133,7 +133,7 @@ void Runner::look(const PoseSample& raw, double now) {
   live_.exam_remaining_s = counts_from_s_ ? std::max(0.0, exam_limit_s() - now) : scenario_.time_limit_s;
 }
 
-/// Measures the picture of a sample and shows it to the step under way.
+/// Measures the picture of a sample and passes it to the current step.
 void Runner::show(const PoseSample& sample, double now) {
   const bool valid = sample.status == PoseStatus::ok;
   const ViewMeter* meter = meters_[live_.step].get();
@@ -146,7 +146,7 @@ void Runner::show(const PoseSample& sample, double now) {
   live_.enough = run_->enough();
 }
 
-/// Of the probe that the step's view asks for, or else that the learner took.
+/// Returns the contact of the probe of the step's view, or else of the learner's probe.
 const SkinContact& Runner::contact() {
   const ReferenceView* view = subject_.find_view(step().view);
   const std::string& probe = view ? view->probe : machine_.probe;
@@ -205,7 +205,7 @@ void Runner::skip(std::size_t from, std::size_t to, double now) {
   }
 }
 
-/// Which step follows the one that has ended just now; none when the exam is over.
+/// Returns the step that follows the one that has just ended, or nothing if the exam is over.
 std::optional<std::size_t> Runner::step_after(const StepResult& ended, double now) {
   double possible = 0;
   for (const CriterionScore& m : ended.criteria) possible += m.weight;

@@ -22,27 +22,27 @@
 
 namespace insonate {
 
-/// What the screen shows of a running exam.
+/// The state of a running exam that the screen shows.
 struct LiveExam {
-  bool started = false;   ///< a sample has come
-  bool finished = false;  ///< nothing fed from now on changes the result
-  std::size_t step = 0;   ///< the one under way, or the last one
+  bool started = false;   ///< a sample has arrived
+  bool finished = false;  ///< further samples do not change the result
+  std::size_t step = 0;   ///< index of the current or last step
   double elapsed_s = 0;
   double step_remaining_s = 0;
   double exam_remaining_s = 0;
   PoseStatus tracking = PoseStatus::unknown;  ///< of the last sample
   bool on_skin = false;
-  std::optional<ViewValues> view;  ///< of the last sample, when it was valid and the step names a view
-  bool within_tolerance = false;   ///< the last sample's picture is as the step asks for
-  double hold_share = 0;           ///< 0 to 1: how much of the step, as of a hold, is done
-  bool enough = false;             ///< going on now would end the step as done
-  std::vector<std::string> hints;  ///< that the learner has taken in this step
+  std::optional<ViewValues> view;  ///< of the last sample; empty if it was invalid or the step names no view
+  bool within_tolerance = false;   ///< the last sample's picture meets the step's requirements
+  double hold_share = 0;           ///< share of the step that is done, such as the share of the hold, 0 to 1
+  bool enough = false;             ///< ending the step now would count as done
+  std::vector<std::string> hints;  ///< hints taken in this step
   std::size_t hints_left = 0;
   double points = 0;           ///< of the steps done
   double points_possible = 0;  ///< of the steps done
 };
 
-/// What a report draws of a run, about ten times a second.
+/// One point of the curves in a report, recorded about 10 times per second.
 struct TracePoint {
   double time_s = 0;
   std::size_t step = 0;
@@ -54,57 +54,60 @@ struct TracePoint {
   ViewValues view;
 };
 
-/// Runs an exam: a state machine fed with every sample of a tracker, and with what the learner does besides, in the
-/// order of time, live or from a log. What comes out is a function of the scenario, the case, the samples and the
-/// actions alone, whatever the batches they come in and however fast.
+/// Runs an exam. It is a state machine that receives every sample of a tracker and the learner's other actions in time
+/// order, live or from a log. The result depends only on the scenario, the case, the samples and the actions. It does
+/// not depend on how the samples are batched or how fast they are fed.
 ///
-/// - The clock starts with the first sample and runs on the samples' own times. An action is handed over with the
-///   sample that follows it; it is done at that sample's time and before the sample is looked at.
-/// - What a step asks for, when it is done and how it is judged is its kind's business (scenarios/steps). When it is
-///   done, or the learner goes on, the next one begins with the same sample.
-/// - Motion is taken from every sample, the picture from every valid one that comes kLook_s or more after the one
-///   before: a tracker of 1000 Hz costs no more than one of 100 Hz.
-/// - A view is held while every tolerance of its step is kept whenever the picture is looked at. A loss of tracking
-///   longer than MotionMeter::kBridged_s ends the hold. The picture of a step is judged by the mean over the hold,
-///   weighted by time; of a step that ended without one, by the mean over the hold_s before its last valid sample.
-/// - Warm-ups come before the exam's own clock and motion begin.
-/// - A step that names where to go on skips what lies between. Where the order is free, the learner may turn to any
-///   step that is not ended. One that he comes back to begins anew, but its limit, its time and its motion are those of
-///   all his visits.
-/// - Whichever limit comes first ends a step at that very time, and the exam's limit ends the exam. A sample at the
-///   limit comes too late.
-/// - Times are compared to kTimeRounding_s.
-/// - A sample that does not come later than the one before it, or whose pose is not finite, is passed over; its actions
-///   are done with the next one.
+/// - The clock starts with the first sample and uses the samples' own times. An action is passed with the sample that
+///   follows it. It takes effect at that sample's time, before the sample is evaluated.
+/// - The step's kind (scenarios/steps) defines what a step requires, when it is done and how it is judged. When the
+///   step is done or the learner goes on, the next step begins with the same sample.
+/// - Every sample contributes to the motion. The picture is evaluated for valid samples at least kLook_s after the
+///   previously evaluated one. So a tracker of 1000 Hz costs no more than one of 100 Hz.
+/// - A view is held while every evaluated picture is within all tolerances of its step. A tracking loss longer than
+///   MotionMeter::kBridged_s ends the hold. The score of a picture is the time-weighted mean over the hold. For a step
+///   without a completed hold, it is the mean over the hold_s before its last valid sample.
+/// - Warm-ups precede the start of the exam's own clock and motion.
+/// - A step that names its next step skips the steps between. If the order is free, the learner may switch to any step
+///   that has not ended. A step begins anew when the learner returns to it, but its limit, its time and its motion
+///   cover all visits.
+/// - The earliest limit ends a step at exactly that time, and the exam's limit ends the exam. A sample at the limit is
+///   too late.
+/// - Times are compared with a tolerance of kTimeRounding_s.
+/// - The runner ignores a sample that is not later than the previous one, or whose pose is not finite. Its actions take
+///   effect with the next sample.
 class Runner {
 public:
-  static constexpr double kLook_s = 0.009;  ///< at 60 frames a second no more than two a frame
+  static constexpr double kLook_s = 0.009;  ///< at 60 frames per second, at most two evaluations per frame
 
-  /// Keeps references to the case. Throws ScenarioError when the scenario does not fit the case, and InputError when
-  /// the case does not fit itself.
+  /// Keeps a reference to the case. Throws ScenarioError if the scenario does not fit the case, and InputError if the
+  /// case is inconsistent.
   Runner(Scenario scenario, const Case& subject, const TissueTable& tissues);
-  Runner(const Runner&) = delete;  // what is prepared for its steps refers to it
+  Runner(const Runner&) = delete;  // the prepared steps refer to this object
   Runner& operator=(const Runner&) = delete;
 
-  /// @param before  what was done since the sample before
+  /// Processes one sample.
+  /// @param before  the actions since the previous sample
   void feed(const PoseSample& sample, std::span<const Action> before = {});
-  /// @param actions  by the times of the samples that they go with; others are passed over
+  /// Processes several samples.
+  /// @param actions  by the times of their samples; actions at other times are ignored
   void feed(std::span<const PoseSample> samples, const ActionLog& actions = {});
 
-  /// There are no more samples: the step under way ends here. Nothing happens when the exam is finished.
+  /// Reports that there are no more samples, and ends the current step. Does nothing if the exam is finished.
   void end();
 
   const Scenario& scenario() const { return scenario_; }
   const LiveExam& live() const { return live_; }
-  /// Whether a step is over, or was skipped: nobody turns to it any more.
+  /// Returns true if a step is over or was skipped. The learner cannot return to it.
   bool has_ended(std::size_t step) const { return ended_[step].has_value(); }
-  /// Whether the learner may turn to a step now (ActionKind::go_to).
+  /// Returns true if the learner may switch to a step now (ActionKind::go_to).
   bool can_go_to(std::size_t step) const;
   const std::vector<TracePoint>& trace() const { return trace_; }
-  /// As the actions have set it.
+  /// Returns the machine as the actions have set it.
   const Machine& machine() const { return machine_; }
 
-  /// The marks of all steps that ended; complete when the exam is finished. Provenance lacks the mode and the log.
+  /// Returns the scores of all steps that ended. The result is complete when the exam is finished. Its provenance lacks
+  /// the mode and the log.
   ExamResult result() const;
 
 private:
@@ -131,28 +134,28 @@ private:
   TissueTable tissues_;
   LabelIndex labels_;
   std::string case_digest_;
-  std::vector<std::unique_ptr<ViewMeter>> meters_;  ///< one a step; null without a view
+  std::vector<std::unique_ptr<ViewMeter>> meters_;  ///< one per step; null without a view
   std::vector<StepBegin> begin_;                    ///< by step
   std::map<std::string, SkinContact> contacts_;     ///< by probe
   Machine machine_;
   LiveExam live_;
   double first_s_ = 0;
   double last_s_ = 0;
-  std::vector<Action> waiting_;  ///< handed over with samples that were passed over
+  std::vector<Action> waiting_;  ///< actions that came with ignored samples
   std::optional<Pose> last_valid_;
-  std::optional<double> looked_s_;  ///< when the picture was looked at; empty after a loss or where a step begins
+  std::optional<double> looked_s_;  ///< time of the last evaluated picture; empty after a loss or a new step
   double step_start_s_ = 0;
   MotionMeter step_motion_;
-  std::unique_ptr<StepRun> run_;                  ///< the step under way
+  std::unique_ptr<StepRun> run_;                  ///< the current step
   MotionMeter motion_;                            ///< of the whole exam
   std::vector<std::optional<StepResult>> ended_;  ///< by step
   struct Left {
-    std::optional<double> began_s;  ///< empty as long as nobody has turned to the step
-    MotionValues motion;            ///< of the visits before this one
+    std::optional<double> began_s;  ///< empty until the learner starts the step
+    MotionValues motion;            ///< of the previous visits
   };
-  std::vector<Left> left_;                ///< by step: what the learner left behind when he turned away
+  std::vector<Left> left_;                ///< state of earlier visits to the step
   std::vector<std::size_t> hints_taken_;  ///< by step
-  std::optional<double> counts_from_s_;   ///< when the warm-ups were over
+  std::optional<double> counts_from_s_;   ///< when the warm-ups ended
   std::vector<TracePoint> trace_;
 };
 

@@ -19,7 +19,7 @@ std::filesystem::path folder_of_case(const Scenario& scenario) {
   return scenario.file.parent_path() / scenario.case_name;
 }
 
-/// What a metric needs and the view lacks, as the end of a sentence; empty when it can be measured.
+/// Returns what a metric needs and the view lacks, as the end of a sentence. Empty if the metric can be measured.
 std::string lacking(const MetricInfo& metric, const ReferenceView& view, const Case& subject) {
   if (metric.needs_targets) {
     if (subject.labels.empty()) return "but the case has no labels";

@@ -6,21 +6,22 @@
 
 namespace insonate {
 
-/// Numbers as reports and screens show them, so that all of them say the same of one score.
+/// Formats numbers for reports and screens, so that all of them show the same figures for one score.
 
-/// With that many digits behind the point.
+/// Returns the value with `decimals` digits after the point.
 std::string fixed(double value, int decimals);
 
-/// Points and percentages that a person wrote, with two digits behind the point at most: "2", "1.75".
+/// Returns points or a percentage that a person wrote, with at most two digits after the point: "2", "1.75".
 std::string short_number(double value);
 
-/// A metric's value with its unit: "12.4 mm", "82 %", "7".
+/// Returns a metric's value with its unit: "12.4 mm", "82 %", "7".
 std::string in_words(Metric metric, double value);
 
-/// A structure's name as a person reads it: "right kidney".
+/// Returns a structure's name as a person reads it: "right kidney".
 std::string in_words(std::string name);
 
-/// The percentage with one digit behind the point, or as many as keep a failed one below the pass mark: "79.96".
+/// Returns the percentage with one digit after the point. A failed result gets as many digits as keep it below the pass
+/// mark, at most 12: "79.96".
 std::string percentage(const ExamResult& result);
 
 }  // namespace insonate

@@ -16,35 +16,35 @@ namespace {
 
 constexpr int kLines = 32;
 constexpr double kSample_mm = 1;
-constexpr double kDeepest_mm = 240;  // a curvilinear probe's reach
+constexpr double kDeepest_mm = 240;  // maximum depth of a curvilinear probe
 constexpr double kLiverHu = 60;
-constexpr double kLost_db = 20;         // as ViewMeter's limit of what arrives
-constexpr double kHalfOff = 0.5;        // what the rating loses when the targets lie at the fan's edge
-constexpr double kTypicalWay_mm = 100;  // over which the rating falls to 1/e
+constexpr double kLost_db = 20;         // same as ViewMeter's limit for arriving sound
+constexpr double kHalfOff = 0.5;        // loss of the rating for targets at the fan's edge
+constexpr double kTypicalWay_mm = 100;  // distance over which the rating falls to 1/e
 
 constexpr double kMostToBack = 0.5;   // sine of 30 degrees: the couch
 constexpr double kMostAlong = 0.766;  // sine of 50 degrees
-constexpr double kBoneHu = 200;       // where the tissue table's bone begins
+constexpr double kBoneHu = 200;       // start of bone in the tissue table
 constexpr int kFacePlaces = 7;
-constexpr double kFaceLifted_mm = 15;  // the most that an end of the face may be off the skin
+constexpr double kFaceLifted_mm = 15;  // maximum gap between an end of the face and the skin
 constexpr std::array kPresses_mm = {12.0, 8.0, 4.0};
 
 }  // namespace
 
-/// One way to hold the probe: where the beam comes from, and what came of it.
+/// One way to hold the probe, with its rating.
 struct WindowSearch::Choice {
-  double round_deg = 0;  ///< of the beam about the axis
-  double lean_deg = 0;   ///< of the beam towards the axis
-  double rock_deg = 0;   ///< of the probe about the middle of its face, in the plane
+  double round_deg = 0;  ///< rotation of the beam about the axis
+  double lean_deg = 0;   ///< inclination of the beam towards the axis
+  double rock_deg = 0;   ///< rotation of the probe in the plane about the centre of its face
   double press_mm = 0;
   double rating = 0;
 };
 
-/// What a fan shows of the targets.
+/// The visible parts of the targets in a fan.
 struct WindowSearch::View {
-  std::vector<double> seen_mm2, clear_mm2;  ///< a target each
-  double off_centre_mm2 = 0;                ///< integral of the clear area's place across the fan, -1 to 1
-  double deepest_mm = 0;                    ///< along its line, of what is clear of the last target
+  std::vector<double> seen_mm2, clear_mm2;  ///< one per target
+  double off_centre_mm2 = 0;                ///< integral of the clear area's position across the fan, -1 to 1
+  double deepest_mm = 0;                    ///< deepest clear sample of the last target, along its line
 
   double seen() const;
   double clear() const;
@@ -84,7 +84,7 @@ std::optional<glm::dvec3> WindowSearch::skin_from(const glm::dvec3& aim, const g
   }
 }
 
-/// Whether there is no bone between the skin and the face, and no other part of the body where the probe is.
+/// Returns true if no bone lies between skin and face, and the probe does not intersect another part of the body.
 bool WindowSearch::face_fits(const Pose& pose, double press_mm) const {
   Probe sparse = probe_;
   sparse.lines = kFacePlaces;
@@ -95,7 +95,7 @@ bool WindowSearch::face_fits(const Pose& pose, double press_mm) const {
   };
   for (const ScanLine& line : face.lines) {
     const glm::dvec3 start = pose.point(line.start), outwards = -pose.direction(line.direction);
-    // Out through what the face displaces; then in the air that the probe's head needs.
+    // First outwards through the tissue that the face displaces, then through the air that the probe's head needs.
     double s = 0;
     for (; in_body(start + outwards * s); s += 1) {
       if (s > press_mm + kFaceLifted_mm) return false;
@@ -111,7 +111,7 @@ bool WindowSearch::face_fits(const Pose& pose, double press_mm) const {
 }
 
 std::optional<Pose> WindowSearch::place(const WantedPicture& wanted, const Choice& choice) const {
-  // Two directions square to the axis, chosen without the axis being near either.
+  // Two directions perpendicular to the axis. The helper is never nearly parallel to it.
   const glm::dvec3& a = wanted.axis;
   const glm::dvec3 helper = std::abs(a.y) < 0.7 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
   const glm::dvec3 u = glm::normalize(helper - a * glm::dot(helper, a)), v = glm::cross(a, u);
@@ -141,7 +141,8 @@ WindowSearch::View WindowSearch::look(const WantedPicture& wanted, const Pose& p
   for (std::size_t i = 0; i < lines.lines.size(); ++i) {
     const VoxelLine way = voxel_line(subject_->ct.grid, lines, i, pose);
     const double across = (2.0 * double(i) + 1 - kLines) / kLines;
-    // The lines of a fan part with the depth; their distance at each sample is what a sample stands for.
+    // The lines of a fan diverge with depth. Their distance at each sample determines the area that the sample
+    // represents.
     const ScanLine &line = lines.lines[i], &next = lines.lines[i + 1 < lines.lines.size() ? i + 1 : i - 1];
     const glm::dvec3 apart = line.start - next.start, parting = line.direction - next.direction;
     bool computed = false;

@@ -9,39 +9,40 @@
 
 namespace insonate {
 
-/// A picture to look for: its plane goes through `aim`, within 20 degrees of the central beam.
+/// A picture to search for. Its plane contains `aim`, within 20 degrees of the central beam.
 struct WantedPicture {
-  glm::dvec3 aim{0.0};                ///< patient, mm; inside the body
-  glm::dvec3 axis{0, 0, 1};           ///< unit
-  bool along = true;                  ///< the plane holds the axis, or else is square to it, to within 20 degrees
-  std::vector<std::uint8_t> targets;  ///< label values; each of them counts, and the last sets how deep is looked
+  glm::dvec3 aim{0.0};       ///< patient, mm; inside the body
+  glm::dvec3 axis{0, 0, 1};  ///< unit
+  bool along = true;  ///< true: the plane contains the axis; false: it is perpendicular to it, to within 20 degrees
+  std::vector<std::uint8_t> targets;  ///< label values; each of them counts, and the last one determines the depth
 };
 
-/// A place on the skin from which a picture is had.
+/// A place on the skin that gives a view of the targets.
 struct Window {
   Pose patient_from_probe;
-  double depth_mm = 0;       ///< to the deepest that is seen of the last target
-  double clear_share = 0;    ///< of the targets' area in the fan, that which sound reaches as through soft tissue
-  double section_share = 0;  ///< of the targets' whole section in this plane, that which is in the fan and clear
+  double depth_mm = 0;       ///< to the deepest visible point of the last target
+  double clear_share = 0;    ///< share of the targets' area in the fan that sound reaches as through soft tissue
+  double section_share = 0;  ///< share of the targets' whole section in this plane that is in the fan and clear
 };
 
-/// Searches the skin of a patient who lies on the back for the place from which a picture shows the most of its
-/// targets, by the model's own transmission on the processor. Keeps references.
+/// Searches the skin of a supine patient for the place whose picture shows most of its targets. It computes the model's
+/// own transmission on the CPU. Keeps references to the case and the body.
 ///
-/// Tried are beams through the aim every 5 degrees within the plane's freedom, then finer around the best. For each,
-/// the ray from the aim outwards gives the point of the skin, where it first leaves the body; the face is pressed in
-/// there by as much as no bone forbids, up to 12 mm. A place is refused where the CT ends before the skin, where the
-/// patient lies on it (more than 30 degrees to the back), beyond 50 degrees to head or feet, and where the face has
-/// no room in front of the skin.
+/// The search tries beams through the aim every 5 degrees within the plane's freedom, then finer steps around the best
+/// ones. For each beam, the ray from the aim outwards gives the point where it first leaves the body. The face is
+/// pressed in there as far as no bone prevents it, up to 12 mm. A place is refused in these cases: the CT ends before
+/// the skin, the patient lies on it (more than 30 degrees to the back), it is beyond 50 degrees to head or feet, or the
+/// face has no room in front of the skin.
 ///
-/// A sample of the fan in a target counts by what arrives there against liver of the same thickness: wholly if as
-/// much, not at all from 20 dB less. The rating is the area so counted, of the target that shows least, less for what
-/// lies off the middle and what lies deep.
+/// Each sample of the fan in a target is weighted by the arriving intensity relative to the same thickness of liver:
+/// fully if equal, not at all from 20 dB less. The rating is the weighted area of the target that shows least. It is
+/// reduced for targets off the middle and for deep targets.
 class WindowSearch {
 public:
   WindowSearch(const Case& subject, const BodyMask& body, const TissueTable& tissues, const Probe& probe);
 
-  /// Empty when no place on the skin shows anything of the targets. The same whatever the number of threads.
+  /// Returns the best place, or nothing if no place on the skin shows any of the targets. The result does not depend on
+  /// the number of threads.
   std::optional<Window> best(const WantedPicture& wanted) const;
 
 private:
@@ -58,7 +59,7 @@ private:
   const BodyMask* body_;
   Probe probe_;
   Transmission transmission_;
-  double soft_tissue_db_per_mm_;  ///< one way, at the probe's frequency
+  double soft_tissue_db_per_mm_;  ///< one-way, at the probe's frequency
 };
 
 }  // namespace insonate

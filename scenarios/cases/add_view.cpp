@@ -29,7 +29,7 @@ void add_view(const std::filesystem::path& case_folder, const ReferenceView& vie
   if (!SkinContact(subject.ct, *probe).at(view.patient_from_probe))
     refuse("the probe's face is not on the skin", "take a moment at which the probe touches the patient");
   for (const std::string& target : view.targets) {
-    // One target at a time: ViewMeter asks for any of them.
+    // One target at a time: with several, ViewMeter accepts any one of them.
     ReferenceView alone = view;
     alone.targets = {target};
     try {

@@ -13,8 +13,8 @@ constexpr std::array kOrgans = {"liver",       "spleen",   "kidney_right",    "k
                                 "gallbladder", "pancreas", "urinary_bladder", "prostate"};
 constexpr std::array kVessels = {"aorta", "inferior_vena_cava"};
 constexpr std::size_t kFewestVoxels = 1000;  // 1 ml at 1 mm: a sliver at the CT's edge has no axes
-constexpr double kSectionHalf_mm = 4;        // a vessel's middle is taken over this much up and down
-constexpr double kCourse_mm = 15;            // and its course between the middles this far up and down
+constexpr double kSectionHalf_mm = 4;        // a vessel's centre is averaged over this distance up and down
+constexpr double kCourse_mm = 15;            // and its direction is taken between the centres at this distance
 constexpr double kRecess_mm = 20;            // organs further apart have fat between them, not a recess
 
 const StructureShape* find(const std::vector<StructureShape>& shapes, std::string_view name) {
@@ -23,7 +23,7 @@ const StructureShape* find(const std::vector<StructureShape>& shapes, std::strin
   return found == shapes.end() || found->voxels < kFewestVoxels ? nullptr : &*found;
 }
 
-/// The heights that a structure's box spans.
+/// The range of heights of a structure's bounding box.
 struct Heights {
   double bottom = 1e9, top = -1e9;
 };
@@ -75,7 +75,8 @@ Vessel follow(const Case& subject, const StructureShape& shape, const std::vecto
   return vessel;
 }
 
-/// Kidneys and spleen have an upper and a lower pole however they lie; other organs' ends are named as they point.
+/// Kidneys and spleen have an upper and a lower pole in any orientation. The ends of other organs are named by
+/// direction.
 std::string end_of_organ(const StructureShape& organ, bool higher, const glm::dvec3& axis) {
   if (organ.label.name.starts_with("kidney_") || organ.label.name == "spleen") return higher ? "upper" : "lower";
   return end_of_axis(axis);

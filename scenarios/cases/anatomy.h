@@ -8,22 +8,22 @@
 
 namespace insonate {
 
-/// A place along a vessel.
+/// A position along a vessel.
 struct VesselLevel {
   std::string landmark;   ///< "aorta_l2"
   std::string name;       ///< "l2"
   std::string title;      ///< "at L2"
-  glm::dvec3 point{0.0};  ///< the middle of its section there
-  glm::dvec3 along{0.0};  ///< its course there, unit, to the head
+  glm::dvec3 point{0.0};  ///< centre of its cross-section there
+  glm::dvec3 along{0.0};  ///< its direction there, unit, towards the head
 };
 
 /// A vessel's course through the abdomen.
 struct Vessel {
   const StructureShape* shape;
-  std::vector<VesselLevel> levels;  ///< from below
+  std::vector<VesselLevel> levels;  ///< from bottom to top
 };
 
-/// Two organs with a recess between them in which fluid gathers.
+/// Two organs and the recess between them, in which fluid gathers.
 struct Recess {
   std::string name;  ///< "hepatorenal"
   const StructureShape* organ;
@@ -31,18 +31,20 @@ struct Recess {
   glm::dvec3 point{0.0};
 };
 
-/// What of a patient's anatomy landmarks and views are made from; see import_case(). Points into `shapes`.
+/// The parts of a patient's anatomy that landmarks and views are made from; see import_case(). Points into `shapes`.
 struct Anatomy {
   std::vector<const StructureShape*> organs;
   std::vector<Vessel> vessels;
   std::vector<Recess> recesses;
 };
 
+/// Finds the organs, vessels and recesses of a case. Omits structures that are missing or smaller than 1000 voxels.
 Anatomy find_anatomy(const Case& subject, const std::vector<StructureShape>& shapes);
 
+/// Returns the landmarks of an anatomy, named as import_case() documents.
 std::vector<Landmark> landmarks_of(const Anatomy& anatomy);
 
-/// The two names that landmarks_of() gives the ends of an organ's long axis, first_pole's first.
+/// Return the names that landmarks_of() gives to the ends of an organ's long axis: at first_pole and at second_pole.
 std::string first_pole_name(const StructureShape& organ);
 std::string second_pole_name(const StructureShape& organ);
 

@@ -15,11 +15,11 @@
 namespace insonate {
 namespace {
 
-constexpr double kPeeled_mm = 3.5;  // from each side
+constexpr double kPeeled_mm = 3.5;  // removed from each side
 constexpr int kRimVoxels = 2;
 
-/// Each voxel becomes the least (or greatest) of those within `reach` voxels along each axis. Beyond the border lies
-/// what lies on it, so that a body that the CT cuts is not peeled there.
+/// Erosion (or dilation): each voxel becomes the minimum (or maximum) within `reach` voxels along each axis. Values
+/// beyond the border equal those on it, so that a body cut by the CT is not eroded there.
 void filter_box(Volume<std::uint8_t>& mask, const glm::ivec3& reach, bool grow) {
   const glm::ivec3 size = mask.grid.size;
   const std::ptrdiff_t strides[3] = {1, size.x, std::ptrdiff_t(size.x) * size.y};
@@ -31,7 +31,7 @@ void filter_box(Volume<std::uint8_t>& mask, const glm::ivec3& reach, bool grow) 
         for (int u = 0; u < size[a]; ++u) {
           std::uint8_t* at = mask.voxels.data() + u * strides[a] + v * strides[b];
           for (int i = 0; i < n; ++i) line[std::size_t(i)] = at[i * strides[axis]];
-          // How far the last voxel of the wanted kind is behind; then the same from the other end.
+          // Distance to the last voxel of the spreading value; then the same from the other end.
           const std::uint8_t spreads = grow ? 1 : 0;
           int away = reach[axis] + 1;
           for (int i = 0; i < n; ++i) {
@@ -48,7 +48,7 @@ void filter_box(Volume<std::uint8_t>& mask, const glm::ivec3& reach, bool grow) 
   }
 }
 
-/// Leaves the largest piece of voxels that touch by their faces; of equal ones the first in memory.
+/// Keeps the largest piece of face-connected voxels. Among equal ones, keeps the first in memory.
 void keep_largest_piece(Volume<std::uint8_t>& mask) {
   const glm::ivec3 size = mask.grid.size;
   std::vector<std::uint32_t> piece_of(mask.voxels.size());
@@ -88,7 +88,7 @@ void keep_largest_piece(Volume<std::uint8_t>& mask) {
   for (std::size_t v = 0; v < mask.voxels.size(); ++v) mask.voxels[v] = largest != 0 && piece_of[v] == largest;
 }
 
-/// Fills what each slice across the body's length encloses.
+/// Fills everything that is enclosed in a slice perpendicular to the body's length.
 void fill_slices(Volume<std::uint8_t>& mask) {
   const Grid& grid = mask.grid;
   const glm::ivec3 size = grid.size;

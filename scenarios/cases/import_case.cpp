@@ -15,7 +15,7 @@
 namespace insonate {
 namespace {
 
-// How the work is shared out on a 2 mm CT of an abdomen; for the progress alone.
+// Shares of the work for a 2 mm CT of an abdomen; used only for the progress.
 constexpr double kCtRead = 0.1, kLabelsRead = 0.3, kBodyFound = 0.4;
 
 Volume<std::int16_t> read_at_working_spacing(const ImportRequest& request) {
@@ -26,7 +26,7 @@ Volume<std::int16_t> read_at_working_spacing(const ImportRequest& request) {
   return ct;
 }
 
-/// Takes away what is around the body, and labels with it; returns the body.
+/// Removes everything around the body, and the labels there. Returns the body.
 BodyMask clear_surroundings(const std::string& ct_name, Case& subject, std::vector<std::string>& notes) {
   BodyMask body = find_body(subject.ct);
   if (body.empty())
@@ -73,7 +73,7 @@ ImportedCase import_case(const ImportRequest& request, const TissueTable& tissue
   made.notes = std::move(segmentation.notes);
   tell(kLabelsRead);
 
-  // Against the whole CT: what lies outside the body is a sign of labels that do not belong here.
+  // Checked before the surroundings are cleared: labels outside the body indicate labels of another scan.
   for (std::string& note : check_plausible(request.labels.string(), subject, structure_shapes(subject)))
     made.notes.push_back(std::move(note));
   const BodyMask body = clear_surroundings(request.ct.string(), subject, made.notes);

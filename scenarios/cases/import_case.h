@@ -10,27 +10,28 @@
 
 namespace insonate {
 
-/// A patient's CT and its segmentation, as a person names them.
+/// The user's input for an import: a patient's CT and its segmentation.
 struct ImportRequest {
-  std::filesystem::path ct;      ///< whatever read_ct() reads
-  std::filesystem::path labels;  ///< whatever read_segmentation() reads
-  std::string label_table;       ///< for labels without names: see read_segmentation()
-  std::string name;              ///< of the case; "Patient" when empty: a file's name may be a person's
+  std::filesystem::path ct;      ///< any input of read_ct()
+  std::filesystem::path labels;  ///< any input of read_segmentation()
+  std::string label_table;       ///< for labels without names; see read_segmentation()
+  std::string name;              ///< name of the case; "Patient" if empty, because a file's name may be a person's
 };
 
+/// The result of an import.
 struct ImportedCase {
   Case subject;
-  std::vector<std::string> notes;  ///< a sentence each: what was guessed, changed or left out
+  std::vector<std::string> notes;  ///< one sentence for each guess, change or omission
 };
 
-/// Makes a case of a CT and what TotalSegmentator found in it. The CT is brought to voxels of kInsonatedVoxelMm where
-/// it is coarser, and cleared of table and clothes; labels come along by nearest neighbour.
+/// Makes a case from a CT and its segmentation by TotalSegmentator. Resamples a coarser CT to voxels of
+/// kInsonatedVoxelMm and removes table and clothes. Labels are resampled by nearest neighbour.
 ///
-/// Landmarks of each compact organ (liver, spleen, kidneys, gallbladder, pancreas, bladder, prostate) are its centre,
-/// "liver_centre", and the ends of its long axis, "kidney_right_upper_pole"; of the aorta and the vena cava in the
-/// abdomen their centres at the heights of whole vertebrae, "aorta_l2", or at a quarter, half and three quarters of
-/// their length, "aorta_lower"; "hepatorenal_recess" and "splenorenal_recess" lie where the two organs come closest.
-/// Views are those of suggest_views(). Throws InputError.
+/// Each compact organ (liver, spleen, kidneys, gallbladder, pancreas, bladder, prostate) has landmarks at its centre,
+/// "liver_centre", and at the ends of its long axis, "kidney_right_upper_pole". The abdominal aorta and vena cava have
+/// landmarks at their centres at the heights of whole vertebrae, "aorta_l2", or else at a quarter, half and three
+/// quarters of their length, "aorta_lower". "hepatorenal_recess" and "splenorenal_recess" lie where the two organs come
+/// closest. The views are those of suggest_views(). Throws InputError if the input cannot be read or is implausible.
 ImportedCase import_case(const ImportRequest& request, const TissueTable& tissues, const Progress& progress = {});
 
 }  // namespace insonate

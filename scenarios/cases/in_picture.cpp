@@ -10,7 +10,7 @@
 namespace insonate {
 namespace {
 
-/// How many places of the fan each label has.
+/// Returns the number of sampled points of the fan in each label.
 std::array<long, 256> places_of_labels(const Case& subject, const Probe& probe, double depth_mm,
                                        const Pose& patient_from_probe) {
   std::array<long, 256> places{};

@@ -9,19 +9,20 @@
 
 namespace insonate {
 
-/// What a picture shows of a case.
+/// The structures and landmarks of a case in a picture.
 struct InPicture {
-  std::vector<std::string> structures;  ///< names of labels, that with the largest area in the fan first
-  std::vector<std::string> landmarks;   ///< names, as ViewMeter takes them for being in the picture; as in the case
+  std::vector<std::string> structures;  ///< names of labels, by falling area in the fan
+  std::vector<std::string> landmarks;   ///< names of those in the picture by ViewMeter's rule; in the case's order
 };
 
-/// Of the picture that a probe takes at a pose. Structures are looked for every kLookedAt_mm, so that one smaller than
-/// that in the plane may be missed; whether anything reaches them is not asked.
-/// @param depth_mm  of the picture, from the face
+/// Returns the content of a probe's picture at a pose. Structures are sampled every kLookedAt_mm, so that a smaller one
+/// in the plane may be missed. Whether sound reaches them is not checked.
+/// @param depth_mm  depth of the picture from the face
 InPicture in_picture(const Case& subject, const Probe& probe, double depth_mm, const Pose& patient_from_probe);
 inline constexpr double kLookedAt_mm = 1;
 
-/// Why a landmark is not in that picture, as the end of a sentence about it; empty when it is.
+/// Returns why a landmark is not in that picture, as the end of a sentence about it. Returns an empty text if it is in
+/// the picture.
 std::string why_not_in_picture(const Landmark& landmark, const Probe& probe, double depth_mm,
                                const Pose& patient_from_probe);
 

@@ -43,7 +43,7 @@ LabelNames parse_table(const fs::path& file, const std::string& xml) {
 
 LabelNames read_nifti_label_table(const fs::path& file) {
   for (const std::string& extension : read_nifti_extensions(file)) {
-    // TotalSegmentator leaves the extension's code at 0, "unknown", so that the text alone tells what it is.
+    // TotalSegmentator leaves the extension's code at 0, "unknown", so that only the text identifies it.
     if (extension.find("<LabelTable") == std::string::npos) continue;
     return parse_table(file, extension.substr(0, extension.find('\0')));
   }

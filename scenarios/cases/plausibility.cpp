@@ -10,7 +10,7 @@
 namespace insonate {
 namespace {
 
-/// How many of the comparisons that can be made come out against anatomy.
+/// Counts the comparisons that were possible and lists those that contradict anatomy.
 struct Tally {
   int made = 0;
   std::vector<std::string> against;
@@ -79,7 +79,8 @@ Tally compare_depths(const std::vector<StructureShape>& shapes) {
   return tally;
 }
 
-/// What a structure's median density may be, HU: far wider than in any patient, since only gross mistakes count.
+/// Plausible range of a structure's median density, HU. It is far wider than in any patient, because only gross errors
+/// count.
 struct DensityRange {
   std::string_view tissue;
   int least, most;
@@ -87,11 +88,11 @@ struct DensityRange {
 constexpr std::array kDensities = {DensityRange{"lung", -1024, -300}, DensityRange{"liver", -60, 300},
                                    DensityRange{"spleen", -20, 400},  DensityRange{"kidney_cortex", -20, 500},
                                    DensityRange{"muscle", -60, 500},  DensityRange{"bone", 60, 3000}};
-constexpr std::size_t kTooSmall = 100;  // voxels: the edge of something
+constexpr std::size_t kTooSmall = 100;  // voxels: only the edge of a structure
 
-/// Bones are a tally of their own: labels that lie elsewhere come out against most bones, while what is soft lies next
-/// to what is as soft. (The upper abdomen of the test data, 20 mm along the body: 7 of 10 bones are against, and none
-/// of 9 others.) One or two, which a tumour may have softened, are judged with the rest.
+/// Bones have their own tally. If labels are in the wrong place, most bones fail, but soft tissue lies next to equally
+/// soft tissue. (In the upper abdomen of the test data, shifted by 20 mm along the body, 7 of 10 bones fail, and none
+/// of 9 other structures.) One or two bones, which a tumour may have softened, are judged with the rest.
 struct Densities {
   Tally bones, others;
 };

@@ -7,10 +7,10 @@
 
 namespace insonate {
 
-/// Holds labels against anatomy and against the CT they lie on: right is right of left, vertebrae lie in their order,
-/// front organs before the spine, and lungs, soft organs and bones are about as dense as they should be. What only a
-/// single structure breaks comes back as notes, a sentence each. Throws InputError, naming `file`, when the labels are
-/// mirrored, turned, or another scan's.
+/// Checks labels against anatomy and against their CT. Right structures lie to the right of left ones, vertebrae lie in
+/// their order, and front organs lie before the spine. Lungs, soft organs and bones have plausible densities. Returns
+/// notes, one sentence each, for deviations of single structures. Throws InputError naming `file` if the labels are
+/// mirrored, rotated or from another scan.
 std::vector<std::string> check_plausible(const std::string& file, const Case& subject,
                                          const std::vector<StructureShape>& shapes);
 

@@ -48,7 +48,7 @@ std::string box_of(const Grid& grid) {
   return text + " mm";
 }
 
-/// How much of what a file labels lies within the CT, voxel by voxel of the file.
+/// Returns the share of a file's labelled voxels that lie within the CT.
 double share_within(const Volume<std::uint8_t>& labels, const Grid& ct) {
   const glm::dvec3 zero = ct.index_from_patient(labels.grid.patient_from_index(glm::dvec3(0.0)));
   glm::dmat3 step;
@@ -57,7 +57,7 @@ double share_within(const Volume<std::uint8_t>& labels, const Grid& ct) {
     unit[axis] = 1;
     step[axis] = ct.index_from_patient(labels.grid.patient_from_index(unit)) - zero;
   }
-  constexpr double kRounding = 1e-3;  // of a voxel: what float headers lose
+  constexpr double kRounding = 1e-3;  // in voxels: rounding error of float headers
   std::size_t all = 0, within = 0, v = 0;
   for (int k = 0; k < labels.grid.size.z; ++k)
     for (int j = 0; j < labels.grid.size.y; ++j)
@@ -79,7 +79,7 @@ std::string percent(double share) {
   return text;
 }
 
-/// A structure's name as case files take it.
+/// Returns a structure's name in the form that case files accept.
 std::string identifier(const std::string& file, const std::string& name) {
   std::string plain;
   bool any = false;
@@ -174,12 +174,12 @@ std::vector<Mask> masks_in(const fs::path& folder) {
       }
   }
   if (error) throw InputError(folder.string(), "", "the folder cannot be read (" + error.message() + ")", "check it");
-  // The order in which a file system lists its files is its own affair.
+  // The order of a directory listing is undefined.
   std::sort(masks.begin(), masks.end(), [](const Mask& a, const Mask& b) { return a.file < b.file; });
   return masks;
 }
 
-/// Reads masks one after the other into one label volume.
+/// Merges masks one by one into one label volume.
 class MaskMerger {
 public:
   explicit MaskMerger(const Grid& ct) : ct_(ct) {
@@ -219,7 +219,7 @@ public:
     for (const auto& [pair, voxels] : overlaps_)
       made_.notes.push_back(std::to_string(voxels) + " voxels are claimed by '" + name_of(pair.first) + "' and '" +
                             name_of(pair.second) + "'; the smaller, '" + name_of(pair.first) + "', has them.");
-    // One that lies within smaller ones altogether has no voxel left.
+    // A structure that lies completely within smaller ones has no voxels left.
     const Counts kept = count_values(made_.labels);
     std::erase_if(made_.table, [&](const Label& label) {
       if (kept[label.value] == 0) made_.notes.push_back("'" + label.name + "' lies within others and is left out.");
@@ -231,7 +231,7 @@ public:
 private:
   const std::string& name_of(int value) const { return made_.table[std::size_t(value) - 1].name; }
 
-  /// Of two structures the smaller has what both claim; of two equal ones that which came first.
+  /// Gives each voxel that two structures claim to the smaller one, or to the first if they are equal.
   void merge(const Volume<std::uint8_t>& mask, std::uint8_t value) {
     const std::size_t size = sizes_[value - 1u];
     for (std::size_t v = 0; v < mask.voxels.size(); ++v) {
@@ -250,7 +250,7 @@ private:
   const Grid& ct_;
   Segmentation made_;
   std::vector<std::size_t> sizes_;                       ///< by value - 1, voxels before any overlap
-  std::map<std::pair<int, int>, std::size_t> overlaps_;  ///< voxels by (who has them, who claims them)
+  std::map<std::pair<int, int>, std::size_t> overlaps_;  ///< voxels by (winner, loser)
   std::optional<Grid> last_outside_;
   int empty_ = 0;
 };

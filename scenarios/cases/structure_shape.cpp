@@ -68,7 +68,7 @@ std::vector<Moments> moments_of(const Volume<std::uint8_t>& labels) {
   return all;
 }
 
-/// Calls `use` with the index of each of a structure's voxels, in the order of memory.
+/// Calls `use` with the index of each of a structure's voxels, in memory order.
 template <typename Use>
 void for_each_voxel(const Case& subject, const StructureShape& shape, Use use) {
   for (int k = shape.low.z; k <= shape.high.z; ++k)
@@ -78,7 +78,8 @@ void for_each_voxel(const Case& subject, const StructureShape& shape, Use use) {
 }
 
 void set_axes(const Grid& grid, const Moments& m, StructureShape& shape) {
-  // In index space, then to the patient. A voxel is a box, which adds its own twelfth.
+  // The covariance is computed in index space, then transformed to the patient. Each voxel is a box, whose own variance
+  // is 1/12.
   const glm::dvec3 mean = m.mean_index();
   const auto central = [&](std::size_t sum, int a, int b) {
     return double(m.second[sum]) / double(m.count) - mean[a] * mean[b];
@@ -93,7 +94,7 @@ void set_axes(const Grid& grid, const Moments& m, StructureShape& shape) {
     for (int r = 0; r < 3; ++r) to_patient(r, c) = grid.direction[c][r] * grid.spacing[c];
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solved(to_patient * index * to_patient.transpose());
   for (int a = 0; a < 3; ++a) {
-    const int from = 2 - a;  // Eigen's rise
+    const int from = 2 - a;  // Eigen sorts eigenvalues in ascending order
     shape.deviation_mm[a] = std::sqrt(std::max(0.0, solved.eigenvalues()[from]));
     shape.axes[a] =
         marker_side({solved.eigenvectors()(0, from), solved.eigenvectors()(1, from), solved.eigenvectors()(2, from)});
@@ -195,10 +196,10 @@ std::optional<glm::dvec3> centre_at_height(const Case& subject, const StructureS
 
 std::optional<Contact> contact_between(const Case& subject, const StructureShape& a, const StructureShape& b,
                                        double most_mm) {
-  constexpr double kAsClose_mm = 3;  // above the least gap: about a voxel of a coarse CT
+  constexpr double kAsClose_mm = 3;  // above the smallest gap: about one voxel of a coarse CT
   const Grid& grid = subject.labels.grid;
-  // What of the surfaces lies in the other's neighbourhood, of one of them every second voxel: pairs are searched by
-  // trying all.
+  // The search compares all pairs. It uses only surface voxels in the other structure's neighbourhood, and every second
+  // one of `a`.
   const auto surface_near = [&](const StructureShape& shape, const StructureShape& other, bool thinned) {
     std::vector<glm::dvec3> points;
     for_each_voxel(subject, shape, [&](const glm::ivec3& i) {
@@ -238,7 +239,7 @@ std::optional<Contact> contact_between(const Case& subject, const StructureShape
       ++count;
     }
   if (count == 0) return std::nullopt;
-  // The mean of a curved surface lies beside it: take the pair nearest to it.
+  // The mean of a curved surface does not lie on it: take the pair nearest to the mean.
   const glm::dvec3 mean = sum / double(count);
   Contact contact{{}, least};
   double nearest = std::numeric_limits<double>::max();

@@ -9,8 +9,8 @@
 namespace insonate {
 namespace {
 
-// The order of the values in TotalSegmentator's class map (github.com/wasserth/TotalSegmentator,
-// totalsegmentator/map_to_binary.py, "total_v1" and "total"), from 1 up. A name with A..B stands for a row of names.
+// Names in the order of their values, from 1, in TotalSegmentator's class map (github.com/wasserth/TotalSegmentator,
+// totalsegmentator/map_to_binary.py, "total_v1" and "total"). A name with A..B stands for a series of names.
 constexpr std::string_view kTotalV1 =
     "spleen kidney_right kidney_left gallbladder liver stomach aorta inferior_vena_cava portal_vein_and_splenic_vein "
     "pancreas adrenal_gland_right adrenal_gland_left lung_upper_lobe_left lung_lower_lobe_left lung_upper_lobe_right "
@@ -53,8 +53,8 @@ LabelNames numbered(std::string_view list) {
   return names;
 }
 
-// By the name or its beginning; the first that fits counts. A kidney is one label with its sinus, and most of it is
-// cortex; hollow organs are taken as filled with what a fasting patient has in them.
+// Tissue by a structure's name or its beginning; the first match counts. A kidney is one label including its sinus, and
+// most of it is cortex. Hollow organs are assumed to be filled as in a fasting patient.
 constexpr std::array kTissues =
     std::to_array<std::pair<std::string_view, std::string_view>>({{"spleen", "spleen"},
                                                                   {"kidney", "kidney_cortex"},
@@ -105,7 +105,7 @@ constexpr std::array kTissues =
                                                                   {"brain", "soft_tissue"},
                                                                   {"face", "soft_tissue"}});
 
-// What is found in or beside an organ, by a part of its name: a cyst of the liver is drawn as a cyst.
+// Findings in or beside an organ, by a part of the name: a cyst of the liver is drawn as a cyst.
 constexpr std::array kFindings = std::to_array<std::pair<std::string_view, std::string_view>>({{"cyst", "cyst"},
                                                                                                {"stone", "stone"},
                                                                                                {"calcul", "stone"},

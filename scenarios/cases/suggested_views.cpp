@@ -11,11 +11,11 @@
 namespace insonate {
 namespace {
 
-constexpr double kBehind_mm = 20;  // of the picture, beyond the deepest that is seen: what lies there tells the place
+constexpr double kBehind_mm = 20;  // shown beyond the deepest visible target, for orientation
 constexpr double kLeastDepth_mm = 80, kMostDepth_mm = 240, kDepthStep_mm = 10;
 const glm::dvec3 kHead(0, 0, 1), kRight(-1, 0, 0);
 
-/// A view to look for.
+/// A candidate for a view.
 struct Plan {
   std::string name, title;
   std::vector<std::string> targets;
@@ -38,8 +38,8 @@ void plan_organ(const StructureShape& organ, std::vector<Plan>& plans) {
     plans.push_back(
         {name + "_" + which, title + ", " + which + " axis", {name}, {organ.centre, axis, along, {organ.label.value}}});
   };
-  // Bladder and prostate lie in the midline and change their shape from hour to hour: they are looked at in the planes
-  // of the body.
+  // Bladder and prostate lie in the midline and change their shape from hour to hour. They are scanned in the planes of
+  // the body.
   const bool by_body = name == "urinary_bladder" || name == "prostate";
   add("long", by_body ? kRight : organ.axes[0], !by_body);
   add("short", by_body ? kHead : organ.axes[0], false);
@@ -70,9 +70,9 @@ Plan plan_recess(const Recess& recess) {
           {recess.point, recess.kidney->axes[0], true, {organ.value, kidney.value}}};
 }
 
-/// The landmarks that belong to the view's targets, or to the view itself, and lie in its picture.
+/// Returns the landmarks in the view's picture that belong to its targets or to the view itself.
 std::vector<std::string> landmarks_in(const Case& subject, const Probe& probe, const ReferenceView& view) {
-  constexpr double kOnPlane_mm = 0.8 * ViewMeter::kLandmarkDistance_mm;  // not at the limit of what counts
+  constexpr double kOnPlane_mm = 0.8 * ViewMeter::kLandmarkDistance_mm;  // margin to the limit that counts
   const Pose probe_from_patient = view.patient_from_probe.inverse();
   std::vector<std::string> names;
   for (const Landmark& landmark : subject.landmarks) {
@@ -93,7 +93,7 @@ public:
         probe_(*find_probe("curvilinear")),
         search_(subject, body, tissues, probe_) {}
 
-  /// The first of plans for one view that shows most; they differ in their aim alone.
+  /// Adds the plan that shows most, or the first among equals. The plans are for one view and differ only in their aim.
   void add_best(const std::vector<Plan>& plans) {
     const Plan* chosen = nullptr;
     std::optional<Window> window;
@@ -124,7 +124,7 @@ public:
     view.targets = chosen->targets;
     view.patient_from_probe = window->patient_from_probe;
     view.landmarks = landmarks_in(subject_, probe_, view);
-    ViewMeter(subject_, view, tissues_);  // as a scenario will
+    ViewMeter(subject_, view, tissues_);  // throws if a scenario could not use the view
     made_.views.push_back(std::move(view));
     made_.notes.push_back("View '" + chosen->name + "' shows " + shows + ".");
   }

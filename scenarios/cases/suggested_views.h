@@ -10,24 +10,26 @@
 
 namespace insonate {
 
-/// What a view must show of its targets: of what its fan holds of them, this much clear of bone and gas, and of their
-/// section in its plane this much.
+/// The least that a view must show of its targets: this share of their area in its fan is clear of bone and gas, and
+/// this share of their section in its plane is visible.
 inline constexpr double kLeastClear = 0.5, kLeastSection = 0.25;
 
+/// The result of suggest_views().
 struct SuggestedViews {
   std::vector<ReferenceView> views;
-  std::vector<std::string> notes;  ///< a sentence for each view: how much it shows, or why it is not there
+  std::vector<std::string> notes;  ///< one sentence per view: how much it shows, or why it is left out
 };
 
-/// Views with the curvilinear probe that the anatomy gives and an acoustic window (acoustic_window.h) lets through:
-///   liver_long, liver_short, ...          the plane along the organ's long axis, or square to it, through its centre;
-///                                         of bladder and prostate sagittal and transverse
-///   aorta_transverse_l2, ..., aorta_long  square to the vessel at each of its levels, and along it at the level that
-///                                         shows best
+/// Returns views for the curvilinear probe that follow from the anatomy and have an acoustic window
+/// (acoustic_window.h):
+///   liver_long, liver_short, ...          the plane along the organ's long axis, or perpendicular to it, through its
+///                                         centre; for bladder and prostate sagittal and transverse
+///   aorta_transverse_l2, ..., aorta_long  perpendicular to the vessel at each of its levels, and along it at the level
+///                                         that shows best
 ///   hepatorenal, splenorenal              along the kidney's long axis through the recess
-/// A view that would show less than kLeastClear and kLeastSection ask for is left out. A view's landmarks are those of
-/// the case that belong to its targets and lie in its picture. The case has its volumes, labels and landmarks; every
-/// view passes ViewMeter's checks.
+/// A view below kLeastClear or kLeastSection is left out. A view's landmarks are the case's landmarks that belong to
+/// its targets and lie in its picture. The case must have its volumes, labels and landmarks. Every returned view passes
+/// ViewMeter's checks.
 SuggestedViews suggest_views(const Case& subject, const Anatomy& anatomy, const BodyMask& body,
                              const TissueTable& tissues, const Progress& progress = {});
 

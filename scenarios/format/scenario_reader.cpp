@@ -27,7 +27,7 @@ std::size_t index_of(const std::vector<std::string>& words, const std::string& w
   return std::size_t(std::find(words.begin(), words.end(), word) - words.begin());
 }
 
-/// What a scenario may lock.
+/// The settings that a scenario can lock.
 constexpr std::array kSettings{ActionKind::probe, ActionKind::depth, ActionKind::frequency, ActionKind::gain};
 
 std::set<ActionKind> read_locked(TableReader& reader) {
@@ -100,7 +100,7 @@ std::vector<Criterion> read_criteria(TableReader& parent, const std::string& whe
   return criteria;
 }
 
-/// Criteria that the step's kind has no value for.
+/// Reports criteria that the step's kind does not measure.
 void check_criteria(const Step& step, const std::string& where, std::vector<ScenarioProblem>& problems) {
   const std::vector<Metric> own = step.task->metrics();
   const auto measures = [&](const MetricInfo& m) {
@@ -121,7 +121,7 @@ void check_criteria(const Step& step, const std::string& where, std::vector<Scen
   }
 }
 
-/// Settings that the exam locks and the step wants changed.
+/// Reports settings that the exam locks and the step asks to change.
 void check_locks(const Step& step, const Scenario& exam, TableReader& reader) {
   for (const ActionKind setting : step.task->settings())
     if (exam.locked.contains(setting))
@@ -186,7 +186,7 @@ Step read_step(TableReader& reader, const Scenario& exam) {
 const std::vector<std::string> kOrders{"fixed", "free"};
 const std::vector<std::string> kDifficulties{"easy", "medium", "hard"};
 
-/// Where steps go on: to later steps that are there.
+/// Checks that names are unique and that steps go on to existing later steps.
 void check_names(const std::vector<Step>& steps, const std::vector<SourcePlace>& places,
                  std::vector<ScenarioProblem>& problems) {
   std::vector<std::string> names;
@@ -253,7 +253,7 @@ Scenario read_tables(TableReader& reader, const Variant* variant) {
       reader.problem(reader.place("variant"), "has phantom options for the case '" + scenario.case_name + "'",
                      "remove them, or set case = \"abdomen\"");
   }
-  read_variants(reader);  // they were looked at before: here their keys are checked and known
+  read_variants(reader);  // the variants were read before; this call registers and checks their keys
   std::vector<SourcePlace> places;
   for (const auto& table : reader.tables("step", kMostSteps, "step ", "")) {
     scenario.steps.push_back(read_step(*table, scenario));
@@ -295,7 +295,7 @@ std::vector<ScenarioProblem> in_order_of_file(std::vector<ScenarioProblem> probl
   std::stable_sort(problems.begin(), problems.end(), [](const ScenarioProblem& a, const ScenarioProblem& b) {
     return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
   });
-  // What several variants have in common is said once.
+  // A problem that several variants share is reported once.
   const auto same = [](const ScenarioProblem& a, const ScenarioProblem& b) {
     return a.place.line == b.place.line && a.place.column == b.place.column && a.problem == b.problem;
   };
@@ -332,7 +332,7 @@ ReadScenario parse_every_variant(std::string_view text, const std::filesystem::p
     variants = read_variants(reader);
   }
   const auto read_with = [&](const Variant* variant) {
-    toml::table spelt = parse_toml_text(text);  // a copy would not know where in the text its values are
+    toml::table spelt = parse_toml_text(text);  // parsed again, because a copy loses the values' source positions
     if (variant) spell_out(spelt, *variant, read.problems);
     TableReader reader({&spelt}, "the scenario", read.problems);
     read.variants.push_back(read_tables(reader, variant));
@@ -354,7 +354,7 @@ ScenarioError::ScenarioError(const std::string& file, std::vector<ScenarioProble
     : InputError(as_input_error(file, in_order_of_file(problems))), problems_(in_order_of_file(std::move(problems))) {}
 
 Scenario parse_scenario(std::string_view text, const std::filesystem::path& name, std::uint32_t seed) {
-  // All are read, so that whichever a seed draws has been checked.
+  // All variants are read, so that the one that a seed selects has been checked.
   ReadScenario read = parse_every_variant(text, name);
   if (!read.problems.empty()) throw ScenarioError(name.string(), std::move(read.problems));
   Scenario scenario = std::move(read.variants[drawn(seed, read.variants.size())]);

@@ -4,7 +4,7 @@
 
 namespace insonate {
 
-/// What TableReader reads, apart from it: the parser's header is large, and few files need it.
+/// The table that TableReader reads. It has its own header because the parser's header is large and few files need it.
 struct TableNode {
   const toml::table* table;
 };

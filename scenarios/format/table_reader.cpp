@@ -37,7 +37,7 @@ TableReader::~TableReader() {
         problems_.push_back({place_of(key.source()), where_ + " has an unknown key '" + std::string(key.str()) + "'",
                              suggest(key.str(), {asked_.begin(), asked_.end()})});
   } catch (const std::bad_alloc&) {
-    // A destructor cannot throw. Only a file with a mistake comes here, and its caller needs memory too.
+    // A destructor must not throw. This code runs only for a file with an error, and its caller needs memory too.
   }
 }
 

@@ -8,7 +8,7 @@
 namespace insonate {
 namespace {
 
-/// Apart from whatever else a seed may be used for.
+/// Makes this use of the seed independent of any other use.
 constexpr std::uint32_t kVariantDraw = 0x76617269u;
 
 class Speller {

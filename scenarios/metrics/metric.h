@@ -6,10 +6,9 @@
 
 namespace insonate {
 
-/// What is measured of a scan. The definitions of the view metrics are in view_meter.h, of the motion in
-/// motion_meter.h.
+/// The quantities measured in a scan. view_meter.h defines the view metrics, motion_meter.h the motion metrics.
 enum class Metric {
-  // Of one picture, against the step's reference view; judged as the mean over the hold (see runner.h).
+  // One picture, compared with the step's reference view; scored as the mean over the hold (runner.h).
   plane_distance_mm,
   in_plane_offset_mm,
   plane_angle_deg,
@@ -21,7 +20,7 @@ enum class Metric {
   target_insonated_percent,
   landmarks_in_view_percent,
   depth_use_percent,
-  // Of a step, by its kind (scenarios/steps).
+  // A step, measured by its kind (scenarios/steps).
   longest_hold_s,
   coverage_percent,
   kept_in_view_percent,
@@ -33,7 +32,7 @@ enum class Metric {
   labels_right_percent,
   answer_right_percent,
   answer_error,
-  // Of a step or of the whole exam.
+  // A step or the whole exam.
   time_s,
   path_length_mm,
   angular_path_deg,
@@ -46,32 +45,35 @@ enum class Metric {
   spectral_arc_length,
 };
 
-/// What a metric needs to be measurable.
+/// What a metric is measured from.
 enum class MetricScope {
   picture,  ///< one sample and a reference view: also usable as a tolerance
   step,     ///< one step of a kind that measures it
-  motion    ///< any stretch of samples: also usable for the whole exam
+  motion    ///< any interval of samples: also usable for the whole exam
 };
 
+/// The description of a metric.
 struct MetricInfo {
   Metric metric;
-  std::string_view name;   ///< as scenario files and JSON spell it: "plane_distance_mm"
-  std::string_view unit;   ///< as people read it after a number: "mm", "\u00b0", "%"; empty for counts
-  std::string_view words;  ///< as a report says it: "Distance of the target from the picture's plane"
+  std::string_view name;   ///< name in scenario files and JSON: "plane_distance_mm"
+  std::string_view unit;   ///< unit shown after a number: "mm", "\u00b0", "%"; empty for counts
+  std::string_view words;  ///< name in reports: "Distance of the target from the picture's plane"
   MetricScope scope;
   bool less_is_better;
   bool needs_targets;    ///< the view must name targets that are in the case's labels
   bool needs_landmarks;  ///< the view must name landmarks
-  bool economy;          ///< of effort: earns points only where the task was done, or giving up at once would pay
-  int decimals;          ///< worth showing
+  bool economy;  ///< measures effort: earns points only if the task was done, because otherwise giving up at once would
+                 ///< pay
+  int decimals;  ///< decimal places to show
 };
 
-/// All of them, in the order of the enumeration.
+/// Returns all metrics, in the order of the enumeration.
 std::span<const MetricInfo> metrics();
 
+/// Returns the description of a metric.
 const MetricInfo& info(Metric metric);
 
-/// The metric of that name, if there is one.
+/// Returns the metric of that name, if it exists.
 std::optional<Metric> find_metric(std::string_view name);
 
 }  // namespace insonate

@@ -35,13 +35,13 @@ std::optional<double> MotionValues::of(Metric motion_metric) const {
     case Metric::skin_contact_percent:
       return 100 * on_skin_s / tracked_s;
     default:
-      return std::nullopt;  // no metric of motion
+      return std::nullopt;  // not a motion metric
   }
 }
 
 void MotionMeter::Movements::see(long grid, double speed, double limit) {
   if (!(speed > limit)) return;
-  // Steps are counted instead of times, whose differences round now up and now down.
+  // Grid steps are counted because time differences round up or down.
   constexpr long kJoinedSteps = 4;
   static_assert(kJoinedSteps / kRate_hz == kJoined_s);
   if (!last_moving || grid - 1 - *last_moving >= kJoinedSteps) ++count;

@@ -8,32 +8,32 @@
 
 namespace insonate {
 
-/// What differences of times may be off by rounding: a double holds seconds since 1970 to a quarter of a microsecond.
-/// Whoever compares one with a limit allows for it, or the score would depend on where time begins.
+/// Rounding error of time differences: a double holds seconds since 1970 to a quarter of a microsecond. Every
+/// comparison of a difference with a limit must allow for it. Otherwise the score would depend on the origin of time.
 inline constexpr double kTimeRounding_s = 1e-6;
 
-/// The way of a probe at kRate_hz, interpolated between valid samples that are no further apart than kBridged_s: what
-/// is made of it does not depend on how fast a tracker samples.
+/// Resamples the probe's path at kRate_hz. It interpolates between valid samples at most kBridged_s apart. So results
+/// do not depend on the tracker's sample rate.
 class PathGrid {
 public:
   static constexpr double kRate_hz = 20;
-  static constexpr double kBridged_s = 0.25;  ///< when a picture freezes with a banner, too
+  static constexpr double kBridged_s = 0.25;  ///< also the time after which a picture freezes with a banner
 
-  /// Whether the time between two valid samples is short enough to know what was between them.
+  /// Returns true if the time between two valid samples is short enough for interpolation.
   static bool bridges(double gap_s) { return gap_s <= kBridged_s + kTimeRounding_s; }
 
   /// Grid pose n lies n / kRate_hz after `start_s`.
   explicit PathGrid(double start_s = 0) : start_s_(start_s) {}
 
-  /// Of a stretch that begins anew at that time and knows the last sample.
+  /// Returns a grid for an interval that starts at `start_s` and knows the last sample of this one.
   PathGrid following(double start_s) const {
     PathGrid next(start_s);
     next.last_ = last_;
     return next;
   }
 
-  /// Takes a valid sample and calls `pose_at(n, pose, follows)` for each pose of the grid that it completes; `follows`
-  /// says whether grid pose n - 1 came before.
+  /// Processes a valid sample and calls `pose_at(n, pose, follows)` for each grid pose that it completes. `follows` is
+  /// true if grid pose n - 1 came before.
   template <typename PoseAt>
   void feed(double time_s, const Pose& pose, PoseAt&& pose_at) {
     const double now = time_s - start_s_;

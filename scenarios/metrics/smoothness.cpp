@@ -12,14 +12,14 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-/// The newest goes to the front.
+/// Puts the newest value first.
 template <std::size_t N>
 void push(std::array<glm::dvec3, N>& history, const glm::dvec3& newest) {
   std::move_backward(history.begin(), history.end() - 1, history.end());
   history[0] = newest;
 }
 
-/// Radix-2, in place; the size is a power of two.
+/// Radix-2 FFT in place; the size must be a power of two.
 void fourier_transform(std::vector<std::complex<double>>& data) {
   const std::size_t size = data.size();
   for (std::size_t i = 1, j = 0; i < size; ++i) {
@@ -63,7 +63,7 @@ std::optional<double> Smoothness::log_dimensionless_jerk() const {
 
 std::optional<double> Smoothness::spectral_arc_length() const {
   if (!(peak_mm_s_ > 0)) return std::nullopt;
-  // Four times as long as the next power of two, with zeros: the magnitude between the frequencies of the time's
+  // Zero padding to 4 times the next power of two interpolates the magnitude between the frequencies of the original
   // length.
   std::vector<std::complex<double>> spectrum(std::bit_ceil(speeds_mm_s_.size()) * 4);
   std::copy(speeds_mm_s_.begin(), speeds_mm_s_.end(), spectrum.begin());

@@ -13,7 +13,8 @@
 namespace insonate {
 namespace {
 
-/// Sample distance: model S's default reflection length, so that an interface costs here what it costs in the picture.
+/// Sample distance: model S's default reflection length, so that an interface attenuates here as much as in the
+/// picture.
 constexpr double kSampleDistance_mm = 0.6;
 
 double angle_between_normals_deg(const glm::dvec3& a, const glm::dvec3& b) {
@@ -27,7 +28,7 @@ std::vector<double> cell_areas(const ScanLines& set) {
     const double r = set.r_min_mm + (k + 0.5) * set.dr_mm();
     const auto point = [&](int i) { return set.lines[std::size_t(i)].start + set.lines[std::size_t(i)].direction * r; };
     for (int i = 0; i < count; ++i) {
-      // Half the way to each neighbour; the outer lines reach as far out as in.
+      // Half the distance to each neighbour. The outer lines extend outwards as far as inwards.
       const double left = glm::distance(point(std::max(i - 1, 0)), point(std::max(i, 1)));
       const double right = glm::distance(point(std::min(i, count - 2)), point(std::min(i + 1, count - 1)));
       areas[std::size_t(i) * std::size_t(set.samples) + std::size_t(k)] = set.dr_mm() * (left + right) / 2;
@@ -68,7 +69,7 @@ std::span<const ViewValues::Field> ViewValues::fields() {
 double ViewValues::of(Metric picture_metric) const {
   for (const auto& [metric, value] : fields())
     if (metric == picture_metric) return std::abs(this->*value);
-  return 0;  // no metric of a picture
+  return 0;  // not a picture metric
 }
 
 ViewMeter::ViewMeter(const Case& subject, const ReferenceView& view, const TissueTable& tissues, int lines)
@@ -119,13 +120,13 @@ ViewMeter::TargetArea ViewMeter::target_area(const Pose& patient_from_probe, dou
   std::vector<double> intensity(std::size_t(lines_.samples));
   std::vector<int> in_targets;
   for (int i = 0; i < count; ++i) {
-    // Labels lie on the CT's grid, so one way through the voxels serves both.
+    // Labels lie on the CT's grid, so one voxel line serves both.
     const VoxelLine way = voxel_line(case_->ct.grid, lines_, std::size_t(i), patient_from_probe);
     in_targets.clear();
     for (int k = 0; k < lines_.samples; ++k)
       if (is_target_[sample_nearest(case_->labels, way.at(k + 0.5))]) in_targets.push_back(k);
     if (in_targets.empty()) continue;
-    // What the sound meets behind the targets does not matter.
+    // Transmission behind the last target sample is not needed.
     transmission_.along(way, std::span(intensity).first(std::size_t(in_targets.back()) + 1));
     const ScanLine& line = lines_.lines[std::size_t(i)];
     const double across = (2 * i + 1 - count) / double(count);
@@ -167,7 +168,7 @@ ViewValues ViewMeter::measure(const Pose& patient_from_probe, double depth_mm) c
   const glm::dvec3& beam = turn[1];  // (-sin rock, cos rock cos tilt, cos rock sin tilt)
   const double tilt = std::atan2(beam.z, beam.y);
   const double rock = std::atan2(-beam.x, std::hypot(beam.y, beam.z));
-  // Where the lateral and the elevation axis would be without rotation; the probe's lateral axis lies between them.
+  // The lateral and elevation axes without rotation. The probe's lateral axis lies in their plane.
   const glm::dvec3 lateral(std::cos(rock), std::sin(rock) * std::cos(tilt), std::sin(rock) * std::sin(tilt));
   const glm::dvec3 elevation(0, -std::sin(tilt), std::cos(tilt));
   values.tilt_deg = glm::degrees(tilt);

@@ -6,9 +6,9 @@
 namespace insonate {
 namespace {
 
-/// As ViewMeter samples its lines: model S's default reflection length.
+/// Same sample distance as in ViewMeter: model S's default reflection length.
 constexpr double kSampleDistance_mm = 0.6;
-/// Between fluid and muscle: an organ such as liver or spleen, unenhanced.
+/// Between fluid and muscle: an organ such as liver or spleen, without contrast agent.
 constexpr double kSoftTissueHu = 50;
 
 Probe coarse(Probe probe) {

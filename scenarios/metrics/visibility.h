@@ -9,18 +9,22 @@
 
 namespace insonate {
 
-/// What a probe at a depth shows from a place, without a reference view to compare with: whether a point of the patient
-/// lies in the slice and the sound reaches it, the one-way transmission being above -20 dB of what soft tissue alone
-/// would let through on that way. On the CPU, in double precision, kLines lines; lines are traversed when first asked.
+/// Determines which points of a patient a probe shows, without a reference view. A point is shown if it lies in the
+/// slice and the sound reaches it. The sound reaches a point if its one-way transmission is above -20 dB of that
+/// through soft tissue alone on the same path. Runs on the CPU in double precision with kLines lines. A line is
+/// traversed only when a point on it is queried.
 class Visibility {
 public:
   static constexpr int kLines = 48;
-  static constexpr double kHalfSlice_mm = 2.5;  ///< how far off the plane still counts as in the picture
+  static constexpr double kHalfSlice_mm = 2.5;  ///< maximum distance from the plane that counts as in the picture
   static constexpr double kArrives = 0.01;      ///< -20 dB of intensity
 
+  /// Keeps a reference to the case. `depth_mm` is the depth of the picture from the face.
   Visibility(const Case& subject, const Probe& probe, double depth_mm, const TissueTable& tissues);
 
+  /// Sets the pose of the probe for the following queries.
   void look_from(const Pose& patient_from_probe);
+  /// Returns true if the point lies within kHalfSlice_mm of the plane and in the fan, and the sound reaches it.
   bool reaches(const glm::dvec3& patient_mm);
 
   const Probe& probe() const { return probe_; }
@@ -37,7 +41,7 @@ private:
   double depth_mm_;
   ScanLines lines_;
   Transmission transmission_;
-  std::vector<double> soft_tissue_;  ///< its one-way intensity at the middle of each sample
+  std::vector<double> soft_tissue_;  ///< one-way intensity of soft tissue at the middle of each sample
   Pose patient_from_probe_, probe_from_patient_;
   std::vector<Line> looked_;
 };

@@ -10,7 +10,7 @@
 namespace insonate {
 namespace {
 
-// All lengths in the drawing's own units, which are pixels on a screen.
+// All lengths are in the drawing's own units, which are pixels on a screen.
 constexpr double kWidth = 760;
 constexpr double kLeft = 46;
 constexpr double kRight = 12;
@@ -22,12 +22,12 @@ constexpr double kAxisHeight = 26;
 /// One of the charts over time.
 struct Quantity {
   const char* title;
-  double most;                 ///< the axis ends here; what lies beyond is cut
-  std::optional<Metric> mark;  ///< the criterion whose full points are drawn
+  double most;                 ///< end of the axis; larger values are clipped
+  std::optional<Metric> mark;  ///< draws the value that earns full points for this criterion
   std::function<double(const TracePoint&)> value;
 };
 
-/// Places a chart's values in the drawing.
+/// Maps a chart's values to positions in the drawing.
 struct Axes {
   double top;
   double duration_s;
@@ -48,7 +48,7 @@ std::string curve(const Quantity& quantity, const Axes& axes, std::span<const Tr
   return "<path class='curve' d='" + path + "'/>";
 }
 
-/// Grey bars where no pose came.
+/// Grey bars for the times without a pose.
 std::string untracked(const Axes& axes, std::span<const TracePoint> trace) {
   std::string bars;
   for (std::size_t i = 0; i < trace.size(); ++i) {

@@ -8,9 +8,9 @@
 
 namespace insonate {
 
-/// Distance, angle, what the sound reaches, and speed over time, one below the other on one time axis: the steps, the
-/// times the pictures are judged by, the values that earn full points, and where tracking was lost. An SVG element to
-/// put into a page; colours are CSS classes of the report's style.
+/// Returns an SVG element with charts of distance, angle, insonated target and speed over time, stacked on one time
+/// axis. They show the steps, the judged times, the values that earn full points, and tracking losses. Colours are CSS
+/// classes of the report's style.
 std::string time_charts_svg(const ExamResult& result, std::span<const TracePoint> trace);
 
 }  // namespace insonate

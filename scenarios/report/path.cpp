@@ -12,13 +12,13 @@
 namespace insonate {
 namespace {
 
-// All lengths in the drawings' own units, which are pixels on a screen.
+// All lengths are in the drawings' own units, which are pixels on a screen.
 constexpr double kTop = 26;
 constexpr double kSize = 300;
 constexpr double kMargin = 24;
 constexpr double kGap = 20;
 
-/// What the drawings show.
+/// The content of the drawings.
 struct Way {
   glm::dvec3 low{0.0}, high{0.0};  ///< patient, mm
   glm::dvec3 start{0.0};
@@ -26,12 +26,12 @@ struct Way {
     std::size_t step;
     std::vector<glm::dvec3> points;
   };
-  std::vector<Stretch> stretches;  ///< without a gap each
+  std::vector<Stretch> stretches;  ///< each without a gap
   struct Spot {
     glm::dvec3 at;
     bool held;
   };
-  std::vector<Spot> spots;  ///< where each step's picture was judged
+  std::vector<Spot> spots;  ///< places where each step's picture was judged
 
   glm::dvec3 middle() const { return (low + high) / 2.0; }
   double across() const { return std::max({high.x - low.x, high.y - low.y, high.z - low.z, 20.0}); }
@@ -61,11 +61,11 @@ std::optional<Way> way_of(const ExamResult& result, std::span<const TracePoint> 
   return way;
 }
 
-/// One of the two projections of the probe's way.
+/// One of the two projections of the probe's path.
 struct Projection {
   const char* title;
-  const char* left_side;  ///< what is seen at the drawing's left
-  glm::dvec3 right;       ///< patient direction that runs to the right
+  const char* left_side;  ///< label at the drawing's left
+  glm::dvec3 right;       ///< patient direction that points to the right
   glm::dvec3 up;
 };
 
@@ -103,7 +103,7 @@ std::string triple(const glm::dvec3& p) {
   return print("%.1f,%.1f,%.1f", p.x, p.y, p.z);
 }
 
-/// The way about its middle, mm, as the script of the drawing that turns reads it.
+/// Returns the path relative to its middle, mm, in the form that the script of the rotatable drawing reads.
 std::string way_json(const Way& way) {
   std::string ways, spots;
   for (const Way::Stretch& stretch : way.stretches) {
@@ -122,7 +122,7 @@ std::string way_json(const Way& way) {
 std::string path_html(const ExamResult& result, std::span<const TracePoint> trace) {
   const std::optional<Way> way = way_of(result, trace);
   if (!way) return "";
-  // LPS: +x to the patient's left, which is at the right of both drawings, as on a CT.
+  // LPS: +x points to the patient's left, which is at the right of both drawings, as on a CT.
   const Projection front{"From the front", "R", {1, 0, 0}, {0, 0, 1}};
   const Projection feet{"From the feet", "R", {1, 0, 0}, {0, -1, 0}};
   const double width = 2 * kSize + kGap, height = kTop + kSize + 4;

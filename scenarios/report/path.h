@@ -8,8 +8,8 @@
 
 namespace insonate {
 
-/// The way of the probe's face over the patient, as HTML to put into a page: seen from the front and from the feet, in
-/// the patient's proportions, and a drawing that can be turned with the mouse. Empty without a valid point.
+/// Returns the path of the probe's face over the patient as HTML for a page. It contains views from the front and from
+/// the feet, to scale, and a drawing that the reader can rotate with the mouse. Empty without a valid point.
 std::string path_html(const ExamResult& result, std::span<const TracePoint> trace);
 
 }  // namespace insonate

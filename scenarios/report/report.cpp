@@ -102,7 +102,7 @@ std::string base64(std::string_view bytes) {
   return text;
 }
 
-/// The learner's picture on the left, the one to compare it with on the right.
+/// The learner's picture on the left, the reference picture on the right.
 std::string pictures_of(std::size_t step, const std::vector<ReportPicture>& pictures) {
   struct Place {
     ReportPicture::Kind kind;
@@ -146,7 +146,7 @@ std::string section(const StepResult& step, std::size_t index, const std::vector
   return html + table(step.criteria) + pictures_of(index, pictures) + "</section>\n";
 }
 
-/// A line for each step: what an examiner looks at first.
+/// One line per step, as a summary for the examiner.
 std::string overview(const ExamResult& result) {
   const auto line = [](const std::string& name, const std::string& outcome, double time_s,
                        const std::vector<CriterionScore>& criteria) {
@@ -187,7 +187,7 @@ std::string verdict(const ExamResult& result) {
   return html + overview(result) + "</div>\n";
 }
 
-/// What a reader has to know before he compares it with others.
+/// Returns the kind of attempt. Readers need it before they compare reports.
 std::string kind_of_report(std::optional<AttemptMode> mode) {
   if (!mode) return "Score report";
   switch (*mode) {

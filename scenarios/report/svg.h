@@ -4,12 +4,12 @@
 
 namespace insonate {
 
-// What the drawings of a report share.
+// Helpers for the drawings of a report.
 
-/// printf into a string: numbers in SVG want a fixed, short form.
+/// Formats into a string as printf does: numbers in SVG need a fixed, short form.
 [[gnu::format(printf, 1, 2)]] std::string print(const char* format, ...);
 
-/// A round number of about a fifth of the span: 1, 2 or 5 times a power of ten.
+/// Returns a round number of about a fifth of the span: 1, 2 or 5 times a power of ten.
 double round_step(double span);
 
 }  // namespace insonate

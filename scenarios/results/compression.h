@@ -7,11 +7,11 @@
 
 namespace insonate {
 
-/// zlib's format (RFC 1950), which carries a checksum of the bytes.
+/// Compresses bytes to zlib's format (RFC 1950), which includes a checksum of the bytes.
 std::string compressed(std::string_view bytes);
 
-/// The way back, to exactly `size` bytes: no more is ever allocated, whatever the data claim. Empty when they are
-/// damaged or come to another size.
+/// Decompresses to exactly `size` bytes. Never allocates more, whatever the data claim. Returns nothing if the data are
+/// damaged or have another size.
 std::optional<std::string> decompressed(std::string_view zlib, std::size_t size);
 
 }  // namespace insonate

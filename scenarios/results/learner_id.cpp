@@ -15,7 +15,7 @@ std::string why_no_learner_id(std::string_view id) {
            std::to_string(kLongest);
   if (id.find_first_not_of(kAllowed) != std::string_view::npos) {
     std::string shown(id);
-    // Bytes of other alphabets would not print; the id may come from any file.
+    // Bytes outside printable ASCII would not display correctly, and the id may come from any file.
     std::replace_if(
         shown.begin(), shown.end(), [](unsigned char c) { return c < 0x20 || c > 0x7e; }, '?');
     return "'" + shown + "' is no opaque id: letters A to Z, digits, '.', '_' and '-' make one";

@@ -5,16 +5,16 @@
 
 namespace insonate {
 
-/// Who took an exam, as an opaque id: 1 to 64 letters of ASCII, digits, '.', '_' and '-'. Names and mail addresses do
-/// not pass, or at least not as people write them; the list of who is who stays with the lab.
+/// A learner's id is opaque: 1 to 64 ASCII letters, digits, '.', '_' and '-'. Names and mail addresses in their usual
+/// form are refused. The lab keeps the list that assigns ids to people.
 
-/// What is wrong with an id, as the problem part of an InputError; empty when nothing is.
+/// Returns what is wrong with an id, as the problem part of an InputError. Returns an empty text for a valid id.
 std::string why_no_learner_id(std::string_view id);
 
-/// Throws InputError when there is something wrong with it. `place` says where the id stands: "--learner".
+/// Throws InputError if the id is not valid. `place` is where the id stands: "--learner".
 void check_learner_id(std::string_view id, const std::string& file, const std::string& place);
 
-/// Of attempts when nobody said whose they are.
+/// The id of attempts without a named learner.
 inline constexpr const char* kNobodyInParticular = "anonymous";
 
 }  // namespace insonate

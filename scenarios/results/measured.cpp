@@ -25,7 +25,7 @@ std::optional<double> value_of(const StepResult& step, const MetricInfo& metric)
 
 void add(std::vector<Measured>& list, std::optional<std::size_t> step, Metric metric, std::optional<double> value,
          const CriterionScore* mark) {
-  // What was judged is told as it was judged.
+  // A judged metric has the value that was judged.
   if (mark) value = mark->value;
   if (value || mark) list.push_back({step, metric, value, mark});
 }

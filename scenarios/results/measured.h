@@ -8,15 +8,16 @@
 
 namespace insonate {
 
-/// One value of a result: what was measured, and the mark if it was judged.
+/// One value of a result, with its score if a criterion judged it.
 struct Measured {
   std::optional<std::size_t> step;  ///< counted from 0; empty for the whole exam
   Metric metric{};
-  std::optional<double> value;           ///< empty when it was judged but could not be measured
-  const CriterionScore* mark = nullptr;  ///< in the result; nullptr when it was not judged
+  std::optional<double> value;           ///< empty if it was judged but could not be measured
+  const CriterionScore* mark = nullptr;  ///< points into the result; nullptr if it was not judged
 };
 
-/// Everything that a result measured or judged, step by step and then the whole exam, each in the order of metrics().
+/// Returns every measured or judged value of a result: step by step, then the whole exam, each in the order of
+/// metrics(). The values point into `result`.
 std::vector<Measured> measured(const ExamResult& result);
 
 }  // namespace insonate

@@ -10,10 +10,10 @@
 
 namespace insonate {
 
-/// The bytes of two columns, their size before they were compressed and what they were compressed to. Empty when they
-/// are damaged.
+/// Returns the decompressed bytes of two columns: the size before compression, and the compressed bytes. Returns
+/// nothing if they are damaged.
 inline std::optional<std::string> unpack(const sqlite::Statement& row, int size_column) {
-  // As read_file() takes a log: more is no log.
+  // Same limit as read_file() has for a log; a larger log is not valid.
   constexpr std::int64_t kLargest = std::int64_t(1) << 30;
   const std::int64_t size = row.integer(size_column);
   if (size < 0 || size > kLargest) return std::nullopt;

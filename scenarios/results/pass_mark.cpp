@@ -21,7 +21,7 @@ GroupScores scores_of(std::span<const double> scores, const char* group) {
   return of;
 }
 
-/// The share of a normal below `x`, in per cent.
+/// Returns the share of a normal distribution below `x`, in per cent.
 double below_percent(const GroupScores& group, double x) {
   return 50 * std::erfc((group.mean - x) / (group.deviation * std::sqrt(2.0)));
 }
@@ -36,7 +36,7 @@ double crossing(const GroupScores& one, const GroupScores& two) {
   const double a = v2 - v1, half_b = -(one.mean * v2 - two.mean * v1);
   const double c =
       one.mean * one.mean * v2 - two.mean * two.mean * v1 + 2 * v1 * v2 * std::log(one.deviation / two.deviation);
-  // The form that stays exact when the deviations are all but equal, and then comes to the middle by itself.
+  // This form stays exact for nearly equal deviations, and yields the middle for equal ones.
   const double root = std::sqrt(std::max(0.0, half_b * half_b - a * c));
   const double q = -(half_b + std::copysign(root, half_b));
   for (const double x : {c / q, q / a})

@@ -20,7 +20,7 @@ ResultFiles write_report_files(const std::filesystem::path& folder, const Attemp
   if (kept) {
     subject.learner = attempt.learner;
     subject.attempt = std::to_string(attempt.number);
-    const std::string finished = utc_time(attempt.finished_ms);  // to the minute is enough for people
+    const std::string finished = utc_time(attempt.finished_ms);  // shown to the minute
     subject.finished = finished.substr(0, 10) + " " + finished.substr(11, 5) + " UTC";
   }
   subject.pictures = attempt.pictures;
@@ -34,7 +34,7 @@ ResultFiles write_report_files(const std::filesystem::path& folder, const Attemp
     write_file(files.statements, xapi_statements(attempt, result, home_page));
   } else {
     std::error_code none;
-    std::filesystem::remove(folder / "xapi.json", none);  // of another attempt
+    std::filesystem::remove(folder / "xapi.json", none);  // may be left from another attempt
   }
   return files;
 }

@@ -8,20 +8,21 @@
 
 namespace insonate {
 
-/// Where they lie.
+/// The paths of an attempt's report files.
 struct ResultFiles {
   std::filesystem::path report;      ///< HTML
   std::filesystem::path score;       ///< JSON (result_json.h)
   std::filesystem::path table;       ///< CSV (score_csv.h)
-  std::filesystem::path statements;  ///< xAPI (xapi.h); empty for an attempt that is in no database
+  std::filesystem::path statements;  ///< xAPI (xapi.h); empty for an attempt that is not in a database
 
   std::vector<std::filesystem::path> all() const;
 };
 
-/// Writes what people and programs read of an attempt to a folder: report.html, score.json, score.csv, and
-/// xapi.json when it is in a database. The same attempt gives the same bytes, at the end of the exam and out of the
-/// database ever after. Throws InputError when the score cannot be read or the folder not be written to.
-/// @param home_page  whose the learners' ids are, an IRL for xapi.json; empty: one that stands for the database
+/// Writes the files of an attempt for people and programs to a folder: report.html, score.json, score.csv, and
+/// xapi.json if the attempt is in a database. The same attempt always produces the same bytes, at the end of the exam
+/// and later from the database. Throws InputError if the score cannot be read or the folder cannot be written.
+/// @param home_page  IRL of the organisation that assigns the learners' ids, for xapi.json; if empty, one that
+///                   represents the database
 ResultFiles write_report_files(const std::filesystem::path& folder, const Attempt& attempt,
                                const std::string& home_page = {});
 

@@ -9,7 +9,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// The first value that two results, as JSON, do not share, "percent: 81.5 then, 79 now"; empty when there is none.
+/// Returns the first value in which two results differ, as JSON: "percent: 81.5 then, 79 now". Empty if there is none.
 std::string first_difference(const std::string& then_json, const std::string& now_json) {
   Json then = Json::parse(then_json), now = Json::parse(now_json);
   for (Json* json : {&then, &now}) {

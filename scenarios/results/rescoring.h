@@ -6,10 +6,10 @@
 
 namespace insonate {
 
-/// How an attempt's score (Attempt::score_json) differs from one made from the same log now, in a sentence: versions
-/// and cases that are others, and the first value that came out otherwise. Empty when they are the same to the bit;
-/// the program's version, the attempt's mode, and where the log was read from, do not count. Throws InputError naming
-/// `name` when the score is none, or of a format that this program does not read.
+/// Returns a sentence on how an attempt's stored score (Attempt::score_json) differs from a score computed now from the
+/// same log. It names other versions and cases, and the first differing value. Returns an empty text if the scores are
+/// identical to the bit. The program's version, the attempt's mode and the origin of the log (name, digest, transform)
+/// are not compared. Throws InputError naming `name` if the score cannot be read or has an unknown format.
 std::string why_different(const std::string& score_json, ExamResult now, const std::string& name);
 
 }  // namespace insonate

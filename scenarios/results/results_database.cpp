@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A file's folder, made if need be, so that SQLite finds it.
+/// Returns `file` after creating its folder, which SQLite does not do.
 const fs::path& with_folder(const fs::path& file) {
   std::error_code error;
   if (file.has_parent_path()) fs::create_directories(file.parent_path(), error);
@@ -41,7 +41,7 @@ struct PictureKindName {
 constexpr std::array kPictureKinds{PictureKindName{ReportPicture::Kind::best, "best"},
                                    PictureKindName{ReportPicture::Kind::reference, "reference"}};
 
-/// A random UUID (RFC 4122, version 4) of 32 random hexadecimal digits.
+/// Returns a random UUID (RFC 4122, version 4) from 32 random hexadecimal digits.
 std::string as_uuid(std::string digits) {
   digits[12] = '4';
   digits[16] = "89ab"[std::size_t(digits[16]) % 4];

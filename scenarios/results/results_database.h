@@ -12,11 +12,11 @@
 
 namespace insonate {
 
-/// An attempt in a list.
+/// Summary of an attempt for a list.
 struct AttemptSummary {
   std::int64_t number = 0;
   std::string learner;
-  std::optional<AttemptMode> mode;  ///< empty when it was kept by a version that did not say
+  std::optional<AttemptMode> mode;  ///< empty if a version stored it that did not record the mode
   std::int64_t finished_ms = 0;
   std::string title;  ///< of the scenario
   std::string scenario_digest;
@@ -25,63 +25,64 @@ struct AttemptSummary {
   bool passed = false;
 };
 
+/// Summary of a learner for a list.
 struct LearnerSummary {
   std::string id;
   int attempts = 0;
-  int exams = 0;                       ///< of these that counted, or may have (is_of)
+  int exams = 0;                       ///< attempts that are or may be graded exams (is_of)
   int passed = 0;                      ///< of the exams
   std::optional<double> best_percent;  ///< of the exams
-  std::int64_t last_ms = 0;            ///< when the last attempt finished
+  std::int64_t last_ms = 0;            ///< end of the last attempt
 };
 
-/// The results of a lab, in one SQLite file. An attempt is in it whole, or not at all, whenever a program or the power
-/// ends: add() returns when the attempt is on the disk. Several programs of one computer may have it open at once; one
-/// waits for the other to write, up to sqlite::Connection::kPatience_ms.
+/// The results of a lab, in one SQLite file. An attempt is stored completely or not at all, even if a program or the
+/// power fails. add() returns after the attempt is on the disk. Several programs on one computer may have it open at
+/// once. A writer waits for another one up to sqlite::Connection::kPatience_ms.
 ///
-/// Whatever is wrong with the file throws an InputError: it is missing, damaged, of another program or of a newer
-/// version, locked for too long, or cannot be written. Opening one of an older version brings its tables up to date.
+/// All functions throw InputError if the file is missing, damaged, from another program or from a newer version, if it
+/// stays locked for too long, or if it cannot be written. Opening a file of an older version upgrades its tables.
 class ResultsDatabase {
 public:
-  /// Opens a database that is there.
+  /// Opens an existing database.
   static ResultsDatabase open(const std::filesystem::path& file);
-  /// Opens one, or makes it, and the folders it is to lie in.
+  /// Opens a database, or creates it with its folders.
   static ResultsDatabase open_or_make(const std::filesystem::path& file);
 
-  /// Keeps an attempt and sets its number and uuid. Throws InputError when the learner's id is none, or the score does
-  /// not read back, and ExamTaken when there is no such sitting any more.
-  /// @param sitting  of which it is what was handed in, and which it takes the place of; 0 for none
+  /// Stores an attempt and sets its number, database and uuid. Throws InputError if the learner's id is not valid or
+  /// the score cannot be parsed. Throws ExamTaken if the sitting no longer exists.
+  /// @param sitting  the sitting that this attempt completes and replaces; 0 for none
   void add(Attempt& attempt, std::int64_t sitting = 0);
 
-  /// Throws InputError when there is no attempt of that number, or when it is damaged.
+  /// Returns an attempt. Throws InputError if there is no attempt of that number, or if it is damaged.
   Attempt read(std::int64_t number);
 
-  /// In the order in which they were added.
+  /// Returns all attempts in the order in which they were added.
   std::vector<AttemptSummary> attempts();
-  /// In the order of their ids.
+  /// Returns all learners in the order of their ids.
   std::vector<LearnerSummary> learners();
 
-  /// Throws ExamTaken when this learner has taken this very exam so that it counted, or has a sitting. An attempt that
-  /// does not say its mode may have counted, and is taken to have.
+  /// Throws ExamTaken if this learner has a graded attempt at this exam, or a sitting. An attempt without a recorded
+  /// mode may have been graded and is treated as such.
   void check_not_taken(const std::string& learner, const std::string& scenario_digest);
-  /// Keeps that an exam begins now, with the first part of its log, and sets its number, digest and times. Throws what
-  /// check_not_taken() throws, and InputError when the learner's id is none.
+  /// Records the start of an exam with the first part of its log, and sets the sitting's number, digest and times.
+  /// Throws as check_not_taken() does, and InputError if the learner's id is not valid.
   void begin(Sitting& sitting, std::string_view log);
-  /// Keeps what has come of it since the part before: a sequence file without pictures. Throws ExamTaken when there is
-  /// no such sitting any more.
+  /// Stores the next part of a sitting's log: a sequence file without pictures. Throws ExamTaken if the sitting no
+  /// longer exists.
   void add_part(std::int64_t sitting, std::string_view log);
-  /// The exams that were begun and not handed in, in the order in which they began.
+  /// Returns the exams that were begun but not handed in, in the order in which they began.
   std::vector<Sitting> sittings();
-  /// What there is of one, in order.
+  /// Returns the stored log parts of a sitting, in order.
   std::vector<std::string> parts(std::int64_t sitting);
-  /// Removes one as if it had not begun, with its learner if nothing else is of him.
+  /// Removes a sitting as if it had not begun. Also removes its learner if nothing else refers to them.
   void remove(std::int64_t sitting);
 
   const std::filesystem::path& file() const { return connection_.file(); }
 
-  /// 32 hexadecimal digits that no other database has.
+  /// Returns 32 hexadecimal digits that are unique to this database.
   std::string identity();
 
-  /// Reads all of the file and throws InputError when any of it is damaged.
+  /// Reads the whole file. Throws InputError if any part is damaged.
   void check();
 
 private:

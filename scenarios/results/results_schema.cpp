@@ -10,11 +10,11 @@
 namespace insonate {
 namespace {
 
-/// "INSO": what the file's header says of whose it is (PRAGMA application_id).
+/// "INSO": identifies the file's owner in its header (PRAGMA application_id).
 constexpr std::int64_t kApplication = 0x494e534f;
 
-/// What leads from each schema to the next. Never changed, only added to: databases of every age are out there.
-/// docs/results.md explains the tables.
+/// The upgrades from each schema to the next. Only append to this list, never change it: databases of every version are
+/// in use. docs/results.md explains the tables.
 constexpr std::array kSteps{R"sql(
 CREATE TABLE identity (
   id TEXT NOT NULL                      -- 32 random hexadecimal digits: tells this database from all others
@@ -92,7 +92,8 @@ struct Header {
   std::int64_t programs;  ///< triggers and views
 };
 
-/// As one moment has it, though another process may be making the tables: a savepoint, within a transaction or outside.
+/// Reads a consistent header even if another process is creating the tables. The savepoint works inside and outside a
+/// transaction.
 Header header_of(sqlite::Connection& connection) {
   connection.run("SAVEPOINT header");
   const Header header{connection.number("PRAGMA application_id"), connection.number("PRAGMA user_version"),
@@ -102,7 +103,7 @@ Header header_of(sqlite::Connection& connection) {
   return header;
 }
 
-/// Whether the tables still have to be made, or made newer.
+/// Returns true if the tables must be created or upgraded.
 bool behind(sqlite::Connection& connection, bool make, int schema) {
   const auto refuse = [&](const std::string& problem, const std::string& remedy) {
     throw InputError(connection.file().string(), "", problem, remedy);
@@ -123,8 +124,8 @@ bool behind(sqlite::Connection& connection, bool make, int schema) {
   return header.schema < schema;
 }
 
-/// Readers go on while somebody writes. The file remembers; until it does, two processes may be at it at once, and
-/// SQLite does not wait for the other here.
+/// Lets readers continue while another process writes. The file stores this mode. Until it does, two processes may set
+/// it at once, and SQLite does not wait for the other one here.
 void use_write_ahead_log(sqlite::Connection& connection) {
   const auto give_up = std::chrono::steady_clock::now() + std::chrono::milliseconds(sqlite::Connection::kPatience_ms);
   std::optional<std::string> mode;
@@ -136,7 +137,7 @@ void use_write_ahead_log(sqlite::Connection& connection) {
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
   }
-  // Another process makes SQLite fail. Another mode than the one asked for is its answer for good.
+  // Interference from another process makes SQLite fail. A different mode in the answer is final.
   if (mode != "wal")
     throw InputError(connection.file().string(), "", "its folder does not allow a write-ahead log",
                      "keep the database on a disk of this computer, not on the network");
@@ -152,7 +153,7 @@ void bring_up_to_date(sqlite::Connection& connection, bool make, int schema) {
   if (!behind(connection, make, schema)) return;
   use_write_ahead_log(connection);
   sqlite::Transaction transaction(connection);
-  if (!behind(connection, make, schema)) return;  // another process was faster
+  if (!behind(connection, make, schema)) return;  // another process did it first
   for (std::int64_t step = connection.number("PRAGMA user_version"); step < schema; ++step)
     connection.run(kSteps[std::size_t(step)]);
   connection.run("PRAGMA application_id = " + std::to_string(kApplication));

@@ -1,4 +1,4 @@
-// The database's exams that are not handed in yet.
+// The part of ResultsDatabase for exams that are not handed in yet.
 
 #include <optional>
 #include <utility>
@@ -71,7 +71,7 @@ void ResultsDatabase::add_part(std::int64_t sitting, std::string_view log) {
 }
 
 std::int64_t ResultsDatabase::insert_part(std::int64_t sitting, std::string_view log) {
-  // Not earlier: who waited for others to write must not look given up.
+  // Not earlier: a process that waited for another writer must not look abandoned.
   const std::int64_t now_ms = now_since_1970_ms();
   sqlite::Statement insert(connection_,
                            "INSERT INTO sitting_part SELECT ?1, coalesce(max(part), 0) + 1, ?2, ?3, ?4 "
@@ -83,8 +83,8 @@ std::int64_t ResultsDatabase::insert_part(std::int64_t sitting, std::string_view
 
 std::vector<Sitting> ResultsDatabase::sittings() {
   std::vector<Sitting> list;
-  // The newest part by its number: a clock that was set back since gives it an earlier time than the others. Beside
-  // max(), SQLite takes the columns of the row that has it.
+  // Finds the newest part by its number, because a clock that was set back gives it an earlier time than the others.
+  // With max(), SQLite returns the other columns from the row of the maximum.
   sqlite::Statement row(connection_,
                         "SELECT number, learner, began_ms, kept_ms, title, scenario, scenario_digest, "
                         "scenario_file, patient, seed, max(part) FROM sitting JOIN sitting_part ON sitting = number "

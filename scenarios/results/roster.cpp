@@ -10,7 +10,7 @@
 namespace insonate {
 namespace {
 
-/// An id and where in the file it stands.
+/// An id and its position in the file.
 struct Entry {
   std::string id;
   std::string place;
@@ -33,17 +33,17 @@ std::string_view without_blanks(std::string_view text) {
   return first == std::string_view::npos ? "" : text.substr(first, text.find_last_not_of(kBlanks) + 1 - first);
 }
 
-/// A cell of CSV, with or without quotes.
+/// Removes the quotes of a CSV cell, if it has any.
 std::string_view unquoted(std::string_view cell) {
   return cell.size() >= 2 && cell.front() == '"' && cell.back() == '"' ? cell.substr(1, cell.size() - 2) : cell;
 }
 
 std::vector<Entry> entries_of_csv(const std::string& file, std::string_view text) {
-  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";  // what spreadsheets write first
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";  // spreadsheets write it at the start
   if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   std::vector<Entry> entries;
   bool headed = false;
-  // Of a file of far too many no more is kept than shows that.
+  // Stops once the limit is exceeded, so that a far too long file is not stored.
   for (std::size_t line = 1; !text.empty() && entries.size() <= kMostLearners; ++line) {
     const std::size_t end = text.find('\n');
     const std::string_view cell = unquoted(without_blanks(text.substr(0, end)));

@@ -6,14 +6,14 @@
 
 namespace insonate {
 
-/// Reads a list of learners' ids (learner_id.h), in the file's order. Either CSV, a header line `learner` and below it
-/// an id a line, where blank lines do not count; or, when the name ends in .toml,
+/// Reads a list of learners' ids (learner_id.h) in the file's order. The file is CSV: a header line `learner`, then one
+/// id per line; blank lines are ignored. A file whose name ends in .toml is TOML:
 ///
 ///     format = 1
 ///     learners = ["L-01", "L-02"]
 ///
-/// It holds ids alone: names and groups stay with the lab. Throws InputError with the line for what is no id, for an id
-/// that stands there twice, for another column, and for a list of none or of more than kMostLearners.
+/// The file holds only ids; names and groups stay with the lab. Throws InputError with the line for an invalid id, a
+/// duplicate id, another column, an empty list, or more than kMostLearners ids.
 std::vector<std::string> read_roster(const std::filesystem::path& file);
 
 inline constexpr std::size_t kMostLearners = 100'000;

@@ -20,7 +20,7 @@ void Statement::Finalize::operator()(sqlite3_stmt* handle) const {
 }
 
 Connection::Connection(std::filesystem::path file, bool create) : file_(std::move(file)) {
-  // SQLite takes less than its smallest page for an empty database, and would write over it.
+  // SQLite treats a file smaller than its smallest page as an empty database, and would overwrite it.
   constexpr std::uintmax_t kSmallestPage = 512;
   std::error_code missing;
   const std::uintmax_t size = std::filesystem::file_size(file_, missing);
@@ -32,7 +32,7 @@ Connection::Connection(std::filesystem::path file, bool create) : file_(std::mov
   if (code != SQLITE_OK) fail(code);
   if (sqlite3_db_readonly(opened, "main") == 1) fail(SQLITE_READONLY);
   sqlite3_busy_timeout(opened, kPatience_ms);
-  // The file may come from anywhere: nothing in it may run, or change how SQLite reads it.
+  // The file may come from an untrusted source: nothing in it may run or change how SQLite reads it.
   sqlite3_db_config(opened, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
   sqlite3_db_config(opened, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
   sqlite3_db_config(opened, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);
@@ -82,7 +82,7 @@ void Connection::fail(int code) const {
                  "check the permissions of the file and of its folder, where two more files lie beside it");
       break;
     case SQLITE_IOERR:
-      // The shared memory beside the database cannot grow.
+      // The shared memory file beside the database cannot grow.
       if (handle() && sqlite3_extended_errcode(handle()) == SQLITE_IOERR_SHMSIZE)
         throw_with("the disk is full", "make room on it and try again");
       throw_with("the disk does not read or write it (" + said + ")", "check the disk, or copy the file to another");
@@ -157,7 +157,7 @@ Transaction::Transaction(Connection& connection) : connection_(&connection) {
 }
 
 Transaction::~Transaction() {
-  // What fails here has been undone by SQLite already, or is at the next opening.
+  // If this fails, SQLite has already rolled back, or rolls back when the file is next opened.
   if (open_) sqlite3_exec(connection_->handle(), "ROLLBACK", nullptr, nullptr, nullptr);
 }
 

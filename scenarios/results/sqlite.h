@@ -9,28 +9,30 @@
 struct sqlite3;
 struct sqlite3_stmt;
 
-// SQLite as far as results need it. Whatever goes wrong with the file is an InputError that names it: it is a file that
-// a person handed over.
+// The part of SQLite that the results need. Errors of the file throw InputError naming it, because a person chose the
+// file.
 
 namespace insonate::sqlite {
 
-/// An open database file. Other processes may have it open too: one that finds it locked waits up to kPatience_ms.
+/// An open database file. Other processes may have it open too. A process that finds it locked waits up to
+/// kPatience_ms.
 class Connection {
 public:
   static constexpr int kPatience_ms = 10'000;
 
-  /// @param create  makes an empty file where there is none
+  /// Opens the file. Throws InputError if this fails.
+  /// @param create  creates an empty file if there is none
   Connection(std::filesystem::path file, bool create);
 
-  /// One or more statements that need no values and give none.
+  /// Runs one or more statements without parameters and results.
   void run(const std::string& sql);
-  /// The first column of the first row; 0 when there is none.
+  /// Returns the first column of the first row; 0 or "" if there is no row.
   std::int64_t number(const std::string& sql);
   std::string text(const std::string& sql);
-  /// Of the row inserted last.
+  /// Returns the id of the row inserted last.
   std::int64_t last_row() const;
 
-  /// Throws the InputError for a result code of SQLite.
+  /// Throws the InputError for an SQLite result code, or std::bad_alloc if memory ran out.
   [[noreturn]] void fail(int code) const;
 
   const std::filesystem::path& file() const { return file_; }
@@ -44,7 +46,7 @@ private:
   std::unique_ptr<sqlite3, Close> handle_;
 };
 
-/// One prepared statement. Parameters and columns count from 1 and 0, as SQLite has it.
+/// A prepared statement. Parameters count from 1 and columns from 0, as in SQLite.
 class Statement {
 public:
   Statement(Connection& connection, const std::string& sql);
@@ -54,7 +56,7 @@ public:
   Statement& bind(int parameter, std::string_view text);
   Statement& bind_bytes(int parameter, std::string_view bytes);
 
-  /// Whether there is a (next) row.
+  /// Advances to the next row. Returns false after the last row.
   bool step();
 
   std::int64_t integer(int column) const;
@@ -72,8 +74,8 @@ private:
   std::unique_ptr<sqlite3_stmt, Finalize> handle_;
 };
 
-/// All or nothing: what is not committed is undone. Holds the only right to write from its beginning, so that what it
-/// reads cannot change before it writes.
+/// A transaction; the destructor undoes everything that is not committed. It holds the exclusive right to write from
+/// its start, so that what it reads cannot change before it writes.
 class Transaction {
 public:
   explicit Transaction(Connection& connection);

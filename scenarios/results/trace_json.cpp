@@ -15,8 +15,8 @@ using Json = nlohmann::ordered_json;
 constexpr int kFormat = 1;
 constexpr std::array kFace{"face_x_mm", "face_y_mm", "face_z_mm"};
 
-/// Each list once, for writing and for reading: `visit` is called with its key, whether it is known of invalid points
-/// too, and a function that gives the field.
+/// Lists each quantity once, for both writing and reading. Calls `visit` with its key, whether it is defined for
+/// invalid points, and a function that returns the field.
 template <typename Visit>
 void each_list(Visit&& visit) {
   visit(

@@ -15,21 +15,21 @@ using Json = nlohmann::ordered_json;
 const std::string kOwn = "https://insonate.invalid/";
 const std::string kVerbs = "http://adlnet.gov/expapi/verbs/";
 
-/// The attempt's own UUID with the last byte changed: as unique as that, and the same whenever it is made.
+/// Returns the attempt's UUID with the last byte changed: equally unique, and the same on every export.
 std::string statement_id(const std::string& uuid, int statement) {
   char last[3];
   std::snprintf(last, sizeof last, "%02x", (std::stoi(uuid.substr(34), nullptr, 16) + statement) & 0xff);
   return uuid.substr(0, 34) + last;
 }
 
-/// ISO 8601, to hundredths of a second as the specification asks of a duration.
+/// ISO 8601 with hundredths of a second, as the specification requires for a duration.
 std::string duration(double seconds) {
   char text[40];
   std::snprintf(text, sizeof text, "PT%.2fS", seconds);
   return text;
 }
 
-/// Every metric that has a value, by the name of the metric, of the exam and of each step.
+/// Returns every metric with a value, by its name, for the exam and for each step.
 Json metrics_of(const ExamResult& result) {
   Json exam = Json::object(), steps = Json::array();
   for (const StepResult& step : result.steps) steps.push_back({{"title", step.title}, {"metrics", Json::object()}});
@@ -40,7 +40,7 @@ Json metrics_of(const ExamResult& result) {
 
 Json score_of(const ExamResult& result) {
   Json score = {{"scaled", result.percent / 100}};
-  // The specification wants max above min, and raw between them.
+  // The specification requires max above min, and raw between them.
   if (result.points_possible > 0) score.update({{"raw", result.points}, {"min", 0}, {"max", result.points_possible}});
   return score;
 }

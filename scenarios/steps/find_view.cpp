@@ -44,7 +44,7 @@ ViewValues all_zero() {
   return values;
 }
 
-/// Adds a picture's values, without their signs, times a weight.
+/// Adds the absolute values of a picture, multiplied by a weight.
 void add(ViewValues& sum, const ViewValues& view, double weight) {
   for (const auto& [metric, value] : ViewValues::fields()) sum.*value += weight * std::abs(view.*value);
 }
@@ -122,8 +122,8 @@ private:
   }
 
   const FindView& asked_;
-  std::deque<Seen> recent_;             ///< valid samples, as far back as judging may ask for
-  std::optional<double> holding_from_;  ///< since when all tolerances are kept
+  std::deque<Seen> recent_;             ///< valid samples, as far back as judging can need
+  std::optional<double> holding_from_;  ///< start of the current hold
   double longest_hold_s_ = 0;
   double share_ = 0;
   bool held_ = false;

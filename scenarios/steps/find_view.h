@@ -9,7 +9,7 @@ class TableReader;
 
 /// kind = "find_view": show the step's view and hold it.
 struct FindView : StepTask {
-  double hold_s = 1;                 ///< hold_s = 1.0: how long all tolerances have to hold together, 0.1 to 60
+  double hold_s = 1;  ///< hold_s = 1.0: how long the picture has to stay within all tolerances, 0.1 to 60
   std::vector<Tolerance> tolerance;  ///< `[step.tolerance]`, one or more
 
   static std::shared_ptr<const StepTask> read(TableReader& table, const Step& step);

@@ -6,8 +6,8 @@ namespace insonate {
 
 class TableReader;
 
-/// kind = "free_scan": scan as you like until you go on or the time runs out; either way it is done. Only the motion is
-/// measured. It has no keys of its own.
+/// kind = "free_scan": scan freely until going on or until the time runs out; both count as done. Only the motion is
+/// measured. This kind has no keys of its own.
 struct FreeScan : StepTask {
   static std::shared_ptr<const StepTask> read(TableReader& table, const Step& step);
 

@@ -13,7 +13,7 @@
 namespace insonate {
 namespace {
 
-/// Where in the patient an action's point lies: in the frozen picture, or else in that of the last valid sample.
+/// Returns the patient position of an action's point: in the frozen picture, or else in that of the last valid sample.
 std::optional<glm::dvec3> place_in_patient(const Action& action, const Moment& moment) {
   const glm::dvec3 in_plane(action.point(0), 0);
   if (moment.machine.frozen_at) return moment.machine.frozen_at->point(in_plane);
@@ -42,12 +42,11 @@ public:
   }
 
 private:
-  const Landmark* landmark_;  ///< nullptr where structures are to be marked
+  const Landmark* landmark_;  ///< nullptr if structures are the target
   const StructureSurface& structures_;
   std::optional<glm::dvec3> point_;
 };
 
-/// By name.
 using Surfaces = std::map<std::string, StructureSurface>;
 
 class LabelRun : public StepRun {

@@ -7,9 +7,8 @@ namespace insonate {
 
 class TableReader;
 
-/// kind = "mark_point": point at a landmark or a structure in the picture. The last point before going on counts; the
-/// picture may be frozen. Its error is the distance in space from what it had to hit: the landmark, or the structure's
-/// nearest voxel, 0 inside.
+/// kind = "mark_point": point at a landmark or a structure in the picture, which may be frozen. The last point before
+/// going on counts. Its error is the distance in space to the landmark, or to the structure's nearest voxel (0 inside).
 struct MarkPoint : StepTask {
   std::string landmark;                 ///< landmark = "hepatorenal_recess"; either this
   std::vector<std::string> structures;  ///< structures = ["gallbladder"]; or this
@@ -25,8 +24,8 @@ struct MarkPoint : StepTask {
   StepBegin prepare(const StepWorld& world) const override;
 };
 
-/// kind = "label_structures": put names on structures in the picture. Of each name the last place before going on
-/// counts; it is right where a voxel of the structure lies within tolerance_mm.
+/// kind = "label_structures": put names on structures in the picture. For each name, the last place before going on
+/// counts. It is right if a voxel of the structure lies within tolerance_mm.
 struct LabelStructures : StepTask {
   std::vector<std::string> structures;  ///< structures = ["liver", "right_kidney_cortex"]: labels of the case, up to 20
   double tolerance_mm = 2;              ///< tolerance_mm = 2: 0 to 20; default 2

@@ -16,13 +16,13 @@
 namespace insonate {
 namespace {
 
-constexpr double kWindow_mm = 100;  // to each side of the point that is looked around: further than organs reach
+constexpr double kWindow_mm = 100;  // to each side of the search point: larger than any organ
 
 const ReferenceView* view_of(const MeasureTarget& target, const Step& step, const Case& subject) {
   return subject.find_view(target.view.empty() ? step.view : target.view);
 }
 
-/// The target's part in its view's plane; empty when the structures do not cross it.
+/// Returns the target's part in its view's plane, or nothing if the structures do not intersect it.
 std::optional<PlaneRegion> region_of(const MeasureTarget& target, const Step& step, const LabelIndex& labels) {
   const Case& subject = labels.subject();
   const ReferenceView& view = *view_of(target, step, subject);
@@ -45,9 +45,9 @@ double extent_of(const PlaneRegion& region, MeasureTarget::Along along) {
   return region.longest_extent_mm();
 }
 
-/// What is true of the patient, and where in him the (first) target's middle lies.
+/// The true value, and the position of the (first) target's middle in the patient.
 struct Truth {
-  std::optional<double> value;  ///< mm, mm2, none, ml by tool
+  std::optional<double> value;  ///< mm, mm2, a ratio or ml, by tool
   std::optional<glm::dvec3> middle;
 };
 
@@ -122,7 +122,7 @@ private:
   int count() const {
     return int(std::count_if(placed_.begin(), placed_.end(), [](const auto& p) { return p.has_value(); }));
   }
-  /// Whose picture is judged.
+  /// Returns the last placed item; its picture is judged.
   const Placed* last_placed() const {
     const Placed* last = nullptr;
     for (const auto& placed : placed_)
@@ -130,7 +130,7 @@ private:
     return last;
   }
   std::string with_unit(double value) const {
-    // Of a distance the same unit for what was measured and for the truth, however long they are.
+    // A distance uses the same unit for the measured and the true value, whatever their size.
     return asked_.tool == Measure::Tool::distance ? fixed(value, 1) + " mm" : asked_.value_text(value);
   }
   static glm::dvec3 middle_of(const Placed& placed) {
@@ -138,7 +138,7 @@ private:
   }
 
   const Measure& asked_;
-  const ViewMeter* meter_;  ///< of the step's view; nullptr when it names none
+  const ViewMeter* meter_;  ///< of the step's view; nullptr if the step names none
   Truth truth_;
   std::array<std::optional<Placed>, 3> placed_;
   int order_ = 0;

@@ -23,9 +23,9 @@ double PlaneRegion::extent_mm(const glm::dvec2& along) const {
 
 double PlaneRegion::longest_extent_mm() const {
   constexpr double kPi = 3.14159265358979323846;
-  // Off the longest direction by half a step of 2 degrees, an extent is short by 1 - cos(1 degree), 0.15 thousandths.
+  // At most half a step of 2 degrees off the longest direction, an extent is short by 1 - cos(1 degree), 0.015 %.
   constexpr int kDirections = 90;
-  // Whatever the direction, the outermost pixel is the first or the last of its row.
+  // In every direction, the outermost pixel is the first or last of its row.
   std::map<double, std::pair<double, double>> rows;
   for (const glm::dvec2& pixel : pixels) {
     auto& [first, last] = rows.try_emplace(pixel.y, pixel.x, pixel.x).first->second;
@@ -58,7 +58,7 @@ std::optional<PlaneRegion> plane_region(const StructureSet& structures, const Po
   const auto at = [&](int i, int j) -> char& { return inside[std::size_t(j) * std::size_t(side) + std::size_t(i)]; };
 
   if (!structures.any_voxel()) return std::nullopt;
-  // Only where the box around the structures can meet the plane.
+  // Restricts the search to where the bounding box of the structures can meet the plane.
   const Pose plane_from_patient = patient_from_plane.inverse();
   glm::dvec2 least(std::numeric_limits<double>::infinity()), most = -least;
   for (const glm::dvec3& corner : structures.corners()) {

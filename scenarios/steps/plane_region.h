@@ -10,22 +10,22 @@
 
 namespace insonate {
 
-/// The part of structures in a plane that hangs together and lies nearest to a point of it: its pixels, of `pitch_mm`
-/// each, in the plane's mm.
+/// A connected part of structures in a plane: its pixels, each `pitch_mm` wide, in the plane's mm.
 struct PlaneRegion {
   double pitch_mm = 0;
-  std::vector<glm::dvec2> pixels;  ///< middles
+  std::vector<glm::dvec2> pixels;  ///< centres
 
   double area_mm2() const { return double(pixels.size()) * pitch_mm * pitch_mm; }
-  /// From the outermost edge to the outermost edge along a unit direction.
+  /// Returns the distance between the outermost edges along a unit direction.
   double extent_mm(const glm::dvec2& along) const;
-  /// The longest extent of all directions, to a thousandth.
+  /// Returns the longest extent over all directions, accurate to 0.1 %.
   double longest_extent_mm() const;
-  glm::dvec2 middle() const;  ///< of the pixels
+  glm::dvec2 middle() const;  ///< mean of the pixels' centres
 };
 
-/// Searches a window of the plane, `half_size_mm` to each side of the point. Without a point it is the middle of all
-/// that the window holds around (0, half_size_mm). Empty when there is nothing.
+/// Returns the connected part nearest to the point `near`, or nothing if the window holds none of the structures. The
+/// window extends `half_size_mm` to each side of the point. Without a point, the search starts at the middle of all
+/// pixels in the window around (0, half_size_mm).
 std::optional<PlaneRegion> plane_region(const StructureSet& structures, const Pose& patient_from_plane,
                                         const std::optional<glm::dvec2>& near, double half_size_mm, double pitch_mm);
 

@@ -46,7 +46,7 @@ private:
   std::optional<std::string> answer_;
 };
 
-/// Reads a text that has to be one of the choices.
+/// Reads a text that must be one of the choices.
 std::string choice_of(TableReader& table, const char* key, const std::vector<std::string>& choices) {
   const std::string word = table.text(key);
   if (!word.empty() && !choices.empty() && std::find(choices.begin(), choices.end(), word) == choices.end())

@@ -5,10 +5,10 @@
 
 namespace insonate {
 
-/// kind = "set_knobs": set the machine as asked. The step is done when all of it has been so for hold_s; at least one
-/// of the four is asked for.
+/// kind = "set_knobs": set the machine as required. The step is done after all required settings have been right for
+/// hold_s. At least one of the four is required.
 struct SetKnobs : StepTask {
-  std::optional<Range> depth_mm;       ///< depth_mm = [90, 120]: the least and the most, 1 to 1000
+  std::optional<Range> depth_mm;       ///< depth_mm = [90, 120]: minimum and maximum, 1 to 1000
   std::optional<Range> gain_db;        ///< gain_db = [-3, 3]: -100 to 100
   std::optional<Range> frequency_mhz;  ///< frequency_mhz = [5, 8]: 0.1 to 100
   std::string probe;                   ///< probe = "linear"

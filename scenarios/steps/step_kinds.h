@@ -9,10 +9,11 @@ namespace insonate {
 
 class TableReader;
 
+/// Whether a kind of step takes the key 'view'.
 enum class ViewUse { none, optional, required };
 
-/// A kind of step: how the file names it, whether it takes the key 'view', and who reads the keys of its own. The
-/// common ones of `step` have been read by then.
+/// A kind of step: its name in the file, whether it takes the key 'view', and the function that reads its own keys. The
+/// common keys of `step` are read before.
 struct StepKind {
   const char* name;
   ViewUse view;

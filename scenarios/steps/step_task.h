@@ -22,74 +22,76 @@ class ViewMeter;
 struct ScenarioProblem;
 struct Step;
 
-/// What the run of a step has of the world; all of it outlives the run.
+/// The environment of a running step. Everything in it outlives the run.
 struct StepWorld {
   const Step& step;
   const Case& subject;
   const LabelIndex& labels;  ///< of the case
   const TissueTable& tissues;
-  const ViewMeter* meter;  ///< of the step's view; nullptr when it names none
+  const ViewMeter* meter;  ///< of the step's view; nullptr if the step names none
 };
 
-/// A moment of a step: a sample, or an action just before one.
+/// One moment of a step: a sample, or an action just before a sample.
 struct Moment {
   double now_s = 0;                  ///< since the exam's start
   bool valid = false;                ///< the sample's pose is usable
   Pose patient_from_probe;           ///< meaningful only when valid
-  const ViewValues* view = nullptr;  ///< of a valid sample, against the step's view, when it names one
+  const ViewValues* view = nullptr;  ///< of a valid sample, compared with the step's view, if the step names one
   const Machine& machine;
 };
 
-/// A step under way: fed by the runner with every action, and every sample that it looks at, in order. A new kind of
-/// step is a class derived from this one, one derived from StepTask, and a line in step_kinds.cpp.
+/// A running step. The runner passes it every action and every evaluated sample, in order. To add a new kind of step,
+/// derive one class from this one and one from StepTask, and add a line to step_kinds.cpp.
 class StepRun {
 public:
   virtual ~StepRun() = default;
 
   virtual void see(const Moment&) {}
-  /// Of an action; the machine has taken it already. The moment's pose is that of the last valid sample.
+  /// Receives an action after the machine has applied it. The moment's pose is that of the last valid sample.
   virtual void act(const Action&, const Moment&) {}
 
-  /// Whether what was asked for is done, so that the step ends here.
+  /// Returns true if the task is done; this ends the step.
   virtual bool done() const { return false; }
-  /// What the step comes to when the learner ends it himself, or when its time runs out: whether what there is counts
-  /// as done. The exam's economy is marked only where every step was.
+  /// Returns true if the step counts as done when the learner ends it or its time runs out. The exam's economy metrics
+  /// earn points only if every step was done.
   virtual bool enough() const { return false; }
 
-  /// What the screen shows of the step: how much is done, 0 to 1, and whether the picture is as asked for.
+  /// The share of the step that is done, 0 to 1, and whether the picture meets the requirements; shown on the screen.
   virtual double share_done() const { return 0; }
   virtual bool on_target() const { return false; }
 
-  /// Fills in what is this kind's own: judged, longest_hold_s, values, facts.
+  /// Fills the fields that depend on the kind: judged, longest_hold_s, values, facts.
   virtual void finish(StepOutcome outcome, double now_s, StepResult& result) const = 0;
 };
 
-/// Begins a step; where the order is free, perhaps more than once. It outlives the runs that it begins.
+/// Begins a step, more than once if the order is free and the learner returns. It outlives the runs that it begins.
 using StepBegin = std::function<std::unique_ptr<StepRun>(double now_s)>;
 
-/// What a step of some kind asks for: the keys that only this kind has. Immutable once read.
+/// The task of a step: the keys that only its kind has. Immutable after reading.
 class StepTask {
 public:
   virtual ~StepTask() = default;
 
-  /// What it takes from the learner besides the probe.
+  /// Returns what the step takes from the learner besides the probe.
   virtual StepInput input() const { return {}; }
-  /// What the screen says of it.
+  /// Returns the texts that the screen shows for this kind.
   virtual StepWords words() const { return {}; }
-  /// Whether it is done by holding a view, so that it ends as held.
+  /// Returns true if the step is done by holding a view, so that it ends as held.
   virtual bool holds_view() const { return false; }
-  /// The step metrics that it measures.
+  /// Returns the step metrics that this task measures.
   virtual std::vector<Metric> metrics() const { return {}; }
-  /// Whether a picture is judged, so that criteria may ask for picture metrics.
+  /// Returns true if a picture is judged, so that criteria may use picture metrics.
   virtual bool judges_picture() const { return false; }
-  /// The settings of the machine that the learner is asked to change.
+  /// Returns the machine settings that the task asks the learner to change.
   virtual std::vector<ActionKind> settings() const { return {}; }
-  /// What a report says of a criterion without a value.
+  /// Returns the reason that a report gives for a criterion without a value.
   virtual const char* why_no_value() const { return "there was no valid pose to judge."; }
-  /// Adds what does not fit the case. @param where  "step 2"
+  /// Adds problems for everything that does not fit the case.
+  /// @param where  "step 2"
   virtual void check(const Step&, const LabelIndex&, const std::string& /*where*/,
                      std::vector<ScenarioProblem>&) const {}
-  /// Searches the patient for what the step will be judged by, before the exam begins: no sample waits for that.
+  /// Computes what the step will be judged by from the patient. This happens before the exam begins, so that no sample
+  /// waits for it.
   virtual StepBegin prepare(const StepWorld& world) const = 0;
 };
 

@@ -67,7 +67,7 @@ StructureSurface::StructureSurface(const LabelIndex& labels, const std::vector<s
     for (int j = first.y; j <= last.y; ++j)
       for (int i = first.x; i <= last.x; ++i) {
         if (!inside(i, j, k)) continue;
-        // Beyond the box there is nothing of them.
+        // Outside the bounding box there are no voxels of the structures.
         const bool enclosed = i > first.x && i < last.x && j > first.y && j < last.y && k > first.z && k < last.z &&
                               inside(i - 1, j, k) && inside(i + 1, j, k) && inside(i, j - 1, k) &&
                               inside(i, j + 1, k) && inside(i, j, k - 1) && inside(i, j, k + 1);

@@ -15,16 +15,16 @@
 
 namespace insonate {
 
-/// How many voxels of some labels a label map has, and where.
+/// The number of voxels of some labels in a label map, and their bounding box.
 struct LabelExtent {
   std::uint64_t voxels = 0;
-  glm::ivec3 first{0}, last{-1};  ///< the corners of the box around them; meaningless without voxels
+  glm::ivec3 first{0}, last{-1};  ///< inclusive corners of the bounding box; meaningless without voxels
 
   void include(const LabelExtent& other);
 };
 
-/// Where each label of a case's label map lies. The map is read once, when an exam begins: reading all of a hospital's
-/// CT takes longer than a picture may stand still.
+/// The extent of each label in a case's label map. The map is read once, when an exam begins: reading all of a
+/// hospital's CT takes longer than a picture may stand still.
 class LabelIndex {
 public:
   /// Keeps a reference to the case.
@@ -37,10 +37,10 @@ private:
   std::array<LabelExtent, 256> extents_;
 };
 
-/// Structures of a case's label map, taken together: an organ and its wall.
+/// A set of structures of a case's label map, treated as one: for example an organ and its wall.
 class StructureSet {
 public:
-  /// Names that the case does not have are passed over. Keeps a reference to the case.
+  /// Ignores names that the case does not have. Keeps a reference to the case.
   StructureSet(const LabelIndex& labels, const std::vector<std::string>& names);
 
   bool holds(const glm::dvec3& patient_mm) const {
@@ -48,10 +48,11 @@ public:
   }
   bool holds(std::uint8_t value) const { return values_[value]; }
   bool any_voxel() const { return extent_.voxels > 0; }
-  /// The box that they lie in.
+  /// Returns their voxel count and bounding box.
   const LabelExtent& extent() const { return extent_; }
   double volume_mm3() const;
-  /// The corners of the box around all voxels, edges and all (patient, mm); meaningless without any.
+  /// Returns the corners of the box around all voxels, including the voxels' outer edges (patient, mm). They are
+  /// meaningless without voxels.
   std::array<glm::dvec3, 8> corners() const;
 
 private:
@@ -60,13 +61,14 @@ private:
   LabelExtent extent_;
 };
 
-/// The voxels at the surface of structures, listed once: whoever is outside has none that is nearer.
+/// The surface voxels of structures, listed once. For a point outside, the nearest voxel is always a surface voxel.
 class StructureSurface {
 public:
   /// Keeps a reference to the case, as StructureSet does.
   StructureSurface(const LabelIndex& labels, const std::vector<std::string>& names);
 
-  /// From a point to the nearest voxel's centre; 0 inside; empty when there is none.
+  /// Returns the distance from a point to the centre of the nearest voxel; 0 inside the structures. Returns nothing if
+  /// there are no voxels.
   std::optional<double> distance_mm(const glm::dvec3& patient_mm) const;
 
 private:
@@ -75,7 +77,7 @@ private:
   std::vector<glm::ivec3> voxels_;
 };
 
-/// Adds a problem for each name that the case has no label for, or for the case when it has none at all.
+/// Adds a problem for each name without a label in the case, or one problem if the case has no labels at all.
 void check_structures(const std::vector<std::string>& names, const SourcePlace& place, const Case& subject,
                       const std::string& where, std::vector<ScenarioProblem>& problems);
 

@@ -13,7 +13,7 @@
 namespace insonate {
 namespace {
 
-/// The middles of the organ's cells: every so many voxels along each axis, where the organ is.
+/// Returns the centres of the organ's cells: voxels at a regular stride along each axis that lie in the organ.
 std::vector<glm::dvec3> cells_of(const LabelIndex& index, const std::vector<std::string>& organ) {
   const StructureSet structures(index, organ);
   const Volume<std::uint8_t>& labels = index.subject().labels;
@@ -49,7 +49,7 @@ public:
   bool done() const override { return coverage_percent() >= asked_.enough_percent; }
   bool on_target() const override { return on_target_; }
   double share_done() const override { return std::min(1.0, coverage_percent() / asked_.enough_percent); }
-  /// Without a number to reach, it is the learner who says when the organ was swept.
+  /// Without a coverage limit, the learner decides when the organ was swept.
   bool enough() const override { return asked_.enough_percent >= 100 && coverage_percent() > 0; }
 
   void finish(StepOutcome, double, StepResult& result) const override {
@@ -78,13 +78,13 @@ private:
   const Sweep& asked_;
   StepWorld world_;
   PathGrid path_;
-  std::vector<glm::dvec3> cells_;  ///< not seen yet
+  std::vector<glm::dvec3> cells_;  ///< not yet covered
   std::size_t total_;
   std::vector<glm::dvec3> landmarks_;
   std::optional<Visibility> visibility_;
   long looks_ = 0;
   long kept_ = 0;
-  bool on_target_ = false;  ///< the last look showed something new
+  bool on_target_ = false;  ///< the last pose covered new cells
 };
 
 }  // namespace

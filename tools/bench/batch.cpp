@@ -13,7 +13,8 @@
 namespace insonate::bench {
 namespace {
 
-// Of a frame, in one call or in so many: as many as a search asks for at once, and more where they come cheap.
+// Number of images per measured frame, in one call or in that many calls. It is the number that a search requests at
+// once, and more where images are cheap.
 std::size_t images_a_frame() {
   return gl::is_software_renderer() ? 256 : 512;
 }
@@ -24,7 +25,7 @@ std::vector<Configuration> usual_sizes() {
   return sizes;
 }
 
-// What registration asks for around a pose: as many of them, each by a fraction of a millimetre elsewhere.
+// Returns poses as registration requests them around a pose, each offset by a fraction of a millimetre.
 std::vector<Pose> poses_around(const Pose& pose, std::size_t images) {
   std::vector<Pose> poses;
   for (std::size_t i = 0; i < images; ++i) poses.push_back(wandering(pose, 7 * int(i)));
@@ -65,7 +66,7 @@ Table measure_batch(const Request& request) {
       trainer.set_probe(probe, scene.depth_mm);
       trainer.set_settings(training);
       std::unique_ptr<gl::WeinSimulator> wein;
-      std::unique_ptr<gl::TextureRate> fetching;  // what the images of a call fetch
+      std::unique_ptr<gl::TextureRate> fetching;  // as many fetches as the images of one call need
       gl::upload_ct(scene.file, scene.volume.grid, [&] {
         wein = std::make_unique<gl::WeinSimulator>(scene.volume, probe, scene.depth_mm, registering);
         fetching = std::make_unique<gl::TextureRate>(scene.volume, registering.reflection_length_mm,
@@ -73,7 +74,8 @@ Table measure_batch(const Request& request) {
       });
       wein->set_ultrasound(random_picture(c.width, c.height));
 
-      // One a call ends with the device's work, as a search that looks at each image before it asks for the next.
+      // With one image per call, each call waits for the device, as in a search that evaluates each image before the
+      // next request.
       const auto each = [images](auto&& image_of) {
         return [=](const Pose& pose) {
           for (const Pose& at : poses_around(pose, images)) {
@@ -100,7 +102,7 @@ Table measure_batch(const Request& request) {
         for (double& time : of_method) time /= double(images);
         ms.push_back(spread_of(of_method));
       }
-      // Megapixels of what a second makes.
+      // Megapixels per second.
       const auto mpixels_a_second = [&](const Spread& spread) { return c.width * c.height / spread.median / 1000; };
       const auto add = [&](const char* method, std::size_t images_a_call, const Spread& spread) {
         table.rows.push_back({gl::device_description(), scene.name, scene.view, std::to_string(c.lines),
@@ -119,7 +121,7 @@ Table measure_batch(const Request& request) {
       tell("LC2", ms[2], ms[3]);
       tell("model S", ms[4], ms[1]);
       const double mega_fetches =
-          c.lines * c.samples / 1000.0;  // an image's, a millisecond of which is a mega a second
+          c.lines * c.samples / 1000.0;  // per image; divided by ms, this gives millions per second
       std::printf(
           "                              in one call: %.0f images/s, %.1f MPixel/s; %.0f of the %.0f million fetches/s "
           "that the device makes when it does nothing else: %.0f %%\n",

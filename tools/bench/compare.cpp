@@ -15,13 +15,13 @@ namespace insonate::bench {
 namespace {
 
 constexpr std::array<const char*, 3> kTimes = {"q1_ms", "median_ms", "q3_ms"};
-// What is measured or only told, as are all times: everything else names the setting.
+// Columns that are measured or informative, besides all times. Every other column is part of the setting.
 constexpr std::array<const char*, 14> kMeasured = {
     "device",   "frames",   "runs_still",      "error_db",         "error_grey", "error_r_db", "evaluated",
     "possible", "on_front", "images_a_second", "mpixels_a_second", "faintest",   "denormal",   "volume_mib"};
 
 constexpr std::array<const char*, 4> kBetterSmall = {"runs_still", "error_db", "error_grey", "error_r_db"};
-// Errors of the same frames, where another device rounds otherwise: a volume of half floats moves them by 3e-4.
+// Factor for the rounding of another device: a volume of half floats changes the errors of the same frames by 3e-4.
 constexpr double kRounding = 1.005;
 
 bool has(const Table& table, const char* column) {

@@ -7,30 +7,33 @@
 
 namespace insonate::bench {
 
-/// One setting in two runs.
+/// One setting, measured in two runs.
 struct Change {
   std::string setting;            ///< "case=Abdomen, lines=512, ..."
   double old_ms = 0, new_ms = 0;  ///< medians
-  double ratio = 1;               ///< new to old
-  /// What the quartiles allow: new first to old third, and new third to old first. A change is beyond the spread when 1
-  /// does not lie between them.
+  double ratio = 1;               ///< new_ms / old_ms
+  /// The range that the quartiles allow: new first to old third, and new third to old first. A change exceeds the
+  /// spread if 1 is outside this range.
   double least_ratio = 1, most_ratio = 1;
 
   bool slower() const { return least_ratio > 1; }
   bool faster() const { return most_ratio < 1; }
 
-  /// What else has grown that should not, or is not told any more: errors, which have no spread, by more than another
-  /// device's rounding does, and what an unchanged frame runs. "error_db 0.89 -> 1.34", in the order of the columns.
+  /// Other values that grew but should not, or are missing in the new run. These are errors, which have no spread, if
+  /// they grew by more than another device's rounding, and the stages run in an unchanged frame. In the order of the
+  /// columns: "error_db 0.89 -> 1.34".
   std::vector<std::string> worse;
 };
 
+/// The result of comparing two runs.
 struct Comparison {
-  std::vector<Change> changes;             ///< rows of the same setting, in the order of the earlier run
-  std::vector<std::string> gone, arrived;  ///< settings of one run alone
+  std::vector<Change> changes;             ///< rows with equal settings, in the order of the earlier run
+  std::vector<std::string> gone, arrived;  ///< settings that are in only one run
 };
 
-/// Settings are all columns but the device and what was measured, so that runs on two devices compare too. Throws
-/// InputError when a file holds no run times, when a cell holds no number, or when nothing matches.
+/// Compares two runs. The settings are all columns except the device and the measured values, so that runs on two
+/// devices can be compared. Throws InputError if a file has no run times, if a cell is not a number, or if no settings
+/// match.
 Comparison compare(const std::string& old_file, const Table& before, const std::string& new_file, const Table& after);
 
 }  // namespace insonate::bench

@@ -25,7 +25,7 @@ Converged converge(const Scene& scene, const ScanLines& lines, const Settings& s
     const ReferenceScan scan = traverse_reference(field, scene.table, finer, settings, scene.pose);
     for (int i = 0; i < int(finer.lines.size()); ++i)
       for (int k = 0; k < d; ++k) {
-        // A sample lies halfway between two of the finer ones, between which I falls exponentially.
+        // A sample lies halfway between two finer ones. I falls exponentially between them.
         const int before = kFiner * k + kFiner / 2 - 1, behind = before + 1;
         result.intensity.at(chunk * kChunk + i, k) =
             std::sqrt(scan.intensity.at(i, before) * scan.intensity.at(i, behind));

@@ -9,16 +9,18 @@
 
 namespace insonate::bench {
 
-/// How many times as many samples a line the converged reference takes; even.
+/// Factor of the converged reference's samples per line; even.
 inline constexpr int kFiner = 8;
 
-/// The traversal in double precision with kFiner times as many samples, at the places of the fewer.
+/// The traversal in double precision with kFiner times as many samples, evaluated at the positions of the original
+/// samples.
 struct Converged {
-  std::vector<int> lines;               ///< which of the fan's: all, or as many spread over it
-  Image<double> intensity, reflection;  ///< x as `lines`, y as the fewer samples
+  std::vector<int> lines;  ///< indices into the fan's lines: all, or as many as were requested, evenly distributed
+  Image<double> intensity, reflection;  ///< x: index into `lines`, y: original sample
 };
 
-/// @param most_lines  as each costs a tenth of a second
+/// Computes the converged reference.
+/// @param most_lines  limits the lines, because each takes about 0.1 s
 Converged converge(const Scene& scene, const ScanLines& lines, const Settings& settings, int most_lines);
 
 }  // namespace insonate::bench

@@ -13,16 +13,16 @@ namespace {
 
 constexpr int kTissueHu = 60, kGasHu = -1000, kBoneHu = 1500;
 constexpr double kVoxel_mm = 0.1, kDepth_mm = 160;
-constexpr int kVoxelsALayer = 10;  // so that a layer's faces are interfaces of their own, beside l = 0.6 mm
+constexpr int kVoxelsALayer = 10;  // so that each face of a layer is a separate interface at l = 0.6 mm
 
-/// What is left of I behind an interface (1).
+/// Returns the fraction of I behind an interface (1).
 double passed(const TissueTable& table, int one, int other) {
   const double z1 = table.at(one).impedance_mrayl, z2 = table.at(other).impedance_mrayl;
   return 4 * z1 * z2 / ((z1 + z2) * (z1 + z2));
 }
 
-/// Layers that the sound meets one behind the other, and then a thousand weak ones. Gas and bone leave an I whose
-/// square, which R and T hold, is below single precision's normal numbers, but not so little that a line ends.
+/// A sequence of strong layers, followed by a thousand weak ones. Gas and bone reduce I until its square, which R and T
+/// hold, is below the normal numbers of single precision, but not so far that a line ends.
 AcousticVolume layered(const TissueTable& table, bool shadowed) {
   std::vector<int> layers;
   constexpr double kLeft = 4e-20;
@@ -55,7 +55,7 @@ Table measure_denormals(const Request& request) {
   const Probe& probe = *find_probe("linear");
   Settings settings = trainer_settings(3.5, kDepth_mm);
   settings.gel_mm = 0;
-  // Without what would end the line, cover what is left, or take its own time for gas and bone.
+  // Disables everything that would end the line, hide the rest, or take its own time for gas and bone.
   settings.absorption = settings.electronic_noise = settings.clutter = settings.reverberation = false;
   settings.face_reflection = 0;
   const char* const kCases[] = {"tissue", "behind gas and bone"};

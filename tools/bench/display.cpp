@@ -52,7 +52,7 @@ DisplayError error_of(const Display& shown, const Display& converged, double dyn
         db += weight * shown.db.at(u, v);
         grey += weight * shown.grey.at(u, v);
       }
-      // Where no pixel of the other's fan is near, nothing is drawn.
+      // Pixels without a neighbour in the other picture's fan stay black.
       db = total > 0 ? db / total : -dynamic_range_db;
       grey = total > 0 ? grey / total : 0;
       const double expected = converged.db.at(x, y);

@@ -21,7 +21,7 @@ long runs_in_all(const gl::Simulator& simulator) {
   return std::accumulate(simulator.runs().begin(), simulator.runs().end(), 0L);
 }
 
-/// What each stage takes when the device is waited for behind each: the median, ms.
+/// Returns the median time of each stage in ms, waiting for the device after each stage.
 std::array<double, gl::kStageCount> stage_times(gl::Simulator& simulator, const Pose& start, int frames) {
   std::array<std::vector<double>, gl::kStageCount> times;
   for (int frame = 0; frame < frames; ++frame) {
@@ -41,7 +41,7 @@ std::array<double, gl::kStageCount> stage_times(gl::Simulator& simulator, const 
 }  // namespace
 
 Table measure_frames(const Request& request) {
-  // The trainer's own picture first.
+  // The trainer's own configuration comes first.
   std::vector<Configuration> usual = {{192, 512, 512, 512}};
   usual.insert(usual.end(), kPaperConfigurations.begin(), kPaperConfigurations.end());
   const std::vector<Configuration> sizes = configurations(request, usual);

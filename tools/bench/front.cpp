@@ -20,8 +20,8 @@
 namespace insonate::bench {
 namespace {
 
-/// Each setting's frames are measured in as many rounds over all settings, so that a machine that is slower for a few
-/// seconds is so for few frames of any of them.
+/// The frames of each setting are measured in this many rounds over all settings. So if the machine is slower for a few
+/// seconds, only a few frames of each setting are affected.
 constexpr int kRounds = 10;
 
 constexpr double kMiB = 1 << 20;
@@ -30,7 +30,7 @@ struct Setting {
   std::string name;
   int lines;
   Settings settings;
-  bool whole = true;  ///< draws every effect; what leaves one out is another picture, and no part of the front
+  bool whole = true;  ///< draws every effect; other pictures are not on the front
 };
 
 std::string size_name(const Settings& settings) {
@@ -38,14 +38,14 @@ std::string size_name(const Settings& settings) {
          std::to_string(settings.image_height);
 }
 
-/// The level of quality that a setting is; "" for none.
+/// Returns the level of quality that a setting represents; "" for none.
 std::string quality_of(const Setting& setting, const Setting& balanced) {
   for (const Quality quality : kQualities)
     if (setting.settings == at_quality(balanced.settings, quality)) return name_of(quality);
   return "";
 }
 
-/// What is tried, the defaults first.
+/// Returns the settings to measure, the defaults first.
 std::vector<Setting> settings_to_try(const Request& request, const Scene& scene) {
   const Settings defaults = trainer_settings(scene.probe.frequency_mhz, scene.depth_mm);
   const int lines = scene.probe.lines;

@@ -1,4 +1,4 @@
-// insonate-bench: what the simulator costs on this machine, as medians with their spread, and how exact it is.
+// insonate-bench: measures the simulator's run time on this machine, as medians with their spread, and its accuracy.
 
 #include "sim/core/files.h"
 #include "sim/imaging/upload.h"

@@ -14,11 +14,10 @@ namespace insonate::bench {
 namespace {
 
 constexpr int kReferenceLines = 64;
-/// I is compared where it is above this, as the accuracy contract does; R where it is above this share of the
-/// brightest.
+/// Thresholds of the comparison: I above this value, as in the accuracy contract; R above this share of the brightest.
 constexpr double kLeast = 1e-6;
 
-/// RMS in dB; what is far too weak counts as a hundredth of the least that is compared.
+/// Returns the RMS error in dB. A value that is far too weak counts as 1/100 of the threshold.
 double error_db(const Image<float>& got, const Image<double>& expected, const std::vector<int>& lines, double least) {
   RootMeanSquare db;
   for (int i = 0; i < expected.width; ++i)
@@ -68,9 +67,9 @@ Table measure_paper(const Request& request) {
       for (const Configuration& c : sizes) {
         probe.lines = c.lines;
         Settings settings = settings_of(scene, c, trainer);
-        settings.skipping = settings.edge_shadow = false;  // neither leaves anything out, or has what the other has not
+        settings.skipping = settings.edge_shadow = false;  // so that both methods compute the same
         settings.slice_planes = 1;
-        settings.speckle = false;  // neither method's traversal is to draw scatterers
+        settings.speckle = false;  // the comparison is without scatterers
         const ScanLines lines = scan_lines(probe, scene.depth_mm, c.samples);
         simulator.set_probe(probe, scene.depth_mm);
         simulator.set_settings(settings);

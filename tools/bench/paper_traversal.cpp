@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kLn10 = 2.302585092994046;
 
-// As `Line` in paper_pass.frag.
+// Matches `Line` in paper_pass.frag.
 struct GpuLine {
   glm::vec4 start, along, lateral, elevation;
 };

@@ -8,7 +8,7 @@
 namespace insonate::bench {
 namespace {
 
-// All lengths in the drawing's own units, which are pixels on a screen.
+// All lengths are in the drawing's own units, which are pixels on a screen.
 constexpr double kWidth = 880, kPanelHeight = 400;
 constexpr double kLeft = 60, kRight = 320, kTop = 42, kBottom = 46;
 constexpr double kHead = 30;
@@ -35,7 +35,7 @@ std::string escaped(const std::string& text) {
   return safe;
 }
 
-/// From values to places, logarithmic, with room at both ends.
+/// Maps values to positions, logarithmically, with a margin at both ends.
 struct Axis {
   double low = 1, high = 10, from = 0, to = 1;
 
@@ -95,7 +95,7 @@ std::string drawn(const Panel& panel, double top) {
                  p.quality.empty() ? "" : " standard", x.at(p.time_ms), y.at(p.error_db)) +
            escaped(p.name) + print(": %.2f ms, %.3f dB</title></circle>\n", p.time_ms, p.error_db);
     if (!p.on_front && p.quality.empty()) continue;
-    // The number left and below, where no setting lies; what it stands for beside the panel.
+    // The point shows a number at its lower left, where no other setting lies. The list beside the panel explains it.
     ++named;
     svg += print(
                "<text class='label' x='%.1f' y='%.1f' text-anchor='end'>%d</text>"

@@ -5,21 +5,23 @@
 
 namespace insonate::bench {
 
-/// A setting in the plot of run time against error.
+/// One setting in the plot of run time against error.
 struct Point {
   std::string name;
-  double time_ms = 0, error_db = 0;  ///< > 0 to be drawn
+  double time_ms = 0, error_db = 0;  ///< drawn only if both are > 0
   bool on_front = false;
-  std::string quality = {};  ///< the level of quality that it is, if any, which is named and ringed
-  bool leaves_out = false;   ///< an effect, so that it is another picture
+  std::string quality = {};  ///< name of its level of quality, if it is one; shown with a ring
+  bool leaves_out = false;   ///< leaves out an effect, so that its picture is not comparable
 };
 
+/// The settings of one scene.
 struct Panel {
   std::string title;
   std::vector<Point> points;
 };
 
-/// One panel a scene under each other, both axes logarithmic, the front joined by a line and its points named.
+/// Returns an SVG with one panel per scene, stacked. Both axes are logarithmic. A line joins the points of the front,
+/// which are labelled.
 std::string front_svg(const std::string& device, const std::vector<Panel>& panels);
 
 }  // namespace insonate::bench

@@ -12,18 +12,18 @@
 
 namespace insonate::bench {
 
-/// What every measuring command is asked.
+/// The arguments that all measuring commands share.
 struct Request {
   std::vector<std::string> subjects;  ///< case folders, CT files, DICOM folders
-  bool built_in = false;              ///< the built-in abdomen too; it stands in when nothing is named
-  std::string view;                   ///< by name; the first when empty
-  int frames = 30;                    ///< measured per setting
-  std::vector<int> configurations;    ///< lines, samples, width, height, and again; the command's own when empty
+  bool built_in = false;              ///< also use the built-in abdomen; it is the default if nothing is named
+  std::string view;                   ///< name; empty for the first view
+  int frames = 30;                    ///< number measured per setting
+  std::vector<int> configurations;    ///< lines, samples, width, height, repeated; if empty, the command's own
 };
 
-/// A patient and where the probe stands on it.
+/// A patient and the pose of the probe.
 struct Scene {
-  std::string file;  ///< as named by the person, for messages
+  std::string file;  ///< as the user named it, for messages
   std::string name, view;
   AcousticVolume volume;
   TissueTable table;
@@ -32,33 +32,34 @@ struct Scene {
   Pose pose;
 };
 
-/// Opens the scenes one after the other, so that no two are held in memory. Throws InputError.
+/// Opens the scenes one by one, so that only one is in memory. Throws InputError.
 void for_each_scene(const Request& request, const std::function<void(const Scene&)>& measure);
 
-/// Lines, samples and picture of the paper's table.
+/// Number of lines and samples, and picture size, as in the paper's table.
 struct Configuration {
   int lines, samples, width, height;
 };
 
-/// Those of the request, or `usual`. Throws InputError when a number is missing or outside its range.
+/// Returns the configurations of the request, or else `usual`. Throws InputError if a number is missing or out of
+/// range.
 std::vector<Configuration> configurations(const Request& request, const std::vector<Configuration>& usual);
 
-/// The five of Kutter, Shams, Navab 2009.
+/// The five configurations of Kutter, Shams, Navab 2009.
 extern const std::vector<Configuration> kPaperConfigurations;
 
-/// Prints what is measured, and that it is no graphics card where that is so.
+/// Prints the device, and a warning if it is not a graphics card.
 void tell_device();
 
-/// The paper's pipeline as the paper has it, a sample a reflection length, or the trainer's with all that it adds and
-/// two samples a length. Throws InputError where so many samples make no such length.
+/// Returns the settings of the paper's pipeline with one sample per reflection length, or those of the trainer with all
+/// its effects and two samples per length. Throws InputError if the number of samples does not give a valid length.
 Settings settings_of(const Scene& scene, const Configuration& configuration, bool trainer);
 
-/// Where the probe stands in a frame: it wanders around `start` by a few millimetres along the face and across it.
+/// Returns the probe's pose in a frame. It moves around `start` by a few millimetres along and across the face.
 Pose wandering(const Pose& start, int frame);
 
-/// Runs the methods in turn, frame by frame, each with the same poses, and tells each one's times from the pose to the
-/// end of the device's work. A few frames before those that count warm up.
-/// @param first  of the frames, for those who measure some of them now and some later
+/// Runs the methods in alternation, frame by frame, with the same poses. Measures the time from the pose until the
+/// device has finished. A few frames before the measured ones warm up.
+/// @param first  number of the first frame, for measurements in several rounds
 /// @return milliseconds: per method, per frame
 std::vector<std::vector<double>> alternating_times(const Pose& start, int frames,
                                                    const std::vector<std::function<void(const Pose&)>>& methods,

@@ -13,7 +13,7 @@
 namespace insonate::bench {
 namespace {
 
-constexpr double kFrame_s = 1 / 60.0;  // of the screen: with a fast tracker a frame scores several samples
+constexpr double kFrame_s = 1 / 60.0;  // screen frame; with a fast tracker, several samples are scored per frame
 
 }  // namespace
 

@@ -4,22 +4,23 @@
 
 namespace insonate::bench {
 
-/// What is told of repeated measurements: half of them lie between the quartiles.
+/// Summary of repeated measurements: half of them lie between the quartiles.
 struct Spread {
   double first_quartile = 0, median = 0, third_quartile = 0;
 };
 
-/// Quantiles at the ends and evenly between, linear between neighbours. Of no values: zeros.
+/// Returns the quartiles, with quantiles at the ends and evenly between, interpolated linearly. Returns zeros for no
+/// values.
 Spread spread_of(std::vector<double> values);
 
-/// The root of the mean square of what is added.
+/// Accumulates a root mean square.
 class RootMeanSquare {
 public:
   void add(double value) {
     squares_ += value * value;
     ++count_;
   }
-  /// 0 when nothing was added.
+  /// Returns 0 if nothing was added.
   double value() const;
   long count() const { return count_; }
 
@@ -28,19 +29,20 @@ private:
   long count_ = 0;
 };
 
-/// A setting's run time and error, and the memory that it takes of the device.
+/// A setting's run time, error and device memory.
 struct Cost {
   Spread time;
   double error = 0;
   double memory = 0;
 };
 
-/// Errors that differ by less than this share show no difference.
+/// Errors that differ by a smaller share count as equal.
 inline constexpr double kSameError = 0.01;
 
-/// For each, whether it lies on the front: no other that takes no more memory is better in time or error and at least
-/// as good in the other. Times whose quartiles overlap and errors within kSameError are no better than each other; of
-/// settings that are so alike in both, and take as much memory, the first lies on the front for all.
+/// Returns for each setting whether it lies on the front. A setting is on the front if no other setting with at most as
+/// much memory is better in time or error and at least as good in the other. Times with overlapping quartiles and
+/// errors within kSameError count as equal. Among settings that are equal in both and use the same memory, only the
+/// first is on the front.
 std::vector<bool> on_front(const std::vector<Cost>& costs);
 
 }  // namespace insonate::bench

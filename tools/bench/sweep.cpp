@@ -13,7 +13,7 @@ namespace {
 constexpr int kPlanes = 64;
 constexpr double kSwept_deg = 60, kPivot_mm = 30;
 
-// As many voxels as asked for, over all lines of the sweep.
+// Returns a grid of the requested number of voxels over all lines of the sweep.
 Grid grid_over(const Sweep& sweep, const glm::ivec3& size) {
   Grid grid = sweep_grid(sweep, 1);
   grid.spacing = glm::dvec3(grid.size) / glm::dvec3(size);
@@ -50,7 +50,7 @@ Table measure_sweep(const Request& request) {
         simulator.set_grid(grid);
         simulator.volume();
       };
-      // What a moved probe costs; what it costs to look at the same lines from elsewhere; and another gain.
+      // Cases: a moved probe, the same lines converted to another grid, and another gain.
       const auto times = alternating_times(scene.pose, request.frames,
                                            {[&](const Pose& pose) {
                                               sweep.patient_from_plane =

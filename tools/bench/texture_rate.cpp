@@ -8,7 +8,7 @@
 namespace insonate::gl {
 namespace {
 
-constexpr std::size_t kFetches = 64;  // of an invocation, about as a line makes
+constexpr std::size_t kFetches = 64;  // per invocation, about as many as for a line
 
 std::size_t invocations(std::size_t fetches) {
   return (fetches + kFetches - 1) / kFetches;

@@ -9,15 +9,16 @@
 
 namespace insonate::gl {
 
-/// Fetches as many samples from a volume as a simulation does and computes nothing: how fast the device's texture units
-/// are, beside which a simulator's times can be held.
+/// Fetches as many samples from a volume as a simulation and computes nothing. It measures the speed of the device's
+/// texture units, as a reference for the simulators' times.
 class TextureRate {
 public:
-  /// Of the texture that model W reads. Throws TextureRefused, and std::runtime_error when its shader does not build.
+  /// Fetches from the texture that model W reads. Throws TextureRefused if the device cannot hold it, and
+  /// std::runtime_error if its shader does not compile.
   TextureRate(const AcousticVolume& volume, double reflection_length_mm, std::size_t fetches,
               const WorkDivision& division = WorkDivision::of_device());
 
-  /// So many fetches or a few more. The device may still be at work.
+  /// Runs the requested number of fetches or slightly more. The device may still be working when it returns.
   void run() const;
 
 private:

@@ -18,12 +18,13 @@ namespace {
 
 constexpr double kSwept_deg = 60, kPivot_mm = 30;
 
-/// Lines that are walked along at once.
+/// Lines that are traversed in one dispatch.
 struct LineSet {
   int planes, lines, samples;
 };
 
-/// Those of the trainer's picture and of the paper's, and sweeps of more lines, as many as may fill a graphics card.
+/// Returns the line sets of the trainer's picture and of the paper's. Adds sweeps with enough lines to fill a graphics
+/// card.
 std::vector<LineSet> line_sets(const Request& request) {
   const std::vector<Configuration> usual = {
       {192, 512, 512, 512}, {256, 256, 256, 256}, {512, 512, 512, 512}, {1024, 1024, 1024, 1024}};
@@ -35,7 +36,7 @@ std::vector<LineSet> line_sets(const Request& request) {
   return sets;
 }
 
-/// One of the two ways.
+/// One of the two work divisions.
 struct Method {
   const char* name;
   gl::LineStages stages;

@@ -9,26 +9,28 @@
 
 namespace insonate {
 
-/// What insonate-case does, a function a command. All throw InputError.
+/// The commands of insonate-case, one function each. All throw InputError.
 
-/// Prints what a case, CT file or DICOM folder holds, for people or as JSON.
+/// Prints the content of a case, CT file or DICOM folder, as text or as JSON.
 void inspect(const std::filesystem::path& path, bool json);
 
-/// @param recipe  the built-in abdomen's when empty
+/// Builds a phantom and writes it as a case.
+/// @param recipe  the recipe of the built-in abdomen if empty
 void make_and_write(std::filesystem::path recipe, const std::vector<std::string>& settings,
                     const std::filesystem::path& folder);
 
-/// @param replace  whether a case of that folder is written over, with what an expert has added to it
+/// Imports a patient and writes the case.
+/// @param replace  overwrites an existing case in the folder, including an expert's additions
 void import_and_write(ImportRequest request, const std::filesystem::path& folder, bool replace);
 
-/// A moment of a recorded log.
+/// A time in a recorded log.
 struct RecordedMoment {
   std::filesystem::path log;  ///< a PLUS/IGSIO sequence file
-  double at_s = 0;            ///< after the log's first frame
-  std::string transform;      ///< as probe_samples() takes it
+  double at_s = 0;            ///< seconds after the log's first frame
+  std::string transform;      ///< name of the transform, as for probe_samples()
 };
 
-/// Adds a view whose pose is in a file or a log, one of them; see add_view().
+/// Adds a view whose pose comes from either a pose file or a log; see add_view().
 void add_recorded_view(const std::filesystem::path& folder, ReferenceView view, const std::string& pose_file,
                        const RecordedMoment& moment);
 

@@ -23,9 +23,9 @@ Json as_json(const glm::dvec3& v) {
 }
 
 struct Orientation {
-  std::string letters;   ///< where i, j and k run to: "LPS"
+  std::string letters;   ///< directions of i, j and k
   std::string in_words;  ///< "i to the left, j to the back, k to the head"
-  double oblique_deg;    ///< the largest angle between an axis and the body's nearest
+  double oblique_deg;    ///< largest angle between an axis and the nearest axis of the body
 };
 
 Orientation orientation_of(const Grid& grid) {
@@ -51,7 +51,7 @@ Json describe_densities(const std::vector<std::int16_t>& voxels) {
   std::vector<std::size_t> histogram(1u << 16);
   for (const std::int16_t hu : voxels) ++histogram[std::size_t(hu + 32768)];
   const auto percentile = [&](double share) {
-    // The least value that at least this share of the voxels does not exceed.
+    // The smallest value that at least this share of the voxels does not exceed.
     const auto wanted = std::max<std::size_t>(1, std::size_t(std::ceil(share * double(voxels.size()))));
     std::size_t seen = 0, value = 0;
     while ((seen += histogram[value]) < wanted) ++value;
@@ -67,7 +67,7 @@ Json describe_grid(const Grid& grid) {
   const Orientation orientation = orientation_of(grid);
   Json rows = Json::array();
   for (int r = 0; r < 3; ++r)
-    // Adding 0 makes -0 a 0.
+    // Adding 0 turns -0 into 0.
     rows.push_back({grid.direction[0][r] + 0.0, grid.direction[1][r] + 0.0, grid.direction[2][r] + 0.0});
   return {{"size", {grid.size.x, grid.size.y, grid.size.z}},
           {"spacing_mm", as_json(grid.spacing)},

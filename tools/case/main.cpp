@@ -1,4 +1,4 @@
-// insonate-case: says what a case, a CT file or a DICOM folder holds; makes cases from patients and phantoms.
+// insonate-case: describes a case, a CT file or a DICOM folder; makes cases from patients and phantoms.
 
 #include "tools/case/commands.h"
 #include "tools/cli/program.h"

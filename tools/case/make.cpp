@@ -28,7 +28,7 @@ std::vector<std::pair<std::string, std::string>> parse_options(const std::vector
   return options;
 }
 
-/// Tells on standard error how far a work is: a terminal sees each percent in place, a log file every tenth on a line.
+/// Shows progress on standard error: on a terminal every percent in place, in a log file every 10 % on its own line.
 class ProgressLine {
 public:
   explicit ProgressLine(std::string work) : work_(std::move(work)) {}
@@ -51,7 +51,7 @@ private:
   int last_ = -1;
 };
 
-/// The probe's pose in a log at a moment.
+/// Returns the probe's pose in a log at a time.
 Pose pose_in_log(const RecordedMoment& moment) {
   constexpr double kNear_s = 0.1;  // a few frames of the slowest tracker
   RecordingOptions of_log;
@@ -78,7 +78,7 @@ Pose pose_in_log(const RecordedMoment& moment) {
 void make_and_write(std::filesystem::path recipe, const std::vector<std::string>& settings,
                     const std::filesystem::path& folder) {
   constexpr std::size_t kLongestRecipe = std::size_t(16) << 20;
-  check_case_can_be_written(folder);  // before a minute's work rather than after it
+  check_case_can_be_written(folder);  // checked before the work, which takes a minute
   if (recipe.empty()) recipe = assets_folder() / "phantoms" / "abdomen.toml";
   Case subject;
   {

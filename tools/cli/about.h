@@ -5,19 +5,18 @@
 
 namespace insonate {
 
-/// One line of what a program reports about itself.
+/// One line of a program's version information.
 struct AboutLine {
   std::string name, text;
 };
 
-/// The version, the commit, the build and the licence of this program.
+/// Returns the version, the commit, the build and the licence of this program.
 std::vector<AboutLine> about_this_build();
 
 inline constexpr const char* kNoMedicalDevice =
     "Insonate is a trainer. It is not a medical device and must not guide the care of a patient.";
 
-/// What `--version` prints: the lines of about_this_build(), those of `more`, and kNoMedicalDevice.
-/// @param program  the program's name
+/// Returns the output of `--version`: the lines of about_this_build(), those of `more`, and kNoMedicalDevice.
 std::string version_text(const std::string& program, const std::vector<AboutLine>& more);
 
 }  // namespace insonate

@@ -20,7 +20,7 @@ constexpr std::size_t kNumbers = 16;
 constexpr char kWanted[] =
     "write the matrix patient_from_probe row by row: 16 numbers as text, or as JSON, there also as 4 rows of 4";
 
-/// Which pose the number of that index is of, where it is not the first.
+/// Returns the text that names the pose of a number, for all but the first pose.
 std::string pose_of(std::size_t index) {
   return index < kNumbers ? "" : "pose " + std::to_string(index / kNumbers + 1) + ", ";
 }

@@ -7,13 +7,13 @@
 
 namespace insonate {
 
-/// Reads a pose file: the matrices patient_from_probe, row by row. As plain text, 16 numbers each, or as JSON: an
-/// array, or an object with the array under "patient_from_probe", of 16 numbers a pose, of four rows of four, or of
-/// such matrices. Each is a rotation and a translation in mm, as why_not_rigid() has it. At least one. Throws
-/// InputError.
+/// Reads a pose file with one or more matrices patient_from_probe, row by row. The file is plain text with 16 numbers
+/// per pose, or JSON. The JSON is an array, or an object with the array under "patient_from_probe". The array holds 16
+/// numbers per pose, four rows of four, or several such matrices. Each matrix must be a rotation and a translation in
+/// mm (why_not_rigid()). Throws InputError.
 std::vector<Pose> read_poses(const std::string& file);
 
-/// The same of exactly one pose; another number is an InputError.
+/// Reads a file with exactly one pose. Throws InputError for any other number.
 Pose read_pose(const std::string& file);
 
 }  // namespace insonate

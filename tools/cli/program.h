@@ -20,8 +20,8 @@
 
 namespace insonate {
 
-/// Adds `--version`, and what packages are made with, which no help shows: `--man-page` and `--bash-completion`.
-/// @param more_about  returns lines of `--version` that only this program has; may be empty
+/// Adds `--version`, and the options that packaging uses: `--man-page` and `--bash-completion`, which help does not
+/// show.
 inline void add_self_descriptions(CLI::App& program, const std::function<std::vector<AboutLine>()>& more_about) {
   program.set_version_flag(
       "--version",
@@ -36,8 +36,8 @@ inline void add_self_descriptions(CLI::App& program, const std::function<std::ve
   add_page("--bash-completion", bash_completion);
 }
 
-/// Refuses what CLI11 lets pass: NaN, which lies in every range; infinity, where there is none; and an empty text,
-/// which would count as an option that was left out.
+/// Refuses values that CLI11 accepts: NaN, which passes every range check; infinity where there is no range; and an
+/// empty text, which CLI11 treats as an omitted option.
 inline void refuse_unusable(const CLI::App& arguments) {
   for (const CLI::Option* option : arguments.get_options())
     for (const std::string& given : option->results()) {
@@ -50,7 +50,7 @@ inline void refuse_unusable(const CLI::App& arguments) {
   for (const CLI::App* command : arguments.get_subcommands()) refuse_unusable(*command);
 }
 
-/// Throws InputError when not all that was printed has reached standard output.
+/// Throws InputError if the output could not be written completely to standard output.
 inline void finish_printing() {
   errno = 0;
   const bool failed = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
@@ -59,14 +59,13 @@ inline void finish_printing() {
     throw InputError("standard output", "", "it cannot be written" + why, "make room, or send it to another file");
 }
 
-/// What every command-line program's main does around its work: parses the arguments, runs `work`, and turns what
-/// goes wrong into one sentence on standard error. Exit codes: 0 done, what `work` returns, 2 for input that cannot be
-/// used (wrong arguments and output that cannot be written too), 3 for a failure that is not the input's.
-/// @param more_about  returns lines of `--version` that only this program has
+/// The common part of every command-line program's main. It parses the arguments, runs `work`, and prints errors as one
+/// sentence to standard error. Exit codes: 0 for success, or the result of `work`; 2 for unusable input, including
+/// wrong arguments and output that cannot be written; 3 for a failure that the input did not cause.
 inline int run_program(CLI::App& arguments, int argc, char** argv, const std::function<int()>& work,
                        const std::function<std::vector<AboutLine>()>& more_about = {}) {
   add_self_descriptions(arguments, more_about);
-  // A file at its size limit gets a sentence, as a full disk does, and does not end the program.
+  // A file at its size limit then causes an error message, as a full disk does, instead of ending the program.
   signal(SIGXFSZ, SIG_IGN);
   try {
     try {

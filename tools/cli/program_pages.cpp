@@ -22,7 +22,7 @@ std::string joined(const std::vector<std::string>& parts, const std::string& bet
   return text;
 }
 
-// What CLI11 knows of a program. Its help leaves out what is in the group "", and so do the pages.
+// The information that CLI11 has on a program. Help omits everything in the group "", and so do these pages.
 
 std::vector<const CLI::Option*> options_of(const CLI::App& app) {
   return app.get_options([](const CLI::Option* o) { return !o->get_positional() && !o->get_group().empty(); });
@@ -47,8 +47,8 @@ bool takes_value(const CLI::Option& option) {
   return option.get_items_expected_max() > 0;
 }
 
-/// "FOLDER" or "TEXT": what the value is, without what it has to fulfil, which CLI11 appends behind a colon. The kind
-/// "[ADDRESS:]PORT" has a colon of its own.
+/// Returns the type of the value, "FOLDER" or "TEXT", without its conditions, which CLI11 appends after a colon. The
+/// type "[ADDRESS:]PORT" contains a colon of its own.
 std::string kind_of_value(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   std::size_t colon = type.find(':');
@@ -56,7 +56,7 @@ std::string kind_of_value(const CLI::Option& option) {
   return type.substr(0, colon);
 }
 
-/// The values that the option can have, if they are a few words.
+/// Returns the permitted values of the option if they are a few words.
 std::vector<std::string> choices_of(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   const std::size_t open = type.find(":{"), close = type.find('}');
@@ -64,7 +64,7 @@ std::vector<std::string> choices_of(const CLI::Option& option) {
   return split(type.substr(open + 2, close - open - 2), ',');
 }
 
-/// "10 to 400", or empty when the option has no such limits.
+/// Returns the limits, such as "10 to 400", or an empty text if the option has none.
 std::string range_of(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   const std::size_t open = type.find(" in ["), middle = type.find(" - "), close = type.find(']');
@@ -72,14 +72,14 @@ std::string range_of(const CLI::Option& option) {
   return type.substr(open + 5, middle - open - 5) + " to " + type.substr(middle + 3, close - middle - 3);
 }
 
-/// "insonate-case inspect".
+/// Returns the full name of a command, such as "insonate-case inspect".
 std::string full_name(const CLI::App& app) {
   return (app.get_parent() ? full_name(*app.get_parent()) + " " : "") + app.get_name();
 }
 
 // The man page.
 
-/// Text that roff prints as it is. Its minus is the one that options are typed with.
+/// Returns text that roff prints literally. Its minus is the character that is typed in options.
 std::string as_is(std::string_view text) {
   std::string roff;
   for (const char c : text) {
@@ -123,8 +123,8 @@ std::size_t indent_of(const std::string& line) {
   return std::min(line.find_first_not_of(' '), line.size());
 }
 
-/// Prose of a help text. An empty line begins a paragraph, and an indented block is a list: its least indented lines
-/// are the items, and those below them say what an item is.
+/// Formats the prose of a help text. An empty line begins a paragraph. An indented block is a list: its least indented
+/// lines are the items, and the lines below them describe an item.
 std::string prose(const std::string& text) {
   std::string roff;
   std::size_t of_list = 0;
@@ -162,7 +162,7 @@ std::string value_of(const CLI::Option& option) {
   return text;
 }
 
-/// A list entry for an option or an argument, with its limits and default behind its description.
+/// Returns a list entry for an option or an argument, with its limits and default after its description.
 std::string entry(const CLI::Option& option) {
   std::string roff = ".TP\n";
   if (option.get_positional()) {
@@ -189,7 +189,7 @@ std::string entries(const CLI::App& app) {
   return roff;
 }
 
-/// One line for the program or command itself, and those of its commands.
+/// Returns one line for the program or command itself, followed by those of its commands.
 std::string synopsis(const CLI::App& app) {
   std::string roff;
   if (app.get_require_subcommand_min() == 0) {
@@ -207,11 +207,11 @@ std::string synopsis(const CLI::App& app) {
   return roff;
 }
 
-/// What stands below the options in a help text: examples become a section, or a part of a command's.
+/// Formats the footer of a help text: examples become a section, or part of a command's section.
 std::string footer(const CLI::App& app) {
   constexpr std::string_view kExamples = "Examples:\n";
   std::string text = app.get_footer(), roff;
-  if (app.get_parent() && text == app.get_parent()->get_footer()) return "";  // CLI11 hands it on to commands
+  if (app.get_parent() && text == app.get_parent()->get_footer()) return "";  // commands inherit it in CLI11
   if (text.starts_with(kExamples)) {
     text = text.substr(kExamples.size());
     roff += app.get_parent() ? ".PP\nExamples:\n.EX\n" : ".SH EXAMPLES\n.EX\n";
@@ -224,7 +224,7 @@ std::string footer(const CLI::App& app) {
     roff += ".EE\n";
     text = rest;
   }
-  // The section EXIT STATUS has it for the program.
+  // For the program, the section EXIT STATUS contains it.
   if (!app.get_parent()) text = text.substr(0, text.find("Exit codes:"));
   if (text.find_first_not_of('\n') == std::string::npos) return roff;
   return roff + ".PP\n" + prose(text.substr(text.find_first_not_of('\n')));
@@ -243,7 +243,7 @@ std::string command_sections(const CLI::App& app) {
   return roff;
 }
 
-/// Splits a description into what NAME says, without its full stop, and the rest.
+/// Splits a description into the NAME line, without its full stop, and the rest.
 std::pair<std::string, std::string> name_and_rest(const std::string& description) {
   const std::size_t stop = std::min(description.find('.'), description.size());
   std::string name = description.substr(0, stop);
@@ -281,7 +281,8 @@ std::string see_also(const std::string& program) {
 
 // The completion.
 
-/// What follows an option of a kind, as a statement of the script; nothing said there, bash completes files.
+/// Returns the completion of an option's value, as a statement of the script. A plain `return` lets bash complete
+/// files.
 std::string completion_of_value(const CLI::Option& option) {
   const std::vector<std::string> choices = choices_of(option);
   if (!choices.empty()) return "words='" + joined(choices, " ") + "'";

@@ -6,10 +6,10 @@
 
 namespace insonate {
 
-/// The man page of a program (roff, section 1), made from the options and commands that it declares.
+/// Returns the man page of a program (roff, section 1), generated from its declared options and commands.
 std::string man_page(const CLI::App& program);
 
-/// The completion of a program's command line (a script for bash), made from the same.
+/// Returns the command-line completion of a program (a script for bash), generated from the same declarations.
 std::string bash_completion(const CLI::App& program);
 
 }  // namespace insonate

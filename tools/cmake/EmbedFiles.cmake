@@ -1,6 +1,6 @@
 # Run by the build as `cmake -DFOLDER=... -DFILES=a,b -DHEADER=... -DFUNCTION=... -DOUTPUT=... -P`: writes the C++ file
 # that holds the files' text (insonate_embed in InsonateRoom.cmake).
-# The standard limits a raw string literal to 64 KiB; a file that long has other problems.
+# The standard guarantees 64 KiB for a raw string literal, more than any of these files should have.
 string(REPLACE "," ";" FILES "${FILES}")
 set(cases "")
 foreach(file IN LISTS FILES)

@@ -1,8 +1,8 @@
 # A room is one folder, one library target, and the only headers its users see.
 #
 # Every include is written from the repository's root ("sim/core/pose.h"), but no target has the root on its
-# include path: each room's folder is linked into an include folder of its own, which only those targets get that
-# link the room. So an include that crosses a wall the architecture forbids does not compile.
+# include path. Each room's folder is linked into an include folder of its own, which only targets that link the room
+# get. So an include that the architecture forbids does not compile.
 
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
@@ -10,13 +10,13 @@ set(CMAKE_CXX_EXTENSIONS OFF)
 
 option(INSONATE_WERROR "Treat the project's own warnings as errors" OFF)
 
-# What every target of the project's own code is compiled with. Contraction is off because a fused multiply-add
-# rounds differently from the pair it replaces, and scores have to come out the same to the last bit everywhere.
+# Compiler options of all targets of the project's own code. Contraction is off because a fused multiply-add
+# rounds differently from the pair it replaces, and scores must be identical to the last bit everywhere.
 add_library(insonate_options INTERFACE)
 target_compile_options(insonate_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -ffp-contract=off
                                                   $<$<BOOL:${INSONATE_WERROR}>:-Werror>)
 
-# ccache has to be told that a precompiled header may stand for the text that it was made of.
+# ccache needs permission to use a precompiled header in place of its text.
 find_program(CCACHE ccache)
 if(CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER "${CMAKE_COMMAND}" -E env CCACHE_SLOPPINESS=pch_defines,time_macros "${CCACHE}")
@@ -25,25 +25,24 @@ if(CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   endif()
 endif()
 
-# The headers that most files include, compiled once. A file still names all it includes: only the presets release and
-# dev precompile, and each other preset compiles every file without.
+# The headers that most files include, compiled once. A file must still include everything that it uses: only the
+# presets release and dev precompile headers, and the others compile every file without.
 add_library(insonate_precompiled OBJECT "${CMAKE_SOURCE_DIR}/tools/cmake/precompiled.cpp")
 target_link_libraries(insonate_precompiled PRIVATE insonate_options)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13
    AND NOT CMAKE_DISABLE_PRECOMPILE_HEADERS)
-  # GCC 12 suspects overflows within std::string's own functions, which it keeps to itself unless the header is
-  # precompiled.
+  # With a precompiled header, GCC 12 reports false overflows within std::string's own functions.
   target_compile_options(insonate_options INTERFACE -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow)
 endif()
 target_precompile_headers(insonate_precompiled PRIVATE "${CMAKE_SOURCE_DIR}/tools/cmake/precompiled.h")
 
-# What tools/room-diagram draws: each room's folder, and whom it uses.
+# The input of tools/room-diagram: each room's folder, and the rooms that it uses.
 file(WRITE "${CMAKE_BINARY_DIR}/rooms/folders.txt" "")
 file(WRITE "${CMAKE_BINARY_DIR}/rooms/uses.txt" "")
 
 # insonate_room(<name> SOURCES <file>... [USES <room or library>...] [PRIVATELY <library>...])
 # makes the target insonate_<name> (alias insonate::<name>) of the current folder. USES are seen by the room's users
-# too, because its headers include them; what is linked PRIVATELY stays behind the room's wall.
+# too, because its headers include them; libraries linked PRIVATELY are not visible to them.
 function(insonate_room name)
   cmake_parse_arguments(ROOM "" "" "SOURCES;USES;PRIVATELY" ${ARGN})
   file(RELATIVE_PATH folder "${CMAKE_SOURCE_DIR}" "${CMAKE_CURRENT_SOURCE_DIR}")
@@ -72,9 +71,9 @@ function(insonate_room name)
 endfunction()
 
 # insonate_embed(<variable> FUNCTION <name> HEADER <header> [FOLDER <folder>] FILES <file>...) adds to the build a C++
-# file, named in the variable, that holds the text of files of the current folder or of a folder in it. It defines the function that the header declares:
-# std::string_view FUNCTION(std::string_view name), with its namespace in FUNCTION, returns a file's text, or an empty
-# one for a name that is not there.
+# file, named in the variable, that holds the text of files of the current folder or of a folder in it. It defines the
+# function that the header declares, std::string_view FUNCTION(std::string_view name), with its namespace in FUNCTION.
+# It returns a file's text, or an empty one for an unknown name.
 function(insonate_embed variable)
   cmake_parse_arguments(EMBED "" "FUNCTION;HEADER;FOLDER" "FILES" ${ARGN})
   set(folder "${CMAKE_CURRENT_SOURCE_DIR}")

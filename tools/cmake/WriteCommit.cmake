@@ -1,6 +1,6 @@
-# Writes the header OUT with the short name of the commit that SOURCE is at, or "unknown" where SOURCE is not the root
-# of a git repository, as in an unpacked archive. "+" behind the name: files were changed since. The header stays
-# untouched while it says the same, so that nothing is built again.
+# Writes the header OUT with the short name of the commit at SOURCE, or "unknown" if SOURCE is not the root of a git
+# repository, as in an unpacked archive. "+" after the name means that files were changed since. The header is not
+# rewritten if its content is the same, so that nothing is rebuilt.
 set(commit unknown)
 find_program(GIT git)
 if(GIT)

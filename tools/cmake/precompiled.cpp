@@ -1,1 +1,1 @@
-// Empty: the target needs a source to precompile its headers with.
+// Empty: the target needs a source file to precompile its headers.

@@ -1,4 +1,4 @@
-// What most files of the project include; see InsonateRoom.cmake.
+// Headers that most files of the project include; see InsonateRoom.cmake.
 #pragma once
 
 #include <glm/common.hpp>

@@ -1,4 +1,4 @@
-// insonate-devices bench: what the filters do, whether samples get lost, and how old a frame's pose is.
+// insonate-devices bench: measures the effect of the filters, lost samples, and the age of a frame's pose.
 
 #include <chrono>
 #include <cstdio>
@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kFrameHz = 60;
 
-/// The figures as they are measured: printed, and kept as CSV.
+/// Prints the figures while they are measured, and collects them as CSV.
 class Figures {
 public:
   void heading(const char* text) { std::printf("%s\n", text); }
@@ -85,7 +85,7 @@ void bench_filters(Figures& figures) {
 }
 
 std::unique_ptr<LiveTracker> paced_tracker(double rate_hz) {
-  // The number of a sample travels as its buttons, so that a lost one shows.
+  // The buttons carry the sample's number, so that a lost sample is detected.
   return std::make_unique<LiveTracker>(std::make_unique<PacedSource>(
       "bench",
       [](std::uint64_t index) {
@@ -94,7 +94,7 @@ std::unique_ptr<LiveTracker> paced_tracker(double rate_hz) {
       rate_hz));
 }
 
-/// Calls `frame` with the time at 60 Hz, for so long.
+/// Calls `frame` with the time at 60 Hz, for `seconds`.
 template <typename Frame>
 void run_frames(double seconds, const Frame& frame) {
   const double start_s = steady_now_s();
@@ -119,7 +119,7 @@ void bench_throughput(Figures& figures, double seconds) {
       samples.clear();
       trackers[i]->poll(now_s, samples);
       for (const PoseSample& sample : samples) {
-        if (sample.status != PoseStatus::ok) continue;  // silence is told as a sample of its own
+        if (sample.status != PoseStatus::ok) continue;  // a silent tracker delivers a sample without a pose
         lost += sample.buttons - expected[i];
         expected[i] = sample.buttons + 1;
         ++delivered;

@@ -29,10 +29,10 @@ struct Request {
   bool moved = false;
 };
 
-/// Lines that a person enters, without waiting for one.
+/// Reads lines from standard input without blocking.
 class Lines {
 public:
-  /// The first character of the next line, '\n' for an empty one, 0 when there is none.
+  /// Returns the first character of the next line, '\n' for an empty line, 0 if there is none.
   char next() {
     pollfd ready{STDIN_FILENO, POLLIN, 0};
     while (open_ && ::poll(&ready, 1, 0) > 0) {
@@ -50,7 +50,7 @@ private:
   char first_ = 0;
 };
 
-/// Prints what changed of a step's view; on a terminal the feedback stays on one line.
+/// Prints the changes of a step's view. On a terminal the feedback stays on one line.
 class Page {
 public:
   void show(const SetupView& view) {
@@ -73,7 +73,7 @@ private:
   SetupView shown_;
 };
 
-/// The tracker, polled in true time, and the person's marks.
+/// Polls the tracker in real time and collects the user's fiducial inputs.
 class Bench {
 public:
   explicit Bench(const std::string& uri)
@@ -85,7 +85,7 @@ public:
     page.show(step.view());
     while (!step.view().done) {
       if (next_ == samples_.size()) wait(step, problem);
-      // Samples that are left over belong to the next step.
+      // Remaining samples belong to the next step.
       while (next_ < samples_.size() && !step.view().done) {
         step.feed(presses_.only_pressed(samples_[next_++]));
         page.show(step.view());
@@ -115,7 +115,8 @@ private:
   std::unique_ptr<Tracker> tracker_;
   double offset_s_;
   Lines lines_;
-  ButtonPresses presses_{0};  ///< over all steps: what ends one, and is still held, does not mark in the next
+  ButtonPresses presses_{
+      0};  ///< shared by all steps: a button that ends one step and is still held does not trigger in the next
   std::vector<PoseSample> samples_;
   std::size_t next_ = 0;
 };
@@ -146,7 +147,7 @@ int calibrate(const Request& request) {
       throw InputError(request.drawing.string(), "", step->view().refusal, "correct the drawing, or leave it out");
     bench.run(*step);
     step->store(calibration, std::int64_t(std::time(nullptr)));
-    // After each step, so that one that is given up loses nothing.
+    // Written after each step, so that abandoning a later step loses nothing.
     write_calibration(request.out, calibration);
   }
   const std::string missing = why_incomplete(calibration);

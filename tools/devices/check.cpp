@@ -1,4 +1,4 @@
-// insonate-devices check: whether a recorded log is whole.
+// insonate-devices check: checks whether a recorded log is complete.
 
 #include <nlohmann/json.hpp>
 
@@ -84,7 +84,7 @@ void print(const std::string& log, const LogReport& report) {
   if (report.findings().empty()) std::printf("  whole: nothing to look at\n");
 }
 
-/// As the exit code: the log can be read, and somebody should look at it.
+/// Exit code for a readable log with findings that a person should review.
 constexpr int kSomethingFound = 1;
 
 struct Request {

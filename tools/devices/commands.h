@@ -4,15 +4,16 @@
 
 #include "tools/cli/program.h"
 
-/// The commands of insonate-devices, each in a file of its own. A new one is a file, a line here and one in main.
+/// The commands of insonate-devices, each in its own file. To add one, add a file, a line here and one in main.
 namespace insonate::devices {
 
+/// A command: its parser and its work.
 struct Command {
-  const CLI::App* parser;     ///< tells whether the command was given
-  std::function<int()> work;  ///< after the arguments have been parsed; returns the exit code
+  const CLI::App* parser;     ///< knows whether the command was given
+  std::function<int()> work;  ///< called after parsing; returns the exit code
 };
 
-/// Each adds its arguments to the program's.
+/// Each function adds its arguments to the program.
 Command calibrate_command(CLI::App& program);
 Command list_command(CLI::App& program);
 Command bench_command(CLI::App& program);

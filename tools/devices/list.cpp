@@ -1,4 +1,4 @@
-// insonate-devices list: the kinds of tracker, and those that are plugged in.
+// insonate-devices list: lists the kinds of tracker, and the connected ones.
 
 #include <cstdio>
 #include <memory>
@@ -20,7 +20,7 @@ const DeviceKind::Model* known_model(Bus bus, const AttachedDevice& device) {
   return nullptr;
 }
 
-/// Prints the known trackers of a bus, or with `all` every device of it; returns how many known ones there are.
+/// Prints the known trackers of a bus, or with `all` every device on it. Returns the number of known ones.
 int list_bus(Bus bus, const char* bus_name, const AttachedDevices& attached, bool all) {
   int known_ones = 0;
   if (!attached.problem.empty()) std::printf("  %s cannot be asked: %s\n", bus_name, attached.problem.c_str());

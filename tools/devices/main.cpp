@@ -1,4 +1,4 @@
-// insonate-devices: which trackers there are, whether a recorded log is whole, and what a tracker says.
+// insonate-devices: lists trackers, checks recorded logs, and shows a tracker's output.
 
 #include <vector>
 

@@ -1,4 +1,4 @@
-// insonate-devices recover: finishes a recording that a crash has cut short.
+// insonate-devices recover: completes a recording that a crash cut short.
 
 #include <cstdio>
 #include <memory>

@@ -1,4 +1,4 @@
-// insonate-devices watch: what a tracker says.
+// insonate-devices watch: shows a tracker's output.
 
 #include <glm/gtc/quaternion.hpp>
 
@@ -36,7 +36,7 @@ void print(const PoseSample& sample) {
   std::printf("\n");
 }
 
-/// Ctrl C ends a recording as the end of its time does: its file is made.
+/// Set by Ctrl C, which ends a recording as its time limit does: the file is completed.
 volatile std::sig_atomic_t stopped = 0;
 
 struct Request {
@@ -52,7 +52,7 @@ int watch(const Request& request) {
   std::shared_ptr<const RawRecorder> raw;
   if (!request.record_raw.empty()) raw = record_raw(*tracker, request.record_raw, request.uri);
   if (recorder || raw) std::signal(SIGINT, [](int) { stopped = 1; });
-  // Only a live tracker needs the true time; the others count from zero, exactly.
+  // Only a live tracker needs real time; the others count exactly from zero.
   const double begin_s = steady_now_s(), start_s = tracker->live() ? begin_s : 0;
   std::string problem;
   std::vector<PoseSample> samples;

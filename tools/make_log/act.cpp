@@ -18,7 +18,7 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kWindow_mm = 100;
 constexpr double kPitch_mm = 0.5;
 
-/// The words of one `do` text, and what it is about.
+/// The words of one `do` text, with the case and pose that it refers to.
 struct Doing {
   const std::string& text;
   const Case& subject;

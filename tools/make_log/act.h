@@ -8,8 +8,8 @@
 
 namespace insonate {
 
-/// The actions that a plan's `do` text stands for (make_log_plan.h), in the picture taken from a pose. Throws
-/// InputError when the text is none, or names what the case or the picture does not have.
+/// Returns the actions that a plan's `do` text describes (plan.h), in the picture taken from a pose. Throws InputError
+/// if the text is not valid, or names something that the case or the picture does not have.
 std::vector<Action> made_of(const std::string& doing, const Case& subject, const Pose& patient_from_probe);
 
 }  // namespace insonate

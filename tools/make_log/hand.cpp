@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-/// Numbers in a row from one seed.
+/// A sequence of random numbers from one seed.
 class Random {
 public:
   explicit Random(std::uint32_t seed) : seed_(seed) {}
@@ -36,7 +36,8 @@ private:
   std::uint32_t next_ = 0;
 };
 
-/// A smooth, unsteady signal around 0 with about the given amplitude: a few sines whose frequencies share no period.
+/// A smooth random signal around 0 with about the given amplitude: the sum of a few sines whose frequencies have no
+/// common period.
 class Wander {
 public:
   Wander(Random& random, double least_hz, double most_hz) {
@@ -64,7 +65,7 @@ glm::dmat3 turn(double tilt_deg, double rock_deg, double rotation_deg) {
   return turn(tilt_deg, {1, 0, 0}) * turn(rock_deg, {0, 0, 1}) * turn(rotation_deg, {0, 1, 0});
 }
 
-/// Where the hand means to be: a pose, and how far off the skin.
+/// The pose that the hand aims at, and its distance from the skin.
 struct Aim {
   Pose pose;
   double lift_mm = 0;
@@ -74,18 +75,18 @@ Aim between(const Aim& a, const Aim& b, double share) {
   return {interpolate(a.pose, b.pose, share), a.lift_mm + (b.lift_mm - a.lift_mm) * share};
 }
 
-/// From 0 to 1 with the least jerk.
+/// Minimum-jerk profile from 0 to 1.
 double minimum_jerk(double share) {
   return share * share * share * (10 - 15 * share + 6 * share * share);
 }
 
-/// One stretch of the plan: from an aim to an aim, fanning on the way where asked.
+/// One section of the plan: from one aim to another, optionally with fanning.
 struct Stretch {
   double seconds;
   Aim from;
   Aim to;
   double fan_deg = 0;
-  std::string then{};  ///< what is done at its end
+  std::string then{};  ///< action at its end
 
   Aim at(double time_s) const {
     const double share = std::clamp(time_s / seconds, 0.0, 1.0);
@@ -108,8 +109,8 @@ Aim aim_of(const PlannedMove& move, const Case& subject) {
   return {view->patient_from_probe * off, move.lift_mm};
 }
 
-/// The plan's moves as stretches: each a reach that goes too far, corrections that halve what is left and more, the
-/// search and the rest.
+/// Returns the sections of the plan's moves. Each move is a reach that overshoots, corrections that remove half of the
+/// error or more, the search and the rest.
 std::vector<Stretch> stretches_of(const LogPlan& plan, const Case& subject, Random& random) {
   std::vector<Stretch> stretches;
   Aim here = aim_of(plan.moves.front(), subject);
@@ -117,7 +118,7 @@ std::vector<Stretch> stretches_of(const LogPlan& plan, const Case& subject, Rand
   for (std::size_t i = 1; i < plan.moves.size(); ++i) {
     const PlannedMove& move = plan.moves[i];
     const Aim goal = aim_of(move, subject);
-    // Going too far is going on along the same way; the miss also has a part that nobody intends.
+    // The overshoot continues along the same path. The miss also has a random part.
     Aim reached = between(here, goal, 1 + move.overshoot);
     reached.lift_mm = goal.lift_mm;
     const double way_mm = std::min(60.0, glm::distance(here.pose.translation, goal.pose.translation));
@@ -125,7 +126,7 @@ std::vector<Stretch> stretches_of(const LogPlan& plan, const Case& subject, Rand
     stretches.push_back({move.seconds, here, reached});
     for (int k = 0; k < move.corrections; ++k) {
       const Aim corrected = k + 1 == move.corrections ? goal : between(reached, goal, 0.55 + 0.3 * random.uniform());
-      stretches.push_back({0.1 + 0.2 * random.uniform(), reached, reached});  // seeing what came of it
+      stretches.push_back({0.1 + 0.2 * random.uniform(), reached, reached});  // the operator looks at the result
       stretches.push_back({0.35 + 0.3 * random.uniform(), reached, corrected});
       reached = corrected;
     }
@@ -141,7 +142,7 @@ std::vector<Stretch> stretches_of(const LogPlan& plan, const Case& subject, Rand
   return stretches;
 }
 
-/// Slides a pose along its beam until the face is pressed in, or hangs over the skin.
+/// Slides a pose along its beam until the face is pressed in, or hovers above the skin.
 Pose on_skin(const Aim& aim, const Case& subject, double press_mm, double time_s) {
   constexpr double step_back_mm = 40;
   constexpr double far_mm = 400;
@@ -161,7 +162,7 @@ Pose on_skin(const Aim& aim, const Case& subject, double press_mm, double time_s
   return pose;
 }
 
-/// A hand that rests is never still.
+/// The small motion of a resting hand.
 class Unsteadiness {
 public:
   Unsteadiness(const LogPlan& plan, Random& random) : plan_(plan) {
@@ -215,7 +216,7 @@ MadeLog move_by_hand(const LogPlan& plan, const Case& subject) {
   ActionLog actions;
   double begin_s = 0;
   std::size_t current = 0;
-  Pose picture;  // that is on the screen: the last valid one, or the one it was frozen at
+  Pose picture;  // on the screen: the last valid one, or the one at which it was frozen
   bool frozen = false;
   for (std::size_t i = 0; current < stretches.size(); ++i) {
     const double time_s = double(i) / plan.rate_hz;

@@ -9,15 +9,16 @@
 
 namespace insonate {
 
-/// Moves a probe over a case as a hand would: reaches of minimum jerk (Flash and Hogan 1985) that overshoot and are
-/// corrected, fanning, rests with wandering and tremor, the face following the skin. Then looks at it as a tracker
-/// would, with noise and losses. The same plan and case give the same samples.
-/// Throws InputError when a view is not in the case, when there is no skin under the probe, or when what the hand is to
-/// do names what the picture does not show.
+/// The samples and actions of a simulated log.
 struct MadeLog {
   std::vector<PoseSample> samples;
   ActionLog actions;  ///< by the samples' times
 };
+
+/// Simulates a hand that moves a probe over a case. It makes minimum-jerk reaches (Flash and Hogan 1985) that overshoot
+/// and are corrected, fans, and rests with drift and tremor, while the face follows the skin. Then it simulates a
+/// tracker with noise and losses. The same plan and case produce the same samples. Throws InputError if a view is not
+/// in the case, if there is no skin under the probe, or if an action names something that the picture does not show.
 MadeLog move_by_hand(const LogPlan& plan, const Case& subject);
 
 }  // namespace insonate

@@ -14,7 +14,7 @@ namespace {
 
 using namespace insonate;
 
-/// How the tracker lies beside the patient: any rigid transform would do, and none that is the identity would test one.
+/// The tracker's pose relative to the patient. Any rigid transform works; the identity would test nothing.
 Pose patient_from_tracker() {
   const glm::dmat4 turned =
       glm::rotate(glm::rotate(glm::dmat4(1.0), glm::radians(90.0), {1, 0, 0}), glm::radians(-25.0), {0, 1, 0});
@@ -27,7 +27,7 @@ std::string numbers(const Pose& pose) {
   const glm::dmat4 m = pose.matrix();
   for (int row = 0; row < 4; ++row)
     for (int column = 0; column < 4; ++column) {
-      // Micrometres and microradians: far below what a tracker resolves, and the file stays small.
+      // Micrometres and microradians are far below a tracker's resolution, and keep the file small.
       std::snprintf(number, sizeof number, row == 3 ? "%.0f " : column == 3 ? "%.3f " : "%.6f ", m[column][row]);
       text += number;
     }
@@ -49,8 +49,9 @@ const char* plus_word(PoseStatus status) {
   }
 }
 
-/// A sequence file as PLUS records it from a tracker that knows nothing of the patient: poses in the tracker's frame,
-/// and where the tracker is. A lost probe keeps its last pose, as many trackers do; its status says not to use it.
+/// Returns a sequence file as PLUS records it from a tracker without knowledge of the patient: poses in the tracker's
+/// frame, and the tracker's pose. A lost probe keeps its last pose, as with many trackers; its status marks it as
+/// unusable.
 std::string plus_sequence(const MadeLog& made) {
   const std::vector<PoseSample>& samples = made.samples;
   const Pose tracker_from_patient = patient_from_tracker().inverse();

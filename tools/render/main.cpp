@@ -1,4 +1,5 @@
-// insonate-render: one pose of one patient to a PNG, without a window; and, when asked, what the picture was made of.
+// insonate-render: renders one pose of one patient to a PNG without a window, and optionally writes the stages of the
+// picture.
 
 #include <nlohmann/json.hpp>
 
@@ -30,9 +31,9 @@ using namespace insonate;
 
 namespace {
 
-constexpr double kLinearPivot_mm = 30;  // its lines meet nowhere; as a hand rocks it
+constexpr double kLinearPivot_mm = 30;  // its lines do not meet; the pivot of a hand that rocks the probe
 
-/// The poses of a probe that was swept by hand.
+/// Reads the poses of a probe that was swept by hand.
 std::vector<Pose> read_sweep(const std::string& file) {
   constexpr std::size_t kMostPlanes = 2048;
   std::vector<Pose> poses = read_poses(file);
@@ -58,7 +59,8 @@ struct Rendered {
 
 constexpr double kLeastDepth_mm = 10, kMostDepth_mm = 400;
 
-/// Throws what reading the settings will throw, as far as it does not depend on a depth that is not known yet (0).
+/// Throws the errors of reading the settings early, as far as they do not depend on the depth, which may be unknown
+/// (0).
 void check_settings(const std::string& file, const std::string& model, const Probe& probe, double depth_mm) {
   if (model == "W") {
     read_wein_settings(file);
@@ -170,7 +172,7 @@ int main(int argc, char** argv) {
                   "The PNG to write, with the probe's marker on its left, as clinics show it; for a sweep, the NRRD")
       ->required();
 
-  // With the stages before it, if they are asked for: their folder gets its name when the picture is there.
+  // Writes the stages first, if requested. Their folder gets its final name when the picture is written.
   const auto write_all = [&](const Image<std::uint8_t>& grey, const auto& write_stages_to) {
     const auto write_picture = [&] { write_png(out, mirrored(grey)); };
     if (!*stages_option) return write_picture();
@@ -193,7 +195,7 @@ int main(int argc, char** argv) {
     if (std::filesystem::path(out).extension() != ending)
       throw InputError(out, "", to_volume ? "a sweep is written as NRRD" : "a picture is written as PNG",
                        "name a file that ends in " + ending);
-    // The patient comes last of what is read: it may take a minute to make.
+    // The patient is read last, because it may take a minute to build.
     std::vector<Pose> by_hand;
     if (*freehand)
       by_hand = read_sweep(freehand_file);
@@ -243,7 +245,7 @@ int main(int argc, char** argv) {
       write_ct(out, render_volume(subject_path, volume, table, swept, settings, voxel_mm));
       return;
     }
-    // Where samples are skipped, R comes of a mean normal, which nobody else can recompute.
+    // Where samples are skipped, R uses a mean normal, which users cannot recompute.
     if (*stages_option) settings.skipping = false;
     const RenderedScene scene{volume, subject.labels, tissue_of, table, *probe, depth_mm, settings, pose};
     const auto [stages, made_by] = by_reference ? render_by_reference(scene) : render(subject_path, scene);

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr double kOutsideFan = -2;  // of pixel_line and pixel_sample
+constexpr double kOutsideFan = -2;  // value of pixel_line and pixel_sample
 
 Json json(const glm::dvec3& v) {
   return {v.x, v.y, v.z};

@@ -16,7 +16,7 @@
 
 namespace insonate {
 
-/// What a picture of either model is made along, and how its pixels lie.
+/// The scan lines and the pixel layout of a picture of either model.
 struct StageGeometry {
   StageGeometry(const Probe& probe, double depth_mm, int samples, int width, int height);
   const Probe& probe;
@@ -25,10 +25,10 @@ struct StageGeometry {
   ImageGeometry image;
 };
 
-/// What `made_by` is where no device was in it.
+/// Value of `made_by` for stages that were computed without a device.
 inline constexpr char kMadeByReference[] = "reference in double precision";
 
-/// Begins scanlines.json: what both models have.
+/// Returns the part of scanlines.json that both models share.
 /// @param model  S or W
 nlohmann::ordered_json describe_geometry(const char* model, const StageGeometry& geometry,
                                          const Pose& patient_from_probe, const AcousticVolume& volume,
@@ -37,13 +37,13 @@ nlohmann::ordered_json describe_geometry(const char* model, const StageGeometry&
 /// Adds every setting by its name.
 void describe_settings(nlohmann::ordered_json& text, const std::vector<std::pair<std::string, SettingValue>>& settings);
 
-/// The whole of model S's.
+/// Returns the complete scanlines.json of model S.
 nlohmann::ordered_json describe(const RenderedScene& scene, const StageGeometry& geometry, const std::string& made_by);
 
-/// Where each pixel lies among the lines: pixel_line, pixel_sample.
+/// Writes the position of each pixel among the lines: pixel_line, pixel_sample.
 void write_pixel_positions(const std::filesystem::path& folder, const StageGeometry& geometry);
 
-/// The volume that the sound went through, in the patient's frame (LPS): volume.nrrd, Hounsfield units, and
+/// Write the insonated volume in the patient's frame (LPS): volume.nrrd, Hounsfield units, and
 /// volume_echogenicity.nrrd, hundredths of a dB.
 void write_hounsfield(const std::filesystem::path& folder, const AcousticVolume& volume);
 void write_echogenicity(const std::filesystem::path& folder, const AcousticVolume& volume);

@@ -25,7 +25,7 @@ fs::path without_slash(const fs::path& folder) {
   return folder.has_filename() ? folder : folder.parent_path();
 }
 
-/// The folders above one that have to be made for it, the outermost last.
+/// Returns the missing parent folders of a folder, the outermost last.
 std::vector<fs::path> missing_above(const fs::path& folder) {
   std::vector<fs::path> missing;
   std::error_code error;

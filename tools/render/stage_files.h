@@ -8,20 +8,21 @@
 
 namespace insonate {
 
-/// Throws InputError when something of that name is there.
+/// Throws InputError if a file or folder of that name exists.
 void refuse_taken(const std::filesystem::path& folder);
 
-/// Lets `fill` write into a folder of a temporary name and renames it, so that the folder appears whole or not at all;
-/// what `fill` throws leaves nothing behind. Throws InputError when the folder cannot be made, or its name is taken.
+/// Calls `fill` with a temporary folder and then renames it, so that the folder appears completely or not at all. If
+/// `fill` throws, nothing remains. Throws InputError if the folder cannot be created, or if its name is taken.
 void write_folder(const std::filesystem::path& folder, const std::function<void(const std::filesystem::path&)>& fill);
 
 /// Writes raw little-endian float32 as NRRD.
-/// @param axes     NRRD's labels of them, in quotes, the fastest first
-/// @param content  what the values are
+/// @param axes     NRRD labels of the axes, in quotes, the fastest first
+/// @param content  description of the values
 void write_nrrd(const std::filesystem::path& file, const Image<float>& image, const char* axes,
                 const std::string& content);
 
-/// The same of values among the scan lines (x line, y sample), and of what is as the picture. `name` has no extension.
+/// Write an image sampled along the scan lines (x line, y sample), or one with the picture's pixels. `name` has no
+/// extension.
 void write_among_lines(const std::filesystem::path& folder, const char* name, const Image<float>& image,
                        const std::string& content);
 void write_as_picture(const std::filesystem::path& folder, const char* name, const Image<float>& image,

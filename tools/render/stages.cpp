@@ -35,7 +35,7 @@ void add(Image<double>& to, double weight, const Image<double>& what) {
   for (std::size_t i = 0; i < to.pixels.size(); ++i) to.pixels[i] += weight * what.pixels[i];
 }
 
-/// What each plane of the slice meets, and the scatterers' echo of all.
+/// Writes the tissue of each plane of the slice, and the scatterers' echo of all planes.
 void write_planes(const fs::path& folder, const RenderedScene& scene, const ScanLines& lines) {
   const MediumField field = trilinear_field(scene.volume);
   const std::vector<SlicePlane> planes = slice_planes(scene.settings);
@@ -50,7 +50,7 @@ void write_planes(const fs::path& folder, const RenderedScene& scene, const Scan
     if (planes.size() > 1) {
       write_among_lines(of_plane, "transmission", in_single_precision(scan.intensity), "I (5) of this plane");
       write_among_lines(of_plane, "reflection", in_single_precision(scan.reflection), "R (3) of this plane");
-      if (i == planes.size() / 2) {  // the imaging plane: where one looks first
+      if (i == planes.size() / 2) {  // the imaging plane, also written to the main folder
         write_among_lines(folder, "impedance", tissue.impedance, kImpedance);
         write_among_lines(folder, "alpha", tissue.alpha, kAlpha);
       }

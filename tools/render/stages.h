@@ -14,11 +14,11 @@
 
 namespace insonate {
 
-/// What a picture is made of.
+/// The inputs of a picture.
 struct RenderedScene {
   const AcousticVolume& volume;
-  const Volume<std::uint8_t>& labels;         ///< that the volume was made of; empty if there are none
-  const std::vector<std::string>& tissue_of;  ///< of each label's value, "" for none
+  const Volume<std::uint8_t>& labels;         ///< labels that the volume was made from; empty if there are none
+  const std::vector<std::string>& tissue_of;  ///< by label value, "" for none
   const TissueTable& table;
   const Probe& probe;
   double depth_mm;
@@ -28,25 +28,25 @@ struct RenderedScene {
 
 Stages<float> in_single_precision(const Stages<double>& stages);
 
-/// Where the files of one plane of the slice lie, within the folder of stages: "" if it is the only one.
+/// Returns the folder of one plane's files within the folder of stages: "" if the slice has only one plane.
 std::string slice_folder(const std::vector<SlicePlane>& planes, std::size_t plane);
 
-/// Writes what crosses the stages into a folder, for those who recompute them.
+/// Writes the data that pass between the stages to a folder, for users who recompute them.
 ///
-/// `scanlines.json` holds the lines (patient mm), where their samples lie, the pose, the tissue table, every setting,
-/// the weights of the beam and of the slice's planes, the constants of the model, and how pixels lie in the probe's
-/// plane. Beside it lie the volume that was used (volume.nrrd, volume_echogenicity.nrrd, and volume_labels.nrrd where
-/// there are labels) and NRRD files of raw little-endian float32, whose `content` says what their values are:
-///   sizes N D, x line, y sample   hounsfield, echogenicity, impedance, absorption, alpha, incidence (what the model's
-///                                 definitions give on these lines, in double precision; if the slice has several
-///                                 planes, in a folder of each, plane_1 and so on, with its
-///                                 transmission and reflection beside them, and impedance and alpha of the middle
-///                                 one, which is the imaging plane, here too); echo_re, echo_im (the same, all
-///                                 planes' sum by weight); transmission, reflection, reflection_beam, speckle (what
-///                                 `stages` hold)
-///   sizes W H, marker (+x) right  pixel_line, pixel_sample (where the pixel lies among the lines); fused, image
-/// Throws InputError when they cannot be written.
-/// @param scene    settings without skipping: where that leaves out a normal, R is not what incidence says
+/// `scanlines.json` holds the lines (patient mm), the positions of their samples, the pose, the tissue table, every
+/// setting, the weights of the beam and of the slice's planes, the constants of the model, and the positions of pixels
+/// in the probe's plane. The folder also holds the insonated volume (volume.nrrd, volume_echogenicity.nrrd, and
+/// volume_labels.nrrd if there are labels) and NRRD files of raw little-endian float32. Their `content` describes their
+/// values:
+///   sizes N D, x line, y sample   hounsfield, echogenicity, impedance, absorption, alpha, incidence (by the model's
+///                                 definitions on these lines, in double precision). If the slice has several planes,
+///                                 each has them in its own folder (plane_1 and so on), together with its
+///                                 transmission and reflection; impedance and alpha of the middle plane, which is the
+///                                 imaging plane, are here too. echo_re, echo_im (the same, weighted sum of all
+///                                 planes); transmission, reflection, reflection_beam, speckle (as in `stages`)
+///   sizes W H, marker (+x) right  pixel_line, pixel_sample (position of the pixel among the lines); fused, image
+/// Throws InputError if they cannot be written.
+/// @param scene    settings without skipping: where skipping omits a normal, R does not match the incidence
 /// @param made_by  what computed `stages`: the device, or the reference
 void write_stages(const std::filesystem::path& folder, const RenderedScene& scene, const Stages<float>& stages,
                   const std::string& made_by);

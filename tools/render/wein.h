@@ -11,7 +11,7 @@
 
 namespace insonate {
 
-/// What a picture of model W is made of.
+/// The inputs of a picture of model W.
 struct WeinScene {
   const AcousticVolume& volume;
   const Probe& probe;
@@ -20,24 +20,25 @@ struct WeinScene {
   const Pose& patient_from_probe;
 };
 
+/// A picture of model W.
 struct RenderedWein {
-  WeinStages<float> stages;  ///< the terms behind scan conversion are left out; the marker (+x) on the right
+  WeinStages<float> stages;  ///< without the terms after scan conversion; the marker (+x) on the right
   std::string made_by;       ///< the device, or the reference
 };
 
-/// One picture of model W; on the graphics card, or by the reference without OpenGL.
-/// @param file  what the person who gave the CT calls it
+/// Returns one picture of model W, from the graphics card, or from the reference without OpenGL.
+/// @param file  the user's name for the CT
 RenderedWein render_wein(const std::string& file, const WeinScene& scene, bool by_reference);
 
-/// Writes what crosses the stages into a folder, for those who recompute them as sim/registration/wein_settings.h has
-/// them.
+/// Writes the data that pass between the stages to a folder, for users who recompute them as
+/// sim/registration/wein_settings.h defines them.
 ///
-/// `scanlines.json` holds the lines (patient mm), where their samples lie, the pose, every setting, the model's
-/// constants, and how pixels lie in the probe's plane. Beside it lie the volume that was used (volume.nrrd) and NRRD
-/// files of raw little-endian float32, whose `content` says what their values are:
+/// `scanlines.json` holds the lines (patient mm), the positions of their samples, the pose, every setting, the model's
+/// constants, and the positions of pixels in the probe's plane. The folder also holds the insonated volume
+/// (volume.nrrd) and NRRD files of raw little-endian float32. Their `content` describes their values:
 ///   sizes N D, x line, y sample   intensity, scan_echogenicity, scan_reflection
-///   sizes W H, marker (+x) right  pixel_line, pixel_sample (where the pixel lies among the lines); image
-/// Throws InputError when they cannot be written.
+///   sizes W H, marker (+x) right  pixel_line, pixel_sample (position of the pixel among the lines); image
+/// Throws InputError if they cannot be written.
 void write_stages(const std::filesystem::path& folder, const WeinScene& scene, const RenderedWein& rendered);
 
 }  // namespace insonate

@@ -25,7 +25,7 @@ struct Given {
   bool without_case = false;
 };
 
-/// What keeps a patient from being used, told where the scenario names him.
+/// Returns the reason why a patient cannot be used, placed where the scenario names it.
 ScenarioProblem unusable(const Scenario& scenario, const InputError& error) {
   const std::string sentence = error.what();  // "FILE: PLACE: PROBLEM; REMEDY."
   const std::size_t remedy = sentence.rfind("; ");
@@ -34,8 +34,7 @@ ScenarioProblem unusable(const Scenario& scenario, const InputError& error) {
           sentence.substr(remedy + 2, sentence.size() - remedy - 3)};
 }
 
-/// Says on a terminal how far the check of the patients is. Elsewhere it says nothing: what a script finds on standard
-/// error are problems.
+/// Shows the progress of the check of the patients, on a terminal only. Scripts expect only problems on standard error.
 class CheckProgress {
 public:
   explicit CheckProgress(std::size_t variants) : variants_(variants) {}
@@ -51,7 +50,7 @@ public:
     show(0);
   }
 
-  /// @param share  of the patient, from 0 to 1
+  /// progress of the patient, from 0 to 1
   void show(double share) {
     if (!on_terminal_) return;
     shown_ = true;
@@ -71,7 +70,7 @@ private:
   bool shown_ = false;
 };
 
-/// What can be said without the patients: of the text, and of how each variant names its case.
+/// Returns the problems that do not need the patients: of the text, and of how each variant names its case.
 std::vector<ScenarioProblem> problems_before_patients(const ReadScenario& read, const Given& given) {
   std::vector<ScenarioProblem> problems = read.problems;
   if (!given.case_folder.empty() || given.without_case) return problems;
@@ -82,7 +81,7 @@ std::vector<ScenarioProblem> problems_before_patients(const ReadScenario& read, 
   return problems;
 }
 
-/// The variants whose patient has something to say of them, those with the same patient one after the other.
+/// Returns the variants that can be checked on their patient. Variants with the same patient follow each other.
 std::vector<Scenario> with_patients(std::vector<Scenario> variants, const Given& given) {
   if (given.without_case) return {};
   std::erase_if(variants, [&](const Scenario& variant) {
@@ -96,8 +95,8 @@ std::vector<Scenario> with_patients(std::vector<Scenario> variants, const Given&
   return variants;
 }
 
-/// What is wrong with a variant on its patient. What the phantom does not take is left out of it, so that the rest can
-/// be looked at.
+/// Returns the problems of a variant on its patient. Options that the phantom refuses are removed first, so that the
+/// rest can be checked.
 std::vector<ScenarioProblem> problems_with_patient(Scenario variant, const Given& given, bool text_is_right,
                                                    AttemptCases& cases, CheckProgress& progress) {
   bool takes_options = true;
@@ -133,7 +132,7 @@ int check(const Given& given) {
   if (!right_so_far) {
     const ScenarioError error(given.scenario.string(), std::move(first));
     if (variants.empty()) throw error;
-    // Patients take seconds each: nobody waits for them to see these.
+    // Printed now, because each patient takes seconds.
     std::fprintf(stderr, "insonate-score: %s\n", error.what());
   }
   std::vector<ScenarioProblem> problems;

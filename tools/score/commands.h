@@ -9,14 +9,14 @@
 
 #include "scenarios/results/results_database.h"
 
-// The commands of insonate-score besides scoring.
+// The commands of insonate-score, except scoring.
 
 namespace insonate {
 
-/// What the command that was given does; returns the exit code. Empty when none of them was.
+/// Runs the given command and returns the exit code. Empty if none was given.
 using CommandRun = std::function<int()>;
 
-/// Each declares its commands on `arguments` and sets `run` when one of them is parsed.
+/// Each function declares its commands on `arguments` and sets `run` when one of them is parsed.
 void add_check_command(CLI::App& arguments, CommandRun& run);
 void add_hand_in_command(CLI::App& arguments, CommandRun& run);
 void add_list_commands(CLI::App& arguments, CommandRun& run);
@@ -24,13 +24,13 @@ void add_pass_mark_command(CLI::App& arguments, CommandRun& run);
 void add_report_command(CLI::App& arguments, CommandRun& run);
 void add_rescore_command(CLI::App& arguments, CommandRun& run);
 
-/// Declares --mode: what of the attempts is taken.
+/// Declares --mode: the mode of the attempts to use.
 inline CLI::Option* add_mode_option(CLI::App& command, std::string& mode, const std::string& meaning) {
   return command.add_option("--mode", mode, meaning)
       ->check(CLI::IsMember(std::vector<std::string>(kAttemptModes.begin(), kAttemptModes.end())));
 }
 
-/// The numbers of all attempts, or `only` that one when it is not 0.
+/// Returns the numbers of all attempts, or only `only` if it is not 0.
 inline std::vector<std::int64_t> chosen_attempts(ResultsDatabase& database, std::int64_t only) {
   if (only != 0) return {only};
   std::vector<std::int64_t> numbers;

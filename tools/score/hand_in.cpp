@@ -16,7 +16,7 @@
 namespace insonate {
 namespace {
 
-/// Scored as an exam is that ends where its log ends.
+/// Scores a sitting as an exam that ends where its log ends.
 Attempt scored(ResultsDatabase& database, const Sitting& sitting, AttemptCases& cases, const TissueTable& tissues) {
   const std::string name = "sitting " + std::to_string(sitting.number);
   if (digest_of(sitting.scenario_text) != sitting.scenario_digest)
@@ -59,7 +59,7 @@ int hand_in(const Given& given) {
     found = true;
     std::printf("sitting %lld, %s, begun %s: ", static_cast<long long>(sitting.number), sitting.learner.c_str(),
                 utc_time(sitting.began_ms).c_str());
-    // A clock that was set back since says nothing.
+    // The age means nothing if the clock was set back.
     const std::int64_t age_ms = now_since_1970_ms() - sitting.kept_ms;
     if (age_ms >= 0 && age_ms < Sitting::kGivenUpAfter_ms) {
       std::printf("under way, or broken off only just\n");

@@ -16,7 +16,7 @@ struct Listed {
   std::string mode;  ///< empty: any
 };
 
-/// To the second: more would only widen the list.
+/// Seconds suffice; more digits would only widen the list.
 std::string shown_time(std::int64_t since_1970_ms) {
   return utc_time(since_1970_ms).substr(0, 19) + "Z";
 }
@@ -39,7 +39,7 @@ int list_attempts(const Listed& given) {
   return 0;
 }
 
-/// Passed and best are those of exams that counted.
+/// `passed` and `best` cover graded exams only.
 int list_learners(const Listed& given) {
   std::printf("%-20s  %8s  %5s  %6s  %12s  %s\n", "learner", "attempts", "exams", "passed", "best percent",
               "last attempt");

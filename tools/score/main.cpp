@@ -57,7 +57,7 @@ int score(const Arguments& given) {
   const RecordedScan scan = scan_of_probe(given);
   const ActionLog actions = parse_action_log(scan.recording.actions, given.log.string());
   const TissueTable tissues = read_tissue_table(assets_folder() / "tissues.toml");
-  // The patient comes last of what is read: it may take a minute to make.
+  // The patient is read last, because it may take a minute to build.
   std::optional<ResultsDatabase> results;
   if (std::error_code error; std::filesystem::exists(given.results, error))
     results = ResultsDatabase::open(given.results);

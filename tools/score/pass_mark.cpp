@@ -32,7 +32,7 @@ Ids ids_of(const std::filesystem::path& roster) {
   return {ids.begin(), ids.end()};
 }
 
-/// The digest of the exam that the mark is for: of the scenario named, or of the only one that either group took.
+/// Returns the digest of the exam: of the named scenario, or of the only one that the two groups took.
 std::string exam_of(const Given& given, const std::vector<AttemptSummary>& attempts, const Ids& novices,
                     const Ids& experts) {
   if (!given.scenario.empty()) return digest_of(read_file(given.scenario));
@@ -46,7 +46,7 @@ std::string exam_of(const Given& given, const std::vector<AttemptSummary>& attem
   return digests.empty() ? "" : *digests.begin();
 }
 
-/// The scores of a group, of the first complete attempt of each learner: later ones are those of practised people.
+/// Returns the score of the first complete attempt of each learner in a group. Later attempts show practised people.
 std::vector<double> first_scores(const std::vector<AttemptSummary>& attempts, const std::string& exam, Ids group) {
   std::vector<double> scores;
   for (const AttemptSummary& attempt : attempts)
@@ -64,7 +64,7 @@ void print_misjudged(const char* name, const Misjudged& share) {
   std::printf("%s: %.1f %% observed, %.1f %% by the normal\n", name, share.observed_percent, share.theoretical_percent);
 }
 
-/// Those of one mode: with help, or the third time, people score otherwise than in an exam.
+/// Returns the attempts of one mode. People with help, or in their third attempt, score differently than in an exam.
 std::vector<AttemptSummary> attempts_of(ResultsDatabase database, AttemptMode mode) {
   std::vector<AttemptSummary> attempts = database.attempts();
   std::erase_if(attempts, [&](const AttemptSummary& attempt) { return !is_of(attempt.mode, mode); });

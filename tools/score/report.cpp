@@ -27,7 +27,7 @@ int report(const Given& given) {
       const Attempt attempt = database.read(number);
       const std::filesystem::path folder = given.out / ("attempt-" + std::to_string(number));
       std::printf("wrote %s\n", write_report_files(folder, attempt, given.home_page).report.c_str());
-    } catch (const InputError& error) {  // one that is damaged does not keep the others from theirs
+    } catch (const InputError& error) {  // a damaged attempt must not prevent the reports of the others
       std::fprintf(stderr, "insonate-score: %s\n", error.what());
       all = false;
     }

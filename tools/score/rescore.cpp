@@ -15,7 +15,7 @@
 namespace insonate {
 namespace {
 
-/// Empty when the attempt comes out the same, else why not.
+/// Returns why the attempt's score differs, or an empty text if it is the same.
 std::string compare(ResultsDatabase& database, std::int64_t number, AttemptCases& cases, const TissueTable& tissues) {
   const std::string name = "attempt " + std::to_string(number);
   try {

@@ -1,5 +1,5 @@
-// Pass k of the traversal as Kutter, Shams and Navab 2009 run it: sample k of every scan line, a fragment a line. What
-// a sample needs of those before it comes from the target of pass k - 1.
+// Pass k of the traversal as Kutter, Shams and Navab 2009 run it: sample k of every scan line, one fragment per line.
+// Values from earlier samples come from the target of pass k - 1.
 
 #include "shared/acoustic_volume.glsl"
 
@@ -7,25 +7,25 @@ layout(location = 0) uniform float r_min_mm;
 layout(location = 1) uniform float dr_mm;
 layout(location = 2) uniform float half_length_mm;  // l/2
 layout(location = 3) uniform float exponent;        // dr/l
-layout(location = 4) uniform float absorption;      // times dB/(cm MHz), the natural logarithm that a sample takes
+layout(location = 4) uniform float absorption;      // factor from dB/(cm MHz) to the natural logarithm of one sample
 layout(location = 5) uniform float coupling_depth_mm;
 
 struct Line {
-  vec4 start, along, lateral, elevation;  // in the volume's texture: a point, and steps of 1 mm
+  vec4 start, along, lateral, elevation;  // in texture coordinates of the volume: a point, and steps of 1 mm
 };
 layout(std430, binding = 0) readonly buffer ScanLines { Line scan_lines[]; };
-layout(binding = 1) uniform sampler2D previous;  // as `carried`, of pass k - 1
+layout(binding = 1) uniform sampler2D previous;  // `carried` of pass k - 1
 
 layout(location = 0) flat in int k;
 layout(location = 0) out vec2 scan;     // I, R
-layout(location = 1) out vec4 carried;  // I behind this sample, and what the next pass need not fetch again
+layout(location = 1) out vec4 carried;  // I behind this sample, and values that the next pass reuses
 
 float density(vec3 at, float r) {
   float hu = textureLod(acoustic_volume, at, 0.0).r * 32767.0;
   return r < coupling_depth_mm ? (1.0 - gel_share(hu)) * hu : hu;
 }
 
-// ln(1 - alpha), by its series where 1 - alpha would lose the digits of a weak interface.
+// ln(1 - alpha), as a series where 1 - alpha would lose the digits of a weak interface.
 float log_transmission(float alpha, float z1, float z2) {
   if (alpha < 0.03) return -alpha * (1.0 + alpha * (0.5 + alpha * (1.0 / 3.0 + alpha * 0.25)));
   return log(4.0 * z1 * z2 / ((z1 + z2) * (z1 + z2)));

@@ -1,9 +1,9 @@
-// Trilinear fetches from a volume and nothing else: neighbouring invocations walk side by side, a voxel a step.
+// Trilinear fetches from a volume without other work: neighbouring invocations step side by side, one voxel per step.
 
 layout(local_size_x = GROUP) in;
 
 layout(binding = 0) uniform sampler3D texels;
-layout(std430, binding = 0) writeonly buffer Sums { float sums[]; };  // so that no fetch is left out
+layout(std430, binding = 0) writeonly buffer Sums { float sums[]; };  // prevents the compiler from removing fetches
 
 void main() {
   uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
