@@ -60,8 +60,7 @@ void Screen::lay_out(const Trainer& trainer, float width, float height) {
     task_ = rest.take_top(trainer.author() ? author_panel_height(theme_) : task_panel_height(theme_, *session, rest.w));
     rest.take_top(gap);
   }
-  console_ =
-      rest.take_bottom(theme_.px(trainer.replay() ? 272 : 120));  // room for the charts below a replay's time line
+  console_ = rest.take_bottom(theme_.px(trainer.replay() ? 272 : 120));  // a replay has charts below its time line
   rest.take_bottom(gap);
   // The ultrasound comes first. The other views get a third of the width, and at most what makes them square.
   Rect side =

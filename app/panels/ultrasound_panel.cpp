@@ -181,8 +181,7 @@ void UltrasoundPanel::draw(const Theme& theme, const Rect& panel, Session& sessi
   if (const gl::Texture* picture = pictures.ultrasound()) {
     const PlaneOnScreen plane = draw_picture(theme, panel, *picture, pictures, session.machine());
     draw_annotations(theme, panel, plane, shown_annotations(session, tools));
-    draw_picture_tools(theme, panel, session, tools,
-                       places);  // before the picture's own ImGui item, which lies under the buttons
+    draw_picture_tools(theme, panel, session, tools, places);  // before the picture's own item, which lies below
     take_mouse(theme, area, session, plane, tools);
   } else {
     draw_text(panel, theme.text, colour::kFaint, "Waiting for the probe", Align::centre);

@@ -61,8 +61,7 @@ void PictureTools::see(const Session& session) {
   }
   picture_ = picture;
   if (another) begin_step(session);
-  if (!std::as_const(session).source().recording())
-    return;  // annotations made here were added already; only a log's actions are new
+  if (!std::as_const(session).source().recording()) return;  // those placed here are added already
   for (const auto& [time_s, actions] : session.latest_actions())
     for (const Action& action : actions) {
       if (another && ends_step(action)) annotations_.clear();

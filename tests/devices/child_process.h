@@ -21,7 +21,7 @@ public:
   bool ended();
   /// Returns the exit code, 128 or above for a signal. To be called once the program has ended.
   int exit_code() const { return exit_code_; }
-  /// Below 0 once it has ended.
+  /// Returns the process id; negative once the program has ended.
   pid_t pid() const { return pid_; }
 
   std::string out, err;

@@ -32,8 +32,9 @@ public:
   /// Sends as many of `reports` as fit, and removes them from `reports`.
   void send(std::deque<Report>& reports);
 
-  /// Whoever has it open learns that it is gone. It stays in the lists until it is destroyed. That waits until every
-  /// other process has closed it: umockdev ends a program that it cuts off in the middle of a call.
+  /// Makes the device fail for every process that has it open. It stays in the lists until it is destroyed. The
+  /// destructor waits until every other process has closed it: umockdev ends a program that it cuts off in the middle
+  /// of a call.
   void pull();
 
   Node& node() { return *node_; }
