@@ -27,7 +27,8 @@ public:
   /// Pictures::update(). Skips the picture if the graphics card is too far behind with earlier requests.
   void ask(const Session& session, const Pictures& pictures);
 
-  /// Returns the oldest requested picture once it has arrived, else nothing. @param wait  waits for it
+  /// Returns the oldest requested picture once it has arrived, else nothing.
+  /// @param wait  whether to wait for it
   std::optional<DrawnPicture> take(bool wait);
 
   /// Requests the current picture again, for a client that has not seen it.

@@ -25,7 +25,8 @@ std::filesystem::path part_of(const std::filesystem::path& file, int part);
 /// InputError if a file cannot be written.
 class RunFiles {
 public:
-  /// Creates the working file at once. @param exactly  whether to use this very name; otherwise the next free one
+  /// Creates the working file at once.
+  /// @param exactly  whether to use this very name; otherwise the next free one
   RunFiles(std::filesystem::path file, bool exactly, bool with_pictures);
 
   /// Finishes the current files and begins the next ones.

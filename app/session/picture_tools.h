@@ -22,7 +22,6 @@ struct LabelStructures;
 /// In a `measure` step only the step's own measurements can be placed, slot by slot. Elsewhere anything may be
 /// measured, and no step scores it. All annotations disappear when the step or the attempt changes. Those that no step
 /// scores also disappear when the picture changes.
-/// moves on.
 class PictureTools {
 public:
   enum class Tool { distance, ellipse, point, label };
