@@ -12,7 +12,7 @@ Cursors::Cursors() {
   shapes_ = {{ImGuiMouseCursor_None, glfwCreateCursor(&pixel, 0, 0)},
              {ImGuiMouseCursor_TextInput, glfwCreateStandardCursor(GLFW_IBEAM_CURSOR)},
              {ImGuiMouseCursor_Hand, glfwCreateStandardCursor(GLFW_HAND_CURSOR)}};
-  ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NoMouseCursorChange;  // or its backend would hide it by GLFW
+  ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NoMouseCursorChange;  // ImGui's backend would hide it by GLFW
 }
 
 Cursors::~Cursors() {

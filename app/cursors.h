@@ -9,9 +9,10 @@ struct GLFWwindow;
 
 namespace insonate {
 
-/// The pointer's shapes, as ImGui asks for them. A hidden pointer is one without a pixel: told to hide the pointer,
-/// GLFW 3.3 looks up where it is by then, takes that for told already and never reports it, and a click there would
-/// count where the pointer was last seen. To be made and ended while the window is open.
+/// Shows the pointer shapes that ImGui asks for. The hidden pointer is a cursor with one transparent pixel, because
+/// GLFW 3.3 mishandles hiding: it queries the pointer's position at that moment, treats it as reported, and never
+/// reports it. A click there would then count at the last reported position. Create and destroy this object while the
+/// window is open.
 class Cursors {
 public:
   Cursors();
@@ -19,11 +20,11 @@ public:
   Cursors(const Cursors&) = delete;
   Cursors& operator=(const Cursors&) = delete;
 
-  /// Shows what was asked for in the last frame.
+  /// Shows the shape that the last frame asked for.
   void show(GLFWwindow* window);
 
 private:
-  std::map<ImGuiMouseCursor, GLFWcursor*> shapes_;  ///< the arrow is not in it: it is the window's own
+  std::map<ImGuiMouseCursor, GLFWcursor*> shapes_;  ///< without the arrow, which is the window's default
   ImGuiMouseCursor shown_ = ImGuiMouseCursor_Arrow;
 };
 

@@ -16,13 +16,13 @@
 namespace insonate {
 namespace {
 
-/// The session's clock advances in steps as of a screen; scores do not depend on it. Nobody waits for the time to pass,
-/// unless the tracker is live or somebody watches over OpenIGTLink.
+/// Step of the session's clock, that of a typical screen; scores do not depend on it. The loop does not wait for real
+/// time, unless the tracker is live or an OpenIGTLink server was requested.
 constexpr double kStep_s = 1.0 / 30;
-/// How long a session without an exam runs when nobody says.
+/// Duration of a session without an exam if none is given.
 constexpr double kFreeScan_s = 10;
 
-/// The screen, drawn into a texture.
+/// Draws the screen into a texture.
 class OffScreen {
 public:
   OffScreen(int width, int height)
@@ -31,7 +31,7 @@ public:
         colour_(gl::Texture::make_2d(GL_RGBA8, width, height, gl::Filter::nearest)),
         framebuffer_(colour_) {}
 
-  /// Only what the session shows, not the screen around it.
+  /// Draws the session's pictures only, not the screen around them.
   void draw_pictures(Trainer& trainer) {
     trainer.draw(screen_.picture_sizes(trainer, float(width_), float(height_)), 1.0,
                  std::numeric_limits<double>::infinity());
@@ -41,7 +41,7 @@ public:
     ImGuiIO& io = ImGui::GetIO();
     io.DisplaySize = ImVec2(float(width_), float(height_));
     io.DeltaTime = float(kStep_s);
-    // The first frame of a window that appears is laid out but not shown.
+    // ImGui lays out a new window in its first frame but does not show it.
     for (int frame = 0; frame < 3; ++frame) {
       draw_pictures(trainer);
       framebuffer_.bind();
@@ -80,7 +80,7 @@ void print_file(const std::filesystem::path& file) {
   std::printf("wrote %s\n", file.string().c_str());
 }
 
-/// Leaves the screen as it is at the time of the run that was asked for, or at its end.
+/// Leaves the screen at the requested time of the run, or at its end.
 int show_replay(Trainer& trainer, OffScreen& screen, const Options& options) {
   Replay& replay = *trainer.replay();
   replay.seek(options.seconds > 0 ? options.seconds : replay.run().duration_s());
@@ -113,7 +113,7 @@ int run_headless(const Options& options) {
     if (seen) screen.draw_pictures(trainer);
     if (trainer.best_frame_due()) {
       const Image<Rgba8> now = screen.draw(trainer);
-      if (!session.result()) held_screen = now;  // else the score sheet lies over it
+      if (!session.result()) held_screen = now;  // once there is a result, the score sheet covers the screen
       trainer.keep_best_frame();
     }
     if (session.result() || (end_s > 0 && now_s >= end_s)) break;

@@ -10,7 +10,7 @@
 
 namespace {
 
-/// The device that a session without a window would draw on; a window draws on the display's.
+/// Describes the device that a session without a window would draw on. A window draws on the display's device.
 std::vector<insonate::AboutLine> opengl_device() try {
   const insonate::gl::HeadlessContext context;
   return {{"OpenGL", insonate::gl::device_description()}};

@@ -6,7 +6,7 @@ void Mouse::apply() {
   ImGuiIO& io = ImGui::GetIO();
   if (!events_.empty()) {
     const Button& next = events_.front();
-    // The pointer gets there first: what it passes over on the way is not dragged.
+    // The pointer moves there one frame earlier, so that nothing it passes over is dragged.
     const bool is_there = next.at.x == shown_at_.x && next.at.y == shown_at_.y;
     io.MousePos = next.at;
     if (is_there) {

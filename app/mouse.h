@@ -7,9 +7,9 @@
 
 namespace insonate {
 
-/// The mouse's buttons as ImGui is to see them: each press and release where it was made and in a frame of its own,
-/// however long frames take. Dear ImGui 1.86 looks at the mouse once a frame, and would take a click for one where the
-/// pointer has got to since.
+/// Passes the mouse buttons to ImGui: each press and release at the position where it was made and in a frame of its
+/// own, however long frames take. Dear ImGui 1.86 reads the mouse once per frame. It would place a click where the
+/// pointer has moved to since.
 class Mouse {
 public:
   struct Button {
@@ -19,13 +19,13 @@ public:
   };
   static constexpr int kButtons = 3;
 
-  /// From GLFW's callback.
+  /// Queues an event; to be called from GLFW's callback.
   void note(const Button& event) { events_.push_back(event); }
 
-  /// To be called before each of ImGui's frames, when ImGui knows where the pointer now is.
+  /// To be called before each ImGui frame, once ImGui knows the current position of the pointer.
   void apply();
 
-  /// Whether something waits for the next frame.
+  /// Returns whether an event waits for the next frame.
   bool waiting() const { return !events_.empty(); }
 
 private:

@@ -24,7 +24,7 @@ void write_pose(Json& state, const Pose& pose) {
   }
 }
 
-/// Something that is placed in the picture: its slot and value, or its name.
+/// Returns a short text for an annotation: its slot and value, or its name.
 std::string in_short(const Action& placed) {
   if (placed.kind == ActionKind::caliper || placed.kind == ActionKind::ellipse)
     return std::to_string(placed.slot()) + " " + value_text(placed) + "; ";
@@ -112,7 +112,7 @@ void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::
       state["step"] = runner->live().step;
       state["hints"] = runner->live().hints.size();
       state["elapsed_s"] = runner->live().elapsed_s;
-      // Of an exam nobody is told whether the view is found.
+      // A strict exam does not reveal whether the view is found.
       if (!session->strict() || runner->live().finished) state["hold_share"] = runner->live().hold_share;
       state["finished"] = runner->live().finished;
     }

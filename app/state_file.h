@@ -7,9 +7,9 @@
 
 namespace insonate {
 
-/// Writes what the trainer is doing as a flat JSON object, one key a line: for tests that drive the window from
-/// outside and for displays beside it. Rectangles of panels are pixels from the window's top left.
-/// @param quality  that the next frame is drawn with (QualityGovernor)
+/// Writes the trainer's state as a flat JSON object, one key per line. Tests that drive the window from outside and
+/// displays beside it read this file. Rectangles of panels are in pixels from the window's top left.
+/// @param quality  of the next frame, from the QualityGovernor
 void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::Screen& screen, long frames,
                  double quality);
 

@@ -1,7 +1,7 @@
 #include "app/window.h"
 
 #include <epoxy/gl.h>
-// After epoxy, which brings OpenGL's declarations.
+// After epoxy, which declares OpenGL.
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
 #include <imgui.h>
@@ -25,13 +25,13 @@ namespace insonate {
 namespace {
 
 constexpr int kLeastWidth = 1024, kLeastHeight = 700;
-/// More frames than that show nothing more.
+/// A higher frame rate would show nothing more.
 constexpr double kFrame_s = 1.0 / 60;
-/// While nothing changes the screen still has clocks to show.
+/// While nothing changes, the screen still has clocks to update.
 constexpr double kIdle_s = 0.1;
-/// How long a change of anything keeps the screen at full rate.
+/// How long any change keeps the screen at full frame rate.
 constexpr double kLively_s = 0.4;
-/// What the volume view may take of a frame while things move.
+/// Time of the volume view per frame while things move.
 constexpr double kVolumeBudget_ms = 10;
 
 struct GlfwLibrary {
@@ -45,7 +45,7 @@ struct WindowDeleter {
   void operator()(GLFWwindow* window) const { glfwDestroyWindow(window); }
 };
 
-/// What GLFW's callbacks leave for the next frame.
+/// Events from GLFW's callbacks, held for the next frame.
 struct Events {
   explicit Events(GLFWwindow* window) : keyboard(window) {}
   bool any = false;
@@ -75,7 +75,7 @@ void listen(GLFWwindow* window, Events& events) {
     events_of(w).any = true;
     events_of(w).keyboard.note({KeyEvent::Kind::typed, GLFW_KEY_UNKNOWN, 0, character, steady_now_s()});
   });
-  // Asked for its pointer, GLFW tells where that is now, not where it was at an event.
+  // GLFW returns the current position of the pointer, not that at an event.
   glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
     events_of(w).any = true;
     events_of(w).pointer = ImVec2(float(x), float(y));
@@ -84,7 +84,7 @@ void listen(GLFWwindow* window, Events& events) {
     events_of(w).any = true;
     if (button < Mouse::kButtons) events_of(w).mouse.note({button, action == GLFW_PRESS, events_of(w).pointer});
   });
-  // These go to ImGui as they are.
+  // These events go to ImGui unchanged.
   glfwSetScrollCallback(window, [](GLFWwindow* w, double x, double y) {
     events_of(w).any = true;
     ImGui_ImplGlfw_ScrollCallback(w, x, y);
@@ -125,7 +125,7 @@ Image<Rgba8> read_screen(int width, int height) {
   return image;
 }
 
-/// The loop around the trainer: full rate while something changes, nearly none while nothing does.
+/// Runs the loop around the trainer: at full frame rate while something changes, rarely otherwise.
 class Loop {
 public:
   Loop(GLFWwindow* window, const Options& options)
@@ -151,13 +151,13 @@ public:
     trainer_.finish_recording();
     if (!options_.latency.empty()) trainer_.latency().write(options_.latency);
     if (!options_.screenshot.empty()) {
-      governor_ = {};  // all pixels
+      governor_ = {};  // full resolution
       draw();
       int width = 0, height = 0;
       glfwGetFramebufferSize(window_, &width, &height);
       write_png(options_.screenshot, read_screen(width, height));
     }
-    // There is no frame any more to show them in.
+    // No further frame will show them.
     for (const std::string& problem : trainer_.problems()) std::fprintf(stderr, "insonate: %s\n", problem.c_str());
     return trainer_.problems().empty() ? 0 : 2;
   }
@@ -232,8 +232,8 @@ private:
 }  // namespace
 
 bool has_display() {
-  // Stays connected until run_window ends: a bare X server resets when its last client leaves, and would turn away the
-  // one that comes next.
+  // The connection stays open until run_window ends. A bare X server resets when its last client leaves, and would
+  // refuse the next one.
   return glfwInit() == GLFW_TRUE;
 }
 

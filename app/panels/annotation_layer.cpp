@@ -20,11 +20,11 @@ ImVec2 on_screen(const PlaneOnScreen& plane, const glm::dvec2& mm) {
   return {float(p.x), float(p.y)};
 }
 
-/// Odd slots have upright crosses, even ones slanted: neighbours are told apart.
+/// Odd slots have upright crosses and even ones slanted crosses, so that neighbours can be distinguished.
 void draw_cross(const Theme& theme, const ImVec2& at, ImU32 colour, bool slanted) {
   const float arm = theme.px(slanted ? 4.5f : 6);
   ImDrawList* list = ImGui::GetWindowDrawList();
-  // Dark around it, so that it can be seen on bright echoes.
+  // A dark outline makes it visible on bright echoes.
   for (const auto& [ink, thickness] : {std::pair{colour::kImage, 3.5f}, {colour, 1.5f}}) {
     const ImVec2 first{arm, slanted ? arm : 0}, second{slanted ? -arm : 0, arm};
     for (const ImVec2& to : {first, second})
@@ -42,7 +42,7 @@ void draw_dotted(const Theme& theme, const ImVec2& from, const ImVec2& to, ImU32
   }
 }
 
-/// Text beside a place, dark behind it so that it can be read on any echo.
+/// Draws text beside a place, on a dark plate so that it can be read on any echo.
 void draw_tag(const Theme& theme, const ImVec2& at, ImU32 colour, const std::string& text) {
   const float width = text_width(theme.small_text, text) + theme.px(8), height = theme.px(18);
   const Rect plate{at.x + theme.px(8), at.y - height - theme.px(3), width, height};
@@ -54,7 +54,7 @@ void draw_measured(const Theme& theme, const PlaneOnScreen& plane, const Action&
   const std::vector<glm::dvec2> ends = handles(placed);
   const bool slanted = placed.slot() % 2 == 0;
   if (placed.kind == ActionKind::ellipse && placed.numbers[5] > 0) {
-    // A dot every 6 pixels or so, were it a circle of the two axes' mean.
+    // One dot about every 6 pixels, estimated with a circle of the mean of the two axes.
     const double around_px = 3.14 * (caliper_length_mm(placed) / 2 + placed.numbers[5]) * plane.pixels_per_mm();
     for (const glm::dvec2& dot : outline(placed, std::size_t(std::clamp(around_px / theme.px(6), 12.0, 400.0))))
       ImGui::GetWindowDrawList()->AddCircleFilled(on_screen(plane, dot), theme.px(1.1f), colour, 8);

@@ -10,7 +10,7 @@ namespace {
 
 constexpr float kMargin = 8, kTitle = 300, kKeep = 150;
 
-/// What to do next.
+/// Returns what to do next.
 std::string prompt(const Author& author) {
   if (author.title().empty())
     return author.kept().empty() ? "Give the view a title, as learners are to read it." : author.kept();

@@ -12,8 +12,8 @@ namespace insonate::ui {
 
 float author_panel_height(const Theme& theme);
 
-/// The strip in which a view is made of the frozen picture: its title, what it must show, and keeping it. Needs
-/// Trainer::author(). Adds to `places` where its buttons are.
+/// Draws the strip that turns the frozen picture into a view: its title, what it must show, and the button that stores
+/// it. Needs Trainer::author(). Adds the positions of its buttons to `places`.
 void draw_author_panel(const Theme& theme, const Rect& panel, Trainer& trainer, TextField& field,
                        std::map<std::string, Rect>& places);
 

@@ -113,7 +113,7 @@ ConsoleRequest draw_console_panel(const Theme& theme, const Rect& panel, Session
     if (button(theme, "exam", first, "Scored")) attempt([&] { session.start_over(); });
   } else if (button(theme, "practice", first, "Unscored", ButtonKind::normal,
                     session.loaded_case().scenario.has_value() && !session.strict())) {
-    // Nobody leads the probe of a recorded scan.
+    // In a recorded scan no hand moves the probe, so practice must take it.
     std::as_const(session).source().recording() ? session.take_probe() : session.practise();
   }
   if (button(theme, "open", lower, "Open", ButtonKind::normal, !session.strict())) request = ConsoleRequest::open;

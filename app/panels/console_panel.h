@@ -6,10 +6,10 @@
 
 namespace insonate::ui {
 
-/// What the console's buttons ask for beyond the session itself.
+/// Requests of the console's buttons that go beyond the session.
 enum class ConsoleRequest { none, help, open };
 
-/// The machine's knobs, and the buttons of the session.
+/// Draws the machine's controls and the buttons of the session. Passes actions that may throw to `attempt`.
 ConsoleRequest draw_console_panel(const Theme& theme, const Rect& panel, Session& session,
                                   const std::function<void(const std::function<void()>&)>& attempt);
 

@@ -14,7 +14,7 @@ void draw_ghost(const Theme& theme, const Rect& space, const Guiding& guiding, c
   const Probe* probe = find_probe(view.probe);
   if (!probe) return;
   drawing.fan(view.patient_from_probe, *probe, view.depth_mm, colour::kText, IM_COL32(232, 236, 240, 44));
-  // A stroke along the handle says which side of the plane the probe is on.
+  // A stroke along the handle shows on which side of the plane the probe is.
   const std::array<glm::dvec3, 2> handle{view.patient_from_probe.point({0, 0, 0}),
                                          view.patient_from_probe.point({0, -80, 0})};
   drawing.path(handle, colour::kText, theme.px(2));

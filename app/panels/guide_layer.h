@@ -7,10 +7,10 @@
 
 namespace insonate::ui {
 
-/// Help for practice, over what it helps with: the reference view's plane as a ghost in the 3D view, and what to do
-/// next beside the ultrasound.
+/// Draw the help for practice: the reference view's plane as a ghost in the 3D view, and the next movements beside the
+/// ultrasound.
 void draw_ghost(const Theme& theme, const Rect& space, const Guiding& guiding, const view::OrbitCamera& camera);
-/// Returns where it is.
+/// Returns the rectangle that the advice covers.
 Rect draw_advice(const Theme& theme, const Rect& ultrasound, const Guiding& guiding);
 
 }  // namespace insonate::ui

@@ -12,9 +12,10 @@ namespace insonate::ui {
 
 enum class ScoreAnswer { none, again, own_try, practice, open_report, close };
 
-/// The marks of a finished exam: verdict, each criterion's value, limits, points and why, and where the report is.
-/// @param watched  whether a recorded scan was scored, and not the learner's own hand
-/// @param once     there is neither another attempt nor practice
+/// Draws the score of a finished exam: verdict, each criterion's value, limits, points and reason, and where the report
+/// is.
+/// @param watched  whether a recorded scan was scored instead of the learner's own hand
+/// @param once     whether another attempt and practice are ruled out
 ScoreAnswer draw_score_sheet(const Theme& theme, const Rect& screen, const ExamResult& result,
                              const std::optional<ResultFiles>& files, bool watched, bool once);
 

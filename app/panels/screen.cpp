@@ -21,7 +21,7 @@
 namespace insonate::ui {
 namespace {
 
-/// Shows a file with whatever the desktop has for it; the trainer goes on meanwhile.
+/// Opens a file with the desktop's default program, without waiting for it.
 void open_on_desktop(const std::filesystem::path& file) {
   std::string quoted = "'";
   for (const char c : std::filesystem::absolute(file).string()) quoted += c == '\'' ? "'\\''" : std::string(1, c);
@@ -56,7 +56,7 @@ const char* to_string(Overlay overlay) {
 Screen::ImGuiOwner::ImGuiOwner() {
   IMGUI_CHECKVERSION();
   ImGui::CreateContext();
-  ImGui::GetIO().IniFilename = nullptr;  // the layout is fixed: nothing to remember
+  ImGui::GetIO().IniFilename = nullptr;  // the layout is fixed, so there is nothing to store
   ImGui_ImplOpenGL3_Init("#version 450 core");
 }
 
@@ -81,9 +81,9 @@ void Screen::lay_out(const Trainer& trainer, float width, float height) {
     task_ = rest.take_top(trainer.author() ? author_panel_height(theme_) : task_panel_height(theme_, *session, rest.w));
     rest.take_top(gap);
   }
-  console_ = rest.take_bottom(theme_.px(trainer.replay() ? 272 : 120));  // charts below a replay's time line
+  console_ = rest.take_bottom(theme_.px(trainer.replay() ? 272 : 120));  // a replay has charts below its time line
   rest.take_bottom(gap);
-  // The image first: the views get a third, and no more than makes them square.
+  // The ultrasound comes first. The other views get a third of the width, and at most what makes them square.
   Rect side =
       rest.take_right(std::min(std::round(rest.w * 0.35f), std::round(rest.h * (trainer.replay() ? 1.0f : 0.82f))));
   rest.take_right(gap);
@@ -91,7 +91,7 @@ void Screen::lay_out(const Trainer& trainer, float width, float height) {
   if (trainer.replay() && trainer.replay()->run().images) {
     recorded_ = rest.take_right(std::floor((rest.w - gap) / 2));
     rest.take_right(gap);
-    rest.w = recorded_.w;  // of equal size, so that both have the same scale
+    rest.w = recorded_.w;  // equal sizes give both the same scale
   }
   ultrasound_ = rest;
   places_ = {{"ultrasound", ultrasound_}, {"console", console_}, {"exam", top_}};
@@ -299,8 +299,7 @@ void Screen::go_on(Trainer& trainer) {
   if (trainer.session() && trainer.session()->result()) answer_score(trainer, ScoreAnswer::again);
 }
 
-/// Goes on with the exam, or keeps the view that is being made. What waits for something typed gets its field opened
-/// first.
+/// Goes on with the exam, or stores the view that is being authored. If text is still missing, opens its field first.
 void Screen::step_on(Trainer& trainer) {
   if (!trainer.session()) return;
   if (const Author* author = trainer.author()) {

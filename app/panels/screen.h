@@ -24,8 +24,8 @@ enum class Overlay { none, problem, loading, setup, help, about, open, score };
 /// Returns the overlay's name, as state files have it: "problem"; "" for none.
 const char* to_string(Overlay overlay);
 
-/// The trainer's whole screen: owns ImGui and its OpenGL renderer, lays the panels out, and shows what lies over them.
-/// Draws into whatever framebuffer is bound, so it does not know whether there is a window. Needs an OpenGL context.
+/// Draws the trainer's whole screen: owns ImGui and its OpenGL renderer, lays out the panels, and shows the overlays.
+/// Draws into the framebuffer that is bound, so it does not depend on a window. Needs an OpenGL context.
 class Screen {
 public:
   Screen();
@@ -33,38 +33,38 @@ public:
   Screen(const Screen&) = delete;
   Screen& operator=(const Screen&) = delete;
 
-  /// Draws a frame. ImGui's display size, time step and input are set by the caller before.
+  /// Draws a frame. The caller sets ImGui's display size, time step and input before.
   void render(Trainer& trainer);
 
-  /// How many pixels the pictures have on a screen of that size.
+  /// Returns the pixels of each picture on a screen of that size.
   PictureSizes picture_sizes(const Trainer& trainer, float width, float height);
-  /// Where the ultrasound's plane is on the screen, as it was drawn last.
+  /// Returns where the ultrasound's plane was on the screen in the last frame.
   PlaneOnScreen plane_on_screen(const Trainer& trainer) const {
     return UltrasoundPanel::plane(theme_, ultrasound_, trainer.pictures());
   }
 
   void toggle_help() { page_ = page_ == Overlay::help ? Overlay::none : Overlay::help; }
   void ask_for_path() { page_ = Overlay::open; }
-  /// Closes what lies over the screen without an answer, as Escape does.
+  /// Closes the overlay without an answer, as Escape does.
   void dismiss(Trainer& trainer);
-  /// Answers it as Enter does.
+  /// Answers the overlay as Enter does.
   void confirm(Trainer& trainer);
-  /// Moves on from what the screen waits with, as the probe's button does: acknowledges what lies over it, goes on to
-  /// the next step of an exam, and after the exam begins the next attempt.
+  /// Continues where the screen waits, as the probe's button does: acknowledges the overlay, goes on to the next step
+  /// of an exam, and after the exam begins the next attempt.
   void go_on(Trainer& trainer);
-  /// Something lies over the screen: keys do not move the probe.
+  /// Returns whether an overlay or a text field takes the keys, so that they do not move the probe.
   bool takes_keys(const Trainer& trainer) const { return overlay(trainer) != Overlay::none || types_text(trainer); }
-  /// There is a field that text is typed into.
+  /// Returns whether a text field is open.
   bool types_text(const Trainer& trainer) const { return overlay(trainer) == Overlay::open || types_in_panel(trainer); }
-  /// There will be one, which takes text from one of the next frames on.
+  /// Returns whether a text field is about to open. It accepts text from one of the next frames on.
   bool opens_text_field(const Trainer& trainer) const {
     return types_text(trainer) && !(types_in_panel(trainer) ? text_field_.ready() : open_dialog_.ready());
   }
 
-  /// What lies over the screen now.
+  /// Returns the overlay that is shown now.
   Overlay overlay(const Trainer& trainer) const;
   void set_frames_per_second(double fps) { frames_per_second_ = fps; }
-  /// Where the panels are, by name.
+  /// Returns the panels' rectangles, by name.
   const std::map<std::string, Rect>& places() const { return places_; }
 
 private:

@@ -38,7 +38,7 @@ void SpaceDrawing::path(std::span<const glm::dvec3> points, ImU32 colour, float 
 void SpaceDrawing::fan(const Pose& patient_from_probe, const Probe& probe, double depth_mm, ImU32 edge,
                        ImU32 glass) const {
   Probe outlined = probe;
-  outlined.lines = 24;  // as smooth as the eye asks for
+  outlined.lines = 24;  // smooth enough for the eye
   const ScanLines lines = scan_lines(outlined, depth_mm, 1);
   std::vector<ImVec2> near_end, far_end;
   for (const ScanLine& line : lines.lines) {
@@ -50,7 +50,7 @@ void SpaceDrawing::fan(const Pose& patient_from_probe, const Probe& probe, doubl
   }
   ImDrawList* list = ImGui::GetWindowDrawList();
   const ImDrawListFlags flags = list->Flags;
-  list->Flags &= ~ImDrawListFlags_AntiAliasedFill;  // whose soft edges would show as seams
+  list->Flags &= ~ImDrawListFlags_AntiAliasedFill;  // soft edges would show as seams between the quads
   for (std::size_t i = 1; i < near_end.size(); ++i)
     list->AddQuadFilled(near_end[i - 1], near_end[i], far_end[i], far_end[i - 1], glass);
   list->Flags = flags;

@@ -11,7 +11,7 @@
 
 namespace insonate::ui {
 
-/// Draws lines and planes of the patient's space over the 3D view of a panel, whatever lies in front of them.
+/// Draws lines and planes of the patient's space over the 3D view of a panel. Nothing hides them.
 class SpaceDrawing {
 public:
   SpaceDrawing(const Rect& panel, const view::OrbitCamera& camera);
@@ -19,9 +19,9 @@ public:
   SpaceDrawing(const SpaceDrawing&) = delete;
   SpaceDrawing& operator=(const SpaceDrawing&) = delete;
 
-  /// Through points of the patient, mm; interrupted where one lies behind the camera.
+  /// Draws a line through points of the patient, mm. It is interrupted where a point lies behind the camera.
   void path(std::span<const glm::dvec3> points, ImU32 colour, float thickness) const;
-  /// The sector that a probe shows from a pose, as a sheet of glass with an edge.
+  /// Draws the sector that a probe shows from a pose, as a translucent sheet with an edge.
   void fan(const Pose& patient_from_probe, const Probe& probe, double depth_mm, ImU32 edge, ImU32 glass) const;
 
 private:

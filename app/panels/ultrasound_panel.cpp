@@ -23,7 +23,7 @@ ImVec2 at(const PlaneOnScreen& plane, const glm::dvec2& plane_mm) {
   return {float(p.x), float(p.y)};
 }
 
-// A tick every centimetre; longer and numbered every five, or every one when there is room.
+// Draws a tick per centimetre; every fifth is longer and numbered, or every one if there is room.
 void draw_depth_scale(const Theme& theme, const Rect& panel, const PlaneOnScreen& plane, double depth_mm) {
   ImDrawList* list = ImGui::GetWindowDrawList();
   const float right = panel.x + panel.w - theme.px(14);
@@ -51,7 +51,7 @@ void draw_grey_scale(const Theme& theme, const Rect& panel, double dynamic_range
             formatted("\u2212%.0f", dynamic_range_db));
 }
 
-// The dot beside the face's edge that is on the marker's side.
+// Draws the dot beside the face's edge that is on the marker's side.
 void draw_marker(const Theme& theme, const PlaneOnScreen& plane, const Probe& probe) {
   const ImVec2 edge = at(plane, face_edge(probe));
   const ImVec2 dot{edge.x - theme.px(20), edge.y + theme.px(4)};
@@ -65,7 +65,7 @@ std::string mark_text(const Session& session) {
          clock_text(session.event_markers_s().back());
 }
 
-// A moment that has just been marked.
+// Shows an event marker for a short time after it was set.
 void draw_mark(const Theme& theme, const Rect& panel, const Session& session) {
   constexpr double kShown_s = 2;
   if (session.event_markers_s().empty() || session.attempt_for_s() - session.event_markers_s().back() > kShown_s)
@@ -76,7 +76,7 @@ void draw_mark(const Theme& theme, const Rect& panel, const Session& session) {
             text);
 }
 
-/// Returns where the next line goes.
+/// Draws the texts around the picture. Returns where the next line goes.
 Rect draw_annotations(const Theme& theme, const Rect& panel, const std::string& patient, const Machine& machine) {
   Rect line{panel.x + theme.px(16), panel.y + theme.px(12), panel.w * 0.27f, theme.px(24)};
   draw_text(line, theme.strong, colour::kText, patient);
@@ -113,7 +113,7 @@ std::string frozen_text(const Session& session, const PictureTools& tools) {
   return PictureTools::ready(session) ? "Frozen:  " + tool_prompt(tools) : "Frozen";
 }
 
-// What is wrong with the tracker, at length; the tracker's own panel has room for its beginning.
+// Shows the tracker's problem in full. The tracker's own panel has room only for its beginning.
 void draw_tracker_problem(const Theme& theme, const Rect& panel, const Session& session) {
   const TrackerState state = session.tracker_state();
   const bool stands_still = session.lost_for_s().has_value() && session.holder() == Holder::tracker;
@@ -130,7 +130,7 @@ void draw_tracker_problem(const Theme& theme, const Rect& panel, const Session& 
   draw_paragraph(plate.inset(margin, margin), theme.text, colour::kText, problem);
 }
 
-/// The picture with its scales; how it lies on the screen.
+/// Draws the picture with its scales. Returns where it lies on the screen.
 PlaneOnScreen draw_picture(const Theme& theme, const Rect& panel, const gl::Texture& picture, const Pictures& pictures,
                            const Machine& machine) {
   const Rect area = UltrasoundPanel::picture_area(theme, panel);
@@ -155,7 +155,7 @@ void take_mouse(const Theme& theme, const Rect& area, Session& session, const Pl
   }
   if (!ImGui::IsItemActive() || (io.MouseDelta.x == 0 && io.MouseDelta.y == 0)) return;
   constexpr double kDegPerPixel = 0.15;
-  // The tissue follows the pointer: the probe goes the other way. The picture is mirrored, so that is +x here.
+  // The tissue follows the pointer, so the probe moves the other way. The picture is mirrored, so that is +x here.
   const glm::dvec2 mm = glm::dvec2(io.MouseDelta.x, io.MouseDelta.y) / plane.pixels_per_mm();
   session.move_probe([&](const ProbeHand& hand, const Pose& pose) {
     if (io.KeyShift) return ProbeHand::turn(pose, kDegPerPixel * io.MouseDelta.y, 0, kDegPerPixel * io.MouseDelta.x);
@@ -181,7 +181,7 @@ void UltrasoundPanel::draw(const Theme& theme, const Rect& panel, Session& sessi
   if (const gl::Texture* picture = pictures.ultrasound()) {
     const PlaneOnScreen plane = draw_picture(theme, panel, *picture, pictures, session.machine());
     draw_annotations(theme, panel, plane, shown_annotations(session, tools));
-    draw_picture_tools(theme, panel, session, tools, places);  // before the picture's own item, which lies under them
+    draw_picture_tools(theme, panel, session, tools, places);  // before the picture's own item, which lies below
     take_mouse(theme, area, session, plane, tools);
   } else {
     draw_text(panel, theme.text, colour::kFaint, "Waiting for the probe", Align::centre);

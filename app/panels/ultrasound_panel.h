@@ -12,21 +12,22 @@
 
 namespace insonate::ui {
 
-/// The live ultrasound with what a machine writes around it. The marker's side is on the left, as abdominal imaging
-/// has it. Dragging on it slides the probe, with shift it tilts and rocks, the wheel turns it; a frozen picture is
-/// measured in.
+/// Draws the live ultrasound with the texts and scales that a machine shows around it. The marker's side is on the
+/// left, the convention of abdominal imaging. Dragging slides the probe, dragging with Shift tilts and rocks it, and
+/// the wheel rotates it. In a frozen picture the pointer measures.
 class UltrasoundPanel {
 public:
-  /// Where the picture itself goes in the panel, margins for scales left free: its size decides what is computed.
+  /// Returns the area of the picture in the panel, without the margins for scales. Its size decides how many pixels are
+  /// computed.
   static Rect picture_area(const Theme& theme, const Rect& panel);
 
-  /// The picture's plane on the screen.
+  /// Returns the mapping between the picture's plane and the screen.
   static PlaneOnScreen plane(const Theme& theme, const Rect& panel, const Pictures& pictures);
 
-  /// Adds to `places` where its buttons are.
+  /// Draws the panel and adds the positions of its buttons to `places`.
   static void draw(const Theme& theme, const Rect& panel, Session& session, const Pictures& pictures,
                    PictureTools& tools, std::map<std::string, Rect>& places);
-  /// The same of a run that is over: nothing on it can be taken hold of.
+  /// Draws the same for a finished run, without interaction.
   static void draw_still(const Theme& theme, const Rect& panel, const std::string& patient, const Machine& machine,
                          const ShownAnnotations& annotations, std::optional<double> lost_for_s,
                          const Pictures& pictures);

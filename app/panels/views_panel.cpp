@@ -20,8 +20,8 @@ ImTextureID id_of(const gl::Texture& texture) {
   return reinterpret_cast<ImTextureID>(std::uintptr_t(texture.name()));
 }
 
-// A picture in the middle of the panel, mirrored like the ultrasound. Its sides, where the fan never reaches far, are
-// cut off as far as that makes the rest larger.
+// Draws a picture in the middle of the panel, mirrored like the ultrasound. Crops its sides, which the fan hardly
+// covers, as far as that makes the rest larger.
 void draw_mirrored(const Rect& panel, const gl::Texture* picture) {
   if (!picture) return;
   constexpr float kSides = 0.10f;
@@ -34,7 +34,7 @@ void draw_mirrored(const Rect& panel, const gl::Texture* picture) {
                                        {(1 - shown) / 2, 1});
 }
 
-// Which way the patient lies: the axes that point towards the viewer, with the anatomical letters.
+// Shows how the patient lies: the axes that point towards the viewer, with their anatomical letters.
 void draw_orientation(const Theme& theme, const Rect& panel, const view::OrbitCamera& camera) {
   struct Axis {
     glm::dvec3 direction;
@@ -48,7 +48,7 @@ void draw_orientation(const Theme& theme, const Rect& panel, const view::OrbitCa
   ImDrawList* list = ImGui::GetWindowDrawList();
   list->AddCircleFilled(centre, theme.px(31), IM_COL32(10, 12, 15, 150), 32);
   for (const Axis& axis : axes) {
-    const glm::dvec3 seen = camera_from_patient * axis.direction;  // z into the picture
+    const glm::dvec3 seen = camera_from_patient * axis.direction;  // z points into the picture
     const ImVec2 tip{centre.x + float(seen.x) * theme.px(22), centre.y + float(seen.y) * theme.px(22)};
     if (seen.z > kFaces) continue;
     list->AddLine(centre, tip, colour::kFaint, 1);
@@ -57,7 +57,7 @@ void draw_orientation(const Theme& theme, const Rect& panel, const view::OrbitCa
   }
 }
 
-// The line of sight through a point of the screen, patient mm.
+// The line of sight through a point of the screen, in patient mm.
 struct Sight {
   glm::dvec3 eye, direction;
 };
@@ -69,7 +69,7 @@ Sight sight(const view::OrbitCamera& camera, const Rect& panel, const ImVec2& po
   return {pose.translation, glm::normalize(pose.rotation * ray)};
 }
 
-// Whether the pointer is on the dummy probe: near its face or its handle.
+// Returns whether the pointer is on the dummy probe: near its face or its handle.
 bool on_probe(const Theme& theme, const view::OrbitCamera& camera, const Rect& panel, const Pose& probe,
               const ImVec2& pointer) {
   constexpr double kHandle_mm = 90;

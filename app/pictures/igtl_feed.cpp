@@ -11,10 +11,10 @@ namespace {
 
 using Stream = igtl::Server::Stream;
 
-// Codes of the protocol's STATUS.
+// Codes of the protocol's STATUS message.
 constexpr std::uint16_t kLost = 7;
 
-/// Half a turn about the patient's long axis takes LPS to RAS.
+/// LPS and RAS differ by a rotation of 180 degrees about the patient's long axis.
 Pose ras_from(const Pose& lps) {
   const Pose half_turn{glm::dmat3(-1, 0, 0, 0, -1, 0, 0, 0, 1), glm::dvec3(0)};
   return half_turn * lps;
@@ -125,7 +125,7 @@ void IgtlFeed::tell(const Session& session) {
     sent_status_ = status;
     server_.publish(Stream::status, igtl::make_status("Insonate", stamp, {lost_ ? kLost : igtl::kStatusOk, status}));
   }
-  // Who connects later is not to get what is long past.
+  // A client that connects later must not receive an outdated picture or pose.
   const bool seen = wants_pictures() && session.shown_pose();
   if (!seen) server_.forget(Stream::image);
   if (!seen || lost_)

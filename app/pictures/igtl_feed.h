@@ -9,26 +9,26 @@
 
 namespace insonate {
 
-/// Where --igtl-server listens: "[ADDRESS:]PORT", loopback unless an address is given, IPv6 in brackets. Throws
-/// InputError.
+/// Parses the address of --igtl-server: "[ADDRESS:]PORT". The default is loopback; an IPv6 address is written in
+/// brackets. Throws InputError.
 igtl::Address parse_server_address(const std::string& text);
 
-/// Tells OpenIGTLink clients what the session does, in RAS as 3D Slicer has it:
-///   TRANSFORM "ProbeToRas"  where the picture is taken, each frame; none while no usable pose comes
-///   IMAGE "Ultrasound"      the picture, when there is another; at most kMostPixels, coarser if need be
-///   STATUS "Insonate"       what is going on, when that has changed
+/// Publishes the session to OpenIGTLink clients, in RAS as 3D Slicer uses it:
+///   TRANSFORM "ProbeToRas"  the pose of the picture, each frame; none while no usable pose comes
+///   IMAGE "Ultrasound"      each new picture; at most kMostPixels, subsampled if it has more
+///   STATUS "Insonate"       the state of the session, when it has changed
 ///   STRING "Event"          "exam started: ...", "step 2 of 3: ...", "exam finished: 84 %, passed", "frozen", "live",
 ///                           "mark 1", "tracking lost", "tracking"
-/// While nobody is connected it wants no picture, so that none has to be read back from the graphics card.
+/// While no client is connected it asks for no picture, so that none is read back from the graphics card.
 class IgtlFeed {
 public:
   static constexpr int kMostPixels = 1 << 20;
 
   explicit IgtlFeed(const igtl::Address& address) : server_(address, "--igtl-server") {}
 
-  /// Events, status and pose; to be called once a frame.
+  /// Publishes events, status and pose; to be called once per frame.
   void tell(const Session& session);
-  /// Whether somebody is there to see a picture.
+  /// Returns whether a client is connected.
   bool wants_pictures() const { return server_.clients() > 0; }
   void show(const DrawnPicture& picture);
 
@@ -45,10 +45,11 @@ private:
   std::size_t step_ = 0, sent_markers_ = 0;
 };
 
-/// With every `stride`-th pixel, the smallest stride that leaves at most `most` pixels; how it lies is told anew.
+/// Returns the picture with every `stride`-th pixel and the geometry adapted. The stride is the smallest that leaves at
+/// most `most` pixels.
 DrawnPicture thinned(const DrawnPicture& picture, int most);
 
-/// Where the middle of a picture lies and how it is turned, in RAS.
+/// Returns the pose of the picture's centre and axes in RAS.
 Pose ras_from_picture(const DrawnPicture& picture);
 
 }  // namespace insonate

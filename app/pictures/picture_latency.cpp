@@ -7,7 +7,7 @@ namespace insonate {
 
 void PictureLatency::add(const Session& session, double drawn_s) {
   const std::optional<PoseEstimate>& answer = session.answer();
-  // A picture that stands still is not made of a report.
+  // A picture that stands still does not come from a new report.
   if (!answer || answer->how == PoseAnswer::none || session.lost_for_s() || session.machine().frozen) return;
   to_frame_.add(answer->age_s);
   to_picture_.add(answer->age_s + drawn_s - session.now_s());

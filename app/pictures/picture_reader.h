@@ -10,10 +10,10 @@
 
 namespace insonate {
 
-/// The ultrasound as it was drawn, for those outside the graphics card.
+/// An ultrasound picture as it was drawn, copied to main memory.
 struct DrawnPicture {
-  Image<std::uint8_t> grey;  ///< row 0 nearest to the probe, columns towards the marker
-  ImageGeometry geometry;    ///< how it lies in the probe's plane
+  Image<std::uint8_t> grey;  ///< row 0 nearest to the probe, columns increasing towards the marker
+  ImageGeometry geometry;    ///< the picture's position in the probe's plane
   Pose patient_from_probe;
   double time_s = 0;  ///< on the clock of the session's source
   int attempt = 0;    ///< of the session
@@ -23,21 +23,22 @@ struct DrawnPicture {
 /// current.
 class PictureReader {
 public:
-  /// To be called once a frame, behind Pictures::update(): asks for the picture if it is another than the last one.
-  /// When the card is too far behind to be asked, that picture is left out.
+  /// Requests the picture if it differs from the last one requested. To be called once per frame after
+  /// Pictures::update(). Skips the picture if the graphics card is too far behind with earlier requests.
   void ask(const Session& session, const Pictures& pictures);
 
-  /// The oldest of those that were asked for, once it is there. @param wait  for it
+  /// Returns the oldest requested picture once it has arrived, else nothing.
+  /// @param wait  whether to wait for it
   std::optional<DrawnPicture> take(bool wait);
 
-  /// The picture that stands is asked for again, as somebody is there who has not seen it.
+  /// Requests the current picture again, for a client that has not seen it.
   void ask_again() { asked_version_ = -1; }
-  /// Gives up what is under way: it is of another session.
+  /// Discards pending requests: they belong to another session.
   void forget();
 
 private:
   gl::Readback readback_;
-  std::deque<DrawnPicture> asked_;  ///< without their pixels
+  std::deque<DrawnPicture> asked_;  ///< requested pictures, still without pixels
   long asked_version_ = -1;
 };
 

@@ -10,11 +10,11 @@
 namespace insonate {
 namespace {
 
-/// Below that the fan's own samples are coarser than the screen.
+/// Below this width the fan's own samples are coarser than the screen.
 constexpr int kLeastWidth = 240;
 
-/// A plane seen more from its edge than this (cosine of the angle to its normal) hides little of the patient, and
-/// cutting there would take away most of him.
+/// A plane seen more edge-on than this (cosine of the angle to its normal) hides little of the patient, and cutting
+/// there would remove most of the body.
 constexpr double kEdgeOn = 0.4;
 
 std::vector<std::string> label_names(const Case& subject) {
@@ -23,9 +23,9 @@ std::vector<std::string> label_names(const Case& subject) {
   return names;
 }
 
-/// As the simulator takes them. The picture's size is left to the caller.
+/// Converts the machine's settings to the simulator's. The caller sets the picture's size.
 Settings settings_of(const Machine& machine) {
-  // A log may hold any numbers; scores are computed from them as they are.
+  // A log may contain any numbers. The scores use them unclamped.
   Settings settings = trainer_settings(std::clamp(machine.frequency_mhz, 1.0, 20.0), machine.depth_mm);
   settings.gain_db = std::clamp(machine.gain_db, -60.0, 60.0);
   settings.dynamic_range_db = machine.dynamic_range_db;
@@ -39,7 +39,7 @@ Pictures::Pictures(const gl::ShaderSources& sources, Quality level)
     : level_(level), simulator_(sources), slice_view_(sources), blend_view_(sources), volume_view_(sources) {}
 
 void Pictures::show(const LoadedCase& loaded_case) {
-  // Whatever the device may refuse comes first: the patient on the screen stays there then.
+  // Everything that the device may refuse comes first, so that the current patient stays on the screen then.
   view::PatientTextures patient(simulator_.volume_texture(), loaded_case.subject.ct, loaded_case.subject.labels,
                                 view::colours_of_organs(label_names(loaded_case.subject)));
   simulator_.set_volume(loaded_case.acoustic, loaded_case.tissues);
@@ -110,7 +110,7 @@ std::optional<Image<Rgba8>> Pictures::reference_picture(const ReferenceView& vie
   simulator_.set_probe(*probe, untouched.depth_mm);
   simulator_.set_settings(at_quality(settings, level_));
   simulator_.set_pose(view.patient_from_probe);
-  probe_name_.clear();  // the session's probe has to be set again
+  probe_name_.clear();  // forces the next update() to set the session's probe again
   return read_back(simulator_.image());
 }
 

@@ -6,12 +6,12 @@
 namespace insonate {
 namespace {
 
-/// More than half of so many frames decide: the few that waited for a shader's compiler, a file or another program say
-/// nothing about the next.
+/// A change needs a majority among this many frames. A few frames that waited for a shader compiler, a file or another
+/// program do not predict the next ones.
 constexpr int kWindow = 20;
 constexpr double kStep = 0.85;
 constexpr double kSlow_s = 0.045;
-/// So quick that a step up, which costs at most 1 / kStep^2 = 1.4 times as much, is not slow again.
+/// Fast enough that one step up, which costs at most 1 / kStep^2 = 1.4 times as much, is not slow again.
 constexpr double kQuick_s = 0.6 * kSlow_s;
 
 }  // namespace
@@ -23,7 +23,8 @@ void QualityGovernor::see(double now_s, double frame_s, bool computed) {
     return;
   }
   if (moves_) see_motion(frame_s);
-  // A picture that comes alone is no motion: a knob was turned, or it is the one in full that comes behind a motion.
+  // A single new picture is not motion: it follows a changed setting, or it is the full-resolution picture after a
+  // motion.
   moves_ = follows;
   computed_s_ = now_s;
 }

@@ -2,20 +2,21 @@
 
 namespace insonate {
 
-/// Decides how many pixels the window's ultrasound is computed for: fewer while it changes from frame to frame on a
-/// machine that cannot keep up, all of them once it stands still, so that what is looked at closely or measured in does
-/// not hang on how fast the machine was. What is kept of a picture that moves has the pixels that it was drawn with.
+/// Decides how many pixels the window's ultrasound is computed for. While the picture changes from frame to frame on a
+/// machine that cannot keep up, it gets fewer pixels. Once it stands still it gets all of them, so that close
+/// inspection and measurements do not depend on the speed of the machine. A moving picture that is recorded keeps the
+/// pixels that it was drawn with.
 class QualityGovernor {
 public:
   static constexpr double kLeast = 0.6;
-  /// How long nothing has to be computed until the picture stands still.
+  /// Time without any computation after which the picture counts as still.
   static constexpr double kRest_s = 0.3;
 
-  /// The share of the screen's pixels along each side for the next frame, kLeast to 1.
+  /// Returns the share of the screen's pixels along each side for the next frame, kLeast to 1.
   double quality() const { return moves_ ? of_motion_ : 1; }
 
-  /// To be told of each frame.
-  /// @param now_s     when it began, on any clock that never goes back
+  /// To be called once per frame.
+  /// @param now_s     when the frame began, on any monotonic clock
   /// @param frame_s   how long it took
   /// @param computed  whether any stage of the ultrasound ran in it
   void see(double now_s, double frame_s, bool computed);
@@ -24,8 +25,8 @@ private:
   void see_motion(double frame_s);
 
   bool moves_ = false, computed_before_ = false;
-  double computed_s_ = 0;  // the last frame that did
-  double of_motion_ = 1;   // the quality while the picture moves
+  double computed_s_ = 0;  // of the last frame that computed anything
+  double of_motion_ = 1;   // quality while the picture moves
   int frames_ = 0, slow_ = 0, quick_ = 0;
 };
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kPart_s = 1;
 
-/// The samples from the `first` one on, with the actions that go with them.
+/// Returns the samples from index `first` on as a sequence file, with their actions.
 std::string log_of(const Session& session, std::size_t first) {
   const std::vector<PoseSample>& all = session.exam_samples();
   const std::vector<PoseSample> samples(all.begin() + std::ptrdiff_t(first), all.end());
@@ -28,7 +28,7 @@ bool ExamJournal::idle() const {
   return !writing_.valid() || writing_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
 }
 
-/// Throws what went wrong with the newest part, which is not kept then.
+/// Throws the error of the latest part, which is not stored then.
 void ExamJournal::settle() {
   if (!writing_.valid()) return;
   writing_.get();

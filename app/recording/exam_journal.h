@@ -10,21 +10,21 @@
 
 namespace insonate {
 
-/// Keeps an exam that counts in the database of results while it lasts, a second at a time, so that a program that is
-/// killed leaves what there was of it. It writes on a thread of its own: whoever draws never waits for a disk.
+/// Stores an exam under strict rules in the results database while it is in progress, once per second. If the program
+/// is killed, the stored part remains. Writes on its own thread, so that drawing never waits for a disk.
 class ExamJournal {
 public:
-  /// @param sitting  whose exam it is; number, digest and times are still to be set. It begins with the first sample.
+  /// @param sitting  the exam's sitting, without number, digest and times. It begins with the first sample.
   ExamJournal(std::filesystem::path database, Sitting sitting);
   ExamJournal(const ExamJournal&) = delete;
   ExamJournal& operator=(const ExamJournal&) = delete;
 
-  /// To be called after each Session::advance(). Throws ExamTaken when the exam is not this program's to take, or not
-  /// any more. What else goes wrong with the database is thrown once, and tried again every second.
+  /// To be called after each Session::advance(). Throws ExamTaken if this program may not, or may no longer, take the
+  /// exam. Other errors of the database are thrown once, and the write is retried every second.
   void take(const Session& session);
 
-  /// Waits until all is written, and returns the number of the sitting; 0 when it never came to the database. Throws
-  /// ExamTaken as take() does; what else goes wrong will go wrong for the attempt too, and is left to it.
+  /// Waits until all is written. Returns the number of the sitting, or 0 if it was never stored in the database. Throws
+  /// ExamTaken as take() does. Ignores other errors: storing the attempt will report the same ones.
   std::int64_t finish(const Session& session);
 
 private:
@@ -33,12 +33,12 @@ private:
   void settle();
 
   std::filesystem::path database_;
-  Sitting sitting_;              ///< the writing thread's, while writing_ is under way
-  std::future<void> writing_;    ///< the newest part
-  std::size_t handed_over_ = 0;  ///< samples, to the thread
-  std::size_t kept_ = 0;         ///< samples that are in the database
+  Sitting sitting_;              ///< used by the writing thread while writing_ is pending
+  std::future<void> writing_;    ///< the latest part
+  std::size_t handed_over_ = 0;  ///< samples passed to the thread
+  std::size_t kept_ = 0;         ///< samples stored in the database
   double tried_s_ = 0;           ///< on the session's clock
-  bool told_ = false;            ///< that it goes wrong
+  bool told_ = false;            ///< whether the current failure has been thrown
 };
 
 }  // namespace insonate

@@ -13,7 +13,7 @@ namespace insonate {
 
 namespace {
 
-/// What took the place of the scenario's own patient; empty for nothing.
+/// Returns the path of the patient that replaces the scenario's own; empty if none does.
 std::string patient_of(const CaseSource& source) {
   const std::filesystem::path& patient = source.ct.empty() ? source.case_folder : source.ct;
   return patient.empty() ? "" : std::filesystem::absolute(patient).string();

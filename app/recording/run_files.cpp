@@ -10,7 +10,7 @@
 namespace insonate {
 namespace {
 
-/// The file's name with `addition` in front of its ending.
+/// Returns the file's name with `addition` inserted before its ending.
 std::filesystem::path with_addition(const std::filesystem::path& file, const std::string& addition) {
   std::string name = file.filename().string();
   std::size_t ending = file.stem().string().size();
@@ -31,7 +31,7 @@ bool is_unused(const std::filesystem::path& file) {
                       [&](const auto& candidate) { return std::filesystem::exists(candidate, error); });
 }
 
-/// The first of FILE, FILE-2, FILE-3... of which there is nothing yet.
+/// Returns the first of FILE, FILE-2, FILE-3... for which no file exists yet.
 std::filesystem::path next_unused(const std::filesystem::path& file) {
   for (int part = 1;; ++part) {
     const std::filesystem::path candidate = part_of(file, part);
@@ -39,7 +39,7 @@ std::filesystem::path next_unused(const std::filesystem::path& file) {
   }
 }
 
-/// Brought to a size: each pixel takes the one that its centre lies in.
+/// Resamples a picture to a size: each new pixel takes the old pixel that contains its centre.
 Image<std::uint8_t> sampled(const Image<std::uint8_t>& picture, int width, int height) {
   if (picture.width == width && picture.height == height) return picture;
   Image<std::uint8_t> made(width, height);
@@ -50,11 +50,11 @@ Image<std::uint8_t> sampled(const Image<std::uint8_t>& picture, int width, int h
   return made;
 }
 
-/// From the pixels of a picture that was brought to a size to the probe's frame.
+/// Returns the transform from pixels of a resampled picture to the probe's frame.
 glm::dmat4 probe_from_pixel(const ImageGeometry& geometry, int width, int height) {
   const glm::dvec2 scale(double(geometry.width) / width, double(geometry.height) / height);
   const glm::dvec2 step = geometry.mm_per_pixel * scale;
-  // The centre of the first pixel of the new size, in pixels of the old.
+  // Centre of the first new pixel, in pixels of the old size.
   const glm::dvec2 first = geometry.plane_mm((scale.x - 1) / 2, (scale.y - 1) / 2);
   return {{step.x, 0, 0, 0}, {0, step.y, 0, 0}, {0, 0, 1, 0}, {first.x, first.y, 0, 1}};
 }

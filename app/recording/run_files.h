@@ -11,32 +11,33 @@
 
 namespace insonate {
 
-/// What the `part`-th of several files is called, from 1 on: scan.igs.mha, scan-2.igs.mha, scan-3.igs.mha...
+/// Returns the name of the `part`-th of several files, counted from 1: scan.igs.mha, scan-2.igs.mha, scan-3.igs.mha...
 std::filesystem::path part_of(const std::filesystem::path& file, int part);
 
-/// The files of one recorded run.
+/// Writes the files of one recorded run.
 ///
-/// FILE has the samples, to the bit, with what the learner did before each. With pictures there is a second file,
-/// FILE-images: a frame for each picture, with the pose it was drawn at and the time on the source's clock. Its
-/// pictures all have the size of the first one; one of another size, as of a window that was resized, is sampled anew.
+/// FILE contains the samples, bit-exact, with the learner's actions before each. With pictures there is a second file,
+/// FILE-images: one frame per picture, with the pose it was drawn at and the time on the source's clock. All its
+/// pictures have the size of the first one. A picture of another size, as after the window was resized, is resampled.
 ///
-/// A file's times rise, so whatever begins anew begins a file of its own: scan.igs.mha is followed by scan-2.igs.mha.
-/// What has been added is safe from a crash of the program when add() has returned (SequenceRecorder). Whatever is
-/// called throws InputError when a file cannot be written.
+/// The times in a file increase, so every restart begins a new file: scan.igs.mha is followed by scan-2.igs.mha. What
+/// has been added survives a crash of the program once add() has returned (SequenceRecorder). Every function throws
+/// InputError if a file cannot be written.
 class RunFiles {
 public:
-  /// Makes the file's beginning at once. @param exactly  it has to be this name, else the next one that is free
+  /// Creates the working file at once.
+  /// @param exactly  whether to use this very name; otherwise the next free one
   RunFiles(std::filesystem::path file, bool exactly, bool with_pictures);
 
-  /// Makes the files so far and begins others.
+  /// Finishes the current files and begins the next ones.
   void begin_next();
-  /// @param actions  what was done before them, by their times
+  /// @param actions  the actions before the samples, keyed by the samples' times
   void add(const std::vector<PoseSample>& samples, const ActionLog& actions);
   void add(const DrawnPicture& picture);
-  /// Makes the files.
+  /// Finishes the files.
   void finish();
 
-  /// Where the samples go to.
+  /// Returns the file that receives the samples.
   const std::filesystem::path& file() const { return poses_->file(); }
 
 private:

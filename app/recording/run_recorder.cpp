@@ -8,7 +8,7 @@
 namespace insonate {
 namespace {
 
-/// What may wait to be written: several seconds of pictures, and hours of samples.
+/// Limit of the data that waits to be written: several seconds of pictures, and hours of samples.
 constexpr std::size_t kMostBytes = std::size_t(64) << 20;
 
 std::size_t bytes_of(const DrawnPicture& picture) {
@@ -17,7 +17,7 @@ std::size_t bytes_of(const DrawnPicture& picture) {
 
 }  // namespace
 
-/// What the thread does with each job.
+/// Runs the jobs on the writing thread.
 class RunRecorder::Writer {
 public:
   explicit Writer(bool with_pictures) : with_pictures_(with_pictures) {}
@@ -37,7 +37,7 @@ public:
     if (files_) files_->add(picture);
   }
 
-  /// What is written by then stays.
+  /// Stops writing; what was written until then stays.
   void give_up() { files_.reset(); }
   std::filesystem::path file() const { return files_ ? files_->file() : std::filesystem::path(); }
 

@@ -16,24 +16,25 @@
 
 namespace insonate {
 
-/// Records what a session's sources say, and on request the ultrasound that was drawn of it, to files (RunFiles) that a
-/// thread of its own writes: whoever draws never waits for a disk. When the exam starts over, the probe changes hands
-/// or another session begins, other files follow.
+/// Records the samples of a session's sources, and on request the ultrasound pictures, to files (RunFiles). Writes on
+/// its own thread, so that drawing never waits for a disk. New files begin when the exam starts over, the probe changes
+/// hands or another session begins.
 ///
-/// Samples are handed over all, with the actions that go with them; of pictures those that the disk keeps up with. A
-/// recording that begins in the middle of a run begins with how the machine is set then.
+/// All samples are recorded, with their actions. Pictures are recorded as far as the disk keeps up. A recording that
+/// begins in the middle of a run starts with the current settings of the machine.
 class RunRecorder {
 public:
-  /// @param with_pictures  each run is recorded with its pictures
+  /// @param with_pictures  whether each run is recorded with its pictures
   explicit RunRecorder(bool with_pictures) : with_pictures_(with_pictures) {}
   /// Ends the recording and waits for its files.
   ~RunRecorder();
   RunRecorder(const RunRecorder&) = delete;
   RunRecorder& operator=(const RunRecorder&) = delete;
 
-  /// Starts recording. @param exactly  to this very file, else to the next free name: FILE, FILE-2, FILE-3...
+  /// Starts recording.
+  /// @param exactly  whether to use this very file; otherwise the next free name: FILE, FILE-2, FILE-3...
   void start(const std::filesystem::path& file, bool exactly);
-  /// Ends it; its files are made meanwhile.
+  /// Ends the recording. The thread finishes the files in the background.
   void stop();
   bool running() const { return running_; }
   bool wants_pictures() const { return running_ && with_pictures_; }
@@ -44,16 +45,16 @@ public:
   /// To be called when another session begins.
   void begin_anew() { attempt_ = 0; }
 
-  /// Throws, once, what went wrong since the last call; nothing is recorded any more then.
+  /// Throws, once, the error that occurred since the last call. The recording has ended then.
   void check();
-  /// Waits until everything is written that was handed over.
+  /// Waits until everything passed to the thread is written.
   void wait();
 
-  /// The last file that was begun; empty before the first.
+  /// Returns the last file that was begun; empty before the first.
   std::filesystem::path file() const;
-  /// How long the recording has run on the session's clock (s).
+  /// Returns how long the recording has run on the session's clock (s).
   double duration_s() const { return last_s_ - start_s_; }
-  /// Pictures that were left out since the recording started, as the disk was too slow.
+  /// Returns the number of pictures skipped since the recording started because the disk was too slow.
   std::size_t left_out() const { return left_out_; }
 
 private:
@@ -75,15 +76,15 @@ private:
 
   const bool with_pictures_;
   bool running_ = false;
-  int attempt_ = 0;  ///< of the session, that the current file is of; 0: of none yet
+  int attempt_ = 0;  ///< attempt of the session that the current file records; 0: none yet
   bool begun_ = false, has_samples_ = false;
   double start_s_ = 0, last_s_ = 0;
   std::size_t left_out_ = 0;
 
-  mutable std::mutex mutex_;  ///< held to move pointers, never while a file is touched
+  mutable std::mutex mutex_;  ///< held to move pointers, never during file access
   std::condition_variable changed_;
   std::deque<Job> jobs_;
-  std::size_t waiting_bytes_ = 0;  ///< of the pictures among them
+  std::size_t waiting_bytes_ = 0;  ///< size of the pictures in jobs_
   bool busy_ = false, ending_ = false;
   std::exception_ptr problem_;
   std::filesystem::path file_;

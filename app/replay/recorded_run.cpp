@@ -63,7 +63,7 @@ std::string in_words(const Action& action) {
   return "";
 }
 
-/// Adds what the session shows after a sample.
+/// Records what the session shows after a sample.
 class Recorder {
 public:
   Recorder(RecordedRun& run, double first_s) : run_(run), first_s_(first_s) {}
@@ -100,7 +100,7 @@ public:
   }
 
 private:
-  /// What is as it was before is not kept twice.
+  /// Stores only values that differ from the previous one.
   template <typename Value>
   static std::size_t index_of(std::vector<Value>& values, const Value& value) {
     if (values.empty() || !(values.back() == value)) values.push_back(value);
@@ -111,7 +111,7 @@ private:
   double first_s_;
   std::optional<double> last_usable_s_;
   MotionMeter motion_;
-  PictureTools tools_;  ///< as the screen's, in nobody's hand
+  PictureTools tools_;  ///< tracks the annotations as the screen's tools would; no learner uses it
 };
 
 std::vector<RunEvent> events_of(const RecordedScan& scan, const std::vector<double>& event_markers_s) {
@@ -142,7 +142,7 @@ std::size_t RecordedRun::stretch_at(double time_s) const {
 
 std::optional<double> RecordedRun::lost_for_s(double time_s) const {
   const RunMoment& moment = at(time_s);
-  if (&moment == &moments.back()) return std::nullopt;  // the recording is over, and nobody waits for more
+  if (&moment == &moments.back()) return std::nullopt;  // the recording is over: no more poses are expected
   const double lost_s = time_s - moment.last_usable_s.value_or(0);
   return lost_s > Session::kStale_s ? std::optional(lost_s) : std::nullopt;
 }
@@ -157,7 +157,7 @@ RecordedRun play_through(const std::shared_ptr<const LoadedCase>& loaded_case, c
   });
   Recorder recorder(run, scan.samples.front().time_s);
   for (std::size_t i = 0; i < scan.samples.size(); ++i) {
-    // The tracker's clock starts with the first poll: each sample comes in one of its own.
+    // The tracker's clock starts with the first poll. One advance() per sample gives each a poll of its own.
     session.advance(scan.samples[i].time_s - scan.samples.front().time_s);
     recorder.see(session, scan.samples[i]);
     if (progress && i % 64 == 0) progress(double(i) / double(scan.samples.size()));

@@ -6,11 +6,11 @@
 namespace insonate {
 namespace {
 
-/// Where a time of one run lies in another: as far into the same step, counted from the first time that the other came
-/// to it.
+/// The place of one run's time in the other run: as far into the same step, counted from when the other run first came
+/// to that step.
 struct Place {
-  const RunStretch* in = nullptr;  ///< of the other run; null when it never came to the step
-  double time_s = 0;               ///< may lie behind the stretch's end
+  const RunStretch* in = nullptr;  ///< of the other run; null if it never came to the step
+  double time_s = 0;               ///< may lie after the stretch's end
 };
 
 Place place_in(const RecordedRun& other, const RecordedRun& run, double time_s) {

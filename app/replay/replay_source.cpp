@@ -14,8 +14,8 @@ namespace {
 
 struct KeptRun {
   RecordedScan scan;
-  std::optional<Scenario> scenario;  ///< of an attempt; a log says nothing of its own
-  std::string patient;               ///< of an attempt that was not taken on the scenario's own case
+  std::optional<Scenario> scenario;  ///< of an attempt; a log contains no scenario
+  std::string patient;               ///< of an attempt that did not use the scenario's own case
 };
 
 KeptRun kept_attempt(const std::filesystem::path& database, std::int64_t number) {
@@ -36,7 +36,7 @@ KeptRun kept_run(const std::filesystem::path& log, const std::filesystem::path& 
   KeptRun run;
   run.scan = read_log(log);
   check_is_of_probe(run.scan.recording);
-  parse_action_log(run.scan.recording.actions, run.scan.recording.file);  // before a patient is made for it
+  parse_action_log(run.scan.recording.actions, run.scan.recording.file);  // check before the slow creation of a patient
   return run;
 }
 

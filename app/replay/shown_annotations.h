@@ -9,8 +9,8 @@
 
 namespace insonate {
 
-/// What the screen shows over a picture of what is placed, and of its values: a value of its own, which a run that is
-/// over keeps too.
+/// The annotations and values that the screen shows over a picture. It is a self-contained value, so that a finished
+/// run can store it too.
 struct ShownAnnotations {
   struct Placed {
     Action action;
@@ -23,13 +23,13 @@ struct ShownAnnotations {
     Of of = Of::picture;
     bool operator==(const Value&) const = default;
   };
-  std::vector<Placed> placed;               ///< in the picture that is shown
-  std::optional<glm::dvec2> unnamed_place;  ///< clicked in it, without a name yet
-  std::vector<Value> values;                ///< of all that is measured, by slot; what they come to is last
+  std::vector<Placed> placed;               ///< in the displayed picture
+  std::optional<glm::dvec2> unnamed_place;  ///< clicked in the picture and not named yet
+  std::vector<Value> values;                ///< all measured values, by slot; the combined value is last
   bool operator==(const ShownAnnotations&) const = default;
 };
 
-/// @param tools  that have seen the session as it is
+/// @param tools  must have seen the session's current state
 ShownAnnotations shown_annotations(const Session& session, const PictureTools& tools);
 
 }  // namespace insonate

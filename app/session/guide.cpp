@@ -27,7 +27,7 @@ std::vector<std::string> Guide::names(const LoadedCase& loaded_case) const {
   return names;
 }
 
-/// The view that the step under way asks for; empty when it asks for none, nullptr when there is no step under way.
+/// Returns the view that the current step asks for; empty if it asks for none, nullptr if no step is in progress.
 const std::string* Guide::view_of_step(const Session& session) {
   const Runner* runner = session.runner();
   if (!runner || runner->live().finished) return nullptr;

@@ -8,29 +8,30 @@
 
 namespace insonate {
 
-/// What a teacher beside the bed would say now.
+/// Guidance towards a reference view, as a teacher at the bedside would give it.
 struct Guiding {
-  const ReferenceView* view = nullptr;  ///< that is looked for; of the session's case, or the guide's own
-  std::vector<std::string> advice;      ///< what to do next, in its order; empty when the view is there, or no probe
-  double plane_distance_mm = 0;         ///< between the middles of the two pictures, along the reference's normal
+  const ReferenceView* view = nullptr;  ///< the view to find; belongs to the session's case or to the guide
+  std::vector<std::string> advice;      ///< next movements, in order; empty if the view is reached
+  double plane_distance_mm = 0;         ///< between the centres of the two pictures, along the reference's normal
   double plane_angle_deg = 0;
   bool there = false;
 };
 
-/// Help for practice, off until it is asked for: the way to one of the patient's reference views. While a scenario runs
-/// it leads to the view that the step asks for. There is none of it under strict rules.
+/// Guides the learner to one of the patient's reference views during practice; off by default. While a scenario runs,
+/// it leads to the view that the step asks for. Strict rules disable it.
 class Guide {
 public:
-  /// While a scenario runs: turns it on or off. Else turns to the next of the patient's views, those of the scenario's
-  /// steps first and those that were made since last, and off behind the last one.
+  /// While a scenario runs: turns the guide on or off. Otherwise: selects the patient's next view, first those of the
+  /// scenario's steps, then the case's, then those authored since. After the last view the guide is off.
   void next(const Session& session);
 
-  /// Empty under strict rules, while it is off, when the step asks for no view, and before the first pose.
+  /// Returns nothing under strict rules, while the guide is off, if the step asks for no view, and before the first
+  /// pose.
   std::optional<Guiding> now(const Session& session) const;
 
-  /// A view that was made of the patient after the case was read.
+  /// Adds a view that was authored after the case was read.
   void add(const ReferenceView& made) { made_.push_back(made); }
-  /// Another patient is there, or the same one read again.
+  /// Drops the added views: another patient is loaded, or the same one was read again.
   void forget_made() { made_.clear(); }
 
 private:
@@ -38,9 +39,9 @@ private:
   std::vector<std::string> names(const LoadedCase& loaded_case) const;
   static const std::string* view_of_step(const Session& session);
 
-  bool in_run_ = false;              ///< on while a scenario runs
-  std::string view_;                 ///< without one; empty: off
-  std::vector<ReferenceView> made_;  ///< the case has none of their names
+  bool in_run_ = false;              ///< on or off while a scenario runs
+  std::string view_;                 ///< the view selected when no scenario runs; empty: off
+  std::vector<ReferenceView> made_;  ///< their names do not occur in the case
 };
 
 }  // namespace insonate

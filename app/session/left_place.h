@@ -8,13 +8,13 @@
 
 namespace insonate {
 
-/// Lets a tracker that tells no place (Tracker::relative) go on from where the probe was left: its poses are moved as a
-/// whole, so that the next usable one lies there.
+/// Lets a tracker without an absolute position (Tracker::relative) continue from where the probe was left. It moves all
+/// poses by one rigid transform, chosen so that the next usable pose lies at that place.
 class LeftPlace {
 public:
   void leave_at(const Pose& place) { place_ = place; }
 
-  /// To be shown all that the tracker says, in order.
+  /// Must see all samples of the tracker, in order.
   void move(std::vector<PoseSample>& samples) {
     for (PoseSample& sample : samples) {
       if (sample.status != PoseStatus::ok) continue;
@@ -25,7 +25,7 @@ public:
   }
 
 private:
-  std::optional<Pose> place_;  ///< until the next pose comes
+  std::optional<Pose> place_;  ///< set until the next usable pose comes
   std::optional<Pose> by_;
 };
 

@@ -20,7 +20,8 @@ bool ends_with(const std::string& name, std::string_view ending) {
          });
 }
 
-/// The body's bounding box, and a place for the probe on the belly, or above the middle where there is no body.
+/// Returns the body's bounding box and a start pose for the probe: on the belly, or above the middle if there is no
+/// body.
 TrackerContext find_surroundings(const Volume<std::int16_t>& ct) {
   constexpr int kStride = 4;
   TrackerContext found;

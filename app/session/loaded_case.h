@@ -14,15 +14,15 @@
 
 namespace insonate {
 
-/// What a session is to be about. Empty paths mean: what is built in.
+/// Says what a session loads. An empty path selects what is built in.
 struct CaseSource {
   std::filesystem::path case_folder;
   std::filesystem::path ct;  ///< a file or a DICOM folder
   std::filesystem::path scenario;
-  std::optional<Scenario> kept;  ///< that of an attempt that was kept, in place of a file's
-  std::uint32_t seed = 0;        ///< draws the scenario's variant
+  std::optional<Scenario> kept;  ///< scenario of a stored attempt, used in place of a file's
+  std::uint32_t seed = 0;        ///< selects the scenario's variant
 
-  /// Whether this is the bundled exam on the built-in patient.
+  /// Returns whether this is the bundled exam on the built-in patient.
   bool is_bundled() const { return case_folder.empty() && ct.empty() && scenario.empty() && !kept; }
 };
 
@@ -31,24 +31,24 @@ struct LoadedCase {
   Case subject;
   TissueTable tissues;
   AcousticVolume acoustic;
-  std::optional<Scenario> scenario;  ///< none: free practice
-  TrackerContext surroundings;       ///< where the body is, and where a probe starts: on the belly, across
+  std::optional<Scenario> scenario;  ///< empty: free practice
+  TrackerContext surroundings;       ///< where the body is, and where a probe starts: on the belly, transverse
 };
 
-/// The exam of it; none: free practice. Throws InputError.
+/// Reads the exam that `source` names; empty for free practice. Throws InputError.
 std::optional<Scenario> read_exam(const CaseSource& source);
 
-/// Called from the loading thread with what is being done and how much of that is done, from 0 to 1.
+/// Called from the loading thread with the current activity and its completed share, 0 to 1.
 using LoadProgress = std::function<void(const std::string& what, double share)>;
 
-/// Loads it all: takes seconds. Throws InputError.
+/// Loads the patient and the exam, which takes seconds. Throws InputError.
 LoadedCase load_case(const CaseSource& source, const LoadProgress& progress);
 
-/// What a path that a person drops on the trainer turns out to be.
+/// What a path that a person drops on the trainer contains.
 enum class Material { case_folder, ct, scenario, tracker_log, raw_log };
 
-/// By its ending, by what is in it when it is a folder, or by its beginning when it is a raw recording. Throws
-/// InputError when it is none of them.
+/// Judges a path by its file name extension, a folder by its content, and a raw recording by its first bytes. Throws
+/// InputError if it is none of the kinds.
 Material kind_of_material(const std::filesystem::path& path);
 
 }  // namespace insonate

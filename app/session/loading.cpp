@@ -12,7 +12,7 @@
 namespace insonate {
 namespace {
 
-/// Thrown from a progress report to end what nobody waits for.
+/// Thrown from a progress report to end an abandoned loading.
 struct GivenUp {};
 
 std::atomic<int> threads_given_up = 0;

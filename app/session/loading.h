@@ -8,8 +8,8 @@
 
 namespace insonate {
 
-/// A loaded_case being loaded on a thread of its own. Destroying it gives the loading up without waiting: the thread
-/// ends at the next progress it reports, and what it had so far goes with it.
+/// Loads a LoadedCase on its own thread. The destructor abandons the loading without waiting: the thread ends at its
+/// next progress report and discards what it has loaded so far.
 class Loading {
 public:
   using Load = std::function<std::shared_ptr<const LoadedCase>(const LoadProgress&)>;
@@ -24,13 +24,13 @@ public:
   };
   Progress progress() const;
 
-  /// Whether take() would not wait.
+  /// Returns whether take() would return at once.
   bool done() const;
-  /// Waits for the loaded_case, once. Throws what `load` threw.
+  /// Waits for the LoadedCase and returns it; to be called once. Throws what `load` threw.
   std::shared_ptr<const LoadedCase> take();
 
-  /// How many threads still work on what was given up. Static objects must not be destroyed beneath them: a program
-  /// that cannot wait for 0 ends by leave_program().
+  /// Returns how many abandoned threads still run. Static objects must not be destroyed while they do. A program that
+  /// cannot wait for 0 ends through leave_program().
   static int given_up();
 
 private:
@@ -38,7 +38,7 @@ private:
   std::shared_ptr<Shared> shared_;
 };
 
-/// Ends the program with `exit_code`; not by way of static destructors while threads still work on what was given up.
+/// Ends the program with `exit_code`. Skips static destructors while abandoned threads still run.
 int leave_program(int exit_code);
 
 }  // namespace insonate

@@ -54,7 +54,7 @@ void PictureTools::see(const Session& session) {
   }
   picture_ = picture;
   if (another) begin_step(session);
-  if (!std::as_const(session).source().recording()) return;  // what was placed here is known already
+  if (!std::as_const(session).source().recording()) return;  // those placed here are added already
   for (const auto& [time_s, actions] : session.latest_actions())
     for (const Action& action : actions) {
       if (another && ends_step(action)) annotations_.clear();
@@ -122,7 +122,7 @@ void PictureTools::name_place(Session& session, const std::string& name) {
   commit(session, with_place(std::move(label), *std::exchange(place_, std::nullopt)));
 }
 
-/// Takes the nearest handle within reach of what lies in this picture.
+/// Grabs the nearest handle within `reach_mm` among the annotations of this picture.
 bool PictureTools::grab(const Pose& picture, const glm::dvec2& at, double reach_mm) {
   double nearest = reach_mm;
   const auto look = [&](const Annotation& annotation, std::size_t handle, const glm::dvec2& place) {
@@ -182,7 +182,7 @@ void PictureTools::release(Session& session, const glm::dvec2& at, double reach_
     if (handle_) commit(session, *in_hand_);
     return;
   }
-  // A click sets the first end, a drag both.
+  // A click sets the first end. A drag sets both.
   if (std::exchange(first_press_, false) && caliper_length_mm(*in_hand_) <= reach_mm) return;
   if (caliper_length_mm(*in_hand_) < kLeast_mm) return drop();
   if (in_hand_->kind == ActionKind::ellipse && !std::exchange(has_axis_, true)) return;
@@ -191,13 +191,13 @@ void PictureTools::release(Session& session, const glm::dvec2& at, double reach_
 }
 
 void PictureTools::commit(Session& session, const Action& given) {
-  const Action action = given;  // drop() forgets what is in hand
+  const Action action = given;  // copied, because drop() clears what is in hand
   drop();
   const auto picture = session.frozen_picture();
   if (!picture) return;
   const Annotation* before = annotations_.at_place_of(action);
   if (before && before->action == action && before->patient_from_probe == *picture) return;
-  // What lay in another picture cannot be put back there.
+  // What lay in another picture cannot be restored in this one.
   const bool again = before && before->patient_from_probe == *picture;
   done_.push_back({again ? before->action : take_back(action), *picture});
   session.act(action);
@@ -223,7 +223,7 @@ void PictureTools::undo(Session& session) {
   const Undo last = done_.back();
   done_.pop_back();
   const auto picture = session.frozen_picture();
-  // Nothing can be put back into a picture that is gone.
+  // Nothing can be restored in a picture that is gone.
   const Action action = picture == last.picture ? last.action : take_back(last.action);
   session.act(action);
   annotations_.apply(action, picture);

@@ -9,68 +9,72 @@
 
 namespace insonate {
 
-/// What the learner can place in the frozen picture: calipers and ellipses, and where a step asks for it a point or
-/// names. Takes the pointer in mm of the imaging plane and hands actions to the session. Knows no screen.
+/// Places annotations in the frozen picture: calipers and ellipses, and points or names where a step asks for them.
+/// Takes pointer positions in mm of the imaging plane and passes actions to the session. Does not depend on the screen.
 ///
-/// A caliper is two clicks, or one drag from end to end; an ellipse's axis likewise, and a third click sets its width.
-/// What has been placed is taken hold of by its ends, its point or its name. A place is clicked first and named then.
+/// A caliper takes two clicks, or one drag from end to end. The axis of an ellipse is placed the same way; a third
+/// click sets its width. Placed annotations are grabbed by their ends, their point or their name. For a name, the place
+/// is clicked first and named afterwards.
 ///
-/// In a `measure` step only what it measures can be placed, slot by slot; elsewhere anything may be measured, which no
-/// step counts. What was placed is gone when the step or the attempt changes; what no step counts, when the picture
-/// moves on.
+/// In a `measure` step only the step's own measurements can be placed, slot by slot. Elsewhere anything may be
+/// measured, and no step scores it. All annotations disappear when the step or the attempt changes. Those that no step
+/// scores also disappear when the picture changes.
 class PictureTools {
 public:
   enum class Tool { distance, ellipse, point, label };
-  static constexpr double kLeast_mm = 0.5;  ///< a shorter caliper is a click too many
+  static constexpr double kLeast_mm = 0.5;  ///< a shorter caliper is an accidental click
 
   /// To be called after each Session::advance().
   void see(const Session& session);
 
-  /// There is a frozen picture that takes the pointer: none of an exam that a log does, which places what it placed.
+  /// Returns whether a frozen picture accepts the pointer. False in an exam that a log plays: it places the annotations
+  /// of its recording.
   static bool ready(const Session& session);
   Tool tool() const { return tool_; }
-  /// Whether the learner chooses what to measure with, as no step says it.
+  /// Returns whether the learner chooses the tool because no step prescribes it.
   bool free_choice() const { return !measuring() && tool_ != Tool::point && tool_ != Tool::label; }
-  /// Distance or ellipse; nothing happens where there is no free choice.
+  /// Selects distance or ellipse. Does nothing if free_choice() is false.
   void choose(Tool tool);
 
-  /// What the step under way measures; nullptr if it measures nothing.
+  /// Returns what the current step measures; nullptr if it measures nothing.
   const MeasureInput* measuring() const { return std::get_if<MeasureInput>(&input_); }
-  /// Whether the step under way asks for names.
+  /// Returns whether the current step asks for names.
   bool labelling() const { return std::holds_alternative<LabelInput>(input_); }
-  /// Which caliper the next one will be.
+  /// Returns the slot of the next caliper.
   int slot() const;
   void choose_slot(int slot);
-  /// What it is called: in a measuring step by its target, elsewhere by what it measures.
+  /// Returns the name of a slot: in a measuring step after its target, elsewhere after what it measures.
   std::string slot_name(int slot) const;
-  /// Of the measuring step when all is placed: "Ratio 1.25", "Volume 123 ml"; empty for single values.
+  /// Returns the combined value of the measuring step once all is placed: "Ratio 1.25", "Volume 123 ml". Empty for
+  /// single values.
   std::string total_text() const;
-  /// The names to give, in an order that tells nothing.
+  /// Returns the names to give, in an order that reveals nothing.
   const std::vector<std::string>& names() const { return names_; }
-  /// Gives the place that was clicked its name.
+  /// Names the place that was clicked.
   void name_place(Session& session, const std::string& name);
   const std::optional<glm::dvec2>& unnamed_place() const { return place_; }
 
-  /// The pointer, mm in the plane. @param reach_mm  how far from a handle it takes hold of it
+  /// Pointer events, in mm of the plane.
+  /// @param reach_mm  the largest distance from a handle at which the pointer grabs it
   void press(Session& session, const glm::dvec2& at, double reach_mm);
   void move(const glm::dvec2& at);
   void release(Session& session, const glm::dvec2& at, double reach_mm);
-  /// Gives up what is being placed. Whether there was anything.
+  /// Discards what is being placed. Returns whether there was anything.
   bool cancel();
-  /// Gives it up, or else takes back what was done last.
+  /// Discards what is being placed; otherwise undoes the last action.
   void undo(Session& session);
-  /// Takes back everything.
+  /// Removes all annotations.
   void clear(Session& session);
   bool can_undo() const { return drawing_ || place_ || !done_.empty(); }
 
   const Annotations& annotations() const { return annotations_; }
-  /// What is being placed or moved, as it would be if the pointer were let go now.
+  /// Returns what is being placed or moved, as it would be if the pointer were released now.
   const std::optional<Action>& in_hand() const { return in_hand_; }
 
 private:
   struct Undo {
     Action action;
-    Pose picture;  ///< that it was done in
+    Pose picture;  ///< in which it was done
   };
   void begin_step(const Session& session);
   void begin(const glm::dvec2& at);
@@ -87,13 +91,13 @@ private:
   std::optional<Pose> picture_;
 
   Annotations annotations_;
-  std::vector<Undo> done_;  ///< what takes back each thing that was done
+  std::vector<Undo> done_;  ///< the actions that undo each action
   std::optional<Action> in_hand_;
-  bool drawing_ = false;               ///< what is in hand is new and has clicks to come
-  bool first_press_ = false;           ///< the press that began it still lasts
-  bool has_axis_ = false;              ///< the ellipse's
-  std::optional<std::size_t> handle_;  ///< of what is in hand, while it is moved
-  std::optional<glm::dvec2> place_;    ///< clicked, without a name yet
+  bool drawing_ = false;               ///< what is in hand is new and needs more clicks
+  bool first_press_ = false;           ///< the press that began it is not released yet
+  bool has_axis_ = false;              ///< the ellipse in hand has its axis
+  std::optional<std::size_t> handle_;  ///< of what is in hand, while it is being moved
+  std::optional<glm::dvec2> place_;    ///< clicked and not named yet
 };
 
 }  // namespace insonate

@@ -6,10 +6,10 @@
 
 namespace insonate {
 
-/// Between the probe's imaging plane (mm; x lateral towards the marker, y along the central beam) and the screen
-/// (pixels from the top left), where a picture of that plane fills an area. The marker's side, +x, is on the left.
-/// Exact for any size of area and picture: the two directions have scales of their own, as a picture that is computed
-/// for fewer pixels than it is shown in may be stretched by part of one.
+/// Converts between the probe's imaging plane (mm; x lateral towards the marker, y along the central beam) and the
+/// screen (pixels from the top left), where a picture of that plane fills an area. The marker's side, +x, is on the
+/// left. Exact for any size of area and picture: each direction has its own scale, because a picture that is computed
+/// for fewer pixels than it is shown in may be stretched by a fraction of a pixel.
 class PlaneOnScreen {
 public:
   PlaneOnScreen(const glm::dvec2& area_top_left, const glm::dvec2& area_size, const ImageGeometry& geometry)
@@ -17,7 +17,7 @@ public:
         top_right_(area_top_left.x + area_size.x, area_top_left.y),
         scale_(-area_size.x / geometry.width, area_size.y / geometry.height) {}
 
-  /// A pixel's centre lies half of it from its edges.
+  /// Returns the screen position. The 0.5 is there because a pixel's centre lies half a pixel from its edges.
   glm::dvec2 screen(const glm::dvec2& plane_mm) const {
     return top_right_ + scale_ * (geometry_.pixel(plane_mm) + 0.5);
   }
@@ -25,13 +25,13 @@ public:
     const glm::dvec2 pixel = (screen - top_right_) / scale_ - 0.5;
     return geometry_.plane_mm(pixel.x, pixel.y);
   }
-  /// Along the picture's height.
+  /// Returns the scale along the picture's height.
   double pixels_per_mm() const { return scale_.y / geometry_.mm_per_pixel; }
 
 private:
   ImageGeometry geometry_;
   glm::dvec2 top_right_;
-  glm::dvec2 scale_;  ///< screen pixels a picture's pixel
+  glm::dvec2 scale_;  ///< screen pixels per picture pixel
 };
 
 }  // namespace insonate

@@ -12,13 +12,13 @@
 namespace insonate {
 namespace {
 
-/// From how far outside the skin is looked for along the beam, and how far.
+/// Where the search for the skin starts, behind the face along the beam, and how far it goes.
 constexpr double kBehind_mm = 45;
 constexpr double kReach_mm = 120;
-/// The skin's slope is taken over about the width of a face, so that ribs and navels do not make the probe nod.
+/// The skin's slope is taken over about the width of a face, so that ribs and the navel do not tilt the probe.
 constexpr double kSlope_mm = 18;
 
-/// The smallest turn that takes one unit vector to another.
+/// Returns the smallest rotation that takes one unit vector to another.
 glm::dmat3 turn_between(const glm::dvec3& a, const glm::dvec3& b) {
   const glm::dvec3 axis = glm::cross(a, b);
   const double sine = glm::length(axis);
@@ -37,7 +37,7 @@ std::optional<ProbeHand::Contact> ProbeHand::contact(const Pose& pose) const {
   const auto skin = [&](double x, double z) -> std::optional<glm::dvec3> {
     const glm::dvec3 from = pose.point({x, -kBehind_mm, z});
     const auto distance = distance_to_skin(*ct_, from, beam, kReach_mm);
-    // Starting inside the body means that something else is in the way of looking.
+    // A start inside the body means that something else blocks the line.
     if (!distance || *distance <= 0) return std::nullopt;
     return from + *distance * beam;
   };
@@ -86,7 +86,7 @@ Pose ProbeHand::put(const Pose& from, const glm::dvec3& eye, const glm::dvec3& d
   const auto distance = distance_to_skin(*ct_, eye, direction, kSight_mm);
   const auto old = contact(from);
   if (!distance || !old) return from;
-  // The skin's slope there is looked at from where the eye is: the beam may run along it.
+  // The slope is measured along the line of sight, because the beam may run along the skin.
   const Pose looking{turn_between(from.rotation[1], direction) * from.rotation, eye + *distance * direction};
   const auto reached = contact(looking);
   return reached ? settle(from, *old, *reached) : from;

@@ -13,7 +13,7 @@
 namespace insonate {
 namespace {
 
-/// The motion from one pose to another as MouseTracker takes it: in the probe's own frame.
+/// Moves `mouse` from one pose to another. MouseTracker takes motions in the probe's own frame.
 void push(MouseTracker& mouse, const Pose& from, const Pose& to) {
   const Pose step = from.inverse() * to;
   const glm::dquat turn = glm::normalize(glm::quat_cast(step.rotation));
@@ -21,12 +21,12 @@ void push(MouseTracker& mouse, const Pose& from, const Pose& to) {
   mouse.move(step.translation, angle > 1e-12 ? angle * glm::axis(turn) : glm::dvec3(0.0));
 }
 
-/// The knob that a scenario locks to lock this one.
+/// Returns the setting that a scenario locks in order to lock `knob`.
 ActionKind lock_of(ActionKind knob) {
   return knob == ActionKind::dynamic_range || knob == ActionKind::time_gain ? ActionKind::gain : knob;
 }
 
-/// Whether an action only replaces the value that another one has set.
+/// Returns whether `action` only replaces the value that `before` has set.
 bool replaces(const Action& action, const Action& before) {
   switch (action.kind) {
     case ActionKind::depth:
@@ -93,7 +93,7 @@ std::unique_ptr<Tracker> Session::open_fresh() const {
 }
 
 void Session::restart_tracker() {
-  if (tracker_->live()) return;  // a device has no beginning, and opened twice it would be busy
+  if (tracker_->live()) return;  // a device has no beginning, and would be busy if opened twice
   tracker_ = open_fresh();
 }
 
@@ -107,7 +107,7 @@ void Session::begin_attempt() {
   last_usable_s_ = attempt_began_s_ = now_s_;
   event_markers_s_.clear();
   history_.clear();
-  // A recorded scan sets its knobs anew each time.
+  // A recorded scan sets the machine anew each time.
   if (source().recording()) shown_ = first_machine();
   shown_.apply({ActionKind::unfreeze}, std::nullopt);
   machine_ = runner_ ? runner_->machine() : Machine();
@@ -140,7 +140,7 @@ void Session::practise() {
 
 void Session::hold(Holder holder) {
   holder_ = holder;
-  // The learner's hand has no buttons of its own, and knows nothing of those that are held on the tracker.
+  // The learner's hand has no buttons of its own, and does not know which buttons are held on the tracker.
   presses_ = holder == Holder::learner ? ButtonPresses(0) : ButtonPresses();
 }
 
@@ -153,7 +153,7 @@ void Session::take_probe() {
 
 void Session::give_back_probe() {
   if (holder_ == Holder::tracker || only_learner_) return;
-  restart_tracker();  // may throw: then the learner keeps the probe
+  restart_tracker();  // if it throws, the learner keeps the probe
   if (tracker_->relative()) left_place_.leave_at(learner_->pose());
   hold(Holder::tracker);
   if (loaded_case_->scenario) activity_ = Activity::exam;
@@ -178,7 +178,7 @@ void Session::set(const Action& action) {
   const Machine before = shown_;
   shown_.apply(action, newest_pose_);
   if (shown_ == before || source().recording()) return;
-  // Freezing and thawing between two samples is nothing: the picture stays as it was at the sample before.
+  // Freezing and unfreezing between two samples cancel out: the picture stays as it was at the previous sample.
   if (shown_.frozen != before.frozen && !acts_.empty() &&
       acts_.back().kind == (shown_.frozen ? ActionKind::unfreeze : ActionKind::freeze)) {
     acts_.pop_back();
@@ -209,7 +209,7 @@ std::vector<Action> Session::actions_before(const PoseSample& sample) {
 void Session::take(const PoseSample& sample) {
   const bool was_frozen = shown_.frozen;
   const std::uint32_t pressed = presses_.see(sample);
-  // A log with actions tells itself when the picture froze.
+  // A log with actions itself contains when the picture was frozen.
   if ((pressed & kFreezeButton) && log_actions_.empty()) freeze(!shown_.frozen);
   if (pressed & kEventMarkerButton) event_markers_s_.push_back(attempt_for_s());
   if (pressed & kContinueButton) go_on_ = true;
@@ -225,7 +225,7 @@ void Session::take(const PoseSample& sample) {
     if (!actions.empty()) actions_[sample.time_s] = actions;
     machine_ = runner_->machine();
   }
-  // What is measured in is what was sampled, not what was predicted of it.
+  // Measurements belong to the sampled pose, not to the predicted one.
   if (shown_.frozen && machine_.frozen_at) shown_pose_ = shown_.frozen_at = machine_.frozen_at;
   if (sample.status != PoseStatus::ok) return;
   newest_pose_ = sample.patient_from_probe;
@@ -245,7 +245,7 @@ void Session::find_pose() {
 
 void Session::advance(double now_s) {
   now_s_ = now_s;
-  // A session that is made while the clock runs has not lost anything yet.
+  // A session that is created while the clock runs has not lost the tracker yet.
   if (!std::exchange(advanced_, true)) last_usable_s_ = attempt_began_s_ = now_s;
   samples_.clear();
   latest_actions_.clear();
@@ -255,7 +255,7 @@ void Session::advance(double now_s) {
   }
   source().poll(now_s, samples_);
   if (holder_ == Holder::tracker) left_place_.move(samples_);
-  // One that does not tell of buttons would not tell that they are let go again.
+  // A sample without button data could not report their release.
   const auto pressing = std::find_if(samples_.begin(), samples_.end(), reports_buttons);
   if (pressing != samples_.end()) pressing->buttons |= std::exchange(pressed_, 0);
   if (!samples_.empty()) samples_begin_attempt_ = std::exchange(attempt_is_fresh_, false);

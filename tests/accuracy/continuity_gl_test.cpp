@@ -1,5 +1,5 @@
-// The picture is continuous in the pose: small steps of the probe change it little, and what changes much does not do
-// so at once.
+// Tests that the picture is continuous in the pose: small steps of the probe change it little, and large changes do not
+// happen at once.
 
 #include <catch2/catch.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -27,8 +27,8 @@ constexpr double kStep_mm = 0.01;
 using Greys = Image<std::uint8_t>;
 using Draws = std::function<Greys(const Scene&)>;
 
-/// The scene with its probe moved along an axis, or turned about one as much as moves the depth by so many mm; both to
-/// and fro: 12 directions, of which the first six are forwards.
+/// Returns the scene with its probe moved by `mm` along an axis, or rotated about an axis so that the depth moves by
+/// `mm`. There are 12 directions, forwards and backwards; the first six are forwards.
 Scene moved(const Scene& scene, int direction, double mm) {
   Scene result = scene;
   glm::dvec3 axis(0);
@@ -45,7 +45,7 @@ struct Change {
   std::size_t pixel = 0;
 };
 
-/// The pixel that changes most within a step in any of the first so many directions.
+/// Returns the pixel that changes most within a step in any of the first `directions` directions.
 Change greatest_change(const Draws& draws, const Scene& scene, int directions) {
   Change most;
   const Greys here = draws(scene);
@@ -59,7 +59,8 @@ Change greatest_change(const Draws& draws, const Scene& scene, int directions) {
   return most;
 }
 
-/// What is left of a change in the 1000th part of the step that has most of it: of a jump, all.
+/// Returns how much of a change occurs in the 1000th part of the step that has most of it. A jump occurs in it
+/// completely.
 int at_once(const Draws& draws, const Scene& scene, const Change& change) {
   const auto grey_at = [&](double mm) { return int(draws(moved(scene, change.direction, mm)).pixels[change.pixel]); };
   double from_mm = 0, to_mm = kStep_mm;
@@ -74,7 +75,7 @@ int at_once(const Draws& draws, const Scene& scene, const Change& change) {
   return std::abs(to - from);
 }
 
-/// Grey levels: of a step, and of what may come at once.
+/// Limits in grey levels: of a whole step, and of what may occur at once.
 struct Bound {
   int step, at_once = step / 10;
 };
@@ -104,7 +105,7 @@ Scene over_a_body(const char* probe) {
   return scene;
 }
 
-/// At so many places on the skin; told is how much the picture changes at most.
+/// Checks `places` places on the skin and prints the largest change of the picture.
 void check_over_skin(const char* what, const Draws& draws, Scene scene, const Bound& bound, std::uint32_t places) {
   CAPTURE(what);
   int most = 0;
@@ -138,8 +139,8 @@ TEST_CASE("nor, in the paper's own mode, whose white is the frame's brightest, b
 }
 
 TEST_CASE("nor model W's picture by more than half of it") {
-  // Towards total reflection its intensity falls as (1 - c^2)^(dr/l), with no end to the slope: what single precision
-  // tells apart of places there is 9 grey levels.
+  // Towards total reflection its intensity falls as (1 - c^2)^(dr/l), whose slope is unbounded. The smallest distance
+  // of places in single precision makes 9 grey levels there.
   const TestContext context;
   const Scene scene = over_a_body("curvilinear");
   WeinSettings settings;
@@ -171,7 +172,7 @@ TEST_CASE("nor that of a real CT, whose gas repeats in the dark behind it, by mo
   for (std::uint32_t k = 0; k < 12; ++k) {
     CAPTURE(k);
     const auto drawn = [&](std::uint32_t j) { return unit_float(hash(k, j, 55u, 1u)) - 0.5; };
-    const double angle = glm::radians(90 + 120 * drawn(0));  // from the front, and from both sides
+    const double angle = glm::radians(90 + 120 * drawn(0));  // from the front and from both sides
     const glm::dvec3 target = subject.ct.grid.centre() + glm::dvec3(100 * drawn(1), 0, 200 * drawn(2));
     scene.pose = on_skin_of(subject, target, {std::cos(angle), std::sin(angle), 0});
     check_continuity(draws, scene, {127}, most, 6);

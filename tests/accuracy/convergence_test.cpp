@@ -1,5 +1,6 @@
-// What the recursion converges to, and how fast: the double-precision reference on continuous media and on voxels
-// against the integrals of the continuous model, I(r) = exp(integral of ln(1 - alpha)/l) and R = alpha I^2 |d . n|.
+// Tests what the recursion converges to and how fast. It compares the double-precision reference on continuous media
+// and on voxels with the integrals of the continuous model, I(r) = exp(integral of ln(1 - alpha)/l) and R = alpha I^2
+// |d . n|.
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
@@ -29,7 +30,7 @@ public:
     return alpha_between(table_.at(density_({0, r - l_ / 2, 0})).impedance_mrayl,
                          table_.at(density_({0, r + l_ / 2, 0})).impedance_mrayl);
   }
-  /// |d . n| from differences over the reflection length.
+  /// Returns |d . n| from differences over the reflection length.
   double cosine(double r) const {
     const auto difference = [&](const glm::dvec3& step) {
       return density_(glm::dvec3(0, r, 0) + step) - density_(glm::dvec3(0, r, 0) - step);
@@ -38,12 +39,12 @@ public:
     const double steepness = glm::length(gradient);
     return steepness > 0 ? std::abs(gradient.y) / steepness : 0;
   }
-  /// What interfaces take from ln I, from a to b.
+  /// Returns what interfaces subtract from ln I between a and b.
   double reflected(double a, double b) const {
     const auto rate = [&](double r) { return -std::log1p(-alpha(r)) / l_; };
     return Simpson(rate, 1e-10)(a, b);
   }
-  /// What absorption takes from ln I, from a to b.
+  /// Returns what absorption subtracts from ln I between a and b.
   double absorbed(double a, double b) const {
     const auto rate = [&](double r) {
       return absorption_mhz_ * std::log(10.0) / 100 * table_.at(density_({0, r, 0})).absorption_db_cm_mhz;
@@ -59,12 +60,12 @@ private:
 
 struct Errors {
   double intensity = 0;    ///< of I, absolute
-  double half_before = 0;  ///< of I against what is met up to half a sample in front of its place, and the face's
+  double half_before = 0;  ///< of I compared with the loss up to half a sample in front of its place, and the face's
                            ///< absorption over that half
-  double reflection = 0;   ///< of R, of its maximum
+  double reflection = 0;   ///< of R, relative to its maximum
 };
 
-/// The reference with `samples` a line against the continuous model, the worst over all samples.
+/// Compares the reference with `samples` per line with the continuous model. Returns the worst errors over all samples.
 Errors errors(const MediumField& field, const Continuous& model, const TissueTable& table, double depth_mm, int samples,
               const Settings& settings) {
   const ScanLines lines = one_line(depth_mm, samples);
@@ -95,8 +96,8 @@ double order(double coarse, double fine) {
   return std::log2(coarse / fine);
 }
 
-/// A plane at 6 mm in front of the origin, across +y and tilted by `tilt_deg` about an axis that lies in no axis of the
-/// grid, between two densities, sampled into voxels.
+/// Returns two densities sampled into voxels. They meet in a plane 6 mm in front of the origin, across +y and tilted by
+/// `tilt_deg` about an axis that is parallel to no axis of the grid.
 Volume<std::int16_t> plane_in_voxels(const glm::dvec3& spacing, double tilt_deg, double hu_before, double hu_behind) {
   Volume<std::int16_t> ct;
   Grid& grid = ct.grid;
@@ -141,7 +142,7 @@ TEST_CASE("halving the sample distance halves the error of I and of R, at least"
       const double of_reflection = order(previous.reflection, now.reflection);
       std::printf("smooth medium, %4d samples: I off by %.2e (order %.2f), R by %.2e (order %.2f)\n", samples,
                   now.intensity, of_intensity, now.reflection, of_reflection);
-      // An order of 1 is met from either side; the deepest of these samplings is within 1 % of it.
+      // The order approaches 1 from either side; the finest of these samplings is within 1 % of it.
       CHECK(of_intensity > 0.9);
       CHECK(of_reflection > 0.9);
     }
@@ -154,7 +155,7 @@ TEST_CASE("an interface in voxels, at any obliquity and spacing, converges to th
   struct Media {
     const char* name;
     double before, behind;
-    int samples;  // at which the first-order error, proportional to alpha, is below what the contract asks for
+    int samples;  // at which the first-order error, proportional to alpha, is below the limit of the contract
   };
   for (const Media& media : {Media{"fat to liver", -100, 60, 2000}, Media{"liver to bone", 60, 1000, 40000}})
     for (const glm::dvec3& spacing : {glm::dvec3(1), glm::dvec3(0.5, 0.7, 3)})
@@ -162,7 +163,7 @@ TEST_CASE("an interface in voxels, at any obliquity and spacing, converges to th
         const Volume<std::int16_t> ct = plane_in_voxels(spacing, tilt, media.before, media.behind);
         const AcousticVolume volume = as_acoustic(ct);
         const MediumField field = trilinear_field(volume);
-        // sample_trilinear is other code than trilinear_field: both would have to be wrong alike.
+        // sample_trilinear does not share code with trilinear_field: an error would have to occur in both.
         const Density density = [&](const glm::dvec3& p) {
           return sample_trilinear(ct, ct.grid.index_from_patient(p));
         };
@@ -182,7 +183,7 @@ TEST_CASE("an interface in voxels, at any obliquity and spacing, converges to th
         CHECK(fine.intensity < 1e-4);
         CHECK(order(coarse.intensity, fine.intensity) / 2 > 0.9);
         CHECK(order(coarse.reflection, fine.reflection) / 2 > 0.9);
-        // The recursion gives a sample what lies in front of its own step: apart from this it is a midpoint rule.
+        // The recursion gives a sample everything in front of its own step. Otherwise it is a midpoint rule.
         CHECK(fine.half_before < 0.02 * fine.intensity);
       }
 }

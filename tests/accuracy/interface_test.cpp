@@ -1,5 +1,5 @@
-// The accuracy contract where a formula gives the answer: the double-precision reference on media without voxels.
-// Tolerances are rounding's unless said otherwise; docs/accuracy.md holds the figures that were measured.
+// Tests the accuracy contract where a formula gives the answer, with the double-precision reference on media without
+// voxels. Tolerances are those of rounding unless stated otherwise; docs/accuracy.md lists the measured figures.
 
 #include <catch2/catch.hpp>
 
@@ -18,8 +18,9 @@ double sum(const Image<double>& image) {
   return total;
 }
 
-/// The mean depth of the echo of an interface in front of the interface, in reflection lengths: within the length the
-/// sound falls as exp(-c s/2), its square weighs the echo, and so the echo's front outweighs its end. 0 for weak ones.
+/// Returns by how many reflection lengths the mean depth of an interface's echo lies in front of the interface. Within
+/// the length the sound falls as exp(-c s/2) and the echo is weighted by its square, so the echo's front outweighs its
+/// end. 0 for weak interfaces.
 double forward_pull(double alpha) {
   const double c = -2 * std::log(1 - alpha);
   return 0.5 - (1 / c - 1 / std::expm1(c));
@@ -85,9 +86,9 @@ TEST_CASE("sharp interface: the echo's integral over depth is the continuous mod
           traverse_reference(interface_at(depth, 100, behind), plain_table(), lines, without_absorption(l), {});
       const double error = std::abs(sum(scan.reflection) * lines.dr_mm() / expected - 1);
       INFO("alpha " << alpha << ", dr = l/" << m << ": relative error " << error);
-      // The sum is a geometric series: its error is -ln(1 - alpha)/m, and the next term a tenth of it at most here.
+      // The sum is a geometric series: its error is -ln(1 - alpha)/m, and the next term is at most a tenth of it here.
       CHECK(error < -1.1 * std::log1p(-alpha) / m + 1e-12);
-      CHECK(error < 0.55 * previous);  // linear, with the next term's share
+      CHECK(error < 0.55 * previous);  // linear, plus the next term
       previous = error;
     }
   }
@@ -109,8 +110,8 @@ TEST_CASE("layers transmit the product of what each transmits") {
 }
 
 TEST_CASE("tilted interface: the echo falls with the cosine of its tilt") {
-  // Blurred over several reflection lengths, as CT blurs every interface. The tilted ramp is crossed on a longer way,
-  // by 1/cos, over which alpha falls with cos^2: the area of the echo falls by cos, and once more by |d . n|.
+  // Blurred over several reflection lengths, as CT blurs every interface. The path through the tilted ramp is longer by
+  // 1/cos, and alpha falls with cos^2 over it. So the area of the echo falls by cos, and once more by |d . n|.
   const ScanLines lines = one_line(40, 4000);
   const auto area = [&](double tilt) {
     return sum(
@@ -135,7 +136,7 @@ TEST_CASE("tilted interface: |d . n| is the cosine of its tilt at every sample o
     int seen = 0;
     for (int k = 0; k < lines.samples; ++k) {
       const double r = (k + 0.5) * lines.dr_mm();
-      if (std::abs(r - depth) * cosine > ramp / 2 - l) continue;  // the ramp's ends, where the normal has a corner
+      if (std::abs(r - depth) * cosine > ramp / 2 - l) continue;  // the ramp's ends, where the normal jumps
       const double alpha = plain_alpha(field({0, r - l / 2, 0}).hu, field({0, r + l / 2, 0}).hu);
       const double intensity = scan.intensity.at(0, k);
       CHECK(scan.reflection.at(0, k) / (alpha * intensity * intensity) == Approx(cosine).epsilon(1e-9));

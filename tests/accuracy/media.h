@@ -7,10 +7,10 @@
 
 #include "sim/reference/reference.h"
 
-/// Media given by formulas, and what model S says of them, written down without the reference's code.
+/// Media given by formulas, and the results of model S for them, written without the reference's code.
 namespace insonate::test {
 
-/// 1.0 MRayl a 100 HU, absorption 0.5 dB/(cm MHz) throughout: plain numbers instead of tissue.
+/// 1.0 MRayl per 100 HU and an absorption of 0.5 dB/(cm MHz) throughout: simple numbers instead of tissue.
 inline TissueTable plain_table() {
   return {{{0, 1.0, 0.5, 0}, {1000, 11.0, 0.5, 0}}, {}};
 }
@@ -32,7 +32,7 @@ inline Settings without_absorption(double reflection_length_mm) {
   return settings;
 }
 
-/// Two media that meet in the plane y = depth, which is turned about z by `tilt`; blurred over `ramp_mm`.
+/// Returns two media that meet in the plane y = depth, rotated about z by `tilt_deg` and blurred over `ramp_mm`.
 inline MediumField interface_at(double depth, double hu_before, double hu_behind, double tilt_deg = 0,
                                 double ramp_mm = 0) {
   const double c = std::cos(glm::radians(tilt_deg)), s = std::sin(glm::radians(tilt_deg));
@@ -43,12 +43,12 @@ inline MediumField interface_at(double depth, double hu_before, double hu_behind
   };
 }
 
-/// (1) of two impedances.
+/// Returns the reflection coefficient (1) of two impedances.
 inline double alpha_between(double z1, double z2) {
   return (z2 - z1) * (z2 - z1) / ((z2 + z1) * (z2 + z1));
 }
 
-/// (1) of two densities of plain_table().
+/// Returns the reflection coefficient (1) of two densities of plain_table().
 inline double plain_alpha(double hu1, double hu2) {
   return alpha_between(1 + hu1 / 100, 1 + hu2 / 100);
 }

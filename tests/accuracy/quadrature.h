@@ -4,8 +4,8 @@
 
 namespace insonate::test {
 
-/// The integral of f from a to b by adaptive Simpson quadrature: a panel is halved until both halves agree with it to
-/// `tolerance` (absolute, shared out among the halves), or until it is 2^-depth of the whole.
+/// Integrates f from a to b by adaptive Simpson quadrature. A panel is halved until both halves agree with it to
+/// `tolerance` (absolute, divided among the halves), or until it is 2^-depth of the whole.
 template <typename Function>
 class Simpson {
 public:

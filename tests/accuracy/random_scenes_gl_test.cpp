@@ -1,5 +1,5 @@
-// Scenes drawn from seeds, through the shaders and through the reference. INSONATE_STRESS_FRAMES and
-// INSONATE_STRESS_SEED ask for more, or for others.
+// Runs scenes drawn from seeds through the shaders and through the reference. INSONATE_STRESS_FRAMES sets their number
+// and INSONATE_STRESS_SEED the first seed.
 
 #include <catch2/catch.hpp>
 
@@ -20,7 +20,8 @@ using namespace insonate::test;
 
 namespace {
 
-/// Agreement with the reference, which skips nothing; and where the scene is to skip, the same picture so.
+/// Checks agreement with the reference, which skips nothing. If the scene uses skipping, also checks that the picture
+/// with skipping is the same.
 void check(Stressed& stressed, Scene scene) {
   const bool skips = std::exchange(scene.settings.skipping, false);
   const Stages<float> whole = stressed.check(scene);
@@ -33,13 +34,13 @@ void check(Stressed& stressed, Scene scene) {
   CHECK(most <= 1);
 }
 
-/// Seeds of one group share the programs that this one's scene is compiled with.
+/// Number of consecutive seeds that share the programs compiled for the first one's scene.
 constexpr std::uint32_t kGroup = 250;
 std::uint32_t leader_of(std::uint32_t seed, std::uint32_t group = kGroup) {
   return seed / group * group;
 }
 
-/// The scenes of `frames` seeds, in groups of which each has programs of its own.
+/// Runs `check` for the scenes of `frames` seeds, in groups of which each has its own programs.
 void for_many_scenes(long frames, std::uint32_t group, const std::function<void(long, const Scene&)>& check) {
   const long first = from_environment("INSONATE_STRESS_SEED", 1);
   Scene leader;
@@ -52,7 +53,7 @@ void for_many_scenes(long frames, std::uint32_t group, const std::function<void(
   }
 }
 
-/// How often each effect was on.
+/// Counts how often each effect was on.
 struct Effects {
   static constexpr std::array<bool Settings::*, 9> kSwitches = {
       &Settings::absorption,   &Settings::speckle,          &Settings::edge_shadow,
@@ -89,7 +90,7 @@ TEST_CASE("random scenes, each from its seed") {
 }
 
 TEST_CASE("of planes that sound reaches unevenly no round trip gains strength") {
-  // Of the first 100,000 scenes those in which the means over a slice made interfaces that reflect more than arrives.
+  // Those of the first 100,000 scenes in which the means over a slice made interfaces reflect more than arrives.
   Stressed stressed;
   for (const std::uint32_t seed : {34968u, 73242u, 79307u}) {
     CAPTURE(seed);
@@ -98,13 +99,14 @@ TEST_CASE("of planes that sound reaches unevenly no round trip gains strength") 
 }
 
 TEST_CASE("a weak echo on a line's last sample is not lost beside a loud one in front of it") {
-  // Of the first 100,000 scenes one of two samples.
+  // One of the first 100,000 scenes, with two samples.
   constexpr std::uint32_t kSeed = 93058;
   Stressed().check(compiled_as(random_scene(leader_of(kSeed)), random_scene(kSeed)));
 }
 
 TEST_CASE("no time gain lifts what is below the least echo") {
-  // A repeat's weakest share, and what smoothing leaves among denormal numbers, whose logarithm a device may not know.
+  // The weakest share of a repeat, and denormal numbers that smoothing leaves, whose logarithm a device may not
+  // compute.
   for (const std::uint32_t seed : {319426u, 364612u}) {
     INFO("seed " << seed);
     Stressed().check(compiled_as(random_scene(leader_of(seed)), random_scene(seed)));
@@ -112,26 +114,27 @@ TEST_CASE("no time gain lifts what is below the least echo") {
 }
 
 TEST_CASE("no blend lifts sound that is below the least echo on its way in alone") {
-  // 300 dB lost without the way back, by the planes of a slice, and a blend of 1000.
+  // 300 dB lost on the way in alone, in the planes of a slice, and a blend of 1000.
   constexpr std::uint32_t kSeed = 98975;
   Stressed().check(compiled_as(random_scene_at_body(leader_of(kSeed)), random_scene_at_body(kSeed)));
 }
 
 TEST_CASE("skipping ends no line that a high gain still shows") {
-  // Sound weakened on its way in alone by 200 dB, and as much gain.
+  // Sound weakened by 200 dB on its way in alone, and as much gain.
   constexpr std::uint32_t kSeed = 4763;
   Stressed stressed;
   check(stressed, compiled_as(random_scene_of_everything(leader_of(kSeed)), random_scene_of_everything(kSeed)));
 }
 
 TEST_CASE("a repeat lies where the mean of 146 samples says, to a ten-thousandth of one") {
-  // An interface as thick as the line, round which sound goes twice.
+  // An interface as thick as the line; sound makes two round trips in it.
   constexpr std::uint32_t kSeed = 4043;
   Stressed().check(compiled_as(random_scene_at_body(leader_of(kSeed)), random_scene_at_body(kSeed)));
 }
 
 TEST_CASE("lines in the air hold the same to the last place whether they are walked along or not") {
-  // Beyond a repeat's end the cube of a last place's difference, which 200 dB of dynamic range and 58 of gain show.
+  // Beyond a repeat's end the cube of a difference in the last place, which 200 dB of dynamic range and 58 dB of gain
+  // make visible.
   constexpr std::uint32_t kSeed = 42202;
   Stressed stressed;
   check(stressed, compiled_as(random_scene_at_body(leader_of(kSeed)), random_scene_at_body(kSeed)));
@@ -152,9 +155,9 @@ TEST_CASE("random scenes in groups that share their programs") {
   CHECK(stressed.compared().share() > 0.65);
 }
 
-// Hidden, as it takes half an hour on two cores: build/dev/tests/stress_test "[many]".
+// Hidden because it takes half an hour on two cores: build/dev/tests/stress_test "[many]".
 TEST_CASE("many random scenes", "[.][many]") {
-  std::optional<Stressed> stressed;  // of a group of seeds, the next of which is walked along the other way
+  std::optional<Stressed> stressed;  // for one group of seeds; the next group uses the other work division
   long group = -1;
   Compared all;
   for_many_scenes(from_environment("INSONATE_STRESS_FRAMES", 100000), kGroup, [&](long seed, const Scene& scene) {

@@ -1,5 +1,5 @@
-// Scan conversion: a pattern that is given by a formula in the patient shows where it is, however the probe is turned
-// and shifted, to the accuracy of linear interpolation between lines and samples; and calipers measure it.
+// Tests scan conversion. A pattern given by a formula in the patient appears at its place, however the probe is rotated
+// and shifted, to the accuracy of linear interpolation between lines and samples. Calipers measure it correctly.
 
 #include <catch2/catch.hpp>
 #include <glm/gtc/constants.hpp>
@@ -31,7 +31,7 @@ Probe with_lines(const char* name, int lines) {
   return probe;
 }
 
-/// Model W's echogenicity alone: 0 at 0 HU, 1 at 200 HU.
+/// Returns settings with model W's echogenicity only: 0 at 0 HU, 1 at 200 HU.
 WeinSettings echogenicity_alone(int samples, int width, int height) {
   WeinSettings settings;
   settings.samples = samples;
@@ -45,7 +45,7 @@ WeinSettings echogenicity_alone(int samples, int width, int height) {
   return settings;
 }
 
-/// Calls `visit(x, y, place in the probe's plane, line, sample)` for pixels with lines and samples on either side.
+/// Calls `visit(x, y, place in the probe's plane, line, sample)` for pixels that have lines and samples on either side.
 template <typename Visit>
 void for_each_pixel_between(const Probe& probe, int samples, int width, int height, Visit&& visit) {
   const ImageGeometry geometry = image_geometry(probe, kDepth, width, height);
@@ -64,7 +64,7 @@ void for_each_pixel_between(const Probe& probe, int samples, int width, int heig
 
 TEST_CASE("model W: a pattern shows where it is, to bilinear accuracy, however the probe is turned and shifted") {
   constexpr int kLines = 96, kSamples = 160, kWidth = 150, kHeight = 110;
-  // E = 1/2 + 0.4 sin(k . p), of 14 mm: its slopes, first and second.
+  // E = 1/2 + 0.4 sin(k . p) with a wavelength of 14 mm, and its first and second derivatives.
   const glm::dvec3 k = 2 * glm::pi<double>() / 14 * glm::normalize(glm::dvec3(1, 0.7, -0.5));
   const double slope = 0.4 * glm::length(k), curvature = 0.4 * glm::dot(k, k), dr = kDepth / kSamples;
   const WeinField field = [&](const glm::dvec3& p) {
@@ -80,8 +80,8 @@ TEST_CASE("model W: a pattern shows where it is, to bilinear accuracy, however t
     double worst = 0, largest = 0;
     for_each_pixel_between(probe, kSamples, kWidth, kHeight, [&](int x, int y, const glm::dvec2& at, double r) {
       const double exact = 0.5 + 0.4 * std::sin(glm::dot(k, pose.point({at.x, at.y, 0})));
-      // Linear interpolation over a step h is off by h^2/8 of the second derivative at most; along an arc of radius a
-      // that is a^2 of the curvature and a of the slope.
+      // The error of linear interpolation over a step h is at most h^2/8 of the second derivative. Along an arc of
+      // radius a that is a^2 of the curvature plus a of the slope.
       const double arm = fan ? r + apex_behind_mm(probe) : 0;
       const double across = fan ? arm * arm * curvature + arm * slope : curvature;
       const double bound = (dr * dr * curvature + apart * apart * across) / 8;
@@ -91,13 +91,13 @@ TEST_CASE("model W: a pattern shows where it is, to bilinear accuracy, however t
     });
     std::printf("pattern of 14 mm, %s: off by %.2g at most, %.2f of the bound\n", name, largest, worst);
     CHECK(worst <= 1);
-    CHECK(worst > 0.1);  // the bound is one that could be broken
+    CHECK(worst > 0.1);  // shows that the bound could be broken
   }
 }
 
 TEST_CASE("model S: a pattern of absorption shows where it is, to bilinear accuracy") {
   constexpr int kLines = 64, kSamples = 200, kWidth = 120, kHeight = 120;
-  // One impedance, so that nothing reflects; absorption of 0.5 + 0.4 sin(k x) dB/(cm MHz) across the lines.
+  // One impedance, so that nothing reflects. The absorption is 0.5 + 0.4 sin(k x) dB/(cm MHz) across the lines.
   const TissueTable table{{{0, 1.5, 0, 0}, {1000, 1.5, 1, 0}}, {}};
   const Probe probe = with_lines("linear", kLines);
   const Pose pose = turned_and_shifted();
@@ -105,7 +105,7 @@ TEST_CASE("model S: a pattern of absorption shows where it is, to bilinear accur
   Settings settings = without_absorption(dr);
   settings.absorption = true;
   settings.two_way = false;
-  settings.blend = 1;  // U is T then, as there are neither echoes nor speckle
+  settings.blend = 1;  // then U is T, as there are neither echoes nor speckle
   settings.beam_lines = 1;
   settings.samples = kSamples;
   settings.image_width = kWidth;
@@ -119,8 +119,8 @@ TEST_CASE("model S: a pattern of absorption shows where it is, to bilinear accur
   double worst = 0, largest = 0;
   for_each_pixel_between(probe, kSamples, kWidth, kHeight, [&](int x, int y, const glm::dvec2& at, double r) {
     const double exact = std::exp(-per_absorption * (0.5 + 0.4 * std::sin(k * at.x)) * r);
-    // exp(-q(x) r): q^2 along r, (q' r)^2 + |q''| r across, at most, where q is largest; and by a tenth more, as the
-    // curvature varies within a step.
+    // For exp(-q(x) r) the bound is at most q^2 along r and (q' r)^2 + |q''| r across, where q is largest. A tenth is
+    // added because the curvature varies within a step.
     const double q = 0.9 * per_absorption, q1 = 0.4 * k * per_absorption, q2 = 0.4 * k * k * per_absorption;
     const double least_lost = std::exp(-0.1 * per_absorption * r);
     const double bound = 1.1 * (dr * dr * q * q + apart * apart * (q1 * q1 * r * r + q2 * r)) * least_lost / 8;

@@ -1,6 +1,6 @@
-// Fully developed speckle: the scatterers' echo in a homogeneous medium has the statistics of many scatterers a
-// resolution cell, whose real and imaginary parts are normal and whose envelope is therefore Rayleigh distributed
-// (Wagner, Smith, Sandrik, Lopez, IEEE Trans. Sonics Ultrason. 30 (1983) 156).
+// Tests fully developed speckle. The scatterers' echo in a homogeneous medium has the statistics of many scatterers per
+// resolution cell: real and imaginary parts are normally distributed, so the envelope is Rayleigh distributed (Wagner,
+// Smith, Sandrik, Lopez, IEEE Trans. Sonics Ultrason. 30 (1983) 156).
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
@@ -21,12 +21,13 @@ using namespace insonate::test;
 namespace {
 
 constexpr int kSide = 63;
-// Trilinear interpolation reaches one cell to either side: beyond two cells echoes share no scatterer. The lattice of
-// 128 cells repeats behind the last of these.
+// Trilinear interpolation uses one cell to either side, so echoes more than two cells from each other share no
+// scatterer. The lattice of 128 cells repeats after the last of these.
 constexpr double kSpacingCells = 2.03;
 
-/// Lines and samples along the lattice's axes, kSpacingCells apart, so that no two echoes share a scatterer while they
-/// lie at all places between the lattice's points. `beside` lines, a tenth of a cell apart, surround each.
+/// Returns lines and samples along the lattice's axes, kSpacingCells from each other. No two echoes share a scatterer,
+/// and they lie at all places between the lattice's points. `beside` lines, a tenth of a cell from each other, surround
+/// each.
 ScanLines independent_cells(double cell_mm, int beside) {
   ScanLines lines;
   lines.samples = kSide;
@@ -50,7 +51,7 @@ struct Statistics {
   double mean_power = 0;    ///< <|echo|^2>
 };
 
-/// Of envelopes against the Rayleigh distribution with their own mean power.
+/// Compares envelopes with the Rayleigh distribution of their own mean power.
 Statistics statistics(std::vector<double> envelope) {
   std::sort(envelope.begin(), envelope.end());
   const double n = double(envelope.size());
@@ -104,7 +105,7 @@ TEST_CASE("fully developed speckle has the signal to noise ratio of 1.91 and is 
     CHECK(found.signal_to_noise == Approx(std::sqrt(M_PI / (4 - M_PI))).margin(0.05));
     // Kolmogorov-Smirnov at a level of 5 %.
     CHECK(found.off_rayleigh < 1.36 / std::sqrt(double(values.size())));
-    // Two parts of variance 1, or what the window leaves of them.
+    // Two parts of variance 1, or what remains of them after the window.
     if (beam_lines == 1) CHECK(found.mean_power == Approx(2).epsilon(0.01));
   }
 }

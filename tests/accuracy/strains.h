@@ -6,7 +6,7 @@
 
 #include "tests/accuracy/stress_scene.h"
 
-/// What both models are strained by, each on a scene that is ordinary otherwise.
+/// Extreme conditions for both models, each applied to an otherwise ordinary scene.
 namespace insonate::test {
 
 struct Strain {
@@ -32,7 +32,7 @@ inline std::function<void(Scene&)> filled(const glm::ivec3& size, const glm::dve
   return filled_with(size, spacing, [=](const glm::ivec3&) { return hu; });
 }
 
-/// What both models are told of a picture.
+/// Returns extreme views, which both models share.
 inline std::vector<Strain> strained_views() {
   using S = Settings;
   const auto deep = [](double depth_mm) { return [=](Scene& scene) { scene.depth_mm = depth_mm; }; };
@@ -69,15 +69,15 @@ inline std::vector<Strain> strained_views() {
   };
 }
 
-/// A checkerboard.
-/// @param side  of its fields, voxels: with 1 each voxel has the same on either side, so that differences that reach as
-///              far to both find nothing
+/// Fills the volume with a checkerboard.
+/// @param side  of its fields, voxels. With 1 each voxel has equal neighbours on either side, so that symmetric
+///              differences find nothing.
 inline std::function<void(Scene&)> board(const glm::ivec3& size, const glm::dvec3& spacing, int one, int other,
                                          int side) {
   return filled_with(size, spacing, [=](const glm::ivec3& i) { return checkerboard(i / side, one, other); });
 }
 
-/// @param side  as of board()
+/// @param side  as in board()
 inline std::vector<Strain> strained_volumes(int side = 1) {
   return {
       {"one voxel", filled({1, 1, 1}, {5, 5, 5}, 60)},
@@ -103,8 +103,8 @@ inline std::vector<Strain> strained_volumes(int side = 1) {
   };
 }
 
-/// As many as 2000 voxels hold, which is near to the most along an axis that every device takes.
-/// @param voxels_a_layer  as board()'s along a side
+/// Fills the volume with as many layers as 2000 voxels hold, close to the largest axis that every device supports.
+/// @param voxels_a_layer  thickness of a layer, as the side of board()
 inline std::vector<Strain> layers_in_a_row(int voxels_a_layer = 1) {
   const auto layers = [=](int one, int other) {
     return [=](Scene& scene) {
@@ -175,7 +175,7 @@ inline std::vector<Strain> strained_poses() {
          scene.volume = make_volume({16, 16, 10}, {5, 5, 5}, [](const glm::ivec3& i) { return i.x < 8 ? 1500 : 60; });
          scene.probe.kind = ProbeKind::linear;
          scene.probe.lines = 9;
-         scene.probe.width_mm = 45;  // the fifth line on the face between voxels, the others on others
+         scene.probe.width_mm = 45;  // the fifth line lies on the face between voxels, as do the others on other faces
        }},
       {"half of the face in air",
        [](Scene& scene) {

@@ -7,7 +7,7 @@
 
 #include "sim/core/image.h"
 
-/// What the strained pictures of both models are asked.
+/// Bounds that the extreme pictures of both models must keep.
 namespace insonate::test {
 
 template <typename Real>
@@ -18,7 +18,7 @@ std::string at(const char* what, const Image<Real>& image, std::size_t i) {
   return text;
 }
 
-/// The first value that is not finite or lies outside of [0, most].
+/// Returns a description of the first value that is not finite or lies outside [0, most].
 template <typename Real>
 std::optional<std::string> outside(const char* what, const Image<Real>& image, double most) {
   for (std::size_t i = 0; i < image.pixels.size(); ++i)

@@ -1,4 +1,4 @@
-// Everything at the ends of its range, through the shaders and through the reference.
+// Takes everything to the ends of its range, through the shaders and through the reference.
 
 #include <catch2/catch.hpp>
 
@@ -15,8 +15,9 @@ using namespace insonate::test;
 
 namespace {
 
-/// `strains` one by one on an ordinary scene, walked along either way. Of what echoes, enough is to be known well
-/// enough for its grey to be compared: least with few pixels (8192 samples, 0.40), 0.70 and more of all.
+/// Runs `strains` one by one on an ordinary scene, with both work divisions. U must be known well enough to compare
+/// grey in a sufficient share of the pixels with an echo. The share is lowest with few pixels (8192 samples, 0.40), and
+/// 0.70 or more overall.
 void check_each(const std::vector<Strain>& strains) {
   const gl::WorkDivision division = GENERATE(line_an_invocation(), line_a_group(32));
   CAPTURE(division.lines_that_fill);
@@ -62,7 +63,7 @@ TEST_CASE("settings at the ends of their ranges") {
       {"no smoothing", set(&S::reflection_sigma_mm, 0.0)},
       {"a frame of zeros, whose brightest is white",
        [](Scene& scene) {
-         scene.volume = make_volume({8, 8, 8}, {40, 40, 40}, [](const glm::ivec3&) { return 0; });  // beyond the fan
+         scene.volume = make_volume({8, 8, 8}, {40, 40, 40}, [](const glm::ivec3&) { return 0; });  // exceeds the fan
          scene.settings.reference_level = ReferenceLevel::frame_maximum;
          scene.settings.speckle = scene.settings.electronic_noise = scene.settings.clutter = false;
          scene.settings.blend = 0;
@@ -127,7 +128,7 @@ TEST_CASE("thousands of interfaces in a row") {
 }
 
 TEST_CASE("no stage holds a denormal number, with which a processor is slow, where sound fades through all that are") {
-  // Gas and bone take all but some 10^-18 of it, and what is left fades by absorption: R and T through 10^-38.
+  // Gas and bone leave about 10^-18 of it, and absorption reduces the rest: R and T pass through 10^-38.
   Scene scene = ordinary_scene();
   scene.volume = make_volume({2, 2000, 2}, {40, 0.1, 40}, [](const glm::ivec3& i) {
     const int layer = i.y / 10;

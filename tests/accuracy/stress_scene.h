@@ -16,7 +16,7 @@
 #include "sim/probe/probe.h"
 #include "sim/registration/wein_settings.h"
 
-/// What the pipeline is strained with: everything that a picture depends on, at the ends of its range.
+/// Stress inputs for the pipeline: everything that a picture depends on, up to the ends of its range.
 namespace insonate::test {
 
 struct Scene {
@@ -24,10 +24,10 @@ struct Scene {
   Probe probe;
   double depth_mm = 60;
   Settings settings;
-  Pose pose;  ///< the volume's middle lies at the origin
+  Pose pose;  ///< the middle of the volume lies at the origin
 };
 
-/// A voxel's Hounsfield units by its index.
+/// Returns a voxel's Hounsfield units for its index.
 using HuAt = std::function<int(const glm::ivec3&)>;
 
 inline int checkerboard(const glm::ivec3& i, int one, int other) {
@@ -48,14 +48,14 @@ inline AcousticVolume make_volume(const glm::ivec3& size, const glm::dvec3& spac
   return volume;
 }
 
-/// The middle of the volume at the origin, its axes along `direction`.
+/// Rotates the volume's axes to `direction` and moves its middle to the origin.
 inline void turn(AcousticVolume& volume, const glm::dmat3& direction) {
   volume.grid.origin = {};
   volume.grid.direction = direction;
   volume.grid.origin = -volume.grid.centre();
 }
 
-/// Soft tissue of all densities with specks of gas and bone.
+/// Returns soft tissue of all densities with specks of gas and bone.
 inline int mixed(const glm::ivec3& i) {
   const std::uint32_t bits = hash(std::uint32_t(i.x), std::uint32_t(i.y), std::uint32_t(i.z), 7u);
   if (bits % 23 == 0) return 900;
@@ -63,7 +63,7 @@ inline int mixed(const glm::ivec3& i) {
   return int(bits >> 8) % 200 - 110;
 }
 
-/// A small picture of mixed tissue with every effect on: what the strained scenes depart from.
+/// Returns a small picture of mixed tissue with every effect on, from which the extreme scenes differ.
 inline Scene ordinary_scene() {
   Scene scene;
   scene.volume = make_volume({12, 16, 10}, {5, 5, 5}, mixed);
@@ -74,12 +74,12 @@ inline Scene ordinary_scene() {
   scene.settings.reflection_length_mm = 0.9;
   scene.settings.image_width = 48;
   scene.settings.image_height = 40;
-  scene.settings.skipping = false;  // which the reference does not do
+  scene.settings.skipping = false;  // which the reference does not implement
   scene.pose.translation = {0, -30, 0};
   return scene;
 }
 
-/// Draws from a seed, equal on every machine.
+/// Draws numbers from a seed, equal on every machine.
 class Draw {
 public:
   explicit Draw(std::uint32_t seed) : seed_(seed) {}
@@ -90,7 +90,7 @@ public:
   T one_of(std::initializer_list<T> choices) {
     return choices.begin()[whole(0, int(choices.size()) - 1)];
   }
-  /// The least, the most, or anything between.
+  /// Returns the least, the most, or a value between.
   double within(double least, double most) {
     const double at = share();
     if (at < 0.15) return least;
@@ -160,7 +160,7 @@ inline Scene random_scene(std::uint32_t seed) {
   return scene;
 }
 
-/// The same with all that the receiver and the beam can do, and any probe.
+/// Returns the same scene with all effects of the receiver and the beam drawn too, and any probe.
 inline Scene random_scene_of_everything(std::uint32_t seed) {
   Scene scene = random_scene(seed);
   Draw draw(hash(seed, 0xeffec7u));
@@ -182,7 +182,7 @@ inline Scene random_scene_of_everything(std::uint32_t seed) {
   return scene;
 }
 
-/// The same, of which three quarters begin at the volume or in it and not anywhere.
+/// Returns the same scene; in three quarters of the cases the probe begins at the volume or in it instead of anywhere.
 inline Scene random_scene_at_body(std::uint32_t seed) {
   Scene scene = random_scene_of_everything(seed);
   Draw draw(hash(seed, 0xb0d7u));
@@ -194,8 +194,8 @@ inline Scene random_scene_at_body(std::uint32_t seed) {
   return scene;
 }
 
-/// `scene` changed where it would have to be compiled for anew behind `first`: compiling takes as long as hundreds of
-/// small pictures. What is left to itself: volume, probe, depth, pose and all other settings.
+/// Returns `scene` with those settings changed that would need compiling again after `first`: compiling takes as long
+/// as hundreds of small pictures. Volume, probe, depth, pose and all other settings stay.
 inline Scene compiled_as(const Scene& first, Scene scene) {
   const Settings& as = first.settings;
   Settings& s = scene.settings;
@@ -209,7 +209,7 @@ inline Scene compiled_as(const Scene& first, Scene scene) {
   if (as.face_reflection == 0) s.face_reflection = 0;
   if (as.face_reflection > 0 && s.face_reflection == 0) s.face_reflection = as.face_reflection;
 
-  // One, two or any number of samples a reflection length, and what of it the ends of the range leave.
+  // One, two or any number of samples per reflection length, as far as the ends of the range allow.
   const auto samples_a_length = [](const Scene& of) {
     return of.settings.reflection_length_mm * of.settings.samples / of.depth_mm;
   };
@@ -218,7 +218,7 @@ inline Scene compiled_as(const Scene& first, Scene scene) {
   if (one_or_two(wanted) && !one_or_two(samples_a_length(first))) wanted *= 1.25;
   s.reflection_length_mm = std::clamp(wanted * scene.depth_mm / s.samples, 0.01, 20.0);
 
-  // Smoothed over as many pixels.
+  // Smoothed over equally many pixels.
   const auto mm_per_pixel = [](const Scene& of) {
     return image_geometry(of.probe, of.depth_mm, of.settings.image_width, of.settings.image_height).mm_per_pixel;
   };
@@ -228,7 +228,7 @@ inline Scene compiled_as(const Scene& first, Scene scene) {
   return scene;
 }
 
-/// Model W's settings to go with a scene of the same seed.
+/// Returns model W's settings for the scene of the same seed.
 inline WeinSettings random_wein_settings(std::uint32_t seed) {
   Draw draw(hash(seed, 0x77u));
   WeinSettings s;

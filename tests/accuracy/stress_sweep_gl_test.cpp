@@ -1,5 +1,5 @@
-// Sweeps of random scenes. A plane's lines hold what its picture's do, to the last bit (tests/gl), so that what is
-// strained here is the way from the planes to the voxels.
+// Sweeps random scenes. The lines of a plane are bit-identical to those of its picture (tests/imaging), so this test
+// stresses the conversion from planes to voxels.
 
 #include <catch2/catch.hpp>
 
@@ -18,7 +18,7 @@ using namespace insonate::test;
 
 namespace {
 
-/// Planes tilted, moved, at rest, crossing in front of the face, or all over the place.
+/// Returns planes that are tilted, moved, at rest, crossing in front of the face, or placed at random.
 Sweep random_sweep(const Scene& scene, std::uint32_t seed) {
   Draw draw(hash(seed, 0x53eefu));
   const int planes = draw.whole(2, 6);
@@ -39,7 +39,7 @@ Sweep random_sweep(const Scene& scene, std::uint32_t seed) {
   return sweep;
 }
 
-/// What no volume may hold; "" where all is well.
+/// Returns what is wrong in a volume; "" if nothing is.
 std::string out_of_bounds(const Volume<float>& fused, const Volume<std::int16_t>& grey) {
   for (std::size_t i = 0; i < grey.voxels.size(); ++i) {
     const bool inside = grey.voxels[i] >= 0;
@@ -78,5 +78,5 @@ TEST_CASE("sweeps of random scenes, each from its seed") {
     with_echo += std::ranges::any_of(grey.voxels, [](int level) { return level > 0; });
   }
   CHECK(with_echo > frames / 10);
-  CHECK(holding_voxels > frames / 5);  // between planes that rest, or lie close together, there are none
+  CHECK(holding_voxels > frames / 5);  // planes that rest or lie close together have no voxels between them
 }

@@ -1,5 +1,5 @@
-// Model W at the ends of its ranges, as stress_gl_test.cpp has model S, and by the same strains where both models know
-// them.
+// Takes model W to the ends of its ranges, as stress_gl_test.cpp does with model S, under the same conditions where
+// both models share them.
 
 #include <catch2/catch.hpp>
 
@@ -29,7 +29,7 @@ struct WeinScene {
   WeinSettings settings;
 };
 
-/// What both models are told stays as the scene has it.
+/// Converts a scene; what both models share stays as it is.
 WeinScene as_model_w(Scene scene) {
   WeinSettings settings;
   settings.samples = scene.settings.samples;
@@ -42,7 +42,7 @@ WeinScene as_model_w(Scene scene) {
 
 template <typename Real>
 std::string out_of_bounds(const WeinStages<Real>& stages, const Image<std::uint8_t>& inside) {
-  constexpr double kOne = 1 + 1e-6;  // a logarithm over another
+  constexpr double kOne = 1 + 1e-6;  // the quotient of two logarithms may exceed 1 slightly
   if (const auto fault = outside("I", stages.intensity, 1)) return *fault;
   if (const auto fault = outside("E", stages.scan_echogenicity, 1)) return *fault;
   if (const auto fault = outside("R", stages.scan_reflection, kOne)) return *fault;
@@ -54,8 +54,8 @@ std::string out_of_bounds(const WeinStages<Real>& stages, const Image<std::uint8
   return "";
 }
 
-/// What model W meets in a volume where the gradient is what sim/registration/density_volume.h stores: differences at
-/// the voxels, cut off beyond what 16 bits hold.
+/// What model W meets in a volume with the gradient that sim/registration/density_volume.h stores: differences at the
+/// voxels, clipped to the range of 16 bits.
 class StoredMedium {
 public:
   StoredMedium(const AcousticVolume& volume, double reflection_length_mm)
@@ -70,11 +70,11 @@ public:
         }
   }
 
-  /// The reference's own unless something is cut off.
+  /// Returns the reference's own field unless something is clipped.
   WeinField field() const { return cut_off_ ? between(differences_) : exact_; }
 
-  /// With the differences rounded to the steps that are stored.
-  /// @param draw  which way those go that lie in the middle between two
+  /// Returns the field with the differences rounded to the stored steps.
+  /// @param draw  decides which way differences are rounded that lie in the middle between two steps
   WeinField rounded(std::uint32_t draw) const {
     std::vector<glm::dvec3> stored = differences_;
     std::uint32_t count = 0;
@@ -107,11 +107,11 @@ private:
 
   Grid grid_;
   WeinField exact_;
-  std::vector<glm::dvec3> differences_;  // HU along the grid's axes, a voxel each
+  std::vector<glm::dvec3> differences_;  // HU along the grid's axes, per voxel
   bool cut_off_ = false;
 };
 
-/// Pixels that are not black, and those of them whose grey is known to a level.
+/// Counts pixels that are not black, and those of them whose grey is known to one level.
 struct Compared {
   long lit = 0, known = 0;
 
@@ -120,7 +120,7 @@ struct Compared {
 
 class Stressed {
 public:
-  /// Bounds alone.
+  /// Checks bounds only.
   void check_shaders(const WeinScene& scene) {
     REQUIRE(why_not_valid(scene.settings).value_or("") == "");
     gl::WeinSimulator simulator(scene.place.volume, scene.place.probe, scene.place.depth_mm,
@@ -133,15 +133,15 @@ public:
       ultrasound.pixels[i] = unit_float(hash(std::uint32_t(i)));
     simulator.set_ultrasound(ultrasound);
     const float similarity = simulator.similarity({&scene.place.pose, 1}).front();
-    CHECK(similarity >= 0);  // not so for NaN
+    CHECK(similarity >= 0);  // false for NaN too
     CHECK(similarity <= 1);
   }
 
-  /// Bounds of both, and agreement.
+  /// Checks the bounds of both, and their agreement.
   void check(const WeinScene& scene) {
     check_shaders(scene);
     const Scene& place = scene.place;
-    // The card's normalised integers have no -32768.
+    // The graphics card's normalised integers have no -32768.
     AcousticVolume volume = place.volume;
     double densest = 1000;
     for (AcousticVoxel& voxel : volume.voxels) {
@@ -155,7 +155,7 @@ public:
     const WeinStages<double> expected = reference(medium.field());
     REQUIRE(out_of_bounds(expected, inside_) == "");
 
-    // As in parity.h, for scenes of any size and density: a place is as uncertain as the furthest is far away.
+    // As in parity.h, for scenes of any size and density: the uncertainty of a place grows with the largest distance.
     const Grid& grid = place.volume.grid;
     const double reach =
         glm::length(grid.spacing * glm::dvec3(grid.size)) + glm::length(place.pose.translation) + place.depth_mm;
@@ -185,13 +185,14 @@ public:
     check_grey(scene, expected, of_reflection, of_echogenicity);
   }
 
-  /// Of all that check() was given.
+  /// Returns the counts over all scenes passed to check().
   const Compared& compared() const { return compared_; }
 
 private:
-  /// The picture against what the reference's is rounded from. Half a level is the picture's own rounding. A pixel may
-  /// be off by as much as s R + (1 - s) E may at the samples around it, which is kept in 16 bits as the terms that were
-  /// compared are: half a step of each. Its place among lines and samples is known in single precision.
+  /// Compares the picture with the values that the reference's is rounded from. Half a level is the picture's own
+  /// rounding. A pixel may differ as much as s R + (1 - s) E may at the samples around it. That sum is stored in 16
+  /// bits, as are the compared terms: half a step of each. Its place among lines and samples is known in single
+  /// precision.
   void check_grey(const WeinScene& scene, const WeinStages<double>& expected, const Image<double>& of_reflection,
                   const Image<double>& of_echogenicity) {
     const double s = scene.settings.reflection_share;
@@ -212,7 +213,7 @@ private:
         const int line = int(std::floor(at->line)),
                   k = int(std::floor((at->r_mm - placed.r_min_mm) / placed.dr_mm() - 0.5));
         double allowed = 0, least = 1, most = 0;
-        // Those around it, and one further should its place be rounded past one of them.
+        // The surrounding samples, and one more on each side in case the place is rounded past one of them.
         for (int j = line - 1; j <= line + 2; ++j)
           for (int i = k - 1; i <= k + 2; ++i) {
             const int at_line = std::clamp(j, 0, lines - 1), at_sample = std::clamp(i, 0, samples - 1);
@@ -239,14 +240,14 @@ private:
   Compared compared_;
 };
 
-/// Of what is lit most is to be known to a level: least with a compression by which the stored gradient's rounding is
-/// seen, 0.85.
+/// Checks that most lit pixels are known to one level. The share is least, 0.85, with a compression that makes the
+/// rounding of the stored gradient visible.
 void check_known(const Compared& before, const Compared& all) {
   const Compared since{all.lit - before.lit, all.known - before.known};
   CHECK((since.lit == 0 || since.share() > 0.8));
 }
 
-/// `strains` one by one, on a scene that is ordinary otherwise.
+/// Runs `strains` one by one, each on an otherwise ordinary scene.
 void check_each(const std::vector<Strain>& strains) {
   Stressed stressed;
   for (const Strain& strain : strains) {
@@ -295,7 +296,7 @@ TEST_CASE("model W: sound that hardly fades, over 40,000 reflection lengths") {
       scene.pose.translation = {0, -400, 0};
     };
   };
-  // Each reflection length takes about 1.2e-8, 5e-8 and 2e-7 of it; below 1 single precision has steps of 6e-8.
+  // Each reflection length takes about 1.2e-8, 5e-8 and 2e-7 of it. Below 1, single precision has steps of 6e-8.
   check_each({
       {"5 HU a voxel", slopes(5)},
       {"10 HU a voxel", slopes(10)},
@@ -348,5 +349,5 @@ TEST_CASE("model W: random scenes, each from its seed") {
     INFO("seed " << seed);
     stressed.check({random_scene_at_body(std::uint32_t(seed)), random_wein_settings(std::uint32_t(seed))});
   }
-  CHECK(stressed.compared().share() > 0.95);  // 0.998 of 300
+  CHECK(stressed.compared().share() > 0.95);  // 0.998 with 300 scenes
 }

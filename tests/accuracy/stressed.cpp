@@ -15,11 +15,11 @@
 namespace insonate::test {
 namespace {
 
-/// What no picture may hold; "" where all is well.
+/// Returns what is wrong in a picture; "" if nothing is.
 template <typename Real>
 std::string out_of_bounds(const Stages<Real>& stages) {
   constexpr double kFinite = std::numeric_limits<Real>::max();
-  // What is interpolated, or summed over a beam or a slice, may round up: by a few units of the last place.
+  // Interpolated values and sums over a beam or a slice may be rounded up, by a few units of the last place.
   constexpr double kOne = 1 + 16 * std::numeric_limits<Real>::epsilon();
   if (const auto fault = outside("I", stages.intensity, kOne)) return *fault;
   if (const auto fault = outside("R", stages.reflection, kOne)) return *fault;
@@ -40,7 +40,7 @@ double largest(const Image<double>& image) {
   return image.pixels.empty() ? 0 : *std::max_element(image.pixels.begin(), image.pixels.end());
 }
 
-/// How far references that know place and density as single precision does are from the one that knows them exactly.
+/// The distance between references with single-precision places and densities and the reference with exact ones.
 struct Spread {
   Image<double> intensity, reflection, reflection_beam, transmission, repeated, speckle, fused, grey;
 
@@ -73,8 +73,8 @@ private:
   }
 };
 
-/// What is tolerated at each place: `basic` of the reference's value, and `spread` four times over, because the draws
-/// that made it are few.
+/// Returns the tolerance at each place: `basic` of the reference's value, plus four times `spread`, because it comes
+/// from few draws.
 template <typename Basic>
 Image<double> tolerated(const Image<double>& expected, const Image<double>& spread, Basic&& basic) {
   Image<double> result = expected;
@@ -83,7 +83,7 @@ Image<double> tolerated(const Image<double>& expected, const Image<double>& spre
   return result;
 }
 
-/// The largest within so many pixels of each, along x and along y.
+/// Returns the largest value within `reach` pixels of each pixel, along x and along y.
 Image<double> loudest_around(const Image<double>& image, int reach) {
   Image<double> across = image;
   for (int y = 0; y < image.height; ++y)
@@ -98,8 +98,8 @@ Image<double> loudest_around(const Image<double>& image, int reach) {
   return found;
 }
 
-/// Of the samples beside each pixel, the largest R + b T, and the largest U that they could make: where a pixel lies
-/// among them is known in single precision, so that much of this too many is told to it.
+/// Of the samples beside each pixel: the largest R + b T, and the largest U that they could make. The place of a pixel
+/// among them is known in single precision, so it may be wrong by a small share of these.
 struct Beside {
   Image<double> echo, fused;
 };
@@ -125,11 +125,11 @@ Beside loudest_samples_around(const Scene& scene, const Stages<double>& of) {
   return found;
 }
 
-/// What single precision may take for a scatterer: amplitudes begin at 10^-6 less 10^-6, by hundredths of a dB around
-/// 6000, known to 2.4e-4 each.
+/// The amplitude that single precision may give to a silent scatterer: 10^-6 minus 10^-6, each from hundredths of a dB
+/// around 6000, which are known to 2.4e-4.
 constexpr double kSilentRounding = 2e-12;
 
-/// Where shaders and reference are further apart than they may be; "" where they are not.
+/// Returns where shaders and reference differ by more than allowed; "" if nowhere.
 std::string disagreement(const Scene& scene, const Stages<double>& expected, const Stages<float>& got,
                          const Spread& spread, Compared& extent) {
   const Worst intensity =
@@ -137,7 +137,7 @@ std::string disagreement(const Scene& scene, const Stages<double>& expected, con
             tolerated(expected.intensity, spread.intensity, [](double i) { return 1e-4 * std::max(i, 1e-6); }));
   if (!(intensity.error < 1)) return told("I", intensity);
 
-  // A medium that is the same everywhere is so to the last place only: 1e-12.
+  // A homogeneous medium is only homogeneous to the last place: 1e-12.
   const double brightest = std::max(largest(expected.reflection), 1e-8);
   const Worst reflection =
       worst(expected.reflection, got.reflection,
@@ -153,7 +153,8 @@ std::string disagreement(const Scene& scene, const Stages<double>& expected, con
             tolerated(expected.transmission, spread.transmission, [](double t) { return 2e-4 * std::max(t, 1e-12); }));
   if (!(transmission.error < 1)) return told("T", transmission);
 
-  // A place in the lattice is known to the last place of as many periods as a line is long, and cells lie 128 a period.
+  // A place in the lattice is known to the last place of the number of periods in a line's length; a period has 128
+  // cells.
   const double periods = 1 + scene.depth_mm / (128 * scene.settings.speckle_cell_mm);
   const double of_loudest = 1e-3 + (scene.settings.speckle ? 4 * 128 * 1.2e-7 * periods : 0);
   const double loudest = largest(expected.speckle);
@@ -166,8 +167,8 @@ std::string disagreement(const Scene& scene, const Stages<double>& expected, con
                                tolerated(expected.repeated, spread.repeated, [&](double) { return 1e-4 * brightest; }));
   if (!(repeated.error < 1)) return told("V", repeated);
 
-  // An envelope near its zero is as wrong as the envelopes around it are large. Grey values follow from what may be
-  // wrong of U, in decibels, and are off by two levels besides.
+  // Near its zero an envelope is as wrong as the envelopes around it are large. The tolerance of grey follows from that
+  // of U, in decibels, plus two levels.
   const Settings& s = scene.settings;
   const Image<double> around = loudest_around(expected.fused, 2);
   const Beside beside = loudest_samples_around(scene, expected);
@@ -223,7 +224,7 @@ Stages<float> Stressed::check_shaders(const Scene& scene) {
 
 Stages<float> Stressed::check(const Scene& scene) {
   Stages<float> got = check_shaders(scene);
-  // The card's normalised integers have no -32768.
+  // The graphics card's normalised integers have no -32768.
   AcousticVolume volume = scene.volume;
   for (AcousticVoxel& voxel : volume.voxels) voxel.hu = std::max(voxel.hu, std::int16_t(-32767));
   const MediumField field = trilinear_field(volume);
@@ -231,8 +232,8 @@ Stages<float> Stressed::check(const Scene& scene) {
   REQUIRE(out_of_bounds(expected) == "");
   REQUIRE(expected.inside.pixels == got.inside.pixels);
 
-  // As in parity.h, for scenes of any size and density: a place is as uncertain as the furthest is far away. Where a
-  // threshold lies within that, one draw in many falls to its other side: more are drawn before a verdict.
+  // As in parity.h, for scenes of any size and density: the uncertainty of a place grows with the largest distance. If
+  // a threshold lies within it, one draw in many falls on its other side, so more are drawn before a verdict.
   const Grid& grid = scene.volume.grid;
   const double reach =
       glm::length(grid.spacing * glm::dvec3(grid.size)) + glm::length(scene.pose.translation) + scene.depth_mm;
@@ -244,10 +245,10 @@ Stages<float> Stressed::check(const Scene& scene) {
   std::uint32_t drawn = 0;
   for (const std::uint32_t draws : {4u, 256u}) {
     for (; drawn < draws; ++drawn) {
-      // Where the gel's end falls on a sample, the last place decides on which side.
+      // If the gel's end falls on a sample, the last place decides on which side.
       Scene near = scene;
       near.settings.gel_mm += (drawn % 2 ? 3e-7 : -3e-7) * (scene.depth_mm + scene.settings.reflection_length_mm);
-      // Scatterers lie at places of their own, along a line by sums of steps in single precision.
+      // Scatterers have their own places. Along a line these are sums of steps in single precision.
       for (int axis = 0; axis < 3; ++axis)
         near.pose.translation[axis] += 2e-7 * scene.depth_mm * (2 * unit_float(hash(drawn, std::uint32_t(axis))) - 1);
       spread.include(expected,

@@ -10,7 +10,7 @@
 
 namespace insonate::test {
 
-/// Pixels that an echo comes from, and those of them of which U is known well enough for grey to be compared.
+/// Counts pixels with an echo, and those of them whose U is known well enough to compare grey.
 struct Compared {
   long with_echo = 0, in_grey = 0;
 
@@ -22,23 +22,23 @@ struct Compared {
   }
 };
 
-/// Draws scenes with the shaders and with the reference, and checks that no stage lets out what is not a number or out
-/// of its bounds, and that both agree wherever single precision can.
+/// Draws scenes with the shaders and with the reference. Checks that every stage returns numbers within its bounds, and
+/// that both agree wherever single precision can.
 class Stressed {
 public:
-  /// @param work division  the device's own when there is none
+  /// @param division  the work division; empty: the device's own
   explicit Stressed(const std::optional<gl::WorkDivision>& division = {})
       : simulator_({}, division ? *division : gl::WorkDivision::of_device()) {}
 
   Stages<float> shaders(const Scene& scene);
   Stages<double> reference(const Scene& scene, const MediumField& field) const;
 
-  /// Bounds alone.
+  /// Checks bounds only. Returns the shaders' stages.
   Stages<float> check_shaders(const Scene& scene);
-  /// Bounds of both, and agreement; what the shaders gave.
+  /// Checks the bounds of both, and their agreement. Returns the shaders' stages.
   Stages<float> check(const Scene& scene);
 
-  /// Of all that check() was given.
+  /// Returns the counts over all scenes passed to check().
   const Compared& compared() const { return compared_; }
 
 private:

@@ -3,11 +3,11 @@
 #include <catch2/catch.hpp>
 #include <sys/resource.h>
 
-// Faults of the system that a test can bring about in its own process, also as root, whom permissions do not stop.
+// Faults of the system that a test can cause in its own process. They also affect root, who ignores permissions.
 
 namespace insonate {
 
-/// While it lives, this process can open no file.
+/// While an object exists, this process can open no file.
 class NoFilesToOpen {
 public:
   NoFilesToOpen() {
@@ -24,11 +24,11 @@ private:
   rlimit before_{};
 };
 
-/// A file of the kernel's that claims 4096 bytes and ends after a few, as a file does that shrinks while it is read.
-/// Nobody can open it for writing.
+/// A kernel file that claims 4096 bytes and ends after a few, like a file that shrinks while it is read. It cannot be
+/// opened for writing.
 inline const char* const kShorterThanItClaims = "/sys/devices/system/cpu/online";
 
-/// A file of the kernel's that claims 4096 bytes and can be opened; to read it is an error, as on a damaged disk.
+/// A kernel file that claims 4096 bytes and can be opened, but fails to be read, as on a damaged disk.
 inline const char* const kUnreadable = "/sys/class/net/lo/speed";
 
 }  // namespace insonate

@@ -7,21 +7,21 @@
 
 namespace insonate {
 
-/// A program under test, without the privileges that would open what its user may not.
+/// Runs a program under test without the privileges that would open files its user may not open.
 class ChildProcess {
 public:
-  /// @param settings  of its environment, "NAME=value", above this program's own
+  /// @param settings  "NAME=value", added to this program's own environment
   explicit ChildProcess(const std::vector<std::string>& command, const std::vector<std::string>& settings = {});
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  /// Takes what was written since the last call.
+  /// Reads what was written since the last call.
   void listen();
   bool ended();
-  /// 128 and above for a signal. Call it once it has ended.
+  /// Returns the exit code, 128 or above for a signal. To be called once the program has ended.
   int exit_code() const { return exit_code_; }
-  /// Below 0 once it has ended.
+  /// Returns the process id; negative once the program has ended.
   pid_t pid() const { return pid_; }
 
   std::string out, err;

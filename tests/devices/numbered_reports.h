@@ -11,13 +11,13 @@
 #include "devices/crc16.h"
 #include "tests/devices/golden_reports.h"
 
-// Reports that carry a number as their place along x in millimetres, and how `insonate-devices watch` prints them: so
-// that a test sees which reports arrived.
+// Reports that carry a number as their place along x in millimetres, and the way `insonate-devices watch` prints them.
+// A test can thus see which reports arrived.
 namespace insonate {
 
 using Report = std::vector<unsigned char>;
 
-/// The golden report, with its place along x and a sequence number to go with it.
+/// Returns the golden report with its place along x (mm) and a matching sequence number.
 inline Report hydra_report(int x) {
   Report report(std::begin(golden::kHydra), std::end(golden::kHydra));
   report[7] = std::uint8_t(x);
@@ -29,7 +29,7 @@ inline Report hydra_report(int x) {
   return report;
 }
 
-/// The golden frame, with its place along x (mm) and a frame number to go with it.
+/// Returns the golden frame with its place along x (mm) and a matching frame number.
 inline Report viper_frame(int x) {
   Report frame(std::begin(golden::kViper), std::end(golden::kViper));
   frame[12] = std::uint8_t(x);
@@ -42,7 +42,7 @@ inline Report viper_frame(int x) {
   return frame;
 }
 
-/// The places along x (mm) of the samples that a watch has printed as ok, whole lines only.
+/// Returns the places along x (mm) of the samples that a watch has printed as ok; whole lines only.
 inline std::vector<int> places(const std::string& out) {
   std::vector<int> places;
   std::size_t begin = 0;

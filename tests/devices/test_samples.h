@@ -12,7 +12,7 @@ inline bool same_bits(double a, double b) {
   return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
 }
 
-/// Whether two samples are the same to the last bit.
+/// Returns whether two samples are bit-identical.
 inline bool same_bits(const PoseSample& a, const PoseSample& b) {
   if (!same_bits(a.time_s, b.time_s) || a.status != b.status || a.buttons != b.buttons ||
       a.distortion != b.distortion || a.rejected != b.rejected)
@@ -31,7 +31,7 @@ inline bool same_bits(const std::vector<PoseSample>& a, const std::vector<PoseSa
   return true;
 }
 
-/// Everything a tracker gives up to `until_s`, polled `polls_per_s` times a second from 0 on.
+/// Returns all samples of a tracker up to `until_s`, polled `polls_per_s` times per second from 0 on.
 template <typename SomeTracker>
 std::vector<PoseSample> poll_until(SomeTracker& tracker, double until_s, double polls_per_s) {
   std::vector<PoseSample> samples;

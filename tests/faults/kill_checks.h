@@ -18,7 +18,7 @@ inline void require(bool holds, const std::string& what) {
   if (!holds) throw std::runtime_error(what);
 }
 
-/// Bytes that do not pack.
+/// Returns bytes that cannot be compressed.
 inline std::string noise(std::uint32_t seed, std::size_t size = 20'000) {
   std::mt19937 random(seed);
   std::string bytes(size, '\0');
@@ -32,7 +32,7 @@ inline std::vector<std::string> names_in(const std::filesystem::path& folder) {
   return names;
 }
 
-/// Makes what killed writers left under temporary names two days old.
+/// Sets the age of temporary files that killed writers left to two days.
 inline void age_temporaries(const std::filesystem::path& folder) {
   const timespec then{time(nullptr) - 2 * 24 * 3600, 0}, times[2] = {then, then};
   for (const std::string& name : names_in(folder))

@@ -8,8 +8,8 @@
 
 namespace insonate {
 
-/// One thing that is written while somebody may kill the writer, and what has to hold after that. The parent process
-/// calls nothing of it but the constructor: write() and check() run in processes of their own.
+/// One kind of output whose writer may be killed, and the conditions that must hold afterwards. The parent process
+/// calls only the constructor: write() and check() run in subprocesses.
 class Kind {
 public:
   explicit Kind(std::string written) : what(std::move(written)) {}
@@ -17,22 +17,22 @@ public:
   Kind(const Kind&) = delete;
   Kind& operator=(const Kind&) = delete;
 
-  /// Starts on what earlier writers left in the folder, as the programs do, writes for a while, and ends.
-  /// @param before  what they have committed
+  /// Starts with what earlier writers left in the folder, as the programs do, writes for a while, and ends.
+  /// @param before  what the earlier writers have committed
   virtual void write(const std::filesystem::path& folder, const Promises& before, const Commit& commit) = 0;
 
-  /// Throws when anything committed is lost, when something half written looks whole, when it cannot
-  /// be gone on with, or when what was left behind does not go by the rule.
+  /// Throws if anything committed is lost, if something half written looks complete, if it cannot be continued, or if
+  /// leftover files do not follow the rules.
   virtual void check(const std::filesystem::path& folder, const Promises& promises) = 0;
 
-  /// A program to run in place of write(); empty for none.
+  /// Returns a program to run in place of write(); empty for none.
   virtual std::vector<std::string> command(const std::filesystem::path&, int /*round*/) { return {}; }
 
-  const std::string what;  ///< that is written, in words
+  const std::string what;  ///< what is written, in words
 };
 
 std::vector<std::unique_ptr<Kind>> library_kinds();
-/// Their scratch files come from `made`, a folder that lasts as long as they do.
+/// Returns the kinds that run programs. Their scratch files come from `made`, a folder that must outlive them.
 std::vector<std::unique_ptr<Kind>> program_kinds(const std::filesystem::path& made);
 
 }  // namespace insonate

@@ -9,7 +9,7 @@
 
 namespace insonate::fuzz {
 
-/// What of a grid is not as ct_reader.h promises.
+/// Returns in which way a grid breaks the promises of ct_reader.h.
 inline std::string broken_in_grid(const Grid& grid, std::size_t voxels) {
   if (voxels != grid.count()) return "there are not as many voxels as the grid has";
   for (int axis = 0; axis < 3; ++axis) {
@@ -24,7 +24,7 @@ inline std::string broken_in_grid(const Grid& grid, std::size_t voxels) {
   return "";
 }
 
-/// Reads a file as a CT and as labels, header and voxels, through ITK.
+/// Reads a file as a CT and as labels, header and voxels, through ITK. Returns what is broken.
 inline std::string broken_by_volume(const std::filesystem::path& file) {
   const std::string broken = broken_by([&]() -> std::string {
     const Volume<std::int16_t> ct = read_ct(file);

@@ -1,4 +1,4 @@
-// Which of EGL's devices a context without a window is made on.
+// Tests which EGL device a context without a window uses.
 
 #include <catch2/catch.hpp>
 
@@ -17,7 +17,7 @@ using namespace insonate;
 
 namespace {
 
-/// An environment variable that is another one, or none, while this lives.
+/// Sets or clears an environment variable while the object exists.
 class Variable {
 public:
   Variable(const char* name, const char* value) : name_(name) {
@@ -34,7 +34,7 @@ private:
 };
 
 constexpr const char* kChosen = "INSONATE_EGL_DEVICE";
-constexpr const char* kSoftware = "LIBGL_ALWAYS_SOFTWARE";  // Mesa's, as is the next: a driver by name
+constexpr const char* kSoftware = "LIBGL_ALWAYS_SOFTWARE";  // variables of Mesa; the next one selects a driver by name
 constexpr const char* kDriver = "GALLIUM_DRIVER";
 
 std::string refused(const char* device) {
@@ -55,7 +55,7 @@ TEST_CASE("an EGL device that is not there is refused in a sentence") {
     const std::string sentence = refused(wrong);
     CHECK(sentence.starts_with("INSONATE_EGL_DEVICE: there is no EGL device " + std::string(wrong) + "; "));
   }
-  CHECK(refused("").empty());  // as good as unset
+  CHECK(refused("").empty());  // the same as unset
 }
 
 TEST_CASE("EGL's devices can be chosen by number, and one of them is what is taken without a choice") {
@@ -72,9 +72,9 @@ TEST_CASE("EGL's devices can be chosen by number, and one of them is what is tak
       const gl::HeadlessContext context;
       by_number.push_back(gl::device_description());
     } catch (const InputError&) {
-      break;  // there are no more
+      break;  // no more devices
     } catch (const std::runtime_error&) {
-      // there, and without OpenGL 4.5
+      // the device exists but has no OpenGL 4.5
     }
   }
   CAPTURE(taken, by_number);

@@ -10,9 +10,9 @@ using namespace insonate;
 
 namespace {
 
-constexpr int kWidth = 5, kHeight = 3;  // rows of no multiple of four bytes
+constexpr int kWidth = 5, kHeight = 3;  // rows whose size is not a multiple of four bytes
 
-/// Red counts up from `first`, the other channels are something else.
+/// Fills the texture: red counts up from `first`, the other channels have other values.
 void fill(gl::Texture& texture, int first) {
   std::vector<std::array<std::uint8_t, 4>> pixels(kWidth * kHeight);
   for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] = {std::uint8_t(first + int(i)), 200, 201, 202};

@@ -1,4 +1,4 @@
-// Shader files: edited while the program runs, and named where they are wrong.
+// Tests shader files that are edited while the program runs, and the locations in their error messages.
 
 #include <catch2/catch.hpp>
 
@@ -104,15 +104,15 @@ TEST_CASE("a program goes back to defines it was built for without building, unt
   CHECK_THROWS_AS(program.define(of_size(50)), std::runtime_error);
   CHECK(program.name() == names[2]);
 
-  write_shader("undefined_name a;\n");  // which is nothing to a program that was built before
-  program.define(of_size(51));          // which takes the place of 3, used longest ago
+  write_shader("undefined_name a;\n");  // does not affect a program that was built before
+  program.define(of_size(51));          // replaces 3, which was used longest ago
   CHECK_FALSE(glIsProgram(names[3]));
   program.define(of_size(4));
   CHECK(program.name() == names[4]);
 
   write_shader("");
   REQUIRE_FALSE(gl::Program::reload(std::array{&program}, shaders.read()));
-  CHECK_FALSE(glIsProgram(names[1]));  // built from the files before
+  CHECK_FALSE(glIsProgram(names[1]));  // built from the previous files
   CHECK_NOTHROW(program.define(of_size(50)));
 }
 
@@ -133,7 +133,7 @@ TEST_CASE("a simulator whose shaders are being edited goes on with those it has,
   gl::Simulator edited = make(shaders.read());
   const std::vector<std::uint8_t> before = picture(edited);
 
-  // One edit that would blacken the picture, and one that does not build.
+  // One edit that would make the picture black, and one that does not compile.
   shaders.write("imaging/scan_convert.comp", "layout(local_size_x = 1) in;\nvoid main() {}\n");
   shaders.write("imaging/fuse.comp", "no_shader;\n");
   const auto problem = edited.reload(shaders.read());
@@ -143,7 +143,7 @@ TEST_CASE("a simulator whose shaders are being edited goes on with those it has,
   CHECK(picture(edited) == before);
   CHECK(edited.runs() == runs);
 
-  // Windows of other pixels, and effects that were off: all these are compiled in.
+  // Other window sizes, and effects that were off before: all of these are compile-time options.
   settings.image_width = 400;
   settings.image_height = 300;
   settings.electronic_noise = !settings.electronic_noise;

@@ -10,8 +10,8 @@
 
 namespace insonate::test {
 
-/// A context without a window in which an error of OpenGL, of which nobody else would hear, fails the test. That there
-/// is no memory is no error of the caller's: who asks for much looks for it.
+/// A context without a window in which any OpenGL error fails the test. Out of memory is not the caller's error: code
+/// that allocates much checks for it itself.
 class TestContext {
 public:
   TestContext() {
@@ -23,7 +23,7 @@ public:
     glDebugMessageCallback(nullptr, nullptr);
     for (const std::string& error : errors_) FAIL_CHECK(error);
   }
-  /// Of those that a test makes on purpose.
+  /// Discards errors that a test causes on purpose.
   void forget_errors() { errors_.clear(); }
 
   TestContext(const TestContext&) = delete;

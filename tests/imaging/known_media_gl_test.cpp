@@ -1,4 +1,4 @@
-// What the shaders make of media whose intensity and picture are known without any reference.
+// Tests the shaders on media whose intensity and picture are known without a reference.
 
 #include <catch2/catch.hpp>
 
@@ -13,7 +13,7 @@ using namespace insonate;
 
 namespace {
 
-/// Half a metre of one density, or of two that meet in the plane y = 0.
+/// Returns half a metre of one density, or of two that meet in the plane y = 0.
 AcousticVolume medium(std::int16_t hu_before, std::int16_t hu_behind) {
   AcousticVolume volume;
   volume.grid.size = {10, 101, 10};
@@ -60,7 +60,7 @@ TEST_CASE("in a homogeneous medium sound is absorbed exactly, however many sampl
       }
     }
     INFO(samples << " samples, I off by " << worst << " of itself at worst");
-    CHECK(worst < 1e-5);  // the accuracy contract's
+    CHECK(worst < 1e-5);  // the limit of the accuracy contract
   }
 }
 
@@ -72,7 +72,7 @@ TEST_CASE("a probe in air, or held off the skin, shows its own face and nothing 
   simulator.set_probe(*find_probe("linear"), kDepth_mm);
   const auto brightest_behind = [&](const Settings& settings, double air_mm, double from_mm) {
     simulator.set_settings(settings);
-    simulator.set_pose(at_y(-5 - air_mm));  // air ends between voxels, 5 mm before the body's first
+    simulator.set_pose(at_y(-5 - air_mm));  // air ends between voxels, 5 mm before the first voxel of the body
     const Stages<float> stages = simulator.read_stages();
     std::uint8_t brightest = 0;
     for (int y = 0; y < stages.grey.height; ++y)
@@ -85,22 +85,22 @@ TEST_CASE("a probe in air, or held off the skin, shows its own face and nothing 
   dry.gel_mm = 0;
   for (Settings* settings : {&dry, &with_gel}) {
     settings->clutter = settings->electronic_noise = false;
-    settings->face_reflection = 0;  // to and fro through the gel it would show the gel's end again and again
+    settings->face_reflection = 0;  // otherwise the gel's end would repeat through round trips in the gel
     settings->transmission_sigma_mm = 0;
   }
   CHECK(with_gel.gel_mm == 6);
   for (const double air_mm : {20.0, 300.0}) {
     CHECK(brightest_behind(paper, air_mm, 3) == 0);
     CHECK(brightest_behind(dry, air_mm, 3) == 0);
-    CHECK(brightest_behind(with_gel, air_mm, 9) == 0);  // gel, and the smoothed echo of where it ends
+    CHECK(brightest_behind(with_gel, air_mm, 9) == 0);  // gel, and the smoothed echo of its end
   }
   CHECK(brightest_behind(paper, -20, 3) > 100);
   CHECK(brightest_behind(dry, -20, 3) > 100);
 }
 
 TEST_CASE("where half of the face is in the air there is no image under that half, and the other half's is whole") {
-  // The skin's edge lies in the plane x = 0; behind the air, at 40 mm, is tissue again.
-  constexpr double kDepth_mm = 80, kFace_mm = 3, kEdge_mm = 5;  // of the beam, of the smoothing and of the CT's voxels
+  // The skin's edge lies in the plane x = 0. Behind the air, from 40 mm on, is tissue again.
+  constexpr double kDepth_mm = 80, kFace_mm = 3, kEdge_mm = 5;  // extents of beam, smoothing and CT voxels
   const auto body = [](bool whole) {
     AcousticVolume volume;
     volume.grid.size = {80, 100, 20};

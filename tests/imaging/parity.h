@@ -14,16 +14,16 @@
 #include "sim/gl/filter_error.h"
 #include "sim/reference/reference.h"
 
-/// Single precision on the graphics card against the reference: how far it may be off, and where it is furthest.
+/// Compares single precision on the graphics card with the reference: the allowed error, and where it is largest.
 namespace insonate::test {
 
-// Whether the device's own filter is one for which no tolerance here has room.
+// Returns whether the device's own filter is too coarse for the tolerances here.
 inline bool own_filter_is_coarse() {
   static const bool coarse = gl::measure_filter().is_coarse();
   return coarse;
 }
 
-// What is held against the reference on any device: exact filtering where it has to be.
+// Returns settings that can be compared with the reference on any device: with exact filtering where it is needed.
 template <typename AnySettings>
 AnySettings exact_as_needed(AnySettings settings) {
   settings.exact_filter = settings.exact_filter || own_filter_is_coarse();
@@ -36,7 +36,7 @@ struct Worst {
   double expected = 0, got = 0;
 };
 
-// The worst disagreement, as a multiple of what is tolerated at that place.
+// Returns the worst disagreement, as a multiple of the tolerance at that place.
 inline Worst worst(const Image<double>& expected, const Image<float>& got, const Image<double>& tolerated) {
   REQUIRE(expected.pixels.size() == got.pixels.size());
   Worst found;
@@ -56,11 +56,11 @@ inline std::string told(const char* what, const Worst& w) {
   return text;
 }
 
-// Where the tissue table is steep, as at the foot of gas's ramp, rounding alone decides a sample's impedance: nobody
-// can ask single precision for more there than it can hold. From a line's start to the filter's weights a coordinate in
-// [0, 1] is rounded six times, each by up to 3e-8 of the body's 160 mm: 3e-5 mm in all. Filtering adds up eight
-// products of values around 1000 HU, each rounded by 6e-8: 2e-4 HU. References over fields that are wrong by as much,
-// at random, tell what that can change.
+// Where the tissue table is steep, as at the foot of gas's ramp, rounding alone decides a sample's impedance. No more
+// accuracy can be asked there than single precision has. From a line's start to the filter's weights a coordinate in
+// [0, 1] is rounded six times, each by up to 3e-8 of the body's 160 mm: 3e-5 mm in all. Filtering adds eight products
+// of values around 1000 HU, each rounded by 6e-8: 2e-4 HU. References over fields with random errors of that size show
+// the effect.
 inline MediumField as_single_precision_knows_it(const MediumField& field, std::uint32_t seed, double position_mm = 3e-5,
                                                 double hu = 2e-4) {
   return [&field, seed, position_mm, hu, count = std::uint32_t(0)](const glm::dvec3& p) mutable {
@@ -72,8 +72,8 @@ inline MediumField as_single_precision_knows_it(const MediumField& field, std::u
   };
 }
 
-/// What is tolerated of a stage at each place: `basic` of the reference's value, and as much as references over fields
-/// known in single precision differ from it.
+/// Returns the tolerance of a stage at each place: `basic` of the reference's value, plus the difference to references
+/// over fields known in single precision.
 template <typename Data, typename Basic>
 Image<double> tolerated(const Data& expected, const std::array<Data, 4>& uncertain, Image<double> Data::*stage,
                         Basic&& basic) {
@@ -86,8 +86,8 @@ Image<double> tolerated(const Data& expected, const std::array<Data, 4>& uncerta
   return result;
 }
 
-/// U in dB, down to where the dynamic range ends below the loudest: grey levels are coarser, and gain and map lie
-/// between.
+/// Compares U in dB, down to where the dynamic range ends below the loudest. Grey levels are coarser, and gain and grey
+/// map come after U.
 inline void check_fused(const Image<double>& expected, const std::array<Image<double>, 4>& uncertain,
                         const Image<float>& got, double dynamic_range_db) {
   constexpr double kFused_db = 0.01;  // a twentieth of a grey level at 60 dB
@@ -110,7 +110,7 @@ inline void check_fused(const Image<double>& expected, const std::array<Image<do
   CHECK(fused.error < 1);
 }
 
-/// Grey levels inside the fan: 1 off at most on 99.9 %, 2 at worst.
+/// Compares grey levels inside the fan: at most 1 off on 99.9 %, at most 2 anywhere.
 inline void check_grey(const std::vector<int>& expected, const std::vector<int>& got) {
   REQUIRE(expected.size() == got.size());
   std::size_t off_by_more_than_1 = 0;
@@ -125,7 +125,7 @@ inline void check_grey(const std::vector<int>& expected, const std::vector<int>&
   INFO("grey: " << off_by_more_than_1 << " of " << expected.size() << " off by more than 1, worst " << worst_grey);
   CHECK(double(off_by_more_than_1) <= 0.001 * double(expected.size()));
   CHECK(worst_grey <= 2);
-  CHECK(mean > 10);  // black would agree as well
+  CHECK(mean > 10);  // a black picture would agree as well
 }
 
 }  // namespace insonate::test

@@ -1,5 +1,5 @@
-// The GLSL pipeline against the double-precision reference, stage by stage. Tolerances are those of the model's
-// accuracy contract.
+// Compares the GLSL pipeline with the double-precision reference, stage by stage. The tolerances are those of the
+// model's accuracy contract.
 
 #include <catch2/catch.hpp>
 
@@ -52,7 +52,7 @@ void check_stages(const Stages<double>& expected, const std::array<Stages<double
   INFO(told("V", repeated));
   CHECK(repeated.error < 1);
 
-  // The envelope of speckle passes through 0, so its error is measured against its mean of 1.
+  // The envelope of speckle passes through 0, so its error is measured relative to its mean of 1.
   const Worst speckle =
       worst(expected.speckle, got.speckle, tolerance(&Stages<double>::speckle, [](double) { return 1e-3; }));
   INFO(told("S", speckle));
@@ -73,7 +73,7 @@ void check_stages(const Stages<double>& expected, const std::array<Stages<double
 }
 
 void check_parity(const Probe& probe, double depth_mm, Settings settings, const Pose& pose) {
-  settings.skipping = false;  // which the reference does not do
+  settings.skipping = false;  // which the reference does not implement
   const test::TestContext context;
   const AcousticVolume body = test::test_body();
   const TissueTable table = read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml");
@@ -107,7 +107,7 @@ Settings small(Settings settings) {
   return settings;
 }
 
-/// The same where a rib, a cyst and gas lie in the picture.
+/// Does the same where a rib, a cyst and gas lie in the picture.
 void check_parity_over_rib_and_gas(const Settings& settings) {
   Probe probe = *find_probe("curvilinear");
   probe.lines = 64;
@@ -143,7 +143,7 @@ TEST_CASE("GLSL agrees with the reference: the paper's own mode") {
 
 TEST_CASE("GLSL agrees with the reference: loud receiver's noise, every grey map") {
   Settings settings = small(trainer_settings(3.5, 120));
-  settings.noise_db = -75;  // shows from the middle of the picture on
+  settings.noise_db = -75;  // visible from the middle of the picture on
   settings.clutter_db = -15;
   settings.grey_map = GENERATE(GreyMap::linear, GreyMap::soft, GreyMap::contrast, GreyMap::s_curve);
   check_parity_over_rib_and_gas(settings);
@@ -223,8 +223,8 @@ TEST_CASE("what is skipped changes no pixel by more than a grey level") {
     settings.image_height = 300;
     return settings;
   };
-  // The trainer's; loud and with nothing over the shadows, into which a wide beam carries echoes; the paper's, whose
-  // range is narrow enough to spread few decibels over many levels.
+  // The trainer's settings; loud ones with nothing over the shadows, into which a wide beam carries echoes; and the
+  // paper's, whose range is narrow enough to spread few decibels over many levels.
   const Settings trainer = sized(trainer_settings(3.5, 120));
   Settings bare = trainer;
   bare.clutter = bare.electronic_noise = false;
@@ -232,7 +232,7 @@ TEST_CASE("what is skipped changes no pixel by more than a grey level") {
   Settings noisy = bare, hazy = bare, blended = trainer;
   noisy.electronic_noise = true;
   hazy.clutter = true;
-  blended.blend = 1000;  // so much echo that noise covers no air's
+  blended.blend = 1000;  // so much echo that noise does not cover the air's echo
   Settings wide = bare;
   wide.focused_beam = false;
   wide.beam_window = BeamWindow::box;
@@ -246,7 +246,7 @@ TEST_CASE("what is skipped changes no pixel by more than a grey level") {
   bent.elevation_focus_mm = 60;
   bent.slice_thickness_mm = 12;
   std::uint32_t skipped_normals = 0;
-  // Over the rib, the cyst and the gas; half off the body; turned away so that lines leave it again; beside it.
+  // Over the rib, the cyst and the gas; half off the body; rotated away so that lines leave the body again; beside it.
   for (const Pose& pose : {test::on_the_skin(0, 9, 12), test::on_the_skin(-25, 5, 0), test::on_the_skin(20, 8, -15),
                            test::on_the_skin(60, 2, 0), test::on_the_skin(0, 4, 70), test::on_the_skin(0, -40, 180),
                            test::on_the_skin(72, -8, 20)}) {
@@ -281,7 +281,7 @@ TEST_CASE("a line that meets no body does not start") {
   const Probe probe = *find_probe("linear");
   simulator.set_probe(probe, 50);
   Settings settings = small(trainer_settings(7.5, 50));
-  settings.elevation_focus_mm = GENERATE(0, 25);  // where planes bend
+  settings.elevation_focus_mm = GENERATE(0, 25);  // planes bend then
   CAPTURE(settings.elevation_focus_mm);
   const auto walked = [&](const Pose& pose) {
     simulator.set_pose(pose);
@@ -310,7 +310,7 @@ TEST_CASE("where there is only air no line starts, and one starts that passes be
   block.grid.spacing = glm::dvec3(2);
   block.grid.origin = {-19, 0, -19};
   Settings settings = small(trainer_settings(7.5, 60));
-  settings.absorption = false;  // nothing ends a line
+  settings.absorption = false;  // so that nothing ends a line
   Probe probe = *find_probe("linear");
   probe.lines = 1;
   simulator.set_probe(probe, 60);
@@ -321,11 +321,11 @@ TEST_CASE("where there is only air no line starts, and one starts that passes be
     simulator.image();
     return simulator.sample_counts().walked;
   };
-  simulator.set_pose(test::on_the_skin(0, 0, 20));  // along no axis
+  simulator.set_pose(test::on_the_skin(0, 0, 20));  // parallel to no axis
   CHECK(walked_of({}) == 0);
 
-  // Of a block, 5 mm beside it, nothing lies on the line; but its edge turns sound that is within half the reflection
-  // length of it.
+  // Nothing of a block 5 mm beside the line lies on it. But the edge of the block refracts sound that is within half
+  // the reflection length of it.
   simulator.set_pose({});
   block.grid.origin.x = 6;
   settings.gel_mm = 100;
@@ -338,7 +338,7 @@ TEST_CASE("where there is only air no line starts, and one starts that passes be
   simulator.set_settings(settings);
   CHECK(simulator.read_stages().intensity.pixels == intensity.pixels);
 
-  // So with planes that bend: far from the focus in elevation the outer two come to what is beside all of them there.
+  // The same with planes that bend: far from the elevation focus the outer two reach what lies beside all of them here.
   settings.skipping = true;
   settings.frequency_mhz = 0.5;
   settings.slice_thickness_mm = 0.5;

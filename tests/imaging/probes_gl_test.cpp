@@ -1,5 +1,5 @@
-// Probes beyond those that parity_gl_test.cpp looks at stage by stage: what a probe alone decides is where its lines
-// and pixels lie, and that shows in the picture.
+// Tests probes that parity_gl_test.cpp does not compare stage by stage. A probe alone decides where its lines and
+// pixels lie, and that shows in the picture.
 
 #include <catch2/catch.hpp>
 

@@ -10,10 +10,11 @@
 
 namespace insonate::test {
 
-/// A patient's abdomen, where whoever tests has it.
+/// A patient's abdomen, on machines that have it.
 inline const std::filesystem::path kRealCt = INSONATE_SCANS_FOLDER "/abdomen_ct/abdomen_ct.nii.gz";
 
-/// The skin towards `target`, seen along `into`, with the face pressed in by 8 mm and the marker to the head.
+/// Returns the pose on the skin towards `target` along `into`, with the face pressed in by 8 mm and the marker towards
+/// the head.
 inline Pose on_skin_of(const Case& subject, const glm::dvec3& target, const glm::dvec3& into) {
   double inside = 0;
   for (double s = -250; s < 250; s += 0.5) {

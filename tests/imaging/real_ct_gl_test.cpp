@@ -1,5 +1,5 @@
-// A real CT through the whole pipeline: what must be seen in every patient. The pictures are left in the build's
-// pictures/ for people to look at.
+// Runs a real CT through the whole pipeline and checks what must be visible in every patient. The pictures stay in the
+// build's pictures/ for people to look at.
 
 #include <catch2/catch.hpp>
 #include <glm/trigonometric.hpp>
@@ -28,7 +28,7 @@ struct Look {
 Look look(gl::Simulator& simulator, const Pose& pose, const std::string& picture) {
   const Probe& probe = *find_probe("curvilinear");
   Settings settings = trainer_settings(probe.frequency_mhz, kDepthMm);
-  settings.slice_planes = 1;  // what a line meets is looked up along it alone
+  settings.slice_planes = 1;  // the test looks up what a line meets along that line only
   simulator.set_probe(probe, kDepthMm);
   simulator.set_settings(settings);
   simulator.set_pose(pose);
@@ -37,7 +37,8 @@ Look look(gl::Simulator& simulator, const Pose& pose, const std::string& picture
   return seen;
 }
 
-/// The depth at which a line has passed `thickness_mm` of what `is_it` says of Hounsfield units, below 70 mm.
+/// Returns the depth, less than 70 mm, at which a line has passed `thickness_mm` of voxels for whose Hounsfield units
+/// `is_it` holds.
 template <typename Predicate>
 std::optional<double> depth_behind(const Case& subject, const Pose& pose, const ScanLine& line, double thickness_mm,
                                    Predicate is_it) {
@@ -87,8 +88,8 @@ TEST_CASE("in a real CT bone casts a shadow, gas blocks, and liver and kidney ar
     }
     REQUIRE(shadowed.size() >= 5);
     REQUIRE(clear.size() >= 100);
-    // Two surfaces let through 0.59 each, and 3 mm of bone at 10 dB/(cm MHz) and 3.5 MHz take 10 dB, all there and
-    // back: 10^-2.9. The rib reaches 360 HU at its core alone, so 10^-2 is asked for.
+    // Each of two surfaces transmits 0.59, and 3 mm of bone at 10 dB/(cm MHz) and 3.5 MHz absorb 10 dB, all there and
+    // back: 10^-2.9. The rib has 360 HU in its core only, so the test asks for 10^-2.
     CHECK(median(shadowed) < 0.01 * median(clear));
   }
 

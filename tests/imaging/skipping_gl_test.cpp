@@ -1,4 +1,4 @@
-// The simulator runs the stages that a change reaches, and no others.
+// Tests that the simulator runs the stages that a change affects, and no others.
 
 #include <catch2/catch.hpp>
 
@@ -36,7 +36,7 @@ struct Fixture {
     simulator.image();
   }
 
-  /// The stages that run after a change, as a string of their numbers.
+  /// Returns the stages that run after a change, as a string of their numbers.
   std::string after(const std::function<void()>& change) {
     const auto before = simulator.runs();
     change();
@@ -84,7 +84,7 @@ TEST_CASE("what other settings leave unused reaches nothing, until they use it")
   CHECK(f.after([&] { f.settings.electronic_noise = false; }) == "234");
   CHECK(f.after([&] { f.settings.noise_db = -90; }) == "");
   CHECK(f.after([&] { f.settings.clutter_db = -20; }) == "234");
-  CHECK(f.after([&] { f.settings.clutter_db = -40; }) == "01234");  // weaker interfaces are seen
+  CHECK(f.after([&] { f.settings.clutter_db = -40; }) == "01234");  // weaker interfaces become visible
   CHECK(f.after([&] { f.settings.clutter = false; }) == "01234");
   CHECK(f.after([&] { f.settings.clutter_db = -20; }) == "");
   CHECK(f.after([&] { f.settings.speckle = false; }) == "01234");
@@ -98,7 +98,7 @@ TEST_CASE("each stage tells how often it ran and how much it evaluated of what t
   f.settings.image_width = 400;
   f.settings.image_height = 300;
   f.settings.slice_planes = 3;
-  f.after([&] { f.simulator.set_pose(test::on_the_skin(0, -40, 180)); });  // away from the body: lines end soon
+  f.after([&] { f.simulator.set_pose(test::on_the_skin(0, -40, 180)); });  // away from the body, so that lines end soon
   const std::uint64_t samples = std::uint64_t(find_probe("curvilinear")->lines) * 64, pixels = 400 * 300;
   const gl::StageCount traversal = f.simulator.count(Stage::traverse), beam = f.simulator.count(Stage::beam);
   CHECK(traversal.runs == 2);
@@ -148,10 +148,10 @@ TEST_CASE("the picture's version changes with the picture alone") {
 TEST_CASE("a picture after a change is the picture that a new simulator draws") {
   const std::function<void(Settings&)> changes[] = {
       [](Settings& s) { s.speckle = false; },
-      [](Settings& s) { s.speckle_seed = 7, s.speckle_cell_mm = 0.8; },  // unused; then used
+      [](Settings& s) { s.speckle_seed = 7, s.speckle_cell_mm = 0.8; },  // first unused, then used
       [](Settings& s) { s.speckle = true; },
       [](Settings& s) { s.speckle = false; },
-      [](Settings& s) { s.speckle_seed = 1, s.speckle = true; },  // as before it was off and another one
+      [](Settings& s) { s.speckle_seed = 1, s.speckle = true; },  // as before it was off and another seed was set
       [](Settings& s) { s.beam_lines = 15, s.beam_window = BeamWindow::box; },
       [](Settings& s) { s.slice_thickness_mm = 5, s.elevation_focus_mm = 60; },
       [](Settings& s) { s.absorption = !s.absorption; },
@@ -166,9 +166,9 @@ TEST_CASE("a picture after a change is the picture that a new simulator draws") 
       [](Settings& s) { s.slice_planes = 3; },
       [](Settings& s) { s.reverberation = false, s.face_reflection = 0; },
       [](Settings& s) { s.reverberation = true; },
-      [](Settings& s) { s.focused_beam = !s.focused_beam; },  // reaches the beam alone, where reverberation is
+      [](Settings& s) { s.focused_beam = !s.focused_beam; },  // affects only the beam stage, with reverberation
       [](Settings& s) { s.clutter = s.electronic_noise = false; },
-      // one that reaches the beam alone, and one that makes interfaces seen that were not
+      // one change that affects only the beam stage, and one that makes invisible interfaces visible
       [](Settings& s) { s.two_way = !s.two_way, s.blend *= 1e-4; },
       // and back: weak interfaces are not seen any more
       [](Settings& s) { s.blend *= 1e4, s.clutter = true, s.clutter_db = 0; },

@@ -1,5 +1,5 @@
-// Scan conversion of a sweep to a volume: the shader against the reference, and both against patterns given by a
-// formula, which a volume must show where they are and as large as they are.
+// Tests the scan conversion of a sweep to a volume: the shader against the reference, and both against patterns given
+// by a formula. A volume must show the patterns at their place and in their size.
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
@@ -66,14 +66,14 @@ Volume<float> converted(const Sweep& sweep, const SweepValues& values, const Gri
 TEST_CASE("GLSL agrees with the reference: a sweep's lines to a volume") {
   for (const Sweep& sweep : {swept("curvilinear", 33, 12, 40), swept("phased", 40, 17, 60), by_hand()}) {
     INFO(sweep.probe.name);
-    std::uint32_t count = 0;  // noise: the steepest there is
+    std::uint32_t count = 0;  // noise: the steepest possible field
     const SweepValues values = sampled(sweep, 50, [&](const glm::dvec3&) { return unit_float(hash(count++)); });
     const Grid grid = sweep_grid(sweep, 2.0);
     const Volume<float> got = converted(sweep, values, grid);
     const Volume<double> expected = convert_sweep_reference(sweep, values, grid);
 
-    // Single precision places a voxel within 2e-5 mm, of which a sample or line holds a few in a millimetre; noise
-    // changes by up to 1 a sample. At the edge of the sweep rounding alone decides what is inside.
+    // Single precision places a voxel within 2e-5 mm. There are a few samples or lines per millimetre, and noise
+    // changes by up to 1 per sample. At the edge of the sweep rounding alone decides what is inside.
     long inside = 0, at_edge = 0;
     double worst = 0;
     for (std::size_t i = 0; i < grid.count(); ++i) {
@@ -92,7 +92,7 @@ TEST_CASE("GLSL agrees with the reference: a sweep's lines to a volume") {
 }
 
 TEST_CASE("a swept volume shows a pattern where it is, to trilinear accuracy") {
-  // A wave of 24 mm turned and moved against the probe and the volume.
+  // A wave of 24 mm, rotated and moved relative to the probe and the volume.
   const glm::dvec3 wave = 2 * glm::pi<double>() / 24 * glm::normalize(glm::dvec3(0.4, 0.7, -0.6));
   const auto pattern = [&](const glm::dvec3& p) { return std::sin(glm::dot(wave, p - glm::dvec3(3, 1, 2))); };
   const double curvature = glm::dot(wave, wave);  // of the wave at its crests
@@ -101,8 +101,8 @@ TEST_CASE("a swept volume shows a pattern where it is, to trilinear accuracy") {
     const Grid grid = sweep_grid(sweep, 1.7);
     const SweepValues values = sampled(sweep, 60, pattern);
     const ScanLines all = scan_lines(sweep, 60);
-    // What linear interpolation leaves out is at most h^2/8 of the curvature, for each of the three steps h: samples,
-    // lines and planes, at their widest. Up to half a step beyond the outer lines and samples the value is held.
+    // The error of linear interpolation is at most h^2/8 of the curvature for each of the three steps h, at their
+    // widest: samples, lines and planes. Up to half a step beyond the outer lines and samples the value is constant.
     const auto deepest = [&](std::size_t i) { return all.lines[i].start + sweep.depth_mm * all.lines[i].direction; };
     double lines_apart = 0, planes_apart = 0;
     const std::size_t n = std::size_t(sweep.probe.lines);
@@ -138,7 +138,7 @@ TEST_CASE("a swept volume shows a pattern where it is, to trilinear accuracy") {
 }
 
 TEST_CASE("calipers on a swept volume measure an area to 1 %") {
-  // A cylinder along a direction of its own: its section with a slice of the volume is an ellipse.
+  // A cylinder along an oblique direction: its section with a slice of the volume is an ellipse.
   const Sweep sweep = swept("curvilinear", 128, 65, 40);
   const Pose pose = somewhere();
   const glm::dvec3 centre = pose.point({2, 35, 0}), axis = pose.direction(glm::normalize(glm::dvec3(0.3, 0.2, 1)));

@@ -1,5 +1,5 @@
-// A sweep on the graphics card against the reference in double precision. Tolerances are those of the model's accuracy
-// contract.
+// Compares a sweep on the graphics card with the reference in double precision. The tolerances are those of the model's
+// accuracy contract.
 
 #include <catch2/catch.hpp>
 
@@ -33,7 +33,7 @@ Image<double> row_of(const std::vector<double>& values) {
 void check_against_reference(const Sweep& sweep, Settings settings) {
   const test::TestContext context;
   settings = test::exact_as_needed(settings);
-  settings.skipping = false;  // which the reference does not do
+  settings.skipping = false;  // which the reference does not implement
   const Grid grid = sweep_grid(sweep, 4);
   gl::SweepSimulator simulator = simulator_of(sweep, settings, grid);
   const Volume<float> fused = simulator.read_fused();
@@ -45,8 +45,8 @@ void check_against_reference(const Sweep& sweep, Settings settings) {
     return simulate_sweep_reference(of_body, tissues(), sweep, settings, of_voxels);
   };
   const ReferenceVolume expected = reference(field, grid);
-  // Mesa's arctangent is within 1e-6 rad, which is 2e-4 mm at a fan's end, 170 mm from its apex; the voxels'
-  // coordinates are closer than that. It is felt where an echo stands beside one of another magnitude.
+  // Mesa's arctangent is within 1e-6 rad, which is 2e-4 mm at a fan's end, 170 mm from its apex. The voxels'
+  // coordinates are more accurate than that. The error shows where an echo lies beside one of another magnitude.
   std::array<ReferenceVolume, 4> uncertain;
   for (std::uint32_t i = 0; i < uncertain.size(); ++i) {
     Grid moved = grid;

@@ -1,5 +1,5 @@
-// A sweep as one set of lines on the graphics card: against the simulator of pictures plane by plane; the same whatever
-// a device takes at once; and nothing run that a change does not reach.
+// Tests a sweep as one set of lines on the graphics card. It is compared with the simulator of pictures plane by plane.
+// It must not depend on how much a device takes at once, and must run only the stages that a change affects.
 
 #include <catch2/catch.hpp>
 
@@ -38,7 +38,7 @@ Volumes volumes_of(const Sweep& sweep, const Settings& settings, const Grid& gri
   gl::SweepSimulator simulator = simulator_of(sweep, settings, grid, division);
   Volumes volumes{simulator.read_fused().voxels, simulator.read_grey().voxels};
   for (float& echo : volumes.fused)
-    if (std::isnan(echo)) echo = -1;  // which equals itself
+    if (std::isnan(echo)) echo = -1;  // which equals itself, unlike NaN
   return volumes;
 }
 
@@ -55,17 +55,17 @@ long count_of_different(const std::vector<Number>& a, const std::vector<Number>&
 TEST_CASE("the lines of many planes hold what each plane's picture holds, to the last bit") {
   const gl::WorkDivision division = GENERATE(test::line_an_invocation(), test::line_a_group());
   CAPTURE(division.lines_that_fill);
-  // Windows too wide for the array: one that went on into the next plane's lines would take its other end.
+  // Windows too wide for the array: a window that continued into the next plane's lines would take its other end.
   for (const bool focused : {false, true}) {
     Settings settings = everything();
     settings.focused_beam = focused;
     settings.beam_lines = 21;
     settings.f_number = 2;
     settings.focus_mm = 20;
-    if (!focused) settings.elevation_focus_mm = 0;  // bent planes' lines start whatever they meet
+    if (!focused) settings.elevation_focus_mm = 0;  // lines of bent planes start whatever they meet
     Sweep sweep = by_hand();
     sweep.patient_from_plane.push_back(test::on_the_skin(60, 2, 0));     // half of its lines meet no body
-    sweep.patient_from_plane.push_back(test::on_the_skin(0, -40, 180));  // and none of these does
+    sweep.patient_from_plane.push_back(test::on_the_skin(0, -40, 180));  // none of its lines meets the body
     const int n = sweep.probe.lines, d = settings.samples, planes = int(sweep.patient_from_plane.size());
 
     const test::TestContext context;
@@ -109,16 +109,16 @@ TEST_CASE("a volume is the same to the last bit whatever lines, planes and voxel
   grid.size -= glm::ivec3(1, 2, 0);
   if (grid.size.x % 2 == 0) --grid.size.x;
   if (grid.size.y % 2 == 0) --grid.size.y;
-  REQUIRE(grid.count() % 4 != 0);  // the voxels that an invocation packs together
+  REQUIRE(grid.count() % 4 != 0);  // the number of voxels that one invocation packs together
   for (const Settings& settings : {everything(), of_the_paper()}) {
     const Volumes at_once = volumes_of(sweep, settings, grid, {});
     CHECK(std::ranges::count_if(at_once.grey, [](int grey) { return grey > 0; }) > 1000);
     gl::WorkDivision rows, groups, parts, pairs;
-    rows.most_groups = 7;  // of lines 38, of voxels more
+    rows.most_groups = 7;  // of 38 lines each, of more voxels
     groups.group = 64;
-    // Four planes, and some slices of the volume; no divisor of either.
+    // Four planes, and some slices of the volume; neither is divided evenly.
     parts.most_texels = std::size_t(4 * sweep.probe.lines * settings.samples);
-    pairs.most_texels = 1;  // two planes, a slice
+    pairs.most_texels = 1;  // two planes, one slice
     for (const gl::WorkDivision& division : {rows, groups, parts, pairs}) {
       CAPTURE(division.most_groups, division.group, division.most_texels);
       const Volumes got = volumes_of(sweep, settings, grid, division);
@@ -153,7 +153,7 @@ TEST_CASE("a sweep runs the first stage that a change reaches and those behind i
         if (simulator.runs()[std::size_t(stage)] > before[std::size_t(stage)]) ran += char('0' + stage);
       return ran;
     };
-    // Of parts the lines of the last alone are kept.
+    // If the sweep is processed in parts, only the lines of the last part are stored.
     const auto lines_too = [&](const char* stages) { return std::string(in_parts ? "01235" : stages); };
     CHECK(after([] {}) == "01235");
     CHECK(after([] {}) == "");
@@ -172,7 +172,7 @@ TEST_CASE("a sweep runs the first stage that a change reaches and those behind i
     CHECK(simulator.read_grey().voxels == simulator_of(sweep, settings, grid, division).read_grey().voxels);
 
     const gl::StageCount walked = simulator.count(gl::SweepStage::traverse);
-    const std::uint64_t planes = in_parts ? 3 + 3 + 2 : 6;  // the planes where parts meet are walked twice
+    const std::uint64_t planes = in_parts ? 3 + 3 + 2 : 6;  // the planes where parts meet are traversed twice
     CHECK(walked.possible == planes * 30 * 64);
     CHECK(walked.evaluated == walked.possible);
     CHECK(simulator.count(gl::SweepStage::compress).evaluated == grid.count());
@@ -185,7 +185,7 @@ TEST_CASE("a volume after a change is the volume that a new simulator makes") {
     Sweep sweep = swept("curvilinear", 6);
     Settings settings = everything();
     settings.samples = 64;
-    settings.skipping = false;  // else normals that settings before have asked for would still be there
+    settings.skipping = false;  // otherwise normals requested by earlier settings would still be stored
     Grid grid = sweep_grid(sweep, 8);
     gl::WorkDivision division = gl::WorkDivision::of_device();
     if (in_parts) division.most_texels = 3 * 30 * 64;

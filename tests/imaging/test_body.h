@@ -11,15 +11,16 @@
 
 namespace insonate::test {
 
-/// A body that has all the kinds of interface a patient has, small enough for the reference: skin, fat, a parenchyma
-/// with grain, a cyst, a vessel, a rib and a bubble of gas; x to the left, y into the body, z to the head, mm, the skin
-/// at y = 0. Its grid is anisotropic, turned and reflected, so that whoever ignores the direction matrix fails.
+/// Returns a body with all the kinds of interface that a patient has, small enough for the reference: skin, fat, a
+/// parenchyma with grain, a cyst, a vessel, a rib and a bubble of gas. The axes are x to the left, y into the body, z
+/// to the head, mm, with the skin at y = 0. Its grid is anisotropic, rotated and reflected, so that code that ignores
+/// the direction matrix fails.
 inline AcousticVolume test_body() {
   struct Point {
     double hu, echogenicity_db;
   };
   const auto at = [](const glm::dvec3& p, double grain) -> Point {
-    if (p.y < -4) return {-1000, -60};  // amid air nothing scatters
+    if (p.y < -4) return {-1000, -60};  // nothing scatters in air
     if (p.y < 0) return {-1000, 0};
     if (p.y < 2) return {40, -3};
     if (p.y < 12 + 2 * std::sin(p.x / 15)) return {-100, -4};
@@ -50,7 +51,8 @@ inline AcousticVolume test_body() {
   return volume;
 }
 
-/// A probe on the body's skin, pressed in by `press_mm`, looking along +y, tilted by `tilt_deg` about x.
+/// Returns the pose of a probe on the body's skin, pressed in by `press_mm`, pointing along +y, tilted by `tilt_deg`
+/// about x.
 inline Pose on_the_skin(double x_mm, double press_mm, double tilt_deg) {
   const glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), glm::radians(tilt_deg), glm::dvec3(1, 0.2, 0));
   return {glm::dmat3(turn), {x_mm, press_mm, 1.0}};

@@ -4,7 +4,7 @@
 
 #include "sim/gl/work_division.h"
 
-/// Both ways to walk along a line, whichever the device would take.
+/// Both ways to traverse a line, regardless of the device's own choice.
 namespace insonate::test {
 
 inline gl::WorkDivision line_an_invocation(int group = 8) {

@@ -7,7 +7,7 @@
 #include "sim/imaging/sweep_simulator.h"
 #include "tests/imaging/test_body.h"
 
-/// Sweeps over the test body, and settings that show all of it.
+/// Sweeps over the test body, and settings in which all of it is visible.
 namespace insonate::test {
 
 inline constexpr double kDepth_mm = 110;
@@ -19,17 +19,17 @@ inline const TissueTable& tissues() {
 
 inline Probe small_probe(const char* name) {
   Probe probe = *find_probe(name);
-  probe.lines = 30;  // no multiple of a work group, nor of the four lines that share their windows
+  probe.lines = 30;  // not a multiple of a work group, nor of the four lines that share their windows
   return probe;
 }
 
-/// Over the rib, the cyst and the gas.
+/// Returns a sweep over the rib, the cyst and the gas.
 inline Sweep swept(const char* probe_name, int planes = 9) {
   const Probe probe = small_probe(probe_name);
   return {probe, kDepth_mm, swept_planes(on_the_skin(0, 9, 0), planes, 40, 30)};
 }
 
-/// As a hand moves: each plane turned and moved against the one before by another way.
+/// Returns a sweep as a hand moves: each plane is rotated and moved differently relative to the one before.
 inline Sweep by_hand() {
   Sweep sweep{small_probe("curvilinear"), kDepth_mm, {}};
   Pose patient_from_plane = on_the_skin(-6, 7, -12);
@@ -42,7 +42,7 @@ inline Sweep by_hand() {
   return sweep;
 }
 
-/// Every effect on, and enough of each to show.
+/// Returns settings with every effect on, strong enough to be visible.
 inline Settings everything() {
   Settings settings = trainer_settings(3.5, kDepth_mm);
   settings.samples = 150;
@@ -57,7 +57,7 @@ inline Settings everything() {
 
 inline Settings of_the_paper() {
   Settings settings = paper_settings(kDepth_mm, 150);
-  settings.blend = 1e-3;  // else its one brightest voxel leaves the rest black
+  settings.blend = 1e-3;  // otherwise its brightest voxel leaves the rest black
   return settings;
 }
 

@@ -27,7 +27,7 @@ TEST_CASE("a texture that the device cannot hold is refused, and the next one is
   } catch (const TextureRefused& refused) {
     CHECK(refused.limit() == limit);
   }
-  // Terabytes on a device whose limit is large, and above what Mesa's software renderer gives one texture.
+  // Terabytes on a device with a large limit, and more than Mesa's software renderer allows for one texture.
   try {
     Texture::make_3d(GL_RGBA32F, limit, limit, limit, Filter::nearest, Wrap::edge);
     FAIL("memory was found for a texture of the largest sides");
@@ -36,7 +36,7 @@ TEST_CASE("a texture that the device cannot hold is refused, and the next one is
   }
   CHECK(glGetError() == GL_NO_ERROR);
 
-  // OpenGL keeps the first error until somebody asks: one left from elsewhere must not hide the lack of memory.
+  // OpenGL keeps the first error until it is read. An earlier error must not hide the lack of memory.
   glEnable(GL_RGBA);
   context.forget_errors();
   CHECK_THROWS_AS(Texture::make_3d(GL_RGBA32F, limit, limit, limit, Filter::nearest, Wrap::edge), TextureRefused);
@@ -88,7 +88,7 @@ TEST_CASE("whoever gave a CT that does not fit is told the file, the limit and w
     }
     return std::string("nothing");
   };
-  // The volume has a voxel of air on either side of each axis.
+  // The volume has one voxel of air on either side of each axis.
   CHECK(told(514) ==
         "thorax.nii.gz: 600 x 512 x 512 voxels of 0.4 x 0.4 x 0.45 mm are more than the 512 a side that the graphics "
         "card takes; resample it to at most 512 voxels along each axis, or crop it.");

@@ -1,4 +1,4 @@
-// What no simulator takes: poses, probes and depths of which no picture can be made.
+// Tests what every simulator refuses: poses, probes and depths from which no picture can be made.
 
 #include <catch2/catch.hpp>
 
@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN(), kInfinite = std::numeric_limits<double>::infinity();
 
-/// Each with what is said of it.
+/// Returns each wrong pose with the expected part of its error message.
 std::vector<std::pair<Pose, std::string>> wrong_poses() {
   return {{{glm::dmat3(1.0), {kNaN, 0, 0}}, "not finite"},
           {{glm::dmat3(1.0), {0, kInfinite, 0}}, "not finite"},
@@ -72,7 +72,7 @@ TEST_CASE("poses of which no picture can be made are refused, and those before s
     CHECK_THROWS_WITH(sweeps.set_sweep(sweep), Catch::StartsWith("sweep simulator: ") && Catch::Contains(why));
   }
   CHECK(wein.count(gl::WeinStage::traverse).runs == 0);
-  // What rounding leaves is none of them, nor a CT whose origin is as far away as its reader takes.
+  // Rounding errors are accepted, and so is a CT whose origin is as far away as its reader accepts.
   CHECK_NOTHROW(simulator.set_pose({glm::dmat3(1.00001), {1e6, -1e6, 1.1e6}}));
 }
 

@@ -1,4 +1,4 @@
-// A line an invocation and a line a work group: two ways to walk along lines, and one picture.
+// Tests that both ways to traverse lines, one invocation per line and one work group per line, give the same picture.
 
 #include <catch2/catch.hpp>
 
@@ -27,21 +27,22 @@ Drawn drawn(const Probe& probe, const Settings& settings, const gl::WorkDivision
   gl::Simulator simulator({}, division);
   simulator.set_volume(test::test_body(), test::tissues());
   simulator.set_probe(probe, test::kDepth_mm);
-  // A coarse filter would make much of a place that either rounds its own way.
+  // A coarse filter would amplify the rounding differences in position between the two ways.
   simulator.set_settings(test::exact_as_needed(settings));
   simulator.set_pose(test::on_the_skin(0, 9, 0));
   Stages<float> stages = simulator.read_stages();
   return {std::move(stages), simulator.sample_counts()};
 }
 
-/// A line, its stretches, and where the ends of the reflection length lie.
+/// One case: invocations per group, lines, samples per line, and samples per reflection length.
 struct Stretched {
   int group, lines, samples;
   double samples_a_length;
 };
 
-/// How many differ by more than rounding explains: the logarithm of I, down to -46 before a line ends, by some units of
-/// its last place, 4e-6, and R as the square of I. Below 10^-19 a line has ended, or ends with the next sample.
+/// Returns how many samples differ by more than rounding explains. The logarithm of I, down to -46 before a line ends,
+/// may differ by some units of its last place, 4e-6; R may differ like the square of I. Below 10^-19 a line has ended,
+/// or ends with the next sample.
 long count_of_different(const Image<float>& expected, const Image<float>& got) {
   REQUIRE(expected.pixels.size() == got.pixels.size());
   long count = 0;
@@ -114,7 +115,7 @@ TEST_CASE("few lines take a work group each, as many as fill the device an invoc
     simulator.volume();
     return simulator.count(gl::SweepStage::traverse).evaluated;
   };
-  // Groups' lines end with a stretch.
+  // Lines of groups end at the end of a stretch.
   for (const int planes : {1, 3}) {
     CAPTURE(planes);
     Sweep sweep = test::by_hand();

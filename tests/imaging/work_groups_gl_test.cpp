@@ -1,5 +1,5 @@
-// How work is shared out to the device: pictures are the same whatever the device takes at once, and what it takes not
-// at all is said.
+// Tests how work is divided among GPU threads: pictures do not depend on how much the device takes at once, and work
+// that it cannot take at all is refused with a message.
 
 #include <catch2/catch.hpp>
 
@@ -35,7 +35,7 @@ Stages<float> stages_of(const Probe& probe, const Settings& settings, const gl::
   return simulator.read_stages();
 }
 
-// Of either way to white: by a fixed level, and by each frame's brightest pixel.
+// Returns settings for both kinds of white: a fixed level, and the frame's brightest pixel.
 std::array<Settings, 2> both_whites(int width, int height) {
   Settings fixed = trainer_settings(3.5, 100);
   fixed.samples = 128;
@@ -55,7 +55,7 @@ TEST_CASE("work groups go into rows that a device takes, none of them empty") {
   CHECK(division.in_rows(1) == glm::ivec2(1, 1));
   CHECK(division.in_rows(65535) == glm::ivec2(65535, 1));
   CHECK(division.in_rows(65536) == glm::ivec2(32768, 2));
-  CHECK(division.in_rows(262144) == glm::ivec2(52429, 5));  // the largest picture there is: 8192 x 8192
+  CHECK(division.in_rows(262144) == glm::ivec2(52429, 5));  // the largest possible picture: 8192 x 8192
   CHECK(in_fours.in_rows(9) == glm::ivec2(3, 3));
   CHECK(in_fours.in_rows(10) == glm::ivec2(4, 3));
 }
@@ -64,7 +64,7 @@ TEST_CASE("a picture of more work groups than go into a row is the same to the l
   for (const Settings& settings : both_whites(200, 150)) {
     const Probe probe = *find_probe("curvilinear");
     const Stages<float> at_once = stages_of(probe, settings, {});
-    gl::WorkDivision sevens;  // no divisor of the fan's blocks
+    gl::WorkDivision sevens;  // does not divide the fan's blocks evenly
     sevens.most_groups = 7;
     const Stages<float> in_rows = stages_of(probe, settings, sevens);
     CHECK(at_once.grey.pixels == in_rows.grey.pixels);
@@ -120,7 +120,7 @@ TEST_CASE("more work groups than a device takes are refused in a sentence") {
 
 TEST_CASE("pictures are the same to the last bit whatever lines a work group walks along") {
   const Probe probe = *find_probe("curvilinear");
-  Settings settings = both_whites(200, 150)[0];  // with every effect on
+  Settings settings = both_whites(200, 150)[0];  // every effect on
   settings.reverberation = settings.clutter = true;
   gl::WorkDivision eight, wide;
   eight.group = 8;
@@ -139,9 +139,9 @@ TEST_CASE("model W's pictures are so too, and its similarities but for how their
   const test::TestContext context;
   const AcousticVolume body = test::test_body();
   Probe probe = *find_probe("curvilinear");
-  probe.lines = 61;  // no multiple of any group
+  probe.lines = 61;  // not a multiple of any group
   WeinSettings settings;
-  settings.samples = 91;  // odd, so that pairs of them do not fill a line
+  settings.samples = 91;  // odd, so that a line is not made of whole pairs
   settings.image_width = 72;
   settings.image_height = 60;
   std::vector<Pose> poses;

@@ -12,11 +12,11 @@
 
 namespace insonate {
 
-// The built-in patient at a coarse pitch, and what is asked of its labels.
+// The built-in patient at a coarse pitch, with checks of its labels.
 
 inline const std::filesystem::path kRecipe = std::filesystem::path(INSONATE_ASSETS_FOLDER) / "phantoms/abdomen.toml";
 
-// Fine enough for organs, though not for walls: the finest wall is thinner than a voxel.
+// Fine enough for organs, but not for walls: the thinnest wall is thinner than a voxel.
 inline Case abdomen(const std::vector<std::pair<std::string, std::string>>& more = {},
                     const std::string& voxel_mm = "4") {
   std::vector<std::pair<std::string, std::string>> options{{"voxel_mm", voxel_mm}};

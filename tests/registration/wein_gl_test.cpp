@@ -1,5 +1,5 @@
-// Model W and LC2 on the graphics card: against the double-precision reference, one image against many in a call, and
-// the properties that registration relies on.
+// Tests model W and LC2 on the graphics card: against the double-precision reference, one image against many in a call,
+// and the properties that registration relies on.
 
 #include <catch2/catch.hpp>
 
@@ -22,13 +22,13 @@ constexpr double kDepthMm = 110;
 
 Probe curvilinear() {
   Probe probe = *find_probe("curvilinear");
-  probe.lines = 61;  // no multiple of any width that a device works at
+  probe.lines = 61;  // not a multiple of any width that a device works at
   return probe;
 }
 
 WeinSettings small() {
   WeinSettings settings;
-  settings.samples = 91;  // odd: pairs of them do not fill a line
+  settings.samples = 91;  // odd, so that a line is not made of whole pairs
   settings.image_width = 70;
   settings.image_height = 50;
   return settings;
@@ -52,7 +52,7 @@ struct Fixture {
                                                noise * unit_float(hash(7, std::uint32_t(i)))));
     return image;
   }
-  /// Where the CT's outer voxels and the air around it still count.
+  /// Returns the number of samples where the CT's outer voxels and the air around it still count.
   std::uint64_t samples_in_ct(const Pose& from) const {
     const ScanLines lines = scan_lines(probe, kDepthMm, settings.samples);
     std::uint64_t count = 0;
@@ -75,7 +75,8 @@ bool in_the_air(int i) {
   return i == 3 || i == 8;
 }
 
-// Poses that see different images, two of them nothing but air: lines that no other image's end ends.
+// Returns poses that see different images, two of them only air. Their lines must end independently of other images'
+// lines.
 std::vector<Pose> poses(int count) {
   std::vector<Pose> all;
   for (int i = 0; i < count; ++i) {
@@ -92,7 +93,7 @@ void check_parity(const WeinSettings& settings, const Probe& probe, const Pose& 
   const WeinStages<float> got = simulator.read_stages(pose);
   const WeinField field = wein_field(body, settings.reflection_length_mm);
   const WeinStages<double> expected = wein_reference(field, probe, kDepthMm, settings, pose);
-  // Positions and densities as single precision knows them, see parity.h; the stored gradient is rounded to 1/16 HU.
+  // Positions and densities have single precision, see parity.h; the stored gradient is rounded to 1/16 HU.
   std::array<WeinStages<double>, 4> uncertain;
   for (std::uint32_t i = 0; i < uncertain.size(); ++i)
     uncertain[i] = wein_reference(
@@ -120,7 +121,7 @@ void check_parity(const WeinSettings& settings, const Probe& probe, const Pose& 
     brightest = std::max(brightest, int(got.grey.pixels[i]));
     if (!simulator.inside().pixels[i]) CHECK(got.grey.pixels[i] == 0);
   }
-  CHECK(worst_grey <= 1);  // 1e-4 of each term is far below a grey level, but may cross from one to the next
+  CHECK(worst_grey <= 1);  // 1e-4 of each term is far below one grey level, but can cross the border between two
   CHECK(brightest > 60);   // a black image would agree as well
 }
 
@@ -144,10 +145,10 @@ TEST_CASE("model W: GLSL agrees with the reference") {
 
 TEST_CASE("model W: images of one call are those of a call each, over more than one chunk") {
   Fixture f;
-  f.settings.samples = 971;                  // a chunk's 16 MiB hold 70 images of 61 lines, 68 where texels hold four
-  const std::vector<Pose> all = poses(201);  // in the last chunk another number of them
+  f.settings.samples = 971;  // a chunk of 16 MiB holds 70 images of 61 lines, or 68 where a texel holds four
+  const std::vector<Pose> all = poses(201);  // the last chunk holds another number of images
   gl::WeinSimulator simulator(f.body, f.probe, kDepthMm, test::exact_as_needed(f.settings));
-  for (const int count : {201, 23, 22, 3, 2}) {  // of the last four that lie abreast, there are one, three and two
+  for (const int count : {201, 23, 22, 3, 2}) {  // the last group of four interleaved images holds one, three or two
     const gl::Texture& grid = simulator.simulate(std::span(all).first(std::size_t(count)));
     Image<std::uint8_t> tiles(grid.width(), grid.height());
     grid.read(GL_RED, GL_UNSIGNED_BYTE, tiles.pixels.data(), tiles.pixels.size());
@@ -175,7 +176,7 @@ TEST_CASE("model W's stages tell how often they ran and how much they evaluated 
   CHECK(count(Stage::traverse).runs == 0);
   CHECK(count(Stage::traverse).possible == 0);
 
-  const std::size_t images = 21;  // odd: the last one has no neighbour
+  const std::size_t images = 21;  // odd: the last image has no neighbour
   const std::uint64_t samples = images * 61 * 91, pixels = images * 70 * 50;
   const auto& inside = f.simulator.inside().pixels;
   const auto in_fan = std::uint64_t(std::count(inside.begin(), inside.end(), std::uint8_t(1))) * images;
@@ -183,7 +184,7 @@ TEST_CASE("model W's stages tell how often they ran and how much they evaluated 
   CHECK(count(Stage::traverse).runs == 1);
   CHECK(count(Stage::traverse).possible == samples);
   CHECK(count(Stage::traverse).evaluated > samples / 2);
-  CHECK(count(Stage::traverse).evaluated < samples);  // lines that end in gas
+  CHECK(count(Stage::traverse).evaluated < samples);  // some lines end in gas
   CHECK(count(Stage::scan_convert).runs == 1);
   CHECK(count(Stage::scan_convert).possible == pixels);
   CHECK(count(Stage::scan_convert).evaluated == in_fan);
@@ -201,9 +202,9 @@ TEST_CASE("model W's stages tell how often they ran and how much they evaluated 
   CHECK(count(Stage::compare).runs == 1);
   CHECK(count(Stage::compare).possible == pixels);
   CHECK(count(Stage::compare).evaluated > in_fan / 2);
-  CHECK(count(Stage::compare).evaluated < in_fan);  // what is masked does not count
+  CHECK(count(Stage::compare).evaluated < in_fan);  // masked pixels do not count
 
-  f.settings.shadows = false;  // then nothing needs I, and lines end where the CT does
+  f.settings.shadows = false;  // then nothing needs I, and lines end where the CT ends
   gl::WeinSimulator unshadowed(f.body, f.probe, kDepthMm, test::exact_as_needed(f.settings));
   for (const std::size_t some : {1, 2, 3}) {
     CAPTURE(some);
@@ -212,7 +213,7 @@ TEST_CASE("model W's stages tell how often they ran and how much they evaluated 
     for (const Pose& pose : few) in_ct += f.samples_in_ct(pose);
     unshadowed.simulate(few);
     CHECK(unshadowed.count(Stage::traverse).evaluated >= in_ct);
-    // A line is walked in pairs of samples, and two images' until neither is in the CT.
+    // A line is traversed in pairs of samples, and two images until neither is in the CT.
     CHECK(unshadowed.count(Stage::traverse).evaluated <=
           std::min<std::uint64_t>(in_ct + some * 61 * 6, some * 61 * 91));
     CHECK(in_ct < some * 61 * 91);
@@ -220,7 +221,7 @@ TEST_CASE("model W's stages tell how often they ran and how much they evaluated 
   Pose away = f.pose;
   away.translation.y = -500;
   unshadowed.simulate({&away, 1});
-  CHECK(unshadowed.count(Stage::traverse).evaluated <= 61 * 8);  // the contact's samples alone, which show water
+  CHECK(unshadowed.count(Stage::traverse).evaluated <= 61 * 8);  // only the contact's samples, which show water
 }
 
 TEST_CASE("model W runs nothing for the poses of the call before") {
@@ -262,7 +263,7 @@ TEST_CASE("LC2: GLSL agrees with the reference for every image of a call") {
     const WeinStages<double> stages = f.expected(all[i]);
     const double expected = lc2_reference(u, f.simulator.inside(), stages.echogenicity, stages.reflection);
     CAPTURE(i);
-    // The terms are good to 1e-4 of their range, of which they vary by a tenth or more.
+    // The terms are accurate to 1e-4 of their range; they vary by a tenth of it or more.
     CHECK(got[i] == Approx(expected).margin(1e-3));
   }
 }
@@ -270,7 +271,7 @@ TEST_CASE("LC2: GLSL agrees with the reference for every image of a call") {
 TEST_CASE("LC2 by patches: GLSL agrees with the reference, and feels no gain that varies over the picture") {
   Fixture f;
   WeinSettings settings = small();
-  settings.similarity_patch = 12;  // which divides neither side
+  settings.similarity_patch = 12;  // divides neither side evenly
   gl::WeinSimulator by_patches(f.body, f.probe, kDepthMm, test::exact_as_needed(settings));
   const WeinStages<double> stages = f.expected(f.pose);
   Image<float> ultrasound = f.ultrasound_like(stages, 90, 30, 0.4);
@@ -304,7 +305,7 @@ TEST_CASE("LC2 is 1 for an affine map of the image's own terms, and feels neithe
   const double partly = f.similarity(f.ultrasound_like(stages, 1, 0, 1), f.pose);
   CHECK(partly > 0.1);
   CHECK(partly < 0.9);
-  // A float holds 1e5 and its speckle to 0.004: 1e-5 of what the image varies by.
+  // A float holds 1e5 plus its speckle to 0.004: 1e-5 of the image's variation.
   for (const auto& [gain, offset] :
        {std::pair(255.0, 0.0), std::pair(-3.0, 12.0), std::pair(1000.0, 1e5), std::pair(1e30, 0.0)})
     CHECK(f.similarity(f.ultrasound_like(stages, gain, offset, 1), f.pose) == Approx(partly).margin(1e-4));

@@ -1,4 +1,5 @@
-// Model W's reference and LC2 against what can be worked out by hand. Tolerances are rounding's unless said otherwise.
+// Compares model W's reference and LC2 with values computed by hand. Tolerances are those of rounding unless stated
+// otherwise.
 
 #include "sim/registration/wein_reference.h"
 
@@ -28,7 +29,7 @@ WeinSettings settings_of(int samples, double contact_mm = 0) {
   return settings;
 }
 
-/// Density that rises along y and x by so much per reflection length.
+/// Returns a density that rises along y and x by the given amounts per reflection length.
 WeinField slope(double hu_at_0, double along_y, double along_x, double length_mm) {
   return [=](const glm::dvec3& p) {
     return WeinMedium{hu_at_0 + (along_y * p.y + along_x * p.x) / length_mm, {along_x, along_y, 0}};
@@ -73,10 +74,10 @@ TEST_CASE("model W: a gradient reflects and passes what its formula says, less b
   };
   const double straight = std::pow(100 / (2 * mu), 2);
   CHECK(reflected(100, 0) == Approx(straight));
-  // |d . g| |g|: with as much across as along, |g| grows by the root of 2.
+  // d . g| |g|: with an equal slope across the line, |g| grows by the square root of 2.
   CHECK(reflected(100, 100) == Approx(straight * std::sqrt(2.0)));
   CHECK(reflected(0, 100) == Approx(0).margin(1e-12));
-  // Falling density echoes as rising density does.
+  // Falling density echoes like rising density.
   const double falling_mu = 1000 - 10 * 25 / 2.0;
   CHECK(reflected(-10, 0) == Approx(std::pow(10 / (2 * falling_mu), 2)));
 }
@@ -98,7 +99,7 @@ TEST_CASE("model W: what passes does not depend on the distance between samples"
     WeinSettings settings = settings_of(samples);
     settings.reflection_length_mm = l;
     const auto stages = wein_reference(slope(0, g, 0, l), one_line(), depth, settings, {});
-    // The first sample has lost nothing, the last what all before it take: from its own middle to the first's.
+    // The first sample has lost nothing. The last has lost what all before it take: from its own middle to the first's.
     const double dr = depth / samples, expected = exact(dr / 2, depth - dr / 2);
     const double error = std::abs(stages.intensity.at(0, samples - 1) - expected);
     CHECK(error < 0.02 * expected * 50 / samples);
@@ -128,7 +129,7 @@ TEST_CASE("model W: gas lets nothing pass, and behind it no echo is left") {
 TEST_CASE("model W: near the face air counts as water and nothing reflects") {
   const WeinField air = [](const glm::dvec3&) { return WeinMedium{-1000, {0, 500, 0}}; };
   const auto stages = wein_reference(air, one_line(), 50, settings_of(50, 10), {});
-  CHECK(stages.scan_echogenicity.at(0, 9) == Approx(0.25));  // water: from -50 a quarter of the way to 150
+  CHECK(stages.scan_echogenicity.at(0, 9) == Approx(0.25));  // water: a quarter of the way from -50 to 150
   CHECK(stages.scan_reflection.at(0, 9) == 0);
   CHECK(stages.scan_reflection.at(0, 10) == Approx(1));
 }
@@ -138,7 +139,7 @@ TEST_CASE("model W: a CT's gradient is that of its axes, over the reflection len
   volume.grid.size = {12, 10, 14};
   volume.grid.spacing = {1.5, 0.8, 2.2};
   const double c = std::cos(0.4), s = std::sin(0.4);
-  volume.grid.direction = glm::dmat3(-c, -s, 0, -s, c, 0, 0, 0, 1);  // turned and reflected
+  volume.grid.direction = glm::dmat3(-c, -s, 0, -s, c, 0, 0, 0, 1);  // rotated and reflected
   volume.voxels.resize(volume.grid.count());
   // Whole HU per voxel along each axis, which makes the field linear to the bit.
   for (int k = 0; k < 14; ++k)
@@ -171,8 +172,8 @@ TEST_CASE("LC2 by patches is the mean of the patches' own, weighted by what the 
   Image<double> u = mix(1, e, 1, r, 0);
   const Image<double> other = noise(3);
   for (int y = 0; y < 15; ++y)
-    for (int x = 10; x < 20; ++x) u.at(x, y) = 3 * other.at(x, y) + 5;  // the right half: something else, and louder
-  // What counts are 20 x 10 pixels, of which patches of 10 are the halves.
+    for (int x = 10; x < 20; ++x) u.at(x, y) = 3 * other.at(x, y) + 5;  // the right half: different, and louder
+  // Only 20 x 10 pixels count; patches of 10 are their halves.
   Image<std::uint8_t> both(20, 15), left = both, right = both;
   for (int y = 0; y < 10; ++y)
     for (int x = 0; x < 20; ++x) both.at(x, y) = (x < 10 ? left : right).at(x, y) = 1;

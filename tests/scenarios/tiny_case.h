@@ -13,9 +13,9 @@
 
 namespace insonate {
 
-// A case whose scores can be computed by hand: a block of tissue behind the plane y = 0, air before it, a ball of
-// 20 mm radius at (0, 60, 0) mm as the target, and beside it a rib over z = 25 to 50 mm. The reference probe stands at
-// the origin, its axes along the patient's, and looks at the ball.
+// A case whose scores can be computed by hand. It has a block of tissue behind the plane y = 0, air before it, a ball
+// of 20 mm radius at (0, 60, 0) mm as the target, and beside it a rib over z = 25 to 50 mm. The reference probe stands
+// at the origin, its axes along the patient's, and points at the ball.
 inline constexpr double kBallRadius_mm = 20;
 inline const glm::dvec3 kBall{0, 60, 0};
 
@@ -45,7 +45,7 @@ inline Case tiny_case() {
   return subject;
 }
 
-/// Air, water, soft tissue and bone, roughly; the scores here depend on bone and air blocking alone.
+/// Air, water, soft tissue and bone, approximately. The scores here depend only on bone and air blocking the sound.
 inline TissueTable tiny_tissues() {
   TissueTable table;
   table.knots = {
@@ -57,7 +57,7 @@ inline Pose turned(double degrees, const glm::dvec3& axis, const glm::dvec3& tra
   return {glm::dmat3(glm::rotate(glm::dmat4(1.0), glm::radians(degrees), glm::normalize(axis))), translation};
 }
 
-/// The same patient lying elsewhere.
+/// Returns the same patient moved by a rigid transform.
 inline Case moved_case(Case subject, const Pose& moved) {
   for (Grid* grid : {&subject.ct.grid, &subject.labels.grid}) {
     grid->origin = moved.point(grid->origin);
@@ -76,7 +76,7 @@ inline PoseSample sample_at(double time_s, const Pose& pose, PoseStatus status =
   return sample;
 }
 
-/// Samples at a rate over a time, the pose a function of the time.
+/// Returns samples at a rate over a time. The pose is a function of the time.
 template <typename PoseAt>
 std::vector<PoseSample> samples_of(double duration_s, double rate_hz, PoseAt&& pose_at) {
   std::vector<PoseSample> samples;

@@ -8,7 +8,7 @@
 
 namespace insonate {
 
-// Exams of any kind of step over the tiny case, and what a learner does in them.
+// Exams with any kind of step over the tiny case, and the actions of a learner in them.
 
 inline const Case& shared_case() {
   static const Case subject = tiny_case();
@@ -31,7 +31,7 @@ inline Pose at_z(double z) {
   return {glm::dmat3(1.0), {0, 0, z}};
 }
 
-/// The score of a scan whose actions go with the samples of those times.
+/// Returns the score of a scan. The actions belong to the samples of their times.
 inline ExamResult scored(const Scenario& scenario, std::span<const PoseSample> samples, const ActionLog& actions,
                          const Case& subject = shared_case()) {
   Runner runner(scenario, subject, tiny_tissues());
@@ -40,7 +40,7 @@ inline ExamResult scored(const Scenario& scenario, std::span<const PoseSample> s
   return runner.result();
 }
 
-/// The same of ten samples a second.
+/// Does the same with ten samples per second.
 inline ExamResult scored(
     const Scenario& scenario, double duration_s, const ActionLog& actions,
     const std::function<Pose(double)>& pose = [](double) { return at_z(0); }) {

@@ -15,8 +15,8 @@
 
 namespace insonate::test {
 
-/// A box around the origin whose axes are turned, reflected and unequally spaced, so that whoever ignores the direction
-/// matrix or the spacing fails.
+/// Returns a box around the origin with rotated, reflected and unequally spaced axes. Code that ignores the direction
+/// matrix or the spacing fails with it.
 inline Grid skewed_grid(double half_side_mm) {
   Grid grid;
   grid.spacing = {1.0, 1.5, 2.0};
@@ -27,7 +27,7 @@ inline Grid skewed_grid(double half_side_mm) {
   return grid;
 }
 
-/// A CT that is `hu` of the patient's position.
+/// Returns a CT whose values are `hu` of the patient's position.
 inline Volume<std::int16_t> ct_of(const Grid& grid, const std::function<double(const glm::dvec3&)>& hu) {
   Volume<std::int16_t> ct{grid, std::vector<std::int16_t>(grid.count())};
   for (int k = 0; k < grid.size.z; ++k)
@@ -56,8 +56,8 @@ struct Scene {
     patient = std::make_unique<view::PatientTextures>(simulator.volume_texture(), ct, labels, colours);
   }
 
-  /// Fills the picture, `width` by `height` pixels of `mm`, centred below the probe's face, with `colour`; alpha 0
-  /// where not `inside`, so that whoever ignores it shows the colour there.
+  /// Fills the picture, `width` by `height` pixels of `mm`, centred below the probe's face, with `colour`. Alpha is 0
+  /// where not `inside`; code that ignores alpha shows the colour there.
   void set_picture(
       int width, int height, double mm, const Rgba8& colour,
       const std::function<bool(int x, int y)>& inside = [](int, int) { return true; }) {
@@ -73,7 +73,8 @@ struct Scene {
   }
 
 private:
-  // One context for all scenes of the program: objects live only in the one that was current when they were made.
+  // One context for all scenes of the program, because OpenGL objects live only in the context in which they were
+  // created.
   static gl::Simulator in_context() {
     static const gl::HeadlessContext context;
     return gl::Simulator();

@@ -10,10 +10,10 @@ namespace insonate {
 
 enum class DicomCoding { raw, jpeg, jpeg_ls, jpeg_2000, rle, big_endian };
 
-/// One slice of a DICOM series, as a scanner would store it; written by GDCM.
+/// One slice of a DICOM series as a scanner would store it, written by GDCM.
 struct DicomSlice {
   std::string series = "1.2.3.4";
-  std::string instance;  ///< made from series and position when empty
+  std::string instance;  ///< derived from series and position if empty
   std::string series_number = "3";
   std::string description = "ABDOMEN 1.0";
   std::string modality = "CT";
@@ -28,17 +28,17 @@ struct DicomSlice {
 
 void write_dicom(const std::filesystem::path& file, const DicomSlice& slice);
 
-/// Gives an element of a DICOM file, one that it has, other bytes.
+/// Replaces the bytes of an existing element of a DICOM file.
 void set_tag(const std::filesystem::path& file, std::uint16_t group, std::uint16_t element, const std::string& bytes);
 
-/// Makes a DICOM file one of another kind, by its SOP class.
+/// Changes the kind of a DICOM file through its SOP class.
 void set_kind(const std::filesystem::path& file, const std::string& sop_class);
 
-/// Moves a file's rescale from the top of its data set to where images of the enhanced kind have it: to the functional
-/// groups (5200,`groups`), shared (9229) or per frame (9230).
+/// Moves a file's rescale values from the top of its data set to the functional groups (5200,`groups`), shared (9229)
+/// or per frame (9230), where enhanced images have them.
 void move_rescale(const std::filesystem::path& file, std::uint16_t groups);
 
-/// Takes a tag out of a DICOM file.
+/// Removes a tag from a DICOM file.
 void remove_tag(const std::filesystem::path& file, std::uint16_t group, std::uint16_t element);
 
 }  // namespace insonate

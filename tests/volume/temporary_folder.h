@@ -9,7 +9,7 @@
 
 namespace insonate {
 
-/// An empty folder for one test, gone at its end.
+/// An empty folder for one test, removed at its end.
 struct TemporaryFolder {
   std::filesystem::path path;
 
@@ -23,8 +23,8 @@ struct TemporaryFolder {
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
   ~TemporaryFolder() { std::filesystem::remove_all(path); }
 
-  /// Writes a file in it. Not by write_file(): to replace a file by renaming waits for the disk, thousands of times in
-  /// some tests.
+  /// Writes a file into the folder. Does not use write_file(), which waits for the disk to replace a file by renaming;
+  /// some tests write thousands of files.
   std::filesystem::path put(const std::string& name, const std::string& bytes) const {
     const std::filesystem::path file = path / name;
     std::filesystem::remove(file);

@@ -11,7 +11,8 @@
 
 namespace insonate {
 
-/// Volume files made byte by byte from their formats' definitions, so that the reader is not held against itself.
+/// Volume files made byte by byte from the definitions of their formats, so that the reader is not tested against
+/// itself.
 
 template <typename T>
 std::string bytes_of_values(const std::vector<T>& values) {
@@ -42,20 +43,21 @@ struct NiftiSpec {
 
 std::string nifti(const NiftiSpec& spec, const std::string& voxels);
 
-/// NRRD with the given header lines between the magic and the empty line.
+/// Returns an NRRD file with the given header lines between the magic and the empty line.
 std::string nrrd(const std::vector<std::string>& lines, const std::string& data);
 
-/// MetaImage with the given lines before ElementDataFile.
+/// Returns a MetaImage file with the given lines before ElementDataFile.
 std::string meta_image(const std::vector<std::string>& lines, const std::string& data,
                        const std::string& data_file = "LOCAL");
 
-/// `lines` with the one that begins with `key` replaced, removed when `by` is empty, or added when there is none.
+/// Returns `lines` with the line that begins with `key` replaced by `by`, removed if `by` is empty, or added if there
+/// is none.
 std::vector<std::string> with_line(std::vector<std::string> lines, const std::string& key, const std::string& by);
 
-/// Lines for a volume of 4 x 3 x 2 voxels, 10 x 20 x 30 mm, int16, origin (10, 20, 30), axes as LPS.
+/// Return the lines for a volume of 4 x 3 x 2 voxels, 10 x 20 x 30 mm, int16, origin (10, 20, 30), axes as LPS.
 std::vector<std::string> nrrd_lines();
 std::vector<std::string> meta_lines();
-/// The same for voxels that zlib has packed.
+/// Returns the same for voxels compressed with zlib.
 std::vector<std::string> packed_meta_lines(const std::string& packed);
 
 }  // namespace insonate

@@ -16,7 +16,7 @@
 namespace insonate::ui {
 namespace {
 
-/// How far an image lies from the simulated plane, in words; empty when it lies in it.
+/// Describes how far an image lies from the simulated plane; empty if it lies in that plane.
 std::string off_plane_text(const std::array<glm::dvec3, 4>& corners) {
   constexpr double kTilt_deg = 3, kOffset_mm = 3;
   const glm::dvec3 normal = glm::normalize(glm::cross(corners[1] - corners[0], corners[3] - corners[0]));
@@ -33,7 +33,7 @@ void draw_image(const gl::Texture& texture, const std::array<ImVec2, 4>& corners
                                            corners[1], corners[2], corners[3], {0, 0}, {1, 0}, {1, 1}, {0, 1});
 }
 
-/// As large as fits, the marker's side on the left.
+/// Returns the corners of an image that is as large as fits, with the marker's side on the left.
 std::array<ImVec2, 4> fitted(const Rect& area, int width, int height) {
   const float scale = std::min(area.w / float(width), area.h / float(height));
   const float half_w = scale * float(width) / 2, half_h = scale * float(height) / 2;
@@ -46,7 +46,7 @@ std::array<ImVec2, 4> fitted(const Rect& area, int width, int height) {
 std::optional<std::array<glm::dvec3, 4>> image_corners(const RecordedImages& images, std::size_t sample) {
   const std::optional<glm::dmat4>& probe_from_pixel = images.frames[sample].probe_from_pixel;
   if (!probe_from_pixel) return std::nullopt;
-  // A pixel's place is its centre's.
+  // Pixel coordinates refer to the pixel's centre.
   const double right = double(images.form.width) - 0.5, bottom = double(images.form.height) - 0.5;
   const auto at = [&](double x, double y) { return glm::dvec3(*probe_from_pixel * glm::dvec4(x, y, 0, 1)); };
   return std::array{at(-0.5, -0.5), at(right, -0.5), at(right, bottom), at(-0.5, bottom)};

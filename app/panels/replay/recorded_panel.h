@@ -15,10 +15,10 @@
 
 namespace insonate::ui {
 
-/// The image that a recording has of a replay's moment, beside the simulated picture. A recording that places its
-/// images (ImageToProbe) gets each of them at its place in the probe's plane and at the picture's scale, so that the
-/// same tissue lies at the same place of both panels; another gets them as large as fits, with a word about it. Reads
-/// one image at a time. Needs the OpenGL context current.
+/// Shows the recording's image of a replay's moment beside the simulated picture. If the recording gives its images a
+/// pose (ImageToProbe), each is drawn at its place in the probe's plane and at the picture's scale, so that the same
+/// tissue lies at the same place in both panels. Otherwise the image is drawn as large as fits, with a note. Reads one
+/// image at a time. Needs the OpenGL context current.
 class RecordedPanel {
 public:
   RecordedPanel();
@@ -26,21 +26,21 @@ public:
   RecordedPanel(const RecordedPanel&) = delete;
   RecordedPanel& operator=(const RecordedPanel&) = delete;
 
-  /// @param panel  of the same size as that of the simulated picture
+  /// @param panel  must have the same size as that of the simulated picture
   void draw(const Theme& theme, const Rect& panel, const Replay& replay, const Pictures& pictures);
 
 private:
   void show(const Replay& replay);
 
-  const Replay* replay_ = nullptr;  ///< that `reader_` belongs to
+  const Replay* replay_ = nullptr;  ///< the replay that `reader_` belongs to
   std::unique_ptr<ImageReader> reader_;
   gl::Texture texture_;
-  std::optional<std::size_t> sample_;  ///< that `texture_` or `problem_` is of
+  std::optional<std::size_t> sample_;  ///< the sample that `texture_` or `problem_` belongs to
   std::string problem_;
 };
 
-/// The corners of an image in the probe's frame, mm, in the order of the pixels (0, 0), (width, 0), (width, height),
-/// (0, height); empty where the recording does not place it.
+/// Returns the corners of an image in the probe's frame, mm, in the order of the pixels (0, 0), (width, 0), (width,
+/// height), (0, height). Empty if the recording gives its images no pose.
 std::optional<std::array<glm::dvec3, 4>> image_corners(const RecordedImages& images, std::size_t sample);
 
 }  // namespace insonate::ui

@@ -16,8 +16,8 @@ namespace {
 /// One of the charts.
 struct Quantity {
   const char* name;
-  std::optional<Metric> metric;  ///< of the step's view; none: the speed
-  double most;                   ///< the axis ends here; what lies beyond is cut
+  std::optional<Metric> metric;  ///< of the step's view; empty: the speed
+  double most;                   ///< end of the axis; values beyond are clipped
 
   std::optional<double> of(const RunMoment& moment) const {
     if (moment.last_usable_s != moment.time_s) return std::nullopt;
@@ -31,8 +31,8 @@ constexpr std::array kQuantities{
     Quantity{"Plane's distance", Metric::plane_distance_mm, 40}, Quantity{"Plane's angle", Metric::plane_angle_deg, 90},
     Quantity{"Target insonated", Metric::target_insonated_percent, 120}, Quantity{"Speed", std::nullopt, 150}};
 
-/// A curve, the largest value of each pixel's time; interrupted where there is none.
-/// @param at  where on the time line a time of the run is drawn, if it is
+/// Draws a curve of the largest value within each screen pixel. It is interrupted where there is no value.
+/// @param at  maps a time of the run to its place on the time line; empty if it has none
 template <typename At>
 void draw_curve(const Rect& chart, const TimeScale& scale, const Quantity& quantity, const RecordedRun& run, ImU32 ink,
                 float thickness, At&& at) {
@@ -48,7 +48,7 @@ void draw_curve(const Rect& chart, const TimeScale& scale, const Quantity& quant
   };
   std::size_t step = run.moments.front().step;
   for (const RunMoment& moment : run.moments) {
-    if (std::exchange(step, moment.step) != moment.step) stroke();  // another view is measured against
+    if (std::exchange(step, moment.step) != moment.step) stroke();  // the next step is measured against another view
     const std::optional<double> value = quantity.of(moment), time_s = at(moment.time_s);
     if (!value || !time_s) {
       stroke();

@@ -7,12 +7,14 @@
 
 namespace insonate::ui {
 
-/// An expert's lines, in charts and in space: neither the accent of what is looked at nor a warning.
+/// Colour of an expert's lines, in charts and in space. It differs from the accent of the replayed run and from
+/// warnings.
 inline constexpr ImU32 kExpertInk = IM_COL32(226, 214, 244, 255);
 
-/// Speed, and where the step names a view how far the picture is from it, against time; the expert's beside them.
-/// @param names  left of `plot`, of the same height: what is drawn, and the values now
-/// @param views  whether there is a scenario whose views are to be found
+/// Draws charts against time: the speed and, if the step names a view, the picture's distance from it, with the
+/// expert's curves beside them.
+/// @param names  left of `plot`, of the same height: the names of the curves and their current values
+/// @param views  whether the scenario has views to find
 void draw_replay_charts(const Theme& theme, const Rect& names, const Rect& plot, const TimeScale& scale,
                         const Replay& replay, bool views);
 

@@ -13,7 +13,7 @@
 namespace insonate::ui {
 namespace {
 
-/// How the step of a moment ended, once it has.
+/// Returns how the moment's step ended, once it has.
 std::string outcome_text(const RecordedRun& run, std::size_t step, double time_s) {
   if (!run.result || step >= run.result->steps.size()) return "";
   const StepResult& result = run.result->steps[step];
@@ -86,7 +86,7 @@ std::vector<glm::dvec3> path_until(const RecordedRun& run, double time_s) {
   return path;
 }
 
-/// Where the recording's own image of the moment lies.
+/// Outlines the recording's own image of the moment in the patient's space.
 void draw_image_outline(const Theme& theme, const SpaceDrawing& drawing, const Replay& replay) {
   const RecordedRun& run = replay.run();
   const std::optional<Pose>& pose = replay.moment().newest_pose;

@@ -10,9 +10,9 @@
 namespace insonate::ui {
 namespace {
 
-constexpr float kNames = 196;  ///< room on the left for what the lines are, as on a screen of 1280 pixels
+constexpr float kNames = 196;  ///< width of the labels on the left, for a screen of 1280 pixels
 
-/// What the colours are.
+/// Draws the meaning of the colours.
 void draw_legend(const Theme& theme, Rect row, const Replay& replay) {
   const auto entry = [&](ImU32 ink, float thickness, float length, const std::string& text) {
     const Rect words = row.take_right(std::min(text_width(theme.small_text, text), theme.px(170)) + theme.px(2));
@@ -84,7 +84,7 @@ void draw_steps(const Theme& theme, const Rect& lane, const TimeScale& scale, co
   }
 }
 
-/// Where the picture was as asked for, and where no pose came.
+/// Draws when the picture was within tolerance, and when no pose came.
 void draw_condition(const Theme& theme, const Rect& strip, const TimeScale& scale, const RecordedRun& run) {
   fill(strip, colour::kRaised);
   const auto draw = [&](auto&& condition, ImU32 ink) {
@@ -100,7 +100,7 @@ void draw_condition(const Theme& theme, const Rect& strip, const TimeScale& scal
   draw([](const RunMoment& moment) { return moment.last_usable_s != moment.time_s; }, colour::kAmber);
 }
 
-/// What was done; returns the words of what the pointer is on.
+/// Draws the actions. Returns the text of the one under the pointer.
 std::string draw_events(const Theme& theme, const Rect& lane, const TimeScale& scale, const RecordedRun& run) {
   ImDrawList* list = ImGui::GetWindowDrawList();
   const ImVec2 pointer = ImGui::GetIO().MousePos;
@@ -128,7 +128,7 @@ void draw_cursor(const Theme& theme, const Rect& plot, float x) {
 }  // namespace
 
 std::string clock_text_fine(double seconds) {
-  // Whole tenths first, or 59.96 would be shown as 0:60.0.
+  // Rounds to tenths first; otherwise 59.96 would be shown as 0:60.0.
   const long tenths = std::lround(seconds * 10);
   char text[32];
   std::snprintf(text, sizeof text, "%ld:%02ld.%ld", tenths / 600, tenths / 10 % 60, tenths % 10);

@@ -10,7 +10,7 @@
 
 namespace insonate::ui {
 
-/// Where a replay's times lie across the screen: its time line and the charts below it share this.
+/// Maps a replay's times to screen positions, for its time line and the charts below it.
 struct TimeScale {
   float left = 0, width = 1;  ///< pixels
   double duration_s = 1;
@@ -19,13 +19,13 @@ struct TimeScale {
   double time_s(float x) const { return duration_s * double((x - left) / width); }
 };
 
-/// A replay's buttons, its time line with steps, marks and what was done, and the charts below; the time is dragged
-/// anywhere on the line or the charts. `places` is told where the parts are.
-/// @param scenario  of the run; nullptr without one
+/// Draws a replay's buttons, its time line with steps, event markers and actions, and the charts below. The time can be
+/// dragged anywhere on the line or the charts. Adds the positions of the parts to `places`.
+/// @param scenario  of the run; nullptr if it has none
 void draw_timeline_panel(const Theme& theme, const Rect& panel, Replay& replay, const Scenario* scenario,
                          std::map<std::string, Rect>& places);
 
-/// "1:04.2"
+/// Returns the time to a tenth of a second: "1:04.2".
 std::string clock_text_fine(double seconds);
 
 }  // namespace insonate::ui

@@ -48,7 +48,7 @@ void draw_steps(const Theme& theme, Rect where, SetupWizard& wizard, std::map<st
   }
 }
 
-/// Why a try did not count, or why there is no next step.
+/// Returns why an attempt did not count, or why there is no next step.
 std::string complaint(const SetupWizard& wizard, const SetupView& view) {
   if (!view.refusal.empty() || !view.done || wizard.current() + 1 == kSetupSteps.size()) return view.refusal;
   return wizard.why_not(wizard.current() + 1);
@@ -60,7 +60,7 @@ void draw_progress(const Theme& theme, const Rect& bar, double share) {
   if (done > bar.h) fill({bar.x, bar.y, done, bar.h}, colour::kAccent, theme.px(5));
 }
 
-/// A plate with a coloured edge at the bottom of what is left.
+/// Draws a plate with a coloured edge at the bottom of the remaining space.
 void draw_plate(const Theme& theme, Rect& rest, ImU32 edge, ImU32 ink, ImFont* font, std::string_view text) {
   const float edge_width = theme.px(6), dx = theme.px(16), dy = theme.px(10);
   const float height = paragraph_height(font, text, rest.w - edge_width - 2 * dx) + 2 * dy;

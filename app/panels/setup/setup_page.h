@@ -10,10 +10,10 @@
 
 namespace insonate::ui {
 
-/// The set-up's page, over the whole screen: its steps, what to do now, what comes of it, and buttons. A click on a
-/// step goes to it. True when the page is to be closed.
-/// @param next_start  how to start with what was found (Trainer::next_start), told once the probe can be used
-/// @param places  where the buttons are, by name, for programs that drive the window
+/// Draws the set-up's page over the whole screen: its steps, what to do now, the outcome, and buttons. A click on a
+/// step goes to it. Returns true if the page should be closed.
+/// @param next_start  how to start with the calibration (Trainer::next_start); shown once the probe can be used
+/// @param places  receives the positions of the buttons, by name, for programs that drive the window
 bool draw_setup_page(const Theme& theme, const Rect& screen, SetupWizard& wizard, const std::string& next_start,
                      Pictures& pictures, std::map<std::string, Rect>& places);
 

@@ -23,7 +23,7 @@ ImVec2 screen(const glm::dvec2& point) {
   return {float(point.x), float(point.y)};
 }
 
-/// Convex, in either order: ImGui smooths the edges of those that go clockwise on the screen.
+/// Fills a convex polygon given in either order. ImGui smooths only edges that run clockwise on the screen.
 void polygon(const std::vector<glm::dvec2>& points, ImU32 colour) {
   std::vector<ImVec2> corners;
   double twice_area = 0;
@@ -53,8 +53,8 @@ void spot(const Theme& theme, const glm::dvec2& at, bool done, bool current) {
   if (current) list->AddCircle(where, theme.px(17), colour::kAccent, 32, theme.px(2.5f));
 }
 
-/// A patient who lies on a table with the head to the right, seen from above the right side: lengths in mm from the
-/// middle of the body, along (patient's right, up, to the head).
+/// A patient who lies on a table with the head to the right, seen from above the right side. Lengths are in mm from the
+/// middle of the body, along (patient's right, up, towards the head).
 class LyingPatient {
 public:
   explicit LyingPatient(const Rect& area)
@@ -73,7 +73,7 @@ public:
   }
 
 private:
-  // A box from corner to corner of its upper side, as thick as is said below that.
+  // Draws a box whose upper side has two given corners and which is `thick` mm thick below it.
   void slab(const glm::dvec3& a, const glm::dvec3& b, double thick, ImU32 top, ImU32 sides) const {
     const glm::dvec3 down(0, -thick, 0);
     const glm::dvec3 near_head = a, far_head(b.x, a.y, a.z), far_foot = b, near_foot(a.x, a.y, b.z);
@@ -86,10 +86,10 @@ private:
   double scale_;
 };
 
-/// A probe in the patient's directions: its face at a place, its marker and its beam along directions.
+/// Draws a probe in the patient's directions, given its face, the direction of its marker and that of its beam.
 void draw_probe(const Theme& theme, const LyingPatient& patient, const glm::dvec3& face, const glm::dvec3& marker,
                 const glm::dvec3& beam, ImU32 colour) {
-  // Larger than life, and so that it is never seen from its edge: as thick across as it is wide towards the marker.
+  // Larger than life. The second side, 0.45 times as wide, gives it thickness, so that it is never seen edge-on.
   const glm::dvec3 across = glm::cross(marker, beam), neck = face - 110.0 * beam, tail = face - 340.0 * beam;
   for (const glm::dvec3& side : {marker, 0.45 * across}) {
     polygon({patient.at(face + 85.0 * side), patient.at(face - 85.0 * side), patient.at(neck - 50.0 * side),
@@ -129,13 +129,13 @@ void draw_axes(const Theme& theme, const Rect& area, std::size_t part) {
   label({345, -90, -60}, "patient's right");
 }
 
-/// A probe seen from the front, its face down: the places of it that are touched with.
+/// A probe seen from the front with its face down, showing the places that touch landmarks.
 class FrontProbe {
 public:
   FrontProbe(const glm::dvec2& face, double height, double tilt_deg)
       : face_(face), scale_(height / 260), turn_(tilt_deg * 3.14159265358979 / 180) {}
 
-  /// mm, to the right and up from the middle of the face.
+  /// Converts mm, to the right and up from the middle of the face, to the screen.
   glm::dvec2 at(double right, double up) const {
     const glm::dvec2 p(right * std::cos(turn_) + up * std::sin(turn_), right * std::sin(turn_) - up * std::cos(turn_));
     return face_ + scale_ * p;
@@ -149,7 +149,7 @@ public:
   }
   glm::dvec2 tip() const { return at(42, -30); }
 
-  /// With its tip at a place.
+  /// Returns a probe whose tip is at a place.
   static FrontProbe standing(const glm::dvec2& tip, double height, double tilt_deg) {
     return {tip - FrontProbe({0, 0}, height, tilt_deg).tip(), height, tilt_deg};
   }
@@ -201,7 +201,7 @@ void draw_landmarks(const Theme& theme, const Rect& area, const SetupWizard& wiz
   if (landmarks.empty() || width < 1 || height < 1) return;
   view::OrbitCamera camera = view::OrbitCamera::framing(pictures.grid());
   camera.yaw_deg = camera.pitch_deg = 0;
-  camera.zoom(0.92);  // landmarks lie at the edges of the body
+  camera.zoom(0.92);  // landmarks lie near the edges of the body
   const gl::Texture* body = pictures.draw_body(camera, width, height, std::numeric_limits<double>::infinity());
   if (!body) return;
   ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(std::uintptr_t(body->name())), area.min(),

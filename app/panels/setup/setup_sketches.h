@@ -7,8 +7,8 @@
 
 namespace insonate::ui {
 
-/// A drawing of what the set-up asks for now: how to hold the probe and where to touch. The landmarks are shown on the
-/// patient's own body.
+/// Draws what the set-up asks for now: how to hold the probe and where to touch. Landmarks are shown on the patient's
+/// own body.
 void draw_setup_sketch(const Theme& theme, const Rect& area, const SetupWizard& wizard, Pictures& pictures);
 
 }  // namespace insonate::ui

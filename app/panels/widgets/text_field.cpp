@@ -37,7 +37,7 @@ std::string TextField::draw(const Theme& theme, const Rect& given, const std::st
   ImGui::PopStyleColor(3);
   ImGui::PopStyleVar();
   ImGui::PopFont();
-  if (ready_ && !active) close();  // something else was clicked
+  if (ready_ && !active) close();  // the user clicked elsewhere
   ready_ = open_ && (ready_ || active);
   return typed_.data();
 }

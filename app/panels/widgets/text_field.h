@@ -9,21 +9,21 @@
 
 namespace insonate::ui {
 
-/// A field that a short text or a number is typed into. Closed it shows what was typed; a click opens it, and then it
+/// A field into which a short text or a number is typed. Closed, it shows what was typed. A click opens it, and then it
 /// takes the keys.
 class TextField {
 public:
-  /// Returns what is in it now.
-  /// @param hint  shown while nothing is
+  /// Draws the field and returns its current content.
+  /// @param hint  shown while the field is empty
   /// @param unit  of a number, shown behind the field; empty for none
   std::string draw(const Theme& theme, const Rect& where, const std::string& text, const char* hint,
                    const std::string& unit = {});
-  /// It is typed into, or will be from one of the next frames on.
+  /// Returns whether it is open: it takes text now or from one of the next frames on.
   bool is_open() const { return open_; }
-  /// Whether it takes what is typed.
+  /// Returns whether it takes text now.
   bool ready() const { return ready_; }
   void open() { open_ = true; }
-  /// What was typed stays.
+  /// Closes the field and keeps what was typed.
   void close() { open_ = ready_ = false; }
 
 private:

@@ -9,7 +9,7 @@
 namespace insonate::ui {
 namespace {
 
-// Latin with its accents, and the signs that the panels use beyond it: dashes, quotes, ellipsis, arrows.
+// Latin with its accents, and the other characters that the panels use: dashes, quotes, ellipsis, arrows.
 constexpr ImWchar kGlyphs[] = {0x0020, 0x017f, 0x2010, 0x2027, 0x2190, 0x2195, 0x2212, 0x2212, 0};
 
 ImFont* load(const std::filesystem::path& file, float size_px) {
@@ -46,7 +46,7 @@ Theme::Theme(std::filesystem::path fonts) : folder_(std::move(fonts)) {
 }
 
 bool Theme::fit(float width, float height) {
-  // Steps of an eighth, so that dragging a window's edge does not rebuild the fonts all the way.
+  // Scales in steps of an eighth, so that dragging a window's edge does not rebuild the fonts all the time.
   const float wanted = std::clamp(std::min(width / 1280, height / 800), 0.84f, 3.0f);
   const float scale = wanted < 1 ? 0.875f : std::floor(wanted * 8) / 8;
   if (scale == scale_) return false;

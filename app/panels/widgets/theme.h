@@ -6,8 +6,8 @@
 
 namespace insonate::ui {
 
-/// Colours: near black, greys, and one accent. Amber and red mean that something is wrong, and nothing else but that a
-/// recording runs, which is red.
+/// Colours: near black, greys, and one accent. Amber and red mean that something is wrong. The only exception is red
+/// for a running recording.
 namespace colour {
 inline constexpr ImU32 kBackground = IM_COL32(10, 12, 15, 255);
 inline constexpr ImU32 kPanel = IM_COL32(18, 22, 27, 255);
@@ -25,23 +25,23 @@ inline constexpr ImU32 kImage = IM_COL32(0, 0, 0, 255);
 inline constexpr ImU32 kDim = IM_COL32(4, 6, 8, 190);
 }  // namespace colour
 
-/// Type sizes and lengths, all in proportion to the screen. Needs an ImGui context; one at a time.
+/// Font sizes and lengths, all in proportion to the screen. Needs an ImGui context; only one Theme may exist at a time.
 class Theme {
 public:
   /// @param fonts  the folder with the interface's fonts
   explicit Theme(std::filesystem::path fonts);
 
-  /// Fits type to a screen. Rebuilds the fonts when that changes their size: true then, and the renderer has to take
-  /// the new font texture. To be called between frames.
+  /// Adapts the fonts to the size of the screen, in pixels. Returns true if the fonts were rebuilt; the renderer must
+  /// then take the new font texture. To be called between frames.
   bool fit(float width, float height);
 
-  /// A length given for a screen of 1280 x 800.
+  /// Scales a length that is given for a screen of 1280 x 800.
   float px(float at_1280) const { return at_1280 * scale_; }
 
   ImFont* small_text = nullptr;
   ImFont* text = nullptr;
   ImFont* strong = nullptr;
-  ImFont* large = nullptr;  ///< regular, to be read from a step away
+  ImFont* large = nullptr;  ///< regular, readable from a step away
   ImFont* title = nullptr;
   ImFont* heading = nullptr;
   ImFont* huge = nullptr;

@@ -12,7 +12,7 @@ ImVec2 size_of(ImFont* font, std::string_view text, float wrap = 0) {
   return font->CalcTextSizeA(font->FontSize, 3e38f, wrap, text.data(), text.data() + text.size());
 }
 
-// The longest beginning that fits with an ellipsis behind it, cut between UTF-8 characters.
+// Returns the longest beginning that fits with an ellipsis after it, cut between UTF-8 characters.
 std::string shortened(ImFont* font, std::string_view text, float width) {
   static constexpr char kEllipsis[] = "\u2026";
   std::size_t length = text.size();
@@ -29,8 +29,8 @@ struct Scale {
   double least, most, step, normal;
 };
 
-/// Lets the mouse move a slider's value: dragged to `at_mouse`, a step with the wheel, to the normal with a double
-/// click. Whether the mouse is at it.
+/// Lets the mouse change a slider's value: dragging sets `at_mouse`, the wheel moves one step, a double click sets the
+/// normal value. Returns whether the pointer is on it.
 bool handle(const char* id, const Rect& where, const Scale& scale, double at_mouse, double& value) {
   ImGui::SetCursorScreenPos(where.min());
   ImGui::InvisibleButton(id, {where.w, where.h});

@@ -17,7 +17,7 @@ struct Rect {
   ImVec2 max() const { return {x + w, y + h}; }
   ImVec2 centre() const { return {x + w / 2, y + h / 2}; }
   Rect inset(float dx, float dy) const { return {x + dx, y + dy, w - 2 * dx, h - 2 * dy}; }
-  /// Cut off from a side; the rest stays.
+  /// Cut a part off one side and return it; the rest remains.
   Rect take_left(float width);
   Rect take_right(float width);
   Rect take_top(float height);
@@ -28,36 +28,37 @@ enum class Align { left, centre, right };
 
 float text_width(ImFont* font, std::string_view text);
 
-/// One line, centred in the rectangle's height; what does not fit ends in an ellipsis.
+/// Draws one line of text, centred in the rectangle's height. Text that does not fit ends in an ellipsis.
 void draw_text(const Rect& where, ImFont* font, ImU32 colour, std::string_view text, Align align = Align::left);
 
 float paragraph_height(ImFont* font, std::string_view text, float width);
 
-/// Wraps lines to the rectangle's width; returns the height they take. Does not draw beyond the rectangle's bottom.
+/// Wraps text to the rectangle's width and returns the height it takes. Does not draw below the rectangle's bottom.
 float draw_paragraph(const Rect& where, ImFont* font, ImU32 colour, std::string_view text);
 
 void fill(const Rect& where, ImU32 colour, float rounding = 0);
 void outline(const Rect& where, ImU32 colour, float rounding = 0, float thickness = 1);
 
-/// A small plate with a line of text on it, its top left at `at`; returns its width.
+/// Draws a small plate with one line of text, its top left at `at`. Returns its width.
 float draw_chip(const Theme& theme, const ImVec2& at, ImU32 background, ImU32 colour, std::string_view text);
 
 enum class ButtonKind { normal, chosen, primary, warning, recording };
 
-/// True when it was clicked.
+/// Draws a button. Returns true if it was clicked.
 bool button(const Theme& theme, const char* id, const Rect& where, std::string_view text,
             ButtonKind kind = ButtonKind::normal, bool enabled = true);
 
-/// A slider with its name on the left and its value on the right above the track. A double click sets `normal`. True
-/// when the value changed; it is rounded to whole `step`s. One that is not enabled shows its value and stays.
+/// Draws a slider with its name on the left and its value on the right above the track. A double click sets `normal`.
+/// Returns true if the value changed; it is rounded to whole `step`s. A disabled slider shows its value and does not
+/// change it.
 bool slider(const Theme& theme, const char* id, const Rect& where, std::string_view name, std::string_view value_text,
             double& value, double least, double most, double step, double normal, bool enabled = true);
 
-/// A short upright slider about a middle of 0, as those of the time gain compensation.
+/// Draws a short upright slider for values from -reach to reach, such as one of the time gain compensation.
 bool upright_slider(const Theme& theme, const char* id, const Rect& where, double& value, double reach,
                     bool enabled = true);
 
-/// A ring that fills clockwise from the top.
+/// Draws a ring that fills clockwise from the top.
 void draw_ring(const ImVec2& centre, float radius, float thickness, double share, ImU32 colour, ImU32 rest);
 
 }  // namespace insonate::ui

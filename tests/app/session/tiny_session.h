@@ -38,13 +38,13 @@ inline Session::OpenTracker replay_of(std::vector<PoseSample> samples) {
   };
 }
 
-/// Advances in steps of that many a second; returns the time reached.
+/// Advances with `steps_per_s` steps per second. Returns the time of the last step, s.
 inline double run_until(Session& session, double from_s, double to_s, double steps_per_s = 60) {
   for (long i = 1; from_s + i / steps_per_s <= to_s + 1e-9; ++i) session.advance(from_s + i / steps_per_s);
   return to_s;
 }
 
-/// A live tracker without its thread: hands over what the test puts into `coming`, and `coming` outlives it.
+/// A live tracker without a thread: returns what the test puts into `coming`, which must outlive it.
 class HandFed : public Tracker {
 public:
   explicit HandFed(std::vector<PoseSample>& coming, bool relative = false)

@@ -16,12 +16,12 @@
 
 namespace insonate {
 
-/// A folder of its own for a test, with the tiny case, its exam, and a scan that shows the ball.
+/// A temporary folder for one test, with the tiny case, its exam, and a scan that shows the ball.
 class TrainerFolder {
 public:
   TrainerFolder() : path(std::filesystem::temp_directory_path() / ("insonate-trainer-" + std::to_string(getpid()))) {
     std::filesystem::create_directories(path);
-    setenv("XDG_DATA_HOME", (path / "data").c_str(), 1);  // not the user's own results
+    setenv("XDG_DATA_HOME", (path / "data").c_str(), 1);  // keeps the user's own results out of the test
     write_case(path / "tiny", tiny_case());
     write_file(path / "exam.toml", kTinyScenario);
     write_file(path / "scan.igs.mha", write_sequence(samples_of(4, 60, [](double t) {

@@ -10,16 +10,16 @@
 
 namespace insonate {
 
-/// A lab that is made up, and a hand that makes the whole set-up in it: what the tracker says, with a button pressed
-/// at each mark.
+/// A simulated lab, and a hand that performs the whole set-up in it. It generates the tracker's samples, with a button
+/// press at each mark.
 struct Lab {
   Pose ct_from_tracker = {turned(40, {1, 2, 3}).rotation, {120, -340, 60}};
   Pose sensor_from_face = {turned(110, {-1, 0.4, 2}).rotation, {8, -21, 90}};
   FacePoints face{{0, 0, 0}, {30, -12, 0}, {-30, -12, 0}, {0, -150, 0}};  ///< in the face's frame
   glm::dvec3 tip{40, -20, 6};                                             ///< in the face's frame
   glm::dvec3 dimple{300, -50, -100}, corner{280, -80, 150};               ///< in the CT's frame
-  AxisSigns wrong;                                                        ///< what the tracker has wrong
-  double noise_mm = 0.1;                                                  ///< of its positions, along each axis
+  AxisSigns wrong;        ///< axes that the tracker reports with the wrong sign
+  double noise_mm = 0.1;  ///< noise of its positions, along each axis
   double rate_hz = 60;
 };
 
@@ -27,7 +27,7 @@ class Hand {
 public:
   Hand(const Lab& lab, std::uint32_t seed) : lab_(lab), dice_(seed) {}
 
-  /// Holds the probe for a time; with a mark its button goes down at the beginning.
+  /// Holds the probe for a time. With `mark` its button goes down at the beginning.
   void hold(const Pose& ct_from_face, double seconds, bool mark = false) {
     for (double end_s = time_s_ + seconds; time_s_ < end_s; mark = false) add(ct_from_face, mark);
   }
@@ -48,7 +48,7 @@ public:
     move(held(up, right), up);
   }
 
-  /// @param slip_mm  how far the tip strays, along each axis
+  /// @param slip_mm  how far the tip moves from its place, along each axis
   void pivot(double seconds, double slip_mm = 0) {
     bool mark = true;
     for (const Pose& pose :
@@ -68,7 +68,7 @@ public:
     for (const LandmarkPair& pair : pairs) touch(pair.ct_mm + dice_.noise(error_mm), lab_.tip);
   }
 
-  /// Strikes the button's place with uneven pauses; the tracker shows it later by `lag_s`.
+  /// Strikes the button's place with uneven pauses. The tracker shows it `lag_s` later.
   void knocks(double lag_s) {
     const double begin_s = time_s_;
     std::vector<double> blows;

@@ -13,7 +13,7 @@
 
 namespace insonate {
 
-/// Made-up measurements that are the same every time.
+/// Draws simulated measurements that are the same every time.
 class Dice {
 public:
   explicit Dice(std::uint32_t seed) : seed_(seed) {}
@@ -21,10 +21,10 @@ public:
   double uniform(double least, double most) {
     return least + (most - least) * double(unit_float(hash(seed_, next_++)));
   }
-  double normal(double deviation) {  // Box and Muller
+  double normal(double deviation) {  // Box-Muller transform
     return deviation * std::sqrt(-2 * std::log(1 - uniform(0, 1))) * std::cos(uniform(0, 2 * 3.14159265358979));
   }
-  /// Of that standard deviation along each axis.
+  /// Returns noise of that standard deviation along each axis.
   glm::dvec3 noise(double deviation) { return {normal(deviation), normal(deviation), normal(deviation)}; }
   glm::dvec3 point(double reach) { return {uniform(-reach, reach), uniform(-reach, reach), uniform(-reach, reach)}; }
   Pose pose(double reach) {
@@ -40,7 +40,8 @@ inline Pose turned(double deg, const glm::dvec3& axis, const glm::dvec3& at = gl
   return {glm::mat3_cast(glm::angleAxis(glm::radians(deg), glm::normalize(axis))), at};
 }
 
-/// Poses tracker_from_sensor of a probe that is tilted by up to `tilt_deg` to all sides about its tip, and rolled.
+/// Returns poses tracker_from_sensor of a probe that is tilted about its tip by up to `tilt_deg` in all directions, and
+/// rolled.
 inline std::vector<Pose> pivoting(Dice& dice, const Pose& start, const glm::dvec3& tip, const glm::dvec3& pivot,
                                   double tilt_deg, double roll_deg, int count, double noise_mm) {
   std::vector<Pose> poses;

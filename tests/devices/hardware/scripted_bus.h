@@ -10,17 +10,17 @@
 
 namespace insonate {
 
-/// A bus as a test holds it in its hand. Everything happens when the source asks; time is the test's.
+/// A bus that the test controls. Everything happens when the source asks for it, and the test sets the time.
 class ScriptedBus : public DeviceBus {
 public:
   using Report = std::vector<std::uint8_t>;
 
   AttachedDevices attached;
   std::optional<TransportError> refuses;  ///< what opening throws
-  std::deque<Report> reports;             ///< what the next reads bring; nothing when there is none
-  bool pulled = false;                    ///< what is open is gone
+  std::deque<Report> reports;             ///< what the next reads return; nothing if empty
+  bool pulled = false;                    ///< whether the open device is gone
   std::vector<Report> sent;
-  std::string opened;  ///< the path of the device that was opened last
+  std::string opened;  ///< path of the device that was opened last
   Endpoints endpoints;
   int open_now = 0;
 

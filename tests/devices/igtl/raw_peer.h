@@ -9,7 +9,7 @@
 
 namespace insonate::igtl {
 
-/// The other side of a connection, which sends whatever a test likes. Waits for up to a minute, then throws.
+/// The peer of a connection, which sends any bytes a test wants. Waits for up to a minute, then throws.
 class RawPeer {
 public:
   explicit RawPeer(Socket socket) : socket_(std::move(socket)) {}
@@ -33,7 +33,7 @@ public:
     }
   }
 
-  /// What came; empty when the other side has closed.
+  /// Returns what came; empty once the other side has closed the connection.
   Bytes receive() {
     wait_for(socket_, POLLIN);
     Bytes bytes(65536);

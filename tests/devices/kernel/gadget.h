@@ -10,8 +10,8 @@
 #include <thread>
 #include <vector>
 
-/// USB devices that this machine's kernel makes up (configfs, on the ports of dummy_hcd) and plugs into itself. Its own
-/// usbhid, hidraw and usbfs serve them, as they would a real one. Needs root, and a machine that is nobody else's.
+/// USB devices that this machine's kernel simulates (configfs, on the ports of dummy_hcd) and connects to itself. Its
+/// own usbhid, hidraw and usbfs serve them like real devices. Needs root, and a machine that nobody else uses.
 namespace insonate::kernel {
 
 using Packet = std::vector<unsigned char>;
@@ -21,10 +21,10 @@ struct Identity {
   std::string name, serial;
 };
 
-/// A device in configfs, plugged into a port for as long as it lives.
+/// A device in configfs, plugged into a port while the object exists.
 class Gadget {
 public:
-  /// @param function  its one function, as configfs names them: "hid.hydra"
+  /// @param function  its single function, named as in configfs: "hid.hydra"
   Gadget(const Identity& identity, const std::string& function);
   ~Gadget();
   Gadget(const Gadget&) = delete;
@@ -41,15 +41,15 @@ private:
   bool plugged_ = false;
 };
 
-/// A HID of 52-byte input reports and 90-byte feature reports, none with a number, as the Hydra's interface is.
+/// A HID with 52-byte input reports and 90-byte feature reports without report numbers, like the Hydra's interface.
 class HidGadget {
 public:
   HidGadget(const Identity& identity, int port);
   ~HidGadget();
 
-  /// Waits until the host has asked for the report. False when it is pulled before.
+  /// Waits until the host has asked for the report. Returns false if the device is unplugged before.
   bool send(const Packet& report);
-  /// The feature reports that the host has sent so far.
+  /// Returns the feature reports that the host has sent so far.
   const std::vector<Packet>& features();
 
 private:
@@ -64,9 +64,9 @@ public:
   BulkGadget(const Identity& identity, int port);
   ~BulkGadget();
 
-  /// Hands a packet over; each is the answer to one transfer, in their order.
+  /// Queues a packet. Each packet answers one transfer, in order.
   void send(const Packet& packet);
-  /// The packets that the host has sent so far.
+  /// Returns the packets that the host has sent so far.
   std::vector<Packet> received();
 
 private:

@@ -13,14 +13,14 @@
 
 namespace insonate {
 
-/// A device as a test holds it in its hand: plugged in or not, silent or not. Shared with the source on the thread.
+/// A device that the test controls: plugged in or not, silent or not. Shared with the source on its thread.
 struct ScriptedDevice {
   std::atomic<bool> plugged_in{true};
   std::atomic<bool> silent{false};
   std::atomic<int> opened{0}, closed{0};
-  std::atomic<std::uint32_t> sent{0};  ///< samples so far; each carries its number, from 1 on, as x and as buttons
+  std::atomic<std::uint32_t> sent{0};  ///< samples so far; each carries its number, counted from 1, as x and as buttons
   std::atomic<int> in_one_read{1};
-  bool relative = false;  ///< whether it tells no place
+  bool relative = false;  ///< whether it has no absolute position
 
   void note(const std::string& text) {
     const std::lock_guard lock(mutex_);
@@ -70,7 +70,7 @@ private:
   ScriptedDevice& device_;
 };
 
-/// Polls as a render thread does until `done`; false when that takes more than the slowest machine needs.
+/// Polls like a render thread until `done`. Returns false if that takes longer than the slowest machine needs.
 inline bool poll_until(Tracker& tracker, std::vector<PoseSample>& samples, const std::function<bool()>& done) {
   const double limit_s = steady_now_s() + 60;
   while (steady_now_s() < limit_s) {

@@ -13,7 +13,7 @@ struct _UMockdevIoctlClient;
 
 namespace insonate {
 
-/// A HID that is plugged into a test bed for as long as it lives.
+/// A HID that is plugged into a test bed while the object exists.
 class MockedHid {
 public:
   using Report = std::vector<unsigned char>;
@@ -23,21 +23,22 @@ public:
     std::string name, serial;
   };
 
-  /// `number` is that of /dev/hidrawN. One that was used before cannot be used again in the same test bed.
+  /// `number` is that of /dev/hidrawN. A number cannot be reused in the same test bed.
   MockedHid(Testbed& testbed, const Identity& identity, int number);
   ~MockedHid();
   MockedHid(const MockedHid&) = delete;
   MockedHid& operator=(const MockedHid&) = delete;
 
-  /// Sends what fits of `reports`, and takes it out of there.
+  /// Sends as many of `reports` as fit, and removes them from `reports`.
   void send(std::deque<Report>& reports);
 
-  /// Whoever has it open learns that it is gone. It stays in the lists until it is destroyed. That waits until every
-  /// other process has closed it: umockdev ends a program that it cuts off in the middle of a call.
+  /// Makes the device fail for every process that has it open. It stays in the lists until it is destroyed. The
+  /// destructor waits until every other process has closed it: umockdev ends a program that it cuts off in the middle
+  /// of a call.
   void pull();
 
   Node& node() { return *node_; }
-  const std::vector<Report>& features() const { return features_; }  ///< the feature reports that it was sent
+  const std::vector<Report>& features() const { return features_; }  ///< feature reports that it has received
 
 private:
   static int on_ioctl(_UMockdevIoctlBase*, _UMockdevIoctlClient* client, void* self);

@@ -15,8 +15,8 @@ struct _UMockdevIoctlData;
 
 namespace insonate {
 
-/// A USB device with one bulk endpoint each way that is plugged into a test bed for as long as it lives; it answers
-/// libusb as the kernel's usbfs does.
+/// A USB device with one bulk endpoint in each direction, plugged into a test bed while the object exists. It answers
+/// libusb like the kernel's usbfs.
 class MockedUsb {
 public:
   using Packet = std::vector<unsigned char>;
@@ -27,19 +27,19 @@ public:
     std::uint8_t out, in;  ///< endpoints
   };
 
-  /// `address` on bus 1, from 1 to 127. One that was used before cannot be used again in the same test bed.
+  /// `address` on bus 1, from 1 to 127. An address cannot be reused in the same test bed.
   MockedUsb(Testbed& testbed, const Identity& identity, int address);
   ~MockedUsb();
   MockedUsb(const MockedUsb&) = delete;
   MockedUsb& operator=(const MockedUsb&) = delete;
 
-  /// Each is the answer to one transfer.
+  /// Queues a packet. Each packet answers one transfer.
   void send(const Packet& packet);
 
-  /// Who has it open is told that it is gone: transfers under way fail, further ones find no device.
+  /// Makes the device unavailable: pending transfers fail, further ones find no device.
   void pull();
 
-  /// Whether another program has claimed it.
+  /// Sets whether another program has claimed it.
   void claim_elsewhere(bool claimed) { claimed_ = claimed; }
 
   Node& node() { return *node_; }
@@ -52,7 +52,7 @@ private:
   void submit(_UMockdevIoctlClient* client);
   void reap(_UMockdevIoctlClient* client);
   void discard(_UMockdevIoctlClient* client);
-  void serve();  ///< ends the transfers that can end, and tells who waits
+  void serve();  ///< completes the transfers that can complete, and notifies the processes that wait
 
   Testbed& testbed_;
   std::string dev_, path_;

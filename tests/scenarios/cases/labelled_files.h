@@ -9,7 +9,7 @@
 
 namespace insonate {
 
-/// The extension that TotalSegmentator's writer puts into a NIfTI header, around the given <Label> elements.
+/// Returns the extension that TotalSegmentator's writer puts into a NIfTI header, around the given <Label> elements.
 inline std::string label_extension(const std::string& labels) {
   std::string xml =
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?> <CaretExtension>  <Date><![CDATA[2013-07-14T05:45:09]]></Date>   "
@@ -26,7 +26,7 @@ inline std::string label_element(const std::string& key, const std::string& name
          "]]></Label>\n";
 }
 
-/// A NIfTI file of uint8 labels on 1 mm voxels whose first is at `first` (RAS, mm), with an extension if there is one.
+/// Returns a NIfTI file of uint8 labels with 1 mm voxels, the first at `first` (RAS, mm), with the extension if given.
 inline std::string label_file(const glm::ivec3& size, const glm::dvec3& first,
                               const std::function<int(int, int, int)>& label_at, const std::string& extension = "",
                               float voxel_mm = 1) {

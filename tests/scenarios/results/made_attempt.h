@@ -14,7 +14,7 @@
 
 namespace insonate {
 
-/// A folder of its own for databases, gone at the end.
+/// A temporary folder for databases, removed at the end.
 struct ResultsFolder {
   std::filesystem::path path =
       std::filesystem::temp_directory_path() / ("insonate_results_" + std::to_string(getpid()));
@@ -30,10 +30,10 @@ struct ResultsFolder {
 struct TinyExam {
   ExamResult result;
   std::vector<TracePoint> trace;
-  Attempt attempt;  ///< nobody's yet
+  Attempt attempt;  ///< without a learner
 };
 
-/// The tiny case's exam, taken with the plane so far off the ball (mm): 0 passes, 70 fails.
+/// Returns the tiny case's exam, taken with the plane `offset_mm` off the ball: 0 passes, 70 fails.
 inline TinyExam tiny_exam(double offset_mm) {
   const Case subject = tiny_case();
   Runner runner(parse_scenario(kTinyScenario, "exam.toml"), subject, tiny_tissues());
@@ -44,7 +44,7 @@ inline TinyExam tiny_exam(double offset_mm) {
   return {runner.result(), runner.trace(), attempt_of(runner, runner.result(), "")};
 }
 
-/// An attempt at it that is ready for a database; the log is any bytes.
+/// Returns an attempt at that exam, ready for a database. The log may be any bytes.
 inline Attempt made_attempt(const std::string& learner, const TinyExam& exam, const std::string& log = "log") {
   Attempt attempt = exam.attempt;
   attempt.learner = learner;

@@ -36,7 +36,7 @@ inline bool contains(const std::string& text, const std::string& words) {
   return text.find(words) != std::string::npos;
 }
 
-// A folder with a recipe, and the program run with what it prints caught in it.
+// A folder with a recipe. Runs the program there and captures what it prints.
 struct Workplace {
   TemporaryFolder folder;
   std::filesystem::path recipe = folder.put("ball.toml", kBallRecipe);
@@ -61,7 +61,7 @@ struct Workplace {
     return nlohmann::json::parse(told.output);
   }
 
-  // Exit code 2, nothing on standard output, and one sentence that holds each of the words.
+  // Checks for exit code 2, nothing on standard output, and one sentence that contains each of the words.
   void refused(const std::string& arguments, const std::vector<std::string>& words) const {
     const Outcome outcome = run(arguments);
     INFO(arguments << "\n" << outcome.output << outcome.errors);

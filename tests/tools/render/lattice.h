@@ -9,11 +9,11 @@
 
 namespace outsider {
 
-/// The scatterers that fill space, drawn from what scanlines.json says of them.
+/// The scatterers that fill space, built from their description in scanlines.json.
 class Lattice {
 public:
   explicit Lattice(const nlohmann::json& about);
-  /// The complex amplitude at a place of the patient, of variance 1 in both parts.
+  /// Returns the complex amplitude at a place of the patient, with variance 1 in both parts.
   std::array<double, 2> at(const Vec3& patient_mm) const;
 
 private:

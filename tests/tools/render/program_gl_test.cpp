@@ -1,4 +1,4 @@
-// insonate-render as its users meet it, and the example beside it.
+// Tests insonate-render as its users use it, and the example beside it.
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -18,14 +18,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Stages have the probe's marker (+x) on the right, pictures for people on the left.
+// Stages have the probe's marker (+x) on the right; pictures for people have it on the left.
 std::vector<double> as_shown(Plane plane) {
   for (int y = 0; y < plane.height; ++y)
     for (int x = 0; x < plane.width / 2; ++x) std::swap(plane.at(x, y), plane.at(plane.width - 1 - x, y));
   return plane.values;
 }
 
-/// The mean within 3 mm of a place.
+/// Returns the mean within 3 mm of a place.
 double around(const ShortVolume& volume, const Vec3& patient_mm) {
   double sum = 0, count = 0;
   for (int k = 0; k < volume.size[2]; ++k)
@@ -57,7 +57,7 @@ TEST_CASE("the picture is what the stages end in, and the command line is above 
     CHECK(settings.at("samples") == 64);
     CHECK(settings.at("beam_window") == "hann");
     CHECK(settings.at("tgc_db").size() == 8);
-    CHECK(settings.at("skipping") == false);  // it would leave R without a normal
+    CHECK(settings.at("skipping") == false);  // skipping would leave R without a normal
     CHECK(stages.description.at("labelled_tissues").at("liver").at("echogenicity_db") == 0);
     CHECK((stages.description.at("made_by") == "reference in double precision") == !by.empty());
     fs::remove_all(scene.in("stages"));
@@ -89,7 +89,7 @@ TEST_CASE("model W has its own settings file and picture, alike from the graphic
   REQUIRE(reference.size() == drawn.size());
   double worst = 0;
   for (std::size_t i = 0; i < drawn.size(); ++i) worst = std::max(worst, std::abs(drawn[i] - reference[i]));
-  CHECK(worst <= 1);  // as tests/registration/wein_gl_test.cpp
+  CHECK(worst <= 1);  // as in tests/registration/wein_gl_test.cpp
 
   REQUIRE(scene.render("--model W --pose " + scene.in("pose.txt")).code == 0);
   CHECK(grey_levels(scene.in("image.png")).size() == 128 * 96);
@@ -136,10 +136,10 @@ TEST_CASE("a sweep becomes a volume in which the patient's parts lie where they 
       CHECK(cyst < tissue - 30);
       CHECK(cyst >= 0);
     }
-    CHECK(around(swept, {0, 3, 0}) == -1);  // before the face
+    CHECK(around(swept, {0, 3, 0}) == -1);  // in front of the face
     CHECK(around(swept, {45, 20, 0}) == -1);
 
-    // The program's own reader of CTs takes it.
+    // The program's own CT reader accepts it.
     CHECK(run(scene.folder, INSONATE_RENDER_PROGRAM,
               "--ct " + volume + " --pose " + scene.in("pose.txt") + " --settings " + scene.in("small.toml") + " " +
                   scene.in("image.png"))
@@ -186,6 +186,6 @@ TEST_CASE("a sweep's volume holds echoes of echoes, and clutter") {
     }
     INFO(what);
     CHECK(brighter > 100);
-    CHECK(darker == 0);  // what adds takes nothing away
+    CHECK(darker == 0);  // added effects do not darken anything
   }
 }

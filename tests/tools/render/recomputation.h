@@ -10,9 +10,9 @@
 
 namespace outsider {
 
-inline constexpr double kFloat = 6e-8;  // what rounding to float32 changes at most, relative
+inline constexpr double kFloat = 6e-8;  // largest relative error of rounding to float32
 
-/// What the recomputation of each part of a folder starts from, and the worst disagreements it notes.
+/// Holds what the recomputation of each part of a folder starts from, and the worst disagreements found.
 class Recomputation {
 public:
   explicit Recomputation(const StageFolder& stages);
@@ -45,7 +45,7 @@ inline Vec3 vec3(const nlohmann::json& json) {
   return {json.at(0), json.at(1), json.at(2)};
 }
 
-// Each recomputes its part and returns the worst disagreement by stage.
+// Each function recomputes its part and returns the worst disagreement by stage.
 std::map<std::string, double> line_misfits(const StageFolder& stages, const Tolerances& tolerances);
 std::map<std::string, double> echo_misfits(const StageFolder& stages, const Tolerances& tolerances);
 std::map<std::string, double> picture_misfits(const StageFolder& stages, const Tolerances& tolerances);

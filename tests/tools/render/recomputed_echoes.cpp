@@ -1,4 +1,4 @@
-// What follows from R, I and the scatterers' echo: the beam's width, echoes of echoes and the envelope.
+// Recomputes what follows from R, I and the scatterers' echo: beam width, reverberation and the envelope.
 
 #include "tests/tools/render/recomputation.h"
 
@@ -19,7 +19,7 @@ public:
   }
 
 private:
-  /// The window over the lines of the aperture, which nothing beyond the outer ones is part of.
+  /// Returns the window over the lines of the aperture. Nothing beyond the outer lines is part of it.
   std::vector<double> weights() const {
     const int half = (set_.at("beam_lines").get<int>() - 1) / 2;
     const std::string shape = set_.at("beam_window");
@@ -43,14 +43,14 @@ private:
     return sum / total;
   }
 
-  /// (4) from R.
+  /// Recomputes (4) from R.
   void beam() {
     weights_ = weights();
     for (std::size_t i = 0; i < weights_.size(); ++i)
       compare("beam_weights", weights_[i], about_.at("beam_weights").at(i), 1e-12);
     for (int line = 0; line < n_; ++line)
       for (int k = 0; k < d_; ++k) {
-        // Sums of positive numbers: in single precision each of the terms costs a rounding or two.
+        // Sums of positive numbers: in single precision each term costs one or two roundings.
         const double expected = across_lines(plane("reflection"), line, k);
         compare("reflection_beam", expected, plane("reflection_beam").at(line, k),
                 4 * kFloat * double(weights_.size()) * expected + 1e-30);
@@ -62,7 +62,7 @@ private:
     return a >= 2 ? 0 : a >= 1 ? (2 - a) * (2 - a) * (2 - a) / 6 : 2.0 / 3 - a * a + a * a * a / 2;
   }
 
-  /// Echoes of echoes, from I and R of each line in the slice's middle plane, and behind the same window as R.
+  /// Recomputes reverberation from I and R of each line in the slice's middle plane, after the same window as R.
   void reverberation() {
     const auto& about = about_.at("reverberation");
     const auto& planes = about_.at("slice_planes");
@@ -73,7 +73,7 @@ private:
     const double least_reverberant = about.at("least_reverberant");
     const int most_repeats = about.at("most_repeats"), most_reflectors = about.at("most_reflectors");
     const double share = std::min(dr_ / l_, 1.0);
-    const int near = std::max(int(std::ceil(l_ / dr_ - 1e-3)), 1);  // samples nearer than this are of one interface
+    const int near = std::max(int(std::ceil(l_ / dr_ - 1e-3)), 1);  // nearer samples belong to the same interface
     const auto counted = [&](double round, double least) {
       return round > least ? round * std::pow(1 - std::pow(least / round, 2), 8) : 0;
     };
@@ -84,7 +84,7 @@ private:
       const auto reflects = [&](int k) {
         return i_at(k) > least_reverberant ? reflected.at(line, k) / (i_at(k) * i_at(k)) : 0;
       };
-      // Sound that goes to and fro over `way` shows sample k again and again.
+      // Adds the repeats of sample k from sound that makes round trips of length `way`.
       const auto ring = [&](int k, double way, double echo, double gain) {
         for (int n = 1; n <= most_repeats && gain > 0; ++n) {
           echo *= gain;
@@ -123,7 +123,7 @@ private:
                 tolerances_.reflection * loudest);
   }
 
-  /// The envelope of the scatterers' echo behind the same window.
+  /// Recomputes the envelope of the scatterers' echo after the same window.
   void speckle() {
     for (int line = 0; line < n_; ++line)
       for (int k = 0; k < d_; ++k) {

@@ -1,4 +1,4 @@
-// What the sound meets on its way and what that makes of it, from the volume: for each plane of the slice, and summed.
+// Recomputes from the volume what sound meets on its way and its effect: for each plane of the slice, and summed.
 
 #include <array>
 
@@ -52,7 +52,7 @@ private:
   struct Knot {
     double hu, impedance, absorption;
   };
-  /// The tissue table: linear between knots, constant beyond.
+  /// Returns the tissue table's entry: linear between knots, constant beyond.
   Knot tabled(double hu) const {
     if (hu <= knots_.front().hu) return knots_.front();
     for (std::size_t i = 1; i < knots_.size(); ++i) {
@@ -74,7 +74,7 @@ private:
   }
   double value_outside(const char* of) const { return about_.at("volume").at(std::string("outside_") + of); }
 
-  /// On the line, or beside it in elevation, by so many thicknesses of the slice there.
+  /// Returns the place on the line, or beside it in elevation, by a number of thicknesses of the slice there.
   Vec3 place(int line, double r) const {
     const auto& slice = about_.at("slice");
     const double thickness = std::hypot(slice.at("thickness_mm").get<double>(),
@@ -83,7 +83,7 @@ private:
            offset_ * thickness * vec3(slice.at("elevation"));
   }
 
-  /// From the volume: Hounsfield units, impedance, absorption, alpha and the angle of incidence.
+  /// Recomputes Hounsfield units, impedance, absorption, alpha and the angle of incidence from the volume.
   void tissue() {
     for (int line = 0; line < n_; ++line) {
       const Vec3 along = directions_[std::size_t(line)];
@@ -93,7 +93,7 @@ private:
         const Vec3 p = place(line, r);
         const double hu = hu_at(p, r);
         compare("hounsfield", hu, met("hounsfield").at(line, k), std::max(1000.0, std::abs(hu)) * kFloat + 1e-9);
-        // The float's own rounding, and that of the Hounsfield units on the table's steepest ramps.
+        // Rounding of the float itself, and of the Hounsfield units on the steepest ramps of the table.
         const double seen = met("hounsfield").at(line, k), hu_error = kFloat * std::abs(seen);
         const double z = met("impedance").at(line, k);
         compare("impedance", tabled(seen).impedance, z, 0.041 * hu_error + kFloat * z + 1e-12);
@@ -102,7 +102,7 @@ private:
 
         // (1) where half a reflection length is a whole number of samples: from the impedances alone.
         const double alpha = met("alpha").at(line, k);
-        const double rounding = 4 * kFloat;  // two impedances in both sum and difference
+        const double rounding = 4 * kFloat;  // two impedances, in both sum and difference
         const double tolerated = 2 * std::sqrt(alpha) * rounding + rounding * rounding + kFloat * alpha;
         const int m = int(std::lround(l_ / 2 / dr_));
         if (std::abs(m * dr_ - l_ / 2) > 1e-9)
@@ -111,7 +111,7 @@ private:
           const double before = met("impedance").at(line, k - m), behind = met("impedance").at(line, k + m);
           compare("alpha", std::pow((behind - before) / (behind + before), 2), alpha, tolerated);
         }
-        // And from the volume at every sample, with the angle.
+        // At every sample from the volume, with the angle.
         const double hu_before = hu_at(place(line, r - l_ / 2), r - l_ / 2),
                      hu_behind = hu_at(place(line, r + l_ / 2), r + l_ / 2);
         const double before = tabled(hu_before).impedance, behind = tabled(hu_behind).impedance;
@@ -119,7 +119,7 @@ private:
         const double rise[] = {hu_behind - hu_before, hu_at(p + l_ / 2 * lateral, r) - hu_at(p - l_ / 2 * lateral, r),
                                hu_at(p + l_ / 2 * elevation, r) - hu_at(p - l_ / 2 * elevation, r)};
         const double steepness = std::sqrt(rise[0] * rise[0] + rise[1] * rise[1] + rise[2] * rise[2]);
-        // Where nothing rises by more than positions of 1e-12 mm can change, there is no angle to compare.
+        // If the slope is below what position errors of 1e-12 mm can cause, there is no angle to compare.
         if (steepness > 1e-5)
           compare("incidence", std::abs(rise[0]) / steepness, met("incidence").at(line, k),
                   2 * kFloat + 1e-9 / steepness);
@@ -127,11 +127,11 @@ private:
     }
   }
 
-  /// Whether the planes of the slice are bent, so that a step along them is none along the line.
+  /// Returns whether the planes of the slice are bent, so that a step along them is not a step along the line.
   bool bends() const { return offset_ != 0 && about_.at("slice").at("spread") != 0; }
 
-  /// How much sound turns in a step, as rad across the line: the speed of sound's logarithm is linear in density below
-  /// and above water, and its slope is taken over a reflection length.
+  /// Returns how far sound is refracted in a step, in rad across the line. The logarithm of the speed of sound is
+  /// linear in density below and above water, and its slope is taken over a reflection length.
   double rise_of_speed(const Vec3& p, const Vec3& across, double r) const {
     const auto& refraction = about_.at("refraction");
     const auto log_speed = [&](double hu) {
@@ -142,7 +142,8 @@ private:
     return (log_speed(hu_at(p + half, r)) - log_speed(hu_at(p - half, r))) * dr_ / l_;
   }
 
-  /// (5) and (3) along each line, from alpha, the absorption and the angle, and from the volume what is refracted out.
+  /// Recomputes (5) and (3) along each line from alpha, the absorption and the angle, and the refraction loss from the
+  /// volume.
   void walk() {
     const double f = on("absorption") ? setting("frequency_mhz") : 0;
     const bool refracts = on("edge_shadow");
@@ -150,8 +151,8 @@ private:
     const double turn_mm = refraction.at("turn_mm"), turn_rad = refraction.at("turn_rad");
     double most_refracted_db = 0;
     for (int line = 0; line < n_; ++line) {
-      double db = 0;        // of what is left of I
-      double rounding = 0;  // relative, of 1 - alpha in all steps so far
+      double db = 0;        // of the remaining I
+      double rounding = 0;  // relative, of 1 - alpha over all steps so far
       double turn[] = {0, 0}, refracted_db = 0;
       const Vec3 along = directions_[std::size_t(line)], lateral = beside(along), elevation = cross(along, lateral);
       for (int k = 0; k < d_; ++k) {
@@ -161,7 +162,7 @@ private:
         const double echo = alpha * intensity * intensity * met("incidence").at(line, k);
         intensity_.at(line, k) += weight_ * intensity;
         reflection_.at(line, k) += weight_ * echo;
-        if (!prefix_.empty()) {  // always of the reference
+        if (!prefix_.empty()) {  // always computed by the reference
           compare("transmission of a plane", intensity, met("transmission").at(line, k),
                   (1e-6 + rounding) * std::max(intensity, 1e-6));
           compare("reflection of a plane", echo, met("reflection").at(line, k), (1e-6 + 2 * rounding) * alpha + 1e-12);
@@ -182,17 +183,18 @@ private:
         refracted_db += lost_db;
       }
     }
-    if (refracts) compare("refracted", 1, most_refracted_db > 1, 0.5);  // so that it shows
+    if (refracts) compare("refracted", 1, most_refracted_db > 1, 0.5);  // ensures that the effect is visible
   }
 
-  /// Across a line in the imaging plane: lines of a fan part in it, those of a linear array stand side by side.
+  /// Returns the direction across a line in the imaging plane. Lines of a fan diverge in it; those of a linear array
+  /// are parallel.
   Vec3 beside(const Vec3& along) const {
     Vec3 lateral = starts_.back() - starts_.front();
     lateral = lateral - dot(lateral, along) * along;
     return 1 / length(lateral) * lateral;
   }
 
-  /// The scatterers' echo, from the volume's echogenicity and the lattice.
+  /// Recomputes the scatterers' echo from the volume's echogenicity and the lattice.
   void scatterers() {
     for (int line = 0; line < n_; ++line)
       for (int k = 0; k < d_; ++k) {
@@ -208,7 +210,7 @@ private:
       }
   }
 
-  /// What lies beside all planes' sums is of the imaging plane.
+  /// Checks the imaging plane, whose data lie beside the sums of all planes.
   void middle() {
     const auto& slices = about_.at("slice_planes");
     const std::string folder = slices.at(slices.size() / 2).at("folder");
@@ -219,7 +221,7 @@ private:
           compare("the middle plane", plane(folder + "/" + name).at(line, k), plane(name).at(line, k), 1e-12);
   }
 
-  /// What the planes' sum is held against.
+  /// Compares the sum of the planes.
   void summed() {
     const double brightest = *std::max_element(plane("reflection").values.begin(), plane("reflection").values.end());
     compare("brightest", 1, brightest > 1e-6, 0.5);  // a frame without echo would agree with anything
@@ -230,7 +232,7 @@ private:
                 (tolerances_.intensity + rounding_.at(line, k)) * std::max(i, 1e-6));
         compare("reflection", reflection_.at(line, k), plane("reflection").at(line, k),
                 (tolerances_.reflection + 2 * rounding_.at(line, k)) * brightest);
-        // Of the echo's place in the lattice 1e-12 mm are left open; two numbers of it are up to 4 apart.
+        // The echo's place in the lattice is uncertain by 1e-12 mm; two of its values differ by up to 4.
         const double amplitude = std::hypot(re_.at(line, k), im_.at(line, k));
         compare("echo_re", re_.at(line, k), plane("echo_re").at(line, k), 2 * kFloat * amplitude + 1e-9);
         compare("echo_im", im_.at(line, k), plane("echo_im").at(line, k), 2 * kFloat * amplitude + 1e-9);
@@ -241,9 +243,9 @@ private:
   const Lattice lattice_;
   std::vector<Knot> knots_;
   double l_ = 0, coupled_mm_ = 0, coupling_air_hu_ = 0, coupling_tissue_hu_ = 0, silent_db_ = 0;
-  double offset_ = 0, weight_ = 1;  // of the slice's plane at hand
+  double offset_ = 0, weight_ = 1;  // of the current plane of the slice
   std::string prefix_;
-  Plane intensity_, reflection_, re_, im_, rounding_;  // the last of alpha's file, relative, in any plane
+  Plane intensity_, reflection_, re_, im_, rounding_;  // rounding_: relative rounding of alpha's file, in any plane
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What the pixels fuse, and how that becomes grey.
+// Recomputes the fusion of the pixels, and grey from it.
 
 #include "tests/tools/render/recomputation.h"
 
@@ -16,7 +16,7 @@ public:
   }
 
 private:
-  /// A Gaussian over what lies inside the fan, out to three sigma.
+  /// Returns a Gaussian smoothing over what lies inside the fan, out to three sigma.
   Plane smoothed(Plane from, double sigma_mm) const {
     const double sigma = sigma_mm / about_.at("image").at("mm_per_pixel").get<double>();
     if (sigma < 0.05) return from;
@@ -48,7 +48,7 @@ private:
     for (std::size_t i = 0; i < to.values.size(); ++i) to.values[i] += factor * what.values[i];
   }
 
-  /// The scatterers' echo at each depth as all lines have it in the mean, fading into the depths behind.
+  /// Returns the mean of the scatterers' echo over all lines at each depth, fading into the depths behind.
   Plane mean_echo(const Plane& transmission) const {
     Plane mean = transmission;
     double before = 0;
@@ -63,7 +63,7 @@ private:
     return mean;
   }
 
-  /// (6) from R behind the beam, I, S and what adds to them.
+  /// Recomputes (6) from R after the beam, I, S and the effects that add to them.
   void fusion() {
     Plane transmission = plane("transmission");
     if (on("two_way"))
@@ -92,12 +92,12 @@ private:
       }
   }
 
-  /// (7) from U.
+  /// Recomputes (7) from U.
   void compression() {
     const Plane& u = plane("fused");
     const auto& tgc = set_.at("tgc_db");
     const double least_echo = about_.at("least_echo");
-    Plane db = u;  // of the echo behind gain
+    Plane db = u;  // of the echo after gain
     double brightest = -HUGE_VAL;
     for (int y = 0; y < u.height; ++y)
       for (int x = 0; x < u.width; ++x) {
@@ -114,8 +114,8 @@ private:
         set_.at("reference_level") == "frame_maximum" ? brightest : 10 * std::log10(setting("fixed_level"));
     for (std::size_t i = 0; i < db.values.size(); ++i) {
       const double grey = 255 * std::clamp(1 + (db.values[i] - white) / setting("dynamic_range_db"), 0.0, 1.0);
-      // Half a level is rounding to whole ones; the hundredth is single precision's, whose logarithms of factors of
-      // 10^30 are good to about 1e-5 dB.
+      // Half a level is rounding to whole levels. The hundredth is that of single precision, whose logarithms of
+      // factors of 10^30 are accurate to about 1e-5 dB.
       compare("image", grey, plane("image").values[i], 0.51);
     }
   }

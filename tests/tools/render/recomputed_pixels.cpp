@@ -1,16 +1,16 @@
-// How the picture's pixels lie among the scan lines, in both models.
+// Recomputes how the picture's pixels lie among the scan lines, in both models.
 
 #include "tests/tools/render/recomputation.h"
 
 namespace outsider {
 
-// Where each pixel lies among the lines, from the lines' own places.
+// Computes where each pixel lies among the lines, from the lines' own places.
 void Recomputation::pixels() {
   const auto& image = about_.at("image");
   const auto& pose = about_.at("patient_from_probe");
   const Vec3 d0 = directions_.front(), d1 = directions_.back();
   const bool fan = length(cross(d0, d1)) > 1e-9;
-  // The point where the outer lines meet: start + t d on either, t by the sine rule.
+  // The point where the outer lines meet: start + t d on either line, with t from the sine rule.
   const double opening = std::atan2(length(cross(d0, d1)), dot(d0, d1));
   const double t = fan ? length(starts_.back() - starts_.front()) / 2 / std::sin(opening / 2) : 0;
   const Vec3 apex = starts_.front() - t * d0;
@@ -37,13 +37,13 @@ void Recomputation::pixels() {
       }
       const double sample = (r - r_min_) / dr_ - 0.5;
       const double to_edge = std::min({line + 0.5, n_ - 0.5 - line, sample + 0.5, d_ - 0.5 - sample});
-      if (std::abs(to_edge) < 1e-6) continue;  // on the edge, where rounding decides
+      if (std::abs(to_edge) < 1e-6) continue;  // on the edge rounding decides
       compare("pixel_line", to_edge > 0 ? line : -2, line_at.at(x, y), kFloat * n_ + 1e-9);
       compare("pixel_sample", to_edge > 0 ? sample : -2, plane("pixel_sample").at(x, y), kFloat * d_ + 1e-9);
     }
 }
 
-// Bilinear among the lines, which end in their middles.
+// Interpolates linearly between lines and between samples. Beyond the middles of the outer ones the value is constant.
 Plane Recomputation::converted(const Plane& from) const {
   Plane to = plane("pixel_line");
   for (int y = 0; y < to.height; ++y)

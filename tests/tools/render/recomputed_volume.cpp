@@ -1,4 +1,4 @@
-// How brightly each voxel scatters, from its Hounsfield units and those around.
+// Recomputes how brightly each voxel scatters, from its Hounsfield units and those around it.
 
 #include "tests/tools/render/recomputation.h"
 
@@ -30,7 +30,7 @@ public:
     }
   }
 
-  /// Hundredths of a dB.
+  /// Returns the echogenicity in hundredths of a dB.
   double at(const std::array<int, 3>& i) const {
     if (!labels_.empty()) {
       const int label = labels_[std::size_t((i[2] * hu_.size[1] + i[1]) * hu_.size[0] + i[0])];
@@ -112,7 +112,7 @@ private:
   const int alike_ = constant_.at("alike_hu");
   bool like_air_ = true;
   int densest_air_ = -32768;
-  std::array<double, 256> mean_{}, count_{};  // of each label, HU and voxels
+  std::array<double, 256> mean_{}, count_{};  // of each label: mean HU and number of voxels
   std::array<int, 3> near_{}, reach_{};
   std::vector<std::pair<double, double>> knots_;
 };

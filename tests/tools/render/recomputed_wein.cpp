@@ -1,4 +1,4 @@
-// Model W from the volume, as sim/registration/wein_settings.h defines it.
+// Recomputes model W from the volume, as sim/registration/wein_settings.h defines it.
 
 #include "tests/tools/render/recomputation.h"
 
@@ -31,7 +31,7 @@ private:
     return hu_.voxel(i[0], i[1], i[2]);
   }
 
-  /// Linear along one axis of the volume.
+  /// Interpolates linearly along one axis of the volume.
   double along(std::array<int, 3> i, std::size_t axis, double voxels) const {
     const double floor = std::floor(voxels), f = voxels - floor;
     i[axis] += int(floor);
@@ -70,11 +70,11 @@ private:
 
   void lines() {
     const double l = setting("reflection_length_mm"), a = setting("compression");
-    // Of each axis' gradient a sixteenth of a HU, and of positions and densities what single precision leaves open.
+    // Each axis of the gradient is rounded to a sixteenth of a HU; positions and densities have single precision.
     const double gradient_error = single_ ? std::sqrt(3) / 16 + 0.02 : 1e-9, basic = single_ ? 1e-4 : 1e-6;
     double brightest = 0, least = 1;
     for (int line = 0; line < n_; ++line) {
-      double intensity = 1, open = 0;  // of I, relative
+      double intensity = 1, open = 0;  // relative uncertainty of I
       for (int k = 0; k < d_; ++k) {
         const double r = r_min_ + (k + 0.5) * dr_;
         const Vec3 d = directions_[std::size_t(line)];
@@ -111,7 +111,7 @@ private:
     const Plane reflection = converted(plane("scan_reflection")), echo = converted(plane("scan_echogenicity"));
     for (std::size_t i = 0; i < echo.values.size(); ++i) {
       const double grey = 255 * (s * reflection.values[i] + (1 - s) * echo.values[i]);
-      // Half a level is rounding to whole ones; on the device positions are eighths of a thousandth of a sample.
+      // Half a level is rounding to whole levels. On the device positions are in eighths of a thousandth of a sample.
       compare("image", grey, plane("image").values[i], 0.55);
     }
   }

@@ -1,4 +1,4 @@
-// What insonate-render does not take, and what it says of it.
+// Tests what insonate-render refuses, and its error messages.
 
 #include <catch2/catch.hpp>
 
@@ -44,7 +44,7 @@ TEST_CASE("what insonate-render cannot do it says in a sentence, and leaves noth
   refused("--sweep nan " + volume, "--sweep: 'nan' is no finite number");
   refused("--stages '' " + picture, "--stages: nothing is given behind it; give a value or leave it out.");
   refused(scene.in("image.jpg"), "image.jpg: a picture is written as PNG; name a file that ends in .png.");
-  // The picture is written before the folder gets its name, and the folder's parents go with it.
+  // The picture is written before the folder gets its final name, and the folder's parents are removed with it.
   refused("--settings " + scene.in("small.toml") + " --stages " + scene.in("new/stages") + " " +
               scene.in("ct.nrrd/image.png"),
           "ct.nrrd");
@@ -52,7 +52,7 @@ TEST_CASE("what insonate-render cannot do it says in a sentence, and leaves noth
       run(scene.folder, INSONATE_RENDER_PROGRAM,
           "--ct " + scene.in("ct.nrrd") + " --settings " + scene.in("long.toml") + " --sweep 20 --planes 2 " + volume);
   if (long_lines.code == 0)
-    fs::remove(volume);  // there are graphics cards that take them
+    fs::remove(volume);  // some graphics cards support such textures
   else
     CHECK(long_lines.errors.find("long.toml: a texture of 4096 x 192 x 2 is above") != std::string::npos);
   CHECK((long_lines.code == 0 || long_lines.code == 2));
@@ -72,7 +72,7 @@ TEST_CASE("insonate-render makes no patient for what it refuses without one") {
     INFO(arguments << ": " << refusal.errors);
     CHECK(refusal.code == 2);
     CHECK(refusal.errors.find(sentence) != std::string::npos);
-    CHECK_FALSE(fs::exists(scene.in("cache/insonate")));  // the graphics driver has a cache of its own beside it
+    CHECK_FALSE(fs::exists(scene.in("cache/insonate")));  // the graphics driver's own cache lies beside it
   };
   refused("--settings " + scene.in("bad.toml"), "'gain_db' is 99");
   refused("--depth 100 --settings " + scene.in("bad.toml"), "'gain_db' is 99");

@@ -5,7 +5,7 @@
 
 namespace outsider {
 
-/// A folder for the files of one test, gone at the end.
+/// A folder for the files of one test, removed at its end.
 struct TestFolder {
   std::filesystem::path path;
   TestFolder();
@@ -15,9 +15,9 @@ struct TestFolder {
 
 struct Outcome {
   int code;
-  std::string errors;  ///< what it said on standard error
+  std::string errors;  ///< its output on standard error
 };
-/// Runs a program; its arguments are split by the shell.
+/// Runs a program. The shell splits its arguments.
 Outcome run(const TestFolder& folder, const std::string& program, const std::string& arguments);
 
 std::string bytes_of(const std::filesystem::path& file);

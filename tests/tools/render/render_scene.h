@@ -12,13 +12,13 @@ struct Scene {
   TestFolder folder;
   Scene();
   std::string in(const char* name) const { return (folder.path / name).string(); }
-  /// Runs insonate-render on the CT, with image.png to be written.
+  /// Runs insonate-render on the CT; it writes image.png.
   Outcome render(const std::string& more) const;
-  /// What lies in the folder, sorted.
+  /// Returns the names of the files in the folder, sorted.
   std::vector<std::string> names() const;
 };
 
-/// Of a PNG, row by row.
+/// Returns the grey levels of a PNG, row by row.
 std::vector<double> grey_levels(const std::filesystem::path& file);
 
 }  // namespace outsider

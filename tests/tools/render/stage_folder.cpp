@@ -85,7 +85,7 @@ Recomputation::Recomputation(const StageFolder& stages)
 
 void Recomputation::compare(const std::string& stage, double expected, double got, double tolerated) {
   double misfit = std::abs(expected - got) / tolerated;
-  if (!(misfit >= 0)) misfit = HUGE_VAL;  // not a number is no agreement
+  if (!(misfit >= 0)) misfit = HUGE_VAL;  // NaN counts as a disagreement
   worst_[stage] = std::max(worst_[stage], misfit);
 }
 

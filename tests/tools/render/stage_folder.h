@@ -21,35 +21,35 @@ struct Plane {
   double at(int x, int y) const { return values[std::size_t(y) * std::size_t(width) + std::size_t(x)]; }
 };
 
-/// What `insonate-render --stages` has written.
+/// The output of `insonate-render --stages`.
 struct StageFolder {
   nlohmann::json description;
   std::map<std::string, Plane> planes;  ///< by the file's name in the folder, without .nrrd
-  ShortVolume hounsfield;               ///< that the sound went through
+  ShortVolume hounsfield;               ///< the insonated volume
   std::vector<std::uint8_t> labels;     ///< of the volume's voxels; empty if there are none
-  ShortVolume echogenicity;             ///< the same, hundredths of a dB; of model S
+  ShortVolume echogenicity;             ///< of the same voxels, hundredths of a dB; model S only
 };
 
-/// Throws std::runtime_error for what is no such folder.
+/// Throws std::runtime_error if the folder is not such output.
 StageFolder read_stage_folder(const std::filesystem::path& folder);
 
-/// How far what computed the stages may be from what these files give in double precision.
+/// Allowed differences between the computed stages and a recomputation from these files in double precision.
 struct Tolerances {
   double intensity;   ///< of I, relative, down to I = 1e-6
   double reflection;  ///< of R, relative to the frame's brightest
   double speckle;     ///< of S, whose mean is about 1
-  double fused;       ///< of U, relative to the brightest of the pixels around
+  double fused;       ///< of U, relative to the brightest of the surrounding pixels
 };
 
-/// Recomputes each stage from the files of the stages before it, and the first ones from the volume. By stage, the
-/// worst disagreement as a multiple of what is tolerated.
+/// Recomputes each stage from the files of the stages before it, and the first ones from the volume. Returns the worst
+/// disagreement by stage, as a multiple of the tolerance.
 std::map<std::string, double> misfits(const StageFolder& stages, const Tolerances& tolerances);
 
-/// The same of model W.
-/// @param single  whether it was computed in single precision, with gradients kept to 1/16 HU
+/// Does the same for model W.
+/// @param single  whether it was computed in single precision, with gradients rounded to 1/16 HU
 std::map<std::string, double> wein_misfits(const StageFolder& stages, bool single);
 
-/// The same of the volume's echogenicity, from its Hounsfield units and labels.
+/// Does the same for the volume's echogenicity, from its Hounsfield units and labels.
 std::map<std::string, double> volume_misfits(const StageFolder& stages);
 
 }  // namespace outsider

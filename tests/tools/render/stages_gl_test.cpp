@@ -1,4 +1,4 @@
-// What insonate-render writes of a picture, recomputed stage by stage by code that knows the files and nothing else.
+// Recomputes what insonate-render writes of a picture, stage by stage, with code that knows only the files.
 
 #include <catch2/catch.hpp>
 
@@ -13,46 +13,48 @@ using namespace outsider;
 
 namespace {
 
-// Half a reflection length is a whole number of samples, so that alpha follows from the impedances written.
+// Half a reflection length is a whole number of samples, so that alpha follows from the impedances in the files.
 struct View {
   std::string arguments, pose, settings;
 };
 
-// 240 samples over 60 mm; all that the paper leaves out is switched on, and speckle is.
+// 240 samples over 60 mm. Everything that the paper leaves out is on, and so is speckle.
 const View kFan = {
     "--probe curvilinear --depth 60",
-    // turned about the beam, and pressed in until the fan's corners are under the skin
+    // rotated about the beam, and pressed in until the fan's corners are under the skin
     "0.96 0 0.28 -4  0 1 0 9  -0.28 0 0.96 1  0 0 0 1",
     "preset = 'paper'\nsamples = 240\nreflection_length_mm = 1.0\nfrequency_mhz = 3.5\nabsorption = true\n"
     "two_way = true\ngel_mm = 3.1\nbeam_lines = 9\nreference_level = 'fixed'\n"
     "tgc_db = [0, 2, 5, 9, 14, 20, 27, 35]\ngain_db = 4\nimage_width = 160\nimage_height = 120\n"
-    // loud enough that a wrong number among them shows in the picture
+    // loud enough that a wrong number among them is visible in the picture
     "electronic_noise = true\nnoise_db = -30\nclutter = true\nclutter_db = -10\n"};
 
-// The same with echoes of echoes.
+// The same with reverberation.
 const View kRinging = {kFan.arguments, kFan.pose, kFan.settings + "reverberation = true\nface_reflection = 1\n"};
 
-// The same with what refraction takes behind the edges of what is round.
+// The same with refraction shadows behind the edges of round objects.
 const View kRefracting = {kFan.arguments, kFan.pose, kFan.settings + "edge_shadow = true\n"};
 
-// The same through a slice of three planes that bend, with echoes of echoes.
+// The same through a slice of three planes that bend, with reverberation.
 const View kSlice = {kRinging.arguments, kRinging.pose,
                      kRinging.settings + "slice_planes = 3\nslice_thickness_mm = 4\nelevation_focus_mm = 35\n"};
 
-// The paper's own model but for the reflection length, gel before a face that stands off the skin, and a wide box beam.
+// The paper's own model except for the reflection length, gel in front of a face that stands off the skin, and a wide
+// box beam.
 const View kLinear = {"--probe linear --depth 40", "-1 0 0 3  0 0.96 -0.28 -2  0 -0.28 -0.96 0  0 0 0 1",
                       "preset = 'paper'\nsamples = 200\nreflection_length_mm = 0.8\ngel_mm = 6.05\nspeckle = false\n"
                       "beam_window = 'box'\nbeam_lines = 15\ntransmission_sigma_mm = 1.2\nreflection_sigma_mm = 0\n"
                       "image_width = 90\nimage_height = 140\n"};
 
-// The reference differs from its files by their rounding to single precision, which some hundred samples and lines
-// add up.
+// The reference differs from its files by their rounding to single precision, which accumulates over some hundred
+// samples and lines.
 const Tolerances kReference{1e-6, 1e-6, 2e-6, 2e-5};
-// The graphics card computes in single precision: these are the model's accuracy contract, for the scatterers that of
-// their lookup, and for U single precision's place of a pixel among some hundred samples times the contrast there.
+// The graphics card computes in single precision. These are the tolerances of the model's accuracy contract. For the
+// scatterers it is the accuracy of their lookup. For U it is the place of a pixel in single precision among some
+// hundred samples, times the contrast there.
 const Tolerances kGraphicsCard{1e-4, 1e-4, 1e-3, 1e-4};
 
-/// @param patient  --ct or --case, in the folder
+/// @param patient  --ct or --case, with a path in the folder
 StageFolder render(const TestFolder& folder, const std::string& patient, const View& view, const std::string& more) {
   folder.file("pose.txt", view.pose);
   folder.file("settings.toml", view.settings);
@@ -80,7 +82,7 @@ void check(const StageFolder& stages, const Tolerances& tolerances) {
   }
 }
 
-/// What was insonated is the CT, voxel by voxel.
+/// Checks that the insonated volume is the CT, voxel by voxel.
 void check(const StageFolder& stages, const SyntheticCt& ct, const Tolerances& tolerances) {
   check(stages, tolerances);
   CHECK(stages.hounsfield.size == ct.size);
@@ -205,8 +207,9 @@ TEST_CASE("one wrong number in any of the files is found") {
     Plane& changed = wrong.planes.at(name);
     double largest = 0;
     for (double value : changed.values) largest = std::max(largest, std::abs(value));
-    // Where the picture is not black: off by two levels in the picture, by what single precision leaves no room for in
-    // the others, the envelope, which the graphics card is let off most, and noise, which only pixels near by know.
+    // Where the picture is not black. The change is two levels in the picture, and in the other planes more than single
+    // precision explains. The envelope has the widest tolerance on the graphics card, and noise is known only from
+    // nearby pixels.
     const bool lightly = name == "speckle" || name == "noise";
     changed.at(changed.width / 2, changed.height / 3) += name == "image" ? 2 : (lightly ? 0.05 : 1e-3) * largest;
     bool found = false;

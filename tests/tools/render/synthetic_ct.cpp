@@ -6,7 +6,7 @@
 namespace outsider {
 namespace {
 
-/// From 0 to 1 while `distance` goes from -1.5 to 1.5 mm: interfaces as wide as a scanner draws them.
+/// Returns a step from 0 to 1 while `distance` goes from -1.5 to 1.5 mm: interfaces as wide as a scanner shows them.
 double step(double distance) {
   return 0.5 + 0.5 * std::tanh(distance / 0.75);
 }

@@ -8,9 +8,9 @@
 
 namespace outsider {
 
-/// A body made of formulas: skin at y = 0 (patient mm, LPS), fat, parenchyma with grain, a cyst and a rib; no gas, at
-/// whose surface single precision alone decides what is seen. On a turned grid of 1 mm voxels, so that readers leave
-/// the values as they are.
+/// A body made of formulas: skin at y = 0 (patient mm, LPS), fat, parenchyma with grain, a cyst and a rib. It has no
+/// gas, because at a gas surface single precision alone decides what is visible. It lies on a rotated grid of 1 mm
+/// voxels, so that readers do not resample the values.
 struct SyntheticCt {
   std::array<int, 3> size{150, 112, 48};
   std::array<Vec3, 3> axes{{{0.96, 0.28, 0}, {-0.28, 0.96, 0}, {0, 0, -1}}};
