@@ -2,7 +2,14 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <array>
+#include <concepts>
+#include <optional>
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "sim/core/input_error.h"
 
@@ -25,228 +32,223 @@ constexpr std::array kOutcomes{OutcomeName{StepOutcome::held, "held"},
                                OutcomeName{StepOutcome::skipped, "skipped"},
                                OutcomeName{StepOutcome::not_reached, "not_reached"}};
 
-/// Lists each field once, for both writing and reading: calls `visit` with a key and the field.
-template <typename Values, typename Visit>
-void each_field_of_motion(Values& v, Visit&& visit) {
-  visit("time_s", v.time_s);
-  visit("path_length_mm", v.path_length_mm);
-  visit("angular_path_deg", v.angular_path_deg);
-  visit("translational_movements", v.translational_movements);
-  visit("rotational_movements", v.rotational_movements);
-  visit("tracked_s", v.tracked_s);
-  visit("on_skin_s", v.on_skin_s);
-  visit("untracked_s", v.untracked_s);
-  visit("dropouts", v.dropouts);
+template <typename T, typename Of>
+concept ConstOrNot = std::same_as<std::remove_const_t<T>, Of>;
+
+// Each struct lists its fields once, in the order of the file: `visit` is called with a key and the field, to write it
+// or to read it.
+
+template <typename Visit, ConstOrNot<MotionValues> Values>
+void each_field(Visit& visit, Values& motion) {
+  visit("time_s", motion.time_s);
+  visit("path_length_mm", motion.path_length_mm);
+  visit("angular_path_deg", motion.angular_path_deg);
+  visit("translational_movements", motion.translational_movements);
+  visit("rotational_movements", motion.rotational_movements);
+  visit("tracked_s", motion.tracked_s);
+  visit("on_skin_s", motion.on_skin_s);
+  visit("untracked_s", motion.untracked_s);
+  visit("dropouts", motion.dropouts);
+  visit("log_dimensionless_jerk", motion.log_dimensionless_jerk);
+  visit("spectral_arc_length", motion.spectral_arc_length);
 }
 
-template <typename Values, typename Visit>
-void each_field_of_provenance(Values& v, Visit&& visit) {
-  visit("program_version", v.program_version);
-  visit("scenario", v.scenario);
-  visit("scenario_digest", v.scenario_digest);
-  visit("variant", v.variant);
-  visit("case", v.case_name);
-  visit("case_digest", v.case_digest);
-  visit("log", v.log);
-  visit("log_digest", v.log_digest);
-  visit("log_transform", v.log_transform);
+template <typename Visit, ConstOrNot<ViewValues> Values>
+void each_field(Visit& visit, Values& view) {
+  for (const auto& [metric, value] : ViewValues::fields()) visit(info(metric).name, view.*value);
 }
 
-/// The fields that may be empty.
-template <typename Values, typename Visit>
-void each_optional_field_of_motion(Values& v, Visit&& visit) {
-  visit("log_dimensionless_jerk", v.log_dimensionless_jerk);
-  visit("spectral_arc_length", v.spectral_arc_length);
+template <typename Visit, ConstOrNot<CriterionScore> Score>
+void each_field(Visit& visit, Score& score) {
+  visit("metric", score.metric);
+  visit("value", score.value);
+  visit("full", score.full);
+  visit("zero", score.zero);
+  visit("weight", score.weight);
+  visit("critical", score.critical);
+  visit("points", score.points);
+  visit("why", score.why);
 }
 
-template <typename T>
-Json or_null(const std::optional<T>& value) {
-  return value ? Json(*value) : Json(nullptr);
+template <typename Visit, ConstOrNot<StepResult> Step>
+void each_field(Visit& visit, Step& step) {
+  visit("title", step.title);
+  visit("kind", step.kind);
+  visit("counts", step.counts);
+  visit("view", step.view);
+  visit("outcome", step.outcome);
+  visit("start_s", step.start_s);
+  visit("end_s", step.end_s);
+  visit("longest_hold_s", step.longest_hold_s);
+  visit("judged_from_s", step.judged_from_s);
+  visit("judged_to_s", step.judged_to_s);
+  visit("judged", step.judged);
+  visit("hints_taken", step.hints_taken);
+  visit("hint_cost", step.hint_cost);
+  visit("values", step.values);
+  visit("facts", step.facts);
+  visit("motion", step.motion);
+  visit("criteria", step.criteria);
 }
 
-std::optional<double> number_or_null(const Json& json, const char* key) {
-  const Json& value = json.at(key);
-  return value.is_null() ? std::nullopt : std::optional(value.get<double>());
+template <typename Visit, ConstOrNot<Provenance> From>
+void each_field(Visit& visit, From& from) {
+  visit("program_version", from.program_version);
+  visit("scenario", from.scenario);
+  visit("scenario_digest", from.scenario_digest);
+  visit("variant", from.variant);
+  visit("case", from.case_name);
+  visit("case_digest", from.case_digest);
+  visit("log", from.log);
+  visit("log_digest", from.log_digest);
+  visit("log_transform", from.log_transform);
+  visit("seed", from.seed);
+  visit.if_any("mode", from.mode);
+  visit("phantom_options", from.phantom_options);
 }
 
-Json json_of(const ViewValues& view) {
-  Json json;
-  for (const auto& [metric, value] : ViewValues::fields()) json[std::string(info(metric).name)] = view.*value;
-  return json;
+template <typename Visit, ConstOrNot<ExamResult> Result>
+void each_field(Visit& visit, Result& result) {
+  visit("scoring_version", result.provenance.scoring_version);
+  visit("title", result.title);
+  visit("complete", result.complete);
+  visit("passed", result.passed);
+  visit("percent", result.percent);
+  visit("pass_mark_percent", result.pass_mark_percent);
+  visit("points", result.points);
+  visit("points_possible", result.points_possible);
+  visit("reasons", result.reasons);
+  visit("steps", result.steps);
+  visit("criteria", result.criteria);
+  visit("motion", result.motion);
+  visit("made_from", result.provenance);
 }
 
-Json json_of(const MotionValues& motion) {
-  Json json;
-  each_field_of_motion(motion, [&](const char* key, const auto& value) { json[key] = value; });
-  each_optional_field_of_motion(motion, [&](const char* key, const auto& value) { json[key] = or_null(value); });
-  return json;
-}
+/// Writes the fields that it visits into an object.
+struct Writer {
+  Json json = Json::object();
 
-MotionValues motion_from(const Json& json) {
-  MotionValues motion;
-  each_field_of_motion(motion, [&](const char* key, auto& value) { json.at(key).get_to(value); });
-  each_optional_field_of_motion(motion, [&](const char* key, auto& value) { value = number_or_null(json, key); });
-  return motion;
-}
-
-Json json_of(const std::vector<CriterionScore>& criteria) {
-  Json list = Json::array();
-  for (const CriterionScore& m : criteria)
-    list.push_back({{"metric", info(m.metric).name},
-                    {"value", or_null(m.value)},
-                    {"full", m.full},
-                    {"zero", m.zero},
-                    {"weight", m.weight},
-                    {"critical", m.critical},
-                    {"points", m.points},
-                    {"why", m.why}});
-  return list;
-}
-
-Metric metric_named(const std::string& name) {
-  const auto metric = find_metric(name);
-  if (!metric) throw std::runtime_error("an unknown metric");
-  return *metric;
-}
-
-std::vector<CriterionScore> criteria_from(const Json& list) {
-  std::vector<CriterionScore> criteria;
-  for (const Json& json : list) {
-    CriterionScore m;
-    m.metric = metric_named(json.at("metric").get<std::string>());
-    m.value = number_or_null(json, "value");
-    json.at("full").get_to(m.full);
-    json.at("zero").get_to(m.zero);
-    json.at("weight").get_to(m.weight);
-    json.at("critical").get_to(m.critical);
-    json.at("points").get_to(m.points);
-    json.at("why").get_to(m.why);
-    criteria.push_back(std::move(m));
+  template <typename T>
+  void operator()(std::string_view key, const T& value) {
+    json[std::string(key)] = of(value);
   }
-  return criteria;
-}
-
-Json json_of(const StepResult& step) {
-  const char* outcome = "";
-  for (const OutcomeName& o : kOutcomes)
-    if (o.outcome == step.outcome) outcome = o.name;
-  Json values = Json::object(), facts = Json::object();
-  for (const auto& [metric, value] : step.values) values[std::string(info(metric).name)] = value;
-  for (const auto& [what, fact] : step.facts) facts[what] = fact;
-  return {{"title", step.title},
-          {"kind", step.kind},
-          {"counts", step.counts},
-          {"view", step.view},
-          {"outcome", outcome},
-          {"start_s", step.start_s},
-          {"end_s", step.end_s},
-          {"longest_hold_s", step.longest_hold_s},
-          {"judged_from_s", or_null(step.judged_from_s)},
-          {"judged_to_s", or_null(step.judged_to_s)},
-          {"judged", step.judged ? json_of(*step.judged) : Json(nullptr)},
-          {"hints_taken", step.hints_taken},
-          {"hint_cost", step.hint_cost},
-          {"values", values},
-          {"facts", facts},
-          {"motion", json_of(step.motion)},
-          {"criteria", json_of(step.criteria)}};
-}
-
-StepResult step_from(const Json& json) {
-  StepResult step;
-  json.at("title").get_to(step.title);
-  json.at("kind").get_to(step.kind);
-  json.at("counts").get_to(step.counts);
-  json.at("hints_taken").get_to(step.hints_taken);
-  json.at("hint_cost").get_to(step.hint_cost);
-  json.at("view").get_to(step.view);
-  const OutcomeName* outcome = nullptr;
-  for (const OutcomeName& o : kOutcomes)
-    if (json.at("outcome") == o.name) outcome = &o;
-  if (!outcome) throw std::runtime_error("an unknown outcome");
-  step.outcome = outcome->outcome;
-  json.at("start_s").get_to(step.start_s);
-  json.at("end_s").get_to(step.end_s);
-  json.at("longest_hold_s").get_to(step.longest_hold_s);
-  step.judged_from_s = number_or_null(json, "judged_from_s");
-  step.judged_to_s = number_or_null(json, "judged_to_s");
-  if (const Json& judged = json.at("judged"); !judged.is_null()) {
-    step.judged.emplace();
-    for (const auto& [metric, value] : ViewValues::fields())
-      judged.at(std::string(info(metric).name)).get_to((*step.judged).*value);
+  /// Writes a field that files may leave out.
+  template <typename T>
+  void if_any(std::string_view key, const std::optional<T>& value) {
+    if (value) (*this)(key, *value);
   }
-  for (const auto& [name, value] : json.at("values").items()) step.values.emplace_back(metric_named(name), value);
-  for (const auto& [what, fact] : json.at("facts").items()) step.facts.emplace_back(what, fact);
-  step.motion = motion_from(json.at("motion"));
-  step.criteria = criteria_from(json.at("criteria"));
-  return step;
-}
 
-AttemptMode mode_named(const std::string& name) {
-  const auto mode = find_attempt_mode(name);
-  if (!mode) throw std::runtime_error("an unknown mode");
-  return *mode;
-}
+private:
+  template <typename T>
+  static Json of(const T& value) {
+    if constexpr (requires(Writer & writer) { each_field(writer, value); }) {
+      Writer writer;
+      each_field(writer, value);
+      return writer.json;
+    } else {
+      return value;
+    }
+  }
+  static Json of(Metric metric) { return info(metric).name; }
+  static Json of(AttemptMode mode) { return name_of(mode); }
+  static Json of(StepOutcome outcome) { return std::ranges::find(kOutcomes, outcome, &OutcomeName::outcome)->name; }
+  template <typename T>
+  static Json of(const std::optional<T>& value) {
+    return value ? of(*value) : Json(nullptr);
+  }
+  template <typename T>
+  static Json of(const std::vector<T>& list) {
+    Json json = Json::array();
+    for (const T& one : list) json.push_back(of(one));
+    return json;
+  }
+  template <typename T>
+  static Json of(const std::vector<std::pair<std::string, T>>& named) {
+    Json json = Json::object();
+    for (const auto& [name, value] : named) json[name] = of(value);
+    return json;
+  }
+  static Json of(const std::vector<std::pair<Metric, double>>& measured) {
+    Json json = Json::object();
+    for (const auto& [metric, value] : measured) json[std::string(info(metric).name)] = value;
+    return json;
+  }
+};
 
-ExamResult result_from(const Json& json) {
-  if (json.at("format") != kFormat) throw std::runtime_error("a format that this program does not read");
-  ExamResult result;
-  json.at("scoring_version").get_to(result.provenance.scoring_version);
-  json.at("title").get_to(result.title);
-  json.at("complete").get_to(result.complete);
-  json.at("passed").get_to(result.passed);
-  json.at("percent").get_to(result.percent);
-  json.at("pass_mark_percent").get_to(result.pass_mark_percent);
-  json.at("points").get_to(result.points);
-  json.at("points_possible").get_to(result.points_possible);
-  json.at("reasons").get_to(result.reasons);
-  for (const Json& step : json.at("steps")) result.steps.push_back(step_from(step));
-  result.criteria = criteria_from(json.at("criteria"));
-  result.motion = motion_from(json.at("motion"));
-  const Json& made_from = json.at("made_from");
-  each_field_of_provenance(result.provenance,
-                           [&](const char* key, std::string& value) { made_from.at(key).get_to(value); });
-  made_from.at("seed").get_to(result.provenance.seed);
-  if (made_from.contains("mode")) result.provenance.mode = mode_named(made_from["mode"].get<std::string>());
-  for (const auto& [name, value] : made_from.at("phantom_options").items())
-    result.provenance.phantom_options.emplace_back(name, value.get<std::string>());
-  return result;
-}
+/// Reads the fields that it visits from an object. Throws an exception whose text says what is wrong.
+struct Reader {
+  const Json& json;
+
+  template <typename T>
+  void operator()(std::string_view key, T& value) {
+    from(json.at(std::string(key)), value);
+  }
+  template <typename T>
+  void if_any(std::string_view key, std::optional<T>& value) {
+    if (json.contains(key)) (*this)(key, value.emplace());
+  }
+
+private:
+  template <typename T>
+  static void from(const Json& json, T& value) {
+    if constexpr (requires(Reader & reader) { each_field(reader, value); }) {
+      Reader reader{json};
+      each_field(reader, value);
+    } else {
+      json.get_to(value);
+    }
+  }
+  template <typename T>
+  static T named(const std::optional<T>& found, const char* what) {
+    if (!found) throw std::runtime_error(std::string("an unknown ") + what);
+    return *found;
+  }
+  static void from(const Json& json, Metric& metric) { metric = named(find_metric(json.get<std::string>()), "metric"); }
+  static void from(const Json& json, AttemptMode& mode) {
+    mode = named(find_attempt_mode(json.get<std::string>()), "mode");
+  }
+  static void from(const Json& json, StepOutcome& outcome) {
+    const auto found = std::ranges::find_if(kOutcomes, [&](const OutcomeName& o) { return json == o.name; });
+    if (found == kOutcomes.end()) throw std::runtime_error("an unknown outcome");
+    outcome = found->outcome;
+  }
+  template <typename T>
+  static void from(const Json& json, std::optional<T>& value) {
+    value.reset();
+    if (!json.is_null()) from(json, value.emplace());
+  }
+  template <typename T>
+  static void from(const Json& json, std::vector<T>& list) {
+    for (const Json& one : json) from(one, list.emplace_back());
+  }
+  template <typename T>
+  static void from(const Json& json, std::vector<std::pair<std::string, T>>& named) {
+    for (const auto& [name, value] : json.items()) from(value, named.emplace_back(name, T()).second);
+  }
+  static void from(const Json& json, std::vector<std::pair<Metric, double>>& measured) {
+    for (const auto& [name, value] : json.items())
+      measured.emplace_back(named(find_metric(name), "metric"), value.get<double>());
+  }
+};
 
 }  // namespace
 
 std::string to_json(const ExamResult& result) {
-  Json made_from;
-  each_field_of_provenance(result.provenance,
-                           [&](const char* key, const std::string& value) { made_from[key] = value; });
-  made_from["seed"] = result.provenance.seed;
-  if (result.provenance.mode) made_from["mode"] = name_of(result.provenance.mode);
-  made_from["phantom_options"] = Json::object();
-  for (const auto& [name, value] : result.provenance.phantom_options) made_from["phantom_options"][name] = value;
-
-  Json steps = Json::array();
-  for (const StepResult& step : result.steps) steps.push_back(json_of(step));
-  const Json json = {{"format", kFormat},
-                     {"scoring_version", result.provenance.scoring_version},
-                     {"title", result.title},
-                     {"complete", result.complete},
-                     {"passed", result.passed},
-                     {"percent", result.percent},
-                     {"pass_mark_percent", result.pass_mark_percent},
-                     {"points", result.points},
-                     {"points_possible", result.points_possible},
-                     {"reasons", result.reasons},
-                     {"steps", steps},
-                     {"criteria", json_of(result.criteria)},
-                     {"motion", json_of(result.motion)},
-                     {"made_from", made_from}};
+  Writer writer;
+  writer("format", kFormat);
+  each_field(writer, result);
   // Names come from files. Invalid UTF-8 in them must not prevent the score from being written.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return writer.json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 ExamResult result_from_json(std::string_view text, const std::string& name) {
   try {
-    return result_from(Json::parse(text));
+    const Json json = Json::parse(text);
+    if (json.at("format") != kFormat) throw std::runtime_error("a format that this program does not read");
+    ExamResult result;
+    Reader reader{json};
+    each_field(reader, result);
+    return result;
   } catch (const std::exception& error) {
     throw InputError(name, "", std::string("this is no result of insonate: ") + error.what(), "score the log again");
   }

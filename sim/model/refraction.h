@@ -1,5 +1,7 @@
 #pragma once
 
+#include "sim/shaders/shared/model_constants.h"
+
 namespace insonate {
 
 /// Shadows below the edges of round structures (Robinson et al., J Clin Ultrasound 9, 1981: shadowing by refraction;
@@ -15,13 +17,13 @@ namespace insonate {
 ///
 /// A plane interface thus costs the root of 1 + q/2, which is 0.1 dB at 30 degrees between fat and liver, and the limb
 /// of a cyst, a vessel or a kidney casts a thin shadow. s is limited to 2, because a beam of some width passes a limb
-/// in part. ln c is linear in density, with different slopes below and above water, between kLeastHu and kMostHu. Gas
-/// and bone count as these limits, because they reflect almost everything anyway.
-inline constexpr double kLogSpeedBelowWater = 5e-4;    ///< per HU: fat (-100 HU) 1450 m/s (Szabo), water 1524 (Duck)
-inline constexpr double kLogSpeedAboveWater = 7.6e-4;  ///< per HU: water, liver (60 HU) 1595 m/s (Mast, ARLO 1, 2000)
-inline constexpr double kLeastHu = -150;               ///< fat mixed with some gas
-inline constexpr double kMostHu = 150;                 ///< the densest soft tissue
-inline constexpr double kDeflection_rad = 0.1;         ///< half angle of an aperture of f-number 5
+/// in part. ln c is linear in density, with different slopes below and above water, between kLeastRefractingHu and
+/// kMostRefractingHu. Gas and bone count as these limits, because they reflect almost everything anyway.
+///
+/// The slopes are those of fat (-100 HU, 1450 m/s, Szabo) and water (1524 m/s, Duck), and of water and liver (60 HU,
+/// 1595 m/s, Mast, ARLO 1, 2000). kLeastRefractingHu is fat mixed with some gas, kMostRefractingHu the densest soft
+/// tissue.
+inline constexpr double kDeflection_rad = 0.1;  ///< half angle of an aperture of f-number 5
 inline constexpr double kDeflection_mm =
     5;  ///< estimate: over which kDeflection_rad separates sound from a beam about 1 mm wide
 

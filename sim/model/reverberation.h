@@ -1,5 +1,7 @@
 #pragma once
 
+#include "sim/shaders/shared/model_constants.h"
+
 namespace insonate {
 
 /// Reverberation: sound trapped between two reflectors at r1 < r2 travels back and forth. It shows the deeper one
@@ -31,10 +33,8 @@ namespace insonate {
 ///
 /// V passes through the beam's window (4) as R does. It is not an echo of scatterers, so it adds to (6):
 ///     U = (R + b T) S + V
-inline constexpr double kLeastRound = 1e-3, kLeastFromFace = 1e-2;
-inline constexpr int kMostRepeats = 16;
-inline constexpr int kMostReflectors = 64;  ///< samples of a line that are used: the first ones above kLeastRound
-/// Where I is less than this, sound is too weak to return a second time.
-inline constexpr double kLeastReverberant = 1e-12;
+///
+/// kMostReflectors is how many samples of a line count: the first ones above kLeastRound. Where I is less than
+/// kLeastReverberant, sound is too weak to return a second time.
 
 }  // namespace insonate

@@ -24,7 +24,7 @@ ScattererLattice make_scatterers(std::uint32_t seed) {
   ScattererLattice lattice;
   lattice.stored.resize(2 * std::size_t(kPoints));
   for (std::uint32_t i = 0; i < 2 * kPoints; ++i)
-    lattice.stored[i] = std::int16_t(std::lround(nearly_normal(hash(seed, i)) / ScattererLattice::kScale * 32767.0));
+    lattice.stored[i] = std::int16_t(std::lround(nearly_normal(hash(seed, i)) / kScattererScale * 32767.0));
   return lattice;
 }
 

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "sim/shaders/shared/model_constants.h"
+
 namespace insonate {
 
 /// Point scatterers on a cubic lattice that fills space periodically. Each point has a complex amplitude whose real and
@@ -17,14 +19,13 @@ namespace insonate {
 ///     u = sum of unit_float(hash(h, i)), i = 0 to 3               four uniform numbers
 ///     x = (u - 2) sqrt(3)                                         mean 0, variance 1
 ///     y = (x + kTail (x^3 - 3 x)) / sqrt(kVariance)
-///     stored = y / kScale * 32767, rounded to the nearest
+///     stored = y / kScattererScale * 32767, rounded to the nearest
 ///
 /// The third Hermite polynomial, the first term of the Cornish-Fisher expansion, gives y the tails of the normal
 /// distribution. Without it the envelope is not Rayleigh distributed. The formula is arithmetic only, so that all
 /// machines draw the same bits; |y| is below 3.99.
 struct ScattererLattice {
   static constexpr int kSide = 128;              ///< points along an axis before the lattice repeats
-  static constexpr double kScale = 4.0;          ///< amplitude = stored / 32767 * kScale
   static constexpr double kTail = 0.01625;       ///< gives the signal to noise ratio of a Rayleigh distribution, 1.913
   static constexpr double kVariance = 0.991235;  ///< 1 + 2 kTail (m4 - 3) + kTail^2 (m6 - 6 m4 + 9), m4 = 2.7,
                                                  ///< m6 = 10.9286: the moments of x

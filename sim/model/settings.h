@@ -3,6 +3,8 @@
 #include <array>
 #include <cstdint>
 
+#include "sim/model/coupling.h"
+
 namespace insonate {
 
 /// The shape of the receive beam across scan lines.
@@ -37,9 +39,8 @@ struct Settings {
   bool edge_shadow = false;  ///< subtracts the sound that refraction takes at grazing incidence, see refraction.h
   bool absorption = true;    ///< frequency-dependent absorption in (5); off in the paper's mode
 
-  /// Thickness of the coupling gel between face and skin, 0 (none) to 100, see coupling_depth_mm(). 6: an estimate of
-  /// what a hand squeezes on.
-  double gel_mm = 6;
+  /// Thickness of the coupling gel between face and skin, 0 (none) to 100, see coupling_depth_mm().
+  double gel_mm = kUsualGel_mm;
 
   /// Weights the voxels around a sample in single precision. The weights of a device's own filter may have as few as 8
   /// bits.

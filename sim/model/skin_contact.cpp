@@ -1,5 +1,7 @@
 #include "sim/model/skin_contact.h"
 
+#include "sim/model/coupling.h"
+
 namespace insonate {
 namespace {
 
@@ -9,7 +11,7 @@ constexpr double kPrecision_mm = 0.01;
 ScanLines face_of(const Probe& probe) {
   Probe sparse = probe;
   sparse.lines = SkinContact::kPlaces;
-  return scan_lines(sparse, SkinContact::kGel_mm, 1);
+  return scan_lines(sparse, kUsualGel_mm, 1);
 }
 
 }  // namespace
@@ -39,7 +41,7 @@ bool SkinContact::at(const Pose& patient_from_probe) const {
   int touching = 0;
   for (const ScanLine& place : places_.lines)
     touching += distance_to_skin(*ct_, patient_from_probe.point(place.start),
-                                 patient_from_probe.direction(place.direction), kGel_mm)
+                                 patient_from_probe.direction(place.direction), kUsualGel_mm)
                     .has_value();
   return 2 * touching >= kPlaces;
 }

@@ -21,7 +21,6 @@ std::optional<double> distance_to_skin(const Volume<std::int16_t>& ct, const glm
 /// deeper than the skin counts as on it.
 class SkinContact {
 public:
-  static constexpr double kGel_mm = 6;
   static constexpr int kPlaces = 5;
 
   /// @param ct  must outlive this object

@@ -3,11 +3,9 @@
 #include <cstdint>
 
 #include "sim/core/image.h"
+#include "sim/shaders/shared/model_constants.h"
 
 namespace insonate {
-
-/// Echoes below this count as 0. They have lost 300 dB, as much as time gain can restore.
-inline constexpr double kLeastEcho = 1e-30;
 
 /// The intermediate images of model S, for checking or analysing a picture. Numbers in brackets are the equations of
 /// Kutter, Shams, Navab (Computer Methods and Programs in Biomedicine 94, 2009). Words with underscores are fields of
@@ -30,10 +28,10 @@ inline constexpr double kLeastEcho = 1e-30;
 /// in dB/(cm MHz) one way, f = frequency_mhz and dr in mm (Szabo, Diagnostic Ultrasound Imaging, 4: an attenuation in
 /// proportion to frequency). The paper has no absorption.
 ///
-/// Coupling: nearer to the face than coupling_depth_mm(), air counts as water without echo (kCouplingAirHu,
-/// sim/reference/reference.h). Beyond, air reflects by (1) as anywhere, so that a face that does not touch shows
-/// nothing. Where the slice has several planes (sim/model/beam.h), I, R and the scatterers' echo are their sums by
-/// weight. An R or T below kLeastEcho is 0.
+/// Coupling: nearer to the face than coupling_depth_mm(), air counts as water without echo (coupling.h). Beyond, air
+/// reflects by (1) as anywhere, so that a face that does not touch shows nothing. Where the slice has several planes
+/// (sim/model/beam.h), I, R and the scatterers' echo are their sums by weight. An R or T below kLeastEcho is 0: it has
+/// lost 300 dB, as much as time gain can restore.
 ///
 /// In (6) R and S are after the beam's width (4), sim/model/beam.h. G1 and G2 are Gaussians in the picture of
 /// reflection_sigma_mm and transmission_sigma_mm; b = blend. The additive echoes are V of reverberation.h, and noise

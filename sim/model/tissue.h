@@ -11,8 +11,7 @@ namespace insonate {
 /// so a table with one entry per unit over this range holds all information of a tissue table.
 inline constexpr int kLeastKnotHu = -1024, kMostKnotHu = 3071;
 
-/// The densest air. Coupling gel replaces voxels up to this density completely (kCouplingAirHu,
-/// sim/reference/reference.h).
+/// The densest air. Coupling gel replaces voxels up to this density completely (kCouplingAirHu, coupling.h).
 inline constexpr int kMostAirHu = -301;
 
 /// The acoustic properties of a Hounsfield unit; linear between knots, constant beyond the ends.

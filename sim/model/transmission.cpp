@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/model/coupling.h"
+
 namespace insonate {
 namespace {
 
@@ -34,7 +36,7 @@ Transmission::Transmission(const Volume<std::int16_t>& ct, const TissueTable& ti
 
 const Transmission::Medium& Transmission::medium(const glm::dvec3& index, double distance_mm) const {
   double hu = sample_trilinear(*ct_, index);
-  if (distance_mm < kGel_mm && hu < kAirBelowHu) hu = 0;
+  if (distance_mm < kUsualGel_mm && hu < kAirBelowHu) hu = 0;
   constexpr double kHalfBelow = kLeastHu - 0.5;  // truncation after subtracting it rounds to the nearest integer
   return medium_of_hu_[std::size_t(std::clamp(hu, double(kLeastHu), double(kMostHu)) - kHalfBelow)];
 }

@@ -24,11 +24,9 @@ VoxelLine voxel_line(const Grid& grid, const ScanLines& set, std::size_t line, c
 
 /// Computes the sound that arrives along scan lines: model S's transmission (Kutter, Shams, Navab 2009, equations 1 and
 /// 5), with the reflection length equal to the sample distance, on the CPU in double precision.
+/// Air nearer to the face than kUsualGel_mm counts as coupling gel.
 class Transmission {
 public:
-  /// Air nearer to the face than this counts as coupling gel, as in the trainer's picture.
-  static constexpr double kGel_mm = 6;
-
   /// @param ct  must outlive this object
   Transmission(const Volume<std::int16_t>& ct, const TissueTable& tissues, double sample_distance_mm,
                double frequency_mhz);

@@ -56,8 +56,7 @@ private:
     constexpr int side = ScattererLattice::kSide;
     const auto wrapped = [](int a) { return std::size_t((a % side + side) % side); };
     const std::size_t offset = 2 * ((wrapped(i.z) * side + wrapped(i.y)) * side + wrapped(i.x));
-    return std::complex<double>(lattice_->stored[offset], lattice_->stored[offset + 1]) *
-           (ScattererLattice::kScale / 32767.0);
+    return std::complex<double>(lattice_->stored[offset], lattice_->stored[offset + 1]) * (kScattererScale / 32767.0);
   }
 
   std::shared_ptr<const ScattererLattice> lattice_;
@@ -188,7 +187,8 @@ ReferenceScan traverse_reference(const MediumField& field, const TissueTable& ta
       intensity *= std::pow(1 - alpha, dr / l) * absorbed(dr);  // (5)
       if (settings.edge_shadow) {
         const auto log_speed = [](double density) {
-          return std::clamp(density, kLeastHu, kMostHu) * (density < 0 ? kLogSpeedBelowWater : kLogSpeedAboveWater);
+          return std::clamp(density, kLeastRefractingHu, kMostRefractingHu) *
+                 (density < 0 ? kLogSpeedBelowWater : kLogSpeedAboveWater);
         };
         const glm::dvec2 rise(log_speed(right) - log_speed(left), log_speed(above) - log_speed(below));
         turn = std::exp(-dr / kDeflection_mm) * turn + dr / l * rise;

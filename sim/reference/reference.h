@@ -6,6 +6,7 @@
 #include "sim/core/pose.h"
 #include "sim/model/acoustic_volume.h"
 #include "sim/model/beam.h"
+#include "sim/model/coupling.h"
 #include "sim/model/settings.h"
 #include "sim/model/stages.h"
 #include "sim/model/tissue.h"
@@ -20,11 +21,6 @@ struct Medium {
   double echogenicity_db = -60;
 };
 using MediumField = std::function<Medium(const glm::dvec3& patient_mm)>;
-
-/// Within the gel layer all air counts as gel. Voxels less dense than kCouplingTissueHu, such as the skin's outermost
-/// ones, count as gel in part. The share of gel grows linearly down to kCouplingAirHu. If tissue turned into gel at one
-/// density, echoes of the skin would come and go while the probe moves.
-inline constexpr double kCouplingTissueHu = -150, kCouplingAirHu = kMostAirHu;
 
 /// Returns what sound meets where the field has `medium`, at distance r_mm from the face along the line. Nearer than
 /// coupling_depth_mm() (sim/model/settings.h), water without echo takes the place of air.

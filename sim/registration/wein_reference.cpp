@@ -113,7 +113,7 @@ WeinStages<double> wein_reference(const WeinField& field, const Probe& probe, do
       const double r = lines.r_min_mm + (k + 0.5) * dr;
       WeinMedium medium = field(patient_from_probe.point(sight.start + r * sight.direction));
       if (r < settings.contact_mm) {
-        medium.hu *= 1 - std::clamp((kContactTissueHu - medium.hu) / (kContactTissueHu - kContactAirHu), 0.0, 1.0);
+        medium.hu *= 1 - std::clamp((kCouplingTissueHu - medium.hu) / (kCouplingTissueHu - kCouplingAirHu), 0.0, 1.0);
         medium.gradient_hu = glm::dvec3(0);
       }
       const double mu = std::max(medium.hu + 1000, kAirMu);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "sim/model/coupling.h"
+
 namespace insonate {
 
 /// All parameters by which model W, the model for registration, turns a CT, a pose and a probe into an image: W. Wein,
@@ -42,12 +44,7 @@ inline constexpr int kLeastPatch = 4, kMostPatch = 128;
 /// 128.
 inline constexpr int kMostPatches = 5376;
 
-/// The mu of air, the least that counts: air's density is 1.2e-3 of water's, whose mu is 1000.
-inline constexpr double kAirMu = 1.2;
-
-/// Nearer to the face than WeinSettings::contact_mm, HU of kContactAirHu and below count as water. HU of
-/// kContactTissueHu and above count unchanged; values between are mixed linearly. If tissue turned into water at one
-/// density, the picture would jump while the probe moves.
-inline constexpr double kContactTissueHu = -150, kContactAirHu = -301;
+// The least mu that counts is that of air, kAirMu: air's density is 1.2e-3 of water's, whose mu is 1000. Nearer to the
+// face than contact_mm, air counts as water as coupling gel does in model S (sim/model/coupling.h).
 
 }  // namespace insonate

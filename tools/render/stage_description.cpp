@@ -39,7 +39,7 @@ Json echogenicity_constants() {
 Json scatterer_constants() {
   using Lattice = ScattererLattice;
   return {{"side", Lattice::kSide},
-          {"scale", Lattice::kScale},
+          {"scale", kScattererScale},
           {"tail", Lattice::kTail},
           {"variance", Lattice::kVariance},
           {"turn_rad", Lattice::kRotation_rad},
@@ -134,8 +134,8 @@ Json describe(const RenderedScene& scene, const StageGeometry& geometry, const s
                            {"most_reflectors", kMostReflectors}};
   text["refraction"] = {{"log_speed_below_water", kLogSpeedBelowWater},
                         {"log_speed_above_water", kLogSpeedAboveWater},
-                        {"least_hu", kLeastHu},
-                        {"most_hu", kMostHu},
+                        {"least_hu", kLeastRefractingHu},
+                        {"most_hu", kMostRefractingHu},
                         {"turn_rad", kDeflection_rad},
                         {"turn_mm", kDeflection_mm}};
   text["envelope_scale"] = envelope_scale(lines, scene.settings);

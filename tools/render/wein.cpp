@@ -42,8 +42,8 @@ void write_stages(const std::filesystem::path& folder, const WeinScene& scene, c
       describe_geometry("W", geometry, scene.patient_from_probe, scene.volume, rendered.made_by);
   describe_settings(text, named_settings(settings));
   text["air_mu"] = kAirMu;
-  text["contact_tissue_hu"] = kContactTissueHu;
-  text["contact_air_hu"] = kContactAirHu;
+  text["contact_tissue_hu"] = kCouplingTissueHu;
+  text["contact_air_hu"] = kCouplingAirHu;
   write_file(folder / "scanlines.json", text.dump(1) + "\n");
   write_hounsfield(folder, scene.volume);
   write_among_lines(folder, "intensity", rendered.stages.intensity, "I, relative to the intensity at the face");

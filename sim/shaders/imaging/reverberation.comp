@@ -10,13 +10,11 @@ layout(local_size_x = GROUP) in;
 
 #include "shared/simulation_parameters.h"
 #include "shared/least_echo.glsl"
+#include "shared/model_constants.h"
 #include "shared/rows.glsl"
 
 layout(binding = 0) uniform samplerBuffer scan;                   // one row per line: I, R of the slice's middle plane
 layout(std430, binding = 0) buffer Repeats { float repeats[]; };  // one row per line: V, 0 before
-
-const int kMostReflectors = 64, kMostRepeats = 16;  // these and the next line as in sim/model/reverberation.h
-const float kLeastRound = 1e-3, kLeastFromFace = 1e-2, kLeastReverberant = 1e-12;
 
 int row;  // index of the line's first sample
 float intensity(int k) { return texelFetch(scan, row + clamp(k, 0, samples - 1)).x; }

@@ -29,6 +29,7 @@
 
 layout(local_size_x = GROUP) in;
 
+#include "shared/model_constants.h"
 #include "shared/wein_parameters.h"
 #include "shared/exact_filter.glsl"
 
@@ -46,8 +47,6 @@ layout(std430, binding = 1) buffer Counter { uint samples_traversed; };  // of o
 layout(binding = 1, r32f) writeonly uniform image2D intensities;  // of the first image
 #endif
 
-const float kAirMu = 1.2;
-const float kContactTissueHu = -150.0, kContactAirHu = -301.0;
 const float kNothing = -1e6;  // stands for ln 0, what total reflection transmits
 
 // A scan line of one image, in coordinates of the volume's texture.
@@ -111,7 +110,7 @@ Terms terms_of(Line one, Line other, int k, inout vec2 log_intensity) {
   vec2 cosine = across / max(steepness, 1e-20), hu = vec2(here.x, there.x);
 
   bvec2 contact = lessThan(steps, vec2(first_free_sample));
-  vec2 water = clamp((kContactTissueHu - hu) / (kContactTissueHu - kContactAirHu), 0.0, 1.0);
+  vec2 water = clamp((kCouplingTissueHu - hu) / (kCouplingTissueHu - kCouplingAirHu), 0.0, 1.0);
   hu = mix(hu, hu * (1.0 - water), contact);
   vec2 change = mix(min(steepness / (2.0 * max(hu + 1000.0, kAirMu)), 1.0), vec2(0.0), contact);
 

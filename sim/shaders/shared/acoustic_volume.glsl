@@ -1,5 +1,7 @@
 // The volume that the simulation samples, and the tissue table for its Hounsfield units.
 
+#include "shared/model_constants.h"
+
 // (HU, echogenicity in hundredths of a dB) / 32767, with a voxel of air all around
 layout(binding = 0) uniform sampler3D acoustic_volume;
 
@@ -11,8 +13,7 @@ const float kFirstHu = -1024.0;
 const vec2 kGel = vec2(0.0, -6000.0);         // water's density, without echo
 const vec2 kOutside = vec2(-1000.0, -6000.0);  // outside the volume and around the body
 
-// Returns the share of gel in what lies within the gel layer, 0 to 1, as in sim/reference/reference.h.
-const float kCouplingTissueHu = -150.0, kCouplingAirHu = -301.0;
+// Returns the share of gel in what lies within the gel layer, 0 to 1 (sim/model/coupling.h).
 float gel_share(float hu) { return clamp((kCouplingTissueHu - hu) / (kCouplingTissueHu - kCouplingAirHu), 0.0, 1.0); }
 
 vec2 impedance_and_absorption(float hu) {

@@ -1,4 +1,5 @@
-// As in sim/model/stages.h: weaker echoes count as 0. They would become denormal numbers of single precision, which a
+// Echoes weaker than kLeastEcho count as 0. They would become denormal numbers of single precision, which a
 // processor computes many times more slowly. Their logarithms, which time gain would show, differ by device.
-const float kLeastEcho = 1e-30;
+#include "shared/model_constants.h"
+
 const float kLeastIntensity = 1e-15;  // its square is kLeastEcho

@@ -37,9 +37,6 @@ const int kEdgesAtMiddles = 1;  // l = dr: halfway between samples, as in the pa
 const int kEdgesAnywhere = 0;
 
 const float kMeanCosine = 0.5;           // |d . n| over all directions, for interfaces too weak to need a normal
-// As in sim/model/refraction.h.
-const float kLeastHu = -150.0, kMostHu = 150.0, kLogSpeedBelowWater = 5e-4, kLogSpeedAboveWater = 7.6e-4;
-const float kScattererScale = 4.0;     // the lattice stores a quarter of its normally distributed numbers
 const float kLn10 = 2.302585093;
 // As in sim/model/acoustic_volume.h: the level in hundredths of a dB, and 10^(level / 1000).
 const float kSilentEchogenicity = -5999.5, kSilentAmplitude = 1.00115195e-6;
@@ -167,7 +164,7 @@ Sample sample_at(float k, Medium here, Medium before, Medium behind) {
   met.cosine = kMeanCosine;
 #if EDGE_SHADOW == 1
   Surroundings around = surroundings(k, behind.hu - before.hu);
-  vec4 soft = clamp(around.beside, kLeastHu, kMostHu);
+  vec4 soft = clamp(around.beside, kLeastRefractingHu, kMostRefractingHu);
   vec4 log_speed = kLogSpeedBelowWater * min(soft, 0.0) + kLogSpeedAboveWater * max(soft, 0.0);
   met.turn = (log_speed.xz - log_speed.yw) * turn_per_step;
 #endif

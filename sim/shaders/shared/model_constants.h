@@ -1,0 +1,35 @@
+// The models' numbers that shaders and C++ share; both include this file. sim/model explains them and names the sources.
+#ifdef __cplusplus
+#pragma once
+namespace insonate {
+#define INSONATE_REAL inline constexpr double
+#define INSONATE_INT inline constexpr int
+#else
+#define INSONATE_REAL const float
+#define INSONATE_INT const int
+#endif
+
+// Coupling (sim/model/coupling.h), Hounsfield units.
+INSONATE_REAL kCouplingTissueHu = -150.0, kCouplingAirHu = -301.0;
+
+// The weakest echo that counts (sim/model/stages.h).
+INSONATE_REAL kLeastEcho = 1e-30;
+
+// Refraction (sim/model/refraction.h): Hounsfield units, and the logarithm of the speed of sound per unit.
+INSONATE_REAL kLeastRefractingHu = -150.0, kMostRefractingHu = 150.0, kLogSpeedBelowWater = 5e-4, kLogSpeedAboveWater = 7.6e-4;
+
+// Reverberation (sim/model/reverberation.h).
+INSONATE_REAL kLeastRound = 1e-3, kLeastFromFace = 1e-2, kLeastReverberant = 1e-12;
+INSONATE_INT kMostRepeats = 16, kMostReflectors = 64;
+
+// What a stored number of the scatterers' lattice is multiplied by (sim/model/scatterers.h).
+INSONATE_REAL kScattererScale = 4.0;
+
+// The mu of air in model W (sim/registration/wein_settings.h).
+INSONATE_REAL kAirMu = 1.2;
+
+#undef INSONATE_REAL
+#undef INSONATE_INT
+#ifdef __cplusplus
+}  // namespace insonate
+#endif
