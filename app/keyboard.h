@@ -10,7 +10,7 @@ struct GLFWwindow;
 
 namespace insonate {
 
-/// What happened to a key, or a character that was typed.
+/// An event of a key, or a character that was typed.
 struct KeyEvent {
   enum class Kind { pressed, repeated, released, typed };
   Kind kind = Kind::pressed;
@@ -20,22 +20,21 @@ struct KeyEvent {
   double time_s = 0;       ///< steady_now_s()
 };
 
-/// What keys do: those held move the probe as long as they are held, those pressed do something once, and what is
-/// typed goes to the field that asks for it. Everything happens in the order it came, however long a frame takes: Dear
-/// ImGui 1.86 looks at keys once a frame and would miss one that is up again by then.
+/// Gives keys their meaning: held keys move the probe, pressed keys act once, and typed characters go to the field that
+/// is open. Events are handled in their order, however long a frame takes. Dear ImGui 1.86 reads keys once per frame
+/// and would miss one that is released by then.
 class Keyboard {
 public:
   explicit Keyboard(GLFWwindow* window) : window_(window) {}
 
-  /// From GLFW's callbacks.
+  /// Stores an event. GLFW's callbacks call it.
   void note(const KeyEvent& event) { events_.push_back(event); }
 
-  /// To be called before each of ImGui's frames.
+  /// Handles the events so far. Call it before each of ImGui's frames. Returns whether a held key moves the probe.
   /// @param elapsed_s  since the last call
-  /// Whether a key is held that moves the probe.
   bool apply(Trainer& trainer, ui::Screen& screen, double elapsed_s);
 
-  /// Whether something waits for the next frame.
+  /// Returns whether events wait for the next frame.
   bool waiting() const { return !events_.empty(); }
 
 private:

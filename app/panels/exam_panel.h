@@ -6,14 +6,14 @@
 
 namespace insonate::ui {
 
-/// The strip on top: what is asked for now, how far the hold is, the time, and where the poses come from.
-/// @param makes_views  whether the patient's views are being made, in place of practice
+/// Draws the strip at the top: the current step, its progress, the time left, and the tracker's state.
+/// @param makes_views  true while reference views are being made
 void draw_exam_panel(const Theme& theme, const Rect& panel, const Session& session, bool makes_views);
 
-/// What to do about a tracker whose samples are being rejected, as sentences; empty while none are.
+/// Returns sentences on what to do about a tracker whose samples are being rejected; empty while none are.
 std::string rejection_advice(const TrackerState& state);
 
-/// "1:04"
+/// Returns a time in minutes and seconds: "1:04".
 std::string clock_text(double seconds);
 
 }  // namespace insonate::ui

@@ -11,40 +11,40 @@
 
 namespace insonate::ui {
 
-/// What lies over the whole screen until it is answered; drawn one at a time.
+/// The sheets that lie over the whole screen until they are answered. One is drawn at a time.
 
-/// A sheet in the middle of a dimmed screen, from begin_overlay to end_overlay; nothing below it takes the mouse.
+/// Begins a sheet in the middle of a dimmed screen, until end_overlay(). Nothing below it takes the mouse.
 Rect begin_overlay(const Theme& theme, const Rect& screen, const ImVec2& size);
 void end_overlay();
 
-/// True when it is to be given up, which is offered when it `can_stop`.
+/// Draws what is being loaded. Returns true when the person stops it, which is offered if `can_stop`.
 bool draw_loading(const Theme& theme, const Rect& screen, const Loading::Progress& progress, bool can_stop);
 
-/// True when it was acknowledged.
-/// @param ends  there is nothing to go on with
+/// Draws a problem. Returns true when it is acknowledged.
+/// @param ends  the trainer ends after it
 bool draw_problem(const Theme& theme, const Rect& screen, const std::string& problem, bool ends);
 
 enum class HelpAnswer { none, close, about };
-/// Keys and mouse, and the way to the About page.
-/// @param places  gets where its button for that page is
+/// Draws what keys and mouse do, with a button to the About page.
+/// @param places  receives the button's rectangle
 HelpAnswer draw_key_help(const Theme& theme, const Rect& screen, std::map<std::string, Rect>& places);
 
-/// Which build of Insonate this is, and what it is not. True when it was closed.
-/// @param device  what OpenGL draws on
+/// Draws version, commit, licence and device. Returns true when it is closed.
+/// @param device  OpenGL's name of the device
 bool draw_about(const Theme& theme, const Rect& screen, const std::string& device);
 
-/// Asks for a path to open; files may be dropped on the window as well.
+/// Asks for a path to open. Files can be dropped on the window as well.
 class OpenDialog {
 public:
   enum class Answer { none, cancelled, chosen };
   Answer draw(const Theme& theme, const Rect& screen);
   std::string path() const { return path_.data(); }
 
-  /// Whether the field takes what is typed.
+  /// Returns whether the field accepts characters.
   bool ready() const { return ready_; }
-  /// The next draw() answers `chosen`, with what was typed until then.
+  /// Makes the next draw() return `chosen`, with what was typed until then.
   void confirm() { confirmed_ = true; }
-  /// To be called when it is no longer drawn.
+  /// Call it when the dialog is no longer drawn.
   void close() { ready_ = confirmed_ = false; }
 
 private:

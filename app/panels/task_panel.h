@@ -12,14 +12,14 @@
 
 namespace insonate::ui {
 
-/// Whether the exam has a task panel: one of a log has none, as nobody does anything in it.
+/// Returns whether the exam has a task panel. An exam that a log plays has none.
 bool has_task_panel(const Session& session);
 
-/// As high as the exam needs it all along, so that the picture keeps its size.
+/// Returns the height that all steps of the exam need, so that the picture keeps its size.
 float task_panel_height(const Theme& theme, const Session& session, float width);
 
-/// The strip below the exam's: what the learner can do in the step under way, hints, and going on. Adds to `places`
-/// where its buttons are.
+/// Draws the strip below the exam's: the controls of the current step, hints, and going on. Adds its buttons'
+/// rectangles to `places`.
 void draw_task_panel(const Theme& theme, const Rect& panel, Session& session, PictureTools& tools,
                      StepControls& controls, TextField& field, std::map<std::string, Rect>& places);
 

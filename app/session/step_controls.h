@@ -8,49 +8,49 @@
 
 namespace insonate {
 
-/// What the learner does with the step of the exam under way as a whole: answers, takes hints, turns to another step
-/// and goes on. Hands actions to the session. Knows no screen.
+/// The learner's controls for the current step of an exam: answering, taking hints, choosing another step, going on.
+/// Passes actions to the session. Does not depend on a screen.
 class StepControls {
 public:
-  /// A step that may be turned to, where the order is free.
+  /// A step that the learner may choose, where the order is free.
   struct Turn {
     std::size_t step;
     std::string title;
     bool current, ended, can_turn;
   };
 
-  /// To be called after each Session::advance().
+  /// Call it after each Session::advance().
   void see(const Session& session);
 
-  /// There is a step under way that takes something from the learner: none of a log, which brings its own actions.
+  /// Returns whether a step accepts input from the learner. A log brings its own actions, so its steps do not.
   static bool active(const Session& session);
 
-  /// The question under way; nullptr for none.
+  /// Returns the question of the current step; nullptr if it asks none.
   const AnswerInput* question() const { return std::get_if<AnswerInput>(&input_); }
-  /// What is answered when it is confirmed: of a choice its text, else what is typed. The session hears nothing of it
+  /// Sets the answer that answer() will give: the text of a choice, or what was typed. The session does not get it
   /// before.
   void draft(const std::string& answer) { draft_ = answer; }
   const std::string& draft() const { return draft_; }
-  /// Whether that can be given: a choice or a text is there, a number is one.
+  /// Returns whether the draft can be given: it is not empty, and a number where one is asked for.
   bool can_answer() const;
-  /// Gives it; the first answer counts.
+  /// Gives the draft as the answer. The first answer counts.
   void answer(Session& session);
 
-  /// Ends the step; a step that would not count as done is asked about first, and ended at the second time. Of a
-  /// question that can be answered this is the answer; else nothing happens.
+  /// Ends the step. If it would not count as done, the first call only asks (asks_again()), and the second one ends it.
+  /// For a question, gives the answer if there is one, and does nothing otherwise.
   void go_on(Session& session);
-  /// Whether it was asked once.
+  /// Returns whether go_on() has asked once.
   bool asks_again() const { return asks_again_; }
 
-  /// What the next hint costs in points; empty when there is none left.
+  /// Returns what the next hint costs, points; nothing if none is left.
   static std::optional<double> hint_cost(const Session& session);
   void take_hint(Session& session);
 
-  /// Empty where the order is fixed.
+  /// Returns the steps that the learner may choose from; empty where the order is fixed.
   static std::vector<Turn> turns(const Session& session);
   void turn_to(Session& session, std::size_t step);
 
-  /// The settings that the step under way asks for, beside the machine's; empty if it asks for none.
+  /// Returns the settings that the current step asks for, beside the machine's; empty if it asks for none.
   std::vector<SettingsInput::Setting> settings(const Session& session) const;
 
 private:
@@ -58,10 +58,10 @@ private:
 
   int attempt_ = 0;
   std::optional<std::size_t> step_;
-  StepInput input_;  ///< of the step under way
+  StepInput input_;  ///< of the current step
   std::string draft_;
   bool asks_again_ = false;
-  bool told_ = false;  ///< something that the session has not taken yet: pressed twice, it would reach the next step
+  bool told_ = false;  ///< an action waits for the next sample; a second one would reach the next step
 };
 
 }  // namespace insonate

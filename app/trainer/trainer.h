@@ -29,95 +29,96 @@ namespace insonate {
 /// construction to destruction, on the one thread that uses it.
 class Trainer {
 public:
-  /// Throws InputError when OpenIGTLink clients are asked for where nobody can listen, and when a database of results
-  /// is that cannot be used.
+  /// Throws InputError if the address for OpenIGTLink clients or the database of results cannot be used.
   explicit Trainer(Options options);
 
-  /// Opens what the command line names, without waiting for it.
+  /// Begins to load what the command line names, and returns at once.
   void open_from_options();
-  /// Opens a file or folder that a person dropped, typed or chose: a case, a CT, a scenario or a recorded scan. It
-  /// takes the place of what is being loaded.
+  /// Begins to load a file or folder that a person dropped, typed or chose: a case, a CT, a scenario or a recorded
+  /// scan. It replaces what is being loaded. What cannot be opened becomes a problem to acknowledge.
   void open(const std::filesystem::path& path);
 
-  /// What is being loaded; nullptr for nothing.
+  /// Returns what is being loaded; nullptr if nothing is.
   const Loading* loading() const { return loading_.get(); }
-  /// Waits until it is there.
+  /// Waits until it is loaded, and shows it.
   void finish_loading();
-  /// Gives it up and goes on with the session there is; does nothing when there is none.
+  /// Stops loading and continues in the current mode. Does nothing if there is no patient to go on with.
   void stop_loading();
 
-  /// Takes over what was loaded and advances the session to `now_s`.
+  /// Shows what has been loaded, and advances the current mode to `now_s` (s, steady_now_s() with a live tracker).
   void update(double now_s);
-  /// Draws the pictures of the session, and tells OpenIGTLink clients.
+  /// Draws the pictures of the session or replay, and publishes them to OpenIGTLink clients and the recorder.
+  /// @param quality    0 to 1: the share of the screen's pixels, along each side, that the ultrasound is computed for
+  /// @param budget_ms  time that the volume view may take
   void draw(const PictureSizes& sizes, double quality, double budget_ms);
-  /// Whether the view is held longer than when the best frame was kept: draw, then keep it.
+  /// Returns whether the picture is better than the best frame so far: draw it, then keep it.
   bool best_frame_due() const { return scan() && scan()->best_frames.due(*session()); }
   void keep_best_frame() { scan()->best_frames.keep(*session(), pictures_); }
-  /// Keeps the attempt when an exam has ended, and writes its report and score, once.
+  /// When an exam has ended, stores the attempt and writes its report and score, once.
   void write_results_if_due();
 
-  /// Ends an exam that counts and is left before its end: what there is of it is scored and kept.
+  /// Ends an exam that counts before its end: what has been done is scored and stored.
   void hand_in_exam();
-  /// Whether the exam that the trainer was started for cannot be taken: there is nothing to show then but why.
+  /// Returns whether the exam that the trainer was started for is refused. Only the reason is shown then.
   bool exam_refused() const { return in_exam() && std::holds_alternative<Idle>(mode_) && !loading_; }
-  /// Whether that is acknowledged too, and nothing is left to be done.
+  /// Returns whether the refusal has been acknowledged, so that the trainer can end.
   bool is_over() const { return exam_refused() && problems_.empty(); }
 
-  /// Starts recording, to the file of the command line, or else to the next free name beside it or in the folder of the
-  /// results: recording.igs.mha.
+  /// Starts a recording. The first one goes to the command line's file. Others, and all if it names none, get the next
+  /// free name beside it or in the folder of the results: recording.igs.mha.
   void start_recording();
-  /// Ends it; the files are made meanwhile.
+  /// Ends the recording. A thread writes the files.
   void stop_recording() { recorder_.stop(); }
-  /// Ends it and waits for the files.
+  /// Ends the recording and waits for its files.
   void finish_recording();
   const RunRecorder& recorder() const { return recorder_; }
-  /// The last file that the tracker's bytes went to; empty when they are not recorded.
+  /// Returns the last file with the tracker's bytes; empty if they are not recorded.
   std::filesystem::path raw_file() const { return raw_ ? raw_->file() : std::filesystem::path(); }
 
-  /// The set-up of the tracker, while it is being made: there is no session then, as the tracker is the set-up's.
+  /// Returns the wizard that sets up the tracker; nullptr in another mode.
   SetupWizard* setup() { return const_cast<SetupWizard*>(std::as_const(*this).setup()); }
   const SetupWizard* setup() const {
     const auto* mode = std::get_if<SettingUp>(&mode_);
     return mode ? mode->wizard.get() : nullptr;
   }
-  /// Begins it, with the session's tracker; where that has no sensor, that is a problem to acknowledge. It begins by
-  /// itself where the command line names a calibration that is still to be made.
+  /// Begins to set up the session's tracker. A tracker without a sensor becomes a problem to acknowledge. The set-up
+  /// begins by itself if the command line names a calibration that is not complete.
   void begin_setup();
-  /// Goes on with the session, through the calibration if it is complete.
+  /// Ends the set-up and begins a session, with the calibration if it is complete.
   void end_setup();
 
-  /// How to start the trainer so that it uses the calibration that is being made, as a sentence.
+  /// Returns a sentence on how to start the trainer with the calibration that is being made.
   std::string next_start() const;
 
-  /// Measured while options().latency says where it is to be told.
+  /// Returns the latency of the pictures; measured only if options().latency names a file.
   const PictureLatency& latency() const { return latency_; }
 
-  /// The run that is looked at again; there is no session then, and nothing is scored or kept.
+  /// Returns the run that is played again; nullptr in another mode.
   Replay* replay() { return const_cast<Replay*>(std::as_const(*this).replay()); }
   const Replay* replay() const {
     const auto* mode = std::get_if<Playback>(&mode_);
     return mode ? mode->replay.get() : nullptr;
   }
-  /// The patient that is shown, with the exam if there is one; nullptr before the first is loaded.
+  /// Returns the patient that is shown, with the exam if there is one; nullptr before the first is loaded.
   const LoadedCase* loaded_case() const { return loaded_case_.get(); }
 
   /// Help for practice.
   Guide& guide() { return guide_; }
   const Guide& guide() const { return guide_; }
 
-  /// What makes views of a case folder; nullptr unless that is what the trainer was started for.
+  /// Returns the author of a case's views; nullptr in another mode.
   Author* author() { return const_cast<Author*>(std::as_const(*this).author()); }
   const Author* author() const {
     const auto* mode = std::get_if<Authoring>(&mode_);
     return mode ? &mode->author : nullptr;
   }
-  /// Keeps the view that is being made; what speaks against it is a problem to acknowledge.
+  /// Stores the view that is being made. If it cannot be stored, the reason becomes a problem to acknowledge.
   void keep_view();
 
-  /// The session of practice, an exam or authoring; nullptr in another mode.
+  /// Returns the session of practice, an exam or authoring; nullptr in another mode.
   Session* session() { return scan() ? scan()->session.get() : nullptr; }
   const Session* session() const { return scan() ? scan()->session.get() : nullptr; }
-  /// Those of the session; only where there is one.
+  /// Return the session's tools and controls. Call them only while there is a session.
   PictureTools& picture_tools() { return scan()->tools; }
   const PictureTools& picture_tools() const { return scan()->tools; }
   StepControls& step_controls() { return scan()->controls; }
