@@ -12,7 +12,7 @@
 
 namespace insonate {
 
-/// Whose poses a kind of tracker reports. It decides whether a set-up can place it on the patient.
+/// What the poses of a kind of tracker describe. A set-up can place a sensor, a recording and a synthetic hand.
 enum class PosesOf {
   probe,      ///< the probe's in the patient, moved by a hand at a desk: there is no sensor to set up
   sensor,     ///< a sensor's on a dummy probe, which a lab sets up once
@@ -53,7 +53,7 @@ std::unique_ptr<Tracker> open_tracker(std::string_view uri, const TrackerContext
 std::unique_ptr<Tracker> open_unless_device(std::string_view uri);
 
 /// Returns the source of the tracker that `uri` names, if its samples are parsed from a device's bytes. Throws
-/// InputError for all other trackers, and as open_tracker() does.
+/// InputError if the tracker has no such source, or if open_tracker() would refuse the URI.
 std::unique_ptr<RawSource> make_raw_source(const TrackerUri& uri, const TrackerContext& context);
 
 }  // namespace insonate

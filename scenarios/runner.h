@@ -62,8 +62,8 @@ struct TracePoint {
 ///   follows it. It takes effect at that sample's time, before the sample is evaluated.
 /// - The step's kind (scenarios/steps) defines what a step requires, when it is done and how it is judged. When the
 ///   step is done or the learner goes on, the next step begins with the same sample.
-/// - Every sample contributes to the motion. The picture is evaluated for valid samples at least kLook_s after the
-///   previously evaluated one. So a tracker of 1000 Hz costs no more than one of 100 Hz.
+/// - Every sample contributes to the motion. A valid sample's picture is evaluated if the previous evaluation was at
+///   least kLook_s earlier. So a tracker of 1000 Hz costs no more than one of 100 Hz.
 /// - A view is held while every evaluated picture is within all tolerances of its step. A tracking loss longer than
 ///   MotionMeter::kBridged_s ends the hold. The score of a picture is the time-weighted mean over the hold. For a step
 ///   without a completed hold, it is the mean over the hold_s before its last valid sample.
@@ -78,7 +78,7 @@ struct TracePoint {
 ///   effect with the next sample.
 class Runner {
 public:
-  static constexpr double kLook_s = 0.009;  ///< at 60 frames per second, at most two evaluations per frame
+  static constexpr double kLook_s = 0.009;  ///< least time between evaluations: about 100 per second
 
   /// Keeps a reference to the case. Throws ScenarioError if the scenario does not fit the case, and InputError if the
   /// case is inconsistent.

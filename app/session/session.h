@@ -33,8 +33,8 @@ void check_source(const Tracker& tracker, bool exam);
 /// time.
 ///
 /// An attempt at the exam is scored from one source only, from the first sample to the last. A learner who takes the
-/// probe out of a running exam continues in practice. Nothing is scored then, because the tracker has found so far what
-/// the learner has not. An exam that the learner takes by hand starts with the probe on the belly. Giving the probe
+/// probe out of a running exam continues in practice. Practice is not scored, because the tracker, not the learner, has
+/// found the view so far. An exam that the learner takes by hand starts with the probe on the belly. Giving the probe
 /// back starts the exam, and a replayed log, from the beginning. A live tracker continues; its samples from the time
 /// when the learner had the probe are dropped. A tracker without an absolute position (Tracker::relative) continues
 /// from where the learner left the probe. The runner is fed every sample of the active source, in order and at any
@@ -117,8 +117,8 @@ public:
   /// Returns the pose of the frozen picture as the scoring of calipers knows it. Empty until a sample has carried the
   /// freeze action.
   std::optional<Pose> frozen_picture() const;
-  /// Returns how the pose was found that an unfrozen picture would show. Empty unless a live tracker is the active
-  /// source.
+  /// Returns the live estimate of the pose and how it was determined, also while the picture is frozen. Empty unless a
+  /// live tracker is the active source.
   const std::optional<PoseEstimate>& answer() const { return answer_; }
   /// Returns the time since the last usable pose (s) once it exceeds kStale_s; empty before. The picture stands still
   /// then.

@@ -127,27 +127,27 @@ public:
   const Pictures& pictures() const { return pictures_; }
   const Options& options() const { return options_; }
   const std::optional<ResultFiles>& result_files() const { return result_files_; }
-  /// The ultrasound, marker on the left, when the view of the last step that was held for any time was held best;
-  /// nullptr when none was.
+  /// Returns the ultrasound picture of the best hold in the last step that had one, marker on the left; nullptr if
+  /// there was none.
   const Image<Rgba8>* best_frame() const { return scan() ? scan()->best_frames.last() : nullptr; }
 
-  /// What went wrong and nobody has acknowledged yet, the oldest first.
+  /// Returns the errors that nobody has acknowledged yet, as sentences, the oldest first.
   std::deque<std::string>& problems() { return problems_; }
   const std::deque<std::string>& problems() const { return problems_; }
-  /// What makes the tracker's calibration doubtful, as sentences; empty when nothing does.
+  /// Returns sentences on why the tracker's calibration may be wrong; empty if nothing speaks against it.
   const std::string& calibration_warning() const { return calibration_warning_; }
-  /// What shaders being edited do not build with, when they were read or for the settings of a picture since; empty
-  /// when they do. There is no new picture then: it stays as it was, or black where the probe or its depth has changed.
+  /// Returns the compiler's message if the edited shaders do not build, at loading or later for new settings; empty
+  /// otherwise. The picture then stays as it was, or is black if the probe or its depth has changed.
   const std::string& shader_problem() const { return shader_problem_; }
 
-  /// Runs `action` and turns what it throws into a problem to acknowledge, except without a window, where there is
-  /// nobody to do so: there it passes through. Whether it went well.
+  /// Runs `action`. With a window, an exception becomes a problem to acknowledge; without one it passes through.
+  /// Returns whether nothing was thrown.
   bool attempt(const std::function<void()>& action);
 
 private:
   Scan* scan() { return scan_of(mode_); }
   const Scan* scan() const { return scan_of(const_cast<TrainerMode&>(mode_)); }
-  /// Whether the trainer was started for an exam that counts, whatever it does now.
+  /// Returns whether the trainer was started for an exam that counts, in any mode.
   bool in_exam() const { return options_.mode == Mode::exam; }
   struct Request {
     CaseSource source;

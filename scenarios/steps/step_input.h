@@ -55,7 +55,7 @@ struct SettingsInput {
     std::string now;     ///< "16 cm"
     bool right = false;
   };
-  /// Returns the settings that are asked for, beside those of a machine.
+  /// Returns each setting that is asked for, with its wanted value and the machine's.
   std::function<std::vector<Setting>(const Machine&)> compare;
 };
 
@@ -66,7 +66,7 @@ struct StepWords {
   const char* prompt = "";               ///< what to do, where the input does not show it; a sentence
   const char* under_way = "To be done";  ///< until it is done
   const char* on_target = "As asked";    ///< while the picture or the machine is as asked for
-  bool shows_progress = true;            ///< the share that is done is worth showing, and that it is enough
+  bool shows_progress = true;            ///< the screen shows the share that is done, and that it is enough
 };
 
 }  // namespace insonate

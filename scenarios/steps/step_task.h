@@ -76,7 +76,7 @@ public:
   virtual StepInput input() const { return {}; }
   /// Returns the texts that the screen shows for this kind.
   virtual StepWords words() const { return {}; }
-  /// Returns true if the step is done by holding a view, so that it ends as held.
+  /// Returns true if holding a view completes the step. Its outcome is then `held`.
   virtual bool holds_view() const { return false; }
   /// Returns the step metrics that this task measures.
   virtual std::vector<Metric> metrics() const { return {}; }

@@ -29,9 +29,9 @@ public:
   /// Takes files from `folder`, laid out as sim/shaders. Where a file does not exist there, takes the embedded one.
   explicit ShaderSources(const std::filesystem::path& folder);
 
-  /// Returns a shader's text, with its `#include "shared/..."` lines replaced by those files. #line gives the first
-  /// line of file number i the number i * kLinesPerFile + 1, because drivers drop the source number that #line also
-  /// takes. Throws std::runtime_error for an unknown name.
+  /// Returns a shader's text, with its `#include "shared/..."` lines replaced by those files. By #line, line n of file
+  /// i has the number i * kLinesPerFile + n, because drivers drop the file number that #line takes as well. Throws
+  /// std::runtime_error for an unknown name.
   /// @param files  receives the names in the order of their numbers
   std::string text(std::string_view name, std::vector<std::string>& files) const;
 

@@ -23,8 +23,9 @@ namespace insonate::gl {
 /// Runs model S on the graphics card: from a volume, a probe, a pose and settings it computes a picture.
 ///
 /// Setters only note what changed. image() runs the first stage that a change affects and all behind it, and nothing if
-/// nothing changed. Needs an OpenGL 4.5 context that is current at every use, from construction to destruction. Throws
-/// std::runtime_error if shaders do not compile or the device cannot hold the volume.
+/// nothing changed. Call set_volume() and set_probe() before it. Needs an OpenGL 4.5 context that is current at every
+/// use, from construction to destruction. The constructor and all functions that draw throw std::runtime_error if a
+/// shader does not compile.
 class Simulator {
 public:
   explicit Simulator(const ShaderSources& sources = {}, const WorkDivision& division = WorkDivision::of_device());
@@ -38,8 +39,8 @@ public:
   /// @param depth_mm  0.1 to 1000
   void set_probe(const Probe& probe, double depth_mm);
   /// image() recompiles the shaders that depend on changed settings: effects on or off, numbers of lines and planes,
-  /// the smoothing's radius in pixels. This takes 50 to 200 ms per stage with llvmpipe, and 0.7 s for all stages. It
-  /// takes nothing for variants that one of the last sixteen pictures with other settings used.
+  /// the smoothing's radius in pixels. This takes 50 to 200 ms per stage with llvmpipe, and 0.7 s for all stages. The
+  /// variants of the last 16 settings are kept, so going back to one of them costs nothing.
   ///
   /// Throws std::invalid_argument for settings that why_not_valid() (sim/model/settings_file.h) refuses.
   void set_settings(const Settings& settings);

@@ -25,8 +25,8 @@ enum class GreyMap {
   s_curve    ///< g^2 (3 - 2 g): spreads the middle greys and compresses both ends
 };
 
-/// The largest time gain, dB. Single precision can hold 10^30 and the gain on top of it, and sound that has lost as
-/// much is silent.
+/// The largest time gain, dB. Sound that has lost as much counts as silent, and 10^30 with the gain on top still
+/// fits single precision.
 inline constexpr double kMostTimeGainDb = 300;
 
 /// All settings of model S: how it turns a volume, a pose and a probe into a picture. Numbers in brackets are the
@@ -50,14 +50,15 @@ struct Settings {
 
   // Beam width (4)
   BeamWindow beam_window = BeamWindow::hann;
-  int beam_lines = 7;         ///< n_a: lines under the window, odd, 1 (none) to 255
-  bool focused_beam = false;  ///< derives the width from focus and aperture instead, see focused_beam_fwhm_mm()
-  double focus_mm = 80;       ///< depth of the transmit focus, 5 to 400
-  double f_number = 6;        ///< focus over the width of the active aperture, 0.5 to 30
+  int beam_lines = 7;  ///< n_a: lines under the window, odd, 1 (none) to 255
+  bool focused_beam =
+      false;  ///< the width follows from focus_mm and f_number instead of beam_lines, see focused_beam_fwhm_mm()
+  double focus_mm = 80;  ///< depth of the transmit focus, 5 to 400
+  double f_number = 6;   ///< focus over the width of the active aperture, 0.5 to 30
 
   int slice_planes = 1;           ///< planes that sample the beam in elevation, odd, 1 (infinitely thin) to 31
   double slice_thickness_mm = 3;  ///< full width at half maximum in elevation, 0.1 to 20
-  double elevation_focus_mm = 0;  ///< depth where it holds, see slice_thickness_at_mm(), to 400; 0: every depth
+  double elevation_focus_mm = 0;  ///< depth at which that is so, see slice_thickness_at_mm(), 0 to 400; 0: every depth
 
   bool reverberation = false;  ///< reverberation between strong interfaces in the tissue, see reverberation.h
   double face_reflection = 0;  ///< share of the returning sound that the probe's face reflects, 0 (none) to 1
@@ -96,8 +97,8 @@ struct Settings {
 /// Returns the distance from the face, mm, within which air counts as water: the gel's thickness, or half the
 /// reflection length plus 1e-5 mm if that is more. The face's lens is matched to tissue (Szabo, Diagnostic Ultrasound
 /// Imaging, 5), so sound leaves it as it leaves water, and air against it reflects nearly all. An interface is spread
-/// over half the reflection length to either side. The interface to air therefore lies so far behind the face that
-/// lines, which begin there, meet the whole of it.
+/// over half the reflection length to either side. Lines begin at the face. So the interface to air must lie half its
+/// width behind it, or lines would meet only a part of it.
 double coupling_depth_mm(const Settings& settings);
 
 /// Returns the paper's settings: no absorption, reflection length = sample distance, one-way transmission, frame's

@@ -2,9 +2,9 @@
 //
 //     U = X + S (G_s1 R + b G_s2 T),  X as in scan_convert.comp
 //
-// Where R and T are smoothed, smooth.comp has smoothed them along the rows. This stage smooths along the columns. Where
-// white is a fixed level, it goes on to grey (7). Where each frame sets its own white, it stores the levels and the
-// brightest level of its block.
+// If R and T are to be smoothed, smooth.comp has smoothed them along the rows. This stage smooths along the columns. If
+// white is a fixed level, it goes on to grey (7). If each frame sets its own white, it stores the levels and the
+// brightest level of its block. X is the part of U that is not smoothed.
 //
 // Reads X and S, the half-smoothed R and T, and the table of the fan. Writes the image or, with FRAME_MAXIMUM, the
 // levels; with KEEP_FUSED also U.
@@ -21,8 +21,8 @@ layout(local_size_x = 64, local_size_y = 1) in;
 
 layout(binding = 0) uniform samplerBuffer picture;        // X, S
 layout(binding = 1) uniform samplerBuffer half_smoothed;  // sums of R's and T's windows along the rows
-layout(binding = 2) uniform samplerBuffer fan;            // per pixel: sample + 1, or 0 outside; 1 / sum of R's window,
-                                                          // 1 / sum of T's window, each inside the fan
+layout(binding = 2) uniform samplerBuffer fan;            // per pixel: x: index of the sample + 1, or 0 outside the fan;
+                                                          // y, z: 1 / sum of the weights of R's and T's windows in it
 #if KEEP_FUSED == 1
 layout(std430, binding = 1) writeonly buffer Fused { float fused[]; };  // U
 #endif

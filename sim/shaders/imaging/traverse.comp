@@ -6,7 +6,8 @@
 //
 // The last factor of (5) is not in the paper. sim/model/refraction.h adds the loss by refraction.
 //
-// Reads the volume, the tissue table, the scatterers and the placed lines. Writes I, R and the scatterers' echo.
+// Reads the volume, the tissue table, the scatterers and the placed lines. Writes I, R and the scatterers' echo,
+// and for reverberation I and R of the slice's middle plane.
 // Dispatch: one invocation per line in rows of work groups of GROUP or, with GROUP_A_LINE, one work group of GROUP per
 // line (shared/rows.glsl). sim/gl/work_division.h gives the reasons for either.
 
