@@ -1,6 +1,5 @@
 #include "devices/calibrated_tracker.h"
 
-#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -20,7 +19,11 @@ TrackerIdentity tracker_identity(std::string_view uri) {
 }
 
 bool can_store_setup(std::string_view uri) {
-  return kind_of(parse_tracker_uri(uri)).poses == PosesOf::sensor;
+  try {
+    return kind_of(parse_tracker_uri(uri)).poses == PosesOf::sensor;
+  } catch (const InputError&) {
+    return false;  // opening it reports why
+  }
 }
 
 void check_can_be_calibrated(std::string_view uri) {

@@ -315,6 +315,12 @@ void Screen::step_on(Trainer& trainer) {
   controls.go_on(*trainer.session());
 }
 
+void Screen::toggle_help() {
+  const bool shown = page_ == Overlay::help;
+  close_page();
+  if (!shown) page_ = Overlay::help;
+}
+
 void Screen::close_page() {
   page_ = Overlay::none;
   open_dialog_.close();

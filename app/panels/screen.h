@@ -43,7 +43,7 @@ public:
     return UltrasoundPanel::plane(theme_, ultrasound_, trainer.pictures());
   }
 
-  void toggle_help() { page_ = page_ == Overlay::help ? Overlay::none : Overlay::help; }
+  void toggle_help();
   void ask_for_path() { page_ = Overlay::open; }
   /// Closes the overlay without an answer, as Escape does.
   void dismiss(Trainer& trainer);

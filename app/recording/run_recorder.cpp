@@ -62,11 +62,11 @@ void RunRecorder::start(const std::filesystem::path& file, bool exactly) {
   start_s_ = last_s_ = 0;
   left_out_ = 0;
   if (!thread_.joinable()) thread_ = std::jthread([this] { run(); });
-  conditioner(Start{file, exactly});
+  enqueue(Start{file, exactly});
 }
 
 void RunRecorder::stop() {
-  if (std::exchange(running_, false)) conditioner(Stop{});
+  if (std::exchange(running_, false)) enqueue(Stop{});
 }
 
 void RunRecorder::take(const Session& session) {
@@ -74,7 +74,7 @@ void RunRecorder::take(const Session& session) {
   if (!std::exchange(begun_, true))
     start_s_ = session.now_s();
   else if (attempt_ != session.attempt())
-    conditioner(Next{});
+    enqueue(Next{});
   attempt_ = session.attempt();
   last_s_ = session.now_s();
   const std::vector<PoseSample>& samples = session.latest_samples();
@@ -85,7 +85,7 @@ void RunRecorder::take(const Session& session) {
     std::vector<Action>& first = actions[samples.front().time_s];
     first.insert(first.begin(), settings.begin(), settings.end());
   }
-  conditioner(Samples{samples, std::move(actions)});
+  enqueue(Samples{samples, std::move(actions)});
 }
 
 void RunRecorder::take(const DrawnPicture& picture) {
@@ -98,7 +98,7 @@ void RunRecorder::take(const DrawnPicture& picture) {
     }
     waiting_bytes_ += bytes_of(picture);
   }
-  conditioner(picture);
+  enqueue(picture);
 }
 
 void RunRecorder::check() {
@@ -122,7 +122,7 @@ std::filesystem::path RunRecorder::file() const {
   return file_;
 }
 
-void RunRecorder::conditioner(Job job) {
+void RunRecorder::enqueue(Job job) {
   {
     const std::lock_guard lock(mutex_);
     jobs_.push_back(std::move(job));

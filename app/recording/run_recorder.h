@@ -71,7 +71,7 @@ private:
   using Job = std::variant<Start, Stop, Next, Samples, DrawnPicture>;
   class Writer;
 
-  void conditioner(Job job);
+  void enqueue(Job job);
   void run();
 
   const bool with_pictures_;

@@ -3,7 +3,6 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <utility>
 
@@ -101,7 +100,8 @@ void PictureTools::choose_slot(int slot) {
 }
 
 std::string PictureTools::slot_name(int slot) const {
-  if (measuring()) return measuring()->slots[std::size_t(slot - 1)];
+  // A log may have placed more than the step asks for.
+  if (measuring() && slot <= int(measuring()->slots.size())) return measuring()->slots[std::size_t(slot - 1)];
   const auto found = annotations_.measured().find(slot);
   const bool ellipse = found == annotations_.measured().end() ? tool_ == Tool::ellipse
                                                               : found->second.action.kind == ActionKind::ellipse;

@@ -197,7 +197,10 @@ void Trainer::update(double now_s) {
     shaders_looked_at_s_ = now_s;
     reload_shaders();
   }
+  const bool setting_up = setup() != nullptr;
   std::visit([&](auto& mode) { update(mode, now_s); }, mode_);
+  // A session that a finished set-up has begun is advanced before it is drawn.
+  if (setting_up && session()) std::visit([&](auto& mode) { update(mode, now_s); }, mode_);
 }
 
 void Trainer::update(SettingUp& mode, double now_s) {

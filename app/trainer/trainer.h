@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "app/pictures/igtl_feed.h"
 #include "app/pictures/picture_latency.h"

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <span>
@@ -33,11 +34,11 @@ struct DeviceKind {
   std::string_view name;  ///< "Razer Hydra"
   Bus bus = Bus::hid;
   std::span<const Model> models;
+  int interface_number = -1;  ///< number of the HID interface that sends poses; -1 for a device with a single interface
+  bool steady = true;         ///< true: the device sends continuously, so silence is a fault
 
   /// Returns the model of a device on this bus, usable or not; nullptr if it is another kind's.
   const Model* find(std::uint16_t vendor, std::uint16_t product) const;
-  int interface_number = -1;  ///< number of the HID interface that sends poses; -1 for a device with a single interface
-  bool steady = true;         ///< true: the device sends continuously, so silence is a fault
 };
 
 /// Returns the device that a tracker uses: the first of its kind that is plugged in, or the one with serial number

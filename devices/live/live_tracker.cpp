@@ -95,7 +95,7 @@ private:
       there = false;
     }
     // Samples that arrived before the source was lost are published.
-    for (const PoseSample& sample : batch_.samples) conditioner(sample);
+    for (const PoseSample& sample : batch_.samples) publish(sample);
     if (!batch_.samples.empty()) {
       heard_s_ = steady_now_s();
       heard_ = brought_any_ = true;
@@ -104,7 +104,7 @@ private:
     return there;
   }
 
-  void conditioner(PoseSample sample) {
+  void publish(PoseSample sample) {
     conditioner_.apply(sample, source_->origin());
     ring_.push(sample);
   }
@@ -114,7 +114,7 @@ private:
     const double now_s = steady_now_s(), last_s = conditioner_.last_time_s();
     if (now_s - heard_s_ < seconds(options_.silence) || now_s - last_s < seconds(options_.heartbeat)) return;
     if (tap_) tap_->silent(now_s);
-    conditioner(silence_at(now_s));
+    publish(silence_at(now_s));
   }
 
   void tell(const std::string& problem) {

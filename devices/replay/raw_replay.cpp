@@ -130,7 +130,7 @@ private:
     else if (parts[0] == "read" && parts.size() <= 3)
       read(parts.size() == 3 ? parts[2] : std::string_view(), *time_s);
     else if (parts[0] == "silent" && parts.size() == 2)
-      conditioner(silence_at(*time_s));
+      publish(silence_at(*time_s));
     else
       fail(quoted(line) + " is none of 'open TIME DEVICE', 'read TIME BYTES' and 'silent TIME'", kRecordAgain);
   }
@@ -152,10 +152,10 @@ private:
     } catch (const SourceGone&) {
       open_ = false;
     }
-    for (const PoseSample& sample : batch.samples) conditioner(sample);
+    for (const PoseSample& sample : batch.samples) publish(sample);
   }
 
-  void conditioner(PoseSample sample) {
+  void publish(PoseSample sample) {
     conditioner_.apply(sample, source_->origin());
     scan_.samples.push_back(sample);
   }

@@ -23,7 +23,8 @@ struct StepKind {
 /// Returns all kinds, those of Insonate first.
 std::span<const StepKind> step_kinds();
 
-/// Adds a kind of a program's own, before it reads the first scenario. Its name must be new.
+/// Adds a kind of a program's own. Call it before the first scenario is read; it invalidates what step_kinds()
+/// returned. The name must be new.
 void add_step_kind(const StepKind& kind);
 
 }  // namespace insonate

@@ -36,6 +36,10 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
 endif()
 target_precompile_headers(insonate_precompiled PRIVATE "${CMAKE_SOURCE_DIR}/tools/cmake/precompiled.h")
 
+# The rooms' include folders are made anew, because a room of an earlier build may have stood where a folder is now. They
+# hold links alone.
+file(REMOVE_RECURSE "${CMAKE_BINARY_DIR}/rooms")
+
 # The input of tools/room-diagram: each room's folder, and the rooms that it uses.
 file(WRITE "${CMAKE_BINARY_DIR}/rooms/folders.txt" "")
 file(WRITE "${CMAKE_BINARY_DIR}/rooms/uses.txt" "")

@@ -26,7 +26,8 @@ struct Doing {
   std::vector<std::string> words{};
 
   [[noreturn]] void refuse(const std::string& problem) const {
-    throw InputError(subject.name, "do = \"" + text + "\"", problem, "correct the plan; make_log_plan.h explains it");
+    throw InputError(subject.name, "do = \"" + text + "\"", problem,
+                     "correct the plan; tools/make_log/plan.h explains it");
   }
   double number(std::size_t word) const {
     double value = 0;

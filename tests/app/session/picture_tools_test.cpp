@@ -292,3 +292,10 @@ TEST_CASE("another step and another attempt begin with nothing placed") {
   CHECK(desk.is_empty());
   CHECK(desk.tools.measuring());
 }
+
+TEST_CASE("a slot that the step does not ask for, as a log may have it, is named by what is placed in it") {
+  Desk desk(kEllipse);
+  desk.freeze();
+  CHECK(desk.tools.slot_name(1) == "Area");
+  for (int slot = 2; slot <= Action::kMostSlots; ++slot) CHECK(desk.tools.slot_name(slot) == "Area");
+}

@@ -86,11 +86,11 @@ private:
       }
       XNextEvent(display_, &event);
       if (event.type == ClientMessage && event.xclient.message_type == atom(message)) return true;
-      if (event.type == SelectionRequest) conditioner(event.xselectionrequest, uris);
+      if (event.type == SelectionRequest) answer(event.xselectionrequest, uris);
     }
   }
 
-  void conditioner(const XSelectionRequestEvent& request, const std::string& uris) {
+  void answer(const XSelectionRequestEvent& request, const std::string& uris) {
     XChangeProperty(display_, request.requestor, request.property, request.target, 8, PropModeReplace,
                     reinterpret_cast<const unsigned char*>(uris.data()), int(uris.size()));
     XEvent answer{};

@@ -177,6 +177,9 @@ TEST_CASE("trackers are told apart by kind and by what their URI names, recordin
   CHECK(tracker_identity("polhemus:V7?sensor=3").words() == "polhemus, serial V7, sensor 3");
   CHECK_THROWS_AS(tracker_identity("polhemus:?sensor=0"), InputError);
   CHECK(tracker_identity("replay:a.igs.mha?speed=2") == tracker_identity("replay:b.igs.mha"));
+  CHECK(can_store_setup("hydra:17"));
+  CHECK_FALSE(can_store_setup("mouse:"));
+  CHECK_FALSE(can_store_setup("hydrra:"));  // opening it is what refuses it
   CHECK_THROWS_WITH(check_can_be_calibrated("mouse:"), Contains("'mouse:': it moves the probe in the patient"));
   CHECK_THROWS_WITH(check_can_be_calibrated("auto:"),
                     Contains("tracker 'auto:': a calibration belongs to one tracker, not to the best; name it"));

@@ -83,12 +83,12 @@ public:
     for (std::size_t i = 0; i < std::max<std::size_t>(reports.size(), 1); ++i) {
       LiveBatch batch;
       source_->read(std::chrono::milliseconds(20), batch);
-      for (const PoseSample& sample : batch.samples) conditioner(sample);
+      for (const PoseSample& sample : batch.samples) publish(sample);
     }
   }
   void silence() {
     recorder_->silent(now_s);
-    conditioner(silence_at(now_s));
+    publish(silence_at(now_s));
   }
   void reopen() {
     source_->close();
@@ -100,7 +100,7 @@ public:
   std::vector<PoseSample> samples;
 
 private:
-  void conditioner(PoseSample sample) {
+  void publish(PoseSample sample) {
     conditioner_.apply(sample, source_->origin());
     samples.push_back(sample);
   }

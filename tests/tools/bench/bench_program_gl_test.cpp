@@ -98,7 +98,7 @@ TEST_CASE("insonate-bench frames: both modes, what each stage takes, and a still
   }
 }
 
-TEST_CASE("insonate-bench division: both ways to walk along a line, in both modes") {
+TEST_CASE("insonate-bench work-division: both ways to walk along a line, in both modes") {
   Fixture f;
   const bench::Table table = f.measure("work-division");
   REQUIRE(table.rows.size() == 2 * 2 * 2);
