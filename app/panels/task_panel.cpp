@@ -1,8 +1,6 @@
 #include "app/panels/task_panel.h"
 
 #include <algorithm>
-#include <optional>
-#include <utility>
 #include <vector>
 
 #include "app/panels/annotation_layer.h"

@@ -168,7 +168,7 @@ TEST_CASE("labels on another grid are resampled by nearest neighbour and what li
   CHECK(told(read.notes, "50.0 % of what is labelled lies outside the CT"));
 }
 
-TEST_CASE("a folder of masks becomes one label volume, and overlaps go to the smaller and are told") {
+TEST_CASE("a folder of masks becomes one label volume, and overlaps go to the smaller and are reported") {
   const TemporaryFolder folder;
   folder.put("liver.nii", mask_file([](int i, int, int) { return i < 4; }));
   folder.put("gallbladder.nii.gz", gzip(mask_file([](int i, int, int k) { return i == 3 && k == 0; })));
@@ -288,7 +288,7 @@ std::vector<std::string> judged(const std::vector<Organ>& organs) {
 
 }  // namespace
 
-TEST_CASE("labels that are mirrored, turned or another scan's are refused, and one odd structure is told") {
+TEST_CASE("labels that are mirrored, turned or another scan's are refused, and one odd structure is reported") {
   const std::vector<Organ> patient = {{"liver", "liver", {10, 10, 20}, 60},
                                       {"kidney_right", "kidney_cortex", {10, 20, 10}, 30},
                                       {"kidney_left", "kidney_cortex", {30, 20, 10}, 30},
