@@ -71,7 +71,7 @@ std::string broken_by_series(const fs::path& folder, const fs::path& middle) {
   if (series.slices.size() != std::size_t(series.grid.size.z)) return "there are not as many slices as the grid has";
   if (const std::string broken = broken_in_grid(series.grid, series.grid.count()); !broken.empty()) return broken;
   if (std::find(series.slices.begin(), series.slices.end(), middle) == series.slices.end()) return "";
-  check_dicom_voxels(middle);
+  check_dicom_slice(middle);
   ImageFile(middle, ImageFormat::dicom).read_voxels();
   return "";
 }
