@@ -13,7 +13,7 @@
 namespace insonate {
 namespace {
 
-constexpr std::size_t kPiece = 1 << 20;
+constexpr std::size_t kPiece = 1 << 16;
 /// Bytes of the images that show whether a compressed stream is complete: its magic number at the front, its size at
 /// the end.
 constexpr std::size_t kEnds = 64;
