@@ -84,7 +84,7 @@ void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::
     state["tracker_problem"] = session->tracker_state().problem;
     state["tracker_rejected"] = to_string(session->tracker_state().rejected);
     state["marks"] = session->event_markers_s().size();
-    state["pose_answer"] = session->answer() ? to_string(session->answer()->how) : "";
+    state["pose_answer"] = session->pose_estimate() ? to_string(session->pose_estimate()->how) : "";
     state["lost"] = session->lost_for_s().has_value();
     write_machine(state, session->machine());
     if (const auto& pose = session->shown_pose()) {

@@ -77,32 +77,37 @@ Recording calibrated(Recording recording, const Calibration& calibration, const 
   return recording;
 }
 
-void place_probe(PoseSample& sample, const Calibration& calibration) {
-  if (sample.status == PoseStatus::ok)
-    sample.patient_from_probe = calibration.patient_from_probe(sample.patient_from_probe);
+PoseSample placed(const SensorSample& sample, const Calibration& calibration) {
+  const bool usable = sample.status == PoseStatus::ok;
+  return {sample.time_s,
+          sample.status,
+          usable ? calibration.patient_from_probe(sample.tracker_from_sensor) : sample.tracker_from_sensor,
+          sample.buttons,
+          sample.distortion,
+          sample.rejected};
 }
 
 }  // namespace
 
 RecordedScan calibrated(RecordedScan scan, const Calibration& calibration, const std::string& name) {
   check_complete(calibration);
-  for (PoseSample& sample : scan.samples) place_probe(sample, calibration);
+  for (PoseSample& sample : scan.samples) sample = placed(sensor_sample(sample), calibration);
   scan.recording = calibrated(std::move(scan.recording), calibration, name);
   return scan;
 }
 
-CalibratedTracker::CalibratedTracker(std::unique_ptr<Tracker> sensor, Calibration calibration, const std::string& name)
-    : Tracker(sensor->state().name + ", calibrated " + day_of(calibration)),
+CalibratedTracker::CalibratedTracker(SensorTracker sensor, Calibration calibration, const std::string& name)
+    : Tracker(sensor.tracker().state().name + ", calibrated " + day_of(calibration)),
       sensor_(std::move(sensor)),
       calibration_(std::move(calibration)) {
   check_complete(calibration_);
-  if (sensor_->recording()) recording_ = calibrated(*sensor_->recording(), calibration_, name);
+  if (const Recording* raw = sensor_.tracker().recording()) recording_ = calibrated(*raw, calibration_, name);
 }
 
 void CalibratedTracker::collect(double now_s, std::vector<PoseSample>& samples) {
-  const std::size_t before = samples.size();
-  sensor_->poll(now_s, samples);
-  for (std::size_t i = before; i < samples.size(); ++i) place_probe(samples[i], calibration_);
+  polled_.clear();
+  sensor_.poll(now_s, polled_);
+  for (const SensorSample& sample : polled_) samples.push_back(placed(sample, calibration_));
 }
 
 }  // namespace insonate

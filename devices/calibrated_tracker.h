@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "devices/calibration/calibration.h"
+#include "devices/sensor_tracker.h"
 #include "devices/sequence/probe_samples.h"
 #include "devices/tracker.h"
 
@@ -41,24 +42,25 @@ class CalibratedTracker : public Tracker {
 public:
   /// @param name  the calibration's name, for the state and a recording's provenance
   /// Throws std::invalid_argument if the calibration is not complete.
-  CalibratedTracker(std::unique_ptr<Tracker> sensor, Calibration calibration, const std::string& name);
+  CalibratedTracker(SensorTracker sensor, Calibration calibration, const std::string& name);
 
   const Recording* recording() const override { return recording_ ? &*recording_ : nullptr; }
-  bool repeats() const override { return sensor_->repeats(); }
-  bool live() const override { return sensor_->live(); }
-  bool record_raw(const std::shared_ptr<RawTap>& tap) override { return sensor_->record_raw(tap); }
-  double clock_s(double now_s) const override { return sensor_->clock_s(now_s); }
+  bool repeats() const override { return sensor_.tracker().repeats(); }
+  bool live() const override { return sensor_.tracker().live(); }
+  bool record_raw(const std::shared_ptr<RawTap>& tap) override { return sensor_.tracker().record_raw(tap); }
+  double clock_s(double now_s) const override { return sensor_.tracker().clock_s(now_s); }
 
 protected:
   void collect(double now_s, std::vector<PoseSample>& samples) override;
-  std::optional<double> progress() const override { return sensor_->state().progress; }
-  std::string problem() const override { return sensor_->state().problem; }
-  std::uint64_t dropped() const override { return sensor_->state().dropped; }
+  std::optional<double> progress() const override { return sensor_.tracker().state().progress; }
+  std::string problem() const override { return sensor_.tracker().state().problem; }
+  std::uint64_t dropped() const override { return sensor_.tracker().state().dropped; }
 
 private:
-  std::unique_ptr<Tracker> sensor_;
+  SensorTracker sensor_;
   Calibration calibration_;
   std::optional<Recording> recording_;
+  std::vector<SensorSample> polled_;  ///< kept to reuse its memory
 };
 
 }  // namespace insonate

@@ -62,7 +62,7 @@ double TrackerUri::number(const std::string& option, double otherwise, double le
   const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
   if (error != std::errc() || end != value.data() + value.size() || !(number >= least && number <= most))
     throw InputError("tracker '" + text + "'", "option '" + option + "'",
-                     "'" + value + "' is no number from " + shown(least) + " to " + shown(most), "change it");
+                     "'" + value + "' is not a number from " + shown(least) + " to " + shown(most), "change it");
   return number;
 }
 

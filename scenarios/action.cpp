@@ -120,7 +120,7 @@ private:
     double value = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (error != std::errc() || end != word.data() + word.size() || !(std::abs(value) <= Action::kLargestNumber))
-      refuse("an action has something that is no number, or one beyond a million");
+      refuse("an action has a value that is not a number from -1,000,000 to 1,000,000");
     return value;
   }
 

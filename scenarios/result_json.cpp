@@ -250,7 +250,7 @@ ExamResult result_from_json(std::string_view text, const std::string& name) {
     each_field(reader, result);
     return result;
   } catch (const std::exception& error) {
-    throw InputError(name, "", std::string("this is no result of insonate: ") + error.what(), "score the log again");
+    throw InputError(name, "", std::string("this is not a result of insonate: ") + error.what(), "score the log again");
   }
 }
 

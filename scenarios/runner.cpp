@@ -78,12 +78,12 @@ void Runner::feed(const PoseSample& sample, std::span<const Action> before) {
   last_s_ = now;
   for (const Action& action : std::exchange(waiting_, {}))
     if (!live_.finished) act(action, now);
-  if (!live_.finished) look(sample, now);
+  if (!live_.finished) evaluate(sample, now);
 }
 
 void Runner::end() {
   if (live_.finished || !live_.started) return;
-  end_step(run_->enough() ? StepOutcome::done : StepOutcome::scan_ended, last_s_, Then::finish);
+  end_step(run_->counts_as_done() ? StepOutcome::done : StepOutcome::scan_ended, last_s_, Then::finish);
 }
 
 /// Ends all steps, and the exam, whose limits `now` has reached.
@@ -91,7 +91,7 @@ void Runner::pass_limits(double now) {
   while (!live_.finished) {
     const double limit = std::min(step_limit_s(), exam_limit_s());
     if (now < limit - kTimeRounding_s) return;
-    end_step(run_->enough() ? StepOutcome::done : StepOutcome::timed_out, limit,
+    end_step(run_->counts_as_done() ? StepOutcome::done : StepOutcome::timed_out, limit,
              exam_limit_s() <= limit ? Then::finish : Then::go_on);
   }
 }
@@ -100,7 +100,8 @@ void Runner::act(const Action& given, double now) {
   Action action = given;
   if (action.text.size() > Action::kLongestText) action.text.resize(Action::kLongestText);  // as a log stores it
   machine_.apply(action, last_valid_);
-  if (action.kind == ActionKind::go_on) return end_step(run_->enough() ? StepOutcome::done : StepOutcome::went_on, now);
+  if (action.kind == ActionKind::go_on)
+    return end_step(run_->counts_as_done() ? StepOutcome::done : StepOutcome::went_on, now);
   if (action.kind == ActionKind::go_to) return go_to(action.text, now);
   if (action.kind == ActionKind::hint && live_.hints_left > 0) {
     live_.hints.push_back(step().hints[hints_taken_[live_.step]++].text);
@@ -110,7 +111,7 @@ void Runner::act(const Action& given, double now) {
   if (run_->done()) end_step(StepOutcome::done, now);
 }
 
-void Runner::look(const PoseSample& raw, double now) {
+void Runner::evaluate(const PoseSample& raw, double now) {
   PoseSample sample = raw;
   sample.time_s = now;
   const bool valid = sample.status == PoseStatus::ok;
@@ -143,7 +144,7 @@ void Runner::show(const PoseSample& sample, double now) {
   run_->see({now, valid, sample.patient_from_probe, live_.view ? &*live_.view : nullptr, machine_});
   live_.within_tolerance = run_->on_target();
   live_.hold_share = run_->share_done();
-  live_.enough = run_->enough();
+  live_.counts_as_done = run_->counts_as_done();
 }
 
 /// Returns the contact of the probe of the step's view, or else of the learner's probe.
@@ -171,7 +172,7 @@ void Runner::begin_step(std::size_t index, double now) {
   run_ = begin_[index](now);
   live_.hold_share = 0;
   live_.within_tolerance = false;
-  live_.enough = run_->enough();
+  live_.counts_as_done = run_->counts_as_done();
   live_.hints.clear();
   for (std::size_t i = 0; i < hints_taken_[index]; ++i) live_.hints.push_back(asked.hints[i].text);
   live_.hints_left = asked.hints.size() - hints_taken_[index];

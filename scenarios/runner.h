@@ -35,7 +35,7 @@ struct LiveExam {
   std::optional<ViewValues> view;  ///< of the last sample; empty if it was invalid or the step names no view
   bool within_tolerance = false;   ///< the last sample's picture meets the step's requirements
   double hold_share = 0;           ///< share of the step that is done, such as the share of the hold, 0 to 1
-  bool enough = false;             ///< ending the step now would count as done
+  bool counts_as_done = false;     ///< ending the step now would count as done
   std::vector<std::string> hints;  ///< hints taken in this step
   std::size_t hints_left = 0;
   double points = 0;           ///< of the steps done
@@ -114,7 +114,7 @@ private:
   const Step& step() const { return scenario_.steps[live_.step]; }
   void pass_limits(double now);
   void act(const Action& action, double now);
-  void look(const PoseSample& sample, double now);
+  void evaluate(const PoseSample& sample, double now);
   void show(const PoseSample& sample, double now);
   const SkinContact& contact();
   enum class Then { go_on, finish };

@@ -58,7 +58,8 @@ void draw_tracker(const Theme& theme, const Rect& where, const Session& session)
     std::snprintf(rate, sizeof rate, ", %.0f Hz", state.rate_hz);
     if (state.rate_hz > 0) condition += rate;
     const bool calm = !session.lost_for_s() && state.rejected == Rejection::none;
-    if (const auto& answer = session.answer(); answer && calm) condition += ", " + std::string(to_string(answer->how));
+    if (const auto& answer = session.pose_estimate(); answer && calm)
+      condition += ", " + std::string(to_string(answer->how));
   }
   Rect upper{where.x, where.y + theme.px(11), where.w, theme.px(21)};
   Rect lower{where.x, upper.y + upper.h, where.w, theme.px(20)};
@@ -82,7 +83,7 @@ void draw_tracker(const Theme& theme, const Rect& where, const Session& session)
 std::string progress_text(const LiveExam& live, const StepWords& words) {
   if (live.finished) return "Done";
   if (live.within_tolerance) return words.on_target;
-  if (words.shows_progress && live.enough) return "Go on when ready";
+  if (words.shows_progress && live.counts_as_done) return "Go on when ready";
   if (words.shows_progress && live.hold_share > 0) return std::to_string(int(100 * live.hold_share)) + " % done";
   return words.under_way;
 }

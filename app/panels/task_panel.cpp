@@ -155,7 +155,7 @@ void draw_task_panel(const Theme& theme, const Rect& panel, Session& session, Pi
   Rect right = rest.take_right(theme.px(kRight));
   right.h = theme.px(kChoiceRow);
   places["go_on"] = right.take_right(theme.px(150));
-  const bool ready = controls.question() ? controls.can_answer() : live.enough;
+  const bool ready = controls.question() ? controls.can_answer() : live.counts_as_done;
   const char* text = controls.question() ? "Answer (Enter)" : controls.asks_again() ? "Go on anyway" : "Go on (Enter)";
   if (button(theme, "go_on", places["go_on"], text,
              controls.asks_again() ? ButtonKind::warning

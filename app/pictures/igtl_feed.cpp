@@ -117,7 +117,7 @@ void IgtlFeed::tell_events(const Session& session, std::uint64_t stamp) {
   }
 }
 
-void IgtlFeed::tell(const Session& session) {
+void IgtlFeed::publish(const Session& session) {
   const std::uint64_t stamp = stamp_now();
   tell_events(session, stamp);
   const std::string status = lost_ ? "no usable pose" : status_text(session);

@@ -27,7 +27,7 @@ public:
   explicit IgtlFeed(const igtl::Address& address) : server_(address, "--igtl-server") {}
 
   /// Publishes events, status and pose; to be called once per frame.
-  void tell(const Session& session);
+  void publish(const Session& session);
   /// Returns whether a client is connected.
   bool wants_pictures() const { return server_.clients() > 0; }
   void show(const DrawnPicture& picture);

@@ -6,7 +6,7 @@
 namespace insonate {
 
 void PictureLatency::add(const Session& session, double drawn_s) {
-  const std::optional<PoseEstimate>& answer = session.answer();
+  const std::optional<PoseEstimate>& answer = session.pose_estimate();
   // A picture that stands still does not come from a new report.
   if (!answer || answer->how == PoseAnswer::none || session.lost_for_s() || session.machine().frozen) return;
   to_frame_.add(answer->age_s);

@@ -36,7 +36,7 @@ struct RunMoment {
 /// An action other than moving the probe, in words: "Freeze", "Depth 12.0 cm".
 struct RunEvent {
   double time_s = 0;
-  bool mark = false;  ///< event marker, set by the probe's mark button or the key
+  bool is_marker = false;  ///< an event marker, set by the probe's mark button or the key
   std::string words;
 };
 

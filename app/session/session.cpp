@@ -233,12 +233,12 @@ void Session::take(const PoseSample& sample) {
 }
 
 void Session::find_pose() {
-  answer_.reset();
+  pose_estimate_.reset();
   std::optional<Pose> pose = newest_pose_;
   if (source().live()) {
     for (const PoseSample& sample : samples_) history_.add(sample);
-    answer_ = history_.at(source().clock_s(now_s_), predict_s_);
-    if (answer_->how != PoseAnswer::none) pose = answer_->patient_from_probe;
+    pose_estimate_ = history_.at(source().clock_s(now_s_), predict_s_);
+    if (pose_estimate_->how != PoseAnswer::none) pose = pose_estimate_->patient_from_probe;
   }
   if (!shown_.frozen) shown_pose_ = pose;
 }
@@ -256,7 +256,8 @@ void Session::advance(double now_s) {
   source().poll(now_s, samples_);
   if (holder_ == Holder::tracker) left_place_.move(samples_);
   // A sample without button data could not report their release.
-  const auto pressing = std::find_if(samples_.begin(), samples_.end(), reports_buttons);
+  const auto pressing = std::find_if(samples_.begin(), samples_.end(),
+                                     [](const PoseSample& sample) { return reports_buttons(sample.status); });
   if (pressing != samples_.end()) pressing->buttons |= std::exchange(pressed_, 0);
   if (!samples_.empty()) samples_begin_attempt_ = std::exchange(attempt_is_fresh_, false);
   for (const PoseSample& sample : samples_) take(sample);

@@ -119,7 +119,7 @@ public:
   std::optional<Pose> frozen_picture() const;
   /// Returns the live estimate of the pose and how it was determined, also while the picture is frozen. Empty unless a
   /// live tracker is the active source.
-  const std::optional<PoseEstimate>& answer() const { return answer_; }
+  const std::optional<PoseEstimate>& pose_estimate() const { return pose_estimate_; }
   /// Returns the time since the last usable pose (s) once it exceeds kStale_s; empty before. The picture stands still
   /// then.
   std::optional<double> lost_for_s() const;
@@ -188,7 +188,7 @@ private:
   Machine shown_;  ///< includes settings made since the last sample
   std::optional<Pose> shown_pose_, newest_pose_;
   PoseHistory history_;  ///< of a live tracker
-  std::optional<PoseEstimate> answer_;
+  std::optional<PoseEstimate> pose_estimate_;
   double now_s_ = 0;
   double last_usable_s_ = 0, attempt_began_s_ = 0;
   ButtonPresses presses_;

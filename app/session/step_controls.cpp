@@ -26,7 +26,7 @@ void StepControls::see(const Session& session) {
   asks_again_ = told_ = false;
 }
 
-void StepControls::tell(Session& session, const Action& action) {
+void StepControls::record(Session& session, const Action& action) {
   if (!std::exchange(told_, true)) session.act(action);
 }
 
@@ -35,15 +35,15 @@ bool StepControls::can_answer() const {
 }
 
 void StepControls::answer(Session& session) {
-  if (can_answer()) tell(session, {ActionKind::answer, {}, draft_});
+  if (can_answer()) record(session, {ActionKind::answer, {}, draft_});
 }
 
 void StepControls::go_on(Session& session) {
   if (!active(session) || !session.runner()->live().started) return;
   if (question()) return answer(session);
-  if (!session.runner()->live().enough && !std::exchange(asks_again_, true)) return;
+  if (!session.runner()->live().counts_as_done && !std::exchange(asks_again_, true)) return;
   asks_again_ = false;
-  tell(session, {ActionKind::go_on});
+  record(session, {ActionKind::go_on});
 }
 
 std::optional<double> StepControls::hint_cost(const Session& session) {
@@ -53,7 +53,7 @@ std::optional<double> StepControls::hint_cost(const Session& session) {
 }
 
 void StepControls::take_hint(Session& session) {
-  if (hint_cost(session)) tell(session, {ActionKind::hint});
+  if (hint_cost(session)) record(session, {ActionKind::hint});
 }
 
 std::vector<StepControls::Turn> StepControls::turns(const Session& session) {
@@ -69,7 +69,7 @@ std::vector<StepControls::Turn> StepControls::turns(const Session& session) {
 
 void StepControls::turn_to(Session& session, std::size_t step) {
   if (active(session) && session.runner()->can_go_to(step))
-    tell(session, {ActionKind::go_to, {}, session.runner()->scenario().steps[step].name});
+    record(session, {ActionKind::go_to, {}, session.runner()->scenario().steps[step].name});
 }
 
 std::vector<SettingsInput::Setting> StepControls::settings(const Session& session) const {

@@ -54,7 +54,7 @@ public:
   std::vector<SettingsInput::Setting> settings(const Session& session) const;
 
 private:
-  void tell(Session& session, const Action& action);
+  void record(Session& session, const Action& action);
 
   int attempt_ = 0;
   std::optional<std::size_t> step_;

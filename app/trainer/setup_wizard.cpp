@@ -31,8 +31,7 @@ std::vector<std::string> figures(const Calibration& c) {
 
 }  // namespace
 
-SetupWizard::SetupWizard(std::unique_ptr<Tracker> sensor, Calibration base, SetupInput given,
-                         std::filesystem::path file)
+SetupWizard::SetupWizard(SensorTracker sensor, Calibration base, SetupInput given, std::filesystem::path file)
     : sensor_(std::move(sensor)), calibration_(std::move(base)), given_(std::move(given)), file_(std::move(file)) {
   const std::vector<std::string> made = figures(calibration_);
   std::size_t first = 0;
@@ -49,9 +48,9 @@ void SetupWizard::begin(std::size_t step) {
 
 void SetupWizard::update(double now_s) {
   samples_.clear();
-  sensor_->poll(now_s, samples_);
-  for (const PoseSample& sample : samples_) {
-    const PoseSample seen = presses_.only_pressed(sample);
+  sensor_.poll(now_s, samples_);
+  for (const SensorSample& sample : samples_) {
+    const SensorSample seen = presses_.only_pressed(sample);
     if (!step_->view().done)
       step_->feed(seen);
     else if (seen.buttons != 0)
@@ -72,7 +71,7 @@ void SetupWizard::mark(double now_s) {
   if (step_->view().done)
     go_on();
   else
-    step_->mark(sensor_->clock_s(now_s));
+    step_->mark(sensor_.tracker().clock_s(now_s));
 }
 
 void SetupWizard::go_on() {

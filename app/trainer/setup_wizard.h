@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "devices/calibration/steps/setup_step.h"
-#include "devices/tracker.h"
+#include "devices/sensor_tracker.h"
 
 namespace insonate {
 
@@ -15,11 +15,10 @@ namespace insonate {
 class SetupWizard {
 public:
   /// Begins with the first step that has not been made.
-  /// @param sensor  the tracker; its samples hold the sensor's poses
   /// @param base    the calibration so far; its steps are kept until they are made again
   /// @param given   landmarks, and the probe's drawing if there is one
   /// @param file    where the calibration is written
-  SetupWizard(std::unique_ptr<Tracker> sensor, Calibration base, SetupInput given, std::filesystem::path file);
+  SetupWizard(SensorTracker sensor, Calibration base, SetupInput given, std::filesystem::path file);
 
   /// Processes the tracker's samples up to `now_s`. Throws InputError if the file cannot be written.
   void update(double now_s);
@@ -50,7 +49,7 @@ public:
   /// Returns the places of the body that the step `landmarks` asks for, in its order.
   std::vector<LandmarkPair> landmarks() const;
 
-  TrackerState tracker_state() const { return sensor_->state(); }
+  TrackerState tracker_state() const { return sensor_.tracker().state(); }
   const Calibration& calibration() const { return calibration_; }
   const std::filesystem::path& file() const { return file_; }
   /// Returns whether the last step has been made and left.
@@ -61,7 +60,7 @@ private:
   void keep_if_done();
   void go_on();
 
-  std::unique_ptr<Tracker> sensor_;
+  SensorTracker sensor_;
   Calibration calibration_;
   SetupInput given_;
   std::filesystem::path file_;
@@ -69,7 +68,7 @@ private:
   std::size_t current_ = 0;
   bool kept_ = false, finished_ = false;
   ButtonPresses presses_;
-  std::vector<PoseSample> samples_;
+  std::vector<SensorSample> samples_;
 };
 
 }  // namespace insonate

@@ -240,7 +240,7 @@ void Trainer::draw(const PictureSizes& sizes, double quality, double budget_ms) 
     glFinish();
     latency_.add(*session(), steady_now_s());
   }
-  if (feed_) feed_->tell(*session());
+  if (feed_) feed_->publish(*session());
   show_pictures();
 }
 

@@ -34,9 +34,9 @@ void Trainer::keep_sitting(Exam& exam) {
     mode_ = Idle();  // nobody takes an exam twice
     throw;
   } catch (const InputError& error) {
-    const std::string told = std::string("The exam goes on, but is not kept while it lasts: ") + error.what();
-    std::fprintf(stderr, "insonate: %s\n", told.c_str());
-    if (!options_.headless) problems_.push_back(told);
+    const std::string message = std::string("The exam goes on, but is not kept while it lasts: ") + error.what();
+    std::fprintf(stderr, "insonate: %s\n", message.c_str());
+    if (!options_.headless) problems_.push_back(message);
   }
 }
 

@@ -79,7 +79,7 @@ Session::OpenTracker Trainer::opener(const std::string& uri, const LoadedCase& l
                                                      std::int64_t(std::time(nullptr)), options_.calibration_days));
   if (!calibration_warning_.empty()) std::fprintf(stderr, "insonate: %s\n", calibration_warning_.c_str());
   return [sensor = sensor_uri(uri, true), calibration, name = options_.calibration.filename().string()] {
-    return std::make_unique<CalibratedTracker>(open_tracker(sensor), calibration, name);
+    return std::make_unique<CalibratedTracker>(SensorTracker(open_tracker(sensor)), calibration, name);
   };
 }
 
@@ -133,8 +133,9 @@ void Trainer::open_setup() {
   if (!options_.drawing.empty()) given.drawing = read_probe_drawing(options_.drawing);
   mode_ = Idle();  // which lets go of the tracker
   calibration_warning_.clear();
-  mode_ = SettingUp{std::make_unique<SetupWizard>(open_tracker(sensor_uri(uri, false), loaded_case_->surroundings),
-                                                  std::move(base), std::move(given), file)};
+  mode_ = SettingUp{
+      std::make_unique<SetupWizard>(SensorTracker(open_tracker(sensor_uri(uri, false), loaded_case_->surroundings)),
+                                    std::move(base), std::move(given), file)};
 }
 
 void Trainer::end_setup() {

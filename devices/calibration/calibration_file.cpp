@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kMostBytes = 1u << 20;
 /// Nothing in a set-up is farther away (why_not_rigid has the same limit).
-constexpr double kReachMm = 1e5;
+constexpr double kFarthestMm = 1e5;
 /// As many as a Viper has.
 constexpr int kMostSensors = 16;
 
@@ -47,8 +47,8 @@ template <typename Io>
 void fields(Io& io, TipFit& tip) {
   io.point("tip_mm", tip.tip_mm);
   io.point("pivot_mm", tip.pivot_mm);
-  io.number("residual_mm", tip.residual_mm, 0, kReachMm);
-  io.number("tip_sd_mm", tip.tip_sd_mm, 0, kReachMm);
+  io.number("residual_mm", tip.residual_mm, 0, kFarthestMm);
+  io.number("tip_sd_mm", tip.tip_sd_mm, 0, kFarthestMm);
   io.number("spread_deg", tip.spread_deg, 0, 90);
   io.count("used", tip.used);
   io.count("rejected", tip.rejected);
@@ -59,8 +59,8 @@ void fields(Io& io, FaceSetup& face) {
   io.text("method", face.method);
   io.pose("sensor_from_face", face.fit.sensor_from_face);
   io.number("skew_deg", face.fit.skew_deg, 0, 90);
-  io.number("off_middle_mm", face.fit.off_middle_mm, 0, kReachMm);
-  io.number("tip_off_mm", face.tip_off_mm, 0, kReachMm);
+  io.number("off_middle_mm", face.fit.off_middle_mm, 0, kFarthestMm);
+  io.number("tip_off_mm", face.tip_off_mm, 0, kFarthestMm);
 }
 
 template <typename Io>
@@ -83,10 +83,10 @@ void fields(Io& io, MannequinSetup& mannequin) {
   io.text("patient", mannequin.patient);
   io.pose("ct_from_mannequin", mannequin.ct_from_mannequin);
   io.pose("mannequin_from_tracker", mannequin.mannequin_from_tracker);
-  io.number("accuracy_mm", mannequin.accuracy_mm, 0, kReachMm);
-  io.number("residual_mm", mannequin.residual_mm, 0, kReachMm);
+  io.number("accuracy_mm", mannequin.accuracy_mm, 0, kFarthestMm);
+  io.number("residual_mm", mannequin.residual_mm, 0, kFarthestMm);
   io.text("worst", mannequin.worst);
-  io.number("worst_mm", mannequin.worst_mm, 0, kReachMm);
+  io.number("worst_mm", mannequin.worst_mm, 0, kFarthestMm);
   io.landmarks("landmark", mannequin.landmarks);
 }
 
@@ -158,7 +158,8 @@ public:
   void point(const char* key, glm::dvec3& point) {
     const std::vector<double> v = table_.numbers(key, 3);
     for (const double value : v)
-      if (std::abs(value) > kReachMm) table_.fail(key, "the point lies beyond any tracker's reach", "calibrate again");
+      if (std::abs(value) > kFarthestMm)
+        table_.fail(key, "the point lies beyond any tracker's reach", "calibrate again");
     point = {v[0], v[1], v[2]};
   }
   void pose(const char* key, Pose& pose) {

@@ -93,10 +93,10 @@ Outcome<LagFit> lag_between(const Signal& late, const Signal& early) {
   return LagFit{(double(first + peak) + fine - offset) * late.step_s, best};
 }
 
-Signal stopping_of(std::span<const PoseSample> samples) {
+Signal stopping_of(std::span<const SensorSample> samples) {
   std::vector<std::pair<double, glm::dvec3>> places;
-  for (const PoseSample& sample : samples)
-    if (sample.status == PoseStatus::ok) places.emplace_back(sample.time_s, sample.patient_from_probe.translation);
+  for (const SensorSample& sample : samples)
+    if (sample.status == PoseStatus::ok) places.emplace_back(sample.time_s, sample.tracker_from_sensor.translation);
   if (places.size() < 2) return {};
   const double begin_s = places.front().first, duration_s = std::min(places.back().first - begin_s, kLongestS);
   Signal signal{begin_s, kStepS, {}};
@@ -122,13 +122,13 @@ Signal stopping_of(std::span<const PoseSample> samples) {
   return signal;
 }
 
-Outcome<KnockLag> knock_lag(std::span<const PoseSample> samples, std::span<const double> key_times_s) {
+Outcome<KnockLag> knock_lag(std::span<const SensorSample> samples, std::span<const double> key_times_s) {
   if (key_times_s.size() < kLeastKnocks)
     return Refusal{"There were " + std::to_string(key_times_s.size()) + " blows; strike the key at least " +
                    std::to_string(kLeastKnocks) + " times."};
   // Motion before and after the knocks is ignored.
-  std::vector<PoseSample> about;
-  for (const PoseSample& sample : samples)
+  std::vector<SensorSample> about;
+  for (const SensorSample& sample : samples)
     if (sample.time_s > key_times_s.front() - 0.5 && sample.time_s < key_times_s.back() + kMostLagS + 0.3)
       about.push_back(sample);
   const Signal stopping = stopping_of(about);

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "devices/calibration/outcome.h"
-#include "sim/core/pose_sample.h"
+#include "devices/calibration/sensor_sample.h"
 
 namespace insonate {
 
@@ -40,13 +40,13 @@ Outcome<LagFit> lag_between(const Signal& late, const Signal& early);
 
 /// Returns the deceleration of the probe in mm/s^2: the loss of its speed, smoothed over 15 ms. It interpolates over
 /// samples that are not ok. Empty with fewer than two usable samples.
-Signal stopping_of(std::span<const PoseSample> samples);
+Signal stopping_of(std::span<const SensorSample> samples);
 
 /// Measures the lag of a tracker with what every lab has. The user strikes a key (the space bar, or a button of the
 /// tracker) with the probe itself, several times in an uneven rhythm. The times of the key are compared with the times
 /// at which the tracker shows that the probe stops, both on the tracker's clock. The result is the time from the knock
 /// to the sample's time stamp, less the delay of the keyboard (5 to 20 ms). It does not include the delay of drawing or
 /// of the screen. Refused with fewer than kLeastKnocks, or where lag_between() refuses.
-Outcome<KnockLag> knock_lag(std::span<const PoseSample> samples, std::span<const double> key_times_s);
+Outcome<KnockLag> knock_lag(std::span<const SensorSample> samples, std::span<const double> key_times_s);
 
 }  // namespace insonate

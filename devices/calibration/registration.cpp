@@ -114,7 +114,7 @@ Outcome<Registration> register_landmarks(std::span<const LandmarkPair> pairs) {
     return Refusal{text};
   }
   const Points touched = places(fitted, &LandmarkPair::touched_mm), ct = places(fitted, &LandmarkPair::ct_mm);
-  if (!finite(touched) || !finite(ct)) return Refusal{"A landmark's position is no number; touch it again."};
+  if (!finite(touched) || !finite(ct)) return Refusal{"A landmark's position is not a number; touch it again."};
   for (const Points& points : {touched, ct}) {
     const Spread spread = spread_of(points);
     if (spread.enough()) continue;

@@ -12,12 +12,12 @@ namespace insonate {
 namespace {
 
 constexpr std::size_t kMostBytes = 1u << 20, kMostLandmarks = 64;
-constexpr double kReachMm = 1e5;
+constexpr double kFarthestMm = 1e5;
 
 glm::dvec3 read_point(const TomlTable& table, const char* key) {
   const std::vector<double> v = table.numbers(key, 3);
   const glm::dvec3 point(v[0], v[1], v[2]);
-  if (!(glm::length(point) <= kReachMm)) table.fail(key, "the point lies 100 m away or farther", "give it in mm");
+  if (!(glm::length(point) <= kFarthestMm)) table.fail(key, "the point lies 100 m away or farther", "give it in mm");
   return point;
 }
 

@@ -147,22 +147,22 @@ DistortionFigures measure_distortion(std::uint32_t most_distortion) {
   const glm::dvec3 steel(345, 50, -80);
   constexpr double kMost_mm = 100, kReach_mm = 12;
   const std::vector<PoseSample> there = noisy(scanning, 60);
-  std::vector<PoseSample> told = there;
-  for (std::uint32_t i = 0; i < told.size(); ++i) {
-    glm::dvec3& mm = told[i].patient_from_probe.translation;
+  std::vector<PoseSample> disturbed = there;
+  for (std::uint32_t i = 0; i < disturbed.size(); ++i) {
+    glm::dvec3& mm = disturbed[i].patient_from_probe.translation;
     const glm::dvec3 to_steel = steel - mm;
     const double off_mm = kMost_mm * std::exp(-glm::length(to_steel) / kReach_mm);
     mm += off_mm * glm::normalize(to_steel);
     // The grade only approximates the error.
-    told[i].distortion = std::uint32_t(std::max(0.0, off_mm * (0.75 + 0.5 * uniform(i, 50))));
+    disturbed[i].distortion = std::uint32_t(std::max(0.0, off_mm * (0.75 + 0.5 * uniform(i, 50))));
   }
-  const std::vector<PoseSample> kept = filtered(told, {.distortion = true, .most_distortion = most_distortion});
+  const std::vector<PoseSample> kept = filtered(disturbed, {.distortion = true, .most_distortion = most_distortion});
   DistortionFigures figures;
   double squares_before = 0, squares_after = 0;
   std::size_t passed = 0;
-  for (std::size_t i = 0; i < told.size(); ++i) {
+  for (std::size_t i = 0; i < disturbed.size(); ++i) {
     const double off_mm =
-        glm::distance(told[i].patient_from_probe.translation, there[i].patient_from_probe.translation);
+        glm::distance(disturbed[i].patient_from_probe.translation, there[i].patient_from_probe.translation);
     figures.worst_before_mm = std::max(figures.worst_before_mm, off_mm);
     squares_before += off_mm * off_mm;
     if (kept[i].status != PoseStatus::ok) continue;
@@ -170,9 +170,9 @@ DistortionFigures measure_distortion(std::uint32_t most_distortion) {
     figures.worst_after_mm = std::max(figures.worst_after_mm, off_mm);
     squares_after += off_mm * off_mm;
   }
-  figures.rms_before_mm = std::sqrt(squares_before / double(told.size()));
+  figures.rms_before_mm = std::sqrt(squares_before / double(disturbed.size()));
   figures.rms_after_mm = passed > 0 ? std::sqrt(squares_after / double(passed)) : 0;
-  figures.rejected = 1 - double(passed) / double(told.size());
+  figures.rejected = 1 - double(passed) / double(disturbed.size());
   return figures;
 }
 

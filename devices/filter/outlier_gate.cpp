@@ -7,9 +7,9 @@
 namespace insonate {
 namespace {
 
-/// A velocity predicts the position of a hand for kCarry_s at most (PoseHistory::kPredictS). After kReach_s the
+/// A velocity predicts the position of a hand for kCarry_s at most (PoseHistory::kPredictS). After kLongestGap_s the
 /// possible distance no longer grows.
-constexpr double kCarry_s = 0.030, kReach_s = 0.250;
+constexpr double kCarry_s = 0.030, kLongestGap_s = 0.250;
 /// Samples from one read have stamps that do not show how quickly they followed each other.
 constexpr double kLeastStep_s = 0.0005;
 
@@ -21,7 +21,7 @@ Pose mirror_image(const Pose& pose, const glm::dvec3& origin) {
 }  // namespace
 
 bool OutlierGate::follows(const Track& track, double time_s, const Pose& pose) const {
-  const double step_s = std::min(time_s - track.time_s, kReach_s);
+  const double step_s = std::min(time_s - track.time_s, kLongestGap_s);
   const glm::dvec3 expected = track.pose.translation + track.mm_per_s * std::min(step_s, kCarry_s);
   return glm::distance(pose.translation, expected) <= std::max(kNear_mm, kNear_mm_per_s * step_s) &&
          angle_between_deg(pose, track.pose) <= std::max(kNear_deg, kNear_deg_per_s * step_s);
@@ -31,7 +31,7 @@ OutlierGate::Track OutlierGate::carried_on(const Track& track, double time_s, co
   const double step_s = time_s - track.time_s;
   if (step_s < kLeastStep_s) return {time_s, pose, track.mm_per_s};
   // A step over a longer gap gives no velocity, and the noise of a single step must not carry far.
-  if (step_s > kReach_s) return {time_s, pose};
+  if (step_s > kLongestGap_s) return {time_s, pose};
   glm::dvec3 mm_per_s = (pose.translation - track.pose.translation) / step_s;
   mm_per_s = 0.5 * (mm_per_s + track.mm_per_s);
   const double speed = glm::length(mm_per_s);

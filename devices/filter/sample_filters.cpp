@@ -48,7 +48,8 @@ FilterSettings take_filter_options(TrackerUri& uri) {
   constexpr double kWorst = 4294967295;  // a grade has at most 32 bits
   const double limit = uri.number("distortion", 0, 0, kWorst);
   if (limit != std::floor(limit))
-    throw InputError("tracker '" + uri.text + "'", "option 'distortion'", "the limit is no whole number", "change it");
+    throw InputError("tracker '" + uri.text + "'", "option 'distortion'", "the limit is not a whole number",
+                     "change it");
   settings.most_distortion = std::uint32_t(limit);
   settings.distortion = !uri.options.extract("distortion").empty();
   const bool has_limit = settings.distortion;

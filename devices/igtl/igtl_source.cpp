@@ -184,10 +184,10 @@ void ClientSource::take(const Header& header, ByteView body, LiveBatch& batch) {
     return;
   }
   const auto matrix = parse_transform(parts->content);
-  const std::string told = metadata_value(*parts, "TransformStatus");
+  const std::string status = metadata_value(*parts, "TransformStatus");
   PoseSample sample;
   sample.time_s = time_of(header, arrival_s_);
-  sample.status = told.empty() ? PoseStatus::ok : status_from_igsio(told);
+  sample.status = status.empty() ? PoseStatus::ok : status_from_igsio(status);
   if (!matrix || (sample.status == PoseStatus::ok && why_not_rigid(*matrix))) sample.status = PoseStatus::invalid;
   if (sample.status == PoseStatus::ok) {
     sample.patient_from_probe = pose_from_matrix(*matrix);
@@ -241,7 +241,7 @@ ClientRequest client_request(const TrackerUri& uri) {
     const char *begin = rest.data() + 1, *end = rest.data() + rest.size();
     const auto read = std::from_chars(begin, end, request.port);
     if (rest.front() != ':' || read.ec != std::errc() || read.ptr != end || request.port == 0)
-      refuse("'" + std::string(rest) + "' is no port from 1 to 65535 after a colon");
+      refuse("'" + std::string(rest) + "' is not a port from 1 to 65535 after a colon");
   }
   const auto one_of = [&](const std::string& option, const std::string& usual, const std::string& other) {
     const auto found = uri.options.find(option);

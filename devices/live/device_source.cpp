@@ -109,7 +109,7 @@ void DeviceSource::replay_read(Bytes bytes, double time_s, LiveBatch& batch) {
     ++starts_;
     start(*transport_, device_);
   }
-  if (const std::string told = note(time_s); !told.empty()) batch.note = told;
+  if (const std::string message = note(time_s); !message.empty()) batch.note = message;
 }
 
 std::string DeviceSource::note(double now_s) {

@@ -77,7 +77,7 @@ private:
       source_->open();
       return true;
     } catch (const std::exception& error) {
-      tell(error.what());
+      report(error.what());
       return false;
     }
   }
@@ -100,7 +100,7 @@ private:
       heard_s_ = steady_now_s();
       heard_ = brought_any_ = true;
     }
-    tell(problem);
+    report(problem);
     return there;
   }
 
@@ -117,7 +117,7 @@ private:
     publish(silence_at(now_s));
   }
 
-  void tell(const std::string& problem) {
+  void report(const std::string& problem) {
     const std::lock_guard lock(mutex_);
     if (told_ != problem) told_ = problem;
   }

@@ -6,8 +6,8 @@ namespace insonate {
 namespace {
 
 constexpr DeviceKind::Model kModels[] = {
-    {0x1532, 0x0b00, "OSVR HDK head tracker", "tells orientation only"},
-    {0x03eb, 0x2421, "OSVR HDK head tracker", "tells orientation only"},
+    {0x1532, 0x0b00, "OSVR HDK head tracker", "reports orientation only"},
+    {0x03eb, 0x2421, "OSVR HDK head tracker", "reports orientation only"},
 };
 
 /// 180 degrees about z. The sensor's x is right and its y up; the probe's x points to the marker, on the left, and its

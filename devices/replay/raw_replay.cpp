@@ -122,7 +122,7 @@ private:
   void event(std::string_view line) {
     const std::vector<std::string_view> parts = words(line);
     const auto time_s = parts.size() >= 2 ? to_number<double>(parts[1]) : std::nullopt;
-    if (!time_s || !std::isfinite(*time_s)) fail(quoted(line) + " is no event with its time", kRecordAgain);
+    if (!time_s || !std::isfinite(*time_s)) fail(quoted(line) + " is not an event with its time", kRecordAgain);
     if (*time_s < last_s_) fail("its time lies before that of the line before it", kRecordAgain);
     last_s_ = *time_s;
     if (parts[0] == "open" && parts.size() == 3)

@@ -45,7 +45,7 @@ void SpaceMouseSource::start(Transport&, const AttachedDevice&) {
 
 void SpaceMouseSource::move(double elapsed_s) {
   const glm::dvec3 way = translation_ + rotation_ * (push_ * speed_ * kMmPerS * elapsed_s) - began_;
-  translation_ = began_ + way * std::min(kReachMm / std::max(glm::length(way), kReachMm), 1.0);
+  translation_ = began_ + way * std::min(kRangeMm / std::max(glm::length(way), kRangeMm), 1.0);
   const glm::dvec3 turn = turn_ * speed_ * kRadPerS * elapsed_s;
   if (const double angle = glm::length(turn); angle > 0)
     rotation_ = glm::normalize(rotation_ * glm::angleAxis(angle, turn / angle));

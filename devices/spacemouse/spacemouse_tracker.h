@@ -23,7 +23,7 @@ public:
   static constexpr double kLetGoS = 0.1;
   /// Largest distance from the start, so that a cap that is held down does not lose the probe: more than a patient's
   /// length.
-  static constexpr double kReachMm = 2000;
+  static constexpr double kRangeMm = 2000;
 
   SpaceMouseSource(std::shared_ptr<DeviceBus> bus, const std::string& serial, const Pose& start, double speed,
                    std::function<double()> clock_s = steady_now_s);

@@ -154,7 +154,8 @@ std::unique_ptr<Tracker> open_synthetic(const TrackerUri& uri, const TrackerCont
   const char* const end = uri.subject.data() + uri.subject.size();
   if (!uri.subject.empty())
     if (const auto read = std::from_chars(uri.subject.data(), end, seed); read.ec != std::errc() || read.ptr != end)
-      throw InputError("tracker '" + uri.text + "'", "", "the seed '" + uri.subject + "' is no whole number below 2^32",
+      throw InputError("tracker '" + uri.text + "'", "",
+                       "the seed '" + uri.subject + "' is not a whole number below 2^32",
                        "write it as in 'synthetic:7'");
   const double rate_hz = uri.number("rate", 60, 1, 1000);
   auto hand = std::make_unique<SyntheticTracker>(seed, rate_hz, context);

@@ -57,27 +57,28 @@ void note_cut_organs(const Anatomy& anatomy, std::vector<std::string>& notes) {
 }  // namespace
 
 ImportedCase import_case(const ImportRequest& request, const TissueTable& tissues, const Progress& progress) {
-  const auto tell = [&](double share) {
+  const auto report_progress = [&](double share) {
     if (progress) progress(share);
   };
-  tell(0);
+  report_progress(0);
   ImportedCase made;
   Case& subject = made.subject;
   subject.name = request.name.empty() ? "Patient" : request.name;
   subject.ct = read_at_working_spacing(request);
-  tell(kCtRead);
-  Segmentation segmentation = read_segmentation(request.labels, subject.ct.grid, request.label_table,
-                                                [&](double share) { tell(kCtRead + share * (kLabelsRead - kCtRead)); });
+  report_progress(kCtRead);
+  Segmentation segmentation =
+      read_segmentation(request.labels, subject.ct.grid, request.label_table,
+                        [&](double share) { report_progress(kCtRead + share * (kLabelsRead - kCtRead)); });
   subject.labels = std::move(segmentation.labels);
   subject.label_table = std::move(segmentation.table);
   made.notes = std::move(segmentation.notes);
-  tell(kLabelsRead);
+  report_progress(kLabelsRead);
 
   // Checked before the surroundings are cleared: labels outside the body indicate labels of another scan.
   for (std::string& note : check_plausible(request.labels.string(), subject, structure_shapes(subject)))
     made.notes.push_back(std::move(note));
   const BodyMask body = clear_surroundings(request.ct.string(), subject, made.notes);
-  tell(kBodyFound);
+  report_progress(kBodyFound);
 
   const std::vector<StructureShape> shapes = structure_shapes(subject);
   std::erase_if(subject.label_table, [&](const Label& label) {
@@ -86,11 +87,11 @@ ImportedCase import_case(const ImportRequest& request, const TissueTable& tissue
   const Anatomy anatomy = find_anatomy(subject, shapes);
   note_cut_organs(anatomy, made.notes);
   subject.landmarks = landmarks_of(anatomy);
-  SuggestedViews suggested = suggest_views(subject, anatomy, body, tissues,
-                                           [&](double share) { tell(kBodyFound + share * (1 - kBodyFound)); });
+  SuggestedViews suggested = suggest_views(
+      subject, anatomy, body, tissues, [&](double share) { report_progress(kBodyFound + share * (1 - kBodyFound)); });
   subject.views = std::move(suggested.views);
   for (std::string& note : suggested.notes) made.notes.push_back(std::move(note));
-  tell(1);
+  report_progress(1);
   return made;
 }
 

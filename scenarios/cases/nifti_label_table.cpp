@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 LabelNames parse_table(const fs::path& file, const std::string& xml) {
   pugi::xml_document document;
   if (const pugi::xml_parse_result result = document.load_buffer(xml.data(), xml.size()); !result)
-    refuse(file, std::string("it is no well-formed XML (") + result.description() + ")");
+    refuse(file, std::string("it is not well-formed XML (") + result.description() + ")");
   LabelNames names;
   for (const pugi::xml_node label :
        document.child("CaretExtension").child("VolumeInformation").child("LabelTable").children("Label")) {
@@ -30,7 +30,7 @@ LabelNames parse_table(const fs::path& file, const std::string& xml) {
     int value = -1;
     const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), value);
     if (error != std::errc() || end != key.data() + key.size() || value < 0 || value > 255)
-      refuse(file, "it names the value '" + std::string(key) + "', which is no whole number from 0 to 255");
+      refuse(file, "it names the value '" + std::string(key) + "', which is not a whole number from 0 to 255");
     if (value == 0) continue;
     const std::string name(trimmed(label.child_value()));
     if (name.empty()) refuse(file, "the value " + std::to_string(value) + " has no name");

@@ -84,7 +84,7 @@ ViewMeter::ViewMeter(const Case& subject, const ReferenceView& view, const Tissu
   };
   for (const std::string& name : view.targets) {
     const Label* label = subject.find_label(name);
-    if (!label) refuse("its target '" + name + "' is no label of the case", "name one that is");
+    if (!label) refuse("its target '" + name + "' is not a label of the case", "name one that is");
     is_target_.set(label->value);
   }
   for (const std::string& name : view.landmarks) {

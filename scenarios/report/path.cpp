@@ -19,7 +19,7 @@ constexpr double kMargin = 24;
 constexpr double kGap = 20;
 
 /// The content of the drawings.
-struct Way {
+struct ProbePath {
   glm::dvec3 low{0.0}, high{0.0};  ///< patient, mm
   glm::dvec3 start{0.0};
   struct Stretch {
@@ -37,18 +37,18 @@ struct Way {
   double across() const { return std::max({high.x - low.x, high.y - low.y, high.z - low.z, 20.0}); }
 };
 
-std::optional<Way> way_of(const ExamResult& result, std::span<const TracePoint> trace) {
+std::optional<ProbePath> path_of(const ExamResult& result, std::span<const TracePoint> trace) {
   const auto first = std::find_if(trace.begin(), trace.end(), [](const TracePoint& p) { return p.valid; });
   if (first == trace.end()) return std::nullopt;
-  Way way;
-  way.low = way.high = way.start = first->face;
+  ProbePath path;
+  path.low = path.high = path.start = first->face;
   bool going = false;
   for (const TracePoint& point : trace) {
     if (point.valid) {
-      way.low = glm::min(way.low, point.face);
-      way.high = glm::max(way.high, point.face);
-      if (!going || way.stretches.back().step != point.step) way.stretches.push_back({point.step, {}});
-      way.stretches.back().points.push_back(point.face);
+      path.low = glm::min(path.low, point.face);
+      path.high = glm::max(path.high, point.face);
+      if (!going || path.stretches.back().step != point.step) path.stretches.push_back({point.step, {}});
+      path.stretches.back().points.push_back(point.face);
     }
     going = point.valid;
   }
@@ -56,9 +56,9 @@ std::optional<Way> way_of(const ExamResult& result, std::span<const TracePoint> 
     if (!step.judged_from_s) continue;
     const auto judged = std::find_if(trace.begin(), trace.end(),
                                      [&](const TracePoint& p) { return p.valid && p.time_s >= *step.judged_from_s; });
-    if (judged != trace.end()) way.spots.push_back({judged->face, step.outcome == StepOutcome::held});
+    if (judged != trace.end()) path.spots.push_back({judged->face, step.outcome == StepOutcome::held});
   }
-  return way;
+  return path;
 }
 
 /// One of the two projections of the probe's path.
@@ -69,30 +69,30 @@ struct Projection {
   glm::dvec3 up;
 };
 
-std::string projected(const Projection& projection, double left, const Way& way) {
-  const double scale = (kSize - 2 * kMargin) / way.across();
+std::string projected(const Projection& projection, double left, const ProbePath& path) {
+  const double scale = (kSize - 2 * kMargin) / path.across();
   const auto x = [&](const glm::dvec3& p) {
-    return left + kSize / 2 + scale * glm::dot(p - way.middle(), projection.right);
+    return left + kSize / 2 + scale * glm::dot(p - path.middle(), projection.right);
   };
   const auto y = [&](const glm::dvec3& p) {
-    return kTop + kSize / 2 - scale * glm::dot(p - way.middle(), projection.up);
+    return kTop + kSize / 2 - scale * glm::dot(p - path.middle(), projection.up);
   };
   std::string svg =
       print("<rect class='frame' x='%.0f' y='%.0f' width='%.0f' height='%.0f'/>", left, kTop, kSize, kSize);
   svg += print("<text class='name' x='%.0f' y='%.0f'>%s</text>", left, kTop - 8, projection.title);
   svg += print("<text class='tick' x='%.0f' y='%.0f'>%s</text>", left + 6, kTop + kSize / 2 + 4, projection.left_side);
-  for (const Way::Stretch& stretch : way.stretches) {
-    svg += print("<path class='way way%d' d='", int(stretch.step % 4));
+  for (const ProbePath::Stretch& stretch : path.stretches) {
+    svg += print("<path class='path path%d' d='", int(stretch.step % 4));
     for (const glm::dvec3& p : stretch.points)
       svg += print("%c%.1f %.1f", &p == &stretch.points.front() ? 'M' : 'L', x(p), y(p));
     svg += "'/>";
   }
   svg += print("<circle class='start' cx='%.1f' cy='%.1f' r='4'/><text class='tick' x='%.1f' y='%.1f'>start</text>",
-               x(way.start), y(way.start), x(way.start) + 7, y(way.start) - 5);
-  for (const Way::Spot& spot : way.spots)
+               x(path.start), y(path.start), x(path.start) + 7, y(path.start) - 5);
+  for (const ProbePath::Spot& spot : path.spots)
     svg += print("<circle class='spot %s' cx='%.1f' cy='%.1f' r='5'/>", spot.held ? "good" : "bad", x(spot.at),
                  y(spot.at));
-  const double ruler_mm = round_step(way.across() * 1.5);
+  const double ruler_mm = round_step(path.across() * 1.5);
   svg += print("<line class='ruler' x1='%.1f' x2='%.1f' y1='%.1f' y2='%.1f'/>", left + 10, left + 10 + ruler_mm * scale,
                kTop + kSize - 12, kTop + kSize - 12);
   svg += print("<text class='tick' x='%.1f' y='%.1f'>%g mm</text>", left + 10, kTop + kSize - 18, ruler_mm);
@@ -104,32 +104,32 @@ std::string triple(const glm::dvec3& p) {
 }
 
 /// Returns the path relative to its middle, mm, in the form that the script of the rotatable drawing reads.
-std::string way_json(const Way& way) {
-  std::string ways, spots;
-  for (const Way::Stretch& stretch : way.stretches) {
-    ways += print("%s[%d", ways.empty() ? "" : ",", int(stretch.step % 4));
-    for (const glm::dvec3& p : stretch.points) ways += "," + triple(p - way.middle());
-    ways += "]";
+std::string path_json(const ProbePath& path) {
+  std::string stretches, spots;
+  for (const ProbePath::Stretch& stretch : path.stretches) {
+    stretches += print("%s[%d", stretches.empty() ? "" : ",", int(stretch.step % 4));
+    for (const glm::dvec3& p : stretch.points) stretches += "," + triple(p - path.middle());
+    stretches += "]";
   }
-  for (const Way::Spot& spot : way.spots)
-    spots += (spots.empty() ? "[" : ",[") + triple(spot.at - way.middle()) + (spot.held ? ",1]" : ",0]");
-  return "{half:[" + triple((way.high - way.low) / 2.0) + "],start:[" + triple(way.start - way.middle()) + "],ways:[" +
-         ways + "],spots:[" + spots + "]}";
+  for (const ProbePath::Spot& spot : path.spots)
+    spots += (spots.empty() ? "[" : ",[") + triple(spot.at - path.middle()) + (spot.held ? ",1]" : ",0]");
+  return "{half:[" + triple((path.high - path.low) / 2.0) + "],start:[" + triple(path.start - path.middle()) +
+         "],stretches:[" + stretches + "],spots:[" + spots + "]}";
 }
 
 }  // namespace
 
 std::string path_html(const ExamResult& result, std::span<const TracePoint> trace) {
-  const std::optional<Way> way = way_of(result, trace);
-  if (!way) return "";
+  const std::optional<ProbePath> path = path_of(result, trace);
+  if (!path) return "";
   // LPS: +x points to the patient's left, which is at the right of both drawings, as on a CT.
   const Projection front{"From the front", "R", {1, 0, 0}, {0, 0, 1}};
   const Projection feet{"From the feet", "R", {1, 0, 0}, {0, -1, 0}};
   const double width = 2 * kSize + kGap, height = kTop + kSize + 4;
   return "<div class='paths'>" + print("<svg class='chart' viewBox='-1 0 %.0f %.0f' role='img'>", width + 2, height) +
-         projected(front, 0, *way) + projected(feet, kSize + kGap, *way) + "</svg>" +
+         projected(front, 0, *path) + projected(feet, kSize + kGap, *path) + "</svg>" +
          print("<svg class='chart turn' viewBox='-1 0 %.0f %.0f' role='img'></svg></div>", kSize + 2, height) +
-         "<script>" + std::string(report_file("turn.js")) + "(" + way_json(*way) + ");</script>";
+         "<script>" + std::string(report_file("turn.js")) + "(" + path_json(*path) + ");</script>";
 }
 
 }  // namespace insonate

@@ -245,9 +245,9 @@ std::string report_html(const ExamResult& result, std::span<const TracePoint> tr
     html += "<section><h2>Over time</h2>" + time_charts_svg(result, trace) +
             "<p class='legend'><i class='key held'></i>held <i class='key judged'></i>judged without a hold "
             "<i class='key lost'></i>no tracking <i class='key full'></i>full points</p></section>\n";
-    html += "<section><h2>Way of the probe</h2>" + path_html(result, trace) + "<p class='legend'>";
+    html += "<section><h2>Path of the probe</h2>" + path_html(result, trace) + "<p class='legend'>";
     for (std::size_t i = 0; i < result.steps.size(); ++i)
-      html += "<i class='key way" + std::to_string(i % 4) + "'></i>" + escaped(result.steps[i].title) + " ";
+      html += "<i class='key path" + std::to_string(i % 4) + "'></i>" + escaped(result.steps[i].title) + " ";
     html += "</p></section>\n";
   }
   return html + made_from(result) + "</main></body></html>\n";

@@ -1,16 +1,16 @@
-// The drawing of a report that can be turned: a function of the way (path.cpp), called once. It draws into the page's one
+// The drawing of a report that can be turned: a function of the probe's path (path.cpp), called once. It draws into the page's one
 // element of class "turn", in units of 300 across, without anything from outside the page. Angles: `yaw` turns the viewer
 // about the patient's long axis from where the face is seen, `pitch` lifts the viewer towards the head.
-(way => {
+(probePath => {
   const view = document.querySelector('svg.turn');
-  const scale = 126 / Math.max(20, Math.hypot(...way.half));
+  const scale = 126 / Math.max(20, Math.hypot(...probePath.half));
   let yaw = -0.6, pitch = 0.45;
   const draw = () => {
     const [cy, sy, cp, sp] = [Math.cos(yaw), Math.sin(yaw), Math.cos(pitch), Math.sin(pitch)];
     const at = (x, y, z) => [150 + scale * (cy * x + sy * y), 176 - scale * (cp * z + sp * (cy * y - sy * x))];
     const path = (kind, points) => `<path class='${kind}' d='M${points.map(p => p.map(v => v.toFixed(1)).join(' ')).join('L')}'/>`;
     const word = (text, p) => `<text class='tick' text-anchor='middle' x='${p[0]}' y='${p[1] + 4}'>${text}</text>`;
-    const [a, b, c] = way.half.map(h => Math.max(h, 1));
+    const [a, b, c] = probePath.half.map(h => Math.max(h, 1));
     let svg = "<rect class='frame' x='0' y='26' width='300' height='300'/><text class='name' x='0' y='18'>In space</text>"
       + "<text class='tick hint' x='300' y='18' text-anchor='end'>drag to turn</text>";
     for (const s of [-1, 1]) for (const t of [-1, 1])
@@ -19,14 +19,14 @@
     const far = 12 / scale;
     svg += word('R', at(-a - far, 0, 0)) + word('L', at(a + far, 0, 0)) + word('head', at(0, 0, c + far)) + word('feet', at(0, 0, -c - far))
       + word('front', at(0, -b - far, 0)) + word('back', at(0, b + far, 0));
-    for (const [kind, ...v] of way.ways) {
+    for (const [kind, ...v] of probePath.stretches) {
       const points = [];
       for (let i = 0; i < v.length; i += 3) points.push(at(v[i], v[i + 1], v[i + 2]));
-      svg += path('way way' + kind, points);
+      svg += path('path path' + kind, points);
     }
     const dot = (kind, r, p) => `<circle class='${kind}' r='${r}' cx='${p[0].toFixed(1)}' cy='${p[1].toFixed(1)}'/>`;
-    svg += dot('start', 4, at(...way.start));
-    for (const [x, y, z, held] of way.spots) svg += dot('spot ' + (held ? 'good' : 'bad'), 5, at(x, y, z));
+    svg += dot('start', 4, at(...probePath.start));
+    for (const [x, y, z, held] of probePath.spots) svg += dot('spot ' + (held ? 'good' : 'bad'), 5, at(x, y, z));
     view.innerHTML = svg;
   };
   view.addEventListener('pointerdown', e => view.setPointerCapture(e.pointerId));

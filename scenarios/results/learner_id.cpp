@@ -18,14 +18,14 @@ std::string why_no_learner_id(std::string_view id) {
     // Bytes outside printable ASCII would not display correctly, and the id may come from any file.
     std::replace_if(
         shown.begin(), shown.end(), [](unsigned char c) { return c < 0x20 || c > 0x7e; }, '?');
-    return "'" + shown + "' is no opaque id: letters A to Z, digits, '.', '_' and '-' make one";
+    return "'" + shown + "' is not an opaque id of letters A to Z, digits, '.', '_' and '-'";
   }
   return {};
 }
 
 void check_learner_id(std::string_view id, const std::string& file, const std::string& place) {
   if (const std::string why = why_no_learner_id(id); !why.empty())
-    throw InputError(file, place, why, "use a code that only your lab can tell the person of");
+    throw InputError(file, place, why, "use a code from which only your lab knows the person");
 }
 
 }  // namespace insonate

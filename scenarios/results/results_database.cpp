@@ -30,7 +30,7 @@ const fs::path& with_folder(const fs::path& file) {
 const fs::path& existing(const fs::path& file) {
   std::error_code error;
   if (!fs::exists(file, error)) throw InputError(file.string(), "", "there is no such file", "check the name");
-  if (!fs::is_regular_file(file, error)) throw InputError(file.string(), "", "this is no file", "name a database");
+  if (!fs::is_regular_file(file, error)) throw InputError(file.string(), "", "this is not a file", "name a database");
   return file;
 }
 

@@ -69,7 +69,7 @@ void Connection::fail(int code) const {
                  "let that program finish, then try again");
       break;
     case SQLITE_NOTADB:
-      throw_with("this is no database of results", "name one that the trainer has written");
+      throw_with("this is not a database of results", "name one that the trainer has written");
       break;
     case SQLITE_FULL:
       throw_with("the disk is full", "make room on it and try again");

@@ -63,7 +63,7 @@ std::vector<TracePoint> trace_from_json(std::string_view text, const std::string
     });
     return trace;
   } catch (const std::exception& error) {
-    throw InputError(name, "", std::string("this is no trace of insonate: ") + error.what(), "score the log again");
+    throw InputError(name, "", std::string("this is not a trace of insonate: ") + error.what(), "score the log again");
   }
 }
 

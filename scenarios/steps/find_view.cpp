@@ -26,7 +26,7 @@ std::vector<Tolerance> read_tolerance(TableReader& table) {
     const auto metric = find_metric(entry.key);
     const double limit = entry.number.value_or(-1);
     if (!metric || info(*metric).scope != MetricScope::picture)
-      table.problem(entry.key_place, "has what is no metric of a picture, '" + entry.key + "'",
+      table.problem(entry.key_place, "has a tolerance for '" + entry.key + "', which is not a metric of a picture",
                     suggest(entry.key, usable));
     else if (!(limit >= 0 && limit <= kLargestLimit))
       table.problem(entry.value_place, "has no usable limit for '" + entry.key + "'",

@@ -31,7 +31,7 @@ public:
     if (action.kind != ActionKind::point) return;
     if (const auto place = place_in_patient(action, moment)) point_ = place;
   }
-  bool enough() const override { return point_.has_value(); }
+  bool counts_as_done() const override { return point_.has_value(); }
   double share_done() const override { return point_ ? 1 : 0; }
 
   void finish(StepOutcome, double, StepResult& result) const override {
@@ -59,7 +59,7 @@ public:
     if (!structures_.contains(action.text)) return;
     if (const auto place = place_in_patient(action, moment)) places_[action.text] = *place;
   }
-  bool enough() const override { return places_.size() == asked_.structures.size(); }
+  bool counts_as_done() const override { return places_.size() == asked_.structures.size(); }
   double share_done() const override { return double(places_.size()) / double(asked_.structures.size()); }
 
   void finish(StepOutcome, double, StepResult& result) const override {

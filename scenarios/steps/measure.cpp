@@ -86,7 +86,7 @@ public:
     placed_[std::size_t(action.slot() - 1)] =
         Placed{action, *moment.machine.frozen_at, moment.now_s, moment.machine.depth_mm, ++order_};
   }
-  bool enough() const override { return count() == asked_.slots(); }
+  bool counts_as_done() const override { return count() == asked_.slots(); }
   double share_done() const override { return double(count()) / asked_.slots(); }
 
   void finish(StepOutcome, double, StepResult& result) const override {
@@ -95,7 +95,7 @@ public:
       result.judged = meter_->measure(last->patient_from_probe, last->depth_mm);
       result.judged_from_s = result.judged_to_s = last->time_s;
     }
-    if (!enough()) return;
+    if (!counts_as_done()) return;
     std::vector<Action> placed;
     for (int i = 0; i < asked_.slots(); ++i) placed.push_back(placed_[std::size_t(i)]->action);
     const double measured = asked_.value(placed);

@@ -54,7 +54,7 @@ public:
   virtual bool done() const { return false; }
   /// Returns true if the step counts as done when the learner ends it or its time runs out. The exam's economy metrics
   /// earn points only if every step was done.
-  virtual bool enough() const { return false; }
+  virtual bool counts_as_done() const { return false; }
 
   /// The share of the step that is done, 0 to 1, and whether the picture meets the requirements; shown on the screen.
   virtual double share_done() const { return 0; }

@@ -50,7 +50,7 @@ public:
   bool on_target() const override { return on_target_; }
   double share_done() const override { return std::min(1.0, coverage_percent() / asked_.enough_percent); }
   /// Without a coverage limit, the learner decides when the organ was swept.
-  bool enough() const override { return asked_.enough_percent >= 100 && coverage_percent() > 0; }
+  bool counts_as_done() const override { return asked_.enough_percent >= 100 && coverage_percent() > 0; }
 
   void finish(StepOutcome, double, StepResult& result) const override {
     result.values.emplace_back(Metric::coverage_percent, coverage_percent());

@@ -6,12 +6,11 @@
 
 namespace insonate {
 
-/// Returns whether a sample reports which buttons are held. A tracker that has lost its probe cannot report that a
-/// button was released. A PLUS log reports switches in its status words, so a sample with another status has no room
-/// for them.
-inline bool reports_buttons(const PoseSample& sample) {
-  return sample.status == PoseStatus::ok || sample.status == PoseStatus::switched ||
-         sample.status == PoseStatus::invalid;
+/// Returns whether a sample of this status reports which buttons are held. A tracker that has lost its probe cannot
+/// report that a button was released. A PLUS log reports switches in its status words, so a sample with another status
+/// has no room for them.
+inline bool reports_buttons(PoseStatus status) {
+  return status == PoseStatus::ok || status == PoseStatus::switched || status == PoseStatus::invalid;
 }
 
 /// Finds the moments at which buttons are pressed. Each press counts once, however long the button is held.
@@ -24,14 +23,17 @@ public:
   explicit ButtonPresses(std::uint32_t held = ~std::uint32_t(0)) : held_(held) {}
 
   /// Returns the bits of the buttons that this sample presses. The caller passes every sample, in order.
-  std::uint32_t see(const PoseSample& sample) {
+  /// @tparam Sample  a PoseSample or a SensorSample
+  template <typename Sample>
+  std::uint32_t see(const Sample& sample) {
     const std::uint32_t pressed = sample.buttons & ~held_;
-    held_ = reports_buttons(sample) ? sample.buttons : held_ | sample.buttons;
+    held_ = reports_buttons(sample.status) ? sample.buttons : held_ | sample.buttons;
     return pressed;
   }
 
   /// Returns the sample with only the bits of newly pressed buttons set. Counts as a call of see().
-  PoseSample only_pressed(PoseSample sample) {
+  template <typename Sample>
+  Sample only_pressed(Sample sample) {
     sample.buttons = see(sample);
     return sample;
   }

@@ -43,7 +43,7 @@ std::uintmax_t check_is_file(const fs::path& file) {
   if (!fs::exists(status)) throw InputError(file.string(), "", "there is no such file", "check the name");
   if (fs::is_directory(status)) throw InputError(file.string(), "", "this is a folder", "name a file in it");
   const std::uintmax_t size = fs::file_size(file, error);
-  if (error) throw InputError(file.string(), "", "it is no ordinary file", "name a file on disk");
+  if (error) throw InputError(file.string(), "", "it is not an ordinary file", "name a file on disk");
   if (size == 0) throw InputError(file.string(), "", "the file is empty", "write or copy it again");
   return size;
 }

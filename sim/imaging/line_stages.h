@@ -20,8 +20,8 @@ struct PlacedLine;
 /// does not start. Where a work group traverses a line, it ends with the stretch in which the energy is lost. The
 /// remaining samples of that stretch count too, because they were computed.
 struct SampleCounts {
-  std::uint32_t walked = 0;   ///< samples traversed, of slice planes x lines x samples
-  std::uint32_t normals = 0;  ///< of these, samples with a normal; edge shadows sample around all of them
+  std::uint32_t traversed = 0;  ///< samples traversed, of slice planes x lines x samples
+  std::uint32_t normals = 0;    ///< of these, samples with a normal; edge shadows sample around all of them
 };
 
 /// Runs the stages of model S that depend on scan lines alone: traversal, and the beam with reverberation and clutter.

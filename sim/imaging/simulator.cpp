@@ -75,7 +75,7 @@ struct Simulator::State {
   bool layout_changed = true;  // probe, depth, sample count or picture size
   std::optional<Stage> first_outdated = Stage::traverse;
   std::array<long, kStageCount> runs{};
-  int slice_planes_walked = 0;  // by the last traversal
+  int slice_planes_traversed = 0;  // by the last traversal
 
   std::size_t pixels() const { return std::size_t(settings.image_width) * std::size_t(settings.image_height); }
   bool frame_sets_white() const { return settings.reference_level == ReferenceLevel::frame_maximum; }
@@ -175,7 +175,7 @@ void Simulator::State::run(Stage stage) {
   switch (stage) {
     case Stage::traverse:
       line_stages.restart_counts();
-      slice_planes_walked = settings.slice_planes;
+      slice_planes_traversed = settings.slice_planes;
       line_stages.traverse(volume, {&patient_from_probe, 1}, settings);
       break;
     case Stage::beam:
@@ -297,8 +297,8 @@ StageCount Simulator::count(Stage stage) const {
   const std::uint64_t samples = s.line_stages.lines().lines.size() * std::uint64_t(s.line_stages.lines().samples);
   switch (stage) {
     case Stage::traverse:
-      count.possible = samples * std::uint64_t(s.slice_planes_walked);
-      count.evaluated = sample_counts().walked;
+      count.possible = samples * std::uint64_t(s.slice_planes_traversed);
+      count.evaluated = sample_counts().traversed;
       break;
     case Stage::beam:
       count.possible = count.evaluated = samples;

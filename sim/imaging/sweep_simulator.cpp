@@ -273,7 +273,7 @@ StageCount SweepSimulator::count(SweepStage stage) const {
   count.possible = stage >= SweepStage::scan_convert ? s.voxels
                    : stage == SweepStage::traverse   ? s.slice_samples
                                                      : s.samples;
-  count.evaluated = stage == SweepStage::traverse ? s.line_stages.sample_counts().walked : count.possible;
+  count.evaluated = stage == SweepStage::traverse ? s.line_stages.sample_counts().traversed : count.possible;
   return count;
 }
 

@@ -304,9 +304,9 @@ std::vector<float> WeinSimulator::similarity(std::span<const Pose> patient_from_
 StageCount WeinSimulator::count(WeinStage stage) const {
   StageCount count = state_->counts[std::size_t(stage)];
   if (stage != WeinStage::traverse || count.runs == 0) return count;
-  GLuint walked = 0;
-  state_->samples_traversed.read(&walked, sizeof walked);
-  count.evaluated = walked;
+  GLuint traversed = 0;
+  state_->samples_traversed.read(&traversed, sizeof traversed);
+  count.evaluated = traversed;
   return count;
 }
 

@@ -74,7 +74,7 @@ const fs::path& existing_file(const fs::path& file) {
   const fs::file_status status = fs::status(file, error);
   if (!fs::exists(status)) throw InputError(file.string(), "", "there is no such file", "check the name");
   if (!fs::is_regular_file(status))
-    throw InputError(file.string(), "", "it is no ordinary file", "name a file on disk");
+    throw InputError(file.string(), "", "it is not an ordinary file", "name a file on disk");
   if (fs::file_size(file, error) == 0) throw InputError(file.string(), "", "the file is empty", "copy it again");
   return file;
 }

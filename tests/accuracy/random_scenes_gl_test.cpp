@@ -132,7 +132,7 @@ TEST_CASE("a repeat lies where the mean of 146 samples says, to a ten-thousandth
   Stressed().check(compiled_as(random_scene_at_body(leader_of(kSeed)), random_scene_at_body(kSeed)));
 }
 
-TEST_CASE("lines in the air hold the same to the last place whether they are walked along or not") {
+TEST_CASE("lines in the air hold the same to the last place whether they are traversed or not") {
   // Beyond a repeat's end the cube of a difference in the last place, which 200 dB of dynamic range and 58 dB of gain
   // make visible.
   constexpr std::uint32_t kSeed = 42202;

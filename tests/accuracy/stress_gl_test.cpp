@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "tests/accuracy/strains.h"
+#include "tests/accuracy/extreme_cases.h"
 #include "tests/accuracy/stressed.h"
 #include "tests/imaging/test_divisions.h"
 
@@ -15,22 +15,22 @@ using namespace insonate::test;
 
 namespace {
 
-/// Runs `strains` one by one on an ordinary scene, with both work divisions. U must be known well enough to compare
+/// Runs `cases` one by one on an ordinary scene, with both work divisions. U must be known well enough to compare
 /// grey in a sufficient share of the pixels with an echo. The share is lowest with few pixels (8192 samples, 0.40), and
 /// 0.70 or more overall.
-void check_each(const std::vector<Strain>& strains) {
+void check_each(const std::vector<ExtremeCase>& cases) {
   const gl::WorkDivision division = GENERATE(line_an_invocation(), line_a_group(32));
   CAPTURE(division.lines_that_fill);
   Stressed stressed(division);
-  for (const Strain& strain : strains) {
-    INFO(strain.name);
+  for (const ExtremeCase& extreme : cases) {
+    INFO(extreme.name);
     Scene scene = ordinary_scene();
-    strain.apply(scene);
+    extreme.apply(scene);
     const Compared before = stressed.compared();
     stressed.check(scene);
     const Compared all = stressed.compared();
-    const Compared of_strain{all.with_echo - before.with_echo, all.in_grey - before.in_grey};
-    CHECK((of_strain.with_echo == 0 || of_strain.share() > 0.35));
+    const Compared of_extreme{all.with_echo - before.with_echo, all.in_grey - before.in_grey};
+    CHECK((of_extreme.with_echo == 0 || of_extreme.share() > 0.35));
   }
   CHECK(stressed.compared().share() > 0.65);
 }
@@ -59,7 +59,7 @@ TEST_CASE("settings at the ends of their ranges") {
       scene.settings.slice_thickness_mm = thickness_mm;
     };
   };
-  const std::vector<Strain> of_model_s = {
+  const std::vector<ExtremeCase> of_model_s = {
       {"no smoothing", set(&S::reflection_sigma_mm, 0.0)},
       {"a frame of zeros, whose brightest is white",
        [](Scene& scene) {
@@ -116,11 +116,11 @@ TEST_CASE("settings at the ends of their ranges") {
          scene.settings.elevation_focus_mm = 400;
        }},
   };
-  check_each(joined(strained_views(), of_model_s));
+  check_each(joined(extreme_views(), of_model_s));
 }
 
 TEST_CASE("volumes at the ends of what a grid and a voxel can hold") {
-  check_each(strained_volumes());
+  check_each(extreme_volumes());
 }
 
 TEST_CASE("thousands of interfaces in a row") {
@@ -155,5 +155,5 @@ TEST_CASE("no stage holds a denormal number, with which a processor is slow, whe
 }
 
 TEST_CASE("poses that no hand holds") {
-  check_each(strained_poses());
+  check_each(extreme_poses());
 }

@@ -14,7 +14,7 @@
 #include "sim/registration/wein_reference.h"
 #include "sim/registration/wein_settings_file.h"
 #include "sim/registration/wein_simulator.h"
-#include "tests/accuracy/strains.h"
+#include "tests/accuracy/extreme_cases.h"
 #include "tests/accuracy/stress_bounds.h"
 #include "tests/gl/test_context.h"
 #include "tests/imaging/parity.h"
@@ -247,13 +247,13 @@ void check_known(const Compared& before, const Compared& all) {
   CHECK((since.lit == 0 || since.share() > 0.8));
 }
 
-/// Runs `strains` one by one, each on an otherwise ordinary scene.
-void check_each(const std::vector<Strain>& strains) {
+/// Runs `cases` one by one, each on an otherwise ordinary scene.
+void check_each(const std::vector<ExtremeCase>& cases) {
   Stressed stressed;
-  for (const Strain& strain : strains) {
-    INFO(strain.name);
+  for (const ExtremeCase& extreme : cases) {
+    INFO(extreme.name);
     Scene scene = ordinary_scene();
-    strain.apply(scene);
+    extreme.apply(scene);
     const Compared before = stressed.compared();
     stressed.check(as_model_w(std::move(scene)));
     check_known(before, stressed.compared());
@@ -264,17 +264,17 @@ void check_each(const std::vector<Strain>& strains) {
 }  // namespace
 
 TEST_CASE("model W: what both models are told, at the ends of its ranges") {
-  check_each(strained_views());
+  check_each(extreme_views());
 }
 
 TEST_CASE("model W: volumes at the ends of what a grid and a voxel can hold") {
   const int side = GENERATE(1, 2);
-  const std::vector<Strain> beside_the_densest = {
+  const std::vector<ExtremeCase> beside_the_densest = {
       {"air beside 32767", board({8, 8, 8}, {10, 10, 10}, -1000, 32767, side)},
       {"water beside 32767", board({8, 8, 8}, {10, 10, 10}, 0, 32767, side)},
       {"bone beside 32767", board({8, 8, 8}, {10, 10, 10}, 1500, 32767, side)},
   };
-  check_each(joined(strained_volumes(side), beside_the_densest));
+  check_each(joined(extreme_volumes(side), beside_the_densest));
 }
 
 TEST_CASE("model W: thousands of interfaces in a row") {
@@ -305,7 +305,7 @@ TEST_CASE("model W: sound that hardly fades, over 40,000 reflection lengths") {
 }
 
 TEST_CASE("model W: poses that no hand holds") {
-  check_each(strained_poses());
+  check_each(extreme_poses());
 }
 
 TEST_CASE("model W: settings at the ends of their ranges") {
@@ -314,8 +314,8 @@ TEST_CASE("model W: settings at the ends of their ranges") {
   const struct {
     const char* name;
     std::function<void(W&)> apply;
-  } strains[] = {
-      {"nothing strained", [](W&) {}},
+  } cases[] = {
+      {"nothing extreme", [](W&) {}},
       {"compression 0.001", set(&W::compression, 0.001)},
       {"compression 1e6", set(&W::compression, 1e6)},
       {"echogenicity from nothing to all within 1 HU", set(&W::bright_hu, -49.0)},
@@ -330,11 +330,11 @@ TEST_CASE("model W: settings at the ends of their ranges") {
       {"exact filtering", set(&W::exact_filter, true)},
   };
   Stressed stressed;
-  for (const auto& strain : strains) {
-    INFO(strain.name);
+  for (const auto& extreme : cases) {
+    INFO(extreme.name);
     WeinScene scene = as_model_w(ordinary_scene());
     scene.settings.reflection_length_mm = WeinSettings{}.reflection_length_mm;
-    strain.apply(scene.settings);
+    extreme.apply(scene.settings);
     const Compared before = stressed.compared();
     stressed.check(scene);
     check_known(before, stressed.compared());

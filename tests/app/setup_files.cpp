@@ -42,7 +42,7 @@ int main(int argc, char** argv) {
   const Lab lab;
   Hand pivoting(lab, 1), whole(lab, 2);
   pivoting.pivot(12);
-  std::vector<PoseSample> bare = pivoting.samples();
+  std::vector<PoseSample> bare = as_raw(pivoting.samples());
   for (PoseSample& sample : bare) sample.buttons = 0;
   write_file(folder / "pivot.igs.mha", write_sequence(bare));
   write_file(folder / "buttons.igs.mha", write_sequence(pressed_now_and_then()));

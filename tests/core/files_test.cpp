@@ -45,7 +45,7 @@ TEST_CASE("what cannot be read is named in one sentence") {
   CHECK(why_unreadable(folder.path).find("this is a folder") != std::string::npos);
   std::ofstream(folder.path / "empty").close();
   CHECK(why_unreadable(folder.path / "empty").find("the file is empty") != std::string::npos);
-  CHECK(why_unreadable("/dev/null").find("no ordinary file") != std::string::npos);
+  CHECK(why_unreadable("/dev/null").find("not an ordinary file") != std::string::npos);
   CHECK_THAT(why_unreadable(kShorterThanItClaims),
              Catch::StartsWith(kShorterThanItClaims) && Catch::Contains(": it cannot be read; check its permissions."));
   CHECK(why_unreadable(kUnreadable).find("it cannot be read (Invalid argument)") != std::string::npos);

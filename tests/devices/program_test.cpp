@@ -162,7 +162,7 @@ TEST_CASE("insonate-devices watch prints every sample of a log, once and in orde
 TEST_CASE("insonate-devices says what is wrong in one line and exits with 2") {
   const std::pair<const char*, const char*> wrong[] = {
       {"check /nowhere/scan.igs.mha", "/nowhere/scan.igs.mha: there is no such file"},
-      {"check /dev/null", "no ordinary file"},
+      {"check /dev/null", "not an ordinary file"},
       {"watch replai:x", "did you mean 'replay'?"},
       {"watch mouse:?x=1", "no options"},
   };

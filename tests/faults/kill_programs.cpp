@@ -164,7 +164,7 @@ public:
 }  // namespace
 
 std::vector<std::unique_ptr<Kind>> program_kinds(const fs::path& made) {
-  const std::string why = run_apart([&] {
+  const std::string why = run_in_child([&] {
     write_case(made / "tiny", tiny_case());
     write_file(made / "exam.toml", kTinyScenario);
     write_file(made / "scan.igs.mha", write_sequence(samples_of(4, 60, [](double t) {

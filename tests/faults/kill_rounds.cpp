@@ -141,7 +141,7 @@ private:
     ++(limits ? bench.by_limit : fault.kind == Fault::Kind::call ? bench.by_call : bench.by_time);
     bench.committed += bench.promises.size();
     bench.left_behind += any_left_behind(bench.folder) ? 1 : 0;
-    const std::string why = run_apart([&] { bench.kind->check(bench.folder, bench.promises); });
+    const std::string why = run_in_child([&] { bench.kind->check(bench.folder, bench.promises); });
     if (!why.empty()) tell(bench, fault, why);
   }
 

@@ -153,7 +153,7 @@ RunOutcome run_under(Fault fault, const std::function<void(const Commit&)>& work
   return outcome;
 }
 
-std::string run_apart(const std::function<void()>& work) {
+std::string run_in_child(const std::function<void()>& work) {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) fail("pipe");
   const pid_t child = start(false);

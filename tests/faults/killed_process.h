@@ -39,7 +39,7 @@ struct RunOutcome {
 RunOutcome run_under(Fault fault, const std::function<void(const Commit&)>& work);
 
 /// Runs `work` to its end in a subprocess. Returns what it threw; empty if it threw nothing.
-std::string run_apart(const std::function<void()>& work);
+std::string run_in_child(const std::function<void()>& work);
 
 /// Does the same for a program that may be killed after a time. Its output goes to a file.
 RunOutcome run_program_under(Fault fault, const std::vector<std::string>& command, const std::filesystem::path& output);

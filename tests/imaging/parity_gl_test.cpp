@@ -260,7 +260,7 @@ TEST_CASE("what is skipped changes no pixel by more than a grey level") {
       const Image<std::uint8_t> skipped = grey(true);
       const gl::SampleCounts counts = simulator.sample_counts();
       const Image<std::uint8_t> whole = grey(false);
-      CHECK(simulator.sample_counts().walked ==
+      CHECK(simulator.sample_counts().traversed ==
             std::uint32_t(settings.slice_planes * find_probe("curvilinear")->lines * settings.samples));
       skipped_normals += simulator.sample_counts().normals - counts.normals;
       int worst_change = 0;
@@ -283,20 +283,20 @@ TEST_CASE("a line that meets no body does not start") {
   Settings settings = small(trainer_settings(7.5, 50));
   settings.elevation_focus_mm = GENERATE(0, 25);  // planes bend then
   CAPTURE(settings.elevation_focus_mm);
-  const auto walked = [&](const Pose& pose) {
+  const auto traversed = [&](const Pose& pose) {
     simulator.set_pose(pose);
     simulator.set_settings(settings);
     simulator.image();
-    return simulator.sample_counts().walked;
+    return simulator.sample_counts().traversed;
   };
   const Pose beside = test::on_the_skin(0, -60, 180), on_the_edge = test::on_the_skin(72, 4, 0),
              too_far = test::on_the_skin(0, -120, 0);
-  CHECK(walked(beside) == 0);
-  CHECK(walked(too_far) == 0);
-  const std::uint32_t on_edge = walked(on_the_edge);
+  CHECK(traversed(beside) == 0);
+  CHECK(traversed(too_far) == 0);
+  const std::uint32_t on_edge = traversed(on_the_edge);
   CHECK(on_edge > 0);
   settings.skipping = false;
-  const std::uint32_t all = walked(on_the_edge);
+  const std::uint32_t all = traversed(on_the_edge);
   CHECK(all == std::uint32_t(settings.slice_planes * probe.lines * settings.samples));
   CHECK(on_edge < 0.8 * all);
 }
@@ -314,15 +314,15 @@ TEST_CASE("where there is only air no line starts, and one starts that passes be
   Probe probe = *find_probe("linear");
   probe.lines = 1;
   simulator.set_probe(probe, 60);
-  const auto walked_of = [&](const AcousticVoxel& voxel) {
+  const auto traversed_of = [&](const AcousticVoxel& voxel) {
     block.voxels.assign(block.grid.count(), voxel);
     simulator.set_volume(block, table);
     simulator.set_settings(settings);
     simulator.image();
-    return simulator.sample_counts().walked;
+    return simulator.sample_counts().traversed;
   };
   simulator.set_pose(test::on_the_skin(0, 0, 20));  // parallel to no axis
-  CHECK(walked_of({}) == 0);
+  CHECK(traversed_of({}) == 0);
 
   // Nothing of a block 5 mm beside the line lies on it. But the edge of the block refracts sound that is within half
   // the reflection length of it.
@@ -331,7 +331,7 @@ TEST_CASE("where there is only air no line starts, and one starts that passes be
   settings.gel_mm = 100;
   settings.reflection_length_mm = 15;
   settings.slice_planes = 1;
-  CHECK(walked_of({140, 0}) > 0);
+  CHECK(traversed_of({140, 0}) > 0);
   const Image<float> intensity = simulator.read_stages().intensity;
   CHECK(intensity.at(0, intensity.height - 1) < 0.99f * intensity.at(0, 0));
   settings.skipping = false;
@@ -346,7 +346,7 @@ TEST_CASE("where there is only air no line starts, and one starts that passes be
   settings.slice_planes = 3;
   settings.reflection_length_mm = 0.6;
   block.grid.origin = {-19, 0, 30};
-  CHECK(walked_of({140, 0}) > 0);
+  CHECK(traversed_of({140, 0}) > 0);
   const Image<float> bent = simulator.read_stages().speckle;
   CHECK(bent.at(0, 0) == 0);
   CHECK(bent.at(0, bent.height - 1) > 0);

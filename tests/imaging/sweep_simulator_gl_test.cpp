@@ -171,10 +171,10 @@ TEST_CASE("a sweep runs the first stage that a change reaches and those behind i
     CHECK(after([&] { settings.dynamic_range_db -= 5; }) == "5");
     CHECK(simulator.read_grey().voxels == simulator_of(sweep, settings, grid, division).read_grey().voxels);
 
-    const gl::StageCount walked = simulator.count(gl::SweepStage::traverse);
+    const gl::StageCount traversed = simulator.count(gl::SweepStage::traverse);
     const std::uint64_t planes = in_parts ? 3 + 3 + 2 : 6;  // the planes where parts meet are traversed twice
-    CHECK(walked.possible == planes * 30 * 64);
-    CHECK(walked.evaluated == walked.possible);
+    CHECK(traversed.possible == planes * 30 * 64);
+    CHECK(traversed.evaluated == traversed.possible);
     CHECK(simulator.count(gl::SweepStage::compress).evaluated == grid.count());
   }
 }

@@ -118,7 +118,7 @@ TEST_CASE("more work groups than a device takes are refused in a sentence") {
   CHECK_THROWS_AS(gl::Buffer(0, nullptr), std::invalid_argument);
 }
 
-TEST_CASE("pictures are the same to the last bit whatever lines a work group walks along") {
+TEST_CASE("pictures are the same to the last bit whatever lines a work group traverses") {
   const Probe probe = *find_probe("curvilinear");
   Settings settings = both_whites(200, 150)[0];  // every effect on
   settings.reverberation = settings.clutter = true;

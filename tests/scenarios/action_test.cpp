@@ -58,12 +58,12 @@ TEST_CASE("actions are read back from a log's text to the bit, whatever a learne
   CHECK(parse_actions("", "f", "p").empty());
 }
 
-TEST_CASE("what is wrong with a log's actions is said in words") {
+TEST_CASE("a mistake in a log's actions is refused in words") {
   CHECK(refusal("freeez").find("scan.igs.mha: frame 7: there is no action 'freeez'; did you mean 'freeze'?") == 0);
   CHECK(refusal("depth").find("'depth' is followed by 0 words instead of 1") != std::string::npos);
   CHECK(refusal("depth 12 13").find("2 words instead of 1") != std::string::npos);
   for (const char* bad : {"depth deep", "depth 1e7", "depth nan", "depth inf", "depth 1x"})
-    CHECK(refusal(bad).find("no number") != std::string::npos);
+    CHECK(refusal(bad).find("is not a number from -1,000,000") != std::string::npos);
   for (const char* bad : {"caliper 0 1 2 3 4", "caliper 1.5 1 2 3 4", "ellipse 10 1 2 3 4 5"})
     CHECK(refusal(bad).find("a slot is not a whole number from 1 to 9") != std::string::npos);
   for (const char* bad : {"time_gain 0 3", "time_gain 9 3", "time_gain 1.5 3"})

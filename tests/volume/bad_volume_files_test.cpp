@@ -114,7 +114,7 @@ TEST_CASE("what is no volume file is refused by name") {
   const TemporaryFolder folder;
   CHECK(why_refused(folder.path / "none.nii").find("there is no such file") != std::string::npos);
   CHECK(why_refused(folder.path).find("no DICOM images") != std::string::npos);
-  CHECK(why_refused("/dev/zero").find("no ordinary file") != std::string::npos);
+  CHECK(why_refused("/dev/zero").find("not an ordinary file") != std::string::npos);
   std::ofstream(folder.path / "empty.nii").close();
   CHECK(why_refused(folder.path / "empty.nii").find("empty") != std::string::npos);
   const std::string png = std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16) + std::string(600, 'x');

@@ -112,14 +112,14 @@ Table measure_batch(const Request& request) {
                               cell_of(spread.third_quartile, 5), cell_of(1000 / spread.median, 1),
                               cell_of(mpixels_a_second(spread), 2)});
       };
-      const auto tell = [&](const char* method, const Spread& one, const Spread& all) {
+      const auto report = [&](const char* method, const Spread& one, const Spread& all) {
         std::printf("%4d x %-4d      %4d x %-4d  %-10s  %.4f (%.4f to %.4f)  %.4f (%.4f to %.4f)  %5.2f\n", c.lines,
                     c.samples, c.width, c.height, method, one.median, one.first_quartile, one.third_quartile,
                     all.median, all.first_quartile, all.third_quartile, one.median / all.median);
       };
-      tell("images", ms[0], ms[1]);
-      tell("LC2", ms[2], ms[3]);
-      tell("model S", ms[4], ms[1]);
+      report("images", ms[0], ms[1]);
+      report("LC2", ms[2], ms[3]);
+      report("model S", ms[4], ms[1]);
       const double mega_fetches =
           c.lines * c.samples / 1000.0;  // per image; divided by ms, this gives millions per second
       std::printf(

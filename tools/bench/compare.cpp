@@ -45,7 +45,7 @@ double time_of(const std::string& file, const Table& table, std::size_t row, con
   const double ms = table.number(file, row, name);
   if (!(ms > 0) || std::isinf(ms))
     throw InputError(file, "line " + std::to_string(row + 2) + ", column '" + name + "'",
-                     "'" + table.cell(row, name) + "' is no time that anything takes", "measure again");
+                     "'" + table.cell(row, name) + "' is not a positive time", "measure again");
   return ms;
 }
 
@@ -84,7 +84,7 @@ Comparison compare(const std::string& old_file, const Table& before, const std::
     for (const char* column : kBetterSmall) {
       if (!has(before, column)) continue;
       if (!has(after, column))
-        change.worse.push_back(std::string(column) + " " + before.cell(i, column) + " -> not told");
+        change.worse.push_back(std::string(column) + " " + before.cell(i, column) + " -> missing");
       else if (!(after.number(new_file, match->second, column) <= kRounding * before.number(old_file, i, column)))
         change.worse.push_back(std::string(column) + " " + before.cell(i, column) + " -> " +
                                after.cell(match->second, column));

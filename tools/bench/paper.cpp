@@ -91,7 +91,7 @@ Table measure_paper(const Request& request) {
         const Stages<float> stages = simulator.read_stages();
         const Error paper_error = error_of(paper_scan.intensity, paper_scan.reflection, converged);
         const Error own_error = error_of(stages.intensity, stages.reflection, converged);
-        const long possible = long(c.lines) * c.samples, evaluated = long(simulator.sample_counts().walked);
+        const long possible = long(c.lines) * c.samples, evaluated = long(simulator.sample_counts().traversed);
 
         std::printf(
             "%4d x %-4d      %4d x %-4d  %7.2f (%.2f to %.2f)  %7.2f (%.2f to %.2f)  %6.2f   %.4f / %.4f   "

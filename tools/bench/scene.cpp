@@ -56,7 +56,7 @@ std::vector<Configuration> configurations(const Request& request, const std::vec
   const std::vector<int>& numbers = request.configurations;
   if (numbers.empty()) return usual;
   if (numbers.size() % 4 != 0)
-    throw InputError("--configuration", "", std::to_string(numbers.size()) + " numbers are no whole configurations",
+    throw InputError("--configuration", "", std::to_string(numbers.size()) + " numbers are not whole configurations",
                      "give LINES,SAMPLES,WIDTH,HEIGHT");
   std::vector<Configuration> given;
   for (std::size_t i = 0; i < numbers.size(); i += 4) {

@@ -86,7 +86,7 @@ double Table::number(const std::string& file, std::size_t row, std::string_view 
   const double value = std::strtod(text.c_str(), &end);
   if (text.empty() || *end)
     throw InputError(file, "line " + std::to_string(row + 2) + ", column '" + std::string(name) + "'",
-                     "'" + text + "' is no number", kRemedy);
+                     "'" + text + "' is not a number", kRemedy);
   return value;
 }
 

@@ -105,12 +105,12 @@ Table measure_work_divisions(const Request& request) {
           ms[i] = spread_of(times[i]);
           runs[i](scene.pose);
           const gl::SampleCounts counts = methods[i].stages.sample_counts();
-          evaluated[i] = counts.walked / possible;
-          table.rows.push_back({gl::device_description(), scene.name, scene.view, mode, std::to_string(set.planes),
-                                std::to_string(set.lines), std::to_string(set.samples), methods[i].name,
-                                std::to_string(own.group), std::to_string(request.frames),
-                                cell_of(ms[i].first_quartile, 4), cell_of(ms[i].median, 4),
-                                cell_of(ms[i].third_quartile, 4), std::to_string(counts.walked), cell_of(possible, 0)});
+          evaluated[i] = counts.traversed / possible;
+          table.rows.push_back(
+              {gl::device_description(), scene.name, scene.view, mode, std::to_string(set.planes),
+               std::to_string(set.lines), std::to_string(set.samples), methods[i].name, std::to_string(own.group),
+               std::to_string(request.frames), cell_of(ms[i].first_quartile, 4), cell_of(ms[i].median, 4),
+               cell_of(ms[i].third_quartile, 4), std::to_string(counts.traversed), cell_of(possible, 0)});
         }
         std::printf("%3d x %4d x %-4d        %7.2f (%.2f to %.2f)  %7.2f (%.2f to %.2f)  %6.2f   %.0f %% / %.0f %%\n",
                     set.planes, set.lines, set.samples, ms[0].median, ms[0].first_quartile, ms[0].third_quartile,

@@ -22,7 +22,7 @@ std::vector<std::pair<std::string, std::string>> parse_options(const std::vector
   for (const std::string& setting : settings) {
     const auto equals = setting.find('=');
     if (equals == std::string::npos || equals == 0)
-      throw InputError("--set", "", "'" + setting + "' is no setting", "write KEY=VALUE, such as free_fluid=true");
+      throw InputError("--set", "", "'" + setting + "' is not a setting", "write KEY=VALUE, such as free_fluid=true");
     options.emplace_back(setting.substr(0, equals), setting.substr(equals + 1));
   }
   return options;

@@ -42,7 +42,7 @@ std::vector<double> numbers_of_text(const std::string& file, const std::string& 
       const bool legible = word.size() <= 40 &&
                            std::all_of(word.begin(), word.end(), [](unsigned char c) { return std::isprint(c) != 0; });
       const std::string held = legible ? "'" + word + "'" : "what stands here";
-      if (*end) throw InputError(file, place, held + " is no number", kWanted);
+      if (*end) throw InputError(file, place, held + " is not a number", kWanted);
       if (!std::isfinite(numbers.back()))
         throw InputError(file, place, held + " is not finite", "give a finite number");
     }
@@ -95,7 +95,7 @@ std::vector<double> numbers_of_json(const std::string& file, const std::string& 
   if (json.is_object() && !json.contains("patient_from_probe"))
     throw InputError(file, "", "there is no key 'patient_from_probe'", kWanted);
   const Json& array = json.is_object() ? json.at("patient_from_probe") : json;
-  if (!array.is_array()) throw InputError(file, "", "'patient_from_probe' is no array", kWanted);
+  if (!array.is_array()) throw InputError(file, "", "'patient_from_probe' is not an array", kWanted);
   std::vector<double> numbers;
   if (array.empty() || !array[0].is_array())
     add_numbers(file, array, numbers);

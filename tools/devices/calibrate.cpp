@@ -77,7 +77,9 @@ private:
 class Bench {
 public:
   explicit Bench(const std::string& uri)
-      : uri_(uri), tracker_(open_tracker(sensor_uri(uri, false))), offset_s_(tracker_->live() ? 0 : steady_now_s()) {}
+      : uri_(uri),
+        sensor_(open_tracker(sensor_uri(uri, false))),
+        offset_s_(sensor_.tracker().live() ? 0 : steady_now_s()) {}
 
   void run(SetupStep& step) {
     Page page;
@@ -96,28 +98,28 @@ public:
 
 private:
   void wait(SetupStep& step, std::string& problem) {
-    if (tracker_->state().condition == TrackerCondition::finished)
+    if (sensor_.tracker().state().condition == TrackerCondition::finished)
       throw InputError("tracker '" + uri_ + "'", "", "it ended before the step was done: " + step.view().task,
                        step.view().refusal.empty() ? "record the whole step" : step.view().refusal);
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
     samples_.clear();
     next_ = 0;
     const double now_s = steady_now_s() - offset_s_;
-    tracker_->poll(now_s, samples_);
-    if (std::string now = tracker_->state().problem; now != problem) {
+    sensor_.poll(now_s, samples_);
+    if (std::string now = sensor_.tracker().state().problem; now != problem) {
       problem = std::move(now);
       if (!problem.empty()) std::fprintf(stderr, "%s\n", problem.c_str());
     }
-    if (const char entered = lines_.next()) entered == 'u' ? step.undo() : step.mark(tracker_->clock_s(now_s));
+    if (const char entered = lines_.next()) entered == 'u' ? step.undo() : step.mark(sensor_.tracker().clock_s(now_s));
   }
 
   std::string uri_;
-  std::unique_ptr<Tracker> tracker_;
+  SensorTracker sensor_;
   double offset_s_;
   Lines lines_;
   ButtonPresses presses_{
       0};  ///< shared by all steps: a button that ends one step and is still held does not trigger in the next
-  std::vector<PoseSample> samples_;
+  std::vector<SensorSample> samples_;
   std::size_t next_ = 0;
 };
 
@@ -163,7 +165,7 @@ Command calibrate_command(CLI::App& program) {
   CLI::App* parser = program.add_subcommand(
       "calibrate", "Find how tracker, probe and mannequin lie to each other, step by step (docs/calibration.md)");
   parser
-      ->add_option("STEP", request->steps, "axes, pivot, face, landmarks, lag; all of them, in this order, unless told")
+      ->add_option("STEP", request->steps, "axes, pivot, face, landmarks, lag; without any, all of them in this order")
       ->check(CLI::IsMember(std::vector<std::string>(kSetupSteps.begin(), kSetupSteps.end())));
   parser->add_option("--tracker", request->uri, "The tracker with the sensor on the probe, as 'list' shows them")
       ->required()

@@ -32,7 +32,7 @@ struct Doing {
   double number(std::size_t word) const {
     double value = 0;
     const char* end = words[word].data() + words[word].size();
-    if (std::from_chars(words[word].data(), end, value).ptr != end) refuse("'" + words[word] + "' is no number");
+    if (std::from_chars(words[word].data(), end, value).ptr != end) refuse("'" + words[word] + "' is not a number");
     return value;
   }
   glm::dvec2 landmark(const std::string& name) const {

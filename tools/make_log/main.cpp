@@ -85,8 +85,8 @@ std::string plus_sequence(const MadeLog& made) {
 
 int main(int argc, char** argv) {
   CLI::App arguments(
-      "Makes a tracker log of a scan that never was: moves a probe over a scenario's case as a hand would, as a plan "
-      "tells it.\n\n  insonate-make-log assets/logs/ruq_good.toml ruq_good.igs.mha",
+      "Makes a tracker log of a made-up scan: moves a probe over a scenario's case as a hand would, following a "
+      "plan.\n\n  insonate-make-log assets/logs/ruq_good.toml ruq_good.igs.mha",
       "insonate-make-log");
   std::filesystem::path plan_file;
   std::filesystem::path log;

@@ -57,7 +57,7 @@ PlannedLoss read_loss(const TomlTable& table) {
       return loss;
     }
   }
-  table.fail("status", "'" + word + "' is no status of a lost probe", suggest(word, known));
+  table.fail("status", "'" + word + "' is not a status of a lost probe", suggest(word, known));
 }
 
 }  // namespace

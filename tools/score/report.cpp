@@ -19,7 +19,7 @@ struct Given {
 
 int report(const Given& given) {
   if (!given.home_page.empty() && given.home_page.find("://") == std::string::npos)
-    throw InputError("command line", "--home-page", "'" + given.home_page + "' is no web address",
+    throw InputError("command line", "--home-page", "'" + given.home_page + "' is not a web address",
                      "give one like https://lab.example/learners");
   ResultsDatabase database = ResultsDatabase::open(given.database);
   bool all = true;

@@ -108,7 +108,7 @@ std::string draw_events(const Theme& theme, const Rect& lane, const TimeScale& s
   std::string words;
   for (const RunEvent& event : run.events) {
     const float x = std::round(scale.x(event.time_s)), middle = lane.centre().y, half = lane.h / 2;
-    if (event.mark)
+    if (event.is_marker)
       list->AddTriangleFilled({x - half, lane.y}, {x + half, lane.y}, {x, lane.y + lane.h}, colour::kText);
     else
       list->AddCircleFilled({x, middle}, half * 0.7f, colour::kFaint, 12);

@@ -18,7 +18,7 @@ public:
 protected:
   void marked(double) override { waiting_ = true; }
   void taken_back(bool all) override;
-  void take(const PoseSample& sample) override;
+  void take(const SensorSample& sample) override;
   void ask(SetupView& view) const override;
   std::size_t part() const override { return ends_.size(); }
   std::string result() const override;
@@ -30,9 +30,9 @@ private:
   AxesFinding found_;
 };
 
-void AxesStep::take(const PoseSample& sample) {
+void AxesStep::take(const SensorSample& sample) {
   if (sample.status != PoseStatus::ok) return;
-  newest_ = sample.patient_from_probe;
+  newest_ = sample.tracker_from_sensor;
   if (!std::exchange(waiting_, false)) return;
   ends_.push_back(*newest_);
   const std::size_t count = ends_.size();

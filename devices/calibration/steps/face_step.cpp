@@ -30,7 +30,7 @@ public:
   void store(Calibration& calibration, std::int64_t now_s) const override;
 
 protected:
-  void take(const PoseSample&) override {}
+  void take(const SensorSample&) override {}
 
 private:
   FaceSetup found_;

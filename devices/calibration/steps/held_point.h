@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "devices/calibration/sensor_sample.h"
 #include "devices/calibration/still_point.h"
-#include "sim/core/pose_sample.h"
 
 namespace insonate {
 
@@ -28,10 +28,10 @@ public:
   Outcome<StillPoint> so_far() const { return still_point(readings_); }
 
   /// Returns the point, or the refusal, once it was read long enough; empty before.
-  std::optional<Outcome<StillPoint>> take(const PoseSample& sample) {
+  std::optional<Outcome<StillPoint>> take(const SensorSample& sample) {
     if (!reading_) return std::nullopt;
     if (sample.time_s < end_s_) {
-      if (sample.status == PoseStatus::ok) readings_.push_back(point_of_(sample.patient_from_probe));
+      if (sample.status == PoseStatus::ok) readings_.push_back(point_of_(sample.tracker_from_sensor));
       return std::nullopt;
     }
     reading_ = false;

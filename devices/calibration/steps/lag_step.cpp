@@ -18,7 +18,7 @@ public:
 protected:
   void marked(double time_s) override { blows_s_.push_back(time_s); }
   void taken_back(bool) override { begin_again(); }
-  void take(const PoseSample& sample) override;
+  void take(const SensorSample& sample) override;
   void ask(SetupView& view) const override;
   std::size_t part() const override { return done() ? kBlows : blows_s_.size(); }
   std::string result() const override;
@@ -28,12 +28,12 @@ private:
     samples_.clear();
     blows_s_.clear();
   }
-  std::vector<PoseSample> samples_;
+  std::vector<SensorSample> samples_;
   std::vector<double> blows_s_;
   KnockLag found_;
 };
 
-void LagStep::take(const PoseSample& sample) {
+void LagStep::take(const SensorSample& sample) {
   if (done()) return;
   samples_.push_back(sample);
   const bool over = blows_s_.size() >= kBlows && sample.time_s > blows_s_.back() + kMostLagS + 0.5;

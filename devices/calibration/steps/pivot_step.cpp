@@ -29,7 +29,7 @@ public:
 protected:
   void marked(double time_s) override;
   void taken_back(bool) override { reading_ = false; }
-  void take(const PoseSample& sample) override;
+  void take(const SensorSample& sample) override;
   void ask(SetupView& view) const override;
   std::string result() const override;
 
@@ -54,10 +54,10 @@ void PivotStep::marked(double time_s) {
   settle(fit_tip(poses_), found_);
 }
 
-void PivotStep::take(const PoseSample& sample) {
+void PivotStep::take(const SensorSample& sample) {
   if (!reading_) return;
   lasted_s_ = std::max(0.0, sample.time_s - began_s_);
-  if (sample.status == PoseStatus::ok) poses_.push_back(base_.tracker_from_sensor(sample.patient_from_probe));
+  if (sample.status == PoseStatus::ok) poses_.push_back(base_.tracker_from_sensor(sample.tracker_from_sensor));
   if (sample.time_s - told_s_ > 0.25) {
     told_s_ = sample.time_s;
     spread_deg_ = pivot_spread_deg(poses_);

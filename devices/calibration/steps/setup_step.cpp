@@ -8,7 +8,7 @@
 
 namespace insonate {
 
-void SetupStep::feed(const PoseSample& sample) {
+void SetupStep::feed(const SensorSample& sample) {
   if (presses_.see(sample) != 0) mark(sample.time_s);
   take(sample);
 }

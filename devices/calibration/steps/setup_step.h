@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "devices/calibration/calibration.h"
+#include "devices/calibration/sensor_sample.h"
 #include "devices/calibration/setup_input.h"
 #include "sim/core/button_presses.h"
-#include "sim/core/pose_sample.h"
 
 namespace insonate {
 
@@ -37,8 +37,8 @@ public:
   SetupStep(const SetupStep&) = delete;
   SetupStep& operator=(const SetupStep&) = delete;
 
-  /// Takes the next sample. Its patient_from_probe holds the tracker's own pose, tracker_from_sensor.
-  void feed(const PoseSample& sample);
+  /// Takes the next sample.
+  void feed(const SensorSample& sample);
   /// Sets a mark, at a time on the tracker's clock.
   virtual void mark(double time_s) = 0;
   /// Removes the last mark, or restarts the step if it is done.
@@ -50,7 +50,7 @@ public:
 
 protected:
   explicit SetupStep(const Calibration& base) : base_(base) {}
-  virtual void take(const PoseSample& sample) = 0;
+  virtual void take(const SensorSample& sample) = 0;
 
   const Calibration base_;
 

@@ -10,7 +10,7 @@ void TouchingStep::marked(double time_s) {
               [this, touch = points_.size()](const Pose& raw) { return point(touch, base_.tracker_from_sensor(raw)); });
 }
 
-void TouchingStep::take(const PoseSample& sample) {
+void TouchingStep::take(const SensorSample& sample) {
   const auto read = held_.take(sample);
   if (!read) return;
   if (!*read) {

@@ -17,7 +17,7 @@ protected:
   void taken_back(bool all) override;
   void ask(SetupView& view) const override;
   std::size_t part() const override { return points_.size(); }
-  void take(const PoseSample& sample) override;
+  void take(const SensorSample& sample) override;
 
   /// Returns the task for a touch: what to touch.
   virtual std::string task(std::size_t touch) const = 0;

@@ -116,19 +116,19 @@ TEST_CASE("clients are told of pose, picture and events, and without clients no 
   Session session(tiny_loaded_case(), [] { return open_tracker("mouse:"); });
   session.advance(0);
   IgtlFeed feed(igtl::numeric_address("127.0.0.1", 0));
-  feed.tell(session);
+  feed.publish(session);
   CHECK_FALSE(feed.wants_pictures());
 
   igtl::RawPeer client = igtl::RawPeer::connected_to(feed.server().address());
   while (!feed.wants_pictures()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  feed.tell(session);
+  feed.publish(session);
   DrawnPicture picture;
   picture.grey = Image<std::uint8_t>(6, 4, 9);
   picture.geometry.mm_per_pixel = 0.5;
   feed.show(picture);
   session.freeze(true);
   session.advance(0.1);
-  feed.tell(session);
+  feed.publish(session);
   std::vector<std::string> seen;
   bool frozen = false, image = false, pose = false;
   igtl::MessageReader reader([](const igtl::Header&) { return true; },

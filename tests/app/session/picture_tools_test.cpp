@@ -215,7 +215,7 @@ TEST_CASE("a step's calipers may lie in several pictures, and what counts nowher
   desk.click(-10, 50);
   desk.click(10, 50);
   CHECK(desk.tools.total_text() == "Volume 13 ml");  // pi / 6 * 4 * 3 * 2 = 12.6
-  CHECK(desk.session->runner()->live().enough);
+  CHECK(desk.session->runner()->live().counts_as_done);
 
   INFO("undone from another picture it is taken back, as there is no way to put it there again");
   desk.press(10, 50);
@@ -224,7 +224,7 @@ TEST_CASE("a step's calipers may lie in several pictures, and what counts nowher
   desk.tools.undo(*desk.session);
   desk.pass();
   CHECK(desk.tools.annotations().measured().size() == 2);
-  CHECK_FALSE(desk.session->runner()->live().enough);
+  CHECK_FALSE(desk.session->runner()->live().counts_as_done);
 
   Desk practice("");
   practice.freeze();
@@ -249,10 +249,10 @@ TEST_CASE("a point is clicked and dragged, and a place is clicked and then named
   point.release(0, 45);
   point.pass();
   CHECK(point.done() == std::vector<Action>{{ActionKind::point, {3, 45}}, {ActionKind::point, {0, 45}}});
-  CHECK(point.session->runner()->live().enough);
+  CHECK(point.session->runner()->live().counts_as_done);
   point.tools.clear(*point.session);
   point.pass();
-  CHECK_FALSE(point.session->runner()->live().enough);
+  CHECK_FALSE(point.session->runner()->live().counts_as_done);
 
   Desk desk(kLabels);
   desk.freeze();
@@ -269,11 +269,11 @@ TEST_CASE("a point is clicked and dragged, and a place is clicked and then named
   desk.tools.name_place(*desk.session, "ball");
   desk.pass();
   CHECK(desk.done() == std::vector<Action>{{ActionKind::label, {0, 60}, "rib"}, {ActionKind::label, {30, 60}, "ball"}});
-  CHECK(desk.session->runner()->live().enough);
+  CHECK(desk.session->runner()->live().counts_as_done);
   desk.tools.undo(*desk.session);
   desk.pass();
   CHECK(desk.tools.annotations().labels().size() == 1);
-  CHECK_FALSE(desk.session->runner()->live().enough);
+  CHECK_FALSE(desk.session->runner()->live().counts_as_done);
 }
 
 TEST_CASE("another step and another attempt begin with nothing placed") {

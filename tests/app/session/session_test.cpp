@@ -210,9 +210,9 @@ TEST_CASE("of a live tracker the pose at the time of the picture is shown, and h
         tiny_loaded_case(), [&] { return std::make_unique<HandFed>(coming); }, predict_s);
     session.advance(0);
     session.advance(1 + ahead_s);
-    REQUIRE(session.answer());
+    REQUIRE(session.pose_estimate());
     CHECK(session.newest_pose()->translation.x == 100);
-    return std::pair{session.answer()->how, session.shown_pose()->translation.x};
+    return std::pair{session.pose_estimate()->how, session.shown_pose()->translation.x};
   };
   CHECK(after(0, 0.03) == std::pair{PoseAnswer::exact, 100.0});
   CHECK(after(-0.5 / 60, 0.03).first == PoseAnswer::interpolated);
@@ -229,7 +229,7 @@ TEST_CASE("of a live tracker the pose at the time of the picture is shown, and h
   Session replayed(tiny_loaded_case(), replay_of(steady));
   replayed.advance(0);
   replayed.advance(0.51);
-  CHECK_FALSE(replayed.answer());
+  CHECK_FALSE(replayed.pose_estimate());
   CHECK(replayed.shown_pose()->translation.x == steady[30].patient_from_probe.translation.x);
 }
 

@@ -28,9 +28,10 @@ SetupInput given() {
   return made;
 }
 
-SetupWizard wizard_of(const std::vector<PoseSample>& samples, const Calibration& base, const fs::path& file) {
-  return SetupWizard(std::make_unique<ReplayTracker>("a sensor", samples, ReplayTracker::Options{}), base, given(),
-                     file);
+SetupWizard wizard_of(const std::vector<SensorSample>& samples, const Calibration& base, const fs::path& file) {
+  return SetupWizard(
+      SensorTracker(std::make_unique<ReplayTracker>("a sensor", as_raw(samples), ReplayTracker::Options{})), base,
+      given(), file);
 }
 
 Calibration none_yet() {
@@ -44,7 +45,7 @@ void run(SetupWizard& wizard, double from_s, double to_s) {
 }
 
 /// The whole set-up, with a button pressed after each step to go on.
-std::vector<PoseSample> whole_setup() {
+std::vector<SensorSample> whole_setup() {
   const Lab lab;
   Hand hand(lab, 7);
   const auto go_on = [&] {
@@ -71,7 +72,7 @@ std::vector<PoseSample> whole_setup() {
 TEST_CASE("the whole set-up is made with the probe's buttons alone, and is in the file after each step") {
   const Folder folder;
   const fs::path file = folder.path / "lab.toml";
-  const std::vector<PoseSample> samples = whole_setup();
+  const std::vector<SensorSample> samples = whole_setup();
   SetupWizard wizard = wizard_of(samples, none_yet(), file);
   std::size_t steps_in_file = 0;
   for (double now_s = 0; now_s < samples.back().time_s + 1; now_s += 1.0 / 30) {
@@ -94,7 +95,7 @@ TEST_CASE("the whole set-up is made with the probe's buttons alone, and is in th
 TEST_CASE("a set-up goes on where it was left, and to any step that can be made") {
   const Folder folder;
   const fs::path file = folder.path / "lab.toml";
-  const std::vector<PoseSample> samples = whole_setup();
+  const std::vector<SensorSample> samples = whole_setup();
   SetupWizard first = wizard_of(samples, none_yet(), file);
   double now_s = 0;
   for (; first.current() < 2; now_s += 1.0 / 30) first.update(now_s);
@@ -118,7 +119,7 @@ TEST_CASE("a set-up goes on where it was left, and to any step that can be made"
 
 TEST_CASE("marks of the keyboard are taken back, and a file that cannot be written is told of") {
   const Folder folder;
-  const std::vector<PoseSample> samples = whole_setup();
+  const std::vector<SensorSample> samples = whole_setup();
   SetupWizard wizard = wizard_of(samples, none_yet(), folder.path / "lab.toml");
   wizard.update(0);
   wizard.update(0.1);

@@ -5,7 +5,7 @@
 #include "devices/calibration/axes.h"
 #include "devices/calibration/face.h"
 #include "devices/calibration/registration.h"
-#include "sim/core/pose_sample.h"
+#include "devices/calibration/sensor_sample.h"
 #include "tests/devices/calibration/synthetic.h"
 
 namespace insonate {
@@ -90,7 +90,7 @@ public:
     }
   }
 
-  const std::vector<PoseSample>& samples() const { return samples_; }
+  const std::vector<SensorSample>& samples() const { return samples_; }
 
 private:
   void touch(const glm::dvec3& place, const glm::dvec3& point_of_probe) {
@@ -108,8 +108,16 @@ private:
 
   Lab lab_;
   Dice dice_;
-  std::vector<PoseSample> samples_;
+  std::vector<SensorSample> samples_;
   double time_s_ = 0;
 };
+
+/// Returns the samples in the form in which a tracker that does not place the probe delivers and records them.
+inline std::vector<PoseSample> as_raw(const std::vector<SensorSample>& samples) {
+  std::vector<PoseSample> raw;
+  for (const SensorSample& s : samples)
+    raw.push_back({s.time_s, s.status, s.tracker_from_sensor, s.buttons, s.distortion, s.rejected});
+  return raw;
+}
 
 }  // namespace insonate

@@ -31,13 +31,13 @@ double height_mm(double time_s, const std::vector<double>& times) {
 }
 
 /// What a tracker shows that is late by `lag_s`.
-std::vector<PoseSample> tracked(Dice& dice, const std::vector<double>& times, double lag_s, double rate_hz,
-                                double noise_mm) {
+std::vector<SensorSample> tracked(Dice& dice, const std::vector<double>& times, double lag_s, double rate_hz,
+                                  double noise_mm) {
   const glm::dvec3 down = glm::normalize(dice.point(1)), rest = dice.point(300);
-  std::vector<PoseSample> samples;
+  std::vector<SensorSample> samples;
   for (int i = 0; i / rate_hz < times.back() + 2; ++i) {
-    PoseSample sample{i / rate_hz, PoseStatus::ok, {}, 0};
-    sample.patient_from_probe.translation =
+    SensorSample sample{i / rate_hz, PoseStatus::ok, {}, 0};
+    sample.tracker_from_sensor.translation =
         rest - down * height_mm(sample.time_s - lag_s, times) + dice.noise(noise_mm);
     samples.push_back(sample);
   }

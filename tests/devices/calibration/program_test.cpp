@@ -41,7 +41,7 @@ LandmarkList patient() {
 
 /// A recorded set-up, and how a command line names it.
 std::string recorded(const TemporaryFolder& folder, const std::string& name, const Hand& hand) {
-  return "'replay:" + folder.put(name, write_sequence(hand.samples())).string() + "?speed=1000'";
+  return "'replay:" + folder.put(name, write_sequence(as_raw(hand.samples()))).string() + "?speed=1000'";
 }
 
 Hand whole_set_up(const Lab& lab) {
@@ -77,9 +77,10 @@ TEST_CASE("insonate-devices calibrate makes the whole set-up from a recording, a
     raw.patient_from_probe = lab.ct_from_tracker.inverse() * raw.patient_from_probe * lab.sensor_from_face.inverse();
     scan.push_back(raw);
   }
-  CalibratedTracker tracker(std::make_unique<ReplayTracker>("a scan", scan, ReplayTracker::Options{},
-                                                            Recording{"scan.igs.mha", "0", "SensorToTracker"}),
-                            calibration, "lab.toml");
+  CalibratedTracker tracker(
+      SensorTracker(std::make_unique<ReplayTracker>("a scan", scan, ReplayTracker::Options{},
+                                                    Recording{"scan.igs.mha", "0", "SensorToTracker"})),
+      calibration, "lab.toml");
   std::vector<PoseSample> samples;
   tracker.poll(0, samples);
   tracker.poll(100, samples);
@@ -96,9 +97,9 @@ TEST_CASE("insonate-devices calibrate makes the whole set-up from a recording, a
   CHECK(tracker.state().condition == TrackerCondition::finished);
   CHECK(tracker.state().name == "a scan, calibrated " + utc_text(made_s(calibration)).substr(0, 10));
   CHECK_THAT(tracker.recording()->transform, Contains("SensorToTracker through lab.toml"));
-  CHECK_THROWS_AS(
-      CalibratedTracker(std::make_unique<ReplayTracker>("x", scan, ReplayTracker::Options{}), Calibration(), "x"),
-      std::invalid_argument);
+  CHECK_THROWS_AS(CalibratedTracker(SensorTracker(std::make_unique<ReplayTracker>("x", scan, ReplayTracker::Options{})),
+                                    Calibration(), "x"),
+                  std::invalid_argument);
 }
 
 TEST_CASE("insonate-devices calibrate makes one step at a time and keeps the others") {
@@ -135,7 +136,7 @@ TEST_CASE("insonate-devices calibrate marks by the keyboard as well") {
   still.hold(Pose{}, 5);
   // Two marks without a move between them: too short, which shows that both arrived.
   const Run typed = run("axes --out " + (folder.path / "lab.toml").string() + " --tracker 'replay:" +
-                            folder.put("still.igs.mha", write_sequence(still.samples())).string() + "'",
+                            folder.put("still.igs.mha", write_sequence(as_raw(still.samples()))).string() + "'",
                         "(sleep 0.2; echo; sleep 0.3; echo) | ");
   CHECK(typed.exit_code == 2);
   CHECK_THAT(typed.output, Contains("That was too short"));

@@ -204,5 +204,5 @@ TEST_CASE("landmarks that cannot tell the motion are refused, and say why") {
   CHECK_FALSE(register_landmarks(pairs));
   pairs = landmarks(8);
   pairs[2].touched_mm.y = std::nan("");
-  CHECK_THAT(register_landmarks(pairs).refusal(), Contains("no number"));
+  CHECK_THAT(register_landmarks(pairs).refusal(), Contains("not a number"));
 }

@@ -13,7 +13,7 @@ LandmarkList patient() {
 }
 
 /// Feeds samples until the step is done; the index of the next one.
-std::size_t make(SetupStep& step, const std::vector<PoseSample>& samples, std::size_t from = 0) {
+std::size_t make(SetupStep& step, const std::vector<SensorSample>& samples, std::size_t from = 0) {
   while (from < samples.size() && !step.view().done) step.feed(samples[from++]);
   return from;
 }
@@ -204,7 +204,7 @@ TEST_CASE("a button that is held over a dropout marks once, and again when it wa
     void undo() override {}
     SetupView view() const override { return {}; }
     void store(Calibration&, std::int64_t) const override {}
-    void take(const PoseSample&) override {}
+    void take(const SensorSample&) override {}
     int marks = 0;
   } step;
   const auto feed = [&](PoseStatus status, std::uint32_t buttons) { step.feed({0, status, {}, buttons}); };

@@ -375,8 +375,8 @@ TEST_CASE("a SpaceMouse whose cap is held down for minutes keeps the probe withi
     }
     return glm::distance(last, kStart.translation);
   };
-  CHECK(held(3000, {1, 0, 0, 0, 0, 94, 1}) == Approx(SpaceMouseSource::kReachMm));
-  CHECK(held(20, {1, 0, 0, 0, 0, 0xa2, 0xfe}) < SpaceMouseSource::kReachMm - 500);
+  CHECK(held(3000, {1, 0, 0, 0, 0, 94, 1}) == Approx(SpaceMouseSource::kRangeMm));
+  CHECK(held(20, {1, 0, 0, 0, 0, 0xa2, 0xfe}) < SpaceMouseSource::kRangeMm - 500);
 }
 
 TEST_CASE("an OSVR tracker turns the probe on the spot") {

@@ -203,7 +203,7 @@ TEST_CASE("what was recorded through a calibration is the sensor's, and scored o
   const RecordedScan of_probe = calibrated(scan, calibration, "lab.toml");
   CHECK_NOTHROW(check_is_of_probe(of_probe.recording));
   CHECK_THAT(of_probe.recording.transform, Catch::Contains("through lab.toml"));
-  CalibratedTracker tracker(open_tracker("raw:" + file.path.string()), calibration, "lab.toml");
+  CalibratedTracker tracker(SensorTracker(open_tracker("raw:" + file.path.string())), calibration, "lab.toml");
   CHECK(tracker.recording()->transform == of_probe.recording.transform);
   CHECK_FALSE(tracker.recording()->of_sensor);
   CHECK(same_bits(poll_until(tracker, 60, 10), of_probe.samples));
@@ -272,7 +272,7 @@ TEST_CASE("a raw recording that is damaged is refused with the place and the rea
       {"256f:c635", "256f-c635", "line 4: '256f-c635' are no USB numbers"},
       {"256f:c635", "256f:c63g", "are no USB numbers"},
       {"256f:c635", "1532:0300", "line 4: a device 1532:0300 is none of 'spacemouse:'"},
-      {"open 12.25", "open inf", "line 4: 'open inf 256f:c635' is no event with its time"},
+      {"open 12.25", "open inf", "line 4: 'open inf 256f:c635' is not an event with its time"},
       {"open 12.25", "close 12.25", "line 4: 'close 12.25 256f:c635' is none of"},
       {"open 12.25 256f:c635\n", "", "line 4: something is read, but no device is open"},
       {"12.75", "12.25", "line 6: its time lies before that of the line before it"},
@@ -280,7 +280,7 @@ TEST_CASE("a raw recording that is damaged is refused with the place and the rea
       {"015e", "01 5e", "line 5: 'read 12.5 01 5e"},
       {"015e", "015E", "line 5: what was read is not in pairs"},
       {"silent 13.5", "silent 13.5 1", "line 7: 'silent 13.5 1' is none of"},
-      {"silent 13.5", "", "line 7: '' is no event with its time"},
+      {"silent 13.5", "", "line 7: '' is not an event with its time"},
   };
   for (const auto& damage : damages) {
     std::string text = kGood;

@@ -96,7 +96,7 @@ TEST_CASE("what is wrong in a scenario is said in words") {
        "plane_distance = 8",
        {"line 17, column 1", "'plane_distance'", "did you mean 'plane_distance_mm'?"}},
       {"plane_distance_mm = 8", "plane_distance_mm = true", {"no usable limit for 'plane_distance_mm'"}},
-      {"plane_distance_mm = 8", "time_s = 8", {"no metric of a picture"}},
+      {"plane_distance_mm = 8", "time_s = 8", {"not a metric of a picture"}},
       {"plane_distance_mm = 8\nplane_angle_deg = 20", "", {"tolerance of step 1 is empty"}},
       {"metric = \"plane_distance_mm\"",
        "metric = \"plane_distanse_mm\"",

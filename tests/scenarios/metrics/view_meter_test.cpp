@@ -178,7 +178,7 @@ TEST_CASE("a view that does not fit its case is refused") {
     CHECK_THROWS_WITH(ViewMeter(subject, view, tiny_tissues()), Catch::Contains(words));
   };
   refused([](ReferenceView& v) { v.probe = "curvilinaer"; }, "did you mean 'curvilinear'?");
-  refused([](ReferenceView& v) { v.targets = {"cube"}; }, "'cube' is no label");
+  refused([](ReferenceView& v) { v.targets = {"cube"}; }, "'cube' is not a label");
   refused([](ReferenceView& v) { v.landmarks = {"bottom"}; }, "'bottom' is not in the case");
   refused([](ReferenceView& v) { v.patient_from_probe.translation.z = 70; }, "do not appear");
 }

@@ -49,7 +49,7 @@ void refused(const std::filesystem::path& file, const std::string& words) {
 
 }  // namespace
 
-TEST_CASE("files that are no database of results are refused and left as they are") {
+TEST_CASE("files that are not a database of results are refused and left as they are") {
   const ResultsFolder folder;
   write_file(folder / "text.db",
              "not a database, but longer than the header of one, which has a hundred bytes in all: "
@@ -58,8 +58,8 @@ TEST_CASE("files that are no database of results are refused and left as they ar
   run_sql(folder / "foreign.db", "CREATE TABLE bookmarks (url TEXT)");
   make(folder / "newer.db");
   run_sql(folder / "newer.db", "PRAGMA user_version = 1000");
-  const std::pair<const char*, const char*> files[] = {{"text.db", "no database of results"},
-                                                       {"short.db", "no database of results"},
+  const std::pair<const char*, const char*> files[] = {{"text.db", "not a database of results"},
+                                                       {"short.db", "not a database of results"},
                                                        {"foreign.db", "of another program"},
                                                        {"newer.db", "its schema is 1000"}};
   for (const auto& [name, words] : files) {

@@ -231,7 +231,7 @@ TEST_CASE("insonate-bench says what is wrong in one line and exits with 2") {
       {"front " + tiny + " --configuration 1,2,3", "LINES,SAMPLES,WIDTH,HEIGHT"},
       {"frames " + tiny + " --configuration 1,2,3,0", "0 lies outside 1 to 8192"},
       {"compare /nowhere/a.csv /nowhere/b.csv", "/nowhere/a.csv"},
-      {"compare /dev/null /dev/null", "no ordinary file"},
+      {"compare /dev/null /dev/null", "not an ordinary file"},
   };
   for (const auto& [arguments, expected] : wrong) {
     CAPTURE(arguments);

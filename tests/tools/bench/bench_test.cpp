@@ -131,7 +131,7 @@ TEST_CASE("a run whose errors have grown is told from one that is as accurate, h
   CHECK(worse(with_error("0.510", "2.25")) == std::vector<std::string>{"error_db 0.500 -> 0.510"});
   CHECK(worse(with_error("0.400", "3.00")) == std::vector<std::string>{"error_grey 2.25 -> 3.00"});
   CHECK(worse(with_error("nan", "2.25")) == std::vector<std::string>{"error_db 0.500 -> nan"});
-  CHECK(worse(run("X", 6, 7, 8)) == std::vector<std::string>{"error_grey 2.25 -> not told"});
+  CHECK(worse(run("X", 6, 7, 8)) == std::vector<std::string>{"error_grey 2.25 -> missing"});
   CHECK_THROWS_WITH(worse(with_error("good", "2.25")), Catch::Contains("line 2, column 'error_db': 'good'"));
 }
 
@@ -166,7 +166,7 @@ TEST_CASE("runs that cannot be compared are refused") {
     Table bad = good;
     bad.rows[1][bad.column("q3_ms")] = none;
     const auto told = [&](const char* file) {
-      return Catch::Contains(std::string(file) + ": line 3, column 'q3_ms': '" + none + "' is no time");
+      return Catch::Contains(std::string(file) + ": line 3, column 'q3_ms': '" + none + "' is not a positive time");
     };
     CHECK_THROWS_WITH(compare("old", bad, "new", good), told("old"));
     CHECK_THROWS_WITH(compare("old", good, "new", bad), told("new"));

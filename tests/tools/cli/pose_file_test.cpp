@@ -18,8 +18,8 @@ TEST_CASE("a pose file that cannot be used is refused with the place of what is 
   const struct {
     std::string text, says;
   } bad[] = {
-      {"1 0 0 0\n0 1 x 0\n", "line 2, number 7 of 16: 'x' is no number; write the matrix patient_from_probe"},
-      {"1 0 0 0\n0 1 0 \x01\n", "line 2, number 8 of 16: what stands here is no number"},
+      {"1 0 0 0\n0 1 x 0\n", "line 2, number 7 of 16: 'x' is not a number; write the matrix patient_from_probe"},
+      {"1 0 0 0\n0 1 0 \x01\n", "line 2, number 8 of 16: what stands here is not a number"},
       {"1 0 0 0\n0 1 0 nan\n0 0 1 0\n0 0 0 1\n", "line 2, number 8 of 16: 'nan' is not finite; give a finite number"},
       {"1 0 0 0 0 1 0 0 0 0 1 0 0 0 0", "there are 15 numbers, not 16 for a pose"},
       {"2 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1", "give a rotation and a translation in mm"},
@@ -30,7 +30,7 @@ TEST_CASE("a pose file that cannot be used is refused with the place of what is 
       {"[1,0,0,0,\n0,NaN,0,9, 0,0,1,0, 0,0,0,1]", "line 2: what stands here is no JSON, whose numbers are finite"},
       {"[1,0,0,0, 0,1e999,0,9, 0,0,1,0, 0,0,0,1]", "a number is larger than double precision holds"},
       {"{\"pose\": 3}", "there is no key 'patient_from_probe'"},
-      {"{\"patient_from_probe\": 3}", "'patient_from_probe' is no array"},
+      {"{\"patient_from_probe\": 3}", "'patient_from_probe' is not an array"},
   };
   for (const auto& [text, says] : bad) {
     const std::string file = folder.put("held.txt", text).string();

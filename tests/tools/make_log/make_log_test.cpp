@@ -47,8 +47,8 @@ TEST_CASE("what a plan's hand is to do with what the picture does not have is re
     Pose pose;
     std::string says;
   } bad[] = {
-      {"caliper_on 1 ball depth far", Pose{}, "'far' is no number"},
-      {"point_at top 1mm", Pose{}, "'1mm' is no number"},
+      {"caliper_on 1 ball depth far", Pose{}, "'far' is not a number"},
+      {"point_at top 1mm", Pose{}, "'1mm' is not a number"},
       {"point_at tip 0", Pose{}, "the landmark 'tip' is not in the case"},
       {"label_at bone", Pose{}, "the structure 'bone' is not in the case"},
       {"label_at ball", away, "the picture does not show it"},

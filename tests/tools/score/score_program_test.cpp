@@ -287,7 +287,7 @@ TEST_CASE("insonate-score makes no patient for what it refuses without one") {
   replace_first(acts, "Seq_Frame0001_FrameNumber", "Seq_Frame0001_Actions = dance\nSeq_Frame0001_FrameNumber");
   refused(score(folder.file("cut.igs.mha", log.substr(0, 5000)).string()), "cut.igs.mha");
   refused(score(folder.file("acts.igs.mha", acts).string()), "dance");
-  refused(score(good) + " --results " + folder.file("text.db", "no database").string(), "no database of results");
+  refused(score(good) + " --results " + folder.file("text.db", "no database").string(), "not a database of results");
   refused(score(good) + " --calibration " + folder.file("bad.toml", "x").string(), "bad.toml");
   refused("--log " + good + " --scenario " + spoilt("typo.toml", "title", "tittle"), "did you mean 'title'?");
 
@@ -440,12 +440,12 @@ TEST_CASE("insonate-score refuses databases and lists that it cannot use in one 
     CHECK(outcome.errors.find('\n') == outcome.errors.size() - 1);
   };
   for (const char* command : {"attempts ", "learners ", "rescore ", "report "}) {
-    refused(command + text, "no database of results");
+    refused(command + text, "not a database of results");
     refused(command + (folder.path / "none.db").string(), "no such file");
   }
   refused("pass-mark " + text + " --novices " + ids + " --experts " + ids, "'a' is a novice as well");
-  refused("--log x --scenario y --learner 'Ada Lovelace'", "no opaque id");
+  refused("--log x --scenario y --learner 'Ada Lovelace'", "not an opaque id");
   ResultsDatabase::open_or_make(folder.path / "lab.db");
   refused("report " + (folder.path / "lab.db").string() + " --attempt 3", "no attempt 3");
-  refused("report " + (folder.path / "lab.db").string() + " --home-page lab", "no web address");
+  refused("report " + (folder.path / "lab.db").string() + " --home-page lab", "not a web address");
 }

@@ -9,14 +9,14 @@
 /// Extreme conditions for both models, each applied to an otherwise ordinary scene.
 namespace insonate::test {
 
-struct Strain {
+struct ExtremeCase {
   const char* name;
   std::function<void(Scene&)> apply;
 };
 
-inline std::vector<Strain> joined(std::vector<Strain> strains, const std::vector<Strain>& more) {
-  strains.insert(strains.end(), more.begin(), more.end());
-  return strains;
+inline std::vector<ExtremeCase> joined(std::vector<ExtremeCase> cases, const std::vector<ExtremeCase>& more) {
+  cases.insert(cases.end(), more.begin(), more.end());
+  return cases;
 }
 
 template <typename T>
@@ -33,12 +33,12 @@ inline std::function<void(Scene&)> filled(const glm::ivec3& size, const glm::dve
 }
 
 /// Returns extreme views, which both models share.
-inline std::vector<Strain> strained_views() {
+inline std::vector<ExtremeCase> extreme_views() {
   using S = Settings;
   const auto deep = [](double depth_mm) { return [=](Scene& scene) { scene.depth_mm = depth_mm; }; };
   const auto probe = [](ProbeKind kind) { return [=](Scene& scene) { scene.probe.kind = kind; }; };
   return {
-      {"nothing strained", [](Scene&) {}},
+      {"nothing extreme", [](Scene&) {}},
       {"linear probe", probe(ProbeKind::linear)},
       {"phased probe", probe(ProbeKind::phased)},
       {"0.1 mm deep", deep(0.1)},
@@ -78,7 +78,7 @@ inline std::function<void(Scene&)> board(const glm::ivec3& size, const glm::dvec
 }
 
 /// @param side  as in board()
-inline std::vector<Strain> strained_volumes(int side = 1) {
+inline std::vector<ExtremeCase> extreme_volumes(int side = 1) {
   return {
       {"one voxel", filled({1, 1, 1}, {5, 5, 5}, 60)},
       {"one voxel of 0.05 mm", filled({1, 1, 1}, {0.05, 0.05, 0.05}, 60)},
@@ -105,7 +105,7 @@ inline std::vector<Strain> strained_volumes(int side = 1) {
 
 /// Fills the volume with as many layers as 2000 voxels hold, close to the largest axis that every device supports.
 /// @param voxels_a_layer  thickness of a layer, as the side of board()
-inline std::vector<Strain> layers_in_a_row(int voxels_a_layer = 1) {
+inline std::vector<ExtremeCase> layers_in_a_row(int voxels_a_layer = 1) {
   const auto layers = [=](int one, int other) {
     return [=](Scene& scene) {
       scene.volume = make_volume({2, 2000, 2}, {40, 0.1, 40},
@@ -128,7 +128,7 @@ inline std::vector<Strain> layers_in_a_row(int voxels_a_layer = 1) {
   };
 }
 
-inline std::vector<Strain> strained_poses() {
+inline std::vector<ExtremeCase> extreme_poses() {
   const auto at = [](const glm::dvec3& place, double angle = 0, const glm::dvec3& axis = {0, 0, 1}) {
     return [=](Scene& scene) { scene.pose = {glm::dmat3(glm::rotate(glm::dmat4(1), angle, axis)), place}; };
   };

@@ -86,11 +86,11 @@ TEST_CASE("lines that groups walk along carry what they do where invocations wal
       CHECK(worst <= 1);
 
       const std::uint32_t lines = std::uint32_t(settings.slice_planes * of.lines);
-      CHECK(got.counts.walked >= expected.counts.walked);
-      CHECK(got.counts.walked <= expected.counts.walked + lines * std::uint32_t(of.group - 1));
+      CHECK(got.counts.traversed >= expected.counts.traversed);
+      CHECK(got.counts.traversed <= expected.counts.traversed + lines * std::uint32_t(of.group - 1));
       CHECK(got.counts.normals >= expected.counts.normals);
       if (skipping) continue;
-      CHECK(got.counts.walked == lines * std::uint32_t(of.samples));
+      CHECK(got.counts.traversed == lines * std::uint32_t(of.samples));
       CHECK(got.counts.normals == expected.counts.normals);
     }
   }
@@ -99,7 +99,7 @@ TEST_CASE("lines that groups walk along carry what they do where invocations wal
 TEST_CASE("few lines take a work group each, as many as fill the device an invocation each, of pictures and sweeps") {
   const test::TestContext context;
   Settings settings = test::everything();
-  const auto walked_along = [&](const Sweep& sweep, std::size_t lines_that_fill) {
+  const auto samples_traversed = [&](const Sweep& sweep, std::size_t lines_that_fill) {
     gl::WorkDivision division = test::line_an_invocation(64);
     division.lines_that_fill = lines_that_fill;
     if (sweep.patient_from_plane.size() == 1) {
@@ -109,7 +109,7 @@ TEST_CASE("few lines take a work group each, as many as fill the device an invoc
       simulator.set_settings(settings);
       simulator.set_pose(sweep.patient_from_plane.front());
       simulator.image();
-      return std::uint64_t(simulator.sample_counts().walked);
+      return std::uint64_t(simulator.sample_counts().traversed);
     }
     gl::SweepSimulator simulator = test::simulator_of(sweep, settings, sweep_grid(sweep, 10), division);
     simulator.volume();
@@ -121,8 +121,8 @@ TEST_CASE("few lines take a work group each, as many as fill the device an invoc
     Sweep sweep = test::by_hand();
     sweep.patient_from_plane.resize(std::size_t(planes));
     const std::size_t lines = std::size_t(planes * sweep.probe.lines);
-    const std::uint64_t by_invocations = walked_along(sweep, 0);
-    CHECK(walked_along(sweep, lines) == by_invocations);
-    CHECK(walked_along(sweep, lines + 1) > by_invocations);
+    const std::uint64_t by_invocations = samples_traversed(sweep, 0);
+    CHECK(samples_traversed(sweep, lines) == by_invocations);
+    CHECK(samples_traversed(sweep, lines + 1) > by_invocations);
   }
 }
