@@ -97,6 +97,7 @@ struct ExamResult {
   static constexpr int kScoringVersion = 3;
 
   std::string title;
+  std::string briefing;  ///< what the learner read before the start; empty if the scenario has none
   Provenance provenance;
   bool complete = false;  ///< all steps, the time or the samples ended; else it is a partial result
   double points = 0;

@@ -111,6 +111,7 @@ template <typename Visit, ConstOrNot<ExamResult> Result>
 void each_field(Visit& visit, Result& result) {
   visit("scoring_version", result.provenance.scoring_version);
   visit("title", result.title);
+  visit.if_any("briefing", result.briefing);
   visit("complete", result.complete);
   visit("passed", result.passed);
   visit("percent", result.percent);
@@ -136,6 +137,9 @@ struct Writer {
   template <typename T>
   void if_any(std::string_view key, const std::optional<T>& value) {
     if (value) (*this)(key, *value);
+  }
+  void if_any(std::string_view key, const std::string& text) {
+    if (!text.empty()) (*this)(key, text);
   }
 
 private:
@@ -186,6 +190,9 @@ struct Reader {
   template <typename T>
   void if_any(std::string_view key, std::optional<T>& value) {
     if (json.contains(key)) (*this)(key, value.emplace());
+  }
+  void if_any(std::string_view key, std::string& text) {
+    if (json.contains(key)) (*this)(key, text);
   }
 
 private:

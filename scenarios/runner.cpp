@@ -281,6 +281,7 @@ StepResult Runner::judge(StepOutcome outcome, double now) const {
 ExamResult Runner::result() const {
   ExamResult result;
   result.title = scenario_.title;
+  result.briefing = scenario_.briefing;
   result.provenance.scenario = scenario_.file.filename().string();
   result.provenance.scenario_digest = scenario_.digest;
   result.provenance.phantom_options = scenario_.phantom_options;

@@ -89,9 +89,9 @@ struct Scenario {
   enum class Order { fixed, free };
   enum class Difficulty { easy, medium, hard };
 
-  std::string title;              ///< title = "FAST: right upper quadrant"
-  std::string case_name;          ///< case = "abdomen", the built-in phantom, or a case folder relative to the file
-  std::string briefing;           ///< briefing = """...""": shown to the learner before the start; optional
+  std::string title;      ///< title = "FAST: right upper quadrant"
+  std::string case_name;  ///< case = "abdomen", the built-in phantom, or a case folder relative to the file
+  std::string briefing;   ///< briefing = """...""": what the learner reads before the start; optional, unwrapped
   double pass_mark_percent = 80;  ///< pass_mark_percent = 80: 0 to 100
   double time_limit_s = 0;        ///< time_limit_s = 180: of the whole exam, 1 to 36000
   /// order = "fixed" (default), or "free": the learner may switch to any step that has not ended, by its name. A step

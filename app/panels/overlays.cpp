@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "app/panels/exam_panel.h"
 #include "tools/cli/about.h"
 
 namespace insonate::ui {
@@ -136,6 +137,39 @@ bool draw_about(const Theme& theme, const Rect& screen, const std::string& devic
   draw_paragraph(sheet, theme.text, colour::kText, kNoMedicalDevice);
   end_overlay();
   return closed;
+}
+
+bool draw_briefing(const Theme& theme, const Rect& screen, const Scenario& scenario, bool counts,
+                   std::map<std::string, Rect>& places) {
+  const std::size_t steps = scenario.steps.size();
+  const bool whole_minutes = std::fmod(scenario.time_limit_s, 60) == 0;
+  char facts[160];
+  std::snprintf(facts, sizeof facts, "%zu %s in at most %s minutes, passed from %.0f %%.", steps,
+                steps == 1 ? "step" : "steps",
+                whole_minutes ? std::to_string(int(scenario.time_limit_s / 60)).c_str()
+                              : clock_text(scenario.time_limit_s).c_str(),
+                scenario.pass_mark_percent);
+  const std::string rules = counts ? "This exam counts. You take it once, without help, and the time runs from Start."
+                                   : "This is practice. The time runs from Start; you can begin again at any time.";
+  const float width = theme.px(620), text = width - 2 * theme.px(28), gap = theme.px(12);
+  float height = theme.px(28 + 48 + 38 + 20);
+  for (const std::string& paragraph : {scenario.briefing, std::string(facts), rules})
+    if (!paragraph.empty()) height += paragraph_height(theme.text, paragraph, text) + gap;
+
+  Rect sheet = begin_overlay(theme, screen, {width, height});
+  draw_text(sheet.take_top(theme.px(28)), theme.heading, colour::kText, scenario.title);
+  const auto draw = [&](ImU32 colour, const std::string& paragraph) {
+    if (paragraph.empty()) return;
+    sheet.take_top(gap);
+    draw_paragraph(sheet.take_top(paragraph_height(theme.text, paragraph, text)), theme.text, colour, paragraph);
+  };
+  draw(colour::kText, scenario.briefing);
+  draw(colour::kMuted, facts);
+  draw(colour::kMuted, rules);
+  places["start"] = sheet.take_bottom(theme.px(38)).take_right(theme.px(160));
+  const bool start = button(theme, "start", places["start"], "Start  (Enter)", ButtonKind::primary);
+  end_overlay();
+  return start;
 }
 
 OpenDialog::Answer OpenDialog::draw(const Theme& theme, const Rect& screen) {

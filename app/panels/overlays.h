@@ -33,6 +33,13 @@ HelpAnswer draw_key_help(const Theme& theme, const Rect& screen, std::map<std::s
 /// @param device  OpenGL's name of the device
 bool draw_about(const Theme& theme, const Rect& screen, const std::string& device);
 
+/// Draws what the learner reads before a scenario: the briefing, and the exam's steps, time and pass mark. Returns true
+/// when the learner starts.
+/// @param counts  the exam counts
+/// @param places  receives the button's rectangle
+bool draw_briefing(const Theme& theme, const Rect& screen, const Scenario& scenario, bool counts,
+                   std::map<std::string, Rect>& places);
+
 /// Asks for a path to open. Files can be dropped on the window as well.
 class OpenDialog {
 public:

@@ -47,6 +47,8 @@ const char* to_string(Overlay overlay) {
       return "about";
     case Overlay::open:
       return "open";
+    case Overlay::briefing:
+      return "briefing";
     case Overlay::score:
       return "score";
   }
@@ -232,6 +234,7 @@ Overlay Screen::overlay(const Trainer& trainer) const {
   if (trainer.loading()) return Overlay::loading;
   if (trainer.setup()) return Overlay::setup;
   if (page_ != Overlay::none) return page_;
+  if (trainer.briefing()) return Overlay::briefing;
   const Session* session = trainer.session();
   if (session && session->result() && &*session->result() != closed_sheet_of_) return Overlay::score;
   return Overlay::none;
@@ -249,6 +252,7 @@ void Screen::dismiss(Trainer& trainer) {
       trainer.stop_loading();
       break;
     case Overlay::setup:
+    case Overlay::briefing:
       break;
     case Overlay::help:
     case Overlay::about:
@@ -272,6 +276,8 @@ void Screen::confirm(Trainer& trainer) {
       return dismiss(trainer);
     case Overlay::open:
       return open_dialog_.confirm();
+    case Overlay::briefing:
+      return trainer.start();
     case Overlay::loading:
     case Overlay::setup:
     case Overlay::score:
@@ -290,6 +296,8 @@ void Screen::go_on(Trainer& trainer) {
     case Overlay::loading:
     case Overlay::setup:
       return;
+    case Overlay::briefing:
+      return trainer.start();
     case Overlay::none:
       step_on(trainer);
       break;
@@ -358,6 +366,9 @@ void Screen::draw_overlay(Trainer& trainer) {
       if (answer == OpenDialog::Answer::chosen) trainer.open(open_dialog_.path());
       break;
     }
+    case Overlay::briefing:
+      if (draw_briefing(theme_, screen_, *trainer.briefing(), session->strict(), places_)) trainer.start();
+      break;
     case Overlay::score: {
       const bool watched = std::as_const(*session).source().recording() != nullptr;
       answer_score(trainer, draw_score_sheet(theme_, screen_, *session->result(), trainer.result_files(), watched,

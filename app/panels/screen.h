@@ -19,7 +19,7 @@
 namespace insonate::ui {
 
 /// What lies over the screen; the later ones wait while an earlier one is there.
-enum class Overlay { none, problem, loading, setup, help, about, open, score };
+enum class Overlay { none, problem, loading, setup, help, about, open, briefing, score };
 
 /// Returns the overlay's name, as state files have it: "problem"; "" for none.
 const char* to_string(Overlay overlay);

@@ -26,6 +26,7 @@ struct Scan {
   PictureTools tools;
   StepControls controls;
   BestFrames best_frames;
+  bool begun = true;  ///< false while the learner reads the briefing: no time passes
 };
 
 /// Practice, also of an exam's steps: nothing counts, and nothing is stored while it lasts.

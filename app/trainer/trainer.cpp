@@ -170,6 +170,7 @@ void Trainer::begin(std::shared_ptr<const LoadedCase> loaded_case, const Request
   record_raw(*session, request);
   show(std::move(loaded_case), request);
   Scan scan{std::move(session), {}, {}, {}};
+  scan.begun = options_.headless || !loaded_case_->scenario || std::as_const(*scan.session).source().recording();
   const bool authoring = options_.mode == Mode::author && request.source.case_folder == options_.case_folder;
   if (in_exam())
     mode_ = Exam{std::move(scan), nullptr};
@@ -203,6 +204,14 @@ void Trainer::update(double now_s) {
   if (setting_up && session()) std::visit([&](auto& mode) { update(mode, now_s); }, mode_);
 }
 
+const Scenario* Trainer::briefing() const {
+  return scan() && !scan()->begun ? &*loaded_case_->scenario : nullptr;
+}
+
+void Trainer::start() {
+  if (scan()) scan()->begun = true;
+}
+
 void Trainer::update(SettingUp& mode, double now_s) {
   attempt([&] { mode.wizard->update(now_s); });
   if (mode.wizard->finished()) end_setup();  // which ends the mode
@@ -210,6 +219,7 @@ void Trainer::update(SettingUp& mode, double now_s) {
 
 template <std::derived_from<Scan> Mode>
 void Trainer::update(Mode& mode, double now_s) {
+  if (!mode.begun) return;
   Session& session = *mode.session;
   if (!options_.record.empty() && !recorded_) start_recording();
   const bool had_result = session.result().has_value();

@@ -58,6 +58,12 @@ public:
   /// When an exam has ended, stores the attempt and writes its report and score, once.
   void write_results_if_due();
 
+  /// Returns the scenario whose briefing the learner has to read before the session begins; nullptr if there is none.
+  /// The session's time stands still meanwhile. A recorded scan and a run without a window begin at once.
+  const Scenario* briefing() const;
+  /// Begins the session after the briefing.
+  void start();
+
   /// Ends an exam that counts before its end: what has been done is scored and stored.
   void hand_in_exam();
   /// Returns whether the exam that the trainer was started for is refused. Only the reason is shown then.

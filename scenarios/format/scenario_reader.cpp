@@ -11,6 +11,7 @@
 #include "sim/core/digest.h"
 #include "sim/core/files.h"
 #include "sim/core/suggest.h"
+#include "sim/core/text.h"
 #include "sim/core/toml_table.h"
 
 namespace insonate {
@@ -227,7 +228,7 @@ Scenario read_tables(TableReader& reader, const Variant* variant) {
     scenario.case_name = variant->case_name;
     scenario.case_place = variant->case_place;
   }
-  scenario.briefing = reader.text("briefing", false);
+  scenario.briefing = unwrapped(reader.text("briefing", false));
   scenario.pass_mark_percent = reader.number("pass_mark_percent", {0, 100}, 80);
   scenario.time_limit_s = reader.number("time_limit_s", {1, kLongestExam_s});
   scenario.locked = read_locked(reader);

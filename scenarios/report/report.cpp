@@ -238,7 +238,9 @@ std::string report_html(const ExamResult& result, std::span<const TracePoint> tr
       "</style></head>\n<body><main>\n";
   html += "<header><div><p class='quiet'>" + kind_of_report(result.provenance.mode) + "</p><h1>" +
           escaped(result.title) + "</h1><p class='quiet'>" + escaped(result.provenance.case_name) + "</p></div>" +
-          whose(subject) + "</header>\n" + verdict(result);
+          whose(subject) + "</header>\n";
+  if (!result.briefing.empty()) html += "<p class='briefing'>" + escaped(result.briefing) + "</p>\n";
+  html += verdict(result);
   for (std::size_t i = 0; i < result.steps.size(); ++i) html += section(result.steps[i], i, subject.pictures);
   html += "<section><h2>Whole exam</h2>" + table(result.criteria) + "</section>\n";
   if (!trace.empty()) {

@@ -14,6 +14,10 @@ std::string_view trimmed(std::string_view text);
 /// Returns the text between single quotation marks: "'depth_mm'".
 std::string in_quotes(std::string_view text);
 
+/// Returns the text without the line ends that wrap a paragraph in a file: each becomes a blank. An empty line, which
+/// separates paragraphs, stays, and the ends are trimmed.
+std::string unwrapped(std::string_view text);
+
 /// Returns a number with up to six significant digits: "0.25", "1e+30".
 std::string number_text(double value);
 

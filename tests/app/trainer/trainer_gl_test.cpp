@@ -395,6 +395,37 @@ TEST_CASE("another log can be opened in the same session's place, another patien
   CHECK(guided_to() == std::vector<std::string>{"ball", "bare"});
 }
 
+TEST_CASE("the time of a scenario stands still until its briefing was read, and a recorded scan has none") {
+  const test::TestContext context;
+  const TrainerFolder folder;
+  Options options = folder.options();
+  const auto briefing_of = [](const Options& given) {
+    Trainer trainer(given);
+    trainer.open_from_options();
+    trainer.finish_loading();
+    return trainer.briefing() != nullptr;
+  };
+  CHECK_FALSE(briefing_of(options));
+  options.tracker = "mouse:";
+  options.headless = true;
+  CHECK_FALSE(briefing_of(options));
+  options.headless = false;
+  Trainer trainer(options);
+  trainer.open_from_options();
+  trainer.finish_loading();
+  REQUIRE(trainer.briefing());
+  for (int i = 0; i < 40; ++i) trainer.update(i);
+  CHECK(trainer.session()->latest_samples().empty());
+  CHECK_FALSE(trainer.session()->result());  // the exam lasts 30 s
+  trainer.start();
+  CHECK_FALSE(trainer.briefing());
+  trainer.update(40);
+  trainer.update(41);
+  CHECK(trainer.session()->runner()->live().elapsed_s == Approx(1).margin(0.1));
+  trainer.session()->start_over();
+  CHECK_FALSE(trainer.briefing());  // it was read
+}
+
 TEST_CASE("without a window there is nobody to answer a dialog: bad input passes through") {
   const test::TestContext context;
   const TrainerFolder folder;
@@ -481,6 +512,7 @@ TEST_CASE("a replay shows the very picture that the learner saw, whatever knob w
     Trainer trainer(options);
     trainer.open_from_options();
     trainer.finish_loading();
+    trainer.start();
     trainer.update(0);
     trainer.update(0.5);
     trainer.draw(kSizes, 1, kNoBudget);

@@ -19,6 +19,7 @@ TEST_CASE("the trainer keeps attempts in the database it was given, and of the u
   const auto finish = [](Trainer& trainer) {
     trainer.open_from_options();
     trainer.finish_loading();
+    trainer.start();
     for (int i = 0; i < 1000 && !trainer.result_files(); ++i) {
       trainer.update(i / 30.0);
       if (trainer.best_frame_due()) {
@@ -157,6 +158,7 @@ TEST_CASE("an exam that counts is kept once for a learner, with the seed that dr
   const auto start = [](Trainer& trainer) {
     trainer.open_from_options();
     trainer.finish_loading();
+    trainer.start();
   };
   {
     INFO("who has practised it may take it");

@@ -8,6 +8,7 @@ score=$3
 cat >"$work/exam.toml" <<'EOF'
 format = 2
 title = "Tools"
+briefing = "Try each of the tools."
 case = "abdomen"
 pass_mark_percent = 50
 time_limit_s = 900
@@ -73,6 +74,14 @@ EOF
 click_on() { click "$(middle_x "$1")" "$(middle_y "$1")"; }
 
 start_trainer --scenario "$work/exam.toml" --tracker mouse: --record "$work/run.igs.mha"
+
+echo "the briefing is read before the time runs"
+await "the briefing is shown" is overlay briefing
+sleep 2
+awk -v t="$(value elapsed_s)" 'BEGIN { exit t > 0 }' || fail "the time runs while the briefing is read"
+xdotool key Tab key Escape
+click_on start
+await "the briefing is over" is overlay ""
 await "the exam starts" is activity exam
 await "the probe is seen" is_not face_x ""
 

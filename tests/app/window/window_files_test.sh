@@ -29,7 +29,9 @@ drop_here "$INSONATE_ASSETS/logs/ruq_poor.igs.mha"
 await "a recorded scan takes the probe" is holder tracker
 drop_here "$INSONATE_ASSETS/scenarios/ruq_hepatorenal.toml"
 await "a scenario is an exam of the learner's own" is holder learner
-await "the exam is loaded" is overlay ""
+await "the exam is loaded" is overlay briefing
+xdotool key Return
+await "the exam begins" is overlay ""
 is activity exam || fail "the scenario did not begin"
 # 60 mm of water at 1 mm; its name needs escapes in a URI.
 water="$work/Jürgen's CT 50%.mha"
