@@ -109,3 +109,40 @@ TEST_CASE("fully developed speckle has the signal to noise ratio of 1.91 and is 
     if (beam_lines == 1) CHECK(found.mean_power == Approx(2).epsilon(0.01));
   }
 }
+
+TEST_CASE("an echo is interpolated between the lattice's points and keeps their variance") {
+  Settings settings = without_absorption(0.5);
+  settings.speckle = true;
+  settings.speckle_seed = 5;
+  const double cell = settings.speckle_cell_mm;
+  constexpr int side = ScattererLattice::kSide;
+  const ScattererLattice lattice = make_scatterers(5);
+  const auto point = [&](int x, int y, int z) {
+    const std::size_t i = 2 * std::size_t((z * side + y % side) * side + x);
+    return std::complex<double>(lattice.stored[i], lattice.stored[i + 1]) * (kScattererScale / 32767);
+  };
+  // Even samples lie at the points (10, k/2, 20), past the lattice's end; odd ones half-way between. The second line
+  // lies half-way to x = 11.
+  ScanLines lines;
+  lines.samples = 2 * (side + 5);
+  lines.r_max_mm = lines.samples * cell / 2;
+  for (const double x : {10.5, 11.0}) lines.lines.push_back({glm::dvec3(x, 0.25, 20.5) * cell, {0, 1, 0}});
+  const auto scan = traverse_reference(
+      [](const glm::dvec3&) {
+        return Medium{60, 0};
+      },
+      plain_table(), lines, settings, along_the_lattice(cell));
+  const double amplitude = 1 - std::pow(10, kSilentDb / 10);
+  double worst = 0;
+  for (int k = 0; k < lines.samples; ++k) {
+    const auto column = [&](int x) {
+      const std::complex<double> below = point(x, k / 2, 20), above = point(x, k / 2 + 1, 20);
+      return k % 2 ? (below + above) / std::sqrt(2.0) : below;
+    };
+    const std::complex<double> expected[] = {column(10), (column(10) + column(11)) / std::sqrt(2.0)};
+    for (int line = 0; line < 2; ++line)
+      worst = std::max(worst, std::abs(std::complex(scan.echo_re.at(line, k), scan.echo_im.at(line, k)) -
+                                       amplitude * expected[line]));
+  }
+  CHECK(worst < 1e-9);
+}

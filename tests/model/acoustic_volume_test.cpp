@@ -129,6 +129,68 @@ TEST_CASE("a label's tissue decides, and its voxels keep their texture") {
         Approx(shipped().at(5).echogenicity_db));
 }
 
+TEST_CASE("without labels a voxel's echogenicity is that of the voxels like it, plus its texture") {
+  // 0.5 dB per HU from -50 dB at 0 HU.
+  const TissueTable table{{{-1000, 0.0004, 1, -60}, {0, 1.5, 0, -50}, {100, 1.6, 0, 0}}, {}};
+  // Neighbours are 2 voxels away, and their 27 include the voxel itself.
+  const auto with_one = [&](const glm::ivec3& place, int hu) {
+    auto ct = along_x({15, 15, 15}, 1.5, [](double) { return 60; });
+    ct.at(place) = std::int16_t(hu);
+    return make_acoustic_volume(ct, {}, {}, table);
+  };
+  const AcousticVolume raised = with_one({7, 7, 7}, 87);
+  CHECK(raised.at({7, 7, 7}).echogenicity_cdb == -1950 + 260);  // the mean is 61 HU
+  for (const glm::ivec3 step : {glm::ivec3(2, 0, 0), glm::ivec3(0, -2, 0), glm::ivec3(-2, 2, 2)})
+    CHECK(raised.at(glm::ivec3(7) + step).echogenicity_cdb == -1950 - 10);
+  for (const int apart : {1, 3}) CHECK(raised.at({7 + apart, 7, 7}).echogenicity_cdb == -2000);
+
+  CHECK(with_one({7, 7, 7}, 96).at({7, 7, 7}).echogenicity_cdb == -1950 + 292);  // 35 HU above: 5/6 of 3.5 dB
+  const AcousticVolume other_tissue = with_one({7, 7, 7}, 97);  // differs by more than noise from all others
+  CHECK(other_tissue.at({7, 7, 7}).echogenicity_cdb == -150);
+  CHECK(other_tissue.at({9, 7, 7}).echogenicity_cdb == -2000);
+  // Beyond the grid its outer voxels count again: 8 of 27 are the corner itself.
+  CHECK(with_one({0, 0, 0}, 87).at({0, 0, 0}).echogenicity_cdb == -1600 + 190);
+}
+
+TEST_CASE("a voxel between two that enclose its density by a margin takes the brighter one's echogenicity") {
+  const TissueTable table{{{-1000, 0.0004, 1, -60}, {0, 1.5, 0, -50}, {100, 1.6, 0, 0}}, {}};
+  // 40 HU within `half_width_mm` of x = 15 mm; the neighbours that count for the mean lie at 3 mm.
+  const auto between = [&](double spacing_mm, double half_width_mm, int low, int high) {
+    const auto ct = along_x({31, 9, 9}, spacing_mm, [&](double x) {
+      return std::abs(x - 15) < half_width_mm ? 40 : x < 15 ? low : high;
+    });
+    return make_acoustic_volume(ct, {}, {}, table).at({int(std::lround(15 / spacing_mm)), 4, 4}).echogenicity_cdb;
+  };
+  CHECK(between(1.5, 1, 20, 60) == -2000);
+  CHECK(between(1.5, 1, 60, 20) == -2000);
+  CHECK(between(1.5, 1, 21, 60) == -3000);
+  CHECK(between(1.5, 1, 20, 59) == -3000);
+  CHECK(between(1.5, 2, 20, 60) == -3000);  // 2 mm are 1 voxel of 1.5 mm
+  CHECK(between(1.0, 2, 20, 60) == -2000);  // and 2 voxels of 1 mm
+  CHECK(between(1.0, 2.5, 20, 60) == -3000);
+}
+
+TEST_CASE("a label's texture fades out towards partial volume, within the range of echogenicities") {
+  auto ct = along_x({20, 9, 9}, 1, [](double) { return 60; });
+  ct.at({5, 4, 4}) = 90;  // pairs, which leave the label's mean at 60 HU
+  ct.at({6, 4, 4}) = 30;
+  ct.at({7, 4, 4}) = 105;
+  ct.at({8, 4, 4}) = 15;
+  ct.at({9, 4, 4}) = 120;
+  ct.at({10, 4, 4}) = 0;
+  const Volume<std::uint8_t> labels{ct.grid, std::vector<std::uint8_t>(ct.voxels.size(), 1)};
+  const auto of_tissue = [&](double db) {
+    const TissueTable table{shipped().knots, {{"tissue", {db}}}};
+    const AcousticVolume volume = make_acoustic_volume(ct, labels, {"", "tissue"}, table);
+    std::vector<int> cdb;
+    for (int i = 4; i < 11; ++i) cdb.push_back(volume.at({i, 4, 4}).echogenicity_cdb);
+    return cdb;
+  };
+  CHECK(of_tissue(-7) == std::vector<int>{-700, -400, -1000, -475, -925, -700, -700});
+  CHECK(of_tissue(28) == std::vector<int>{2800, 3000, 2500, 3000, 2575, 2800, 2800});
+  CHECK(of_tissue(-58) == std::vector<int>{-5800, -5500, -6000, -5575, -6000, -5800, -5800});
+}
+
 TEST_CASE("a label's unknown tissue is refused with the name it resembles") {
   const auto ct = along_x({4, 4, 4}, 1, [](double) { return 0; });
   const Volume<std::uint8_t> labels{ct.grid, std::vector<std::uint8_t>(ct.voxels.size(), 1)};

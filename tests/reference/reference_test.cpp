@@ -10,6 +10,8 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "sim/model/beam.h"
 #include "sim/model/noise.h"
@@ -144,6 +146,155 @@ TEST_CASE("electronic noise comes before time gain: fluid is black where gain is
   CHECK(mean_grey(0.9, 0.95) == Approx(255 * (1 - 24.7 / 55)).margin(12));  // a Rayleigh number's mean is 1.1 dB lower
   settings.electronic_noise = false;
   CHECK(mean_grey(0.9, 0.95) == 0);
+}
+
+TEST_CASE("what is almost air turns into gel by degrees") {
+  const auto coupled = [](double hu, double r_mm) { return with_gel({hu, -10}, r_mm, 2); };
+  for (const auto& [hu, share] : {std::pair{60.0, 0.0}, {-150.0, 0.0}, {-225.5, 0.5}, {-301.0, 1.0}, {-1000.0, 1.0}}) {
+    CHECK(coupled(hu, 1.99).hu == Approx((1 - share) * hu));
+    CHECK(coupled(hu, 1.99).echogenicity_db == Approx(-10 - 50 * share));
+    CHECK(coupled(hu, 2).hu == hu);
+    CHECK(coupled(hu, 2).echogenicity_db == -10);
+  }
+}
+
+TEST_CASE("U is (R + b T) S, at the depth where each sample lies") {
+  Probe probe = *find_probe("linear");
+  probe.lines = 8;
+  Settings settings = without_absorption(1);
+  settings.samples = 100;
+  settings.image_width = settings.image_height = 100;
+  settings.reflection_sigma_mm = 0;
+  settings.blend = 0.001;
+  settings.two_way = GENERATE(true, false);
+  // Z = 2 e^(0.07 r) reflects the same share everywhere.
+  const double l = settings.reflection_length_mm, dr = 0.2, alpha = std::pow(std::tanh(0.07 * l / 2), 2);
+  const auto stages = simulate_reference(
+      [](const glm::dvec3& p) {
+        return Medium{100 * (2 * std::exp(0.07 * p.y) - 1), -3};
+      },
+      plain_table(), probe, 20, settings, {});
+  const double s = std::pow(10, -0.3) - std::pow(10, kSilentDb / 10);
+  const ImageGeometry geometry = image_geometry(probe, 20, 100, 100);
+  int seen = 0;
+  for (int y = 0; y < 100; ++y)
+    for (int x = 0; x < 100; ++x) {
+      const double r = geometry.plane_mm(x, y).y;
+      if (!stages.inside.at(x, y) || r < dr / 2 || r > 20 - dr / 2) continue;
+      const double i = std::pow(1 - alpha, (r - dr / 2) / l), t = settings.two_way ? i * i : i;
+      CHECK(stages.fused.at(x, y) == Approx((alpha * i * i + 0.001 * t) * s).epsilon(1e-6));
+      ++seen;
+    }
+  CHECK(seen > 3000);
+}
+
+namespace {
+
+/// The sum, mean and variance of values that lie `step` from each other.
+struct Moments {
+  double sum = 0, mean = 0, variance = 0;
+  Moments(const std::vector<double>& values, double step) {
+    double first = 0, second = 0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const double x = double(i) * step;
+      sum += values[i];
+      first += values[i] * x;
+      second += values[i] * x * x;
+    }
+    mean = first / sum;
+    variance = second / sum - mean * mean;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("R and T are smoothed by Gaussians of their own widths, which the fan's edge does not darken") {
+  Probe probe = *find_probe("linear");
+  probe.lines = 200;
+  Settings settings = without_absorption(0.4);
+  settings.samples = settings.image_width = settings.image_height = 200;
+  const ImageGeometry geometry = image_geometry(probe, 40, 200, 200);
+  const double side = geometry.mm_per_pixel, of_gaussian = 0.9733;  // the variance that three sigma leave
+  const auto fused = [&](double reflection_mm, double transmission_mm, double blend, const MediumField& field) {
+    settings.reflection_sigma_mm = reflection_mm;
+    settings.transmission_sigma_mm = transmission_mm;
+    settings.blend = blend;
+    return simulate_reference(field, plain_table(), probe, 40, settings, {}).fused;
+  };
+  // An echo in a column, and a shadow's edge in a row below it.
+  const MediumField interface = interface_at(20.03, 100, 300);
+  const MediumField shadow = [](const glm::dvec3& p) {
+    return Medium{p.x > 0.03 && p.y > 9 && p.y < 11 ? 900. : 100, 0};
+  };
+  const auto column = [&](double reflection_mm, double transmission_mm) {
+    const Image<double> image = fused(reflection_mm, transmission_mm, 0, interface);
+    std::vector<double> values;
+    for (int y = 0; y < 200; ++y) values.push_back(image.at(100, y));
+    return Moments(values, side);
+  };
+  const auto row = [&](double reflection_mm, double transmission_mm) {
+    const Image<double> image = fused(reflection_mm, transmission_mm, 1, shadow);
+    std::vector<double> falls;
+    for (int x = 20; x < 180; ++x) falls.push_back(image.at(x - 1, 150) - image.at(x, 150));
+    return Moments(falls, side);
+  };
+  for (const double sigma : {1.0, 1.7}) {
+    const Moments sharp = column(0, sigma), smooth = column(sigma, 0);
+    CHECK(smooth.sum == Approx(sharp.sum).epsilon(1e-9));
+    CHECK(smooth.mean == Approx(sharp.mean).epsilon(1e-9));
+    CHECK(smooth.variance - sharp.variance == Approx(of_gaussian * sigma * sigma).epsilon(0.01));
+    const Moments edge = row(sigma, 0), soft_edge = row(0, sigma);
+    CHECK(soft_edge.sum == Approx(edge.sum).epsilon(1e-6));
+    CHECK(soft_edge.mean == Approx(edge.mean).margin(0.01));
+    CHECK(soft_edge.variance - edge.variance == Approx(of_gaussian * sigma * sigma).epsilon(0.02));
+  }
+  const Image<double> even = fused(2, 2, 1, [](const glm::dvec3&) { return Medium{100, 0}; });
+  for (int y = 0; y < 200; ++y)
+    for (int x = 0; x < 200; ++x)
+      CHECK(even.at(x, y) == Approx(line_position(probe, 40, geometry.plane_mm(x, y)) ? 1 : 0).margin(1e-5));
+}
+
+TEST_CASE("time gain is linear in dB between its depths, and white is a fixed level or the frame's brightest pixel") {
+  Probe probe = *find_probe("linear");
+  probe.lines = 4;
+  Settings settings = without_absorption(1);
+  settings.samples = 64;
+  settings.image_width = settings.image_height = 100;
+  settings.blend = 0.001;
+  settings.tgc_db = {0, 1, 4, 9, 16, 25, 36, 49};
+  settings.gain_db = -3;
+  settings.dynamic_range_db = 70;
+  CHECK(time_gain(settings, 0) == Approx(std::pow(10, -0.3)));
+  CHECK(time_gain(settings, 1.5 / 7) == Approx(std::pow(10, -0.05)));
+  CHECK(time_gain(settings, 5.25 / 7) == Approx(std::pow(10, (27.75 - 3) / 10)));
+  CHECK(time_gain(settings, 1.01) == Approx(std::pow(10, 4.6)));
+
+  settings.fixed_level = 0.001 * std::pow(10, 4.9);  // U without gain is 49 dB below
+  for (const ReferenceLevel level : {ReferenceLevel::fixed, ReferenceLevel::frame_maximum}) {
+    settings.reference_level = level;
+    const auto stages = simulate_reference(
+        [](const glm::dvec3&) {
+          return Medium{200, 0};
+        },
+        plain_table(), probe, 40, settings, {});
+    const ImageGeometry geometry = image_geometry(probe, 40, 100, 100);
+    const auto gain_db = [&](int y) {
+      const double at = geometry.plane_mm(0, y).y / 40 * 7;
+      const double low = std::floor(at);
+      return low * low + (2 * low + 1) * (at - low) - 3;  // between squares
+    };
+    double most_db = -HUGE_VAL;
+    for (int y = 0; y < 100; ++y)
+      if (stages.inside.at(50, y)) most_db = std::max(most_db, gain_db(y));
+    const double white_db = level == ReferenceLevel::fixed ? 49 : most_db;
+    int brightest = 0;
+    for (int y = 0; y < 100; ++y) {
+      if (!stages.inside.at(50, y)) continue;
+      CHECK(stages.grey.at(50, y) == Approx(255 * (1 + (gain_db(y) - white_db) / 70)).margin(0.501));
+      brightest = std::max<int>(brightest, stages.grey.at(50, y));
+    }
+    CHECK((brightest == 255) == (level == ReferenceLevel::frame_maximum));
+  }
 }
 
 TEST_CASE("grey maps keep black and white, and each bends the greys between as it says") {

@@ -126,6 +126,19 @@ TEST_CASE("model W: gas lets nothing pass, and behind it no echo is left") {
   CHECK(wein_reference(field, one_line(), 50, paper, {}).scan_echogenicity.at(0, 40) == Approx(0.5));
 }
 
+TEST_CASE("model W: the picture mixes R and E by their shares") {
+  const auto grey = [](const WeinMedium& medium, double share) {
+    WeinSettings settings = settings_of(1);
+    settings.reflection_share = share;
+    const auto stages = wein_reference([=](const glm::dvec3&) { return medium; }, one_line(), 50, settings, {});
+    return int(stages.grey.at(4, 4));
+  };
+  CHECK(grey({50, {0, 0, 0}}, 0.25) == 96);       // R = 0, E = 1/2
+  CHECK(grey({-990, {0, 1000, 0}}, 0.25) == 64);  // R = 1, E = 0
+  CHECK(grey({250, {0, 1e9, 0}}, 0.25) == 255);   // R = 1, E = 1
+  CHECK(grey({50, {0, 1e9, 0}}, 0.25) == 159);    // R = 1, E = 1/2
+}
+
 TEST_CASE("model W: near the face air counts as water and nothing reflects") {
   const WeinField air = [](const glm::dvec3&) { return WeinMedium{-1000, {0, 500, 0}}; };
   const auto stages = wein_reference(air, one_line(), 50, settings_of(50, 10), {});

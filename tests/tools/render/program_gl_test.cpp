@@ -1,39 +1,35 @@
 // Tests insonate-render as its users use it, and the example beside it.
 
 #include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstring>
-#include <sstream>
-#include <utility>
+#include <cstdint>
 
 #include "tests/tools/render/render_scene.h"
 #include "tests/tools/render/stage_folder.h"
 
-using namespace outsider;
+using namespace insonate;
+using namespace insonate::test;
 namespace fs = std::filesystem;
 
 namespace {
 
 // Stages have the probe's marker (+x) on the right; pictures for people have it on the left.
-std::vector<double> as_shown(Plane plane) {
-  for (int y = 0; y < plane.height; ++y)
-    for (int x = 0; x < plane.width / 2; ++x) std::swap(plane.at(x, y), plane.at(plane.width - 1 - x, y));
-  return plane.values;
+std::vector<std::uint8_t> as_shown(const StageFolder& stages) {
+  return mirrored(stages.grey()).pixels;
 }
 
 /// Returns the mean within 3 mm of a place.
-double around(const ShortVolume& volume, const Vec3& patient_mm) {
+double around(const Volume<std::int16_t>& volume, const glm::dvec3& patient_mm) {
   double sum = 0, count = 0;
-  for (int k = 0; k < volume.size[2]; ++k)
-    for (int j = 0; j < volume.size[1]; ++j)
-      for (int i = 0; i < volume.size[0]; ++i) {
-        const Vec3 away = volume.place(i, j, k) - patient_mm;
-        if (dot(away, away) > 9) continue;
-        sum += volume.voxel(i, j, k);
+  for (int k = 0; k < volume.grid.size.z; ++k)
+    for (int j = 0; j < volume.grid.size.y; ++j)
+      for (int i = 0; i < volume.grid.size.x; ++i) {
+        if (glm::distance(volume.grid.patient_from_index({i, j, k}), patient_mm) > 3) continue;
+        sum += volume.at({i, j, k});
         ++count;
       }
   return count > 0 ? sum / count : -1;
@@ -48,9 +44,9 @@ TEST_CASE("the picture is what the stages end in, and the command line is above 
     const Outcome outcome = scene.render(common + by + " --gain 7 --width 70 --stages " + scene.in("stages") + "/");
     INFO(outcome.errors);
     REQUIRE(outcome.code == 0);
-    const StageFolder stages = read_stage_folder(scene.in("stages"));
-    CHECK(as_shown(stages.planes.at("image")) == grey_levels(scene.in("image.png")));
-    CHECK(stages.planes.at("image").width == 70);
+    const StageFolder stages(scene.in("stages"));
+    CHECK(as_shown(stages) == grey_levels(scene.in("image.png")));
+    CHECK(stages.image("image").width == 70);
     const auto& settings = stages.description.at("settings");
     CHECK(settings.at("gain_db") == 7);
     CHECK(settings.at("image_height") == 50);
@@ -70,7 +66,7 @@ TEST_CASE("a level of quality takes its share of the settings' samples and pixel
   const Outcome outcome = scene.render(common + " --quality exact --height 40 --stages " + scene.in("stages"));
   INFO(outcome.errors);
   REQUIRE(outcome.code == 0);
-  const auto settings = read_stage_folder(scene.in("stages")).description.at("settings");
+  const auto settings = StageFolder(scene.in("stages")).description.at("settings");
   CHECK(settings.at("samples") == 4 * 64);
   CHECK(settings.at("image_height") == 40);
   CHECK(scene.render(common + " --quality best").code == 2);
@@ -81,13 +77,13 @@ TEST_CASE("model W has its own settings file and picture, alike from the graphic
   scene.folder.file("wein.toml", "samples = 80\nimage_width = 60\nimage_height = 50\nreflection_share = 0.3\n");
   const std::string common = "--model W --pose " + scene.in("pose.txt") + " --settings ";
   REQUIRE(scene.render(common + scene.in("wein.toml")).code == 0);
-  const std::vector<double> drawn = grey_levels(scene.in("image.png"));
+  const std::vector<std::uint8_t> drawn = grey_levels(scene.in("image.png"));
   CHECK(drawn.size() == 60 * 50);
   CHECK(*std::max_element(drawn.begin(), drawn.end()) > 60);
   REQUIRE(scene.render(common + scene.in("wein.toml") + " --reference").code == 0);
-  const std::vector<double> reference = grey_levels(scene.in("image.png"));
+  const std::vector<std::uint8_t> reference = grey_levels(scene.in("image.png"));
   REQUIRE(reference.size() == drawn.size());
-  double worst = 0;
+  int worst = 0;
   for (std::size_t i = 0; i < drawn.size(); ++i) worst = std::max(worst, std::abs(drawn[i] - reference[i]));
   CHECK(worst <= 1);  // as in tests/registration/wein_gl_test.cpp
 
@@ -108,7 +104,7 @@ TEST_CASE("the example of the library renders the picture that insonate-render r
       run(scene.folder, INSONATE_EXAMPLE_PROGRAM, scene.in("ct.nrrd") + " " + scene.in("example.png"));
   INFO(outcome.errors);
   REQUIRE(outcome.code == 0);
-  const std::vector<double> grey = grey_levels(scene.in("example.png"));
+  const std::vector<std::uint8_t> grey = grey_levels(scene.in("example.png"));
   CHECK(grey == grey_levels(scene.in("image.png")));
   CHECK(*std::max_element(grey.begin(), grey.end()) > 100);
 
@@ -129,7 +125,7 @@ TEST_CASE("a sweep becomes a volume in which the patient's parts lie where they 
             "--ct " + scene.in("ct.nrrd") + " --probe phased --depth 60 --voxel 1.5 " + how + " " + volume);
     INFO(how << ": " << outcome.errors);
     REQUIRE(outcome.code == 0);
-    const ShortVolume swept(volume);
+    const Volume<std::int16_t> swept = NrrdFile(volume).volume<std::int16_t>();
     for (const double z : {-3.0, 3.0}) {
       const double cyst = around(swept, {12, 32, z}), tissue = around(swept, {-12, 40, z});
       CHECK(tissue > 60);
@@ -172,7 +168,7 @@ TEST_CASE("a sweep's volume holds echoes of echoes, and clutter") {
                                     scene.in("sweep.toml") + " --depth 60 --voxel 2 --sweep 20 --planes 5 " + volume);
     INFO(outcome.errors);
     REQUIRE(outcome.code == 0);
-    return ShortVolume(volume).voxels;
+    return NrrdFile(volume).volume<std::int16_t>().voxels;
   };
   const std::vector<std::int16_t> without = swept("clutter = false\n");
   for (const std::string what :

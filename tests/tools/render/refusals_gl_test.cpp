@@ -6,7 +6,7 @@
 
 #include "tests/tools/render/render_scene.h"
 
-using namespace outsider;
+using namespace insonate::test;
 namespace fs = std::filesystem;
 
 TEST_CASE("what insonate-render cannot do it says in a sentence, and leaves nothing behind") {
@@ -87,7 +87,7 @@ TEST_CASE("a pose is 16 numbers as text, or JSON of them or of their rows, and w
     return scene.render("--settings " + scene.in("small.toml") + " --pose " + scene.in(name));
   };
   REQUIRE(outcome_of("pose.txt", "1 0 0 0\n0 1 0 9\n0 0 1 0\n0 0 0 1\n").code == 0);
-  const std::vector<double> picture = grey_levels(scene.in("image.png"));
+  const std::vector<std::uint8_t> picture = grey_levels(scene.in("image.png"));
   for (const char* same : {"[1,0,0,0, 0,1,0,9, 0,0,1,0, 0,0,0,1]", "[[1,0,0,0],[0,1,0,9],[0,0,1,0],[0,0,0,1]]",
                            "{\"patient_from_probe\": [[1,0,0,0],[0,1,0,9],[0,0,1,0],[0,0,0,1]]}",
                            "[[[1,0,0,0],[0,1,0,9],[0,0,1,0],[0,0,0,1]]]"}) {

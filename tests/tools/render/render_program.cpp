@@ -7,7 +7,7 @@
 #include <fstream>
 #include <iterator>
 
-namespace outsider {
+namespace insonate::test {
 
 TestFolder::TestFolder()
     : path(std::filesystem::temp_directory_path() / ("insonate_render_test_" + std::to_string(getpid()))) {
@@ -34,4 +34,4 @@ std::string bytes_of(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-}  // namespace outsider
+}  // namespace insonate::test

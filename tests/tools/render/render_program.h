@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-namespace outsider {
+namespace insonate::test {
 
 /// A folder for the files of one test, removed at its end.
 struct TestFolder {
@@ -22,4 +22,4 @@ Outcome run(const TestFolder& folder, const std::string& program, const std::str
 
 std::string bytes_of(const std::filesystem::path& file);
 
-}  // namespace outsider
+}  // namespace insonate::test

@@ -5,14 +5,15 @@
 
 #include <algorithm>
 
+#include "sim/volume/ct_reader.h"
 #include "tests/tools/render/synthetic_ct.h"
 
-namespace outsider {
+namespace insonate::test {
 
 namespace fs = std::filesystem;
 
 Scene::Scene() {
-  SyntheticCt().write_nrrd(folder.path / "ct.nrrd");
+  write_ct(folder.path / "ct.nrrd", synthetic_ct());
   folder.file("pose.txt", "1 0 0 0  0 1 0 9  0 0 1 0  0 0 0 1");
   folder.file("small.toml", "samples = 64\nimage_width = 60\nimage_height = 50\ngain_db = 1\n");
 }
@@ -28,7 +29,7 @@ std::vector<std::string> Scene::names() const {
   return all;
 }
 
-std::vector<double> grey_levels(const fs::path& file) {
+std::vector<std::uint8_t> grey_levels(const fs::path& file) {
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
   REQUIRE(png_image_begin_read_from_file(&png, file.c_str()));
@@ -38,4 +39,4 @@ std::vector<double> grey_levels(const fs::path& file) {
   return {bytes.begin(), bytes.end()};
 }
 
-}  // namespace outsider
+}  // namespace insonate::test

@@ -5,7 +5,7 @@
 
 #include "tests/tools/render/render_program.h"
 
-namespace outsider {
+namespace insonate::test {
 
 /// A folder with the synthetic CT (ct.nrrd), a pose over it (pose.txt) and settings that draw fast (small.toml).
 struct Scene {
@@ -19,6 +19,6 @@ struct Scene {
 };
 
 /// Returns the grey levels of a PNG, row by row.
-std::vector<double> grey_levels(const std::filesystem::path& file);
+std::vector<std::uint8_t> grey_levels(const std::filesystem::path& file);
 
-}  // namespace outsider
+}  // namespace insonate::test

@@ -6,50 +6,61 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "tests/tools/render/short_volume.h"
+#include "sim/core/pose.h"
+#include "sim/model/settings_file.h"
+#include "tests/tools/render/nrrd_file.h"
+#include "tests/tools/render/render_program.h"
 
-namespace outsider {
-
-/// Values of a two-dimensional NRRD file, first axis fastest.
-struct Plane {
-  int width = 0, height = 0;
-  std::vector<double> values;
-
-  double& at(int x, int y) { return values[std::size_t(y) * std::size_t(width) + std::size_t(x)]; }
-  double at(int x, int y) const { return values[std::size_t(y) * std::size_t(width) + std::size_t(x)]; }
-};
+namespace insonate::test {
 
 /// The output of `insonate-render --stages`.
 struct StageFolder {
-  nlohmann::json description;
-  std::map<std::string, Plane> planes;  ///< by the file's name in the folder, without .nrrd
-  ShortVolume hounsfield;               ///< the insonated volume
-  std::vector<std::uint8_t> labels;     ///< of the volume's voxels; empty if there are none
-  ShortVolume echogenicity;             ///< of the same voxels, hundredths of a dB; model S only
+  nlohmann::json description;             ///< scanlines.json
+  std::map<std::string, NrrdFile> files;  ///< by their names in the folder, without .nrrd
+
+  /// Throws std::runtime_error if a file cannot be read.
+  explicit StageFolder(const std::filesystem::path& folder);
+
+  Image<float> image(const std::string& name) const { return files.at(name).image(); }
+  /// Returns `image`. Throws std::runtime_error if it holds anything but grey levels.
+  Image<std::uint8_t> grey() const;
 };
 
-/// Throws std::runtime_error if the folder is not such output.
-StageFolder read_stage_folder(const std::filesystem::path& folder);
-
-/// Allowed differences between the computed stages and a recomputation from these files in double precision.
-struct Tolerances {
-  double intensity;   ///< of I, relative, down to I = 1e-6
-  double reflection;  ///< of R, relative to the frame's brightest
-  double speckle;     ///< of S, whose mean is about 1
-  double fused;       ///< of U, relative to the brightest of the surrounding pixels
+/// What a picture of either model shows, as its user gives it.
+struct View {
+  std::string probe;
+  double depth_mm;
+  Pose patient_from_probe;
+  std::string settings;  ///< TOML
 };
 
-/// Recomputes each stage from the files of the stages before it, and the first ones from the volume. Returns the worst
-/// disagreement by stage, as a multiple of the tolerance.
-std::map<std::string, double> misfits(const StageFolder& stages, const Tolerances& tolerances);
+/// Runs insonate-render on a patient, and returns what it wrote.
+/// @param folder   gets settings.toml, among others
+/// @param patient  --ct or --case and a path
+StageFolder export_stages(const TestFolder& folder, const std::string& patient, const View& view,
+                          const std::string& more);
 
-/// Does the same for model W.
-/// @param single  whether it was computed in single precision, with gradients rounded to 1/16 HU
-std::map<std::string, double> wein_misfits(const StageFolder& stages, bool single);
+/// A file of the folder, and the quantity or unit that it has to name.
+struct FileForm {
+  std::string name;     ///< without .nrrd
+  std::string content;  ///< words of the header's `content`
+};
 
-/// Does the same for the volume's echogenicity, from its Hounsfield units and labels.
-std::map<std::string, double> volume_misfits(const StageFolder& stages);
+/// Checks that the folder has these images and volumes and no other, and that each image has the axes, the size and the
+/// unit that docs/stages.md states.
+void check_forms(const StageFolder& stages, const std::vector<FileForm>& among_lines,
+                 const std::vector<FileForm>& as_picture, const std::vector<std::string>& volumes);
 
-}  // namespace outsider
+/// Checks the part of scanlines.json that both models share, and that pixel_line and pixel_sample are what it says.
+void check_geometry(const StageFolder& stages, const View& view, int samples, int width, int height, const Grid& grid);
+
+/// Checks that scanlines.json has these settings and no other.
+void check_settings(const StageFolder& stages, const std::vector<std::pair<std::string, SettingValue>>& settings);
+
+/// Checks that a file holds values that were computed in double precision as `expected` was.
+void check_rounded(const StageFolder& stages, const std::string& name, const Image<double>& expected);
+
+}  // namespace insonate::test

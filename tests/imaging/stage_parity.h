@@ -1,0 +1,79 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "tests/imaging/parity.h"
+
+/// Compares the stages of model S with the reference. The tolerances are those of the model's accuracy contract.
+namespace insonate::test {
+
+/// The reference's stages of one picture, exact and over fields that are known in single precision.
+struct ReferenceStages {
+  Stages<double> exact;
+  std::array<Stages<double>, 4> uncertain;
+};
+
+inline ReferenceStages reference_stages(const MediumField& field, const TissueTable& table, const Probe& probe,
+                                        double depth_mm, const Settings& settings, const Pose& pose) {
+  ReferenceStages stages;
+  stages.exact = simulate_reference(field, table, probe, depth_mm, settings, pose);
+  for (std::uint32_t i = 0; i < stages.uncertain.size(); ++i)
+    stages.uncertain[i] =
+        simulate_reference(as_single_precision_knows_it(field, i), table, probe, depth_mm, settings, pose);
+  return stages;
+}
+
+/// Checks every stage but T, which follows from I.
+inline void check_stages(const ReferenceStages& reference, const Stages<float>& got, const Settings& settings) {
+  const Stages<double>& expected = reference.exact;
+  const auto tolerance = [&](Image<double> Stages<double>::*stage, auto&& basic) {
+    return tolerated(expected, reference.uncertain, stage, basic);
+  };
+
+  // I: 1e-4 relative, or 1e-10 below 1e-6.
+  const Worst intensity =
+      worst(expected.intensity, got.intensity,
+            tolerance(&Stages<double>::intensity, [](double value) { return 1e-4 * std::max(value, 1e-6); }));
+  INFO(told("I", intensity));
+  CHECK(intensity.error < 1);
+
+  const double brightest = *std::max_element(expected.reflection.pixels.begin(), expected.reflection.pixels.end());
+  REQUIRE(brightest > 0);
+  const auto of_brightest = [&](double) { return 1e-4 * brightest; };
+  const Worst reflection =
+      worst(expected.reflection, got.reflection, tolerance(&Stages<double>::reflection, of_brightest));
+  INFO(told("R", reflection));
+  CHECK(reflection.error < 1);
+  const Worst beam =
+      worst(expected.reflection_beam, got.reflection_beam, tolerance(&Stages<double>::reflection_beam, of_brightest));
+  INFO(told("R behind the beam", beam));
+  CHECK(beam.error < 1);
+
+  const Worst repeated = worst(expected.repeated, got.repeated, tolerance(&Stages<double>::repeated, of_brightest));
+  INFO(told("V", repeated));
+  CHECK(repeated.error < 1);
+
+  // The envelope of speckle passes through 0, so its error is measured relative to its mean of 1.
+  const Worst speckle =
+      worst(expected.speckle, got.speckle, tolerance(&Stages<double>::speckle, [](double) { return 1e-3; }));
+  INFO(told("S", speckle));
+  CHECK(speckle.error < 1);
+
+  std::array<Image<double>, 4> uncertain_fused;
+  for (std::size_t i = 0; i < uncertain_fused.size(); ++i) uncertain_fused[i] = reference.uncertain[i].fused;
+  check_fused(expected.fused, uncertain_fused, got.fused, settings.dynamic_range_db);
+
+  REQUIRE(expected.inside.pixels == got.inside.pixels);
+  std::vector<int> expected_grey, got_grey;
+  for (std::size_t i = 0; i < expected.grey.pixels.size(); ++i)
+    if (expected.inside.pixels[i]) {
+      expected_grey.push_back(expected.grey.pixels[i]);
+      got_grey.push_back(got.grey.pixels[i]);
+    }
+  check_grey(expected_grey, got_grey);
+}
+
+}  // namespace insonate::test
