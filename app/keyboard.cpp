@@ -65,20 +65,21 @@ bool Keyboard::move_probe(Session& session, double elapsed_s) const {
   const bool fine = held(GLFW_KEY_LEFT_SHIFT) || held(GLFW_KEY_RIGHT_SHIFT);
   const double amount = elapsed_s * (fine ? kFine : 1.0);
   const auto axis = [&](int plus, int minus) { return double(held(plus)) - double(held(minus)); };
-  // The marker's side is on the left of the screen: the left arrow goes there.
+  // As the guide speaks and as the 3D view shows the patient from the front: their left is on the right, their head up.
   const glm::dvec2 slide =
-      glm::dvec2(axis(GLFW_KEY_LEFT, GLFW_KEY_RIGHT), axis(GLFW_KEY_UP, GLFW_KEY_DOWN)) * kSlide_mm_s * amount;
+      glm::dvec2(axis(GLFW_KEY_RIGHT, GLFW_KEY_LEFT), axis(GLFW_KEY_UP, GLFW_KEY_DOWN)) * kSlide_mm_s * amount;
   const double press_mm = axis(GLFW_KEY_PAGE_DOWN, GLFW_KEY_PAGE_UP) * kPress_mm_s * amount;
   const double tilt = axis(GLFW_KEY_D, GLFW_KEY_A), rotation = axis(GLFW_KEY_E, GLFW_KEY_Q),
                rock = axis(GLFW_KEY_W, GLFW_KEY_S);
   const bool slides = slide.x != 0 || slide.y != 0, turns = tilt != 0 || rotation != 0 || rock != 0;
   if (!slides && !turns && press_mm == 0) return false;
-  session.move_probe([&](const ProbeHand& hand, const Pose& from) {
-    Pose pose = from;
-    if (slides) pose = hand.slide(pose, slide);
-    if (press_mm != 0) pose = hand.press(pose, press_mm);
+  session.move_probe([&](const ProbeHand& hand, const Pose& from) -> std::optional<Pose> {
+    std::optional<Pose> pose = from;
+    if (slides) pose = hand.slide(*pose, ProbeHand::slide_in_patient(*pose, slide));
+    if (pose && press_mm != 0) pose = hand.press(*pose, press_mm);
     const double turn = kTurn_deg_s * amount;
-    return turns ? ProbeHand::turn(pose, tilt * turn, rotation * turn, rock * turn) : pose;
+    if (pose && turns) pose = ProbeHand::turn(*pose, tilt * turn, rotation * turn, rock * turn);
+    return pose;
   });
   return true;
 }

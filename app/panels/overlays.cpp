@@ -67,13 +67,14 @@ bool draw_problem(const Theme& theme, const Rect& screen, const std::string& pro
 }
 
 HelpAnswer draw_key_help(const Theme& theme, const Rect& screen, std::map<std::string, Rect>& places) {
-  static constexpr std::array<std::array<const char*, 2>, 24> kKeys{{
-      {"Arrow keys", "slide over the skin"},
-      {"Page up, Page down", "lift, press"},
-      {"Q, E", "rotate about the beam"},
-      {"W, S", "rock in the plane"},
-      {"A, D", "tilt out of the plane"},
-      {"Shift", "with any of these: fine"},
+  static constexpr std::array<std::array<const char*, 2>, 25> kKeys{{
+      {"Up, Down", "slide the probe towards the head, the feet"},
+      {"Left, Right", "slide it to the patient's right, left, as seen from the front"},
+      {"Page Down, Page Up", "press it into the skin, lift it"},
+      {"E, Q", "rotate it clockwise, counter-clockwise, seen from its handle"},
+      {"W, S", "rock the beam away from the marker, towards the marker"},
+      {"A, D", "tilt the beam to the head, the feet, if the marker is on the right"},
+      {"Shift", "with any of these: slowly"},
       {"Drag on the ultrasound", "slide; with Shift rock and tilt; the wheel rotates"},
       {"Drag the probe", "put it elsewhere on the patient"},
       {"Drag the patient", "turn; right button shifts, the wheel zooms"},
@@ -86,7 +87,7 @@ HelpAnswer draw_key_help(const Theme& theme, const Rect& screen, std::map<std::s
       {"Enter", "answer; go on to the next step of an exam"},
       {"Escape", "give up what is being placed or typed"},
       {"+, \u2212 and [, ]", "gain; depth"},
-      {"G", "practice: the way to the view, or to the next one"},
+      {"G", "practice: show the way to the view, or to the next"},
       {"M", "mark this moment, in the recording too"},
       {"R", "record the run; end the recording"},
       {"Ctrl O", "open a case, CT, scenario or recorded scan"},

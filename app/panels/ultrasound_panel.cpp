@@ -92,13 +92,13 @@ Rect draw_annotations(const Theme& theme, const Rect& panel, const std::string& 
   return line;
 }
 
-void draw_banner(const Theme& theme, const Rect& panel, std::optional<double> lost_for_s, const std::string& frozen) {
+void draw_banner(const Theme& theme, const Rect& panel, std::optional<double> lost_for_s, const std::string& state) {
   std::string text;
   ImU32 background = colour::kAmber, ink = colour::kBackground;
   if (lost_for_s) {
     text = formatted("No usable pose for %.1f s: the picture stands still", *lost_for_s);
-  } else if (!frozen.empty()) {
-    text = frozen;
+  } else if (!state.empty()) {
+    text = state;
     background = colour::kAccentDark;
     ink = colour::kText;
   } else {
@@ -108,7 +108,8 @@ void draw_banner(const Theme& theme, const Rect& panel, std::optional<double> lo
   draw_chip(theme, {panel.x + (panel.w - width) / 2, panel.y + panel.h - theme.px(46)}, background, ink, text);
 }
 
-std::string frozen_text(const Session& session, const PictureTools& tools) {
+std::string state_text(const Session& session, const PictureTools& tools) {
+  if (session.stopped_at_edge()) return "No skin to follow there: the CT ends";
   if (!session.machine().frozen) return "";
   return PictureTools::ready(session) ? "Frozen:  " + tool_prompt(tools) : "Frozen";
 }
@@ -157,7 +158,7 @@ void take_mouse(const Theme& theme, const Rect& area, Session& session, const Pl
   constexpr double kDegPerPixel = 0.15;
   // The tissue follows the pointer, so the probe moves the other way. The picture is mirrored, so that is +x here.
   const glm::dvec2 mm = glm::dvec2(io.MouseDelta.x, io.MouseDelta.y) / plane.pixels_per_mm();
-  session.move_probe([&](const ProbeHand& hand, const Pose& pose) {
+  session.move_probe([&](const ProbeHand& hand, const Pose& pose) -> std::optional<Pose> {
     if (io.KeyShift) return ProbeHand::turn(pose, kDegPerPixel * io.MouseDelta.y, 0, kDegPerPixel * io.MouseDelta.x);
     return hand.slide(pose, mm);
   });
@@ -189,7 +190,7 @@ void UltrasoundPanel::draw(const Theme& theme, const Rect& panel, Session& sessi
   const Rect below = draw_annotations(theme, panel, session.loaded_case().subject.name, session.machine());
   if (!session.event_markers_s().empty()) draw_text(below, theme.small_text, colour::kAccent, mark_text(session));
   draw_mark(theme, panel, session);
-  draw_banner(theme, panel, session.lost_for_s(), frozen_text(session, tools));
+  draw_banner(theme, panel, session.lost_for_s(), state_text(session, tools));
   draw_tracker_problem(theme, panel, session);
 }
 

@@ -14,9 +14,15 @@ namespace {
 
 /// Where the search for the skin starts, behind the face along the beam, and how far it goes.
 constexpr double kBehind_mm = 45;
-constexpr double kReach_mm = 120;
+constexpr double kSearch_mm = 120;
+/// The CT cuts the body half a slice beyond the outermost slices' middles. What a line meets within this many slices of
+/// these is taken for the cut.
+constexpr double kCut_slices = 0.5;
 /// The skin's slope is taken over about the width of a face, so that ribs and the navel do not tilt the probe.
 constexpr double kSlope_mm = 18;
+constexpr double kSteepest_mm = 2 * kSlope_mm;
+/// A beam that runs closer along the skin than this faces none.
+constexpr double kLeastFacing = 0.5;
 
 /// Returns the smallest rotation that takes one unit vector to another.
 glm::dmat3 turn_between(const glm::dvec3& a, const glm::dvec3& b) {
@@ -32,21 +38,34 @@ glm::dmat3 orthonormal(const glm::dmat3& m) {
 
 }  // namespace
 
+/// Returns where a line meets the skin. Empty if it starts inside the body, because something else blocks it then, or
+/// meets a cut face of the CT.
+std::optional<glm::dvec3> ProbeHand::skin(const glm::dvec3& from, const glm::dvec3& direction,
+                                          double farthest_mm) const {
+  const auto distance = distance_to_skin(*ct_, from, direction, farthest_mm);
+  if (!distance || *distance <= 0) return std::nullopt;
+  const glm::dvec3 met = from + *distance * direction;
+  const Grid& grid = ct_->grid;
+  int along = 2;  // the axis of the grid that runs from feet to head
+  for (int axis = 0; axis < 3; ++axis)
+    if (std::abs(grid.direction[axis].z) > std::abs(grid.direction[along].z)) along = axis;
+  const double slice = grid.index_from_patient(met)[along];
+  if (slice < kCut_slices || slice > grid.size[along] - 1 - kCut_slices) return std::nullopt;
+  return met;
+}
+
 std::optional<ProbeHand::Contact> ProbeHand::contact(const Pose& pose) const {
   const glm::dvec3 beam = pose.rotation[1];
-  const auto skin = [&](double x, double z) -> std::optional<glm::dvec3> {
-    const glm::dvec3 from = pose.point({x, -kBehind_mm, z});
-    const auto distance = distance_to_skin(*ct_, from, beam, kReach_mm);
-    // A start inside the body means that something else blocks the line.
-    if (!distance || *distance <= 0) return std::nullopt;
-    return from + *distance * beam;
-  };
-  const auto middle = skin(0, 0);
+  const auto below = [&](double x, double z) { return skin(pose.point({x, -kBehind_mm, z}), beam, kSearch_mm); };
+  const auto middle = below(0, 0);
   if (!middle) return std::nullopt;
-  const auto left = skin(-kSlope_mm, 0), right = skin(kSlope_mm, 0);
-  const auto near = skin(0, -kSlope_mm), far = skin(0, kSlope_mm);
-  const glm::dvec3 along_x = right.value_or(*middle) - left.value_or(*middle);
-  const glm::dvec3 along_z = far.value_or(*middle) - near.value_or(*middle);
+  // Beyond an outline the line goes on to other skin, which is no part of this slope.
+  const auto beside = [&](double x, double z) {
+    const auto met = below(x, z);
+    return met && std::abs(glm::dot(*met - *middle, beam)) < kSteepest_mm ? *met : *middle;
+  };
+  const glm::dvec3 along_x = beside(kSlope_mm, 0) - beside(-kSlope_mm, 0);
+  const glm::dvec3 along_z = beside(0, kSlope_mm) - beside(0, -kSlope_mm);
   const glm::dvec3 normal = glm::cross(along_z, along_x);
   const double length = glm::length(normal);
   return Contact{*middle, length > 1e-6 ? normal / length : beam};
@@ -59,11 +78,20 @@ Pose ProbeHand::settle(const Pose& from, const Contact& old, const Contact& reac
   return to;
 }
 
-Pose ProbeHand::slide(const Pose& from, const glm::dvec2& mm) const {
+std::optional<Pose> ProbeHand::slide(const Pose& from, const glm::dvec2& mm) const {
   const Pose aside{from.rotation, from.point({mm.x, 0, mm.y})};
   const auto old = contact(from), reached = contact(aside);
   if (!old) return aside;
-  return reached ? settle(from, *old, *reached) : from;
+  if (!reached) return std::nullopt;
+  return settle(from, *old, *reached);
+}
+
+glm::dvec2 ProbeHand::slide_in_patient(const Pose& from, const glm::dvec2& mm) {
+  constexpr double kLeastShare = 0.3;  // of the length along the face: 73 degrees between face and direction
+  const glm::dvec3 asked(mm.x, 0, mm.y);
+  const glm::dvec2 along(glm::dot(asked, from.rotation[0]), glm::dot(asked, from.rotation[2]));
+  const double length = glm::length(along), wanted = glm::length(asked);
+  return length > kLeastShare * wanted ? along * (wanted / length) : glm::dvec2(0);
 }
 
 Pose ProbeHand::press(const Pose& from, double mm) const {
@@ -81,15 +109,22 @@ Pose ProbeHand::turn(const Pose& from, double tilt_deg, double rotation_deg, dou
   return {orthonormal(from.rotation * glm::mat3_cast(glm::angleAxis(angle, angles / angle))), from.translation};
 }
 
-Pose ProbeHand::put(const Pose& from, const glm::dvec3& eye, const glm::dvec3& direction) const {
+std::optional<Pose> ProbeHand::put(const Pose& from, const glm::dvec3& eye, const glm::dvec3& direction) const {
   constexpr double kSight_mm = 3000;
-  const auto distance = distance_to_skin(*ct_, eye, direction, kSight_mm);
+  const auto met = skin(eye, direction, kSight_mm);
+  if (!met) return std::nullopt;
+  // The slope is measured along the line of sight, because the beam may run along the skin, and then along the normal.
+  Pose looking{turn_between(from.rotation[1], direction) * from.rotation, *met};
+  auto reached = contact(looking);
+  if (!reached) return std::nullopt;
+  looking = {turn_between(looking.rotation[1], reached->inward) * looking.rotation, reached->point};
+  if (const auto closer = contact(looking)) reached = closer;
   const auto old = contact(from);
-  if (!distance || !old) return from;
-  // The slope is measured along the line of sight, because the beam may run along the skin.
-  const Pose looking{turn_between(from.rotation[1], direction) * from.rotation, eye + *distance * direction};
-  const auto reached = contact(looking);
-  return reached ? settle(from, *old, *reached) : from;
+  if (!old || glm::dot(old->inward, from.rotation[1]) < kLeastFacing) return Pose{looking.rotation, reached->point};
+  Pose to = settle(from, *old, *reached);
+  const double pressed = glm::dot(to.translation - reached->point, to.rotation[1]);
+  to.translation += std::max(-pressed, 0.0) * to.rotation[1];  // a lifted probe is put onto the skin
+  return to;
 }
 
 }  // namespace insonate

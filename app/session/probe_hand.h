@@ -10,15 +10,20 @@
 
 namespace insonate {
 
-/// Computes how mouse and keyboard move a probe: over the skin, as a hand would. Poses are patient_from_probe. Keeps a
-/// reference to the CT.
+/// Computes how mouse and keyboard move a probe: over the skin, as a hand would. Poses are patient_from_probe. The
+/// faces at which the CT cuts the body towards head and feet are not skin. Keeps a reference to the CT.
 class ProbeHand {
 public:
   explicit ProbeHand(const Volume<std::int16_t>& ct) : ct_(&ct) {}
 
   /// Returns the pose moved along the skin by `mm` laterally (x, towards the marker) and in elevation (y). The face
-  /// keeps its distance and its angle to the skin. Returns `from` if there is no skin there.
-  Pose slide(const Pose& from, const glm::dvec2& mm) const;
+  /// keeps its distance and its angle to the skin. Empty if there is no skin there, as at the end of the CT.
+  std::optional<Pose> slide(const Pose& from, const glm::dvec2& mm) const;
+
+  /// Returns the slide (for slide(), mm) that moves the face by `mm` to the patient's left and towards the head, as
+  /// seen from the front. It runs along the face and keeps the length, unless the face stands nearly across the
+  /// direction: then it is zero.
+  static glm::dvec2 slide_in_patient(const Pose& from, const glm::dvec2& mm);
 
   /// Returns the pose moved along the beam by `mm`, positive into the body. It never gets deeper than kDeepest_mm or
   /// farther away than kFarthest_mm.
@@ -28,9 +33,10 @@ public:
   /// plane), rotation (about the beam) and rock (about z, in the plane).
   static Pose turn(const Pose& from, double tilt_deg, double rotation_deg, double rock_deg);
 
-  /// Returns the pose where a line of sight (patient, mm; unit direction) meets the skin, oriented to the skin there.
-  /// Returns `from` if it meets no skin.
-  Pose put(const Pose& from, const glm::dvec3& eye, const glm::dvec3& direction) const;
+  /// Returns the pose where a line of sight (patient, mm; unit direction) meets the skin, oriented to the skin there as
+  /// it was before. A lifted probe is put down, and one that faced no skin is put straight onto it. Empty if the line
+  /// meets no skin.
+  std::optional<Pose> put(const Pose& from, const glm::dvec3& eye, const glm::dvec3& direction) const;
 
   static constexpr double kDeepest_mm = 15;
   static constexpr double kFarthest_mm = 30;
@@ -40,6 +46,7 @@ private:
     glm::dvec3 point;   ///< on the skin, where the beam enters
     glm::dvec3 inward;  ///< the skin's normal there, unit
   };
+  std::optional<glm::dvec3> skin(const glm::dvec3& from, const glm::dvec3& direction, double farthest_mm) const;
   std::optional<Contact> contact(const Pose& pose) const;
   /// Returns the pose that relates to the skin at `reached` as `from` relates to it at `old`.
   static Pose settle(const Pose& from, const Contact& old, const Contact& reached);

@@ -160,11 +160,14 @@ void Session::give_back_probe() {
   begin_attempt();
 }
 
-void Session::move_probe(const std::function<Pose(const ProbeHand&, const Pose&)>& motion) {
+void Session::move_probe(const std::function<std::optional<Pose>(const ProbeHand&, const Pose&)>& motion) {
+  constexpr double kEdgeShown_s = 1.5;
   take_probe();
   if (holder_ != Holder::learner) return;
   const Pose from = learner_->pose();
-  push(*learner_, from, motion(hand_, from));
+  const std::optional<Pose> to = motion(hand_, from);
+  edge_shown_until_s_ = to ? 0 : now_s_ + kEdgeShown_s;
+  if (to) push(*learner_, from, *to);
 }
 
 void Session::act(const Action& action) {

@@ -105,8 +105,11 @@ public:
   void take_probe();
   /// Gives the probe back to the tracker. Throws what opening the tracker throws; the learner keeps the probe then.
   void give_back_probe();
-  /// Moves the probe by a motion from its current pose. Takes the probe first if needed.
-  void move_probe(const std::function<Pose(const ProbeHand&, const Pose&)>& motion);
+  /// Moves the probe by a motion from its current pose. Takes the probe first if needed. A motion that returns no pose
+  /// leaves the probe where it is, and stopped_at_edge() reports it.
+  void move_probe(const std::function<std::optional<Pose>(const ProbeHand&, const Pose&)>& motion);
+  /// Returns whether a motion has just found no skin to go on, as at the end of the CT.
+  bool stopped_at_edge() const { return now_s_ < edge_shown_until_s_; }
 
   /// Returns the pose of the picture. With a live tracker this is the pose at the time of the picture. With other
   /// sources it is the newest usable pose, so that a replay looks the same every time. While the picture is frozen it
@@ -190,7 +193,7 @@ private:
   PoseHistory history_;  ///< of a live tracker
   std::optional<PoseEstimate> pose_estimate_;
   double now_s_ = 0;
-  double last_usable_s_ = 0, attempt_began_s_ = 0;
+  double last_usable_s_ = 0, attempt_began_s_ = 0, edge_shown_until_s_ = 0;
   ButtonPresses presses_;
   std::uint32_t pressed_ = 0;  ///< for the next sample
   bool go_on_ = false;

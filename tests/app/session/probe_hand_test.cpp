@@ -53,7 +53,7 @@ TEST_CASE("sliding round a body keeps the face's pressure and its angle to the s
   const auto ct = cylinder();
   const ProbeHand hand(ct);
   Pose pose = in_front(3);
-  for (int i = 0; i < 150; ++i) pose = hand.slide(pose, {1, 0});
+  for (int i = 0; i < 150; ++i) pose = hand.slide(pose, {1, 0}).value();
   // 150 mm along a circle of 97 mm radius, where the face's middle runs, is 89 degrees: from the front to the side.
   CHECK(glm::degrees(std::atan2(-pose.translation.x, -pose.translation.y)) == Approx(89).margin(4));
   // The staircase of 2 mm voxels, and the slope taken over 36 mm of it.
@@ -66,7 +66,7 @@ TEST_CASE("a probe that was tilted stays tilted while it slides") {
   const ProbeHand hand(ct);
   Pose pose = ProbeHand::turn(in_front(0), 20, 0, 0);
   REQUIRE(off_normal_deg(pose) == Approx(20).margin(0.5));
-  for (int i = 0; i < 60; ++i) pose = hand.slide(pose, {1, 0});
+  for (int i = 0; i < 60; ++i) pose = hand.slide(pose, {1, 0}).value();
   CHECK(off_normal_deg(pose) == Approx(20).margin(6));
 }
 
@@ -95,17 +95,58 @@ TEST_CASE("a probe put by a line of sight lands on the skin there, or stays when
   const auto ct = cylinder();
   const ProbeHand hand(ct);
   const Pose from = in_front(2);
-  const Pose put = hand.put(from, {-500, 0, 20}, {1, 0, 0});
+  const Pose put = hand.put(from, {-500, 0, 20}, {1, 0, 0}).value();
   CHECK(put.translation.x == Approx(-kRadius_mm + 2).margin(1.0));
   CHECK(put.translation.z == Approx(20).margin(1.0));
   CHECK(off_normal_deg(put) < 6);
-  CHECK(hand.put(from, {-500, 0, 900}, {1, 0, 0}) == from);
+  CHECK_FALSE(hand.put(from, {-500, 0, 900}, {1, 0, 0}));
 }
 
-TEST_CASE("a probe cannot be slid off the end of a body") {
+TEST_CASE("a probe slides to the end of the CT and no farther") {
   const auto ct = cylinder();
   const ProbeHand hand(ct);
   Pose pose = in_front(0);
-  for (int i = 0; i < 200; ++i) pose = hand.slide(pose, {0, 1});
-  CHECK(std::abs(pose.translation.z) <= 62);
+  int moved = 0;
+  while (const auto next = hand.slide(pose, {0, 1})) {
+    pose = *next;
+    REQUIRE(++moved < 100);
+  }
+  CHECK(pose.translation.z == Approx(-60).margin(3));  // of 60 mm to the middle of the last slice
+  CHECK(off_normal_deg(pose) < 6);
+}
+
+TEST_CASE("the faces at which the CT cuts the body are no skin, and a probe that faces none can be put back") {
+  const auto ct = cylinder();
+  const ProbeHand hand(ct);
+  const Pose from = in_front(2);
+  CHECK_FALSE(hand.put(from, {0, 0, 500}, {0, 0, -1}));
+  CHECK_FALSE(hand.put(from, {20, 30, -500}, {0, 0, 1}));
+  // Behind the cut, where its beam meets the cut alone.
+  const Pose lost{glm::dmat3(glm::dvec3(-1, 0, 0), glm::dvec3(0, 0, -1), glm::dvec3(0, -1, 0)), {0, 0, 70}};
+  const Pose back = hand.put(lost, {0, -500, 10}, {0, 1, 0}).value();
+  CHECK(pressed_mm(back) == Approx(0).margin(1.0));
+  CHECK(back.translation.z == Approx(10).margin(1.0));
+  CHECK(off_normal_deg(back) < 6);
+  // Far round the side as the line of sight has it, and beside the cut: still onto the skin.
+  const Pose side = hand.put(from, {80, -500, 55}, {0, 1, 0}).value();
+  CHECK(pressed_mm(side) == Approx(2).margin(1.5));
+  CHECK(off_normal_deg(side) < 15);
+  CHECK(pressed_mm(hand.put(in_front(-20), {0, -500, 10}, {0, 1, 0}).value()) == Approx(0).margin(1.0));
+}
+
+TEST_CASE("a slide in the patient's directions is the same however the probe is rotated") {
+  for (const double rotation_deg : {0.0, 30.0, 90.0, 200.0}) {
+    CAPTURE(rotation_deg);
+    const Pose pose = ProbeHand::turn(in_front(0), 0, rotation_deg, 0);
+    const auto moved = [&](const glm::dvec2& mm) {
+      const glm::dvec2 slide = ProbeHand::slide_in_patient(pose, mm);
+      return pose.rotation * glm::dvec3(slide.x, 0, slide.y);
+    };
+    CHECK(glm::distance(moved({5, 0}), glm::dvec3(5, 0, 0)) < 1e-9);  // to the patient's left
+    CHECK(glm::distance(moved({0, 5}), glm::dvec3(0, 0, 5)) < 1e-9);  // to the head
+  }
+  // A beam that runs from the feet to the head: nothing along the face leads to the head.
+  const Pose up{glm::dmat3(glm::dvec3(-1, 0, 0), glm::dvec3(0, 0, 1), glm::dvec3(0, 1, 0)), {0, 0, -60}};
+  CHECK(ProbeHand::slide_in_patient(up, {0, 5}) == glm::dvec2(0));
+  CHECK(glm::length(ProbeHand::slide_in_patient(up, {5, 0})) == Approx(5));
 }

@@ -571,3 +571,21 @@ TEST_CASE("an exam under strict rules that nobody has begun is not handed in") {
   session.start_over();  // nothing was seen of it yet
   CHECK(session.activity() == Activity::exam);
 }
+
+TEST_CASE("a motion that finds no skin leaves the probe where it is, and is reported for a moment") {
+  Session session(tiny_loaded_case(), replay_of(searching_scan()));
+  session.advance(0);
+  session.take_probe();
+  session.advance(0.1);
+  const Pose before = *session.shown_pose();
+  session.move_probe([](const ProbeHand&, const Pose&) { return std::nullopt; });
+  session.advance(0.5);
+  CHECK(session.stopped_at_edge());
+  CHECK(*session.shown_pose() == before);
+  session.move_probe([](const ProbeHand&, const Pose& from) { return Pose{from.rotation, from.point({7, 0, 0})}; });
+  session.advance(0.6);
+  CHECK_FALSE(session.stopped_at_edge());
+  session.move_probe([](const ProbeHand&, const Pose&) { return std::nullopt; });
+  session.advance(5);
+  CHECK_FALSE(session.stopped_at_edge());
+}
