@@ -281,8 +281,8 @@ std::string exit_status(bool has_commands) {
         ".TP\n1\nThe work is done, and a check or a comparison found something to look at. Only commands that check or "
         "compare return it.\n";
   return roff +
-         ".TP\n2\nThe input cannot be used, or the output cannot be written. One sentence on standard error says which "
-         "and what to do.\n.TP\n3\nAnother failure, such as too little memory or no OpenGL 4.5.\n";
+         ".TP\n2\nThe input cannot be used, or the output cannot be written. One sentence on standard error names "
+         "the input and what to do.\n.TP\n3\nAnother failure, such as too little memory or no OpenGL 4.5.\n";
 }
 
 constexpr const char* kEnvironment =
