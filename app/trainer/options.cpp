@@ -13,14 +13,15 @@ namespace insonate {
 namespace {
 
 CLI::Option* add_case(CLI::App& mode, Options& options) {
-  return mode.add_option("--case", options.case_folder, "The patient: a case folder")->type_name("FOLDER");
+  return mode.add_option("--case", options.case_folder, "Take the patient of this case folder")->type_name("FOLDER");
 }
 
 /// Returns the two options.
 std::array<CLI::Option*, 2> add_patient(CLI::App& mode, Options& options) {
-  CLI::Option* const folder = add_case(mode, options);
+  CLI::Option* const folder = add_case(mode, options)->default_str("the scenario's patient");
   CLI::Option* const ct =
-      mode.add_option("--ct", options.ct, "The patient: a CT (NIfTI, NRRD, MetaImage, or a folder of DICOM files)")
+      mode.add_option("--ct", options.ct,
+                      "Take this CT as the patient: NIfTI, NRRD, MetaImage, or a folder of DICOM files")
           ->type_name("PATH")
           ->excludes(folder);
   return {folder, ct};
@@ -28,29 +29,30 @@ std::array<CLI::Option*, 2> add_patient(CLI::App& mode, Options& options) {
 
 CLI::Option* add_scenario(CLI::App& mode, Options& options) {
   CLI::Option* const scenario =
-      mode.add_option("--scenario", options.scenario,
-                      "The exam: a scenario file (TOML); without it and without a patient the bundled one")
-          ->type_name("FILE");
-  mode.add_option("--seed", options.seed, "Draws the scenario's variant, if it has variants");
+      mode.add_option("--scenario", options.scenario, "Take the steps of this scenario, a TOML file")
+          ->type_name("FILE")
+          ->default_str("the bundled exam if no patient is named");
+  mode.add_option("--seed", options.seed, "Draw the scenario's variant with this seed, if it has variants")
+      ->default_str("0");
   return scenario;
 }
 
 CLI::Option* add_tracker(CLI::App& mode, Options& options) {
-  std::string trackers = "Where the probe's poses come from:";
+  std::string trackers = "Take the probe's poses from this tracker:";
   for (const TrackerKind& kind : tracker_kinds())
     trackers += "\n  " + std::string(kind.form) + "\n      " + std::string(kind.summary);
   CLI::Option* const tracker = mode.add_option("--tracker", options.tracker, trackers)->type_name("URI");
   mode.add_option("--calibration", options.calibration,
-                  "The tracker's calibration, if it reports where its sensor is; `insonate setup` makes one")
+                  "Use this calibration of the tracker, if it reports where its sensor is; `insonate setup` makes one")
       ->type_name("FILE")
       ->needs(tracker);
-  mode.add_option("--calibration-days", options.calibration_days, "Warn of a calibration that is older")
+  mode.add_option("--calibration-days", options.calibration_days, "Warn of a calibration that is older than this, days")
       ->check(CLI::Range(0.0, 3650.0))
       ->capture_default_str();
-  mode.add_option("--predict", options.predict_ms,
-                  "Predict a live tracker's pose at the time of the picture, at most so far ahead; 0: not at all")
+  mode.add_option(
+          "--predict", options.predict_ms,
+          "Predict a live tracker's pose at the time of the picture, at most this far ahead, ms; 0 turns it off")
       ->check(CLI::Range(0.0, 1e3 * PoseHistory::kPredictS))
-      ->type_name("MS")
       ->capture_default_str();
   mode.add_option("--latency", options.latency,
                   "Write a histogram of the time from a live tracker's reports to the picture (CSV)")
@@ -60,10 +62,11 @@ CLI::Option* add_tracker(CLI::App& mode, Options& options) {
 
 /// The files that the set-up uses.
 void add_setup_files(CLI::App& mode, Options& options) {
-  mode.add_option("--landmarks", options.landmarks,
-                  "For the set-up: the patient's landmarks, if it is not the built-in patient")
-      ->type_name("FILE");
-  mode.add_option("--drawing", options.drawing, "For the set-up: the probe's drawing; its face need not be touched")
+  mode.add_option("--landmarks", options.landmarks, "Use these landmarks of the patient in the set-up")
+      ->type_name("FILE")
+      ->default_str("those of the built-in patient");
+  mode.add_option("--drawing", options.drawing,
+                  "Use this drawing of the probe in the set-up, so that its face need not be touched")
       ->type_name("FILE");
 }
 
@@ -82,7 +85,9 @@ CLI::Option* add_results(CLI::App& mode, Options& options, const std::string& he
 }
 
 CLI::Option* add_learner(CLI::App& mode, Options& options) {
-  return mode.add_option("--learner", options.learner, "Whose attempt it is: an id, not a name")->type_name("ID");
+  return mode.add_option("--learner", options.learner, "Store attempts under this learner's id, which is not a name")
+      ->type_name("ID")
+      ->capture_default_str();
 }
 
 CLI::Option* add_headless(CLI::App& mode, Options& options) {
@@ -90,35 +95,39 @@ CLI::Option* add_headless(CLI::App& mode, Options& options) {
 }
 
 void add_screen(CLI::App& mode, Options& options) {
-  mode.add_option("--seconds", options.seconds, "End after so many seconds of the session")
+  mode.add_option("--seconds", options.seconds, "End the session after this many seconds")
       ->check(CLI::Range(0.0, 86400.0));
-  mode.add_option("--out", options.out, "Folder for report, score and pictures")
+  mode.add_option("--out", options.out, "Write the report, the score and the pictures to this folder")
       ->type_name("FOLDER")
       ->capture_default_str();
   mode.add_option("--screenshot", options.screenshot, "Write the whole screen as a PNG when the session ends")
       ->type_name("FILE");
-  mode.add_option("--width", options.width, "Of the screen, pixels")
+  mode.add_option("--width", options.width, "Set the width of the screen, pixels")
       ->check(CLI::Range(1024, 7680))
       ->capture_default_str();
-  mode.add_option("--height", options.height, "Of the screen, pixels")
+  mode.add_option("--height", options.height, "Set the height of the screen, pixels")
       ->check(CLI::Range(700, 4320))
       ->capture_default_str();
-  mode.add_option("--quality", options.quality,
-                  "The ultrasound's cost: fast has fewer samples and pixels, exact has more samples;\n"
-                  "scores do not depend on it")
+  mode.add_option(
+          "--quality", options.quality,
+          "Set the cost of the ultrasound: fast has fewer samples and pixels, exact has more samples; scores do "
+          "not depend on it")
       ->check(CLI::IsMember(quality_names()))
       ->capture_default_str();
-  mode.add_option("--state-file", options.state_file, "Keep a JSON file that describes what the trainer is doing")
+  mode.add_option("--state-file", options.state_file,
+                  "Write what the trainer is doing to this JSON file, and keep it up to date")
       ->type_name("FILE");
 }
 
 /// Options that no exam has, because it is drawn as the program draws it, and nobody else may see the probe's pose.
 void add_openings(CLI::App& mode, Options& options) {
-  mode.add_option("--shader-dir", options.shader_folder, "Take shaders from this folder and reload what changes")
+  mode.add_option("--shader-dir", options.shader_folder,
+                  "Load the shaders from this folder, and reload those that change")
       ->type_name("FOLDER");
-  mode.add_option("--igtl-server", options.igtl_server,
-                  "Send picture, pose and events to OpenIGTLink clients such as 3D Slicer;\n"
-                  "only to this computer's own unless an address is given, as in 0.0.0.0:18944")
+  mode.add_option(
+          "--igtl-server", options.igtl_server,
+          "Send the picture, the pose and events to OpenIGTLink clients such as 3D Slicer; only clients on this "
+          "computer can connect unless an address is given, as in 0.0.0.0:18944")
       ->type_name("[ADDRESS:]PORT");
 }
 
@@ -128,9 +137,8 @@ void add_practice(CLI::App& mode, Options& options) {
   add_tracker(mode, options);
   add_setup_files(mode, options);
   add_recording(mode, options);
-  add_results(mode, options,
-              "Store attempts in this database, those of replayed logs too; without it a window stores those that\n"
-              "are not of logs in ~/.local/share/insonate/results.db");
+  add_results(mode, options, "Store attempts in this database, those of replayed logs too")
+      ->default_str("in a window ~/.local/share/insonate/results.db, without those of replayed logs");
   add_learner(mode, options);
   add_headless(mode, options);
   add_screen(mode, options);
@@ -143,27 +151,28 @@ void add_exam(CLI::App& mode, Options& options) {
   add_tracker(mode, options)->required();
   add_setup_files(mode, options);
   add_recording(mode, options);
-  CLI::Option* const results = add_results(mode, options,
-                                           "The database that the attempt is stored in; without it a window uses\n"
-                                           "~/.local/share/insonate/results.db");
+  CLI::Option* const results = add_results(mode, options, "Store the attempt in this database")
+                                   ->default_str("in a window ~/.local/share/insonate/results.db");
   add_learner(mode, options)->required();
+  mode.get_option("--seed")->default_str("random");
   add_headless(mode, options)->needs(results);
   add_screen(mode, options);
 }
 
 void add_replay(CLI::App& mode, Options& options) {
-  CLI::Option* const log = mode.add_option("LOG", options.replay.log, "The recorded scan")->type_name("");
+  CLI::Option* const log = mode.add_option("LOG", options.replay.log, "Replay this recorded scan")->type_name("FILE");
   CLI::Option* const results =
-      add_results(mode, options, "The database that --attempt and --beside-attempt are in; it is only read");
+      add_results(mode, options, "Read the attempts of --attempt and --beside-attempt from this database");
   CLI::Option* const attempt =
-      mode.add_option("--attempt", options.replay.attempt, "In place of LOG: an attempt of the database of --results")
+      mode.add_option("--attempt", options.replay.attempt, "Replay this attempt of the database, instead of a LOG")
           ->check(CLI::PositiveNumber)
           ->type_name("NUMBER")
           ->excludes(log)
           ->needs(results);
   CLI::Option* const beside =
-      mode.add_option("--beside", options.replay.beside_log, "An expert's scan, to compare with")->type_name("LOG");
-  mode.add_option("--beside-attempt", options.replay.beside_attempt, "In place of --beside: an attempt of the database")
+      mode.add_option("--beside", options.replay.beside_log, "Show this expert's scan beside the run")
+          ->type_name("FILE");
+  mode.add_option("--beside-attempt", options.replay.beside_attempt, "Show this attempt of the database beside the run")
       ->check(CLI::PositiveNumber)
       ->type_name("NUMBER")
       ->excludes(beside)
@@ -219,20 +228,18 @@ constexpr ModeText kModes[] = {
      "  insonate practice --ct abdomen.nii.gz             free practice on a CT of your own\n"
      "  insonate practice --scenario exam.toml --tracker replay:scan.igs.mha\n"},
     {Mode::exam, "exam",
-     "Take an exam that counts: once per learner and without help. What is left unfinished is\n"
-     "scored as it is. The variant is drawn at random unless --seed names one",
+     "Take an exam that counts: once per learner and without help. An exam that is left unfinished is scored as it is",
      add_exam,
      "Examples:\n"
      "  insonate exam --learner L-07 --tracker auto:\n"
      "  insonate exam --scenario exam.toml --learner L-07 --tracker hydra: --results lab.db\n"},
     {Mode::replay, "replay",
-     "Look at a run again, at any time of it and at any speed, beside an expert's.\n"
-     "Nothing is scored or stored",
+     "Look at a run again, at any time and any speed, alone or beside an expert's. Nothing is scored or stored",
      add_replay,
      "Examples:\n"
      "  insonate replay scan.igs.mha --beside expert.igs.mha --scenario exam.toml\n"
      "  insonate replay --results lab.db --attempt 12 --beside-attempt 3\n"},
-    {Mode::author, "author", "Make reference views of a case: hold the probe, freeze, name, store", add_author,
+    {Mode::author, "author", "Make reference views of a case: hold the probe, freeze, name and store", add_author,
      "Examples:\n"
      "  insonate author --case patient7 --tracker hydra: --calibration lab.toml\n"},
     {Mode::setup, "setup", "Calibrate a tracker step by step, then practise; key F2 does the same", add_setup,
@@ -244,8 +251,8 @@ constexpr ModeText kModes[] = {
 
 void declare(CLI::App& arguments, Options& options) {
   arguments.description(
-      "A bedside ultrasound trainer: live ultrasound from CT, guided and scored.\n"
-      "Without arguments it replays the bundled scan of the built-in patient and scores it.");
+      "Practise bedside ultrasound: live images from CT, guided and scored.\n"
+      "Without arguments, replay the bundled scan of the built-in patient and score it.");
   add_practice(arguments, options);
   arguments.footer(std::string("Each mode lists its options: insonate exam --help\n") + kExitCodes);
   for (const ModeText& text : kModes) {

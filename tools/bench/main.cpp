@@ -12,65 +12,78 @@ namespace {
 CLI::App* add_measurement(CLI::App& arguments, const char* name, const char* what, bench::Request& request,
                           std::string& csv) {
   CLI::App* command = arguments.add_subcommand(name, what);
-  command->add_option("--case,--ct", request.subjects,
-                      "Case folder, CT file or DICOM folder, once or more (the built-in abdomen)");
-  command->add_flag("--built-in", request.built_in, "The built-in abdomen as well");
-  command->add_option("--view", request.view, "A view by name (the first of each case)");
-  command->add_option("--frames", request.frames, "Frames measured per setting")
+  command
+      ->add_option("--case,--ct", request.subjects,
+                   "Measure this patient: a case folder, CT file or DICOM folder; may be repeated")
+      ->type_name("PATH")
+      ->default_str("the built-in patient");
+  command->add_flag("--built-in", request.built_in, "Measure the built-in patient as well");
+  command->add_option("--view", request.view, "Measure this view of each case")
+      ->type_name("NAME")
+      ->default_str("the first view");
+  command->add_option("--frames", request.frames, "Measure this many frames per setting")
       ->check(CLI::Range(3, 100000))
       ->capture_default_str();
   command
       ->add_option("--configuration", request.configurations,
-                   "LINES,SAMPLES,WIDTH,HEIGHT, once or more, instead of the usual ones")
+                   "Measure this configuration instead of the usual ones; may be repeated")
       ->delimiter(',')
-      ->type_name("INT,INT,INT,INT");
-  command->add_option("--csv", csv, "Write the table as CSV too");
+      ->type_name("LINES,SAMPLES,WIDTH,HEIGHT");
+  command->add_option("--csv", csv, "Write the table to this file too (CSV)")->type_name("FILE");
   return command;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App arguments("Measures what the simulator costs on this machine, and how exact it is.", "insonate-bench");
+  CLI::App arguments("Measure the simulator's run time and accuracy on this machine.", "insonate-bench");
   arguments.require_subcommand(1);
   bench::Request request;
   std::string csv, svg, old_file, new_file;
-  const CLI::App* frames =
-      add_measurement(arguments, "frames", "What a frame costs, and each stage's share of it", request, csv);
+  const CLI::App* frames = add_measurement(
+      arguments, "frames", "Measure the run time of a frame, and the share of each stage", request, csv);
   const CLI::App* paper = add_measurement(
-      arguments, "paper", "The traversal against that of Kutter, Shams and Navab (2009), a render pass a sample",
+      arguments, "paper",
+      "Compare the traversal with that of Kutter, Shams and Navab (2009), which takes one render pass per sample",
       request, csv);
   const CLI::App* division = add_measurement(arguments, "work-division",
-                                             "The traversal by an invocation a line and by a work group a line, of so "
-                                             "many LINES and SAMPLES",
+                                             "Compare the traversal by one invocation per line with that by one work "
+                                             "group per line, for the LINES and SAMPLES of each configuration",
                                              request, csv);
   const CLI::App* batch = add_measurement(
-      arguments, "batch", "Model W for registration: many images in one call against one a call", request, csv);
-  const CLI::App* sweep =
-      add_measurement(arguments, "sweep", "What a 3D probe's volume of WIDTH x HEIGHT x WIDTH costs", request, csv);
-  CLI::App* denormal = arguments.add_subcommand("denormal", "What numbers near nothing cost, beside ordinary ones");
-  denormal->add_option("--frames", request.frames, "Frames measured")
+      arguments, "batch", "Compare many images of model W in one call, as for registration, with one image per call",
+      request, csv);
+  const CLI::App* sweep = add_measurement(
+      arguments, "sweep", "Measure the run time of a 3D probe's volume of WIDTH x HEIGHT x WIDTH voxels", request, csv);
+  CLI::App* denormal =
+      arguments.add_subcommand("denormal", "Compare the run time with numbers near 0 with that of ordinary numbers");
+  denormal->add_option("--frames", request.frames, "Measure this many frames")
       ->check(CLI::Range(3, 100000))
       ->capture_default_str();
-  denormal->add_option("--csv", csv, "Write the table as CSV too");
-  CLI::App* filter = arguments.add_subcommand("filter", "How exact the device's own filter of volumes is");
-  filter->add_option("--csv", csv, "Write the table as CSV too");
-  CLI::App* front = add_measurement(arguments, "front", "Run time against error over the settings", request, csv);
-  front->add_option("--svg", svg, "Draw the plot too");
+  denormal->add_option("--csv", csv, "Write the table to this file too (CSV)")->type_name("FILE");
+  CLI::App* filter = arguments.add_subcommand("filter", "Measure the accuracy of the device's own filter of volumes");
+  filter->add_option("--csv", csv, "Write the table to this file too (CSV)")->type_name("FILE");
+  CLI::App* front = add_measurement(arguments, "front", "Measure run time and error over the settings", request, csv);
+  front->add_option("--svg", svg, "Draw the plot to this file too (SVG)")->type_name("FILE");
   std::vector<std::string> exams;
-  CLI::App* scoring = arguments.add_subcommand("scoring", "What a sample costs the runner of an exam, on one core");
-  scoring->add_option("exams", exams, "Scenarios and recorded scans in turn (the bundled exam and its good scan)");
-  scoring->add_option("--csv", csv, "Write the table as CSV too");
-  CLI::App* compare = arguments.add_subcommand("compare", "How the run times of two CSVs differ, setting by setting");
-  compare->add_option("old", old_file, "CSV of the earlier run")->required();
-  compare->add_option("new", new_file, "CSV of the later run, of the same command")->required();
+  CLI::App* scoring =
+      arguments.add_subcommand("scoring", "Measure the run time of scoring one sample of an exam, on one core");
+  scoring->add_option("FILE", exams, "Score these files, each scenario followed by its recorded scan")
+      ->type_name("FILE")
+      ->default_str("the bundled exam and its good scan");
+  scoring->add_option("--csv", csv, "Write the table to this file too (CSV)")->type_name("FILE");
+  CLI::App* compare = arguments.add_subcommand("compare", "Compare the run times of two CSV files, setting by setting");
+  compare->add_option("OLD", old_file, "Read this CSV file of the earlier run")->type_name("FILE")->required();
+  compare->add_option("NEW", new_file, "Read this CSV file of the later run of the same command")
+      ->type_name("FILE")
+      ->required();
 
   return run_program(arguments, argc, argv, [&] {
     if (compare->parsed()) {
       bench::compare_runs(old_file, new_file);
       return 0;
     }
-    if (exams.size() % 2 != 0) throw CLI::ValidationError("exams", "a scenario comes without a recorded scan");
+    if (exams.size() % 2 != 0) throw CLI::ValidationError("FILE", "a scenario comes without a recorded scan");
     if (exams.empty())
       exams = {assets_folder() / "scenarios" / "ruq_hepatorenal.toml", assets_folder() / "logs" / "ruq_good.igs.mha"};
     bench::Table table;

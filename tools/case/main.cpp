@@ -1,12 +1,14 @@
 // insonate-case: describes a case, a CT file or a DICOM folder; makes cases from patients and phantoms.
 
+#include "scenarios/cases/structures.h"
+#include "sim/probe/probe.h"
 #include "tools/case/commands.h"
 #include "tools/cli/program.h"
 
 using namespace insonate;
 
 int main(int argc, char** argv) {
-  CLI::App program("Looks into cases, CT files and DICOM folders, and makes cases from them and from recipes.",
+  CLI::App program("Report what cases, CT files and DICOM folders contain, and make cases from them and from recipes.",
                    "insonate-case");
   program.footer(
       "Examples:\n"
@@ -19,55 +21,90 @@ int main(int argc, char** argv) {
 
   std::string path;
   bool json = false;
-  CLI::App* inspect_command = program.add_subcommand("inspect", "Say what a case, CT file or DICOM folder holds");
-  inspect_command->add_option("path", path, "A case folder, a .nii, .nrrd, .mha or like file, or a DICOM folder")
+  CLI::App* inspect_command = program.add_subcommand("inspect", "Report what a case, CT file or DICOM folder contains");
+  inspect_command->add_option("PATH", path, "Read this case folder, CT file (.nii, .nrrd, .mha) or DICOM folder")
+      ->type_name("PATH")
       ->required();
-  inspect_command->add_flag("--json", json, "For programs: one JSON object");
+  inspect_command->add_flag("--json", json, "Print one JSON object, for programs");
 
   std::string recipe, folder;
   std::vector<std::string> settings;
   CLI::App* phantom = program.add_subcommand("phantom", "Make a phantom from a recipe and write it as a case");
-  phantom->add_option("--recipe", recipe, "A recipe file; the built-in abdomen without");
-  phantom->add_option("--set", settings, "An option of the recipe, KEY=VALUE; may be repeated")
+  phantom->add_option("--recipe", recipe, "Follow this recipe, a TOML file")
+      ->type_name("FILE")
+      ->default_str("the recipe of the built-in abdomen");
+  phantom->add_option("--set", settings, "Set an option of the recipe; may be repeated")
+      ->type_name("KEY=VALUE")
       ->take_all()
       ->expected(1);
-  phantom->add_option("folder", folder, "The case folder to write")->required();
+  phantom->add_option("FOLDER", folder, "Write the case to this folder")->type_name("FOLDER")->required();
 
   ImportRequest request;
   std::string imported_folder;
-  CLI::App* import = program.add_subcommand("import", "Make a case of a CT and what TotalSegmentator found in it");
-  import->add_option("--ct", request.ct, "A .nii, .nrrd, .mha or like file, or a DICOM folder")->required();
-  import
-      ->add_option("--labels", request.labels,
-                   "TotalSegmentator's output: one file of many labels, or a folder of a mask for each structure")
+  CLI::App* import =
+      program.add_subcommand("import", "Make a case from a CT and the structures that TotalSegmentator found in it");
+  import->add_option("--ct", request.ct, "Read this CT file (.nii, .nrrd, .mha) or DICOM folder")
+      ->type_name("PATH")
       ->required();
-  import->add_option("--out", imported_folder, "The case folder to write")->required();
+  import
+      ->add_option(
+          "--labels", request.labels,
+          "Read this output of TotalSegmentator: one file with all labels, or a folder with one mask per structure")
+      ->type_name("PATH")
+      ->required();
+  import->add_option("--out", imported_folder, "Write the case to this folder")->type_name("FOLDER")->required();
   bool replace = false;
-  import->add_flag("--replace", replace, "Write over a case of that folder, with the views that were added to it");
-  import->add_option("--name", request.name, "What people see it called (the case folder's name)");
-  import->add_option("--label-table", request.label_table,
-                     "The standard table that a file of many labels follows, instead of its header's: total "
-                     "(TotalSegmentator 2) or total_v1");
+  import->add_flag("--replace", replace, "Replace the case in that folder, including the views that were added to it");
+  import->add_option("--name", request.name, "Show the patient under this name")
+      ->type_name("NAME")
+      ->default_str("the case folder's name");
+  import
+      ->add_option(
+          "--label-table", request.label_table,
+          "Read the labels of a file by this standard table: total for TotalSegmentator 2, total_v1 for version 1")
+      ->type_name(one_of(standard_label_tables()))
+      ->default_str("the table in the file's header");
 
   ReferenceView view;
   view.probe = "curvilinear";
   std::string case_folder, pose_file;
   RecordedMoment moment;
-  CLI::App* add_view = program.add_subcommand("add-view", "Add a plane that an expert has held to a case");
-  add_view->add_option("folder", case_folder, "The case folder")->required();
-  add_view->add_option("--name", view.name, "Lower-case letters, digits and underscores")->required();
-  add_view->add_option("--title", view.title, "What people see it called (the name)");
-  add_view->add_option("--targets", view.targets, "Labels whose area in the picture counts: a,b")->delimiter(',');
-  add_view->add_option("--landmarks", view.landmarks, "Landmarks that have to be in the picture: x,y")->delimiter(',');
-  add_view->add_option("--probe", view.probe, "curvilinear, linear or phased")->capture_default_str();
-  add_view->add_option("--depth", view.depth_mm, "Imaging depth, mm")
+  CLI::App* add_view =
+      program.add_subcommand("add-view", "Add a plane that an expert has held to a case, as a reference view");
+  add_view->add_option("FOLDER", case_folder, "Add the view to this case")->type_name("FOLDER")->required();
+  add_view->add_option("--name", view.name, "Name the view: lower-case letters, digits and underscores")
+      ->type_name("NAME")
+      ->required();
+  add_view->add_option("--title", view.title, "Show the view under this title")
+      ->type_name("TITLE")
+      ->default_str("the name");
+  add_view->add_option("--targets", view.targets, "Count the area of these labels in the picture")
+      ->type_name("LABEL,...")
+      ->delimiter(',');
+  add_view->add_option("--landmarks", view.landmarks, "Require these landmarks in the picture")
+      ->type_name("LANDMARK,...")
+      ->delimiter(',');
+  add_view->add_option("--probe", view.probe, "Use this probe")
+      ->type_name(one_of(probe_names()))
+      ->capture_default_str();
+  add_view->add_option("--depth", view.depth_mm, "Set the imaging depth, mm")
       ->check(CLI::Range(20.0, 300.0))
       ->capture_default_str();
-  CLI::Option* pose = add_view->add_option("--pose", pose_file, "A file with 16 numbers, row-major patient_from_probe");
-  CLI::Option* log = add_view->add_option("--log", moment.log, "Instead: a recorded log (.igs.mha or like file)");
-  CLI::Option* at = add_view->add_option("--at", moment.at_s, "When in the log, in seconds after its first frame");
-  CLI::Option* transform = add_view->add_option("--transform", moment.transform,
-                                                "The probe's transform in the log, as in replay:FILE?transform=");
+  CLI::Option* pose =
+      add_view
+          ->add_option("--pose", pose_file, "Read the pose from this file: 16 numbers, row-major patient_from_probe")
+          ->type_name("FILE");
+  CLI::Option* log =
+      add_view
+          ->add_option("--log", moment.log, "Take the pose from this recorded log (.igs.mha, .seq.mha or .seq.nrrd)")
+          ->type_name("FILE");
+  CLI::Option* at =
+      add_view->add_option("--at", moment.at_s, "Take the pose at this time of the log, seconds after its first frame");
+  CLI::Option* transform = add_view
+                               ->add_option("--transform", moment.transform,
+                                            "Take the pose from this transform of the log, such as ProbeToTracker")
+                               ->type_name("NAME")
+                               ->default_str("the one from Probe to Patient, Reference or Tracker");
   log->excludes(pose)->needs(at);
   at->needs(log);
   transform->needs(log);

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <exception>
 #include <functional>
+#include <memory>
 #include <new>
 #include <string>
 #include <vector>
@@ -20,9 +21,21 @@
 
 namespace insonate {
 
-/// Adds `--version`, and the options that packaging uses: `--man-page` and `--bash-completion`, which help does not
-/// show.
+/// Returns a value name for an option that checks its words itself. Help, the man page and completion list the words,
+/// as they do for CLI::IsMember.
+inline std::string one_of(const std::vector<std::string>& words) {
+  return "NAME:" + CLI::detail::generate_set(words);
+}
+
+inline void format_help_of(CLI::App& app) {
+  app.formatter(std::make_shared<HelpFormatter>());
+  for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) format_help_of(*command);
+}
+
+/// Sets the form of `--help`. Adds `--version`, and the options that packaging uses: `--man-page` and
+/// `--bash-completion`, which help does not show.
 inline void add_self_descriptions(CLI::App& program, const std::function<std::vector<AboutLine>()>& more_about) {
+  format_help_of(program);
   program.set_version_flag(
       "--version",
       [&program, more_about] {

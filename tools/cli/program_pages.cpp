@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <set>
 #include <sstream>
 #include <string_view>
 #include <vector>
@@ -47,13 +48,14 @@ bool takes_value(const CLI::Option& option) {
   return option.get_items_expected_max() > 0;
 }
 
-/// Returns the type of the value, "FOLDER" or "TEXT", without its conditions, which CLI11 appends after a colon. The
-/// type "[ADDRESS:]PORT" contains a colon of its own.
+/// Returns the name of the value, "FOLDER" or "NUMBER", without its conditions, which CLI11 appends after a colon. The
+/// name "[ADDRESS:]PORT" contains a colon of its own.
 std::string kind_of_value(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   std::size_t colon = type.find(':');
   while (colon + 1 < type.size() && type[colon + 1] == ']') colon = type.find(':', colon + 1);
-  return type.substr(0, colon);
+  const std::string kind = type.substr(0, colon);
+  return kind == "INT" || kind == "UINT" || kind == "FLOAT" ? "NUMBER" : kind;
 }
 
 /// Returns the permitted values of the option if they are a few words.
@@ -70,6 +72,26 @@ std::string range_of(const CLI::Option& option) {
   const std::size_t open = type.find(" in ["), middle = type.find(" - "), close = type.find(']');
   if (open == std::string::npos || middle == std::string::npos || close == std::string::npos) return "";
   return type.substr(open + 5, middle - open - 5) + " to " + type.substr(middle + 3, close - middle - 3);
+}
+
+std::string names_of(const std::set<CLI::Option*>& options) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : options) names.push_back(option->get_name());
+  std::sort(names.begin(), names.end());  // the set is in the order of addresses
+  return joined(names, ", ");
+}
+
+/// Returns the conditions of a value, such as "(10 to 400; default: 70)", or an empty text if there are none.
+std::string conditions_of(const CLI::Option& option) {
+  std::vector<std::string> conditions;
+  if (option.get_positional() && !choices_of(option).empty()) conditions.push_back(joined(choices_of(option), ", "));
+  if (const std::string range = range_of(option); !range.empty()) conditions.push_back(range);
+  if (option.get_required() && !option.get_positional()) conditions.push_back("required");
+  if (!option.get_required() && !option.get_default_str().empty())
+    conditions.push_back("default: " + option.get_default_str());
+  if (!option.get_needs().empty()) conditions.push_back("needs " + names_of(option.get_needs()));
+  if (!option.get_excludes().empty()) conditions.push_back("not with " + names_of(option.get_excludes()));
+  return conditions.empty() ? "" : "(" + joined(conditions, "; ") + ")";
 }
 
 /// Returns the full name of a command, such as "insonate-case inspect".
@@ -162,7 +184,7 @@ std::string value_of(const CLI::Option& option) {
   return text;
 }
 
-/// Returns a list entry for an option or an argument, with its limits and default after its description.
+/// Returns a list entry for an option or an argument, with its conditions after its description.
 std::string entry(const CLI::Option& option) {
   std::string roff = ".TP\n";
   if (option.get_positional()) {
@@ -173,10 +195,8 @@ std::string entry(const CLI::Option& option) {
     roff += joined(names, ", ") + value_of(option);
   }
   roff += "\n" + prose(option.get_description());
-  std::vector<std::string> more;
-  if (const std::string range = range_of(option); !range.empty()) more.push_back(range);
-  if (!option.get_default_str().empty()) more.push_back("default: " + option.get_default_str());
-  return more.empty() ? roff : roff + as_is("(" + joined(more, "; ") + ")") + "\n";
+  const std::string conditions = conditions_of(option);
+  return conditions.empty() ? roff : roff + as_is(conditions) + "\n";
 }
 
 std::string entries(const CLI::App& app) {
@@ -261,8 +281,8 @@ std::string exit_status(bool has_commands) {
         ".TP\n1\nThe work is done, and a check or a comparison found something to look at. Only commands that check or "
         "compare return it.\n";
   return roff +
-         ".TP\n2\nThe input cannot be used, or the output cannot be written. One sentence on standard error says which "
-         "and what to do.\n.TP\n3\nAnother failure, such as too little memory or no OpenGL 4.5.\n";
+         ".TP\n2\nThe input cannot be used, or the output cannot be written. One sentence on standard error names "
+         "the input and what to do.\n.TP\n3\nAnother failure, such as too little memory or no OpenGL 4.5.\n";
 }
 
 constexpr const char* kEnvironment =
@@ -281,41 +301,46 @@ std::string see_also(const std::string& program) {
 
 // The completion.
 
-/// Returns the completion of an option's value, as a statement of the script. A plain `return` lets bash complete
-/// files.
+/// Returns the completion of a value as a statement of the script.
 std::string completion_of_value(const CLI::Option& option) {
   const std::vector<std::string> choices = choices_of(option);
   if (!choices.empty()) return "words='" + joined(choices, " ") + "'";
   const std::string kind = kind_of_value(option);
-  if (kind == "FOLDER") return "compopt +o default -o dirnames; return";
-  for (const char* file : {"FILE", "PATH", "LOG", "TEXT", "URI"})
-    if (kind == file) return "return";
-  return "compopt +o default; return";
+  if (kind == "FOLDER") return "compopt -o dirnames";
+  // A URI such as replay:FILE ends in a file. bash completes the part after the colon.
+  if (kind == "FILE" || kind == "PATH" || kind == "URI") return "compopt -o default";
+  return ":";
 }
 
-void add_completion(const CLI::App& app, std::string& script) {
+/// Adds the branches of the script that complete the command and its own commands, and collects the names that the
+/// script looks for in a line, each behind its command.
+void add_completion(const CLI::App& app, std::string& branches, std::vector<std::string>& options,
+                    std::vector<std::string>& commands) {
   const std::string name = full_name(app);
   const std::string path = name.find(' ') == std::string::npos ? "" : name.substr(name.find(' '));
-  std::vector<std::string> all, commands;
-  script += "    '" + path + "')\n      case $previous in\n";
+  std::vector<std::string> all, own_commands;
   for (const CLI::Option* option : options_of(app)) {
-    const std::vector<std::string> names = names_of(*option);
-    all.insert(all.end(), names.begin(), names.end());
-    if (takes_value(*option))
-      script += "        " + joined(names, " | ") + ") " + completion_of_value(*option) + " ;;\n";
+    std::vector<std::string> before_value;
+    for (const std::string& written : names_of(*option)) {
+      all.push_back(written);
+      if (!takes_value(*option)) continue;
+      options.push_back("'" + path + " " + written + "'");
+      before_value.push_back("'" + path + " " + written + "='");
+    }
+    if (!before_value.empty())
+      branches += "    " + joined(before_value, " | ") + ") " + completion_of_value(*option) + " ;;\n";
   }
-  for (const CLI::App* command : commands_of(app)) commands.push_back(command->get_name());
-  script += "        *) [[ $current == -* ]] && words='" + joined(all, " ") + "' || words='" + joined(commands, " ") +
-            "' ;;\n      esac ;;\n";
-  for (const CLI::App* command : commands_of(app)) add_completion(*command, script);
-}
-
-void add_paths(const CLI::App& app, std::vector<std::string>& paths) {
   for (const CLI::App* command : commands_of(app)) {
-    const std::string name = full_name(*command);
-    paths.push_back("'" + name.substr(name.find(' ')) + "'");
-    add_paths(*command, paths);
+    own_commands.push_back(command->get_name());
+    commands.push_back("'" + path + " " + command->get_name() + "'");
   }
+  branches += "    '" + path + " -'*) words='" + joined(all, " ") + "' ;;\n";
+  const std::vector<const CLI::Option*> positionals = positionals_of(app);
+  if (!own_commands.empty())
+    branches += "    '" + path + " ') words='" + joined(own_commands, " ") + "' ;;\n";
+  else if (!positionals.empty())
+    branches += "    '" + path + " ') " + completion_of_value(*positionals.front()) + " ;;\n";
+  for (const CLI::App* command : commands_of(app)) add_completion(*command, branches, options, commands);
 }
 
 }  // namespace
@@ -336,28 +361,96 @@ std::string man_page(const CLI::App& program) {
 
 std::string bash_completion(const CLI::App& program) {
   const std::string& name = program.get_name();
-  std::string function = "_" + name;
+  std::string function = "_" + name, branches;
   std::replace(function.begin(), function.end(), '-', '_');
-  std::vector<std::string> paths;
-  add_paths(program, paths);
+  std::vector<std::string> options, commands;
+  add_completion(program, branches, options, commands);
   std::string script = "# The completion of " + name + " for bash, made from its list of options.\n" + function +
-                       "() {\n"
-                       "  local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]}\n"
-                       "  local command='' words='' word\n"
-                       "  # bash makes words of their own of the = in --name=value.\n"
-                       "  if [[ $current == '=' ]]; then\n"
-                       "    current=''\n"
-                       "  elif [[ $previous == '=' ]]; then\n"
-                       "    previous=${COMP_WORDS[COMP_CWORD - 2]}\n"
-                       "  fi\n";
-  if (!paths.empty())
-    script += "  for word in \"${COMP_WORDS[@]:1:COMP_CWORD-1}\"; do\n    case \"$command $word\" in\n      " +
-              joined(paths, " | ") + ") command+=\" $word\" ;;\n    esac\n  done\n";
-  script += "  COMPREPLY=()\n  case $command in\n";
-  add_completion(program, script);
-  return script +
-         "  esac\n  mapfile -t COMPREPLY < <(compgen -W \"$words\" -- \"$current\")\n}\ncomplete -o default -F " +
-         function + " " + name;
+                       R"(() {
+  local current=${COMP_WORDS[COMP_CWORD]} command='' option='' last='' joint='' words='' word
+  # `option` is the option whose value comes next. bash makes separate words of = and :, as in --name=value and
+  # hydra:SERIAL. What follows them belongs to the same value, that of `last`.
+  for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
+    if [[ $word == [=:] ]]; then
+      option=$last joint=$word
+      continue
+    fi
+    [[ $joint == : && $word == -* ]] && option=''
+    joint=''
+    if [[ $option ]]; then
+      last=$option option=''
+      continue
+    fi
+    last=''
+    case "$command $word" in
+      )" + joined(options, " | ") +
+                       ") option=$word last=$word ;;\n";
+  if (!commands.empty()) script += "      " + joined(commands, " | ") + ") command+=\" $word\" ;;\n";
+  return script + R"(    esac
+  done
+  if [[ $current == [=:] ]]; then
+    option=$last current=''
+  elif [[ $joint == : && ${COMP_LINE:0:COMP_POINT} != *:"$current" ]]; then
+    option=''  # a space follows the colon
+  fi
+  word=''
+  if [[ $option ]]; then
+    word=$option=
+  elif [[ $current == -* ]]; then
+    word=$current
+  fi
+  COMPREPLY=()
+  case "$command $word" in
+)" + branches +
+         "  esac\n  mapfile -t COMPREPLY < <(compgen -W \"$words\" -- \"$current\")\n}\ncomplete -F " + function + " " +
+         name;
+}
+
+namespace {
+
+/// Breaks the text's lines at spaces, at most `width` characters long. A line's indentation is kept.
+std::string wrapped(const std::string& text, std::size_t width) {
+  std::string all;
+  for (std::string line : split(text, '\n')) {
+    const std::string indent(indent_of(line), ' ');
+    while (line.size() > width) {
+      const std::size_t space = line.rfind(' ', width);
+      if (space == std::string::npos || space <= indent.size()) break;
+      all += line.substr(0, space) + "\n";
+      line = indent + line.substr(space + 1);
+    }
+    all += line + "\n";
+  }
+  if (!all.empty()) all.pop_back();
+  return all;
+}
+
+constexpr std::size_t kHelpWidth = 100, kHelpColumn = 30;
+
+}  // namespace
+
+std::string HelpFormatter::make_option_opts(const CLI::Option* option) const {
+  if (option->get_positional() || !takes_value(*option)) return "";
+  const std::vector<std::string> choices = choices_of(*option);
+  return " " + (choices.empty() ? kind_of_value(*option) : joined(choices, "|"));
+}
+
+std::string HelpFormatter::make_option_desc(const CLI::Option* option) const {
+  const std::string& text = option->get_description();
+  const std::string conditions = conditions_of(*option);
+  const bool ends_in_list = text.find("\n ") != std::string::npos;
+  return wrapped(text + (conditions.empty() ? "" : (ends_in_list ? "\n" : " ") + conditions), kHelpWidth - kHelpColumn);
+}
+
+std::string HelpFormatter::make_description(const CLI::App* app) const {
+  return wrapped(app->get_description(), kHelpWidth) + "\n";
+}
+
+std::string HelpFormatter::make_subcommand(const CLI::App* command) const {
+  std::ostringstream line;
+  CLI::detail::format_help(line, command->get_name(), wrapped(command->get_description(), kHelpWidth - kHelpColumn),
+                           kHelpColumn);
+  return line.str();
 }
 
 }  // namespace insonate

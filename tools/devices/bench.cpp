@@ -169,12 +169,13 @@ Command bench_command(CLI::App& program) {
     std::string csv, histogram;
   };
   const auto request = std::make_shared<Request>();
-  CLI::App* parser = program.add_subcommand("bench", "What the filters do, whether samples get lost, and latency");
-  parser->add_option("--seconds", request->seconds, "How long each measurement in real time takes")
+  CLI::App* parser = program.add_subcommand("bench", "Measure the effect of the filters, lost samples and latency");
+  parser->add_option("--seconds", request->seconds, "Set the length of each measurement in real time, seconds")
       ->check(CLI::Range(0.5, 3600.0))
       ->capture_default_str();
-  parser->add_option("--csv", request->csv, "Write the figures as CSV")->type_name("FILE");
-  parser->add_option("--histogram", request->histogram, "Write the latency's histogram as CSV")->type_name("FILE");
+  parser->add_option("--csv", request->csv, "Write the figures to this file (CSV)")->type_name("FILE");
+  parser->add_option("--histogram", request->histogram, "Write a histogram of the latency to this file (CSV)")
+      ->type_name("FILE");
   return {parser, [request] {
             Figures figures;
             bench_filters(figures);

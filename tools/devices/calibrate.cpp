@@ -162,23 +162,30 @@ int calibrate(const Request& request) {
 
 Command calibrate_command(CLI::App& program) {
   const auto request = std::make_shared<Request>();
-  CLI::App* parser = program.add_subcommand(
-      "calibrate", "Find how tracker, probe and mannequin lie to each other, step by step (docs/calibration.md)");
-  parser
-      ->add_option("STEP", request->steps, "axes, pivot, face, landmarks, lag; without any, all of them in this order")
+  CLI::App* parser = program.add_subcommand("calibrate",
+                                            "Find how tracker, probe and mannequin lie relative to each other, step by "
+                                            "step, as docs/calibration.md describes");
+  parser->add_option("STEP", request->steps, "Make these steps")
+      ->type_name("NAME")
+      ->default_str("all of them, in this order")
       ->check(CLI::IsMember(std::vector<std::string>(kSetupSteps.begin(), kSetupSteps.end())));
-  parser->add_option("--tracker", request->uri, "The tracker with the sensor on the probe, as 'list' shows them")
+  parser
+      ->add_option("--tracker", request->uri,
+                   "Use this tracker, which has the sensor on the probe; 'list' shows the forms of a URI")
       ->required()
       ->type_name("URI");
-  parser->add_option("--out", request->out, "The calibration's file; steps that it has are kept")
+  parser->add_option("--out", request->out, "Write the calibration to this file, and keep the steps that it has")
       ->required()
       ->type_name("FILE");
-  parser->add_option("--landmarks", request->landmarks, "The patient's landmarks; else the built-in patient's")
+  parser->add_option("--landmarks", request->landmarks, "Use these landmarks of the patient")
+      ->type_name("FILE")
+      ->default_str("those of the built-in patient");
+  parser
+      ->add_option("--drawing", request->drawing, "Use this drawing of the probe, so that its face need not be touched")
       ->type_name("FILE");
-  parser->add_option("--drawing", request->drawing, "The probe's drawing: its face need not be touched")
-      ->type_name("FILE");
-  parser->add_flag("--moved", request->moved,
-                   "With landmarks: the base or the mannequin was moved; touch the places of the last time again");
+  parser->add_flag(
+      "--moved", request->moved,
+      "Touch the same places as last time in the step landmarks, because the base or the mannequin was moved");
   return {parser, [request] { return calibrate(*request); }};
 }
 

@@ -108,14 +108,18 @@ int check(const Request& request) {
 
 Command check_command(CLI::App& program) {
   const auto request = std::make_shared<Request>();
-  CLI::App* parser = program.add_subcommand("check", "Rate, gaps, dropouts and jumps of a recorded log");
+  CLI::App* parser = program.add_subcommand("check", "Check the rate, gaps, dropouts and jumps of a recorded log");
   parser
       ->add_option("LOG", request->log,
-                   "A sequence file (.igs.mha, .seq.mha or .seq.nrrd), or what --record-raw has written")
+                   "Check this sequence file (.igs.mha, .seq.mha or .seq.nrrd), or file that --record-raw has written")
+      ->type_name("FILE")
       ->required();
-  parser->add_option("--transform", request->transform,
-                     "The probe's transform, as in ProbeToTracker; else from Probe to Patient, Reference or Tracker");
-  parser->add_flag("--json", request->json, "As JSON");
+  parser
+      ->add_option("--transform", request->transform,
+                   "Take the probe's poses from this transform, such as ProbeToTracker")
+      ->type_name("NAME")
+      ->default_str("the one from Probe to Patient, Reference or Tracker");
+  parser->add_flag("--json", request->json, "Print the report as JSON");
   parser->footer(
       "Exit codes: 0 whole, 1 something to look at (samples missing, jumps, dropouts over 250 ms), 2 not a log.");
   return {parser, [request] { return check(*request); }};

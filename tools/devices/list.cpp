@@ -52,8 +52,8 @@ int list(bool all) {
 
 Command list_command(CLI::App& program) {
   const auto all = std::make_shared<bool>(false);
-  CLI::App* parser = program.add_subcommand("list", "The kinds of tracker, and those that are plugged in");
-  parser->add_flag("--all", *all, "Every HID and USB device, known or not");
+  CLI::App* parser = program.add_subcommand("list", "List the kinds of tracker, and the trackers that are plugged in");
+  parser->add_flag("--all", *all, "List every HID and USB device, known or not");
   return {parser, [all] { return list(*all); }};
 }
 

@@ -7,8 +7,7 @@
 using namespace insonate;
 
 int main(int argc, char** argv) {
-  CLI::App arguments("Trackers: which there are, what they say, and whether a recorded log is whole.",
-                     "insonate-devices");
+  CLI::App arguments("List, watch, record and calibrate trackers, and check recorded logs.", "insonate-devices");
   arguments.require_subcommand(1);
   arguments.footer(
       "Examples:\n"

@@ -22,8 +22,11 @@ int recover(std::string file) {
 
 Command recover_command(CLI::App& program) {
   const auto file = std::make_shared<std::string>();
-  CLI::App* parser = program.add_subcommand("recover", "Make a sequence file of a recording that a crash cut short");
-  parser->add_option("FILE", *file, "The recording as it was to be called, or its working file (FILE.recording)")
+  CLI::App* parser = program.add_subcommand("recover", "Make a sequence file from a recording that a crash cut short");
+  parser
+      ->add_option("FILE", *file,
+                   "Complete this recording, named by its final name or as its working file (FILE.recording)")
+      ->type_name("FILE")
       ->required();
   return {parser, [file] { return recover(*file); }};
 }

@@ -94,10 +94,13 @@ int watch(const Request& request) {
 
 Command watch_command(CLI::App& program) {
   const auto request = std::make_shared<Request>();
-  CLI::App* parser = program.add_subcommand("watch", "Print a tracker's samples as they come");
-  parser->add_option("URI", request->uri, "The tracker, as 'list' shows them")->required();
-  parser->add_option("--seconds", request->seconds, "Stop after so long")->check(CLI::PositiveNumber);
-  parser->add_option("--record", request->record, "Record them as a sequence file too (.igs.mha)")->type_name("FILE");
+  CLI::App* parser = program.add_subcommand("watch", "Print a tracker's samples as they arrive");
+  parser->add_option("URI", request->uri, "Watch this tracker; 'list' shows the forms of a URI")
+      ->required()
+      ->type_name("URI");
+  parser->add_option("--seconds", request->seconds, "Stop after this many seconds")->check(CLI::PositiveNumber);
+  parser->add_option("--record", request->record, "Record the samples as a sequence file too (.igs.mha)")
+      ->type_name("FILE");
   parser
       ->add_option("--record-raw", request->record_raw,
                    "Record what the device sends, byte for byte; 'raw:FILE' replays it")

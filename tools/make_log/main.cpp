@@ -85,13 +85,15 @@ std::string plus_sequence(const MadeLog& made) {
 
 int main(int argc, char** argv) {
   CLI::App arguments(
-      "Makes a tracker log of a made-up scan: moves a probe over a scenario's case as a hand would, following a "
+      "Make a tracker log of a made-up scan: move a probe over a scenario's case as a hand would, following a "
       "plan.\n\n  insonate-make-log assets/logs/ruq_good.toml ruq_good.igs.mha",
       "insonate-make-log");
   std::filesystem::path plan_file;
   std::filesystem::path log;
-  arguments.add_option("plan", plan_file, "The plan, a TOML file")->required();
-  arguments.add_option("log", log, "The log to write, a PLUS/IGSIO sequence file (.igs.mha)")->required();
+  arguments.add_option("PLAN", plan_file, "Follow this plan (TOML)")->type_name("FILE")->required();
+  arguments.add_option("LOG", log, "Write this log, a PLUS/IGSIO sequence file (.igs.mha)")
+      ->type_name("FILE")
+      ->required();
 
   return run_program(arguments, argc, argv, [&] {
     const LogPlan plan = read_log_plan(plan_file);

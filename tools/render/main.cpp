@@ -111,7 +111,7 @@ Rendered render_by_reference(const RenderedScene& scene) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App arguments("Renders one ultrasound image of a patient to a PNG, or a sweep to a volume, without a window.",
+  CLI::App arguments("Render one ultrasound image of a patient to a PNG, or a sweep to a volume, without a window.",
                      "insonate-render");
   std::string subject_path, view_name, pose_file, probe_name = "curvilinear", model = "S", settings_file, stages_folder,
                                                   out;
@@ -122,54 +122,83 @@ int main(int argc, char** argv) {
   std::optional<double> gain_db;
   std::optional<int> width, height;
   bool by_reference = false;
-  arguments.add_option("--case,--ct", subject_path, "A case folder, CT file or DICOM folder (the built-in abdomen)");
-  arguments.add_option("--view", view_name, "A view of the case by name (its first)");
-  arguments.add_option("--pose", pose_file, "A file with 16 numbers, row-major patient_from_probe, instead of a view");
-  arguments.add_option("--probe", probe_name, "curvilinear, linear or phased")->capture_default_str();
-  arguments.add_option("--depth", depth_mm, "Imaging depth, mm (the view's or the probe's)")
-      ->check(CLI::Range(kLeastDepth_mm, kMostDepth_mm));
-  arguments.add_option("--model", model, "S, for training (Shams, Kutter), or W, for registration (Wein)")
+  arguments.add_option("--case,--ct", subject_path, "Take the patient of this case folder, CT file or DICOM folder")
+      ->type_name("PATH")
+      ->default_str("the built-in patient");
+  arguments.add_option("--view", view_name, "Render this view of the case")
+      ->type_name("NAME")
+      ->default_str("its first view");
+  arguments
+      .add_option("--pose", pose_file,
+                  "Read the pose from this file instead of a view: 16 numbers, row-major patient_from_probe")
+      ->type_name("FILE");
+  arguments.add_option("--probe", probe_name, "Use this probe")
+      ->type_name(one_of(probe_names()))
+      ->capture_default_str();
+  arguments.add_option("--depth", depth_mm, "Set the imaging depth, mm")
+      ->check(CLI::Range(kLeastDepth_mm, kMostDepth_mm))
+      ->default_str("that of the view, or of the probe");
+  arguments
+      .add_option("--model", model, "Use model S, for training (Shams, Kutter), or model W, for registration (Wein)")
       ->check(CLI::IsMember({"S", "W"}))
       ->capture_default_str();
-  arguments.add_option("--settings", settings_file,
-                       "A TOML file: preset = \"paper\" or \"trainer\", and names of sim/model/settings.h over it; of "
-                       "model W, names of sim/registration/wein_settings.h");
+  arguments
+      .add_option(
+          "--settings", settings_file,
+          "Read the model's settings from this file (TOML). For model S: preset = \"paper\" or \"trainer\", and "
+          "fields of sim/model/settings.h that differ from it. For model W: fields of "
+          "sim/registration/wein_settings.h")
+      ->type_name("FILE")
+      ->default_str("those of the trainer, for model W its own");
   CLI::Option* quality =
       arguments
           .add_option("--quality", quality_name,
-                      "fast, balanced or exact: what a picture may cost; other numbers of samples and pixels than the "
-                      "settings'")
+                      "Set the cost of a picture, by other numbers of samples and pixels than those of the settings")
           ->check(CLI::IsMember(quality_names()))
           ->capture_default_str();
-  CLI::Option* gain =
-      arguments.add_option("--gain", gain_db, "Gain, dB (the settings': 0)")->check(CLI::Range(-60.0, 60.0));
-  arguments.add_option("--width", width, "Pixels (the settings': 640, of model W 128)")->check(CLI::Range(1, 8192));
-  arguments.add_option("--height", height, "Pixels (the settings': 480, of model W 96)")->check(CLI::Range(1, 8192));
-  CLI::Option* stages_option = arguments.add_option("--stages", stages_folder,
-                                                    "A new folder for what crosses the stages, enough to recompute "
-                                                    "each: scanlines.json, the volume, and NRRD files that "
-                                                    "say what they hold; of model S, sets 'skipping' to false");
+  CLI::Option* gain = arguments.add_option("--gain", gain_db, "Set the gain, dB")
+                          ->check(CLI::Range(-60.0, 60.0))
+                          ->default_str("that of the settings, 0");
+  arguments.add_option("--width", width, "Set the width of the picture, pixels")
+      ->check(CLI::Range(1, 8192))
+      ->default_str("that of the settings: 640, for model W 128");
+  arguments.add_option("--height", height, "Set the height of the picture, pixels")
+      ->check(CLI::Range(1, 8192))
+      ->default_str("that of the settings: 480, for model W 96");
+  CLI::Option* stages_option =
+      arguments
+          .add_option("--stages", stages_folder,
+                      "Write the data of each stage to this new folder, enough to recompute it: scanlines.json, the "
+                      "volume, and NRRD files. For model S, this sets 'skipping' to false")
+          ->type_name("FOLDER");
   CLI::Option* reference_flag =
       arguments.add_flag("--reference", by_reference, "Compute by the double-precision reference, without OpenGL");
-  CLI::Option* sweep = arguments.add_option("--sweep", sweep_deg,
-                                            "Tilt the plane through so many degrees, as a 3D probe does, and write a "
-                                            "volume: an NRRD of grey levels in the patient's frame (LPS), -1 outside");
+  CLI::Option* sweep =
+      arguments.add_option("--sweep", sweep_deg,
+                           "Tilt the plane through this angle, degrees, as a 3D probe does, and write a "
+                           "volume: an NRRD of grey levels in the patient's frame (LPS), -1 outside");
   sweep->check(CLI::Range(1.0, 150.0));
-  CLI::Option* freehand = arguments.add_option("--freehand", freehand_file,
-                                               "The same of a file with the poses of a 2D probe in the order of a "
-                                               "sweep, 16 numbers each as in --pose");
-  arguments.add_option("--planes", planes, "Of --sweep")->check(CLI::Range(2, 2048))->capture_default_str();
-  arguments
-      .add_option("--pivot", pivot_mm,
-                  "How far behind the face the plane of --sweep turns, mm (where the lines meet; linear: 30)")
-      ->check(CLI::Range(0.0, 200.0));
-  arguments.add_option("--voxel", voxel_mm, "Of the volume, mm")->check(CLI::Range(0.1, 10.0))->capture_default_str();
+  CLI::Option* freehand = arguments
+                              .add_option("--freehand", freehand_file,
+                                          "Write a volume as --sweep does, from a 2D probe that was swept by hand: "
+                                          "read its poses from this file, in their order, 16 numbers each as in --pose")
+                              ->type_name("FILE");
+  arguments.add_option("--planes", planes, "Set the number of planes of --sweep")
+      ->check(CLI::Range(2, 2048))
+      ->capture_default_str();
+  arguments.add_option("--pivot", pivot_mm, "Set how far behind the probe's face the plane of --sweep turns, mm")
+      ->check(CLI::Range(0.0, 200.0))
+      ->default_str("where the scan lines meet; 30 for a linear probe");
+  arguments.add_option("--voxel", voxel_mm, "Set the size of the volume's voxels, mm")
+      ->check(CLI::Range(0.1, 10.0))
+      ->capture_default_str();
   for (CLI::Option* of_volume : {sweep, freehand})
     for (CLI::Option* of_picture : {stages_option, reference_flag}) of_volume->excludes(of_picture);
   freehand->excludes(sweep);
   arguments
-      .add_option("image", out,
-                  "The PNG to write, with the probe's marker on its left, as clinics show it; for a sweep, the NRRD")
+      .add_option("IMAGE", out,
+                  "Write this PNG, with the probe's marker on its left, as clinics show it; for a sweep, this NRRD")
+      ->type_name("FILE")
       ->required();
 
   // Writes the stages first, if requested. Their folder gets its final name when the picture is written.

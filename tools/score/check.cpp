@@ -159,11 +159,13 @@ int check(const Given& given) {
 void add_check_command(CLI::App& arguments, CommandRun& run) {
   const auto given = std::make_shared<Given>();
   CLI::App* command = arguments.add_subcommand("check",
-                                               "Checks a scenario file and lists all its problems: at once those of "
-                                               "the file, then those that show on its patients");
-  command->add_option("file", given->scenario, "The scenario, a TOML file")->required();
-  command->add_option("--case", given->case_folder, "A case folder to take instead of the scenario's own case");
-  command->add_flag("--without-case", given->without_case, "Checks the text alone, not its names against the case");
+                                               "Check a scenario file and list all its problems: first those of the "
+                                               "file, then those that appear on its patients");
+  command->add_option("SCENARIO", given->scenario, "Check this scenario file (TOML)")->type_name("FILE")->required();
+  command->add_option("--case", given->case_folder, "Check it on the patient of this case folder")
+      ->type_name("FOLDER")
+      ->default_str("the scenario's patient");
+  command->add_flag("--without-case", given->without_case, "Check the text alone, not its names against the case");
   command->callback([given, &run] { run = [given] { return check(*given); }; });
 }
 

@@ -27,6 +27,7 @@ void add_rescore_command(CLI::App& arguments, CommandRun& run);
 /// Declares --mode: the mode of the attempts to use.
 inline CLI::Option* add_mode_option(CLI::App& command, std::string& mode, const std::string& meaning) {
   return command.add_option("--mode", mode, meaning)
+      ->type_name("MODE")
       ->check(CLI::IsMember(std::vector<std::string>(kAttemptModes.begin(), kAttemptModes.end())));
 }
 

@@ -89,13 +89,13 @@ int hand_in(const Given& given) {
 void add_hand_in_command(CLI::App& arguments, CommandRun& run) {
   const auto given = std::make_shared<Given>();
   CLI::App* command = arguments.add_subcommand("hand-in",
-                                               "Scores the exams that were begun with `insonate exam` and never handed "
-                                               "in, as when the power failed, each from what was "
-                                               "kept of it, and makes attempts of them");
-  command->add_option("database", given->database, "The database")->required();
-  CLI::Option* only = command->add_option("--sitting", given->sitting, "Only this one, by its number");
+                                               "Score the exams that were begun with `insonate exam` but never handed "
+                                               "in, for example after a power failure, and store each as an attempt");
+  command->add_option("DATABASE", given->database, "Use this database of results")->type_name("FILE")->required();
+  CLI::Option* only =
+      command->add_option("--sitting", given->sitting, "Use only the exam with this number")->type_name("NUMBER");
   only->check(CLI::PositiveNumber);
-  command->add_flag("--discard", given->discard, "Removes it unscored, so that the learner can take the exam again")
+  command->add_flag("--discard", given->discard, "Remove the exam unscored, so that the learner can take it again")
       ->needs(only);
   command->callback([given, &run] { run = [given] { return hand_in(*given); }; });
 }

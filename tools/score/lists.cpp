@@ -53,17 +53,16 @@ int list_learners(const Listed& given) {
 
 void add_list_commands(CLI::App& arguments, CommandRun& run) {
   const auto given = std::make_shared<Listed>();
-  CLI::App* attempts = arguments.add_subcommand("attempts", "Lists the attempts in a database of results");
-  attempts->add_option("database", given->database, "The database")->required();
-  attempts->add_option("--learner", given->learner, "Only this learner's");
-  add_mode_option(*attempts, given->mode, "Only exams that counted, practice, or recorded scans");
+  CLI::App* attempts = arguments.add_subcommand("attempts", "List the attempts in a database of results");
+  attempts->add_option("DATABASE", given->database, "Use this database of results")->type_name("FILE")->required();
+  attempts->add_option("--learner", given->learner, "List only the attempts of this learner")->type_name("ID");
+  add_mode_option(*attempts, given->mode,
+                  "List only attempts of this mode: exams that counted, practice, or recorded scans");
   attempts->callback([given, &run] { run = [given] { return list_attempts(*given); }; });
 
   CLI::App* learners = arguments.add_subcommand(
-      "learners",
-      "Lists the learners in a database of results: how many attempts and exams, and of the exams how many were passed "
-      "and the best");
-  learners->add_option("database", given->database, "The database")->required();
+      "learners", "List the learners in a database of results, with their attempts, exams, passed exams and best exam");
+  learners->add_option("DATABASE", given->database, "Use this database of results")->type_name("FILE")->required();
   learners->callback([given, &run] { run = [given] { return list_learners(*given); }; });
 }
 

@@ -85,8 +85,8 @@ int score(const Arguments& given) {
 
 int main(int argc, char** argv) {
   CLI::App arguments(
-      "Scores a recorded scan against a scenario and prints the result as JSON. A failed exam is a result too: the "
-      "exit code is 0 for it, and 2 for input that cannot be used.",
+      "Score a recorded scan against a scenario and print the result as JSON. A failed exam is a result too: its exit "
+      "code is 0. The exit code is 2 for input that cannot be used.",
       "insonate-score");
   arguments.footer(
       "Examples:\n"
@@ -97,20 +97,35 @@ int main(int argc, char** argv) {
       "  insonate-score pass-mark lab.db --novices novices.csv --experts experts.csv\n"
       "  insonate-score check exam.toml");
   Arguments given;
-  arguments.add_option("--log", given.log,
-                       "The recorded scan: a PLUS/IGSIO sequence file (.igs.mha), or what --record-raw has written");
-  arguments.add_option("--scenario", given.scenario, "The scenario, a TOML file");
-  arguments.add_option("--case,--ct", given.case_folder,
-                       "A case folder, CT file or DICOM folder to take instead of the scenario's own case");
-  arguments.add_option("--transform", given.transform,
-                       "The probe's transform in the log, as in replay:FILE?transform=...; else from Probe to "
-                       "Patient, Reference or Tracker");
-  arguments.add_option("--calibration", given.calibration,
-                       "The tracker's calibration, where the log holds its sensor's poses and not the probe's");
-  arguments.add_option("--seed", given.seed, "Draws the scenario's variant, as in the result of the live run (0)");
-  arguments.add_option("--report", given.report, "Also writes a report as one HTML page");
-  arguments.add_option("--results", given.results, "Also keeps the attempt in this database of results");
-  arguments.add_option("--learner", given.learner, "Whose attempt it is: an opaque id")->capture_default_str();
+  arguments
+      .add_option(
+          "--log", given.log,
+          "Score this recorded scan: a PLUS/IGSIO sequence file (.igs.mha), or a file that --record-raw has written")
+      ->type_name("FILE");
+  arguments.add_option("--scenario", given.scenario, "Score it against this scenario file (TOML)")->type_name("FILE");
+  arguments
+      .add_option("--case,--ct", given.case_folder, "Take the patient of this case folder, CT file or DICOM folder")
+      ->type_name("PATH")
+      ->default_str("the scenario's patient");
+  arguments
+      .add_option("--transform", given.transform,
+                  "Take the probe's poses from this transform of the log, such as ProbeToTracker")
+      ->type_name("NAME")
+      ->default_str("the one from Probe to Patient, Reference or Tracker");
+  arguments
+      .add_option("--calibration", given.calibration,
+                  "Use this calibration of the tracker, if the log has poses of its sensor instead of the probe")
+      ->type_name("FILE");
+  arguments
+      .add_option("--seed", given.seed,
+                  "Draw the scenario's variant with this seed, which the result of the live run states")
+      ->capture_default_str();
+  arguments.add_option("--report", given.report, "Write a report too, as one HTML page")->type_name("FILE");
+  arguments.add_option("--results", given.results, "Store the attempt in this database of results too")
+      ->type_name("FILE");
+  arguments.add_option("--learner", given.learner, "Store the attempt under this learner's id, which is not a name")
+      ->type_name("ID")
+      ->capture_default_str();
 
   CommandRun run_command;
   add_check_command(arguments, run_command);

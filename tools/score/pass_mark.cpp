@@ -101,14 +101,24 @@ void add_pass_mark_command(CLI::App& arguments, CommandRun& run) {
   const auto given = std::make_shared<Given>();
   CLI::App* command =
       arguments.add_subcommand("pass-mark",
-                               "Says where a lab's own pass mark for an exam lies, by contrasting groups: where the "
-                               "normals through the scores of novices and of experts cross. Counts the first complete "
-                               "attempt of each learner");
-  command->add_option("database", given->database, "The database")->required();
-  command->add_option("--novices", given->novices, "Their ids: CSV with the header 'learner', or TOML")->required();
-  command->add_option("--experts", given->experts, "Theirs")->required();
-  command->add_option("--scenario", given->scenario, "The exam, when the groups took several: its very file");
-  add_mode_option(*command, given->mode, "What counts: exams, practice, or recorded scans")->capture_default_str();
+                               "Find a lab's own pass mark for an exam by contrasting groups: the score at which the "
+                               "normal distributions of novices and of experts cross. The first complete attempt of "
+                               "each learner counts");
+  command->add_option("DATABASE", given->database, "Use this database of results")->type_name("FILE")->required();
+  command
+      ->add_option("--novices", given->novices,
+                   "Read the novices' ids from this file: CSV with the header 'learner', or TOML")
+      ->type_name("FILE")
+      ->required();
+  command->add_option("--experts", given->experts, "Read the experts' ids from this file, in the same form")
+      ->type_name("FILE")
+      ->required();
+  command
+      ->add_option("--scenario", given->scenario,
+                   "Use the attempts at this scenario file, if the groups took several; the file must be unchanged")
+      ->type_name("FILE");
+  add_mode_option(*command, given->mode, "Count attempts of this mode: exams, practice, or recorded scans")
+      ->capture_default_str();
   command->callback([given, &run] { run = [given] { return pass_mark(*given); }; });
 }
 

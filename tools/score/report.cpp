@@ -40,14 +40,20 @@ void add_report_command(CLI::App& arguments, CommandRun& run) {
   const auto given = std::make_shared<Given>();
   CLI::App* command = arguments.add_subcommand(
       "report",
-      "Writes the reports of attempts in a database, each into a folder of its own: report.html, score.json, score.csv "
+      "Write the reports of attempts in a database, each to a folder of its own: report.html, score.json, score.csv "
       "and xapi.json, as they were at the end of the exam");
-  command->add_option("database", given->database, "The database")->required();
-  command->add_option("--attempt", given->attempt, "Only this one, by its number")->check(CLI::PositiveNumber);
-  command->add_option("--out", given->out, "The folder to make the folders in")->capture_default_str();
-  command->add_option("--home-page", given->home_page,
-                      "The web address that the learners' ids belong to, for xapi.json; without it one that stands for "
-                      "the database");
+  command->add_option("DATABASE", given->database, "Use this database of results")->type_name("FILE")->required();
+  command->add_option("--attempt", given->attempt, "Write only the report of the attempt with this number")
+      ->type_name("NUMBER")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--out", given->out, "Make the folders in this folder")
+      ->type_name("FOLDER")
+      ->capture_default_str();
+  command
+      ->add_option("--home-page", given->home_page,
+                   "Name this web address in xapi.json as the one that the learners' ids belong to")
+      ->type_name("URL")
+      ->default_str("an address that stands for the database");
   command->callback([given, &run] { run = [given] { return report(*given); }; });
 }
 

@@ -59,11 +59,12 @@ void add_rescore_command(CLI::App& arguments, CommandRun& run) {
   const auto given = std::make_shared<Given>();
   CLI::App* command = arguments.add_subcommand(
       "rescore",
-      "Scores the attempts in a database again, each from its own log and scenario, and says which come out the same "
-      "to "
-      "the bit and why others do not. The database stays as it is. The exit code is 1 when any is not the same");
-  command->add_option("database", given->database, "The database")->required();
-  command->add_option("--attempt", given->attempt, "Only this one, by its number")->check(CLI::PositiveNumber);
+      "Score the attempts in a database again, each from its own log and scenario, and list which scores are equal to "
+      "the last bit and why others are not. The database is not changed. The exit code is 1 if any score differs");
+  command->add_option("DATABASE", given->database, "Use this database of results")->type_name("FILE")->required();
+  command->add_option("--attempt", given->attempt, "Score only the attempt with this number")
+      ->type_name("NUMBER")
+      ->check(CLI::PositiveNumber);
   command->callback([given, &run] { run = [given] { return rescore(*given); }; });
 }
 
