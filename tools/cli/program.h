@@ -58,7 +58,7 @@ inline void refuse_unusable(const CLI::App& arguments) {
         throw InputError(option->get_name(), "", "nothing is given behind it", "give a value or leave it out");
       const bool real = option->get_type_name().find("FLOAT") != std::string::npos;
       if (real && !std::isfinite(std::strtod(given.c_str(), nullptr)))
-        throw InputError(option->get_name(), "", "'" + given + "' is no finite number", "give one");
+        throw InputError(option->get_name(), "", "'" + given + "' is not a finite number", "give one");
     }
   for (const CLI::App* command : arguments.get_subcommands()) refuse_unusable(*command);
 }

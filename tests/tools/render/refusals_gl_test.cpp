@@ -40,8 +40,8 @@ TEST_CASE("what insonate-render cannot do it says in a sentence, and leaves noth
   };
   const std::string picture = scene.in("image.png"), volume = scene.in("swept.nrrd");
   for (const std::string option : {"--depth", "--gain", "--voxel", "--pivot"})
-    refused(option + " nan " + picture, option + ": 'nan' is no finite number; give one.");
-  refused("--sweep nan " + volume, "--sweep: 'nan' is no finite number");
+    refused(option + " nan " + picture, option + ": 'nan' is not a finite number; give one.");
+  refused("--sweep nan " + volume, "--sweep: 'nan' is not a finite number");
   refused("--stages '' " + picture, "--stages: nothing is given behind it; give a value or leave it out.");
   refused(scene.in("image.jpg"), "image.jpg: a picture is written as PNG; name a file that ends in .png.");
   // The picture is written before the folder gets its final name, and the folder's parents are removed with it.
@@ -107,7 +107,7 @@ TEST_CASE("a pose is 16 numbers as text, or JSON of them or of their rows, and w
   refused("1 0 0 0\n0 1 0 nan\n0 0 1 0\n0 0 0 1\n",
           "line 2, number 8 of 16: 'nan' is not finite; give a finite number.");
   refused("1 0 0 0\n0 1 0 0\n0 0 1 -inf\n0 0 0 1\n", "line 3, number 12 of 16: '-inf' is not finite");
-  refused("1 0 0 0\n0 1 x 0\n", "line 2, number 7 of 16: 'x' is no number; write the matrix");
+  refused("1 0 0 0\n0 1 x 0\n", "line 2, number 7 of 16: 'x' is not a number; write the matrix");
   refused("1 0 0 0 0 1 0 0 0 0 1 0 0 0 0", "there are 15 numbers, not 16 for a pose");
   refused("[1,0,0,0, 0,1,0,9, 0,0,1,0, 0,0,0,1, \"x\", null]", "pose 2, number 1 of 16: it is of type string");
   refused("[1,0,0,0, 0,null,0,9, 0,0,1,0, 0,0,0,1]", "number 6 of 16: it is of type null");
@@ -115,6 +115,6 @@ TEST_CASE("a pose is 16 numbers as text, or JSON of them or of their rows, and w
   refused("[1,0,0,0,\n0,NaN,0,9, 0,0,1,0, 0,0,0,1]", "line 2: what stands here is no JSON, whose numbers are finite");
   refused("[1,0,0,0, 0,1e999,0,9, 0,0,1,0, 0,0,0,1]", "a number is larger than double precision holds");
   refused("{\"pose\": 3}", "there is no key 'patient_from_probe'");
-  refused("{\"patient_from_probe\": 3}", "'patient_from_probe' is no array");
+  refused("{\"patient_from_probe\": 3}", "'patient_from_probe' is not an array");
   refused("[[[1,0,0,0],[0,1,0,9],[0,0,1,0],[0,0,0,1]], [1,0]]", "pose 2, matrix: it has not 16 numbers");
 }
