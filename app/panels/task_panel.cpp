@@ -100,7 +100,7 @@ std::string prompt(const Session& session, const PictureTools& tools, const Step
   if (const AnswerInput* question = controls.question())
     return question->is_typed() ? "Type, then answer. The first answer counts."
                                 : "Choose, then answer. The first answer counts.";
-  if (const std::string own = step.task->words().prompt; !own.empty()) return own;
+  if (std::string own = step.task->words().prompt; !own.empty()) return own;
   if (!PictureTools::ready(session)) return "Freeze the picture (Space) first.";
   return tool_prompt(tools) + ". Drag moves what is placed, Backspace takes it back.";
 }

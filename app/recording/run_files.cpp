@@ -34,7 +34,7 @@ bool is_unused(const std::filesystem::path& file) {
 /// Returns the first of FILE, FILE-2, FILE-3... for which no file exists yet.
 std::filesystem::path next_unused(const std::filesystem::path& file) {
   for (int part = 1;; ++part) {
-    const std::filesystem::path candidate = part_of(file, part);
+    std::filesystem::path candidate = part_of(file, part);
     if (is_unused(candidate) && is_unused(images_of(candidate))) return candidate;
   }
 }

@@ -96,7 +96,7 @@ public:
       run_.stretches.push_back({moment.step, moment.time_s, moment.time_s});
     }
     run_.stretches.back().end_s = moment.time_s;
-    run_.moments.push_back(std::move(moment));
+    run_.moments.push_back(moment);
   }
 
 private:

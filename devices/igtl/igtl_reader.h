@@ -13,7 +13,7 @@ namespace insonate::igtl {
 class MessageReader {
 public:
   /// Enough for every kind of message with a few numbers or a sentence in it.
-  static constexpr std::uint64_t kMostKept = 64 * 1024;
+  static constexpr std::uint64_t kMostKept = std::uint64_t(64) * 1024;
   /// A volume of 512 x 512 x 256 voxels of 16 bits, with room to spare. A larger announced body means that it is not a
   /// message.
   static constexpr std::uint64_t kMostPassed = 512ull * 1024 * 1024;

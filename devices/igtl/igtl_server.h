@@ -19,11 +19,11 @@ namespace insonate::igtl {
 
 /// Limits on the resources that clients of a Server can use. The defaults suit a trainer in a lab's network.
 struct ServerLimits {
-  std::size_t clients = 64;                      ///< further connections are closed at once
-  std::size_t message_bytes = (1 << 20) + 1024;  ///< per message: a picture of a million pixels
-  std::size_t event_bytes = 66 * 1024;           ///< per event: the longest text of a STRING
-  std::size_t events = 64;                       ///< newest events stored for clients that are behind
-  std::size_t sending_bytes = 32 << 20;          ///< total of all messages that clients are in the middle of
+  std::size_t clients = 64;                          ///< further connections are closed at once
+  std::size_t message_bytes = (1 << 20) + 1024;      ///< per message: a picture of a million pixels
+  std::size_t event_bytes = std::size_t(66) * 1024;  ///< per event: the longest text of a STRING
+  std::size_t events = 64;                           ///< newest events stored for clients that are behind
+  std::size_t sending_bytes = 32 << 20;              ///< total of all messages that clients are in the middle of
   double stuck_s = 10;             ///< longest time for a client to receive a message, or to complete its own
   int send_buffer = 256 * 1024;    ///< bytes per connection; the kernel uses twice as much
   int receive_buffer = 16 * 1024;  ///< bytes per connection; the kernel uses twice as much
