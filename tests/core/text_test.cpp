@@ -1,0 +1,13 @@
+#include "sim/core/text.h"
+
+#include <catch2/catch.hpp>
+
+using namespace insonate;
+
+TEST_CASE("a number in a sentence has the digits that it needs") {
+  CHECK(exact_text(100000) == "100000");
+  CHECK(exact_text(4294967295.0) == "4294967295");
+  CHECK(exact_text(0.1) == "0.1");
+  CHECK(exact_text(-0.001) == "-0.001");
+  CHECK(exact_text(1e300) == "1e+300");
+}
