@@ -12,20 +12,15 @@
 
 #include "scenarios/action.h"
 #include "scenarios/metrics/metric.h"
-#include "sim/core/input_error.h"
+#include "sim/core/mistake.h"
 #include "sim/phantom/phantom.h"
 #include "sim/volume/case.h"
 
 namespace insonate {
 
 /// A scenario is a TOML text that an instructor can read, copy and change; it runs no code. The types below are its
-/// tables. Each field gives the file's key, its range and an example. The reader refuses every other key.
-
-/// A position in the text, counted from 1; 0 if the value was left to its default.
-struct SourcePlace {
-  int line = 0;
-  int column = 0;
-};
+/// tables. Each field gives the file's key, its range and an example. The reader refuses every other key. A SourcePlace
+/// has line 0 if the value was left to its default.
 
 /// A criterion: `[[step.criterion]]` for a step, `[[criterion]]` for the whole exam. Economy metrics (time, path,
 /// movements) earn points only if the task was done: the step was completed, or for the whole exam every step.
@@ -117,22 +112,15 @@ struct Scenario {
   std::string digest;          ///< digest of `text` (sim/core/digest.h)
 };
 
-/// One error in a scenario file as a problem and a remedy: "step 2 names the view 'hepatorenl', which the case does not
-/// have", "did you mean 'hepatorenal'?".
-struct ScenarioProblem {
-  SourcePlace place;
-  std::string problem;
-  std::string remedy;
-};
-
-/// Reports all problems of a scenario, in the order of the file. what() lists them, at most 100.
+/// Reports all problems of a scenario, in the order of the file (input_error()).
 class ScenarioError : public InputError {
 public:
-  ScenarioError(const std::string& file, std::vector<ScenarioProblem> problems);
-  const std::vector<ScenarioProblem>& problems() const { return problems_; }
+  ScenarioError(const std::string& file, const std::vector<Mistake>& problems)
+      : InputError(input_error(file, problems)), problems_(in_order_of_file(problems)) {}
+  const std::vector<Mistake>& problems() const { return problems_; }
 
 private:
-  std::vector<ScenarioProblem> problems_;
+  std::vector<Mistake> problems_;
 };
 
 /// The readable part of a scenario's text.
@@ -140,7 +128,7 @@ struct ReadScenario {
   /// Holds one scenario if the file has no [[variant]]. It is empty if the file is not TOML or does not name a known
   /// format.
   std::vector<Scenario> variants;
-  std::vector<ScenarioProblem> problems;  ///< problems of all variants, found without the case
+  std::vector<Mistake> problems;  ///< of all variants, found without the case
 };
 
 /// Reads each variant and collects the problems. Throws InputError if the file cannot be read.
@@ -155,7 +143,7 @@ Scenario parse_scenario(std::string_view text, const std::filesystem::path& name
 
 /// Returns the scenario's problems with the case: missing views, and targets or landmarks that a metric needs and the
 /// view lacks. For a step that is not sound, only the view's name and the criteria are checked.
-std::vector<ScenarioProblem> problems_with_case(const Scenario& scenario, const Case& subject);
+std::vector<Mistake> problems_with_case(const Scenario& scenario, const Case& subject);
 
 /// Throws ScenarioError if problems_with_case() finds a problem.
 void check_against_case(const Scenario& scenario, const Case& subject);
@@ -163,14 +151,14 @@ void check_against_case(const Scenario& scenario, const Case& subject);
 /// Adds a problem if the step's view lacks the targets or landmarks that `metric` needs. `place` is where the step asks
 /// for the metric.
 void check_metric(Metric metric, const SourcePlace& place, const Step& step, const Case& subject,
-                  const std::string& where, std::vector<ScenarioProblem>& problems);
+                  const std::string& where, std::vector<Mistake>& problems);
 
 /// Returns a problem for each option that the built-in phantom in `assets` refuses.
-std::vector<ScenarioProblem> problems_with_phantom(const Scenario& scenario, const std::filesystem::path& assets);
+std::vector<Mistake> problems_with_phantom(const Scenario& scenario, const std::filesystem::path& assets);
 
 /// Returns the problems that are visible before the case is loaded: options that the phantom refuses, or a missing case
 /// folder.
-std::vector<ScenarioProblem> problems_before_case(const Scenario& scenario, const std::filesystem::path& assets);
+std::vector<Mistake> problems_before_case(const Scenario& scenario, const std::filesystem::path& assets);
 
 /// Loads the scenario's case: the built-in phantom from `assets`, cached in `cache`, or a case folder. Throws
 /// ScenarioError for options that the phantom refuses or a missing folder, and InputError if the case cannot be read.

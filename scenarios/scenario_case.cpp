@@ -29,8 +29,7 @@ std::string lacking(const MetricInfo& metric, const ReferenceView& view, const C
   return "";
 }
 
-void check_step(const Step& step, const std::string& where, const LabelIndex& labels,
-                std::vector<ScenarioProblem>& problems) {
+void check_step(const Step& step, const std::string& where, const LabelIndex& labels, std::vector<Mistake>& problems) {
   const Case& subject = labels.subject();
   if (!step.view.empty() && !subject.find_view(step.view)) {
     problems.push_back(
@@ -47,7 +46,7 @@ void check_step(const Step& step, const std::string& where, const LabelIndex& la
 }  // namespace
 
 void check_metric(Metric metric, const SourcePlace& place, const Step& step, const Case& subject,
-                  const std::string& where, std::vector<ScenarioProblem>& problems) {
+                  const std::string& where, std::vector<Mistake>& problems) {
   const ReferenceView* view = subject.find_view(step.view);
   const std::string lack = view ? lacking(info(metric), *view, subject) : "";
   if (!lack.empty())
@@ -55,10 +54,10 @@ void check_metric(Metric metric, const SourcePlace& place, const Step& step, con
                         "add them to the case or remove the metric"});
 }
 
-std::vector<ScenarioProblem> problems_with_case(const Scenario& scenario, const Case& subject) {
+std::vector<Mistake> problems_with_case(const Scenario& scenario, const Case& subject) {
   const LabelIndex labels(subject);
   const std::string first_probe = starting_machine(scenario, subject).probe;
-  std::vector<ScenarioProblem> problems;
+  std::vector<Mistake> problems;
   for (std::size_t i = 0; i < scenario.steps.size(); ++i) {
     const Step& step = scenario.steps[i];
     const std::string where = "step " + std::to_string(i + 1);
@@ -74,12 +73,12 @@ std::vector<ScenarioProblem> problems_with_case(const Scenario& scenario, const 
 }
 
 void check_against_case(const Scenario& scenario, const Case& subject) {
-  std::vector<ScenarioProblem> problems = problems_with_case(scenario, subject);
+  std::vector<Mistake> problems = problems_with_case(scenario, subject);
   if (!problems.empty()) throw ScenarioError(scenario.file.string(), std::move(problems));
 }
 
-std::vector<ScenarioProblem> problems_with_phantom(const Scenario& scenario, const std::filesystem::path& assets) {
-  std::vector<ScenarioProblem> problems;
+std::vector<Mistake> problems_with_phantom(const Scenario& scenario, const std::filesystem::path& assets) {
+  std::vector<Mistake> problems;
   if (scenario.case_name != "abdomen") return problems;
   const std::filesystem::path recipe = phantom_in(assets);
   for (const OptionProblem& wrong :
@@ -91,7 +90,7 @@ std::vector<ScenarioProblem> problems_with_phantom(const Scenario& scenario, con
   return problems;
 }
 
-std::vector<ScenarioProblem> problems_before_case(const Scenario& scenario, const std::filesystem::path& assets) {
+std::vector<Mistake> problems_before_case(const Scenario& scenario, const std::filesystem::path& assets) {
   if (scenario.case_name == "abdomen") return problems_with_phantom(scenario, assets);
   std::error_code error;
   if (std::filesystem::exists(folder_of_case(scenario), error)) return {};
@@ -101,7 +100,7 @@ std::vector<ScenarioProblem> problems_before_case(const Scenario& scenario, cons
 
 Case load_case(const Scenario& scenario, const std::filesystem::path& assets, const std::filesystem::path& cache,
                const Progress& progress) {
-  std::vector<ScenarioProblem> problems = problems_before_case(scenario, assets);
+  std::vector<Mistake> problems = problems_before_case(scenario, assets);
   if (!problems.empty()) throw ScenarioError(scenario.file.string(), std::move(problems));
   if (scenario.case_name != "abdomen") return read_case(folder_of_case(scenario));
   return cached_phantom(phantom_in(assets), scenario.phantom_options, cache, progress);

@@ -1,7 +1,7 @@
-#include <cmath>
-#include <cstdio>
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
+
 #include <optional>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +11,7 @@
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
 #include "sim/core/toml_table.h"
+#include "sim/core/toml_value.h"
 
 namespace insonate {
 namespace {
@@ -21,20 +22,7 @@ constexpr double kFarthestMm = 1e5;
 /// As many as a Viper has.
 constexpr int kMostSensors = 16;
 
-/// The keys of each section are listed once, in fields() below. A KeyList, a Reader and a Writer all traverse them.
-class KeyList {
-public:
-  void signs(const char* key, glm::dvec3&) { keys.emplace_back(key); }
-  void point(const char* key, glm::dvec3&) { keys.emplace_back(key); }
-  void pose(const char* key, Pose&) { keys.emplace_back(key); }
-  void number(const char* key, double&, double, double) { keys.emplace_back(key); }
-  void count(const char* key, std::size_t&) { keys.emplace_back(key); }
-  void text(const char* key, std::string&) { keys.emplace_back(key); }
-  void flag(const char* key, bool&) { keys.emplace_back(key); }
-  void landmarks(const char* key, std::vector<LandmarkPair>&) { keys.emplace_back(key); }
-
-  std::vector<std::string> keys;
-};
+/// The keys of each section are listed once, in fields() below. A Reader and a Writer traverse them.
 
 template <typename Io>
 void fields(Io& io, AxesFinding& axes) {
@@ -93,12 +81,8 @@ void fields(Io& io, MannequinSetup& mannequin) {
 class Writer {
 public:
   void line(const std::string& text) { text_ += text + "\n"; }
-  void text(const char* key, const std::string& value) {
-    std::ostringstream quoted;
-    quoted << toml::table{{"v", value}};
-    line(std::string(key) + " " + quoted.str().substr(quoted.str().find('=')));
-  }
-  void number(const char* key, double value, double, double) { line(std::string(key) + " = " + digits(value)); }
+  void text(const char* key, const std::string& value) { line(std::string(key) + " = " + toml_value(value)); }
+  void number(const char* key, double value, double, double) { line(std::string(key) + " = " + toml_value(value)); }
   void count(const char* key, std::size_t value) { line(std::string(key) + " = " + std::to_string(value)); }
   void flag(const char* key, bool value) { line(std::string(key) + (value ? " = true" : " = false")); }
   void signs(const char* key, const glm::dvec3& p) { point(key, p); }
@@ -127,16 +111,8 @@ public:
   std::string done() && { return std::move(text_); }
 
 private:
-  // With a decimal point, so that TOML reads a float, which can be minus zero.
-  static std::string digits(double value) {
-    char text[40];
-    std::snprintf(text, sizeof text, "%.17g", value);
-    return std::string(text).find_first_of(".en") == std::string::npos ? std::string(text) + ".0" : text;
-  }
   void numbers(const char* key, const std::vector<double>& values) {
-    std::string list;
-    for (const double value : values) list += (list.empty() ? "" : ", ") + digits(value);
-    line(std::string(key) + " = [" + list + "]");
+    line(std::string(key) + " = " + toml_value(values));
   }
   std::string text_;
 };
@@ -146,21 +122,17 @@ public:
   explicit Reader(const TomlTable& table) : table_(table) {}
 
   void text(const char* key, std::string& value) { value = table_.text(key); }
-  void number(const char* key, double& value, double least, double most) { value = table_.number(key, least, most); }
+  void number(const char* key, double& value, double least, double most) { value = table_.number(key, {least, most}); }
   void count(const char* key, std::size_t& value) { value = std::size_t(table_.whole_number(key, 0, 100000000)); }
   void flag(const char* key, bool& value) { value = table_.boolean(key); }
   void signs(const char* key, glm::dvec3& signs) {
-    const std::vector<double> v = table_.numbers(key, 3);
-    for (const double value : v)
-      if (std::abs(value) != 1) table_.fail(key, "a sign is neither 1 nor -1", "write three of them");
-    signs = {v[0], v[1], v[2]};
+    signs = table_.vector(key);
+    if (glm::abs(signs) != glm::dvec3(1.0)) table_.fail(key, "a sign is neither 1 nor -1", "write three of them");
   }
   void point(const char* key, glm::dvec3& point) {
-    const std::vector<double> v = table_.numbers(key, 3);
-    for (const double value : v)
-      if (std::abs(value) > kFarthestMm)
-        table_.fail(key, "the point lies beyond any tracker's reach", "calibrate again");
-    point = {v[0], v[1], v[2]};
+    point = table_.vector(key);
+    if (glm::any(glm::greaterThan(glm::abs(point), glm::dvec3(kFarthestMm))))
+      table_.fail(key, "the point lies beyond any tracker's reach", "calibrate again");
   }
   void pose(const char* key, Pose& pose) {
     const std::vector<double> rows = table_.numbers(key, 16);
@@ -171,35 +143,31 @@ public:
     pose = pose_from_matrix(m);
   }
   void landmarks(const char* key, std::vector<LandmarkPair>& landmarks) {
-    for (const TomlTable& table : table_.tables(key)) landmarks.push_back(read<LandmarkPair>(table, {}));
+    for (const TomlTable& table : table_.tables(key)) landmarks.push_back(read<LandmarkPair>(table));
     if (landmarks.size() <= kLeastLandmarks)
       table_.fail(key, "there are " + std::to_string(landmarks.size()) + " landmarks",
                   "touch " + std::to_string(kLeastLandmarks + 1) + " or more");
   }
 
-  /// Reads the fields of a table that may also have the keys `others`.
   template <typename T>
-  static T read(const TomlTable& table, std::vector<std::string> others) {
+  static T read(const TomlTable& table) {
     T value;
-    KeyList known{std::move(others)};
-    fields(known, value);
-    table.allow_only(known.keys);
     Reader reader(table);
     fields(reader, value);
     return value;
   }
 
 private:
-  const TomlTable& table_;
+  TomlTable table_;
 };
 
 template <typename T>
 void read_section(const TomlTable& top, const char* name, std::optional<Dated<T>>& section) {
   if (!top.has(name)) return;
   const TomlTable table = top.table(name);
-  T value = Reader::read<T>(table, {"made"});
+  T value = Reader::read<T>(table);
   const auto made = utc_seconds(table.text("made"));
-  if (!made) table.fail("made", "'made' is no date and time", "write it as in \"2026-03-01T09:30:00Z\"");
+  if (!made) table.fail("made", "'made' is not a date and time", "write it as in \"2026-03-01T09:30:00Z\"");
   section = Dated<T>{std::move(value), *made};
 }
 
@@ -221,20 +189,19 @@ std::string to_toml(const Calibration& calibration) {
 }
 
 Calibration parse_calibration(std::string_view text, const std::string& file) {
-  const toml::table parsed = parse_toml(file, text);
-  const TomlTable top(file, "", parsed);
-  top.allow_only({"tracker", "axes", "tip", "face", "mannequin", "lag"});
+  const TomlDocument document(file, text);
+  const TomlTable top = document.root();
   Calibration calibration;
   const TomlTable tracker = top.table("tracker");
-  tracker.allow_only({"kind", "serial", "sensor"});
   calibration.tracker.kind = tracker.text("kind");
-  if (tracker.has("serial")) calibration.tracker.serial = tracker.text("serial");
-  if (tracker.has("sensor")) calibration.tracker.sensor = tracker.whole_number("sensor", 1, kMostSensors);
+  calibration.tracker.serial = tracker.text("serial", "");
+  calibration.tracker.sensor = int(tracker.whole_number("sensor", 1, kMostSensors, 1));
   read_section(top, "axes", calibration.axes);
   read_section(top, "tip", calibration.tip);
   read_section(top, "face", calibration.face);
   read_section(top, "mannequin", calibration.mannequin);
   read_section(top, "lag", calibration.lag);
+  top.refuse_unknown_keys();
   const std::string method = calibration.face ? calibration.face->value.method : "touch";
   if (method != "touch" && method != "drawing")
     top.table("face").fail("method", "'method' is '" + method + "'", "write \"touch\" or \"drawing\"");

@@ -15,8 +15,7 @@ constexpr std::size_t kMostBytes = 1u << 20, kMostLandmarks = 64;
 constexpr double kFarthestMm = 1e5;
 
 glm::dvec3 read_point(const TomlTable& table, const char* key) {
-  const std::vector<double> v = table.numbers(key, 3);
-  const glm::dvec3 point(v[0], v[1], v[2]);
+  const glm::dvec3 point = table.vector(key);
   if (!(glm::length(point) <= kFarthestMm)) table.fail(key, "the point lies 100 m away or farther", "give it in mm");
   return point;
 }
@@ -24,20 +23,18 @@ glm::dvec3 read_point(const TomlTable& table, const char* key) {
 }  // namespace
 
 LandmarkList read_landmark_list(const std::filesystem::path& file) {
-  const toml::table parsed = parse_toml(file.string(), read_file(file, kMostBytes));
-  const TomlTable top(file.string(), "", parsed);
-  top.allow_only({"patient", "landmark"});
+  const TomlDocument document(file.string(), read_file(file, kMostBytes));
+  const TomlTable top = document.root();
   LandmarkList list{top.text("patient"), {}};
   std::set<std::string> names;
   std::size_t held_out = 0;
   for (const TomlTable& table : top.tables("landmark")) {
-    table.allow_only({"name", "ct_mm", "held_out"});
-    list.landmarks.push_back(
-        {table.text("name"), {}, read_point(table, "ct_mm"), table.has("held_out") && table.boolean("held_out")});
+    list.landmarks.push_back({table.text("name"), {}, read_point(table, "ct_mm"), table.boolean("held_out", false)});
     held_out += list.landmarks.back().held_out;
     if (!names.insert(list.landmarks.back().name).second)
       table.fail("name", "a landmark before it has that name too", "name each of them differently");
   }
+  top.refuse_unknown_keys();
   const std::size_t fitted = list.landmarks.size() - held_out;
   if (fitted < kLeastLandmarks || held_out == 0 || list.landmarks.size() > kMostLandmarks)
     top.fail(
@@ -49,14 +46,14 @@ LandmarkList read_landmark_list(const std::filesystem::path& file) {
 }
 
 ProbeDrawing read_probe_drawing(const std::filesystem::path& file) {
-  const toml::table parsed = parse_toml(file.string(), read_file(file, kMostBytes));
-  const TomlTable top(file.string(), "", parsed);
-  top.allow_only({"name", "middle_mm", "marker_end_mm", "other_end_mm", "tail_mm", "tip_mm"});
+  const TomlDocument document(file.string(), read_file(file, kMostBytes));
+  const TomlTable top = document.root();
   ProbeDrawing drawing;
   drawing.name = top.text("name");
   drawing.face = {read_point(top, "middle_mm"), read_point(top, "marker_end_mm"), read_point(top, "other_end_mm"),
                   read_point(top, "tail_mm")};
   if (top.has("tip_mm")) drawing.tip_mm = read_point(top, "tip_mm");
+  top.refuse_unknown_keys();
   if (const auto fit = fit_face(drawing.face); !fit) top.fail("", fit.refusal(), "correct the points");
   return drawing;
 }

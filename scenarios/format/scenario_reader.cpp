@@ -3,8 +3,6 @@
 #include <optional>
 #include <set>
 
-#include "scenarios/format/table_node.h"
-#include "scenarios/format/table_reader.h"
 #include "scenarios/format/variants.h"
 #include "scenarios/scenario.h"
 #include "scenarios/steps/step_kinds.h"
@@ -24,28 +22,24 @@ constexpr std::size_t kMostHints = 10;
 constexpr double kLongestExam_s = 36000;
 constexpr double kLongestStep_s = 3600;
 
-std::size_t index_of(const std::vector<std::string>& words, const std::string& word) {
-  return std::size_t(std::find(words.begin(), words.end(), word) - words.begin());
-}
-
 /// The settings that a scenario can lock.
 constexpr std::array kSettings{ActionKind::probe, ActionKind::depth, ActionKind::frequency, ActionKind::gain};
 
-std::set<ActionKind> read_locked(TableReader& reader) {
+std::set<ActionKind> read_locked(const TomlTable& table) {
   std::vector<std::string> words;
   for (const ActionKind setting : kSettings) words.emplace_back(word_of(setting));
   std::set<ActionKind> locked;
-  for (const std::string& word : reader.texts("locked", words.size(), false)) {
-    const std::size_t index = index_of(words, word);
+  if (!table.has("locked")) return locked;
+  for (const std::string& word : table.texts("locked", 1, words.size())) {
+    const std::size_t index = std::size_t(std::find(words.begin(), words.end(), word) - words.begin());
     if (index < words.size())
       locked.insert(kSettings[index]);
     else
-      reader.problem(reader.place("locked"), "locks '" + word + "', which is no setting", suggest(word, words));
+      table.report("locked", in_quotes(word) + " is not a setting", suggest(word, words));
   }
   if (!locked.contains(ActionKind::probe) &&
       (locked.contains(ActionKind::depth) || locked.contains(ActionKind::frequency)))
-    reader.problem(reader.place("locked"), "locks depth or frequency, but not the probe, which brings its own",
-                   "add \"probe\"");
+    table.report("locked", "depth or frequency is locked, but not the probe, which brings its own", "add \"probe\"");
   return locked;
 }
 
@@ -56,53 +50,53 @@ std::vector<std::string> metric_names(MetricScope least) {
   return names;
 }
 
-Criterion read_criterion(TableReader& reader, bool whole_exam) {
+Criterion read_criterion(const TomlTable& table, bool whole_exam) {
   Criterion criterion;
-  criterion.place = reader.place("metric");
-  const std::string name = reader.text("metric");
-  criterion.full = reader.number("full", {-1e6, 1e6});
-  criterion.zero = reader.number("zero", {-1e6, 1e6});
-  criterion.weight = reader.number("weight", {0, 1000}, 1);
-  criterion.critical = reader.yes_or_no("critical", false);
-  if (reader.has("weight") && criterion.weight == 0)
-    reader.problem(reader.place("weight"), "has no weight", "give it one above 0, or remove the criterion");
+  criterion.place = table.place("metric");
+  const std::string name = table.text("metric");
+  const std::size_t mistakes_before = table.mistake_count();
+  criterion.full = table.number("full", {-1e6, 1e6});
+  criterion.zero = table.number("zero", {-1e6, 1e6});
+  const bool has_limits = table.mistake_count() == mistakes_before;
+  criterion.weight = table.number("weight", {0, 1000}, 1);
+  criterion.critical = table.boolean("critical", false);
+  if (table.has("weight") && criterion.weight == 0)
+    table.report("weight", "'weight' is 0", "give a number above 0, or remove the criterion");
 
   const auto metric = find_metric(name);
   criterion.sound = metric.has_value();
   if (!metric) {
     if (!name.empty())
-      reader.problem(criterion.place, "names the metric '" + name + "', which does not exist",
-                     suggest(name, metric_names(whole_exam ? MetricScope::motion : MetricScope::picture)));
+      table.report("metric", "there is no metric " + in_quotes(name),
+                   suggest(name, metric_names(whole_exam ? MetricScope::motion : MetricScope::picture)));
     return criterion;
   }
   criterion.metric = *metric;
   const MetricInfo& m = info(*metric);
   if (whole_exam && m.scope != MetricScope::motion)
-    reader.problem(criterion.place, "asks for " + name + ", which only a step has", "move it to a [[step.criterion]]");
+    table.report("metric", "only a step has the metric " + name, "move it to a [[step.criterion]]");
   const bool right_way = m.less_is_better ? criterion.full < criterion.zero : criterion.full > criterion.zero;
-  if (reader.has("full") && reader.has("zero") && !right_way)
-    reader.problem(
-        reader.place("full"), "gives full points at " + plain(criterion.full) + " and none at " + plain(criterion.zero),
-        std::string("for ") + name + " 'full' has to be " + (m.less_is_better ? "below" : "above") + " 'zero'");
+  if (has_limits && !right_way)
+    table.report("full", "'full' is " + exact_text(criterion.full) + " and 'zero' is " + exact_text(criterion.zero),
+                 std::string("for ") + name + ", give a 'full' " + (m.less_is_better ? "below" : "above") + " 'zero'");
   return criterion;
 }
 
-std::vector<Criterion> read_criteria(TableReader& parent, const std::string& where, bool whole_exam) {
+std::vector<Criterion> read_criteria(const TomlTable& parent, bool whole_exam) {
   std::vector<Criterion> criteria;
   std::set<Metric> seen;
-  for (const auto& table : parent.tables("criterion", kMostCriteria, "criterion ", " of " + where)) {
-    const std::size_t problems_before = table->problems().size();
-    criteria.push_back(read_criterion(*table, whole_exam));
-    if (table->problems().size() == problems_before && !seen.insert(criteria.back().metric).second)
-      table->problem(criteria.back().place,
-                     "marks " + std::string(info(criteria.back().metric).name) + " a second time",
-                     "keep one criterion for each metric");
+  for (const TomlTable& table : parent.tables("criterion", kMostCriteria)) {
+    const std::size_t mistakes_before = table.mistake_count();
+    criteria.push_back(read_criterion(table, whole_exam));
+    if (table.mistake_count() == mistakes_before && !seen.insert(criteria.back().metric).second)
+      table.report("metric", "another criterion marks " + std::string(info(criteria.back().metric).name) + " already",
+                   "keep one criterion for each metric");
   }
   return criteria;
 }
 
 /// Reports criteria that the step's kind does not measure.
-void check_criteria(const Step& step, const std::string& where, std::vector<ScenarioProblem>& problems) {
+void check_criteria(const Step& step, const TomlTable& table) {
   const std::vector<Metric> own = step.task->metrics();
   const auto measures = [&](const MetricInfo& m) {
     return m.scope == MetricScope::motion || (m.scope == MetricScope::picture && step.task->judges_picture()) ||
@@ -115,33 +109,31 @@ void check_criteria(const Step& step, const std::string& where, std::vector<Scen
     for (const MetricInfo& other : metrics())
       if (other.scope != MetricScope::motion && measures(other))
         known += (known.empty() ? "" : ", ") + std::string(other.name);
-    problems.push_back(
-        {criterion.place,
-         where + " asks for " + std::string(m.name) + ", which a step of the kind " + step.kind + " does not measure",
-         "take one of motion" + (known.empty() ? "" : ", or one of " + known)});
+    table.report_at(criterion.place, "a step of the kind " + step.kind + " does not measure " + std::string(m.name),
+                    "use a metric of motion" + (known.empty() ? "" : ", or one of " + known));
   }
 }
 
 /// Reports settings that the exam locks and the step asks to change.
-void check_locks(const Step& step, const Scenario& exam, TableReader& reader) {
+void check_locks(const Step& step, const Scenario& exam, const TomlTable& table) {
   for (const ActionKind setting : step.task->settings())
     if (exam.locked.contains(setting))
-      reader.problem(reader.place("kind"), "asks for the " + std::string(word_of(setting)) + ", which the exam locks",
-                     "remove it from the step, or from 'locked'");
+      table.report("kind", "the step asks for the " + std::string(word_of(setting)) + ", which the exam locks",
+                   "remove it from the step, or from 'locked'");
   for (const Criterion& criterion : step.criteria)
     if (criterion.sound && criterion.metric == Metric::depth_use_percent && exam.locked.contains(ActionKind::depth))
-      reader.problem(criterion.place, "asks for depth_use_percent, but the exam locks the depth",
-                     "remove the criterion, or \"depth\" from 'locked'");
+      table.report_at(criterion.place, "the step asks for depth_use_percent, but the exam locks the depth",
+                      "remove the criterion, or \"depth\" from 'locked'");
 }
 
-double read_cost(TableReader& table, Scenario::Difficulty difficulty) {
-  if (table.is_list("cost")) return table.one_of_three("cost", std::size_t(difficulty), {0, 1000});
+double read_cost(const TomlTable& table, Scenario::Difficulty difficulty) {
+  if (table.kind("cost") == TomlKind::list) return table.numbers("cost", 3, {0, 1000})[std::size_t(difficulty)];
   return table.number("cost", {0, 1000});
 }
 
-Step read_step(TableReader& reader, const Scenario& exam) {
+Step read_step(const TomlTable& table, const Scenario& exam) {
   Step step;
-  step.kind = reader.text("kind");
+  step.kind = table.text("kind");
   std::vector<std::string> names;
   const StepKind* kind = nullptr;
   for (const StepKind& k : step_kinds()) {
@@ -149,54 +141,48 @@ Step read_step(TableReader& reader, const Scenario& exam) {
     if (step.kind == k.name) kind = &k;
   }
   if (!step.kind.empty() && !kind)
-    reader.problem(reader.place("kind"), "is of the kind '" + step.kind + "', which does not exist",
-                   suggest(step.kind, names));
-  step.title = reader.text("title");
-  step.instruction = reader.text("instruction");
-  step.name = reader.text("name", false);
-  step.time_limit_s = reader.number("time_limit_s", {1, kLongestStep_s}, exam.time_limit_s);
-  step.counts = reader.yes_or_no("counts", true);
-  for (const auto& hint : reader.tables("hint", kMostHints, "hint ", " of " + reader.where()))
-    step.hints.push_back({hint->text("text"), read_cost(*hint, exam.difficulty)});
-  if (const auto next = reader.table("next", false, "the next of " + reader.where())) {
-    step.if_good = next->text("good", false);
-    step.if_poor = next->text("poor", false);
+    table.report("kind", "there is no kind of step " + in_quotes(step.kind), suggest(step.kind, names));
+  step.title = table.text("title");
+  step.instruction = table.text("instruction");
+  step.name = table.text("name", "");
+  step.time_limit_s = table.number("time_limit_s", {1, kLongestStep_s}, exam.time_limit_s);
+  step.counts = table.boolean("counts", true);
+  for (const TomlTable& hint : table.tables("hint", kMostHints))
+    step.hints.push_back({hint.text("text"), read_cost(hint, exam.difficulty)});
+  if (table.has("next")) {
+    const TomlTable next = table.table("next");
+    step.if_good = next.text("good", "");
+    step.if_poor = next.text("poor", "");
     if (exam.order == Scenario::Order::free)
-      reader.problem(reader.place("next"), "goes on to a step of its own, but the order is free",
-                     "remove [step.next], or set order = \"fixed\"");
+      table.report("next", "the step names its next one, but the order is free",
+                   "remove [step.next], or set order = \"fixed\"");
   }
   if (!kind || kind->view != ViewUse::none) {
-    step.view = reader.text("view", kind && kind->view == ViewUse::required);
-    step.view_place = reader.place("view");
+    step.view = kind && kind->view == ViewUse::required ? table.text("view") : table.text("view", "");
+    step.view_place = table.place("view");
   }
   if (!kind) {
     step.sound = false;
-    step.criteria = read_criteria(reader, reader.where(), false);
-    reader.ignore_others();
+    step.criteria = read_criteria(table, false);
+    table.allow_unknown_keys();
     return step;
   }
-  const std::size_t problems_before = reader.problems().size();
-  step.task = kind->read(reader, step);
-  step.sound = reader.problems().size() == problems_before;
-  step.criteria = read_criteria(reader, reader.where(), false);
-  if (step.task) check_criteria(step, reader.where(), reader.problems());
-  if (step.task) check_locks(step, exam, reader);
+  const std::size_t mistakes_before = table.mistake_count();
+  step.task = kind->read(table, step);
+  step.sound = table.mistake_count() == mistakes_before;
+  step.criteria = read_criteria(table, false);
+  if (step.task) check_criteria(step, table);
+  if (step.task) check_locks(step, exam, table);
   return step;
 }
 
-const std::vector<std::string> kOrders{"fixed", "free"};
-const std::vector<std::string> kDifficulties{"easy", "medium", "hard"};
-
 /// Checks that names are unique and that steps go on to existing later steps.
-void check_names(const std::vector<Step>& steps, const std::vector<SourcePlace>& places,
-                 std::vector<ScenarioProblem>& problems) {
+void check_names(const std::vector<Step>& steps, const std::vector<TomlTable>& tables) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < steps.size(); ++i) {
     if (steps[i].name.empty()) continue;
     if (steps[i].name == "end" || std::find(names.begin(), names.end(), steps[i].name) != names.end())
-      problems.push_back({places[i],
-                          "step " + std::to_string(i + 1) + " has the name '" + steps[i].name + "', which is taken",
-                          "give it another"});
+      tables[i].report("name", "the name " + in_quotes(steps[i].name) + " is taken", "give it another");
     names.push_back(steps[i].name);
   }
   for (std::size_t i = 0; i < steps.size(); ++i)
@@ -206,41 +192,39 @@ void check_names(const std::vector<Step>& steps, const std::vector<SourcePlace>&
       for (std::size_t k = i + 1; k < steps.size(); ++k)
         if (!steps[k].name.empty()) later.push_back(steps[k].name);
       if (std::find(later.begin(), later.end(), next) == later.end())
-        problems.push_back({places[i],
-                            "step " + std::to_string(i + 1) + " goes on to '" + next + "', which is no later step",
-                            suggest(next, later)});
+        tables[i].report("name", "the next step " + in_quotes(next) + " is not a later step", suggest(next, later));
     }
 }
 
-Scenario read_tables(TableReader& reader, const Variant* variant) {
+Scenario read_tables(const TomlTable& table, const Variant* variant) {
   Scenario scenario;
-  const double format = reader.number("format", {1, 1e6});
+  const double format = table.number("format", {1, 1e6});
   if (format != 1 && format != Scenario::kFormat)
-    reader.problem(
-        reader.place("format"),
-        "is written for format " + plain(format) + " and this program reads formats 1 and " +
+    table.report(
+        "format",
+        "the scenario is written for format " + exact_text(format) + " and this program reads formats 1 and " +
             std::to_string(Scenario::kFormat),
         "set format = " + std::to_string(Scenario::kFormat) + " and check the file against it, or use a newer program");
-  scenario.title = reader.text("title");
-  scenario.case_name = reader.text("case", !variant || variant->case_name.empty());
-  scenario.case_place = reader.place("case");
-  if (variant && !variant->case_name.empty()) {
+  scenario.title = table.text("title");
+  const bool case_is_replaced = variant && !variant->case_name.empty();
+  scenario.case_name = case_is_replaced ? table.text("case", "") : table.text("case");
+  scenario.case_place = table.place("case");
+  if (case_is_replaced) {
     scenario.case_name = variant->case_name;
     scenario.case_place = variant->case_place;
   }
-  scenario.briefing = unwrapped(reader.text("briefing", false));
-  scenario.pass_mark_percent = reader.number("pass_mark_percent", {0, 100}, 80);
-  scenario.time_limit_s = reader.number("time_limit_s", {1, kLongestExam_s});
-  scenario.locked = read_locked(reader);
-  scenario.order = Scenario::Order(index_of(kOrders, reader.choice("order", kOrders, false)));
-  scenario.difficulty = reader.has("difficulty")
-                            ? Scenario::Difficulty(index_of(kDifficulties, reader.choice("difficulty", kDifficulties)))
-                            : Scenario::Difficulty::medium;
-  if (const auto options = reader.table("phantom", false, "[phantom]")) {
-    scenario.phantom_options = read_options(*options, &scenario.option_places);
+  scenario.briefing = unwrapped(table.text("briefing", ""));
+  scenario.pass_mark_percent = table.number("pass_mark_percent", {0, 100}, 80);
+  scenario.time_limit_s = table.number("time_limit_s", {1, kLongestExam_s});
+  scenario.locked = read_locked(table);
+  scenario.order = Scenario::Order(table.choice("order", {"fixed", "free"}, std::size_t(Scenario::Order::fixed)));
+  scenario.difficulty = Scenario::Difficulty(
+      table.choice("difficulty", {"easy", "medium", "hard"}, std::size_t(Scenario::Difficulty::medium)));
+  if (table.has("phantom")) {
+    scenario.phantom_options = read_options(table.table("phantom"), &scenario.option_places);
     if (!scenario.case_name.empty() && scenario.case_name != "abdomen")
-      reader.problem(reader.place("phantom"), "gives phantom options for the case '" + scenario.case_name + "'",
-                     "remove [phantom], or set case = \"abdomen\"");
+      table.report("phantom", "there are phantom options for the case " + in_quotes(scenario.case_name),
+                   "remove [phantom], or set case = \"abdomen\"");
   }
   if (variant) {
     for (const auto& option : variant->phantom_options) {
@@ -251,92 +235,42 @@ Scenario read_tables(TableReader& reader, const Variant* variant) {
     std::sort(scenario.phantom_options.begin(), scenario.phantom_options.end());
     scenario.variant = variant->name;
     if (!variant->phantom_options.empty() && scenario.case_name != "abdomen")
-      reader.problem(reader.place("variant"), "has phantom options for the case '" + scenario.case_name + "'",
-                     "remove them, or set case = \"abdomen\"");
+      table.report("variant", "there are phantom options for the case " + in_quotes(scenario.case_name),
+                   "remove them, or set case = \"abdomen\"");
   }
-  read_variants(reader);  // the variants were read before; this call registers and checks their keys
-  std::vector<SourcePlace> places;
-  for (const auto& table : reader.tables("step", kMostSteps, "step ", "")) {
-    scenario.steps.push_back(read_step(*table, scenario));
-    places.push_back(table->place("name"));
+  read_variants(table);  // the variants were read before; this call registers and checks their keys
+  const std::vector<TomlTable> steps = table.tables("step", kMostSteps);
+  for (const TomlTable& step : steps) {
+    scenario.steps.push_back(read_step(step, scenario));
     if (!scenario.steps.back().counts && scenario.steps.size() > 1 && scenario.steps[scenario.steps.size() - 2].counts)
-      table->problem(table->place("counts"), "is a warm-up behind a step that counts", "move it to the front");
+      step.report("counts", "this warm-up is behind a step that counts", "move it to the front");
   }
-  check_names(scenario.steps, places, reader.problems());
-  if (!reader.has("step")) reader.problem({1, 1}, "has no steps", "add a [[step]]");
-  scenario.criteria = read_criteria(reader, "the exam", true);
+  check_names(scenario.steps, steps);
+  if (!table.has("step")) table.report_at({1, 1}, "there are no steps", "add a [[step]]");
+  scenario.criteria = read_criteria(table, true);
 
   const bool marked =
       !scenario.criteria.empty() || std::any_of(scenario.steps.begin(), scenario.steps.end(),
                                                 [](const Step& s) { return s.counts && !s.criteria.empty(); });
-  if (!marked && !scenario.steps.empty()) reader.problem({1, 1}, "marks nothing", "add a [[step.criterion]] to a step");
+  if (!marked && !scenario.steps.empty())
+    table.report_at({1, 1}, "the scenario marks nothing", "add a [[step.criterion]] to a step");
+  table.refuse_unknown_keys();
   return scenario;
-}
-
-std::string in_words(const ScenarioProblem& p) {
-  return "line " + std::to_string(p.place.line) + ", column " + std::to_string(p.place.column) + ": " +
-         in_one_line(p.problem) + "; " + in_one_line(p.remedy);
-}
-
-std::string all_in_words(const std::string& file, const std::vector<ScenarioProblem>& problems) {
-  constexpr std::size_t kMostReported = 100;
-  std::string text = in_one_line(file) + ": " + std::to_string(problems.size()) + " problems; correct them:";
-  for (std::size_t i = 0; i < std::min(problems.size(), kMostReported); ++i) text += "\n  " + in_words(problems[i]);
-  return text + (problems.size() > kMostReported ? "\n  and so on." : ".");
-}
-
-InputError as_input_error(const std::string& file, const std::vector<ScenarioProblem>& problems) {
-  if (problems.size() > 1) return InputError(all_in_words(file, problems));
-  const ScenarioProblem& p = problems.front();
-  return InputError(file, "line " + std::to_string(p.place.line) + ", column " + std::to_string(p.place.column),
-                    p.problem, p.remedy);
-}
-
-std::vector<ScenarioProblem> in_order_of_file(std::vector<ScenarioProblem> problems) {
-  std::stable_sort(problems.begin(), problems.end(), [](const ScenarioProblem& a, const ScenarioProblem& b) {
-    return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
-  });
-  // A problem that several variants share is reported once.
-  const auto same = [](const ScenarioProblem& a, const ScenarioProblem& b) {
-    return a.place.line == b.place.line && a.place.column == b.place.column && a.problem == b.problem;
-  };
-  std::vector<ScenarioProblem> once;
-  for (ScenarioProblem& p : problems) {
-    auto told = once.rbegin();
-    while (told != once.rend() && told->place.line == p.place.line && told->problem != p.problem) ++told;
-    if (told == once.rend() || !same(*told, p)) once.push_back(std::move(p));
-  }
-  return once;
 }
 
 ReadScenario parse_every_variant(std::string_view text, const std::filesystem::path& name) {
   ReadScenario read;
-  if (const int line = line_of_deep_key(text); line > 0) {
-    read.problems.push_back(
-        {{line, 1}, "a key has more than " + std::to_string(kMostKeyParts) + " parts between dots", "shorten it"});
+  const TomlDocument document(name.string(), text, OnMistake::collect);
+  if (!document.mistakes().empty()) {
+    read.problems = document.mistakes();
     return read;
   }
-  toml::table root;
-  try {
-    root = parse_toml_text(text);
-  } catch (const toml::parse_error& error) {
-    read.problems.push_back({{int(error.source().begin.line), int(error.source().begin.column)},
-                             "this is no TOML: " + std::string(error.description()),
-                             "correct the line; toml.io explains the notation"});
-    return read;
-  }
-  std::vector<Variant> variants;
-  {
-    std::vector<ScenarioProblem> told_later;
-    TableReader reader({&root}, "the scenario", told_later);
-    reader.ignore_others();
-    variants = read_variants(reader);
-  }
+  const std::vector<Variant> variants = read_variants(document.root());  // read_tables() reports their mistakes
   const auto read_with = [&](const Variant* variant) {
-    toml::table spelt = parse_toml_text(text);  // parsed again, because a copy loses the values' source positions
-    if (variant) spell_out(spelt, *variant, read.problems);
-    TableReader reader({&spelt}, "the scenario", read.problems);
-    read.variants.push_back(read_tables(reader, variant));
+    TomlDocument spelt(name.string(), text, OnMistake::collect);
+    if (variant) spell_out(spelt, *variant);
+    read.variants.push_back(read_tables(spelt.root(), variant));
+    read.problems.insert(read.problems.end(), spelt.mistakes().begin(), spelt.mistakes().end());
     read.variants.back().file = name;
     read.variants.back().text = text;
     read.variants.back().digest = digest_of(text);
@@ -344,21 +278,18 @@ ReadScenario parse_every_variant(std::string_view text, const std::filesystem::p
   };
   if (variants.empty()) read_with(nullptr);
   for (const Variant& variant : variants) read_with(&variant);
-  const auto format = root["format"].value<double>();
-  if (format != 1.0 && format != double(Scenario::kFormat)) read.variants.clear();
+  const double format = document.root().number("format", {1, Scenario::kFormat}, 0);
+  if (format != 1 && format != Scenario::kFormat) read.variants.clear();
   return read;
 }
 
 }  // namespace
 
-ScenarioError::ScenarioError(const std::string& file, std::vector<ScenarioProblem> problems)
-    : InputError(as_input_error(file, in_order_of_file(problems))), problems_(in_order_of_file(std::move(problems))) {}
-
 Scenario parse_scenario(std::string_view text, const std::filesystem::path& name, std::uint32_t seed) {
   // All variants are read, so that the one that a seed selects has been checked.
   ReadScenario read = parse_every_variant(text, name);
   if (!read.problems.empty()) throw ScenarioError(name.string(), std::move(read.problems));
-  Scenario scenario = std::move(read.variants[drawn(seed, read.variants.size())]);
+  Scenario scenario = std::move(read.variants[selected_variant(seed, read.variants.size())]);
   scenario.seed = seed;
   return scenario;
 }

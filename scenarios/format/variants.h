@@ -6,8 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "scenarios/format/table_node.h"
-#include "scenarios/format/table_reader.h"
+#include "sim/core/toml_table.h"
 
 namespace insonate {
 
@@ -24,19 +23,19 @@ struct Variant {
 inline constexpr std::size_t kMostVariants = 32;
 
 /// Reads the [[variant]] tables of a scenario, at most kMostVariants.
-std::vector<Variant> read_variants(TableReader& scenario);
+std::vector<Variant> read_variants(const TomlTable& scenario);
 
 /// Returns the index of the variant that a seed selects among `count`; 0 if there is none.
-std::size_t drawn(std::uint32_t seed, std::size_t count);
+std::size_t selected_variant(std::uint32_t seed, std::size_t count);
 
 /// Replaces ${side} by the variant's word `side` in every text of the file's steps: titles, instructions, views,
-/// structures, answers. A word that the variant does not define is a problem.
-void spell_out(toml::table& root, const Variant& variant, std::vector<ScenarioProblem>& problems);
+/// structures, answers. A word that the variant does not define is a mistake.
+void spell_out(TomlDocument& scenario, const Variant& variant);
 
 /// Returns the options of a table such as [phantom] as text, in the form that the phantom builder reads, sorted by
 /// name.
 /// @param places  receives the position of each option; may be nullptr
-std::vector<std::pair<std::string, std::string>> read_options(TableReader& table,
+std::vector<std::pair<std::string, std::string>> read_options(const TomlTable& table,
                                                               std::map<std::string, SourcePlace>* places = nullptr);
 
 }  // namespace insonate

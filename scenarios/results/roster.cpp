@@ -17,13 +17,13 @@ struct Entry {
 };
 
 std::vector<Entry> entries_of_toml(const std::string& file, const std::string& text) {
-  const toml::table parsed = parse_toml(file, text);
-  const TomlTable table(file, "", parsed);
-  table.allow_only({"format", "learners"});
+  const TomlDocument document(file, text);
+  const TomlTable table = document.root();
   table.whole_number("format", 1, 1);
   std::vector<Entry> entries;
   for (const std::string& id : table.texts("learners"))
     entries.push_back({id, "learners, number " + std::to_string(entries.size() + 1)});
+  table.refuse_unknown_keys();
   return entries;
 }
 

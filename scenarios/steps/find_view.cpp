@@ -4,37 +4,33 @@
 #include <cmath>
 #include <deque>
 
-#include "scenarios/format/table_reader.h"
 #include "scenarios/metrics/motion_meter.h"
 #include "scenarios/metrics/view_meter.h"
 #include "scenarios/steps/structures.h"
 #include "sim/core/suggest.h"
+#include "sim/core/text.h"
+#include "sim/core/toml_table.h"
 
 namespace insonate {
 namespace {
 
 constexpr double kLargestLimit = 1000;
 
-std::vector<Tolerance> read_tolerance(TableReader& table) {
+std::vector<Tolerance> read_tolerance(const TomlTable& table) {
   std::vector<std::string> usable;
   for (const MetricInfo& m : metrics())
     if (m.scope == MetricScope::picture) usable.emplace_back(m.name);
 
-  const std::vector<TableReader::Entry> entries = table.entries();
+  const std::vector<std::string> names = table.keys();
   std::vector<Tolerance> tolerance;
-  for (const auto& entry : entries) {
-    const auto metric = find_metric(entry.key);
-    const double limit = entry.number.value_or(-1);
+  for (const std::string& name : names) {
+    const auto metric = find_metric(name);
     if (!metric || info(*metric).scope != MetricScope::picture)
-      table.problem(entry.key_place, "has a tolerance for '" + entry.key + "', which is not a metric of a picture",
-                    suggest(entry.key, usable));
-    else if (!(limit >= 0 && limit <= kLargestLimit))
-      table.problem(entry.value_place, "has no usable limit for '" + entry.key + "'",
-                    "write a number from 0 to " + plain(kLargestLimit));
+      table.report_at(table.key_place(name), in_quotes(name) + " is not a metric of a picture", suggest(name, usable));
     else
-      tolerance.push_back({*metric, limit, entry.key_place});
+      tolerance.push_back({*metric, table.number(name, {0, kLargestLimit}), table.key_place(name)});
   }
-  if (entries.empty()) table.problem(table.place(""), "is empty", "add a limit, for example plane_distance_mm = 5");
+  if (names.empty()) table.report("", "it is empty", "add a limit, for example plane_distance_mm = 5");
   return tolerance;
 }
 
@@ -132,14 +128,13 @@ private:
 
 }  // namespace
 
-std::shared_ptr<const StepTask> FindView::read(TableReader& table, const Step& step) {
+std::shared_ptr<const StepTask> FindView::read(const TomlTable& table, const Step& step) {
   auto task = std::make_shared<FindView>();
-  task->hold_s = table.number("hold_s", {0.1, 60}, 1.0);
+  task->hold_s = table.number("hold_s", {0.1, 60}, 1);
   if (table.has("hold_s") && table.has("time_limit_s") && task->hold_s >= step.time_limit_s)
-    table.problem(table.place("hold_s"), "has to be held longer than its time limit allows",
-                  "shorten hold_s or raise time_limit_s");
-  if (const auto limits = table.table("tolerance", true, "the tolerance of " + table.where()))
-    task->tolerance = read_tolerance(*limits);
+    table.report("hold_s", "the view has to be held longer than the time limit allows",
+                 "shorten hold_s or raise time_limit_s");
+  task->tolerance = read_tolerance(table.table("tolerance"));
   return task;
 }
 
@@ -150,7 +145,7 @@ std::vector<ActionKind> FindView::settings() const {
 }
 
 void FindView::check(const Step& step, const LabelIndex& labels, const std::string& where,
-                     std::vector<ScenarioProblem>& problems) const {
+                     std::vector<Mistake>& problems) const {
   for (const Tolerance& limit : tolerance)
     check_metric(limit.metric, limit.place, step, labels.subject(), where, problems);
 }

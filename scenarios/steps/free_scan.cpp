@@ -11,7 +11,7 @@ public:
 
 }  // namespace
 
-std::shared_ptr<const StepTask> FreeScan::read(TableReader&, const Step&) {
+std::shared_ptr<const StepTask> FreeScan::read(const TomlTable&, const Step&) {
   return std::make_shared<FreeScan>();
 }
 

@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <map>
 
-#include "scenarios/format/table_reader.h"
 #include "scenarios/steps/structures.h"
 #include "scenarios/words.h"
 #include "sim/core/suggest.h"
+#include "sim/core/text.h"
+#include "sim/core/toml_table.h"
 
 namespace insonate {
 namespace {
@@ -81,24 +82,23 @@ private:
 
 }  // namespace
 
-std::shared_ptr<const StepTask> MarkPoint::read(TableReader& table, const Step&) {
+std::shared_ptr<const StepTask> MarkPoint::read(const TomlTable& table, const Step&) {
   auto task = std::make_shared<MarkPoint>();
   if (table.has("landmark") == table.has("structures"))
-    table.problem(table.place(""), table.has("landmark") ? "names a landmark and structures" : "names nothing to mark",
-                  "give either landmark = \"...\" or structures = [\"...\"]");
-  task->landmark = table.text("landmark", false);
-  task->structures = table.texts("structures", 20, false);
+    table.report("", table.has("landmark") ? "both a landmark and structures are named" : "nothing to mark is named",
+                 "give either landmark = \"...\" or structures = [\"...\"]");
+  task->landmark = table.text("landmark", "");
+  if (table.has("structures")) task->structures = table.texts("structures", 1, 20);
   task->place = table.place(table.has("landmark") ? "landmark" : "structures");
   return task;
 }
 
 void MarkPoint::check(const Step&, const LabelIndex& labels, const std::string& where,
-                      std::vector<ScenarioProblem>& problems) const {
+                      std::vector<Mistake>& problems) const {
   const Case& subject = labels.subject();
   check_structures(structures, place, subject, where, problems);
   if (landmark.empty() || subject.find_landmark(landmark)) return;
-  std::vector<std::string> known;
-  for (const Landmark& one : subject.landmarks) known.push_back(one.name);
+  const std::vector<std::string> known = names_of(subject.landmarks);
   problems.push_back(
       {place, where + " names the landmark '" + landmark + "', which the case '" + subject.name + "' does not have",
        known.empty() ? "take a case with landmarks" : suggest(landmark, known)});
@@ -109,20 +109,20 @@ StepBegin MarkPoint::prepare(const StepWorld& world) const {
              double) { return std::make_unique<PointRun>(landmark, surface); };
 }
 
-std::shared_ptr<const StepTask> LabelStructures::read(TableReader& table, const Step&) {
+std::shared_ptr<const StepTask> LabelStructures::read(const TomlTable& table, const Step&) {
   auto task = std::make_shared<LabelStructures>();
-  task->structures = table.texts("structures", 20);
+  task->structures = table.texts("structures", 1, 20);
   std::vector<std::string> sorted = task->structures;
   std::sort(sorted.begin(), sorted.end());
   if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
-    table.problem(table.place("structures"), "names a structure twice", "name each once");
-  task->tolerance_mm = table.number("tolerance_mm", {0, 20}, 2.0);
+    table.report("structures", "a structure is named twice", "name each once");
+  task->tolerance_mm = table.number("tolerance_mm", {0, 20}, 2);
   task->place = table.place("structures");
   return task;
 }
 
 void LabelStructures::check(const Step&, const LabelIndex& labels, const std::string& where,
-                            std::vector<ScenarioProblem>& problems) const {
+                            std::vector<Mistake>& problems) const {
   check_structures(structures, place, labels.subject(), where, problems);
 }
 

@@ -5,7 +5,7 @@
 
 namespace insonate {
 
-class TableReader;
+class TomlTable;
 
 /// kind = "mark_point": point at a landmark or a structure in the picture, which may be frozen. The last point before
 /// going on counts. Its error is the distance in space to the landmark, or to the structure's nearest voxel (0 inside).
@@ -14,13 +14,13 @@ struct MarkPoint : StepTask {
   std::vector<std::string> structures;  ///< structures = ["gallbladder"]; or this
   SourcePlace place{};
 
-  static std::shared_ptr<const StepTask> read(TableReader& table, const Step& step);
+  static std::shared_ptr<const StepTask> read(const TomlTable& table, const Step& step);
 
   StepInput input() const override { return PointInput{}; }
   std::vector<Metric> metrics() const override { return {Metric::point_error_mm}; }
   const char* why_no_value() const override { return "nothing was pointed at."; }
   void check(const Step& step, const LabelIndex& labels, const std::string& where,
-             std::vector<ScenarioProblem>& problems) const override;
+             std::vector<Mistake>& problems) const override;
   StepBegin prepare(const StepWorld& world) const override;
 };
 
@@ -31,12 +31,12 @@ struct LabelStructures : StepTask {
   double tolerance_mm = 2;              ///< tolerance_mm = 2: 0 to 20; default 2
   SourcePlace place{};
 
-  static std::shared_ptr<const StepTask> read(TableReader& table, const Step& step);
+  static std::shared_ptr<const StepTask> read(const TomlTable& table, const Step& step);
 
   StepInput input() const override { return LabelInput{structures}; }
   std::vector<Metric> metrics() const override { return {Metric::labels_right_percent}; }
   void check(const Step& step, const LabelIndex& labels, const std::string& where,
-             std::vector<ScenarioProblem>& problems) const override;
+             std::vector<Mistake>& problems) const override;
   StepBegin prepare(const StepWorld& world) const override;
 };
 

@@ -6,12 +6,13 @@
 #include <array>
 
 #include "scenarios/caliper.h"
-#include "scenarios/format/table_reader.h"
 #include "scenarios/metrics/view_meter.h"
 #include "scenarios/steps/plane_region.h"
 #include "scenarios/steps/structures.h"
 #include "scenarios/words.h"
 #include "sim/core/suggest.h"
+#include "sim/core/text.h"
+#include "sim/core/toml_table.h"
 
 namespace insonate {
 namespace {
@@ -144,19 +145,17 @@ private:
   int order_ = 0;
 };
 
-MeasureTarget read_target(TableReader& table, const Step& step, Measure::Tool tool) {
+MeasureTarget read_target(const TomlTable& table, const Step& step, Measure::Tool tool) {
   MeasureTarget target;
-  target.structures = table.texts("structures", 20);
+  target.structures = table.texts("structures", 1, 20);
   target.place = table.place("structures");
   if (tool == Measure::Tool::volume) return target;
-  target.view = table.text("view", step.view.empty());
+  target.view = step.view.empty() ? table.text("view") : table.text("view", "");
   if (table.has("view")) target.place = table.place("view");
-  target.through = table.text("through", false);
+  target.through = table.text("through", "");
   if (tool == Measure::Tool::ellipse) return target;
-  const std::string along = table.choice("along", {"longest", "depth", "lateral"}, false);
-  target.along = along == "depth"     ? MeasureTarget::Along::depth
-                 : along == "lateral" ? MeasureTarget::Along::lateral
-                                      : MeasureTarget::Along::longest;
+  target.along = MeasureTarget::Along(
+      table.choice("along", {"depth", "lateral", "longest"}, std::size_t(MeasureTarget::Along::longest)));
   return target;
 }
 
@@ -215,17 +214,16 @@ StepInput Measure::input() const {
   return input;
 }
 
-std::shared_ptr<const StepTask> Measure::read(TableReader& table, const Step& step) {
+std::shared_ptr<const StepTask> Measure::read(const TomlTable& table, const Step& step) {
   auto task = std::make_shared<Measure>();
-  const std::vector<std::string> tools{"distance", "ellipse", "ratio", "volume"};
-  task->tool = Tool(std::find(tools.begin(), tools.end(), table.choice("tool", tools)) - tools.begin());
+  task->tool = Tool(table.choice("tool", {"distance", "ellipse", "ratio", "volume"}));
   task->walls = table.text("walls");
   const std::size_t wanted = task->tool == Tool::ratio ? 2 : 1;
-  for (const auto& target : table.tables("target", wanted, "target ", " of " + table.where()))
-    task->targets.push_back(read_target(*target, step, task->tool));
+  for (const TomlTable& target : table.tables("target", wanted))
+    task->targets.push_back(read_target(target, step, task->tool));
   if (task->targets.size() < wanted)
-    table.problem(table.place(""), "has too few targets for what it measures",
-                  "add " + std::string(wanted == 2 ? "two" : "a") + " [[step.target]]");
+    table.report("", "there are too few targets for the tool",
+                 "add " + std::string(wanted == 2 ? "two" : "a") + " [[step.target]]");
   return task;
 }
 
@@ -237,15 +235,13 @@ std::vector<Metric> Measure::metrics() const {
 }
 
 void Measure::check(const Step& step, const LabelIndex& labels, const std::string& where,
-                    std::vector<ScenarioProblem>& problems) const {
+                    std::vector<Mistake>& problems) const {
   const Case& subject = labels.subject();
   const std::size_t before = problems.size();
   for (const MeasureTarget& target : targets) {
     check_structures(target.structures, target.place, subject, where, problems);
     if (tool == Tool::volume) continue;
-    std::vector<std::string> views, landmarks;
-    for (const ReferenceView& view : subject.views) views.push_back(view.name);
-    for (const Landmark& landmark : subject.landmarks) landmarks.push_back(landmark.name);
+    const std::vector<std::string> views = names_of(subject.views), landmarks = names_of(subject.landmarks);
     if (!view_of(target, step, subject))
       problems.push_back({target.place, where + " measures in the view '" + target.view + "', which is not there",
                           views.empty() ? "take a case with views" : suggest(target.view, views)});

@@ -5,7 +5,7 @@
 
 namespace insonate {
 
-class TableReader;
+class TomlTable;
 
 /// `[[step.target]]`: what to measure, and where the true value comes from.
 struct MeasureTarget {
@@ -46,14 +46,14 @@ struct Measure : StepTask {
   /// "23.4 mm", "4.56 cm²", "1.25", "123 ml"
   std::string value_text(double value) const;
 
-  static std::shared_ptr<const StepTask> read(TableReader& table, const Step& step);
+  static std::shared_ptr<const StepTask> read(const TomlTable& table, const Step& step);
 
   StepInput input() const override;
   std::vector<Metric> metrics() const override;
   bool judges_picture() const override { return true; }  ///< the frozen one
   const char* why_no_value() const override { return "nothing was measured in a frozen picture."; }
   void check(const Step& step, const LabelIndex& labels, const std::string& where,
-             std::vector<ScenarioProblem>& problems) const override;
+             std::vector<Mistake>& problems) const override;
   StepBegin prepare(const StepWorld& world) const override;
 };
 

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scenarios/format/table_reader.h"
 #include "scenarios/steps/structures.h"
 #include "scenarios/words.h"
 #include "sim/core/suggest.h"
+#include "sim/core/text.h"
+#include "sim/core/toml_table.h"
 
 namespace insonate {
 namespace {
@@ -47,34 +48,31 @@ private:
 };
 
 /// Reads a text that must be one of the choices.
-std::string choice_of(TableReader& table, const char* key, const std::vector<std::string>& choices) {
+std::string choice_of(const TomlTable& table, const char* key, const std::vector<std::string>& choices) {
   const std::string word = table.text(key);
   if (!word.empty() && !choices.empty() && std::find(choices.begin(), choices.end(), word) == choices.end())
-    table.problem(table.place(key), "has " + std::string(key) + " = '" + word + "', which is none of its choices",
-                  suggest(word, choices));
+    table.report(key, in_quotes(key) + " is " + in_quotes(word) + ", which is not among the choices",
+                 suggest(word, choices));
   return word;
 }
 
 }  // namespace
 
-std::shared_ptr<const StepTask> Question::read(TableReader& table, const Step&) {
+std::shared_ptr<const StepTask> Question::read(const TomlTable& table, const Step&) {
   auto task = std::make_shared<Question>();
-  const std::string answer = table.choice("answer", {"choice", "number", "text"}, false);
-  if (answer == "text") {
-    task->answer = Answer::text;
-  } else if (answer == "number") {
-    task->answer = Answer::number;
+  task->answer = Answer(table.choice("answer", {"choice", "number", "text"}, std::size_t(Answer::choice)));
+  if (task->answer == Answer::number) {
     task->right_number = table.number("right_number", {-1e6, 1e6});
-    task->within = table.number("within", {0, 1e6}, 0.0);
-    task->unit = table.text("unit", false);
-  } else {
-    task->choices = table.texts("choices", 10);
-    if (task->choices.size() == 1) table.problem(table.place("choices"), "has one choice", "offer two or more");
+    task->within = table.number("within", {0, 1e6}, 0);
+    task->unit = table.text("unit", "");
+  } else if (task->answer == Answer::choice) {
+    task->choices = table.texts("choices", 1, 10);
+    if (task->choices.size() == 1) table.report("choices", "there is only one choice", "offer two or more");
     std::vector<std::string> sorted = task->choices;
     std::sort(sorted.begin(), sorted.end());
     if (const auto twice = std::adjacent_find(sorted.begin(), sorted.end()); twice != sorted.end())
-      table.problem(table.place("choices"), "offers '" + *twice + "' twice", "write each choice once");
-    task->findings = table.texts("finding", 20, false);
+      table.report("choices", "the choice " + in_quotes(*twice) + " is offered twice", "write each choice once");
+    if (table.has("finding")) task->findings = table.texts("finding", 1, 20);
     task->finding_place = table.place("finding");
     if (task->findings.empty()) {
       task->right = choice_of(table, "right", task->choices);
@@ -82,8 +80,7 @@ std::shared_ptr<const StepTask> Question::read(TableReader& table, const Step&) 
       task->if_present = choice_of(table, "if_present", task->choices);
       task->if_absent = choice_of(table, "if_absent", task->choices);
       if (!task->if_present.empty() && task->if_present == task->if_absent)
-        table.problem(table.place("if_absent"), "has the same right answer with the finding as without",
-                      "give another one");
+        table.report("if_absent", "the right answer is the same with the finding as without", "give another one");
     }
   }
   return task;
@@ -96,7 +93,7 @@ std::vector<Metric> Question::metrics() const {
 }
 
 void Question::check(const Step&, const LabelIndex& labels, const std::string& where,
-                     std::vector<ScenarioProblem>& problems) const {
+                     std::vector<Mistake>& problems) const {
   check_structures(findings, finding_place, labels.subject(), where, problems);
 }
 

@@ -8,7 +8,7 @@
 
 namespace insonate {
 
-class TableReader;
+class TomlTable;
 
 /// kind = "question": answer the question, which is the step's instruction. The first answer counts and ends the step.
 ///
@@ -27,13 +27,13 @@ struct Question : StepTask {
   std::string unit;                   ///< unit = "mm": shown beside a number; optional
   SourcePlace finding_place{};
 
-  static std::shared_ptr<const StepTask> read(TableReader& table, const Step& step);
+  static std::shared_ptr<const StepTask> read(const TomlTable& table, const Step& step);
 
   StepInput input() const override { return AnswerInput{answer, choices, unit}; }
   std::vector<Metric> metrics() const override;
   const char* why_no_value() const override { return "there was no answer."; }
   void check(const Step& step, const LabelIndex& labels, const std::string& where,
-             std::vector<ScenarioProblem>& problems) const override;
+             std::vector<Mistake>& problems) const override;
   StepBegin prepare(const StepWorld& world) const override;
 };
 

@@ -5,6 +5,7 @@
 #include "scenarios/metrics/motion_meter.h"
 #include "scenarios/words.h"
 #include "sim/core/suggest.h"
+#include "sim/core/text.h"
 #include "sim/probe/probe.h"
 
 namespace insonate {
@@ -30,7 +31,7 @@ public:
 private:
   double right_percent(const Machine& machine) const {
     int wanted = 0, right = 0;
-    const auto see = [&](const std::optional<Range>& range, double value) {
+    const auto see = [&](const std::optional<NumberRange>& range, double value) {
       if (!range) return;
       ++wanted;
       right += value >= range->least && value <= range->most;
@@ -53,18 +54,17 @@ private:
 
 }  // namespace
 
-std::shared_ptr<const StepTask> SetKnobs::read(TableReader& table, const Step&) {
+std::shared_ptr<const StepTask> SetKnobs::read(const TomlTable& table, const Step&) {
   auto task = std::make_shared<SetKnobs>();
   task->depth_mm = table.interval("depth_mm", {1, 1000});
   task->gain_db = table.interval("gain_db", {-100, 100});
   task->frequency_mhz = table.interval("frequency_mhz", {0.1, 100});
-  task->probe = table.text("probe", false);
-  task->hold_s = table.number("hold_s", {0.1, 60}, 1.0);
+  task->probe = table.text("probe", "");
+  task->hold_s = table.number("hold_s", {0.1, 60}, 1);
   if (table.has("probe") && !find_probe(task->probe))
-    table.problem(table.place("probe"), "asks for the probe '" + task->probe + "', which does not exist",
-                  suggest(task->probe, probe_names()));
+    table.report("probe", "there is no probe " + in_quotes(task->probe), suggest(task->probe, probe_names()));
   if (!table.has("depth_mm") && !table.has("gain_db") && !table.has("frequency_mhz") && !table.has("probe"))
-    table.problem(table.place(""), "asks for no knob", "add depth_mm, gain_db, frequency_mhz or probe");
+    table.report("", "no setting is asked for", "add depth_mm, gain_db, frequency_mhz or probe");
   return task;
 }
 
@@ -80,7 +80,7 @@ std::vector<ActionKind> SetKnobs::settings() const {
 StepInput SetKnobs::input() const {
   return SettingsInput{[this](const Machine& machine) {
     std::vector<SettingsInput::Setting> settings;
-    const auto add = [&](const char* name, const std::optional<Range>& wanted, double now, double per_unit,
+    const auto add = [&](const char* name, const std::optional<NumberRange>& wanted, double now, double per_unit,
                          const char* unit) {
       if (!wanted) return;
       const auto number = [&](double value) { return short_number(value / per_unit); };

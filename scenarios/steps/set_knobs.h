@@ -1,20 +1,20 @@
 #pragma once
 
-#include "scenarios/format/table_reader.h"
 #include "scenarios/steps/step_task.h"
+#include "sim/core/toml_table.h"
 
 namespace insonate {
 
 /// kind = "set_knobs": set the machine as required. The step is done after all required settings have been right for
 /// hold_s. At least one of the four is required.
 struct SetKnobs : StepTask {
-  std::optional<Range> depth_mm;       ///< depth_mm = [90, 120]: minimum and maximum, 1 to 1000
-  std::optional<Range> gain_db;        ///< gain_db = [-3, 3]: -100 to 100
-  std::optional<Range> frequency_mhz;  ///< frequency_mhz = [5, 8]: 0.1 to 100
-  std::string probe;                   ///< probe = "linear"
-  double hold_s = 1;                   ///< hold_s = 1.0: 0.1 to 60; default 1
+  std::optional<NumberRange> depth_mm;       ///< depth_mm = [90, 120]: minimum and maximum, 1 to 1000
+  std::optional<NumberRange> gain_db;        ///< gain_db = [-3, 3]: -100 to 100
+  std::optional<NumberRange> frequency_mhz;  ///< frequency_mhz = [5, 8]: 0.1 to 100
+  std::string probe;                         ///< probe = "linear"
+  double hold_s = 1;                         ///< hold_s = 1.0: 0.1 to 60; default 1
 
-  static std::shared_ptr<const StepTask> read(TableReader& table, const Step& step);
+  static std::shared_ptr<const StepTask> read(const TomlTable& table, const Step& step);
 
   StepInput input() const override;
   StepWords words() const override {

@@ -7,7 +7,7 @@
 
 namespace insonate {
 
-class TableReader;
+class TomlTable;
 
 /// Whether a kind of step takes the key 'view'.
 enum class ViewUse { none, optional, required };
@@ -17,7 +17,7 @@ enum class ViewUse { none, optional, required };
 struct StepKind {
   const char* name;
   ViewUse view;
-  std::shared_ptr<const StepTask> (*read)(TableReader& table, const Step& step);
+  std::shared_ptr<const StepTask> (*read)(const TomlTable& table, const Step& step);
 };
 
 /// Returns all kinds, those of Insonate first.

@@ -19,7 +19,7 @@ namespace insonate {
 
 class LabelIndex;
 class ViewMeter;
-struct ScenarioProblem;
+struct Mistake;
 struct Step;
 
 /// The environment of a running step. Everything in it outlives the run.
@@ -88,8 +88,7 @@ public:
   virtual const char* why_no_value() const { return "there was no valid pose to judge."; }
   /// Adds problems for everything that does not fit the case.
   /// @param where  "step 2"
-  virtual void check(const Step&, const LabelIndex&, const std::string& /*where*/,
-                     std::vector<ScenarioProblem>&) const {}
+  virtual void check(const Step&, const LabelIndex&, const std::string& /*where*/, std::vector<Mistake>&) const {}
   /// Computes what the step will be judged by from the patient. This happens before the exam begins, so that no sample
   /// waits for it.
   virtual StepBegin prepare(const StepWorld& world) const = 0;

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "sim/core/suggest.h"
+#include "sim/core/text.h"
 
 namespace insonate {
 
@@ -88,12 +89,11 @@ std::optional<double> StructureSurface::distance_mm(const glm::dvec3& patient_mm
 }
 
 void check_structures(const std::vector<std::string>& names, const SourcePlace& place, const Case& subject,
-                      const std::string& where, std::vector<ScenarioProblem>& problems) {
+                      const std::string& where, std::vector<Mistake>& problems) {
   if (!names.empty() && subject.labels.empty())
     problems.push_back({place, where + " names structures, but the case '" + subject.name + "' has no labels",
                         "take a case with labels"});
-  std::vector<std::string> known;
-  for (const Label& label : subject.label_table) known.push_back(label.name);
+  const std::vector<std::string> known = names_of(subject.label_table);
   for (const std::string& name : names)
     if (!subject.find_label(name))
       problems.push_back(

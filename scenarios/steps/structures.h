@@ -79,6 +79,6 @@ private:
 
 /// Adds a problem for each name without a label in the case, or one problem if the case has no labels at all.
 void check_structures(const std::vector<std::string>& names, const SourcePlace& place, const Case& subject,
-                      const std::string& where, std::vector<ScenarioProblem>& problems);
+                      const std::string& where, std::vector<Mistake>& problems);
 
 }  // namespace insonate

@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scenarios/format/table_reader.h"
 #include "scenarios/metrics/path_grid.h"
 #include "scenarios/metrics/view_meter.h"
 #include "scenarios/metrics/visibility.h"
 #include "scenarios/steps/structures.h"
 #include "sim/core/suggest.h"
+#include "sim/core/text.h"
+#include "sim/core/toml_table.h"
 
 namespace insonate {
 namespace {
@@ -89,11 +90,11 @@ private:
 
 }  // namespace
 
-std::shared_ptr<const StepTask> Sweep::read(TableReader& table, const Step&) {
+std::shared_ptr<const StepTask> Sweep::read(const TomlTable& table, const Step&) {
   auto task = std::make_shared<Sweep>();
-  task->organ = table.texts("organ", 20);
-  task->keep = table.texts("keep", 20, false);
-  task->enough_percent = table.number("coverage_percent", {1, 100}, 100.0);
+  task->organ = table.texts("organ", 1, 20);
+  if (table.has("keep")) task->keep = table.texts("keep", 1, 20);
+  task->enough_percent = table.number("coverage_percent", {1, 100}, 100);
   task->organ_place = table.place("organ");
   task->keep_place = table.place("keep");
   return task;
@@ -106,14 +107,13 @@ std::vector<Metric> Sweep::metrics() const {
 }
 
 void Sweep::check(const Step&, const LabelIndex& labels, const std::string& where,
-                  std::vector<ScenarioProblem>& problems) const {
+                  std::vector<Mistake>& problems) const {
   const Case& subject = labels.subject();
   const std::size_t before = problems.size();
   check_structures(organ, organ_place, subject, where, problems);
   if (problems.size() == before && cells_of(labels, organ).empty())
     problems.push_back({organ_place, where + " sweeps an organ that this patient does not have", "name another"});
-  std::vector<std::string> known;
-  for (const Landmark& landmark : subject.landmarks) known.push_back(landmark.name);
+  const std::vector<std::string> known = names_of(subject.landmarks);
   for (const std::string& name : keep)
     if (!subject.find_landmark(name))
       problems.push_back(

@@ -5,7 +5,7 @@
 
 namespace insonate {
 
-class TableReader;
+class TomlTable;
 
 /// kind = "sweep": fan or slide through an organ, optionally with landmarks kept in view all the time.
 ///
@@ -20,12 +20,12 @@ struct Sweep : StepTask {
   double enough_percent = 100;     ///< coverage_percent = 80: done at this coverage; default 100, or going on
   SourcePlace organ_place{}, keep_place{};
 
-  static std::shared_ptr<const StepTask> read(TableReader& table, const Step& step);
+  static std::shared_ptr<const StepTask> read(const TomlTable& table, const Step& step);
 
   StepWords words() const override { return {"Go on when you have seen all of it.", "Searching"}; }
   std::vector<Metric> metrics() const override;
   void check(const Step& step, const LabelIndex& labels, const std::string& where,
-             std::vector<ScenarioProblem>& problems) const override;
+             std::vector<Mistake>& problems) const override;
   StepBegin prepare(const StepWorld& world) const override;
 };
 

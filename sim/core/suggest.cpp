@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace insonate {
 namespace {
@@ -26,20 +27,26 @@ constexpr std::size_t kLongestListed = 40;
 
 }  // namespace
 
-std::string suggest(std::string_view unknown, const std::vector<std::string>& known) {
-  if (known.empty()) return "remove it";
+std::optional<std::string> similar_name(std::string_view unknown, const std::vector<std::string>& known) {
   // A third of the letters may be wrong: more is another word, not a slip.
   const std::size_t slips = std::max<std::size_t>(1, std::min<std::size_t>(unknown.size(), 64) / 3);
   const std::string* nearest = nullptr;
-  std::size_t least = slips + 1;
+  std::pair least(slips + 1, std::size_t(0));
   for (const std::string& name : known) {
     if (unknown.size() > name.size() + slips) continue;
-    if (const std::size_t distance = edit_distance(unknown, name); distance < least) {
+    // Among equally near names, the one of the nearest length: 'lables' is 'labels' rather than 'label'.
+    const std::size_t longer = std::max(unknown.size(), name.size()), shorter = std::min(unknown.size(), name.size());
+    if (const std::pair distance(edit_distance(unknown, name), longer - shorter); distance < least) {
       least = distance;
       nearest = &name;
     }
   }
-  if (nearest) return "did you mean '" + *nearest + "'?";
+  return nearest ? std::optional(*nearest) : std::nullopt;
+}
+
+std::string suggest(std::string_view unknown, const std::vector<std::string>& known) {
+  if (known.empty()) return "remove it";
+  if (const auto similar = similar_name(unknown, known)) return "did you mean '" + *similar + "'?";
   std::string list;
   for (std::size_t i = 0; i < std::min(known.size(), kLongestListed); ++i) list += (i ? ", '" : "'") + known[i] + "'";
   return (known.size() == 1 ? "use " : "use one of ") + list + (known.size() > kLongestListed ? ", ..." : "");

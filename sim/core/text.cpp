@@ -1,6 +1,8 @@
 #include "sim/core/text.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <cstdio>
 
 namespace insonate {
@@ -34,6 +36,15 @@ std::string number_text(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%g", value);
   return text;
+}
+
+std::string exact_text(double number) {
+  char text[32];
+  const bool is_short_whole = std::abs(number) < 1e15 && number == std::trunc(number);
+  const std::to_chars_result end = is_short_whole
+                                       ? std::to_chars(text, text + sizeof text, number, std::chars_format::fixed)
+                                       : std::to_chars(text, text + sizeof text, number);
+  return {text, end.ptr};
 }
 
 }  // namespace insonate

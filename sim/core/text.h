@@ -21,6 +21,9 @@ std::string unwrapped(std::string_view text);
 /// Returns a number with up to six significant digits: "0.25", "1e+30".
 std::string number_text(double value);
 
+/// Returns a number with the fewest digits that restore it: "0.1", "100000". Whole numbers below 1e15 have no exponent.
+std::string exact_text(double number);
+
 /// Returns the names of things that have one, in their order.
 template <typename Named>
 std::vector<std::string> names_of(const std::vector<Named>& all) {

@@ -1,18 +1,39 @@
 #include "sim/core/toml_table.h"
 
-#include <algorithm>
-#include <cmath>
-#include <new>
+#include <toml++/toml.h>
 
-#include "sim/core/input_error.h"
+#include <algorithm>
+#include <map>
+#include <new>
+#include <set>
+#include <utility>
+
 #include "sim/core/suggest.h"
 #include "sim/core/text.h"
 
 namespace insonate {
 namespace {
 
-std::string line_and_column(const toml::source_position& at) {
-  return "line " + std::to_string(at.line) + ", column " + std::to_string(at.column);
+constexpr const char* kText = "a text between quotation marks";
+
+SourcePlace place_of(const toml::source_region& source) {
+  return {int(source.begin.line), int(source.begin.column)};
+}
+
+bool is_unbounded(const NumberRange& range) {
+  return range.least == NumberRange().least && range.most == NumberRange().most;
+}
+
+double harmless(const NumberRange& range) {
+  return is_unbounded(range) ? 0 : range.least;
+}
+
+std::string from_to(const NumberRange& range) {
+  return " from " + exact_text(range.least) + " to " + exact_text(range.most);
+}
+
+std::string number_in(const NumberRange& range) {
+  return is_unbounded(range) ? "a finite number" : "a number" + from_to(range);
 }
 
 /// Returns the end of the string that begins at `at`, one past its closing quotation marks. An unclosed single-line
@@ -35,15 +56,7 @@ std::size_t end_of_string(std::string_view text, std::size_t at) {
   return text.size();
 }
 
-}  // namespace
-
-toml::table parse_toml_text(std::string_view text, std::string_view name) {
-  // A node takes some 200 bytes and its text at least 4, as "a=1" and a line end do.
-  constexpr std::size_t kBytesPerByte = 64, kAtLeast = std::size_t(1) << 16;
-  ::operator delete(::operator new(kAtLeast + kBytesPerByte * text.size()));
-  return toml::parse(text, name);
-}
-
+/// Returns the number, from 1, of the line whose dotted key has more than kMostKeyParts parts; 0 if there is none.
 int line_of_deep_key(std::string_view text) {
   int line = 1, dots = 0;
   for (std::size_t at = 0; at < text.size();) {
@@ -64,122 +77,416 @@ int line_of_deep_key(std::string_view text) {
   return 0;
 }
 
-toml::table parse_toml(const std::string& file, std::string_view text) {
-  if (const int line = line_of_deep_key(text); line > 0)
-    throw InputError(file, "line " + std::to_string(line),
-                     "a key has more than " + std::to_string(kMostKeyParts) + " parts between dots", "shorten it");
+/// Parses TOML text. toml::parse() ends the program if an allocation fails in it. This function therefore allocates as
+/// much memory beforehand, and throws std::bad_alloc if there is not enough.
+toml::table parsed(std::string_view text, std::string_view name) {
+  // A node takes some 200 bytes and its text at least 4, as "a=1" and a line end do.
+  constexpr std::size_t kBytesPerByte = 64, kAtLeast = std::size_t(1) << 16;
+  ::operator delete(::operator new(kAtLeast + kBytesPerByte * text.size()));
+  return toml::parse(text, name);
+}
+
+}  // namespace
+
+/// A table, and which of its keys were asked for.
+struct TomlNode {
+  TomlNode(TomlContents& contents, const toml::table& parsed) : document(contents), table(parsed) {}
+
+  TomlContents& document;
+  const toml::table& table;
+  std::string name;              ///< in error sentences
+  std::string path;              ///< as in its heading: "step.hint"
+  std::string element;           ///< name of the innermost table of a list that holds it: "step 2"; may be its own
+  bool allows_unknown = false;   ///< its unknown keys are not reported
+  bool reports_nothing = false;  ///< it stands for a table that is missing
+  std::set<std::string, std::less<>> asked;
+
+  SourcePlace place(std::string_view key) const {
+    const toml::node* value = table.get(key);
+    return place_of(value ? value->source() : table.source());
+  }
+  Mistake mistake(const SourcePlace& at, const std::string& problem, const std::string& remedy) const {
+    return {at, name.empty() ? problem : name + ": " + problem, remedy};
+  }
+  void report(const SourcePlace& at, const std::string& problem, const std::string& remedy) const;
+  /// Returns the value of a key, or null.
+  const toml::node* ask(std::string_view key) {
+    asked.emplace(key);
+    return table.get(key);
+  }
+  /// Returns the value of a key, or null. Reports a missing key unless it may be missing.
+  const toml::node* find(std::string_view key, bool may_be_missing, const std::string& wanted);
+  /// Returns the list under a key, or null, in the same way. Reports another value.
+  const toml::array* find_list(std::string_view key, bool may_be_missing, const std::string& wanted);
+  /// Reads the number in a node: the value of a key, or an element of its list. Reports any other value.
+  std::optional<double> read_number(std::string_view key, const toml::node& value, const NumberRange& range,
+                                    bool is_element, const std::string& remedy) const;
+  TomlNode& below(const toml::table& child, std::string_view key) const;
+};
+
+struct TomlContents {
+  std::string file;
+  OnMistake on_mistake = OnMistake::throw_first;
+  toml::table root;
+  std::vector<Mistake> mistakes;
+  std::map<const toml::table*, TomlNode> nodes;  ///< of the tables that were read
+  std::function<TomlDocument::Evaluation(const std::string&)> evaluate;
+  toml::table no_table;
+
+  TomlNode& node_of(const toml::table& table) { return nodes.try_emplace(&table, *this, table).first->second; }
+  void add(Mistake mistake) {
+    if (on_mistake == OnMistake::throw_first) throw input_error(file, {std::move(mistake)});
+    mistakes.push_back(std::move(mistake));
+  }
+};
+
+void TomlNode::report(const SourcePlace& at, const std::string& problem, const std::string& remedy) const {
+  if (!reports_nothing) document.add(mistake(at, problem, remedy));
+}
+
+const toml::node* TomlNode::find(std::string_view key, bool may_be_missing, const std::string& wanted) {
+  const toml::node* value = ask(key);
+  if (value || may_be_missing) return value;
+  std::string remedy = "add it: " + wanted;
+  for (const auto& [written, other] : table)
+    if (!asked.contains(written.str()) && similar_name(written.str(), {std::string(key)}))
+      remedy += ", or rename " + in_quotes(written.str()) + " if it is meant";
+  report(place_of(table.source()), "the key " + in_quotes(key) + " is missing", remedy);
+  return nullptr;
+}
+
+const toml::array* TomlNode::find_list(std::string_view key, bool may_be_missing, const std::string& wanted) {
+  const toml::node* value = find(key, may_be_missing, wanted);
+  if (value && !value->is_array()) report(place(key), in_quotes(key) + " is not a list", "write " + wanted);
+  return value ? value->as_array() : nullptr;
+}
+
+std::optional<double> TomlNode::read_number(std::string_view key, const toml::node& value, const NumberRange& range,
+                                            bool is_element, const std::string& remedy) const {
+  const SourcePlace at = place_of(value.source());
+  std::optional<double> number = value.value<double>();
+  if (const auto* text = value.as_string(); text && document.evaluate) {
+    const TomlDocument::Evaluation evaluation = document.evaluate(text->get());
+    number = evaluation.value;
+    if (!number) {
+      report(at, evaluation.problem, evaluation.remedy);
+      return std::nullopt;
+    }
+  }
+  if (number && *number >= range.least && *number <= range.most) return number;  // not NaN
+  report(at,
+         in_quotes(key) + (is_element ? " holds " : " is ") +
+             (number       ? exact_text(*number)
+              : is_element ? "something that is not a number"
+                           : "not a number"),
+         remedy);
+  return std::nullopt;
+}
+
+TomlNode& TomlNode::below(const toml::table& child, std::string_view key) const {
+  TomlNode& node = document.node_of(child);
+  node.path = (path.empty() ? "" : path + ".") + std::string(key);
+  node.element = element;
+  return node;
+}
+
+TomlDocument::TomlDocument(std::string file, std::string_view text, OnMistake on_mistake)
+    : contents_(std::make_unique<TomlContents>()) {
+  contents_->file = std::move(file);
+  contents_->on_mistake = on_mistake;
+  if (const int line = line_of_deep_key(text); line > 0) {
+    contents_->add({{line, 1}, "a key has more than " + std::to_string(kMostKeyParts) + " parts", "shorten it"});
+    return;
+  }
   try {
-    return parse_toml_text(text, file);
+    contents_->root = parsed(text, contents_->file);
   } catch (const toml::parse_error& error) {
-    std::string problem(error.description());
-    std::replace_if(
-        problem.begin(), problem.end(), [](unsigned char c) { return c < ' '; }, ' ');
-    throw InputError(file, line_and_column(error.source().begin), "this is not TOML: " + problem, "correct the line");
+    contents_->add(
+        {place_of(error.source()), "this is not TOML: " + std::string(error.description()), "correct the line"});
   }
 }
 
-void TomlTable::fail(std::string_view key, const std::string& problem, const std::string& remedy) const {
-  const toml::node* node = key.empty() ? nullptr : table_->get(key);
-  toml::source_position at = (node ? node : static_cast<const toml::node*>(table_))->source().begin;
-  std::string place = at ? line_and_column(at) : "";
-  if (!name_.empty()) place += (place.empty() ? "" : ", ") + name_;
-  throw InputError(file_, place, problem, remedy);
+TomlDocument::~TomlDocument() = default;
+
+TomlTable TomlDocument::root() const {
+  return TomlTable(contents_->node_of(contents_->root));
 }
 
-void TomlTable::allow_only(const std::vector<std::string>& keys) const {
-  for (const auto& [key, value] : *table_)
-    if (std::find(keys.begin(), keys.end(), key.str()) == keys.end())
-      fail(key.str(), "the key " + in_quotes(key.str()) + " is unknown here", suggest(key.str(), keys));
+const std::vector<Mistake>& TomlDocument::mistakes() const {
+  return contents_->mistakes;
+}
+
+void TomlDocument::throw_mistakes() const {
+  if (!contents_->mistakes.empty()) throw input_error(contents_->file, contents_->mistakes);
+}
+
+void TomlDocument::evaluate_texts(std::function<Evaluation(const std::string&)> evaluate) {
+  contents_->evaluate = std::move(evaluate);
+}
+
+void TomlDocument::replace_texts(std::string_view key,
+                                 const std::function<std::string(const std::string&, const SourcePlace&)>& replace) {
+  const std::function<void(toml::node&)> visit = [&](toml::node& node) {
+    if (toml::table* table = node.as_table())
+      for (auto&& [name, value] : *table) visit(value);
+    else if (toml::array* array = node.as_array())
+      for (toml::node& value : *array) visit(value);
+    else if (auto* text = node.as_string())
+      text->get() = replace(text->get(), place_of(node.source()));
+  };
+  if (toml::node* node = contents_->root.get(key)) visit(*node);
+}
+
+const std::string& TomlTable::name() const {
+  return node_->name;
+}
+
+void TomlTable::rename(const std::string& name) const {
+  if (node_->element == node_->name) node_->element = name;
+  node_->name = name;
+}
+
+TomlKind TomlTable::kind(std::string_view key) const {
+  const toml::node* value = node_->ask(key);
+  if (!value) return TomlKind::missing;
+  if (value->is_boolean()) return TomlKind::boolean;
+  if (value->is_number()) return TomlKind::number;
+  if (value->is_string()) return TomlKind::text;
+  if (value->is_array()) return TomlKind::list;
+  return value->is_table() ? TomlKind::table : TomlKind::other;
+}
+
+std::size_t TomlTable::list_length(std::string_view key) const {
+  return kind(key) == TomlKind::list ? node_->table.get(key)->as_array()->size() : 0;
 }
 
 std::vector<std::string> TomlTable::keys() const {
   std::vector<std::string> names;
-  for (const auto& [key, value] : *table_) names.emplace_back(key.str());
+  for (const auto& [key, value] : node_->table) {
+    node_->asked.emplace(key.str());
+    names.emplace_back(key.str());
+  }
+  std::sort(names.begin(), names.end(), [&](const std::string& a, const std::string& b) {
+    const SourcePlace first = key_place(a), second = key_place(b);
+    return std::pair(first.line, first.column) < std::pair(second.line, second.column);
+  });
   return names;
 }
 
-const toml::node& TomlTable::required(std::string_view key, const char* kind) const {
-  const toml::node* node = table_->get(key);
-  if (!node) fail("", "the key " + in_quotes(key) + " is missing", std::string("add it: ") + kind);
-  return *node;
+SourcePlace TomlTable::place(std::string_view key) const {
+  return node_->place(key);
 }
 
-double TomlTable::number(std::string_view key, double least, double most) const {
-  const auto value = required(key, "a number").value<double>();
-  if (!value || !(*value >= least && *value <= most))
-    fail(key, in_quotes(key) + (value ? " is " + number_text(*value) : " is no number"),
-         "give a number from " + number_text(least) + " to " + number_text(most));
-  return *value;
+SourcePlace TomlTable::key_place(std::string_view key) const {
+  const auto found = node_->table.find(key);
+  return place_of(found == node_->table.end() ? node_->table.source() : found->first.source());
 }
 
-int TomlTable::whole_number(std::string_view key, int least, int most) const {
-  const auto* value = required(key, "a whole number").as_integer();
-  if (!value || value->get() < least || value->get() > most)
-    fail(key, in_quotes(key) + (value ? " is " + std::to_string(value->get()) : " is no whole number"),
-         "give a whole number from " + std::to_string(least) + " to " + std::to_string(most));
-  return int(value->get());
+double TomlTable::number(std::string_view key, const NumberRange& range, std::optional<double> otherwise) const {
+  const double fallback = otherwise.value_or(harmless(range));
+  const toml::node* value = node_->find(key, otherwise.has_value(), number_in(range));
+  if (!value) return fallback;
+  return node_->read_number(key, *value, range, false, "give " + number_in(range)).value_or(fallback);
 }
 
-bool TomlTable::boolean(std::string_view key) const {
-  const auto* value = required(key, "true or false").as_boolean();
-  if (!value) fail(key, in_quotes(key) + " is neither true nor false", "write true or false without quotes");
-  return value->get();
-}
-
-std::string TomlTable::text(std::string_view key) const {
-  const auto* value = required(key, "a text in quotes").as_string();
-  if (!value || value->get().empty()) fail(key, in_quotes(key) + " is no text", "write a text in quotes");
-  return value->get();
-}
-
-std::vector<double> TomlTable::numbers(std::string_view key, int count) const {
-  const std::string wanted = std::to_string(count) + " numbers in square brackets";
-  const toml::array* array = required(key, wanted.c_str()).as_array();
-  if (!array) fail(key, in_quotes(key) + " is no list", "write " + wanted);
-  std::vector<double> values;
-  for (const toml::node& element : *array) {
-    const auto value = element.value<double>();
-    if (!value || !std::isfinite(*value))
-      fail(key, in_quotes(key) + " holds something that is no finite number", "write " + wanted);
-    values.push_back(*value);
+std::int64_t TomlTable::whole_number(std::string_view key, std::int64_t least, std::int64_t most,
+                                     std::optional<std::int64_t> otherwise) const {
+  const std::string wanted = "a whole number from " + std::to_string(least) + " to " + std::to_string(most);
+  if (const toml::node* value = node_->find(key, otherwise.has_value(), wanted)) {
+    const auto* number = value->as_integer();
+    if (number && number->get() >= least && number->get() <= most) return number->get();
+    report(key, in_quotes(key) + " is " + (number ? std::to_string(number->get()) : "not a whole number"),
+           "give " + wanted);
   }
-  if (values.size() != std::size_t(count))
-    fail(key, in_quotes(key) + " has " + std::to_string(values.size()) + " numbers", "write " + wanted);
-  return values;
+  return otherwise.value_or(least);
 }
 
-std::vector<std::string> TomlTable::texts(std::string_view key) const {
+bool TomlTable::boolean(std::string_view key, std::optional<bool> otherwise) const {
+  if (const toml::node* value = node_->find(key, otherwise.has_value(), "true or false")) {
+    if (const auto* boolean = value->as_boolean()) return boolean->get();
+    report(key, in_quotes(key) + " is neither true nor false", "write true or false without quotation marks");
+  }
+  return otherwise.value_or(false);
+}
+
+std::string TomlTable::text(std::string_view key, const std::optional<std::string>& otherwise) const {
+  if (const toml::node* value = node_->find(key, otherwise.has_value(), kText)) {
+    const auto* text = value->as_string();
+    if (!text)
+      report(key, in_quotes(key) + " is not a text", "put it between quotation marks");
+    else if (!otherwise && trimmed(text->get()).empty())
+      report(key, in_quotes(key) + " is empty", "write something between the quotation marks");
+    else
+      return text->get();
+  }
+  return otherwise.value_or("");
+}
+
+std::size_t TomlTable::choice(std::string_view key, const std::vector<std::string>& words,
+                              std::optional<std::size_t> otherwise) const {
+  node_->find(key, otherwise.has_value(), kText);
+  const std::string word = text(key, "");
+  const auto found = std::find(words.begin(), words.end(), word);
+  if (found != words.end()) return std::size_t(found - words.begin());
+  if (kind(key) == TomlKind::text) report(key, in_quotes(key) + " is " + in_quotes(word), suggest(word, words));
+  return otherwise.value_or(0);
+}
+
+std::vector<std::string> TomlTable::texts(std::string_view key, std::size_t least, std::size_t most) const {
+  const std::string wanted = "texts in square brackets, " + std::string(key) + " = [\"...\"]";
   std::vector<std::string> values;
-  if (!has(key)) return values;
-  const toml::array* array = table_->get(key)->as_array();
-  if (!array) fail(key, in_quotes(key) + " is no list", "write texts in square brackets");
-  for (const toml::node& element : *array) {
-    const auto* value = element.as_string();
-    if (!value || value->get().empty())
-      fail(key, in_quotes(key) + " holds something that is no text", "put each in quotes");
-    values.push_back(value->get());
+  const toml::array* list = node_->find_list(key, least == 0, wanted);
+  if (!list) return values;
+  const std::size_t length = list->size();
+  if (length < least)
+    report(key, in_quotes(key) + (length == 0 ? " is empty" : " has too few texts"), "write " + wanted);
+  if (length > most)
+    report(key, in_quotes(key) + " has " + std::to_string(length) + " texts", "write at most " + std::to_string(most));
+  for (const toml::node& element : *list) {
+    const auto* text = element.as_string();
+    if (!text || text->get().empty())
+      report_at(place_of(element.source()),
+                in_quotes(key) + " holds " + (text ? "an empty text" : "something that is not a text"),
+                text ? "write something between the quotation marks" : "put it between quotation marks");
+    else if (values.size() < most)
+      values.push_back(text->get());
   }
   return values;
+}
+
+std::vector<double> TomlTable::numbers(std::string_view key, std::size_t count, const NumberRange& range) const {
+  const std::string wanted = std::to_string(count) +
+                             (is_unbounded(range) ? " finite numbers" : " numbers" + from_to(range)) +
+                             " in square brackets";
+  std::vector<double> values;
+  if (const toml::array* list = node_->find_list(key, false, wanted)) {
+    for (const toml::node& element : *list)
+      values.push_back(node_->read_number(key, element, range, true, "write " + wanted).value_or(harmless(range)));
+    if (values.size() != count)
+      report(key, in_quotes(key) + " has " + std::to_string(values.size()) + " numbers", "write " + wanted);
+  }
+  values.resize(count, harmless(range));
+  return values;
+}
+
+glm::dvec3 TomlTable::vector(std::string_view key, const NumberRange& range,
+                             const std::optional<glm::dvec3>& otherwise) const {
+  if (otherwise && !has(key)) return *otherwise;
+  const std::vector<double> values = numbers(key, 3, range);
+  return {values[0], values[1], values[2]};
+}
+
+std::vector<std::vector<double>> TomlTable::rows(std::string_view key, std::size_t count, std::size_t fewest,
+                                                 std::size_t widest, const NumberRange& range) const {
+  const std::string row_wanted =
+      "a list of " + std::to_string(fewest) + (fewest == widest ? "" : " to " + std::to_string(widest)) + " numbers";
+  const std::string wanted = "at least " + std::to_string(count) + " rows, each " + row_wanted;
+  std::vector<std::vector<double>> values;
+  const toml::array* list = node_->find_list(key, false, wanted);
+  if (!list) return values;
+  if (list->size() < count)
+    report(key, in_quotes(key) + " has " + std::to_string(list->size()) + " rows", "write " + wanted);
+  for (const toml::node& element : *list) {
+    const toml::array* row = element.as_array();
+    if (!row || row->size() < fewest || row->size() > widest) {
+      report_at(place_of(element.source()), in_quotes(key) + " holds a row that is not " + row_wanted,
+                "write " + wanted);
+      continue;
+    }
+    values.emplace_back();
+    for (const toml::node& value : *row)
+      values.back().push_back(
+          node_->read_number(key, value, range, true, "give " + number_in(range)).value_or(harmless(range)));
+  }
+  return values;
+}
+
+std::optional<NumberRange> TomlTable::interval(std::string_view key, const NumberRange& range) const {
+  const toml::node* value = node_->ask(key);
+  if (!value) return std::nullopt;
+  if (const toml::array* list = value->as_array(); list && list->size() == 2) {
+    const auto least = (*list)[0].value<double>(), most = (*list)[1].value<double>();
+    if (least && most && *least >= range.least && *least <= *most && *most <= range.most)
+      return NumberRange{*least, *most};
+  }
+  report(key, in_quotes(key) + " is not a range", "write the least and the most in square brackets," + from_to(range));
+  return std::nullopt;
 }
 
 TomlTable TomlTable::table(std::string_view key) const {
-  const toml::table* table = required(key, "a table").as_table();
-  if (!table) fail(key, in_quotes(key) + " is no table", "write it as [" + std::string(key) + "]");
-  return {file_, (name_.empty() ? "[" : name_ + " [") + std::string(key) + "]", *table};
+  const std::string heading = "[" + (node_->path.empty() ? "" : node_->path + ".") + std::string(key) + "]";
+  const toml::node* value = node_->find(key, false, heading);
+  if (value && value->is_table()) {
+    TomlNode& made = node_->below(*value->as_table(), key);
+    made.name = heading + (made.element.empty() ? "" : " of " + made.element);
+    return TomlTable(made);
+  }
+  if (value) report(key, in_quotes(key) + " is not a table", "write " + heading + " above its keys");
+  TomlNode& none = node_->document.node_of(node_->document.no_table);
+  none.reports_nothing = true;
+  return TomlTable(none);
 }
 
-std::vector<TomlTable> TomlTable::tables(std::string_view key) const {
+std::vector<TomlTable> TomlTable::tables(std::string_view key, std::size_t most, std::string_view noun) const {
   std::vector<TomlTable> all;
-  if (!has(key)) return all;
-  const toml::array* array = table_->get(key)->as_array();
-  const std::string heading = "[[" + std::string(key) + "]]";
-  if (!array) fail(key, in_quotes(key) + " is no list of tables", "write each as " + heading);
-  for (const toml::node& element : *array) {
-    if (!element.is_table())
-      fail(key, in_quotes(key) + " holds something that is no table", "write each as " + heading);
-    all.emplace_back(file_, heading + " " + std::to_string(all.size() + 1), *element.as_table());
+  const toml::node* value = node_->ask(key);
+  if (!value) return all;
+  const toml::array* list = value->as_array();
+  if (!list || !std::all_of(list->begin(), list->end(), [](const toml::node& one) { return one.is_table(); })) {
+    const std::string heading = "[[" + (node_->path.empty() ? "" : node_->path + ".") + std::string(key) + "]]";
+    report(key, in_quotes(key) + " is not a list of tables", "write " + heading + " above the keys of each");
+    return all;
+  }
+  if (list->size() > most)
+    report(key, "there are " + std::to_string(list->size()) + " of " + in_quotes(key),
+           "write at most " + std::to_string(most));
+  for (const toml::node& element : *list) {
+    if (all.size() == most) break;
+    TomlNode& made = node_->below(*element.as_table(), key);
+    made.name = std::string(noun.empty() ? key : noun) + " " + std::to_string(all.size() + 1) +
+                (made.element.empty() ? "" : " of " + made.element);
+    made.element = made.name;
+    all.push_back(TomlTable(made));
   }
   return all;
+}
+
+void TomlTable::report(std::string_view key, const std::string& problem, const std::string& remedy) const {
+  node_->report(place(key), problem, remedy);
+}
+
+void TomlTable::report_at(const SourcePlace& place, const std::string& problem, const std::string& remedy) const {
+  node_->report(place, problem, remedy);
+}
+
+void TomlTable::fail(std::string_view key, const std::string& problem, const std::string& remedy) const {
+  std::vector<Mistake> mistakes = node_->document.mistakes;
+  mistakes.push_back(node_->mistake(place(key), problem, remedy));
+  throw input_error(node_->document.file, std::move(mistakes));
+}
+
+std::size_t TomlTable::mistake_count() const {
+  return node_->document.mistakes.size();
+}
+
+void TomlTable::refuse_unknown_keys() const {
+  for (const auto& [key, value] : node_->table) {
+    if (!node_->asked.contains(key.str()) && !node_->allows_unknown)
+      report_at(place_of(key.source()), "the key " + in_quotes(key.str()) + " is unknown here",
+                suggest(key.str(), {node_->asked.begin(), node_->asked.end()}));
+    const auto below = [&](const toml::node& node) {
+      if (const toml::table* table = node.as_table())
+        if (const auto read = node_->document.nodes.find(table); read != node_->document.nodes.end())
+          TomlTable(read->second).refuse_unknown_keys();
+    };
+    below(value);
+    if (const toml::array* list = value.as_array())
+      for (const toml::node& element : *list) below(element);
+  }
+}
+
+void TomlTable::allow_unknown_keys() const {
+  node_->allows_unknown = true;
 }
 
 }  // namespace insonate

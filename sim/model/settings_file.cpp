@@ -1,6 +1,5 @@
 #include "sim/model/settings_file.h"
 
-#include <algorithm>
 #include <limits>
 
 #include "sim/core/files.h"
@@ -12,7 +11,6 @@ namespace {
 using namespace keys;
 
 constexpr const char* kPreset = "preset";
-const std::vector<std::string> kPresets = {"paper", "trainer"};
 
 /// Returns the keys of all fields of Settings, in their order. The ranges are those that its comments give.
 const std::vector<Key<Settings>>& all_keys() {
@@ -62,26 +60,18 @@ const std::vector<Key<Settings>>& all_keys() {
 }  // namespace
 
 Settings read_settings(const std::filesystem::path& toml_file, double frequency_mhz, double depth_mm) {
-  const toml::table parsed = parse_toml(toml_file.string(), read_file(toml_file, kLargestFile));
-  const TomlTable root(toml_file.string(), "", parsed);
-  Problems problems;
-
-  std::string preset = "trainer";
-  if (root.has(kPreset))
-    problems.note([&] {
-      preset = root.text(kPreset);
-      if (std::find(kPresets.begin(), kPresets.end(), preset) == kPresets.end())
-        root.fail(kPreset, "there is no preset " + in_quotes(preset), suggest(preset, kPresets));
-    });
-  const Settings written = written_in(root, parsed, all_keys(), {kPreset}, problems);
-  problems.throw_any();
+  const TomlDocument document(toml_file.string(), read_file(toml_file, kLargestFile), OnMistake::collect);
+  const TomlTable root = document.root();
+  const bool is_paper = root.choice(kPreset, {"paper", "trainer"}, 1) == 0;
+  Settings written;
+  read_keys(root, all_keys(), written);
+  root.refuse_unknown_keys();
+  document.throw_mistakes();
 
   if (root.has("frequency_mhz")) frequency_mhz = written.frequency_mhz;
-  Settings settings =
-      preset == "paper" ? paper_settings(depth_mm, written.samples) : trainer_settings(frequency_mhz, depth_mm);
+  Settings settings = is_paper ? paper_settings(depth_mm, written.samples) : trainer_settings(frequency_mhz, depth_mm);
   settings.frequency_mhz = frequency_mhz;
-  for (const Key<Settings>& key : all_keys())
-    if (root.has(key.name)) key.set(settings, key.get(written));
+  read_keys(root, all_keys(), settings);
   if (const auto why = why_not_valid(settings))  // the paper's reflection length follows from `samples` and the depth
     root.fail(root.has(kPreset) ? kPreset : "", "with this preset " + *why, "give that key a value of its own");
   return settings;

@@ -17,10 +17,10 @@ constexpr double kMostAbsorption = 1000;
 constexpr double kLeastEchogenicity = -60, kMostEchogenicity = 30;
 
 TissueKnot read_knot(const TomlTable& entry) {
-  entry.allow_only({"hu", "impedance", "absorption", "echogenicity"});
-  return {entry.whole_number("hu", kLeastKnotHu, kMostKnotHu),
-          entry.number("impedance", kLeastImpedance, kMostImpedance), entry.number("absorption", 0, kMostAbsorption),
-          entry.number("echogenicity", kLeastEchogenicity, kMostEchogenicity)};
+  return {int(entry.whole_number("hu", kLeastKnotHu, kMostKnotHu)),
+          entry.number("impedance", {kLeastImpedance, kMostImpedance}),
+          entry.number("absorption", {0, kMostAbsorption}),
+          entry.number("echogenicity", {kLeastEchogenicity, kMostEchogenicity})};
 }
 
 }  // namespace
@@ -46,10 +46,8 @@ int TissueTable::densest_air_hu() const {
 }
 
 TissueTable read_tissue_table(const std::filesystem::path& toml_file) {
-  const toml::table parsed = parse_toml(toml_file.string(), read_file(toml_file, kLargestFile));
-  const TomlTable root(toml_file.string(), "", parsed);
-  root.allow_only({"knot", "tissue"});
-
+  const TomlDocument document(toml_file.string(), read_file(toml_file, kLargestFile));
+  const TomlTable root = document.root();
   TissueTable table;
   for (const TomlTable& entry : root.tables("knot")) {
     const TissueKnot knot = read_knot(entry);
@@ -59,18 +57,17 @@ TissueTable read_tissue_table(const std::filesystem::path& toml_file) {
                  "order the knots by rising hu");
     table.knots.push_back(knot);
   }
-  if (table.knots.size() < 2 || table.knots.size() > kMostKnots)
-    root.fail("knot", "there are " + std::to_string(table.knots.size()) + " knots",
-              "give 2 to " + std::to_string(kMostKnots) + " [[knot]] entries");
-
   if (root.has("tissue")) {
     const TomlTable tissues = root.table("tissue");
     for (const std::string& name : tissues.keys()) {
       const TomlTable entry = tissues.table(name);
-      entry.allow_only({"echogenicity_db"});
-      table.labelled[name] = {entry.number("echogenicity_db", kLeastEchogenicity, kMostEchogenicity)};
+      table.labelled[name] = {entry.number("echogenicity_db", {kLeastEchogenicity, kMostEchogenicity})};
     }
   }
+  root.refuse_unknown_keys();
+  if (table.knots.size() < 2 || table.knots.size() > kMostKnots)
+    root.fail("knot", "there are " + std::to_string(table.knots.size()) + " knots",
+              "give 2 to " + std::to_string(kMostKnots) + " [[knot]] entries");
   return table;
 }
 

@@ -4,6 +4,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -13,110 +14,99 @@ namespace insonate {
 namespace {
 
 constexpr double kFar_mm = 2000;
+constexpr std::size_t kAny = std::numeric_limits<std::size_t>::max();
 constexpr double kMostVoxelsASide = 2048;
 constexpr std::size_t kMostVoxels = std::size_t(1) << 29;  // 1.6 GB with their labels
 
-Grid read_grid(const Recipe& recipe, RecipeTable& root) {
-  const toml::node* node = root.node("grid");
-  if (node == nullptr || !node->is_table()) root.refuse("grid", "there is no [grid]", "add it");
-  RecipeTable table(recipe, *node->as_table(), "[grid]");
-  const glm::dvec3 from = table.vector("from", -kFar_mm, kFar_mm);
-  const glm::dvec3 to = table.vector("to", -kFar_mm, kFar_mm);
+Grid read_grid(const TomlTable& table) {
+  const glm::dvec3 from = table.vector("from", {-kFar_mm, kFar_mm});
+  const glm::dvec3 to = table.vector("to", {-kFar_mm, kFar_mm});
   Grid grid;
-  const double pitch = table.number("voxel_mm", 0.2, 50);
+  const double pitch = table.number("voxel_mm", {0.2, 50});
   grid.spacing = glm::dvec3(pitch);
   for (int axis = 0; axis < 3; ++axis) {
     const double voxels = std::floor((to[axis] - from[axis]) / pitch);
     if (voxels < 2 || voxels > kMostVoxelsASide)
-      table.refuse("to", "the grid has " + std::to_string(long(voxels)) + " voxels along axis " + std::to_string(axis),
-                   "choose from, to and voxel_mm for 2 to 2048");
+      table.fail("to", "the grid has " + std::to_string(long(voxels)) + " voxels along axis " + std::to_string(axis),
+                 "choose from, to and voxel_mm for 2 to 2048");
     grid.size[axis] = int(voxels);
   }
   if (grid.count() > kMostVoxels)
-    table.refuse("voxel_mm", "the grid has " + std::to_string(grid.count()) + " voxels",
-                 "choose from, to and voxel_mm for at most " + std::to_string(kMostVoxels));
+    table.fail("voxel_mm", "the grid has " + std::to_string(grid.count()) + " voxels",
+               "choose from, to and voxel_mm for at most " + std::to_string(kMostVoxels));
   grid.origin = from + grid.spacing / 2.0;
-  table.finish();
   return grid;
 }
 
-std::vector<PaintedLabel> read_labels_key(const Recipe& recipe, RecipeTable& root) {
+std::vector<PaintedLabel> read_labels_key(const TomlTable& root) {
   std::vector<PaintedLabel> labels;
   std::set<std::string> names;
-  for (const toml::table* entry : root.tables("labels")) {
-    RecipeTable table(recipe, *entry, "label " + std::to_string(labels.size() + 1));
+  for (const TomlTable& table : root.tables("labels", kAny, "label")) {
     PaintedLabel made;
-    made.label.name = table.name();
+    made.label.name = read_name(table);
     made.label.tissue = table.text("tissue");
-    made.hu = float(table.number("hu", -1024, 30000));
-    made.texture_hu = float(table.number_or("texture_hu", 0, 0, 1000));
-    made.grain_mm = float(table.number_or("grain_mm", 2, 0.2, 500));
-    table.finish();
+    made.hu = float(table.number("hu", {-1024, 30000}));
+    made.texture_hu = float(table.number("texture_hu", {0, 1000}, 0));
+    made.grain_mm = float(table.number("grain_mm", {0.2, 500}, 2));
     if (!names.insert(made.label.name).second)
-      table.refuse("name", "there are two labels '" + made.label.name + "'", "rename one");
-    if (labels.size() == 255) table.refuse("name", "there are more than 255 labels", "join some");
+      table.fail("name", "there are two labels '" + made.label.name + "'", "rename one");
+    if (labels.size() == 255) table.fail("name", "there are more than 255 labels", "join some");
     made.label.value = std::uint8_t(labels.size() + 1);
     labels.push_back(made);
   }
-  if (labels.empty()) root.refuse("labels", "there are no labels", "list at least one");
+  if (labels.empty()) root.fail("labels", "there are no labels", "list at least one");
   return labels;
 }
 
-std::map<std::string, Frame> read_frames(const Recipe& recipe, RecipeTable& root) {
+std::map<std::string, Frame> read_frames(const TomlTable& root) {
   std::map<std::string, Frame> frames;
-  for (const toml::table* entry : root.tables("frames")) {
-    RecipeTable table(recipe, *entry, "frame " + std::to_string(frames.size() + 1));
-    const std::string name = table.name();
+  for (const TomlTable& table : root.tables("frames", kAny, "frame")) {
+    const std::string name = read_name(table);
     Frame frame;
-    frame.origin = table.vector("at", -kFar_mm, kFar_mm);
-    const glm::dvec3 turn = glm::radians(table.vector_or("turn_deg", glm::dvec3(0.0), -360, 360));
+    frame.origin = table.vector("at", {-kFar_mm, kFar_mm});
+    const glm::dvec3 turn = glm::radians(table.vector("turn_deg", {-360, 360}, glm::dvec3(0.0)));
     glm::dmat4 rotation(1.0);
     rotation = glm::rotate(rotation, turn.z, glm::dvec3(0, 0, 1));
     rotation = glm::rotate(rotation, turn.y, glm::dvec3(0, 1, 0));
     rotation = glm::rotate(rotation, turn.x, glm::dvec3(1, 0, 0));
     frame.rotation = glm::mat3(rotation);
-    frame.flipped = table.flag_or("flipped", false);
-    table.finish();
-    if (!frames.emplace(name, frame).second) table.refuse("name", "there are two frames '" + name + "'", "rename one");
+    frame.flipped = table.boolean("flipped", false);
+    if (!frames.emplace(name, frame).second) table.fail("name", "there are two frames '" + name + "'", "rename one");
   }
   return frames;
 }
 
-std::vector<PaintedShape> read_shapes(const Recipe& recipe, RecipeTable& root, ShapeReader& reader,
+std::vector<PaintedShape> read_shapes(const TomlTable& root, ShapeReader& reader,
                                       const std::vector<PaintedLabel>& labels) {
   std::map<std::string, std::size_t> label_index;
   for (std::size_t n = 0; n < labels.size(); ++n) label_index[labels[n].label.name] = n;
   std::vector<PaintedShape> shapes;
-  for (const toml::table* entry : root.tables("shapes")) {
-    const std::optional<std::string> name = (*entry)["name"].value<std::string>();
-    RecipeTable table(recipe, *entry, name ? "shape '" + *name + "'" : std::string("a shape"));
+  for (const TomlTable& table : root.tables("shapes", kAny, "shape")) {
+    rename_after_key(table, "shape");
     const ShapePtr shape = reader.read(table);
     if (table.has("label")) {
       const std::string label = table.text("label");
       const auto found = label_index.find(label);
       if (found == label_index.end())
-        table.refuse("label", "there is no label '" + label + "'", suggest_from(label, label_index));
+        table.fail("label", "there is no label '" + label + "'", suggest_from(label, label_index));
       shapes.push_back({shape, found->second});
     }
-    table.finish();
+    table.refuse_unknown_keys();
   }
-  if (shapes.empty()) root.refuse("shapes", "no shape has a label, so nothing would be drawn", "add a shape");
+  if (shapes.empty()) root.fail("shapes", "no shape has a label, so nothing would be drawn", "add a shape");
   return shapes;
 }
 
-std::map<std::string, glm::dvec3> read_landmarks(const Recipe& recipe, RecipeTable& root,
-                                                 const std::map<std::string, Frame>& frames,
+std::map<std::string, glm::dvec3> read_landmarks(const TomlTable& root, const std::map<std::string, Frame>& frames,
                                                  std::vector<Landmark>& landmarks) {
   std::map<std::string, glm::dvec3> positions;
-  for (const toml::table* entry : root.tables("landmarks")) {
-    RecipeTable table(recipe, *entry, "landmark " + std::to_string(landmarks.size() + 1));
+  for (const TomlTable& table : root.tables("landmarks", kAny, "landmark")) {
     Landmark landmark;
-    landmark.name = table.name();
-    const glm::dvec3 at = table.vector("at", -kFar_mm, kFar_mm);
+    landmark.name = read_name(table);
+    const glm::dvec3 at = table.vector("at", {-kFar_mm, kFar_mm});
     landmark.position = table.has("frame") ? glm::dvec3(frame_of(table, frames).patient_from_part(at)) : at;
-    table.finish();
     if (!positions.emplace(landmark.name, landmark.position).second)
-      table.refuse("name", "there are two landmarks '" + landmark.name + "'", "rename one");
+      table.fail("name", "there are two landmarks '" + landmark.name + "'", "rename one");
     landmarks.push_back(landmark);
   }
   return positions;
@@ -124,82 +114,73 @@ std::map<std::string, glm::dvec3> read_landmarks(const Recipe& recipe, RecipeTab
 
 class ViewReader {
 public:
-  ViewReader(const Recipe& recipe, const std::map<std::string, glm::dvec3>& landmarks,
-             const std::vector<PaintedLabel>& labels)
-      : recipe_(recipe), landmarks_(landmarks) {
+  ViewReader(const std::map<std::string, glm::dvec3>& landmarks, const std::vector<PaintedLabel>& labels)
+      : landmarks_(landmarks) {
     for (std::size_t n = 0; n < labels.size(); ++n) labels_[labels[n].label.name] = n;
   }
 
-  std::vector<PlannedView> read(RecipeTable& root) {
+  std::vector<PlannedView> read(const TomlTable& root) {
     std::vector<PlannedView> views;
     std::set<std::string> names;
-    for (const toml::table* entry : root.tables("views")) {
-      views.push_back(view(*entry));
-      const ReferenceView& made = views.back().view;
-      if (!names.insert(made.name).second)
-        recipe_.refuse(*entry, "there are two views '" + made.name + "'", "rename one");
+    for (const TomlTable& table : root.tables("views", kAny, "view")) {
+      views.push_back(view(table));
+      const std::string& name = views.back().view.name;
+      if (!names.insert(name).second) table.fail("", "there are two views '" + name + "'", "rename one");
     }
     return views;
   }
 
 private:
-  PlannedView view(const toml::table& entry) {
-    const std::optional<std::string> name = entry["name"].value<std::string>();
-    RecipeTable table(recipe_, entry, name ? "view '" + *name + "'" : std::string("a view"));
+  PlannedView view(const TomlTable& table) {
+    rename_after_key(table, "view");
     PlannedView made;
-    made.view.name = table.name();
+    made.view.name = read_name(table);
     made.view.title = table.text("title");
     made.view.probe = table.text("probe");
-    made.view.depth_mm = table.number_or("depth_mm", 160, 20, 300);
+    made.view.depth_mm = table.number("depth_mm", {20, 300}, 160);
     made.view.landmarks = names(table, "landmarks", landmarks_, "landmark");
     made.view.targets = names(table, "targets", labels_, "label");
     made.aim = point(table, "aim");
     const glm::dvec3 way = made.aim - point(table, "from");
-    if (glm::length(way) < 1) table.refuse("from", "it looks from where it aims at", "move one of the points");
+    if (glm::length(way) < 1) table.fail("from", "it looks from where it aims at", "move one of the points");
     made.beam = glm::normalize(way);
     const glm::dvec3 lateral = marker(table);
     const glm::dvec3 square = lateral - made.beam * glm::dot(lateral, made.beam);
     if (glm::length(square) < 0.1 * glm::length(lateral) || glm::length(lateral) < 1e-6)
-      table.refuse("marker", "the marker points along the beam", "point it across");
+      table.fail("marker", "the marker points along the beam", "point it across");
     made.marker = glm::normalize(square);
-    made.press_mm = table.number_or("press_mm", 8, 0, 30);
-    table.finish();
+    made.press_mm = table.number("press_mm", {0, 30}, 8);
     return made;
   }
 
   template <typename Value>
-  static std::vector<std::string> names(RecipeTable& table, const std::string& key,
+  static std::vector<std::string> names(const TomlTable& table, const std::string& key,
                                         const std::map<std::string, Value>& known, const std::string& noun) {
     std::vector<std::string> found = table.texts(key);
     for (const std::string& name : found)
-      if (known.count(name) == 0)
-        table.refuse(key, "there is no " + noun + " '" + name + "'", suggest_from(name, known));
+      if (known.count(name) == 0) table.fail(key, "there is no " + noun + " '" + name + "'", suggest_from(name, known));
     return found;
   }
 
-  const glm::dvec3& landmark(RecipeTable& table, const std::string& key, const std::string& name) {
+  const glm::dvec3& landmark(const TomlTable& table, const std::string& key, const std::string& name) {
     const auto found = landmarks_.find(name);
     if (found == landmarks_.end())
-      table.refuse(key, "there is no landmark '" + name + "'", suggest_from(name, landmarks_));
+      table.fail(key, "there is no landmark '" + name + "'", suggest_from(name, landmarks_));
     return found->second;
   }
 
-  glm::dvec3 point(RecipeTable& table, const std::string& key) {
-    if (const toml::node* node = table.node(key); node != nullptr && node->is_string())
-      return landmark(table, key, table.text(key));
-    return table.vector(key, -kFar_mm, kFar_mm);
+  glm::dvec3 point(const TomlTable& table, const std::string& key) {
+    if (table.kind(key) == TomlKind::text) return landmark(table, key, table.text(key));
+    return table.vector(key, {-kFar_mm, kFar_mm});
   }
 
   // Reads three numbers, or the names of two landmarks: the direction is from the first towards the second.
-  glm::dvec3 marker(RecipeTable& table) {
-    const toml::node* node = table.node("marker");
-    if (node == nullptr || !node->is_array() || node->as_array()->size() != 2)
-      return table.vector("marker", -kFar_mm, kFar_mm);
+  glm::dvec3 marker(const TomlTable& table) {
+    if (table.list_length("marker") != 2) return table.vector("marker", {-kFar_mm, kFar_mm});
     const std::vector<std::string> ends = table.texts("marker");
     return landmark(table, "marker", ends[1]) - landmark(table, "marker", ends[0]);
   }
 
-  const Recipe& recipe_;
   const std::map<std::string, glm::dvec3>& landmarks_;
   std::map<std::string, std::size_t> labels_;
 };
@@ -207,19 +188,18 @@ private:
 }  // namespace
 
 PhantomPlan plan_phantom(const Recipe& recipe) {
-  RecipeTable root(recipe, recipe.root(), "");
-  root.has("options");  // the Recipe constructor has read it
+  const TomlTable root = recipe.root();
   PhantomPlan plan;
   plan.name = root.text("name");
-  plan.seed = std::uint32_t(root.number_or("seed", 1, 0, 4294967295.0));
-  plan.grid = read_grid(recipe, root);
-  plan.labels = read_labels_key(recipe, root);
-  const std::map<std::string, Frame> frames = read_frames(recipe, root);
-  ShapeReader reader(recipe, plan.seed, frames);
-  plan.shapes = read_shapes(recipe, root, reader, plan.labels);
-  const std::map<std::string, glm::dvec3> positions = read_landmarks(recipe, root, frames, plan.landmarks);
-  plan.views = ViewReader(recipe, positions, plan.labels).read(root);
-  root.finish();
+  plan.seed = std::uint32_t(root.number("seed", {0, 4294967295.0}, 1));
+  plan.grid = read_grid(root.table("grid"));
+  plan.labels = read_labels_key(root);
+  const std::map<std::string, Frame> frames = read_frames(root);
+  ShapeReader reader(plan.seed, frames);
+  plan.shapes = read_shapes(root, reader, plan.labels);
+  const std::map<std::string, glm::dvec3> positions = read_landmarks(root, frames, plan.landmarks);
+  plan.views = ViewReader(positions, plan.labels).read(root);
+  root.refuse_unknown_keys();
   return plan;
 }
 

@@ -47,11 +47,12 @@ std::optional<std::string> why_no_range(const WeinSettings& settings) {
 }  // namespace
 
 WeinSettings read_wein_settings(const std::filesystem::path& toml_file) {
-  const toml::table parsed = parse_toml(toml_file.string(), read_file(toml_file, kLargestFile));
-  const TomlTable root(toml_file.string(), "", parsed);
-  Problems problems;
-  const WeinSettings settings = written_in(root, parsed, all_keys(), {}, problems);
-  problems.throw_any();
+  const TomlDocument document(toml_file.string(), read_file(toml_file, kLargestFile), OnMistake::collect);
+  const TomlTable root = document.root();
+  WeinSettings settings;
+  read_keys(root, all_keys(), settings);
+  root.refuse_unknown_keys();
+  document.throw_mistakes();
   if (const auto why = why_no_range(settings))
     root.fail(root.has("bright_hu") ? "bright_hu" : "dark_hu", *why, "move them apart");
   if (const auto why = why_no_patch(settings)) root.fail("similarity_patch", *why, "make it larger");

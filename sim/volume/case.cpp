@@ -7,8 +7,6 @@
 #include <array>
 #include <cctype>
 #include <cerrno>
-#include <cmath>
-#include <cstdio>
 #include <set>
 #include <stdexcept>
 #include <system_error>
@@ -18,6 +16,7 @@
 #include "sim/core/suggest.h"
 #include "sim/core/text.h"
 #include "sim/core/toml_table.h"
+#include "sim/core/toml_value.h"
 #include "sim/volume/ct_reader.h"
 
 namespace insonate {
@@ -57,27 +56,20 @@ fs::path read_file_name(const TomlTable& root, std::string_view key, const fs::p
 }
 
 Label read_label(const TomlTable& entry) {
-  entry.allow_only({"value", "name", "tissue"});
   return {std::uint8_t(entry.whole_number("value", 1, 255)), read_identifier(entry, "name"),
           read_identifier(entry, "tissue")};
 }
 
 Landmark read_landmark(const TomlTable& entry) {
-  entry.allow_only({"name", "position"});
-  const std::vector<double> p = entry.numbers("position", 3);
-  for (const double coordinate : p)
-    if (std::abs(coordinate) > kFurthestMm)
-      entry.fail("position", "the position is further than 100 m away", "give patient coordinates in mm");
-  return {read_identifier(entry, "name"), {p[0], p[1], p[2]}};
+  return {read_identifier(entry, "name"), entry.vector("position", {-kFurthestMm, kFurthestMm})};
 }
 
 ReferenceView read_view(const TomlTable& entry) {
-  entry.allow_only({"name", "title", "probe", "depth_mm", "landmarks", "targets", "patient_from_probe"});
   ReferenceView view;
   view.name = read_identifier(entry, "name");
   view.title = entry.text("title");
   view.probe = read_identifier(entry, "probe");
-  view.depth_mm = entry.number("depth_mm", 20, 300);
+  view.depth_mm = entry.number("depth_mm", {20, 300});
   view.landmarks = entry.texts("landmarks");
   view.targets = entry.texts("targets");
   const std::vector<double> m = entry.numbers("patient_from_probe", 16);
@@ -147,46 +139,15 @@ void check_volumes(const TomlTable& root, const Case& subject) {
                 "add it to the table");
 }
 
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    const auto code = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\') {
-      out += '\\';
-      out += c;
-    } else if (code < 0x20 || code == 0x7f) {
-      char escaped[8];
-      std::snprintf(escaped, sizeof escaped, "\\u%04x", code);
-      out += escaped;
-    } else {
-      out += c;
-    }
-  }
-  return out + '"';
-}
-
-std::string quoted_list(const std::vector<std::string>& texts) {
-  std::string out;
-  for (const std::string& text : texts) out += (out.empty() ? "" : ", ") + quoted(text);
-  return "[" + out + "]";
-}
-
-std::string exactly(double value) {
-  if (value == 0 && std::signbit(value)) return "-0.0";  // "-0" would be an integer in TOML, which has no negative zero
-  char text[40];
-  std::snprintf(text, sizeof text, "%.17g", value);
-  return text;
-}
-
 std::string view_table(const ReferenceView& view) {
-  std::string out = "\n[[view]]\nname = " + quoted(view.name) + "\ntitle = " + quoted(view.title) +
-                    "\nprobe = " + quoted(view.probe) + "\ndepth_mm = " + exactly(view.depth_mm) +
-                    "\nlandmarks = " + quoted_list(view.landmarks) + "\ntargets = " + quoted_list(view.targets) +
+  std::string out = "\n[[view]]\nname = " + toml_value(view.name) + "\ntitle = " + toml_value(view.title) +
+                    "\nprobe = " + toml_value(view.probe) + "\ndepth_mm = " + toml_value(view.depth_mm) +
+                    "\nlandmarks = " + toml_value(view.landmarks) + "\ntargets = " + toml_value(view.targets) +
                     "\npatient_from_probe = [\n";
   const glm::dmat4 m = view.patient_from_probe.matrix();
   for (int r = 0; r < 4; ++r) {
     out += " ";
-    for (int c = 0; c < 4; ++c) out += " " + exactly(m[c][r]) + ",";
+    for (int c = 0; c < 4; ++c) out += " " + toml_value(m[c][r]) + ",";
     out += "\n";
   }
   return out + "]\n";
@@ -195,16 +156,16 @@ std::string view_table(const ReferenceView& view) {
 std::string case_table(const Case& subject) {
   std::string out = "# A case of Insonate: lengths in mm, positions in the patient's frame (LPS).\n";
   out += "format = " + std::to_string(kFormat) + "\n";
-  out += "name = " + quoted(subject.name) + "\n";
-  out += "ct = " + quoted(kCtFile) + "\n";
-  if (!subject.labels.empty()) out += "labels = " + quoted(kLabelsFile) + "\n";
+  out += "name = " + toml_value(subject.name) + "\n";
+  out += "ct = " + toml_value(kCtFile) + "\n";
+  if (!subject.labels.empty()) out += "labels = " + toml_value(kLabelsFile) + "\n";
   for (const Label& label : subject.label_table)
-    out += "\n[[label]]\nvalue = " + std::to_string(label.value) + "\nname = " + quoted(label.name) +
-           "\ntissue = " + quoted(label.tissue) + "\n";
+    out += "\n[[label]]\nvalue = " + std::to_string(label.value) + "\nname = " + toml_value(label.name) +
+           "\ntissue = " + toml_value(label.tissue) + "\n";
   for (const Landmark& landmark : subject.landmarks) {
     const glm::dvec3& p = landmark.position;
-    out += "\n[[landmark]]\nname = " + quoted(landmark.name) + "\nposition = [" + exactly(p.x) + ", " + exactly(p.y) +
-           ", " + exactly(p.z) + "]\n";
+    out += "\n[[landmark]]\nname = " + toml_value(landmark.name) +
+           "\nposition = " + toml_value(std::vector{p.x, p.y, p.z}) + "\n";
   }
   for (const ReferenceView& view : subject.views) out += view_table(view);
   return out;
@@ -212,17 +173,18 @@ std::string case_table(const Case& subject) {
 
 /// Reads all of case.toml except the volumes it names.
 Case read_table(const TomlTable& root) {
-  if (const int format = root.whole_number("format", 1, 1 << 30); format != kFormat)
+  if (const std::int64_t format = root.whole_number("format", 1, 1 << 30); format != kFormat)
     root.fail(
         "format",
         "the case has format " + std::to_string(format) + ", this program knows format " + std::to_string(kFormat),
         "use a newer program");
-  root.allow_only({"format", "name", "ct", "labels", "label", "landmark", "view"});
   Case subject;
   subject.name = root.text("name");
   subject.label_table = read_entries<Label>(root, "label", read_label);
   subject.landmarks = read_entries<Landmark>(root, "landmark", read_landmark);
   subject.views = read_entries<ReferenceView>(root, "view", read_view);
+  for (const char* key : {"ct", "labels"}) root.has(key);  // read when the rest of the table is right
+  root.refuse_unknown_keys();
   check_references(root, subject);
   return subject;
 }
@@ -294,8 +256,8 @@ Case read_case(const fs::path& folder) {
   if (!fs::is_directory(folder, error))
     throw InputError(folder.string(), "", "there is no such folder", "name a folder that holds a case.toml");
   const fs::path file = folder / kTableFile;
-  const toml::table parsed = parse_toml(file.string(), read_file(file, kLargestTable));
-  const TomlTable root(file.string(), "", parsed);
+  const TomlDocument document(file.string(), read_file(file, kLargestTable));
+  const TomlTable root = document.root();
   Case subject = read_table(root);
   // Read the volumes last: a mistake in the table is then reported without waiting for them.
   subject.ct = read_case_ct(read_file_name(root, "ct", folder));
@@ -309,8 +271,7 @@ void append_view(const fs::path& folder, const ReferenceView& view) {
   std::string text = read_file(file, kLargestTable);
   if (text.back() != '\n') text += '\n';
   text += view_table(view);
-  const toml::table parsed = parse_toml(file.string(), text);
-  read_table(TomlTable(file.string(), "", parsed));
+  read_table(TomlDocument(file.string(), text).root());
   write_file(file, text);
 }
 
@@ -341,8 +302,8 @@ void write_case(const fs::path& folder, const Case& subject) {
 
   // Refuse to write what could not be read again: the table goes through the reader's own checks.
   const std::string table = case_table(subject);
-  const toml::table parsed = parse_toml((target / kTableFile).string(), table);
-  const TomlTable root((target / kTableFile).string(), "", parsed);
+  const TomlDocument document((target / kTableFile).string(), table);
+  const TomlTable root = document.root();
   read_table(root);
   check_volumes(root, subject);
 

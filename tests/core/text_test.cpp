@@ -10,3 +10,11 @@ TEST_CASE("unwrapping joins the lines of a paragraph and keeps paragraphs apart"
   CHECK(unwrapped("one line") == "one line");
   CHECK(unwrapped(" \n\n").empty());
 }
+
+TEST_CASE("a number in a sentence has the digits that it needs") {
+  CHECK(exact_text(100000) == "100000");
+  CHECK(exact_text(4294967295.0) == "4294967295");
+  CHECK(exact_text(0.1) == "0.1");
+  CHECK(exact_text(-0.001) == "-0.001");
+  CHECK(exact_text(1e300) == "1e+300");
+}

@@ -104,7 +104,7 @@ void operator delete[](void* block, std::size_t, std::align_val_t) noexcept {
 }
 
 /// In the place of toml++'s own, in which a failed allocation ends the program: it always has the memory that
-/// parse_toml_text() has asked for before.
+/// TomlDocument has asked for before.
 toml::parse_result toml::parse(std::string_view text, std::string_view name) {
   using Parse = toml::parse_result (*)(std::string_view, std::string_view);
   static const auto theirs =

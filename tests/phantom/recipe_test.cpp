@@ -270,28 +270,29 @@ TEST_CASE("a recipe that cannot be used is refused with its line and a way out")
   const std::vector<Bad> table{
       {"name = ", {"line 1", "TOML"}},
       {"", {"'name' is missing"}},
-      {"name = \"x\"\n", {"[grid]"}},
-      {"name = \"x\"\noptions = 3\n", {"line 2", "'options' is no table; write [options]"}},
-      {"name = \"x\"\noptions.size_mm = 3\n", {"line 2", "option 'size_mm' is no table; write size_mm = { default"}},
+      {"name = \"x\"\n", {"the key 'grid' is missing; add it: [grid]"}},
+      {"name = \"x\"\noptions = 3\n", {"line 2", "'options' is not a table; write [options]"}},
+      {"name = \"x\"\noptions.size_mm = 3\n", {"line 2", "'size_mm' is not a table; write [options.size_mm]"}},
       {"name = \"x\"\noptions.size_mm = { default = 3, about = \"a radius\" }\n",
-       {"line 2", "option 'size_mm'", "the key 'least' is missing; add it: a number"}},
+       {"line 2", "option 'size_mm'", "the key 'least' is missing; add it: a number from"}},
       {small_recipe("") + "colour = 1\n", {"line 15", "'colour' is unknown"}},
       {small_recipe(R"({ kind = "ellipsoid" },)"), {"line 13", "'name' is missing"}},
       {small_recipe(R"({ name = "a" },)"), {"line 13", "shape 'a'", "'kind' is missing"}},
       {small_recipe(R"({ name = "A b", kind = "box" },)"), {"line 13", "lower-case"}},
       {small_recipe(R"({ name = "a", kind = "elipsoid" },)"), {"line 13", "did you mean 'ellipsoid'"}},
       {small_recipe(R"({ name = "a", kind = "ellipsoid", centre = 3, radii = [1, 1, 1] },)"),
-       {"line 13", "shape 'a'", "'centre' is no list; write [x, y, z]"}},
+       {"line 13", "shape 'a'", "'centre' is not a list; write 3 numbers"}},
       {small_recipe(R"({ name = "a", kind = "ellipsoid", centre = [0, 0], radii = [1, 1, 1] },)"),
        {"'centre' has 2 numbers"}},
       {small_recipe(R"({ name = "a", kind = "ellipsoid", centre = [0, 0, 0], radii = [1, 0, 1] },)"),
-       {"line 13", "'radii' is 0"}},
+       {"line 13", "'radii' holds 0"}},
       {small_recipe(R"({ name = "a", kind = "ellipsoid", centre = [0, 0, nan], radii = [1, 1, 1] },)"), {"'centre'"}},
-      {small_recipe(R"({ name = "a", kind = "ellipsoid", centre = [0, 0, true], radii = [1, 1, 1] },)"), {"no number"}},
+      {small_recipe(R"({ name = "a", kind = "ellipsoid", centre = [0, 0, true], radii = [1, 1, 1] },)"),
+       {"not a number"}},
       {small_recipe(R"({ name = "a", kind = "ellipsoid", centre = [0, 0, "siz_mm"], radii = [1, 1, 1] },)"),
        {"did you mean 'size_mm'"}},
       {small_recipe(R"({ name = "a", kind = "ellipsoid", centre = [0, 0, "1 +"], radii = [1, 1, 1] },)"),
-       {"cannot be worked out"}},
+       {"cannot be evaluated"}},
       {small_recipe(R"({ name = "a", kind = "ellipsoid", centre = [0, 0, 0], radius = [1, 1, 1] },)"),
        {"'radii' is missing"}},
       {small_recipe(R"({ name = "a", kind = "box", centre = [0, 0, 0], half_sizes = [1, 1, 1], roundin_mm = 1 },)"),
@@ -305,7 +306,8 @@ TEST_CASE("a recipe that cannot be used is refused with its line and a way out")
       {small_recipe(R"({ name = "a", kind = "copy", of = "all", frame = "f" },)"), {"no frame 'f'"}},
       {small_recipe(R"({ name = "a", kind = "copy", of = "all", when = "extr" },)"), {"did you mean 'extra'"}},
       {small_recipe(R"({ name = "a", kind = "tube", points = [[0, 0, 0, 1]] },)"), {"'points' has 1 rows"}},
-      {small_recipe(R"({ name = "a", kind = "tube", points = [[0, 0, 0], [0, 0, 1]] },)"), {"wrong number of values"}},
+      {small_recipe(R"({ name = "a", kind = "tube", points = [[0, 0, 0], [0, 0, 1]] },)"),
+       {"a row that is not a list of 4 numbers"}},
       {small_recipe(R"({ name = "a", kind = "tube", points = [[0, 0, 0, 0], [0, 0, 1, 1]] },)"), {"radius"}},
       {small_recipe(R"({ name = "a", kind = "loft", sections = [[1, 0, 0, 1, 1, 1], [0, 0, 0, 1, 1, 1]] },)"),
        {"z does not rise"}},
@@ -315,7 +317,7 @@ TEST_CASE("a recipe that cannot be used is refused with its line and a way out")
       {small_recipe(R"({ name = "a", kind = "shell", of = "all", inner_mm = 2, outer_mm = 1 },)"), {"'outer_mm' is 1"}},
       {small_recipe("", "frames = [{ name = \"f\", at = [0, 0, 0] }, { name = \"f\", at = [0, 0, 0] }]\n"),
        {"two frames 'f'"}},
-      {small_recipe("", "landmarks = 3\n"), {"no list of tables"}},
+      {small_recipe("", "landmarks = 3\n"), {"not a list of tables"}},
       {small_recipe("", point + view + "aim = \"q\", from = [0, 0, 9], marker = [1, 0, 0] }]\n"), {"no landmark 'q'"}},
       {small_recipe("", point + view + "aim = \"p\", from = [0, 0, 0], marker = [1, 0, 0] }]\n"),
        {"looks from where it aims"}},
@@ -351,7 +353,7 @@ TEST_CASE("an absurd grid and a wrong option are refused") {
         std::string::npos);
   CHECK(refusal(small_recipe(""), {{"sise_mm", "3"}}).find("did you mean 'size_mm'") != std::string::npos);
   CHECK(refusal(small_recipe(""), {{"size_mm", "99"}}).find("from 1 to 15") != std::string::npos);
-  CHECK(refusal(small_recipe(""), {{"size_mm", "3mm"}}).find("no number") != std::string::npos);
-  CHECK(refusal(small_recipe(""), {{"size_mm", "nan"}}).find("no number") != std::string::npos);
+  CHECK(refusal(small_recipe(""), {{"size_mm", "3mm"}}).find("not a number") != std::string::npos);
+  CHECK(refusal(small_recipe(""), {{"size_mm", "nan"}}).find("not a number") != std::string::npos);
   CHECK(refusal(small_recipe(""), {{"extra", "yes"}}).find("neither true nor false") != std::string::npos);
 }

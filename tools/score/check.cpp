@@ -26,7 +26,7 @@ struct Given {
 };
 
 /// Returns the reason why a patient cannot be used, placed where the scenario names it.
-ScenarioProblem unusable(const Scenario& scenario, const InputError& error) {
+Mistake unusable(const Scenario& scenario, const InputError& error) {
   const std::string sentence = error.what();  // "FILE: PLACE: PROBLEM; REMEDY."
   const std::size_t remedy = sentence.rfind("; ");
   if (remedy == std::string::npos) return {scenario.case_place, sentence, "correct it"};
@@ -71,13 +71,12 @@ private:
 };
 
 /// Returns the problems that do not need the patients: of the text, and of how each variant names its case.
-std::vector<ScenarioProblem> problems_before_patients(const ReadScenario& read, const Given& given) {
-  std::vector<ScenarioProblem> problems = read.problems;
+std::vector<Mistake> problems_before_patients(const ReadScenario& read, const Given& given) {
+  std::vector<Mistake> problems = read.problems;
   if (!given.case_folder.empty() || given.without_case) return problems;
   for (const Scenario& variant : read.variants)
     if (!variant.case_name.empty())
-      for (ScenarioProblem& problem : problems_before_case(variant, assets_folder()))
-        problems.push_back(std::move(problem));
+      for (Mistake& problem : problems_before_case(variant, assets_folder())) problems.push_back(std::move(problem));
   return problems;
 }
 
@@ -97,8 +96,8 @@ std::vector<Scenario> with_patients(std::vector<Scenario> variants, const Given&
 
 /// Returns the problems of a variant on its patient. Options that the phantom refuses are removed first, so that the
 /// rest can be checked.
-std::vector<ScenarioProblem> problems_with_patient(Scenario variant, const Given& given, bool text_is_right,
-                                                   AttemptCases& cases, CheckProgress& progress) {
+std::vector<Mistake> problems_with_patient(Scenario variant, const Given& given, bool text_is_right,
+                                           AttemptCases& cases, CheckProgress& progress) {
   bool takes_options = true;
   if (given.case_folder.empty() && !problems_with_phantom(variant, assets_folder()).empty()) {
     takes_options = false;
@@ -108,7 +107,7 @@ std::vector<ScenarioProblem> problems_with_patient(Scenario variant, const Given
       return !problems_with_phantom(with_it, assets_folder()).empty();
     });
   }
-  std::vector<ScenarioProblem> problems;
+  std::vector<Mistake> problems;
   try {
     const Case& subject = cases.of(given.case_folder.string(), variant, [&](double share) { progress.show(share); });
     problems = problems_with_case(variant, subject);
@@ -126,7 +125,7 @@ std::vector<ScenarioProblem> problems_with_patient(Scenario variant, const Given
 
 int check(const Given& given) {
   const ReadScenario read = read_every_variant(given.scenario);
-  std::vector<ScenarioProblem> first = problems_before_patients(read, given);
+  std::vector<Mistake> first = problems_before_patients(read, given);
   const bool right_so_far = first.empty();
   const std::vector<Scenario> variants = with_patients(read.variants, given);
   if (!right_so_far) {
@@ -135,14 +134,13 @@ int check(const Given& given) {
     // Printed now, because each patient takes seconds.
     std::fprintf(stderr, "insonate-score: %s\n", error.what());
   }
-  std::vector<ScenarioProblem> problems;
+  std::vector<Mistake> problems;
   {
     AttemptCases cases;
     CheckProgress progress(variants.size());
     for (const Scenario& variant : variants) {
       progress.begin(variant);
-      const std::vector<ScenarioProblem> more =
-          problems_with_patient(variant, given, read.problems.empty(), cases, progress);
+      const std::vector<Mistake> more = problems_with_patient(variant, given, read.problems.empty(), cases, progress);
       problems.insert(problems.end(), more.begin(), more.end());
     }
   }

@@ -6,8 +6,8 @@
 #include "app/session/picture_tools.h"
 #include "app/session/step_controls.h"
 #include "devices/mouse/mouse_tracker.h"
-#include "scenarios/format/table_reader.h"
 #include "scenarios/steps/step_kinds.h"
+#include "sim/core/toml_table.h"
 #include "tests/scenarios/tiny_case.h"
 
 using namespace insonate;
@@ -31,7 +31,7 @@ struct Count : StepTask {
     }
   };
 
-  static std::shared_ptr<const StepTask> read(TableReader& table, const Step&) {
+  static std::shared_ptr<const StepTask> read(const TomlTable& table, const Step&) {
     auto task = std::make_shared<Count>();
     task->right = table.number("right", {0, 100});
     return task;

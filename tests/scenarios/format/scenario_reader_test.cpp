@@ -73,49 +73,53 @@ TEST_CASE("what is wrong in a scenario is said in words") {
   };
   const std::vector<Row> rows{
       {"format = 1", "format = 3", {"line 2, column 10", "format 3", "formats 1 and 2"}},
-      {"format = 1\n", "", {"lacks the key 'format'"}},
-      {"title = \"Find the ball\"", "title = 7", {"line 3", "no text"}},
-      {"title = \"Find the ball\"", "title = \"  \"", {"empty 'title'"}},
-      {"case = \"tiny\"", "", {"lacks the key 'case'"}},
-      {"case = \"tiny\"", "kase = \"tiny\"", {"unknown key 'kase'", "did you mean 'case'?", "lacks the key 'case'"}},
+      {"format = 1\n", "", {"the key 'format' is missing"}},
+      {"title = \"Find the ball\"", "title = 7", {"line 3", "not a text"}},
+      {"title = \"Find the ball\"", "title = \"  \"", {"'title' is empty"}},
+      {"case = \"tiny\"", "", {"the key 'case' is missing"}},
+      {"case = \"tiny\"",
+       "kase = \"tiny\"",
+       {"the key 'kase' is unknown here", "did you mean 'case'?", "the key 'case' is missing"}},
       {"pass_mark_percent = 60", "pass_mark_percent = 160", {"160", "0 to 100"}},
-      {"pass_mark_percent = 60", "pass_mark_percent = \"60\"", {"line 5, column 21", "no number"}},
-      {"pass_mark_percent = 60", "pass_mark_percent = nan", {"no number"}},
+      {"pass_mark_percent = 60", "pass_mark_percent = \"60\"", {"line 5, column 21", "not a number"}},
+      {"pass_mark_percent = 60", "pass_mark_percent = nan", {"'pass_mark_percent' is nan"}},
       {"time_limit_s = 30", "time_limit_s = -1", {"-1", "from 1"}},
       {"time_limit_s = 30",
        "time_limit_s = 30\nlocked = [\"frequncy\"]",
-       {"line 7", "locks 'frequncy', which is no setting", "did you mean 'frequency'?"}},
-      {"time_limit_s = 30", "time_limit_s = inf", {"no number"}},
+       {"line 7", "'frequncy' is not a setting", "did you mean 'frequency'?"}},
+      {"time_limit_s = 30", "time_limit_s = inf", {"'time_limit_s' is inf"}},
       {"time_limit_s = 30", "time_limit_s = 30\n[phantom]\nfluid = true", {"phantom options", "'tiny'"}},
       {"kind = \"find_view\"", "kind = \"find_veiw\"", {"step 1", "'find_veiw'", "did you mean 'find_view'?"}},
-      {"view = \"ball\"", "", {"step 1 lacks the key 'view'"}},
-      {"hold_s = 1.0", "hold_s = 0", {"step 1", "hold_s = 0", "0.1 to 60"}},
+      {"view = \"ball\"", "", {"step 1: the key 'view' is missing"}},
+      {"hold_s = 1.0", "hold_s = 0", {"step 1", "'hold_s' is 0", "0.1 to 60"}},
       {"hold_s = 1.0", "hold_s = 12", {"held longer", "shorten"}},
-      {"hold_s = 1.0", "hold_s = 1.0\nholt_s = 2", {"unknown key 'holt_s'", "did you mean 'hold_s'?"}},
+      {"hold_s = 1.0", "hold_s = 1.0\nholt_s = 2", {"the key 'holt_s' is unknown here", "did you mean 'hold_s'?"}},
       {"plane_distance_mm = 8",
        "plane_distance = 8",
        {"line 17, column 1", "'plane_distance'", "did you mean 'plane_distance_mm'?"}},
-      {"plane_distance_mm = 8", "plane_distance_mm = true", {"no usable limit for 'plane_distance_mm'"}},
+      {"plane_distance_mm = 8",
+       "plane_distance_mm = true",
+       {"'plane_distance_mm' is not a number; give a number from 0 to 1000"}},
       {"plane_distance_mm = 8", "time_s = 8", {"not a metric of a picture"}},
-      {"plane_distance_mm = 8\nplane_angle_deg = 20", "", {"tolerance of step 1 is empty"}},
+      {"plane_distance_mm = 8\nplane_angle_deg = 20", "", {"[step.tolerance] of step 1: it is empty"}},
       {"metric = \"plane_distance_mm\"",
        "metric = \"plane_distanse_mm\"",
        {"criterion 1 of step 1", "did you mean 'plane_distance_mm'?"}},
       {"metric = \"target_insonated_percent\"\nfull = 80\nzero = 20",
        "metric = \"plane_distance_mm\"\nfull = 2\nzero = 20",
-       {"criterion 2 of step 1", "a second time"}},
-      {"full = 2", "full = 12", {"criterion 1 of step 1", "full points at 12 and none at 10", "below 'zero'"}},
+       {"criterion 2 of step 1", "another criterion marks plane_distance_mm already"}},
+      {"full = 2", "full = 12", {"criterion 1 of step 1", "'full' is 12 and 'zero' is 10", "below 'zero'"}},
       {"full = 80", "full = 20", {"above 'zero'"}},
-      {"full = 2\n", "", {"lacks the key 'full'"}},
-      {"weight = 4", "weight = 0", {"no weight"}},
-      {"weight = 4", "weight = -1", {"weight = -1"}},
+      {"full = 2\n", "", {"the key 'full' is missing"}},
+      {"weight = 4", "weight = 0", {"'weight' is 0"}},
+      {"weight = 4", "weight = -1", {"'weight' is -1"}},
       {"critical = true", "critical = 1", {"neither true nor false"}},
       {"[[criterion]]\nmetric = \"path_length_mm\"",
        "[[criterion]]\nmetric = \"tilt_deg\"",
        {"only a step has", "[[step.criterion]]"}},
-      {"[[criterion]]", "[criterion]", {"no list of tables", "[[criterion]]"}},
-      {"[step.tolerance]", "[step.tolerance", {"this is no TOML", "line 16"}},
-      {"format = 1", "format = 1\nformat = 1", {"this is no TOML"}},
+      {"[[criterion]]", "[criterion]", {"not a list of tables", "[[criterion]]"}},
+      {"[step.tolerance]", "[step.tolerance", {"this is not TOML", "line 16"}},
+      {"format = 1", "format = 1\nformat = 1", {"this is not TOML"}},
   };
   for (const Row& row : rows) {
     const std::string message = refusal(with(kTinyScenario, row.from, row.to));
@@ -129,14 +133,14 @@ TEST_CASE("what is wrong in a scenario is said in words") {
 }
 
 TEST_CASE("a scenario without steps, or one that marks nothing, is refused") {
-  CHECK(refusal("format = 1\ntitle = \"x\"\ncase = \"abdomen\"\ntime_limit_s = 5\n").find("has no steps") !=
+  CHECK(refusal("format = 1\ntitle = \"x\"\ncase = \"abdomen\"\ntime_limit_s = 5\n").find("there are no steps") !=
         std::string::npos);
   const char* unmarked =
       "format = 1\ntitle = \"x\"\ncase = \"abdomen\"\ntime_limit_s = 5\n[[step]]\nkind = \"find_view\"\ntitle = \"a\"\n"
       "instruction = \"b\"\nview = \"c\"\n[step.tolerance]\ntilt_deg = 5\n";
   CHECK(refusal(unmarked).find("marks nothing") != std::string::npos);
-  CHECK(refusal("").find("lacks the key 'title'") != std::string::npos);
-  CHECK(refusal("\x01\xff\x00garbage").find("no TOML") != std::string::npos);
+  CHECK(refusal("").find("the key 'title' is missing") != std::string::npos);
+  CHECK(refusal("\x01\xff\x00garbage").find("not TOML") != std::string::npos);
 }
 
 TEST_CASE("all problems of a scenario come at once, in the order of the file") {
@@ -154,7 +158,7 @@ TEST_CASE("all problems of a scenario come at once, in the order of the file") {
     const std::string message = error.what();
     CHECK(message.find("4 problems") != std::string::npos);
     for (const char* word :
-         {"'titel'", "lacks the key 'title'", "'weight' that is no number", "step 2 lacks the key 'view'"})
+         {"'titel'", "the key 'title' is missing", "'weight' is not a number", "step 2: the key 'view' is missing"})
       CHECK(message.find(word) != std::string::npos);
   }
 }
@@ -181,7 +185,7 @@ TEST_CASE("what an exam locks no step asks for, nor a view of another probe") {
       "[[step.criterion]]\nmetric = \"knobs_right_percent\"\nfull = 100\nzero = 0\n";
   CHECK_NOTHROW(parse_scenario(locking("\"gain\", \"probe\"") + knobs, "x"));
   CHECK_THROWS_WITH(parse_scenario(locking("\"depth\", \"probe\"") + knobs, "x"),
-                    Catch::Contains("step 3 asks for the depth, which the exam locks"));
+                    Catch::Contains("step 3: the step asks for the depth, which the exam locks"));
   for (const auto& [from, to] :
        {std::pair{"plane_distance_mm = 8\n", "plane_distance_mm = 8\ndepth_use_percent = 50\n"},
         {"metric = \"target_insonated_percent\"", "metric = \"depth_use_percent\""}}) {

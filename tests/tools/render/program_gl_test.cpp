@@ -91,7 +91,7 @@ TEST_CASE("model W has its own settings file and picture, alike from the graphic
   CHECK(grey_levels(scene.in("image.png")).size() == 128 * 96);
   Outcome outcome = scene.render(common + scene.in("small.toml"));
   CHECK(outcome.code == 2);
-  CHECK(outcome.errors.find("small.toml: line 4, column 11: the key 'gain_db' is unknown here") != std::string::npos);
+  CHECK(outcome.errors.find("small.toml: line 4, column 1: the key 'gain_db' is unknown here") != std::string::npos);
   outcome = scene.render("--model W --gain 3");
   CHECK(outcome.code == 2);
   CHECK(outcome.errors.find("--gain: model W has no such thing; leave it out or take --model S.") != std::string::npos);

@@ -18,9 +18,9 @@ TEST_CASE("what insonate-render cannot do it says in a sentence, and leaves noth
 
   Outcome outcome = scene.render("--settings " + scene.in("bad.toml"));
   CHECK(outcome.code == 2);
-  CHECK(outcome.errors.find("bad.toml: line 1, column 11: the key 'presett' is unknown here; did you mean 'preset'?") !=
-        std::string::npos);
-  CHECK(outcome.errors.find("bad.toml: line 2, column 11: 'gain_db' is 99; give a number from -60 to 60.") !=
+  CHECK(outcome.errors.find("bad.toml: 2 problems; correct them:\n"
+                            "  line 1, column 1: the key 'presett' is unknown here; did you mean 'preset'?\n"
+                            "  line 2, column 11: 'gain_db' is 99; give a number from -60 to 60.") !=
         std::string::npos);
 
   outcome = scene.render("--stages " + scene.in("taken"));

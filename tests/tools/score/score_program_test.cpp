@@ -153,7 +153,7 @@ TEST_CASE("insonate-score says in one sentence what is wrong with its input, and
   refused("--log " + log + " --scenario " + misspelt, "did you mean 'title'?");
   refused("--log " + log + " --scenario " + exam + " --case /nowhere", "/nowhere");
   refused("--log " + log + " --scenario " + exam + " --cse x", "--cse");
-  refused("check " + misspelt, "lacks the key 'case'");
+  refused("check " + misspelt, "the key 'case' is missing");
   refused("check " + elsewhere,
           "step 2 names the view 'hepatorenl', which the case 'Abdomen phantom' does not have; did you mean "
           "'hepatorenal'?");
@@ -275,8 +275,8 @@ TEST_CASE("insonate-score makes no patient for what it refuses without one") {
     replace_first(text, from, to);
     return folder.file(name, text).string();
   };
-  refused("check " + folder.file("cut.toml", exam.substr(0, exam.find("title") + 8)).string(), "this is no TOML");
-  refused("check " + folder.file("short.toml", exam.substr(0, exam.find("[[step]]"))).string(), "has no steps");
+  refused("check " + folder.file("cut.toml", exam.substr(0, exam.find("title") + 8)).string(), "this is not TOML");
+  refused("check " + folder.file("short.toml", exam.substr(0, exam.find("[[step]]"))).string(), "there are no steps");
   refused("check " + spoilt("newer.toml", "format = ", "format = 9"), "format 9");
   refused("check " + spoilt("gone.toml", "case = \"abdomen\"", "case = \"gone\""), "is not a folder beside the file");
 
