@@ -153,6 +153,11 @@ TEST_CASE("a key that is missing, of another kind or out of range is a mistake i
       {"", [](T t) { t.text("a"); }, "1:1 the key 'a' is missing; add it: a text between quotation marks"},
       {"a = 1", [](T t) { t.text("a"); }, "1:5 'a' is not a text; put it between quotation marks"},
       {"a = ' '", [](T t) { t.text("a"); }, "1:5 'a' is empty; write something between the quotation marks"},
+      {"",
+       [](T t) {
+         t.choice("a", {"green", "red"});
+       },
+       "1:1 the key 'a' is missing; add it: one of 'green', 'red'"},
       {"a = 'blue'",
        [](T t) {
          t.choice("a", {"green", "red"});
