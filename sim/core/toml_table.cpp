@@ -14,8 +14,6 @@
 namespace insonate {
 namespace {
 
-constexpr const char* kText = "a text between quotation marks";
-
 SourcePlace place_of(const toml::source_region& source) {
   return {int(source.begin.line), int(source.begin.column)};
 }
@@ -310,7 +308,7 @@ bool TomlTable::boolean(std::string_view key, std::optional<bool> otherwise) con
 }
 
 std::string TomlTable::text(std::string_view key, const std::optional<std::string>& otherwise) const {
-  if (const toml::node* value = node_->find(key, otherwise.has_value(), kText)) {
+  if (const toml::node* value = node_->find(key, otherwise.has_value(), "a text between quotation marks")) {
     const auto* text = value->as_string();
     if (!text)
       report(key, in_quotes(key) + " is not a text", "put it between quotation marks");
@@ -324,7 +322,9 @@ std::string TomlTable::text(std::string_view key, const std::optional<std::strin
 
 std::size_t TomlTable::choice(std::string_view key, const std::vector<std::string>& words,
                               std::optional<std::size_t> otherwise) const {
-  node_->find(key, otherwise.has_value(), kText);
+  std::string wanted;
+  for (const std::string& word : words) wanted += (wanted.empty() ? "one of " : ", ") + in_quotes(word);
+  node_->find(key, otherwise.has_value(), wanted);
   const std::string word = text(key, "");
   const auto found = std::find(words.begin(), words.end(), word);
   if (found != words.end()) return std::size_t(found - words.begin());
