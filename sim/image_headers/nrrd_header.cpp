@@ -1,6 +1,7 @@
 // Format: https://teem.sourceforge.net/nrrd/format.html.
 #include "sim/image_headers/nrrd_header.h"
 
+#include <array>
 #include <utility>
 
 #include "sim/core/input_error.h"
@@ -10,47 +11,18 @@ namespace insonate {
 namespace {
 
 // All names that the format defines.
-constexpr std::pair<std::string_view, ElementType> kTypes[] = {
-    {"signed char", ElementType::int8},
-    {"int8", ElementType::int8},
-    {"int8_t", ElementType::int8},
-    {"uchar", ElementType::uint8},
-    {"unsigned char", ElementType::uint8},
-    {"uint8", ElementType::uint8},
-    {"uint8_t", ElementType::uint8},
-    {"short", ElementType::int16},
-    {"short int", ElementType::int16},
-    {"signed short", ElementType::int16},
-    {"signed short int", ElementType::int16},
-    {"int16", ElementType::int16},
-    {"int16_t", ElementType::int16},
-    {"ushort", ElementType::uint16},
-    {"unsigned short", ElementType::uint16},
-    {"unsigned short int", ElementType::uint16},
-    {"uint16", ElementType::uint16},
-    {"uint16_t", ElementType::uint16},
-    {"int", ElementType::int32},
-    {"signed int", ElementType::int32},
-    {"int32", ElementType::int32},
-    {"int32_t", ElementType::int32},
-    {"uint", ElementType::uint32},
-    {"unsigned int", ElementType::uint32},
-    {"uint32", ElementType::uint32},
-    {"uint32_t", ElementType::uint32},
-    {"longlong", ElementType::int64},
-    {"long long", ElementType::int64},
-    {"long long int", ElementType::int64},
-    {"signed long long", ElementType::int64},
-    {"signed long long int", ElementType::int64},
-    {"int64", ElementType::int64},
-    {"int64_t", ElementType::int64},
-    {"ulonglong", ElementType::uint64},
-    {"unsigned long long", ElementType::uint64},
-    {"unsigned long long int", ElementType::uint64},
-    {"uint64", ElementType::uint64},
-    {"uint64_t", ElementType::uint64},
-    {"float", ElementType::float32},
-    {"double", ElementType::float64},
+constexpr std::pair<ElementType, std::array<std::string_view, 7>> kTypes[] = {
+    {ElementType::int8, {"signed char", "int8", "int8_t"}},
+    {ElementType::uint8, {"uchar", "unsigned char", "uint8", "uint8_t"}},
+    {ElementType::int16, {"short", "short int", "signed short", "signed short int", "int16", "int16_t"}},
+    {ElementType::uint16, {"ushort", "unsigned short", "unsigned short int", "uint16", "uint16_t"}},
+    {ElementType::int32, {"int", "signed int", "int32", "int32_t"}},
+    {ElementType::uint32, {"uint", "unsigned int", "uint32", "uint32_t"}},
+    {ElementType::int64,
+     {"longlong", "long long", "long long int", "signed long long", "signed long long int", "int64", "int64_t"}},
+    {ElementType::uint64, {"ulonglong", "unsigned long long", "unsigned long long int", "uint64", "uint64_t"}},
+    {ElementType::float32, {"float"}},
+    {ElementType::float64, {"double"}},
 };
 
 // "NRRD00.01" is the name of version 1 in files before 2004.
@@ -94,8 +66,9 @@ bool is_nrrd_data_file(std::string_view name) {
 }
 
 std::optional<ElementType> nrrd_type(std::string_view name) {
-  for (const auto& [known, type] : kTypes)
-    if (same_ignoring_case(known, name)) return type;
+  for (const auto& [type, all] : kTypes)
+    for (const std::string_view known : all)
+      if (!known.empty() && same_ignoring_case(known, name)) return type;
   return std::nullopt;
 }
 
