@@ -15,15 +15,13 @@ extern "C" UNCOUNTED const char* __lsan_default_options() {
   return "print_suppressions=0";
 }
 
-// What Mesa's software renderer and the loader beneath it keep until the process ends, and GLib beneath umockdev; and
-// what ITK keeps of an NRRD file that could not be written.
+// What Mesa's software renderer and the loader beneath it keep until the process ends, and GLib beneath umockdev.
 extern "C" UNCOUNTED const char* __lsan_default_suppressions() {
   return "leak:swrast_dri.so\n"
          "leak:libgallium\n"
          "leak:libEGL_mesa.so\n"
          "leak:libGLX_mesa.so\n"
          "leak:libLLVM\n"
-         "leak:libITKNrrdIO\n"
          "leak:libglib\n"
          "leak:libgobject\n"
          "leak:libgio\n"

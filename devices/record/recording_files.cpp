@@ -13,10 +13,10 @@
 #include <vector>
 
 #include "devices/record/append_only.h"
-#include "devices/sequence/header_text.h"
 #include "devices/sequence/sequence_text.h"
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/image_headers/header_text.h"
 
 namespace insonate {
 namespace {

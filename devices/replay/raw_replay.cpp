@@ -10,10 +10,10 @@
 #include "devices/live/sample_conditioner.h"
 #include "devices/registry.h"
 #include "devices/replay/replay_tracker.h"
-#include "devices/sequence/header_text.h"
 #include "sim/core/digest.h"
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/image_headers/header_text.h"
 
 namespace insonate {
 namespace {

@@ -1,13 +1,11 @@
 #include "devices/sequence/metaimage.h"
 
 #include <algorithm>
-#include <limits>
 #include <optional>
-#include <utility>
 #include <vector>
 
-#include "devices/sequence/header_text.h"
 #include "sim/core/input_error.h"
+#include "sim/image_headers/metaimage_header.h"
 
 namespace insonate {
 namespace {
@@ -24,13 +22,8 @@ constexpr std::string_view kLayoutFields[] = {"ObjectType",
                                               "ElementType",
                                               "ElementNumberOfChannels"};
 
-// Image elements by MetaIO's names (metaTypes.h, where a long has 4 bytes).
-constexpr std::pair<std::string_view, PixelType> kTypes[] = {
-    {"MET_CHAR", PixelType::int8},         {"MET_UCHAR", PixelType::uint8},   {"MET_ASCII_CHAR", PixelType::int8},
-    {"MET_SHORT", PixelType::int16},       {"MET_USHORT", PixelType::uint16}, {"MET_INT", PixelType::int32},
-    {"MET_UINT", PixelType::uint32},       {"MET_LONG", PixelType::int32},    {"MET_ULONG", PixelType::uint32},
-    {"MET_LONG_LONG", PixelType::int64},   {"MET_FLOAT", PixelType::float32}, {"MET_DOUBLE", PixelType::float64},
-    {"MET_ULONG_LONG", PixelType::uint64}, {"MET_OTHER", PixelType::uint8},   {"MET_NONE", PixelType::uint8}};
+// Types that MetaIO does not call numbers; its readers take them as bytes.
+constexpr std::string_view kByteTypes[] = {"MET_ASCII_CHAR", "MET_OTHER", "MET_NONE"};
 
 /// The fields of one header. Error messages name its file.
 class Layout {
@@ -69,10 +62,7 @@ private:
   std::string_view value(std::string_view name) const { return has(name) ? fields_.at(name) : std::string_view{}; }
 
   bool flag(std::string_view name, bool otherwise) const {
-    if (!has(name)) return otherwise;
-    if (same_ignoring_case(value(name), "True")) return true;
-    if (same_ignoring_case(value(name), "False")) return false;
-    fail(std::string(name) + " is " + quoted(value(name)) + " instead of True or False", kExportAgain);
+    return has(name) ? metaimage_flag(file_, name, value(name)) : otherwise;
   }
 
   void read_sizes(ClaimedImages& claimed) const {
@@ -88,11 +78,12 @@ private:
            kExportAgain);
   }
 
-  PixelType pixel_type() const {
-    if (!has("ElementType")) return PixelType::uint8;
-    for (const auto& [name, type] : kTypes)
-      if (name == value("ElementType")) return type;
-    fail("ElementType is " + quoted(value("ElementType")) + ", which MetaImage does not know", kExportAgain);
+  ElementType pixel_type() const {
+    const std::string_view name = value("ElementType");
+    if (!has("ElementType") || std::find(std::begin(kByteTypes), std::end(kByteTypes), name) != std::end(kByteTypes))
+      return ElementType::uint8;
+    if (const auto type = metaimage_type(name)) return *type;
+    fail("ElementType is " + quoted(name) + ", which MetaImage does not know", kExportAgain);
   }
 
   std::uint64_t channels() const {
@@ -117,39 +108,6 @@ private:
 };
 
 }  // namespace
-
-std::size_t read_metaimage_header(
-    std::string_view bytes, const std::string& file,
-    const std::function<void(std::string_view name, std::string_view value, std::size_t line)>& field) {
-  std::size_t line = 0;
-  for (std::size_t at = 0; at < bytes.size();) {
-    const std::size_t end = std::min(bytes.find('\n', at), bytes.size());
-    const std::string_view text = trimmed(bytes.substr(at, end - at));
-    at = std::min(end + 1, bytes.size());
-    ++line;
-    const std::size_t equals = std::min(text.find('='), text.size());
-    const std::string_view name = trimmed(text.substr(0, equals));
-    if (line == 1 && name != "ObjectType" && name != "NDims")
-      throw InputError(file, "line 1", "it names neither ObjectType nor NDims, with which a MetaImage begins",
-                       "give a sequence file (.igs.mha, .seq.mha or .seq.nrrd)");
-    if (text.empty()) continue;
-    const std::string place = "line " + std::to_string(line);
-    const bool is_text = std::none_of(name.begin(), name.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; });
-    if (name.empty() || equals == text.size() || !is_text)
-      throw InputError(file, place, quoted(text) + " is not of the form 'name = value'", kExportAgain);
-    const std::string_view value = trimmed(text.substr(equals + 1));
-    if (name != "ElementDataFile") {
-      field(name, value, line);
-      continue;
-    }
-    if (value != "LOCAL")
-      throw InputError(file, place, "the image data is said to lie in " + quoted(value) + " instead of in this file",
-                       "save the sequence as one .igs.mha or .seq.mha file");
-    return at;
-  }
-  throw InputError(file, "header", "it ends without the line 'ElementDataFile = LOCAL': the file is truncated",
-                   "copy or record it again");
-}
 
 bool is_layout_field(std::string_view name) {
   return std::find(std::begin(kLayoutFields), std::end(kLayoutFields), name) != std::end(kLayoutFields);

@@ -3,9 +3,7 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstring>
 #include <fstream>
 #include <map>
 #include <new>
@@ -19,40 +17,8 @@ namespace {
 constexpr std::size_t kPiece = 1 << 16;
 constexpr std::uint64_t kBetweenPlaces = 16 << 20;
 
-template <typename Number>
-double number_at(const std::uint8_t* bytes, bool big_endian) {
-  std::uint8_t ordered[sizeof(Number)];
-  std::memcpy(ordered, bytes, sizeof ordered);
-  if (big_endian != (std::endian::native == std::endian::big)) std::reverse(std::begin(ordered), std::end(ordered));
-  Number number;
-  std::memcpy(&number, ordered, sizeof number);
-  return double(number);
-}
-
 double value_at(const std::uint8_t* bytes, const ImageForm& form) {
-  switch (form.type) {
-    case PixelType::uint8:
-      return *bytes;
-    case PixelType::int8:
-      return number_at<std::int8_t>(bytes, form.big_endian);
-    case PixelType::uint16:
-      return number_at<std::uint16_t>(bytes, form.big_endian);
-    case PixelType::int16:
-      return number_at<std::int16_t>(bytes, form.big_endian);
-    case PixelType::uint32:
-      return number_at<std::uint32_t>(bytes, form.big_endian);
-    case PixelType::int32:
-      return number_at<std::int32_t>(bytes, form.big_endian);
-    case PixelType::uint64:
-      return number_at<std::uint64_t>(bytes, form.big_endian);
-    case PixelType::int64:
-      return number_at<std::int64_t>(bytes, form.big_endian);
-    case PixelType::float32:
-      return number_at<float>(bytes, form.big_endian);
-    case PixelType::float64:
-      return number_at<double>(bytes, form.big_endian);
-  }
-  return 0;
+  return with_type(form.type, [&](auto zero) { return double(number_at<decltype(zero)>(bytes, form.big_endian)); });
 }
 
 /// Returns the luminance of a pixel. With one or two channels the first is the grey value.
@@ -190,7 +156,7 @@ const Image<std::uint8_t>& ImageReader::grey(std::uint64_t number) {
   const auto width = std::size_t(form.width), height = std::size_t(form.height);
   const std::size_t step = std::size_t(bytes_of(form.type) * form.channels);
   double scale = 1;
-  if (form.type != PixelType::uint8) {
+  if (form.type != ElementType::uint8) {
     double largest = 0;
     for (std::size_t i = 0; i < width * height; ++i) {
       const double value = brightness_at(&frame_[i * step], form);

@@ -4,11 +4,11 @@
 #include <fstream>
 #include <vector>
 
-#include "devices/sequence/header_text.h"
-#include "devices/sequence/nrrd.h"
 #include "sim/core/digest.h"
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/core/text.h"
+#include "sim/image_headers/nrrd_header.h"
 
 namespace insonate {
 namespace {

@@ -4,8 +4,8 @@
 #include <initializer_list>
 #include <limits>
 
-#include "devices/sequence/header_text.h"
 #include "sim/core/input_error.h"
+#include "sim/image_headers/header_text.h"
 
 namespace insonate {
 namespace {
@@ -86,26 +86,6 @@ std::optional<ImageForm> image_form(const ClaimedImages& claimed, std::optional<
 }
 
 }  // namespace
-
-std::uint64_t bytes_of(PixelType type) {
-  switch (type) {
-    case PixelType::uint8:
-    case PixelType::int8:
-      return 1;
-    case PixelType::uint16:
-    case PixelType::int16:
-      return 2;
-    case PixelType::uint32:
-    case PixelType::int32:
-    case PixelType::float32:
-      return 4;
-    case PixelType::uint64:
-    case PixelType::int64:
-    case PixelType::float64:
-      break;
-  }
-  return 8;
-}
 
 bool dimensions_agree(std::optional<std::size_t> dimensions, const ClaimedImages& claimed) {
   const std::size_t sizes = claimed.sizes.size(), most = is_single(claimed) ? sizes + 1 : sizes;

@@ -1,26 +1,29 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "sim/image_headers/element_type.h"
+
 // The size of a sequence as its header claims it, for all formats.
 
 namespace insonate {
 
-/// Type of an element of an image.
-enum class PixelType { uint8, int8, uint16, int16, uint32, int32, uint64, int64, float32, float64 };
+/// Header fields by name, as views of the file's bytes.
+using HeaderFields = std::map<std::string_view, std::string_view>;
 
-/// Returns the bytes of one element.
-std::uint64_t bytes_of(PixelType type);
+/// The remedy for a header that its writer wrote incorrectly.
+inline constexpr const char* kExportAgain = "record or export the file again";
 
 /// Form of one frame's image in a file whose frames are stored one after the other.
 struct ImageForm {
   std::uint64_t width = 0, height = 0;  ///< pixels, above 0; for a stack of slices those of the first
   std::uint64_t channels = 1;           ///< values per pixel, stored one after the other
-  PixelType type = PixelType::uint8;
+  ElementType type = ElementType::uint8;
   bool big_endian = false;
   bool compressed = false;        ///< zlib (MetaImage) or gzip (NRRD)
   std::uint64_t frame_bytes = 0;  ///< bytes of one frame, uncompressed
@@ -38,7 +41,7 @@ struct SequenceLayout {
 struct ClaimedImages {
   std::vector<std::uint64_t> sizes;     ///< of each dimension
   std::vector<std::string_view> kinds;  ///< kind of each dimension; none: the last one counts the frames
-  PixelType type = PixelType::uint8;
+  ElementType type = ElementType::uint8;
   std::uint64_t channels = 1;
   bool big_endian = false;
   bool compressed = false;

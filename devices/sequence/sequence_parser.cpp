@@ -8,12 +8,13 @@
 #include <unordered_map>
 #include <utility>
 
-#include "devices/sequence/header_text.h"
 #include "devices/sequence/metaimage.h"
 #include "devices/sequence/nrrd.h"
 #include "devices/sequence/sequence.h"
 #include "devices/sequence/sequence_text.h"
 #include "sim/core/input_error.h"
+#include "sim/image_headers/metaimage_header.h"
+#include "sim/image_headers/nrrd_header.h"
 
 namespace insonate {
 namespace {
@@ -28,6 +29,7 @@ constexpr std::size_t kMostTransforms = 256;
 // Length of the shortest line of a frame, "Seq_Frame0_Timestamp=0\n": a file cannot hold more frames than such lines.
 constexpr std::size_t kLeastFrameBytes = 23;
 
+constexpr const char* kGiveSequence = "give a sequence file (.igs.mha, .seq.mha or .seq.nrrd)";
 constexpr const char* kRecordAgain = "record the scan again";
 constexpr const char* kRecordWithTracker = "record it with a tracker, so that its frames have ProbeToTrackerTransform";
 
@@ -69,11 +71,16 @@ public:
     };
     // PLUS writes the transforms in a NRRD header as fields, other writers as keys.
     const auto keep_field = [&](std::string_view name, std::string_view value, std::size_t line) {
+      if (is_nrrd_ ? is_nrrd_data_file(name) : name == "ElementDataFile" && value != "LOCAL")
+        fail("line " + std::to_string(line),
+             "the image data is said to lie in " + quoted(value) + " instead of in this file",
+             std::string("save the sequence as one ") + (is_nrrd_ ? ".seq.nrrd" : ".igs.mha or .seq.mha") + " file");
       keep_layout(name, value, line);
       keep_key(name, value, line);
     };
-    sequence_.image_offset = is_nrrd_ ? read_nrrd_header(bytes_.front, sequence_.file, keep_field, keep_key)
-                                      : read_metaimage_header(bytes_.front, sequence_.file, keep_field);
+    sequence_.image_offset = is_nrrd_
+                                 ? read_nrrd_header(bytes_.front, sequence_.file, kGiveSequence, keep_field, keep_key)
+                                 : read_metaimage_header(bytes_.front, sequence_.file, kGiveSequence, keep_field);
     const CutBytes data = bytes_.from(sequence_.image_offset);
     const SequenceLayout layout =
         is_nrrd_ ? nrrd_layout(header_, data, sequence_.file) : metaimage_layout(header_, data.size, sequence_.file);

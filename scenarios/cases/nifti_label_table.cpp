@@ -7,7 +7,7 @@
 
 #include "sim/core/input_error.h"
 #include "sim/core/text.h"
-#include "sim/volume/nifti_extensions.h"
+#include "sim/volume/nifti_volume.h"
 
 namespace insonate {
 namespace {

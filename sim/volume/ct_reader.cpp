@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <new>
 
 #include "sim/core/input_error.h"
+#include "sim/volume/dicom_image.h"
 #include "sim/volume/dicom_series.h"
-#include "sim/volume/file_header.h"
-#include "sim/volume/itk_image_io.h"
 #include "sim/volume/subprocess.h"
+#include "sim/volume/text_volumes.h"
 #include "sim/volume/volume_checks.h"
+#include "sim/volume/volume_header.h"
 
 namespace insonate {
 namespace {
@@ -22,46 +24,7 @@ constexpr std::int16_t kLeastBodyHu = -300, kMostBodyHu = 3071;
 // Metal may exceed int16's range, but a tenth of a CT cannot be metal.
 constexpr double kMostTooDense = 0.1;
 
-const char* format_name(ImageFormat format) {
-  switch (format) {
-    case ImageFormat::nifti:
-      return "NIfTI";
-    case ImageFormat::nrrd:
-      return "NRRD";
-    case ImageFormat::meta_image:
-      return "MetaImage";
-    case ImageFormat::dicom:
-      break;
-  }
-  return "DICOM series";
-}
-
-/// Calls `use` with a pointer of the voxels' own type.
-template <typename Use>
-void with_typed(VoxelType type, const std::byte* bytes, Use use) {
-  switch (type) {
-    case VoxelType::int8:
-      return use(reinterpret_cast<const std::int8_t*>(bytes));
-    case VoxelType::uint8:
-      return use(reinterpret_cast<const std::uint8_t*>(bytes));
-    case VoxelType::int16:
-      return use(reinterpret_cast<const std::int16_t*>(bytes));
-    case VoxelType::uint16:
-      return use(reinterpret_cast<const std::uint16_t*>(bytes));
-    case VoxelType::int32:
-      return use(reinterpret_cast<const std::int32_t*>(bytes));
-    case VoxelType::uint32:
-      return use(reinterpret_cast<const std::uint32_t*>(bytes));
-    case VoxelType::int64:
-      return use(reinterpret_cast<const std::int64_t*>(bytes));
-    case VoxelType::uint64:
-      return use(reinterpret_cast<const std::uint64_t*>(bytes));
-    case VoxelType::float32:
-      return use(reinterpret_cast<const float*>(bytes));
-    case VoxelType::float64:
-      return use(reinterpret_cast<const double*>(bytes));
-  }
-}
+const char* const kDicom = "DICOM series";
 
 std::string voxel_at(const Grid& grid, std::size_t offset) {
   const std::size_t x = std::size_t(grid.size.x), y = std::size_t(grid.size.y);
@@ -79,43 +42,30 @@ const fs::path& existing_file(const fs::path& file) {
   return file;
 }
 
-/// Appends an image's voxels, rounded and clamped, to a CT whose grid is known.
-void append_hounsfield(const fs::path& file, ImageFile& image, Volume<std::int16_t>& ct, CtSource& source) {
-  std::size_t count = 1;
-  for (const ImageFile::Axis& axis : image.axes()) count *= axis.size;
-  const auto bytes = image.read_voxels();
-  const std::size_t first = ct.voxels.size();
-  ct.voxels.resize(first + count);
-  with_typed(image.voxel_type(), bytes.get(), [&](const auto* voxels) {
-    for (std::size_t v = 0; v < count; ++v) {
-      const double hu = double(voxels[v]);
-      if (!std::isfinite(hu))
-        throw InputError(file.string(), voxel_at(ct.grid, first + v), "the value is not a finite number",
-                         "export the CT again");
-      const double kept = std::clamp(hu, kLeastHu, kMostHu);
-      source.clamped += kept != hu;
-      source.too_dense += hu > kMostHu;
-      ct.voxels[first + v] = std::int16_t(std::lround(kept));
-    }
-  });
+/// Appends values, rounded and clamped, to a CT whose grid is known.
+void append_hounsfield(const fs::path& file, const std::vector<double>& values, Volume<std::int16_t>& ct,
+                       CtSource& source) {
+  for (const double hu : values) {
+    if (!std::isfinite(hu))
+      throw InputError(file.string(), voxel_at(ct.grid, ct.voxels.size()), "the value is not a finite number",
+                       "export the CT again");
+    const double kept = std::clamp(hu, kLeastHu, kMostHu);
+    source.clamped += kept != hu;
+    source.too_dense += hu > kMostHu;
+    ct.voxels.push_back(std::int16_t(std::lround(kept)));
+  }
 }
 
 Volume<std::int16_t> read_dicom_folder(const fs::path& folder, CtSource& source) {
   DicomSeries series = find_dicom_series(folder);
   Volume<std::int16_t> ct{series.grid, {}};
-  source = {format_name(ImageFormat::dicom), "", std::move(series.other_series), 0, 0};
-  // Allocate slice by slice: a header may claim more than its file holds.
+  source = {kDicom, "", std::move(series.other_series), 0, 0};
+  // Memory grows slice by slice: a header may claim more than its file holds.
   for (const fs::path& slice : series.slices) {
     check_dicom_slice(slice);
-    ImageFile image(slice, ImageFormat::dicom);
-    const auto& axes = image.axes();
-    const bool as_expected = axes.size() >= 2 && axes[0].size == std::uint64_t(ct.grid.size.x) &&
-                             axes[1].size == std::uint64_t(ct.grid.size.y) && (axes.size() < 3 || axes[2].size == 1);
-    if (!as_expected || image.components() != 1)
-      throw InputError(slice.string(), "header", "it is not a grey image of the series' size",
-                       "export the series again");
-    source.stored_as = to_string(image.voxel_type());
-    append_hounsfield(slice, image, ct, source);
+    const DicomImage image = read_dicom_image(slice, glm::uvec2(ct.grid.size));
+    source.stored_as = image.type;
+    append_hounsfield(slice, image.values, ct, source);
   }
   return ct;
 }
@@ -175,7 +125,7 @@ Volume<std::int16_t> unpacked(const std::string& bytes, CtSource& source) {
   };
   Volume<std::int16_t> ct;
   take(&ct.grid, sizeof ct.grid);
-  source = {format_name(ImageFormat::dicom), "", {}, take_number(), take_number()};
+  source = {kDicom, "", {}, take_number(), take_number()};
   source.stored_as = take_text();
   for (std::uint64_t left = take_number(); left > 0; --left) source.other_series.push_back(take_text());
   ct.voxels.resize(ct.grid.count());
@@ -204,7 +154,7 @@ Volume<std::int16_t> read_dicom_folder_in_subprocess(const fs::path& folder, CtS
   for (const std::string& file : files) try {
       in_subprocess(fs::file_size(file, error), [&] {
         scan_dicom_file(file);
-        ImageFile(file, ImageFormat::dicom).read_voxels();
+        read_dicom_image(file);
         check_dicom_slice(file);
         return std::string();
       });
@@ -218,18 +168,38 @@ Volume<std::int16_t> read_dicom_folder_in_subprocess(const fs::path& folder, CtS
   throw InputError(blamed, "", problem, kExportAgain);
 }
 
-FileHeader ct_header(const fs::path& file) {
+VolumeHeader ct_header(const fs::path& file) {
   if (is_dicom_file(existing_file(file)))
     throw InputError(file.string(), "", "this is one DICOM file", "name the folder of its series");
-  return check_file_header(file);
+  return read_volume_header(file);
 }
 
-Volume<std::int16_t> read_ct_file(const fs::path& file, const FileHeader& header, CtSource& source) {
-  ImageFile image(file, header.format);
-  Volume<std::int16_t> ct{checked_grid(file.string(), image), {}};
-  source = {format_name(header.format), header.stored_as, {}, 0, 0};
-  append_hounsfield(file, image, ct, source);
-  return ct;
+/// Reads the voxels that a header describes onto the checked grid. `append` gets the values in pieces, in order.
+template <typename T, typename Append>
+Volume<T> read_voxels(const fs::path& file, const VolumeHeader& header, Append append) {
+  Volume<T> volume{checked_grid(file.string(), header.grid), {}};
+  const std::size_t count = volume.grid.count();
+  // The size of a packed file is not checked yet, so its memory grows with what it holds.
+  if (!header.data.packed) volume.voxels.reserve(count);
+  read_values(file, header.data, count, [&](const std::vector<double>& values) { append(values, volume); });
+  return volume;
+}
+
+/// Calls `read`, which reads a volume file. Refuses a file for which the memory has no room.
+template <typename Read>
+auto within_memory(const fs::path& file, Read read) {
+  try {
+    return read();
+  } catch (const std::bad_alloc&) {
+    throw InputError(file.string(), "", "there is not enough memory for it", "resample it to fewer voxels");
+  }
+}
+
+Volume<std::int16_t> read_ct_file(const fs::path& file, const VolumeHeader& header, CtSource& source) {
+  source = {header.format, to_string(header.data.type), {}, 0, 0};
+  return read_voxels<std::int16_t>(file, header, [&](const std::vector<double>& values, Volume<std::int16_t>& ct) {
+    append_hounsfield(file, values, ct, source);
+  });
 }
 
 }  // namespace
@@ -243,11 +213,11 @@ Volume<std::int16_t> read_ct(const fs::path& file_or_folder, CtSource* source) {
     ct = read_dicom_folder_in_subprocess(file_or_folder, found);
     check_body_size(name, ct.grid.size, ct.grid.spacing);
   } else {
-    // Check before ITK opens the file: ITK takes the small numbers of a spacing in another unit for a singular
-    // orientation.
-    const FileHeader header = ct_header(file_or_folder);
-    check_body_size(name, header.size, header.spacing);
-    ct = read_ct_file(file_or_folder, header, found);
+    ct = within_memory(file_or_folder, [&] {
+      const VolumeHeader header = ct_header(file_or_folder);
+      check_body_size(name, header.grid.size, header.grid.spacing);
+      return read_ct_file(file_or_folder, header, found);
+    });
   }
   check_values(name, ct, found);
   if (source) *source = std::move(found);
@@ -256,32 +226,28 @@ Volume<std::int16_t> read_ct(const fs::path& file_or_folder, CtSource* source) {
 
 Volume<std::int16_t> read_case_ct(const fs::path& file) {
   CtSource unused;
-  return read_ct_file(file, ct_header(file), unused);
+  return within_memory(file, [&] { return read_ct_file(file, ct_header(file), unused); });
 }
 
 Volume<std::uint8_t> read_labels(const fs::path& file) {
-  ImageFile image(file, check_file_header(existing_file(file)).format);
-  Volume<std::uint8_t> labels{checked_grid(file.string(), image), {}};
-  const auto bytes = image.read_voxels();
-  labels.voxels.resize(labels.grid.count());
-  with_typed(image.voxel_type(), bytes.get(), [&](const auto* voxels) {
-    for (std::size_t v = 0; v < labels.voxels.size(); ++v) {
-      const double value = double(voxels[v]);
+  const auto append = [&](const std::vector<double>& values, Volume<std::uint8_t>& labels) {
+    for (const double value : values) {
       if (!(value >= 0 && value <= 255 && value == std::floor(value)))
-        throw InputError(file.string(), voxel_at(labels.grid, v), "the value is not a whole number from 0 to 255",
-                         "give a label volume, not a CT");
-      labels.voxels[v] = std::uint8_t(value);
+        throw InputError(file.string(), voxel_at(labels.grid, labels.voxels.size()),
+                         "the value is not a whole number from 0 to 255", "give a label volume, not a CT");
+      labels.voxels.push_back(std::uint8_t(value));
     }
-  });
-  return labels;
+  };
+  return within_memory(
+      file, [&] { return read_voxels<std::uint8_t>(file, read_volume_header(existing_file(file)), append); });
 }
 
 void write_ct(const fs::path& nrrd_file, const Volume<std::int16_t>& ct) {
-  write_nrrd(nrrd_file, ct.grid, VoxelType::int16, ct.voxels.data(), false);
+  write_nrrd(nrrd_file, ct.grid, ElementType::int16, ct.voxels.data(), false);
 }
 
 void write_labels(const fs::path& nrrd_file, const Volume<std::uint8_t>& labels) {
-  write_nrrd(nrrd_file, labels.grid, VoxelType::uint8, labels.voxels.data(), false);
+  write_nrrd(nrrd_file, labels.grid, ElementType::uint8, labels.voxels.data(), false);
 }
 
 }  // namespace insonate

@@ -377,7 +377,7 @@ void check_values_are_hounsfield(const fs::path& file, const gdcm::File& dicom) 
                          or_none(intercept_text) + ", so its values are not known in Hounsfield units",
                      "export the original CT series");
   check_rescale(file.string(), "rescale slope", slope[0], "rescale intercept", intercept[0]);
-  // ITK takes the numbers from GDCM, which searches them where the kind of image should have them.
+  // read_dicom_image() applies the numbers that GDCM finds where the kind of image should have them.
   const std::vector<double> applied = gdcm::ImageHelper::GetRescaleInterceptSlopeValue(dicom);
   if (applied != std::vector<double>{intercept[0], slope[0]})
     throw InputError(file.string(), "header",

@@ -1,5 +1,5 @@
-// This file replaces ITK's filters, which evaluate 64 coefficients per voxel. It resamples one axis at a time and is an
-// order of magnitude faster. The user waits for it between choosing a patient and seeing one.
+// Resamples one axis at a time, which is an order of magnitude faster than 64 coefficients per voxel. The user waits
+// for it between choosing a patient and seeing one.
 
 #include <glm/common.hpp>
 #include <glm/matrix.hpp>

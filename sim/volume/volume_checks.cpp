@@ -7,7 +7,6 @@
 
 #include "sim/core/input_error.h"
 #include "sim/core/text.h"
-#include "sim/volume/itk_image_io.h"
 
 namespace insonate {
 namespace {
@@ -66,6 +65,12 @@ void check_rescale(const std::string& file, const std::string& slope_name, doubl
            kRescaleRemedy);
 }
 
+void check_positive_spacing(const std::string& file, const glm::dvec3& spacing, const std::string& remedy) {
+  for (int a = 0; a < 3; ++a)
+    if (!(spacing[a] > 0) || !std::isfinite(spacing[a]))
+      refuse(file, "the spacing along axis " + std::to_string(a + 1) + " is " + number_text(spacing[a]), remedy);
+}
+
 Grid checked_grid(const std::string& file, Grid grid) {
   for (int a = 0; a < 3; ++a) {
     const double spacing = grid.spacing[a];
@@ -96,25 +101,6 @@ Grid checked_grid(const std::string& file, Grid grid) {
   const glm::dvec3 third = glm::cross(d[0], d[1]);
   d[2] = glm::dot(third, d[2]) < 0 ? -third : third;
   return grid;
-}
-
-Grid checked_grid(const std::string& file, const ImageFile& image) {
-  const auto& axes = image.axes();
-  std::size_t dimensions = axes.size();
-  while (dimensions > 3 && axes[dimensions - 1].size == 1) --dimensions;
-  if (dimensions != 3)
-    refuse(file, "the image has " + std::to_string(dimensions) + " dimensions",
-           dimensions < 3 ? "give a 3D volume" : "save one time point of it");
-  check_size(file, axes[0].size, axes[1].size, axes[2].size);
-  Grid grid;
-  for (int a = 0; a < 3; ++a) {
-    const ImageFile::Axis& axis = axes[std::size_t(a)];
-    grid.size[a] = int(axis.size);
-    grid.spacing[a] = axis.spacing;
-    grid.origin[a] = axis.origin;
-    for (int r = 0; r < 3; ++r) grid.direction[a][r] = axis.direction[std::size_t(r)];
-  }
-  return checked_grid(file, grid);
 }
 
 }  // namespace insonate

@@ -7,8 +7,6 @@
 
 namespace insonate {
 
-class ImageFile;
-
 /// The limits that read_ct() documents. 4096 voxels per side are twice what scanners write; 2^31 int16 voxels are 4
 /// GiB.
 inline constexpr std::uint64_t kMostVoxelsASide = 4096;
@@ -31,12 +29,12 @@ void check_body_size(const std::string& file, const glm::ivec3& size, const glm:
 void check_rescale(const std::string& file, const std::string& slope_name, double slope,
                    const std::string& intercept_name, double intercept);
 
-/// Returns the grid that an image's header describes. Throws InputError if it is not a 3D scalar volume within the
-/// limits with finite positions, positive spacing and an orthogonal direction matrix. Removes the small
-/// non-orthogonality that rounding in the file causes.
-Grid checked_grid(const std::string& file, const ImageFile& image);
+/// Throws InputError for a spacing that is not a positive number. checked_grid() checks its range.
+/// @param remedy  what to do about it
+void check_positive_spacing(const std::string& file, const glm::dvec3& spacing, const std::string& remedy);
 
-/// Checks spacing, origin and direction of `grid` in the same way, and returns it with exactly orthogonal directions.
+/// Throws InputError if spacing or origin is out of range, or the direction matrix is not orthogonal. Returns the grid
+/// without the small non-orthogonality that rounding in the file causes.
 Grid checked_grid(const std::string& file, Grid grid);
 
 }  // namespace insonate

@@ -24,7 +24,7 @@ inline std::string broken_in_grid(const Grid& grid, std::size_t voxels) {
   return "";
 }
 
-/// Reads a file as a CT and as labels, header and voxels, through ITK. Returns what is broken.
+/// Reads a file as a CT and as labels, header and voxels. Returns what is broken.
 inline std::string broken_by_volume(const std::filesystem::path& file) {
   const std::string broken = broken_by([&]() -> std::string {
     const Volume<std::int16_t> ct = read_ct(file);

@@ -11,6 +11,7 @@
 
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/volume/text_volumes.h"
 #include "tests/volume/temporary_folder.h"
 #include "tests/volume/volume_files.h"
 
@@ -47,20 +48,25 @@ Volume<std::int16_t> read_bytes(const TemporaryFolder& folder, const std::string
 struct StoredType {
   const char *name, *nrrd, *meta;
   std::int16_t nifti;
-  std::string bytes;
+  std::string bytes, swapped;
 };
 
+template <typename T>
+StoredType stored_type(const char* name, const char* nrrd, const char* meta, std::int16_t nifti) {
+  return {name, nrrd, meta, nifti, bytes_of_values(counting<T>()), swapped_bytes_of_values(counting<T>())};
+}
+
 std::vector<StoredType> stored_types() {
-  return {{"int8", "int8", "MET_CHAR", 256, bytes_of_values(counting<std::int8_t>())},
-          {"uint8", "uchar", "MET_UCHAR", 2, bytes_of_values(counting<std::uint8_t>())},
-          {"int16", "short", "MET_SHORT", 4, bytes_of_values(counting<std::int16_t>())},
-          {"uint16", "unsigned short", "MET_USHORT", 512, bytes_of_values(counting<std::uint16_t>())},
-          {"int32", "int", "MET_INT", 8, bytes_of_values(counting<std::int32_t>())},
-          {"uint32", "uint32_t", "MET_UINT", 768, bytes_of_values(counting<std::uint32_t>())},
-          {"int64", "int64", "MET_LONG_LONG", 1024, bytes_of_values(counting<std::int64_t>())},
-          {"uint64", "unsigned long long", "MET_ULONG_LONG", 1280, bytes_of_values(counting<std::uint64_t>())},
-          {"float32", "float", "MET_FLOAT", 16, bytes_of_values(counting<float>())},
-          {"float64", "double", "MET_DOUBLE", 64, bytes_of_values(counting<double>())}};
+  return {stored_type<std::int8_t>("int8", "int8", "MET_CHAR", 256),
+          stored_type<std::uint8_t>("uint8", "uchar", "MET_UCHAR", 2),
+          stored_type<std::int16_t>("int16", "short", "MET_SHORT", 4),
+          stored_type<std::uint16_t>("uint16", "unsigned short", "MET_USHORT", 512),
+          stored_type<std::int32_t>("int32", "int", "MET_INT", 8),
+          stored_type<std::uint32_t>("uint32", "uint32_t", "MET_UINT", 768),
+          stored_type<std::int64_t>("int64", "int64", "MET_LONG_LONG", 1024),
+          stored_type<std::uint64_t>("uint64", "unsigned long long", "MET_ULONG_LONG", 1280),
+          stored_type<float>("float32", "float", "MET_FLOAT", 16),
+          stored_type<double>("float64", "double", "MET_DOUBLE", 64)};
 }
 
 }  // namespace
@@ -74,19 +80,27 @@ TEST_CASE("MetaImage's long is read as the four bytes that it has on every machi
   }
 }
 
-TEST_CASE("each format gives the same volume whatever the type and packing of its voxels") {
+TEST_CASE("each format gives the same volume whatever the type, byte order and packing of its voxels") {
   const TemporaryFolder folder;
-  for (const StoredType& type : stored_types()) {
+  const bool big_endian = GENERATE(false, true);
+  for (StoredType type : stored_types()) {
+    if (big_endian) type.bytes = type.swapped;
     NiftiSpec spec;
+    spec.big_endian = big_endian;
     spec.datatype = type.nifti;
     spec.bits = std::int16_t(type.bytes.size() / 24 * 8);
     const auto nrrd_with = [&](const std::string& encoding) {
-      return with_line(with_line(nrrd_lines(), "type", std::string("type: ") + type.nrrd), "encoding",
+      const auto lines = with_line(nrrd_lines(), "endian", big_endian ? "endian: big" : "endian: little");
+      return with_line(with_line(lines, "type", std::string("type: ") + type.nrrd), "encoding",
                        "encoding: " + encoding);
     };
     const std::string meta_type = std::string("ElementType = ") + type.meta, zipped = zlib(type.bytes);
-    const auto meta = with_line(meta_lines(), "ElementType", meta_type);
-    const auto packed_meta = with_line(packed_meta_lines(zipped), "ElementType", meta_type);
+    const auto meta_with = [&](const std::vector<std::string>& lines, const std::string& order) {
+      return with_line(with_line(lines, "ElementType", meta_type), "BinaryDataByteOrderMSB",
+                       order + (big_endian ? " = True" : " = False"));
+    };
+    const auto meta = meta_with(meta_lines(), "BinaryDataByteOrderMSB");
+    const auto packed_meta = meta_with(packed_meta_lines(zipped), "ElementByteOrderMSB");
     folder.put("apart.raw", type.bytes);
     folder.put("apart.zraw", zipped);
     const struct {
@@ -95,6 +109,8 @@ TEST_CASE("each format gives the same volume whatever the type and packing of it
         {"a.nii", nifti(spec, type.bytes), "NIfTI"},
         {"a.nii.gz", gzip(nifti(spec, type.bytes)), "NIfTI"},
         {"A.NII", nifti(spec, type.bytes), "NIfTI"},
+        {"b.nii", nifti_2(spec, type.bytes), "NIfTI"},
+        {"b.nii.gz", gzip(nifti_2(spec, type.bytes)), "NIfTI"},
         {"a.nrrd", nrrd(nrrd_with("raw"), type.bytes), "NRRD"},
         {"b.nrrd", nrrd(nrrd_with("gzip"), gzip(type.bytes)), "NRRD"},
         {"a.nhdr", nrrd(with_line(nrrd_with("raw"), "data file", "data file: apart.raw"), ""), "NRRD"},
@@ -104,7 +120,7 @@ TEST_CASE("each format gives the same volume whatever the type and packing of it
         {"b.mhd", meta_image(packed_meta, "", "apart.zraw"), "MetaImage"},
     };
     for (const auto& file : files) {
-      INFO(type.name << " in " << file.file);
+      INFO(type.name << " in " << file.file << (big_endian ? ", big-endian" : ""));
       CtSource source;
       const Volume<std::int16_t> ct = read_bytes(folder, file.file, file.bytes, &source);
       CHECK(source.format == file.format);
@@ -141,6 +157,101 @@ TEST_CASE("values are rescaled, rounded and brought into the Hounsfield range") 
   CHECK(ct.voxels[2] == 60);
   CHECK(ct.voxels[3] == -60);
   CHECK(ct.voxels[4] == -1024);
+}
+
+TEST_CASE("a NIfTI rescale of integers has single precision, and one of doubles has double") {
+  const TemporaryFolder folder;
+  // Single precision rounds 2^24 + 1 to 2^24. The rescale makes 0.5 of the one, and 0.496 of the other.
+  const std::vector<std::int32_t> whole(24, 16777217);
+  NiftiSpec spec;
+  spec.slope = 1 / 256.0f;
+  spec.inter = -65535.50390625f;
+  spec.datatype = 8;
+  folder.put("a.nii", nifti(spec, bytes_of_values(whole)));
+  CHECK(read_case_ct(folder.path / "a.nii").voxels[0] == 0);
+  spec.datatype = 64;
+  folder.put("b.nii", nifti(spec, bytes_of_values(std::vector<double>(whole.begin(), whole.end()))));
+  CHECK(read_case_ct(folder.path / "b.nii").voxels[0] == 1);
+}
+
+TEST_CASE("an NRRD without a space is placed by its spacings and the ends of its axes") {
+  const TemporaryFolder folder;
+  auto lines = with_line(with_line(nrrd_lines(), "space directions", "spacings: 10 20 30"), "space origin", "");
+  lines = with_line(lines, "space: ", "");
+  const auto origin = [&](const std::vector<std::string>& with) {
+    const Grid grid = read_bytes(folder, "a.nrrd", nrrd(with, bytes_of_values(hu_counting()))).grid;
+    CHECK(grid.spacing == glm::dvec3(10, 20, 30));
+    CHECK(grid.direction == glm::dmat3(1.0));
+    return grid.origin;
+  };
+  CHECK(origin(lines) == glm::dvec3(0, 0, 0));
+  lines = with_line(lines, "axis mins", "axis mins: 1 2 3");
+  CHECK(origin(lines) == glm::dvec3(6, 12, 18));
+  CHECK(origin(with_line(lines, "centers", "centers: cell node ???")) == glm::dvec3(6, 2, 18));
+  CHECK(origin(with_line(lines, "axismaxs", "axismaxs: 40 60 60")) == glm::dvec3(6, 12, 18));
+}
+
+TEST_CASE("an NRRD's spaces, keys, comments and line ends are read as the format has them") {
+  const TemporaryFolder folder;
+  const auto origin = [&](const std::string& bytes) { return read_bytes(folder, "a.nrrd", bytes).grid.origin; };
+  const auto in_space = [&](const std::string& line) {
+    return origin(nrrd(with_line(nrrd_lines(), "space: ", line), bytes_of_values(hu_counting())));
+  };
+  for (const char* lps : {"space: LPS", "space: left posterior superior", "space: scanner-xyz", "space dimension: 3",
+                          "space: 3D-right-handed", "SPACE: Left-Posterior-Superior"})
+    CHECK(in_space(lps) == glm::dvec3(10, 20, 30));
+  CHECK(in_space("space: RAS") == glm::dvec3(-10, -20, 30));
+  CHECK(in_space("space: left-anterior-superior") == glm::dvec3(-10, 20, 30));
+  auto lines = nrrd_lines();
+  lines.insert(lines.end(), {"space origin:=(9,9,9)", "# space origin: (8,8,8)", "axis mins: nan nan nan"});
+  std::string bytes = nrrd(lines, "");
+  CHECK(origin(bytes + bytes_of_values(hu_counting())) == glm::dvec3(10, 20, 30));
+  for (std::size_t at = 0; (at = bytes.find('\n', at)) != std::string::npos; at += 2) bytes.replace(at, 1, "\r\n");
+  CHECK(origin(bytes + bytes_of_values(hu_counting())) == glm::dvec3(10, 20, 30));
+}
+
+TEST_CASE("a MetaImage's synonyms, comments and line ends are read as the format has them") {
+  const TemporaryFolder folder;
+  const auto grid = [&](const std::vector<std::string>& lines) {
+    return read_bytes(folder, "a.mha", meta_image(lines, bytes_of_values(hu_counting()))).grid;
+  };
+  const auto renamed = [](const std::string& name, const std::string& by) {
+    auto lines = meta_lines();
+    for (std::string& line : lines)
+      if (line.starts_with(name + " ")) line.replace(0, name.size(), by);
+    return lines;
+  };
+  const Grid usual = grid(with_line(meta_lines(), "TransformMatrix", "TransformMatrix = 0 1 0 -1 0 0 0 0 1"));
+  CHECK(usual.direction == glm::dmat3(0, 1, 0, -1, 0, 0, 0, 0, 1));
+  for (const char* name : {"Rotation", "Orientation"})
+    CHECK(grid(with_line(meta_lines(), "TransformMatrix", name + std::string(" = 0 1 0 -1 0 0 0 0 1"))) == usual);
+  for (const char* name : {"Position", "Origin"}) CHECK(grid(renamed("Offset", name)).origin == glm::dvec3(10, 20, 30));
+  CHECK(grid(renamed("ElementSpacing", "ElementSize")).spacing == glm::dvec3(10, 20, 30));
+  const Grid bare = grid(with_line(with_line(meta_lines(), "TransformMatrix", ""), "Offset", ""));
+  CHECK(bare.direction == glm::dmat3(1.0));
+  CHECK(bare.origin == glm::dvec3(0));
+  std::string bytes = "Comment = by hand\n\n" + meta_image(meta_lines(), "");
+  for (std::size_t at = 0; (at = bytes.find('\n', at)) != std::string::npos; at += 2) bytes.replace(at, 1, "\r\n");
+  CHECK(read_bytes(folder, "b.mha", bytes + bytes_of_values(hu_counting())).voxels == hu_counting());
+}
+
+TEST_CASE("a written NRRD has the fields that other programs expect, and its voxels raw or in gzip") {
+  const TemporaryFolder folder;
+  Grid grid{{4, 3, 2}, {10, 20, 0.1}, {10, -20.5, 30}, glm::dmat3(0, 1, 0, -1, 0, 0, 0, 0, 1)};
+  const auto voxels = hu_counting();
+  const std::string head =
+      "NRRD0004\n# Complete NRRD file format specification at:\n# http://teem.sourceforge.net/nrrd/format.html\n"
+      "type: short\ndimension: 3\nspace: left-posterior-superior\nsizes: 4 3 2\n"
+      "space directions: (0,10,0) (-20,0,0) (0,0,0.10000000000000001)\nkinds: domain domain domain\n"
+      "endian: little\nencoding: ";
+  write_nrrd(folder.path / "a.nrrd", grid, ElementType::int16, voxels.data(), false);
+  CHECK(read_file(folder.path / "a.nrrd") == head + "raw\nspace origin: (10,-20.5,30)\n\n" + bytes_of_values(voxels));
+  write_nrrd(folder.path / "b.nrrd", grid, ElementType::int16, voxels.data(), true);
+  CHECK(read_file(folder.path / "b.nrrd").starts_with(head + "gzip\nspace origin: (10,-20.5,30)\n\n\x1f\x8b"));
+  const Volume<std::int16_t> raw = read_case_ct(folder.path / "a.nrrd"), packed = read_case_ct(folder.path / "b.nrrd");
+  CHECK(raw.grid == grid);
+  CHECK(packed.grid == grid);
+  CHECK(packed.voxels == voxels);
 }
 
 TEST_CASE("a file's axes are honoured, in each format's own convention") {

@@ -7,10 +7,29 @@
 namespace insonate {
 namespace {
 
-template <typename T>
-void put(std::string& bytes, std::size_t offset, const T& value) {
-  std::memcpy(bytes.data() + offset, &value, sizeof value);
-}
+/// A binary header that is filled field by field.
+class Header {
+public:
+  Header(std::size_t size, bool big_endian) : bytes_(size, '\0'), big_endian_(big_endian) {}
+
+  template <typename T>
+  void put(std::size_t offset, T value) {
+    std::memcpy(bytes_.data() + offset, &value, sizeof value);
+    const auto first = bytes_.begin() + std::ptrdiff_t(offset);
+    if (big_endian_) std::reverse(first, first + sizeof value);
+  }
+  /// Puts the numbers one behind the other, each as a T.
+  template <typename T, typename Number, std::size_t count>
+  void put_all(std::size_t offset, const std::array<Number, count>& values) {
+    for (std::size_t i = 0; i < count; ++i) put(offset + i * sizeof(T), T(values[i]));
+  }
+  void put_text(std::size_t offset, const std::string& text) { bytes_.replace(offset, text.size(), text); }
+  const std::string& bytes() const { return bytes_; }
+
+private:
+  std::string bytes_;
+  bool big_endian_;
+};
 
 std::string deflated(const std::string& bytes, int window_bits) {
   z_stream stream{};
@@ -38,24 +57,45 @@ std::string zlib(const std::string& bytes) {
 }
 
 std::string nifti(const NiftiSpec& spec, const std::string& voxels) {
-  std::string bytes(352, '\0');
-  put(bytes, 0, std::int32_t(348));
-  put(bytes, 40, spec.dim);
-  put(bytes, 70, spec.datatype);
-  put(bytes, 72, spec.bits);
-  put(bytes, 76, spec.pixdim);
-  put(bytes, 108, spec.vox_offset);
-  put(bytes, 112, spec.slope);
-  put(bytes, 116, spec.inter);
-  put(bytes, 68, spec.intent);
-  bytes[123] = spec.units;
-  put(bytes, 252, spec.qform_code);
-  put(bytes, 256, spec.quaternion);
-  put(bytes, 268, spec.qoffset);
-  put(bytes, 254, spec.sform_code);
-  put(bytes, 280, spec.sform);
-  bytes.replace(344, 4, spec.magic);
-  return bytes + voxels;
+  Header header(352, spec.big_endian);
+  header.put(0, std::int32_t(348));
+  header.put_all<std::int16_t>(40, spec.dim);
+  header.put(68, spec.intent);
+  header.put(70, spec.datatype);
+  header.put(72, spec.bits);
+  header.put_all<float>(76, spec.pixdim);
+  header.put(108, spec.vox_offset);
+  header.put(112, spec.slope);
+  header.put(116, spec.inter);
+  header.put(123, spec.units);
+  header.put(252, spec.qform_code);
+  header.put(254, spec.sform_code);
+  header.put_all<float>(256, spec.quaternion);
+  header.put_all<float>(268, spec.qoffset);
+  header.put_all<float>(280, spec.sform);
+  header.put_text(344, spec.magic);
+  return header.bytes() + voxels;
+}
+
+std::string nifti_2(const NiftiSpec& spec, const std::string& voxels) {
+  Header header(544, spec.big_endian);
+  header.put(0, std::int32_t(540));
+  header.put_text(4, std::string("n+2\0\r\n\x1a\n", 8));
+  header.put(12, spec.datatype);
+  header.put(14, spec.bits);
+  header.put_all<std::int64_t>(16, spec.dim);
+  header.put_all<double>(104, spec.pixdim);
+  header.put(168, std::int64_t(544));
+  header.put(176, double(spec.slope));
+  header.put(184, double(spec.inter));
+  header.put(344, std::int32_t(spec.qform_code));
+  header.put(348, std::int32_t(spec.sform_code));
+  header.put_all<double>(352, spec.quaternion);
+  header.put_all<double>(376, spec.qoffset);
+  header.put_all<double>(400, spec.sform);
+  header.put(500, std::int32_t(spec.units));
+  header.put(504, std::int32_t(spec.intent));
+  return header.bytes() + voxels;
 }
 
 std::string nrrd(const std::vector<std::string>& lines, const std::string& data) {

@@ -3,6 +3,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
@@ -18,6 +19,14 @@ template <typename T>
 std::string bytes_of_values(const std::vector<T>& values) {
   std::string bytes(values.size() * sizeof(T), '\0');
   std::memcpy(bytes.data(), values.data(), bytes.size());
+  return bytes;
+}
+
+/// Returns the same with each number's bytes in the other order, as big-endian files have them.
+template <typename T>
+std::string swapped_bytes_of_values(const std::vector<T>& values) {
+  std::string bytes = bytes_of_values(values);
+  for (auto at = bytes.begin(); at != bytes.end(); at += sizeof(T)) std::reverse(at, at + sizeof(T));
   return bytes;
 }
 
@@ -39,9 +48,13 @@ struct NiftiSpec {
   std::int16_t sform_code = 1;
   std::array<float, 12> sform{10, 0, 0, 10, 0, 20, 0, 20, 0, 0, 30, 30};  ///< RAS, row by row
   std::string magic = std::string("n+1\0", 4);
+  bool big_endian = false;  ///< of the header; the voxels are the caller's
 };
 
+/// Returns a NIfTI-1 file.
 std::string nifti(const NiftiSpec& spec, const std::string& voxels);
+/// Returns the same as NIfTI-2, whose header has 540 bytes; the voxels begin at byte 544.
+std::string nifti_2(const NiftiSpec& spec, const std::string& voxels);
 
 /// Returns an NRRD file with the given header lines between the magic and the empty line.
 std::string nrrd(const std::vector<std::string>& lines, const std::string& data);

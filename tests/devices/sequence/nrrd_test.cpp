@@ -98,8 +98,8 @@ TEST_CASE("every NRRD that is damaged in a way people meet is refused with the p
   };
   const std::vector<Damage> damages = {
       {"NRRD0005", "NRRD0001", {}},
-      {"NRRD0005", "NRRD0009", {"line 1", "no NRRD version"}},
-      {"NRRD0005", "NRRD", {"line 1", "no NRRD version"}},
+      {"NRRD0005", "NRRD0009", {"line 1", "not an NRRD file of version 1 to 5"}},
+      {"NRRD0005", "NRRD", {"line 1", "not an NRRD file of version 1 to 5"}},
       {"type: uint8", "type uint8", {"line 4", "not of the form"}},
       {"type: uint8", ": uint8", {"line 4", "not of the form"}},
       {"type: uint8", "type: block", {"type is 'block'"}},

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace insonate {
+
+/// The decoded image of one DICOM file.
+struct DicomImage {
+  std::string type;            ///< of the values after the rescale: "int16"
+  std::vector<double> values;  ///< row by row, after the rescale slope and intercept
+};
+
+/// Decodes the image of a DICOM file. Call it in a subprocess (subprocess.h), because a damaged file can end the
+/// process and claim more memory than there is. Throws InputError if the file cannot be decoded, or is not one grey
+/// image of `size` columns and rows. A size of zero means any.
+DicomImage read_dicom_image(const std::filesystem::path& file, const glm::uvec2& size = glm::uvec2(0));
+
+}  // namespace insonate
