@@ -77,7 +77,7 @@ Recording calibrated(Recording recording, const Calibration& calibration, const 
   return recording;
 }
 
-PoseSample placed(const SensorSample& sample, const Calibration& calibration) {
+ProbeSample placed(const SensorSample& sample, const Calibration& calibration) {
   const bool usable = sample.status == PoseStatus::ok;
   return {sample.time_s,
           sample.status,
@@ -91,7 +91,7 @@ PoseSample placed(const SensorSample& sample, const Calibration& calibration) {
 
 RecordedScan calibrated(RecordedScan scan, const Calibration& calibration, const std::string& name) {
   check_complete(calibration);
-  for (PoseSample& sample : scan.samples) sample = placed(sensor_sample(sample), calibration);
+  for (ProbeSample& sample : scan.samples) sample = placed(sensor_sample(sample), calibration);
   scan.recording = calibrated(std::move(scan.recording), calibration, name);
   return scan;
 }
@@ -104,7 +104,7 @@ CalibratedTracker::CalibratedTracker(SensorTracker sensor, Calibration calibrati
   if (const Recording* raw = sensor_.tracker().recording()) recording_ = calibrated(*raw, calibration_, name);
 }
 
-void CalibratedTracker::collect(double now_s, std::vector<PoseSample>& samples) {
+void CalibratedTracker::collect(double now_s, std::vector<ProbeSample>& samples) {
   polled_.clear();
   sensor_.poll(now_s, polled_);
   for (const SensorSample& sample : polled_) samples.push_back(placed(sample, calibration_));

@@ -51,7 +51,7 @@ public:
   double clock_s(double now_s) const override { return sensor_.tracker().clock_s(now_s); }
 
 protected:
-  void collect(double now_s, std::vector<PoseSample>& samples) override;
+  void collect(double now_s, std::vector<ProbeSample>& samples) override;
   std::optional<double> progress() const override { return sensor_.tracker().state().progress; }
   std::string problem() const override { return sensor_.tracker().state().problem; }
   std::uint64_t dropped() const override { return sensor_.tracker().state().dropped; }

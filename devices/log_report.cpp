@@ -21,7 +21,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-void count_gaps(const std::vector<PoseSample>& samples, LogReport& report) {
+void count_gaps(const std::vector<ProbeSample>& samples, LogReport& report) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < samples.size(); ++i) steps.push_back(samples[i].time_s - samples[i - 1].time_s);
   if (steps.empty()) return;
@@ -40,7 +40,7 @@ void count_gaps(const std::vector<PoseSample>& samples, LogReport& report) {
     report.jitter_s = std::sqrt(squares / double(regular));
 }
 
-void count_dropouts(const std::vector<PoseSample>& samples, LogReport& report) {
+void count_dropouts(const std::vector<ProbeSample>& samples, LogReport& report) {
   for (std::size_t i = 0; i < samples.size();) {
     std::size_t end = i + 1;
     while (end < samples.size() && samples[end].status == samples[i].status) ++end;
@@ -57,9 +57,9 @@ void count_dropouts(const std::vector<PoseSample>& samples, LogReport& report) {
   }
 }
 
-void follow_path(const std::vector<PoseSample>& samples, LogReport& report) {
+void follow_path(const std::vector<ProbeSample>& samples, LogReport& report) {
   for (std::size_t i = 1; i < samples.size(); ++i) {
-    const PoseSample &a = samples[i - 1], &b = samples[i];
+    const ProbeSample &a = samples[i - 1], &b = samples[i];
     if (a.status != PoseStatus::ok || b.status != PoseStatus::ok) continue;
     const double mm = glm::distance(a.patient_from_probe.translation, b.patient_from_probe.translation);
     const double deg = angle_between_deg(a.patient_from_probe, b.patient_from_probe);
@@ -101,7 +101,7 @@ std::vector<std::string> LogReport::findings() const {
   return found;
 }
 
-LogReport check_log(const std::vector<PoseSample>& samples, bool has_times) {
+LogReport check_log(const std::vector<ProbeSample>& samples, bool has_times) {
   LogReport report;
   report.frames = samples.size();
   report.has_times = has_times;
@@ -115,7 +115,7 @@ LogReport check_log(const std::vector<PoseSample>& samples, bool has_times) {
   follow_path(samples, report);
   ButtonPresses presses;
   if (!has_times) return report;
-  for (const PoseSample& sample : samples)
+  for (const ProbeSample& sample : samples)
     if (presses.see(sample) & kEventMarkerButton) report.marks_s.push_back(sample.time_s);
   return report;
 }

@@ -7,7 +7,7 @@
 
 #include "devices/recording.h"
 #include "devices/sequence/probe_samples.h"
-#include "sim/core/pose_sample.h"
+#include "sim/core/probe_sample.h"
 
 namespace insonate {
 
@@ -66,7 +66,7 @@ inline constexpr double kJumpDegPerS = 1080, kJumpLeastDeg = 15;
 
 /// Checks samples with rising times. Without samples the report is empty.
 /// @param has_times  false if the times mean nothing
-LogReport check_log(const std::vector<PoseSample>& samples, bool has_times = true);
+LogReport check_log(const std::vector<ProbeSample>& samples, bool has_times = true);
 
 /// Checks a recording.
 LogReport check_log(const RecordedScan& scan);

@@ -34,7 +34,7 @@ std::string_view to_string(PoseAnswer answer) {
   return "none";
 }
 
-void PoseHistory::add(const PoseSample& sample) {
+void PoseHistory::add(const ProbeSample& sample) {
   if (!(sample.time_s > newest_s_)) clear();
   newest_s_ = sample.time_s;
   if (sample.status == PoseStatus::ok)

@@ -4,7 +4,7 @@
 #include <limits>
 #include <string_view>
 
-#include "sim/core/pose_sample.h"
+#include "sim/core/probe_sample.h"
 
 namespace insonate {
 
@@ -43,7 +43,7 @@ public:
 
   /// Adds a sample. Samples come in the order of their times. A sample that is not later than the last one starts a new
   /// history.
-  void add(const PoseSample& sample);
+  void add(const ProbeSample& sample);
   void clear();
 
   /// Returns the pose at `time_s` on the tracker's clock. After the last usable sample the pose is predicted for

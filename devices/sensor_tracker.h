@@ -28,10 +28,10 @@ public:
 
 private:
   std::unique_ptr<Tracker> raw_;
-  std::vector<PoseSample> polled_;  ///< kept to reuse its memory
+  std::vector<ProbeSample> polled_;  ///< kept to reuse its memory
 };
 
 /// Returns a pose sample of a tracker that does not place the probe in the patient as what it is.
-SensorSample sensor_sample(const PoseSample& raw);
+SensorSample sensor_sample(const ProbeSample& raw);
 
 }  // namespace insonate

@@ -18,13 +18,13 @@ std::string_view to_string(TrackerCondition condition) {
   return "waiting";
 }
 
-void Tracker::poll(double now_s, std::vector<PoseSample>& samples) {
+void Tracker::poll(double now_s, std::vector<ProbeSample>& samples) {
   if (!(now_s >= now_s_)) return;
   now_s_ = now_s;
   const std::size_t before = samples.size();
   collect(now_s, samples);
   for (std::size_t i = before; i < samples.size(); ++i) {
-    const PoseSample& sample = samples[i];
+    const ProbeSample& sample = samples[i];
     if (delivered_ == 0) last_usable_s_ = sample.time_s;
     recent_times_s_[delivered_ % recent_times_s_.size()] = sample.time_s;
     ++delivered_;

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "devices/recording.h"
-#include "sim/core/pose_sample.h"
+#include "sim/core/probe_sample.h"
 
 namespace insonate {
 
@@ -60,7 +60,7 @@ public:
 
   /// Appends the samples that have arrived up to `now_s` (s, any steady clock, but steady_now_s() for a live tracker).
   /// The first call starts the tracker. A call with an earlier time than the last one appends nothing.
-  void poll(double now_s, std::vector<PoseSample>& samples);
+  void poll(double now_s, std::vector<ProbeSample>& samples);
 
   TrackerState state() const;
 
@@ -95,7 +95,7 @@ protected:
   explicit Tracker(std::string name) : name_(std::move(name)) {}
 
   /// Appends what has arrived since the last call. `now_s` never decreases from call to call.
-  virtual void collect(double now_s, std::vector<PoseSample>& samples) = 0;
+  virtual void collect(double now_s, std::vector<ProbeSample>& samples) = 0;
 
   /// Returns how much of all samples has been returned, from 0 to 1; 1 means finished. Empty if the tracker has no end.
   virtual std::optional<double> progress() const { return std::nullopt; }

@@ -25,7 +25,7 @@ CriterionScore score_motion(const Criterion& criterion, const MotionValues& moti
   return m;
 }
 
-bool usable(const PoseSample& sample) {
+bool usable(const ProbeSample& sample) {
   if (sample.status != PoseStatus::ok) return true;
   double sum = 0;
   for (int c = 0; c < 3; ++c)
@@ -53,14 +53,14 @@ Runner::Runner(Scenario scenario, const Case& subject, const TissueTable& tissue
   live_.exam_remaining_s = scenario_.time_limit_s;
 }
 
-void Runner::feed(std::span<const PoseSample> samples, const ActionLog& actions) {
-  for (const PoseSample& sample : samples) {
+void Runner::feed(std::span<const ProbeSample> samples, const ActionLog& actions) {
+  for (const ProbeSample& sample : samples) {
     const auto before = actions.find(sample.time_s);
     feed(sample, before == actions.end() ? std::span<const Action>() : before->second);
   }
 }
 
-void Runner::feed(const PoseSample& sample, std::span<const Action> before) {
+void Runner::feed(const ProbeSample& sample, std::span<const Action> before) {
   if (live_.finished) return;
   waiting_.insert(waiting_.end(), before.begin(), before.end());
   if (!std::isfinite(sample.time_s) || !usable(sample)) return;
@@ -111,8 +111,8 @@ void Runner::act(const Action& given, double now) {
   if (run_->done()) end_step(StepOutcome::done, now);
 }
 
-void Runner::evaluate(const PoseSample& raw, double now) {
-  PoseSample sample = raw;
+void Runner::evaluate(const ProbeSample& raw, double now) {
+  ProbeSample sample = raw;
   sample.time_s = now;
   const bool valid = sample.status == PoseStatus::ok;
   live_.tracking = sample.status;
@@ -135,7 +135,7 @@ void Runner::evaluate(const PoseSample& raw, double now) {
 }
 
 /// Measures the picture of a sample and passes it to the current step.
-void Runner::show(const PoseSample& sample, double now) {
+void Runner::show(const ProbeSample& sample, double now) {
   const bool valid = sample.status == PoseStatus::ok;
   const ViewMeter* meter = meters_[live_.step].get();
   looked_s_ = valid ? std::optional(now) : std::nullopt;
@@ -319,7 +319,7 @@ ExamResult Runner::result() const {
   return result;
 }
 
-void Runner::record(const PoseSample& sample, double now) {
+void Runner::record(const ProbeSample& sample, double now) {
   if (!trace_.empty() && now - trace_.back().time_s < kTraceStep_s && trace_.back().step == live_.step) return;
   TracePoint point;
   point.time_s = now;

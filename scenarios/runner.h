@@ -15,7 +15,7 @@
 #include "scenarios/scenario.h"
 #include "scenarios/steps/step_task.h"
 #include "scenarios/steps/structures.h"
-#include "sim/core/pose_sample.h"
+#include "sim/core/probe_sample.h"
 #include "sim/model/skin_contact.h"
 #include "sim/model/tissue.h"
 #include "sim/volume/case.h"
@@ -88,10 +88,10 @@ public:
 
   /// Processes one sample.
   /// @param before  the actions since the previous sample
-  void feed(const PoseSample& sample, std::span<const Action> before = {});
+  void feed(const ProbeSample& sample, std::span<const Action> before = {});
   /// Processes several samples.
   /// @param actions  by the times of their samples; actions at other times are ignored
-  void feed(std::span<const PoseSample> samples, const ActionLog& actions = {});
+  void feed(std::span<const ProbeSample> samples, const ActionLog& actions = {});
 
   /// Reports that there are no more samples, and ends the current step. Does nothing if the exam is finished.
   void end();
@@ -114,8 +114,8 @@ private:
   const Step& step() const { return scenario_.steps[live_.step]; }
   void pass_limits(double now);
   void act(const Action& action, double now);
-  void evaluate(const PoseSample& sample, double now);
-  void show(const PoseSample& sample, double now);
+  void evaluate(const ProbeSample& sample, double now);
+  void show(const ProbeSample& sample, double now);
   const SkinContact& contact();
   enum class Then { go_on, finish };
   void end_step(StepOutcome outcome, double now, Then then = Then::go_on);
@@ -126,7 +126,7 @@ private:
   double step_limit_s() const { return step_start_s_ + (step().time_limit_s - left_[live_.step].motion.time_s); }
   double exam_limit_s() const;
   void finish(double now);
-  void record(const PoseSample& sample, double now);
+  void record(const ProbeSample& sample, double now);
   StepResult judge(StepOutcome outcome, double now) const;
 
   Scenario scenario_;

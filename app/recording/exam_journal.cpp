@@ -14,8 +14,8 @@ constexpr double kPart_s = 1;
 
 /// Returns the samples from index `first` on as a sequence file, with their actions.
 std::string log_of(const Session& session, std::size_t first) {
-  const std::vector<PoseSample>& all = session.exam_samples();
-  const std::vector<PoseSample> samples(all.begin() + std::ptrdiff_t(first), all.end());
+  const std::vector<ProbeSample>& all = session.exam_samples();
+  const std::vector<ProbeSample> samples(all.begin() + std::ptrdiff_t(first), all.end());
   return write_sequence(samples, to_texts(session.actions()));
 }
 

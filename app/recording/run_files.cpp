@@ -78,8 +78,8 @@ void RunFiles::begin_next() {
   poses_ = std::make_unique<SequenceRecorder>(next_unused(file_));
 }
 
-void RunFiles::add(const std::vector<PoseSample>& samples, const ActionLog& actions) {
-  for (const PoseSample& sample : samples) {
+void RunFiles::add(const std::vector<ProbeSample>& samples, const ActionLog& actions) {
+  for (const ProbeSample& sample : samples) {
     const auto done = actions.find(sample.time_s);
     poses_->add(sample, done == actions.end() ? std::string() : to_text(done->second));
   }

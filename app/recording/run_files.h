@@ -7,7 +7,7 @@
 #include "app/pictures/picture_reader.h"
 #include "devices/record/sequence_recorder.h"
 #include "scenarios/action.h"
-#include "sim/core/pose_sample.h"
+#include "sim/core/probe_sample.h"
 
 namespace insonate {
 
@@ -32,7 +32,7 @@ public:
   /// Finishes the current files and begins the next ones.
   void begin_next();
   /// @param actions  the actions before the samples, keyed by the samples' times
-  void add(const std::vector<PoseSample>& samples, const ActionLog& actions);
+  void add(const std::vector<ProbeSample>& samples, const ActionLog& actions);
   void add(const DrawnPicture& picture);
   /// Finishes the files.
   void finish();

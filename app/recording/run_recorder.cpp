@@ -77,7 +77,7 @@ void RunRecorder::take(const Session& session) {
     enqueue(Next{});
   attempt_ = session.attempt();
   last_s_ = session.now_s();
-  const std::vector<PoseSample>& samples = session.latest_samples();
+  const std::vector<ProbeSample>& samples = session.latest_samples();
   if (samples.empty()) return;
   ActionLog actions = session.latest_actions();
   if (!std::exchange(has_samples_, true) && !session.latest_begin_attempt()) {

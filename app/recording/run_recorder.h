@@ -65,7 +65,7 @@ private:
   struct Stop {};
   struct Next {};
   struct Samples {
-    std::vector<PoseSample> samples;
+    std::vector<ProbeSample> samples;
     ActionLog actions;
   };
   using Job = std::variant<Start, Stop, Next, Samples, DrawnPicture>;

@@ -68,7 +68,7 @@ class Recorder {
 public:
   Recorder(RecordedRun& run, double first_s) : run_(run), first_s_(first_s) {}
 
-  void see(const Session& session, const PoseSample& sample) {
+  void see(const Session& session, const ProbeSample& sample) {
     RunMoment moment;
     moment.time_s = sample.time_s - first_s_;
     moment.shown_pose = session.shown_pose();
@@ -87,7 +87,7 @@ public:
         moment.view = live.view;
       }
     }
-    PoseSample timed = sample;
+    ProbeSample timed = sample;
     timed.time_s = moment.time_s;
     motion_.feed(timed, moment.on_skin);
     moment.speed_mm_s = motion_.speed_mm_s();

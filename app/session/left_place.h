@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "sim/core/pose_sample.h"
+#include "sim/core/probe_sample.h"
 
 namespace insonate {
 
@@ -15,8 +15,8 @@ public:
   void leave_at(const Pose& place) { place_ = place; }
 
   /// Must see all samples of the tracker, in order.
-  void move(std::vector<PoseSample>& samples) {
-    for (PoseSample& sample : samples) {
+  void move(std::vector<ProbeSample>& samples) {
+    for (ProbeSample& sample : samples) {
       if (sample.status != PoseStatus::ok) continue;
       if (place_) by_ = *place_ * sample.patient_from_probe.inverse();
       place_.reset();

@@ -201,7 +201,7 @@ bool Session::locks(ActionKind setting) const {
   return strict() && runner_ && !result_ && runner_->scenario().locked.contains(lock_of(setting));
 }
 
-std::vector<Action> Session::actions_before(const PoseSample& sample) {
+std::vector<Action> Session::actions_before(const ProbeSample& sample) {
   if (source().recording()) {
     const auto found = log_actions_.find(sample.time_s);
     return found == log_actions_.end() ? std::vector<Action>() : found->second;
@@ -209,7 +209,7 @@ std::vector<Action> Session::actions_before(const PoseSample& sample) {
   return std::exchange(acts_, {});
 }
 
-void Session::take(const PoseSample& sample) {
+void Session::take(const ProbeSample& sample) {
   const bool was_frozen = shown_.frozen;
   const std::uint32_t pressed = presses_.see(sample);
   // A log with actions itself contains when the picture was frozen.
@@ -239,7 +239,7 @@ void Session::find_pose() {
   pose_estimate_.reset();
   std::optional<Pose> pose = newest_pose_;
   if (source().live()) {
-    for (const PoseSample& sample : samples_) history_.add(sample);
+    for (const ProbeSample& sample : samples_) history_.add(sample);
     pose_estimate_ = history_.at(source().clock_s(now_s_), predict_s_);
     if (pose_estimate_->how != PoseAnswer::none) pose = pose_estimate_->patient_from_probe;
   }
@@ -260,10 +260,10 @@ void Session::advance(double now_s) {
   if (holder_ == Holder::tracker) left_place_.move(samples_);
   // A sample without button data could not report their release.
   const auto pressing = std::find_if(samples_.begin(), samples_.end(),
-                                     [](const PoseSample& sample) { return reports_buttons(sample.status); });
+                                     [](const ProbeSample& sample) { return reports_buttons(sample.status); });
   if (pressing != samples_.end()) pressing->buttons |= std::exchange(pressed_, 0);
   if (!samples_.empty()) samples_begin_attempt_ = std::exchange(attempt_is_fresh_, false);
-  for (const PoseSample& sample : samples_) take(sample);
+  for (const ProbeSample& sample : samples_) take(sample);
   find_pose();
 
   if (runner_ && source().state().condition == TrackerCondition::finished) runner_->end();

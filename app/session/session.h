@@ -83,7 +83,7 @@ public:
   /// Returns the exam's runner; nullptr in free practice.
   const Runner* runner() const { return runner_.get(); }
   /// Returns the samples that the runner was fed.
-  const std::vector<PoseSample>& exam_samples() const { return exam_samples_; }
+  const std::vector<ProbeSample>& exam_samples() const { return exam_samples_; }
   /// Adds an action other than moving the probe and setting the machine, such as a caliper or an answer. Does nothing
   /// if the source is a log, which brings its own actions.
   void act(const Action& action);
@@ -129,7 +129,7 @@ public:
   static constexpr double kStale_s = 0.25;
 
   /// Returns the samples of the last advance(), from the source that was active then.
-  const std::vector<PoseSample>& latest_samples() const { return samples_; }
+  const std::vector<ProbeSample>& latest_samples() const { return samples_; }
   /// Returns whether latest_samples() are the first of this attempt.
   bool latest_begin_attempt() const { return samples_begin_attempt_; }
 
@@ -168,9 +168,9 @@ private:
   void begin_attempt();
   void hold(Holder holder);
   void keep_result();
-  void take(const PoseSample& sample);
+  void take(const ProbeSample& sample);
   void find_pose();
-  std::vector<Action> actions_before(const PoseSample& sample);
+  std::vector<Action> actions_before(const ProbeSample& sample);
   Tracker& source();
 
   std::shared_ptr<const LoadedCase> loaded_case_;
@@ -186,7 +186,7 @@ private:
   Holder holder_ = Holder::tracker;
   Activity activity_ = Activity::practice;
   std::unique_ptr<Runner> runner_;
-  std::vector<PoseSample> exam_samples_;
+  std::vector<ProbeSample> exam_samples_;
   std::optional<ExamResult> result_;
   Machine shown_;  ///< includes settings made since the last sample
   std::optional<Pose> shown_pose_, newest_pose_;
@@ -203,7 +203,7 @@ private:
   Machine machine_;           ///< as it was at the last sample
   ActionLog actions_;         ///< of this attempt
   bool advanced_ = false;
-  std::vector<PoseSample> samples_;
+  std::vector<ProbeSample> samples_;
   ActionLog latest_actions_;  ///< keyed by the times of samples_
   bool samples_begin_attempt_ = false, attempt_is_fresh_ = true;
 };

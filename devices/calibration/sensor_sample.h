@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "sim/core/pose_sample.h"
+#include "sim/core/probe_sample.h"
 
 namespace insonate {
 

@@ -46,8 +46,8 @@ glm::dvec3 scanning(double time_s) {
           -80 + 11 * std::sin(4.1 * time_s + 2)};
 }
 
-std::vector<PoseSample> noisy(const Way& way, double rate_hz) {
-  std::vector<PoseSample> samples;
+std::vector<ProbeSample> noisy(const Way& way, double rate_hz) {
+  std::vector<ProbeSample> samples;
   for (std::uint32_t i = 0; i < kSeconds * rate_hz; ++i) {
     const glm::dvec3 noise(normal(i, 1), normal(i, 2), normal(i, 3));
     const double time_s = i / rate_hz;
@@ -56,17 +56,17 @@ std::vector<PoseSample> noisy(const Way& way, double rate_hz) {
   return samples;
 }
 
-std::vector<PoseSample> filtered(std::vector<PoseSample> samples, const FilterSettings& settings) {
+std::vector<ProbeSample> filtered(std::vector<ProbeSample> samples, const FilterSettings& settings) {
   SampleFilters filters(settings);
-  for (PoseSample& sample : samples) filters.apply(sample, glm::dvec3(0));
+  for (ProbeSample& sample : samples) filters.apply(sample, glm::dvec3(0));
   return samples;
 }
 
 /// Returns the RMS deviation along the first axis from `way` delayed by `lag_s`.
-double off_mm(const std::vector<PoseSample>& samples, const Way& way, double lag_s) {
+double off_mm(const std::vector<ProbeSample>& samples, const Way& way, double lag_s) {
   double squares = 0;
   std::size_t count = 0;
-  for (const PoseSample& sample : samples) {
+  for (const ProbeSample& sample : samples) {
     if (sample.time_s < kFrom_s || sample.status != PoseStatus::ok) continue;
     const double off = sample.patient_from_probe.translation.x - way(sample.time_s - lag_s).x;
     squares += off * off;
@@ -79,10 +79,10 @@ double off_mm(const std::vector<PoseSample>& samples, const Way& way, double lag
 
 SmoothingFigures measure_smoothing(const FilterSettings& settings, double rate_hz) {
   SmoothingFigures figures;
-  const std::vector<PoseSample> rest = noisy(resting, rate_hz);
+  const std::vector<ProbeSample> rest = noisy(resting, rate_hz);
   figures.rest_before_mm = off_mm(rest, resting, 0);
   figures.rest_after_mm = off_mm(filtered(rest, settings), resting, 0);
-  const std::vector<PoseSample> moved = filtered(noisy(sweeping, rate_hz), settings);
+  const std::vector<ProbeSample> moved = filtered(noisy(sweeping, rate_hz), settings);
   double least = HUGE_VAL;
   for (int quarter_ms = 0; quarter_ms < 400; ++quarter_ms) {
     const double lag_s = quarter_ms * 0.00025, off = off_mm(moved, sweeping, lag_s);
@@ -97,7 +97,7 @@ PredictionFigures measure_prediction(double rate_hz, double ahead_s) {
   PoseHistory history;
   PredictionFigures figures;
   std::size_t count = 0;
-  for (const PoseSample& sample : noisy(scanning, rate_hz)) {
+  for (const ProbeSample& sample : noisy(scanning, rate_hz)) {
     history.add(sample);
     if (sample.time_s < kFrom_s) continue;
     const glm::dvec3 there = scanning(sample.time_s + ahead_s);
@@ -114,7 +114,7 @@ PredictionFigures measure_prediction(double rate_hz, double ahead_s) {
 
 RejectionFigures measure_rejection(const FilterSettings& settings, double rate_hz) {
   enum class Made { good, stray, mirrored };
-  std::vector<PoseSample> samples = noisy(scanning, rate_hz);
+  std::vector<ProbeSample> samples = noisy(scanning, rate_hz);
   std::vector<Made> made(samples.size(), Made::good);
   for (std::uint32_t i = 0; i < samples.size(); ++i) {
     glm::dvec3& mm = samples[i].patient_from_probe.translation;
@@ -129,7 +129,7 @@ RejectionFigures measure_rejection(const FilterSettings& settings, double rate_h
     }
   }
   RejectionFigures figures;
-  const std::vector<PoseSample> out = filtered(samples, settings);
+  const std::vector<ProbeSample> out = filtered(samples, settings);
   for (std::size_t i = 0; i < out.size(); ++i) {
     const bool gone = out[i].status != PoseStatus::ok;
     ++(made[i] == Made::good ? figures.good : made[i] == Made::stray ? figures.strays : figures.mirrored);
@@ -146,8 +146,8 @@ DistortionFigures measure_distortion(std::uint32_t most_distortion) {
   // centimetres.
   const glm::dvec3 steel(345, 50, -80);
   constexpr double kMost_mm = 100, kReach_mm = 12;
-  const std::vector<PoseSample> there = noisy(scanning, 60);
-  std::vector<PoseSample> disturbed = there;
+  const std::vector<ProbeSample> there = noisy(scanning, 60);
+  std::vector<ProbeSample> disturbed = there;
   for (std::uint32_t i = 0; i < disturbed.size(); ++i) {
     glm::dvec3& mm = disturbed[i].patient_from_probe.translation;
     const glm::dvec3 to_steel = steel - mm;
@@ -156,7 +156,7 @@ DistortionFigures measure_distortion(std::uint32_t most_distortion) {
     // The grade only approximates the error.
     disturbed[i].distortion = std::uint32_t(std::max(0.0, off_mm * (0.75 + 0.5 * uniform(i, 50))));
   }
-  const std::vector<PoseSample> kept = filtered(disturbed, {.distortion = true, .most_distortion = most_distortion});
+  const std::vector<ProbeSample> kept = filtered(disturbed, {.distortion = true, .most_distortion = most_distortion});
   DistortionFigures figures;
   double squares_before = 0, squares_after = 0;
   std::size_t passed = 0;

@@ -5,7 +5,7 @@
 
 #include <optional>
 
-#include "sim/core/pose_sample.h"
+#include "sim/core/probe_sample.h"
 
 namespace insonate {
 

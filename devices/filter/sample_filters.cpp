@@ -69,7 +69,7 @@ FilterSettings take_filter_options(TrackerUri& uri) {
   return settings;
 }
 
-void SampleFilters::apply(PoseSample& sample, const std::optional<glm::dvec3>& origin) {
+void SampleFilters::apply(ProbeSample& sample, const std::optional<glm::dvec3>& origin) {
   if (sample.status != PoseStatus::ok) return;
   // A distorted reading must not change the state of the other filters.
   if (settings_.distortion && sample.distortion.value_or(0) > settings_.most_distortion)

@@ -7,7 +7,7 @@
 #include "devices/filter/one_euro.h"
 #include "devices/filter/outlier_gate.h"
 #include "devices/tracker_uri.h"
-#include "sim/core/pose_sample.h"
+#include "sim/core/probe_sample.h"
 
 namespace insonate {
 
@@ -16,7 +16,7 @@ struct FilterSettings {
   bool outlier = false;     ///< OutlierGate
   bool one_euro = false;    ///< OneEuroFilter
   bool distortion = false;  ///< rejects samples that the tracker itself grades worse than most_distortion
-  /// Limit on the tracker's own scale (PoseSample::distortion). Samples without a grade pass.
+  /// Limit on the tracker's own scale (ProbeSample::distortion). Samples without a grade pass.
   std::uint32_t most_distortion = 0;
 
   /// Returns the default filters: those that need no number from a person.
@@ -34,7 +34,7 @@ std::string to_string(const FilterSettings& settings);
 FilterSettings take_filter_options(TrackerUri& uri);
 
 /// The filters of one tracker. A rejected sample becomes `invalid`, loses its pose and gets a reason
-/// (PoseSample::rejected). So consumers see that the tracker sent something at that time, but nothing moves. Samples
+/// (ProbeSample::rejected). So consumers see that the tracker sent something at that time, but nothing moves. Samples
 /// that are not ok pass unchanged.
 class SampleFilters {
 public:
@@ -42,7 +42,7 @@ public:
   SampleFilters() : SampleFilters(FilterSettings()) {}
 
   /// Call it for each sample, in order. `origin` is that of a magnetic tracker in the samples' frame.
-  void apply(PoseSample& sample, const std::optional<glm::dvec3>& origin = {});
+  void apply(ProbeSample& sample, const std::optional<glm::dvec3>& origin = {});
 
   const FilterSettings& settings() const { return settings_; }
 

@@ -35,7 +35,7 @@ bool HydraSource::take(Bytes bytes, double time_s, LiveBatch& batch, ReportTally
   if (parsed.fault != ReportFault::none) return false;
   if (!numbers_.is_new(parsed.report.sequence, tally)) return true;
   const SensorReading& reading = parsed.report.handsets[handset_].reading;
-  PoseSample sample{time_s, reading.status, {}, probe_buttons(kButtons, reading.buttons)};
+  ProbeSample sample{time_s, reading.status, {}, probe_buttons(kButtons, reading.buttons)};
   if (reading.status == PoseStatus::ok)
     sample.patient_from_probe = placement_.patient_from_probe(reading.tracker_from_sensor);
   batch.samples.push_back(sample);

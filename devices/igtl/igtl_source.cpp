@@ -185,7 +185,7 @@ void ClientSource::take(const Header& header, ByteView body, LiveBatch& batch) {
   }
   const auto matrix = parse_transform(parts->content);
   const std::string status = metadata_value(*parts, "TransformStatus");
-  PoseSample sample;
+  ProbeSample sample;
   sample.time_s = time_of(header, arrival_s_);
   sample.status = status.empty() ? PoseStatus::ok : status_from_igsio(status);
   if (!matrix || (sample.status == PoseStatus::ok && why_not_rigid(*matrix))) sample.status = PoseStatus::invalid;

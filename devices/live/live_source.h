@@ -8,14 +8,14 @@
 #include <vector>
 
 #include "devices/transport/source_gone.h"
-#include "sim/core/pose_sample.h"
+#include "sim/core/probe_sample.h"
 
 namespace insonate {
 
 /// Result of one read.
 struct LiveBatch {
-  std::vector<PoseSample> samples;  ///< time_s is from steady_now_s(), taken as soon as the bytes arrived
-  std::string note;                 ///< what users should know while the device is open, as a sentence; usually empty
+  std::vector<ProbeSample> samples;  ///< time_s is from steady_now_s(), taken as soon as the bytes arrived
+  std::string note;                  ///< what users should know while the device is open, as a sentence; usually empty
 };
 
 /// A device that delivers poses in real time, as seen by a LiveTracker's thread. That one thread makes all calls except

@@ -60,7 +60,7 @@ public:
   }
 
   // Called on the polling thread.
-  void drain(std::vector<PoseSample>& samples, std::string& problem) {
+  void drain(std::vector<ProbeSample>& samples, std::string& problem) {
     ring_.drain(samples);
     // If the lock is taken now, the previous problem is kept.
     if (const std::unique_lock lock(mutex_, std::try_to_lock); lock) problem = told_;
@@ -95,7 +95,7 @@ private:
       there = false;
     }
     // Samples that arrived before the source was lost are published.
-    for (const PoseSample& sample : batch_.samples) publish(sample);
+    for (const ProbeSample& sample : batch_.samples) publish(sample);
     if (!batch_.samples.empty()) {
       heard_s_ = steady_now_s();
       heard_ = brought_any_ = true;
@@ -104,7 +104,7 @@ private:
     return there;
   }
 
-  void publish(PoseSample sample) {
+  void publish(ProbeSample sample) {
     conditioner_.apply(sample, source_->origin());
     ring_.push(sample);
   }
@@ -144,7 +144,7 @@ private:
   bool brought_any_ = false;  ///< whether it did since it was opened
 
   // Shared between the threads.
-  SampleRing<PoseSample> ring_;
+  SampleRing<ProbeSample> ring_;
   std::mutex mutex_;
   std::string told_;
   bool ended_ = false;
@@ -180,7 +180,7 @@ std::uint64_t LiveTracker::dropped() const {
   return reader_->dropped();
 }
 
-void LiveTracker::collect(double, std::vector<PoseSample>& samples) {
+void LiveTracker::collect(double, std::vector<ProbeSample>& samples) {
   if (!thread_.joinable())
     thread_ = std::jthread([reader = reader_](const std::stop_token& stop) { reader->run(stop); });
   reader_->drain(samples, problem_);

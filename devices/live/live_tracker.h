@@ -50,7 +50,7 @@ public:
   double clock_s(double now_s) const override { return now_s; }
 
 protected:
-  void collect(double now_s, std::vector<PoseSample>& samples) override;
+  void collect(double now_s, std::vector<ProbeSample>& samples) override;
   std::string problem() const override { return problem_; }
   std::uint64_t dropped() const override;
 

@@ -8,7 +8,7 @@
 
 namespace insonate {
 
-PacedSource::PacedSource(std::string name, std::function<PoseSample(std::uint64_t)> sample, double rate_hz)
+PacedSource::PacedSource(std::string name, std::function<ProbeSample(std::uint64_t)> sample, double rate_hz)
     : name_(std::move(name)), sample_(std::move(sample)), rate_hz_(rate_hz) {}
 
 void PacedSource::read(std::chrono::milliseconds timeout, LiveBatch& batch) {
@@ -17,7 +17,7 @@ void PacedSource::read(std::chrono::milliseconds timeout, LiveBatch& batch) {
   const double wait_s = std::min(next_s - steady_now_s(), std::chrono::duration<double>(timeout).count());
   if (wait_s > 0) std::this_thread::sleep_for(std::chrono::duration<double>(wait_s));
   while (*start_s_ + double(given()) / rate_hz_ <= steady_now_s()) {
-    PoseSample sample = sample_(given());
+    ProbeSample sample = sample_(given());
     sample.time_s = steady_now_s();
     batch.samples.push_back(sample);
     given_.fetch_add(1, std::memory_order_relaxed);

@@ -15,7 +15,7 @@ namespace insonate {
 class PacedSource : public LiveSource {
 public:
   /// The reading thread calls `sample` with 0, 1, 2... and replaces the time of the returned sample.
-  PacedSource(std::string name, std::function<PoseSample(std::uint64_t index)> sample, double rate_hz);
+  PacedSource(std::string name, std::function<ProbeSample(std::uint64_t index)> sample, double rate_hz);
 
   std::string name() const override { return name_; }
   void open() override {}
@@ -27,7 +27,7 @@ public:
 
 private:
   std::string name_;
-  std::function<PoseSample(std::uint64_t)> sample_;
+  std::function<ProbeSample(std::uint64_t)> sample_;
   double rate_hz_;
   std::optional<double> start_s_;
   std::atomic<std::uint64_t> given_{0};

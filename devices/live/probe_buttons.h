@@ -5,7 +5,7 @@
 
 namespace insonate {
 
-/// Function of a button on the probe, as a bit of PoseSample::buttons, for every tracker.
+/// Function of a button on the probe, as a bit of ProbeSample::buttons, for every tracker.
 enum ProbeButton : std::uint32_t {
   kFreezeButton = 1,       ///< freezes and unfreezes the picture
   kEventMarkerButton = 2,  ///< sets an event marker at what the picture shows

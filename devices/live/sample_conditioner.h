@@ -15,7 +15,7 @@ public:
   SampleConditioner() : SampleConditioner(FilterSettings()) {}
 
   /// Call it for each sample, in order. `origin` is the source's (LiveSource::origin).
-  void apply(PoseSample& sample, const std::optional<glm::dvec3>& origin);
+  void apply(ProbeSample& sample, const std::optional<glm::dvec3>& origin);
 
   /// Returns the time of the newest sample.
   double last_time_s() const { return last_time_s_; }
@@ -27,6 +27,6 @@ private:
 };
 
 /// Returns the sample that represents silence at a time: its status is `missing`.
-PoseSample silence_at(double time_s);
+ProbeSample silence_at(double time_s);
 
 }  // namespace insonate

@@ -31,7 +31,7 @@ Pose MouseTracker::pose() const {
   return {glm::mat3_cast(rotation_), translation_};
 }
 
-void MouseTracker::collect(double now_s, std::vector<PoseSample>& samples) {
+void MouseTracker::collect(double now_s, std::vector<ProbeSample>& samples) {
   if (!start_s_) start_s_ = now_s;
   const auto due = std::uint64_t(std::floor((now_s - *start_s_) * kRateHz)) + 1;
   if (due <= next_) return;

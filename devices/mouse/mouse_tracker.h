@@ -43,7 +43,7 @@ public:
   double clock_s(double now_s) const override { return start_s_ ? now_s - *start_s_ : 0.0; }
 
 protected:
-  void collect(double now_s, std::vector<PoseSample>& samples) override;
+  void collect(double now_s, std::vector<ProbeSample>& samples) override;
 
 private:
   glm::dquat rotation_;  ///< a quaternion, because a matrix would drift from orthonormal over many small rotations

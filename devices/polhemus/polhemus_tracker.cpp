@@ -75,7 +75,7 @@ bool PolhemusSource::take(Bytes bytes, double time_s, LiveBatch& batch, ReportTa
       continue;
     }
     if (!numbers_.is_new(record.frame, tally)) continue;
-    PoseSample sample{time_s, reading.status, {}, probe_buttons(kButtons, reading.buttons), reading.distortion};
+    ProbeSample sample{time_s, reading.status, {}, probe_buttons(kButtons, reading.buttons), reading.distortion};
     if (sample.status == PoseStatus::ok)
       sample.patient_from_probe = placement_.patient_from_probe(reading.tracker_from_sensor);
     batch.samples.push_back(sample);

@@ -68,20 +68,20 @@ SequenceRecorder::~SequenceRecorder() {
   }
 }
 
-void SequenceRecorder::append(const PoseSample& sample, const glm::dmat4* probe_from_pixel, std::string_view actions) {
+void SequenceRecorder::append(const ProbeSample& sample, const glm::dmat4* probe_from_pixel, std::string_view actions) {
   append_frame(pending_, frames_, sample, probe_from_pixel, actions);
   pending_ += frame_end(pictures_ ? pictures_->bytes() : 0, pictures_ ? pictures_->adler() : 0);
   last_s_ = sample.time_s;
   ++frames_;
 }
 
-void SequenceRecorder::add(const PoseSample& sample, std::string_view actions) {
+void SequenceRecorder::add(const ProbeSample& sample, std::string_view actions) {
   if (pictures_) throw std::invalid_argument("each frame of this recording has a picture");
   if (const std::string why = why_not_recordable(sample, last_s_); !why.empty()) throw std::invalid_argument(why);
   append(sample, nullptr, actions);
 }
 
-void SequenceRecorder::add(const PoseSample& sample, const Image<std::uint8_t>& picture,
+void SequenceRecorder::add(const ProbeSample& sample, const Image<std::uint8_t>& picture,
                            const glm::dmat4& probe_from_pixel, std::string_view actions) {
   if (!pictures_ || picture.width != width_ || picture.height != height_)
     throw std::invalid_argument("the picture is not of the recording's size");

@@ -10,7 +10,7 @@
 
 #include "devices/record/append_only.h"
 #include "sim/core/image.h"
-#include "sim/core/pose_sample.h"
+#include "sim/core/probe_sample.h"
 
 namespace insonate {
 
@@ -44,12 +44,12 @@ public:
   /// not be read back: its time is not after the previous one or is more than a day later, or its pose is ok but not
   /// rigid.
   /// @param actions  what was done since the previous sample (SequenceFrame::actions); one line of printable characters
-  void add(const PoseSample& sample, std::string_view actions = {});
+  void add(const ProbeSample& sample, std::string_view actions = {});
 
   /// Adds a frame with its greyscale picture, which has the recorder's size. Row 0 is nearest to the probe, and columns
   /// run towards the marker. `probe_from_pixel` maps (column, row, 0), the centre of that pixel, to mm in the probe's
   /// frame. Throws std::invalid_argument if the picture has another size, or as the other add() does.
-  void add(const PoseSample& sample, const Image<std::uint8_t>& picture, const glm::dmat4& probe_from_pixel,
+  void add(const ProbeSample& sample, const Image<std::uint8_t>& picture, const glm::dmat4& probe_from_pixel,
            std::string_view actions = {});
 
   /// Passes everything that was added to the operating system. Throws InputError if the disk is full.
@@ -63,7 +63,7 @@ public:
 
 private:
   class Pictures;
-  void append(const PoseSample& sample, const glm::dmat4* probe_from_pixel, std::string_view actions);
+  void append(const ProbeSample& sample, const glm::dmat4* probe_from_pixel, std::string_view actions);
 
   std::filesystem::path file_;
   int width_, height_;

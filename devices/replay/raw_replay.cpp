@@ -152,10 +152,10 @@ private:
     } catch (const SourceGone&) {
       open_ = false;
     }
-    for (const PoseSample& sample : batch.samples) publish(sample);
+    for (const ProbeSample& sample : batch.samples) publish(sample);
   }
 
-  void publish(PoseSample sample) {
+  void publish(ProbeSample sample) {
     conditioner_.apply(sample, source_->origin());
     scan_.samples.push_back(sample);
   }

@@ -17,7 +17,7 @@ namespace insonate {
 /// bytes pass through the same parser, source and filters again, with the recorded times.
 struct RawScan {
   std::string tracker;  ///< URI of the recorded tracker
-  std::vector<PoseSample> samples;
+  std::vector<ProbeSample> samples;
 };
 
 /// Parses a recording. The result depends on the bytes alone; `file` names them in error messages. An incomplete last

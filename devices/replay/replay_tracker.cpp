@@ -10,7 +10,7 @@
 
 namespace insonate {
 
-ReplayTracker::ReplayTracker(std::string name, std::vector<PoseSample> samples, const Options& options,
+ReplayTracker::ReplayTracker(std::string name, std::vector<ProbeSample> samples, const Options& options,
                              std::optional<Recording> recording)
     : Tracker(std::move(name)), log_(std::move(samples)), options_(options), recording_(std::move(recording)) {
   if (log_.empty()) throw std::invalid_argument("a log without samples cannot be replayed");
@@ -27,7 +27,7 @@ double ReplayTracker::clock_s(double now_s) const {
   return log_.front().time_s + (start_s_ ? (now_s - *start_s_) * options_.speed : 0.0);
 }
 
-void ReplayTracker::collect(double now_s, std::vector<PoseSample>& samples) {
+void ReplayTracker::collect(double now_s, std::vector<ProbeSample>& samples) {
   if (!start_s_) start_s_ = now_s;
   const double elapsed_s = (now_s - *start_s_) * options_.speed;
   for (;;) {
@@ -38,7 +38,7 @@ void ReplayTracker::collect(double now_s, std::vector<PoseSample>& samples) {
     }
     const double due_s = log_[next_].time_s - log_.front().time_s + double(round_) * round_s_;
     if (due_s > elapsed_s) return;
-    PoseSample sample = log_[next_++];
+    ProbeSample sample = log_[next_++];
     if (round_ > 0) {
       sample.time_s += double(round_) * round_s_;
       // Steps smaller than the resolution of a double must not vanish in the sum.

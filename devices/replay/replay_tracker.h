@@ -23,7 +23,7 @@ public:
 
   /// Throws std::invalid_argument unless `samples` holds at least one sample, their times rise strictly, and the speed
   /// is above 0.
-  ReplayTracker(std::string name, std::vector<PoseSample> samples, const Options& options,
+  ReplayTracker(std::string name, std::vector<ProbeSample> samples, const Options& options,
                 std::optional<Recording> recording = std::nullopt);
 
   const Recording* recording() const override { return recording_ ? &*recording_ : nullptr; }
@@ -31,11 +31,11 @@ public:
   double clock_s(double now_s) const override;
 
 protected:
-  void collect(double now_s, std::vector<PoseSample>& samples) override;
+  void collect(double now_s, std::vector<ProbeSample>& samples) override;
   std::optional<double> progress() const override;
 
 private:
-  std::vector<PoseSample> log_;
+  std::vector<ProbeSample> log_;
   Options options_;
   std::optional<Recording> recording_;
   double round_s_;                 ///< duration of a pass on the log's clock, including the step back to its beginning

@@ -107,7 +107,7 @@ Pose pose_in(const Sequence& sequence, std::size_t frame, const TransformPath& p
   return pose;
 }
 
-void read_pose(const Sequence& sequence, std::size_t frame, const TransformPath& path, PoseSample& sample,
+void read_pose(const Sequence& sequence, std::size_t frame, const TransformPath& path, ProbeSample& sample,
                RecordingRepairs& repairs) {
   matrix_in(sequence, frame, path, sample.status);
   if (sample.status != PoseStatus::ok) return;
@@ -180,7 +180,7 @@ ProbeTrack probe_track(const Sequence& sequence, const RecordingOptions& options
   track.samples.resize(sequence.frames.size());
   for (std::size_t f = 0; f < track.samples.size(); ++f) {
     const SequenceFrame& frame = sequence.frames[f];
-    PoseSample& sample = track.samples[f];
+    ProbeSample& sample = track.samples[f];
     sample.time_s = track.assumed_rate_hz ? double(f) / *track.assumed_rate_hz : frame.time_s;
     sample.buttons = frame.buttons;
     sample.distortion = frame.distortion;
@@ -190,7 +190,7 @@ ProbeTrack probe_track(const Sequence& sequence, const RecordingOptions& options
   return track;
 }
 
-std::vector<PoseSample> probe_samples(const Sequence& sequence, std::string_view transform) {
+std::vector<ProbeSample> probe_samples(const Sequence& sequence, std::string_view transform) {
   RecordingOptions options;
   options.transform = transform;
   return probe_track(sequence, options).samples;

@@ -10,7 +10,7 @@
 #include "devices/recording.h"
 #include "devices/sequence/recorded_images.h"
 #include "devices/sequence/sequence.h"
-#include "sim/core/pose_sample.h"
+#include "sim/core/probe_sample.h"
 
 namespace insonate {
 
@@ -27,9 +27,9 @@ struct RecordingOptions {
 
 /// The probe's poses from the transforms of a sequence.
 struct ProbeTrack {
-  std::string transform;            ///< for users: "ProbeToPatient", or "ProbeToTracker, TrackerToReference"
-  std::string probe;                ///< the coordinate frame that is taken for the probe's: "Probe"
-  std::vector<PoseSample> samples;  ///< one per frame
+  std::string transform;             ///< for users: "ProbeToPatient", or "ProbeToTracker, TrackerToReference"
+  std::string probe;                 ///< the coordinate frame that is taken for the probe's: "Probe"
+  std::vector<ProbeSample> samples;  ///< one per frame
   RecordingRepairs repairs;
   std::optional<double> assumed_rate_hz;  ///< see Recording::assumed_rate_hz
 };
@@ -56,7 +56,7 @@ inline constexpr double kRecordedRotationError = 2e-3;
 ProbeTrack probe_track(const Sequence& sequence, const RecordingOptions& options = {});
 
 /// Returns the samples of probe_track() alone.
-std::vector<PoseSample> probe_samples(const Sequence& sequence, std::string_view transform = {});
+std::vector<ProbeSample> probe_samples(const Sequence& sequence, std::string_view transform = {});
 
 /// Returns what was done besides moving, by the times of the frames that report them.
 std::map<double, std::string> recorded_actions(const Sequence& sequence);
@@ -64,7 +64,7 @@ std::map<double, std::string> recorded_actions(const Sequence& sequence);
 /// A recorded scan: its provenance, samples and images.
 struct RecordedScan {
   Recording recording;
-  std::vector<PoseSample> samples;
+  std::vector<ProbeSample> samples;
   std::optional<RecordedImages> images;  ///< empty without images, or if their form is not supported
 };
 

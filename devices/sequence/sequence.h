@@ -12,7 +12,7 @@
 
 #include "devices/sequence/cut_bytes.h"
 #include "devices/sequence/sequence_layout.h"
-#include "sim/core/pose_sample.h"
+#include "sim/core/probe_sample.h"
 
 namespace insonate {
 
@@ -80,7 +80,7 @@ Sequence parse_sequence(const CutBytes& bytes, const std::string& file);
 /// ProbeToPatient. The poses of samples that are not ok are not stored. Throws std::invalid_argument if there are no
 /// samples, or if they could not be read back: their times do not strictly rise, or an ok pose is not rigid.
 /// @param actions  SequenceFrame::actions by the samples' times
-std::string write_sequence(const std::vector<PoseSample>& samples, const std::map<double, std::string>& actions = {});
+std::string write_sequence(const std::vector<ProbeSample>& samples, const std::map<double, std::string>& actions = {});
 
 /// Converts a status word of IGSIO's writers ("OK", "OUT_OF_VIEW", "SWITCH1_IS_ON"...), in upper or lower case, and
 /// with the prefixes of older versions ("TOOL_MISSING"). An unknown word gives PoseStatus::unknown.

@@ -18,7 +18,7 @@ void append(std::string& text, const glm::dmat4& matrix) {
   text += '\n';
 }
 
-std::string_view igsio_word(const PoseSample& sample) {
+std::string_view igsio_word(const ProbeSample& sample) {
   switch (sample.status) {
     case PoseStatus::ok:
       return "OK";
@@ -61,7 +61,7 @@ std::string sequence_head(const std::string& size, bool compressed) {
          "UltrasoundImageType = BRIGHTNESS\n";
 }
 
-void append_frame(std::string& text, std::size_t index, const PoseSample& sample, const glm::dmat4* probe_from_pixel,
+void append_frame(std::string& text, std::size_t index, const ProbeSample& sample, const glm::dmat4* probe_from_pixel,
                   std::string_view actions) {
   const std::string number = std::to_string(index);
   const std::string frame = "Seq_Frame" + std::string(number.size() < 4 ? 4 - number.size() : 0, '0') + number + "_";
@@ -87,7 +87,7 @@ void append_frame(std::string& text, std::size_t index, const PoseSample& sample
   text += '\n';
 }
 
-std::string why_not_recordable(const PoseSample& sample, double before_s) {
+std::string why_not_recordable(const ProbeSample& sample, double before_s) {
   if (!std::isfinite(sample.time_s) || !(sample.time_s > before_s)) return "its time is not after the one before";
   if (sample.time_s - before_s > kLongestStepS && std::isfinite(before_s))
     return "its time is more than a day after the one before";

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "sim/core/pose_sample.h"
+#include "sim/core/probe_sample.h"
 
 // The parts of a sequence file's text, for writers of a whole file and writers of a growing one.
 
@@ -20,7 +20,7 @@ std::string sequence_head(const std::string& size, bool compressed);
 /// rejection and times. The pose of a sample that is not ok is not stored. With `probe_from_pixel` it appends the
 /// picture's position as ImageToProbe. With `actions`, one line of printable characters, it appends what was done since
 /// the previous frame. IGSIO reads lines of at most 1000 characters, including the field's name.
-void append_frame(std::string& text, std::size_t index, const PoseSample& sample,
+void append_frame(std::string& text, std::size_t index, const ProbeSample& sample,
                   const glm::dmat4* probe_from_pixel = nullptr, std::string_view actions = {});
 
 /// The line after those of the frames; the pictures' bytes follow it.
@@ -31,6 +31,6 @@ inline constexpr std::string_view kSequenceEnd = "ElementDataFile = LOCAL\n";
 inline constexpr double kLongestStepS = 24 * 3600;
 
 /// Returns why `sample` could not be read back after a sample with time `before_s`; empty if it could.
-std::string why_not_recordable(const PoseSample& sample, double before_s);
+std::string why_not_recordable(const ProbeSample& sample, double before_s);
 
 }  // namespace insonate

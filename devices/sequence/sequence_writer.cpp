@@ -6,7 +6,7 @@
 
 namespace insonate {
 
-std::string write_sequence(const std::vector<PoseSample>& samples, const std::map<double, std::string>& actions) {
+std::string write_sequence(const std::vector<ProbeSample>& samples, const std::map<double, std::string>& actions) {
   if (samples.empty()) throw std::invalid_argument("a sequence file needs at least one sample");
   std::string text = sequence_head("0 0 " + std::to_string(samples.size()), false);
   double before_s = -std::numeric_limits<double>::infinity();

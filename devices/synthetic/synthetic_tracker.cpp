@@ -135,10 +135,10 @@ PoseStatus SyntheticTracker::status_at(double time_s) const {
   return PoseStatus::ok;
 }
 
-void SyntheticTracker::collect(double now_s, std::vector<PoseSample>& samples) {
+void SyntheticTracker::collect(double now_s, std::vector<ProbeSample>& samples) {
   if (!start_s_) start_s_ = now_s;
   for (;; ++next_) {
-    PoseSample sample;
+    ProbeSample sample;
     sample.time_s = double(next_) / rate_hz_;
     if (sample.time_s > now_s - *start_s_) return;
     const Contact contact = contact_at(sample.time_s);
@@ -164,7 +164,7 @@ std::unique_ptr<Tracker> open_synthetic(const TrackerUri& uri, const TrackerCont
       "made-up hand, live",
       [hand = std::shared_ptr<SyntheticTracker>(std::move(hand)), rate_hz](std::uint64_t index) {
         // Polls in the middle between two samples, so that rounding neither skips nor doubles one.
-        std::vector<PoseSample> one;
+        std::vector<ProbeSample> one;
         hand->poll(index == 0 ? 0 : (double(index) + 0.5) / rate_hz, one);
         return one.at(0);
       },

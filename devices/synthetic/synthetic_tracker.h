@@ -23,7 +23,7 @@ public:
   double clock_s(double now_s) const override { return start_s_ ? now_s - *start_s_ : 0.0; }
 
 protected:
-  void collect(double now_s, std::vector<PoseSample>& samples) override;
+  void collect(double now_s, std::vector<ProbeSample>& samples) override;
 
 private:
   /// How the probe is held to the skin.

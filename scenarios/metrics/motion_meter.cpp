@@ -48,7 +48,7 @@ void MotionMeter::Movements::see(long grid, double speed, double limit) {
   last_moving = grid;
 }
 
-void MotionMeter::feed(const PoseSample& sample, bool on_skin) {
+void MotionMeter::feed(const ProbeSample& sample, bool on_skin) {
   const bool valid = sample.status == PoseStatus::ok;
   if (!any_) {
     any_ = true;

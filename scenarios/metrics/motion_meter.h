@@ -7,7 +7,7 @@
 #include "scenarios/metrics/metric.h"
 #include "scenarios/metrics/path_grid.h"
 #include "scenarios/metrics/smoothness.h"
-#include "sim/core/pose_sample.h"
+#include "sim/core/probe_sample.h"
 
 namespace insonate {
 
@@ -53,7 +53,7 @@ public:
 
   /// Processes one sample.
   /// @param on_skin  true if the sample's face is on the skin; used for valid samples only
-  void feed(const PoseSample& sample, bool on_skin);
+  void feed(const ProbeSample& sample, bool on_skin);
 
   /// Ends the interval at a time after the last sample.
   void end(double time_s);

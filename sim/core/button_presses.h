@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "sim/core/pose_sample.h"
+#include "sim/core/probe_sample.h"
 
 namespace insonate {
 
@@ -23,7 +23,7 @@ public:
   explicit ButtonPresses(std::uint32_t held = ~std::uint32_t(0)) : held_(held) {}
 
   /// Returns the bits of the buttons that this sample presses. The caller passes every sample, in order.
-  /// @tparam Sample  a PoseSample or a SensorSample
+  /// @tparam Sample  a ProbeSample or a SensorSample
   template <typename Sample>
   std::uint32_t see(const Sample& sample) {
     const std::uint32_t pressed = sample.buttons & ~held_;

@@ -243,11 +243,11 @@ Volume<std::uint8_t> read_labels(const fs::path& file) {
 }
 
 void write_ct(const fs::path& nrrd_file, const Volume<std::int16_t>& ct) {
-  write_nrrd(nrrd_file, ct.grid, ElementType::int16, ct.voxels.data(), false);
+  write_nrrd(nrrd_file, ct.grid, ElementType::int16, ct.voxels.data());
 }
 
 void write_labels(const fs::path& nrrd_file, const Volume<std::uint8_t>& labels) {
-  write_nrrd(nrrd_file, labels.grid, ElementType::uint8, labels.voxels.data(), false);
+  write_nrrd(nrrd_file, labels.grid, ElementType::uint8, labels.voxels.data());
 }
 
 }  // namespace insonate

@@ -2,7 +2,6 @@
 #include "sim/volume/text_volumes.h"
 
 #include <glm/geometric.hpp>
-#include <zlib.h>
 
 #include <algorithm>
 #include <bit>
@@ -282,7 +281,7 @@ const char* nrrd_name(ElementType type) {
   return names[std::size_t(type)];
 }
 
-std::string nrrd_header(const Grid& grid, ElementType type, bool gzip) {
+std::string nrrd_header(const Grid& grid, ElementType type) {
   std::string text =
       "NRRD0004\n"
       "# Complete NRRD file format specification at:\n"
@@ -296,22 +295,9 @@ std::string nrrd_header(const Grid& grid, ElementType type, bool gzip) {
   add("space directions", axis(0) + " " + axis(1) + " " + axis(2));
   add("kinds", "domain domain domain");
   if (bytes_of(type) > 1) add("endian", std::endian::native == std::endian::little ? "little" : "big");
-  add("encoding", gzip ? "gzip" : "raw");
+  add("encoding", "raw");
   add("space origin", vector_text(grid.origin));
   return text + "\n";
-}
-
-/// Appends `bytes` to a file as a gzip stream. Returns whether all were written.
-bool append_gzip(const fs::path& file, const char* bytes, std::size_t size) {
-  const gzFile stream = gzopen(file.c_str(), "ab2");  // level 2 is fast
-  if (!stream) return false;
-  constexpr std::size_t kPiece = std::size_t(1) << 20;
-  bool written = true;
-  for (std::size_t at = 0; at < size && written; at += kPiece) {
-    const unsigned piece = unsigned(std::min(kPiece, size - at));
-    written = gzwrite(stream, bytes + at, piece) == int(piece);
-  }
-  return gzclose(stream) == Z_OK && written;
 }
 
 }  // namespace
@@ -385,16 +371,13 @@ VolumeHeader read_metaimage_volume_header(const fs::path& file) {
   return header;
 }
 
-void write_nrrd(const fs::path& file, const Grid& grid, ElementType type, const void* voxels, bool gzip) {
+void write_nrrd(const fs::path& file, const Grid& grid, ElementType type, const void* voxels) {
   write_atomically(file, [&](const fs::path& temporary) {
-    const char* const bytes = static_cast<const char*>(voxels);
-    const std::size_t size = grid.count() * bytes_of(type);
     std::ofstream stream(temporary, std::ios::binary);
-    const std::string header = nrrd_header(grid, type, gzip);
-    stream.write(header.data(), std::streamsize(header.size()));
-    if (!gzip) stream.write(bytes, std::streamsize(size));
+    stream << nrrd_header(grid, type);
+    stream.write(static_cast<const char*>(voxels), std::streamsize(grid.count() * bytes_of(type)));
     stream.close();
-    if (!stream || (gzip && !append_gzip(temporary, bytes, size)))
+    if (!stream)
       throw InputError(file.string(), "", "it cannot be written", "check the folder's permissions and free space");
   });
 }

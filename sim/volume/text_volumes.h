@@ -16,8 +16,8 @@ VolumeHeader read_nrrd_volume_header(const std::filesystem::path& file);
 /// read_volume_header() does.
 VolumeHeader read_metaimage_volume_header(const std::filesystem::path& file);
 
-/// Writes an NRRD file, raw or gzip, atomically. `voxels` are grid.count() numbers of `type`. ITK, 3D Slicer and teem
+/// Writes a raw NRRD file atomically. `voxels` are grid.count() numbers of `type`. ITK, 3D Slicer and teem
 /// read the file. Throws InputError if it cannot be written.
-void write_nrrd(const std::filesystem::path& file, const Grid& grid, ElementType type, const void* voxels, bool gzip);
+void write_nrrd(const std::filesystem::path& file, const Grid& grid, ElementType type, const void* voxels);
 
 }  // namespace insonate

@@ -18,12 +18,12 @@ using namespace insonate;
 namespace {
 
 /// Marks once, and goes on every six seconds, for as long as a slow machine may take.
-std::vector<PoseSample> pressed_now_and_then() {
+std::vector<ProbeSample> pressed_now_and_then() {
   constexpr double kRate_hz = 20;
-  std::vector<PoseSample> samples;
+  std::vector<ProbeSample> samples;
   for (int i = 0; i < 400 * kRate_hz; ++i) {
     const double time_s = i / kRate_hz;
-    PoseSample sample{time_s, PoseStatus::ok, Pose{glm::dmat3(1.0), {0, 1, 10 * std::sin(time_s)}}, 0};
+    ProbeSample sample{time_s, PoseStatus::ok, Pose{glm::dmat3(1.0), {0, 1, 10 * std::sin(time_s)}}, 0};
     if (time_s > 1 && time_s < 2) sample.buttons = kEventMarkerButton;
     if (std::fmod(time_s, 6) > 4 && std::fmod(time_s, 6) < 5) sample.buttons = kContinueButton;
     // Tracking is lost while they are held.
@@ -42,8 +42,8 @@ int main(int argc, char** argv) {
   const Lab lab;
   Hand pivoting(lab, 1), whole(lab, 2);
   pivoting.pivot(12);
-  std::vector<PoseSample> bare = as_raw(pivoting.samples());
-  for (PoseSample& sample : bare) sample.buttons = 0;
+  std::vector<ProbeSample> bare = as_raw(pivoting.samples());
+  for (ProbeSample& sample : bare) sample.buttons = 0;
   write_file(folder / "pivot.igs.mha", write_sequence(bare));
   write_file(folder / "buttons.igs.mha", write_sequence(pressed_now_and_then()));
 

@@ -6,7 +6,7 @@ using namespace insonate;
 
 namespace {
 
-PoseSample sample(PoseStatus status, std::uint32_t buttons) {
+ProbeSample sample(PoseStatus status, std::uint32_t buttons) {
   return {0, status, Pose{}, buttons};
 }
 

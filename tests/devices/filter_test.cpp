@@ -15,9 +15,9 @@ using namespace insonate;
 
 namespace {
 
-std::vector<PoseSample> filtered(std::vector<PoseSample> samples, const FilterSettings& settings) {
+std::vector<ProbeSample> filtered(std::vector<ProbeSample> samples, const FilterSettings& settings) {
   SampleFilters filters(settings);
-  for (PoseSample& sample : samples) filters.apply(sample, glm::dvec3(0));
+  for (ProbeSample& sample : samples) filters.apply(sample, glm::dvec3(0));
   return samples;
 }
 
@@ -27,7 +27,7 @@ FilterSettings only(bool FilterSettings::*filter) {
   return settings;
 }
 
-PoseSample at(double time_s, const glm::dvec3& mm, const glm::dmat3& rotation = glm::dmat3(1)) {
+ProbeSample at(double time_s, const glm::dvec3& mm, const glm::dmat3& rotation = glm::dmat3(1)) {
   return {time_s, PoseStatus::ok, Pose{rotation, mm}};
 }
 
@@ -36,13 +36,13 @@ glm::dmat3 turned(double deg) {
 }
 
 /// A hand that goes at 200 mm/s, at 100 Hz for a second, far from the tracker's origin.
-std::vector<PoseSample> straight() {
-  std::vector<PoseSample> samples;
+std::vector<ProbeSample> straight() {
+  std::vector<ProbeSample> samples;
   for (int i = 0; i < 100; ++i) samples.push_back(at(i / 100.0, {300 + 2 * i, 50, -80}));
   return samples;
 }
 
-std::vector<int> rejected(const std::vector<PoseSample>& samples, const FilterSettings& settings) {
+std::vector<int> rejected(const std::vector<ProbeSample>& samples, const FilterSettings& settings) {
   std::vector<int> indices;
   const auto out = filtered(samples, settings);
   for (std::size_t i = 0; i < out.size(); ++i)
@@ -101,7 +101,7 @@ TEST_CASE("of a hand's samples nearly none are rejected, of strays and mirrored 
 TEST_CASE("the 1-euro filter calms and follows turns too, through half a turn and more") {
   std::mt19937 generator(2);
   std::normal_distribution<double> noise(0, 0.1);
-  std::vector<PoseSample> samples;
+  std::vector<ProbeSample> samples;
   for (int i = 0; i < 2000; ++i) samples.push_back(at(i / 100.0, {}, turned(noise(generator))));
   double before = 0, after = 0;
   const auto calmed = filtered(samples, only(&FilterSettings::one_euro));
@@ -154,7 +154,7 @@ TEST_CASE("noise at a high rate, a quick hand and a dropout are no outliers") {
   const auto settings = only(&FilterSettings::outlier);
   CHECK(measure_rejection(settings, 1000).good_rejected == 0);
   // 800 mm/s there and back within a second: more than a scanning hand does.
-  std::vector<PoseSample> quick;
+  std::vector<ProbeSample> quick;
   for (int i = 0; i < 300; ++i) quick.push_back(at(i / 60.0, {127 * std::sin(6.28 * i / 60), 0, 0}));
   CHECK(rejected(quick, settings).empty());
   auto lost = straight();
@@ -174,7 +174,7 @@ TEST_CASE("a probe that is elsewhere for good is believed after a tenth of a sec
 }
 
 TEST_CASE("a jump to the mirrored hemisphere is rejected for as long as it lasts") {
-  const auto mirrored = [](std::vector<PoseSample> samples, std::size_t from, std::size_t to) {
+  const auto mirrored = [](std::vector<ProbeSample> samples, std::size_t from, std::size_t to) {
     for (std::size_t i = from; i < to; ++i) samples[i].patient_from_probe.translation *= -1;
     return samples;
   };
@@ -190,7 +190,7 @@ TEST_CASE("a jump to the mirrored hemisphere is rejected for as long as it lasts
   CHECK(rejected(lost, settings).size() == 55);
 
   INFO("and a probe that passes close by the origin is nothing of the kind");
-  std::vector<PoseSample> passing;
+  std::vector<ProbeSample> passing;
   for (int i = 0; i < 100; ++i) passing.push_back(at(i / 100.0, {-100 + 2 * i, 0.5, 0}));
   CHECK(rejected(passing, settings).empty());
 }
@@ -199,7 +199,7 @@ TEST_CASE("the mirror image is one through the tracker's origin, wherever that l
   const glm::dvec3 origin(40, -500, 900);
   OutlierGate gate, elsewhere, not_magnetic;
   int kept = 0, believed = 0, believed_without = 0;
-  for (const PoseSample& sample : straight()) {
+  for (const ProbeSample& sample : straight()) {
     Pose pose = sample.patient_from_probe;
     if (sample.time_s > 0.3) pose.translation = 2.0 * origin - pose.translation;
     kept += gate.accepts(sample.time_s, pose, origin);
@@ -214,8 +214,8 @@ TEST_CASE("the mirror image is one through the tracker's origin, wherever that l
 TEST_CASE("a rejected sample says why, and those that pass say nothing") {
   SampleFilters filters(FilterSettings::usual());
   const glm::dvec3 origin(0);
-  for (const PoseSample& sample : straight()) {
-    PoseSample seen = sample;
+  for (const ProbeSample& sample : straight()) {
+    ProbeSample seen = sample;
     if (sample.time_s > 0.50 && sample.time_s < 0.55) seen.patient_from_probe.translation.y += 80;
     if (sample.time_s > 0.75) seen.patient_from_probe.translation *= -1.0;
     const bool jumps = seen.patient_from_probe.translation.y > 60, mirrored = sample.time_s > 0.75;
@@ -265,7 +265,7 @@ TEST_CASE("a live tracker's filters are chosen by its option: all, none, or as t
 TEST_CASE(
     "what the tracker grades worse than the limit is rejected with its grade kept, and what it does not grade passes") {
   SampleFilters filters({.distortion = true, .most_distortion = 20});
-  PoseSample sample{1, PoseStatus::ok, Pose{glm::dmat3(1), {1, 2, 3}}, 5, 20};
+  ProbeSample sample{1, PoseStatus::ok, Pose{glm::dmat3(1), {1, 2, 3}}, 5, 20};
   filters.apply(sample);
   CHECK(sample.status == PoseStatus::ok);
   sample.distortion = 21;
@@ -275,10 +275,10 @@ TEST_CASE(
   CHECK(sample.rejected == Rejection::distortion);
   CHECK(sample.distortion == 21u);
   CHECK(sample.buttons == 5);
-  PoseSample ungraded{2, PoseStatus::ok, Pose{glm::dmat3(1), {1, 2, 3}}, 0, {}};
+  ProbeSample ungraded{2, PoseStatus::ok, Pose{glm::dmat3(1), {1, 2, 3}}, 0, {}};
   filters.apply(ungraded);
   CHECK(ungraded.status == PoseStatus::ok);
-  PoseSample bent{3, PoseStatus::ok, Pose{}, 0, 200};
+  ProbeSample bent{3, PoseStatus::ok, Pose{}, 0, 200};
   SampleFilters(FilterSettings::usual()).apply(bent);
   CHECK(bent.status == PoseStatus::ok);
 }

@@ -10,8 +10,8 @@ using namespace insonate;
 namespace {
 
 /// A hundred samples a second for ten seconds, 100 mm/s along x.
-std::vector<PoseSample> steady() {
-  std::vector<PoseSample> samples(1001);
+std::vector<ProbeSample> steady() {
+  std::vector<ProbeSample> samples(1001);
   for (int i = 0; i <= 1000; ++i)
     samples[std::size_t(i)] = {1.7e9 + i / 100.0, PoseStatus::ok, Pose{glm::dmat3(1.0), {double(i), 0, 0}}, 0};
   return samples;
@@ -47,7 +47,7 @@ TEST_CASE("gaps, jumps and long dropouts are findings, short dropouts are none")
   CHECK(report.findings() ==
         std::vector<std::string>{"1 gap in the samples, the longest step 40 ms.", "1 jump that no hand makes.",
                                  "A dropout (out of view) of 260 ms, in which the picture stands still."});
-  CHECK(check_log({PoseSample{5, PoseStatus::missing, {}, 0}}).findings().front() == "No frame is usable.");
+  CHECK(check_log({ProbeSample{5, PoseStatus::missing, {}, 0}}).findings().front() == "No frame is usable.");
 }
 
 TEST_CASE("jitter is the spread of the steps") {
@@ -112,7 +112,7 @@ TEST_CASE("marks are told, each once, also when tracking is lost while the butto
 }
 
 TEST_CASE("a log of a single sample has a report without a rate") {
-  const LogReport report = check_log({PoseSample{5, PoseStatus::ok, {}, 0}});
+  const LogReport report = check_log({ProbeSample{5, PoseStatus::ok, {}, 0}});
   CHECK(report.frames == 1);
   CHECK(report.rate_hz() == 0);
   CHECK(report.duration_s == 0);

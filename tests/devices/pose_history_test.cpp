@@ -16,12 +16,12 @@ Pose moving(double time_s) {
           {100 * time_s, 0, 0}};
 }
 
-PoseSample usable(double time_s) {
+ProbeSample usable(double time_s) {
   return {time_s, PoseStatus::ok, moving(time_s), 0};
 }
 
 /// What a tracker that has lost its sensor may send: a status, and a pose from nowhere.
-PoseSample unusable(double time_s, PoseStatus status = PoseStatus::missing) {
+ProbeSample unusable(double time_s, PoseStatus status = PoseStatus::missing) {
   return {time_s, status, Pose{glm::dmat3(1.0), {1e4, 1e4, 1e4}}, 0};
 }
 
@@ -85,7 +85,7 @@ TEST_CASE("after the last sample a steady motion is predicted for 30 ms, then he
 TEST_CASE("the prediction sets out from the last sample, however noisy the ones before were") {
   PoseHistory poses;
   for (int i = 0; i <= 20; ++i) {
-    PoseSample sample = usable(i / 60.0);
+    ProbeSample sample = usable(i / 60.0);
     sample.patient_from_probe.translation.y = i % 2;
     poses.add(sample);
   }

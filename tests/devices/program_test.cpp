@@ -80,7 +80,7 @@ TEST_CASE("insonate-devices check reports a log in words and in JSON") {
 TEST_CASE("insonate-devices check exits with 1 when there is something to look at") {
   const std::string log =
       std::filesystem::temp_directory_path() / ("insonate_gap_" + std::to_string(getpid()) + ".igs.mha");
-  std::vector<PoseSample> samples;
+  std::vector<ProbeSample> samples;
   for (int i = 0; i < 50; ++i)
     if (i < 20 || i > 30) samples.push_back({i / 60.0, PoseStatus::ok, Pose{}, 0});
   write_file(log, write_sequence(samples));

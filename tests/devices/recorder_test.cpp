@@ -47,9 +47,9 @@ struct Folder {
 };
 
 /// A hand's samples; some are not ok, and some have buttons held.
-std::vector<PoseSample> hand(double seconds = 10) {
+std::vector<ProbeSample> hand(double seconds = 10) {
   SyntheticTracker tracker(7, 60, {});
-  std::vector<PoseSample> samples = poll_until(tracker, seconds, 30);
+  std::vector<ProbeSample> samples = poll_until(tracker, seconds, 30);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     if (i % 50 == 7) samples[i].buttons = 5;
     if (i % 3 > 0) samples[i].distortion = std::uint32_t(i);
@@ -74,7 +74,7 @@ Image<std::uint8_t> picture(std::size_t index) {
 
 const glm::dmat4 kProbeFromPixel(0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 0.5, 0, -3, 0.25, 0, 1);
 
-std::vector<PoseSample> read_samples(const fs::path& file) {
+std::vector<ProbeSample> read_samples(const fs::path& file) {
   return probe_samples(parse_sequence(read_file(file), file.string()));
 }
 
@@ -102,7 +102,7 @@ std::vector<std::uint8_t> pictures(std::size_t count) {
   return pixels;
 }
 
-void record(const fs::path& file, const std::vector<PoseSample>& samples, bool with_pictures) {
+void record(const fs::path& file, const std::vector<ProbeSample>& samples, bool with_pictures) {
   SequenceRecorder recorder(file, with_pictures ? kWidth : 0, with_pictures ? kHeight : 0);
   for (std::size_t i = 0; i < samples.size(); ++i)
     with_pictures ? recorder.add(samples[i], picture(i), kProbeFromPixel) : recorder.add(samples[i]);
@@ -115,7 +115,7 @@ void cut(const fs::path& file, std::size_t bytes) {
 
 /// The working files of a recording that was never finished: a child process is killed once it has flushed `flushed`
 /// samples and added a few more.
-void record_and_be_killed(const fs::path& file, const std::vector<PoseSample>& samples, std::size_t flushed,
+void record_and_be_killed(const fs::path& file, const std::vector<ProbeSample>& samples, std::size_t flushed,
                           bool with_pictures) {
   int ready[2];
   REQUIRE(pipe(ready) == 0);
@@ -287,7 +287,7 @@ TEST_CASE("a program that is only just dying is waited for") {
 TEST_CASE("a pause of hours is recorded and read back, and a clock that was set is not recorded") {
   const Folder folder;
   const fs::path file = folder.path / "scan.igs.mha";
-  std::vector<PoseSample> samples = hand(1);
+  std::vector<ProbeSample> samples = hand(1);
   for (std::size_t i = 30; i < samples.size(); ++i) samples[i].time_s += 5 * 3600;
   record(file, samples, false);
   CHECK(same_bits(read_samples(file), samples));
@@ -325,7 +325,7 @@ TEST_CASE("of a file with pictures only the header is kept, wherever its end fal
 TEST_CASE("working files that end anywhere are read up to their last whole frame") {
   const Folder folder;
   const auto all = hand(1);
-  const std::vector<PoseSample> samples(all.begin(), all.begin() + 4);
+  const std::vector<ProbeSample> samples(all.begin(), all.begin() + 4);
   const fs::path file = folder.path / "scan.igs.mha";
   record_and_be_killed(file, all, 4, true);
   const std::string text = read_file(working_file(file)), images = read_file(images_file(file));
@@ -387,7 +387,7 @@ TEST_CASE(
     SequenceRecorder recorder(file);
     recorder.add(hand(1)[0]);
     CHECK_THROWS_AS(recorder.add(hand(1)[0]), std::invalid_argument);  // the same time again
-    PoseSample crooked = hand(1)[1];
+    ProbeSample crooked = hand(1)[1];
     crooked.status = PoseStatus::ok;
     crooked.patient_from_probe.rotation[0] *= 2;
     CHECK_THROWS_AS(recorder.add(crooked), std::invalid_argument);

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sim/core/pose_sample.h"
+#include "sim/core/probe_sample.h"
 
 namespace insonate {
 
@@ -13,7 +13,7 @@ inline bool same_bits(double a, double b) {
 }
 
 /// Returns whether two samples are bit-identical.
-inline bool same_bits(const PoseSample& a, const PoseSample& b) {
+inline bool same_bits(const ProbeSample& a, const ProbeSample& b) {
   if (!same_bits(a.time_s, b.time_s) || a.status != b.status || a.buttons != b.buttons ||
       a.distortion != b.distortion || a.rejected != b.rejected)
     return false;
@@ -24,7 +24,7 @@ inline bool same_bits(const PoseSample& a, const PoseSample& b) {
   return true;
 }
 
-inline bool same_bits(const std::vector<PoseSample>& a, const std::vector<PoseSample>& b) {
+inline bool same_bits(const std::vector<ProbeSample>& a, const std::vector<ProbeSample>& b) {
   if (a.size() != b.size()) return false;
   for (std::size_t i = 0; i < a.size(); ++i)
     if (!same_bits(a[i], b[i])) return false;
@@ -33,8 +33,8 @@ inline bool same_bits(const std::vector<PoseSample>& a, const std::vector<PoseSa
 
 /// Returns all samples of a tracker up to `until_s`, polled `polls_per_s` times per second from 0 on.
 template <typename SomeTracker>
-std::vector<PoseSample> poll_until(SomeTracker& tracker, double until_s, double polls_per_s) {
-  std::vector<PoseSample> samples;
+std::vector<ProbeSample> poll_until(SomeTracker& tracker, double until_s, double polls_per_s) {
+  std::vector<ProbeSample> samples;
   for (int i = 0; i / polls_per_s < until_s; ++i) tracker.poll(i / polls_per_s, samples);
   tracker.poll(until_s, samples);
   return samples;

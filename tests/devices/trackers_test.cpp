@@ -114,7 +114,7 @@ TEST_CASE("whatever is typed as a tracker is opened or refused in a sentence") {
 TEST_CASE("every kind of tracker opens by the registry, and its form begins with its name") {
   for (const TrackerKind& kind : tracker_kinds()) CHECK(kind.form.starts_with(std::string(kind.scheme) + ":"));
   const auto replay = open_tracker("replay:" + kLog + "?speed=2&loop=0&transform=ReferenceToTracker");
-  std::vector<PoseSample> samples;
+  std::vector<ProbeSample> samples;
   replay->poll(0, samples);
   CHECK(samples.size() == 1);
   replay->poll(0.11, samples);
@@ -143,13 +143,13 @@ TEST_CASE("a tracker's state tells rate, status and loss on the tracker's own cl
   CHECK(hand.state().last_status == samples.back().status);
 
   // A log whose second half is lost: at twice the speed it is lost after half a second more.
-  std::vector<PoseSample> log(300);
+  std::vector<ProbeSample> log(300);
   for (int i = 0; i < 300; ++i)
     log[std::size_t(i)] = {50 + i / 100.0, i < 100 ? PoseStatus::ok : PoseStatus::out_of_view, {}, 0};
   std::filesystem::create_directories("devices_test_files");
   write_file("devices_test_files/lost.igs.mha", write_sequence(log));
   const auto replay = open_tracker("replay:devices_test_files/lost.igs.mha?speed=2");
-  std::vector<PoseSample> out;
+  std::vector<ProbeSample> out;
   replay->poll(0, out);
   replay->poll(0.9, out);
   CHECK(replay->state().condition == TrackerCondition::tracking);
@@ -190,8 +190,8 @@ TEST_CASE("a synthetic hand stays on the body's front, looks into it, moves as a
     SyntheticTracker hand(seed, 60, body);
     const auto samples = poll_until(hand, 60, 10);
     total += samples.size();
-    const PoseSample* before = nullptr;
-    for (const PoseSample& sample : samples) {
+    const ProbeSample* before = nullptr;
+    for (const ProbeSample& sample : samples) {
       if (sample.status != PoseStatus::ok) {
         ++dropouts;
         before = nullptr;
@@ -223,7 +223,7 @@ TEST_CASE("the mouse gives 60 samples a second, and what is pushed moves the pro
   // The probe looks to the patient's back, its marker to the patient's right.
   const Pose start{glm::dmat3(glm::dvec3(-1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, -1)), {10, -100, 50}};
   MouseTracker mouse(start);
-  std::vector<PoseSample> samples;
+  std::vector<ProbeSample> samples;
   mouse.poll(7, samples);
   REQUIRE(samples.size() == 1);
   CHECK(samples[0].time_s == 0);
@@ -253,7 +253,7 @@ TEST_CASE("the mouse gives 60 samples a second, and what is pushed moves the pro
 
 TEST_CASE("a time that runs backwards, or is none, brings nothing and moves nothing") {
   MouseTracker mouse({});
-  std::vector<PoseSample> samples;
+  std::vector<ProbeSample> samples;
   mouse.poll(10, samples);
   mouse.move({6, 0, 0}, {});
   for (const double now_s : {9.0, -1e300, std::nan(""), 10.0}) mouse.poll(now_s, samples);
@@ -266,7 +266,7 @@ TEST_CASE("a time that runs backwards, or is none, brings nothing and moves noth
 TEST_CASE("a steady rate moves the mouse's probe as far whatever the polls, and never out of shape") {
   for (const double polls_per_s : {1.0, 60.0, 144.0}) {
     MouseTracker mouse({});
-    std::vector<PoseSample> samples;
+    std::vector<ProbeSample> samples;
     mouse.poll(0, samples);
     mouse.move_steadily({0, 0, 12}, {0, 0, 0.3});
     for (int i = 1; i <= 600 * polls_per_s; ++i) mouse.poll(i / polls_per_s + 1e-6, samples);
@@ -286,11 +286,11 @@ TEST_CASE("a steady rate moves the mouse's probe as far whatever the polls, and 
 TEST_CASE("a made-up hand can be had live: its own samples, stamped as they come, through a live tracker's filters") {
   const auto live = open_tracker("synthetic:3?rate=500&live=1&filter=off");
   CHECK(live->live());
-  std::vector<PoseSample> samples;
+  std::vector<ProbeSample> samples;
   while (samples.size() < 40) live->poll(steady_now_s(), samples);
   const auto hand = open_tracker("synthetic:3?rate=500");
   CHECK_FALSE(hand->live());
-  std::vector<PoseSample> same;
+  std::vector<ProbeSample> same;
   hand->poll(0, same);
   hand->poll(1, same);
   for (std::size_t i = 0; i < 40; ++i) {
@@ -307,7 +307,7 @@ TEST_CASE("a made-up hand can be had live: its own samples, stamped as they come
 
   INFO("and the filters do their work");
   const auto smooth = open_tracker("synthetic:3?rate=500&live=1&filter=1euro");
-  std::vector<PoseSample> smoothed;
+  std::vector<ProbeSample> smoothed;
   while (smoothed.size() < 40) smooth->poll(steady_now_s(), smoothed);
   CHECK(smoothed[0].patient_from_probe == same[0].patient_from_probe);
   CHECK_FALSE(smoothed[20].patient_from_probe == same[20].patient_from_probe);

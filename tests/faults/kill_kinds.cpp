@@ -181,7 +181,7 @@ Image<std::uint8_t> picture(std::size_t index) {
 const glm::dmat4 kProbeFromPixel(0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 0.5, 0, -3, 0.25, 0, 1);
 
 /// Samples of a sequence file that has to be whole, with all its pictures where it has some.
-std::vector<PoseSample> whole_sequence(const fs::path& file, const std::function<std::string(std::size_t)>& pixels) {
+std::vector<ProbeSample> whole_sequence(const fs::path& file, const std::function<std::string(std::size_t)>& pixels) {
   const std::string bytes = read_file(file);
   const Sequence sequence = parse_sequence(bytes, file.string());
   if (sequence.has_images) {
@@ -199,12 +199,12 @@ std::vector<PoseSample> whole_sequence(const fs::path& file, const std::function
   return probe_samples(sequence);
 }
 
-bool is_beginning(const std::vector<PoseSample>& some, const std::vector<PoseSample>& all) {
+bool is_beginning(const std::vector<ProbeSample>& some, const std::vector<ProbeSample>& all) {
   return some.size() <= all.size() && same_bits(some, {all.begin(), all.begin() + std::ptrdiff_t(some.size())});
 }
 
 /// Finishes what a killed recording left of `file`, and returns its samples; none when nothing of it was whole.
-std::vector<PoseSample> finish_recording(const fs::path& file, const std::function<std::string(std::size_t)>& pixels) {
+std::vector<ProbeSample> finish_recording(const fs::path& file, const std::function<std::string(std::size_t)>& pixels) {
   if (fs::exists(working_file(file)) || fs::exists(images_file(file))) try {
       recover_recording(file);
     } catch (const InputError&) {
@@ -212,7 +212,7 @@ std::vector<PoseSample> finish_recording(const fs::path& file, const std::functi
       remove_working_files(file);  // by hand, as the sentence says
       return {};
     }
-  return fs::exists(file) ? whole_sequence(file, pixels) : std::vector<PoseSample>{};
+  return fs::exists(file) ? whole_sequence(file, pixels) : std::vector<ProbeSample>{};
 }
 
 void require_only_sequences(const fs::path& folder) {
@@ -267,7 +267,9 @@ private:
   static fs::path file(const fs::path& folder, std::int32_t number) {
     return folder / ("scan-" + std::to_string(number) + ".igs.mha");
   }
-  std::vector<PoseSample> samples_ = samples_of(0.5, 60, [](double t) { return turned(90 * t, {1, 2, 3}, {t, 2, 3}); });
+  std::vector<ProbeSample> samples_ = samples_of(0.5, 60, [](double t) {
+    return turned(90 * t, {1, 2, 3}, {t, 2, 3});
+  });
 };
 
 class Runs : public Kind {
@@ -328,7 +330,7 @@ private:
     return made;
   }
   std::shared_ptr<const LoadedCase> loaded_case_ = tiny_loaded_case();
-  std::vector<PoseSample> samples_ = searching_scan();
+  std::vector<ProbeSample> samples_ = searching_scan();
 };
 
 class RawRecordings : public Kind {
@@ -359,7 +361,7 @@ public:
         require(!most(promises, number), "a recording is lost");
         continue;
       }
-      std::vector<PoseSample> found;
+      std::vector<ProbeSample> found;
       try {
         found = read_raw_scan(file(folder, number)).samples;
       } catch (const InputError&) {

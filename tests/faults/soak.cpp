@@ -272,8 +272,8 @@ private:
 
   void compare_samples() {
     try {
-      const std::vector<PoseSample> recorded = read_log(root_ / "run.igs.mha").samples;
-      std::vector<PoseSample> again = read_log(root_ / "run.raw").samples;
+      const std::vector<ProbeSample> recorded = read_log(root_ / "run.igs.mha").samples;
+      std::vector<ProbeSample> again = read_log(root_ / "run.raw").samples;
       expect(again.size() >= recorded.size(), "the raw recording lacks samples");
       again.resize(std::min(again.size(), recorded.size()));  // what came after the last frame was not recorded
       expect(same_bits(recorded, again), "the recorded samples are others than those of the device's bytes");

@@ -12,7 +12,7 @@ const Target target("raw", [](std::string_view bytes) -> std::string {
   const RawScan scan = parse_raw(bytes, "fuzzed.raw");
   if (scan.samples.empty()) return "a recording without samples was taken";
   double before_s = -std::numeric_limits<double>::infinity();
-  for (const PoseSample& sample : scan.samples) {
+  for (const ProbeSample& sample : scan.samples) {
     if (!(sample.time_s > before_s)) return "the times do not rise";
     before_s = sample.time_s;
     if (sample.status == PoseStatus::ok && why_not_rigid(sample.patient_from_probe.matrix()))

@@ -27,7 +27,7 @@ struct BundledExam {
     return scenario;
   }
 
-  ExamResult score(const std::vector<PoseSample>& samples) const {
+  ExamResult score(const std::vector<ProbeSample>& samples) const {
     Runner runner(scenario, subject, tissues);
     runner.feed(samples);
     runner.end();
@@ -35,11 +35,11 @@ struct BundledExam {
   }
 
   /// As the trainer does: a replay at some speed, polled once a frame.
-  ExamResult replay(const std::vector<PoseSample>& log, double speed, double frames_hz) const {
+  ExamResult replay(const std::vector<ProbeSample>& log, double speed, double frames_hz) const {
     ReplayTracker tracker("log", log, {speed, false});
     Runner runner(scenario, subject, tissues);
     for (int frame = 0; tracker.state().condition != TrackerCondition::finished; ++frame) {
-      std::vector<PoseSample> samples;
+      std::vector<ProbeSample> samples;
       tracker.poll(1000.0 + frame / frames_hz, samples);
       runner.feed(samples);
     }
@@ -48,7 +48,7 @@ struct BundledExam {
   }
 };
 
-std::vector<PoseSample> log(const char* name) {
+std::vector<ProbeSample> log(const char* name) {
   return read_recorded_scan(kAssets / "logs" / name).samples;
 }
 
@@ -91,7 +91,7 @@ TEST_CASE(
 
 TEST_CASE("a log's score is the same to the bit at any replay speed and frame rate") {
   const BundledExam exam;
-  const std::vector<PoseSample> samples = log("ruq_good.igs.mha");
+  const std::vector<ProbeSample> samples = log("ruq_good.igs.mha");
   const std::string offline = to_json(exam.score(samples));
   CHECK(to_json(exam.replay(samples, 1.0, 60)) == offline);
   CHECK(to_json(exam.replay(samples, 7.3, 17)) == offline);
@@ -100,11 +100,11 @@ TEST_CASE("a log's score is the same to the bit at any replay speed and frame ra
 TEST_CASE("the bundled logs are as a tracker makes them: small, with lost frames") {
   for (const char* name : {"ruq_good.igs.mha", "ruq_poor.igs.mha"}) {
     CHECK(std::filesystem::file_size(kAssets / "logs" / name) < 1u << 20);
-    const std::vector<PoseSample> samples = log(name);
+    const std::vector<ProbeSample> samples = log(name);
     CHECK(samples.back().time_s - samples.front().time_s >= 40);
     CHECK(samples.back().time_s - samples.front().time_s <= 70);
     const auto lost =
-        std::count_if(samples.begin(), samples.end(), [](const PoseSample& s) { return s.status != PoseStatus::ok; });
+        std::count_if(samples.begin(), samples.end(), [](const ProbeSample& s) { return s.status != PoseStatus::ok; });
     CHECK(lost > 0);
     CHECK(lost < long(samples.size()) / 5);
   }

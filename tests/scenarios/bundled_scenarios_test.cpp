@@ -116,7 +116,7 @@ TEST_CASE("the bundled scenarios fit the built-in patient in each variant, and n
       Runner runner(bundled.scenario, bundled.subject, tissues());
       for (double time_s = 0; !runner.live().finished; time_s += 0.1) {
         const bool asked = scenario.steps[runner.live().step].kind == "question";
-        PoseSample sample;
+        ProbeSample sample;
         sample.time_s = time_s;
         runner.feed(sample, std::vector{asked ? Action{ActionKind::answer, {}, "?"} : Action{ActionKind::go_on}});
       }

@@ -21,7 +21,7 @@ Scan scan(double offset_mm, const std::string& scenario_text = kTinyScenario) {
   auto samples = samples_of(25, 30, [&](double t) {
     return turned(1.0 / 3 * t, {1, 0, 0}, {0, 0, offset_mm + 10 * std::exp(-t)});
   });
-  for (PoseSample& sample : samples)
+  for (ProbeSample& sample : samples)
     if (sample.time_s > 0.5 && sample.time_s < 0.9) sample.status = PoseStatus::missing;
   runner.feed(samples);
   runner.end();

@@ -19,7 +19,7 @@ Scenario tiny_scenario() {
   return parse_scenario(kTinyScenario, "exam.toml");
 }
 
-ExamResult scored(const std::vector<PoseSample>& samples, const Scenario& scenario = tiny_scenario(),
+ExamResult scored(const std::vector<ProbeSample>& samples, const Scenario& scenario = tiny_scenario(),
                   const Case& subject = shared_case()) {
   Runner runner(scenario, subject, tiny_tissues());
   runner.feed(samples);
@@ -37,12 +37,12 @@ Pose approach(double t) {
 }
 
 /// A scan with everything in it: turns, losses of tracking, a wrong place, the right one.
-std::vector<PoseSample> wandering(double rate_hz) {
+std::vector<ProbeSample> wandering(double rate_hz) {
   auto samples = samples_of(14, rate_hz, [](double t) {
     const double off = 25 * std::exp(-t / 2) * std::sin(2 * t) + 3;
     return turned(10 * std::sin(t) * std::exp(-t / 3), {1, 0.4, 0}, {4 * std::sin(0.7 * t), 0.5, off});
   });
-  for (PoseSample& sample : samples)
+  for (ProbeSample& sample : samples)
     if (std::fmod(sample.time_s + 1, 3.1) < 0.4) sample.status = PoseStatus::missing;
   return samples;
 }
@@ -140,7 +140,7 @@ TEST_CASE("giving up at once earns nothing for being quick") {
 TEST_CASE("a hold survives a loss of tracking of a blink, not a longer one") {
   const auto with_loss = [](double loss_s) {
     auto samples = samples_of(2.4, 50, [](double) { return at_z(0); });
-    for (PoseSample& sample : samples)
+    for (ProbeSample& sample : samples)
       if (sample.time_s > 0.505 && sample.time_s < 0.505 + loss_s) sample.status = PoseStatus::out_of_view;
     return scored(samples).steps[0];
   };
@@ -157,7 +157,7 @@ TEST_CASE("a hold survives a loss of tracking of a blink, not a longer one") {
 TEST_CASE("a loss at the end or the beginning of a hold moves that end, and a loss in between is judged over") {
   const auto lost_between = [](double from_s, double to_s) {
     auto samples = samples_of(3, 50, [](double t) { return at_z(t < 0.495 ? 60 : 0); });
-    for (PoseSample& sample : samples)
+    for (ProbeSample& sample : samples)
       if (sample.time_s > from_s - 0.01 && sample.time_s < to_s + 0.01) sample.status = PoseStatus::missing;
     return scored(samples).steps[0];
   };
@@ -203,7 +203,7 @@ TEST_CASE("a hold that ends at the time limit comes too late, wherever time begi
       scenario.steps[0].time_limit_s = limit_s;
       const auto held_from = [&](double from_s) {
         auto samples = samples_of(11, 50, [&](double t) { return at_z(t > from_s - 0.01 ? 0 : 60); });
-        for (PoseSample& sample : samples) sample.time_s += begin_s;
+        for (ProbeSample& sample : samples) sample.time_s += begin_s;
         return scored(samples, scenario);
       };
       const ExamResult late = held_from(limit_s - 1);
@@ -223,7 +223,7 @@ TEST_CASE("a hold survives a loss of just a quarter of a second at any moment, a
       for (const bool silent : {false, true}) {
         CAPTURE(last, begin_s, silent);
         auto samples = samples_of(2, 20, [](double) { return at_z(0); });
-        for (PoseSample& sample : samples) sample.time_s += begin_s;
+        for (ProbeSample& sample : samples) sample.time_s += begin_s;
         for (std::size_t i = last + 1; i < last + 5; ++i) samples[i].status = PoseStatus::missing;
         if (silent) samples.erase(samples.begin() + long(last) + 1, samples.begin() + long(last) + 5);
         CHECK(scored(samples).steps[0].end_s == Approx(1.0));
@@ -231,9 +231,9 @@ TEST_CASE("a hold survives a loss of just a quarter of a second at any moment, a
 }
 
 TEST_CASE("of samples at one time the first counts") {
-  const std::vector<PoseSample> clean = wandering(30);
-  std::vector<PoseSample> twice;
-  for (const PoseSample& sample : clean) {
+  const std::vector<ProbeSample> clean = wandering(30);
+  std::vector<ProbeSample> twice;
+  for (const ProbeSample& sample : clean) {
     twice.push_back(sample);
     twice.push_back(sample_at(sample.time_s, at_z(40)));
     twice.push_back(sample_at(sample.time_s, at_z(0), PoseStatus::missing));
@@ -261,7 +261,7 @@ TEST_CASE("an exam of one step that earns nothing by itself ends with its hold")
 
 TEST_CASE("a pose that is not valid is never looked at") {
   auto samples = samples_of(3, 50, [](double) { return at_z(0); });
-  for (PoseSample& sample : samples) {
+  for (ProbeSample& sample : samples) {
     sample.status = PoseStatus::missing;
     sample.patient_from_probe.translation.x = std::nan("");
   }
@@ -274,14 +274,14 @@ TEST_CASE("a pose that is not valid is never looked at") {
   // Neither is one that is called valid and is no number, nor one whose time goes back.
   auto spoiled = samples_of(6, 50, approach);
   const ExamResult clean = scored(spoiled);
-  PoseSample broken = sample_at(1.5001, at_z(0));
+  ProbeSample broken = sample_at(1.5001, at_z(0));
   broken.patient_from_probe.rotation[1][1] = std::nan("");
   spoiled.insert(spoiled.begin() + 76, {broken, sample_at(0.3, at_z(0))});
   CHECK(to_json(scored(spoiled)) == to_json(clean));
 }
 
 TEST_CASE("the score is the same to the bit however the samples are fed") {
-  const std::vector<PoseSample> samples = wandering(60);
+  const std::vector<ProbeSample> samples = wandering(60);
   const std::string at_once = to_json(scored(samples));
   for (std::uint32_t seed = 1; seed <= 5; ++seed) {
     Runner runner(tiny_scenario(), shared_case(), tiny_tissues());
@@ -298,22 +298,22 @@ TEST_CASE("the score is the same to the bit however the samples are fed") {
 }
 
 TEST_CASE("the score does not depend on where time begins") {
-  std::vector<PoseSample> samples = wandering(64);
+  std::vector<ProbeSample> samples = wandering(64);
   const ExamResult before = scored(samples);
   // 64 Hz and a whole number of seconds: the times stay exact, and so must the score.
-  for (PoseSample& sample : samples) sample.time_s += 1700000000.0;
+  for (ProbeSample& sample : samples) sample.time_s += 1700000000.0;
   CHECK(to_json(scored(samples)) == to_json(before));
 }
 
 TEST_CASE("where times round the score does not depend on where time begins either") {
   for (const double rate : {20.0, 30.0, 250.0}) {
-    const std::vector<PoseSample> samples = wandering(rate);
+    const std::vector<ProbeSample> samples = wandering(rate);
     const ExamResult before = scored(samples);
     for (std::uint32_t trial = 0; trial < 4; ++trial) {
       const double begin_s = 1.7e9 + hash(trial, 3) / 4294967296.0;
       CAPTURE(rate, begin_s);
-      std::vector<PoseSample> later = samples;
-      for (PoseSample& sample : later) sample.time_s += begin_s;
+      std::vector<ProbeSample> later = samples;
+      for (ProbeSample& sample : later) sample.time_s += begin_s;
       const ExamResult after = scored(later);
       // Times are off by 0.24 microseconds, at 30 mm/s a hundred thousandth of a millimetre.
       CHECK(after.points == Approx(before.points).margin(1e-4));
@@ -344,7 +344,7 @@ TEST_CASE("the score hardly depends on the sampling rate") {
 TEST_CASE("the picture is looked at no more than every 9 ms, and at once after a loss") {
   Runner runner(tiny_scenario(), shared_case(), tiny_tissues());
   const auto distance_mm = [&](double time_s, PoseStatus status = PoseStatus::ok) {
-    PoseSample sample = sample_at(time_s, at_z(30 + 10 * time_s));  // not yet within tolerance
+    ProbeSample sample = sample_at(time_s, at_z(30 + 10 * time_s));  // not yet within tolerance
     sample.status = status;
     runner.feed(sample);
     return runner.live().view ? std::optional(runner.live().view->plane_distance_mm) : std::nullopt;
@@ -367,9 +367,9 @@ TEST_CASE("the picture is looked at no more than every 9 ms, and at once after a
 TEST_CASE("the score does not depend on where the patient lies") {
   const Pose moved = turned(121, {0.3, 1, -2}, {-300, 1250, 90});
   const Case elsewhere = moved_case(shared_case(), moved);
-  std::vector<PoseSample> samples = wandering(60);
+  std::vector<ProbeSample> samples = wandering(60);
   const ExamResult here = scored(samples);
-  for (PoseSample& sample : samples) sample.patient_from_probe = moved * sample.patient_from_probe;
+  for (ProbeSample& sample : samples) sample.patient_from_probe = moved * sample.patient_from_probe;
   const ExamResult there = scored(samples, tiny_scenario(), elsewhere);
   // Rounding alone, and samples on voxel borders: see the same test of the view's metrics.
   CHECK(there.points == Approx(here.points).margin(1e-3));

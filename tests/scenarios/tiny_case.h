@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/core/pose_sample.h"
+#include "sim/core/probe_sample.h"
 #include "sim/model/tissue.h"
 #include "sim/volume/case.h"
 
@@ -68,8 +68,8 @@ inline Case moved_case(Case subject, const Pose& moved) {
   return subject;
 }
 
-inline PoseSample sample_at(double time_s, const Pose& pose, PoseStatus status = PoseStatus::ok) {
-  PoseSample sample;
+inline ProbeSample sample_at(double time_s, const Pose& pose, PoseStatus status = PoseStatus::ok) {
+  ProbeSample sample;
   sample.time_s = time_s;
   sample.status = status;
   sample.patient_from_probe = pose;
@@ -78,8 +78,8 @@ inline PoseSample sample_at(double time_s, const Pose& pose, PoseStatus status =
 
 /// Returns samples at a rate over a time. The pose is a function of the time.
 template <typename PoseAt>
-std::vector<PoseSample> samples_of(double duration_s, double rate_hz, PoseAt&& pose_at) {
-  std::vector<PoseSample> samples;
+std::vector<ProbeSample> samples_of(double duration_s, double rate_hz, PoseAt&& pose_at) {
+  std::vector<ProbeSample> samples;
   for (int i = 0; i <= int(std::lround(duration_s * rate_hz)); ++i)
     samples.push_back(sample_at(i / rate_hz, pose_at(i / rate_hz)));
   return samples;

@@ -32,7 +32,7 @@ inline Pose at_z(double z) {
 }
 
 /// Returns the score of a scan. The actions belong to the samples of their times.
-inline ExamResult scored(const Scenario& scenario, std::span<const PoseSample> samples, const ActionLog& actions,
+inline ExamResult scored(const Scenario& scenario, std::span<const ProbeSample> samples, const ActionLog& actions,
                          const Case& subject = shared_case()) {
   Runner runner(scenario, subject, tiny_tissues());
   runner.feed(samples, actions);

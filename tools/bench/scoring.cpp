@@ -31,7 +31,7 @@ Table measure_scoring(const std::vector<std::string>& exams) {
     Runner runner(scenario, subject, read_tissue_table(assets_folder() / "tissues.toml"));
     std::vector<double> times_ms;
     double frame_ms = 0, longest_frame_ms = 0, frame_began_s = 0;
-    for (const PoseSample& sample : scan.samples) {
+    for (const ProbeSample& sample : scan.samples) {
       if (runner.live().finished) break;
       const auto before = actions.find(sample.time_s);
       const auto start = std::chrono::steady_clock::now();

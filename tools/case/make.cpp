@@ -58,9 +58,9 @@ Pose pose_in_log(const RecordedMoment& moment) {
   of_log.transform = moment.transform;
   const RecordedScan scan = read_log(moment.log, of_log);
   check_is_of_probe(scan.recording);
-  const PoseSample* nearest = nullptr;
+  const ProbeSample* nearest = nullptr;
   const double wanted_s = scan.samples.front().time_s + moment.at_s;
-  for (const PoseSample& sample : scan.samples)
+  for (const ProbeSample& sample : scan.samples)
     if (sample.status == PoseStatus::ok &&
         (!nearest || std::abs(sample.time_s - wanted_s) < std::abs(nearest->time_s - wanted_s)))
       nearest = &sample;

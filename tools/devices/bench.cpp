@@ -89,7 +89,7 @@ std::unique_ptr<LiveTracker> paced_tracker(double rate_hz) {
   return std::make_unique<LiveTracker>(std::make_unique<PacedSource>(
       "bench",
       [](std::uint64_t index) {
-        return PoseSample{0, PoseStatus::ok, Pose{}, std::uint32_t(index)};
+        return ProbeSample{0, PoseStatus::ok, Pose{}, std::uint32_t(index)};
       },
       rate_hz));
 }
@@ -113,12 +113,12 @@ void bench_throughput(Figures& figures, double seconds) {
   for (int i = 0; i < kSensors; ++i) trackers.push_back(paced_tracker(kRate_hz));
   std::vector<std::uint64_t> expected(kSensors, 0);
   std::uint64_t delivered = 0, lost = 0;
-  std::vector<PoseSample> samples;
+  std::vector<ProbeSample> samples;
   run_frames(seconds, [&](double now_s) {
     for (std::size_t i = 0; i < trackers.size(); ++i) {
       samples.clear();
       trackers[i]->poll(now_s, samples);
-      for (const PoseSample& sample : samples) {
+      for (const ProbeSample& sample : samples) {
         if (sample.status != PoseStatus::ok) continue;  // a silent tracker delivers a sample without a pose
         lost += sample.buttons - expected[i];
         expected[i] = sample.buttons + 1;
@@ -134,11 +134,11 @@ LatencyHistogram measure_latency(double rate_hz, double seconds) {
   const auto tracker = paced_tracker(rate_hz);
   PoseHistory history;
   LatencyHistogram ages;
-  std::vector<PoseSample> samples;
+  std::vector<ProbeSample> samples;
   run_frames(seconds, [&](double now_s) {
     samples.clear();
     tracker->poll(now_s, samples);
-    for (const PoseSample& sample : samples) history.add(sample);
+    for (const ProbeSample& sample : samples) history.add(sample);
     const PoseEstimate estimate = history.at(now_s);
     if (estimate.how != PoseAnswer::none) ages.add(estimate.age_s);
   });

@@ -22,7 +22,7 @@
 namespace insonate::devices {
 namespace {
 
-void print(const PoseSample& sample) {
+void print(const ProbeSample& sample) {
   std::printf("%.6f %-13s", sample.time_s, std::string(to_string(sample.status)).c_str());
   if (sample.status == PoseStatus::ok) {
     const glm::dvec3& p = sample.patient_from_probe.translation;
@@ -55,13 +55,13 @@ int watch(const Request& request) {
   // Only a live tracker needs real time; the others count exactly from zero.
   const double begin_s = steady_now_s(), start_s = tracker->live() ? begin_s : 0;
   std::string problem;
-  std::vector<PoseSample> samples;
+  std::vector<ProbeSample> samples;
   std::fprintf(stderr, "%s\n", tracker->state().name.c_str());
   std::printf("time_s status x y z (probe's face in the patient, LPS) qw qx qy qz\n");
   for (double now_s = 0;;) {
     samples.clear();
     tracker->poll(start_s + now_s, samples);
-    for (const PoseSample& sample : samples) {
+    for (const ProbeSample& sample : samples) {
       print(sample);
       if (recorder) recorder->add(sample);
     }

@@ -212,7 +212,7 @@ MadeLog move_by_hand(const LogPlan& plan, const Case& subject) {
   const std::vector<Stretch> stretches = stretches_of(plan, subject, moves);
   const Unsteadiness unsteadiness(plan, hand);
 
-  std::vector<PoseSample> samples;
+  std::vector<ProbeSample> samples;
   ActionLog actions;
   double begin_s = 0;
   std::size_t current = 0;
@@ -225,7 +225,7 @@ MadeLog move_by_hand(const LogPlan& plan, const Case& subject) {
       const std::string& then = stretches[current++].then;
       if (then.empty()) continue;
       const auto seen = std::find_if(samples.rbegin(), samples.rend(),
-                                     [](const PoseSample& sample) { return sample.status == PoseStatus::ok; });
+                                     [](const ProbeSample& sample) { return sample.status == PoseStatus::ok; });
       if (then == "freeze" || !frozen) picture = seen == samples.rend() ? Pose{} : seen->patient_from_probe;
       frozen = then == "freeze" || (frozen && then.find("unfreeze") == std::string::npos);
       const std::vector<Action> done = made_of(then, subject, picture);
@@ -233,7 +233,7 @@ MadeLog move_by_hand(const LogPlan& plan, const Case& subject) {
     }
     if (current == stretches.size()) break;
     const Aim aim = unsteadiness.on(stretches[current].at(time_s - begin_s), time_s);
-    PoseSample sample;
+    ProbeSample sample;
     sample.time_s = time_s;
     sample.status = status_at(plan, time_s);
     sample.patient_from_probe = measured(plan, on_skin(aim, subject, plan.press_mm, time_s), tracker);

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "scenarios/action.h"
-#include "sim/core/pose_sample.h"
+#include "sim/core/probe_sample.h"
 #include "sim/volume/case.h"
 #include "tools/make_log/plan.h"
 
@@ -11,7 +11,7 @@ namespace insonate {
 
 /// The samples and actions of a simulated log.
 struct MadeLog {
-  std::vector<PoseSample> samples;
+  std::vector<ProbeSample> samples;
   ActionLog actions;  ///< by the samples' times
 };
 

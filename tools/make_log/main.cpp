@@ -53,7 +53,7 @@ const char* plus_word(PoseStatus status) {
 /// frame, and the tracker's pose. A lost probe keeps its last pose, as with many trackers; its status marks it as
 /// unusable.
 std::string plus_sequence(const MadeLog& made) {
-  const std::vector<PoseSample>& samples = made.samples;
+  const std::vector<ProbeSample>& samples = made.samples;
   const Pose tracker_from_patient = patient_from_tracker().inverse();
   std::string text =
       "ObjectType = Image\nNDims = 3\nAnatomicalOrientation = RAI\nBinaryData = True\n"

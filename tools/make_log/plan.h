@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/core/pose_sample.h"
+#include "sim/core/probe_sample.h"
 
 namespace insonate {
 

@@ -22,11 +22,11 @@ Attempt scored(ResultsDatabase& database, const Sitting& sitting, AttemptCases& 
   if (digest_of(sitting.scenario_text) != sitting.scenario_digest)
     throw InputError(database.file().string(), name, "its scenario is damaged", "remove it with --discard");
   const Scenario scenario = parse_scenario(sitting.scenario_text, sitting.scenario_file, sitting.seed);
-  std::vector<PoseSample> samples;
+  std::vector<ProbeSample> samples;
   std::map<double, std::string> actions;
   for (const std::string& part : database.parts(sitting.number)) {
     const Sequence log = parse_sequence(part, name);
-    const std::vector<PoseSample> some = probe_samples(log);
+    const std::vector<ProbeSample> some = probe_samples(log);
     samples.insert(samples.end(), some.begin(), some.end());
     actions.merge(recorded_actions(log));
   }

@@ -23,7 +23,7 @@ std::string compare(ResultsDatabase& database, std::int64_t number, AttemptCases
     const std::uint32_t seed = result_from_json(attempt.score_json, name).provenance.seed;
     Scenario scenario = parse_scenario(attempt.scenario_text, attempt.scenario_file, seed);
     const Sequence log = parse_sequence(attempt.log, name);
-    const std::vector<PoseSample> samples = probe_samples(log);
+    const std::vector<ProbeSample> samples = probe_samples(log);
     const ActionLog actions = parse_action_log(recorded_actions(log), name);
     Runner runner(scenario, cases.of(attempt.patient, scenario), tissues);
     runner.feed(samples, actions);

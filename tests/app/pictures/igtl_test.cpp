@@ -28,7 +28,7 @@ std::shared_ptr<const LoadedCase> tiny_loaded_case() {
 }
 
 /// A scan that finds the ball after some searching.
-std::vector<PoseSample> scan() {
+std::vector<ProbeSample> scan() {
   return samples_of(9, 60, [](double t) {
     const double off = 25 * std::exp(-t / 2) * std::sin(2 * t) + 3;
     return turned(10 * std::sin(t) * std::exp(-t / 3), {1, 0.4, 0}, {4 * std::sin(0.7 * t), 0.5, off});
@@ -49,7 +49,7 @@ bool advance_until(Session& session, const std::function<bool()>& holds) {
 
 TEST_CASE("an exam over OpenIGTLink gets the score of its log") {
   const auto loaded_case = tiny_loaded_case();
-  const std::vector<PoseSample> log = scan();
+  const std::vector<ProbeSample> log = scan();
   Runner runner(*loaded_case->scenario, loaded_case->subject, loaded_case->tissues);
   runner.feed(log);
   runner.end();
@@ -66,7 +66,7 @@ TEST_CASE("an exam over OpenIGTLink gets the score of its log") {
                   [&] { return std::make_unique<LiveTracker>(std::make_unique<igtl::ClientSource>(request)); });
   session.advance(steady_now_s());
   igtl::RawPeer sender = igtl::RawPeer::accepted_by(listener);
-  for (const PoseSample& sample : log)
+  for (const ProbeSample& sample : log)
     sender.send(igtl::make_transform("Probe", igtl::stamp_of(1e6 + sample.time_s), sample.patient_from_probe));
   REQUIRE(advance_until(session, [&] { return session.tracker_state().usable >= log.size() || session.result(); }));
   REQUIRE(advance_until(session, [&] { return session.result().has_value(); }));

@@ -19,9 +19,9 @@ namespace {
 
 /// An exam that counts, fed by hand.
 struct Exam {
-  std::vector<PoseSample> coming;
+  std::vector<ProbeSample> coming;
   Session session{tiny_loaded_case(), [this] { return std::make_unique<HandFed>(coming); }, 0, ExamRules::strict};
-  std::vector<PoseSample> scan = searching_scan();
+  std::vector<ProbeSample> scan = searching_scan();
   std::size_t next = 0;
 
   /// Takes the scan on to that sample, as fast as it goes.
@@ -49,13 +49,13 @@ struct Exam {
 
 /// What the database has of the only sitting.
 struct Kept {
-  std::vector<PoseSample> samples;
+  std::vector<ProbeSample> samples;
   std::map<double, std::string> actions;
   explicit Kept(ResultsDatabase& database) {
     REQUIRE(database.sittings().size() == 1);
     for (const std::string& part : database.parts(database.sittings()[0].number)) {
       const Sequence log = parse_sequence(part, "a part");
-      for (const PoseSample& sample : probe_samples(log)) samples.push_back(sample);
+      for (const ProbeSample& sample : probe_samples(log)) samples.push_back(sample);
       actions.merge(recorded_actions(log));
     }
   }
@@ -73,7 +73,7 @@ TEST_CASE("of an exam that counts the database has all but its last second or tw
   exam.run_calmly_to(journal, 150);
   REQUIRE_FALSE(exam.session.result());
 
-  const std::vector<PoseSample>& taken = exam.session.exam_samples();
+  const std::vector<ProbeSample>& taken = exam.session.exam_samples();
   const auto check_kept = [&](const Kept& kept) {
     REQUIRE(kept.samples.size() <= taken.size());
     for (std::size_t i = 0; i < kept.samples.size(); ++i) {

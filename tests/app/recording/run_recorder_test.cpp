@@ -29,9 +29,9 @@ struct Folder {
 };
 
 /// A scan of the tiny ball with losses of tracking and a button on the way.
-std::vector<PoseSample> scan() {
+std::vector<ProbeSample> scan() {
   auto samples = samples_of(6, 60, [](double t) { return turned(10 * std::sin(t), {1, 0.4, 0}, {4 * t, 0.5, 3}); });
-  for (PoseSample& sample : samples) {
+  for (ProbeSample& sample : samples) {
     if (std::fmod(sample.time_s, 2) < 0.2) sample = {sample.time_s, PoseStatus::missing, Pose{}, 0};
     if (std::fmod(sample.time_s, 1) > 0.9) sample.buttons = 2;
   }

@@ -24,7 +24,7 @@ RecordedScan scan(double search_s, double first_s = 0) {
     const double off = 30 * std::max(0.0, 1 - t / search_s) + 1;
     return turned(off, {1, 0.4, 0}, {4 * std::sin(0.7 * t), 0.5, off});
   });
-  for (PoseSample& sample : scan.samples) {
+  for (ProbeSample& sample : scan.samples) {
     if (std::fmod(sample.time_s + 1, 2.3) < 0.35) sample.status = PoseStatus::missing;
     if (std::abs(sample.time_s - 1) < 0.2 && sample.status == PoseStatus::ok) sample.buttons = kEventMarkerButton;
     sample.time_s += first_s;

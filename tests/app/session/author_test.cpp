@@ -17,7 +17,7 @@ namespace {
 struct Desk {
   TemporaryFolder folder;
   std::filesystem::path path = folder.path / "ball";
-  std::vector<PoseSample> coming;
+  std::vector<ProbeSample> coming;
   Session session{tiny_loaded_case(false), [this] { return std::make_unique<HandFed>(coming); }, 0};
   Author author{path};
   double now_s = 1;

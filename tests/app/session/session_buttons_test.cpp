@@ -8,7 +8,7 @@ using namespace insonate;
 
 TEST_CASE("the probe's freeze button freezes the picture and thaws it, once each time that it is pressed") {
   auto samples = searching_scan();
-  for (PoseSample& sample : samples) {
+  for (ProbeSample& sample : samples) {
     const bool freezes = std::abs(sample.time_s - 1.25) < 0.25, thaws = std::abs(sample.time_s - 3.15) < 0.15;
     sample.status = PoseStatus::ok;
     sample.buttons = freezes || thaws ? kFreezeButton | kEventMarkerButton : kEventMarkerButton;
@@ -34,7 +34,7 @@ TEST_CASE("the probe's freeze button freezes the picture and thaws it, once each
 
 TEST_CASE("the probe's mark and go-on buttons act once each time they are pressed, also across a dropout") {
   auto samples = searching_scan();
-  for (PoseSample& sample : samples) {
+  for (ProbeSample& sample : samples) {
     sample.status = PoseStatus::ok;
     const bool first = std::abs(sample.time_s - 1.25) < 0.25, second = std::abs(sample.time_s - 3) < 0.1;
     sample.buttons = first || second ? std::uint32_t(kEventMarkerButton) : 0;
@@ -59,7 +59,7 @@ TEST_CASE("the probe's mark and go-on buttons act once each time they are presse
   std::size_t marked = 0;
   for (int i = 1; i <= 30; ++i) {
     session.advance(now_s + i / 60.0);
-    for (const PoseSample& sample : session.latest_samples()) marked += sample.buttons == kEventMarkerButton;
+    for (const ProbeSample& sample : session.latest_samples()) marked += sample.buttons == kEventMarkerButton;
   }
   CHECK(session.event_markers_s().size() == 3);
   CHECK(marked == 1);
@@ -69,7 +69,7 @@ TEST_CASE("the probe's mark and go-on buttons act once each time they are presse
 
 TEST_CASE("a button that is held when a session begins was pressed for somebody else") {
   auto samples = searching_scan();
-  for (PoseSample& sample : samples)
+  for (ProbeSample& sample : samples)
     sample.buttons = sample.time_s < 1 || sample.time_s > 2 ? kFreezeButton | kEventMarkerButton : 0;
   Session session(tiny_loaded_case(), replay_of(samples));
   session.advance(0);
@@ -82,7 +82,7 @@ TEST_CASE("a button that is held when a session begins was pressed for somebody 
 }
 
 TEST_CASE("a button that is held on the tracker while the probe changes hands was pressed once") {
-  std::vector<PoseSample> coming;
+  std::vector<ProbeSample> coming;
   Session session(tiny_loaded_case(), [&] { return std::make_unique<HandFed>(coming); });
   double now_s = 100;
   const auto hold = [&](std::uint32_t buttons) {

@@ -120,7 +120,7 @@ TEST_CASE("each attempt names the log that it was scored from, also when the fil
 TEST_CASE(
     "a sample that is not OK never moves the probe, and after a quarter of a second the picture is said to stand") {
   const Pose good = turned(5, {1, 0, 0}, {1, 2, 3}), garbage = turned(50, {0, 1, 0}, {90, 90, 90});
-  std::vector<PoseSample> samples;
+  std::vector<ProbeSample> samples;
   for (int i = 0; i < 240; ++i) {
     const bool lost = i >= 60 && i < 180;
     samples.push_back(sample_at(i / 60.0, lost ? garbage : good, lost ? PoseStatus::out_of_view : PoseStatus::ok));
@@ -139,7 +139,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a live tracker is opened once, and what it says while the learner has the probe is past") {
-  std::vector<PoseSample> coming;
+  std::vector<ProbeSample> coming;
   int opened = 0;
   Session session(tiny_loaded_case(), [&] {
     ++opened;
@@ -175,7 +175,7 @@ TEST_CASE("a tracker that tells no place goes on from where the learner has put 
   const glm::dvec3 chosen(40, -20, 7);
   for (const bool relative : {true, false}) {
     CAPTURE(relative);
-    std::vector<PoseSample> coming;
+    std::vector<ProbeSample> coming;
     Session session(tiny_loaded_case(false), [&] { return std::make_unique<HandFed>(coming, relative); });
     double now_s = 100;
     const auto say = [&](const Pose& pose) {
@@ -202,10 +202,10 @@ TEST_CASE("a tracker that tells no place goes on from where the learner has put 
 
 TEST_CASE("of a live tracker the pose at the time of the picture is shown, and how it was found is told") {
   // 100 mm/s along x, at 60 Hz for a second.
-  std::vector<PoseSample> steady;
+  std::vector<ProbeSample> steady;
   for (int i = 0; i <= 60; ++i) steady.push_back(sample_at(i / 60.0, turned(0, {1, 0, 0}, {100 * i / 60.0, 0, 30})));
   const auto after = [&](double ahead_s, double predict_s) {
-    std::vector<PoseSample> coming = steady;
+    std::vector<ProbeSample> coming = steady;
     Session session(
         tiny_loaded_case(), [&] { return std::make_unique<HandFed>(coming); }, predict_s);
     session.advance(0);
@@ -235,7 +235,7 @@ TEST_CASE("of a live tracker the pose at the time of the picture is shown, and h
 
 TEST_CASE("an exam of a live tracker is scored from its samples, not from the poses that are shown") {
   const auto loaded_case = tiny_loaded_case();
-  std::vector<PoseSample> log = searching_scan();
+  std::vector<ProbeSample> log = searching_scan();
   // The device goes silent, and the exam's time runs out.
   for (double time_s = 9.1; time_s < 60; time_s += 0.1) log.push_back({time_s, PoseStatus::missing, Pose{}, 0});
   Runner runner(*loaded_case->scenario, loaded_case->subject, loaded_case->tissues);
@@ -244,7 +244,7 @@ TEST_CASE("an exam of a live tracker is scored from its samples, not from the po
   const std::string expected = score_of(runner);
   for (const double frames_per_s : {7.0, 60.0}) {
     CAPTURE(frames_per_s);
-    std::vector<PoseSample> coming;
+    std::vector<ProbeSample> coming;
     Session session(loaded_case, [&] { return std::make_unique<HandFed>(coming); });
     std::size_t next = 0;
     for (double now_s = 0; next < log.size() && !session.result(); now_s += 1 / frames_per_s) {
@@ -341,7 +341,7 @@ TEST_CASE("a frozen picture stays while the exam goes on") {
 
 TEST_CASE("freezing and thawing between two samples is nothing, either way round") {
   const auto loaded_case = tiny_loaded_case(false);
-  std::vector<PoseSample> coming{sample_at(0.1, Pose{})};
+  std::vector<ProbeSample> coming{sample_at(0.1, Pose{})};
   Session session(loaded_case, [&] { return std::make_unique<HandFed>(coming); });
   session.advance(0.1);
   session.freeze(true);
@@ -394,7 +394,7 @@ TEST_CASE("what the learner does reaches the exam, and again when the exam is sc
   const auto file = std::filesystem::temp_directory_path() / ("insonate_acts_" + std::to_string(getpid()) + ".igs.mha");
   {
     SequenceRecorder recorder(file);
-    for (const PoseSample& sample : searching_scan()) {
+    for (const ProbeSample& sample : searching_scan()) {
       const auto done = session.actions().find(sample.time_s);
       recorder.add(sample, done == session.actions().end() ? "" : to_text(done->second));
     }
@@ -465,7 +465,7 @@ TEST_CASE("free practice has no exam, and an exam can be started from it") {
 }
 
 TEST_CASE("under strict rules an exam is taken once and as it is") {
-  std::vector<PoseSample> coming;
+  std::vector<ProbeSample> coming;
   const auto loaded_case = tiny_loaded_case();
   Session session(
       loaded_case, [&] { return std::make_unique<HandFed>(coming); }, 0, ExamRules::strict);
@@ -524,7 +524,7 @@ TEST_CASE("what a scenario locks of the machine stays as it is in an exam, and i
   for (const ExamRules rules : {ExamRules::strict, ExamRules::open}) {
     const bool strict = rules == ExamRules::strict;
     CAPTURE(strict);
-    std::vector<PoseSample> coming{sample_at(10.1, Pose{})};
+    std::vector<ProbeSample> coming{sample_at(10.1, Pose{})};
     Session session(
         loaded_case, [&] { return std::make_unique<HandFed>(coming); }, 0, rules);
     session.advance(10.2);
@@ -562,7 +562,7 @@ TEST_CASE("what a scenario locks of the machine stays as it is in an exam, and i
 }
 
 TEST_CASE("an exam under strict rules that nobody has begun is not handed in") {
-  std::vector<PoseSample> coming;
+  std::vector<ProbeSample> coming;
   Session session(
       tiny_loaded_case(), [&] { return std::make_unique<HandFed>(coming); }, 0, ExamRules::strict);
   session.advance(1);

@@ -22,17 +22,17 @@ inline std::shared_ptr<const LoadedCase> tiny_loaded_case(bool with_exam = true)
 }
 
 /// A scan that finds the ball after some searching, with losses of tracking on the way.
-inline std::vector<PoseSample> searching_scan() {
+inline std::vector<ProbeSample> searching_scan() {
   auto samples = samples_of(9, 60, [](double t) {
     const double off = 25 * std::exp(-t / 2) * std::sin(2 * t) + 3;
     return turned(10 * std::sin(t) * std::exp(-t / 3), {1, 0.4, 0}, {4 * std::sin(0.7 * t), 0.5, off});
   });
-  for (PoseSample& sample : samples)
+  for (ProbeSample& sample : samples)
     if (std::fmod(sample.time_s + 1, 3.1) < 0.2) sample.status = PoseStatus::missing;
   return samples;
 }
 
-inline Session::OpenTracker replay_of(std::vector<PoseSample> samples) {
+inline Session::OpenTracker replay_of(std::vector<ProbeSample> samples) {
   return [samples = std::move(samples)] {
     return std::make_unique<ReplayTracker>("a log", samples, ReplayTracker::Options{});
   };
@@ -47,20 +47,20 @@ inline double run_until(Session& session, double from_s, double to_s, double ste
 /// A live tracker without a thread: returns what the test puts into `coming`, which must outlive it.
 class HandFed : public Tracker {
 public:
-  explicit HandFed(std::vector<PoseSample>& coming, bool relative = false)
+  explicit HandFed(std::vector<ProbeSample>& coming, bool relative = false)
       : Tracker("a device"), coming_(coming), relative_(relative) {}
   bool live() const override { return true; }
   bool relative() const override { return relative_; }
   double clock_s(double now_s) const override { return now_s; }
 
 protected:
-  void collect(double, std::vector<PoseSample>& samples) override {
+  void collect(double, std::vector<ProbeSample>& samples) override {
     samples.insert(samples.end(), coming_.begin(), coming_.end());
     coming_.clear();
   }
 
 private:
-  std::vector<PoseSample>& coming_;
+  std::vector<ProbeSample>& coming_;
   bool relative_;
 };
 

@@ -81,7 +81,7 @@ TEST_CASE("what a live tracker sends the trainer replays to the samples that the
   options.record = lab.folder.path / "run.igs.mha";
   options.record_raw = lab.folder.path / "run.raw";
   CHECK_NOTHROW(check(options));
-  std::vector<PoseSample> seen;
+  std::vector<ProbeSample> seen;
   {
     Trainer trainer(options);
     trainer.open_from_options();
@@ -102,7 +102,7 @@ TEST_CASE("what a live tracker sends the trainer replays to the samples that the
   }
   REQUIRE(seen.size() >= 50);
   CHECK(same_bits(read_log(options.record).samples, seen));
-  std::vector<PoseSample> replayed = read_log(options.record_raw).samples;
+  std::vector<ProbeSample> replayed = read_log(options.record_raw).samples;
   REQUIRE(replayed.size() >= seen.size());  // what came after the last frame was not shown any more
   replayed.resize(seen.size());
   CHECK(same_bits(replayed, seen));

@@ -113,8 +113,8 @@ private:
 };
 
 /// Returns the samples in the form in which a tracker that does not place the probe delivers and records them.
-inline std::vector<PoseSample> as_raw(const std::vector<SensorSample>& samples) {
-  std::vector<PoseSample> raw;
+inline std::vector<ProbeSample> as_raw(const std::vector<SensorSample>& samples) {
+  std::vector<ProbeSample> raw;
   for (const SensorSample& s : samples)
     raw.push_back({s.time_s, s.status, s.tracker_from_sensor, s.buttons, s.distortion, s.rejected});
   return raw;

@@ -69,11 +69,11 @@ TEST_CASE("insonate-devices calibrate makes the whole set-up from a recording, a
   CHECK(calibration.tracker == TrackerIdentity{"replay", ""});
 
   // A scan by that probe, replayed through the file.
-  std::vector<PoseSample> truth, scan;
+  std::vector<ProbeSample> truth, scan;
   Dice dice(12);
   for (int i = 0; i < 50; ++i) {
     truth.push_back({i * 0.1, i % 9 ? PoseStatus::ok : PoseStatus::missing, dice.pose(100), std::uint32_t(i % 3)});
-    PoseSample raw = truth.back();
+    ProbeSample raw = truth.back();
     raw.patient_from_probe = lab.ct_from_tracker.inverse() * raw.patient_from_probe * lab.sensor_from_face.inverse();
     scan.push_back(raw);
   }
@@ -81,7 +81,7 @@ TEST_CASE("insonate-devices calibrate makes the whole set-up from a recording, a
       SensorTracker(std::make_unique<ReplayTracker>("a scan", scan, ReplayTracker::Options{},
                                                     Recording{"scan.igs.mha", "0", "SensorToTracker"})),
       calibration, "lab.toml");
-  std::vector<PoseSample> samples;
+  std::vector<ProbeSample> samples;
   tracker.poll(0, samples);
   tracker.poll(100, samples);
   REQUIRE(samples.size() == truth.size());

@@ -19,7 +19,7 @@ const std::filesystem::path kAssets = INSONATE_ASSETS_FOLDER;
 
 /// The sample as a Liberty puts it into its record: centimetres and a quaternion, in single precision, and an error
 /// instead of the blank where it has no pose.
-ScriptedBus::Report liberty_record(std::uint32_t frame, const PoseSample& sample) {
+ScriptedBus::Report liberty_record(std::uint32_t frame, const ProbeSample& sample) {
   ScriptedBus::Report record(std::begin(golden::kLiberty), std::end(golden::kLiberty));
   const auto put = [&](std::size_t at, auto value) { std::memcpy(&record[at], &value, sizeof value); };
   put(12, frame);
@@ -38,7 +38,7 @@ ScriptedBus::Report liberty_record(std::uint32_t frame, const PoseSample& sample
 }
 
 /// What comes of a log when a Liberty sends it, record by record at the log's times.
-std::vector<PoseSample> through_liberty(const std::vector<PoseSample>& log) {
+std::vector<ProbeSample> through_liberty(const std::vector<ProbeSample>& log) {
   const auto bus = std::make_shared<ScriptedBus>();
   bus->attached.devices = {{0x0f44, 0xff20, "", "L2", "bus 1, address 5", -1}};
   double now_s = log.front().time_s;
@@ -46,7 +46,7 @@ std::vector<PoseSample> through_liberty(const std::vector<PoseSample>& log) {
   source.open();
   LiveBatch batch;
   std::uint32_t frame = 0;
-  for (const PoseSample& sample : log) {
+  for (const ProbeSample& sample : log) {
     now_s = sample.time_s;
     bus->reports.push_back(liberty_record(++frame, sample));
     source.read(std::chrono::milliseconds(20), batch);
@@ -65,7 +65,7 @@ struct Exam {
     scenario.phantom_options.emplace_back("voxel_mm", "2");
     return scenario;
   }
-  ExamResult score(const std::vector<PoseSample>& samples) const {
+  ExamResult score(const std::vector<ProbeSample>& samples) const {
     Runner runner(scenario, subject, tissues);
     runner.feed(samples);
     runner.end();
@@ -91,8 +91,8 @@ TEST_CASE("a recorded exam that a mocked USB tracker sends scores as its log doe
   const Exam exam;
   for (const char* name : {"ruq_good.igs.mha", "ruq_poor.igs.mha"}) {
     CAPTURE(name);
-    const std::vector<PoseSample> log = read_recorded_scan(kAssets / "logs" / name).samples;
-    const std::vector<PoseSample> samples = through_liberty(log);
+    const std::vector<ProbeSample> log = read_recorded_scan(kAssets / "logs" / name).samples;
+    const std::vector<ProbeSample> samples = through_liberty(log);
     CHECK(samples.size() == log.size());
     const ExamResult logged = exam.score(log), sent = exam.score(samples);
     CHECK(sent.passed == logged.passed);

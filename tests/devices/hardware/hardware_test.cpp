@@ -352,7 +352,7 @@ TEST_CASE("a SpaceMouse moves the probe at a rate, as seen on the screen, and st
   // Turned about the axis that points down: about the beam, at 2 rad/s.
   after(1, {1, 0, 0, 0, 0, 0, 0});
   after(0.01, {2, 0, 0, 0, 0, 94, 1});
-  const PoseSample turned = after(0.1, {3, 3});
+  const ProbeSample turned = after(0.1, {3, 3});
   CHECK(angle_between_deg(turned.patient_from_probe, kStart) == Approx(glm::degrees(0.2)));
   CHECK(glm::distance(turned.patient_from_probe.rotation[1], kStart.rotation[1]) < 1e-9);
   CHECK(glm::dot(turned.patient_from_probe.rotation[2], kStart.rotation[0]) > 0);

@@ -83,7 +83,7 @@ public:
     for (std::size_t i = 0; i < std::max<std::size_t>(reports.size(), 1); ++i) {
       LiveBatch batch;
       source_->read(std::chrono::milliseconds(20), batch);
-      for (const PoseSample& sample : batch.samples) publish(sample);
+      for (const ProbeSample& sample : batch.samples) publish(sample);
     }
   }
   void silence() {
@@ -97,10 +97,10 @@ public:
 
   double now_s = 0.1;
   std::shared_ptr<ScriptedBus> bus = std::make_shared<ScriptedBus>();
-  std::vector<PoseSample> samples;
+  std::vector<ProbeSample> samples;
 
 private:
-  void publish(PoseSample sample) {
+  void publish(ProbeSample sample) {
     conditioner_.apply(sample, source_->origin());
     samples.push_back(sample);
   }
@@ -165,7 +165,7 @@ TEST_CASE("a raw recording replays to the samples that came, to the bit, whateve
 TEST_CASE("a raw recording is read wherever a log is, by its name or as a URI") {
   const File file;
   write_file(file.path, kGood);
-  const std::vector<PoseSample> samples = parse_raw(kGood, "scan.raw").samples;
+  const std::vector<ProbeSample> samples = parse_raw(kGood, "scan.raw").samples;
   for (const std::string& named : {file.path.string(), "raw:" + file.path.string()}) {
     const RecordedScan scan = read_log(named);
     CHECK(same_bits(scan.samples, samples));
@@ -307,7 +307,7 @@ TEST_CASE("a raw recording with any bytes changed is refused or gives samples th
     CAPTURE(text);
     try {
       double before_s = -HUGE_VAL;
-      for (const PoseSample& sample : parse_raw(text, "scan.raw").samples) {
+      for (const ProbeSample& sample : parse_raw(text, "scan.raw").samples) {
         REQUIRE(sample.time_s > before_s);
         REQUIRE_FALSE(why_not_rigid(sample.patient_from_probe.matrix()));
         before_s = sample.time_s;

@@ -28,7 +28,7 @@ struct Client {
     return until([&] { return tracker->state().problem.find(words) != std::string::npos; });
   }
   std::unique_ptr<Tracker> tracker;
-  std::vector<PoseSample> samples;
+  std::vector<ProbeSample> samples;
 };
 
 }  // namespace
@@ -108,7 +108,7 @@ TEST_CASE("whatever a server sends, the client lives, says so, and takes the nex
   RawPeer peer = RawPeer::accepted_by(listener);
   peer.send(make_transform("Probe", 0, at_x(3)));
   CHECK(client.usable(3));
-  for (const PoseSample& sample : client.samples)
+  for (const ProbeSample& sample : client.samples)
     if (sample.status == PoseStatus::ok) CHECK(sample.patient_from_probe.translation.x <= 3);
 }
 

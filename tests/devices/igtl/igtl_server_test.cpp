@@ -148,7 +148,7 @@ TEST_CASE("a client of Debian's library and our own receive the pose") {
 
   const auto tracker =
       open_tracker("igtl://127.0.0.1:" + std::to_string(server.address().port()) + "/ProbeToRas?frame=ras&filter=off");
-  std::vector<PoseSample> samples;
+  std::vector<ProbeSample> samples;
   REQUIRE(poll_until(*tracker, samples, [&] { return !samples.empty(); }));
   CHECK(samples.front().patient_from_probe.translation == glm::dvec3(-4.5, -2, 3));
 }

@@ -28,7 +28,7 @@ std::unique_ptr<LiveTracker> tracker_of(ScriptedDevice& device, const LiveTracke
   return std::make_unique<LiveTracker>(std::make_unique<ScriptedSource>(device), options);
 }
 
-std::size_t count(const std::vector<PoseSample>& samples, PoseStatus status) {
+std::size_t count(const std::vector<ProbeSample>& samples, PoseStatus status) {
   return std::size_t(std::count_if(samples.begin(), samples.end(), [&](auto& s) { return s.status == status; }));
 }
 
@@ -43,7 +43,7 @@ TEST_CASE("a live tracker hands over every sample once, in order, with rising ti
   INFO("who only asks for its state opens nothing");
   CHECK(device.opened == 0);
   const double before_s = steady_now_s();
-  std::vector<PoseSample> samples;
+  std::vector<ProbeSample> samples;
   REQUIRE(poll_until(*tracker, samples, [&] { return samples.size() >= 400; }));
   const double after_s = steady_now_s();
   for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -73,7 +73,7 @@ TEST_CASE("a device may be plugged in late, pulled out and plugged in again, and
   ScriptedDevice device;
   device.plugged_in = false;
   const auto tracker = tracker_of(device);
-  std::vector<PoseSample> samples;
+  std::vector<ProbeSample> samples;
   REQUIRE(poll_until(*tracker, samples, [&] { return !tracker->state().problem.empty(); }));
   CHECK(tracker->state().problem == "The scripted device is not plugged in.");
   CHECK(tracker->state().condition == TrackerCondition::waiting);
@@ -107,7 +107,7 @@ TEST_CASE("a device may be plugged in late, pulled out and plugged in again, and
 TEST_CASE("an open device that says nothing is silent, not gone") {
   ScriptedDevice device;
   const auto tracker = tracker_of(device);
-  std::vector<PoseSample> samples;
+  std::vector<ProbeSample> samples;
   REQUIRE(poll_until(*tracker, samples, [&] { return !samples.empty(); }));
   device.note("The probe is too far from the base.");
   device.silent = true;
@@ -126,7 +126,7 @@ TEST_CASE("who does not poll in time loses samples, is told how many, and stops 
   LiveTracker::Options options = hasty();
   options.capacity = 64;
   const auto tracker = tracker_of(device, options);
-  std::vector<PoseSample> samples;
+  std::vector<ProbeSample> samples;
   tracker->poll(steady_now_s(), samples);
   while (device.sent < 1000) std::this_thread::sleep_for(milliseconds(1));
   device.silent = true;
@@ -139,7 +139,7 @@ TEST_CASE("a tracker ends while its device is open, absent, or was never asked f
   ScriptedDevice device;
   { const auto tracker = tracker_of(device); }
   CHECK(device.opened == 0);
-  std::vector<PoseSample> samples;
+  std::vector<ProbeSample> samples;
   {
     const auto tracker = tracker_of(device);
     REQUIRE(poll_until(*tracker, samples, [&] { return !samples.empty(); }));
@@ -180,7 +180,7 @@ TEST_CASE("a device that does not let go keeps nobody waiting but the next that 
   options.ending = milliseconds(10);
   const auto first = std::make_shared<Door>(), second = std::make_shared<Door>();
   second->may_close = true;
-  std::vector<PoseSample> samples;
+  std::vector<ProbeSample> samples;
   {
     LiveTracker tracker(std::make_unique<Slow>(first), options);
     REQUIRE(poll_until(tracker, samples, [&] { return !samples.empty(); }));

@@ -4,7 +4,7 @@
 
 #include <thread>
 
-#include "sim/core/pose_sample.h"
+#include "sim/core/probe_sample.h"
 
 using namespace insonate;
 
@@ -32,28 +32,28 @@ TEST_CASE("a ring hands over in order, round and round, and counts what it has n
 
 TEST_CASE("between two threads no sample is torn, swapped, repeated or lost without being counted") {
   // Small, so that it is often full; each field of a sample is made from its number.
-  SampleRing<PoseSample> ring(16);
+  SampleRing<ProbeSample> ring(16);
   constexpr std::uint32_t kSamples = 200000;
   std::thread producer([&] {
     for (std::uint32_t i = 1; i <= kSamples; ++i) {
-      PoseSample sample;
+      ProbeSample sample;
       sample.time_s = i;
       sample.buttons = i;
       sample.patient_from_probe.translation = glm::dvec3(i);
       ring.push(sample);
     }
     // The end is not to be lost.
-    PoseSample end;
+    ProbeSample end;
     end.time_s = kSamples + 1;
     while (!ring.push(end)) std::this_thread::yield();
   });
-  std::vector<PoseSample> samples;
+  std::vector<ProbeSample> samples;
   std::uint64_t received = 0, torn = 0, unordered = 0;
   double last = 0;
   while (last <= kSamples) {
     samples.clear();
     ring.drain(samples);
-    for (const PoseSample& sample : samples) {
+    for (const ProbeSample& sample : samples) {
       unordered += !(sample.time_s > last);
       last = sample.time_s;
       if (last > kSamples) break;

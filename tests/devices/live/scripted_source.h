@@ -55,7 +55,7 @@ public:
     if (device_.silent) return;
     const double now_s = steady_now_s();
     for (int i = 0; i < device_.in_one_read; ++i) {
-      PoseSample sample;
+      ProbeSample sample;
       sample.time_s = now_s;
       sample.status = PoseStatus::ok;
       sample.buttons = ++device_.sent;
@@ -71,7 +71,7 @@ private:
 };
 
 /// Polls like a render thread until `done`. Returns false if that takes longer than the slowest machine needs.
-inline bool poll_until(Tracker& tracker, std::vector<PoseSample>& samples, const std::function<bool()>& done) {
+inline bool poll_until(Tracker& tracker, std::vector<ProbeSample>& samples, const std::function<bool()>& done) {
   const double limit_s = steady_now_s() + 60;
   while (steady_now_s() < limit_s) {
     tracker.poll(steady_now_s(), samples);

@@ -157,8 +157,8 @@ TEST_CASE("what a Hydra sent until the program was killed replays to the samples
   }
   const std::size_t recorded = recover_recording(poses);
   CHECK(recorded >= 101);
-  const std::vector<PoseSample> came = read_recorded_scan(poses).samples;
-  std::vector<PoseSample> replayed = parse_raw(read_file(raw), raw).samples;
+  const std::vector<ProbeSample> came = read_recorded_scan(poses).samples;
+  std::vector<ProbeSample> replayed = parse_raw(read_file(raw), raw).samples;
   REQUIRE(replayed.size() >= recorded);
   replayed.resize(recorded);
   CHECK(same_bits(replayed, came));

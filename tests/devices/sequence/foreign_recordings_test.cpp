@@ -213,7 +213,7 @@ TEST_CASE("a replay takes the rate of a recording without times") {
   const std::vector<Field> frame = transform("ProbeToTracker", moved(1, 0));
   const std::filesystem::path file = folder.put("scan.igs.mha", text_of({frame, frame, frame}));
   const auto tracker = open_tracker("replay:" + file.string() + "?rate=10", {});
-  const std::vector<PoseSample> samples = poll_until(*tracker, 5, 100);
+  const std::vector<ProbeSample> samples = poll_until(*tracker, 5, 100);
   REQUIRE(samples.size() == 3);
   CHECK(samples[2].time_s == Approx(0.2));
   CHECK(tracker->recording()->assumed_rate_hz == 10.0);

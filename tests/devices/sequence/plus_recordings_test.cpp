@@ -88,7 +88,7 @@ TEST_CASE("what is read of PLUS's recordings is what an independent reader finds
     const double error = std::max(scan.recording.repairs.worst_rotation_error, 1e-5);
     for (const auto& [frame, matrix] : numbers["poses"].items()) {
       CAPTURE(frame);
-      const PoseSample& sample = scan.samples[std::stoul(frame)];
+      const ProbeSample& sample = scan.samples[std::stoul(frame)];
       REQUIRE(sample.status == PoseStatus::ok);
       compare_pose(sample.patient_from_probe, matrix, error);
       ++compared;

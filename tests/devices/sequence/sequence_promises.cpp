@@ -14,7 +14,7 @@ namespace insonate {
 namespace {
 
 /// The samples, or nothing when the bytes are refused.
-std::optional<std::vector<PoseSample>> samples_of(const CutBytes& bytes) {
+std::optional<std::vector<ProbeSample>> samples_of(const CutBytes& bytes) {
   try {
     return probe_samples(parse_sequence(bytes, "fuzzed"));
   } catch (const InputError&) {
@@ -38,7 +38,7 @@ std::string broken_sequence_promise(std::string_view bytes) {
   if (!samples) return "";
   if (!same_bits(*samples, *cut)) return "the samples depend on the images at hand";
   double before_s = -std::numeric_limits<double>::infinity();
-  for (const PoseSample& sample : *samples) {
+  for (const ProbeSample& sample : *samples) {
     if (const std::string why = why_not_recordable(sample, before_s); !why.empty()) return why;
     before_s = sample.time_s;
   }

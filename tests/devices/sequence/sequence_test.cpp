@@ -32,12 +32,12 @@ TEST_CASE("a sequence with images is read as PLUS writes it") {
   CHECK(sequence.image_bytes == 60);
   REQUIRE(sequence.frames.size() == 5);
 
-  const std::vector<PoseSample> samples = probe_samples(sequence, "ProbeToTracker");
+  const std::vector<ProbeSample> samples = probe_samples(sequence, "ProbeToTracker");
   REQUIRE(samples.size() == 5);
   const PoseStatus statuses[] = {PoseStatus::ok, PoseStatus::ok, PoseStatus::out_of_view, PoseStatus::missing,
                                  PoseStatus::ok};
   for (int i = 0; i < 5; ++i) {
-    const PoseSample& sample = samples[std::size_t(i)];
+    const ProbeSample& sample = samples[std::size_t(i)];
     CAPTURE(i);
     CHECK(sample.time_s == Approx(12.25 + 0.05 * i));
     CHECK(sample.status == statuses[i]);
@@ -98,7 +98,7 @@ TEST_CASE("an ITK header with CR LF, blank lines and fields of its own is read, 
 
 TEST_CASE("what is written reads back to the same bits") {
   SyntheticTracker hand(5, 250, {});
-  std::vector<PoseSample> samples = poll_until(hand, 20, 10);
+  std::vector<ProbeSample> samples = poll_until(hand, 20, 10);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     samples[i].time_s += 1.7e9;
     samples[i].status = i % 17 == 3 ? PoseStatus(i / 17 % 7) : PoseStatus::ok;
@@ -111,7 +111,7 @@ TEST_CASE("what is written reads back to the same bits") {
 }
 
 TEST_CASE("a sequence that nobody could read back is not written") {
-  std::vector<PoseSample> samples(2);
+  std::vector<ProbeSample> samples(2);
   samples[1].time_s = 1;
   CHECK_NOTHROW(write_sequence(samples));
   CHECK_THROWS_AS(write_sequence({}), std::invalid_argument);

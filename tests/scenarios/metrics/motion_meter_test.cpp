@@ -11,9 +11,9 @@ using namespace insonate;
 
 namespace {
 
-MotionValues measured(const std::vector<PoseSample>& samples) {
+MotionValues measured(const std::vector<ProbeSample>& samples) {
   MotionMeter meter;
-  for (const PoseSample& sample : samples) meter.feed(sample, true);
+  for (const ProbeSample& sample : samples) meter.feed(sample, true);
   return meter.values();
 }
 
@@ -121,8 +121,8 @@ TEST_CASE("the origin of time does not matter") {
   REQUIRE(before.tracked_s == Approx(5));
   for (std::uint32_t trial = 0; trial < 50; ++trial) {
     const double begin_s = 1.7e9 + hash(trial, 1) / 4294967296.0;
-    std::vector<PoseSample> later = samples;
-    for (PoseSample& sample : later) sample.time_s += begin_s;
+    std::vector<ProbeSample> later = samples;
+    for (ProbeSample& sample : later) sample.time_s += begin_s;
     const MotionValues after = measured(later);
     CAPTURE(begin_s);
     // A double holds seconds since 1970 to 0.24 microseconds, at 50 mm/s a way of 12 nm a sample.
@@ -137,7 +137,7 @@ TEST_CASE("the origin of time does not matter") {
 TEST_CASE("invalid poses never count, and lost time is named") {
   auto samples = samples_of(10, 50, [](double t) { return at_mm(10 * t); });
   // A short loss from 2.0 to 2.1 s, a long one from 5 to 6 s; what the poses then say is nonsense.
-  for (PoseSample& sample : samples)
+  for (ProbeSample& sample : samples)
     if ((sample.time_s > 1.999 && sample.time_s < 2.101) || (sample.time_s > 4.999 && sample.time_s < 6.001)) {
       sample.status = PoseStatus::out_of_view;
       sample.patient_from_probe = at_mm(1e5);

@@ -57,16 +57,16 @@ struct Learner {
             {9.4, kGoOn},
             {9.8, answer(std::to_string(40 + 10 * clumsy))}};
   }
-  std::vector<PoseSample> samples(double rate_hz) const {
+  std::vector<ProbeSample> samples(double rate_hz) const {
     return samples_of(12, rate_hz, [this](double t) { return at(t); });
   }
 };
 
 /// An action goes with the first sample at or after its time.
-ActionLog log_of(const std::vector<std::pair<double, Action>>& actions, std::span<const PoseSample> samples) {
+ActionLog log_of(const std::vector<std::pair<double, Action>>& actions, std::span<const ProbeSample> samples) {
   ActionLog log;
   for (const auto& [time_s, action] : actions)
-    for (const PoseSample& sample : samples)
+    for (const ProbeSample& sample : samples)
       if (sample.time_s - samples.front().time_s >= time_s - kTimeRounding_s) {
         log[sample.time_s].push_back(action);
         break;
@@ -74,7 +74,7 @@ ActionLog log_of(const std::vector<std::pair<double, Action>>& actions, std::spa
   return log;
 }
 
-ExamResult scored(const Learner& learner, std::span<const PoseSample> samples, const Case& subject = shared_case()) {
+ExamResult scored(const Learner& learner, std::span<const ProbeSample> samples, const Case& subject = shared_case()) {
   return scored(exam(), samples, log_of(learner.actions(), samples), subject);
 }
 
@@ -116,26 +116,26 @@ void check_alike(const ExamResult& a, const ExamResult& b, const std::function<d
 
 TEST_CASE("every kind of step measures the same wherever patient and probe lie") {
   const Learner learner{0.3};
-  std::vector<PoseSample> samples = learner.samples(40);
+  std::vector<ProbeSample> samples = learner.samples(40);
   const ExamResult here = scored(learner, samples);
   for (const Pose& moved : {turned(121, {0.3, 1, -2}, {-300, 1250, 90}), turned(-40, {1, 0, 0.2}, {8, 0, -77})}) {
-    std::vector<PoseSample> there = samples;
-    for (PoseSample& sample : there) sample.patient_from_probe = moved * sample.patient_from_probe;
+    std::vector<ProbeSample> there = samples;
+    for (ProbeSample& sample : there) sample.patient_from_probe = moved * sample.patient_from_probe;
     check_alike(here, scored(learner, there, moved_case(shared_case(), moved)), rounding_of);
   }
 }
 
 TEST_CASE("every kind of step measures the same whenever time begins") {
   const Learner learner{0.3};
-  const auto later = [&](std::vector<PoseSample> samples, double by_s) {
-    for (PoseSample& sample : samples) sample.time_s += by_s;
+  const auto later = [&](std::vector<ProbeSample> samples, double by_s) {
+    for (ProbeSample& sample : samples) sample.time_s += by_s;
     return scored(learner, samples);
   };
   // 64 Hz and a whole number of seconds: the times stay exact, and so must the score.
-  const std::vector<PoseSample> exact = learner.samples(64);
+  const std::vector<ProbeSample> exact = learner.samples(64);
   CHECK(to_json(later(exact, 1700000000.0)) == to_json(scored(learner, exact)));
   for (const double rate : {30.0, 125.0}) {
-    const std::vector<PoseSample> samples = learner.samples(rate);
+    const std::vector<ProbeSample> samples = learner.samples(rate);
     const ExamResult before = scored(learner, samples);
     for (std::uint32_t trial = 0; trial < 2; ++trial)
       check_alike(before, later(samples, 1.7e9 + hash(trial, 3) / 4294967296.0), rounding_of);

@@ -119,9 +119,9 @@ TEST_CASE("insonate-case add-view adds the plane of a pose file or of a moment i
   REQUIRE(by_pose.code == 0);
 
   // A hand that comes down onto the skin in two seconds; for the last the tracker does not see it.
-  std::vector<PoseSample> samples;
+  std::vector<ProbeSample> samples;
   for (int i = 0; i <= 30; ++i) {
-    PoseSample sample;
+    ProbeSample sample;
     sample.time_s = 100 + i * 0.1;
     sample.status = i > 20 ? PoseStatus::out_of_view : PoseStatus::ok;
     sample.patient_from_probe = held;

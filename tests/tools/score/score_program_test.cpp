@@ -81,7 +81,7 @@ TEST_CASE("insonate-score prints the very score that the trainer comes to, and a
   const Scenario scenario = read_scenario(exam);
   const Case subject = load_case(scenario, kAssets, cache_folder());
   Runner runner(scenario, subject, read_tissue_table(kAssets / "tissues.toml"));
-  for (const PoseSample& sample : read_recorded_scan(log).samples) runner.feed(sample);
+  for (const ProbeSample& sample : read_recorded_scan(log).samples) runner.feed(sample);
   runner.end();
   ExamResult expected = runner.result();
   expected.provenance.mode = AttemptMode::recording;
@@ -96,9 +96,9 @@ TEST_CASE("insonate-score prints the very score that the trainer comes to, and a
 TEST_CASE("insonate-score scores what a tracker's device sent as the log of its samples") {
   const Folder folder;
   const auto exam = folder.file("exam.toml", coarse_exam());
-  const std::vector<PoseSample> log = read_recorded_scan(kAssets / "logs" / "ruq_good.igs.mha").samples;
+  const std::vector<ProbeSample> log = read_recorded_scan(kAssets / "logs" / "ruq_good.igs.mha").samples;
   std::string raw = raw_igtl_head("igtl://lab?filter=off", log.front().time_s);
-  for (const PoseSample& sample : log) {
+  for (const ProbeSample& sample : log) {
     const bool ok = sample.status == PoseStatus::ok;
     raw += (ok ? "read " : "silent ") + shortest(sample.time_s);
     raw += ok ? " " + hex(igtl::make_transform("Probe", 0, sample.patient_from_probe)) + "\n" : "\n";

@@ -1,4 +1,4 @@
-#include "sim/core/pose_sample.h"
+#include "sim/core/probe_sample.h"
 
 namespace insonate {
 

@@ -25,7 +25,7 @@ enum class Rejection {
 std::string_view to_string(Rejection rejection);
 
 /// One reading of the tracked probe. Devices produce samples, scenarios score them, the simulator shows them.
-struct PoseSample {
+struct ProbeSample {
   double time_s = 0;  ///< on the tracker's own clock, strictly rising within a run
   PoseStatus status = PoseStatus::unknown;
   Pose patient_from_probe;    ///< meaningful only when status is ok
