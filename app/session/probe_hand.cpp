@@ -59,7 +59,7 @@ std::optional<ProbeHand::Contact> ProbeHand::contact(const Pose& pose) const {
   const auto below = [&](double x, double z) { return skin(pose.point({x, -kBehind_mm, z}), beam, kSearch_mm); };
   const auto middle = below(0, 0);
   if (!middle) return std::nullopt;
-  // Beyond an outline the line goes on to other skin, which is no part of this slope.
+  // Beyond an outline the line goes on to other skin, which does not belong to this slope.
   const auto beside = [&](double x, double z) {
     const auto met = below(x, z);
     return met && std::abs(glm::dot(*met - *middle, beam)) < kSteepest_mm ? *met : *middle;
