@@ -26,7 +26,7 @@ if(CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
 endif()
 
 # The headers that most files include, compiled once. A file must still include everything that it uses: only the
-# presets release and dev precompile headers, and the others compile every file without.
+# presets release, dev and asan-ubsan precompile headers, and the others compile every file without.
 add_library(insonate_precompiled OBJECT "${CMAKE_SOURCE_DIR}/tools/cmake/precompiled.cpp")
 target_link_libraries(insonate_precompiled PRIVATE insonate_options)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13
