@@ -44,6 +44,7 @@ private:
   bool type(const KeyEvent& event, Trainer& trainer, ui::Screen& screen);
   void press(const KeyEvent& event, Trainer& trainer, ui::Screen& screen);
   static void choose(int index, Trainer& trainer);
+  static void start_page(const KeyEvent& pressed, Trainer& trainer, ui::Screen& screen);
   static void replay(const KeyEvent& pressed, Trainer& trainer, ui::Screen& screen);
   static void set_up(const KeyEvent& pressed, Trainer& trainer);
 

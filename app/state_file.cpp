@@ -51,6 +51,12 @@ void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::
     state[name + "_w"] = int(rect.w);
     state[name + "_h"] = int(rect.h);
   }
+  if (const StartPage* page = trainer.start_page()) {
+    state["start_task"] = to_string(page->task);
+    state["start_why_not"] = page->why_not();
+    state["start_learner"] = page->learner();
+    state["start_tracker"] = page->tracker();
+  }
   if (const SetupWizard* setup = trainer.setup()) {
     const SetupView view = setup->view();
     state["setup_step"] = kSetupSteps[setup->current()];
@@ -117,6 +123,7 @@ void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::
       state["finished"] = runner->live().finished;
     }
     state["strict"] = session->strict();
+    state["demonstration"] = trainer.demonstration();
     if (const Author* author = trainer.author()) {
       std::string wanted;
       for (const Author::Part& part : author->parts())

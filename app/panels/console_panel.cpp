@@ -104,14 +104,14 @@ ConsoleRequest draw_console_panel(const Theme& theme, const Rect& panel, Session
                     learner ? ButtonKind::chosen : ButtonKind::normal, !session.strict())) {
     attempt([&] { learner ? session.give_back_probe() : session.take_probe(); });
   }
-  if (button(theme, "help", lower.take_left(theme.px(86)), "Keys")) request = ConsoleRequest::help;
+  if (button(theme, "help", lower.take_left(theme.px(86)), "Help")) request = ConsoleRequest::help;
   lower.take_left(between);
   const bool practising = session.activity() == Activity::practice && session.loaded_case().scenario;
   const Rect first = lower.take_left((lower.w - between) / 2);
   lower.take_left(between);
   if (practising) {
-    if (button(theme, "exam", first, "Scored")) attempt([&] { session.start_over(); });
-  } else if (button(theme, "practice", first, "Unscored", ButtonKind::normal,
+    if (button(theme, "exam", first, "Exam")) attempt([&] { session.start_over(); });
+  } else if (button(theme, "practice", first, "Practice", ButtonKind::normal,
                     session.loaded_case().scenario.has_value() && !session.strict())) {
     // In a recorded scan no hand moves the probe, so practice must take it.
     std::as_const(session).source().recording() ? session.take_probe() : session.practise();

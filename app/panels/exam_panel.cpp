@@ -76,7 +76,7 @@ void draw_tracker(const Theme& theme, const Rect& where, const Session& session)
     lower.take_right(theme.px(10));
   }
   draw_text(lower, theme.small_text, colour::kMuted,
-            session.holder() == Holder::learner ? "Mouse and keyboard; F1 shows the keys" : source);
+            session.holder() == Holder::learner ? "Mouse and keyboard; F1 shows help" : source);
 }
 
 /// How far the step is, in a word or two.
@@ -168,7 +168,7 @@ void draw_exam_panel(const Theme& theme, const Rect& panel, const Session& sessi
   if (!runner) {
     draw_text(upper, theme.heading, colour::kText, makes_views ? "Making views" : "Free practice");
     draw_text({rest.x, upper.y + upper.h, rest.w, theme.px(20)}, theme.text, colour::kMuted,
-              session.loaded_case().scenario ? "Nothing is scored. The Scored button begins the steps from the first."
+              session.loaded_case().scenario ? "Nothing is scored. The Exam button begins the steps from the first."
               : session.holder() == Holder::learner ? "Move the probe with the arrow keys or drag it over the patient."
                                                     : "The tracker moves the probe. Any arrow key takes it over.");
     return;

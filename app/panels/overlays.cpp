@@ -28,8 +28,23 @@ void end_overlay() {
   ImGui::End();
 }
 
-bool draw_loading(const Theme& theme, const Rect& screen, const Loading::Progress& progress, bool can_stop) {
-  Rect sheet = begin_overlay(theme, screen, {theme.px(460), theme.px(can_stop ? 198 : 150)});
+namespace {
+
+/// Returns the time left in words, rounded so that it does not flicker; empty if it is not known.
+std::string time_left_text(const std::optional<double>& left_s) {
+  if (!left_s) return "";
+  if (*left_s < 5) return "a few seconds left";
+  constexpr double kRound_s = 5;
+  const int seconds = int(std::ceil(*left_s / kRound_s) * kRound_s);
+  if (seconds < 90) return "about " + std::to_string(seconds) + " s left";
+  return "about " + std::to_string((seconds + 30) / 60) + " min left";
+}
+
+}  // namespace
+
+bool draw_loading(const Theme& theme, const Rect& screen, const Loading::Progress& progress, bool can_stop,
+                  std::map<std::string, Rect>& places) {
+  Rect sheet = begin_overlay(theme, screen, {theme.px(460), theme.px(can_stop ? 204 : 176)});
   draw_text(sheet.take_top(theme.px(28)), theme.heading, colour::kText, "Insonate");
   sheet.take_top(theme.px(10));
   Rect line = sheet.take_top(theme.px(22));
@@ -42,7 +57,12 @@ bool draw_loading(const Theme& theme, const Rect& screen, const Loading::Progres
   fill(bar, colour::kRaised, theme.px(2.5f));
   fill({bar.x, bar.y, bar.w * float(std::clamp(progress.share, 0.0, 1.0)), bar.h}, colour::kAccent, theme.px(2.5f));
   Rect buttons = sheet.take_bottom(theme.px(38));
-  const bool stop = can_stop && button(theme, "stop_loading", buttons.take_right(theme.px(120)), "Cancel");
+  bool stop = false;
+  if (can_stop) {
+    places["stop_loading"] = buttons.take_right(theme.px(140));
+    stop = button(theme, "stop_loading", places["stop_loading"], "Cancel  (Esc)");
+  }
+  draw_text(buttons, theme.text, colour::kMuted, time_left_text(progress.left_s));
   end_overlay();
   return stop;
 }
@@ -85,18 +105,18 @@ HelpAnswer draw_key_help(const Theme& theme, const Rect& screen, std::map<std::s
       {"Backspace, Delete", "take back the last thing placed; all of it"},
       {"1 to 9", "choose an answer, a name, or which caliper comes next"},
       {"Enter", "answer; go on to the next step of an exam"},
-      {"Escape", "give up what is being placed or typed"},
+      {"Escape", "give up what is being placed or typed; else back to the start page"},
       {"+, \u2212 and [, ]", "gain; depth"},
       {"G", "practice: show the way to the view, or to the next"},
       {"M", "mark this moment, in the recording too"},
       {"R", "record the run; end the recording"},
       {"Ctrl O", "open a case, CT, scenario or recorded scan"},
-      {"F2", "set up the tracker: probe, sensor and mannequin"},
+      {"F2", "set up the tracker, or choose one: probe, sensor and mannequin"},
       {"F1", "this page"},
   }};
   const float row = theme.px(25);
   Rect sheet = begin_overlay(theme, screen, {theme.px(660), row * float(kKeys.size()) + theme.px(146)});
-  draw_text(sheet.take_top(theme.px(28)), theme.heading, colour::kText, "Keys and mouse");
+  draw_text(sheet.take_top(theme.px(28)), theme.heading, colour::kText, "Help: keys and mouse");
   sheet.take_top(theme.px(12));
   for (const auto& [key, meaning] : kKeys) {
     Rect line = sheet.take_top(row);
@@ -140,8 +160,8 @@ bool draw_about(const Theme& theme, const Rect& screen, const std::string& devic
   return closed;
 }
 
-bool draw_briefing(const Theme& theme, const Rect& screen, const Scenario& scenario, bool counts,
-                   std::map<std::string, Rect>& places) {
+BriefingAnswer draw_briefing(const Theme& theme, const Rect& screen, const Scenario& scenario, bool counts,
+                             std::map<std::string, Rect>& places) {
   const std::size_t steps = scenario.steps.size();
   const bool whole_minutes = std::fmod(scenario.time_limit_s, 60) == 0;
   char facts[160];
@@ -167,39 +187,30 @@ bool draw_briefing(const Theme& theme, const Rect& screen, const Scenario& scena
   draw(colour::kText, scenario.briefing);
   draw(colour::kMuted, facts);
   draw(colour::kMuted, rules);
-  places["start"] = sheet.take_bottom(theme.px(38)).take_right(theme.px(160));
-  const bool start = button(theme, "start", places["start"], "Start  (Enter)", ButtonKind::primary);
+  Rect buttons = sheet.take_bottom(theme.px(38));
+  BriefingAnswer answer = BriefingAnswer::none;
+  places["start"] = buttons.take_right(theme.px(160));
+  if (button(theme, "start", places["start"], "Start  (Enter)", ButtonKind::primary)) answer = BriefingAnswer::start;
+  places["leave_briefing"] = buttons.take_left(theme.px(130));
+  if (button(theme, "leave_briefing", places["leave_briefing"], "Start page")) answer = BriefingAnswer::leave;
   end_overlay();
-  return start;
+  return answer;
 }
 
-OpenDialog::Answer OpenDialog::draw(const Theme& theme, const Rect& screen) {
-  Answer answer = Answer::none;
-  Rect sheet = begin_overlay(theme, screen, {theme.px(640), theme.px(218)});
-  draw_text(sheet.take_top(theme.px(28)), theme.heading, colour::kText, "Open");
-  sheet.take_top(theme.px(6));
+std::optional<bool> draw_leave(const Theme& theme, const Rect& screen, std::map<std::string, Rect>& places) {
+  Rect sheet = begin_overlay(theme, screen, {theme.px(520), theme.px(176)});
+  draw_text(sheet.take_top(theme.px(28)), theme.heading, colour::kText, "Leave these steps?");
+  sheet.take_top(theme.px(10));
   draw_text(sheet.take_top(theme.px(24)), theme.text, colour::kMuted,
-            "A case or DICOM folder, a CT, a scenario or a recorded scan. Or drop it on the window.");
-  sheet.take_top(theme.px(12));
-  const Rect field = sheet.take_top(theme.px(38));
-  fill(field, colour::kRaised, theme.px(4));
-  ImGui::SetCursorScreenPos({field.x, field.y + (field.h - theme.text->FontSize) / 2 - theme.px(4)});
-  ImGui::PushFont(theme.text);
-  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {theme.px(10), theme.px(4)});
-  ImGui::SetNextItemWidth(field.w);
-  if (!ready_) ImGui::SetKeyboardFocusHere();
-  ImGui::InputText("##path", path_.data(), path_.size(), ImGuiInputTextFlags_AutoSelectAll);
-  ready_ = ready_ || ImGui::IsItemActive();
-  ImGui::PopStyleVar();
-  ImGui::PopFont();
+            "They are not finished: nothing of them is scored or kept.");
   Rect buttons = sheet.take_bottom(theme.px(38));
-  const bool any = path_[0] != 0;
-  if (button(theme, "open_path", buttons.take_right(theme.px(120)), "Open", ButtonKind::primary, any) || confirmed_)
-    answer = Answer::chosen;
+  std::optional<bool> answer;
+  places["leave"] = buttons.take_right(theme.px(150));
+  if (button(theme, "leave", places["leave"], "Leave  (Enter)", ButtonKind::primary)) answer = true;
   buttons.take_right(theme.px(8));
-  if (button(theme, "cancel", buttons.take_right(theme.px(120)), "Cancel")) answer = Answer::cancelled;
+  places["stay"] = buttons.take_right(theme.px(150));
+  if (button(theme, "stay", places["stay"], "Stay  (Esc)")) answer = false;
   end_overlay();
-  if (answer == Answer::chosen && !any) answer = Answer::cancelled;
   return answer;
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -18,7 +17,9 @@ Rect begin_overlay(const Theme& theme, const Rect& screen, const ImVec2& size);
 void end_overlay();
 
 /// Draws what is being loaded. Returns true when the person stops it, which is offered if `can_stop`.
-bool draw_loading(const Theme& theme, const Rect& screen, const Loading::Progress& progress, bool can_stop);
+/// @param places  receives the button's rectangle
+bool draw_loading(const Theme& theme, const Rect& screen, const Loading::Progress& progress, bool can_stop,
+                  std::map<std::string, Rect>& places);
 
 /// Draws a problem. Returns true when it is acknowledged.
 /// @param ends  the trainer ends after it
@@ -33,30 +34,15 @@ HelpAnswer draw_key_help(const Theme& theme, const Rect& screen, std::map<std::s
 /// @param device  OpenGL's name of the device
 bool draw_about(const Theme& theme, const Rect& screen, const std::string& device);
 
-/// Draws what the learner reads before a scenario: the briefing, and the exam's steps, time and pass mark. Returns true
-/// when the learner starts.
+enum class BriefingAnswer { none, start, leave };
+/// Draws what the learner reads before a scenario: the briefing, and the exam's steps, time and pass mark.
 /// @param counts  the exam counts
-/// @param places  receives the button's rectangle
-bool draw_briefing(const Theme& theme, const Rect& screen, const Scenario& scenario, bool counts,
-                   std::map<std::string, Rect>& places);
+/// @param places  receives the buttons' rectangles
+BriefingAnswer draw_briefing(const Theme& theme, const Rect& screen, const Scenario& scenario, bool counts,
+                             std::map<std::string, Rect>& places);
 
-/// Asks for a path to open. Files can be dropped on the window as well.
-class OpenDialog {
-public:
-  enum class Answer { none, cancelled, chosen };
-  Answer draw(const Theme& theme, const Rect& screen);
-  std::string path() const { return path_.data(); }
-
-  /// Returns whether the field accepts characters.
-  bool ready() const { return ready_; }
-  /// Makes the next draw() return `chosen`, with what was typed until then.
-  void confirm() { confirmed_ = true; }
-  /// Call it when the dialog is no longer drawn.
-  void close() { ready_ = confirmed_ = false; }
-
-private:
-  std::array<char, 1024> path_{};
-  bool ready_ = false, confirmed_ = false;
-};
+/// Asks whether the steps that are not finished are to be left. Returns the answer once there is one.
+/// @param places  receives the buttons' rectangles
+std::optional<bool> draw_leave(const Theme& theme, const Rect& screen, std::map<std::string, Rect>& places);
 
 }  // namespace insonate::ui

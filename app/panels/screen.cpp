@@ -47,6 +47,8 @@ const char* to_string(Overlay overlay) {
       return "about";
     case Overlay::open:
       return "open";
+    case Overlay::leave:
+      return "leave";
     case Overlay::briefing:
       return "briefing";
     case Overlay::score:
@@ -72,13 +74,18 @@ Screen::~Screen() = default;
 
 void Screen::lay_out(const Trainer& trainer, float width, float height) {
   screen_ = {0, 0, width, height};
+  if (trainer.start_page()) return places_.clear();
   const float gap = theme_.px(8);
   Rect rest = screen_.inset(gap, gap);
   rest.h += gap;
   status_ = rest.take_bottom(theme_.px(38));
   top_ = rest.take_top(theme_.px(66));
   rest.take_top(gap);
-  task_ = {};
+  strip_ = task_ = {};
+  if (trainer.demonstration()) {
+    strip_ = rest.take_top(theme_.px(44));
+    rest.take_top(gap);
+  }
   if (const Session* session = trainer.session(); session && (trainer.author() || has_task_panel(*session))) {
     task_ = rest.take_top(trainer.author() ? author_panel_height(theme_) : task_panel_height(theme_, *session, rest.w));
     rest.take_top(gap);
@@ -143,6 +150,8 @@ void Screen::draw_panels(Trainer& trainer) {
   if (Session* session = trainer.session()) {
     Pictures& pictures = trainer.pictures();
     draw_exam_panel(theme_, top_, *session, trainer.author() != nullptr);
+    if (strip_.h > 0) draw_demonstration(trainer);
+    if (!trainer.session()) return ImGui::End();  // it was left
     if (trainer.author())
       draw_author_panel(theme_, task_, trainer, text_field_, places_);
     else if (task_.h > 0)
@@ -163,7 +172,7 @@ void Screen::draw_panels(Trainer& trainer) {
         page_ = Overlay::help;
         break;
       case ConsoleRequest::open:
-        page_ = Overlay::open;
+        ask_for_path();
         break;
       case ConsoleRequest::none:
         break;
@@ -173,6 +182,9 @@ void Screen::draw_panels(Trainer& trainer) {
                      places_);
     draw_slice_panel(theme_, slice_, trainer.pictures());
     draw_blend_panel(theme_, blend_, trainer.pictures());
+  } else if (trainer.start_page()) {
+    draw_start_page(trainer);
+    return ImGui::End();
   } else if (!trainer.exam_refused()) {
     for (const Rect& panel : {top_, console_}) fill(panel, colour::kPanel, theme_.px(4));
     for (const Rect& panel : {ultrasound_, volume_, slice_, blend_}) fill(panel, colour::kImage, theme_.px(4));
@@ -198,6 +210,10 @@ void Screen::draw_status(Trainer& trainer) {
     std::snprintf(text, sizeof text, "%.0f frames/s", frames_per_second_);
     draw_text(line.take_right(theme_.px(100)), theme_.small_text, colour::kFaint, text, Align::right);
   }
+  places_["start_page"] = line.take_left(theme_.px(110)).inset(0, theme_.px(6));
+  line.take_left(theme_.px(8));
+  if (button(theme_, "start_page", places_["start_page"], "Start page", ButtonKind::normal, trainer.can_leave()))
+    return leave(trainer);
   if (!trainer.replay()) {
     places_["record"] = line.take_left(theme_.px(124)).inset(0, theme_.px(6));
     draw_record_button(trainer, places_["record"]);
@@ -222,11 +238,63 @@ void Screen::draw_status(Trainer& trainer) {
       trainer.replay()
           ? "Space play    \u2190 \u2192 sample by sample    \u2191 \u2193 speed    Home End    Ctrl O open"
       : trainer.session() && trainer.session()->strict()
-          ? "F1 keys    Space freeze    R record"
-          : "F1 keys    Tab probe    Space freeze    R record    F2 set up";
+          ? "F1 help    Space freeze    R record"
+          : "F1 help    Tab probe    Space freeze    R record    F2 set up";
   draw_text(line.take_left(text_width(theme_.small_text, keys) + theme_.px(24)), theme_.small_text, colour::kMuted,
             keys);
   draw_text(line, theme_.small_text, colour::kFaint, device_, Align::right);
+}
+
+void Screen::draw_start_page(Trainer& trainer) {
+  const auto attempt = [&](const std::function<void()>& action) { trainer.attempt(action); };
+  const StartAnswer answer = start_panel_.draw(theme_, screen_, *trainer.start_page(), attempt, places_);
+  switch (answer.kind) {
+    case StartAnswer::Kind::none:
+      break;
+    case StartAnswer::Kind::begin:
+      trainer.begin_chosen();
+      break;
+    case StartAnswer::Kind::help:
+      page_ = Overlay::help;
+      break;
+    case StartAnswer::Kind::about:
+      page_ = Overlay::about;
+      break;
+    case StartAnswer::Kind::browse:
+      ask_for_path(answer.wanted);
+      break;
+  }
+}
+
+/// Says that a recorded scan is watched, and offers what to do instead, then what to do next.
+void Screen::draw_demonstration(Trainer& trainer) {
+  Session& session = *trainer.session();
+  const bool over = session.result().has_value();
+  fill(strip_, colour::kAccentDark, theme_.px(4));
+  Rect line = strip_.inset(theme_.px(16), theme_.px(6));
+  const auto next = [&](const char* id, float width, const char* text, ButtonKind kind = ButtonKind::normal) {
+    const Rect place = places_[id] = line.take_right(theme_.px(width));
+    line.take_right(theme_.px(8));
+    return button(theme_, id, place, text, kind);
+  };
+  const bool leaves = next("leave_demonstration", 110, "Start page");
+  const bool own = next("own_try", 140, "Try it yourself", over ? ButtonKind::primary : ButtonKind::normal);
+  const bool again = over && next("again", 130, "Watch again");
+  draw_text(line, theme_.strong, colour::kText,
+            over ? "The demonstration is over: this was a recorded scan, not yours."
+                 : "Demonstration: a recorded scan is replayed. Tab takes the probe.");
+  if (own) answer_score(trainer, ScoreAnswer::own_try);
+  if (again) answer_score(trainer, ScoreAnswer::again);
+  if (leaves) trainer.show_start_page();
+}
+
+/// Gives what the dialog has found to the start page, or opens it.
+void Screen::take_path(Trainer& trainer) {
+  const std::filesystem::path path = open_dialog_.path();
+  StartPage* const page = trainer.start_page();
+  const Wanted wanted = open_dialog_.wanted();
+  if (!page || wanted == Wanted::anything) return trainer.open(path);
+  trainer.attempt([&] { wanted == Wanted::folder ? page->look_for_cases_in(path) : page->add(path); });
 }
 
 Overlay Screen::overlay(const Trainer& trainer) const {
@@ -236,14 +304,17 @@ Overlay Screen::overlay(const Trainer& trainer) const {
   if (page_ != Overlay::none) return page_;
   if (trainer.briefing()) return Overlay::briefing;
   const Session* session = trainer.session();
-  if (session && session->result() && &*session->result() != closed_sheet_of_) return Overlay::score;
+  const bool sheet = session && session->result() && !trainer.demonstration();
+  if (sheet && &*session->result() != closed_sheet_of_) return Overlay::score;
   return Overlay::none;
 }
 
 void Screen::dismiss(Trainer& trainer) {
   switch (overlay(trainer)) {
     case Overlay::none:
-      if (!text_field_.is_open() && trainer.session()) trainer.picture_tools().cancel();
+      if (trainer.start_page()) start_panel_.close_fields(false);
+      if (trainer.start_page() || text_field_.is_open()) break;
+      if (!trainer.session() || !trainer.picture_tools().cancel()) leave(trainer);
       break;
     case Overlay::problem:
       trainer.problems().pop_front();
@@ -257,6 +328,7 @@ void Screen::dismiss(Trainer& trainer) {
     case Overlay::help:
     case Overlay::about:
     case Overlay::open:
+    case Overlay::leave:
       close_page();
       break;
     case Overlay::score:
@@ -269,7 +341,12 @@ void Screen::dismiss(Trainer& trainer) {
 void Screen::confirm(Trainer& trainer) {
   switch (overlay(trainer)) {
     case Overlay::none:
-      return step_on(trainer);
+      if (!trainer.start_page()) return step_on(trainer);
+      if (start_panel_.types_text()) return start_panel_.close_fields(true);
+      return trainer.begin_chosen();
+    case Overlay::leave:
+      close_page();
+      return trainer.show_start_page();
     case Overlay::problem:
     case Overlay::help:
     case Overlay::about:
@@ -292,6 +369,7 @@ void Screen::go_on(Trainer& trainer) {
     case Overlay::help:
     case Overlay::about:
     case Overlay::open:
+    case Overlay::leave:
       return dismiss(trainer);
     case Overlay::loading:
     case Overlay::setup:
@@ -329,6 +407,20 @@ void Screen::toggle_help() {
   if (!shown) page_ = Overlay::help;
 }
 
+void Screen::ask_for_path(Wanted wanted) {
+  open_dialog_.open(wanted);
+  page_ = Overlay::open;
+}
+
+void Screen::leave(Trainer& trainer) {
+  if (!trainer.can_leave()) return;
+  if (trainer.loses_by_leaving()) {
+    page_ = Overlay::leave;
+    return;
+  }
+  trainer.show_start_page();
+}
+
 void Screen::close_page() {
   page_ = Overlay::none;
   open_dialog_.close();
@@ -345,7 +437,7 @@ void Screen::draw_overlay(Trainer& trainer) {
         trainer.problems().pop_front();
       break;
     case Overlay::loading:
-      if (draw_loading(theme_, screen_, trainer.loading()->progress(), session || trainer.setup() || trainer.replay()))
+      if (draw_loading(theme_, screen_, trainer.loading()->progress(), trainer.can_stop_loading(), places_))
         trainer.stop_loading();
       break;
     case Overlay::setup:
@@ -361,13 +453,28 @@ void Screen::draw_overlay(Trainer& trainer) {
       if (draw_about(theme_, screen_, device_)) page_ = Overlay::none;
       break;
     case Overlay::open: {
-      const OpenDialog::Answer answer = open_dialog_.draw(theme_, screen_);
+      const OpenDialog::Answer answer = open_dialog_.draw(theme_, screen_, places_);
       if (answer != OpenDialog::Answer::none) close_page();
-      if (answer == OpenDialog::Answer::chosen) trainer.open(open_dialog_.path());
+      if (answer == OpenDialog::Answer::chosen) take_path(trainer);
       break;
     }
+    case Overlay::leave:
+      if (const std::optional<bool> leaves = draw_leave(theme_, screen_, places_)) {
+        close_page();
+        if (*leaves) trainer.show_start_page();
+      }
+      break;
     case Overlay::briefing:
-      if (draw_briefing(theme_, screen_, *trainer.briefing(), session->strict(), places_)) trainer.start();
+      switch (draw_briefing(theme_, screen_, *trainer.briefing(), session->strict(), places_)) {
+        case BriefingAnswer::none:
+          break;
+        case BriefingAnswer::start:
+          trainer.start();
+          break;
+        case BriefingAnswer::leave:
+          trainer.show_start_page();
+          break;
+      }
       break;
     case Overlay::score: {
       const bool watched = std::as_const(*session).source().recording() != nullptr;

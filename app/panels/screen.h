@@ -4,10 +4,12 @@
 #include <optional>
 #include <string>
 
+#include "app/panels/open_dialog.h"
 #include "app/panels/overlays.h"
 #include "app/panels/replay/recorded_panel.h"
 #include "app/panels/score_sheet.h"
 #include "app/panels/setup/setup_page.h"
+#include "app/panels/start/start_panel.h"
 #include "app/panels/task_panel.h"
 #include "app/panels/ultrasound_panel.h"
 #include "app/panels/views_panel.h"
@@ -19,7 +21,7 @@
 namespace insonate::ui {
 
 /// What lies over the screen; the later ones wait while an earlier one is there.
-enum class Overlay { none, problem, loading, setup, help, about, open, briefing, score };
+enum class Overlay { none, problem, loading, setup, help, about, open, leave, briefing, score };
 
 /// Returns the overlay's name, as state files have it: "problem"; "" for none.
 const char* to_string(Overlay overlay);
@@ -44,7 +46,10 @@ public:
   }
 
   void toggle_help();
-  void ask_for_path() { page_ = Overlay::open; }
+  /// Opens the dialog that finds a file or folder.
+  void ask_for_path(Wanted wanted = Wanted::anything);
+  /// Goes back to the start page. Asks first if steps would be left unfinished.
+  void leave(Trainer& trainer);
   /// Closes the overlay without an answer, as Escape does.
   void dismiss(Trainer& trainer);
   /// Answers the overlay as Enter does.
@@ -58,7 +63,9 @@ public:
   bool types_text(const Trainer& trainer) const { return overlay(trainer) == Overlay::open || types_in_panel(trainer); }
   /// Returns whether a text field is about to open. It accepts text from one of the next frames on.
   bool opens_text_field(const Trainer& trainer) const {
-    return types_text(trainer) && !(types_in_panel(trainer) ? text_field_.ready() : open_dialog_.ready());
+    if (!types_text(trainer)) return false;
+    if (!types_in_panel(trainer)) return !open_dialog_.ready();
+    return trainer.start_page() ? !start_panel_.ready() : !text_field_.ready();
   }
 
   /// Returns the overlay that is shown now.
@@ -69,7 +76,8 @@ public:
 
 private:
   bool types_in_panel(const Trainer& trainer) const {
-    return text_field_.is_open() && overlay(trainer) == Overlay::none;
+    return overlay(trainer) == Overlay::none &&
+           (trainer.start_page() ? start_panel_.types_text() : text_field_.is_open());
   }
   void step_on(Trainer& trainer);
   void lay_out(const Trainer& trainer, float width, float height);
@@ -77,6 +85,9 @@ private:
   void draw_overlay(Trainer& trainer);
   void draw_record_button(Trainer& trainer, const Rect& where);
   void draw_status(Trainer& trainer);
+  void draw_start_page(Trainer& trainer);
+  void draw_demonstration(Trainer& trainer);
+  void take_path(Trainer& trainer);
   void close_page();
   void answer_score(Trainer& trainer, ScoreAnswer answer);
 
@@ -90,11 +101,12 @@ private:
   RecordedPanel recorded_panel_;
   OpenDialog open_dialog_;
   TextField text_field_;
-  Overlay page_ = Overlay::none;  ///< what the person asked for: help, about or open
+  StartPanel start_panel_;
+  Overlay page_ = Overlay::none;  ///< what the person asked for: help, about, open or leave
   bool fonts_are_new_ = false;
   const ExamResult* closed_sheet_of_ = nullptr;
   double frames_per_second_ = 0;
-  Rect screen_, top_, task_, ultrasound_, recorded_, volume_, slice_, blend_, console_, status_;
+  Rect screen_, top_, strip_, task_, ultrasound_, recorded_, volume_, slice_, blend_, console_, status_;
   std::map<std::string, Rect> places_;
 };
 

@@ -25,6 +25,12 @@ public:
   /// scenario's steps, then the case's, then those authored since. After the last view the guide is off.
   void next(const Session& session);
 
+  /// Turns the guide on or off for the scenarios that follow.
+  void turn(bool on) {
+    in_run_ = on;
+    view_.clear();
+  }
+
   /// Returns nothing under strict rules, while the guide is off, if the step asks for no view, and before the first
   /// pose.
   std::optional<Guiding> now(const Session& session) const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "devices/replay/read_log.h"
@@ -79,6 +80,26 @@ LoadedCase load_case(const CaseSource& source, const LoadProgress& progress) {
   loaded_case.surroundings = find_surroundings(loaded_case.subject.ct);
   progress("Starting", 1);
   return loaded_case;
+}
+
+bool is_bundled_patient(const CaseSource& source) {
+  if (!source.case_folder.empty() || !source.ct.empty()) return false;
+  try {
+    const std::optional<Scenario> asked = read_exam(source), bundled = read_exam({});
+    return asked->case_name == bundled->case_name && asked->phantom_options == bundled->phantom_options;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+std::shared_ptr<const LoadedCase> with_exam_of(const CaseSource& source, std::shared_ptr<const LoadedCase> patient) {
+  std::optional<Scenario> exam = read_exam(source);
+  const std::optional<Scenario>& before = patient->scenario;
+  if (exam && before && exam->digest == before->digest && exam->seed == before->seed) return patient;
+  if (exam) check_against_case(*exam, patient->subject);
+  auto same = std::make_shared<LoadedCase>(*patient);
+  same->scenario = std::move(exam);
+  return same;
 }
 
 Material kind_of_material(const std::filesystem::path& path) {

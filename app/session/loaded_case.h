@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -43,6 +44,14 @@ using LoadProgress = std::function<void(const std::string& what, double share)>;
 
 /// Loads the patient and the exam, which takes seconds. Throws InputError.
 LoadedCase load_case(const CaseSource& source, const LoadProgress& progress);
+
+/// Returns whether `source` names the patient of the bundled exam, perhaps with another exam. False if the exam cannot
+/// be read.
+bool is_bundled_patient(const CaseSource& source);
+
+/// Returns the same patient with the exam that `source` names. Copies the volumes for another exam than the patient's,
+/// which takes tenths of a second. Throws InputError if the exam cannot be read or does not fit the patient.
+std::shared_ptr<const LoadedCase> with_exam_of(const CaseSource& source, std::shared_ptr<const LoadedCase> patient);
 
 /// What a path that a person drops on the trainer contains.
 enum class Material { case_folder, ct, scenario, tracker_log, raw_log };

@@ -1,6 +1,8 @@
 #include "app/session/loading.h"
 
+#include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <cstdio>
 #include <cstdlib>
@@ -23,6 +25,8 @@ struct Loading::Shared {
   std::mutex mutex;
   std::condition_variable ended;
   Progress progress;
+  std::chrono::steady_clock::time_point began = std::chrono::steady_clock::now(), reported = began;  // progress.what
+  double first_share = 0;
   std::shared_ptr<const LoadedCase> loaded_case;
   std::exception_ptr error;
   bool done = false, given_up = false;
@@ -30,7 +34,12 @@ struct Loading::Shared {
   void report(const std::string& what, double share) {
     const std::lock_guard lock(mutex);
     if (given_up) throw GivenUp();
-    progress = {what, share};
+    reported = std::chrono::steady_clock::now();
+    if (what != progress.what) {
+      began = reported;
+      first_share = share;
+    }
+    progress = {what, share, std::nullopt};
   }
 
   void run(const Load& load) {
@@ -72,7 +81,12 @@ Loading::~Loading() {
 
 Loading::Progress Loading::progress() const {
   const std::lock_guard lock(shared_->mutex);
-  return shared_->progress;
+  const std::chrono::duration<double> until_report = shared_->reported - shared_->began,
+                                      since_report = std::chrono::steady_clock::now() - shared_->reported;
+  Progress progress = shared_->progress;
+  progress.left_s = time_left_s(until_report.count(), shared_->first_share, progress.share);
+  if (progress.left_s) progress.left_s = std::max(0.0, *progress.left_s - since_report.count());
+  return progress;
 }
 
 bool Loading::done() const {
@@ -84,7 +98,14 @@ std::shared_ptr<const LoadedCase> Loading::take() {
   std::unique_lock lock(shared_->mutex);
   shared_->ended.wait(lock, [this] { return shared_->done; });
   if (shared_->error) std::rethrow_exception(shared_->error);
-  return std::move(shared_->loaded_case);
+  return shared_->loaded_case;
+}
+
+std::optional<double> time_left_s(double elapsed_s, double first_share, double share) {
+  constexpr double kLeast_s = 1, kLeastShare = 0.03;
+  const double done = share - first_share;
+  if (elapsed_s < kLeast_s || done < kLeastShare) return std::nullopt;
+  return elapsed_s * (1 - share) / done;
 }
 
 int Loading::given_up() {

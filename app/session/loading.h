@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "app/session/loaded_case.h"
@@ -20,13 +21,14 @@ public:
 
   struct Progress {
     std::string what = "Starting";
-    double share = 0;
+    double share = 0;              ///< of `what`, 0 to 1
+    std::optional<double> left_s;  ///< estimate for `what`; empty while too little is known
   };
   Progress progress() const;
 
   /// Returns whether take() would return at once.
   bool done() const;
-  /// Waits for the LoadedCase and returns it; to be called once. Throws what `load` threw.
+  /// Waits for the LoadedCase and returns it. Throws what `load` threw.
   std::shared_ptr<const LoadedCase> take();
 
   /// Returns how many abandoned threads still run. Static objects must not be destroyed while they do. A program that
@@ -37,6 +39,13 @@ private:
   struct Shared;
   std::shared_ptr<Shared> shared_;
 };
+
+/// Returns how much longer work takes, s, if it goes on as it has since it was first reported. Empty during the first
+/// second and before 3 % are done: an estimate would jump.
+/// @param elapsed_s    from the first report to the last, s
+/// @param first_share  of the first report, 0 to 1
+/// @param share        of the last report, 0 to 1
+std::optional<double> time_left_s(double elapsed_s, double first_share, double share);
 
 /// Ends the program with `exit_code`. Skips static destructors while abandoned threads still run.
 int leave_program(int exit_code);

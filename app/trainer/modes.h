@@ -12,13 +12,19 @@
 #include "app/session/session.h"
 #include "app/session/step_controls.h"
 #include "app/trainer/setup_wizard.h"
+#include "app/trainer/start_page.h"
 
 namespace insonate {
 
 // What the trainer is doing: one of these at a time. ARCHITECTURE.md draws how they follow each other.
 
-/// Nothing is shown: the first patient is still being loaded, or the exam that was asked for is refused.
+/// Nothing is shown: what the command line names is still being loaded, or the exam that it asked for is refused.
 struct Idle {};
+
+/// The person chooses what to do.
+struct Choosing {
+  std::unique_ptr<StartPage> page;  ///< never null
+};
 
 /// A probe on a patient: what practice, exams and authoring have in common.
 struct Scan {
@@ -52,7 +58,7 @@ struct SettingUp {
   std::unique_ptr<SetupWizard> wizard;  ///< never null
 };
 
-using TrainerMode = std::variant<Idle, Practice, Exam, Authoring, Playback, SettingUp>;
+using TrainerMode = std::variant<Idle, Choosing, Practice, Exam, Authoring, Playback, SettingUp>;
 
 /// Returns what practice, exams and authoring have in common; nullptr in another mode.
 inline Scan* scan_of(TrainerMode& mode) {

@@ -252,7 +252,8 @@ constexpr ModeText kModes[] = {
 void declare(CLI::App& arguments, Options& options) {
   arguments.description(
       "Practise bedside ultrasound: live images from CT, guided and scored.\n"
-      "Without arguments, replay the bundled scan of the built-in patient and score it.");
+      "Without arguments, a window begins with a page that shows what there is to do. Without a display, the bundled\n"
+      "scan of the built-in patient is replayed and scored.");
   add_practice(arguments, options);
   arguments.footer(std::string("Each mode lists its options: insonate exam --help\n") + kExitCodes);
   for (const ModeText& text : kModes) {
@@ -260,7 +261,10 @@ void declare(CLI::App& arguments, Options& options) {
     text.add(*mode, options);
     mode->footer(std::string(text.examples) + kExitCodes);
     mode->preparse_callback([&arguments, mode](std::size_t) { refuse_options_before(arguments, *mode); });
-    mode->parse_complete_callback([&options, chosen = text.mode] { options.mode = chosen; });
+    mode->parse_complete_callback([&options, chosen = text.mode] {
+      options.mode = chosen;
+      options.mode_named = true;
+    });
   }
   arguments.require_subcommand(0, 1);
 }
@@ -291,6 +295,12 @@ void check_replay(const Options& options) {
 }
 
 }  // namespace
+
+bool begins_on_start_page(const Options& options) {
+  const bool named = options.mode_named || !options.case_folder.empty() || !options.ct.empty() ||
+                     !options.scenario.empty() || !options.tracker.empty();
+  return !options.headless && !named && options.seconds == 0 && options.screenshot.empty();
+}
 
 void check(const Options& options) {
   check_replay(options);

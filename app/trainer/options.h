@@ -27,6 +27,7 @@ enum class Mode {
 /// The command line. An empty path or text means what is built in, unless its comment says otherwise.
 struct Options {
   Mode mode = Mode::practice;
+  bool mode_named = false;  ///< by the person, rather than left to the default
 
   // The patient and the scenario
   std::filesystem::path case_folder;
@@ -64,6 +65,10 @@ struct Options {
   std::string igtl_server;           ///< "[ADDRESS:]PORT" where OpenIGTLink clients connect; empty: no server
   std::filesystem::path state_file;  ///< what the trainer is doing, for programs that drive it; empty: none
 };
+
+/// Returns whether the trainer begins with its start page: in a window, if nothing says what to do there. A run that
+/// ends by itself or leaves a screenshot has nobody to choose.
+bool begins_on_start_page(const Options& options);
 
 /// Declares the modes and their options on `arguments`. Parsing fills in `options`. Each mode takes only the options
 /// that mean something in it.

@@ -33,6 +33,7 @@ gl::ShaderSources shaders_of(const Options& options) {
 
 Trainer::Trainer(Options options)
     : options_(std::move(options)),
+      given_(options_),
       shaders_changed_(gl::last_change(options_.shader_folder)),
       pictures_(shaders_of(options_), quality_named(options_.quality)),
       recorder_(options_.record_images) {
@@ -50,17 +51,23 @@ void Trainer::open_results() {
 }
 
 void Trainer::open_from_options() {
+  if (begins_on_start_page(options_)) return show_start_page();
   find_calibration();
-  ReplaySource replay = options_.replay;
-  replay.database = options_.results;
-  load({CaseSource{options_.case_folder, options_.ct, options_.scenario, std::nullopt, seed()}, options_.tracker,
-        std::move(replay)});
+  load(request_of(options_, false));
+}
+
+Trainer::Request Trainer::request_of(const Options& options, bool free_practice) const {
+  ReplaySource replay = options.replay;
+  replay.database = options.results;
+  return {CaseSource{options.case_folder, options.ct, options.scenario, std::nullopt, seed()}, options.tracker,
+          std::move(replay), free_practice};
 }
 
 void Trainer::open(const std::filesystem::path& path) {
   attempt([&] {
     if (in_exam()) throw InputError(path.string(), "", "an exam that counts is taken as it is", "open it in practice");
     Request next;
+    if (const StartPage* page = start_page()) next.tracker = page->tracker();
     const Material kind = kind_of_material(path);
     switch (kind) {
       case Material::case_folder:
@@ -119,6 +126,7 @@ std::function<void()> Trainer::refusals(const Request& request) {
 void Trainer::load(Request request) {
   requested_ = std::move(request);
   loaded_replay_.reset();
+  if (load_prepared()) return;
   if (!requested_.replay.any()) {
     loading_ = std::make_unique<Loading>(
         [source = requested_.source, refuse = refusals(requested_)](const LoadProgress& progress) {
@@ -140,16 +148,19 @@ void Trainer::finish_loading() {
 }
 
 void Trainer::stop_loading() {
-  if (!std::holds_alternative<Idle>(mode_)) loading_.reset();
+  if (!can_stop_loading()) return;
+  loading_.reset();
+  if (std::holds_alternative<Idle>(mode_)) return show_start_page();
+  give_up_choice();
 }
 
 void Trainer::take_over_loaded() {
   const std::unique_ptr<Loading> loaded = std::move(loading_);
   attempt([&] { begin(loaded->take(), requested_); });
-  // A trainer whose command line names something unusable goes on with what is built in.
-  if (in_exam()) return;  // and never to anything but the exam that was asked for
-  const bool asked_for_more = !requested_.source.is_bundled() || !requested_.tracker.empty() || requested_.replay.any();
-  if (std::holds_alternative<Idle>(mode_) && asked_for_more) load(Request());
+  give_up_choice();
+  // A trainer whose command line names something unusable goes on with the start page, and with nothing but the exam if
+  // that was asked for.
+  if (std::holds_alternative<Idle>(mode_) && !in_exam()) show_start_page();
 }
 
 void Trainer::begin(std::shared_ptr<const LoadedCase> loaded_case, const Request& request) {
@@ -170,7 +181,8 @@ void Trainer::begin(std::shared_ptr<const LoadedCase> loaded_case, const Request
   record_raw(*session, request);
   show(std::move(loaded_case), request);
   Scan scan{std::move(session), {}, {}, {}};
-  scan.begun = options_.headless || !loaded_case_->scenario || std::as_const(*scan.session).source().recording();
+  if (request.free_practice) scan.session->practise();
+  scan.begun = options_.headless || !scan.session->runner() || std::as_const(*scan.session).source().recording();
   const bool authoring = options_.mode == Mode::author && request.source.case_folder == options_.case_folder;
   if (in_exam())
     mode_ = Exam{std::move(scan), nullptr};
@@ -190,10 +202,13 @@ void Trainer::show(std::shared_ptr<const LoadedCase> loaded_case, const Request&
   }
   loaded_case_ = std::move(loaded_case);
   current_ = request;
+  built_in_.reset();
+  preparing_.reset();
 }
 
 void Trainer::update(double now_s) {
   if (loading_ && loading_->done()) take_over_loaded();
+  take_over_prepared();
   if (!options_.shader_folder.empty() && now_s - shaders_looked_at_s_ > 0.5) {
     shaders_looked_at_s_ = now_s;
     reload_shaders();

@@ -33,7 +33,7 @@ public:
   /// Throws InputError if the address for OpenIGTLink clients or the database of results cannot be used.
   explicit Trainer(Options options);
 
-  /// Begins to load what the command line names, and returns at once.
+  /// Begins to load what the command line names, or shows the start page if it names nothing. Returns at once.
   void open_from_options();
   /// Begins to load a file or folder that a person dropped, typed or chose: a case, a CT, a scenario or a recorded
   /// scan. It replaces what is being loaded. What cannot be opened becomes a problem to acknowledge.
@@ -43,8 +43,26 @@ public:
   const Loading* loading() const { return loading_.get(); }
   /// Waits until it is loaded, and shows it.
   void finish_loading();
-  /// Stops loading and continues in the current mode. Does nothing if there is no patient to go on with.
+  /// Stops loading and continues in the current mode; before the first patient, with the start page.
   void stop_loading();
+  /// Returns whether loading can be stopped. An exam that the command line asks for is loaded to its end.
+  bool can_stop_loading() const { return !(in_exam() && std::holds_alternative<Idle>(mode_)) && !options_.headless; }
+
+  /// Returns the start page; nullptr in another mode.
+  StartPage* start_page() { return const_cast<StartPage*>(std::as_const(*this).start_page()); }
+  const StartPage* start_page() const {
+    const auto* mode = std::get_if<Choosing>(&mode_);
+    return mode ? mode->page.get() : nullptr;
+  }
+  /// Leaves the current mode for the start page, and begins to load the built-in patient in the background. Does
+  /// nothing where can_leave() is false.
+  void show_start_page();
+  /// Returns whether the current mode may be left: false from an exam's first sample to its end.
+  bool can_leave() const;
+  /// Returns whether leaving throws something away: steps that are scored and not finished.
+  bool loses_by_leaving() const;
+  /// Begins what is chosen on the start page, if nothing hinders it.
+  void begin_chosen();
 
   /// Shows what has been loaded, and advances the current mode to `now_s` (s, steady_now_s() with a live tracker).
   void update(double now_s);
@@ -88,8 +106,8 @@ public:
     const auto* mode = std::get_if<SettingUp>(&mode_);
     return mode ? mode->wizard.get() : nullptr;
   }
-  /// Begins to set up the session's tracker. A tracker without a sensor becomes a problem to acknowledge. The set-up
-  /// begins by itself if the command line names a calibration that is not complete.
+  /// Begins to set up the session's tracker. If it has no sensor, shows where the start page lets another one be
+  /// chosen. The set-up begins by itself if the command line names a calibration that is not complete.
   void begin_setup();
   /// Ends the set-up and begins a session, with the calibration if it is complete.
   void end_setup();
@@ -99,6 +117,12 @@ public:
 
   /// Returns the latency of the pictures; measured only if options().latency names a file.
   const PictureLatency& latency() const { return latency_; }
+
+  /// Returns whether a recorded scan of the built-in patient is shown to somebody who has named nothing.
+  bool demonstration() const {
+    return !options_.headless && session() && current_.source.is_bundled() && current_.tracker.empty() &&
+           session()->holder() == Holder::tracker;
+  }
 
   /// Returns the run that is played again; nullptr in another mode.
   Replay* replay() { return const_cast<Replay*>(std::as_const(*this).replay()); }
@@ -158,19 +182,26 @@ private:
   bool in_exam() const { return options_.mode == Mode::exam; }
   struct Request {
     CaseSource source;
-    std::string tracker;  ///< URI; empty: the bundled log with the bundled exam, else the learner's own hand
-    ReplaySource replay;  ///< what is looked at again, in place of a session
+    std::string tracker;         ///< URI; empty: the bundled log with the bundled exam, else the learner's own hand
+    ReplaySource replay;         ///< what is looked at again, in place of a session
+    bool free_practice = false;  ///< without the scenario's steps
   };
   /// Throws, on the loading thread, what the session will throw for reasons that have nothing to do with the patient: a
   /// patient can take a minute to make.
   std::function<void()> refusals(const Request& request);
   void load(Request request);
+  bool load_prepared();
+  Request request_of(const Options& options, bool free_practice) const;
+  void prepare_built_in();
+  void take_over_prepared();
+  void give_up_choice();
   void take_over_loaded();
   void begin(std::shared_ptr<const LoadedCase> loaded_case, const Request& request);
   std::uint32_t seed() const;
   void refuse_second_exam(const Scenario& exam);
   void keep_sitting(Exam& exam);
   void update(Idle&, double) {}
+  void update(Choosing& mode, double now_s) { mode.page->update(now_s); }
   void update(Playback& mode, double now_s) { mode.replay->advance(now_s); }
   void update(SettingUp& mode, double now_s);
   template <std::derived_from<Scan> Mode>
@@ -181,6 +212,7 @@ private:
   void find_calibration();
   bool uses_calibration(const Request& request) const;
   bool needs_setup(const Request& request) const;
+  bool can_be_set_up(const Request& request) const;
   Session::OpenTracker opener(const std::string& uri, const LoadedCase& loaded_case, bool calibrated);
   void record_raw(Session& session, const Request& request);
   void check_raw();
@@ -192,6 +224,7 @@ private:
   void show_pictures();
 
   Options options_;
+  Options given_;  ///< the command line's; on the start page and behind it options_ are the chosen ones
   std::optional<std::filesystem::file_time_type> shaders_changed_;
   double shaders_looked_at_s_ = 0;
   std::string shader_problem_, calibration_warning_;
@@ -199,6 +232,8 @@ private:
 
   Request current_, requested_;
   std::unique_ptr<Loading> loading_;
+  std::shared_ptr<Loading> preparing_;          ///< the built-in patient, behind the start page
+  std::shared_ptr<const LoadedCase> built_in_;  ///< the patient of the bundled exam, while the start page is shown
 
   std::shared_ptr<const LoadedCase> loaded_case_;
   TrainerMode mode_;

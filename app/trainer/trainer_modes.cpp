@@ -32,6 +32,7 @@ void Trainer::keep_sitting(Exam& exam) {
   } catch (const ExamTaken&) {
     recorder_.stop();
     mode_ = Idle();  // nobody takes an exam twice
+    if (given_.mode != Mode::exam) show_start_page();
     throw;
   } catch (const InputError& error) {
     const std::string message = std::string("The exam goes on, but is not kept while it lasts: ") + error.what();

@@ -113,18 +113,25 @@ bool Trainer::needs_setup(const Request& request) const {
 }
 
 void Trainer::begin_setup() {
-  if (setup() || !loaded_case_ || replay() || in_exam()) return;
+  if (setup() || replay() || in_exam()) return;
+  if (session() && !can_be_set_up(current_)) show_start_page();
+  if (StartPage* page = start_page()) {
+    page->task = Task::setup;
+    return;
+  }
+  if (!loaded_case_) return;
   attempt([&] { open_setup(); });
-  if (std::holds_alternative<Idle>(mode_)) load(Request());
+  if (std::holds_alternative<Idle>(mode_)) show_start_page();
+}
+
+bool Trainer::can_be_set_up(const Request& request) const {
+  const bool live = session() && session()->source().live();
+  const bool asked_for = options_.mode == Mode::setup && request.tracker == options_.tracker;
+  return !request.tracker.empty() && (live || asked_for || uses_calibration(request));
 }
 
 void Trainer::open_setup() {
   const std::string uri = current_.tracker;
-  const bool live = session() && std::as_const(*session()).source().live();
-  const bool asked_for = options_.mode == Mode::setup && uri == options_.tracker;
-  if (uri.empty() || !(live || asked_for || uses_calibration(current_)))
-    throw InputError("set-up", "", "no tracker with a sensor is used",
-                     "start the trainer with one, as in 'insonate --tracker hydra:'");
   check_can_be_calibrated(uri);
   const std::filesystem::path file = options_.calibration.empty() ? own_calibration() : options_.calibration;
   Calibration base = calibration_to_continue(file, tracker_identity(uri));
@@ -150,7 +157,7 @@ void Trainer::end_setup() {
   const Request again = current_;
   attempt([&] { begin(loaded_case_, again); });
   if (!session() && in_exam()) return;
-  if (!session()) return load(Request());
+  if (!session()) return show_start_page();
   if (setup_left_)
     calibration_warning_ = "The set-up is not complete: the step '" + missing +
                            "' is still to be made. The probe is where the tracker's first pose put it.";

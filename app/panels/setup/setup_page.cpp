@@ -113,14 +113,20 @@ bool draw_setup_page(const Theme& theme, const Rect& screen, SetupWizard& wizard
   Rect buttons = page.take_bottom(theme.px(54));
   page.take_bottom(theme.px(14));
   bool close = false;
-  const auto next = [&](const char* id, float width, std::string_view text, ButtonKind kind = ButtonKind::normal) {
+  const auto next = [&](const char* id, float width, std::string_view text, ButtonKind kind = ButtonKind::normal,
+                        bool enabled = true) {
     const Rect place = buttons.take_right(theme.px(width));
     buttons.take_right(theme.px(10));
     places[std::string("setup_") + id] = place;
-    return button(theme, id, place, text, kind);
+    return button(theme, id, place, text, kind, enabled);
   };
   const bool done = wizard.view().done, last = done && wizard.current() + 1 == kSetupSteps.size();
-  if (next("mark", 250, last ? "Finish  (Space)" : done ? "Next step  (Space)" : "Mark  (Space)", ButtonKind::primary))
+  const bool heard = wizard.tracker_state().condition != TrackerCondition::waiting;
+  if (next("mark", 250,
+           last   ? "Finish  (Space)"
+           : done ? "Next step  (Space)"
+                  : "Mark  (Space)",
+           ButtonKind::primary, done || heard))
     wizard.mark(steady_now_s());
   if (next("undo", 190, done ? "Again  (Backspace)" : "Take back  (Backspace)")) wizard.undo();
   if (next("close", 130, "Close  (Esc)")) close = true;
@@ -128,7 +134,8 @@ bool draw_setup_page(const Theme& theme, const Rect& screen, SetupWizard& wizard
       next("moved", 190, wizard.moved() ? "Only moved: find again" : "It was only moved",
            wizard.moved() ? ButtonKind::chosen : ButtonKind::normal))
     wizard.set_moved(!wizard.moved());
-  draw_text(buttons, theme.small_text, colour::kFaint, "Kept in " + wizard.file().string());
+  draw_text(buttons, theme.small_text, heard ? colour::kMuted : colour::kAmber,
+            heard ? "Kept in " + wizard.file().string() : "Nothing to mark: no pose has come from the tracker yet.");
 
   draw_steps(theme, page.take_left(theme.px(270)), wizard, places);
   page.take_left(theme.px(18));

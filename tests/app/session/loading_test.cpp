@@ -90,3 +90,12 @@ TEST_CASE("what was loaded after it was given up goes away with its thread") {
   until_nobody_works();
   CHECK(Loading::given_up() == 0);
 }
+
+TEST_CASE("the time left follows the share that is done, and is not told before it can be known") {
+  CHECK_FALSE(time_left_s(0.5, 0, 0.5));
+  CHECK_FALSE(time_left_s(20, 0, 0.02));
+  CHECK(time_left_s(10, 0, 0.25) == Approx(30));
+  INFO("work that was half done when it was first looked at has shown a quarter of its pace");
+  CHECK(time_left_s(10, 0.5, 0.75) == Approx(10));
+  CHECK(time_left_s(10, 0, 1) == Approx(0));
+}

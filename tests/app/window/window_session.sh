@@ -101,7 +101,7 @@ in_one_frame() {
   kill -CONT "$trainer"
 }
 
-# Freeze is the first of the console's right-hand block of buttons, Keys the one below it.
+# Freeze is the first of the console's right-hand block of buttons, Help the one below it.
 freeze_x() { echo $(($(value console_x) + $(value console_w) - 16 - 276 + 43)); }
 freeze_y() { echo $(($(middle_y console) - 26)); }
 # Whether the probe has moved by more than 3 mm from where remember_probe saw it.

@@ -98,14 +98,14 @@ await "it is left for practice" is activity practice
 xdotool key F2
 await "and opens again" is overlay setup
 
-echo "a tracker without a sensor is refused in words"
+echo "where no tracker with a sensor is used, another one can be chosen"
 kill "$trainer"
 wait "$trainer" 2>/dev/null || true
 start_trainer --ct "$work/water.mha"
 await "the session starts" is activity practice
 xdotool key F2
-await "F2 brings a dialog" is overlay problem
-contains problem "no tracker with a sensor" || fail "the dialog does not say what is wrong"
+await "F2 leads to the trackers" is start_task setup
+contains start_why_not "no sensor" || fail "the page does not say what is wrong"
 
 kill -0 "$trainer" || fail "the trainer ended by itself"
 echo "passed"

@@ -2,7 +2,7 @@
 # The trainer in a real window, driven by real key and mouse events, its screenshots looked at.
 #   window_test.sh PROGRAM ASSETS_FOLDER
 . "$(dirname "$0")/window_session.sh"
-start_trainer
+start_trainer --tracker "replay:$INSONATE_ASSETS/logs/ruq_good.igs.mha" --scenario "$INSONATE_ASSETS/scenarios/ruq_hepatorenal.toml"
 
 echo "a bundled scan is replayed and seen"
 await "the session starts" is activity exam
@@ -70,7 +70,7 @@ await "a click on Freeze freezes" is frozen true
 click "$(freeze_x)" "$(freeze_y)"
 await "a click on Live lets go" is frozen false
 click "$(freeze_x)" $(($(freeze_y) + 52))
-await "a click on Keys shows the keys" is overlay help
+await "a click on Help shows the keys" is overlay help
 xdotool key Escape
 await "Escape closes them" is overlay ""
 

@@ -1,0 +1,118 @@
+// What a choice on the start page turns into, and why it cannot begin.
+
+#include <algorithm>
+#include <random>
+
+#include "app/trainer/start_page.h"
+#include "sim/core/files.h"
+
+namespace insonate {
+
+const OfferedTracker* StartPage::chosen_tracker() const {
+  const auto chosen = std::find_if(trackers_.begin(), trackers_.end(),
+                                   [&](const OfferedTracker& offered) { return offered.uri == tracker(); });
+  return chosen == trackers_.end() ? nullptr : &*chosen;
+}
+
+std::string StartPage::why_no_tracker() const {
+  const OfferedTracker* chosen = chosen_tracker();
+  return chosen && !chosen->usable() ? chosen->why : "";
+}
+
+std::string StartPage::why_no_exam() const {
+  if (!scenario) return "Choose an exam.";
+  if (database_.empty()) return "There is no database to keep the attempt in: start the trainer with --results.";
+  if (learner() == kNobodyInParticular) return "An exam is somebody's: say on the right who is learning.";
+  for (const AttemptSummary& attempt : attempts_)
+    if (attempt.learner == learner() && attempt.scenario_digest == scenarios_[*scenario].digest &&
+        is_of(attempt.mode, AttemptMode::exam))
+      return learner() + " has taken this exam already, as attempt " + std::to_string(attempt.number) +
+             ". Choose another, or practise.";
+  return "";
+}
+
+std::string StartPage::why_not() const {
+  switch (task) {
+    case Task::first_scan:
+    case Task::demonstration:
+      return "";
+    case Task::practice:
+      return why_no_tracker();
+    case Task::exam:
+      return why_no_exam().empty() ? why_no_tracker() : why_no_exam();
+    case Task::patients:
+      return patient < patients_.size() ? why_no_tracker() : "Choose a patient.";
+    case Task::replay:
+      return run < runs_.size() ? "" : "Choose a run.";
+    case Task::setup: {
+      if (const std::string why = why_no_tracker(); !why.empty()) return why;
+      const OfferedTracker* chosen = chosen_tracker();
+      return chosen && chosen->has_sensor ? ""
+                                          : "This tracker has no sensor to set up: choose another one on the right.";
+    }
+  }
+  return "";
+}
+
+Beginning StartPage::chosen() const {
+  Beginning chosen{options_, false, false};
+  Options& options = chosen.options;
+  const auto take_scenario = [&] {
+    const OfferedScenario& offered = scenarios_[*scenario];
+    options.scenario = offered.file;
+    if (task == Task::practice && !offered.variants.empty())
+      options.seed = variant ? offered.variants[*variant].seed : std::random_device()();
+  };
+  switch (task) {
+    case Task::first_scan:
+      options.tracker = "mouse:";
+      options.calibration.clear();
+      options.record_raw.clear();
+      options.scenario = assets_folder() / "lessons" / "first_scan.toml";
+      chosen.guided = true;
+      break;
+    case Task::demonstration:
+      options.tracker.clear();
+      options.calibration.clear();
+      options.record_raw.clear();
+      break;
+    case Task::practice:
+      if (scenario) take_scenario();
+      chosen.free_practice = !scenario;
+      break;
+    case Task::exam:
+      options.mode = Mode::exam;
+      take_scenario();
+      break;
+    case Task::patients: {
+      const CaseSource& source = patients_[patient].source;
+      options.case_folder = source.case_folder;
+      options.ct = source.ct;
+      options.scenario = source.scenario;
+      if (!source.scenario.empty()) options.seed = source.seed;
+      const bool authoring = makes_views && !source.case_folder.empty();
+      if (authoring) options.mode = Mode::author;
+      chosen.free_practice = !authoring;
+      break;
+    }
+    case Task::replay: {
+      const OfferedRun& chosen_run = runs_[run];
+      options.mode = Mode::replay;
+      options.tracker.clear();
+      options.calibration.clear();
+      options.record_raw.clear();
+      options.replay = chosen_run.replay;
+      if (chosen_run.replay.attempt > 0) options.results = chosen_run.replay.database;
+      options.scenario = chosen_run.scenario;
+      if (!chosen_run.scenario.empty()) options.seed = chosen_run.seed;
+      if (beside_expert) options.replay.beside_log = chosen_run.expert;
+      break;
+    }
+    case Task::setup:
+      options.mode = Mode::setup;
+      break;
+  }
+  return chosen;
+}
+
+}  // namespace insonate

@@ -1,0 +1,326 @@
+#include "app/trainer/start_page.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <map>
+#include <set>
+#include <system_error>
+#include <utility>
+
+#include "app/trainer/folder_list.h"
+#include "devices/calibrated_tracker.h"
+#include "scenarios/format/variants.h"
+#include "scenarios/results/roster.h"
+#include "scenarios/words.h"
+#include "sim/core/files.h"
+#include "sim/core/input_error.h"
+#include "sim/core/toml_table.h"
+
+namespace insonate {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// How often the page looks for trackers that have been plugged in or out.
+constexpr double kSearch_s = 3;
+/// More attempts than a person looks through.
+constexpr std::size_t kListedAttempts = 50;
+
+constexpr const char* kMouse = "mouse:";
+
+std::vector<fs::path> files_in(const fs::path& folder, std::string_view ending) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
+    if (at->path().filename().string().ends_with(ending)) files.push_back(at->path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// Returns the smallest seed that draws this variant.
+std::uint32_t seed_of(std::size_t variant, std::size_t variants) {
+  std::uint32_t seed = 0;
+  while (selected_variant(seed, variants) != variant) ++seed;
+  return seed;
+}
+
+bool is_live(const std::string& uri) {
+  try {
+    const PosesOf poses = kind_of(parse_tracker_uri(uri)).poses;
+    return poses != PosesOf::recording;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+bool has_sensor(const std::string& uri) {
+  try {
+    check_can_be_calibrated(uri);
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+std::string summary_of(const AttemptSummary& attempt) {
+  char score[48];
+  std::snprintf(score, sizeof score, "%s %%, %s", short_number(attempt.percent).c_str(),
+                attempt.passed ? "passed" : "not passed");
+  return attempt.learner + ", " + score + ", " + (attempt.mode ? name_of(attempt.mode) + ", " : "") +
+         time_text(attempt.finished_ms / 1000);
+}
+
+}  // namespace
+
+const char* to_string(Task task) {
+  switch (task) {
+    case Task::first_scan:
+      return "first_scan";
+    case Task::demonstration:
+      return "demonstration";
+    case Task::practice:
+      return "practice";
+    case Task::exam:
+      return "exam";
+    case Task::patients:
+      return "patients";
+    case Task::replay:
+      return "replay";
+    case Task::setup:
+      return "setup";
+  }
+  return "";
+}
+
+StartPage::StartPage(Options options, ResultsDatabase* database) : options_(std::move(options)) {
+  options_.mode = Mode::practice;
+  options_.case_folder.clear();
+  options_.ct.clear();
+  options_.scenario.clear();
+  options_.seed.reset();
+  options_.replay = {};
+  if (options_.tracker.empty() || !is_live(options_.tracker)) {
+    options_.tracker = kMouse;
+    options_.calibration.clear();
+    options_.record_raw.clear();
+  }
+  read_scenarios();
+  read_patients();
+  if (database) {
+    database_ = database->file();
+    try {
+      read_database(*database);
+    } catch (const std::exception& error) {
+      problem_ = error.what();
+    }
+  }
+  read_runs();
+  list_trackers({});
+}
+
+void StartPage::add_scenario(const fs::path& file) {
+  const Scenario first = read_scenario(file);
+  OfferedScenario offered{file, first.title, first.briefing, first.steps.size(), first.time_limit_s, {}, first.digest};
+  for (std::size_t i = 0; i < first.variants; ++i) {
+    const std::uint32_t seed = seed_of(i, first.variants);
+    offered.variants.push_back({read_scenario(file, seed).variant, seed});
+  }
+  scenarios_.push_back(std::move(offered));
+}
+
+void StartPage::read_scenarios() {
+  for (const fs::path& file : files_in(assets_folder() / "scenarios", ".toml")) {
+    try {
+      add_scenario(file);
+    } catch (const InputError& error) {
+      problem_ = error.what();
+    }
+  }
+  std::stable_sort(scenarios_.begin(), scenarios_.end(),
+                   [](const OfferedScenario& a, const OfferedScenario& b) { return a.time_limit_s < b.time_limit_s; });
+  if (!scenarios_.empty()) scenario = 0;
+}
+
+void StartPage::read_patients() {
+  using PhantomOptions = std::vector<std::pair<std::string, std::string>>;
+  std::map<PhantomOptions, OfferedPatient> found;
+  for (const OfferedScenario& offered : scenarios_) {
+    std::vector<OfferedVariant> variants = offered.variants;
+    if (variants.empty()) variants.emplace_back();
+    for (const OfferedVariant& drawn_by : variants) {
+      const Scenario drawn = read_scenario(offered.file, drawn_by.seed);
+      OfferedPatient made{"", "Built-in patient", {}};
+      made.name = drawn.phantom_options.empty() ? "Nothing abnormal"
+                  : drawn.variant.empty()       ? offered.title
+                                                : offered.title + ": " + drawn.variant;
+      made.source.scenario = offered.file;
+      made.source.seed = drawn_by.seed;
+      found.emplace(drawn.phantom_options, std::move(made));
+    }
+  }
+  for (auto& [phantom, offered] : found) patients_.push_back(std::move(offered));
+  std::error_code error;
+  look_for_cases_in(fs::current_path(error));
+}
+
+void StartPage::look_for_cases_in(const fs::path& folder) {
+  for (const FolderEntry& entry : list_folder(folder, Wanted::patient).entries)
+    if (entry.kind == "case") {
+      OfferedPatient offered{entry.path.filename().string(), "Case in " + folder.string(), {}};
+      offered.source.case_folder = entry.path;
+      patients_.push_back(std::move(offered));
+    }
+}
+
+void StartPage::read_database(ResultsDatabase& database) {
+  attempts_ = database.attempts();
+  std::reverse(attempts_.begin(), attempts_.end());
+  std::set<std::string> known;
+  for (const LearnerSummary& learner : database.learners())
+    if (learner.id != kNobodyInParticular) known.insert(learner.id);
+  for (const char* name : {"learners.csv", "learners.toml"}) {
+    std::error_code error;
+    const fs::path roster = database_.parent_path() / name;
+    if (!fs::exists(roster, error)) continue;
+    for (std::string& id : read_roster(roster)) known.insert(std::move(id));
+  }
+  learners_.assign(known.begin(), known.end());
+}
+
+void StartPage::read_runs() {
+  struct Plan {
+    fs::path scenario;
+    std::uint32_t seed = 0;
+  };
+  std::map<std::string, fs::path> expert_of;  // by the scenario's digest
+  std::vector<OfferedRun> bundled;
+  for (const fs::path& log : files_in(assets_folder() / "logs", ".igs.mha")) {
+    const std::string name = log.filename().string();
+    const fs::path plan = log.parent_path() / (name.substr(0, name.find('.')) + ".toml");
+    try {
+      const TomlDocument document(plan.string(), read_file(plan));
+      const fs::path file = fs::weakly_canonical(plan.parent_path() / document.root().text("scenario"));
+      const auto of = std::find_if(scenarios_.begin(), scenarios_.end(), [&](const OfferedScenario& offered) {
+        std::error_code error;
+        return fs::equivalent(offered.file, file, error);
+      });
+      if (of == scenarios_.end()) continue;
+      const bool good = name.find("_good.") != std::string::npos;
+      OfferedRun offered_run{of->title, good ? "Recorded scan of a skilled hand" : "Recorded scan of a beginner",
+                             {},        of->file,
+                             {},        std::uint32_t(document.root().whole_number("scenario_seed", 0, 0xffffffff, 0))};
+      offered_run.replay.log = log;
+      if (good) expert_of[of->digest] = log;
+      bundled.push_back(std::move(offered_run));
+    } catch (const std::exception& error) {
+      problem_ = error.what();
+    }
+  }
+  for (std::size_t i = 0; i < std::min(attempts_.size(), kListedAttempts); ++i) {
+    const AttemptSummary& attempt = attempts_[i];
+    OfferedRun offered_run{attempt.title, summary_of(attempt), {}, {}, {}, 0};
+    offered_run.replay.database = database_;
+    offered_run.replay.attempt = attempt.number;
+    if (const auto expert = expert_of.find(attempt.scenario_digest); expert != expert_of.end())
+      offered_run.expert = expert->second;
+    runs_.push_back(std::move(offered_run));
+  }
+  for (const fs::path& log : files_in(options_.out, ".igs.mha")) {
+    if (log.filename().string().ends_with("-images.igs.mha")) continue;  // beside a recording of the same run
+    OfferedRun offered_run{log.filename().string(), "Recording in " + options_.out.string(), {}, {}, {}, 0};
+    offered_run.replay.log = log;
+    runs_.push_back(std::move(offered_run));
+  }
+  for (OfferedRun& offered_run : bundled) {
+    for (const OfferedScenario& offered : scenarios_)
+      if (offered.file == offered_run.scenario && expert_of[offered.digest] != offered_run.replay.log)
+        offered_run.expert = expert_of[offered.digest];
+    runs_.push_back(std::move(offered_run));
+  }
+}
+
+std::vector<AttemptSummary> StartPage::attempts() const {
+  if (learner() == kNobodyInParticular) return attempts_;
+  std::vector<AttemptSummary> own;
+  for (const AttemptSummary& attempt : attempts_)
+    if (attempt.learner == learner()) own.push_back(attempt);
+  return own;
+}
+
+void StartPage::update(double now_s) {
+  using namespace std::chrono_literals;
+  if (search_.valid() && search_.wait_for(0s) == std::future_status::ready) list_trackers(search_.get());
+  if (search_.valid() || (searched_s_ > 0 && now_s - searched_s_ < kSearch_s)) return;
+  searched_s_ = now_s;
+  search_ = std::async(std::launch::async, [] { return find_trackers(); });
+}
+
+void StartPage::list_trackers(const std::vector<FoundTracker>& found) {
+  trackers_ = {{kMouse, "Mouse and keyboard", FoundTracker::State::ready, "", false}};
+  for (const FoundTracker& tracker : found)
+    trackers_.push_back(
+        {tracker.uri(), tracker.name, tracker.state, tracker.why, tracker.kind->poses == PosesOf::sensor});
+  // The command line's, and one on the network, are not found on a bus.
+  const auto same = [&](const OfferedTracker& offered) { return offered.uri == tracker(); };
+  if (std::none_of(trackers_.begin(), trackers_.end(), same))
+    trackers_.push_back({tracker(), tracker(), FoundTracker::State::ready, "", has_sensor(tracker())});
+}
+
+void StartPage::choose_tracker(const std::string& uri) {
+  if (uri == tracker()) return;
+  open_unless_device(uri);
+  options_.tracker = uri;
+  options_.calibration.clear();
+  options_.record_raw.clear();
+  std::vector<OfferedTracker> shown = std::move(trackers_);
+  const auto same = [&](const OfferedTracker& offered) { return offered.uri == uri; };
+  if (std::none_of(shown.begin(), shown.end(), same))
+    shown.push_back({uri, uri, FoundTracker::State::ready, "", has_sensor(uri)});
+  trackers_ = std::move(shown);
+}
+
+void StartPage::choose_learner(const std::string& id) {
+  if (id.empty()) {
+    options_.learner = kNobodyInParticular;
+    return;
+  }
+  check_learner_id(id, "learner", "");
+  options_.learner = id;
+}
+
+void StartPage::add(const fs::path& path) {
+  if (task == Task::setup) return choose_calibration(path);
+  const Material material = kind_of_material(path);
+  const std::string name = path.filename().string();
+  switch (material) {
+    case Material::scenario:
+      add_scenario(path);
+      scenario = scenarios_.size() - 1;
+      variant.reset();
+      if (task != Task::exam) task = Task::practice;
+      return;
+    case Material::case_folder:
+    case Material::ct: {
+      OfferedPatient offered{name, material == Material::ct ? "CT" : "Case", {}};
+      (material == Material::ct ? offered.source.ct : offered.source.case_folder) = path;
+      offered.about += " in " + path.parent_path().string();
+      patients_.push_back(std::move(offered));
+      patient = patients_.size() - 1;
+      task = Task::patients;
+      return;
+    }
+    case Material::raw_log:
+      return choose_tracker("raw:" + path.string());
+    case Material::tracker_log: {
+      OfferedRun offered{name, "Recording in " + path.parent_path().string(), {}, {}, {}, 0};
+      offered.replay.log = path;
+      runs_.push_back(std::move(offered));
+      run = runs_.size() - 1;
+      task = Task::replay;
+      return;
+    }
+  }
+}
+
+}  // namespace insonate

@@ -1,0 +1,142 @@
+#pragma once
+
+#include <filesystem>
+#include <future>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/trainer/options.h"
+#include "devices/found_trackers.h"
+#include "scenarios/results/results_database.h"
+
+namespace insonate {
+
+/// What there is to do, in the order of the start page.
+enum class Task { first_scan, demonstration, practice, exam, patients, replay, setup };
+inline constexpr std::size_t kTasks = 7;
+
+/// Returns the task's name, as state files have it: "first_scan".
+const char* to_string(Task task);
+
+/// One version of a scenario, and the smallest seed that draws it.
+struct OfferedVariant {
+  std::string name;
+  std::uint32_t seed = 0;
+};
+
+/// A scenario that can be practised or taken as an exam.
+struct OfferedScenario {
+  std::filesystem::path file;
+  std::string title, briefing;
+  std::size_t steps = 0;
+  double time_limit_s = 0;
+  std::vector<OfferedVariant> variants;  ///< empty if there is one patient only
+  std::string digest;
+};
+
+/// A patient for free practice.
+struct OfferedPatient {
+  std::string name, about;
+  CaseSource source;
+};
+
+/// A run that can be looked at again.
+struct OfferedRun {
+  std::string name, about;
+  ReplaySource replay;
+  std::filesystem::path scenario, expert;  ///< empty if unknown
+  std::uint32_t seed = 0;
+};
+
+/// A tracker that can be chosen.
+struct OfferedTracker {
+  std::string uri, name;
+  FoundTracker::State state = FoundTracker::State::ready;
+  std::string why;  ///< why it cannot be used, or what a learner should know about it
+  bool has_sensor = false;
+
+  bool usable() const { return state == FoundTracker::State::ready; }
+};
+
+/// What the person's choice begins: the trainer as if it had been started with `options`.
+struct Beginning {
+  Options options;
+  bool guided = false;         ///< with the guide on
+  bool free_practice = false;  ///< without the scenario's steps
+};
+
+/// What the start page offers and what has been chosen on it. It reads files and the database and looks for trackers,
+/// and does not know a screen. Problems with what it reads are part of what it offers: nothing throws.
+class StartPage {
+public:
+  /// @param options   the command line's, with the learner and the tracker that were chosen before
+  /// @param database  results, or nullptr; used in the constructor alone
+  StartPage(Options options, ResultsDatabase* database);
+
+  // What is offered
+  const std::vector<OfferedScenario>& scenarios() const { return scenarios_; }
+  const std::vector<OfferedPatient>& patients() const { return patients_; }
+  const std::vector<OfferedRun>& runs() const { return runs_; }
+  const std::vector<OfferedTracker>& trackers() const { return trackers_; }
+  const std::vector<std::string>& learners() const { return learners_; }
+  /// Returns the attempts of the chosen learner, of all if nobody is chosen, newest first.
+  std::vector<AttemptSummary> attempts() const;
+  /// Returns what could not be read, a sentence; empty if nothing.
+  const std::string& problem() const { return problem_; }
+
+  /// Takes over the trackers that were found since, and looks again from time to time.
+  void update(double now_s);
+
+  // What is chosen
+  Task task = Task::first_scan;
+  std::optional<std::size_t> scenario;  ///< of scenarios(), of both practice and exam; empty: free practice
+  std::optional<std::size_t> variant;   ///< of the scenario, in practice; empty: by chance
+  std::size_t patient = 0, run = 0;
+  bool makes_views = false;    ///< of the patient, if it is a case, instead of practising on it
+  bool beside_expert = false;  ///< a replay shows the expert's run too, if there is one
+  const std::string& tracker() const { return options_.tracker; }
+  const std::string& learner() const { return options_.learner; }
+  const std::filesystem::path& calibration() const { return options_.calibration; }
+
+  void choose_tracker(const std::string& uri);
+  /// An empty id stands for nobody in particular.
+  void choose_learner(const std::string& id);
+  void choose_calibration(const std::filesystem::path& file) { options_.calibration = file; }
+  /// Adds a file or folder that a person has chosen for the task, and chooses it. Throws InputError.
+  void add(const std::filesystem::path& path);
+  /// Lists the cases of another folder.
+  void look_for_cases_in(const std::filesystem::path& folder);
+
+  /// Returns why the task cannot begin, a sentence that says what to do; empty if it can.
+  std::string why_not() const;
+  /// Returns what the task begins. To be called only if why_not() is empty.
+  Beginning chosen() const;
+  /// Returns the options that a later start page takes: the command line's, with the learner and the tracker.
+  const Options& options() const { return options_; }
+
+private:
+  void read_scenarios();
+  void read_patients();
+  void read_runs();
+  void read_database(ResultsDatabase& database);
+  void list_trackers(const std::vector<FoundTracker>& found);
+  void add_scenario(const std::filesystem::path& file);
+  const OfferedTracker* chosen_tracker() const;
+  std::string why_no_tracker() const;
+  std::string why_no_exam() const;
+
+  Options options_;
+  std::filesystem::path database_;  ///< empty if there is none
+  std::vector<OfferedScenario> scenarios_;
+  std::vector<OfferedPatient> patients_;
+  std::vector<OfferedRun> runs_;
+  std::vector<OfferedTracker> trackers_;
+  std::vector<std::string> learners_;
+  std::vector<AttemptSummary> attempts_;  ///< newest first
+  std::string problem_;
+  std::future<std::vector<FoundTracker>> search_;
+  double searched_s_ = 0;
+};
+
+}  // namespace insonate

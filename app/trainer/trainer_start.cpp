@@ -1,0 +1,100 @@
+// The trainer's start page: what it prepares in the background, what is begun from it, and the way back to it.
+
+#include <chrono>
+#include <thread>
+#include <utility>
+
+#include "app/trainer/trainer.h"
+
+namespace insonate {
+
+bool Trainer::can_leave() const {
+  if (options_.headless || start_page()) return false;
+  const bool taken = in_exam() && session() && scan()->begun && !session()->result();
+  const bool only_this = given_.mode == Mode::exam && std::holds_alternative<Idle>(mode_);
+  return !taken && !only_this;
+}
+
+bool Trainer::loses_by_leaving() const {
+  const Runner* runner = session() ? session()->runner() : nullptr;
+  return runner && runner->live().started && !session()->result() && !session()->source().recording();
+}
+
+void Trainer::show_start_page() {
+  if (!can_leave()) return;
+  write_results_if_due();
+  recorder_.stop();
+  loading_.reset();
+  loaded_replay_.reset();
+  if (loaded_case_ && is_bundled_patient(current_.source)) built_in_ = loaded_case_;
+  options_ = given_;
+  if (!results_) open_results();
+  mode_ = Idle();  // which lets go of the tracker
+  mode_ = Choosing{std::make_unique<StartPage>(given_, results_ ? &*results_ : nullptr)};
+  given_ = start_page()->options();
+  options_ = given_;
+  raw_.reset();
+  reader_.forget();
+  result_files_.reset();
+  calibration_warning_.clear();
+  setup_left_ = false;
+  prepare_built_in();
+}
+
+void Trainer::prepare_built_in() {
+  if (built_in_ || preparing_) return;
+  preparing_ = std::make_shared<Loading>([](const LoadProgress& progress) {
+    return std::make_shared<const LoadedCase>(load_case(CaseSource{}, progress));
+  });
+}
+
+void Trainer::take_over_prepared() {
+  if (!preparing_ || !preparing_->done()) return;
+  try {
+    built_in_ = preparing_->take();
+  } catch (const std::exception&) {
+    // Whoever chooses this patient is told of it then.
+  }
+  preparing_.reset();
+}
+
+void Trainer::begin_chosen() {
+  const StartPage* page = start_page();
+  if (!page || loading_ || !page->why_not().empty()) return;
+  const Beginning chosen = page->chosen();
+  const bool possible = attempt([&] { check(chosen.options); });
+  if (!possible) return;
+  given_ = page->options();
+  options_ = chosen.options;
+  guide_.turn(chosen.guided);
+  why_not_calibrated_.clear();
+  find_calibration();
+  load(request_of(options_, chosen.free_practice));
+}
+
+/// After what was chosen has not begun: the page is there again, with the options that it had.
+void Trainer::give_up_choice() {
+  if (start_page()) options_ = given_;
+}
+
+/// Takes the built-in patient from what the start page has prepared, or prepares still. Returns false if it is not the
+/// one that is wanted.
+bool Trainer::load_prepared() {
+  if ((!built_in_ && !preparing_) || requested_.replay.any() || !is_bundled_patient(requested_.source)) return false;
+  const auto patient = [built_in = built_in_, preparing = preparing_](const LoadProgress& progress) {
+    while (!built_in && !preparing->done()) {
+      const Loading::Progress sofar = preparing->progress();
+      progress(sofar.what, sofar.share);
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    return built_in ? built_in : preparing->take();
+  };
+  loading_ = std::make_unique<Loading>(
+      [source = requested_.source, refuse = refusals(requested_), patient](const LoadProgress& progress) {
+        refuse();
+        return with_exam_of(source, patient(progress));
+      });
+  return true;
+}
+
+}  // namespace insonate

@@ -1,0 +1,159 @@
+#include "app/trainer/start_page.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+
+#include "sim/core/files.h"
+#include "sim/core/input_error.h"
+#include "tests/scenarios/results/made_attempt.h"
+
+using namespace insonate;
+
+namespace {
+
+Options plain_options(const ResultsFolder& folder) {
+  Options options;
+  options.out = folder / "out";
+  return options;
+}
+
+std::size_t index_of(const StartPage& page, const std::string& title) {
+  const auto& offered = page.scenarios();
+  const auto found =
+      std::find_if(offered.begin(), offered.end(), [&](const OfferedScenario& one) { return one.title == title; });
+  REQUIRE(found != offered.end());
+  return std::size_t(found - offered.begin());
+}
+
+}  // namespace
+
+TEST_CASE("the start page is shown where nothing says what to do, and somebody can choose") {
+  CHECK(begins_on_start_page({}));
+  const auto with = [](auto change) {
+    Options options;
+    change(options);
+    return begins_on_start_page(options);
+  };
+  CHECK(with([](Options& o) { o.learner = "L-07"; }));
+  CHECK_FALSE(with([](Options& o) { o.tracker = "mouse:"; }));
+  CHECK_FALSE(with([](Options& o) { o.ct = "a.nii"; }));
+  CHECK_FALSE(with([](Options& o) { o.case_folder = "a"; }));
+  CHECK_FALSE(with([](Options& o) { o.scenario = "a.toml"; }));
+  CHECK_FALSE(with([](Options& o) { o.mode_named = true; }));
+  CHECK_FALSE(with([](Options& o) { o.headless = true; }));
+  CHECK_FALSE(with([](Options& o) { o.seconds = 5; }));
+  CHECK_FALSE(with([](Options& o) { o.screenshot = "a.png"; }));
+}
+
+TEST_CASE("each task of the start page turns into what the command line would say") {
+  const ResultsFolder folder;
+  StartPage page(plain_options(folder), nullptr);
+  const auto chosen = [&](Task task) {
+    page.task = task;
+    REQUIRE(page.why_not() == "");
+    return page.chosen();
+  };
+  REQUIRE(page.problem() == "");
+
+  const Beginning demonstration = chosen(Task::demonstration);
+  CHECK(demonstration.options.tracker.empty());
+  CHECK(demonstration.options.scenario.empty());
+
+  const Beginning lesson = chosen(Task::first_scan);
+  CHECK(lesson.options.tracker == "mouse:");
+  CHECK(lesson.guided);
+  CHECK(is_bundled_patient({{}, {}, lesson.options.scenario, std::nullopt, 0}));  // it is there at once
+
+  page.scenario = index_of(page, "Kidneys");
+  REQUIRE(page.scenarios()[*page.scenario].variants.size() == 3);
+  page.variant = 2;
+  const Beginning practice = chosen(Task::practice);
+  CHECK(practice.options.mode == Mode::practice);
+  REQUIRE(practice.options.seed);
+  CHECK(read_scenario(practice.options.scenario, *practice.options.seed).variant == "stone on the left");
+  CHECK_FALSE(practice.free_practice);
+  page.scenario.reset();
+  CHECK(chosen(Task::practice).free_practice);
+  CHECK(chosen(Task::practice).options.scenario.empty());
+
+  page.task = Task::patients;
+  page.add(assets_folder() / "logs" / "kidneys_poor.igs.mha");
+  CHECK(page.task == Task::replay);
+  const Beginning replay = chosen(Task::replay);
+  CHECK(replay.options.mode == Mode::replay);
+  CHECK(replay.options.replay.log == assets_folder() / "logs" / "kidneys_poor.igs.mha");
+  CHECK(replay.options.replay.beside_log.empty());
+
+  write_file(folder / "water.mha", "ObjectType = Image");
+  page.add(folder / "water.mha");
+  const Beginning patient = chosen(Task::patients);
+  CHECK(patient.options.ct == folder / "water.mha");
+  CHECK(patient.free_practice);
+  CHECK_THROWS_WITH(page.add(folder / "nothing.mha"), Catch::Contains("there is no such file"));
+
+  page.task = Task::setup;
+  CHECK(page.why_not().find("no sensor") != std::string::npos);
+  page.choose_tracker("igtl://localhost/Probe");
+  const Beginning setup = chosen(Task::setup);
+  CHECK(setup.options.mode == Mode::setup);
+  CHECK(setup.options.tracker == "igtl://localhost/Probe");
+  CHECK_THROWS_AS(page.choose_tracker("igtl://?frame=x"), InputError);
+  CHECK(page.tracker() == "igtl://localhost/Probe");
+}
+
+TEST_CASE("a recorded scan is offered beside the skilled scan of its exam") {
+  const ResultsFolder folder;
+  StartPage page(plain_options(folder), nullptr);
+  page.task = Task::replay;
+  page.beside_expert = true;
+  const auto of = [&](const char* log) {
+    const auto& runs = page.runs();
+    const auto found =
+        std::find_if(runs.begin(), runs.end(), [&](const OfferedRun& run) { return run.replay.log.filename() == log; });
+    REQUIRE(found != runs.end());
+    page.run = std::size_t(found - runs.begin());
+    return page.chosen().options;
+  };
+  const Options poor = of("aorta_poor.igs.mha");
+  CHECK(poor.scenario.filename() == "aorta.toml");
+  CHECK(poor.replay.beside_log.filename() == "aorta_good.igs.mha");
+  CHECK(of("aorta_good.igs.mha").replay.beside_log.empty());
+}
+
+TEST_CASE("an exam needs a learner who has not taken it, and the page says so") {
+  const ResultsFolder folder;
+  ResultsDatabase database = ResultsDatabase::open_or_make(folder / "results.db");
+  Attempt taken = made_attempt("L-07", tiny_exam(0));
+  taken.scenario_text = read_file(assets_folder() / "scenarios" / "knobs.toml");
+  ExamResult result = result_from_json(taken.score_json, "attempt");
+  result.provenance.mode = AttemptMode::exam;
+  taken.score_json = to_json(result);
+  database.add(taken);
+  write_file(folder / "learners.csv", "learner\nL-08\n");
+
+  Options options = plain_options(folder);
+  StartPage page(options, &database);
+  CHECK(page.problem() == "");
+  CHECK(page.learners() == std::vector<std::string>{"L-07", "L-08"});
+  page.task = Task::exam;
+  page.scenario = index_of(page, "Knobs and orientation");
+  CHECK(page.why_not().find("who is learning") != std::string::npos);
+  page.choose_learner("L-07");
+  CHECK(page.why_not().find("as attempt 1") != std::string::npos);
+  CHECK(page.attempts().size() == 1);
+  page.choose_learner("L-08");
+  CHECK(page.why_not() == "");
+  CHECK(page.attempts().empty());
+  CHECK(page.chosen().options.mode == Mode::exam);
+  CHECK(page.chosen().options.learner == "L-08");
+  CHECK_FALSE(page.chosen().options.seed);  // drawn by chance
+  CHECK_THROWS_AS(page.choose_learner("Ada Lovelace"), InputError);
+  CHECK(page.learner() == "L-08");
+
+  INFO("the attempt can be looked at again");
+  page.task = Task::replay;
+  page.run = 0;
+  CHECK(page.chosen().options.replay.attempt == 1);
+  CHECK(page.chosen().options.results == folder / "results.db");
+}

@@ -1,0 +1,98 @@
+#!/usr/bin/env bash
+# The start page in a real window: what it begins by keys and clicks, and the ways back to it.
+#   window_start_test.sh PROGRAM ASSETS_FOLDER
+. "$(dirname "$0")/window_session.sh"
+click_on() { click "$(middle_x "$1")" "$(middle_y "$1")"; }
+is_page() { is_not start_task "" && is overlay "${1:-}"; }
+start_page() {
+  rm -f "$state"
+  "$program" "$@" --out "$work/out" --state-file "$state" >"$work/log" 2>&1 &
+  trainer=$!
+}
+end_trainer() {
+  kill "$trainer"
+  wait "$trainer" 2>/dev/null || true
+}
+
+echo "a file that is missing is told of over the page"
+start_page --ct "$work/nowhere.nii.gz"
+await "the problem lies over the page" is_page problem
+contains problem "nowhere.nii.gz" || fail "the problem names no file"
+xdotool key Return
+await "the page is there" is_page
+end_trainer
+
+echo "without arguments the page is there, and the demonstration says what it is"
+start_page
+await "the page is there" is_page
+is start_task first_scan || fail "it begins with $(value start_task)"
+xdotool key Down
+await "Down goes to the next task" is start_task demonstration
+xdotool key Return
+await "it begins" is demonstration true
+xdotool key F1
+await "F1 shows help beside it" is overlay help
+xdotool key Escape
+await "Escape closes it" is overlay ""
+await "the recorded scan ends" is_not percent ""
+is overlay "" || fail "somebody else's score lies over the window"
+xdotool key F1
+await "F1 shows help after its end" is overlay help
+xdotool key Escape
+await "Escape closes it" is overlay ""
+click_on own_try
+await "the exam is one's own" is holder learner
+is activity exam || fail "there is nothing to try"
+is demonstration false || fail "one's own try is called a demonstration"
+
+echo "Escape asks before it leaves steps that are not finished"
+await "the time runs" is_not elapsed_s 0.0
+xdotool key Escape
+await "it asks" is overlay leave
+xdotool key Escape
+await "Escape stays" is overlay ""
+is activity exam || fail "the steps were left"
+xdotool key Escape
+await "it asks" is overlay leave
+xdotool key Return
+await "Return leaves" is_page
+
+echo "a learner is named, and only then an exam can begin"
+click_on task_exam
+await "the exams are there" is start_task exam
+contains start_why_not "who is learning" || fail "the page does not say what is missing: $(value start_why_not)"
+click_on learner_field
+await "the field takes text" is typing true
+xdotool type "L-07"
+xdotool key Return
+await "the learner is known" is start_learner L-07
+contains start_why_not ': ""' || fail "$(value start_why_not)"
+
+echo "F2 without a sensor leads to the choice of a tracker"
+click_on task_first_scan
+await "the first scan is chosen" is start_task first_scan
+click_on begin
+await "it is explained first" is overlay briefing
+xdotool key Return
+await "the guide is on" is guided_to liver_subcostal
+xdotool key F2
+await "F2 shows the page's trackers" is start_task setup
+contains start_why_not "no sensor" || fail "$(value start_why_not)"
+
+echo "a folder is gone into, and what is in it is opened by clicks"
+mkdir -p "$work/scans"
+water "$work/scans/water.mha"
+xdotool key ctrl+o
+await "the dialog is there" is overlay open
+xdotool type "$work/scans"
+xdotool key Return
+await "the folder's file is listed" is_not entry_water.mha_x ""
+click_on entry_water.mha
+sleep 0.5
+click_on open_path
+await "the CT is the patient" is patient water.mha
+click_on start_page
+await "the button leads back" is_page
+
+kill -0 "$trainer" || fail "the trainer ended by itself"
+echo "passed"
