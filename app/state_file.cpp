@@ -56,6 +56,7 @@ void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::
     state["start_why_not"] = page->why_not();
     state["start_learner"] = page->learner();
     state["start_tracker"] = page->tracker();
+    state["typing"] = screen.types_text(trainer);
   }
   if (const SetupWizard* setup = trainer.setup()) {
     const SetupView view = setup->view();

@@ -151,9 +151,10 @@ void StartPage::read_patients() {
     for (const OfferedVariant& drawn_by : variants) {
       const Scenario drawn = read_scenario(offered.file, drawn_by.seed);
       OfferedPatient made{"", "Built-in patient", {}};
-      made.name = drawn.phantom_options.empty() ? "Nothing abnormal"
-                  : drawn.variant.empty()       ? offered.title
-                                                : offered.title + ": " + drawn.variant;
+      std::string finding = drawn.variant;
+      for (const auto& [option, value] : drawn.phantom_options)
+        if (finding.empty()) finding = in_words(option);
+      made.name = drawn.phantom_options.empty() ? "Nothing abnormal" : offered.title + ": " + finding;
       made.source.scenario = offered.file;
       made.source.seed = drawn_by.seed;
       found.emplace(drawn.phantom_options, std::move(made));
