@@ -88,7 +88,8 @@ std::string progress_text(const LiveExam& live, const StepWords& words) {
   return words.under_way;
 }
 
-void draw_hold(const Theme& theme, const Rect& where, const LiveExam& live, const StepWords& words) {
+void draw_hold(const Theme& theme, const Rect& where, const Session& session, const StepWords& words) {
+  const LiveExam& live = session.runner()->live();
   const ImVec2 centre{where.x + theme.px(28), where.y + where.h / 2};
   const bool on_target = live.within_tolerance && !live.finished;
   draw_ring(centre, theme.px(19), theme.px(5), live.finished ? 1.0 : live.hold_share, colour::kAccent, colour::kRaised);
@@ -96,11 +97,12 @@ void draw_hold(const Theme& theme, const Rect& where, const LiveExam& live, cons
   const Rect lower{upper.x, upper.y + upper.h, upper.w, theme.px(20)};
   draw_text(upper, theme.strong, on_target ? colour::kAccent : colour::kText, progress_text(live, words));
   draw_text(lower, theme.small_text, colour::kMuted,
-            live.finished                     ? "see the score sheet"
-            : !live.started                   ? "not started"
-            : live.on_skin                    ? "probe on the skin"
-            : live.tracking == PoseStatus::ok ? "probe off the skin"
-                                              : "no pose");
+            live.finished && session.source().recording() ? "the recorded scan is over"
+            : live.finished                               ? "see the score sheet"
+            : !live.started                               ? "not started"
+            : live.on_skin                                ? "probe on the skin"
+            : live.tracking == PoseStatus::ok             ? "probe off the skin"
+                                                          : "no pose");
 }
 
 /// What is left of the step and of the exam, whose clock stands still during warm-ups.
@@ -180,7 +182,7 @@ void draw_exam_panel(const Theme& theme, const Rect& panel, const Session& sessi
   rest.take_right(theme.px(12));
   // Whether the view is found is what an exam asks.
   if (!session.strict() || live.finished) {
-    draw_hold(theme, rest.take_right(theme.px(190)), live, step.task->words());
+    draw_hold(theme, rest.take_right(theme.px(190)), session, step.task->words());
     rest.take_right(theme.px(12));
   }
 

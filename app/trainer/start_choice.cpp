@@ -54,6 +54,13 @@ std::string StartPage::why_not() const {
   return "";
 }
 
+std::filesystem::path StartPage::expert() const {
+  if (run >= runs_.size()) return {};
+  if (!runs_[run].needs_scenario() || !run_scenario) return runs_[run].expert;
+  const auto known = expert_of_.find(scenarios_[*run_scenario].digest);
+  return known == expert_of_.end() ? std::filesystem::path() : known->second;
+}
+
 Beginning StartPage::chosen() const {
   Beginning chosen{options_, false, false};
   Options& options = chosen.options;
@@ -105,7 +112,8 @@ Beginning StartPage::chosen() const {
       if (chosen_run.replay.attempt > 0) options.results = chosen_run.replay.database;
       options.scenario = chosen_run.scenario;
       if (!chosen_run.scenario.empty()) options.seed = chosen_run.seed;
-      if (beside_expert) options.replay.beside_log = chosen_run.expert;
+      if (chosen_run.needs_scenario() && run_scenario) options.scenario = scenarios_[*run_scenario].file;
+      if (beside_expert) options.replay.beside_log = expert();
       break;
     }
     case Task::setup:

@@ -190,11 +190,6 @@ void StartPage::read_database(ResultsDatabase& database) {
 }
 
 void StartPage::read_runs() {
-  struct Plan {
-    fs::path scenario;
-    std::uint32_t seed = 0;
-  };
-  std::map<std::string, fs::path> expert_of;  // by the scenario's digest
   std::vector<OfferedRun> bundled;
   for (const fs::path& log : files_in(assets_folder() / "logs", ".igs.mha")) {
     const std::string name = log.filename().string();
@@ -212,7 +207,7 @@ void StartPage::read_runs() {
                              {},        of->file,
                              {},        std::uint32_t(document.root().whole_number("scenario_seed", 0, 0xffffffff, 0))};
       offered_run.replay.log = log;
-      if (good) expert_of[of->digest] = log;
+      if (good) expert_of_[of->digest] = log;
       bundled.push_back(std::move(offered_run));
     } catch (const std::exception& error) {
       problem_ = error.what();
@@ -223,8 +218,8 @@ void StartPage::read_runs() {
     OfferedRun offered_run{attempt.title, summary_of(attempt), {}, {}, {}, 0};
     offered_run.replay.database = database_;
     offered_run.replay.attempt = attempt.number;
-    if (const auto expert = expert_of.find(attempt.scenario_digest); expert != expert_of.end())
-      offered_run.expert = expert->second;
+    if (const auto skilled = expert_of_.find(attempt.scenario_digest); skilled != expert_of_.end())
+      offered_run.expert = skilled->second;
     runs_.push_back(std::move(offered_run));
   }
   for (const fs::path& log : files_in(options_.out, ".igs.mha")) {
@@ -235,8 +230,8 @@ void StartPage::read_runs() {
   }
   for (OfferedRun& offered_run : bundled) {
     for (const OfferedScenario& offered : scenarios_)
-      if (offered.file == offered_run.scenario && expert_of[offered.digest] != offered_run.replay.log)
-        offered_run.expert = expert_of[offered.digest];
+      if (offered.file == offered_run.scenario && expert_of_[offered.digest] != offered_run.replay.log)
+        offered_run.expert = expert_of_[offered.digest];
     runs_.push_back(std::move(offered_run));
   }
 }

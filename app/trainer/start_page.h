@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <future>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -46,6 +47,9 @@ struct OfferedRun {
   std::string name, about;
   ReplaySource replay;
   std::filesystem::path scenario, expert;  ///< empty if unknown
+
+  /// Returns whether a person has to say which scenario the run is of.
+  bool needs_scenario() const { return replay.attempt == 0 && scenario.empty(); }
   std::uint32_t seed = 0;
 };
 
@@ -93,8 +97,9 @@ public:
   std::optional<std::size_t> scenario;  ///< of scenarios(), of both practice and exam; empty: free practice
   std::optional<std::size_t> variant;   ///< of the scenario, in practice; empty: by chance
   std::size_t patient = 0, run = 0;
-  bool makes_views = false;    ///< of the patient, if it is a case, instead of practising on it
-  bool beside_expert = false;  ///< a replay shows the expert's run too, if there is one
+  std::optional<std::size_t> run_scenario;  ///< whose steps a recording is shown with that does not name its scenario
+  bool makes_views = false;                 ///< of the patient, if it is a case, instead of practising on it
+  bool beside_expert = false;               ///< a replay shows the expert's run too, if there is one
   const std::string& tracker() const { return options_.tracker; }
   const std::string& learner() const { return options_.learner; }
   const std::filesystem::path& calibration() const { return options_.calibration; }
@@ -108,6 +113,8 @@ public:
   /// Lists the cases of another folder.
   void look_for_cases_in(const std::filesystem::path& folder);
 
+  /// Returns the skilled scan that the chosen run can be compared with; empty if there is none.
+  std::filesystem::path expert() const;
   /// Returns why the task cannot begin, a sentence that says what to do; empty if it can.
   std::string why_not() const;
   /// Returns what the task begins. To be called only if why_not() is empty.
@@ -131,6 +138,7 @@ private:
   std::vector<OfferedScenario> scenarios_;
   std::vector<OfferedPatient> patients_;
   std::vector<OfferedRun> runs_;
+  std::map<std::string, std::filesystem::path> expert_of_;  ///< a skilled scan, by its scenario's digest
   std::vector<OfferedTracker> trackers_;
   std::vector<std::string> learners_;
   std::vector<AttemptSummary> attempts_;  ///< newest first

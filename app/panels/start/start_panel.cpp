@@ -310,7 +310,7 @@ StartAnswer StartPanel::draw_task(const Theme& theme, const Rect& panel, StartPa
                 "A recorded scan of the right upper quadrant is replayed: what a skilled hand does with the probe, the "
                 "ultrasound that it gives, and the plane in the patient.");
       paragraph(theme, rest, colour::kMuted,
-                "It takes a minute. Tab takes the probe at any moment, and you go on from there.");
+                "It takes less than a minute. Tab takes the probe at any moment, and you go on from there.");
       break;
     case Task::practice:
     case Task::exam:
@@ -405,14 +405,24 @@ StartAnswer StartPanel::draw_runs(const Theme& theme, Rect rest, StartPage& page
   if (button(theme, "browse", (*places_)["browse"], "Open a recorded scan\u2026"))
     answer = {StartAnswer::Kind::browse, Wanted::recording};
   buttons.take_left(theme.px(8));
-  const bool any = page.run < page.runs().size();
-  const bool expert = any && !page.runs()[page.run].expert.empty();
+  const bool expert = !page.expert().empty();
   (*places_)["beside"] = buttons.take_left(theme.px(220));
   if (button(theme, "beside", (*places_)["beside"], "Beside the skilled scan",
              expert && page.beside_expert ? ButtonKind::chosen : ButtonKind::normal, expert))
     page.beside_expert = !page.beside_expert;
   if (!expert)
     hint_over(theme, (*places_)["beside"], "There is no skilled scan of this run's exam to compare it with.");
+  if (page.run < page.runs().size() && page.runs()[page.run].needs_scenario()) {
+    Rect of = rest.take_bottom(theme.px(kChoiceRow + kSecondChoiceRow));
+    rest.take_bottom(theme.px(10));
+    std::vector<Choice> choices{
+        {"steps_none", "No steps", page.run_scenario ? ButtonKind::normal : ButtonKind::chosen}};
+    for (std::size_t i = 0; i < page.scenarios().size(); ++i)
+      choices.push_back({"steps_" + std::to_string(i), page.scenarios()[i].title,
+                         page.run_scenario == i ? ButtonKind::chosen : ButtonKind::normal});
+    if (const auto clicked = flow_of_choices(theme, of, choices, *places_))
+      page.run_scenario = *clicked == 0 ? std::nullopt : std::optional(*clicked - 1);
+  }
   std::vector<ListRow> rows;
   for (std::size_t i = 0; i < page.runs().size(); ++i)
     rows.push_back({"run_" + std::to_string(i), page.runs()[i].name, page.runs()[i].about});

@@ -84,6 +84,12 @@ TEST_CASE("each task of the start page turns into what the command line would sa
   CHECK(replay.options.mode == Mode::replay);
   CHECK(replay.options.replay.log == assets_folder() / "logs" / "kidneys_poor.igs.mha");
   CHECK(replay.options.replay.beside_log.empty());
+  INFO("a recording does not name its scenario, so a person does");
+  CHECK(replay.options.scenario.empty());
+  page.run_scenario = index_of(page, "Kidneys");
+  page.beside_expert = true;
+  CHECK(chosen(Task::replay).options.scenario.filename() == "kidneys.toml");
+  CHECK(chosen(Task::replay).options.replay.beside_log.filename() == "kidneys_good.igs.mha");
 
   write_file(folder / "water.mha", "ObjectType = Image");
   page.add(folder / "water.mha");

@@ -1,0 +1,114 @@
+#include <catch2/catch.hpp>
+
+#include <chrono>
+#include <thread>
+
+#include "app/trainer/trainer.h"
+#include "tests/app/trainer/trainer_folder.h"
+#include "tests/gl/test_context.h"
+
+using namespace insonate;
+
+namespace {
+
+/// The built-in patient is prepared behind the page. Nothing may be destroyed while that is given up.
+struct Patience {
+  ~Patience() {
+    while (Loading::given_up() > 0) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+};
+
+void begin(Trainer& trainer) {
+  REQUIRE(trainer.start_page());
+  REQUIRE(trainer.start_page()->why_not() == "");
+  trainer.begin_chosen();
+  trainer.finish_loading();
+}
+
+}  // namespace
+
+TEST_CASE("the start page begins what is chosen, and is there again afterwards") {
+  const Patience patience;
+  const test::TestContext context;
+  const TrainerFolder folder;
+  Options options;
+  options.out = folder.path / "out";
+  Trainer trainer(options);
+  trainer.open_from_options();
+  CHECK_FALSE(trainer.loading());
+  CHECK_FALSE(trainer.can_leave());
+  trainer.update(0);
+
+  INFO("a patient of one's own, without steps");
+  trainer.start_page()->add(folder.path / "tiny");
+  trainer.start_page()->choose_learner("L-07");
+  begin(trainer);
+  REQUIRE(trainer.session());
+  CHECK(trainer.loaded_case()->subject.name == "Ball in a block");
+  CHECK_FALSE(trainer.session()->runner());
+  CHECK(trainer.session()->only_learner());
+  CHECK_FALSE(trainer.demonstration());
+  CHECK_FALSE(trainer.loses_by_leaving());
+  trainer.show_start_page();
+
+  INFO("what cannot begin leaves the page as it is");
+  std::string of_nobody = kTinyScenario;
+  of_nobody.replace(of_nobody.find("\"tiny\""), 6, "\"nobody\"");
+  REQUIRE(trainer.start_page());
+  trainer.start_page()->add(folder.file("nobody.toml", of_nobody));
+  begin(trainer);
+  CHECK(trainer.start_page());
+  REQUIRE(trainer.problems().size() == 1);
+  CHECK(trainer.problems().front().find("nobody") != std::string::npos);
+  trainer.problems().clear();
+
+  INFO("an exam can be left before it begins and when it is over");
+  trainer.start_page()->add(folder.path / "exam.toml");
+  trainer.start_page()->task = Task::exam;
+  CHECK(trainer.start_page()->learner() == "L-07");
+  begin(trainer);
+  REQUIRE(trainer.session());
+  CHECK(trainer.session()->strict());
+  CHECK(trainer.briefing());
+  CHECK(trainer.can_leave());
+  trainer.start();
+  for (int i = 0; i < 5; ++i) trainer.update(i / 30.0);
+  CHECK_FALSE(trainer.can_leave());
+  trainer.show_start_page();
+  REQUIRE(trainer.session());
+  trainer.hand_in_exam();
+  CHECK(trainer.can_leave());
+  trainer.show_start_page();
+  REQUIRE(trainer.start_page());
+  CHECK(trainer.start_page()->attempts().size() == 1);
+  trainer.start_page()->add(folder.path / "exam.toml");
+  trainer.start_page()->task = Task::exam;
+  CHECK(trainer.start_page()->why_not().find("as attempt 1") != std::string::npos);
+  trainer.begin_chosen();
+  CHECK_FALSE(trainer.loading());
+
+  INFO("practice loses by leaving");
+  trainer.start_page()->task = Task::practice;
+  begin(trainer);
+  trainer.start();
+  for (int i = 0; i < 5; ++i) trainer.update(1 + i / 30.0);
+  CHECK(trainer.loses_by_leaving());
+  CHECK(trainer.can_leave());
+}
+
+TEST_CASE("a command line that names nothing usable leads to the start page, with the reason") {
+  const Patience patience;
+  const test::TestContext context;
+  const TrainerFolder folder;
+  Options options;
+  options.out = folder.path / "out";
+  options.ct = folder.path / "nowhere.nii.gz";
+  options.tracker = "mouse:";
+  Trainer trainer(options);
+  trainer.open_from_options();
+  CHECK_FALSE(trainer.start_page());
+  trainer.finish_loading();
+  REQUIRE(trainer.problems().size() == 1);
+  CHECK(trainer.problems().front().find("nowhere.nii.gz") != std::string::npos);
+  CHECK(trainer.start_page());
+}
