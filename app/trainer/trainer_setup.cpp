@@ -148,6 +148,11 @@ void Trainer::open_setup() {
 void Trainer::end_setup() {
   if (!setup()) return;
   const std::string missing = why_incomplete(setup()->calibration());
+  if (options_.mode == Mode::setup && given_.mode != Mode::setup) {  // begun from the start page
+    show_start_page();
+    start_page()->task = missing.empty() ? Task::practice : Task::setup;
+    return;
+  }
   if (options_.mode == Mode::setup) options_.mode = Mode::practice;
   options_.tracker = current_.tracker;
   if (missing.empty()) options_.calibration = setup()->file();

@@ -135,7 +135,7 @@ StartAnswer StartPanel::draw(const Theme& theme, const Rect& screen, StartPage& 
 
   const StartAnswer of_task = draw_task(theme, rest, page);
   if (of_task.kind != StartAnswer::Kind::none) answer = of_task;
-  draw_learner(theme, side.take_top(theme.px(158)), page, attempt);
+  draw_learner(theme, side.take_top(theme.px(178)), page, attempt);
   side.take_top(gap);
   float trackers = theme.px(14 + 22 + 8 + 8 + 38 + 14);
   for (const OfferedTracker& tracker : page.trackers())
@@ -249,7 +249,7 @@ void StartPanel::draw_attempts(const Theme& theme, Rect panel, StartPage& page) 
     Rect lines = row.inset(theme.px(8), theme.px(3));
     Rect upper = lines.take_top(theme.px(21));
     draw_text(upper.take_right(theme.px(64)), theme.strong, attempt.passed ? colour::kAccent : colour::kText,
-              fixed(attempt.percent, 0) + " %", Align::right);
+              fixed(attempt.percent, 1) + " %", Align::right);
     draw_text(upper, theme.text, colour::kText, attempt.title);
     const std::string who = attempt.learner == kNobodyInParticular ? "" : attempt.learner + ", ";
     draw_text(lines, theme.small_text, colour::kMuted,
@@ -293,9 +293,10 @@ StartAnswer StartPanel::draw_task(const Theme& theme, const Rect& panel, StartPa
   StartAnswer detail;
   switch (page.task) {
     case Task::first_scan:
-      paragraph(theme, rest, colour::kText,
-                "Hold the probe yourself. The guide leads you in three small steps: find the liver, then the place "
-                "between liver and right kidney where fluid gathers, and point at the fluid.");
+      paragraph(
+          theme, rest, colour::kText,
+          "Hold the probe yourself. The guide leads you in three small steps: find the liver, find the bladder, and "
+          "point at it in the frozen picture.");
       paragraph(theme, rest, colour::kMuted, "The mouse and the keyboard move the probe. You need nothing else.");
       draw_keys(theme, rest,
                 {{"Drag the probe", "in the 3D view: put it somewhere else"},
@@ -436,7 +437,7 @@ StartAnswer StartPanel::draw_setup(const Theme& theme, Rect rest, StartPage& pag
             "A tracker reports where its sensor is. The set-up finds how the sensor lies on your dummy probe and where "
             "the mannequin lies, in five steps. Each says what to do.");
   paragraph(theme, rest, colour::kMuted,
-            "Choose the tracker on the right: a green light means that it can be used. For one that is plugged in and "
+            "Choose the tracker on the right: a bright light means that it can be used. For one that is plugged in and "
             "cannot be used, the reason stands below it. Only trackers with a sensor need a set-up.");
   paragraph(theme, rest, colour::kMuted,
             page.calibration().empty() ? "The last set-up of the same tracker in this folder is used by itself."

@@ -79,6 +79,20 @@ xdotool key F2
 await "F2 shows the page's trackers" is start_task setup
 contains start_why_not "no sensor" || fail "$(value start_why_not)"
 
+echo "a tracker on the network is set up, without a pose nothing can be marked, and the way back is the page"
+click_on tracker_address
+await "the field takes text" is typing true
+xdotool type "127.0.0.1:1"
+xdotool key Return
+await "the tracker is chosen" is start_tracker "igtl://127.0.0.1:1"
+click_on begin
+await "the set-up opens" is overlay setup
+xdotool key Escape
+await "Escape leads back" is_page
+is start_task setup || fail "it leads to $(value start_task)"
+click_on tracker_mouse:
+await "the mouse is chosen again" is start_tracker mouse:
+
 echo "a folder is gone into, and what is in it is opened by clicks"
 mkdir -p "$work/scans"
 water "$work/scans/water.mha"
