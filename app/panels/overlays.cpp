@@ -105,13 +105,13 @@ HelpAnswer draw_key_help(const Theme& theme, const Rect& screen, std::map<std::s
       {"Backspace, Delete", "take back the last thing placed; all of it"},
       {"1 to 9", "choose an answer, a name, or which caliper comes next"},
       {"Enter", "answer; go on to the next step of an exam"},
-      {"Escape", "give up what is being placed or typed; else back to the start page"},
+      {"Escape", "give up what is being placed; else to the start page"},
       {"+, \u2212 and [, ]", "gain; depth"},
       {"G", "practice: show the way to the view, or to the next"},
       {"M", "mark this moment, in the recording too"},
       {"R", "record the run; end the recording"},
       {"Ctrl O", "open a case, CT, scenario or recorded scan"},
-      {"F2", "set up the tracker, or choose one: probe, sensor and mannequin"},
+      {"F2", "choose a tracker, or set up the one in use"},
       {"F1", "this page"},
   }};
   const float row = theme.px(25);

@@ -158,6 +158,7 @@ ScoreAnswer draw_score_sheet(const Theme& theme, const Rect& screen, const ExamR
   if (button(theme, "close_sheet", next(), "Close")) answer = ScoreAnswer::close;
   if (button(theme, "open_report", next(), "Open the report", ButtonKind::normal, files.has_value()))
     answer = ScoreAnswer::open_report;
+  if (!watched && button(theme, "leave_sheet", next(), "Start page")) answer = ScoreAnswer::leave;
   if (once) {
     end_overlay();
     return answer;

@@ -10,7 +10,7 @@
 
 namespace insonate::ui {
 
-enum class ScoreAnswer { none, again, own_try, practice, open_report, close };
+enum class ScoreAnswer { none, again, own_try, practice, open_report, leave, close };
 
 /// Draws the score of a finished exam: verdict, each criterion's value, limits, points and reason, and where the report
 /// is.

@@ -503,6 +503,9 @@ void Screen::answer_score(Trainer& trainer, ScoreAnswer answer) {
     case ScoreAnswer::open_report:
       open_on_desktop(trainer.result_files()->report);
       break;
+    case ScoreAnswer::leave:
+      trainer.show_start_page();
+      break;
     case ScoreAnswer::close:
       closed_sheet_of_ = &*session.result();
       break;

@@ -62,6 +62,15 @@ TEST_CASE("the start page begins what is chosen, and is there again afterwards")
   CHECK(trainer.problems().front().find("nobody") != std::string::npos);
   trainer.problems().clear();
 
+  INFO("what is being loaded can be given up");
+  trainer.start_page()->add(folder.path / "tiny");
+  trainer.begin_chosen();
+  REQUIRE(trainer.loading());
+  CHECK(trainer.can_stop_loading());
+  trainer.stop_loading();
+  CHECK_FALSE(trainer.loading());
+  REQUIRE(trainer.start_page());
+
   INFO("an exam can be left before it begins and when it is over");
   trainer.start_page()->add(folder.path / "exam.toml");
   trainer.start_page()->task = Task::exam;
@@ -94,6 +103,26 @@ TEST_CASE("the start page begins what is chosen, and is there again afterwards")
   for (int i = 0; i < 5; ++i) trainer.update(1 + i / 30.0);
   CHECK(trainer.loses_by_leaving());
   CHECK(trainer.can_leave());
+}
+
+TEST_CASE("the first patient can be given up, and an exam that the command line asks for cannot") {
+  const Patience patience;
+  const test::TestContext context;
+  const TrainerFolder folder;
+  Options options = folder.options();
+  options.tracker = "mouse:";
+  Trainer practice(options);
+  practice.open_from_options();
+  practice.stop_loading();
+  CHECK(practice.start_page());
+  options.mode = Mode::exam;
+  options.learner = "L-07";
+  Trainer exam(options);
+  exam.open_from_options();
+  CHECK_FALSE(exam.can_stop_loading());
+  exam.stop_loading();
+  CHECK_FALSE(exam.start_page());
+  CHECK(exam.loading());
 }
 
 TEST_CASE("a command line that names nothing usable leads to the start page, with the reason") {
