@@ -115,7 +115,7 @@ HelpAnswer draw_key_help(const Theme& theme, const Rect& screen, std::map<std::s
       {"F1", "this page"},
   }};
   const float row = theme.px(25);
-  Rect sheet = begin_overlay(theme, screen, {theme.px(660), row * float(kKeys.size()) + theme.px(146)});
+  Rect sheet = begin_overlay(theme, screen, {theme.px(700), row * float(kKeys.size()) + theme.px(146)});
   draw_text(sheet.take_top(theme.px(28)), theme.heading, colour::kText, "Help: keys and mouse");
   sheet.take_top(theme.px(12));
   for (const auto& [key, meaning] : kKeys) {

@@ -252,8 +252,8 @@ constexpr ModeText kModes[] = {
 void declare(CLI::App& arguments, Options& options) {
   arguments.description(
       "Practise bedside ultrasound: live images from CT, guided and scored.\n"
-      "Without arguments, a window begins with a page that shows what there is to do. Without a display, the bundled\n"
-      "scan of the built-in patient is replayed and scored.");
+      "Without arguments, a window begins with a page that shows what there is to do.\n"
+      "Without a display, the bundled scan of the built-in patient is replayed and scored.");
   add_practice(arguments, options);
   arguments.footer(std::string("Each mode lists its options: insonate exam --help\n") + kExitCodes);
   for (const ModeText& text : kModes) {

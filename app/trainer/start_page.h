@@ -86,6 +86,8 @@ public:
   const std::vector<std::string>& learners() const { return learners_; }
   /// Returns the attempts of the chosen learner, of all if nobody is chosen, newest first.
   std::vector<AttemptSummary> attempts() const;
+  /// Returns the database of results; empty if there is none.
+  const std::filesystem::path& database() const { return database_; }
   /// Returns what could not be read, a sentence; empty if nothing.
   const std::string& problem() const { return problem_; }
 

@@ -76,6 +76,13 @@ ImU32 light_of(FoundTracker::State state) {
   return colour::kLine;
 }
 
+/// A reason is shown so far; the rest beside the pointer.
+constexpr float kReasonLines = 3;
+
+float reason_height(const Theme& theme) {
+  return kReasonLines * theme.small_text->FontSize + theme.px(6);
+}
+
 const char* words_of(FoundTracker::State state) {
   switch (state) {
     case FoundTracker::State::ready:
@@ -139,7 +146,7 @@ StartAnswer StartPanel::draw(const Theme& theme, const Rect& screen, StartPage& 
   side.take_top(gap);
   float trackers = theme.px(14 + 22 + 8 + 8 + 38 + 14);
   for (const OfferedTracker& tracker : page.trackers())
-    trackers += theme.px(kListRow) + (tracker.state == FoundTracker::State::hindered ? theme.px(38) : 0);
+    trackers += theme.px(kListRow) + (tracker.state == FoundTracker::State::hindered ? reason_height(theme) : 0);
   draw_trackers(theme, side.take_top(trackers), page, attempt);
   side.take_top(gap);
   if (side.h > theme.px(90)) draw_attempts(theme, side, page);
@@ -205,8 +212,9 @@ void StartPanel::draw_trackers(const Theme& theme, Rect panel, StartPage& page, 
     draw_text(line, theme.text, tracker.state == FoundTracker::State::absent ? colour::kMuted : colour::kText,
               tracker.name);
     if (hindered) {
-      Rect why = rest.take_top(theme.px(38));
-      why.take_left(theme.px(32));
+      Rect why = rest.take_top(reason_height(theme));
+      hint_over(theme, why, tracker.why);
+      why = {why.x + theme.px(32), why.y, why.w - theme.px(32), kReasonLines * theme.small_text->FontSize};
       draw_paragraph(why, theme.small_text, colour::kAmber, tracker.why);
     }
   }
@@ -228,6 +236,9 @@ void StartPanel::draw_trackers(const Theme& theme, Rect panel, StartPage& page, 
 void StartPanel::draw_attempts(const Theme& theme, Rect panel, StartPage& page) {
   Rect rest = draw_column_panel(theme, panel, "Done before");
   const std::vector<AttemptSummary> attempts = page.attempts();
+  const Rect file = rest.take_bottom(theme.px(20));
+  if (!page.database().empty()) draw_text(file, theme.small_text, colour::kMuted, "In " + page.database().string());
+  hint_over(theme, file, page.database().string());
   if (attempts.empty())
     return void(draw_paragraph(rest, theme.text, colour::kMuted, "Nothing yet. What you practise is kept here."));
   const float height = theme.px(46);
