@@ -67,7 +67,11 @@ void Trainer::open(const std::filesystem::path& path) {
   attempt([&] {
     if (in_exam()) throw InputError(path.string(), "", "an exam that counts is taken as it is", "open it in practice");
     Request next;
-    if (const StartPage* page = start_page()) next.tracker = page->tracker();
+    if (const StartPage* page = start_page()) {
+      given_ = options_ = page->options();
+      find_calibration();
+      next.tracker = page->tracker();
+    }
     const Material kind = kind_of_material(path);
     switch (kind) {
       case Material::case_folder:

@@ -96,6 +96,15 @@ TEST_CASE("the start page begins what is chosen, and is there again afterwards")
   trainer.begin_chosen();
   CHECK_FALSE(trainer.loading());
 
+  INFO("what is dropped on the page is opened for the learner who is named there");
+  trainer.start_page()->choose_learner("L-08");
+  open_and_wait(trainer, folder.path / "tiny");
+  REQUIRE(trainer.session());
+  trainer.show_start_page();
+  REQUIRE(trainer.start_page());
+  CHECK(trainer.start_page()->learner() == "L-08");
+  trainer.start_page()->add(folder.path / "exam.toml");
+
   INFO("practice loses by leaving");
   trainer.start_page()->task = Task::practice;
   begin(trainer);
