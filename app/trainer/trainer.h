@@ -57,7 +57,7 @@ public:
   /// Leaves the current mode for the start page, and begins to load the built-in patient in the background. Does
   /// nothing where can_leave() is false.
   void show_start_page();
-  /// Returns whether the current mode may be left: false from an exam's first sample to its end.
+  /// Returns whether the current mode may be left: false from an exam's Start to its end.
   bool can_leave() const;
   /// Returns whether leaving throws something away: steps that are scored and not finished.
   bool loses_by_leaving() const;
@@ -109,7 +109,8 @@ public:
   /// Begins to set up the session's tracker. If it has no sensor, shows where the start page lets another one be
   /// chosen. The set-up begins by itself if the command line names a calibration that is not complete.
   void begin_setup();
-  /// Ends the set-up and begins a session, with the calibration if it is complete.
+  /// Ends the set-up and begins a session, with the calibration if it is complete. A set-up that was begun from the
+  /// start page leads back there.
   void end_setup();
 
   /// Returns a sentence on how to start the trainer with the calibration that is being made.
