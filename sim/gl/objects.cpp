@@ -185,19 +185,6 @@ void Texture::bind_image(GLuint unit, GLenum access) const {
   glBindImageTexture(unit, object_.name(), 0, GL_TRUE, 0, access, format_);  // all slices of a 3D texture
 }
 
-Texture Texture::view_as(GLenum format) const {
-  Texture view;
-  GLuint name = 0;
-  glGenTextures(1, &name);  // glTextureView() needs a name that is not yet a texture
-  view.object_ = Object<TextureKind>(name);
-  view.format_ = format;
-  view.width_ = width_;
-  view.height_ = height_;
-  view.depth_ = depth_;
-  glTextureView(name, GL_TEXTURE_2D, object_.name(), format, 0, 1, 0, 1);
-  return view;
-}
-
 TexelBuffer::TexelBuffer(GLenum format, std::size_t texels, const void* values) {
   const std::size_t bytes = texel_bytes(format);
   GLint64 most_bytes = 0;

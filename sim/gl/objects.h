@@ -112,9 +112,6 @@ public:
 
   void bind(GLuint unit) const { glBindTextureUnit(unit, object_.name()); }
   void bind_image(GLuint unit, GLenum access) const;
-  /// Returns a view of a 2D texture's texels in another format of equal size, such as GL_R32UI for GL_RGBA8. The view
-  /// may outlive this texture.
-  Texture view_as(GLenum format) const;
 
   int width() const { return width_; }
   int height() const { return height_; }

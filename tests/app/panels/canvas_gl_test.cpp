@@ -157,3 +157,26 @@ TEST_CASE("a canvas draws nothing for a frame that is equal to the one before, a
   CHECK(draw());
   CHECK(canvas.pixels_drawn() == kWidth * kHeight);
 }
+
+TEST_CASE("a canvas enlarges a picture smoothly") {
+  const test::TestContext context;
+  const TestImGui imgui;
+  const gl::Texture picture = GENERATE(true, false) ? gl::Texture::make_picture(4, 4, gl::Filter::linear)
+                                                    : gl::Texture::make_2d(GL_RGBA8, 4, 4, gl::Filter::linear);
+  std::array<std::uint32_t, 16> texels{};
+  for (std::size_t i = 0; i < texels.size(); ++i) texels[i] = i % 4 < 2 ? 0xff000000 : 0xffffffff;
+  const_cast<gl::Texture&>(picture).write(GL_RGBA, GL_UNSIGNED_BYTE, texels.data());
+  Canvas canvas;
+  canvas.make_fonts();
+  ImGui::NewFrame();
+  ImGui::GetForegroundDrawList()->AddImage(reinterpret_cast<ImTextureID>(std::uintptr_t(picture.name())), {10, 10},
+                                           {210, 210});
+  ImGui::Render();
+  canvas.draw(*ImGui::GetDrawData(), kBackground, [](ImTextureID) { return 0; });
+  const Image<Rgba8> image = shown(canvas);
+  // From the middle of the second column of texels to that of the third.
+  for (int x = 90; x < 130; ++x) {
+    INFO("column " << x);
+    CHECK(std::abs(image.at(x, kHeight - 100)[0] - 255 * (x + 0.5 - 85) / 50) < 4);
+  }
+}
