@@ -32,10 +32,7 @@ public:
         framebuffer_(colour_) {}
 
   /// Draws the session's pictures only, not the screen around them.
-  void draw_pictures(Trainer& trainer) {
-    trainer.draw(screen_.picture_sizes(trainer, float(width_), float(height_)), 1.0,
-                 std::numeric_limits<double>::infinity());
-  }
+  void draw_pictures(Trainer& trainer) { trainer.draw(screen_.picture_sizes(trainer, float(width_), float(height_))); }
 
   Image<Rgba8> draw(Trainer& trainer) {
     ImGuiIO& io = ImGui::GetIO();
@@ -44,9 +41,10 @@ public:
     // ImGui lays out a new window in its first frame but does not show it.
     for (int frame = 0; frame < 3; ++frame) {
       draw_pictures(trainer);
-      framebuffer_.bind();
       screen_.render(trainer);
     }
+    framebuffer_.bind();
+    screen_.show();
     Image<Rgba8> upside_down = read_back(colour_), image(width_, height_);
     for (int y = 0; y < height_; ++y)
       for (int x = 0; x < width_; ++x) {

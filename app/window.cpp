@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <deque>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -16,6 +18,7 @@
 #include "app/keyboard.h"
 #include "app/mouse.h"
 #include "app/panels/screen.h"
+#include "app/pictures/frame_times.h"
 #include "app/pictures/quality_governor.h"
 #include "app/state_file.h"
 #include "app/trainer/trainer.h"
@@ -27,12 +30,12 @@ namespace {
 constexpr int kLeastWidth = 1024, kLeastHeight = 700;
 /// A higher frame rate would show nothing more.
 constexpr double kFrame_s = 1.0 / 60;
-/// While nothing changes, the screen still has clocks to update.
-constexpr double kIdle_s = 0.1;
+/// While nothing changes, the screen still has clocks to update, and a tracker may begin to move.
+constexpr double kIdle_s = 0.05;
 /// How long any change keeps the screen at full frame rate.
 constexpr double kLively_s = 0.4;
-/// Time of the volume view per frame while things move.
-constexpr double kVolumeBudget_ms = 10;
+/// Time of the volume view per frame while things move; more where it is drawn in one frame of three.
+constexpr double kVolumeBudget_ms = 10, kVolumeBudgetOfTurn_ms = 18;
 
 struct GlfwLibrary {
   GlfwLibrary() {
@@ -48,7 +51,7 @@ struct WindowDeleter {
 /// Events from GLFW's callbacks, held for the next frame.
 struct Events {
   explicit Events(GLFWwindow* window) : keyboard(window) {}
-  bool any = false;
+  bool any = false, exposed = true;
   Keyboard keyboard;
   Mouse mouse;
   ImVec2 pointer;
@@ -92,7 +95,7 @@ void listen(GLFWwindow* window, Events& events) {
   glfwSetCursorEnterCallback(window, ImGui_ImplGlfw_CursorEnterCallback);
   glfwSetWindowFocusCallback(window, ImGui_ImplGlfw_WindowFocusCallback);
   glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { events_of(w).any = true; });
-  glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { events_of(w).any = true; });
+  glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { events_of(w).any = events_of(w).exposed = true; });
   glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
     events_of(w).any = true;
     for (int i = 0; i < count; ++i) events_of(w).dropped.emplace_back(paths[i]);
@@ -125,11 +128,33 @@ Image<Rgba8> read_screen(int width, int height) {
   return image;
 }
 
-/// Runs the loop around the trainer: at full frame rate while something changes, rarely otherwise.
+/// Counts the pictures of the last second.
+class PictureRate {
+public:
+  void see(double now_s, bool new_picture) {
+    if (new_picture) pictures_s_.push_back(now_s);
+    while (!pictures_s_.empty() && pictures_s_.front() < now_s - 1) pictures_s_.pop_front();
+  }
+  /// Returns pictures per second; 0 while the picture stands still.
+  double value() const {
+    if (pictures_s_.size() < 2) return 0;
+    return double(pictures_s_.size() - 1) / (pictures_s_.back() - pictures_s_.front());
+  }
+
+private:
+  std::deque<double> pictures_s_;
+};
+
+/// Runs the loop around the trainer: at full frame rate while something changes, rarely otherwise. The screen is drawn
+/// only where it changes.
 class Loop {
 public:
   Loop(GLFWwindow* window, const Options& options)
       : window_(window), options_(options), trainer_(options), events_(window) {
+    if (!options.frame_times.empty()) {
+      times_.emplace(options.frame_parts);
+      trainer_.pictures().measure(*times_);
+    }
     ImGui_ImplGlfw_InitForOpenGL(window, false);
     listen(window, events_);
     trainer_.open_from_options();
@@ -150,9 +175,12 @@ public:
     trainer_.hand_in_exam();
     trainer_.finish_recording();
     if (!options_.latency.empty()) trainer_.latency().write(options_.latency);
+    if (times_) times_->write(options_.frame_times);
     if (!options_.screenshot.empty()) {
       governor_ = {};  // full resolution
       draw();
+      glBindFramebuffer(GL_FRAMEBUFFER, 0);
+      screen_.show();
       int width = 0, height = 0;
       glfwGetFramebufferSize(window_, &width, &height);
       write_png(options_.screenshot, read_screen(width, height));
@@ -175,22 +203,33 @@ private:
 
   void step(double now_s) {
     const bool touched = std::exchange(events_.any, false);
+    if (times_) times_->begin(now_s);
     open_dropped();
     const bool moved = events_.keyboard.apply(trainer_, screen_, now_s - last_s_);
-    const double previous_s = std::exchange(last_s_, now_s);
+    last_s_ = now_s;
 
     trainer_.update(now_s);
     if (trainer_.session() && trainer_.session()->take_go_on()) screen_.go_on(trainer_);
+    if (times_) times_->end(FramePart::session);
     const Pictures& pictures = trainer_.pictures();
-    const long drawn_before = pictures.drawn(), runs_before = pictures.simulator_runs();
-    draw();
-    glfwSwapBuffers(window_);
+    const long drawn_before = pictures.drawn(), runs_before = pictures.simulator_runs(),
+               version_before = pictures.ultrasound_version();
+    const bool changed = draw();
+    // The window's own picture may be lost while it is covered.
+    if (changed || std::exchange(events_.exposed, false)) present();
     ++frames_;
-    const bool changed = pictures.drawn() != drawn_before;
-    if (touched || moved || changed || trainer_.loading() || trainer_.setup()) changed_s_ = now_s;
+    const bool new_picture = pictures.ultrasound_version() != version_before;
+    if (touched || moved || pictures.drawn() != drawn_before || trainer_.loading() || trainer_.setup())
+      changed_s_ = now_s;
     governor_.see(now_s, steady_now_s() - now_s, pictures.simulator_runs() != runs_before);
-    frame_s_ += 0.08 * (now_s - previous_s - frame_s_);
-    screen_.set_frames_per_second(1 / frame_s_);
+    rate_.see(now_s, new_picture);
+    if (now_s - rate_shown_s_ > 0.5) {
+      rate_shown_s_ = now_s;
+      screen_.set_pictures_per_second(rate_.value());
+    }
+    if (times_)
+      times_->finish(steady_now_s(),
+                     {new_picture, changed, screen_.pixels_drawn(), governor_.quality(), pictures.volume_scale()});
     if (trainer_.best_frame_due()) trainer_.keep_best_frame();
     trainer_.write_results_if_due();
     if (!options_.state_file.empty() && now_s - state_written_s_ > 0.1) {
@@ -207,15 +246,24 @@ private:
                                     " things were dropped; drop one at a time, a DICOM series as its folder.");
   }
 
-  void draw() {
+  /// Returns whether the screen looks different now.
+  bool draw() {
     cursors_.show(window_);
     ImGui_ImplGlfw_NewFrame();
     events_.mouse.apply();
     const ImVec2 size = ImGui::GetIO().DisplaySize;
-    if (size.x <= 0 || size.y <= 0) return;  // minimised
-    trainer_.draw(screen_.picture_sizes(trainer_, size.x, size.y), governor_.quality(), kVolumeBudget_ms);
+    if (size.x <= 0 || size.y <= 0) return false;  // minimised
+    trainer_.draw(screen_.picture_sizes(trainer_, size.x, size.y),
+                  {governor_.quality(), governor_.takes_turns() ? kVolumeBudgetOfTurn_ms : kVolumeBudget_ms,
+                   governor_.takes_turns()});
+    return screen_.render(trainer_, times_ ? &*times_ : nullptr);
+  }
+
+  void present() {
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    screen_.render(trainer_);
+    screen_.show();
+    glfwSwapBuffers(window_);
+    if (times_) times_->end(FramePart::present);
   }
 
   GLFWwindow* window_;
@@ -225,8 +273,10 @@ private:
   Events events_;
   Cursors cursors_;
   QualityGovernor governor_;
-  double start_s_ = 0, last_s_ = 0, changed_s_ = 0, state_written_s_ = -1, frame_s_ = kFrame_s;
-  long frames_ = 0;
+  PictureRate rate_;
+  std::optional<FrameTimes> times_;
+  double start_s_ = 0, last_s_ = 0, changed_s_ = 0, state_written_s_ = -1, rate_shown_s_ = -1;
+  long frames_ = 0;  ///< laid out, drawn or not
 };
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include "app/panels/screen.h"
 
-#include <backends/imgui_impl_opengl3.h>
 #include <epoxy/gl.h>
 
 #include <algorithm>
@@ -61,11 +60,9 @@ Screen::ImGuiOwner::ImGuiOwner() {
   IMGUI_CHECKVERSION();
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;  // the layout is fixed, so there is nothing to store
-  ImGui_ImplOpenGL3_Init("#version 450 core");
 }
 
 Screen::ImGuiOwner::~ImGuiOwner() {
-  ImGui_ImplOpenGL3_Shutdown();
   ImGui::DestroyContext();
 }
 
@@ -120,24 +117,25 @@ PictureSizes Screen::picture_sizes(const Trainer& trainer, float width, float he
   if (theme_.fit(width, height)) fonts_are_new_ = true;
   lay_out(trainer, width, height);
   const Rect ultrasound = UltrasoundPanel::picture_area(theme_, ultrasound_);
-  return {int(ultrasound.w), int(ultrasound.h), int(volume_.w), int(volume_.h)};
+  return {int(ultrasound.w), int(ultrasound.h), int(volume_.w), int(volume_.h), int(slice_.w), int(slice_.h)};
 }
 
-void Screen::render(Trainer& trainer) {
+bool Screen::render(Trainer& trainer, FrameTimes* times) {
   const ImVec2 size = ImGui::GetIO().DisplaySize;
-  if (theme_.fit(size.x, size.y) || std::exchange(fonts_are_new_, false)) ImGui_ImplOpenGL3_DestroyFontsTexture();
-  if (!ImGui::GetIO().Fonts->TexID) ImGui_ImplOpenGL3_CreateFontsTexture();
-  ImGui_ImplOpenGL3_NewFrame();
+  if (theme_.fit(size.x, size.y) || std::exchange(fonts_are_new_, false) || !ImGui::GetIO().Fonts->TexID)
+    canvas_.make_fonts();
   ImGui::NewFrame();
   lay_out(trainer, size.x, size.y);
   draw_panels(trainer);
   draw_overlay(trainer);
   ImGui::Render();
-  glViewport(0, 0, GLsizei(size.x), GLsizei(size.y));
-  const ImVec4 background = ImGui::ColorConvertU32ToFloat4(colour::kBackground);
-  glClearColor(background.x, background.y, background.z, 1);
-  glClear(GL_COLOR_BUFFER_BIT);
-  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  if (times) times->end(FramePart::layout);
+  const bool changed = canvas_.draw(*ImGui::GetDrawData(), colour::kBackground, [&](ImTextureID texture) {
+    const GLuint name = GLuint(reinterpret_cast<std::uintptr_t>(texture));
+    return std::max(trainer.pictures().version_of(name), recorded_panel_.version_of(name));
+  });
+  if (times) times->end(FramePart::window);
+  return changed;
 }
 
 void Screen::draw_panels(Trainer& trainer) {
@@ -205,9 +203,9 @@ void Screen::draw_record_button(Trainer& trainer, const Rect& where) {
 
 void Screen::draw_status(Trainer& trainer) {
   Rect line = status_.inset(theme_.px(16), 0);
-  if (frames_per_second_ > 0) {
+  if (pictures_per_second_ > 0) {
     char text[32];
-    std::snprintf(text, sizeof text, "%.0f frames/s", frames_per_second_);
+    std::snprintf(text, sizeof text, "%.0f pictures/s", pictures_per_second_);
     draw_text(line.take_right(theme_.px(100)), theme_.small_text, colour::kFaint, text, Align::right);
   }
   places_["start_page"] = line.take_left(theme_.px(110)).inset(0, theme_.px(6));

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "app/panels/canvas.h"
 #include "app/panels/open_dialog.h"
 #include "app/panels/overlays.h"
 #include "app/panels/replay/recorded_panel.h"
@@ -27,7 +28,7 @@ enum class Overlay { none, problem, loading, setup, help, about, open, leave, br
 const char* to_string(Overlay overlay);
 
 /// Draws the trainer's whole screen: owns ImGui and its OpenGL renderer, lays out the panels, and shows the overlays.
-/// Draws into the framebuffer that is bound, so it does not depend on a window. Needs an OpenGL context.
+/// Does not depend on a window. Needs an OpenGL context.
 class Screen {
 public:
   Screen();
@@ -35,8 +36,12 @@ public:
   Screen(const Screen&) = delete;
   Screen& operator=(const Screen&) = delete;
 
-  /// Draws a frame. The caller sets ImGui's display size, time step and input before.
-  void render(Trainer& trainer);
+  /// Lays out a frame, and draws what it changes. Returns whether it changes anything. The caller sets ImGui's display
+  /// size, time step and input before.
+  /// @param times  receives how long it takes, unless null
+  bool render(Trainer& trainer, FrameTimes* times = nullptr);
+  /// Copies the drawn frame into the framebuffer that is bound.
+  void show() const { canvas_.show(); }
 
   /// Returns the pixels of each picture on a screen of that size.
   PictureSizes picture_sizes(const Trainer& trainer, float width, float height);
@@ -70,7 +75,10 @@ public:
 
   /// Returns the overlay that is shown now.
   Overlay overlay(const Trainer& trainer) const;
-  void set_frames_per_second(double fps) { frames_per_second_ = fps; }
+  /// Returns how many pixels the last render() has drawn.
+  long pixels_drawn() const { return canvas_.pixels_drawn(); }
+  /// Sets the rate that the status line shows; it shows none for 0.
+  void set_pictures_per_second(double rate) { pictures_per_second_ = rate; }
   /// Returns the panels' rectangles, by name.
   const std::map<std::string, Rect>& places() const { return places_; }
 
@@ -95,6 +103,7 @@ private:
     ImGuiOwner();
     ~ImGuiOwner();
   } imgui_;
+  Canvas canvas_;
   Theme theme_;
   std::string device_;
   SpacePanel space_;
@@ -105,7 +114,7 @@ private:
   Overlay page_ = Overlay::none;  ///< what the person asked for: help, about, open or leave
   bool fonts_are_new_ = false;
   const ExamResult* closed_sheet_of_ = nullptr;
-  double frames_per_second_ = 0;
+  double pictures_per_second_ = 0;
   Rect screen_, top_, strip_, task_, ultrasound_, recorded_, volume_, slice_, blend_, console_, status_;
   std::map<std::string, Rect> places_;
 };

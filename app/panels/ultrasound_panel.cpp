@@ -131,6 +131,30 @@ void draw_tracker_problem(const Theme& theme, const Rect& panel, const Session& 
   draw_paragraph(plate.inset(margin, margin), theme.text, colour::kText, problem);
 }
 
+/// Covers the fan's edge by a smooth line of the background's colour: the picture has no half-covered pixels there, and
+/// may have fewer pixels than the screen.
+void smooth_edge(const PlaneOnScreen& plane, const Probe& probe, double depth_mm) {
+  constexpr float kThickness = 3;
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  Probe outlined = probe;
+  outlined.lines = 128;
+  const ScanLines fan = scan_lines(outlined, depth_mm, 1);
+  const auto end = [&](const ScanLine& line, double r_mm) { return glm::dvec2(line.start + r_mm * line.direction); };
+  // The fan ends half a line beyond its outer lines.
+  const auto beyond = [&](std::size_t outer, std::size_t inner, double r_mm) {
+    return 1.5 * end(fan.lines[outer], r_mm) - 0.5 * end(fan.lines[inner], r_mm);
+  };
+  const std::size_t last = fan.lines.size() - 1;
+  list->PathLineTo(at(plane, beyond(0, 1, 0)));
+  for (const ScanLine& line : fan.lines) list->PathLineTo(at(plane, end(line, 0)));
+  list->PathLineTo(at(plane, beyond(last, last - 1, 0)));
+  list->PathLineTo(at(plane, beyond(last, last - 1, depth_mm)));
+  for (auto line = fan.lines.rbegin(); line != fan.lines.rend(); ++line)
+    list->PathLineTo(at(plane, end(*line, depth_mm)));
+  list->PathLineTo(at(plane, beyond(0, 1, depth_mm)));
+  list->PathStroke(colour::kImage, ImDrawFlags_Closed, kThickness);
+}
+
 /// Draws the picture with its scales. Returns where it lies on the screen.
 PlaneOnScreen draw_picture(const Theme& theme, const Rect& panel, const gl::Texture& picture, const Pictures& pictures,
                            const Machine& machine) {
@@ -138,6 +162,7 @@ PlaneOnScreen draw_picture(const Theme& theme, const Rect& panel, const gl::Text
   const PlaneOnScreen plane = UltrasoundPanel::plane(theme, panel, pictures);
   ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(std::uintptr_t(picture.name())), area.min(),
                                        area.max(), {1, 0}, {0, 1});
+  smooth_edge(plane, machine.transducer(), machine.depth_mm);
   draw_depth_scale(theme, panel, plane, machine.depth_mm);
   draw_grey_scale(theme, panel, machine.dynamic_range_db);
   draw_marker(theme, plane, machine.transducer());

@@ -53,7 +53,7 @@ void Pictures::show(const LoadedCase& loaded_case) {
 }
 
 void Pictures::update(const std::optional<Pose>& pose, const Machine& machine, const PictureSizes& sizes,
-                      double quality, double budget_ms, bool anatomy) {
+                      const Effort& effort, bool anatomy) {
   if (!patient_ || !pose) return;
   if (machine.probe != probe_name_ || machine.depth_mm != depth_mm_) {
     simulator_.set_probe(machine.transducer(), machine.depth_mm);
@@ -65,6 +65,7 @@ void Pictures::update(const std::optional<Pose>& pose, const Machine& machine, c
   Settings settings = settings_of(machine);
   settings.image_width = std::min(width, 4096);
   settings.image_height = high(settings.image_width);
+  double quality = effort.quality;
   if (ultrasound_ && settings == shown_ && *pose == shown_pose_) quality = std::max(quality, shown_quality_);
   shown_ = settings;
   shown_pose_ = *pose;
@@ -76,16 +77,25 @@ void Pictures::update(const std::optional<Pose>& pose, const Machine& machine, c
   simulator_.set_pose(*pose);
   ultrasound_ = &simulator_.image();
 
+  if (times_) times_->end(FramePart::ultrasound);
+
   view::UltrasoundPlane plane;
   plane.image = ultrasound_;
   plane.image_version = simulator_.image_version();
   plane.geometry = simulator_.geometry();
   plane.probe = machine.transducer();
   plane.patient_from_probe = *pose;
+  turn_ = (turn_ + 1) % 3;
+  const auto is_due = [&](int turn, const gl::Texture* drawn) { return !effort.turns || turn == turn_ || !drawn; };
   view::SliceStyle style;
-  slice_ = anatomy ? &slice_view_.render(*patient_, plane, style) : nullptr;
+  style.scale = std::min(1.0, std::max(double(sizes.slice_width) / plane.geometry.width,
+                                       double(sizes.slice_height) / plane.geometry.height));
+  if (!anatomy) slice_ = blend_ = nullptr;
+  if (anatomy && is_due(0, slice_)) slice_ = &slice_view_.render(*patient_, plane, style);
   style.ultrasound = blend_share;
-  blend_ = anatomy ? &blend_view_.render(*patient_, plane, style) : nullptr;
+  if (anatomy && is_due(1, blend_)) blend_ = &blend_view_.render(*patient_, plane, style);
+  if (times_) times_->end(FramePart::slices);
+
   if (!camera_placed_) camera = view::OrbitCamera::facing(grid_, *pose);
   camera_placed_ = true;
   view::VolumeStyle body;
@@ -94,8 +104,10 @@ void Pictures::update(const std::optional<Pose>& pose, const Machine& machine, c
     body.skin = 1;
   }
   body.cut = anatomy && std::abs(glm::dot(camera.patient_from_camera().rotation[2], pose->rotation[2])) > kEdgeOn;
-  volume_ = &volume_view_.render(std::max(sizes.volume_width, 1), std::max(sizes.volume_height, 1), *patient_, camera,
-                                 plane, body, budget_ms);
+  if (is_due(2, volume_))
+    volume_ = &volume_view_.render(std::max(sizes.volume_width, 1), std::max(sizes.volume_height, 1), *patient_, camera,
+                                   plane, body, effort.volume_ms);
+  if (times_) times_->end(FramePart::volume);
 }
 
 std::optional<Image<Rgba8>> Pictures::reference_picture(const ReferenceView& view) {
@@ -120,6 +132,15 @@ const gl::Texture* Pictures::draw_body(const view::OrbitCamera& from, int width,
   body.cut = body.plane = body.probe = false;
   body.skin = 0.35;
   return volume_ = &volume_view_.render(width, height, *patient_, from, view::UltrasoundPlane(), body, budget_ms);
+}
+
+long Pictures::version_of(GLuint texture) const {
+  const auto is = [&](const gl::Texture* picture) { return picture && picture->name() == texture; };
+  if (is(ultrasound_)) return simulator_.image_version();
+  if (is(slice_)) return slice_view_.renders();
+  if (is(blend_)) return blend_view_.renders();
+  if (is(volume_)) return volume_view_.renders();
+  return 0;
 }
 
 long Pictures::simulator_runs() const {

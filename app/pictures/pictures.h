@@ -1,9 +1,11 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
 
+#include "app/pictures/frame_times.h"
 #include "app/session/session.h"
 #include "sim/imaging/simulator.h"
 #include "sim/model/quality.h"
@@ -17,6 +19,18 @@ namespace insonate {
 struct PictureSizes {
   int ultrasound_width = 800, ultrasound_height = 560;
   int volume_width = 440, volume_height = 330;
+  int slice_width = 220, slice_height = 200;  ///< of the slice and of the blend
+};
+
+/// What drawing may leave out to be in time; by default nothing.
+struct Effort {
+  /// 0 to 1: the share of the screen's pixels, along each side, that the ultrasound is computed for. A picture that
+  /// exists already is not drawn again with fewer pixels.
+  double quality = 1;
+  /// Time for the volume view, which gets coarser while things move to stay within it.
+  double volume_ms = std::numeric_limits<double>::infinity();
+  /// The views beside the ultrasound take turns: each call draws one of them.
+  bool turns = false;
 };
 
 /// Draws a session's pictures on the graphics card, each only when something it shows has changed. Needs an OpenGL 4.5
@@ -32,17 +46,16 @@ public:
   void show(const LoadedCase& loaded_case);
 
   /// Draws the pictures whose content has changed.
-  /// @param quality    0 to 1: the share of the screen's pixels, along each side, that the ultrasound is computed for.
-  ///                   A picture that exists already is not drawn again with fewer pixels.
-  /// @param budget_ms  time for the volume view, which gets coarser while things move to stay within it
-  void update(const Session& session, const PictureSizes& sizes, double quality, double budget_ms) {
-    update(session.shown_pose(), session.machine(), sizes, quality, budget_ms, session.shows_anatomy());
+  void update(const Session& session, const PictureSizes& sizes, const Effort& effort = {}) {
+    update(session.shown_pose(), session.machine(), sizes, effort, session.shows_anatomy());
   }
   /// Does the same for a given pose, which may be empty, and a given machine.
   /// @param anatomy  whether the patient's inside is shown. Without it slice() and blend() are null and volume() shows
   ///                 the skin only.
-  void update(const std::optional<Pose>& pose, const Machine& machine, const PictureSizes& sizes, double quality,
-              double budget_ms, bool anatomy = true);
+  void update(const std::optional<Pose>& pose, const Machine& machine, const PictureSizes& sizes,
+              const Effort& effort = {}, bool anatomy = true);
+  /// Reports the time that each picture takes to `times`, which must outlive this object.
+  void measure(FrameTimes& times) { times_ = &times; }
 
   /// Returns the ultrasound of a reference view with the machine's default settings, in the full resolution of the last
   /// picture. Row 0 is the top; the marker's side is on the right. To be called between two frames: ultrasound() is
@@ -57,9 +70,13 @@ public:
   const gl::Texture* ultrasound() const { return ultrasound_; }
   /// Returns a number that changes whenever the ultrasound's pixels change.
   long ultrasound_version() const { return simulator_.image_version(); }
+  /// Returns a number that changes whenever the pixels of that texture do, if it is one of the pictures; 0 if not.
+  long version_of(GLuint texture) const;
   const gl::Texture* slice() const { return slice_; }
   const gl::Texture* blend() const { return blend_; }
   const gl::Texture* volume() const { return volume_; }
+  /// Returns the screen's pixels per pixel of volume(), along each side.
+  int volume_scale() const { return volume_view_.scale(); }
   const ImageGeometry& geometry() const { return simulator_.geometry(); }
 
   view::OrbitCamera camera;   ///< facing the plane of a new patient's first pose
@@ -92,6 +109,9 @@ private:
   Settings shown_;  ///< with the full resolution of the screen
   Pose shown_pose_;
   double shown_quality_ = 0;
+
+  int turn_ = 0;  ///< counts the views that take turns
+  FrameTimes* times_ = nullptr;
 };
 
 /// Returns a texture's pixels, row 0 at the top.

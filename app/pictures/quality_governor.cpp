@@ -1,18 +1,23 @@
 #include "app/pictures/quality_governor.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
 #include <utility>
 
 namespace insonate {
 namespace {
 
-/// A change needs a majority among this many frames. A few frames that waited for a shader compiler, a file or another
-/// program do not predict the next ones.
-constexpr int kWindow = 20;
-constexpr double kStep = 0.85;
-constexpr double kSlow_s = 0.045;
-/// Fast enough that one step up, which costs at most 1 / kStep^2 = 1.4 times as much, is not slow again.
-constexpr double kQuick_s = 0.6 * kSlow_s;
+/// A frame is too slow above this share of its time, so that a screen of 60 Hz, which shows every second refresh, is
+/// not taken for slow.
+constexpr double kSlow = 1.15;
+/// Below this share there is time for more.
+constexpr double kQuick = 0.8;
+/// Below this share there is time for all views in each frame: they take at most as long as the ultrasound.
+constexpr double kQuickForAllViews = 0.45;
+/// Most by which one decision changes the quality.
+constexpr double kLeastStep = 0.7, kMostStep = 1.15;
 
 }  // namespace
 
@@ -30,12 +35,25 @@ void QualityGovernor::see(double now_s, double frame_s, bool computed) {
 }
 
 void QualityGovernor::see_motion(double frame_s) {
-  slow_ += frame_s > kSlow_s ? 1 : 0;
-  quick_ += frame_s < kQuick_s ? 1 : 0;
-  if (++frames_ < kWindow) return;
-  if (2 * slow_ > kWindow) of_motion_ = std::max(kLeast, of_motion_ * kStep);
-  if (2 * quick_ > kWindow) of_motion_ = std::min(1.0, of_motion_ / kStep);
-  frames_ = slow_ = quick_ = 0;
+  frames_s_.push_back(frame_s);
+  if (frames_s_.size() < 3 || std::accumulate(frames_s_.begin(), frames_s_.end(), 0.0) < kPeriod_s) return;
+  // The median, because a frame that waited for a shader compiler, a file or another program does not predict the next.
+  const auto middle = frames_s_.begin() + std::ptrdiff_t(frames_s_.size() / 2);
+  std::nth_element(frames_s_.begin(), middle, frames_s_.end());
+  decide(*middle);
+  frames_s_.clear();
+}
+
+void QualityGovernor::decide(double frame_s) {
+  const double share = frame_s / kFrame_s;
+  if (share > kSlow) {
+    if (!std::exchange(turns_of_motion_, true)) return;
+    of_motion_ = std::max(kLeast, of_motion_ * std::max(kLeastStep, std::sqrt(1 / share)));
+  } else if (share < kQuick && of_motion_ < 1) {
+    of_motion_ = std::min(1.0, of_motion_ * std::min(kMostStep, std::sqrt(0.9 / share)));
+  } else if (share < kQuickForAllViews) {
+    turns_of_motion_ = false;
+  }
 }
 
 }  // namespace insonate

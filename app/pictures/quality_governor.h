@@ -1,19 +1,27 @@
 #pragma once
 
+#include <vector>
+
 namespace insonate {
 
-/// Decides how many pixels the window's ultrasound is computed for. While the picture changes from frame to frame on a
-/// machine that cannot keep up, it gets fewer pixels. Once it stands still it gets all of them, so that close
-/// inspection and measurements do not depend on the speed of the machine. A moving picture that is recorded keeps the
-/// pixels that it was drawn with.
+/// Decides what the window leaves out while the picture moves, on a machine that cannot draw everything 30 times a
+/// second. First the views beside the ultrasound take turns, one per frame. Then the ultrasound gets fewer pixels. Once
+/// the picture stands still everything is drawn in full, so that close inspection and measurements do not depend on the
+/// speed of the machine. A moving picture that is recorded keeps the pixels that it was drawn with.
 class QualityGovernor {
 public:
   static constexpr double kLeast = 0.6;
+  /// The time that a frame of a moving picture may take.
+  static constexpr double kFrame_s = 1.0 / 30;
+  /// Decides this often during motion, so that a few decisions fit in half a second.
+  static constexpr double kPeriod_s = 0.15;
   /// Time without any computation after which the picture counts as still.
   static constexpr double kRest_s = 0.3;
 
   /// Returns the share of the screen's pixels along each side for the next frame, kLeast to 1.
   double quality() const { return moves_ ? of_motion_ : 1; }
+  /// Returns whether only one of the views beside the ultrasound is to be drawn in the next frame.
+  bool takes_turns() const { return moves_ && turns_of_motion_; }
 
   /// To be called once per frame.
   /// @param now_s     when the frame began, on any monotonic clock
@@ -23,11 +31,13 @@ public:
 
 private:
   void see_motion(double frame_s);
+  void decide(double frame_s);
 
   bool moves_ = false, computed_before_ = false;
   double computed_s_ = 0;  // of the last frame that computed anything
   double of_motion_ = 1;   // quality while the picture moves
-  int frames_ = 0, slow_ = 0, quick_ = 0;
+  bool turns_of_motion_ = false;
+  std::vector<double> frames_s_;  // since the last decision
 };
 
 }  // namespace insonate

@@ -114,6 +114,12 @@ void add_screen(CLI::App& mode, Options& options) {
           "not depend on it")
       ->check(CLI::IsMember(quality_names()))
       ->capture_default_str();
+  CLI::Option* times = mode.add_option("--frame-times", options.frame_times,
+                                       "Write how long each frame of the window takes to this file (CSV)")
+                           ->type_name("FILE");
+  mode.add_flag("--frame-parts", options.frame_parts,
+                "Measure the parts of each frame too, by waiting for the graphics card after each")
+      ->needs(times);
   mode.add_option("--state-file", options.state_file,
                   "Write what the trainer is doing to this JSON file, and keep it up to date")
       ->type_name("FILE");

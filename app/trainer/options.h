@@ -62,8 +62,10 @@ struct Options {
   std::filesystem::path shader_folder;
   int width = 1280;
   int height = 800;
-  std::string igtl_server;           ///< "[ADDRESS:]PORT" where OpenIGTLink clients connect; empty: no server
-  std::filesystem::path state_file;  ///< what the trainer is doing, for programs that drive it; empty: none
+  std::string igtl_server;            ///< "[ADDRESS:]PORT" where OpenIGTLink clients connect; empty: no server
+  std::filesystem::path frame_times;  ///< a table of the window's frames, written at the end; empty: none
+  bool frame_parts = false;           ///< the table has the times of each frame's parts
+  std::filesystem::path state_file;   ///< what the trainer is doing, for programs that drive it; empty: none
 };
 
 /// Returns whether the trainer begins with its start page: in a window, if nothing says what to do there. A run that

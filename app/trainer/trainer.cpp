@@ -254,11 +254,10 @@ void Trainer::update(Mode& mode, double now_s) {
   if constexpr (std::is_same_v<Mode, Exam>) attempt([&] { keep_sitting(mode); });  // which may end the mode
 }
 
-void Trainer::draw(const PictureSizes& sizes, double quality, double budget_ms) {
+void Trainer::draw(const PictureSizes& sizes, const Effort& effort) {
   try {
-    if (const Replay* run = replay())
-      pictures_.update(run->moment().shown_pose, run->machine(), sizes, quality, budget_ms);
-    if (session()) pictures_.update(*session(), sizes, quality, budget_ms);
+    if (const Replay* run = replay()) pictures_.update(run->moment().shown_pose, run->machine(), sizes, effort);
+    if (session()) pictures_.update(*session(), sizes, effort);
   } catch (const std::runtime_error& error) {
     // What was built when the file changed may not build for settings that come later.
     if (options_.shader_folder.empty()) throw;

@@ -67,9 +67,7 @@ public:
   /// Shows what has been loaded, and advances the current mode to `now_s` (s, steady_now_s() with a live tracker).
   void update(double now_s);
   /// Draws the pictures of the session or replay, and publishes them to OpenIGTLink clients and the recorder.
-  /// @param quality    0 to 1: the share of the screen's pixels, along each side, that the ultrasound is computed for
-  /// @param budget_ms  time that the volume view may take
-  void draw(const PictureSizes& sizes, double quality, double budget_ms);
+  void draw(const PictureSizes& sizes, const Effort& effort = {});
   /// Returns whether the picture is better than the best frame so far: draw it, then keep it.
   bool best_frame_due() const { return scan() && scan()->best_frames.due(*session()); }
   void keep_best_frame() { scan()->best_frames.keep(*session(), pictures_); }

@@ -67,7 +67,8 @@ void Buffer::clear() {
   glClearNamedBufferData(object_.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
 }
 
-Texture Texture::make(GLenum target, GLenum format, int width, int height, int depth, Filter filter, Wrap wrap) {
+Texture Texture::make(GLenum target, GLenum format, int width, int height, int depth, Filter filter, Wrap wrap,
+                      Storage storage) {
   GLint limit = 0;
   glGetIntegerv(target == GL_TEXTURE_3D ? GL_MAX_3D_TEXTURE_SIZE : GL_MAX_TEXTURE_SIZE, &limit);
   if (std::max({width, height, depth}) > limit) throw TextureRefused(width, height, depth, limit);
@@ -80,10 +81,18 @@ Texture Texture::make(GLenum target, GLenum format, int width, int height, int d
   texture.height_ = height;
   texture.depth_ = depth;
   forget_errors();
-  if (target != GL_TEXTURE_2D)
+  if (storage == Storage::of_screen) {
+    // Only mutable storage has an order of bytes: that of the pixels which it is given first.
+    GLint bound = 0;
+    glGetIntegerv(GL_TEXTURE_BINDING_2D, &bound);
+    glBindTexture(GL_TEXTURE_2D, name);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, width, height, 0, GL_BGRA, GL_UNSIGNED_INT_8_8_8_8_REV, nullptr);
+    glBindTexture(GL_TEXTURE_2D, GLuint(bound));
+  } else if (target != GL_TEXTURE_2D) {
     glTextureStorage3D(name, 1, format, width, height, depth);
-  else
+  } else {
     glTextureStorage2D(name, 1, format, width, height);
+  }
   if (out_of_memory()) throw TextureRefused(width, height, depth, 0);
   const GLint gl_filter = filter == Filter::linear ? GL_LINEAR : GL_NEAREST;
   glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, gl_filter);
@@ -96,6 +105,10 @@ Texture Texture::make(GLenum target, GLenum format, int width, int height, int d
 
 Texture Texture::make_2d(GLenum format, int width, int height, Filter filter, Wrap wrap) {
   return make(GL_TEXTURE_2D, format, width, height, 1, filter, wrap);
+}
+
+Texture Texture::make_picture(int width, int height, Filter filter) {
+  return make(GL_TEXTURE_2D, GL_RGBA8, width, height, 1, filter, Wrap::edge, Storage::of_screen);
 }
 
 Texture Texture::make_3d(GLenum format, int width, int height, int depth, Filter filter, Wrap wrap) {
@@ -172,19 +185,6 @@ void Texture::bind_image(GLuint unit, GLenum access) const {
   glBindImageTexture(unit, object_.name(), 0, GL_TRUE, 0, access, format_);  // all slices of a 3D texture
 }
 
-Texture Texture::view_as(GLenum format) const {
-  Texture view;
-  GLuint name = 0;
-  glGenTextures(1, &name);  // glTextureView() needs a name that is not yet a texture
-  view.object_ = Object<TextureKind>(name);
-  view.format_ = format;
-  view.width_ = width_;
-  view.height_ = height_;
-  view.depth_ = depth_;
-  glTextureView(name, GL_TEXTURE_2D, object_.name(), format, 0, 1, 0, 1);
-  return view;
-}
-
 TexelBuffer::TexelBuffer(GLenum format, std::size_t texels, const void* values) {
   const std::size_t bytes = texel_bytes(format);
   GLint64 most_bytes = 0;
@@ -212,6 +212,11 @@ Framebuffer::Framebuffer(const Texture& colour) : width_(colour.width()), height
 void Framebuffer::bind() const {
   glBindFramebuffer(GL_FRAMEBUFFER, object_.name());
   glViewport(0, 0, width_, height_);
+}
+
+void Framebuffer::copy_to(GLuint framebuffer) const {
+  glBlitNamedFramebuffer(object_.name(), framebuffer, 0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT,
+                         GL_NEAREST);
 }
 
 FullScreenTriangle::FullScreenTriangle() {

@@ -91,6 +91,9 @@ public:
   /// Allocate a texture. Throw TextureRefused.
   /// @param format  sized internal format, such as GL_RGBA32F
   static Texture make_2d(GLenum format, int width, int height, Filter filter, Wrap wrap = Wrap::edge);
+  /// Allocates an RGBA8 texture for a picture that is drawn to the screen. A software renderer stores it in the order
+  /// of the screen's bytes where it can. It then draws it in a third of the time, and copies it to the screen as it is.
+  static Texture make_picture(int width, int height, Filter filter);
   static Texture make_3d(GLenum format, int width, int height, int depth, Filter filter, Wrap wrap);
 
   /// Sets every texel to 0.
@@ -109,9 +112,6 @@ public:
 
   void bind(GLuint unit) const { glBindTextureUnit(unit, object_.name()); }
   void bind_image(GLuint unit, GLenum access) const;
-  /// Returns a view of a 2D texture's texels in another format of equal size, such as GL_R32UI for GL_RGBA8. The view
-  /// may outlive this texture.
-  Texture view_as(GLenum format) const;
 
   int width() const { return width_; }
   int height() const { return height_; }
@@ -122,7 +122,9 @@ public:
   explicit operator bool() const { return bool(object_); }
 
 private:
-  static Texture make(GLenum target, GLenum format, int width, int height, int depth, Filter filter, Wrap wrap);
+  enum class Storage { immutable, of_screen };
+  static Texture make(GLenum target, GLenum format, int width, int height, int depth, Filter filter, Wrap wrap,
+                      Storage storage = Storage::immutable);
 
   Object<TextureKind> object_;
   GLenum format_ = 0;
@@ -165,6 +167,8 @@ public:
   explicit Framebuffer(const Texture& colour);
   /// Binds the framebuffer and sets the viewport to all of it.
   void bind() const;
+  /// Copies the texels into a framebuffer of the same size; 0 is the window's.
+  void copy_to(GLuint framebuffer) const;
 
 private:
   Object<FramebufferKind> object_;

@@ -70,7 +70,8 @@ struct Simulator::State {
   TexelBuffer picture, sharp, half_smoothed, fused, levels;  // by pixel
   Buffer brightest;                                          // by block of the fan
   Buffer maximum_buffer{sizeof(GLuint), nullptr};
-  Texture image, image_words;  // the picture, and a view of it with one number per pixel
+  Texture image;
+  Buffer image_words;  // the picture as the shaders write it, one number per pixel: faster than storing to a texture
 
   bool layout_changed = true;  // probe, depth, sample count or picture size
   std::optional<Stage> first_outdated = Stage::traverse;
@@ -86,6 +87,7 @@ struct Simulator::State {
   void prepare();
   void run_through(Stage last);
   void run(Stage stage);
+  void show() { image.write(GL_BGRA, GL_UNSIGNED_INT_8_8_8_8_REV, image_words); }
   bool needed(Stage stage) const;
   void prepare_smoothing();
   void prepare_fusion();
@@ -105,9 +107,9 @@ void Simulator::State::lay_out() {
   fan_weights = TexelBuffer();
   fused = TexelBuffer();
   levels = TexelBuffer();
-  image = Texture::make_2d(GL_RGBA8, w, h, Filter::linear);
-  image_words = image.view_as(GL_R32UI);
-  image.clear();
+  image = Texture::make_picture(w, h, Filter::linear);
+  image_words = Buffer(pixels() * sizeof(GLuint), nullptr);
+  image_words.clear();
   layout_changed = false;
 }
 
@@ -205,8 +207,9 @@ void Simulator::State::run(Stage stage) {
       if (frame_sets_white())
         levels.bind_storage(2);
       else
-        image_words.bind_image(1, GL_WRITE_ONLY);
+        image_words.bind_storage(3);
       over_fan(programs.fuse);
+      if (!frame_sets_white()) show();
       break;
     case Stage::compress:
       maximum_buffer.clear();
@@ -215,8 +218,9 @@ void Simulator::State::run(Stage stage) {
       programs.maximum.dispatch_groups(1);
       maximum_buffer.bind_storage(0);
       levels.bind(0);
-      image_words.bind_image(0, GL_WRITE_ONLY);
+      image_words.bind_storage(3);
       over_fan(programs.compress);
+      show();
       break;
   }
 }

@@ -14,7 +14,7 @@ void set(GLenum capability, bool on) {
 
 void PictureTarget::resize(int width, int height) {
   if (texture && texture.width() == width && texture.height() == height) return;
-  texture = gl::Texture::make_2d(GL_RGBA8, width, height, gl::Filter::linear);
+  texture = gl::Texture::make_picture(width, height, gl::Filter::linear);
   framebuffer = gl::Framebuffer(texture);
 }
 

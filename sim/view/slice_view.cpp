@@ -1,6 +1,8 @@
 #include "sim/view/slice_view.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "sim/shaders/shared/slice_parameters.h"
 #include "sim/view/picture_target.h"
@@ -14,17 +16,29 @@ constexpr glm::vec3 kPlainOutline(0.95f, 0.70f, 0.20f);
 // Brightens the muted organ colours, because a thin line on grey needs more brightness.
 constexpr float kOutlineBrightness = 1.35f;
 
-glm::dmat4 plane_from_pixel(const ImageGeometry& geometry) {
+glm::ivec2 size_of(const ImageGeometry& ultrasound, double scale) {
+  return {std::max(1, int(std::lround(ultrasound.width * scale))),
+          std::max(1, int(std::lround(ultrasound.height * scale)))};
+}
+
+/// Returns the matrix from the pixels of a picture of `size` to the plane, for a picture that shows the same part of
+/// it as the ultrasound.
+glm::dmat4 plane_from_pixel(const ImageGeometry& ultrasound, const glm::ivec2& size) {
+  const glm::dvec2 step = glm::dvec2(ultrasound.width, ultrasound.height) / glm::dvec2(size);
   glm::dmat4 m(1.0);
-  m[0][0] = m[1][1] = geometry.mm_per_pixel;
-  m[3] = glm::dvec4(geometry.top_left_mm, 0, 1);
+  m[0][0] = ultrasound.mm_per_pixel * step.x;
+  m[1][1] = ultrasound.mm_per_pixel * step.y;
+  const glm::dvec2 first = step / 2.0 - 0.5;  // the centre of pixel (0, 0), in pixels of the ultrasound
+  m[3] = glm::dvec4(ultrasound.plane_mm(first.x, first.y), 0, 1);
   return m;
 }
 
-SliceParameters parameters_for(const PatientTextures& patient, const UltrasoundPlane& plane, const SliceStyle& style) {
+SliceParameters parameters_for(const PatientTextures& patient, const UltrasoundPlane& plane, const SliceStyle& style,
+                               const glm::ivec2& size) {
   SliceParameters p{};
-  p.texture_from_pixel =
-      glm::mat4(patient.texture_from_patient() * plane.patient_from_probe.matrix() * plane_from_pixel(plane.geometry));
+  p.texture_from_pixel = glm::mat4(patient.texture_from_patient() * plane.patient_from_probe.matrix() *
+                                   plane_from_pixel(plane.geometry, size));
+  p.picture_size = glm::vec4(size, 0, 0);
   p.window_hu = float(style.window_hu);
   p.level_hu = float(style.level_hu);
   p.ultrasound = float(style.ultrasound);
@@ -68,15 +82,16 @@ const gl::Texture& SliceView::render(const PatientTextures& patient, const Ultra
   Inputs inputs{&patient, PlaneState(plane), style};
   if (s.drawn == inputs) return s.target.texture;
 
-  s.target.resize(plane.geometry.width, plane.geometry.height);
-  const SliceParameters parameters = parameters_for(patient, plane, style);
+  const glm::ivec2 size = size_of(plane.geometry, style.scale);
+  s.target.resize(size.x, size.y);
+  const SliceParameters parameters = parameters_for(patient, plane, style, size);
   s.parameters.write(&parameters, sizeof parameters);
   s.parameters.bind_uniform(0);
   patient.acoustic_volume().bind(0);
   plane.image->bind(1);
   patient.labels().bind(2);
   {
-    const ScopedDrawTarget drawing(s.target, 0, plane.geometry.height);
+    const ScopedDrawTarget drawing(s.target, 0, size.y);
     s.program.use();
     s.triangle.draw();
   }

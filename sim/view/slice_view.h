@@ -19,11 +19,12 @@ struct SliceStyle {
   double level_hu = 40;      ///< middle of the grey scale
   double ultrasound = 0;     ///< inside the fan: 0 is the CT alone, 1 the ultrasound alone, between: their mix
   double outside_fan = 0.4;  ///< brightness of the CT outside the fan, 0 to 1
+  double scale = 1;          ///< pixels along a side for each pixel of the ultrasound, above 0 to 1
   std::vector<std::uint8_t> outlined;  ///< label values whose edges are drawn in their organs' colours
   bool operator==(const SliceStyle&) const = default;
 };
 
-/// Draws the CT in the plane of the ultrasound picture, on exactly that picture's pixels, alone or mixed with it.
+/// Draws the CT in the plane of the ultrasound picture, as far as that reaches, alone or mixed with it.
 class SliceView {
 public:
   /// Throws std::runtime_error if the shader does not compile. Needs a current OpenGL context.
@@ -32,9 +33,9 @@ public:
   SliceView(SliceView&&) noexcept;
   SliceView& operator=(SliceView&&) noexcept;
 
-  /// Returns the picture: RGBA8, alpha 255, row 0 is the top, the size of plane.geometry. It is redrawn only if
-  /// something changed, and valid until the next call. Leaves the framebuffer binding, viewport and switches as they
-  /// were.
+  /// Returns the picture: RGBA8, alpha 255, row 0 is the top, the size of plane.geometry times the style's scale. It is
+  /// redrawn only if something changed, and valid until the next call. Leaves the framebuffer binding, viewport and
+  /// switches as they were.
   /// @param patient  compared by address: call forget() after changing the object there
   /// @param plane    must have an image
   const gl::Texture& render(const PatientTextures& patient, const UltrasoundPlane& plane, const SliceStyle& style = {});

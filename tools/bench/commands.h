@@ -42,6 +42,14 @@ Table measure_front(const Request& request, const std::string& svg);
 /// in `exams`.
 Table measure_scoring(const std::vector<std::string>& exams);
 
+struct WindowSize {
+  int width, height;
+};
+/// Measures the trainer's window: pictures per second with a moving probe, what it takes at rest, and where the time
+/// goes. Starts the trainer, which lies beside this program, twice per size with the bundled scan. Throws InputError if
+/// there is no display or the trainer fails.
+Table measure_window(const std::vector<WindowSize>& sizes);
+
 /// Prints the differences between the run times of two CSVs, setting by setting. Throws InputError.
 void compare_runs(const std::string& old_file, const std::string& new_file);
 

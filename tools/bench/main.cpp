@@ -1,6 +1,9 @@
 // insonate-bench: measures the simulator's run time on this machine, as medians with their spread, and its accuracy.
 
+#include <cstdio>
+
 #include "sim/core/files.h"
+#include "sim/core/input_error.h"
 #include "sim/imaging/upload.h"
 #include "tools/bench/commands.h"
 #include "tools/cli/program.h"
@@ -31,6 +34,18 @@ CLI::App* add_measurement(CLI::App& arguments, const char* name, const char* wha
       ->type_name("LINES,SAMPLES,WIDTH,HEIGHT");
   command->add_option("--csv", csv, "Write the table to this file too (CSV)")->type_name("FILE");
   return command;
+}
+
+std::vector<bench::WindowSize> sizes_of(const std::vector<std::string>& texts) {
+  std::vector<bench::WindowSize> sizes;
+  for (const std::string& text : texts) {
+    bench::WindowSize size{};
+    char rest = 0;
+    if (std::sscanf(text.c_str(), "%dx%d%c", &size.width, &size.height, &rest) != 2)
+      throw InputError("command line", "--size", "'" + text + "' is not a size", "give one such as 1280x720");
+    sizes.push_back(size);
+  }
+  return sizes;
 }
 
 }  // namespace
@@ -72,6 +87,14 @@ int main(int argc, char** argv) {
       ->type_name("FILE")
       ->default_str("the bundled exam and its good scan");
   scoring->add_option("--csv", csv, "Write the table to this file too (CSV)")->type_name("FILE");
+  std::vector<std::string> window_sizes{"1280x720", "1600x1000", "2560x1440"};
+  CLI::App* window = arguments.add_subcommand(
+      "window", "Measure the trainer's window: pictures per second, the cost at rest, and where the time goes");
+  window->add_option("--size", window_sizes, "Measure a window of this size, pixels; may be repeated")
+      ->delimiter(',')
+      ->type_name("WIDTHxHEIGHT")
+      ->capture_default_str();
+  window->add_option("--csv", csv, "Write the table to this file too (CSV)")->type_name("FILE");
   CLI::App* compare = arguments.add_subcommand("compare", "Compare the run times of two CSV files, setting by setting");
   compare->add_option("OLD", old_file, "Read this CSV file of the earlier run")->type_name("FILE")->required();
   compare->add_option("NEW", new_file, "Read this CSV file of the later run of the same command")
@@ -96,6 +119,7 @@ int main(int argc, char** argv) {
               : sweep->parsed()    ? bench::measure_sweep(request)
               : batch->parsed()    ? bench::measure_batch(request)
               : scoring->parsed()  ? bench::measure_scoring(exams)
+              : window->parsed()   ? bench::measure_window(sizes_of(window_sizes))
                                    : bench::measure_front(request, svg);
     });
     if (!csv.empty()) write_file(csv, table.csv());

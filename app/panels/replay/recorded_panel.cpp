@@ -72,8 +72,9 @@ void RecordedPanel::show(const Replay& replay) {
       return Rgba8{value, value, value, 255};
     });
     if (!texture_)
-      texture_ = gl::Texture::make_2d(GL_RGBA8, grey.width, grey.height, gl::Filter::linear, gl::Wrap::edge);
+      texture_ = gl::Texture::make_picture(grey.width, grey.height, gl::Filter::linear);
     texture_.write(GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
+    ++shown_;
     problem_.clear();
   } catch (const InputError& error) {
     problem_ = error.what();

@@ -29,12 +29,16 @@ public:
   /// @param panel  must have the same size as that of the simulated picture
   void draw(const Theme& theme, const Rect& panel, const Replay& replay, const Pictures& pictures);
 
+  /// Returns a number that changes whenever the pixels of that texture do, if it shows the image; 0 if not.
+  long version_of(GLuint texture) const { return texture_.name() == texture ? shown_ : 0; }
+
 private:
   void show(const Replay& replay);
 
   const Replay* replay_ = nullptr;  ///< the replay that `reader_` belongs to
   std::unique_ptr<ImageReader> reader_;
   gl::Texture texture_;
+  long shown_ = 0;                     ///< how many images `texture_` has shown
   std::optional<std::size_t> sample_;  ///< the sample that `texture_` or `problem_` belongs to
   std::string problem_;
 };

@@ -16,7 +16,7 @@ layout(local_size_x = 64, local_size_y = 1) in;
 
 layout(binding = 0) uniform samplerBuffer levels;                       // U after the gains, dB
 layout(std430, binding = 0) readonly buffer Maximum { uint maximum; };  // as ordered() encodes it
-layout(binding = 0, r32ui) writeonly uniform uimage2D image;           // grey, grey, grey, 1 inside the fan; packed
+layout(std430, binding = 3) writeonly buffer Image { uint image[]; };   // grey, grey, grey, 1 inside the fan; packed
 
 void main() {
   ivec2 first = first_of_column();
@@ -24,6 +24,6 @@ void main() {
   for (int i = 0; i < 4; ++i) {
     ivec2 pixel = first + ivec2(0, i);
     if (pixel.x < width && pixel.y < height)
-      imageStore(image, pixel, uvec4(grey_pixel(texelFetch(levels, index_of(pixel)).x, white_db)));
+      image[index_of(pixel)] = grey_pixel(texelFetch(levels, index_of(pixel)).x, white_db);
   }
 }

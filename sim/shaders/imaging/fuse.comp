@@ -30,7 +30,7 @@ layout(std430, binding = 1) writeonly buffer Fused { float fused[]; };  // U
 layout(std430, binding = 2) writeonly buffer Levels { float levels[]; };  // U after the gains, dB
 layout(std430, binding = 0) buffer Brightest { uint brightest[]; };  // per block, as ordered() encodes it; 0 for none
 #else
-layout(binding = 1, r32ui) writeonly uniform uimage2D image;  // grey, grey, grey, 1 inside the fan; packed
+layout(std430, binding = 3) writeonly buffer Image { uint image[]; };  // grey, grey, grey, 1 inside the fan; packed
 #endif
 
 vec2 half_smoothed_at(ivec2 at) {
@@ -74,7 +74,7 @@ void main() {
     levels[index_of(pixel)] = level;
     if (inside) brightest_here = max(brightest_here, ordered(level));
 #else
-    imageStore(image, pixel, uvec4(grey_pixel(level, level_db(fixed_level))));
+    image[index_of(pixel)] = grey_pixel(level, level_db(fixed_level));
 #endif
   }
 #if FRAME_MAXIMUM == 1

@@ -20,7 +20,7 @@ float grey_at(float level, float white_db) {
   return mapped(level > kSilent ? 1.0 - clamp((white_db - level) / dynamic_range_db, 0.0, 1.0) : 0.0);
 }
 
-// Four bytes as one number: a software renderer stores it in half the time of four channels.
+// The same number whether bytes are stored as red, green, blue or as blue, green, red.
 uint grey_pixel(float level, float white_db) {
   return level == kOutsideFan ? 0u : packUnorm4x8(vec4(vec3(grey_at(level, white_db)), 1.0));
 }

@@ -12,6 +12,8 @@ layout(std140, binding = 0) uniform SliceParameters {
 #endif
   mat4 texture_from_pixel;  // (x, y, 0, 1) of a pixel's centre -> coordinates of the patient's textures
 
+  vec4 picture_size;        // pixels across and down; 0, 0
+
   float window_hu;
   float level_hu;
   float ultrasound;   // share of the ultrasound inside the fan, 0 to 1

@@ -1,7 +1,7 @@
 // Slice view: the CT in the plane of the ultrasound picture, mixed with that picture, and the outlines of the labels.
 //
 // Reads the CT, the ultrasound picture and the labels. Writes the colour.
-// Draw: full-screen pass, one fragment per pixel of the ultrasound picture.
+// Draw: full-screen pass, one fragment per pixel of the picture, which shows the same part of the plane as the ultrasound.
 
 #include "shared/slice_parameters.h"
 #include "shared/hounsfield.glsl"
@@ -35,7 +35,7 @@ vec4 outline_at(vec2 pixel) {
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   float ct = clamp((hounsfield(texture_position(vec2(pixel))) - level_hu) / window_hu + 0.5, 0.0, 1.0);
-  vec4 echo = texelFetch(ultrasound_image, pixel, 0);
+  vec4 echo = textureLod(ultrasound_image, gl_FragCoord.xy / picture_size.xy, 0.0);
   vec3 shown = echo.a > 0.5 ? mix(vec3(ct), echo.rgb, ultrasound) : vec3(ct * outside_fan);
   vec4 edge = outline_at(vec2(pixel));
   colour = vec4(mix(shown, edge.rgb, edge.a * (echo.a > 0.5 ? 0.85 : 0.85 * outside_fan)), 1.0);

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <limits>
 #include <string>
 
 #include "app/trainer/trainer.h"
@@ -51,7 +50,6 @@ public:
 };
 
 inline constexpr PictureSizes kSizes{320, 240, 160, 120};
-inline constexpr double kNoBudget = std::numeric_limits<double>::infinity();
 
 inline void open_and_wait(Trainer& trainer, const std::filesystem::path& path) {
   trainer.open(path);

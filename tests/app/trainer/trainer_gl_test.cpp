@@ -43,7 +43,7 @@ TEST_CASE("the trainer replays a log, draws it, and leaves a report and the runn
   for (int i = 0; i < 150; ++i) {
     trainer.update(i / 30.0);
     if (!trainer.best_frame_due()) continue;
-    trainer.draw(kSizes, 1, kNoBudget);
+    trainer.draw(kSizes);
     trainer.keep_best_frame();
   }
   trainer.write_results_if_due();
@@ -75,22 +75,22 @@ TEST_CASE("where nothing changes nothing is drawn, and each change draws what it
   trainer.open_from_options();
   trainer.finish_loading();
   trainer.update(0.5);
-  trainer.draw(kSizes, 1, kNoBudget);
+  trainer.draw(kSizes);
   Pictures& pictures = trainer.pictures();
   const long drawn = pictures.drawn(), simulated = pictures.simulator_runs();
   REQUIRE(simulated > 0);
-  for (int i = 0; i < 5; ++i) trainer.draw(kSizes, 1, kNoBudget);
+  for (int i = 0; i < 5; ++i) trainer.draw(kSizes);
   CHECK(pictures.drawn() == drawn);
 
   trainer.session()->set(ActionKind::gain, 3);
-  trainer.draw(kSizes, 1, kNoBudget);
+  trainer.draw(kSizes);
   CHECK(pictures.simulator_runs() == simulated + 1);  // display alone
   trainer.update(0.6);
-  trainer.draw(kSizes, 1, kNoBudget);
+  trainer.draw(kSizes);
   CHECK(pictures.simulator_runs() > simulated + 2);
   const long before_camera = pictures.simulator_runs(), all = pictures.drawn();
   pictures.camera.orbit(10, 0);
-  trainer.draw(kSizes, 1, kNoBudget);
+  trainer.draw(kSizes);
   CHECK(pictures.simulator_runs() == before_camera);
   CHECK(pictures.drawn() == all + 1);
 }
@@ -105,7 +105,7 @@ TEST_CASE("fewer pixels are drawn of a picture that changes, and never of one th
   constexpr PictureSizes kWide{400, 300, 160, 120};
   const Pictures& pictures = trainer.pictures();
   const auto width_at = [&](double quality) {
-    trainer.draw(kWide, quality, kNoBudget);
+    trainer.draw(kWide, {.quality = quality});
     return pictures.ultrasound()->width();
   };
   CHECK(width_at(1) == 400);
@@ -148,15 +148,15 @@ TEST_CASE("a shader that builds as it is and not for other settings is told of, 
   trainer.update(0.5);
   const auto set_depth = [&](double mm) { trainer.session()->set(ActionKind::depth, mm); };
   set_depth(240);
-  trainer.draw(kSizes, 1, kNoBudget);
+  trainer.draw(kSizes);
   const auto pixels = read_back(*trainer.pictures().ultrasound()).pixels;
   CHECK(trainer.shader_problem().empty());
 
   set_depth(40);
-  trainer.draw(kSizes, 1, kNoBudget);
+  trainer.draw(kSizes);
   CHECK(trainer.shader_problem().find("too wide") != std::string::npos);
   set_depth(240);
-  trainer.draw(kSizes, 1, kNoBudget);
+  trainer.draw(kSizes);
   CHECK((read_back(*trainer.pictures().ultrasound()).pixels == pixels));
 
   INFO("once the file is mended the picture is drawn");
@@ -166,7 +166,7 @@ TEST_CASE("a shader that builds as it is and not for other settings is told of, 
   trainer.update(1.5);
   CHECK(trainer.shader_problem().empty());
   set_depth(40);
-  trainer.draw(kSizes, 1, kNoBudget);
+  trainer.draw(kSizes);
   CHECK(trainer.shader_problem().empty());
   CHECK((read_back(*trainer.pictures().ultrasound()).pixels != pixels));
 }
@@ -181,7 +181,7 @@ TEST_CASE("the ultrasound is drawn at the quality that is asked for, balanced un
     trainer.open_from_options();
     trainer.finish_loading();
     trainer.update(0.5);
-    trainer.draw(kSizes, 1, kNoBudget);
+    trainer.draw(kSizes);
     return read_back(*trainer.pictures().ultrasound());
   };
   const Image<Rgba8> plain = ultrasound({}), fast = ultrasound(Quality::fast), exact = ultrasound(Quality::exact);
@@ -241,7 +241,7 @@ TEST_CASE("an OpenIGTLink client gets the picture that is on the screen, also on
   trainer.finish_loading();
   trainer.update(0);
   trainer.update(1);
-  trainer.draw(small, 1, kNoBudget);
+  trainer.draw(small);
   igtl::RawPeer client = igtl::RawPeer::connected_to(parse_server_address(options.igtl_server));
   std::vector<std::uint8_t> grey;
   igtl::MessageReader reader([](const igtl::Header&) { return true; },
@@ -251,7 +251,7 @@ TEST_CASE("an OpenIGTLink client gets the picture that is on the screen, also on
                              });
   const auto draw_until_seen = [&] {
     for (grey.clear(); grey.empty();) {
-      trainer.draw(small, 1, kNoBudget);
+      trainer.draw(small);
       reader.feed(client.receive());
     }
   };
@@ -303,7 +303,7 @@ TEST_CASE("what cannot be opened is told of, and the session goes on as it was")
     trainer.problems().pop_front();
     CHECK(trainer.session() == session);
     trainer.update(0.1);
-    trainer.draw(kSizes, 1, kNoBudget);
+    trainer.draw(kSizes);
     CHECK(trainer.pictures().ultrasound() != nullptr);
   }
 }
@@ -315,7 +315,7 @@ TEST_CASE("a CT that the device cannot hold is told of, and the patient on the s
   trainer.open_from_options();
   trainer.finish_loading();
   trainer.update(0.5);
-  trainer.draw(kSizes, 1, kNoBudget);
+  trainer.draw(kSizes);
   const Pictures& pictures = trainer.pictures();
   const Session* const session = trainer.session();
   const long drawn = pictures.drawn();
@@ -344,10 +344,10 @@ TEST_CASE("a CT that the device cannot hold is told of, and the patient on the s
   CHECK(trainer.session() == session);
   REQUIRE(pictures.ultrasound());
   CHECK((pixels() == before));
-  trainer.draw(kSizes, 1, kNoBudget);
+  trainer.draw(kSizes);
   CHECK(pictures.drawn() == drawn);  // nothing was lost that would have to be drawn again
   trainer.session()->set(ActionKind::gain, 6);
-  trainer.draw(kSizes, 1, kNoBudget);
+  trainer.draw(kSizes);
   CHECK((pixels()[0] != before[0]));
 }
 
@@ -364,7 +364,7 @@ TEST_CASE("another log can be opened in the same session's place, another patien
   REQUIRE(trainer.problems().empty());
   trainer.update(0);
   trainer.update(3);
-  trainer.draw(kSizes, 1, kNoBudget);
+  trainer.draw(kSizes);
   trainer.write_results_if_due();
   REQUIRE(trainer.session()->result());
   CHECK(trainer.session()->result()->provenance.log == "second.igs.mha");
@@ -390,7 +390,7 @@ TEST_CASE("another log can be opened in the same session's place, another patien
   CHECK(trainer.session()->loaded_case().subject.name == "Somebody else");
   CHECK(trainer.session()->holder() == Holder::learner);
   trainer.update(4);
-  trainer.draw(kSizes, 1, kNoBudget);
+  trainer.draw(kSizes);
   CHECK(trainer.pictures().ultrasound() != nullptr);
   CHECK(guided_to() == std::vector<std::string>{"ball", "bare"});
 }
@@ -515,7 +515,7 @@ TEST_CASE("a replay shows the very picture that the learner saw, whatever knob w
     trainer.start();
     trainer.update(0);
     trainer.update(0.5);
-    trainer.draw(kSizes, 1, kNoBudget);
+    trainer.draw(kSizes);
     untouched = read_back(*trainer.pictures().ultrasound());
     Session& session = *trainer.session();
     session.set(ActionKind::gain, 5);
@@ -523,7 +523,7 @@ TEST_CASE("a replay shows the very picture that the learner saw, whatever knob w
     for (int slider = 1; slider <= Action::kTimeGainSliders; ++slider)
       session.set({ActionKind::time_gain, {double(slider), 8.0 - 2 * slider}});
     trainer.update(1);
-    trainer.draw(kSizes, 1, kNoBudget);
+    trainer.draw(kSizes);
     seen = read_back(*trainer.pictures().ultrasound());
     trainer.finish_recording();
   }
@@ -537,7 +537,7 @@ TEST_CASE("a replay shows the very picture that the learner saw, whatever knob w
   REQUIRE(trainer.replay());
   const auto shown_at = [&](double time_s) {
     trainer.replay()->seek(time_s);
-    trainer.draw(kSizes, 1, kNoBudget);
+    trainer.draw(kSizes);
     return read_back(*trainer.pictures().ultrasound()).pixels;
   };
   CHECK((shown_at(1e9) == seen.pixels));
@@ -557,17 +557,17 @@ TEST_CASE("a replay has no session, keeps nothing, and gives way to what is open
   REQUIRE(trainer.replay());
   CHECK_FALSE(trainer.session());
   trainer.update(0);
-  trainer.draw(kSizes, 1, kNoBudget);
+  trainer.draw(kSizes);
   REQUIRE(trainer.pictures().ultrasound());
   const Image<Rgba8> first = read_back(*trainer.pictures().ultrasound());
   trainer.replay()->toggle();
   for (int i = 0; i < 300; ++i) trainer.update(i / 30.0);
   CHECK(trainer.replay()->time_s() == trainer.replay()->run().duration_s());
   REQUIRE(trainer.replay()->run().result);
-  trainer.draw(kSizes, 1, kNoBudget);
+  trainer.draw(kSizes);
   CHECK(read_back(*trainer.pictures().ultrasound()).pixels != first.pixels);
   trainer.replay()->seek(0);
-  trainer.draw(kSizes, 1, kNoBudget);
+  trainer.draw(kSizes);
   CHECK(read_back(*trainer.pictures().ultrasound()).pixels == first.pixels);
   trainer.write_results_if_due();
   CHECK_FALSE(fs::exists(folder.path / "out"));

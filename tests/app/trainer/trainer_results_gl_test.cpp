@@ -23,7 +23,7 @@ TEST_CASE("the trainer keeps attempts in the database it was given, and of the u
     for (int i = 0; i < 1000 && !trainer.result_files(); ++i) {
       trainer.update(i / 30.0);
       if (trainer.best_frame_due()) {
-        trainer.draw(kSizes, 1, kNoBudget);
+        trainer.draw(kSizes);
         trainer.keep_best_frame();
       }
       trainer.write_results_if_due();
@@ -108,7 +108,7 @@ TEST_CASE("a second attempt's report shows its own best frame, and none when the
     for (int i = 0; i < 1000 && !trainer.result_files(); ++i, now_s += 1 / 30.0) {
       trainer.update(now_s);
       if (trainer.best_frame_due()) {
-        trainer.draw(kSizes, 1, kNoBudget);
+        trainer.draw(kSizes);
         trainer.keep_best_frame();
       }
       trainer.write_results_if_due();
@@ -192,7 +192,7 @@ TEST_CASE("an exam that counts is kept once for a learner, with the seed that dr
 
     INFO("the CT and the patient's inside are not to be seen before it is over");
     const auto drawn = [&] {
-      trainer.draw(kSizes, 1, kNoBudget);
+      trainer.draw(kSizes);
       return trainer.pictures().slice() && trainer.pictures().blend();
     };
     CHECK_FALSE(drawn());
