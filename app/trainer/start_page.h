@@ -71,7 +71,7 @@ struct Beginning {
 };
 
 /// What the start page offers and what has been chosen on it. It reads files and the database and looks for trackers,
-/// and does not know a screen. Problems with what it reads are part of what it offers: nothing throws.
+/// and does not know a screen. A file that cannot be read is a problem() and stops nothing else.
 class StartPage {
 public:
   /// @param options   the command line's, with the learner and the tracker that were chosen before
@@ -106,8 +106,9 @@ public:
   const std::string& learner() const { return options_.learner; }
   const std::filesystem::path& calibration() const { return options_.calibration; }
 
+  /// Throws InputError for a URI that no tracker has.
   void choose_tracker(const std::string& uri);
-  /// An empty id stands for nobody in particular.
+  /// Chooses a learner; nobody in particular for an empty id. Throws InputError if the id is not valid.
   void choose_learner(const std::string& id);
   void choose_calibration(const std::filesystem::path& file) { options_.calibration = file; }
   /// Adds a file or folder that a person has chosen for the task, and chooses it. Throws InputError.
