@@ -94,7 +94,7 @@ struct Provenance {
 /// The result of an exam: its scores and the inputs that they were computed from.
 struct ExamResult {
   /// Incremented whenever the same samples could get a different score.
-  static constexpr int kScoringVersion = 3;
+  static constexpr int kScoringVersion = 4;
 
   std::string title;
   std::string briefing;  ///< what the learner read before the start; empty if the scenario has none

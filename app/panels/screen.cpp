@@ -125,6 +125,7 @@ void Screen::render(Trainer& trainer) {
   lay_out(trainer, size.x, size.y);
   draw_panels(trainer);
   draw_overlay(trainer);
+  toast_.draw(theme_, toast_place());
   ImGui::Render();
   glViewport(0, 0, GLsizei(size.x), GLsizei(size.y));
   const ImVec4 background = ImGui::ColorConvertU32ToFloat4(colour::kBackground);
@@ -158,7 +159,7 @@ void Screen::draw_panels(Trainer& trainer) {
       draw_blend_panel(theme_, blend_, pictures);
     }
     const auto attempt = [&](const std::function<void()>& action) { trainer.attempt(action); };
-    switch (draw_console_panel(theme_, console_, *session, attempt)) {
+    switch (draw_console_panel(theme_, console_, *session, attempt, places_)) {
       case ConsoleRequest::help:
         page_ = Overlay::help;
         break;
@@ -179,6 +180,12 @@ void Screen::draw_panels(Trainer& trainer) {
   }
   if (!trainer.exam_refused()) draw_status(trainer);
   ImGui::End();
+}
+
+/// Above the words at the bottom of the ultrasound, or of the screen where there is none.
+Rect Screen::toast_place() const {
+  const Rect around = ultrasound_.h > 0 ? ultrasound_ : screen_;
+  return {around.x, around.y, around.w, around.h - theme_.px(56)};
 }
 
 void Screen::draw_record_button(Trainer& trainer, const Rect& where) {

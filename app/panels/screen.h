@@ -3,6 +3,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "app/panels/overlays.h"
 #include "app/panels/replay/recorded_panel.h"
@@ -13,6 +14,7 @@
 #include "app/panels/views_panel.h"
 #include "app/panels/widgets/text_field.h"
 #include "app/panels/widgets/theme.h"
+#include "app/panels/widgets/toast.h"
 #include "app/panels/widgets/widgets.h"
 #include "app/trainer/trainer.h"
 
@@ -42,6 +44,10 @@ public:
   PlaneOnScreen plane_on_screen(const Trainer& trainer) const {
     return UltrasoundPanel::plane(theme_, ultrasound_, trainer.pictures());
   }
+
+  /// Shows a sentence over the screen for some seconds.
+  void tell(std::string text) { toast_.show(std::move(text)); }
+  const Toast& toast() const { return toast_; }
 
   void toggle_help();
   void ask_for_path() { page_ = Overlay::open; }
@@ -77,6 +83,7 @@ private:
   void draw_overlay(Trainer& trainer);
   void draw_record_button(Trainer& trainer, const Rect& where);
   void draw_status(Trainer& trainer);
+  Rect toast_place() const;
   void close_page();
   void answer_score(Trainer& trainer, ScoreAnswer answer);
 
@@ -90,6 +97,7 @@ private:
   RecordedPanel recorded_panel_;
   OpenDialog open_dialog_;
   TextField text_field_;
+  Toast toast_;
   Overlay page_ = Overlay::none;  ///< what the person asked for: help, about or open
   bool fonts_are_new_ = false;
   const ExamResult* closed_sheet_of_ = nullptr;

@@ -88,7 +88,7 @@ TEST_CASE("JSON that is no result is refused") {
     CHECK_THROWS_AS(result_from_json(text, "x"), InputError);
   };
   spoiled("\"format\": 2", "\"format\": 3");
-  spoiled("\"scoring_version\": 3", "\"scoring_version\": \"2\"");
+  spoiled("\"scoring_version\": " + std::to_string(ExamResult::kScoringVersion), "\"scoring_version\": \"2\"");
   spoiled("\"plane_distance_mm\",", "\"plane_distance_km\",");
   spoiled("\"held\"", "\"dropped\"");
   spoiled("\"percent\": ", "\"percent\": \"\", \"x\": ");

@@ -128,8 +128,16 @@ shorter() { awk -v p="$(value placed)" 'BEGIN { split(p, a, " "); exit !(a[2] > 
 await "Backspace takes it back" shorter
 xdotool key Delete
 await "Delete takes all back" is placed ""
+xdotool key bracketright
+await "the depth of a frozen picture stays, with a word why" contains toast "press Space to scan on, then change the depth"
+click "$(middle_x probe_linear)" "$(middle_y probe_linear)"
+xdotool key space
+await "the picture runs" is frozen false
+is depth_mm "$depth" && is probe curvilinear || fail "a frozen picture was acquired anew"
 xdotool key bracketright bracketright
 await "the picture is drawn deeper" is_not depth_mm "$depth"
+xdotool key space
+await "the picture is frozen again" is can_measure true
 sleep 1
 click_plane -20.75 70
 click_plane 20.75 70
