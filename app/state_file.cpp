@@ -132,6 +132,7 @@ void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::
       state["advice"] = guiding->advice.empty() ? "" : guiding->advice.front();
     }
     if (session->result()) state["percent"] = session->result()->percent;
+    state["report"] = trainer.result_files() ? trainer.result_files()->report.string() : "";
   }
   write_file(file, state.dump(1) + "\n");
 }

@@ -125,6 +125,7 @@ void Screen::render(Trainer& trainer) {
   lay_out(trainer, size.x, size.y);
   draw_panels(trainer);
   draw_overlay(trainer);
+  for (const std::string& notice : trainer.take_notices()) tell(notice);
   toast_.draw(theme_, toast_place());
   ImGui::Render();
   glViewport(0, 0, GLsizei(size.x), GLsizei(size.y));
@@ -378,8 +379,8 @@ void Screen::draw_overlay(Trainer& trainer) {
       break;
     case Overlay::score: {
       const bool watched = std::as_const(*session).source().recording() != nullptr;
-      answer_score(trainer, draw_score_sheet(theme_, screen_, *session->result(), trainer.result_files(), watched,
-                                             session->strict()));
+      answer_score(trainer, draw_score_sheet(theme_, screen_, *session->result(), trainer.result_files(),
+                                             trainer.results_due(), watched, session->strict()));
       break;
     }
   }

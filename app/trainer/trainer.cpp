@@ -198,6 +198,7 @@ void Trainer::update(double now_s) {
     shaders_looked_at_s_ = now_s;
     reload_shaders();
   }
+  notice_recordings();
   const bool setting_up = setup() != nullptr;
   std::visit([&](auto& mode) { update(mode, now_s); }, mode_);
   // A session that a finished set-up has begun is advanced before it is drawn.
@@ -280,6 +281,14 @@ void Trainer::finish_recording() {
   attempt([&] { recorder_.check(); });
 }
 
+void Trainer::notice_recordings() {
+  const std::vector<std::filesystem::path> files = recorder_.take_finished();
+  if (files.empty()) return;
+  std::string notice = "Recorded to " + std::filesystem::absolute(files.front()).string();
+  if (files.size() > 1) notice += " and, from each new start on, to " + files.back().filename().string();
+  notices_.push_back(notice);
+}
+
 void Trainer::write_results_if_due() {
   if (!std::exchange(results_due_, false) || !scan()) return;
   scan()->best_frames.forget_older(*session());
@@ -304,7 +313,8 @@ void Trainer::keep_and_report() {
       not_kept = std::current_exception();  // the report is wanted all the more
     }
   }
-  result_files_ = write_report_files(options_.out, finished);
+  result_files_ =
+      write_report_files(options_.headless ? options_.out : attempt_folder(options_.out, finished), finished);
   if (not_kept) std::rethrow_exception(not_kept);
 }
 

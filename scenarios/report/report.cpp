@@ -70,7 +70,7 @@ std::string bar(double share) {
 std::string row(const CriterionScore& m) {
   const double share = m.weight > 0 ? m.points / m.weight : 0;
   const char* grade = share >= 1 ? "all" : share > 0 ? "some" : "none";
-  std::string html = "<tr class='" + std::string(grade) + "'><td><b>" + escaped(info(m.metric).words) + "</b>";
+  std::string html = "<tr class='" + std::string(grade) + "'><td><b>" + escaped(title_of(m.metric)) + "</b>";
   if (m.critical) html += " <span class='critical'>critical</span>";
   html += "<small>" + escaped(m.why) + "</small></td>";
   html += "<td class='number'>" + (m.value ? in_words(m.metric, *m.value) : "\u2013") + "</td>";
@@ -107,19 +107,21 @@ std::string pictures_of(std::size_t step, const std::vector<ReportPicture>& pict
   struct Place {
     ReportPicture::Kind kind;
     const char* caption;
-    const char* missing;
+    const char* missing;  ///< in place of the picture
+    const char* caption_of_missing;
   };
   std::string html;
   bool any = false;
-  for (const Place& place : {Place{ReportPicture::Kind::best, "While the view was held best", "The view was not held"},
-                             Place{ReportPicture::Kind::reference, "Reference view", "No picture"}}) {
+  for (const Place& place : {Place{ReportPicture::Kind::best, "While the view was held best", "The view was not held",
+                                   "The learner's picture"},
+                             Place{ReportPicture::Kind::reference, "Reference view", "No picture", "Reference view"}}) {
     const ReportPicture* shown = nullptr;
     for (const ReportPicture& picture : pictures)
       if (picture.step == step && picture.kind == place.kind) shown = &picture;
     html += "<figure>";
     html += shown ? "<img alt='' src='data:image/png;base64," + base64(shown->png) + "'>"
                   : "<div class='missing'>" + std::string(place.missing) + "</div>";
-    html += "<figcaption>" + std::string(place.caption) + "</figcaption></figure>";
+    html += "<figcaption>" + std::string(shown ? place.caption : place.caption_of_missing) + "</figcaption></figure>";
     any = any || shown;
   }
   return any ? "<div class='pictures'>" + html + "</div>" : "";

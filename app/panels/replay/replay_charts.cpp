@@ -29,7 +29,7 @@ struct Quantity {
 
 constexpr std::array kQuantities{
     Quantity{"Plane's distance", Metric::plane_distance_mm, 40}, Quantity{"Plane's angle", Metric::plane_angle_deg, 90},
-    Quantity{"Target insonated", Metric::target_insonated_percent, 120}, Quantity{"Speed", std::nullopt, 150}};
+    Quantity{"Insonated, of reference", Metric::target_insonated_percent, 120}, Quantity{"Speed", std::nullopt, 150}};
 
 /// Draws a curve of the largest value within each screen pixel. It is interrupted where there is no value.
 /// @param at  maps a time of the run to its place on the time line; empty if it has none

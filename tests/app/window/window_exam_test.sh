@@ -175,13 +175,15 @@ xdotool key r
 await "the recording ends" is recording ""
 written() { [ -s "$work/run.igs.mha" ]; }
 await "the file is made" written
+await "the screen names it" contains toast "$work/run.igs.mha"
 
 echo "the recording scores as the exam did"
-[ -s "$work/out/score.json" ] || fail "there is no score"
+made=$(dirname "$(value report)")/score.json
+[ -s "$made" ] || fail "there is no score"
 "$score" --log "$work/run.igs.mha" --scenario "$work/exam.toml" >"$work/again.json" 2>"$work/score.log" || fail "$(cat "$work/score.log")"
 without_origin() { grep -v -e '"log' -e '"mode"' "$1"; }
-cmp <(without_origin "$work/out/score.json") <(without_origin "$work/again.json") || fail "the recording has another score"
-grep -q '"mode": "practice"' "$work/out/score.json" || fail "the attempt does not say that it is practice"
+cmp <(without_origin "$made") <(without_origin "$work/again.json") || fail "the recording has another score"
+grep -q '"mode": "practice"' "$made" || fail "the attempt does not say that it is practice"
 grep -q '"mode": "recording"' "$work/again.json" || fail "the recording does not say that it is one"
 for what in '"answer"' '"yes"' '"measured"' '"41.7"' '"point_error_mm"'; do
   grep -q -- "$what" "$work/again.json" || fail "the score does not say $what"
