@@ -63,6 +63,8 @@ struct StepResult {
   std::vector<CriterionScore> criteria;
   int hints_taken = 0;
   double hint_cost = 0;  ///< subtracted from the points of the criteria; the remainder is at least 0
+  int guide_times = 0;   ///< how often the guide to the step's view was shown; it costs no points
+  double guide_s = 0;    ///< for how long in all
 
   double earned() const;         ///< points of the criteria minus the cost of the hints, at least 0
   double lost_to_hints() const;  ///< at most the points of the criteria

@@ -87,7 +87,7 @@ HelpAnswer draw_key_help(const Theme& theme, const Rect& screen, std::map<std::s
       {"Enter", "answer; go on to the next step of an exam"},
       {"Escape", "give up what is being placed or typed"},
       {"+, \u2212 and [, ]", "gain; depth"},
-      {"G", "practice: show the way to the view, or to the next"},
+      {"G", "the guide: the way to the view; its use is in the report"},
       {"M", "mark this moment, in the recording too"},
       {"R", "record the run; end the recording"},
       {"Ctrl O", "open a case, CT, scenario or recorded scan"},

@@ -84,6 +84,7 @@ private:
   void draw_record_button(Trainer& trainer, const Rect& where);
   void draw_status(Trainer& trainer);
   Rect toast_place() const;
+  void draw_time_runs_on(const Session& session);
   void close_page();
   void answer_score(Trainer& trainer, ScoreAnswer answer);
 
@@ -102,7 +103,7 @@ private:
   bool fonts_are_new_ = false;
   const ExamResult* closed_sheet_of_ = nullptr;
   double frames_per_second_ = 0;
-  Rect screen_, top_, task_, ultrasound_, recorded_, volume_, slice_, blend_, console_, status_;
+  Rect screen_, top_, task_, guide_, ultrasound_, recorded_, volume_, slice_, blend_, console_, status_;
   std::map<std::string, Rect> places_;
 };
 

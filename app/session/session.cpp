@@ -179,7 +179,7 @@ void Session::move_probe(const std::function<std::optional<Pose>(const ProbeHand
 
 void Session::act(const Action& action) {
   if (source().recording()) return;
-  if (strict() && action.kind == ActionKind::hint) return;
+  if (strict() && (action.kind == ActionKind::hint || action.kind == ActionKind::guide)) return;
   acts_.push_back(action);
 }
 

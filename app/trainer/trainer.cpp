@@ -220,11 +220,17 @@ void Trainer::update(SettingUp& mode, double now_s) {
 
 template <std::derived_from<Scan> Mode>
 void Trainer::update(Mode& mode, double now_s) {
+  const double since_s = now_s - std::exchange(mode.now_s, now_s);
   if (!mode.begun) return;
   Session& session = *mode.session;
+  if (covered_ && session.can_stand_still()) {
+    mode.behind_s += since_s;
+    return;
+  }
   if (!options_.record.empty() && !recorded_) start_recording();
   const bool had_result = session.result().has_value();
-  session.advance(now_s);
+  guide_.tell(session);
+  session.advance(now_s - mode.behind_s);
   mode.tools.see(session);
   mode.controls.see(session);
   if constexpr (std::is_same_v<Mode, Authoring>) mode.author.see(session);

@@ -66,6 +66,12 @@ public:
   /// Begins the session after the briefing.
   void start();
 
+  /// Says whether something covers the screen, such as the help, from the next update() on. Time stands still meanwhile
+  /// if it can (Session::can_stand_still()).
+  void cover(bool covered) { covered_ = covered; }
+  /// Returns whether something covers the screen and time does not stand still, so that the learner has to be told.
+  bool time_runs_on() const { return covered_ && session() && session()->runner() && !session()->can_stand_still(); }
+
   /// Ends an exam that counts before its end: what has been done is scored and stored.
   void hand_in_exam();
   /// Returns whether the exam that the trainer was started for is refused. Only the reason is shown then.
@@ -221,6 +227,7 @@ private:
   bool clients_ = false, records_pictures_ = false;  ///< who wanted pictures at the last frame
   std::unique_ptr<IgtlFeed> feed_;                   ///< nullptr when no clients are asked for
   std::optional<ResultFiles> result_files_;
+  bool covered_ = false;
   bool results_due_ = false;
   std::optional<ResultsDatabase> results_;
   std::deque<std::string> problems_;

@@ -1,5 +1,6 @@
 #include "scenarios/report/report.h"
 
+#include <algorithm>
 #include <string_view>
 #include <utility>
 
@@ -127,6 +128,13 @@ std::string pictures_of(std::size_t step, const std::vector<ReportPicture>& pict
   return any ? "<div class='pictures'>" + html + "</div>" : "";
 }
 
+/// Help that costs no points, but that whoever compares attempts has to know of.
+std::string guide_in_words(const StepResult& step) {
+  return "The guide to the view was shown " +
+         (step.guide_times == 1 ? std::string("once") : std::to_string(step.guide_times) + " times") + ", for " +
+         fixed(step.guide_s, 1) + " s of " + fixed(step.end_s - step.start_s, 1) + " s.";
+}
+
 std::string section(const StepResult& step, std::size_t index, const std::vector<ReportPicture>& pictures) {
   std::string html =
       "<section><h2>" + std::to_string(index + 1) + ". " + escaped(step.title) + outcome_chip(step.outcome) + "</h2>";
@@ -143,6 +151,7 @@ std::string section(const StepResult& step, std::size_t index, const std::vector
   if (step.hints_taken > 0)
     html += "<p class='quiet'>Hints taken: " + std::to_string(step.hints_taken) + ", for " +
             short_number(step.lost_to_hints()) + " points.</p>";
+  if (step.guide_times > 0) html += "<p class='quiet'>" + guide_in_words(step) + "</p>";
   for (const auto& [what, fact] : step.facts)
     html += "<p class='quiet'>" + escaped(what) + ": " + escaped(fact) + "</p>";
   return html + table(step.criteria) + pictures_of(index, pictures) + "</section>\n";
@@ -181,6 +190,10 @@ std::string verdict(const ExamResult& result) {
           "%'></i><b style='left:" + fixed(result.pass_mark_percent, 1) + "%'></b></div>";
   html += "<p>" + short_number(result.points) + " of " + short_number(result.points_possible) + " points; " +
           short_number(result.pass_mark_percent) + " % are needed.</p>";
+  const auto guided = std::ranges::count_if(result.steps, [](const StepResult& s) { return s.guide_times > 0; });
+  if (guided > 0)
+    html += "<p>The guide to the view was used in " + std::to_string(guided) + " of " +
+            std::to_string(result.steps.size()) + " steps.</p>";
   if (!result.reasons.empty()) {
     html += "<ul>";
     for (const std::string& reason : result.reasons) html += "<li>" + escaped(reason) + "</li>";

@@ -103,6 +103,15 @@ await "the guide leads there" is guided_to pelvis
 xdotool key g
 await "the guide is off" is guided_to ""
 
+echo "no time passes while the help covers the screen"
+xdotool key F1
+await "the help is shown" is overlay help
+stands() { local at; at=$(value elapsed_s); sleep 1; [ "$(value elapsed_s)" = "$at" ]; }
+await "the time stands still" stands
+xdotool key Escape
+await "the help is closed" is overlay ""
+! stands || fail "the time does not go on"
+
 echo "calipers are placed in the frozen picture, dragged, taken back and placed again"
 is can_measure false || fail "a running picture is measured in"
 remember_probe
@@ -185,7 +194,7 @@ without_origin() { grep -v -e '"log' -e '"mode"' "$1"; }
 cmp <(without_origin "$made") <(without_origin "$work/again.json") || fail "the recording has another score"
 grep -q '"mode": "practice"' "$made" || fail "the attempt does not say that it is practice"
 grep -q '"mode": "recording"' "$work/again.json" || fail "the recording does not say that it is one"
-for what in '"answer"' '"yes"' '"measured"' '"41.7"' '"point_error_mm"'; do
+for what in '"guide_times": 1' '"answer"' '"yes"' '"measured"' '"41.7"' '"point_error_mm"'; do
   grep -q -- "$what" "$work/again.json" || fail "the score does not say $what"
 done
 grep -q -- "$(echo "$shown" | sed 's/^1 \(.*\); $/\1/')" "$work/again.json" || fail "what was shown, '$shown', was not scored"
