@@ -73,7 +73,7 @@ HelpAnswer draw_key_help(const Theme& theme, const Rect& screen, std::map<std::s
       {"Page Down, Page Up", "press it into the skin, lift it"},
       {"E, Q", "rotate it clockwise, counter-clockwise, seen from its handle"},
       {"W, S", "rock the beam away from the marker, towards the marker"},
-      {"A, D", "tilt the beam to the head, the feet, if the marker is on the right"},
+      {"A, D", "tilt the beam to head or feet, if the marker is on the right"},
       {"Shift", "with any of these: slowly"},
       {"Drag on the ultrasound", "slide; with Shift rock and tilt; the wheel rotates"},
       {"Drag the probe", "put it elsewhere on the patient"},

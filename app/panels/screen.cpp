@@ -87,7 +87,9 @@ void Screen::lay_out(const Trainer& trainer, float width, float height) {
   rest.take_top(gap);
   task_ = {};
   if (const Session* session = trainer.session(); session && (trainer.author() || has_task_panel(*session))) {
-    task_ = rest.take_top(trainer.author() ? author_panel_height(theme_) : task_panel_height(theme_, *session, rest.w));
+    task_ = rest.take_top(trainer.author() ? author_panel_height(theme_)
+                                           : task_panel_height(theme_, *session, trainer.picture_tools(),
+                                                               trainer.step_controls(), rest.w));
     rest.take_top(gap);
   }
   guide_ = {};
@@ -97,9 +99,11 @@ void Screen::lay_out(const Trainer& trainer, float width, float height) {
   }
   console_ = rest.take_bottom(theme_.px(trainer.replay() ? 272 : 120));  // a replay has charts below its time line
   rest.take_bottom(gap);
-  // The ultrasound comes first. The other views get a third of the width, and at most what makes them square.
-  Rect side =
-      rest.take_right(std::min(std::round(rest.w * 0.35f), std::round(rest.h * (trainer.replay() ? 1.0f : 0.82f))));
+  // The ultrasound comes first. The other views get a third of the width, and at most what makes them square. On a wide
+  // screen the height limits a fan, which is at most 1.5 times as wide as high: they get the width that it leaves.
+  float others = std::min(rest.w * 0.35f, rest.h * (trainer.replay() ? 1.0f : 0.82f));
+  if (!trainer.replay()) others = std::max(others, std::min(rest.w * 0.45f, rest.w - gap - rest.h * 1.5f));
+  Rect side = rest.take_right(std::round(others));
   rest.take_right(gap);
   recorded_ = {};
   if (trainer.replay() && trainer.replay()->run().images) {

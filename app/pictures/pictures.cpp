@@ -122,6 +122,13 @@ const gl::Texture* Pictures::draw_body(const view::OrbitCamera& from, int width,
   return volume_ = &volume_view_.render(width, height, *patient_, from, view::UltrasoundPlane(), body, budget_ms);
 }
 
+double Pictures::fan_share() const {
+  const Probe* probe = find_probe(probe_name_);
+  if (!probe) return 1;
+  const double fan_mm = image_geometry(*probe, depth_mm_, 1, 8192).mm_per_pixel;  // a single column is as wide as it
+  return std::min(1.0, fan_mm / (geometry().mm_per_pixel * geometry().width));
+}
+
 long Pictures::simulator_runs() const {
   long sum = 0;
   for (const long runs : simulator_.runs()) sum += runs;

@@ -61,6 +61,8 @@ public:
   const gl::Texture* blend() const { return blend_; }
   const gl::Texture* volume() const { return volume_; }
   const ImageGeometry& geometry() const { return simulator_.geometry(); }
+  /// Returns the share of the pictures' width that the fan covers where it is widest, 0 to 1.
+  double fan_share() const;
 
   view::OrbitCamera camera;   ///< facing the plane of a new patient's first pose
   double blend_share = 0.55;  ///< 0: the CT, 1: the ultrasound

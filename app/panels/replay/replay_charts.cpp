@@ -80,7 +80,7 @@ void draw_chart(const Theme& theme, Rect label, const Rect& chart, const TimeSca
     if (stretch.start_s > 0) list->AddLine({x, chart.y}, {x, chart.y + chart.h}, colour::kLine, 1);
   }
   if (const RecordedRun* expert = replay.expert())
-    draw_curve(chart, scale, quantity, *expert, kExpertInk, 1, [&](double t) { return replay.beside_s(t); });
+    draw_curve(chart, scale, quantity, *expert, colour::kExpert, 1, [&](double t) { return replay.beside_s(t); });
   draw_curve(chart, scale, quantity, replay.run(), colour::kAccent, theme.px(1.5f),
              [](double t) { return std::optional(t); });
 
@@ -96,7 +96,7 @@ void draw_chart(const Theme& theme, Rect label, const Rect& chart, const TimeSca
   draw_text(line, theme.small_text, colour::kAccent, value_text(quantity, replay.moment()));
   if (const std::optional<double> expert_s = replay.expert_time_s()) {
     line.take_left(theme.px(76));
-    draw_text(line, theme.small_text, kExpertInk, value_text(quantity, replay.expert()->at(*expert_s)));
+    draw_text(line, theme.small_text, colour::kExpert, value_text(quantity, replay.expert()->at(*expert_s)));
   }
 }
 

@@ -138,7 +138,10 @@ bool button(const Theme& theme, const char* id, const Rect& where, std::string_v
     background = colour::kRed;
     ink = colour::kBackground;
   }
-  if (!enabled) ink = colour::kFaint;
+  if (!enabled && kind != ButtonKind::chosen) {
+    background = colour::kRaised;
+    ink = colour::kFaint;
+  }
   fill(where, background, theme.px(4));
   if (hovered) outline(where, colour::kFaint, theme.px(4));
   draw_text(where.inset(theme.px(6), 0), theme.text, ink, text, Align::centre);
