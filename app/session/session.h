@@ -142,9 +142,10 @@ public:
   void press(std::uint32_t buttons) { pressed_ |= buttons; }
   /// Returns whether "go on" was pressed since the last call.
   bool take_go_on() { return std::exchange(go_on_, false); }
-  /// Returns whether its time can stand still, as while a page covers the screen: nothing is timed by a device, and the
-  /// rules are not strict. Then the caller may leave advance() out and go on later as if no time had passed.
-  bool can_stand_still() const { return !strict() && !(tracker_ && tracker_->live()); }
+  /// Returns whether an exam is under way whose time can stand still, as while a page covers the screen: the rules are
+  /// not strict, and no device measures on. Then the caller may leave advance() out and go on later as if no time had
+  /// passed.
+  bool can_stand_still() const { return runner_ && !result_ && !strict() && !(tracker_ && tracker_->live()); }
   /// Returns how long this attempt has lasted (s).
   double attempt_for_s() const { return now_s_ - attempt_began_s_; }
 

@@ -70,7 +70,9 @@ public:
   /// if it can (Session::can_stand_still()).
   void cover(bool covered) { covered_ = covered; }
   /// Returns whether something covers the screen and time does not stand still, so that the learner has to be told.
-  bool time_runs_on() const { return covered_ && session() && session()->runner() && !session()->can_stand_still(); }
+  bool time_runs_on() const {
+    return covered_ && session() && session()->runner() && !session()->result() && !session()->can_stand_still();
+  }
 
   /// Ends an exam that counts before its end: what has been done is scored and stored.
   void hand_in_exam();
