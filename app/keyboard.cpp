@@ -219,6 +219,10 @@ void Keyboard::press(const KeyEvent& pressed, Trainer& trainer, ui::Screen& scre
   if (!trainer.session()) return;
   Session& session = *trainer.session();
   const Machine& machine = session.machine();
+  const auto turn = [&](ActionKind knob, double value) {
+    if (const std::string why_not = session.why_not(knob); !why_not.empty()) return screen.tell(why_not);
+    session.set(knob, value);
+  };
   if (!repeated && pressed.key >= GLFW_KEY_1 && pressed.key <= GLFW_KEY_9)
     return choose(pressed.key - GLFW_KEY_1, trainer);
   switch (pressed.key) {
@@ -256,17 +260,17 @@ void Keyboard::press(const KeyEvent& pressed, Trainer& trainer, ui::Screen& scre
       break;
     case GLFW_KEY_EQUAL:
     case GLFW_KEY_KP_ADD:
-      session.set(ActionKind::gain, std::min(machine.gain_db + 1, Machine::kMostGain_db));
+      turn(ActionKind::gain, std::min(machine.gain_db + 1, Machine::kMostGain_db));
       break;
     case GLFW_KEY_MINUS:
     case GLFW_KEY_KP_SUBTRACT:
-      session.set(ActionKind::gain, std::max(machine.gain_db - 1, -Machine::kMostGain_db));
+      turn(ActionKind::gain, std::max(machine.gain_db - 1, -Machine::kMostGain_db));
       break;
     case GLFW_KEY_LEFT_BRACKET:
-      session.set(ActionKind::depth, machine.depth_mm - 5);
+      turn(ActionKind::depth, machine.depth_mm - 5);
       break;
     case GLFW_KEY_RIGHT_BRACKET:
-      session.set(ActionKind::depth, machine.depth_mm + 5);
+      turn(ActionKind::depth, machine.depth_mm + 5);
       break;
     default:
       break;

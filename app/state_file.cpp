@@ -12,6 +12,7 @@ using Json = nlohmann::ordered_json;
 
 void write_machine(Json& state, const Machine& machine) {
   state["frozen"] = machine.frozen;
+  state["probe"] = machine.probe;
   state["depth_mm"] = machine.depth_mm;
   state["gain_db"] = machine.gain_db;
 }
@@ -37,6 +38,7 @@ void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::
                  double quality) {
   Json state;
   state["overlay"] = to_string(screen.overlay(trainer));
+  state["toast"] = screen.toast().text();
   state["problem"] = trainer.problems().empty() ? "" : trainer.problems().front();
   state["shader_problem"] = trainer.shader_problem();
   state["calibration_warning"] = trainer.calibration_warning();
@@ -138,6 +140,7 @@ void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::
       state["advice"] = guiding->advice.empty() ? "" : guiding->advice.front();
     }
     if (session->result()) state["percent"] = session->result()->percent;
+    state["report"] = trainer.result_files() ? trainer.result_files()->report.string() : "";
   }
   write_file(file, state.dump(1) + "\n");
 }

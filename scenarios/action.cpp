@@ -34,6 +34,7 @@ constexpr std::array kKinds{
     KindOfAction{ActionKind::hint, "hint", 0, false},
     KindOfAction{ActionKind::go_to, "go_to", 0, true},
     KindOfAction{ActionKind::go_on, "go_on", 0, false},
+    KindOfAction{ActionKind::guide, "guide", 1, false},
 };
 constexpr bool in_order_of_enumeration() {
   for (std::size_t i = 0; i < kKinds.size(); ++i)
@@ -88,6 +89,7 @@ public:
     const bool takes_back = kind.kind == ActionKind::take_back;
     const bool has_slot = takes_back || kind.kind == ActionKind::caliper || kind.kind == ActionKind::ellipse;
     if (has_slot) check_whole(action, "a slot", takes_back ? 0 : 1, Action::kMostSlots);
+    if (kind.kind == ActionKind::guide) check_whole(action, "a guide", 0, 1);
     if (kind.kind == ActionKind::time_gain) check_whole(action, "a slider", 1, Action::kTimeGainSliders);
     if (kind.has_text && words.back().front() != ':') refuse("an action's text does not begin with ':'");
     if (kind.has_text) action.text = unescaped(words.back().substr(1));

@@ -30,7 +30,8 @@ enum class ActionKind {
   answer,     ///< answers the question [the choice, number or text]
   hint,       ///< requests the next hint
   go_to,      ///< switches to another step [its name]
-  go_on       ///< declares the step done
+  go_on,      ///< declares the step done
+  guide       ///< shows (1) or hides (0) the guide to the step's view; it costs nothing, and the result counts it
 };
 
 /// Returns the action's name in logs and scenarios, such as "depth".

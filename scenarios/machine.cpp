@@ -19,7 +19,12 @@ void Machine::choose(const std::string& name) {
   frequency_mhz = chosen->frequency_mhz;
 }
 
+bool Machine::refuses(ActionKind kind) const {
+  return frozen && (kind == ActionKind::probe || kind == ActionKind::depth || kind == ActionKind::frequency);
+}
+
 void Machine::apply(const Action& action, const std::optional<Pose>& last_valid) {
+  if (refuses(action.kind)) return;
   switch (action.kind) {
     case ActionKind::probe:
       choose(action.text);
@@ -57,6 +62,7 @@ std::vector<Action> actions_between(const Machine& from, const Machine& to) {
   std::vector<Action> actions;
   Machine machine = from;
   const auto set = [&](ActionKind kind, double value) { actions.push_back({kind, {value}}); };
+  if (machine.frozen) actions.push_back({ActionKind::unfreeze});
   if (machine.probe != to.probe) {
     actions.push_back({ActionKind::probe, {}, to.probe});
     machine.choose(to.probe);
@@ -68,7 +74,7 @@ std::vector<Action> actions_between(const Machine& from, const Machine& to) {
   for (std::size_t i = 0; i < to.time_gain_db.size(); ++i)
     if (machine.time_gain_db[i] != to.time_gain_db[i])
       actions.push_back({ActionKind::time_gain, {double(i + 1), to.time_gain_db[i]}});
-  if (machine.frozen != to.frozen) actions.push_back({to.frozen ? ActionKind::freeze : ActionKind::unfreeze});
+  if (to.frozen) actions.push_back({ActionKind::freeze});
   return actions;
 }
 

@@ -34,14 +34,19 @@ struct Machine {
   const Probe& transducer() const;
   /// Selects a probe and sets its own depth and frequency. An unknown name changes nothing.
   void choose(const std::string& name);
-  /// Applies a setting, a freeze or an unfreeze; other actions change nothing. Depth, dynamic range and time gain are
-  /// clamped to the machine's ranges.
+  /// Returns whether the machine ignores actions of this kind now: while a picture is frozen, those that decide which
+  /// echoes are acquired, which are probe, depth and frequency. A frozen picture is data. Gain, time gain and dynamic
+  /// range act on what has been acquired, so they change a frozen picture too.
+  bool refuses(ActionKind kind) const;
+  /// Applies a setting, a freeze or an unfreeze; other actions, and those it refuses, change nothing. Depth, dynamic
+  /// range and time gain are clamped to the machine's ranges.
   /// @param last_valid  pose of the last valid sample, at which the picture freezes
   void apply(const Action& action, const std::optional<Pose>& last_valid);
   bool operator==(const Machine&) const = default;
 };
 
-/// Returns the actions that change the settings of `from` to those of `to`, in an order in which they work.
+/// Returns the actions that change the settings of `from` to those of `to`, in an order in which they work. A picture
+/// that is frozen in `from` is let go for them, and the one of `to` is frozen last.
 std::vector<Action> actions_between(const Machine& from, const Machine& to);
 
 /// Returns the machine's settings at the start of an exam. They are the probe and depth of the first view that a step

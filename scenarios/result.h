@@ -63,6 +63,8 @@ struct StepResult {
   std::vector<CriterionScore> criteria;
   int hints_taken = 0;
   double hint_cost = 0;  ///< subtracted from the points of the criteria; the remainder is at least 0
+  int guide_times = 0;   ///< how often the guide to the step's view was shown; it costs no points
+  double guide_s = 0;    ///< for how long in all
 
   double earned() const;         ///< points of the criteria minus the cost of the hints, at least 0
   double lost_to_hints() const;  ///< at most the points of the criteria
@@ -94,7 +96,7 @@ struct Provenance {
 /// The result of an exam: its scores and the inputs that they were computed from.
 struct ExamResult {
   /// Incremented whenever the same samples could get a different score.
-  static constexpr int kScoringVersion = 3;
+  static constexpr int kScoringVersion = 4;
 
   std::string title;
   std::string briefing;  ///< what the learner read before the start; empty if the scenario has none

@@ -85,6 +85,8 @@ void each_field(Visit& visit, Step& step) {
   visit("judged", step.judged);
   visit("hints_taken", step.hints_taken);
   visit("hint_cost", step.hint_cost);
+  visit.if_any("guide_times", step.guide_times);
+  visit.if_any("guide_s", step.guide_s);
   visit("values", step.values);
   visit("facts", step.facts);
   visit("motion", step.motion);
@@ -141,6 +143,11 @@ struct Writer {
   void if_any(std::string_view key, const std::string& text) {
     if (!text.empty()) (*this)(key, text);
   }
+  template <typename Number>
+  requires std::is_arithmetic_v<Number>
+  void if_any(std::string_view key, Number number) {
+    if (number != 0) (*this)(key, number);
+  }
 
 private:
   template <typename T>
@@ -191,8 +198,9 @@ struct Reader {
   void if_any(std::string_view key, std::optional<T>& value) {
     if (json.contains(key)) (*this)(key, value.emplace());
   }
-  void if_any(std::string_view key, std::string& text) {
-    if (json.contains(key)) (*this)(key, text);
+  template <typename T>
+  void if_any(std::string_view key, T& value) {
+    if (json.contains(key)) (*this)(key, value);
   }
 
 private:

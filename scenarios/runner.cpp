@@ -107,6 +107,11 @@ void Runner::act(const Action& given, double now) {
     live_.hints.push_back(step().hints[hints_taken_[live_.step]++].text);
     --live_.hints_left;
   }
+  if (action.kind == ActionKind::guide) {
+    hide_guide(now);
+    guided_ = action.numbers[0] != 0;
+    if (guided_) show_guide(now);
+  }
   run_->act(action, {now, last_valid_.has_value(), last_valid_.value_or(Pose{}), nullptr, machine_});
   if (run_->done()) end_step(StepOutcome::done, now);
 }
@@ -176,6 +181,7 @@ void Runner::begin_step(std::size_t index, double now) {
   live_.hints.clear();
   for (std::size_t i = 0; i < hints_taken_[index]; ++i) live_.hints.push_back(asked.hints[i].text);
   live_.hints_left = asked.hints.size() - hints_taken_[index];
+  if (guided_) show_guide(now);
 }
 
 bool Runner::can_go_to(std::size_t index) const {
@@ -189,8 +195,21 @@ void Runner::go_to(const std::string& name, double now) {
     if (scenario_.steps[i].name != name || !can_go_to(i)) continue;
     step_motion_.end(now);
     left_[live_.step].motion += step_motion_.values();
+    hide_guide(now);
     return begin_step(i, now);
   }
+}
+
+/// Begins to count the time for which the guide is shown, if the step asks for a view that it can lead to.
+void Runner::show_guide(double now) {
+  if (!meters_[live_.step]) return;
+  guided_from_s_ = now;
+  ++left_[live_.step].guide_times;
+}
+
+void Runner::hide_guide(double now) {
+  if (guided_from_s_) left_[live_.step].guide_s += now - *guided_from_s_;
+  guided_from_s_.reset();
 }
 
 void Runner::skip(std::size_t from, std::size_t to, double now) {
@@ -226,6 +245,7 @@ std::optional<std::size_t> Runner::step_after(const StepResult& ended, double no
 
 void Runner::end_step(StepOutcome outcome, double now, Then then) {
   step_motion_.end(now);
+  hide_guide(now);
   const StepResult& ended = ended_[live_.step].emplace(judge(outcome, now));
   if (ended.counts) {
     for (const CriterionScore& m : ended.criteria) {
@@ -257,6 +277,8 @@ StepResult Runner::judge(StepOutcome outcome, double now) const {
   result.counts = asked.counts;
   result.view = asked.view;
   result.outcome = outcome;
+  result.guide_times = left_[live_.step].guide_times;
+  result.guide_s = left_[live_.step].guide_s;
   result.hints_taken = int(hints_taken_[live_.step]);
   for (std::size_t i = 0; i < hints_taken_[live_.step]; ++i) result.hint_cost += asked.hints[i].cost;
   result.start_s = *left_[live_.step].began_s;

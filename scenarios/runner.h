@@ -121,6 +121,8 @@ private:
   void end_step(StepOutcome outcome, double now, Then then = Then::go_on);
   void begin_step(std::size_t index, double now);
   void go_to(const std::string& name, double now);
+  void show_guide(double now);
+  void hide_guide(double now);
   void skip(std::size_t from, std::size_t to, double now);
   std::optional<std::size_t> step_after(const StepResult& ended, double now);
   double step_limit_s() const { return step_start_s_ + (step().time_limit_s - left_[live_.step].motion.time_s); }
@@ -152,9 +154,13 @@ private:
   struct Left {
     std::optional<double> began_s;  ///< empty until the learner starts the step
     MotionValues motion;            ///< of the previous visits
+    int guide_times = 0;            ///< how often the guide was shown, and for how long, in visits that are over
+    double guide_s = 0;
   };
   std::vector<Left> left_;                ///< state of earlier visits to the step
   std::vector<std::size_t> hints_taken_;  ///< by step
+  bool guided_ = false;                   ///< the guide is on, in steps that ask for a view
+  std::optional<double> guided_from_s_;   ///< since when it is shown in this step
   std::optional<double> counts_from_s_;   ///< when the warm-ups ended
   std::vector<TracePoint> trace_;
 };

@@ -25,6 +25,11 @@ std::string in_words(Metric metric, double value) {
   return fixed(value, m.decimals) + (m.unit.empty() || degrees ? "" : " ") + std::string(m.unit);
 }
 
+std::string title_of(Metric metric) {
+  const MetricInfo& m = info(metric);
+  return std::string(m.words) + (m.of_reference ? " (100 %: the reference view)" : "");
+}
+
 std::string in_words(std::string name) {
   std::replace(name.begin(), name.end(), '_', ' ');
   return name;

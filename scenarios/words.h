@@ -17,6 +17,9 @@ std::string short_number(double value);
 /// Returns a metric's value with its unit: "12.4 mm", "82 %", "7".
 std::string in_words(Metric metric, double value);
 
+/// Returns a metric's name for people who read its value. It says what 100 % is where a value can exceed it.
+std::string title_of(Metric metric);
+
 /// Returns a structure's name as a person reads it: "right kidney".
 std::string in_words(std::string name);
 

@@ -46,7 +46,7 @@ void draw_dotted(const Theme& theme, const ImVec2& from, const ImVec2& to, ImU32
 void draw_tag(const Theme& theme, const ImVec2& at, ImU32 colour, const std::string& text) {
   const float width = text_width(theme.small_text, text) + theme.px(8), height = theme.px(18);
   const Rect plate{at.x + theme.px(8), at.y - height - theme.px(3), width, height};
-  fill(plate, colour::kDim, theme.px(3));
+  fill(plate, colour::kPlate, theme.px(3));
   draw_text(plate, theme.small_text, colour, text, Align::centre);
 }
 

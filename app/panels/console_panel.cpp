@@ -14,19 +14,21 @@ std::string formatted(const char* format, double value) {
   return text;
 }
 
-void draw_probe_choice(const Theme& theme, Rect where, Session& session) {
+void draw_probe_choice(const Theme& theme, Rect where, Session& session, std::map<std::string, Rect>& places) {
   draw_text(where.take_top(theme.px(20)), theme.small_text, colour::kMuted, "Probe");
   where.take_top(theme.px(4));
   const float between = theme.px(5), count = float(probes().size());
   const float height = std::min((where.h - (count - 1) * between) / count, theme.px(30));
   for (const Probe& probe : probes()) {
-    const Rect place = where.take_top(height);
+    const Rect place = places["probe_" + probe.name] = where.take_top(height);
     where.take_top(between);
     const bool chosen = session.machine().probe == probe.name;
+    const std::string why_not = chosen ? "" : session.why_not(ActionKind::probe);
     if (button(theme, probe.name.c_str(), place, probe.title.c_str(), chosen ? ButtonKind::chosen : ButtonKind::normal,
-               chosen || !session.locks(ActionKind::probe)) &&
+               why_not.empty()) &&
         !chosen)
       session.choose_probe(probe.name);
+    if (!why_not.empty()) draw_tooltip(theme, place, why_not);
   }
 }
 
@@ -39,8 +41,10 @@ void draw_knobs(const Theme& theme, Rect where, Session& session) {
   const float next = theme.px(50);
   const auto knob = [&](const char* id, const Rect& place, const char* name, const std::string& text, ActionKind kind,
                         double value, double least, double most, double step, double normal) {
-    if (slider(theme, id, place, name, text, value, least, most, step, normal, !session.locks(kind)))
+    const std::string why_not = session.why_not(kind);
+    if (slider(theme, id, place, name, text, value, least, most, step, normal, why_not.empty()))
       session.set(kind, value);
+    if (!why_not.empty()) draw_tooltip(theme, place, why_not);
   };
   knob("depth", left, "Depth", formatted("%.1f cm", machine.depth_mm / 10), ActionKind::depth, machine.depth_mm,
        Machine::kLeastDepth_mm, Machine::kMostDepth_mm, 5, probe.depth_mm);
@@ -58,13 +62,14 @@ void draw_time_gain(const Theme& theme, Rect where, Session& session) {
   draw_text(head, theme.small_text, colour::kMuted, "Time gain");
   draw_text(head, theme.small_text, colour::kFaint, "near to far", Align::right);
   where.take_top(theme.px(4));
+  const std::string why_not = session.why_not(ActionKind::time_gain);
+  if (!why_not.empty()) draw_tooltip(theme, where, why_not);
   const auto& sliders = session.machine().time_gain_db;
   const float width = where.w / float(sliders.size());
   for (std::size_t i = 0; i < sliders.size(); ++i) {
     const std::string id = "tgc" + std::to_string(i);
     double value = sliders[i];
-    if (upright_slider(theme, id.c_str(), where.take_left(width), value, Machine::kMostTimeGain_db,
-                       !session.locks(ActionKind::time_gain)))
+    if (upright_slider(theme, id.c_str(), where.take_left(width), value, Machine::kMostTimeGain_db, why_not.empty()))
       session.set({ActionKind::time_gain, {double(i + 1), value}});
   }
 }
@@ -72,11 +77,12 @@ void draw_time_gain(const Theme& theme, Rect where, Session& session) {
 }  // namespace
 
 ConsoleRequest draw_console_panel(const Theme& theme, const Rect& panel, Session& session,
-                                  const std::function<void(const std::function<void()>&)>& attempt) {
+                                  const std::function<void(const std::function<void()>&)>& attempt,
+                                  std::map<std::string, Rect>& places) {
   fill(panel, colour::kPanel, theme.px(4));
   Rect rest = panel.inset(theme.px(16), theme.px(10));
   const float gap = theme.px(28);
-  draw_probe_choice(theme, rest.take_left(theme.px(112)), session);
+  draw_probe_choice(theme, rest.take_left(theme.px(112)), session, places);
   rest.take_left(gap);
 
   Rect buttons = rest.take_right(theme.px(276));

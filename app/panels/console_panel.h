@@ -1,5 +1,9 @@
 #pragma once
 
+#include <functional>
+#include <map>
+#include <string>
+
 #include "app/panels/widgets/theme.h"
 #include "app/panels/widgets/widgets.h"
 #include "app/session/session.h"
@@ -9,8 +13,11 @@ namespace insonate::ui {
 /// Requests of the console's buttons that go beyond the session.
 enum class ConsoleRequest { none, help, open };
 
-/// Draws the machine's controls and the buttons of the session. Passes actions that may throw to `attempt`.
+/// Draws the machine's controls and the buttons of the session. A control that cannot be used now is dim, and says why
+/// to the pointer. Passes actions that may throw to `attempt`.
+/// @param places  receives the rectangles of the probes' buttons
 ConsoleRequest draw_console_panel(const Theme& theme, const Rect& panel, Session& session,
-                                  const std::function<void(const std::function<void()>&)>& attempt);
+                                  const std::function<void(const std::function<void()>&)>& attempt,
+                                  std::map<std::string, Rect>& places);
 
 }  // namespace insonate::ui

@@ -7,6 +7,11 @@
 #include "scenarios/words.h"
 
 namespace insonate::ui {
+namespace {
+
+constexpr float kMargin = 8, kRow = 22;
+
+}  // namespace
 
 void draw_ghost(const Theme& theme, const Rect& space, const Guiding& guiding, const view::OrbitCamera& camera) {
   const SpaceDrawing drawing(space, camera);
@@ -20,27 +25,28 @@ void draw_ghost(const Theme& theme, const Rect& space, const Guiding& guiding, c
   drawing.path(handle, colour::kText, theme.px(2));
 }
 
-Rect draw_advice(const Theme& theme, const Rect& ultrasound, const Guiding& guiding) {
-  constexpr std::size_t kMost = 4;
-  const std::size_t lines = std::clamp<std::size_t>(guiding.advice.size(), 1, kMost);
-  const float row = theme.px(21), margin = theme.px(12), height = row * float(lines + 1) + theme.px(18 + 16 + 4);
-  float width = theme.px(300);
-  for (const std::string& advice : guiding.advice)
-    width = std::max(width, text_width(theme.text, advice) + 2 * margin + theme.px(2));
-  const Rect plate{ultrasound.x + theme.px(16), ultrasound.y + ultrasound.h - height - theme.px(14),
-                   std::min(width, ultrasound.w - theme.px(32)), height};
-  fill(plate, IM_COL32(18, 22, 27, 225), theme.px(4));
-  outline(plate, guiding.there ? colour::kAccent : colour::kLine, theme.px(4));
-  Rect rest = plate.inset(margin, theme.px(8));
-  draw_text(rest.take_top(row), theme.strong, colour::kText,
-            guiding.view->title.empty() ? guiding.view->name : guiding.view->title);
-  draw_text(
-      rest.take_bottom(theme.px(18)), theme.small_text, colour::kMuted,
-      "Plane " + fixed(guiding.plane_distance_mm, 0) + " mm and " + fixed(guiding.plane_angle_deg, 0) + "\u00b0 off");
-  if (guiding.there) draw_text(rest.take_top(row), theme.text, colour::kAccent, "Here it is. Hold still.");
-  for (std::size_t i = 0; i < std::min(guiding.advice.size(), kMost); ++i)
-    draw_text(rest.take_top(row), theme.text, i == 0 ? colour::kText : colour::kMuted, guiding.advice[i]);
-  return plate;
+float guide_strip_height(const Theme& theme) {
+  return theme.px(2 * kMargin + 2 * kRow);
+}
+
+void draw_guide_strip(const Theme& theme, const Rect& strip, const Guiding& guiding, bool counted) {
+  fill(strip, colour::kPanel, theme.px(4));
+  if (guiding.there) outline(strip, colour::kAccent, theme.px(4));
+  Rect rest = strip.inset(theme.px(16), theme.px(kMargin));
+  Rect head = rest.take_top(theme.px(kRow));
+  const std::string title = "Guide: " + (guiding.view->title.empty() ? guiding.view->name : guiding.view->title);
+  draw_text(head.take_left(std::min(head.w, text_width(theme.strong, title))), theme.strong, colour::kText, title);
+  head.take_left(theme.px(16));
+  draw_text(head, theme.text, colour::kMuted,
+            "plane " + fixed(guiding.plane_distance_mm, 0) + " mm and " + fixed(guiding.plane_angle_deg, 0) +
+                "\u00b0 off" + (counted ? "; costs no points, but the report says how long it was shown" : ""));
+  if (guiding.there) return draw_text(rest, theme.text, colour::kAccent, "Here it is. Hold still.");
+  for (const std::string& advice : guiding.advice) {
+    const bool next = &advice == &guiding.advice.front();
+    draw_text(rest.take_left(std::min(rest.w, text_width(theme.text, advice) + 1)), theme.text,
+              next ? colour::kText : colour::kMuted, advice);
+    rest.take_left(theme.px(16));
+  }
 }
 
 }  // namespace insonate::ui

@@ -7,10 +7,11 @@
 
 namespace insonate::ui {
 
-/// Draw the help for practice: the reference view's plane as a ghost in the 3D view, and the next movements beside the
-/// ultrasound.
+/// Draw the help for practice: the reference view's plane as a ghost in the 3D view, and the next movements in a strip
+/// of their own, which covers nothing.
 void draw_ghost(const Theme& theme, const Rect& space, const Guiding& guiding, const view::OrbitCamera& camera);
-/// Returns the rectangle that the advice covers.
-Rect draw_advice(const Theme& theme, const Rect& ultrasound, const Guiding& guiding);
+/// @param counted  whether the report of a scored attempt will say that the guide was shown
+void draw_guide_strip(const Theme& theme, const Rect& strip, const Guiding& guiding, bool counted);
+float guide_strip_height(const Theme& theme);
 
 }  // namespace insonate::ui

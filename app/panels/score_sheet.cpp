@@ -59,10 +59,9 @@ void draw_verdict(const Theme& theme, Rect head, const ExamResult& result) {
 
 void draw_mark(const Theme& theme, const Rect& row, const CriterionScore& mark) {
   const Columns columns = columns_of(theme, row);
-  const MetricInfo& metric = info(mark.metric);
   const double share = mark.weight > 0 ? mark.points / mark.weight : 1;
   const ImU32 ink = mark.fails_exam() ? colour::kRed : share < 0.5 ? colour::kAmber : colour::kText;
-  std::string name(metric.words);
+  std::string name = title_of(mark.metric);
   if (mark.critical) name += " (critical)";
   draw_text(columns.criterion, theme.text, mark.fails_exam() ? colour::kRed : colour::kText, name);
   draw_text(columns.value, theme.text, ink, mark.value ? in_words(mark.metric, *mark.value) : "\u2013", Align::right);
@@ -70,17 +69,7 @@ void draw_mark(const Theme& theme, const Rect& row, const CriterionScore& mark) 
             in_words(mark.metric, mark.full) + " \u2013 " + in_words(mark.metric, mark.zero), Align::right);
   draw_text(columns.points, theme.text, ink, short_number(mark.points) + " / " + short_number(mark.weight),
             Align::right);
-  if (ImGui::IsMouseHoveringRect(row.min(), row.max())) {
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {theme.px(10), theme.px(7)});
-    ImGui::PushStyleColor(ImGuiCol_PopupBg, colour::kRaised);
-    ImGui::BeginTooltip();
-    ImGui::PushFont(theme.small_text);
-    ImGui::TextUnformatted(mark.why.c_str());
-    ImGui::PopFont();
-    ImGui::EndTooltip();
-    ImGui::PopStyleColor();
-    ImGui::PopStyleVar();
-  }
+  draw_tooltip(theme, row, mark.why);
 }
 
 void draw_column_titles(const Theme& theme, const Rect& row) {
@@ -119,7 +108,7 @@ void draw_rows(const Theme& theme, Rect rows, float height, const ExamResult& re
 }  // namespace
 
 ScoreAnswer draw_score_sheet(const Theme& theme, const Rect& screen, const ExamResult& result,
-                             const std::optional<ResultFiles>& files, bool watched, bool once) {
+                             const std::optional<ResultFiles>& files, bool writing, bool watched, bool once) {
   const float row = theme.px(26), head_height = theme.px(74), reason_height = theme.px(22);
   const std::size_t reasons = std::min<std::size_t>(result.reasons.size(), 3);
   const float rows_height = row * float(row_count(result));
@@ -143,9 +132,10 @@ ScoreAnswer draw_score_sheet(const Theme& theme, const Rect& screen, const ExamR
 
   ScoreAnswer answer = ScoreAnswer::none;
   bottom.take_top(theme.px(12));
-  draw_text(
-      bottom.take_top(theme.px(24)), theme.small_text, colour::kMuted,
-      files ? "Report: " + std::filesystem::absolute(files->report).string() : "The report could not be written.");
+  draw_text(bottom.take_top(theme.px(24)), theme.small_text, files || writing ? colour::kMuted : colour::kAmber,
+            files     ? "Report: " + std::filesystem::absolute(files->report).string()
+            : writing ? "Writing the report \u2026"
+                      : "The report could not be written.");
   bottom.take_top(theme.px(14));
   Rect buttons = bottom.take_top(theme.px(40));
   const float gap = theme.px(8);

@@ -28,6 +28,13 @@ void open_on_desktop(const std::filesystem::path& file) {
   if (std::system(command.c_str()) != 0) std::fprintf(stderr, "insonate: the desktop does not open files\n");
 }
 
+/// Whether an overlay keeps the learner from the scan behind it. The set-up has no session behind it, the briefing one
+/// that has not begun, and the score one that is over.
+bool covers(Overlay overlay) {
+  return overlay != Overlay::none && overlay != Overlay::setup && overlay != Overlay::briefing &&
+         overlay != Overlay::score;
+}
+
 }  // namespace
 
 const char* to_string(Overlay overlay) {
@@ -84,14 +91,23 @@ void Screen::lay_out(const Trainer& trainer, float width, float height) {
     rest.take_top(gap);
   }
   if (const Session* session = trainer.session(); session && (trainer.author() || has_task_panel(*session))) {
-    task_ = rest.take_top(trainer.author() ? author_panel_height(theme_) : task_panel_height(theme_, *session, rest.w));
+    task_ = rest.take_top(trainer.author() ? author_panel_height(theme_)
+                                           : task_panel_height(theme_, *session, trainer.picture_tools(),
+                                                               trainer.step_controls(), rest.w));
+    rest.take_top(gap);
+  }
+  guide_ = {};
+  if (trainer.session() && trainer.guide().now(*trainer.session())) {
+    guide_ = rest.take_top(guide_strip_height(theme_));
     rest.take_top(gap);
   }
   console_ = rest.take_bottom(theme_.px(trainer.replay() ? 272 : 120));  // a replay has charts below its time line
   rest.take_bottom(gap);
-  // The ultrasound comes first. The other views get a third of the width, and at most what makes them square.
-  Rect side =
-      rest.take_right(std::min(std::round(rest.w * 0.35f), std::round(rest.h * (trainer.replay() ? 1.0f : 0.82f))));
+  // The ultrasound comes first. The other views get a third of the width, and at most what makes them square. On a wide
+  // screen the height limits a fan, which is at most 1.5 times as wide as high: they get the width that it leaves.
+  float others = std::min(rest.w * 0.35f, rest.h * (trainer.replay() ? 1.0f : 0.82f));
+  if (!trainer.replay()) others = std::max(others, std::min(rest.w * 0.45f, rest.w - gap - rest.h * 1.5f));
+  Rect side = rest.take_right(std::round(others));
   rest.take_right(gap);
   recorded_ = {};
   if (trainer.replay() && trainer.replay()->run().images) {
@@ -128,6 +144,10 @@ bool Screen::render(Trainer& trainer, FrameTimes* times) {
   lay_out(trainer, size.x, size.y);
   draw_panels(trainer);
   draw_overlay(trainer);
+  for (const std::string& notice : trainer.take_notices()) tell(notice);
+  if (trainer.time_runs_on()) draw_time_runs_on(*trainer.session());
+  toast_.draw(theme_, toast_place());
+  trainer.cover(covers(overlay(trainer)));
   ImGui::Render();
   if (times) times->end(FramePart::layout);
   const bool changed = canvas_.draw(*ImGui::GetDrawData(), colour::kBackground, [&](ImTextureID texture) {
@@ -156,16 +176,17 @@ void Screen::draw_panels(Trainer& trainer) {
       draw_task_panel(theme_, task_, *session, trainer.picture_tools(), trainer.step_controls(), text_field_, places_);
     UltrasoundPanel::draw(theme_, ultrasound_, *session, pictures, trainer.picture_tools(), places_);
     space_.draw(theme_, volume_, session, pictures);
-    if (const std::optional<Guiding> guiding = trainer.guide().now(*session)) {
+    if (const std::optional<Guiding> guiding = trainer.guide().now(*session); guiding && guide_.h > 0) {
       draw_ghost(theme_, volume_, *guiding, pictures.camera);
-      places_["guide"] = draw_advice(theme_, ultrasound_, *guiding);
+      draw_guide_strip(theme_, guide_, *guiding, StepControls::active(*session));
+      places_["guide"] = guide_;
     }
     if (session->shows_anatomy()) {
       draw_slice_panel(theme_, slice_, pictures);
       draw_blend_panel(theme_, blend_, pictures);
     }
     const auto attempt = [&](const std::function<void()>& action) { trainer.attempt(action); };
-    switch (draw_console_panel(theme_, console_, *session, attempt)) {
+    switch (draw_console_panel(theme_, console_, *session, attempt, places_)) {
       case ConsoleRequest::help:
         page_ = Overlay::help;
         break;
@@ -189,6 +210,24 @@ void Screen::draw_panels(Trainer& trainer) {
   }
   if (!trainer.exam_refused()) draw_status(trainer);
   ImGui::End();
+}
+
+/// An overlay hides the clock, so it says that the time does not stand still.
+void Screen::draw_time_runs_on(const Session& session) {
+  const std::string_view text =
+      session.strict() ? "Time runs on: this exam counts" : "Time runs on: the tracker goes on measuring";
+  const Rect plate{std::round(screen_.w - text_width(theme_.strong, text)) / 2 - theme_.px(12), theme_.px(6),
+                   text_width(theme_.strong, text) + theme_.px(24), theme_.px(30)};
+  ImDrawList* list = ImGui::GetForegroundDrawList();
+  list->AddRectFilled(plate.min(), plate.max(), colour::kAmber, theme_.px(4));
+  list->AddText(theme_.strong, theme_.strong->FontSize, plate.inset(theme_.px(12), theme_.px(6)).min(),
+                colour::kBackground, text.data(), text.data() + text.size());
+}
+
+/// Above the words at the bottom of the ultrasound, or of the screen where there is none.
+Rect Screen::toast_place() const {
+  const Rect around = ultrasound_.h > 0 ? ultrasound_ : screen_;
+  return {around.x, around.y, around.w, around.h - theme_.px(56)};
 }
 
 void Screen::draw_record_button(Trainer& trainer, const Rect& where) {
@@ -476,8 +515,8 @@ void Screen::draw_overlay(Trainer& trainer) {
       break;
     case Overlay::score: {
       const bool watched = std::as_const(*session).source().recording() != nullptr;
-      answer_score(trainer, draw_score_sheet(theme_, screen_, *session->result(), trainer.result_files(), watched,
-                                             session->strict()));
+      answer_score(trainer, draw_score_sheet(theme_, screen_, *session->result(), trainer.result_files(),
+                                             trainer.results_due(), watched, session->strict()));
       break;
     }
   }

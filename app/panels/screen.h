@@ -3,6 +3,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "app/panels/canvas.h"
 #include "app/panels/open_dialog.h"
@@ -16,6 +17,7 @@
 #include "app/panels/views_panel.h"
 #include "app/panels/widgets/text_field.h"
 #include "app/panels/widgets/theme.h"
+#include "app/panels/widgets/toast.h"
 #include "app/panels/widgets/widgets.h"
 #include "app/trainer/trainer.h"
 
@@ -49,6 +51,10 @@ public:
   PlaneOnScreen plane_on_screen(const Trainer& trainer) const {
     return UltrasoundPanel::plane(theme_, ultrasound_, trainer.pictures());
   }
+
+  /// Shows a sentence over the screen for some seconds.
+  void tell(std::string text) { toast_.show(std::move(text)); }
+  const Toast& toast() const { return toast_; }
 
   void toggle_help();
   /// Opens the dialog that finds a file or folder.
@@ -96,6 +102,8 @@ private:
   void draw_start_page(Trainer& trainer);
   void draw_demonstration(Trainer& trainer);
   void take_path(Trainer& trainer);
+  Rect toast_place() const;
+  void draw_time_runs_on(const Session& session);
   void close_page();
   void answer_score(Trainer& trainer, ScoreAnswer answer);
 
@@ -111,11 +119,12 @@ private:
   OpenDialog open_dialog_;
   TextField text_field_;
   StartPanel start_panel_;
+  Toast toast_;
   Overlay page_ = Overlay::none;  ///< what the person asked for: help, about, open or leave
   bool fonts_are_new_ = false;
   const ExamResult* closed_sheet_of_ = nullptr;
   double pictures_per_second_ = 0;
-  Rect screen_, top_, strip_, task_, ultrasound_, recorded_, volume_, slice_, blend_, console_, status_;
+  Rect screen_, top_, strip_, task_, guide_, ultrasound_, recorded_, volume_, slice_, blend_, console_, status_;
   std::map<std::string, Rect> places_;
 };
 

@@ -1,6 +1,8 @@
 #include "app/panels/task_panel.h"
 
 #include <algorithm>
+#include <cmath>
+#include <variant>
 #include <vector>
 
 #include "app/panels/annotation_layer.h"
@@ -110,15 +112,42 @@ std::string hint_text(double cost) {
   return "Hint (\u2212" + short_number(cost) + (cost == 1 ? " point)" : " points)");
 }
 
-void draw_line(const Theme& theme, const Rect& where, const LiveExam& live, const StepControls& controls,
-               const std::string& prompt) {
+/// Returns whether the step has a row of controls above its words.
+bool has_controls(const StepInput& input) {
+  return !std::holds_alternative<std::monostate>(input) && !std::holds_alternative<PointInput>(input);
+}
+
+struct Words {
+  std::string text;
+  ImU32 ink;
+};
+
+/// What the strip says: that the step is not done, the hints, or else what to do now.
+Words words_of(const Session& session, const PictureTools& tools, const StepControls& controls) {
   if (controls.asks_again())
-    return draw_text(where, theme.small_text, colour::kAmber,
-                     "This step is not done yet. Going on leaves it as it is, for good.");
-  if (live.hints.empty()) return draw_text(where, theme.small_text, colour::kMuted, prompt);
+    return {"This step is not done yet. Going on leaves it as it is, for good.", colour::kAmber};
+  const LiveExam& live = session.runner()->live();
   std::string hints;
   for (const std::string& hint : live.hints) hints += (hints.empty() ? "Hint: " : "  ") + hint;
-  draw_text(where, theme.small_text, colour::kAccent, hints);
+  if (!hints.empty()) return {hints, colour::kAccent};
+  const Step& step = session.runner()->scenario().steps[live.step];
+  return {prompt(session, tools, controls, step), has_controls(step.task->input()) ? colour::kMuted : colour::kText};
+}
+
+float words_width(const Theme& theme, float panel_width) {
+  return panel_width - theme.px(2 * 16 + kRight + 16);
+}
+
+/// Returns the height of the words, in a line of their own below controls, or in place of them, where they are larger.
+float words_height(const Theme& theme, const std::string& text, bool below_controls, float width) {
+  return std::max(paragraph_height(below_controls ? theme.small_text : theme.text, text, width),
+                  theme.px(below_controls ? kLine : kChoiceRow));
+}
+
+/// Draws one line in the middle of its height, several from the top on.
+void draw_words(const Rect& where, ImFont* font, const Words& words) {
+  const float height = paragraph_height(font, words.text, where.w);
+  draw_paragraph({where.x, where.y + std::round((where.h - height) / 2), where.w, height}, font, words.ink, words.text);
 }
 
 }  // namespace
@@ -127,14 +156,18 @@ bool has_task_panel(const Session& session) {
   return session.runner() && !session.source().recording();
 }
 
-float task_panel_height(const Theme& theme, const Session& session, float width) {
+float task_panel_height(const Theme& theme, const Session& session, const PictureTools& tools,
+                        const StepControls& controls, float width) {
+  if (!StepControls::active(session)) return theme.px(2 * kMargin + kChoiceRow);
   const Scenario& scenario = session.runner()->scenario();
-  const bool free = scenario.order == Scenario::Order::free;
-  const float for_choices = width - theme.px(2 * 16 + kRight + 16);
-  const bool two_rows = std::any_of(scenario.steps.begin(), scenario.steps.end(), [&](const Step& step) {
-    return need_two_rows(theme, for_choices, choice_texts(step.task->input()));
-  });
-  return theme.px(2 * kMargin + kChoiceRow + kLine + (free ? kTurns : 0) + (two_rows ? kSecondChoiceRow : 0));
+  const StepInput input = scenario.steps[session.runner()->live().step].task->input();
+  const float usable = words_width(theme, width);
+  float height =
+      theme.px(2 * kMargin) + words_height(theme, words_of(session, tools, controls).text, has_controls(input), usable);
+  if (has_controls(input)) height += theme.px(kChoiceRow);
+  if (need_two_rows(theme, usable, choice_texts(input))) height += theme.px(kSecondChoiceRow);
+  if (scenario.order == Scenario::Order::free) height += theme.px(kTurns);
+  return height;
 }
 
 void draw_task_panel(const Theme& theme, const Rect& panel, Session& session, PictureTools& tools,
@@ -146,7 +179,7 @@ void draw_task_panel(const Theme& theme, const Rect& panel, Session& session, Pi
   if (!StepControls::active(session))
     return draw_text(rest, theme.text, colour::kMuted, "The exam is over. Measuring goes on, and counts no more.");
   const LiveExam& live = session.runner()->live();
-  const Step& step = session.runner()->scenario().steps[live.step];
+  const StepInput input = session.runner()->scenario().steps[live.step].task->input();
 
   if (const auto turns = StepControls::turns(session); !turns.empty()) {
     draw_turns(theme, rest.take_bottom(theme.px(kTurns - 6)), session, controls, turns, places);
@@ -170,11 +203,9 @@ void draw_task_panel(const Theme& theme, const Rect& panel, Session& session, Pi
   }
   rest.take_right(theme.px(16));
 
-  const std::string what_to_do = prompt(session, tools, controls, step);
-  const std::vector<SettingsInput::Setting> settings = controls.settings(session);
-  // A step without controls has its prompt in their row, where it is larger.
-  const bool has_controls = controls.question() || tools.measuring() || tools.labelling() || !settings.empty();
-  draw_line(theme, rest.take_bottom(theme.px(kLine)), live, controls, has_controls ? what_to_do : "");
+  const Words words = words_of(session, tools, controls);
+  if (!has_controls(input)) return draw_words(rest, theme.text, words);
+  draw_words(rest.take_bottom(words_height(theme, words.text, true, rest.w)), theme.small_text, words);
   Rect row = rest;
   row.h = theme.px(kChoiceRow);
   if (controls.question())
@@ -183,10 +214,8 @@ void draw_task_panel(const Theme& theme, const Rect& panel, Session& session, Pi
     draw_slots(theme, row, tools, places);
   else if (tools.labelling())
     draw_names(theme, rest, session, tools, places);
-  else if (!settings.empty())
-    draw_settings(theme, row, settings);
   else
-    draw_text(row, theme.text, colour::kText, what_to_do);
+    draw_settings(theme, row, controls.settings(session));
 }
 
 }  // namespace insonate::ui

@@ -15,8 +15,9 @@ namespace insonate::ui {
 /// Returns whether the exam has a task panel. An exam that a log plays has none.
 bool has_task_panel(const Session& session);
 
-/// Returns the height that all steps of the exam need, so that the picture keeps its size.
-float task_panel_height(const Theme& theme, const Session& session, float width);
+/// Returns the height that the current step needs for its controls and words.
+float task_panel_height(const Theme& theme, const Session& session, const PictureTools& tools,
+                        const StepControls& controls, float width);
 
 /// Draws the strip below the exam's: the controls of the current step, hints, and going on. Adds its buttons'
 /// rectangles to `places`.

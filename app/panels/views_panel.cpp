@@ -12,21 +12,22 @@ namespace insonate::ui {
 namespace {
 
 void draw_title(const Theme& theme, const Rect& panel, std::string_view title) {
-  draw_text({panel.x + theme.px(10), panel.y + theme.px(6), panel.w - theme.px(20), theme.px(20)}, theme.small_text,
-            colour::kMuted, title);
+  const Rect plate{panel.x + theme.px(4), panel.y + theme.px(4),
+                   std::min(text_width(theme.small_text, title) + theme.px(12), panel.w - theme.px(8)), theme.px(22)};
+  fill(plate, colour::kPlate, theme.px(3));
+  draw_text(plate.inset(theme.px(6), 0), theme.small_text, colour::kMuted, title);
 }
 
 ImTextureID id_of(const gl::Texture& texture) {
   return reinterpret_cast<ImTextureID>(std::uintptr_t(texture.name()));
 }
 
-// Draws a picture in the middle of the panel, mirrored like the ultrasound. Crops its sides, which the fan hardly
-// covers, as far as that makes the rest larger.
-void draw_mirrored(const Rect& panel, const gl::Texture* picture) {
+// Draws a picture in the middle of the panel, mirrored like the ultrasound. Crops its sides, which the fan does not
+// reach, as far as that makes the rest larger.
+void draw_mirrored(const Rect& panel, const gl::Texture* picture, double fan_share) {
   if (!picture) return;
-  constexpr float kSides = 0.10f;
   const float width = float(picture->width()), height = float(picture->height());
-  const float scale = std::min(panel.h / height, panel.w / (width * (1 - kSides)));
+  const float scale = std::min(panel.h / height, panel.w / (width * float(fan_share)));
   const float shown = std::min(1.0f, panel.w / (width * scale));
   const float w = shown * width * scale, h = height * scale;
   const Rect area{panel.x + (panel.w - w) / 2, panel.y + (panel.h - h) / 2, w, h};
@@ -46,7 +47,7 @@ void draw_orientation(const Theme& theme, const Rect& panel, const view::OrbitCa
   const glm::dmat3 camera_from_patient = glm::transpose(camera.patient_from_camera().rotation);
   const ImVec2 centre{panel.x + panel.w - theme.px(40), panel.y + panel.h - theme.px(40)};
   ImDrawList* list = ImGui::GetWindowDrawList();
-  list->AddCircleFilled(centre, theme.px(31), IM_COL32(10, 12, 15, 150), 32);
+  list->AddCircleFilled(centre, theme.px(31), colour::kPlate, 32);
   for (const Axis& axis : axes) {
     const glm::dvec3 seen = camera_from_patient * axis.direction;  // z points into the picture
     const ImVec2 tip{centre.x + float(seen.x) * theme.px(22), centre.y + float(seen.y) * theme.px(22)};
@@ -114,15 +115,16 @@ void SpacePanel::draw(const Theme& theme, const Rect& panel, Session* session, P
 
 void draw_slice_panel(const Theme& theme, const Rect& panel, const Pictures& pictures) {
   fill(panel, colour::kImage, theme.px(4));
-  draw_mirrored(panel, pictures.slice());
+  draw_mirrored(panel, pictures.slice(), pictures.fan_share());
   draw_title(theme, panel, "CT in this plane");
 }
 
 void draw_blend_panel(const Theme& theme, const Rect& panel, Pictures& pictures) {
   fill(panel, colour::kImage, theme.px(4));
-  draw_mirrored(panel, pictures.blend());
+  draw_mirrored(panel, pictures.blend(), pictures.fan_share());
   draw_title(theme, panel, "CT and ultrasound");
   Rect track{panel.x + theme.px(10), panel.y + panel.h - theme.px(20), panel.w - theme.px(20), theme.px(16)};
+  fill({panel.x, track.y - theme.px(2), panel.w, panel.y + panel.h - track.y + theme.px(2)}, colour::kPlate);
   ImGui::SetCursorScreenPos(track.min());
   ImGui::InvisibleButton("blend", {track.w, track.h});
   if (ImGui::IsItemActive())

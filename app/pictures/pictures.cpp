@@ -143,6 +143,13 @@ long Pictures::version_of(GLuint texture) const {
   return 0;
 }
 
+double Pictures::fan_share() const {
+  const Probe* probe = find_probe(probe_name_);
+  if (!probe) return 1;
+  const double fan_mm = image_geometry(*probe, depth_mm_, 1, 8192).mm_per_pixel;  // a single column is as wide as it
+  return std::min(1.0, fan_mm / (geometry().mm_per_pixel * geometry().width));
+}
+
 long Pictures::simulator_runs() const {
   long sum = 0;
   for (const long runs : simulator_.runs()) sum += runs;

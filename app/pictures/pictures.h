@@ -78,6 +78,8 @@ public:
   /// Returns the screen's pixels per pixel of volume(), along each side.
   int volume_scale() const { return volume_view_.scale(); }
   const ImageGeometry& geometry() const { return simulator_.geometry(); }
+  /// Returns the share of the pictures' width that the fan covers where it is widest, 0 to 1.
+  double fan_share() const;
 
   view::OrbitCamera camera;   ///< facing the plane of a new patient's first pose
   double blend_share = 0.55;  ///< 0: the CT, 1: the ultrasound

@@ -22,13 +22,20 @@ class RunRecorder::Writer {
 public:
   explicit Writer(bool with_pictures) : with_pictures_(with_pictures) {}
 
-  void operator()(const Start& start) { files_.emplace(start.file, start.exactly, with_pictures_); }
+  void operator()(const Start& start) {
+    files_.emplace(start.file, start.exactly, with_pictures_);
+    written_ = {files_->file()};
+  }
   void operator()(const Stop&) {
-    if (files_) files_->finish();
+    if (!files_) return;
+    files_->finish();
     files_.reset();
+    finished_ = std::move(written_);
   }
   void operator()(const Next&) {
-    if (files_) files_->begin_next();
+    if (!files_) return;
+    files_->begin_next();
+    written_.push_back(files_->file());
   }
   void operator()(const Samples& said) {
     if (files_) files_->add(said.samples, said.actions);
@@ -40,10 +47,13 @@ public:
   /// Stops writing; what was written until then stays.
   void give_up() { files_.reset(); }
   std::filesystem::path file() const { return files_ ? files_->file() : std::filesystem::path(); }
+  /// Returns the files of a recording that has been finished since the last call.
+  std::vector<std::filesystem::path> take_finished() { return std::exchange(finished_, {}); }
 
 private:
   bool with_pictures_;
   std::optional<RunFiles> files_;
+  std::vector<std::filesystem::path> written_, finished_;
 };
 
 RunRecorder::~RunRecorder() {
@@ -117,6 +127,11 @@ void RunRecorder::wait() {
   changed_.wait(lock, [this] { return jobs_.empty() && !busy_; });
 }
 
+std::vector<std::filesystem::path> RunRecorder::take_finished() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(finished_, {});
+}
+
 std::filesystem::path RunRecorder::file() const {
   const std::lock_guard lock(mutex_);
   return file_;
@@ -148,11 +163,13 @@ void RunRecorder::run() {
       write.give_up();
     }
     const std::filesystem::path file = write.file();
+    std::vector<std::filesystem::path> finished = write.take_finished();
     lock.lock();
     busy_ = false;
     if (const auto* picture = std::get_if<DrawnPicture>(&job)) waiting_bytes_ -= bytes_of(*picture);
     if (problem) problem_ = problem;
     if (!file.empty()) file_ = file;
+    if (!finished.empty()) finished_ = std::move(finished);
     changed_.notify_all();
   }
 }

@@ -50,6 +50,8 @@ public:
   /// Waits until everything passed to the thread is written.
   void wait();
 
+  /// Returns the files of the last recording, in order, once they are complete; empty until then and afterwards.
+  std::vector<std::filesystem::path> take_finished();
   /// Returns the last file that was begun; empty before the first.
   std::filesystem::path file() const;
   /// Returns how long the recording has run on the session's clock (s).
@@ -88,6 +90,7 @@ private:
   bool busy_ = false, ending_ = false;
   std::exception_ptr problem_;
   std::filesystem::path file_;
+  std::vector<std::filesystem::path> finished_;
   std::jthread thread_;
 };
 

@@ -59,6 +59,8 @@ std::string in_words(const Action& action) {
       return "Turned to '" + action.text + "'";
     case ActionKind::go_on:
       return "Went on";
+    case ActionKind::guide:
+      return action.numbers[0] != 0 ? "Guide on" : "Guide off";
   }
   return "";
 }

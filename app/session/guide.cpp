@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "scenarios/guidance.h"
 
@@ -44,6 +45,13 @@ void Guide::next(const Session& session) {
   auto at = std::find(views.begin(), views.end(), view_);
   at = at == views.end() ? views.begin() : at + 1;
   view_ = at == views.end() ? std::string() : *at;
+}
+
+void Guide::tell(Session& session) {
+  if (std::exchange(told_attempt_, session.attempt()) != session.attempt()) told_ = false;
+  if (session.strict() || !view_of_step(session) || told_ == in_run_) return;
+  told_ = in_run_;
+  session.act({ActionKind::guide, {double(in_run_)}});
 }
 
 std::optional<Guiding> Guide::now(const Session& session) const {

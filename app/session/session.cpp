@@ -8,6 +8,7 @@
 
 #include "devices/live/probe_buttons.h"
 #include "devices/replay/read_log.h"
+#include "scenarios/words.h"
 #include "sim/core/input_error.h"
 
 namespace insonate {
@@ -24,6 +25,11 @@ void push(MouseTracker& mouse, const Pose& from, const Pose& to) {
 /// Returns the setting that a scenario locks in order to lock `knob`.
 ActionKind lock_of(ActionKind knob) {
   return knob == ActionKind::dynamic_range || knob == ActionKind::time_gain ? ActionKind::gain : knob;
+}
+
+/// Returns what people call a setting, in the middle of a sentence.
+std::string name_of(ActionKind setting) {
+  return "the " + in_words(std::string(word_of(setting)));
 }
 
 /// Returns whether `action` only replaces the value that `before` has set.
@@ -115,6 +121,7 @@ void Session::begin_attempt() {
   actions_.clear();
   latest_actions_.clear();
   attempt_is_fresh_ = true;
+  held_back_.clear();
   log_actions_.clear();
   if (const Recording* recording = source().recording())
     log_actions_ = parse_action_log(recording->actions, recording->file);
@@ -172,7 +179,7 @@ void Session::move_probe(const std::function<std::optional<Pose>(const ProbeHand
 
 void Session::act(const Action& action) {
   if (source().recording()) return;
-  if (strict() && action.kind == ActionKind::hint) return;
+  if (strict() && (action.kind == ActionKind::hint || action.kind == ActionKind::guide)) return;
   acts_.push_back(action);
 }
 
@@ -180,12 +187,16 @@ void Session::set(const Action& action) {
   if (locks(action.kind)) return;
   const Machine before = shown_;
   shown_.apply(action, newest_pose_);
-  if (shown_ == before || source().recording()) return;
+  if (shown_ == before) return;
+  // The picture that the next sample freezes is that of the newest pose, not of an extrapolated one.
+  if (shown_.frozen && !before.frozen) shown_pose_ = newest_pose_;
+  if (source().recording()) return catch_up();
   // Freezing and unfreezing between two samples cancel out: the picture stays as it was at the previous sample.
   if (shown_.frozen != before.frozen && !acts_.empty() &&
       acts_.back().kind == (shown_.frozen ? ActionKind::unfreeze : ActionKind::freeze)) {
     acts_.pop_back();
     shown_.frozen_at = shown_.frozen ? machine_.frozen_at : std::nullopt;
+    if (shown_.frozen) shown_pose_ = shown_.frozen_at;
     return;
   }
   if (!acts_.empty() && replaces(action, acts_.back())) acts_.pop_back();
@@ -201,12 +212,33 @@ bool Session::locks(ActionKind setting) const {
   return strict() && runner_ && !result_ && runner_->scenario().locked.contains(lock_of(setting));
 }
 
+std::string Session::why_not(ActionKind setting) const {
+  if (locks(setting)) return "This exam keeps " + name_of(setting) + " as it is.";
+  if (shown_.refuses(setting)) return "Frozen: press Space to scan on, then change " + name_of(setting) + ".";
+  return "";
+}
+
 std::vector<Action> Session::actions_before(const ProbeSample& sample) {
   if (source().recording()) {
     const auto found = log_actions_.find(sample.time_s);
     return found == log_actions_.end() ? std::vector<Action>() : found->second;
   }
   return std::exchange(acts_, {});
+}
+
+/// Shows what an action of the log does. Whoever watches may have frozen the picture, of which the log knows nothing.
+void Session::show_of_log(const Action& action) {
+  if (shown_.refuses(action.kind) && !machine_.refuses(action.kind))
+    held_back_.push_back(action);
+  else if (!machine_.refuses(action.kind))
+    shown_.apply(action, newest_pose_);
+  catch_up();
+}
+
+/// Follows the log's settings again once the picture is no longer frozen.
+void Session::catch_up() {
+  if (shown_.frozen) return;
+  for (const Action& action : std::exchange(held_back_, {})) shown_.apply(action, newest_pose_);
 }
 
 void Session::take(const ProbeSample& sample) {
@@ -217,10 +249,11 @@ void Session::take(const ProbeSample& sample) {
   if (pressed & kEventMarkerButton) event_markers_s_.push_back(attempt_for_s());
   if (pressed & kContinueButton) go_on_ = true;
   const std::vector<Action> actions = actions_before(sample);
-  if (source().recording())
-    for (const Action& action : actions) shown_.apply(action, newest_pose_);
+  for (const Action& action : actions) {
+    if (source().recording()) show_of_log(action);
+    machine_.apply(action, newest_pose_);
+  }
   if (shown_.frozen && !was_frozen) shown_pose_ = newest_pose_;
-  for (const Action& action : actions) machine_.apply(action, newest_pose_);
   if (!actions.empty()) latest_actions_[sample.time_s] = actions;
   if (runner_ && !result_) {
     runner_->feed(sample, actions);

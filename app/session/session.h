@@ -68,6 +68,9 @@ public:
   /// Returns whether a setting of the machine is locked: in an exam under strict rules whose scenario locks it, until
   /// it is finished. The lock of the gain covers dynamic range and time gain too.
   bool locks(ActionKind setting) const;
+  /// Returns, as a sentence for the learner, why a setting of the machine cannot be changed now: the exam locks it, or
+  /// the picture is frozen (Machine::refuses). Empty if it can.
+  std::string why_not(ActionKind setting) const;
   /// Returns whether the CT and the patient's inside may be shown. False in an exam under strict rules until it is
   /// finished, because it tests what the learner sees in the ultrasound.
   bool shows_anatomy() const { return !strict() || !runner_ || result_; }
@@ -139,6 +142,10 @@ public:
   void press(std::uint32_t buttons) { pressed_ |= buttons; }
   /// Returns whether "go on" was pressed since the last call.
   bool take_go_on() { return std::exchange(go_on_, false); }
+  /// Returns whether an exam is under way whose time can stand still, as while a page covers the screen: the rules are
+  /// not strict, and no device measures on. Then the caller may leave advance() out and go on later as if no time had
+  /// passed.
+  bool can_stand_still() const { return runner_ && !result_ && !strict() && !(tracker_ && tracker_->live()); }
   /// Returns how long this attempt has lasted (s).
   double attempt_for_s() const { return now_s_ - attempt_began_s_; }
 
@@ -151,8 +158,8 @@ public:
   // The machine
   /// Returns the current settings. They always include a probe.
   const Machine& machine() const { return shown_; }
-  /// Selects a probe, changes a setting, freezes or unfreezes, unless the exam locks it. While the source is a log,
-  /// this changes the displayed picture only, not the score.
+  /// Selects a probe, changes a setting, freezes or unfreezes, unless why_not() has a reason against it. While the
+  /// source is a log, this changes the displayed picture only, not the score.
   void set(const Action& action);
   void set(ActionKind knob, double value) { set(Action{knob, {value}}); }
   void choose_probe(const std::string& name) { set({ActionKind::probe, {}, name}); }
@@ -169,6 +176,8 @@ private:
   void hold(Holder holder);
   void keep_result();
   void take(const ProbeSample& sample);
+  void show_of_log(const Action& action);
+  void catch_up();
   void find_pose();
   std::vector<Action> actions_before(const ProbeSample& sample);
   Tracker& source();
@@ -198,10 +207,11 @@ private:
   std::uint32_t pressed_ = 0;  ///< for the next sample
   bool go_on_ = false;
   std::vector<double> event_markers_s_;
-  ActionLog log_actions_;     ///< of the log being replayed
-  std::vector<Action> acts_;  ///< the learner's own, held until the next sample
-  Machine machine_;           ///< as it was at the last sample
-  ActionLog actions_;         ///< of this attempt
+  ActionLog log_actions_;          ///< of the log being replayed
+  std::vector<Action> held_back_;  ///< the log's settings since whoever watches it has frozen the picture
+  std::vector<Action> acts_;       ///< the learner's own, held until the next sample
+  Machine machine_;                ///< as it was at the last sample
+  ActionLog actions_;              ///< of this attempt
   bool advanced_ = false;
   std::vector<ProbeSample> samples_;
   ActionLog latest_actions_;  ///< keyed by the times of samples_

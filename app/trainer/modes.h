@@ -32,7 +32,9 @@ struct Scan {
   PictureTools tools;
   StepControls controls;
   BestFrames best_frames;
-  bool begun = true;  ///< false while the learner reads the briefing: no time passes
+  bool begun = true;    ///< false while the learner reads the briefing: no time passes
+  double now_s = 0;     ///< the trainer's time at the last update
+  double behind_s = 0;  ///< for how long the session's time has stood still since its beginning
 };
 
 /// Practice, also of an exam's steps: nothing counts, and nothing is stored while it lasts.

@@ -217,6 +217,7 @@ void Trainer::update(double now_s) {
     shaders_looked_at_s_ = now_s;
     reload_shaders();
   }
+  notice_recordings();
   const bool setting_up = setup() != nullptr;
   std::visit([&](auto& mode) { update(mode, now_s); }, mode_);
   // A session that a finished set-up has begun is advanced before it is drawn.
@@ -238,11 +239,17 @@ void Trainer::update(SettingUp& mode, double now_s) {
 
 template <std::derived_from<Scan> Mode>
 void Trainer::update(Mode& mode, double now_s) {
+  const double since_s = now_s - std::exchange(mode.now_s, now_s);
   if (!mode.begun) return;
   Session& session = *mode.session;
+  if (covered_ && session.can_stand_still()) {
+    mode.behind_s += since_s;
+    return;
+  }
   if (!options_.record.empty() && !recorded_) start_recording();
   const bool had_result = session.result().has_value();
-  session.advance(now_s);
+  guide_.tell(session);
+  session.advance(now_s - mode.behind_s);
   mode.tools.see(session);
   mode.controls.see(session);
   if constexpr (std::is_same_v<Mode, Authoring>) mode.author.see(session);
@@ -298,6 +305,14 @@ void Trainer::finish_recording() {
   attempt([&] { recorder_.check(); });
 }
 
+void Trainer::notice_recordings() {
+  const std::vector<std::filesystem::path> files = recorder_.take_finished();
+  if (files.empty()) return;
+  std::string notice = "Recorded to " + std::filesystem::absolute(files.front()).string();
+  if (files.size() > 1) notice += " and, from each new start on, to " + files.back().filename().string();
+  notices_.push_back(notice);
+}
+
 void Trainer::write_results_if_due() {
   if (!std::exchange(results_due_, false) || !scan()) return;
   scan()->best_frames.forget_older(*session());
@@ -322,7 +337,8 @@ void Trainer::keep_and_report() {
       not_kept = std::current_exception();  // the report is wanted all the more
     }
   }
-  result_files_ = write_report_files(options_.out, finished);
+  result_files_ =
+      write_report_files(options_.headless ? options_.out : attempt_folder(options_.out, finished), finished);
   if (not_kept) std::rethrow_exception(not_kept);
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "app/pictures/igtl_feed.h"
 #include "app/pictures/picture_latency.h"
@@ -71,7 +72,8 @@ public:
   /// Returns whether the picture is better than the best frame so far: draw it, then keep it.
   bool best_frame_due() const { return scan() && scan()->best_frames.due(*session()); }
   void keep_best_frame() { scan()->best_frames.keep(*session(), pictures_); }
-  /// When an exam has ended, stores the attempt and writes its report and score, once.
+  /// When an exam has ended, stores the attempt and writes its report and score, once: without a window to
+  /// options().out, with one to a folder of its own in there (attempt_folder()), because a person tries again.
   void write_results_if_due();
 
   /// Returns the scenario whose briefing the learner has to read before the session begins; nullptr if there is none.
@@ -79,6 +81,14 @@ public:
   const Scenario* briefing() const;
   /// Begins the session after the briefing.
   void start();
+
+  /// Says whether something covers the screen, such as the help, from the next update() on. Time stands still meanwhile
+  /// if it can (Session::can_stand_still()).
+  void cover(bool covered) { covered_ = covered; }
+  /// Returns whether something covers the screen and time does not stand still, so that the learner has to be told.
+  bool time_runs_on() const {
+    return covered_ && session() && session()->runner() && !session()->result() && !session()->can_stand_still();
+  }
 
   /// Ends an exam that counts before its end: what has been done is scored and stored.
   void hand_in_exam();
@@ -157,6 +167,8 @@ public:
   const Pictures& pictures() const { return pictures_; }
   const Options& options() const { return options_; }
   const std::optional<ResultFiles>& result_files() const { return result_files_; }
+  /// Returns whether an exam has ended whose report the next write_results_if_due() writes.
+  bool results_due() const { return results_due_; }
   /// Returns the ultrasound picture of the best hold in the last step that had one, marker on the left; nullptr if
   /// there was none.
   const Image<Rgba8>* best_frame() const { return scan() ? scan()->best_frames.last() : nullptr; }
@@ -164,6 +176,8 @@ public:
   /// Returns the errors that nobody has acknowledged yet, as sentences, the oldest first.
   std::deque<std::string>& problems() { return problems_; }
   const std::deque<std::string>& problems() const { return problems_; }
+  /// Returns what has gone well since the last call and is worth a sentence, such as the file of a recording.
+  std::vector<std::string> take_notices() { return std::exchange(notices_, {}); }
   /// Returns sentences on why the tracker's calibration may be wrong; empty if nothing speaks against it.
   const std::string& calibration_warning() const { return calibration_warning_; }
   /// Returns the compiler's message if the edited shaders do not build, at loading or later for new settings; empty
@@ -200,7 +214,10 @@ private:
   void refuse_second_exam(const Scenario& exam);
   void keep_sitting(Exam& exam);
   void update(Idle&, double) {}
-  void update(Choosing& mode, double now_s) { mode.page->update(now_s); }
+  void update(Choosing& mode, double now_s) {
+    notice_recordings();
+    mode.page->update(now_s);
+  }
   void update(Playback& mode, double now_s) { mode.replay->advance(now_s); }
   void update(SettingUp& mode, double now_s);
   template <std::derived_from<Scan> Mode>
@@ -219,6 +236,7 @@ private:
   void reload_shaders();
   void tell_of_shaders(const std::string& problem);
   void open_results();
+  void notice_recordings();
   void keep_and_report();
   void show_pictures();
 
@@ -248,9 +266,11 @@ private:
   bool clients_ = false, records_pictures_ = false;  ///< who wanted pictures at the last frame
   std::unique_ptr<IgtlFeed> feed_;                   ///< nullptr when no clients are asked for
   std::optional<ResultFiles> result_files_;
+  bool covered_ = false;
   bool results_due_ = false;
   std::optional<ResultsDatabase> results_;
   std::deque<std::string> problems_;
+  std::vector<std::string> notices_;
 };
 
 }  // namespace insonate

@@ -8,7 +8,8 @@ namespace {
 using enum MetricScope;
 
 constexpr std::array kMetrics{
-    // metric, name, unit, words, scope, less is better, needs targets, needs landmarks, economy, decimals
+    // metric, name, unit, words, scope, less is better, needs targets, needs landmarks, economy, decimals,
+    // of the reference
     MetricInfo{Metric::plane_distance_mm, "plane_distance_mm", "mm", "Distance of the target from the plane", picture,
                true, false, false, false, 1},
     MetricInfo{Metric::in_plane_offset_mm, "in_plane_offset_mm", "mm", "Shift of the target within the picture",
@@ -22,9 +23,9 @@ constexpr std::array kMetrics{
     MetricInfo{Metric::off_centre_percent, "off_centre_percent", "%", "Target off the middle of the picture", picture,
                true, true, false, false, 0},
     MetricInfo{Metric::target_in_view_percent, "target_in_view_percent", "%", "Target in the picture", picture, false,
-               true, false, false, 0},
+               true, false, false, 0, true},
     MetricInfo{Metric::target_insonated_percent, "target_insonated_percent", "%", "Target reached by the sound",
-               picture, false, true, false, false, 0},
+               picture, false, true, false, false, 0, true},
     MetricInfo{Metric::landmarks_in_view_percent, "landmarks_in_view_percent", "%", "Landmarks in the picture", picture,
                false, false, true, false, 0},
     MetricInfo{Metric::depth_use_percent, "depth_use_percent", "%",

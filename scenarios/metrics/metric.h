@@ -65,6 +65,7 @@ struct MetricInfo {
   bool economy;  ///< measures effort: earns points only if the task was done, because otherwise giving up at once would
                  ///< pay
   int decimals;  ///< decimal places to show
+  bool of_reference = false;  ///< 100 % is what the reference view shows, so a picture can have more
 };
 
 /// Returns all metrics, in the order of the enumeration.

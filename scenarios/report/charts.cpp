@@ -112,14 +112,15 @@ std::string time_charts_svg(const ExamResult& result, std::span<const TracePoint
   double fastest = 0;
   for (const TracePoint& point : trace)
     if (point.valid) fastest = std::max(fastest, point.speed_mm_s);
-  const std::array quantities{Quantity{"Distance of the target from the plane, mm", 40, Metric::plane_distance_mm,
-                                       [](const TracePoint& p) { return std::abs(p.view.plane_distance_mm); }},
-                              Quantity{"Angle between the planes, degrees", 90, Metric::plane_angle_deg,
-                                       [](const TracePoint& p) { return p.view.plane_angle_deg; }},
-                              Quantity{"Target reached by the sound, %", 120, Metric::target_insonated_percent,
-                                       [](const TracePoint& p) { return p.view.target_insonated_percent; }},
-                              Quantity{"Speed of the probe, mm/s", 100 * std::max(1.0, std::ceil(fastest / 100)),
-                                       std::nullopt, [](const TracePoint& p) { return p.speed_mm_s; }}};
+  const std::array quantities{
+      Quantity{"Distance of the target from the plane, mm", 40, Metric::plane_distance_mm,
+               [](const TracePoint& p) { return std::abs(p.view.plane_distance_mm); }},
+      Quantity{"Angle between the planes, degrees", 90, Metric::plane_angle_deg,
+               [](const TracePoint& p) { return p.view.plane_angle_deg; }},
+      Quantity{"Target reached by the sound, % of the reference view", 120, Metric::target_insonated_percent,
+               [](const TracePoint& p) { return p.view.target_insonated_percent; }},
+      Quantity{"Speed of the probe, mm/s", 100 * std::max(1.0, std::ceil(fastest / 100)), std::nullopt,
+               [](const TracePoint& p) { return p.speed_mm_s; }}};
 
   const double height = kTop + quantities.size() * (kChartHeight + kChartGap) - kChartGap + kAxisHeight;
   std::string svg = print("<svg class='chart' viewBox='0 0 %.0f %.0f' role='img'>", kWidth, height);

@@ -1,5 +1,6 @@
 #include "scenarios/report/report.h"
 
+#include <algorithm>
 #include <string_view>
 #include <utility>
 
@@ -70,7 +71,7 @@ std::string bar(double share) {
 std::string row(const CriterionScore& m) {
   const double share = m.weight > 0 ? m.points / m.weight : 0;
   const char* grade = share >= 1 ? "all" : share > 0 ? "some" : "none";
-  std::string html = "<tr class='" + std::string(grade) + "'><td><b>" + escaped(info(m.metric).words) + "</b>";
+  std::string html = "<tr class='" + std::string(grade) + "'><td><b>" + escaped(title_of(m.metric)) + "</b>";
   if (m.critical) html += " <span class='critical'>critical</span>";
   html += "<small>" + escaped(m.why) + "</small></td>";
   html += "<td class='number'>" + (m.value ? in_words(m.metric, *m.value) : "\u2013") + "</td>";
@@ -107,22 +108,31 @@ std::string pictures_of(std::size_t step, const std::vector<ReportPicture>& pict
   struct Place {
     ReportPicture::Kind kind;
     const char* caption;
-    const char* missing;
+    const char* missing;  ///< in place of the picture
+    const char* caption_of_missing;
   };
   std::string html;
   bool any = false;
-  for (const Place& place : {Place{ReportPicture::Kind::best, "While the view was held best", "The view was not held"},
-                             Place{ReportPicture::Kind::reference, "Reference view", "No picture"}}) {
+  for (const Place& place : {Place{ReportPicture::Kind::best, "While the view was held best", "The view was not held",
+                                   "The learner's picture"},
+                             Place{ReportPicture::Kind::reference, "Reference view", "No picture", "Reference view"}}) {
     const ReportPicture* shown = nullptr;
     for (const ReportPicture& picture : pictures)
       if (picture.step == step && picture.kind == place.kind) shown = &picture;
     html += "<figure>";
     html += shown ? "<img alt='' src='data:image/png;base64," + base64(shown->png) + "'>"
                   : "<div class='missing'>" + std::string(place.missing) + "</div>";
-    html += "<figcaption>" + std::string(place.caption) + "</figcaption></figure>";
+    html += "<figcaption>" + std::string(shown ? place.caption : place.caption_of_missing) + "</figcaption></figure>";
     any = any || shown;
   }
   return any ? "<div class='pictures'>" + html + "</div>" : "";
+}
+
+/// Help that costs no points, but that whoever compares attempts has to know of.
+std::string guide_in_words(const StepResult& step) {
+  return "The guide to the view was shown " +
+         (step.guide_times == 1 ? std::string("once") : std::to_string(step.guide_times) + " times") + ", for " +
+         fixed(step.guide_s, 1) + " s of " + fixed(step.end_s - step.start_s, 1) + " s.";
 }
 
 std::string section(const StepResult& step, std::size_t index, const std::vector<ReportPicture>& pictures) {
@@ -141,6 +151,7 @@ std::string section(const StepResult& step, std::size_t index, const std::vector
   if (step.hints_taken > 0)
     html += "<p class='quiet'>Hints taken: " + std::to_string(step.hints_taken) + ", for " +
             short_number(step.lost_to_hints()) + " points.</p>";
+  if (step.guide_times > 0) html += "<p class='quiet'>" + guide_in_words(step) + "</p>";
   for (const auto& [what, fact] : step.facts)
     html += "<p class='quiet'>" + escaped(what) + ": " + escaped(fact) + "</p>";
   return html + table(step.criteria) + pictures_of(index, pictures) + "</section>\n";
@@ -179,6 +190,10 @@ std::string verdict(const ExamResult& result) {
           "%'></i><b style='left:" + fixed(result.pass_mark_percent, 1) + "%'></b></div>";
   html += "<p>" + short_number(result.points) + " of " + short_number(result.points_possible) + " points; " +
           short_number(result.pass_mark_percent) + " % are needed.</p>";
+  const auto guided = std::ranges::count_if(result.steps, [](const StepResult& s) { return s.guide_times > 0; });
+  if (guided > 0)
+    html += "<p>The guide to the view was used in " + std::to_string(guided) + " of " +
+            std::to_string(result.steps.size()) + " steps.</p>";
   if (!result.reasons.empty()) {
     html += "<ul>";
     for (const std::string& reason : result.reasons) html += "<li>" + escaped(reason) + "</li>";

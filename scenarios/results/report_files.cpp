@@ -1,5 +1,6 @@
 #include "scenarios/results/report_files.h"
 
+#include <algorithm>
 #include <system_error>
 
 #include "scenarios/report/report.h"
@@ -10,6 +11,17 @@
 #include "sim/core/files.h"
 
 namespace insonate {
+
+std::filesystem::path attempt_folder(const std::filesystem::path& folder, const Attempt& attempt) {
+  std::string name = utc_time(attempt.finished_ms).substr(0, 19) + "Z_";
+  std::replace(name.begin(), name.end(), ':', '-');  // which not every file system takes
+  name += std::filesystem::path(attempt.scenario_file).stem().string();
+  const std::filesystem::path first = folder / "attempts" / name;
+  std::filesystem::path free = first;
+  std::error_code error;  // whoever writes there will say what is wrong
+  for (int i = 2; std::filesystem::exists(free, error); ++i) free = first.string() + "-" + std::to_string(i);
+  return free;
+}
 
 ResultFiles write_report_files(const std::filesystem::path& folder, const Attempt& attempt,
                                const std::string& home_page) {

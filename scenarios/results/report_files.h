@@ -18,6 +18,10 @@ struct ResultFiles {
   std::vector<std::filesystem::path> all() const;
 };
 
+/// Returns a folder for the report of one attempt, which does not exist yet. Its name sorts by the attempt's end and
+/// ends in the scenario's name: FOLDER/attempts/2026-11-24T21-57-03Z_aorta. The time is UTC, as in the report.
+std::filesystem::path attempt_folder(const std::filesystem::path& folder, const Attempt& attempt);
+
 /// Writes the files of an attempt for people and programs to a folder: report.html, score.json, score.csv, and
 /// xapi.json if the attempt is in a database. The same attempt always produces the same bytes, at the end of the exam
 /// and later from the database. Throws InputError if the score cannot be read or the folder cannot be written.

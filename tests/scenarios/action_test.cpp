@@ -33,6 +33,7 @@ std::vector<Action> one_of_each() {
           {ActionKind::answer, {}, ""},
           {ActionKind::hint},
           {ActionKind::go_to, {}, "aorta"},
+          {ActionKind::guide, {1}},
           {ActionKind::go_on}};
 }
 
@@ -68,6 +69,7 @@ TEST_CASE("a mistake in a log's actions is refused in words") {
     CHECK(refusal(bad).find("a slot is not a whole number from 1 to 9") != std::string::npos);
   for (const char* bad : {"time_gain 0 3", "time_gain 9 3", "time_gain 1.5 3"})
     CHECK(refusal(bad).find("a slider is not a whole number from 1 to 8") != std::string::npos);
+  CHECK(refusal("guide 2").find("a guide is not a whole number from 0 to 1") != std::string::npos);
   CHECK(refusal("answer yes").find("begin with ':'") != std::string::npos);
   for (const char* bad : {"answer :50%", "answer :50%4", "answer :%zz"})
     CHECK(refusal(bad).find("hexadecimal") != std::string::npos);

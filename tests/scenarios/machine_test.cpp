@@ -20,6 +20,7 @@ TEST_CASE("the actions between two machines bring the knobs of one to those of t
     for (const Action& action : actions_between(untouched, to)) machine.apply(action, std::nullopt);
     CHECK(machine == to);
   }
+  INFO("a frozen picture is let go before what it would refuse");
   for (const Action& action : actions_between(to, from)) to.apply(action, std::nullopt);
   CHECK(to == from);
   CHECK(actions_between(from, from).empty());
@@ -42,4 +43,31 @@ TEST_CASE("a machine limits what an action asks for, and knows its own probes al
   const Machine before = machine;
   machine.apply({ActionKind::probe, {}, "none"}, std::nullopt);
   CHECK(machine == before);
+}
+
+TEST_CASE("a frozen picture follows what acts on acquired echoes, and nothing that acquires others") {
+  Machine machine;
+  machine.choose("curvilinear");
+  const Pose at{glm::dmat3(1.0), {1, 2, 3}};
+  machine.apply({ActionKind::freeze}, at);
+  const Machine frozen = machine;
+  for (const Action& action :
+       {Action{ActionKind::probe, {}, "linear"}, {ActionKind::depth, {55}}, {ActionKind::frequency, {9}}}) {
+    CAPTURE(word_of(action.kind));
+    CHECK(machine.refuses(action.kind));
+    machine.apply(action, at);
+    CHECK(machine == frozen);
+  }
+  for (const Action& action :
+       {Action{ActionKind::gain, {7}}, {ActionKind::dynamic_range, {45}}, {ActionKind::time_gain, {3, 5}}}) {
+    CAPTURE(word_of(action.kind));
+    CHECK_FALSE(machine.refuses(action.kind));
+    const Machine before = machine;
+    machine.apply(action, at);
+    CHECK_FALSE(machine == before);
+  }
+  CHECK(machine.frozen_at == at);
+  machine.apply({ActionKind::unfreeze}, at);
+  machine.apply({ActionKind::depth, {55}}, at);
+  CHECK(machine.depth_mm == 55);
 }

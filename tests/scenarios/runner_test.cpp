@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "scenarios/report/report.h"
 #include "scenarios/result_json.h"
 #include "sim/core/hash.h"
 #include "tests/scenarios/tiny_case.h"
@@ -426,4 +427,33 @@ TEST_CASE("a better scan never earns less on what it is better in") {
     last = points;
   }
   CHECK(last == Approx(4 * 2.5 / 8));
+}
+
+TEST_CASE("the result counts how often and for how long the guide was shown, and nothing else of it") {
+  const std::vector<ProbeSample> samples = samples_of(8, 50, [](double t) { return at_z(t < 6 ? 60 : 0); });
+  const auto guided = [&](const ActionLog& actions) {
+    Scenario scenario = tiny_scenario();
+    scenario.steps[0].time_limit_s = 4;
+    Runner runner(scenario, shared_case(), tiny_tissues());
+    runner.feed(samples, actions);
+    runner.end();
+    return runner.result();
+  };
+  const Action on{ActionKind::guide, {1}}, off{ActionKind::guide, {0}};
+  ExamResult result = guided({{1.0, {on}}, {1.5, {off}}, {3.0, {on}}});
+  CHECK(result.steps[0].guide_times == 2);
+  CHECK(result.steps[0].guide_s == Approx(0.5 + 1));
+  CHECK(result.steps[1].guide_times == 1);  // it stays on in the next step, which ends at 6.5 s
+  CHECK(result.steps[1].guide_s == Approx(2.5));
+  const std::string json = to_json(result), html = report_html(result, {});
+  CHECK(result_from_json(json, "x").steps[0].guide_s == result.steps[0].guide_s);
+  CHECK(to_json(result_from_json(json, "x")) == json);
+  CHECK(html.find("The guide to the view was shown 2 times, for 1.5 s of 4.0 s.") != std::string::npos);
+  CHECK(html.find("The guide to the view was used in 2 of 2 steps") != std::string::npos);
+
+  INFO("without it a result is what earlier versions wrote, and the points are the same with it");
+  const std::string unguided = to_json(guided({}));
+  CHECK(unguided.find("guide") == std::string::npos);
+  for (StepResult& step : result.steps) step.guide_times = 0, step.guide_s = 0;
+  CHECK(to_json(result) == unguided);
 }

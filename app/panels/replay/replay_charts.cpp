@@ -29,7 +29,7 @@ struct Quantity {
 
 constexpr std::array kQuantities{
     Quantity{"Plane's distance", Metric::plane_distance_mm, 40}, Quantity{"Plane's angle", Metric::plane_angle_deg, 90},
-    Quantity{"Target insonated", Metric::target_insonated_percent, 120}, Quantity{"Speed", std::nullopt, 150}};
+    Quantity{"Insonated, of reference", Metric::target_insonated_percent, 120}, Quantity{"Speed", std::nullopt, 150}};
 
 /// Draws a curve of the largest value within each screen pixel. It is interrupted where there is no value.
 /// @param at  maps a time of the run to its place on the time line; empty if it has none
@@ -80,7 +80,7 @@ void draw_chart(const Theme& theme, Rect label, const Rect& chart, const TimeSca
     if (stretch.start_s > 0) list->AddLine({x, chart.y}, {x, chart.y + chart.h}, colour::kLine, 1);
   }
   if (const RecordedRun* expert = replay.expert())
-    draw_curve(chart, scale, quantity, *expert, kExpertInk, 1, [&](double t) { return replay.beside_s(t); });
+    draw_curve(chart, scale, quantity, *expert, colour::kExpert, 1, [&](double t) { return replay.beside_s(t); });
   draw_curve(chart, scale, quantity, replay.run(), colour::kAccent, theme.px(1.5f),
              [](double t) { return std::optional(t); });
 
@@ -96,7 +96,7 @@ void draw_chart(const Theme& theme, Rect label, const Rect& chart, const TimeSca
   draw_text(line, theme.small_text, colour::kAccent, value_text(quantity, replay.moment()));
   if (const std::optional<double> expert_s = replay.expert_time_s()) {
     line.take_left(theme.px(76));
-    draw_text(line, theme.small_text, kExpertInk, value_text(quantity, replay.expert()->at(*expert_s)));
+    draw_text(line, theme.small_text, colour::kExpert, value_text(quantity, replay.expert()->at(*expert_s)));
   }
 }
 

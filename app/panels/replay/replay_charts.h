@@ -7,10 +7,6 @@
 
 namespace insonate::ui {
 
-/// Colour of an expert's lines, in charts and in space. It differs from the accent of the replayed run and from
-/// warnings.
-inline constexpr ImU32 kExpertInk = IM_COL32(226, 214, 244, 255);
-
 /// Draws charts against time: the speed and, if the step names a view, the picture's distance from it, with the
 /// expert's curves beside them.
 /// @param names  left of `plot`, of the same height: the names of the curves and their current values

@@ -101,12 +101,13 @@ void draw_paths(const Theme& theme, const Rect& panel, const Replay& replay, con
   const SpaceDrawing drawing(panel, camera);
   if (const std::optional<double> expert_s = replay.expert_time_s()) {
     const RecordedRun& expert = *replay.expert();
-    drawing.path(path_until(expert, expert.duration_s()), kExpertInk & IM_COL32(255, 255, 255, 120), theme.px(1));
-    drawing.path(path_until(expert, *expert_s), kExpertInk, theme.px(1.5f));
+    drawing.path(path_until(expert, expert.duration_s()), colour::kExpert & IM_COL32(255, 255, 255, 120), theme.px(1));
+    drawing.path(path_until(expert, *expert_s), colour::kExpert, theme.px(1.5f));
     const RunMoment& moment = expert.at(*expert_s);
     const Machine& machine = expert.machine_at(*expert_s);
     if (moment.shown_pose)
-      drawing.fan(*moment.shown_pose, machine.transducer(), machine.depth_mm, kExpertInk, IM_COL32(226, 214, 244, 36));
+      drawing.fan(*moment.shown_pose, machine.transducer(), machine.depth_mm, colour::kExpert,
+                  IM_COL32(226, 214, 244, 36));
   }
   drawing.path(path_until(replay.run(), replay.time_s()), colour::kAccent, theme.px(2));
   draw_image_outline(theme, drawing, replay);

@@ -23,7 +23,7 @@ void draw_legend(const Theme& theme, Rect row, const Replay& replay) {
     row.take_right(theme.px(14));
   };
   if (const RecordedRun* expert = replay.expert()) {
-    entry(kExpertInk, 2, 22, "expert: " + expert->name);
+    entry(colour::kExpert, 2, 22, "expert: " + expert->name);
     entry(colour::kAccent, 2, 22, replay.run().name);
   }
   entry(colour::kAmber, 5, 12, "no pose");

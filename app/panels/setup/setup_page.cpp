@@ -41,7 +41,10 @@ void draw_steps(const Theme& theme, Rect where, SetupWizard& wizard, std::map<st
     draw_text(number, theme.strong, made ? colour::kBackground : colour::kText, std::to_string(i + 1), Align::centre);
     text.take_left(theme.px(14));
     draw_text(text.take_top(text.h / 2), theme.strong, can ? colour::kText : colour::kFaint, rows[i].title);
-    draw_text(text, theme.small_text, current || made ? colour::kMuted : colour::kFaint,
+    draw_text(text, theme.small_text,
+              current ? colour::kText
+              : made  ? colour::kMuted
+                      : colour::kFaint,
               made  ? rows[i].figure
               : can ? "to be made"
                     : "not yet");

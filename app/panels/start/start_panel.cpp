@@ -206,8 +206,8 @@ void StartPanel::draw_trackers(const Theme& theme, Rect panel, StartPage& page, 
     ImGui::GetWindowDrawList()->AddCircleFilled({light.x + theme.px(6), light.centre().y}, theme.px(6),
                                                 light_of(tracker.state), 20);
     const char* words = words_of(tracker.state);
-    draw_text(line.take_right(text_width(theme.small_text, words) + 1), theme.small_text, colour::kMuted, words,
-              Align::right);
+    draw_text(line.take_right(text_width(theme.small_text, words) + 1), theme.small_text,
+              current ? colour::kText : colour::kMuted, words, Align::right);
     line.take_right(theme.px(8));
     draw_text(line, theme.text, tracker.state == FoundTracker::State::absent ? colour::kMuted : colour::kText,
               tracker.name);

@@ -9,6 +9,9 @@
 namespace insonate::ui {
 namespace {
 
+/// Smaller text is hard to read on a laptop.
+constexpr float kLeastText_px = 13;
+
 // Latin with its accents, and the other characters that the panels use: dashes, quotes, ellipsis, arrows.
 constexpr ImWchar kGlyphs[] = {0x0020, 0x017f, 0x2010, 0x2027, 0x2190, 0x2195, 0x2212, 0x2212, 0};
 
@@ -24,6 +27,14 @@ ImFont* load(const std::filesystem::path& file, float size_px) {
 }
 
 }  // namespace
+
+std::vector<colour::Writing> colour::writings() {
+  std::vector<Writing> all{
+      {kText, kHovered}, {kText, kAccentDark}, {kBackground, kAccent}, {kBackground, kAmber}, {kBackground, kRed}};
+  for (const ImU32 surface : {kBackground, kPanel, kRaised, kImage, kPlate})
+    for (const ImU32 ink : {kText, kMuted, kFaint, kAccent, kAmber, kRed, kExpert}) all.push_back({ink, surface});
+  return all;
+}
 
 Theme::Theme(std::filesystem::path fonts) : folder_(std::move(fonts)) {
   ImGuiStyle& style = ImGui::GetStyle();
@@ -55,7 +66,7 @@ bool Theme::fit(float width, float height) {
   atlas.Clear();
   const std::filesystem::path regular = folder_ / "Inter-Regular.otf", bold = folder_ / "Inter-SemiBold.otf";
   text = load(regular, px(16));
-  small_text = load(regular, px(13.5f));
+  small_text = load(regular, std::max(px(13.5f), kLeastText_px));
   strong = load(bold, px(16));
   large = load(regular, px(24));
   title = load(bold, px(32));

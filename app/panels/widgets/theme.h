@@ -3,11 +3,12 @@
 #include <imgui.h>
 
 #include <filesystem>
+#include <vector>
 
 namespace insonate::ui {
 
 /// Colours: near black, greys, and one accent. Amber and red mean that something is wrong. The only exception is red
-/// for a running recording.
+/// for a running recording. Text has a contrast of at least 4.5 : 1 (WCAG 2.1, level AA) on all of writings().
 namespace colour {
 inline constexpr ImU32 kBackground = IM_COL32(10, 12, 15, 255);
 inline constexpr ImU32 kPanel = IM_COL32(18, 22, 27, 255);
@@ -16,13 +17,23 @@ inline constexpr ImU32 kHovered = IM_COL32(43, 52, 62, 255);
 inline constexpr ImU32 kLine = IM_COL32(40, 48, 57, 255);
 inline constexpr ImU32 kText = IM_COL32(232, 236, 240, 255);
 inline constexpr ImU32 kMuted = IM_COL32(152, 164, 176, 255);
-inline constexpr ImU32 kFaint = IM_COL32(104, 116, 128, 255);
+inline constexpr ImU32 kFaint = IM_COL32(132, 144, 156, 255);
 inline constexpr ImU32 kAccent = IM_COL32(74, 190, 204, 255);
 inline constexpr ImU32 kAccentDark = IM_COL32(24, 74, 82, 255);
 inline constexpr ImU32 kAmber = IM_COL32(236, 172, 62, 255);
-inline constexpr ImU32 kRed = IM_COL32(232, 90, 80, 255);
+inline constexpr ImU32 kRed = IM_COL32(240, 110, 100, 255);
+inline constexpr ImU32 kExpert = IM_COL32(226, 214, 244, 255);  ///< of a run beside the replayed one
 inline constexpr ImU32 kImage = IM_COL32(0, 0, 0, 255);
 inline constexpr ImU32 kDim = IM_COL32(4, 6, 8, 190);
+inline constexpr ImU32 kPlate = IM_COL32(10, 12, 15, 235);  ///< below text on a picture, however bright that is
+
+/// Text of one colour on a surface of another.
+struct Writing {
+  ImU32 ink, surface;
+};
+/// Returns every ink on every surface on which the panels write with it: all inks on the dark surfaces, and only one on
+/// each of the others.
+std::vector<Writing> writings();
 }  // namespace colour
 
 /// Font sizes and lengths, all in proportion to the screen. Needs an ImGui context; only one Theme may exist at a time.

@@ -138,7 +138,10 @@ bool button(const Theme& theme, const char* id, const Rect& where, std::string_v
     background = colour::kRed;
     ink = colour::kBackground;
   }
-  if (!enabled) ink = colour::kFaint;
+  if (!enabled && kind != ButtonKind::chosen) {
+    background = colour::kRaised;
+    ink = colour::kFaint;
+  }
   fill(where, background, theme.px(4));
   if (hovered) outline(where, colour::kFaint, theme.px(4));
   draw_text(where.inset(theme.px(6), 0), theme.text, ink, text, Align::centre);
@@ -157,7 +160,7 @@ bool slider(const Theme& theme, const char* id, const Rect& where, std::string_v
   line.h = theme.px(20);
   const float value_width = text_width(theme.strong, value_text);
   draw_text({line.x, line.y, line.w - value_width - theme.px(8), line.h}, theme.small_text, colour::kMuted, name);
-  draw_text(line, theme.strong, colour::kText, value_text, Align::right);
+  draw_text(line, theme.strong, enabled ? colour::kText : colour::kMuted, value_text, Align::right);
 
   const float y = std::round(where.y + line.h + theme.px(11));
   const float x = left + float((value - least) / (most - least)) * (right - left);
@@ -181,6 +184,20 @@ bool upright_slider(const Theme& theme, const char* id, const Rect& where, doubl
   fill({x - half, std::min(y, middle), 2 * half, std::abs(y - middle)}, colour::kAccent);
   if (enabled) draw_knob(theme, {x, y}, kRadius, lit);
   return value != before;
+}
+
+void draw_tooltip(const Theme& theme, const Rect& of, std::string_view text) {
+  if (!ImGui::IsWindowHovered() || !ImGui::IsMouseHoveringRect(of.min(), of.max())) return;
+  const ImGuiIO& io = ImGui::GetIO();
+  const ImVec2 size = size_of(theme.text, text, theme.px(340));
+  Rect box{io.MousePos.x, 0, size.x + theme.px(24), size.y + theme.px(16)};
+  box.x = std::clamp(box.x, 0.0f, std::max(0.0f, io.DisplaySize.x - box.w));
+  box.y = of.y - box.h - theme.px(6);
+  if (box.y < 0) box.y = of.y + of.h + theme.px(6);
+  ImDrawList* list = ImGui::GetForegroundDrawList();
+  list->AddRectFilled(box.min(), box.max(), colour::kHovered, theme.px(4));
+  list->AddText(theme.text, theme.text->FontSize, box.inset(theme.px(12), theme.px(8)).min(), colour::kText,
+                text.data(), text.data() + text.size(), size.x + 1);
 }
 
 void draw_ring(const ImVec2& centre, float radius, float thickness, double share, ImU32 colour, ImU32 rest) {

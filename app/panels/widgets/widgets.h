@@ -58,6 +58,9 @@ bool slider(const Theme& theme, const char* id, const Rect& where, std::string_v
 bool upright_slider(const Theme& theme, const char* id, const Rect& where, double& value, double reach,
                     bool enabled = true);
 
+/// Explains what lies in `of` while the pointer is there, in a box beside the pointer.
+void draw_tooltip(const Theme& theme, const Rect& of, std::string_view text);
+
 /// Draws a ring that fills clockwise from the top.
 void draw_ring(const ImVec2& centre, float radius, float thickness, double share, ImU32 colour, ImU32 rest);
 

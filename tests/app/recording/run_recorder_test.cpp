@@ -91,6 +91,8 @@ TEST_CASE("a recorded exam is the samples to the bit, and another attempt is ano
   recorder.wait();
   CHECK_NOTHROW(recorder.check());
   CHECK(recorder.file() == folder.path / "run-2.igs.mha");
+  CHECK(recorder.take_finished() == std::vector{folder.path / "run.igs.mha", folder.path / "run-2.igs.mha"});
+  CHECK(recorder.take_finished().empty());
 
   const auto recorded = [&](const char* name) { return read_recorded_scan(folder.path / name).samples; };
   CHECK(same_bits(recorded("run.igs.mha"), scan()));

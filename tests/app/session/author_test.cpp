@@ -147,8 +147,9 @@ TEST_CASE("a deeper picture of the same plane shows more") {
   desk.session.set(ActionKind::depth, 30);
   desk.freeze(Pose{});
   CHECK(desk.author.parts().empty());
+  desk.session.freeze(false);
   desk.session.set(ActionKind::depth, 50);
-  desk.hold(Pose{});
+  desk.freeze(Pose{});
   CHECK(names(desk.author.parts()) == std::vector<std::string>{"ball", "top"});
 }
 
@@ -156,6 +157,7 @@ TEST_CASE("what takes the most of the picture comes first") {
   Desk desk;
   const Pose along_z = turned(90, {0, 1, 0});
   const auto structures_at = [&](double depth_mm) {
+    desk.session.freeze(false);
     desk.session.set(ActionKind::depth, depth_mm);
     desk.freeze(along_z);
     auto found = names(desk.author.parts());

@@ -94,6 +94,37 @@ TEST_CASE("while a scenario is practised the guide leads to the view of the step
   CHECK_FALSE(guide.now(session));
 }
 
+TEST_CASE("the result of an attempt tells how long the guide was shown, also if it was on from the start") {
+  const auto loaded_case = tiny_loaded_case();
+  Session session = by_hand(loaded_case);
+  Guide guide;
+  double now_s = 0;
+  const auto scan = [&](double seconds) {
+    for (const double end_s = now_s + seconds; now_s < end_s; now_s += 0.1) {
+      guide.tell(session);
+      session.advance(now_s);
+    }
+  };
+  scan(1);
+  guide.next(session);
+  scan(2);
+  guide.next(session);
+  scan(1);
+  guide.next(session);
+  scan(0.5);
+  session.hand_in();
+  REQUIRE(session.result());
+  CHECK(session.result()->steps[0].guide_times == 2);
+  CHECK(session.result()->steps[0].guide_s == Approx(2.5).margin(0.21));  // each end lies within a step of 0.1 s
+
+  session.start_over();
+  scan(1.5);
+  session.hand_in();
+  REQUIRE(session.result());
+  CHECK(session.result()->steps[0].guide_times == 1);
+  CHECK(session.result()->steps[0].guide_s == Approx(1.5).margin(0.11));
+}
+
 TEST_CASE("under strict rules there is no guide, not even after the exam") {
   const auto loaded_case = tiny_loaded_case();
   Session session(
@@ -102,6 +133,7 @@ TEST_CASE("under strict rules there is no guide, not even after the exam") {
   session.advance(0);
   session.advance(0.1);
   REQUIRE(session.newest_pose());
+  CHECK_FALSE(session.can_stand_still());
   Guide guide;
   guide.next(session);
   CHECK_FALSE(guide.now(session));

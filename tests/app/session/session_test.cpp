@@ -408,13 +408,83 @@ TEST_CASE("what the learner does reaches the exam, and again when the exam is sc
   CHECK(again.machine().time_gain_db == as_seen.time_gain_db);
   CHECK(again.machine().frozen);
   CHECK(*again.shown_pose() == *again.runner()->machine().frozen_at);
-  again.set(ActionKind::depth, 50);  // a log's score is its own, whatever the one who watches sets
+  again.set(ActionKind::gain, 9);  // a log's score is its own, whatever the one who watches sets
   run_until(again, now_s, 10, 23);
   std::filesystem::remove(file);
   REQUIRE(again.result());
   ExamResult replayed = *again.result();
   replayed.provenance = session.result()->provenance;
   CHECK(to_json(replayed) == to_json(*session.result()));
+}
+
+TEST_CASE("a frozen picture is changed by no setting that would acquire another, and says what to do first") {
+  std::vector<ProbeSample> coming;
+  Session session(tiny_loaded_case(), [&] { return std::make_unique<HandFed>(coming); });
+  double now_s = 1;
+  const auto hold = [&](double x) {
+    now_s += 0.05;
+    coming = {sample_at(now_s, Pose{glm::dmat3(1.0), {x, 0, 0}})};
+    session.advance(now_s);
+  };
+  CHECK_FALSE(session.can_stand_still());  // a device measures on, and its samples count
+  for (const double x : {0.0, 1.0, 2.0}) hold(x);
+  CHECK(session.shown_pose() == session.newest_pose());
+  session.advance(now_s + 0.02);  // between two samples, the picture runs ahead of the newest one
+  CHECK_FALSE(session.shown_pose() == session.newest_pose());
+  CHECK(session.why_not(ActionKind::depth).empty());
+  session.freeze(true);
+  INFO("the picture is that of a sample from the first frame on, and the next sample does not change it");
+  CHECK(session.shown_pose() == session.newest_pose());
+  const std::optional<Pose> frozen = session.shown_pose();
+  for (const double x : {5.0, 9.0}) {
+    hold(x);
+    CHECK(session.shown_pose() == frozen);
+  }
+
+  const Machine before = session.machine();
+  session.set(ActionKind::depth, 55);
+  session.set(ActionKind::frequency, 9);
+  session.choose_probe("linear");
+  hold(9);
+  CHECK(session.machine() == before);
+  CHECK(session.latest_actions().empty());
+  CHECK(session.why_not(ActionKind::depth) == "Frozen: press Space to scan on, then change the depth.");
+  CHECK(session.why_not(ActionKind::dynamic_range).empty());
+  session.set(ActionKind::gain, 4);
+  CHECK(session.machine().gain_db == 4);
+  session.freeze(false);
+  session.set(ActionKind::depth, 55);
+  hold(9);
+  CHECK(session.runner()->machine().depth_mm == 55);
+}
+
+TEST_CASE(
+    "a log's settings are shown after whoever watches it lets the picture go, but not those that it had frozen out") {
+  const auto file =
+      std::filesystem::temp_directory_path() / ("insonate_froze_" + std::to_string(getpid()) + ".igs.mha");
+  {
+    SequenceRecorder recorder(file);
+    for (const ProbeSample& sample : samples_of(4, 20, [](double) { return Pose{}; })) {
+      const int tenth = int(std::lround(10 * sample.time_s));
+      recorder.add(sample, tenth == 10 ? "depth 110" : tenth == 20 ? "freeze" : tenth == 25 ? "depth 70" : "");
+    }
+    recorder.finish();
+  }
+  Session session(tiny_loaded_case(false), [&] { return open_tracker("replay:" + file.string()); });
+  session.advance(0);
+  double now_s = run_until(session, 0, 0.5);
+  const double depth_mm = session.machine().depth_mm;
+  session.freeze(true);
+  now_s = run_until(session, now_s, 1.5);
+  CHECK(session.machine().depth_mm == depth_mm);
+  session.freeze(false);
+  CHECK(session.machine().depth_mm == 110);
+  now_s = run_until(session, now_s, 2.2);
+  CHECK(session.machine().frozen);
+  session.freeze(false);  // whoever watches looks on; the log's own picture is still frozen when its depth is set
+  run_until(session, now_s, 3);
+  CHECK(session.machine().depth_mm == 110);
+  std::filesystem::remove(file);
 }
 
 TEST_CASE("knobs and acts between two samples keep their order, in practice too") {
@@ -427,14 +497,14 @@ TEST_CASE("knobs and acts between two samples keep their order, in practice too"
     session.freeze(true);
     CHECK_FALSE(session.frozen_picture());  // nobody has been told yet
     session.act({ActionKind::point, {1, 2}});
-    session.set(ActionKind::depth, 95);
+    session.set(ActionKind::gain, 5);
     session.act({ActionKind::point, {3, 4}});
     session.freeze(false);
     session.advance(0.2);
     REQUIRE(session.latest_actions().size() == 1);
     const std::vector<Action> expected{{ActionKind::freeze},
                                        {ActionKind::point, {1, 2}},
-                                       {ActionKind::depth, {95}},
+                                       {ActionKind::gain, {5}},
                                        {ActionKind::point, {3, 4}},
                                        {ActionKind::unfreeze}};
     CHECK(session.latest_actions().begin()->second == expected);

@@ -426,6 +426,34 @@ TEST_CASE("the time of a scenario stands still until its briefing was read, and 
   CHECK_FALSE(trainer.briefing());  // it was read
 }
 
+TEST_CASE("while a page covers the screen no time passes in practice, and goes on from there") {
+  const test::TestContext context;
+  const TrainerFolder folder;
+  Options options = folder.options();
+  options.tracker = "mouse:";
+  Trainer trainer(options);
+  trainer.open_from_options();
+  trainer.finish_loading();
+  trainer.start();
+  double now_s = 100;
+  const auto pass = [&](double seconds) {
+    for (const double end_s = now_s + seconds; now_s < end_s - 1e-9; now_s += 0.1) trainer.update(now_s);
+  };
+  const auto elapsed_s = [&] { return trainer.session()->runner()->live().elapsed_s; };
+  constexpr double kSample_s = 0.02;  // the mouse gives 60 samples a second
+  pass(2);
+  const double before_s = elapsed_s();
+  CHECK(before_s == Approx(1.9).margin(kSample_s));  // the first update starts the clock
+  trainer.cover(true);
+  CHECK_FALSE(trainer.time_runs_on());
+  pass(50);  // the exam lasts 30 s
+  CHECK(elapsed_s() == before_s);
+  trainer.cover(false);
+  pass(1);
+  CHECK(elapsed_s() == Approx(before_s + 1).margin(kSample_s));
+  CHECK(trainer.session()->attempt_for_s() == Approx(2.9).margin(1e-6));
+}
+
 TEST_CASE("without a window there is nobody to answer a dialog: bad input passes through") {
   const test::TestContext context;
   const TrainerFolder folder;

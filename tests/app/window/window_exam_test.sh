@@ -103,6 +103,15 @@ await "the guide leads there" is guided_to pelvis
 xdotool key g
 await "the guide is off" is guided_to ""
 
+echo "no time passes while the help covers the screen"
+xdotool key F1
+await "the help is shown" is overlay help
+stands() { local at; at=$(value elapsed_s); sleep 1; [ "$(value elapsed_s)" = "$at" ]; }
+await "the time stands still" stands
+xdotool key Escape
+await "the help is closed" is overlay ""
+! stands || fail "the time does not go on"
+
 echo "calipers are placed in the frozen picture, dragged, taken back and placed again"
 is can_measure false || fail "a running picture is measured in"
 remember_probe
@@ -128,8 +137,16 @@ shorter() { awk -v p="$(value placed)" 'BEGIN { split(p, a, " "); exit !(a[2] > 
 await "Backspace takes it back" shorter
 xdotool key Delete
 await "Delete takes all back" is placed ""
+xdotool key bracketright
+await "the depth of a frozen picture stays, with a word why" contains toast "press Space to scan on, then change the depth"
+click "$(middle_x probe_linear)" "$(middle_y probe_linear)"
+xdotool key space
+await "the picture runs" is frozen false
+is depth_mm "$depth" && is probe curvilinear || fail "a frozen picture was acquired anew"
 xdotool key bracketright bracketright
 await "the picture is drawn deeper" is_not depth_mm "$depth"
+xdotool key space
+await "the picture is frozen again" is can_measure true
 sleep 1
 click_plane -20.75 70
 click_plane 20.75 70
@@ -167,15 +184,17 @@ xdotool key r
 await "the recording ends" is recording ""
 written() { [ -s "$work/run.igs.mha" ]; }
 await "the file is made" written
+await "the screen names it" contains toast "$work/run.igs.mha"
 
 echo "the recording scores as the exam did"
-[ -s "$work/out/score.json" ] || fail "there is no score"
+made=$(dirname "$(value report)")/score.json
+[ -s "$made" ] || fail "there is no score"
 "$score" --log "$work/run.igs.mha" --scenario "$work/exam.toml" >"$work/again.json" 2>"$work/score.log" || fail "$(cat "$work/score.log")"
 without_origin() { grep -v -e '"log' -e '"mode"' "$1"; }
-cmp <(without_origin "$work/out/score.json") <(without_origin "$work/again.json") || fail "the recording has another score"
-grep -q '"mode": "practice"' "$work/out/score.json" || fail "the attempt does not say that it is practice"
+cmp <(without_origin "$made") <(without_origin "$work/again.json") || fail "the recording has another score"
+grep -q '"mode": "practice"' "$made" || fail "the attempt does not say that it is practice"
 grep -q '"mode": "recording"' "$work/again.json" || fail "the recording does not say that it is one"
-for what in '"answer"' '"yes"' '"measured"' '"41.7"' '"point_error_mm"'; do
+for what in '"guide_times": 1' '"answer"' '"yes"' '"measured"' '"41.7"' '"point_error_mm"'; do
   grep -q -- "$what" "$work/again.json" || fail "the score does not say $what"
 done
 grep -q -- "$(echo "$shown" | sed 's/^1 \(.*\); $/\1/')" "$work/again.json" || fail "what was shown, '$shown', was not scored"

@@ -125,9 +125,10 @@ await "the tracker moves it" far_enough
 
 echo "the exam ends with a score sheet and a report"
 await "the score sheet appears" is overlay score
-[ -s "$work/out/report.html" ] || fail "there is no report"
-[ -s "$work/out/score.json" ] || fail "there is no score"
-grep -q '"passed": true' "$work/out/score.json" || fail "the bundled good scan did not pass"
+await "its report has a name" is_not report ""
+report=$(value report)
+[[ $report == "$work/out/attempts/"*_ruq_hepatorenal/report.html && -s $report ]] || fail "there is no report: $report"
+grep -q '"passed": true' "$(dirname "$report")/score.json" || fail "the bundled good scan did not pass"
 import -window root "$work/sheet.png"
 sheet=$(convert "$work/sheet.png" -crop 600x1+340+400 -colorspace Gray -format '%[fx:mean]' info:)
 awk -v m="$sheet" 'BEGIN { exit !(m < 0.5) }' || fail "the sheet is not where it should be"

@@ -62,6 +62,24 @@ TEST_CASE("reports out of the database equal those made at the end of the exam")
   CHECK(read_file(first.report).find("L-07") != std::string::npos);
 }
 
+TEST_CASE("each attempt has a folder of its own, and the folders sort by time") {
+  const ResultsFolder folder;
+  Attempt attempt = made_attempt("L-07", tiny_exam(0));
+  attempt.scenario_file = "/lab/exams/aorta.toml";
+  attempt.finished_ms = 1'795'284'309'250;
+  const auto written = [&] {
+    const std::filesystem::path own = attempt_folder(folder / "out", attempt);
+    write_report_files(own, attempt);
+    return own;
+  };
+  const auto first = written(), at_once = written();
+  attempt.finished_ms += 1000;
+  const auto later = written();
+  CHECK(first == folder / "out/attempts/2026-11-21T18-05-09Z_aorta");
+  CHECK(at_once == folder / "out/attempts/2026-11-21T18-05-09Z_aorta-2");
+  CHECK(later > at_once);
+}
+
 TEST_CASE("an attempt in no database has no statements, and removes those of another") {
   const ResultsFolder folder;
   write_report_files(folder / "out", kept_attempt(tiny_exam(0)));

@@ -66,6 +66,24 @@ TEST_CASE("a distance is measured between calipers in a frozen picture, against 
   CHECK(*moved.steps[0].value(Metric::measurement_error_mm) == *right.value(Metric::measurement_error_mm));
 }
 
+TEST_CASE("what is measured in a frozen picture is judged as it was acquired, whatever a log says of the depth since") {
+  const Scenario exam =
+      exam_of(step("measure",
+                   "view = \"ball\"\ntool = \"distance\"\nwalls = \"outer to outer\"\n[[step.target]]\n"
+                   "structures = [\"ball\"]",
+                   "depth_use_percent"));
+  const auto judged = [&](const std::vector<Action>& before, const std::vector<Action>& since) {
+    std::vector<Action> placed = since;
+    placed.push_back(caliper(1, -20, 60, 20, 60));
+    return to_json(scored(exam, 3, {{0.5, before}, {1.0, {kFreeze}}, {1.5, placed}, {2.0, {kGoOn}}}));
+  };
+  const Action deep{ActionKind::depth, {200}};
+  CHECK(judged({}, {}) != judged({deep}, {}));
+  CHECK(judged({}, {}) == judged({}, {deep}));
+  CHECK(judged({}, {}) == judged({}, {{ActionKind::probe, {}, "linear"}, {ActionKind::frequency, {9}}}));
+  CHECK(judged({}, {}) == judged({}, {{ActionKind::gain, {9}}}));
+}
+
 TEST_CASE("what is taken back was never placed") {
   const std::string measure =
       "view = \"ball\"\ntool = \"volume\"\nwalls = \"outer\"\n[[step.target]]\nstructures = [\"ball\"]\n";
