@@ -140,6 +140,7 @@ await "Delete takes all back" is placed ""
 xdotool key bracketright
 await "the depth of a frozen picture stays, with a word why" contains toast "press Space to scan on, then change the depth"
 click "$(middle_x probe_linear)" "$(middle_y probe_linear)"
+await "frames go by, in which a click on another probe does nothing" at_rest
 xdotool key space
 await "the picture runs" is frozen false
 is depth_mm "$depth" && is probe curvilinear || fail "a frozen picture was acquired anew"
