@@ -203,9 +203,9 @@ void StartPage::read_runs() {
       });
       if (of == scenarios_.end()) continue;
       const bool good = name.find("_good.") != std::string::npos;
-      OfferedRun offered_run{of->title, good ? "Recorded scan of a skilled hand" : "Recorded scan of a beginner",
-                             {},        of->file,
-                             {},        std::uint32_t(document.root().whole_number("scenario_seed", 0, 0xffffffff, 0))};
+      OfferedRun offered_run(of->title, good ? "Recorded scan of a skilled hand" : "Recorded scan of a beginner");
+      offered_run.scenario = of->file;
+      offered_run.seed = std::uint32_t(document.root().whole_number("scenario_seed", 0, 0xffffffff, 0));
       offered_run.replay.log = log;
       if (good) expert_of_[of->digest] = log;
       bundled.push_back(std::move(offered_run));
@@ -215,7 +215,7 @@ void StartPage::read_runs() {
   }
   for (std::size_t i = 0; i < std::min(attempts_.size(), kListedAttempts); ++i) {
     const AttemptSummary& attempt = attempts_[i];
-    OfferedRun offered_run{attempt.title, summary_of(attempt), {}, {}, {}, 0};
+    OfferedRun offered_run(attempt.title, summary_of(attempt));
     offered_run.replay.database = database_;
     offered_run.replay.attempt = attempt.number;
     if (const auto skilled = expert_of_.find(attempt.scenario_digest); skilled != expert_of_.end())
@@ -224,7 +224,7 @@ void StartPage::read_runs() {
   }
   for (const fs::path& log : files_in(options_.out, ".igs.mha")) {
     if (log.filename().string().ends_with("-images.igs.mha")) continue;  // beside a recording of the same run
-    OfferedRun offered_run{log.filename().string(), "Recording in " + options_.out.string(), {}, {}, {}, 0};
+    OfferedRun offered_run(log.filename().string(), "Recording in " + options_.out.string());
     offered_run.replay.log = log;
     runs_.push_back(std::move(offered_run));
   }
@@ -309,7 +309,7 @@ void StartPage::add(const fs::path& path) {
     case Material::raw_log:
       return choose_tracker("raw:" + path.string());
     case Material::tracker_log: {
-      OfferedRun offered{name, "Recording in " + path.parent_path().string(), {}, {}, {}, 0};
+      OfferedRun offered(name, "Recording in " + path.parent_path().string());
       offered.replay.log = path;
       runs_.push_back(std::move(offered));
       run = runs_.size() - 1;

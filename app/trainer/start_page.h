@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/trainer/options.h"
@@ -44,13 +45,15 @@ struct OfferedPatient {
 
 /// A run that can be looked at again.
 struct OfferedRun {
+  OfferedRun(std::string its_name, std::string its_about) : name(std::move(its_name)), about(std::move(its_about)) {}
+
   std::string name, about;
   ReplaySource replay;
   std::filesystem::path scenario, expert;  ///< empty if unknown
+  std::uint32_t seed = 0;                  ///< draws the scenario's variant
 
   /// Returns whether a person has to say which scenario the run is of.
   bool needs_scenario() const { return replay.attempt == 0 && scenario.empty(); }
-  std::uint32_t seed = 0;
 };
 
 /// A tracker that can be chosen.

@@ -37,7 +37,7 @@ Shape random_shape(std::mt19937& random) {
   const auto number = [&](float low, float high) { return std::uniform_real_distribution<float>(low, high)(random); };
   Shape shape;
   shape.at = {number(-20, kWidth), number(-20, kHeight)};
-  shape.size = {number(1, 120), number(1, 90)};
+  shape.size = {number(1, 160), number(1, 120)};
   const float x = number(-10, kWidth), y = number(-10, kHeight);
   shape.clip =
       number(0, 1) < 0.5f ? ImVec4(0, 0, kWidth, kHeight) : ImVec4(x, y, x + number(1, 200), y + number(1, 150));
@@ -97,11 +97,11 @@ TEST_CASE("a canvas that redraws what changed shows the same as one that draws e
   std::mt19937 random(5);
   Picture picture;
   picture.paint(0xff2080c0);
-  std::vector<Shape> shapes(12);
+  std::vector<Shape> shapes(16);
   for (Shape& shape : shapes) shape = random_shape(random);
   Canvas canvas;
   canvas.make_fonts();
-  for (int frame = 0; frame < 60; ++frame) {
+  for (int frame = 0; frame < 200; ++frame) {
     switch (frame % 4) {
       case 0:
         shapes[random() % shapes.size()] = random_shape(random);
@@ -179,4 +179,24 @@ TEST_CASE("a canvas enlarges a picture smoothly") {
     INFO("column " << x);
     CHECK(std::abs(image.at(x, kHeight - 100)[0] - 255 * (x + 0.5 - 85) / 50) < 4);
   }
+}
+
+TEST_CASE("a canvas mixes translucent shapes with what lies below, and lets opaque ones cover it") {
+  const test::TestContext context;
+  const TestImGui imgui;
+  Canvas canvas;
+  canvas.make_fonts();
+  ImGui::NewFrame();
+  ImDrawList* list = ImGui::GetForegroundDrawList();
+  list->AddRectFilled({10, 10}, {110, 110}, IM_COL32(200, 0, 0, 255));
+  list->AddRectFilled({10, 10}, {60, 110}, IM_COL32(0, 100, 0, 128));
+  ImGui::Render();
+  canvas.draw(*ImGui::GetDrawData(), kBackground, [](ImTextureID) { return 0; });
+  const Image<Rgba8> image = shown(canvas);
+  const auto is = [&](int x, const std::array<int, 3>& colour) {
+    for (std::size_t c = 0; c < 3; ++c) CHECK(std::abs(image.at(x, kHeight - 50)[c] - colour[c]) <= 1);  // rounding
+  };
+  is(30, {100, 50, 0});
+  is(90, {200, 0, 0});
+  is(200, {20, 30, 40});
 }
