@@ -34,8 +34,8 @@ constexpr double kFrame_s = 1.0 / 60;
 constexpr double kIdle_s = 0.05;
 /// How long any change keeps the screen at full frame rate.
 constexpr double kLively_s = 0.4;
-/// Time of the volume view per frame while things move; more where it is drawn in one frame of three.
-constexpr double kVolumeBudget_ms = 10, kVolumeBudgetOfTurn_ms = 18;
+/// Time of the volume view, in a frame that draws it while things move.
+constexpr double kVolumeBudget_ms = 10;
 
 struct GlfwLibrary {
   GlfwLibrary() {
@@ -254,8 +254,7 @@ private:
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     if (size.x <= 0 || size.y <= 0) return false;  // minimised
     trainer_.draw(screen_.picture_sizes(trainer_, size.x, size.y),
-                  {governor_.quality(), governor_.takes_turns() ? kVolumeBudgetOfTurn_ms : kVolumeBudget_ms,
-                   governor_.takes_turns()});
+                  {governor_.quality(), kVolumeBudget_ms, governor_.takes_turns()});
     return screen_.render(trainer_, times_ ? &*times_ : nullptr);
   }
 
