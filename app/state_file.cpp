@@ -34,7 +34,7 @@ std::string in_short(const Action& placed) {
 
 }  // namespace
 
-void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::Screen& screen, long frames,
+void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::Screen& screen, long frames, long shown,
                  double quality) {
   Json state;
   state["overlay"] = to_string(screen.overlay(trainer));
@@ -43,6 +43,7 @@ void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::
   state["shader_problem"] = trainer.shader_problem();
   state["calibration_warning"] = trainer.calibration_warning();
   state["frames"] = frames;
+  state["frames_shown"] = shown;
   state["pictures_drawn"] = trainer.pictures().drawn();
   state["quality"] = quality;
   state["simulator_runs"] = trainer.pictures().simulator_runs();

@@ -234,7 +234,7 @@ private:
     trainer_.write_results_if_due();
     if (!options_.state_file.empty() && now_s - state_written_s_ > 0.1) {
       state_written_s_ = now_s;
-      write_state(options_.state_file, trainer_, screen_, frames_, governor_.quality());
+      write_state(options_.state_file, trainer_, screen_, frames_, shown_, governor_.quality());
     }
   }
 
@@ -262,6 +262,7 @@ private:
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     screen_.show();
     glfwSwapBuffers(window_);
+    ++shown_;
     if (times_) times_->end(FramePart::present);
   }
 
@@ -275,7 +276,7 @@ private:
   PictureRate rate_;
   std::optional<FrameTimes> times_;
   double start_s_ = 0, last_s_ = 0, changed_s_ = 0, state_written_s_ = -1, rate_shown_s_ = -1;
-  long frames_ = 0;  ///< laid out, drawn or not
+  long frames_ = 0, shown_ = 0;  ///< laid out, and of these shown
 };
 
 }  // namespace

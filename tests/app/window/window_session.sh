@@ -54,6 +54,14 @@ at_rest() {
   is pictures_drawn "$drawn" && is quality 1.0 && [ "$(value frames)" -ge $((frames + 2)) ]
 }
 
+# Whether the screen stays as it is, without a frame being shown, though frames are laid out.
+shows_nothing() {
+  local shown frames
+  shown=$(value frames_shown) frames=$(value frames)
+  sleep 1.2
+  is frames_shown "$shown" && [ "$(value frames)" -ge $((frames + 2)) ]
+}
+
 # What is on the screen, cut to a panel: `shot FILE PANEL [MARGIN]`.
 shot() {
   local margin=${3:-0}

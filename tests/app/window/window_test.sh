@@ -36,8 +36,9 @@ shot "$work/after.png" ultrasound 20
 pixels=$(different "$work/before.png" "$work/after.png")
 awk -v n="$pixels" 'BEGIN { exit !(n > 2000) }' || fail "the picture did not follow the probe: $pixels pixels changed"
 
-echo "where nothing changes nothing is computed"
+echo "where nothing changes nothing is computed, and no frame is shown"
 await "the simulator rests where nothing changes" at_rest
+await "the screen is left as it is" shows_nothing
 
 echo "keys turn the probe and the console's knobs"
 beam=$(value beam_y)
