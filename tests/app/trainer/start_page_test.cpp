@@ -29,7 +29,7 @@ std::size_t index_of(const StartPage& page, const std::string& title) {
 }  // namespace
 
 TEST_CASE("the start page is shown where nothing says what to do, and somebody can choose") {
-  CHECK(begins_on_start_page({}));
+  CHECK(begins_on_start_page(Options()));
   const auto with = [](auto change) {
     Options options;
     change(options);
