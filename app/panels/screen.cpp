@@ -502,7 +502,7 @@ void Screen::draw_overlay(Trainer& trainer) {
       }
       break;
     case Overlay::briefing:
-      switch (draw_briefing(theme_, screen_, *trainer.briefing(), session->strict(), places_)) {
+      switch (draw_briefing(theme_, screen_, *trainer.briefing(), trainer.session()->strict(), places_)) {
         case BriefingAnswer::none:
           break;
         case BriefingAnswer::start:
@@ -514,9 +514,10 @@ void Screen::draw_overlay(Trainer& trainer) {
       }
       break;
     case Overlay::score: {
-      const bool watched = std::as_const(*session).source().recording() != nullptr;
-      answer_score(trainer, draw_score_sheet(theme_, screen_, *session->result(), trainer.result_files(),
-                                             trainer.results_due(), watched, session->strict()));
+      const Session& scored = *trainer.session();
+      const bool watched = scored.source().recording() != nullptr;
+      answer_score(trainer, draw_score_sheet(theme_, screen_, *scored.result(), trainer.result_files(),
+                                             trainer.results_due(), watched, scored.strict()));
       break;
     }
   }

@@ -30,7 +30,7 @@ public:
     if (!files_) return;
     files_->finish();
     files_.reset();
-    finished_ = std::move(written_);
+    finished_ = std::exchange(written_, {});
   }
   void operator()(const Next&) {
     if (!files_) return;

@@ -189,8 +189,8 @@ void PictureTools::release(Session& session, const glm::dvec2& at, double reach_
   commit(session, *in_hand_);
 }
 
-void PictureTools::commit(Session& session, const Action& given) {
-  const Action action = given;  // copied, because drop() clears what is in hand
+// `action` is a copy, because drop() clears what is in hand.
+void PictureTools::commit(Session& session, Action action) {
   drop();
   const auto picture = session.frozen_picture();
   if (!picture) return;

@@ -79,7 +79,7 @@ private:
   void begin_step(const Session& session);
   void begin(const glm::dvec2& at);
   bool grab(const Pose& picture, const glm::dvec2& at, double reach_mm);
-  void commit(Session& session, const Action& action);
+  void commit(Session& session, Action action);
   void drop();
 
   int attempt_ = 0;

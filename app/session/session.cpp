@@ -66,7 +66,7 @@ Session::Session(std::shared_ptr<const LoadedCase> loaded_case, OpenTracker open
   tracker_ = open_fresh();
   if (MouseTracker* own_hand = tracker_->steered()) {
     only_learner_ = true;
-    tracker_.release();
+    static_cast<void>(tracker_.release());
     learner_.reset(own_hand);
     holder_ = Holder::learner;
   }

@@ -45,7 +45,7 @@ std::string StartPage::why_not() const {
     case Task::replay:
       return run < runs_.size() ? "" : "Choose a run.";
     case Task::setup: {
-      if (const std::string why = why_no_tracker(); !why.empty()) return why;
+      if (std::string why = why_no_tracker(); !why.empty()) return why;
       const OfferedTracker* chosen = chosen_tracker();
       return chosen && chosen->has_sensor ? ""
                                           : "This tracker has no sensor to set up: choose another one on the right.";

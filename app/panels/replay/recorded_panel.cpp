@@ -71,8 +71,7 @@ void RecordedPanel::show(const Replay& replay) {
     std::transform(grey.pixels.begin(), grey.pixels.end(), pixels.begin(), [](std::uint8_t value) {
       return Rgba8{value, value, value, 255};
     });
-    if (!texture_)
-      texture_ = gl::Texture::make_picture(grey.width, grey.height, gl::Filter::linear);
+    if (!texture_) texture_ = gl::Texture::make_picture(grey.width, grey.height, gl::Filter::linear);
     texture_.write(GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
     ++shown_;
     problem_.clear();
