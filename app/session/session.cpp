@@ -226,7 +226,7 @@ std::vector<Action> Session::actions_before(const ProbeSample& sample) {
   return std::exchange(acts_, {});
 }
 
-/// Shows what an action of the log does. Whoever watches may have frozen the picture, of which the log knows nothing.
+/// Shows what an action of the log does. The viewer may have frozen the picture, which the log does not contain.
 void Session::show_of_log(const Action& action) {
   if (shown_.refuses(action.kind) && !machine_.refuses(action.kind))
     held_back_.push_back(action);

@@ -208,7 +208,7 @@ private:
   bool go_on_ = false;
   std::vector<double> event_markers_s_;
   ActionLog log_actions_;          ///< of the log being replayed
-  std::vector<Action> held_back_;  ///< the log's settings since whoever watches it has frozen the picture
+  std::vector<Action> held_back_;  ///< the log's settings since the viewer froze the picture
   std::vector<Action> acts_;       ///< the learner's own, held until the next sample
   Machine machine_;                ///< as it was at the last sample
   ActionLog actions_;              ///< of this attempt

@@ -53,7 +53,7 @@ void Trainer::take_over_prepared() {
   try {
     built_in_ = preparing_->take();
   } catch (const std::exception&) {
-    // Whoever chooses this patient is told of it then.
+    // The person who chooses this patient sees the reason then.
   }
   preparing_.reset();
 }

@@ -128,7 +128,7 @@ std::string pictures_of(std::size_t step, const std::vector<ReportPicture>& pict
   return any ? "<div class='pictures'>" + html + "</div>" : "";
 }
 
-/// Help that costs no points, but that whoever compares attempts has to know of.
+/// Describes help that costs no points, because a person who compares attempts has to know of it.
 std::string guide_in_words(const StepResult& step) {
   return "The guide to the view was shown " +
          (step.guide_times == 1 ? std::string("once") : std::to_string(step.guide_times) + " times") + ", for " +

@@ -18,7 +18,7 @@ std::filesystem::path attempt_folder(const std::filesystem::path& folder, const 
   name += std::filesystem::path(attempt.scenario_file).stem().string();
   const std::filesystem::path first = folder / "attempts" / name;
   std::filesystem::path free = first;
-  std::error_code error;  // whoever writes there will say what is wrong
+  std::error_code error;  // writing there reports what is wrong
   for (int i = 2; std::filesystem::exists(free, error); ++i) free = first.string() + "-" + std::to_string(i);
   return free;
 }

@@ -458,8 +458,7 @@ TEST_CASE("a frozen picture is changed by no setting that would acquire another,
   CHECK(session.runner()->machine().depth_mm == 55);
 }
 
-TEST_CASE(
-    "a log's settings are shown after whoever watches it lets the picture go, but not those that it had frozen out") {
+TEST_CASE("a log's settings are shown after the viewer lets the picture go, but not those that it had frozen out") {
   const auto file =
       std::filesystem::temp_directory_path() / ("insonate_froze_" + std::to_string(getpid()) + ".igs.mha");
   {
@@ -481,7 +480,7 @@ TEST_CASE(
   CHECK(session.machine().depth_mm == 110);
   now_s = run_until(session, now_s, 2.2);
   CHECK(session.machine().frozen);
-  session.freeze(false);  // whoever watches looks on; the log's own picture is still frozen when its depth is set
+  session.freeze(false);  // the viewer looks on; the log's own picture is still frozen when its depth is set
   run_until(session, now_s, 3);
   CHECK(session.machine().depth_mm == 110);
   std::filesystem::remove(file);

@@ -14,7 +14,7 @@ end_trainer() {
   wait "$trainer" 2>/dev/null || true
 }
 
-echo "a file that is missing is told of over the page"
+echo "a missing file is reported over the page"
 start_page --ct "$work/nowhere.nii.gz"
 await "the problem lies over the page" is_page problem
 contains problem "nowhere.nii.gz" || fail "the problem names no file"
