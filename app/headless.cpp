@@ -22,14 +22,10 @@ constexpr double kStep_s = 1.0 / 30;
 /// Duration of a session without an exam if none is given.
 constexpr double kFreeScan_s = 10;
 
-/// Draws the screen into a texture.
+/// The screen without a window.
 class OffScreen {
 public:
-  OffScreen(int width, int height)
-      : width_(width),
-        height_(height),
-        colour_(gl::Texture::make_2d(GL_RGBA8, width, height, gl::Filter::nearest)),
-        framebuffer_(colour_) {}
+  OffScreen(int width, int height) : width_(width), height_(height) {}
 
   /// Draws the session's pictures only, not the screen around them.
   void draw_pictures(Trainer& trainer) { trainer.draw(screen_.picture_sizes(trainer, float(width_), float(height_))); }
@@ -43,23 +39,12 @@ public:
       draw_pictures(trainer);
       screen_.render(trainer);
     }
-    framebuffer_.bind();
-    screen_.show();
-    Image<Rgba8> upside_down = read_back(colour_), image(width_, height_);
-    for (int y = 0; y < height_; ++y)
-      for (int x = 0; x < width_; ++x) {
-        image.at(x, y) = upside_down.at(x, height_ - 1 - y);
-        image.at(x, y)[3] = 255;
-      }
-    glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    return image;
+    return screen_.read();
   }
 
 private:
   int width_, height_;
   ui::Screen screen_;
-  gl::Texture colour_;
-  gl::Framebuffer framebuffer_;
 };
 
 void sleep_until(double then_s) {

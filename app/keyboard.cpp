@@ -115,7 +115,9 @@ bool Keyboard::type(const KeyEvent& event, Trainer& trainer, ui::Screen& screen)
     case KeyEvent::Kind::pressed:
       // Closed now, the field would never see what was typed before in this frame.
       if ((event.key == GLFW_KEY_ESCAPE || is_enter(event)) && !io.InputQueueCharacters.empty()) return false;
-      if (event.key == GLFW_KEY_ESCAPE) {
+      if (open_page(event, trainer, screen)) {
+        break;
+      } else if (event.key == GLFW_KEY_ESCAPE) {
         screen.dismiss(trainer);
       } else if (is_enter(event)) {
         screen.confirm(trainer);
@@ -135,6 +137,22 @@ void Keyboard::set_up(const KeyEvent& pressed, Trainer& trainer) {
   if (pressed.key == GLFW_KEY_SPACE || is_enter(pressed)) trainer.setup()->mark(pressed.time_s);
   if (pressed.key == GLFW_KEY_BACKSPACE) trainer.setup()->undo();
   if (pressed.key == GLFW_KEY_ESCAPE) trainer.end_setup();
+}
+
+/// Handles the keys that work on every page. Returns whether this was one.
+bool Keyboard::open_page(const KeyEvent& pressed, const Trainer& trainer, ui::Screen& screen) {
+  using ui::Overlay;
+  const bool question = pressed.key == GLFW_KEY_SLASH && (pressed.modifiers & GLFW_MOD_SHIFT);
+  const bool help = pressed.key == GLFW_KEY_F1 || (question && !screen.types_text(trainer));
+  const bool settings = pressed.key == GLFW_KEY_F3, full_screen = pressed.key == GLFW_KEY_F11;
+  if (!help && !settings && !full_screen) return false;
+  if (pressed.kind != KeyEvent::Kind::pressed) return true;
+  if (full_screen) full_screen_.toggle(window_);
+  const Overlay shown = screen.overlay(trainer);
+  const bool waits = shown == Overlay::problem || shown == Overlay::loading || shown == Overlay::leave;
+  if (help && !waits) screen.toggle(Overlay::help);
+  if (settings && !waits) screen.toggle(Overlay::settings);
+  return true;
 }
 
 /// What the step lets choose from, by its number from 0 on.
@@ -186,6 +204,9 @@ void Keyboard::replay(const KeyEvent& pressed, Trainer& trainer, ui::Screen& scr
     case GLFW_KEY_END:
       replay.seek(replay.run().duration_s());
       break;
+    case GLFW_KEY_V:
+      trainer.pictures().look_from_next();
+      break;
     case GLFW_KEY_O:
       if (pressed.modifiers & GLFW_MOD_CONTROL) screen.ask_for_path();
       break;
@@ -196,6 +217,7 @@ void Keyboard::replay(const KeyEvent& pressed, Trainer& trainer, ui::Screen& scr
 
 void Keyboard::press(const KeyEvent& pressed, Trainer& trainer, ui::Screen& screen) {
   using ui::Overlay;
+  if (open_page(pressed, trainer, screen)) return;
   const bool repeated = pressed.kind == KeyEvent::Kind::repeated;
   const Overlay overlay = screen.overlay(trainer);
   if (overlay == Overlay::setup) {
@@ -206,18 +228,24 @@ void Keyboard::press(const KeyEvent& pressed, Trainer& trainer, ui::Screen& scre
     if (!repeated) is_enter(pressed) ? screen.confirm(trainer) : screen.dismiss(trainer);
     return;
   }
-  if (pressed.key == GLFW_KEY_F1 && overlay != Overlay::problem && !repeated && !trainer.replay())
-    return screen.toggle_help();
   if (overlay != Overlay::none) return;
+  if (pressed.key == GLFW_KEY_P && !repeated) return screen.save_picture(trainer);
+  if (pressed.key == GLFW_KEY_L && !repeated) return screen.toggle_clip(trainer);
   if (trainer.start_page()) return start_page(pressed, trainer, screen);
   if (trainer.replay()) return replay(pressed, trainer, screen);
   if (!(pressed.modifiers & GLFW_MOD_CONTROL)) tapped_.insert(pressed.key);
   if (pressed.key == GLFW_KEY_F2 && !repeated) return trainer.begin_setup();
-  if (pressed.key == GLFW_KEY_SLASH && (pressed.modifiers & GLFW_MOD_SHIFT)) return screen.toggle_help();
   const bool strict = trainer.session() && trainer.session()->strict();
   if (pressed.key == GLFW_KEY_O && (pressed.modifiers & GLFW_MOD_CONTROL) && !strict) return screen.ask_for_path();
   if (!trainer.session()) return;
   Session& session = *trainer.session();
+  if (pressed.modifiers & GLFW_MOD_CONTROL) {
+    const bool back = pressed.key == GLFW_KEY_Z && !(pressed.modifiers & GLFW_MOD_SHIFT);
+    const bool forward = pressed.key == GLFW_KEY_Y || (pressed.key == GLFW_KEY_Z && !back);
+    if (back && !trainer.undo_history().undo(session)) screen.tell("Nothing to undo");
+    if (forward && !trainer.undo_history().redo(session)) screen.tell("Nothing to do again");
+    return;
+  }
   const Machine& machine = session.machine();
   const auto turn = [&](ActionKind knob, double value) {
     if (const std::string why_not = session.why_not(knob); !why_not.empty()) return screen.tell(why_not);
@@ -251,6 +279,12 @@ void Keyboard::press(const KeyEvent& pressed, Trainer& trainer, ui::Screen& scre
       break;
     case GLFW_KEY_G:
       if (!repeated) trainer.guide().next(session);
+      break;
+    case GLFW_KEY_V:
+      trainer.pictures().look_from_next();
+      break;
+    case GLFW_KEY_HOME:
+      trainer.pictures().reset_camera();
       break;
     case GLFW_KEY_M:
       if (!repeated) session.press(kEventMarkerButton);

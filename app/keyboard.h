@@ -3,6 +3,7 @@
 #include <deque>
 #include <set>
 
+#include "app/full_screen.h"
 #include "app/panels/screen.h"
 #include "app/trainer/trainer.h"
 
@@ -43,12 +44,14 @@ private:
   void hand_on(Trainer& trainer, ui::Screen& screen);
   bool type(const KeyEvent& event, Trainer& trainer, ui::Screen& screen);
   void press(const KeyEvent& event, Trainer& trainer, ui::Screen& screen);
+  bool open_page(const KeyEvent& pressed, const Trainer& trainer, ui::Screen& screen);
   static void choose(int index, Trainer& trainer);
   static void start_page(const KeyEvent& pressed, Trainer& trainer, ui::Screen& screen);
   static void replay(const KeyEvent& pressed, Trainer& trainer, ui::Screen& screen);
   static void set_up(const KeyEvent& pressed, Trainer& trainer);
 
   GLFWwindow* window_;
+  FullScreen full_screen_;
   std::deque<KeyEvent> events_;
   std::set<int> tapped_;        ///< pressed since the last frame, even if up again
   bool field_is_busy_ = false;  ///< with a key that it has to see before the next one

@@ -23,6 +23,7 @@
 #include "app/state_file.h"
 #include "app/trainer/trainer.h"
 #include "devices/live/steady_clock.h"
+#include "sim/core/input_error.h"
 
 namespace insonate {
 namespace {
@@ -116,18 +117,6 @@ std::unique_ptr<GLFWwindow, WindowDeleter> open_window(const Options& options) {
   return window;
 }
 
-Image<Rgba8> read_screen(int width, int height) {
-  Image<Rgba8> upside_down(width, height), image(width, height);
-  glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, upside_down.pixels.data());
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      image.at(x, y) = upside_down.at(x, height - 1 - y);
-      image.at(x, y)[3] = 255;
-    }
-  return image;
-}
-
 /// Counts the pictures of the last second.
 class PictureRate {
 public:
@@ -145,12 +134,32 @@ private:
   std::deque<double> pictures_s_;
 };
 
+/// The person's own preferences, and what is wrong with them.
+struct Own {
+  Preferences preferences;
+  std::filesystem::path file;  ///< empty: they cannot be stored
+  std::string problem;
+};
+
+Own own_preferences() {
+  Own own;
+  try {
+    const std::filesystem::path file = preferences_file();
+    own.preferences = read_preferences(file);
+    own.file = file;
+  } catch (const InputError& error) {
+    own.problem = error.what();  // and the file stays as it is
+  }
+  return own;
+}
+
 /// Runs the loop around the trainer: at full frame rate while something changes, rarely otherwise. The screen is drawn
 /// only where it changes.
 class Loop {
 public:
-  Loop(GLFWwindow* window, const Options& options)
-      : window_(window), options_(options), trainer_(options), events_(window) {
+  Loop(GLFWwindow* window, const Options& options, const Own& own)
+      : window_(window), options_(options), trainer_(options, own.preferences, own.file), events_(window) {
+    if (!own.problem.empty()) trainer_.problems().push_back(own.problem);
     if (!options.frame_times.empty()) {
       times_.emplace(options.frame_parts);
       trainer_.pictures().measure(*times_);
@@ -179,11 +188,7 @@ public:
     if (!options_.screenshot.empty()) {
       governor_ = {};  // full resolution
       draw();
-      glBindFramebuffer(GL_FRAMEBUFFER, 0);
-      screen_.show();
-      int width = 0, height = 0;
-      glfwGetFramebufferSize(window_, &width, &height);
-      write_png(options_.screenshot, read_screen(width, height));
+      write_png(options_.screenshot, screen_.read());
     }
     // No further frame will show them.
     for (const std::string& problem : trainer_.problems()) std::fprintf(stderr, "insonate: %s\n", problem.c_str());
@@ -290,7 +295,7 @@ bool has_display() {
 int run_window(const Options& options) {
   const GlfwLibrary library;
   const auto window = open_window(options);
-  return Loop(window.get(), options).run();
+  return Loop(window.get(), options, own_preferences()).run();
 }
 
 }  // namespace insonate

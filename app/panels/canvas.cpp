@@ -95,7 +95,7 @@ void Canvas::resize(int width, int height) {
 void Canvas::add(Kind kind, ImTextureID texture, const PixelBox& clip, const PixelBox& bounds,
                  const std::array<ImDrawVert, 3>& corners) {
   Batch* last = batches_.empty() ? nullptr : &batches_.back();
-  const bool reads = kind == Kind::picture || kind == Kind::tinted;
+  const bool reads = kind == Kind::picture || kind == Kind::toned || kind == Kind::tinted;
   if (!last || last->kind != kind || (reads && last->texture != texture) || last->clip != clip) {
     batches_.push_back({kind, texture, clip, bounds, int(corners_.size()), 0});
     last = &batches_.back();
@@ -146,8 +146,9 @@ void Canvas::take(const ImDrawData& frame, const TextureVersion& version_of) {
 
         const auto each = [&](auto is) { return std::all_of(corners.begin(), corners.end(), is); };
         Kind kind = Kind::tinted;
-        if (is_picture && each([](const ImDrawVert& corner) { return corner.col == IM_COL32_WHITE; }))
-          kind = Kind::picture;
+        if (is_picture && each(is_opaque))
+          kind = each([](const ImDrawVert& corner) { return corner.col == IM_COL32_WHITE; }) ? Kind::picture
+                                                                                              : Kind::toned;
         else if (!is_picture && each([&](const ImDrawVert& c) { return c.uv.x == white.x && c.uv.y == white.y; }))
           kind = each(is_opaque) ? Kind::covering : Kind::plain;
         for (ImDrawVert& corner : corners) {
@@ -195,7 +196,8 @@ void Canvas::draw_batches(const std::vector<PixelBox>& boxes) const {
   for (const Batch& batch : batches_) {
     const bool blends = batch.kind == Kind::plain || batch.kind == Kind::tinted;
     (blends ? glEnable : glDisable)(GL_BLEND);
-    (batch.kind == Kind::tinted ? tinted_ : batch.kind == Kind::picture ? picture_program_ : plain_).use();
+    const bool in_colour = batch.kind == Kind::tinted || batch.kind == Kind::toned;
+    (in_colour ? tinted_ : batch.kind == Kind::picture ? picture_program_ : plain_).use();
     glBindTextureUnit(0, name_of(batch.texture));
     for (const PixelBox& box : boxes) {
       const PixelBox part = common(box, batch.bounds);
@@ -232,6 +234,20 @@ bool Canvas::draw(const ImDrawData& frame, ImU32 background, const TextureVersio
   glDisable(GL_SCISSOR_TEST);
   glBindFramebuffer(GL_FRAMEBUFFER, GLuint(previous));
   return true;
+}
+
+Image<Rgba8> Canvas::read(const PixelBox& box) const {
+  Image<Rgba8> upside_down(box.end_x - box.x, box.end_y - box.y);
+  GLint previous = 0;
+  glGetIntegerv(GL_FRAMEBUFFER_BINDING, &previous);
+  framebuffer_.bind();
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(box.x, height_ - box.end_y, upside_down.width, upside_down.height, GL_RGBA, GL_UNSIGNED_BYTE,
+               upside_down.pixels.data());
+  glBindFramebuffer(GL_FRAMEBUFFER, GLuint(previous));
+  Image<Rgba8> picture = upright(upside_down);
+  for (Rgba8& pixel : picture.pixels) pixel[3] = 255;  // what has been blended is not transparent
+  return picture;
 }
 
 void Canvas::show() const {

@@ -7,6 +7,7 @@
 #include <functional>
 #include <vector>
 
+#include "sim/core/image.h"
 #include "sim/gl/objects.h"
 #include "sim/gl/program.h"
 
@@ -38,12 +39,16 @@ public:
   /// Copies the picture into the framebuffer that is bound, which must be of the same size.
   void show() const;
 
+  /// Returns a part of the picture, which must lie within it.
+  Image<Rgba8> read(const PixelBox& box) const;
+  Image<Rgba8> read() const { return read({0, 0, width_, height_}); }
+
   /// Returns how many pixels the last draw() has drawn.
   long pixels_drawn() const { return pixels_drawn_; }
 
 private:
   /// How triangles are drawn. What reads no texture, and what covers what is below it, is drawn much faster.
-  enum class Kind { plain, covering, picture, tinted };
+  enum class Kind { plain, covering, picture, toned, tinted };  // toned: a picture in another colour
   /// A corner as the shaders read it; its place in the window is in clip space.
   using Corner = ImDrawVert;
   /// Triangles that follow each other and are drawn in the same way.

@@ -46,7 +46,7 @@ void draw_knobs(const Theme& theme, Rect where, Session& session) {
       session.set(kind, value);
     if (!why_not.empty()) draw_tooltip(theme, place, why_not);
   };
-  knob("depth", left, "Depth", formatted("%.1f cm", machine.depth_mm / 10), ActionKind::depth, machine.depth_mm,
+  knob("depth", left, "Depth", depth_text(theme.look(), machine.depth_mm), ActionKind::depth, machine.depth_mm,
        Machine::kLeastDepth_mm, Machine::kMostDepth_mm, 5, probe.depth_mm);
   knob("gain", right, "Gain", formatted("%+.0f dB", machine.gain_db), ActionKind::gain, machine.gain_db,
        -Machine::kMostGain_db, Machine::kMostGain_db, 1, 0);

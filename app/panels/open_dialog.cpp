@@ -22,8 +22,12 @@ const char* title_of(Wanted wanted) {
       return "Open a recorded scan";
     case Wanted::calibration:
       return "Use a calibration";
-    case Wanted::folder:
-      return "List a folder of cases";
+    case Wanted::output:
+      return "The folder for reports, pictures and recordings";
+    case Wanted::cases:
+      return "The folder of your own patients";
+    case Wanted::results:
+      return "The database of results";
   }
   return "Open";
 }
@@ -40,8 +44,12 @@ const char* what_is_shown(Wanted wanted) {
       return "Recorded scans (.igs.mha, .seq.mha, .seq.nrrd).";
     case Wanted::calibration:
       return "Calibration files (.toml).";
-    case Wanted::folder:
+    case Wanted::cases:
       return "Go to the folder whose case folders are to be listed.";
+    case Wanted::output:
+      return "Go to the folder, or type one that is to be made.";
+    case Wanted::results:
+      return "Choose a database (.db), or type the name of a new one.";
   }
   return "";
 }
@@ -136,7 +144,7 @@ OpenDialog::Answer OpenDialog::draw(const Theme& theme, const Rect& screen, std:
   const bool asked = button(theme, "open_path", places["open_path"], "Open", ButtonKind::primary, any) || confirmed_;
   if (asked && any) {
     // A folder is gone into, unless it is itself what is looked for.
-    const bool here = wanted_ == Wanted::folder && path() == list_.folder;
+    const bool here = is_folder(wanted_) && path() == list_.folder;
     if (!here && is_plain_folder(path()))
       go_to(path());
     else

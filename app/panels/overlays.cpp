@@ -86,53 +86,6 @@ bool draw_problem(const Theme& theme, const Rect& screen, const std::string& pro
   return closed;
 }
 
-HelpAnswer draw_key_help(const Theme& theme, const Rect& screen, std::map<std::string, Rect>& places) {
-  static constexpr std::array<std::array<const char*, 2>, 25> kKeys{{
-      {"Up, Down", "slide the probe towards the head, the feet"},
-      {"Left, Right", "slide it to the patient's right, left, as seen from the front"},
-      {"Page Down, Page Up", "press it into the skin, lift it"},
-      {"E, Q", "rotate it clockwise, counter-clockwise, seen from its handle"},
-      {"W, S", "rock the beam away from the marker, towards the marker"},
-      {"A, D", "tilt the beam to head or feet, if the marker is on the right"},
-      {"Shift", "with any of these: slowly"},
-      {"Drag on the ultrasound", "slide; with Shift rock and tilt; the wheel rotates"},
-      {"Drag the probe", "put it elsewhere on the patient"},
-      {"Drag the patient", "turn; right button shifts, the wheel zooms"},
-      {"Tab", "take the probe, give it back to the tracker"},
-      {"Space", "freeze the picture"},
-      {"Click the frozen picture", "measure from end to end; drag an end to move it"},
-      {"C", "calipers or ellipse, where both may be used"},
-      {"Backspace, Delete", "take back the last thing placed; all of it"},
-      {"1 to 9", "choose an answer, a name, or which caliper comes next"},
-      {"Enter", "answer; go on to the next step of an exam"},
-      {"Escape", "give up what is being placed; else to the start page"},
-      {"+, \u2212 and [, ]", "gain; depth"},
-      {"G", "the guide: the way to the view; its use is in the report"},
-      {"M", "mark this moment, in the recording too"},
-      {"R", "record the run; end the recording"},
-      {"Ctrl O", "open a case, CT, scenario or recorded scan"},
-      {"F2", "choose a tracker, or set up the one in use"},
-      {"F1", "this page"},
-  }};
-  const float row = theme.px(25);
-  Rect sheet = begin_overlay(theme, screen, {theme.px(700), row * float(kKeys.size()) + theme.px(146)});
-  draw_text(sheet.take_top(theme.px(28)), theme.heading, colour::kText, "Help: keys and mouse");
-  sheet.take_top(theme.px(12));
-  for (const auto& [key, meaning] : kKeys) {
-    Rect line = sheet.take_top(row);
-    draw_text(line.take_left(theme.px(220)), theme.strong, colour::kText, key);
-    draw_text(line, theme.text, colour::kMuted, meaning);
-  }
-  Rect buttons = sheet.take_bottom(theme.px(38));
-  HelpAnswer answer = HelpAnswer::none;
-  if (button(theme, "close_help", buttons.take_right(theme.px(120)), "Close", ButtonKind::primary))
-    answer = HelpAnswer::close;
-  places["about"] = buttons.take_left(theme.px(150));
-  if (button(theme, "about", places["about"], "About Insonate")) answer = HelpAnswer::about;
-  end_overlay();
-  return answer;
-}
-
 bool draw_about(const Theme& theme, const Rect& screen, const std::string& device) {
   std::vector<AboutLine> lines = about_this_build();
   lines.push_back({"OpenGL", device});

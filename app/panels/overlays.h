@@ -25,11 +25,6 @@ bool draw_loading(const Theme& theme, const Rect& screen, const Loading::Progres
 /// @param ends  the trainer ends after it
 bool draw_problem(const Theme& theme, const Rect& screen, const std::string& problem, bool ends);
 
-enum class HelpAnswer { none, close, about };
-/// Draws what keys and mouse do, with a button to the About page.
-/// @param places  receives the button's rectangle
-HelpAnswer draw_key_help(const Theme& theme, const Rect& screen, std::map<std::string, Rect>& places);
-
 /// Draws version, commit, licence and device. Returns true when it is closed.
 /// @param device  OpenGL's name of the device
 bool draw_about(const Theme& theme, const Rect& screen, const std::string& device);

@@ -13,6 +13,7 @@
 #include "app/panels/exam_panel.h"
 #include "app/panels/guide_layer.h"
 #include "app/panels/replay/replay_page.h"
+#include "app/panels/settings_page.h"
 #include "app/panels/ultrasound_panel.h"
 #include "sim/core/files.h"
 #include "sim/gl/headless_context.h"
@@ -26,6 +27,20 @@ void open_on_desktop(const std::filesystem::path& file) {
   for (const char c : std::filesystem::absolute(file).string()) quoted += c == '\'' ? "'\\''" : std::string(1, c);
   const std::string command = "xdg-open " + quoted + "' >/dev/null 2>&1 &";
   if (std::system(command.c_str()) != 0) std::fprintf(stderr, "insonate: the desktop does not open files\n");
+}
+
+/// Returns the preference that a dialog asks for; nullptr if it asks for something to open.
+std::filesystem::path* setting_of(Preferences& preferences, Wanted wanted) {
+  switch (wanted) {
+    case Wanted::output:
+      return &preferences.out;
+    case Wanted::cases:
+      return &preferences.cases;
+    case Wanted::results:
+      return &preferences.results;
+    default:
+      return nullptr;
+  }
 }
 
 /// Whether an overlay keeps the learner from the scan behind it. The set-up has no session behind it, the briefing one
@@ -51,6 +66,8 @@ const char* to_string(Overlay overlay) {
       return "help";
     case Overlay::about:
       return "about";
+    case Overlay::settings:
+      return "settings";
     case Overlay::open:
       return "open";
     case Overlay::leave:
@@ -130,7 +147,7 @@ void Screen::lay_out(const Trainer& trainer, float width, float height) {
 }
 
 PictureSizes Screen::picture_sizes(const Trainer& trainer, float width, float height) {
-  if (theme_.fit(width, height)) fonts_are_new_ = true;
+  if (theme_.fit(width, height, trainer.preferences().look)) fonts_are_new_ = true;
   lay_out(trainer, width, height);
   const Rect ultrasound = UltrasoundPanel::picture_area(theme_, ultrasound_);
   return {int(ultrasound.w), int(ultrasound.h), int(volume_.w), int(volume_.h), int(slice_.w), int(slice_.h)};
@@ -138,15 +155,15 @@ PictureSizes Screen::picture_sizes(const Trainer& trainer, float width, float he
 
 bool Screen::render(Trainer& trainer, FrameTimes* times) {
   const ImVec2 size = ImGui::GetIO().DisplaySize;
-  if (theme_.fit(size.x, size.y) || std::exchange(fonts_are_new_, false) || !ImGui::GetIO().Fonts->TexID)
+  if (theme_.fit(size.x, size.y, trainer.preferences().look) || std::exchange(fonts_are_new_, false) || !ImGui::GetIO().Fonts->TexID)
     canvas_.make_fonts();
   ImGui::NewFrame();
   lay_out(trainer, size.x, size.y);
   draw_panels(trainer);
   draw_overlay(trainer);
-  for (const std::string& notice : trainer.take_notices()) tell(notice);
+  for (const Notice& notice : trainer.take_notices()) toast_.show(notice.text, notice.file);
   if (trainer.time_runs_on()) draw_time_runs_on(*trainer.session());
-  toast_.draw(theme_, toast_place());
+  draw_toast(trainer);
   trainer.cover(covers(overlay(trainer)));
   ImGui::Render();
   if (times) times->end(FramePart::layout);
@@ -155,7 +172,33 @@ bool Screen::render(Trainer& trainer, FrameTimes* times) {
     return std::max(trainer.pictures().version_of(name), recorded_panel_.version_of(name));
   });
   if (times) times->end(FramePart::window);
+  capture(trainer, changed);
   return changed;
+}
+
+/// Saves the ultrasound as it is on the screen, if the person has asked for it and nothing covers it.
+void Screen::capture(Trainer& trainer, bool changed) {
+  const bool clip = trainer.clip().running();
+  if (!(saves_picture_ || (clip && changed)) || ultrasound_.w <= 0 || overlay(trainer) != Overlay::none) return;
+  if (toast_.left_s() > 0) {
+    if (saves_picture_) toast_.hide();  // which uncovers the picture in the next frame
+    return;
+  }
+  const Image<Rgba8> picture = canvas_.read({int(ultrasound_.x), int(ultrasound_.y),
+                                             int(ultrasound_.x + ultrasound_.w), int(ultrasound_.y + ultrasound_.h)});
+  if (clip) trainer.clip().take(picture, ImGui::GetTime());
+  if (std::exchange(saves_picture_, false)) trainer.save_picture(picture);
+}
+
+void Screen::toggle_clip(Trainer& trainer) {
+  if (!can_save(trainer)) return;
+  if (trainer.clip().running()) return trainer.clip().stop();
+  toast_.hide();
+  trainer.start_clip();
+}
+
+bool Screen::can_save(const Trainer& trainer) const {
+  return (trainer.session() || trainer.replay()) && overlay(trainer) == Overlay::none && trainer.pictures().ultrasound();
 }
 
 void Screen::draw_panels(Trainer& trainer) {
@@ -175,7 +218,7 @@ void Screen::draw_panels(Trainer& trainer) {
     else if (task_.h > 0)
       draw_task_panel(theme_, task_, *session, trainer.picture_tools(), trainer.step_controls(), text_field_, places_);
     UltrasoundPanel::draw(theme_, ultrasound_, *session, pictures, trainer.picture_tools(), places_);
-    space_.draw(theme_, volume_, session, pictures);
+    space_.draw(theme_, volume_, session, pictures, places_);
     if (const std::optional<Guiding> guiding = trainer.guide().now(*session); guiding && guide_.h > 0) {
       draw_ghost(theme_, volume_, *guiding, pictures.camera);
       draw_guide_strip(theme_, guide_, *guiding, StepControls::active(*session));
@@ -188,7 +231,7 @@ void Screen::draw_panels(Trainer& trainer) {
     const auto attempt = [&](const std::function<void()>& action) { trainer.attempt(action); };
     switch (draw_console_panel(theme_, console_, *session, attempt, places_)) {
       case ConsoleRequest::help:
-        page_ = Overlay::help;
+        show_page(Overlay::help);
         break;
       case ConsoleRequest::open:
         ask_for_path();
@@ -226,8 +269,15 @@ void Screen::draw_time_runs_on(const Session& session) {
 
 /// Above the words at the bottom of the ultrasound, or of the screen where there is none.
 Rect Screen::toast_place() const {
-  const Rect around = ultrasound_.h > 0 ? ultrasound_ : screen_;
+  const Rect around = ultrasound_.h > 0 && places_.contains("ultrasound") ? ultrasound_ : screen_;
   return {around.x, around.y, around.w, around.h - theme_.px(56)};
+}
+
+/// A page that the person reads is not covered: the toast waits.
+void Screen::draw_toast(const Trainer& trainer) {
+  if (top_page() != Overlay::none && overlay(trainer) == top_page()) return toast_.wait();
+  const std::filesystem::path file = toast_.draw(theme_, toast_place(), places_);
+  if (!file.empty()) open_on_desktop(std::filesystem::absolute(file).parent_path());
 }
 
 void Screen::draw_record_button(Trainer& trainer, const Rect& where) {
@@ -235,7 +285,7 @@ void Screen::draw_record_button(Trainer& trainer, const Rect& where) {
   const bool running = recorder.running();
   const std::string text = running ? "Recording " + clock_text(recorder.duration_s()) : "Record";
   if (!button(theme_, "record", where, text, running ? ButtonKind::recording : ButtonKind::normal,
-              trainer.session() != nullptr))
+              trainer.session() != nullptr, "Records every pose of the probe, for replay and scoring  (R)"))
     return;
   running ? trainer.stop_recording() : trainer.start_recording();
 }
@@ -257,10 +307,27 @@ void Screen::draw_status(Trainer& trainer) {
     line.take_left(theme_.px(8));
     places_["setup"] = line.take_left(theme_.px(90)).inset(0, theme_.px(6));
     if (button(theme_, "setup", places_["setup"], "Set up", ButtonKind::normal,
-               trainer.session() && !trainer.session()->strict()))
+               trainer.session() && !trainer.session()->strict(),
+               "Finds how the tracker's sensor lies on the dummy probe  (F2)"))
       trainer.begin_setup();
-    line.take_left(theme_.px(16));
+    line.take_left(theme_.px(8));
   }
+  const auto next = [&](const char* id, float width, const std::string& text, ButtonKind kind, bool enabled,
+                        const char* tip) {
+    const Rect place = places_[id] = line.take_left(theme_.px(width)).inset(0, theme_.px(6));
+    line.take_left(theme_.px(8));
+    return button(theme_, id, place, text, kind, enabled, tip);
+  };
+  const ClipRecorder& clip = trainer.clip();
+  if (next("picture", 80, "Picture", ButtonKind::normal, can_save(trainer), "Saves the ultrasound as a PNG  (P)"))
+    saves_picture_ = true;
+  if (next("clip", 96, clip.running() ? "Clip " + clock_text(clip.duration_s()) : "Clip",
+           clip.running() ? ButtonKind::recording : ButtonKind::normal, can_save(trainer),
+           "Begins and ends a film of the ultrasound, a WebM file  (L)"))
+    toggle_clip(trainer);
+  if (next("settings", 84, "Settings", ButtonKind::normal, true, "Text, marker, colours, folders  (F3)"))
+    show_page(Overlay::settings);
+  line.take_left(theme_.px(8));
   if (!trainer.shader_problem().empty()) {
     std::string problem = "Shaders kept as they were: " + trainer.shader_problem();
     std::replace(problem.begin(), problem.end(), '\n', ' ');
@@ -275,11 +342,9 @@ void Screen::draw_status(Trainer& trainer) {
       trainer.replay()
           ? "Space play    \u2190 \u2192 sample by sample    \u2191 \u2193 speed    Home End    Ctrl O open"
       : trainer.session() && trainer.session()->strict()
-          ? "F1 help    Space freeze    R record"
-          : "F1 help    Tab probe    Space freeze    R record    F2 set up";
-  draw_text(line.take_left(text_width(theme_.small_text, keys) + theme_.px(24)), theme_.small_text, colour::kMuted,
-            keys);
-  draw_text(line, theme_.small_text, colour::kFaint, device_, Align::right);
+          ? "F1 help    Space freeze    P picture    L clip"
+          : "F1 help    Tab probe    Space freeze    P picture    L clip    V view";
+  draw_text(line, theme_.small_text, colour::kMuted, keys);
 }
 
 void Screen::draw_start_page(Trainer& trainer) {
@@ -292,10 +357,13 @@ void Screen::draw_start_page(Trainer& trainer) {
       trainer.begin_chosen();
       break;
     case StartAnswer::Kind::help:
-      page_ = Overlay::help;
+      show_page(Overlay::help);
+      break;
+    case StartAnswer::Kind::settings:
+      show_page(Overlay::settings);
       break;
     case StartAnswer::Kind::about:
-      page_ = Overlay::about;
+      show_page(Overlay::about);
       break;
     case StartAnswer::Kind::browse:
       ask_for_path(answer.wanted);
@@ -330,20 +398,26 @@ void Screen::take_path(Trainer& trainer) {
   const std::filesystem::path path = open_dialog_.path();
   StartPage* const page = trainer.start_page();
   const Wanted wanted = open_dialog_.wanted();
+  if (Preferences preferences = trainer.preferences(); std::filesystem::path* set = setting_of(preferences, wanted)) {
+    *set = path;
+    return trainer.prefer(preferences);
+  }
   if (!page || wanted == Wanted::anything) return trainer.open(path);
-  trainer.attempt([&] { wanted == Wanted::folder ? page->look_for_cases_in(path) : page->add(path); });
+  trainer.attempt([&] { page->add(path); });
 }
 
 Overlay Screen::overlay(const Trainer& trainer) const {
   if (!trainer.problems().empty()) return Overlay::problem;
   if (trainer.loading()) return Overlay::loading;
+  if (top_page() != Overlay::none) return top_page();
   if (trainer.setup()) return Overlay::setup;
-  if (page_ != Overlay::none) return page_;
   if (trainer.briefing()) return Overlay::briefing;
+  return shows_sheet(trainer) ? Overlay::score : Overlay::none;
+}
+
+bool Screen::shows_sheet(const Trainer& trainer) const {
   const Session* session = trainer.session();
-  const bool sheet = session && session->result() && !trainer.demonstration();
-  if (sheet && &*session->result() != closed_sheet_of_) return Overlay::score;
-  return Overlay::none;
+  return session && session->result() && !trainer.demonstration() && &*session->result() != closed_sheet_of_;
 }
 
 void Screen::dismiss(Trainer& trainer) {
@@ -364,6 +438,7 @@ void Screen::dismiss(Trainer& trainer) {
       break;
     case Overlay::help:
     case Overlay::about:
+    case Overlay::settings:
     case Overlay::open:
     case Overlay::leave:
       close_page();
@@ -382,11 +457,12 @@ void Screen::confirm(Trainer& trainer) {
       if (start_panel_.types_text()) return start_panel_.close_fields(true);
       return trainer.begin_chosen();
     case Overlay::leave:
-      close_page();
+      pages_.clear();
       return trainer.show_start_page();
     case Overlay::problem:
     case Overlay::help:
     case Overlay::about:
+    case Overlay::settings:
       return dismiss(trainer);
     case Overlay::open:
       return open_dialog_.confirm();
@@ -405,6 +481,7 @@ void Screen::go_on(Trainer& trainer) {
     case Overlay::problem:
     case Overlay::help:
     case Overlay::about:
+    case Overlay::settings:
     case Overlay::open:
     case Overlay::leave:
       return dismiss(trainer);
@@ -438,35 +515,59 @@ void Screen::step_on(Trainer& trainer) {
   controls.go_on(*trainer.session());
 }
 
-void Screen::toggle_help() {
-  const bool shown = page_ == Overlay::help;
-  close_page();
-  if (!shown) page_ = Overlay::help;
+void Screen::toggle(Overlay page) {
+  page == top_page() ? close_page() : show_page(page);
+}
+
+/// Shows a page over the ones that are open; it is never open twice.
+void Screen::show_page(Overlay page) {
+  std::erase(pages_, page);
+  pages_.push_back(page);
 }
 
 void Screen::ask_for_path(Wanted wanted) {
   open_dialog_.open(wanted);
-  page_ = Overlay::open;
+  show_page(Overlay::open);
 }
 
 void Screen::leave(Trainer& trainer) {
   if (!trainer.can_leave()) return;
   if (trainer.loses_by_leaving()) {
-    page_ = Overlay::leave;
+    show_page(Overlay::leave);
     return;
   }
   trainer.show_start_page();
 }
 
 void Screen::close_page() {
-  page_ = Overlay::none;
+  if (!pages_.empty()) pages_.pop_back();
   open_dialog_.close();
+}
+
+/// What the help is about: the page that it lies on.
+HelpTopic Screen::help_topic(const Trainer& trainer) const {
+  if (pages_.size() > 1)
+    return pages_[pages_.size() - 2] == Overlay::settings ? HelpTopic::settings : HelpTopic::open;
+  if (trainer.start_page()) return HelpTopic::start;
+  if (trainer.setup()) return HelpTopic::setup;
+  if (trainer.replay()) return HelpTopic::replay;
+  if (trainer.author()) return HelpTopic::author;
+  if (shows_sheet(trainer)) return HelpTopic::score;
+  return trainer.session() && trainer.session()->strict() ? HelpTopic::exam : HelpTopic::scan;
+}
+
+void Screen::draw_setup(Trainer& trainer) {
+  if (draw_setup_page(theme_, screen_, *trainer.setup(), trainer.next_start(), trainer.pictures(), places_))
+    trainer.end_setup();
 }
 
 void Screen::draw_overlay(Trainer& trainer) {
   Session* session = trainer.session();
   if (session && !session->result()) closed_sheet_of_ = nullptr;
-  switch (overlay(trainer)) {
+  const Overlay shown = overlay(trainer);
+  // A page over the set-up leaves it to be seen.
+  if (trainer.setup() && shown != Overlay::setup && shown == top_page()) draw_setup(trainer);
+  switch (shown) {
     case Overlay::none:
       break;
     case Overlay::problem:
@@ -478,17 +579,26 @@ void Screen::draw_overlay(Trainer& trainer) {
         trainer.stop_loading();
       break;
     case Overlay::setup:
-      if (draw_setup_page(theme_, screen_, *trainer.setup(), trainer.next_start(), trainer.pictures(), places_))
-        trainer.end_setup();
+      draw_setup(trainer);
       break;
     case Overlay::help: {
-      const HelpAnswer answer = draw_key_help(theme_, screen_, places_);
-      if (answer != HelpAnswer::none) page_ = answer == HelpAnswer::about ? Overlay::about : Overlay::none;
+      const HelpAnswer answer = draw_help(theme_, screen_, help_topic(trainer), places_);
+      if (answer != HelpAnswer::none) close_page();
+      if (answer == HelpAnswer::about) show_page(Overlay::about);
+      if (answer == HelpAnswer::settings) show_page(Overlay::settings);
       break;
     }
     case Overlay::about:
-      if (draw_about(theme_, screen_, device_)) page_ = Overlay::none;
+      if (draw_about(theme_, screen_, device_)) close_page();
       break;
+    case Overlay::settings: {
+      const SettingsAnswer answer =
+          draw_settings(theme_, screen_, trainer.preferences(), trainer.options().out, trainer.preferences_file(), places_);
+      if (answer.wanted) trainer.prefer(*answer.wanted);
+      if (answer.browse) ask_for_path(*answer.browse);
+      if (answer.close) close_page();
+      break;
+    }
     case Overlay::open: {
       const OpenDialog::Answer answer = open_dialog_.draw(theme_, screen_, places_);
       if (answer != OpenDialog::Answer::none) close_page();

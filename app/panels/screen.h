@@ -4,8 +4,10 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "app/panels/canvas.h"
+#include "app/panels/help_page.h"
 #include "app/panels/open_dialog.h"
 #include "app/panels/overlays.h"
 #include "app/panels/replay/recorded_panel.h"
@@ -24,7 +26,7 @@
 namespace insonate::ui {
 
 /// What lies over the screen; the later ones wait while an earlier one is there.
-enum class Overlay { none, problem, loading, setup, help, about, open, leave, briefing, score };
+enum class Overlay { none, problem, loading, setup, help, about, settings, open, leave, briefing, score };
 
 /// Returns the overlay's name, as state files have it: "problem"; "" for none.
 const char* to_string(Overlay overlay);
@@ -42,6 +44,8 @@ public:
   /// size, time step and input before.
   /// @param times  receives how long it takes, unless null
   bool render(Trainer& trainer, FrameTimes* times = nullptr);
+  /// Returns the drawn frame.
+  Image<Rgba8> read() const { return canvas_.read(); }
   /// Copies the drawn frame into the framebuffer that is bound.
   void show() const { canvas_.show(); }
 
@@ -52,11 +56,17 @@ public:
     return UltrasoundPanel::plane(theme_, ultrasound_, trainer.pictures());
   }
 
+  /// Saves the ultrasound, with everything that is drawn on it, from one of the next frames.
+  void save_picture(const Trainer& trainer) { saves_picture_ = can_save(trainer); }
+  /// Begins a clip of the ultrasound, or ends it.
+  void toggle_clip(Trainer& trainer);
+
   /// Shows a sentence over the screen for some seconds.
   void tell(std::string text) { toast_.show(std::move(text)); }
   const Toast& toast() const { return toast_; }
 
-  void toggle_help();
+  /// Opens a page that a person can ask for, such as the help, or closes it if it is the topmost.
+  void toggle(Overlay page);
   /// Opens the dialog that finds a file or folder.
   void ask_for_path(Wanted wanted = Wanted::anything);
   /// Goes back to the start page. Asks first if steps would be left unfinished.
@@ -103,8 +113,16 @@ private:
   void draw_demonstration(Trainer& trainer);
   void take_path(Trainer& trainer);
   Rect toast_place() const;
+  void draw_toast(const Trainer& trainer);
   void draw_time_runs_on(const Session& session);
+  Overlay top_page() const { return pages_.empty() ? Overlay::none : pages_.back(); }
+  void show_page(Overlay page);
   void close_page();
+  HelpTopic help_topic(const Trainer& trainer) const;
+  bool shows_sheet(const Trainer& trainer) const;
+  void draw_setup(Trainer& trainer);
+  bool can_save(const Trainer& trainer) const;
+  void capture(Trainer& trainer, bool changed);
   void answer_score(Trainer& trainer, ScoreAnswer answer);
 
   struct ImGuiOwner {
@@ -120,8 +138,8 @@ private:
   TextField text_field_;
   StartPanel start_panel_;
   Toast toast_;
-  Overlay page_ = Overlay::none;  ///< what the person asked for: help, about, open or leave
-  bool fonts_are_new_ = false;
+  std::vector<Overlay> pages_;  ///< what the person asked for, the topmost last: help, about, settings, open or leave
+  bool fonts_are_new_ = false, saves_picture_ = false;
   const ExamResult* closed_sheet_of_ = nullptr;
   double pictures_per_second_ = 0;
   Rect screen_, top_, strip_, task_, guide_, ultrasound_, recorded_, volume_, slice_, blend_, console_, status_;

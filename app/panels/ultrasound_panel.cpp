@@ -26,6 +26,7 @@ ImVec2 at(const PlaneOnScreen& plane, const glm::dvec2& plane_mm) {
 // Draws a tick per centimetre; every fifth is longer and numbered, or every one if there is room.
 void draw_depth_scale(const Theme& theme, const Rect& panel, const PlaneOnScreen& plane, double depth_mm) {
   ImDrawList* list = ImGui::GetWindowDrawList();
+  const bool in_mm = theme.look().length_unit == LengthUnit::mm;
   const float right = panel.x + panel.w - theme.px(14);
   const int numbered_cm = plane.pixels_per_mm() * 10 > theme.px(34) ? 1 : 5;
   for (int cm = 0; 10 * cm <= depth_mm + 0.5; ++cm) {
@@ -34,10 +35,10 @@ void draw_depth_scale(const Theme& theme, const Rect& panel, const PlaneOnScreen
     list->AddLine({right - theme.px(major ? 12 : 6), y}, {right, y}, major ? colour::kText : colour::kMuted, 1);
     if (cm % numbered_cm == 0 && cm > 0)
       draw_text({right - theme.px(52), y - theme.px(10), theme.px(34), theme.px(20)}, theme.small_text, colour::kMuted,
-                std::to_string(cm), Align::right);
+                std::to_string(in_mm ? 10 * cm : cm), Align::right);
   }
   draw_text({right - theme.px(52), at(plane, {0, 0}).y - theme.px(10), theme.px(34), theme.px(20)}, theme.small_text,
-            colour::kFaint, "cm", Align::right);
+            colour::kFaint, in_mm ? "mm" : "cm", Align::right);
 }
 
 void draw_grey_scale(const Theme& theme, const Rect& panel, double dynamic_range_db) {
@@ -54,7 +55,8 @@ void draw_grey_scale(const Theme& theme, const Rect& panel, double dynamic_range
 // Draws the dot beside the face's edge that is on the marker's side.
 void draw_marker(const Theme& theme, const PlaneOnScreen& plane, const Probe& probe) {
   const ImVec2 edge = at(plane, face_edge(probe));
-  const ImVec2 dot{edge.x - theme.px(20), edge.y + theme.px(4)};
+  const float aside = theme.px(theme.look().marker == MarkerSide::left ? -20 : 20);
+  const ImVec2 dot{edge.x + aside, edge.y + theme.px(4)};
   ImDrawList* list = ImGui::GetWindowDrawList();
   list->AddCircleFilled(dot, theme.px(6), colour::kAccent, 24);
   list->AddCircle(dot, theme.px(9), colour::kAccent, 24, 1.2f);
@@ -84,7 +86,7 @@ Rect draw_annotations(const Theme& theme, const Rect& panel, const std::string& 
   line.h = theme.px(19);
   for (const std::string& text :
        {machine.transducer().title + formatted(", %.1f MHz", machine.frequency_mhz),
-        formatted("Depth %.1f cm", machine.depth_mm / 10), formatted("Gain %+.0f dB", machine.gain_db),
+        "Depth " + depth_text(theme.look(), machine.depth_mm), formatted("Gain %+.0f dB", machine.gain_db),
         formatted("Range %.0f dB", machine.dynamic_range_db)}) {
     draw_text(line, theme.small_text, colour::kMuted, text);
     line.y += line.h;
@@ -160,8 +162,10 @@ PlaneOnScreen draw_picture(const Theme& theme, const Rect& panel, const gl::Text
                            const Machine& machine) {
   const Rect area = UltrasoundPanel::picture_area(theme, panel);
   const PlaneOnScreen plane = UltrasoundPanel::plane(theme, panel, pictures);
+  const bool mirrored = theme.look().marker == MarkerSide::left;
   ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(std::uintptr_t(picture.name())), area.min(),
-                                       area.max(), {1, 0}, {0, 1});
+                                       area.max(), {mirrored ? 1.0f : 0.0f, 0}, {mirrored ? 0.0f : 1.0f, 1},
+                                       colour::of(theme.look().tint));
   smooth_edge(plane, machine.transducer(), machine.depth_mm);
   draw_depth_scale(theme, panel, plane, machine.depth_mm);
   draw_grey_scale(theme, panel, machine.dynamic_range_db);
@@ -181,10 +185,12 @@ void take_mouse(const Theme& theme, const Rect& area, Session& session, const Pl
   }
   if (!ImGui::IsItemActive() || (io.MouseDelta.x == 0 && io.MouseDelta.y == 0)) return;
   constexpr double kDegPerPixel = 0.15;
-  // The tissue follows the pointer, so the probe moves the other way. The picture is mirrored, so that is +x here.
-  const glm::dvec2 mm = glm::dvec2(io.MouseDelta.x, io.MouseDelta.y) / plane.pixels_per_mm();
+  // The tissue follows the pointer, so the probe moves the other way: with the marker on the left that is +x.
+  const double to_marker = theme.look().marker == MarkerSide::left ? 1 : -1;
+  const glm::dvec2 mm = glm::dvec2(to_marker * io.MouseDelta.x, io.MouseDelta.y) / plane.pixels_per_mm();
   session.move_probe([&](const ProbeHand& hand, const Pose& pose) -> std::optional<Pose> {
-    if (io.KeyShift) return ProbeHand::turn(pose, kDegPerPixel * io.MouseDelta.y, 0, kDegPerPixel * io.MouseDelta.x);
+    if (io.KeyShift)
+      return ProbeHand::turn(pose, kDegPerPixel * io.MouseDelta.y, 0, to_marker * kDegPerPixel * io.MouseDelta.x);
     return hand.slide(pose, mm);
   });
 }
@@ -197,7 +203,7 @@ Rect UltrasoundPanel::picture_area(const Theme& theme, const Rect& panel) {
 
 PlaneOnScreen UltrasoundPanel::plane(const Theme& theme, const Rect& panel, const Pictures& pictures) {
   const Rect area = picture_area(theme, panel);
-  return {{area.x, area.y}, {area.w, area.h}, pictures.geometry()};
+  return {{area.x, area.y}, {area.w, area.h}, pictures.geometry(), theme.look().marker == MarkerSide::right};
 }
 
 void UltrasoundPanel::draw(const Theme& theme, const Rect& panel, Session& session, const Pictures& pictures,

@@ -22,17 +22,17 @@ ImTextureID id_of(const gl::Texture& texture) {
   return reinterpret_cast<ImTextureID>(std::uintptr_t(texture.name()));
 }
 
-// Draws a picture in the middle of the panel, mirrored like the ultrasound. Crops its sides, which the fan does not
-// reach, as far as that makes the rest larger.
-void draw_mirrored(const Rect& panel, const gl::Texture* picture, double fan_share) {
+// Draws a picture in the middle of the panel, with the marker on the same side as in the ultrasound. Crops its sides,
+// which the fan does not reach, as far as that makes the rest larger.
+void draw_like_ultrasound(const Theme& theme, const Rect& panel, const gl::Texture* picture, double fan_share) {
   if (!picture) return;
   const float width = float(picture->width()), height = float(picture->height());
   const float scale = std::min(panel.h / height, panel.w / (width * float(fan_share)));
   const float shown = std::min(1.0f, panel.w / (width * scale));
   const float w = shown * width * scale, h = height * scale;
   const Rect area{panel.x + (panel.w - w) / 2, panel.y + (panel.h - h) / 2, w, h};
-  ImGui::GetWindowDrawList()->AddImage(id_of(*picture), area.min(), area.max(), {(1 + shown) / 2, 0},
-                                       {(1 - shown) / 2, 1});
+  const float left = theme.look().marker == MarkerSide::left ? (1 + shown) / 2 : (1 - shown) / 2;
+  ImGui::GetWindowDrawList()->AddImage(id_of(*picture), area.min(), area.max(), {left, 0}, {1 - left, 1});
 }
 
 // Shows how the patient lies: the axes that point towards the viewer, with their anatomical letters.
@@ -55,6 +55,35 @@ void draw_orientation(const Theme& theme, const Rect& panel, const view::OrbitCa
     list->AddLine(centre, tip, colour::kFaint, 1);
     draw_text({tip.x - theme.px(10), tip.y - theme.px(9), theme.px(20), theme.px(18)}, theme.small_text, colour::kText,
               axis.name, Align::centre);
+  }
+}
+
+struct ViewButton {
+  const char* id;
+  const char* letter;
+  const char* tip;
+  std::optional<view::Side> side;  ///< empty: back to the plane
+};
+constexpr std::array<ViewButton, 7> kViewButtons{{
+    {"view_front", "A", "Seen from the front (anterior)", view::Side::front},
+    {"view_back", "P", "Seen from behind (posterior)", view::Side::back},
+    {"view_right", "R", "Seen from the patient's right", view::Side::right},
+    {"view_left", "L", "Seen from the patient's left", view::Side::left},
+    {"view_head", "H", "Seen from the head", view::Side::head},
+    {"view_feet", "F", "Seen from the feet, as axial CT slices are", view::Side::feet},
+    {"view_reset", "\u21ba", "Turned to the plane of the ultrasound again  (Home)", {}},
+}};
+
+// Draws a button per side of the patient along the panel's lower edge.
+void draw_view_buttons(const Theme& theme, const Rect& panel, Pictures& pictures,
+                       std::map<std::string, Rect>& places) {
+  const float size = theme.px(26), between = theme.px(3);
+  Rect row{panel.x + theme.px(6), panel.y + panel.h - size - theme.px(6), panel.w, size};
+  for (const ViewButton& each : kViewButtons) {
+    const Rect place = places[each.id] = row.take_left(size);
+    row.take_left(between);
+    if (button(theme, each.id, place, each.letter, ButtonKind::normal, true, each.tip))
+      each.side ? pictures.look_from(*each.side) : pictures.reset_camera();
   }
 }
 
@@ -83,10 +112,12 @@ bool on_probe(const Theme& theme, const view::OrbitCamera& camera, const Rect& p
 
 }  // namespace
 
-void SpacePanel::draw(const Theme& theme, const Rect& panel, Session* session, Pictures& pictures) {
+void SpacePanel::draw(const Theme& theme, const Rect& panel, Session* session, Pictures& pictures,
+                      std::map<std::string, Rect>& places) {
   fill(panel, colour::kImage, theme.px(4));
   if (const gl::Texture* picture = pictures.volume())
     ImGui::GetWindowDrawList()->AddImage(id_of(*picture), panel.min(), panel.max());
+  draw_view_buttons(theme, panel, pictures, places);  // before the picture's own item, which lies below
   ImGui::SetCursorScreenPos(panel.min());
   ImGui::InvisibleButton("space", {panel.w, panel.h},
                          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
@@ -115,13 +146,13 @@ void SpacePanel::draw(const Theme& theme, const Rect& panel, Session* session, P
 
 void draw_slice_panel(const Theme& theme, const Rect& panel, const Pictures& pictures) {
   fill(panel, colour::kImage, theme.px(4));
-  draw_mirrored(panel, pictures.slice(), pictures.fan_share());
+  draw_like_ultrasound(theme, panel, pictures.slice(), pictures.fan_share());
   draw_title(theme, panel, "CT in this plane");
 }
 
 void draw_blend_panel(const Theme& theme, const Rect& panel, Pictures& pictures) {
   fill(panel, colour::kImage, theme.px(4));
-  draw_mirrored(panel, pictures.blend(), pictures.fan_share());
+  draw_like_ultrasound(theme, panel, pictures.blend(), pictures.fan_share());
   draw_title(theme, panel, "CT and ultrasound");
   Rect track{panel.x + theme.px(10), panel.y + panel.h - theme.px(20), panel.w - theme.px(20), theme.px(16)};
   fill({panel.x, track.y - theme.px(2), panel.w, panel.y + panel.h - track.y + theme.px(2)}, colour::kPlate);

@@ -110,6 +110,13 @@ void Pictures::update(const std::optional<Pose>& pose, const Machine& machine, c
   if (times_) times_->end(FramePart::volume);
 }
 
+void Pictures::look_from_next() {
+  constexpr std::array kSides{view::Side::front, view::Side::left,  view::Side::back,
+                              view::Side::right, view::Side::head, view::Side::feet};
+  look_from(kSides[std::size_t(next_side_)]);
+  next_side_ = (next_side_ + 1) % int(kSides.size());
+}
+
 std::optional<Image<Rgba8>> Pictures::reference_picture(const ReferenceView& view) {
   const Probe* probe = find_probe(view.probe);
   if (!ultrasound_ || !probe) return std::nullopt;

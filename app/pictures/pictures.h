@@ -45,6 +45,9 @@ public:
   /// previous one stays shown then.
   void show(const LoadedCase& loaded_case);
 
+  /// Chooses another quality of the ultrasound, from the next update() on.
+  void choose(Quality level) { level_ = level; }
+
   /// Draws the pictures whose content has changed.
   void update(const Session& session, const PictureSizes& sizes, const Effort& effort = {}) {
     update(session.shown_pose(), session.machine(), sizes, effort, session.shows_anatomy());
@@ -65,6 +68,16 @@ public:
   /// Replaces volume().
   const gl::Texture* draw_body(const view::OrbitCamera& from, int width, int height, double budget_ms);
   const Grid& grid() const { return grid_; }
+
+  /// Shows the whole patient from one side in volume().
+  void look_from(view::Side side) { camera = view::OrbitCamera::from(side, grid_); }
+  /// Does so from the side after the one of the last call: the front first.
+  void look_from_next();
+  /// Turns the camera back to the plane of the ultrasound, as for a new patient.
+  void reset_camera() {
+    camera_placed_ = false;
+    next_side_ = 0;
+  }
 
   /// Null before update() has drawn a pose. Row 0 is the top; the marker's side is on the right.
   const gl::Texture* ultrasound() const { return ultrasound_; }
@@ -100,6 +113,7 @@ private:
   std::optional<view::PatientTextures> patient_;
   Grid grid_;  ///< the patient's
   bool camera_placed_ = false;
+  int next_side_ = 0;
   const gl::Texture* ultrasound_ = nullptr;
   const gl::Texture* slice_ = nullptr;
   const gl::Texture* blend_ = nullptr;

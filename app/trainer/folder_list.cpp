@@ -87,9 +87,11 @@ std::optional<FolderEntry> entry_of(const fs::directory_entry& found, Wanted wan
     entry.is_folder = !is_case || (wanted != Wanted::anything && wanted != Wanted::patient);
     if (!entry.is_folder) entry.kind = "case";
   } else {
-    if (wanted == Wanted::folder) return std::nullopt;
-    const std::optional<Material> material = material_of(entry.path);
+    if (is_folder(wanted)) return std::nullopt;
+    const std::optional<Material> material =
+        wanted == Wanted::results ? std::nullopt : material_of(entry.path);
     if (material) entry.kind = kind_in_words(*material, wanted);
+    if (wanted == Wanted::results && entry.path.extension() == ".db") entry.kind = "results";
     if (entry.kind.empty()) return std::nullopt;
     entry.bytes = found.file_size(error);
     if (error) entry.bytes = 0;

@@ -10,8 +10,13 @@
 
 namespace insonate {
 
-/// What a person looks for in a folder.
-enum class Wanted { anything, patient, scenario, recording, calibration, folder };
+/// What a person looks for: something to open, or a folder or file for the settings.
+enum class Wanted { anything, patient, scenario, recording, calibration, cases, output, results };
+
+/// Returns whether a folder itself is looked for.
+inline bool is_folder(Wanted wanted) {
+  return wanted == Wanted::cases || wanted == Wanted::output;
+}
 
 /// One line of a folder's list.
 struct FolderEntry {

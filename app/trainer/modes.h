@@ -11,6 +11,7 @@
 #include "app/session/picture_tools.h"
 #include "app/session/session.h"
 #include "app/session/step_controls.h"
+#include "app/session/undo_history.h"
 #include "app/trainer/setup_wizard.h"
 #include "app/trainer/start_page.h"
 
@@ -31,6 +32,7 @@ struct Scan {
   std::unique_ptr<Session> session;  ///< never null
   PictureTools tools;
   StepControls controls;
+  UndoHistory undo;
   BestFrames best_frames;
   bool begun = true;    ///< false while the learner reads the briefing: no time passes
   double now_s = 0;     ///< the trainer's time at the last update

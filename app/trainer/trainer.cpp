@@ -1,5 +1,6 @@
 #include "app/trainer/trainer.h"
 
+#include <chrono>
 #include <cstdio>
 #include <exception>
 #include <utility>
@@ -25,29 +26,74 @@ std::string patient_of(const CaseSource& source) {
   return "the built-in patient";
 }
 
+/// Returns the file of a picture or clip that is saved now.
+std::filesystem::path saved_file(const std::filesystem::path& out, const char* extension) {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  const std::int64_t now_ms = std::chrono::duration_cast<std::chrono::milliseconds>(now).count();
+  return free_path(out / "pictures" / (file_time(now_ms) + extension));
+}
+
 gl::ShaderSources shaders_of(const Options& options) {
   return options.shader_folder.empty() ? gl::ShaderSources() : gl::ShaderSources(options.shader_folder);
 }
 
 }  // namespace
 
-Trainer::Trainer(Options options)
-    : options_(std::move(options)),
+Trainer::Trainer(Options options, Preferences preferences, std::filesystem::path file)
+    : options_(with_preferences(std::move(options), preferences)),
+      preferences_(std::move(preferences)),
+      preferences_file_(std::move(file)),
       given_(options_),
       shaders_changed_(gl::last_change(options_.shader_folder)),
       pictures_(shaders_of(options_), quality_named(options_.quality)),
       recorder_(options_.record_images) {
-  if (!options_.igtl_server.empty()) feed_ = std::make_unique<IgtlFeed>(parse_server_address(options_.igtl_server));
+  if (!options_.igtl_server.empty())
+    feed_ = std::make_unique<IgtlFeed>(parse_server_address(options_.igtl_server));
+  else
+    serve();
   open_results();
 }
 
+/// Serves OpenIGTLink clients as the person prefers. An address that cannot be used stops nothing else.
+void Trainer::serve() {
+  feed_.reset();
+  if (preferences_.igtl_server.empty()) return;
+  attempt([&] { feed_ = std::make_unique<IgtlFeed>(parse_server_address(preferences_.igtl_server)); });
+}
+
+void Trainer::prefer(const Preferences& preferences) {
+  const Preferences before = std::exchange(preferences_, preferences);
+  if (before == preferences_) return;
+  if (preferences_.quality != before.quality) {
+    options_.quality = given_.quality = preferences_.quality;
+    pictures_.choose(quality_named(preferences_.quality));
+  }
+  if (preferences_.igtl_server != before.igtl_server) serve();
+  if (preferences_.out != before.out) {
+    const std::filesystem::path out = preferences_.out.empty() ? Options().out : preferences_.out;
+    if (start_page()) given_ = start_page()->options();
+    options_.out = given_.out = out;
+  }
+  if (preferences_.results != before.results && !in_exam()) open_results();  // an exam stays where it has begun
+  if (start_page() && (preferences_.out != before.out || preferences_.results != before.results))
+    make_start_page();
+  else if (start_page() && preferences_.cases != before.cases && !preferences_.cases.empty())
+    start_page()->look_for_cases_in(preferences_.cases);
+  if (!preferences_file_.empty()) attempt([&] { write_preferences(preferences_file_, preferences_); });
+}
+
+/// Opens the database that the command line or the person names, unless it is open.
 void Trainer::open_results() {
   if (options_.replay.any()) return;  // a replay stores nothing
-  if (!options_.results.empty()) {
-    results_ = ResultsDatabase::open_or_make(options_.results);
-  } else if (!options_.headless) {
-    attempt([&] { results_ = ResultsDatabase::open_or_make(own_results()); });
-  }
+  const auto open = [&](const std::filesystem::path& file) {
+    if (results_ && results_->file() == file) return;
+    results_.reset();
+    results_ = ResultsDatabase::open_or_make(file);
+  };
+  if (!options_.results.empty())
+    open(options_.results);
+  else if (!options_.headless)
+    attempt([&] { open(preferences_.results.empty() ? own_results() : preferences_.results); });
 }
 
 void Trainer::open_from_options() {
@@ -184,7 +230,7 @@ void Trainer::begin(std::shared_ptr<const LoadedCase> loaded_case, const Request
     throw InputError(uri, "", "a recorded scan is nobody's exam", "name the tracker that the learner holds");
   record_raw(*session, request);
   show(std::move(loaded_case), request);
-  Scan scan{std::move(session), {}, {}, {}};
+  Scan scan{std::move(session), {}, {}, {}, {}};
   if (request.free_practice) scan.session->practise();
   scan.begun = options_.headless || !scan.session->runner() || std::as_const(*scan.session).source().recording();
   const bool authoring = options_.mode == Mode::author && request.source.case_folder == options_.case_folder;
@@ -252,6 +298,7 @@ void Trainer::update(Mode& mode, double now_s) {
   session.advance(now_s - mode.behind_s);
   mode.tools.see(session);
   mode.controls.see(session);
+  mode.undo.watch(session);
   if constexpr (std::is_same_v<Mode, Authoring>) mode.author.see(session);
   recorder_.take(session);
   attempt([&] { recorder_.check(); });
@@ -275,12 +322,12 @@ void Trainer::draw(const PictureSizes& sizes, const Effort& effort) {
     glFinish();
     latency_.add(*session(), steady_now_s());
   }
-  if (feed_) feed_->publish(*session());
+  if (feed_ && !session()->strict()) feed_->publish(*session());
   show_pictures();
 }
 
 void Trainer::show_pictures() {
-  const bool clients = feed_ && feed_->wants_pictures(), recording = recorder_.wants_pictures();
+  const bool clients = feed_ && !session()->strict() && feed_->wants_pictures(), recording = recorder_.wants_pictures();
   if ((clients && !clients_) || (recording && !records_pictures_)) reader_.ask_again();
   clients_ = clients;
   records_pictures_ = recording;
@@ -303,14 +350,33 @@ void Trainer::finish_recording() {
   recorder_.stop();
   recorder_.wait();
   attempt([&] { recorder_.check(); });
+  clip_.stop();
+  clip_.wait();
+  attempt([&] { clip_.take_finished(); });
+}
+
+void Trainer::save_picture(const Image<Rgba8>& picture) {
+  attempt([&] {
+    const std::filesystem::path file = saved_file(options_.out, ".png");
+    write_png(file, picture);
+    notices_.push_back({"Saved " + std::filesystem::absolute(file).string(), file});
+  });
+}
+
+void Trainer::start_clip() {
+  attempt([&] { clip_.start(saved_file(options_.out, ".webm")); });
 }
 
 void Trainer::notice_recordings() {
+  attempt([&] {
+    if (const auto clip = clip_.take_finished())
+      notices_.push_back({"Saved " + std::filesystem::absolute(*clip).string(), *clip});
+  });
   const std::vector<std::filesystem::path> files = recorder_.take_finished();
   if (files.empty()) return;
   std::string notice = "Recorded to " + std::filesystem::absolute(files.front()).string();
   if (files.size() > 1) notice += " and, from each new start on, to " + files.back().filename().string();
-  notices_.push_back(notice);
+  notices_.push_back({notice, files.front()});
 }
 
 void Trainer::write_results_if_due() {

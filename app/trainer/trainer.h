@@ -12,6 +12,7 @@
 #include "app/pictures/picture_latency.h"
 #include "app/pictures/picture_reader.h"
 #include "app/pictures/pictures.h"
+#include "app/recording/clip_recorder.h"
 #include "app/recording/results.h"
 #include "app/recording/run_recorder.h"
 #include "app/replay/replay_source.h"
@@ -20,19 +21,33 @@
 #include "app/session/loading.h"
 #include "app/trainer/modes.h"
 #include "app/trainer/options.h"
+#include "app/trainer/preferences.h"
 #include "devices/record/raw_recorder.h"
 #include "scenarios/results/report_files.h"
 #include "scenarios/results/results_database.h"
 
 namespace insonate {
 
+/// What has gone well and is worth a sentence.
+struct Notice {
+  std::string text;
+  std::filesystem::path file;  ///< that it is about
+};
+
 /// The trainer without its screen: loads what is asked for on a thread of its own, runs the session, draws its
 /// pictures, writes the results, and collects what went wrong for a dialog. Needs an OpenGL context current, from
 /// construction to destruction, on the one thread that uses it.
 class Trainer {
 public:
-  /// Throws InputError if the address for OpenIGTLink clients or the database of results cannot be used.
-  explicit Trainer(Options options);
+  /// Throws InputError if the address for OpenIGTLink clients or the database of results cannot be used that the
+  /// command line names.
+  /// @param file  where preferences are stored; empty: nowhere
+  explicit Trainer(Options options, Preferences preferences = {}, std::filesystem::path file = {});
+
+  const Preferences& preferences() const { return preferences_; }
+  const std::filesystem::path& preferences_file() const { return preferences_file_; }
+  /// Takes other preferences at once, and stores them. What cannot be used becomes a problem to acknowledge.
+  void prefer(const Preferences& preferences);
 
   /// Begins to load what the command line names, or shows the start page if it names nothing. Returns at once.
   void open_from_options();
@@ -105,6 +120,12 @@ public:
   /// Ends the recording and waits for its files.
   void finish_recording();
   const RunRecorder& recorder() const { return recorder_; }
+  /// Writes what a person has seen as a PNG, under the time in UTC, to the folder "pictures" of the results.
+  void save_picture(const Image<Rgba8>& picture);
+  /// Begins a clip of what a person sees, beside the saved pictures; the caller gives its pictures to clip().
+  void start_clip();
+  ClipRecorder& clip() { return clip_; }
+  const ClipRecorder& clip() const { return clip_; }
   /// Returns the last file with the tracker's bytes; empty if they are not recorded.
   std::filesystem::path raw_file() const { return raw_ ? raw_->file() : std::filesystem::path(); }
 
@@ -162,6 +183,7 @@ public:
   PictureTools& picture_tools() { return scan()->tools; }
   const PictureTools& picture_tools() const { return scan()->tools; }
   StepControls& step_controls() { return scan()->controls; }
+  UndoHistory& undo_history() { return scan()->undo; }
   const StepControls& step_controls() const { return scan()->controls; }
   Pictures& pictures() { return pictures_; }
   const Pictures& pictures() const { return pictures_; }
@@ -176,8 +198,8 @@ public:
   /// Returns the errors that nobody has acknowledged yet, as sentences, the oldest first.
   std::deque<std::string>& problems() { return problems_; }
   const std::deque<std::string>& problems() const { return problems_; }
-  /// Returns what has gone well since the last call and is worth a sentence, such as the file of a recording.
-  std::vector<std::string> take_notices() { return std::exchange(notices_, {}); }
+  /// Returns what has gone well since the last call, such as the file of a recording.
+  std::vector<Notice> take_notices() { return std::exchange(notices_, {}); }
   /// Returns sentences on why the tracker's calibration may be wrong; empty if nothing speaks against it.
   const std::string& calibration_warning() const { return calibration_warning_; }
   /// Returns the compiler's message if the edited shaders do not build, at loading or later for new settings; empty
@@ -236,11 +258,15 @@ private:
   void reload_shaders();
   void tell_of_shaders(const std::string& problem);
   void open_results();
+  void make_start_page();
+  void serve();
   void notice_recordings();
   void keep_and_report();
   void show_pictures();
 
   Options options_;
+  Preferences preferences_;
+  std::filesystem::path preferences_file_;
   Options given_;  ///< the command line's; on the start page and behind it options_ are the chosen ones
   std::optional<std::filesystem::file_time_type> shaders_changed_;
   double shaders_looked_at_s_ = 0;
@@ -261,6 +287,7 @@ private:
   PictureLatency latency_;
   PictureReader reader_;
   RunRecorder recorder_;
+  ClipRecorder clip_;
   bool recorded_ = false;                            ///< to the command line's file
   std::shared_ptr<const RawRecorder> raw_;           ///< of the newest session; nullptr when nobody asked for it
   bool clients_ = false, records_pictures_ = false;  ///< who wanted pictures at the last frame
@@ -270,7 +297,7 @@ private:
   bool results_due_ = false;
   std::optional<ResultsDatabase> results_;
   std::deque<std::string> problems_;
-  std::vector<std::string> notices_;
+  std::vector<Notice> notices_;
 };
 
 }  // namespace insonate

@@ -28,17 +28,24 @@ void Trainer::show_start_page() {
   loaded_replay_.reset();
   if (loaded_case_ && is_bundled_patient(current_.source)) built_in_ = loaded_case_;
   options_ = given_;
-  if (!results_) open_results();
   mode_ = Idle();  // which lets go of the tracker
-  mode_ = Choosing{std::make_unique<StartPage>(given_, results_ ? &*results_ : nullptr)};
-  given_ = start_page()->options();
-  options_ = given_;
+  make_start_page();
   raw_.reset();
   reader_.forget();
   result_files_.reset();
   calibration_warning_.clear();
   setup_left_ = false;
   prepare_built_in();
+}
+
+void Trainer::make_start_page() {
+  const Task task = start_page() ? start_page()->task : Task::first_scan;
+  open_results();
+  mode_ = Choosing{std::make_unique<StartPage>(given_, results_ ? &*results_ : nullptr)};
+  start_page()->task = task;
+  if (!preferences_.cases.empty()) start_page()->look_for_cases_in(preferences_.cases);
+  given_ = start_page()->options();
+  options_ = given_;
 }
 
 void Trainer::prepare_built_in() {

@@ -1,5 +1,6 @@
 #include "scenarios/results/attempt.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <ctime>
@@ -33,6 +34,12 @@ std::string utc_time(std::int64_t since_1970_ms) {
   std::strftime(date, sizeof date, "%Y-%m-%dT%H:%M:%S", &parts);
   std::snprintf(text, sizeof text, "%s.%03dZ", date, int(since_1970_ms % 1000));
   return text;
+}
+
+std::string file_time(std::int64_t since_1970_ms) {
+  std::string time = utc_time(since_1970_ms).substr(0, 19) + "Z";
+  std::replace(time.begin(), time.end(), ':', '-');
+  return time;
 }
 
 }  // namespace insonate

@@ -35,5 +35,7 @@ std::int64_t now_since_1970_ms();
 
 /// Returns Attempt::finished_ms as text, such as "2026-11-21T18:05:09.250Z".
 std::string utc_time(std::int64_t since_1970_ms);
+/// Returns the time in UTC to the second, in characters that every file system takes: "2026-11-24T21-57-03Z".
+std::string file_time(std::int64_t since_1970_ms);
 
 }  // namespace insonate

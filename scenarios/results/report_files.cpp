@@ -13,14 +13,8 @@
 namespace insonate {
 
 std::filesystem::path attempt_folder(const std::filesystem::path& folder, const Attempt& attempt) {
-  std::string name = utc_time(attempt.finished_ms).substr(0, 19) + "Z_";
-  std::replace(name.begin(), name.end(), ':', '-');  // which not every file system takes
-  name += std::filesystem::path(attempt.scenario_file).stem().string();
-  const std::filesystem::path first = folder / "attempts" / name;
-  std::filesystem::path free = first;
-  std::error_code error;  // writing there reports what is wrong
-  for (int i = 2; std::filesystem::exists(free, error); ++i) free = first.string() + "-" + std::to_string(i);
-  return free;
+  const std::filesystem::path scenario = std::filesystem::path(attempt.scenario_file).stem();
+  return free_path(folder / "attempts" / (file_time(attempt.finished_ms) + "_" + scenario.string()));
 }
 
 ResultFiles write_report_files(const std::filesystem::path& folder, const Attempt& attempt,

@@ -115,6 +115,15 @@ void write_file(const fs::path& file, std::string_view bytes) {
   });
 }
 
+fs::path free_path(const fs::path& path) {
+  const fs::path stem = path.parent_path() / path.stem();
+  fs::path free = path;
+  std::error_code error;  // writing there reports what is wrong
+  for (int i = 2; fs::exists(free, error); ++i)
+    free = stem.string() + "-" + std::to_string(i) + path.extension().string();
+  return free;
+}
+
 fs::path assets_folder() {
   std::error_code error;
   if (const char* named = std::getenv("INSONATE_ASSETS")) return named;

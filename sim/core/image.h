@@ -46,6 +46,17 @@ Image<T> mirrored(const Image<T>& image) {
   return out;
 }
 
+/// Returns the image with top and bottom exchanged, as OpenGL's framebuffers are read.
+template <typename T>
+Image<T> upright(const Image<T>& upside_down) {
+  Image<T> out(upside_down.width, upside_down.height);
+  for (int y = 0; y < out.height; ++y) {
+    const auto from = upside_down.pixels.begin() + std::ptrdiff_t(out.height - 1 - y) * out.width;
+    std::copy(from, from + out.width, out.pixels.begin() + std::ptrdiff_t(y) * out.width);
+  }
+  return out;
+}
+
 using Rgba8 = std::array<std::uint8_t, 4>;
 
 /// Writes a PNG under a temporary name and renames it. Throws InputError if it cannot be written.

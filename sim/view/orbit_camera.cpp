@@ -44,6 +44,13 @@ OrbitCamera OrbitCamera::facing(const Grid& volume, const Pose& patient_from_pro
   return camera;
 }
 
+OrbitCamera OrbitCamera::from(Side side, const Grid& volume) {
+  OrbitCamera camera = framing(volume);
+  camera.yaw_deg = side == Side::back ? 180 : side == Side::left ? 90 : side == Side::right ? -90 : 0;
+  camera.pitch_deg = side == Side::head ? kSteepest_deg : side == Side::feet ? -kSteepest_deg : 0;
+  return camera;
+}
+
 Pose OrbitCamera::patient_from_camera() const {
   const double yaw = glm::radians(yaw_deg), pitch = glm::radians(pitch_deg);
   const glm::dvec3 to_camera(std::sin(yaw) * std::cos(pitch), -std::cos(yaw) * std::cos(pitch), std::sin(pitch));

@@ -8,6 +8,9 @@
 
 namespace insonate::view {
 
+/// The sides that a patient is usually looked at from.
+enum class Side { front, back, right, left, head, feet };
+
 /// A perspective camera that circles a point of the patient and keeps the head up.
 struct OrbitCamera {
   glm::dvec3 centre{0.0};         ///< the point at the picture's middle, patient mm
@@ -23,6 +26,10 @@ struct OrbitCamera {
   /// the patient's front and feet. Its centre is half way between the volume's centre and the middle of a usual
   /// picture.
   static OrbitCamera facing(const Grid& volume, const Pose& patient_from_probe);
+
+  /// Returns a camera that sees the whole volume from one side, with the head up. From the feet the patient's front is
+  /// up, as in an axial CT slice; from the head it is down.
+  static OrbitCamera from(Side side, const Grid& volume);
 
   /// Returns the camera's pose: x to the right of the picture, y down, z into it. The orientation cue uses its
   /// rotation.

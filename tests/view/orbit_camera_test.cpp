@@ -6,6 +6,7 @@
 
 using insonate::Pose;
 using insonate::view::OrbitCamera;
+using insonate::view::Side;
 
 namespace {
 
@@ -54,6 +55,32 @@ TEST_CASE("Panning moves what lies at the centre's depth by the pointer's pixels
   const glm::dvec2 moved = place(camera, held) - glm::dvec2(kWidth, kHeight) / 2.0;
   CHECK(moved.x == Approx(30));
   CHECK(moved.y == Approx(-12));
+}
+
+TEST_CASE("From each side the camera sees the whole volume, and the patient lies as that side is named") {
+  insonate::Grid grid;
+  grid.size = {200, 140, 180};
+  grid.spacing = {2, 2, 2};
+  grid.origin = {-200, -140, -180};
+  const glm::dvec3 centre = grid.centre();
+  struct Seen {
+    Side side;
+    glm::dvec3 nearer, right, up;  // directions in the patient
+  };
+  const glm::dvec3 left(1, 0, 0), posterior(0, 1, 0), head(0, 0, 1);
+  for (const Seen& seen : {Seen{Side::front, -posterior, left, head}, Seen{Side::back, posterior, -left, head},
+                           Seen{Side::right, -left, -posterior, head}, Seen{Side::left, left, posterior, head},
+                           Seen{Side::head, head, left, posterior}, Seen{Side::feet, -head, left, -posterior}}) {
+    CAPTURE(int(seen.side));
+    const OrbitCamera camera = OrbitCamera::from(seen.side, grid);
+    const glm::dvec3 eye = camera.patient_from_camera().translation - centre;
+    CHECK(glm::dot(glm::normalize(eye), seen.nearer) > 0.999);
+    CHECK(place(camera, centre) == glm::dvec2(kWidth, kHeight) / 2.0);
+    CHECK(place(camera, centre + 50.0 * seen.right).x > kWidth / 2.0 + 20);
+    CHECK(place(camera, centre + 50.0 * seen.up).y < kHeight / 2.0 - 20);
+    for (const double x : {-200.0, 200.0})
+      CHECK(std::abs(place(camera, centre + x * left).y - kHeight / 2.0) < kHeight / 2.0);
+  }
 }
 
 TEST_CASE("A camera that faces a plane looks across it from the front, whatever the plane") {

@@ -124,7 +124,7 @@ void draw_replay_page(const Theme& theme, const ReplayPlaces& places, Trainer& t
   UltrasoundPanel::draw_still(theme, places.ultrasound, loaded_case.subject.name, replay.machine(),
                               replay.annotations(), replay.run().lost_for_s(replay.time_s()), trainer.pictures());
   if (replay.run().images) recorded.draw(theme, places.recorded, replay, trainer.pictures());
-  space.draw(theme, places.space, nullptr, trainer.pictures());
+  space.draw(theme, places.space, nullptr, trainer.pictures(), names);
   draw_paths(theme, places.space, replay, trainer.pictures().camera);
   draw_timeline_panel(theme, places.timeline, replay, scenario, names);
 }

@@ -44,19 +44,4 @@ std::optional<std::size_t> draw_list(const Theme& theme, const char* id, const R
   return clicked;
 }
 
-void hint_over(const Theme& theme, const Rect& where, const std::string& text) {
-  if (text.empty() || !ImGui::IsMouseHoveringRect(where.min(), where.max())) return;
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {theme.px(12), theme.px(8)});
-  ImGui::PushStyleColor(ImGuiCol_PopupBg, colour::kRaised);
-  ImGui::BeginTooltip();
-  ImGui::PushFont(theme.small_text);
-  ImGui::PushTextWrapPos(theme.px(420));
-  ImGui::TextUnformatted(text.data(), text.data() + text.size());
-  ImGui::PopTextWrapPos();
-  ImGui::PopFont();
-  ImGui::EndTooltip();
-  ImGui::PopStyleColor();
-  ImGui::PopStyleVar();
-}
-
 }  // namespace insonate::ui

@@ -24,7 +24,4 @@ std::optional<std::size_t> draw_list(const Theme& theme, const char* id, const R
 /// Height of a row, for a screen of 1280 x 800.
 inline constexpr float kListRow = 34;
 
-/// Shows a text beside the pointer while it is over `where`.
-void hint_over(const Theme& theme, const Rect& where, const std::string& text);
-
 }  // namespace insonate::ui

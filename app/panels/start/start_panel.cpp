@@ -107,6 +107,10 @@ StartAnswer StartPanel::draw(const Theme& theme, const Rect& screen, StartPage& 
   places["about_page"] = head.take_right(theme.px(90)).inset(0, theme.px(6));
   if (button(theme, "about_page", places["about_page"], "About")) answer.kind = StartAnswer::Kind::about;
   head.take_right(theme.px(8));
+  places["settings_page"] = head.take_right(theme.px(130)).inset(0, theme.px(6));
+  if (button(theme, "settings_page", places["settings_page"], "Settings  (F3)"))
+    answer.kind = StartAnswer::Kind::settings;
+  head.take_right(theme.px(8));
   places["help_page"] = head.take_right(theme.px(110)).inset(0, theme.px(6));
   if (button(theme, "help_page", places["help_page"], "Help  (F1)")) answer.kind = StartAnswer::Kind::help;
   draw_text(head.take_left(text_width(theme.title, "Insonate") + theme.px(16)), theme.title, colour::kText, "Insonate");
@@ -200,7 +204,7 @@ void StartPanel::draw_trackers(const Theme& theme, Rect panel, StartPage& page, 
       fill(row, colour::kAccentDark, theme.px(4));
     else if (ImGui::IsItemHovered() && tracker.usable())
       fill(row, colour::kRaised, theme.px(4));
-    hint_over(theme, row, tracker.why);
+    draw_tooltip(theme, row, tracker.why);
     Rect line = row.inset(theme.px(10), 0);
     const Rect light = line.take_left(theme.px(22));
     ImGui::GetWindowDrawList()->AddCircleFilled({light.x + theme.px(6), light.centre().y}, theme.px(6),
@@ -213,7 +217,7 @@ void StartPanel::draw_trackers(const Theme& theme, Rect panel, StartPage& page, 
               tracker.name);
     if (hindered) {
       Rect why = rest.take_top(reason_height(theme));
-      hint_over(theme, why, tracker.why);
+      draw_tooltip(theme, why, tracker.why);
       why = {why.x + theme.px(32), why.y, why.w - theme.px(32), kReasonLines * theme.small_text->FontSize};
       draw_paragraph(why, theme.small_text, colour::kAmber, tracker.why);
     }
@@ -238,7 +242,7 @@ void StartPanel::draw_attempts(const Theme& theme, Rect panel, StartPage& page) 
   const std::vector<AttemptSummary> attempts = page.attempts();
   const Rect file = rest.take_bottom(theme.px(20));
   if (!page.database().empty()) draw_text(file, theme.small_text, colour::kMuted, "In " + page.database().string());
-  hint_over(theme, file, page.database().string());
+  draw_tooltip(theme, file, page.database().string());
   if (attempts.empty())
     return void(draw_paragraph(rest, theme.text, colour::kMuted, "Nothing yet. What you practise is kept here."));
   const float height = theme.px(46);
@@ -250,7 +254,7 @@ void StartPanel::draw_attempts(const Theme& theme, Rect panel, StartPage& page) 
     ImGui::SetCursorScreenPos(row.min());
     const bool clicked = ImGui::InvisibleButton(id.c_str(), {row.w, row.h});
     if (ImGui::IsItemHovered()) fill(row, colour::kRaised, theme.px(4));
-    hint_over(theme, row, "Replay this run");
+    draw_tooltip(theme, row, "Replay this run");
     if (clicked)
       for (std::size_t i = 0; i < page.runs().size(); ++i)
         if (page.runs()[i].replay.attempt == attempt.number) {
@@ -298,7 +302,7 @@ StartAnswer StartPanel::draw_task(const Theme& theme, const Rect& panel, StartPa
     const float height = paragraph_height(theme.text, why_not, bottom.w);
     bottom.y += std::max(0.0f, (bottom.h - height) / 2);
     draw_paragraph(bottom, theme.text, colour::kAmber, why_not);
-    hint_over(theme, bottom, why_not);
+    draw_tooltip(theme, bottom, why_not);
   }
 
   StartAnswer detail;
@@ -399,7 +403,7 @@ StartAnswer StartPanel::draw_patients(const Theme& theme, Rect rest, StartPage& 
   buttons.take_left(theme.px(8));
   (*places_)["cases"] = buttons.take_left(theme.px(190));
   if (button(theme, "cases", (*places_)["cases"], "List a folder of cases\u2026"))
-    answer = {StartAnswer::Kind::browse, Wanted::folder};
+    answer = {StartAnswer::Kind::browse, Wanted::cases};
   std::vector<ListRow> rows;
   for (std::size_t i = 0; i < page.patients().size(); ++i)
     rows.push_back({"patient_" + std::to_string(i), page.patients()[i].name, page.patients()[i].about});
@@ -423,7 +427,7 @@ StartAnswer StartPanel::draw_runs(const Theme& theme, Rect rest, StartPage& page
              expert && page.beside_expert ? ButtonKind::chosen : ButtonKind::normal, expert))
     page.beside_expert = !page.beside_expert;
   if (!expert)
-    hint_over(theme, (*places_)["beside"], "There is no skilled scan of this run's exam to compare it with.");
+    draw_tooltip(theme, (*places_)["beside"], "There is no skilled scan of this run's exam to compare it with.");
   if (page.run < page.runs().size() && page.runs()[page.run].needs_scenario()) {
     Rect of = rest.take_bottom(theme.px(kChoiceRow + kSecondChoiceRow));
     rest.take_bottom(theme.px(10));

@@ -15,7 +15,7 @@ namespace insonate::ui {
 
 /// What a click on the start page asks for.
 struct StartAnswer {
-  enum class Kind { none, begin, help, about, browse };
+  enum class Kind { none, begin, help, settings, about, browse };
   Kind kind = Kind::none;
   Wanted wanted = Wanted::anything;  ///< what to browse for
 };

@@ -3,7 +3,10 @@
 #include <imgui.h>
 
 #include <filesystem>
+#include <string>
 #include <vector>
+
+#include "app/trainer/look.h"
 
 namespace insonate::ui {
 
@@ -27,6 +30,9 @@ inline constexpr ImU32 kImage = IM_COL32(0, 0, 0, 255);
 inline constexpr ImU32 kDim = IM_COL32(4, 6, 8, 190);
 inline constexpr ImU32 kPlate = IM_COL32(10, 12, 15, 235);  ///< below text on a picture, however bright that is
 
+/// Returns the colour of the ultrasound's white.
+ImU32 of(Tint tint);
+
 /// Text of one colour on a surface of another.
 struct Writing {
   ImU32 ink, surface;
@@ -36,15 +42,20 @@ struct Writing {
 std::vector<Writing> writings();
 }  // namespace colour
 
+/// Returns a depth in the person's unit: "16.0 cm" or "160 mm".
+std::string depth_text(const Look& look, double depth_mm);
+
 /// Font sizes and lengths, all in proportion to the screen. Needs an ImGui context; only one Theme may exist at a time.
 class Theme {
 public:
   /// @param fonts  the folder with the interface's fonts
   explicit Theme(std::filesystem::path fonts);
 
-  /// Adapts the fonts to the size of the screen, in pixels. Returns true if the fonts were rebuilt; the renderer must
-  /// then take the new font texture. To be called between frames.
-  bool fit(float width, float height);
+  /// Adapts the fonts to the size of the screen, in pixels, and takes the person's preferences. Returns true if the
+  /// fonts were rebuilt; the renderer must then take the new font texture. To be called between frames.
+  bool fit(float width, float height, const Look& look = {});
+
+  const Look& look() const { return look_; }
 
   /// Scales a length that is given for a screen of 1280 x 800.
   float px(float at_1280) const { return at_1280 * scale_; }
@@ -59,6 +70,7 @@ public:
 
 private:
   std::filesystem::path folder_;
+  Look look_;
   float scale_ = 0;
 };
 

@@ -1,5 +1,7 @@
 #include "app/panels/widgets/widgets.h"
 
+#include <imgui_internal.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -47,6 +49,21 @@ bool handle(const char* id, const Rect& where, const Scale& scale, double at_mou
 
 void draw_knob(const Theme& theme, const ImVec2& centre, float radius, bool lit) {
   ImGui::GetWindowDrawList()->AddCircleFilled(centre, theme.px(radius), lit ? colour::kText : colour::kAccent, 24);
+}
+
+/// Draws a text in a box above `of`, or below where there is no room.
+void draw_box(const Theme& theme, const Rect& of, std::string_view text) {
+  if (text.empty()) return;
+  const ImGuiIO& io = ImGui::GetIO();
+  const ImVec2 size = size_of(theme.text, text, theme.px(340));
+  Rect box{io.MousePos.x, 0, size.x + theme.px(24), size.y + theme.px(16)};
+  box.x = std::clamp(box.x, 0.0f, std::max(0.0f, io.DisplaySize.x - box.w));
+  box.y = of.y - box.h - theme.px(6);
+  if (box.y < 0) box.y = of.y + of.h + theme.px(6);
+  ImDrawList* list = ImGui::GetForegroundDrawList();
+  list->AddRectFilled(box.min(), box.max(), colour::kHovered, theme.px(4));
+  list->AddText(theme.text, theme.text->FontSize, box.inset(theme.px(12), theme.px(8)).min(), colour::kText,
+                text.data(), text.data() + text.size(), size.x + 1);
 }
 
 }  // namespace
@@ -120,7 +137,7 @@ float draw_chip(const Theme& theme, const ImVec2& at, ImU32 background, ImU32 co
 }
 
 bool button(const Theme& theme, const char* id, const Rect& where, std::string_view text, ButtonKind kind,
-            bool enabled) {
+            bool enabled, std::string_view tip) {
   ImGui::SetCursorScreenPos(where.min());
   const bool clicked = ImGui::InvisibleButton(id, {where.w, where.h}) && enabled;
   const bool hovered = ImGui::IsItemHovered() && enabled;
@@ -144,6 +161,7 @@ bool button(const Theme& theme, const char* id, const Rect& where, std::string_v
   }
   fill(where, background, theme.px(4));
   if (hovered) outline(where, colour::kFaint, theme.px(4));
+  draw_tip(theme, where, tip);
   draw_text(where.inset(theme.px(6), 0), theme.text, ink, text, Align::centre);
   return clicked;
 }
@@ -186,20 +204,15 @@ bool upright_slider(const Theme& theme, const char* id, const Rect& where, doubl
   return value != before;
 }
 
-void draw_tooltip(const Theme& theme, const Rect& of, std::string_view text) {
-  if (!ImGui::IsWindowHovered() || !ImGui::IsMouseHoveringRect(of.min(), of.max())) return;
-  const ImGuiIO& io = ImGui::GetIO();
-  const ImVec2 size = size_of(theme.text, text, theme.px(340));
-  Rect box{io.MousePos.x, 0, size.x + theme.px(24), size.y + theme.px(16)};
-  box.x = std::clamp(box.x, 0.0f, std::max(0.0f, io.DisplaySize.x - box.w));
-  box.y = of.y - box.h - theme.px(6);
-  if (box.y < 0) box.y = of.y + of.h + theme.px(6);
-  ImDrawList* list = ImGui::GetForegroundDrawList();
-  list->AddRectFilled(box.min(), box.max(), colour::kHovered, theme.px(4));
-  list->AddText(theme.text, theme.text->FontSize, box.inset(theme.px(12), theme.px(8)).min(), colour::kText,
-                text.data(), text.data() + text.size(), size.x + 1);
+void draw_tip(const Theme& theme, const Rect& of, std::string_view text) {
+  constexpr float kRest_s = 0.5f;
+  if (ImGui::IsItemHovered() && ImGui::GetCurrentContext()->HoveredIdTimer > kRest_s) draw_box(theme, of, text);
 }
 
+void draw_tooltip(const Theme& theme, const Rect& of, std::string_view text) {
+  if (ImGui::IsWindowHovered(ImGuiHoveredFlags_RootAndChildWindows) && ImGui::IsMouseHoveringRect(of.min(), of.max()))
+    draw_box(theme, of, text);
+}
 void draw_ring(const ImVec2& centre, float radius, float thickness, double share, ImU32 colour, ImU32 rest) {
   ImDrawList* list = ImGui::GetWindowDrawList();
   list->AddCircle(centre, radius, rest, 64, thickness);

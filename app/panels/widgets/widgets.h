@@ -45,8 +45,9 @@ float draw_chip(const Theme& theme, const ImVec2& at, ImU32 background, ImU32 co
 enum class ButtonKind { normal, chosen, primary, warning, recording };
 
 /// Draws a button. Returns true if it was clicked.
+/// @param tip  what it does and with which key, shown when the pointer rests on it; empty: the text says it all
 bool button(const Theme& theme, const char* id, const Rect& where, std::string_view text,
-            ButtonKind kind = ButtonKind::normal, bool enabled = true);
+            ButtonKind kind = ButtonKind::normal, bool enabled = true, std::string_view tip = {});
 
 /// Draws a slider with its name on the left and its value on the right above the track. A double click sets `normal`.
 /// Returns true if the value changed; it is rounded to whole `step`s. A disabled slider shows its value and does not
@@ -58,7 +59,11 @@ bool slider(const Theme& theme, const char* id, const Rect& where, std::string_v
 bool upright_slider(const Theme& theme, const char* id, const Rect& where, double& value, double reach,
                     bool enabled = true);
 
-/// Explains what lies in `of` while the pointer is there, in a box beside the pointer.
+/// Explains ImGui's last item in a box beside the pointer, once the pointer has rested on it for a moment.
+void draw_tip(const Theme& theme, const Rect& of, std::string_view text);
+
+/// Explains what lies in `of` in such a box as long as the pointer is there: what a person has to know at once, such as
+/// why a button is dim. Draws nothing for an empty text.
 void draw_tooltip(const Theme& theme, const Rect& of, std::string_view text);
 
 /// Draws a ring that fills clockwise from the top.

@@ -23,7 +23,7 @@ TEST_CASE("a folder's list shows what can be opened for a purpose, folders first
   CHECK(names(Wanted::patient) == "series/ Zoo/ b.nii.gz case ");
   CHECK(names(Wanted::scenario) == "case/ series/ Zoo/ a.toml ");
   CHECK(names(Wanted::recording) == "case/ series/ Zoo/ run.igs.mha ");
-  CHECK(names(Wanted::folder) == "case/ series/ Zoo/ ");
+  CHECK(names(Wanted::cases) == "case/ series/ Zoo/ ");
 
   CHECK(list_folder(folder / "series", Wanted::patient).is_series);
   CHECK_FALSE(list_folder(folder / "Zoo", Wanted::patient).is_series);

@@ -1,0 +1,182 @@
+#include "app/panels/help_page.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "app/panels/overlays.h"
+
+namespace insonate::ui {
+namespace {
+
+struct Key {
+  const char* keys;
+  const char* meaning;
+};
+
+struct Help {
+  const char* title;
+  const char* purpose;
+  std::vector<Key> keys;
+};
+
+/// How the probe moves, wherever there is one.
+const std::vector<Key> kProbe{
+    {"Up, Down", "slide the probe towards the head, the feet"},
+    {"Left, Right", "slide it to the patient's right, left, as seen from the front"},
+    {"Page Down, Page Up", "press it into the skin, lift it"},
+    {"E, Q", "rotate it clockwise, counter-clockwise, seen from its handle"},
+    {"W, S", "rock the beam away from the marker, towards the marker"},
+    {"A, D", "tilt the beam to head or feet, if the marker is on the right"},
+    {"Shift", "with any of these: slowly"},
+    {"Drag on the ultrasound", "slide; with Shift rock and tilt; the wheel rotates"},
+    {"Drag the probe", "put it elsewhere on the patient"},
+};
+const std::vector<Key> kPatient{
+    {"Drag the patient", "turn; right button shifts, the wheel zooms"},
+    {"V, Home", "see the patient from the next side; from the probe's plane again"},
+};
+const std::vector<Key> kMachine{
+    {"Space", "freeze the picture"},
+    {"+, \u2212 and [, ]", "gain; depth"},
+    {"Ctrl Z, Ctrl Y", "undo a knob or a move of the probe; do it again"},
+};
+const std::vector<Key> kTools{
+    {"Click the frozen picture", "measure from end to end; drag an end to move it"},
+    {"C", "calipers or ellipse, where both may be used"},
+    {"Backspace, Delete", "take back the last thing placed; all of it"},
+    {"1 to 9", "choose an answer, a name, or which caliper comes next"},
+    {"Enter", "answer; go on to the next step of an exam"},
+};
+const std::vector<Key> kFiles{
+    {"M", "mark this moment, in the recording too"},
+    {"R", "record the run; end the recording"},
+    {"P, L", "save the picture; begin and end a clip of it"},
+};
+const std::vector<Key> kWindow{
+    {"F1, F3, F11", "this help; settings; full screen"},
+};
+
+std::vector<Key> keys_of(std::initializer_list<std::vector<Key>> parts) {
+  std::vector<Key> all;
+  for (const std::vector<Key>& part : parts) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+Help help_of(HelpTopic topic) {
+  switch (topic) {
+    case HelpTopic::start:
+      return {"Help: the start page",
+              "Choose on the left what to do, in the middle on which patient, and on the right who is learning and with "
+              "which tracker. The mouse can always move the probe.",
+              keys_of({{{"Up, Down", "choose what to do"},
+                        {"Enter", "begin it"},
+                        {"Ctrl O", "open a case, CT, scenario or recorded scan; or drop it on the window"},
+                        {"F2", "set up a tracker"}},
+                       kWindow})};
+    case HelpTopic::scan:
+      return {"Help: scanning",
+              "The large picture is the ultrasound of the probe that the 3D view shows. Knobs are below it.",
+              keys_of({kProbe,
+                       kPatient,
+                       {{"Tab", "take the probe, give it back to the tracker"}},
+                       kMachine,
+                       kTools,
+                       {{"Escape", "give up what is being placed; else to the start page"},
+                        {"G", "the guide: the way to the view; its use is in the report"}},
+                       kFiles,
+                       {{"Ctrl O", "open a case, CT, scenario or recorded scan"},
+                        {"F2", "choose a tracker, or set up the one in use"}},
+                       kWindow})};
+    case HelpTopic::exam:
+      return {"Help: an exam that counts",
+              "Do what each step asks for, and hold the view still until its ring is full. The clock runs on while this "
+              "page is open.",
+              keys_of({kProbe, kPatient, kMachine, kTools, kFiles, kWindow})};
+    case HelpTopic::replay:
+      return {"Help: looking at a run again",
+              "The time line below shows the steps and how far the probe was from their views. Nothing is scored or "
+              "stored.",
+              keys_of({{{"Space", "play, pause"},
+                        {"Left, Right", "sample by sample"},
+                        {"Up, Down", "faster, slower"},
+                        {"Home, End", "the beginning, the end"},
+                        {"Drag the time line", "go to that moment"},
+                        {"Drag the patient", "turn; right button shifts, the wheel zooms"},
+                        {"V", "see the patient from the next side"},
+                        {"P, L", "save the picture; begin and end a clip of it"},
+                        {"Ctrl O", "open another recorded scan"},
+                        {"Escape", "to the start page"}},
+                       kWindow})};
+    case HelpTopic::setup:
+      return {"Help: setting up a tracker",
+              "The five steps on the left find how the sensor lies on the dummy probe and where the mannequin lies. Each "
+              "says what to do. The foot switch or the probe's button works like Space.",
+              keys_of({{{"Space, Enter", "mark the place; go on to the next step"},
+                        {"Backspace", "take the last mark back; do the step again"},
+                        {"Click a step", "go back to it"},
+                        {"Escape", "close; what is complete is kept"}},
+                       kWindow})};
+    case HelpTopic::author:
+      return {"Help: making views of a case",
+              "Hold the probe where the view should be, choose the structures that it shows, name it and store it. "
+              "Scenarios can then ask for it.",
+              keys_of({kProbe,
+                       kPatient,
+                       kMachine,
+                       {{"1 to 9", "choose a structure of the view"},
+                        {"Enter", "store the view"},
+                        {"Escape", "to the start page"}},
+                       kWindow})};
+    case HelpTopic::score:
+      return {"Help: the score",
+              "Each step has its points and, where some are missing, the reason. The report has all of it, with pictures "
+              "and the probe's path, for printing or for a teacher.",
+              keys_of({{{"Escape", "close the sheet, and go on scanning"}}, kWindow})};
+    case HelpTopic::open:
+      return {"Help: opening a file",
+              "Click through the folders or type a path. A CT is a NIfTI, NRRD or MetaImage file or a folder of DICOM "
+              "files; a case is a folder that insonate-case has made.",
+              keys_of({{{"Enter", "go into the folder, or open the file"}, {"Escape", "cancel"}}, kWindow})};
+    case HelpTopic::settings:
+      return {"Help: settings",
+              "They hold for this computer's user, take effect at once, and are kept. None of them changes a score.",
+              keys_of({{{"Escape", "close"}}, kWindow})};
+  }
+  return {};
+}
+
+}  // namespace
+
+HelpAnswer draw_help(const Theme& theme, const Rect& screen, HelpTopic topic, std::map<std::string, Rect>& places) {
+  const Help help = help_of(topic);
+  const float width = theme.px(760), text = width - 2 * theme.px(28), keys = theme.px(230);
+  const float purpose = paragraph_height(theme.text, help.purpose, text);
+  const float around = theme.px(28 + 10 + 14 + 14 + 38 + 2 * 24) + purpose;
+  // Where many keys meet a low screen, their rows move together rather than off it.
+  const float row =
+      std::min(theme.px(25), (screen.h - theme.px(16) - around) / float(std::max<std::size_t>(help.keys.size(), 1)));
+  Rect sheet = begin_overlay(theme, screen, {width, around + row * float(help.keys.size())});
+  draw_text(sheet.take_top(theme.px(28)), theme.heading, colour::kText, help.title);
+  sheet.take_top(theme.px(10));
+  draw_paragraph(sheet.take_top(purpose), theme.text, colour::kText, help.purpose);
+  sheet.take_top(theme.px(14));
+  for (const Key& key : help.keys) {
+    Rect line = sheet.take_top(row);
+    draw_text(line.take_left(keys), theme.strong, colour::kText, key.keys);
+    draw_text(line, theme.text, colour::kMuted, key.meaning);
+  }
+  Rect buttons = sheet.take_bottom(theme.px(38));
+  HelpAnswer answer = HelpAnswer::none;
+  places["close_help"] = buttons.take_right(theme.px(150));
+  if (button(theme, "close_help", places["close_help"], "Close  (Esc)", ButtonKind::primary))
+    answer = HelpAnswer::close;
+  places["about"] = buttons.take_left(theme.px(150));
+  if (button(theme, "about", places["about"], "About Insonate")) answer = HelpAnswer::about;
+  buttons.take_left(theme.px(8));
+  places["help_settings"] = buttons.take_left(theme.px(130));
+  if (button(theme, "help_settings", places["help_settings"], "Settings  (F3)")) answer = HelpAnswer::settings;
+  end_overlay();
+  return answer;
+}
+
+}  // namespace insonate::ui

@@ -1,0 +1,64 @@
+#include "app/session/undo_history.h"
+
+#include <utility>
+
+namespace insonate {
+
+UndoHistory::State UndoHistory::state_of(const Session& session) {
+  State state{session.machine(), std::nullopt};
+  state.machine.frozen = false;  // no knob: Space lets the picture go
+  state.machine.frozen_at.reset();
+  if (session.holder() == Holder::learner && !session.strict()) state.pose = session.newest_pose();
+  return state;
+}
+
+void UndoHistory::watch(const Session& session) {
+  const State state = state_of(session);
+  if (session_ != &session || attempt_ != session.attempt()) {
+    session_ = &session;
+    attempt_ = session.attempt();
+    settled_ = latest_ = state;
+    past_.clear();
+    future_.clear();
+    return;
+  }
+  if (std::exchange(latest_, state) != state) moved_s_ = session.now_s();
+  // A log changes the machine by itself, and another hand has another pose.
+  if (session.source().recording() || latest_.pose.has_value() != settled_.pose.has_value()) settled_ = latest_;
+  if (session.now_s() - moved_s_ > kStill_s) settle();
+}
+
+/// Remembers what has been moved since the last step.
+void UndoHistory::settle() {
+  if (latest_ == settled_) return;
+  past_.push_back(std::exchange(settled_, latest_));
+  if (past_.size() > kMost) past_.erase(past_.begin());
+  future_.clear();
+}
+
+bool UndoHistory::undo(Session& session) {
+  settle();
+  return go(session, past_, future_);
+}
+
+bool UndoHistory::redo(Session& session) {
+  settle();
+  return go(session, future_, past_);
+}
+
+bool UndoHistory::go(Session& session, std::vector<State>& from, std::vector<State>& to) {
+  if (from.empty()) return false;
+  to.push_back(settled_);
+  settled_ = latest_ = std::move(from.back());
+  from.pop_back();
+  moved_s_ = session.now_s();  // the pose arrives with the next sample
+  Machine unfrozen = session.machine();
+  unfrozen.frozen = false;
+  unfrozen.frozen_at.reset();
+  for (const Action& action : actions_between(unfrozen, settled_.machine)) session.set(action);
+  if (settled_.pose && session.holder() == Holder::learner)
+    session.move_probe([&](const ProbeHand&, const Pose&) { return settled_.pose; });
+  return true;
+}
+
+}  // namespace insonate

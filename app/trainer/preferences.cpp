@@ -1,0 +1,80 @@
+#include "app/trainer/preferences.h"
+
+#include <cstdlib>
+#include <utility>
+#include <vector>
+
+#include "app/pictures/igtl_feed.h"
+#include "sim/core/files.h"
+#include "sim/core/input_error.h"
+#include "sim/core/toml_table.h"
+#include "sim/core/toml_value.h"
+
+namespace insonate {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::vector<std::string> kTextSizes{"normal", "large", "largest"}, kLengthUnits{"cm", "mm"},
+    kMarkers{"left", "right"}, kTints{"grey", "warm", "cool"};
+
+template <typename Word>
+Word choice(const TomlTable& table, const char* key, const std::vector<std::string>& words) {
+  return Word(table.choice(key, words, 0));
+}
+
+}  // namespace
+
+fs::path preferences_file() {
+  for (const auto& [variable, folder] : {std::pair{"XDG_CONFIG_HOME", "insonate"}, {"HOME", ".config/insonate"}})
+    if (const char* base = std::getenv(variable); base && *base) return fs::path(base) / folder / "settings.toml";
+  throw InputError("environment", "", "neither XDG_CONFIG_HOME nor HOME says where to keep settings", "set HOME");
+}
+
+Preferences read_preferences(const fs::path& file) {
+  Preferences read;
+  std::error_code error;
+  if (!fs::exists(file, error)) return read;
+  const TomlDocument document(file.string(), read_file(file));
+  const TomlTable table = document.root();
+  table.whole_number("format", 1, 1);
+  read.look.text_size = choice<TextSize>(table, "text_size", kTextSizes);
+  read.look.length_unit = choice<LengthUnit>(table, "lengths", kLengthUnits);
+  read.look.marker = choice<MarkerSide>(table, "marker", kMarkers);
+  read.look.tint = choice<Tint>(table, "tint", kTints);
+  const std::vector<std::string> qualities = quality_names();
+  read.quality = qualities[table.choice("quality", qualities, std::size_t(quality_named(read.quality)))];
+  read.igtl_server = table.text("igtl_server", "");
+  if (!read.igtl_server.empty()) parse_server_address(read.igtl_server);
+  read.out = table.text("out", "");
+  read.cases = table.text("cases", "");
+  read.results = table.text("results", "");
+  table.refuse_unknown_keys();
+  return read;
+}
+
+void write_preferences(const fs::path& file, const Preferences& preferences) {
+  std::string text = "# Insonate's settings; the window's page of that name writes them.\nformat = 1\n";
+  const auto line = [&](const char* key, const std::string& value) {
+    text += std::string(key) + " = " + toml_value(value) + "\n";
+  };
+  line("text_size", kTextSizes[std::size_t(preferences.look.text_size)]);
+  line("lengths", kLengthUnits[std::size_t(preferences.look.length_unit)]);
+  line("marker", kMarkers[std::size_t(preferences.look.marker)]);
+  line("tint", kTints[std::size_t(preferences.look.tint)]);
+  line("quality", preferences.quality);
+  line("igtl_server", preferences.igtl_server);
+  line("out", preferences.out.string());
+  line("cases", preferences.cases.string());
+  line("results", preferences.results.string());
+  write_file(file, text);
+}
+
+Options with_preferences(Options options, const Preferences& preferences) {
+  const Options untouched;
+  if (options.quality == untouched.quality) options.quality = preferences.quality;
+  if (options.out == untouched.out && !preferences.out.empty()) options.out = preferences.out;
+  return options;
+}
+
+}  // namespace insonate

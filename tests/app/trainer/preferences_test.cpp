@@ -1,0 +1,88 @@
+// What a person sets once: kept in a file, taken where the command line is silent, refused where it makes no sense.
+#include "app/trainer/preferences.h"
+
+#include <catch2/catch.hpp>
+#include <unistd.h>
+
+#include "sim/core/files.h"
+#include "sim/core/input_error.h"
+
+using namespace insonate;
+
+namespace {
+
+struct Folder {
+  Folder() { std::filesystem::create_directories(path); }
+  ~Folder() { std::filesystem::remove_all(path); }
+  std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("insonate_preferences_" + std::to_string(getpid()));
+};
+
+Preferences unusual() {
+  Preferences preferences;
+  preferences.look = {TextSize::largest, LengthUnit::mm, MarkerSide::right, Tint::cool};
+  preferences.quality = "exact";
+  preferences.igtl_server = "0.0.0.0:18950";
+  preferences.out = "/srv/a \"quoted\" place/\u00e4";
+  preferences.cases = "/srv/cases";
+  preferences.results = "/srv/lab.db";
+  return preferences;
+}
+
+}  // namespace
+
+TEST_CASE("preferences are read as they were written, and without a file they are the defaults") {
+  const Folder folder;
+  const auto file = folder.path / "new" / "settings.toml";
+  CHECK(read_preferences(file) == Preferences());
+  write_preferences(file, unusual());
+  CHECK(read_preferences(file) == unusual());
+  write_preferences(file, Preferences());
+  CHECK(read_preferences(file) == Preferences());
+}
+
+TEST_CASE("a file of preferences that cannot be used is refused with its place, one key at a time") {
+  const Folder folder;
+  const auto file = folder.path / "settings.toml";
+  const auto refusal = [&](const std::string& text) -> std::string {
+    write_file(file, text);
+    try {
+      read_preferences(file);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "taken";
+  };
+  CHECK(refusal("format = 1\n") == "taken");
+  CHECK_THAT(refusal("text_size = \"large\"\n"), Catch::Contains("format"));
+  CHECK_THAT(refusal("format = 2\n"), Catch::Contains("line 1"));
+  CHECK_THAT(refusal("format = 1\nmarker = \"up\"\n"), Catch::Contains("line 2") && Catch::Contains("left"));
+  CHECK_THAT(refusal("format = 1\nquality = \"best\"\n"), Catch::Contains("balanced"));
+  CHECK_THAT(refusal("format = 1\nigtl_server = \"here\"\n"), Catch::Contains("port"));
+  CHECK_THAT(refusal("format = 1\ntint_ = \"warm\"\n"), Catch::Contains("tint"));
+  CHECK_THAT(refusal("format = \n"), Catch::Contains("line 1"));
+}
+
+TEST_CASE("the command line comes before the preferences") {
+  const Preferences preferences = unusual();
+  const Options silent = with_preferences(Options(), preferences);
+  CHECK(silent.quality == "exact");
+  CHECK(silent.out == preferences.out);
+  Options named;
+  named.quality = "fast";
+  named.out = "elsewhere";
+  const Options kept = with_preferences(named, preferences);
+  CHECK(kept.quality == "fast");
+  CHECK(kept.out == "elsewhere");
+  CHECK(with_preferences(Options(), Preferences()).out == Options().out);
+}
+
+TEST_CASE("preferences are kept in the user's folder of settings") {
+  const char* const set = std::getenv("XDG_CONFIG_HOME");
+  const std::string before = set ? set : "";
+  setenv("XDG_CONFIG_HOME", "/some/where", 1);
+  CHECK(preferences_file() == "/some/where/insonate/settings.toml");
+  unsetenv("XDG_CONFIG_HOME");
+  CHECK(preferences_file() == std::filesystem::path(std::getenv("HOME")) / ".config/insonate/settings.toml");
+  if (set) setenv("XDG_CONFIG_HOME", before.c_str(), 1);
+}
