@@ -54,6 +54,9 @@ void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::
     state[name + "_w"] = int(rect.w);
     state[name + "_h"] = int(rect.h);
   }
+  state["clip"] = trainer.clip().running();
+  state["camera_yaw_deg"] = trainer.pictures().camera.yaw_deg;
+  state["camera_pitch_deg"] = trainer.pictures().camera.pitch_deg;
   if (const StartPage* page = trainer.start_page()) {
     state["start_task"] = to_string(page->task);
     state["start_why_not"] = page->why_not();

@@ -129,19 +129,23 @@ void draw_picture_tools(const Theme& theme, const Rect& panel, Session& session,
                         std::map<std::string, Rect>& places) {
   if (!PictureTools::ready(session)) return;
   Rect column{panel.x + panel.w - theme.px(76 + 88), panel.y + theme.px(14), theme.px(88), panel.h};
-  const auto add = [&](const char* id, const char* text, ButtonKind kind, bool enabled) {
+  const auto add = [&](const char* id, const char* text, const char* tip, ButtonKind kind, bool enabled) {
     const Rect where = column.take_top(theme.px(30));
     column.take_top(theme.px(6));
     places[id] = where;
-    return button(theme, id, where, text, kind, enabled);
+    return button(theme, id, where, text, kind, enabled, tip);
   };
   using Tool = PictureTools::Tool;
   if (tools.free_choice())
-    for (const auto& [tool, id, text] :
-         {std::tuple{Tool::distance, "tool_distance", "Distance"}, {Tool::ellipse, "tool_ellipse", "Ellipse"}})
-      if (add(id, text, tools.tool() == tool ? ButtonKind::chosen : ButtonKind::normal, true)) tools.choose(tool);
-  if (add("tool_undo", "Undo", ButtonKind::normal, tools.can_undo())) tools.undo(session);
-  if (add("tool_clear", "Clear", ButtonKind::normal, tools.annotations().any())) tools.clear(session);
+    for (const auto& [tool, id, text, tip] :
+         {std::tuple{Tool::distance, "tool_distance", "Distance", "Measures between two points  (C)"},
+          {Tool::ellipse, "tool_ellipse", "Ellipse", "Measures circumference and area  (C)"}})
+      if (add(id, text, tip, tools.tool() == tool ? ButtonKind::chosen : ButtonKind::normal, true)) tools.choose(tool);
+  if (add("tool_undo", "Undo", "Takes back the last thing placed  (Backspace)", ButtonKind::normal, tools.can_undo()))
+    tools.undo(session);
+  if (add("tool_clear", "Clear", "Takes back all that is placed  (Delete)", ButtonKind::normal,
+          tools.annotations().any()))
+    tools.clear(session);
 }
 
 void take_pointer(const Theme& theme, const PlaneOnScreen& plane, Session& session, PictureTools& tools) {

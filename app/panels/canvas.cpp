@@ -41,6 +41,7 @@ struct Place {
   }
 };
 
+constexpr GLint kWhite = 0;                            // as sim/shaders/window/toned.frag has it
 constexpr GLuint kPosition = 0, kUv = 1, kColour = 2;  // as sim/shaders/window/shape.vert has them
 
 GLuint name_of(ImTextureID texture) {
@@ -56,6 +57,7 @@ bool is_opaque(const ImDrawVert& corner) {
 Canvas::Canvas()
     : plain_({}, {"window/shape.vert", "window/plain.frag"}),
       picture_program_({}, {"window/shape.vert", "window/picture.frag"}),
+      toned_({}, {"window/shape.vert", "window/toned.frag"}),
       tinted_({}, {"window/shape.vert", "window/tinted.frag"}) {
   GLuint name = 0;
   glCreateVertexArrays(1, &name);
@@ -96,7 +98,7 @@ void Canvas::add(Kind kind, ImTextureID texture, const PixelBox& clip, const Pix
                  const std::array<ImDrawVert, 3>& corners) {
   Batch* last = batches_.empty() ? nullptr : &batches_.back();
   const bool reads = kind == Kind::picture || kind == Kind::toned || kind == Kind::tinted;
-  if (!last || last->kind != kind || (reads && last->texture != texture) || last->clip != clip) {
+  if (!last || last->kind != kind || kind == Kind::toned || (reads && last->texture != texture) || last->clip != clip) {
     batches_.push_back({kind, texture, clip, bounds, int(corners_.size()), 0});
     last = &batches_.back();
   }
@@ -146,9 +148,10 @@ void Canvas::take(const ImDrawData& frame, const TextureVersion& version_of) {
 
         const auto each = [&](auto is) { return std::all_of(corners.begin(), corners.end(), is); };
         Kind kind = Kind::tinted;
-        if (is_picture && each(is_opaque))
-          kind = each([](const ImDrawVert& corner) { return corner.col == IM_COL32_WHITE; }) ? Kind::picture
-                                                                                              : Kind::toned;
+        const bool one_colour = each([&](const ImDrawVert& corner) { return corner.col == corners[0].col; });
+        if (is_picture && one_colour && is_opaque(corners[0]))
+          kind =
+              each([](const ImDrawVert& corner) { return corner.col == IM_COL32_WHITE; }) ? Kind::picture : Kind::toned;
         else if (!is_picture && each([&](const ImDrawVert& c) { return c.uv.x == white.x && c.uv.y == white.y; }))
           kind = each(is_opaque) ? Kind::covering : Kind::plain;
         for (ImDrawVert& corner : corners) {
@@ -188,6 +191,21 @@ std::vector<PixelBox> Canvas::changed_boxes(const std::vector<std::uint64_t>& be
   return boxes;
 }
 
+const gl::Program& Canvas::program_of(Kind kind) const {
+  switch (kind) {
+    case Kind::plain:
+    case Kind::covering:
+      return plain_;
+    case Kind::picture:
+      return picture_program_;
+    case Kind::toned:
+      return toned_;
+    case Kind::tinted:
+      return tinted_;
+  }
+  return plain_;
+}
+
 void Canvas::draw_batches(const std::vector<PixelBox>& boxes) const {
   const gl::Buffer corners(corners_.size() * sizeof(Corner), corners_.data());
   glVertexArrayVertexBuffer(corner_layout_.name(), 0, corners.name(), 0, sizeof(Corner));
@@ -196,8 +214,11 @@ void Canvas::draw_batches(const std::vector<PixelBox>& boxes) const {
   for (const Batch& batch : batches_) {
     const bool blends = batch.kind == Kind::plain || batch.kind == Kind::tinted;
     (blends ? glEnable : glDisable)(GL_BLEND);
-    const bool in_colour = batch.kind == Kind::tinted || batch.kind == Kind::toned;
-    (in_colour ? tinted_ : batch.kind == Kind::picture ? picture_program_ : plain_).use();
+    program_of(batch.kind).use();
+    if (batch.kind == Kind::toned) {
+      const ImVec4 white = ImGui::ColorConvertU32ToFloat4(corners_[std::size_t(batch.first)].col);
+      glUniform4f(kWhite, white.x, white.y, white.z, white.w);
+    }
     glBindTextureUnit(0, name_of(batch.texture));
     for (const PixelBox& box : boxes) {
       const PixelBox part = common(box, batch.bounds);

@@ -64,12 +64,13 @@ private:
   void add(Kind kind, ImTextureID texture, const PixelBox& clip, const PixelBox& bounds,
            const std::array<ImDrawVert, 3>& corners);
   std::vector<PixelBox> changed_boxes(const std::vector<std::uint64_t>& before) const;
+  const gl::Program& program_of(Kind kind) const;
   void draw_batches(const std::vector<PixelBox>& boxes) const;
 
   int width_ = 0, height_ = 0, columns_ = 0, rows_ = 0;
   gl::Texture picture_, fonts_;
   gl::Framebuffer framebuffer_;
-  gl::Program plain_, picture_program_, tinted_;
+  gl::Program plain_, picture_program_, toned_, tinted_;
   gl::Object<gl::VertexArrayKind> corner_layout_;
   std::vector<std::uint64_t> hashes_;  ///< of the tiles of the picture, row by row; empty if it shows no frame yet
   std::vector<Corner> corners_;

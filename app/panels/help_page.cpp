@@ -33,7 +33,7 @@ const std::vector<Key> kProbe{
 };
 const std::vector<Key> kPatient{
     {"Drag the patient", "turn; right button shifts, the wheel zooms"},
-    {"V, Home", "see the patient from the next side; from the probe's plane again"},
+    {"V, Home", "see the patient from the next side; as at first"},
 };
 const std::vector<Key> kMachine{
     {"Space", "freeze the picture"},
@@ -65,17 +65,17 @@ std::vector<Key> keys_of(std::initializer_list<std::vector<Key>> parts) {
 Help help_of(HelpTopic topic) {
   switch (topic) {
     case HelpTopic::start:
-      return {"Help: the start page",
-              "Choose on the left what to do, in the middle on which patient, and on the right who is learning and with "
-              "which tracker. The mouse can always move the probe.",
-              keys_of({{{"Up, Down", "choose what to do"},
-                        {"Enter", "begin it"},
-                        {"Ctrl O", "open a case, CT, scenario or recorded scan; or drop it on the window"},
-                        {"F2", "set up a tracker"}},
-                       kWindow})};
+      return {
+          "Help: the start page",
+          "Choose on the left what to do, in the middle on which patient, and on the right who is learning and with "
+          "which tracker. The mouse can always move the probe.",
+          keys_of({{{"Up, Down", "choose what to do"},
+                    {"Enter", "begin it"},
+                    {"Ctrl O", "open a case, CT, scenario or recorded scan; or drop it on the window"},
+                    {"F2", "set up a tracker"}},
+                   kWindow})};
     case HelpTopic::scan:
-      return {"Help: scanning",
-              "The large picture is the ultrasound of the probe that the 3D view shows. Knobs are below it.",
+      return {"Help: scanning", "The large picture is the ultrasound. The 3D view shows the probe that it comes from.",
               keys_of({kProbe,
                        kPatient,
                        {{"Tab", "take the probe, give it back to the tracker"}},
@@ -88,10 +88,11 @@ Help help_of(HelpTopic topic) {
                         {"F2", "choose a tracker, or set up the one in use"}},
                        kWindow})};
     case HelpTopic::exam:
-      return {"Help: an exam that counts",
-              "Do what each step asks for, and hold the view still until its ring is full. The clock runs on while this "
-              "page is open.",
-              keys_of({kProbe, kPatient, kMachine, kTools, kFiles, kWindow})};
+      return {
+          "Help: an exam that counts",
+          "Do what each step asks for, and hold the view still until its ring is full. The clock runs on while this "
+          "page is open.",
+          keys_of({kProbe, kPatient, kMachine, kTools, kFiles, kWindow})};
     case HelpTopic::replay:
       return {"Help: looking at a run again",
               "The time line below shows the steps and how far the probe was from their views. Nothing is scored or "
@@ -108,14 +109,15 @@ Help help_of(HelpTopic topic) {
                         {"Escape", "to the start page"}},
                        kWindow})};
     case HelpTopic::setup:
-      return {"Help: setting up a tracker",
-              "The five steps on the left find how the sensor lies on the dummy probe and where the mannequin lies. Each "
-              "says what to do. The foot switch or the probe's button works like Space.",
-              keys_of({{{"Space, Enter", "mark the place; go on to the next step"},
-                        {"Backspace", "take the last mark back; do the step again"},
-                        {"Click a step", "go back to it"},
-                        {"Escape", "close; what is complete is kept"}},
-                       kWindow})};
+      return {
+          "Help: setting up a tracker",
+          "The five steps on the left find how the sensor lies on the dummy probe and where the mannequin lies. Each "
+          "says what to do. The foot switch or the probe's button works like Space.",
+          keys_of({{{"Space, Enter", "mark the place; go on to the next step"},
+                    {"Backspace", "take the last mark back; do the step again"},
+                    {"Click a step", "go back to it"},
+                    {"Escape", "close; what is complete is kept"}},
+                   kWindow})};
     case HelpTopic::author:
       return {"Help: making views of a case",
               "Hold the probe where the view should be, choose the structures that it shows, name it and store it. "
@@ -128,10 +130,11 @@ Help help_of(HelpTopic topic) {
                         {"Escape", "to the start page"}},
                        kWindow})};
     case HelpTopic::score:
-      return {"Help: the score",
-              "Each step has its points and, where some are missing, the reason. The report has all of it, with pictures "
-              "and the probe's path, for printing or for a teacher.",
-              keys_of({{{"Escape", "close the sheet, and go on scanning"}}, kWindow})};
+      return {
+          "Help: the score",
+          "Each step has its points and, where some are missing, the reason. The report has all of it, with pictures "
+          "and the probe's path, for printing or for a teacher.",
+          keys_of({{{"Escape", "close the sheet, and go on scanning"}}, kWindow})};
     case HelpTopic::open:
       return {"Help: opening a file",
               "Click through the folders or type a path. A CT is a NIfTI, NRRD or MetaImage file or a folder of DICOM "

@@ -145,15 +145,20 @@ ScoreAnswer draw_score_sheet(const Theme& theme, const Rect& screen, const ExamR
     buttons.take_right(gap);
     return place;
   };
-  if (button(theme, "close_sheet", next(), "Close")) answer = ScoreAnswer::close;
-  if (button(theme, "open_report", next(), "Open the report", ButtonKind::normal, files.has_value()))
+  if (button(theme, "close_sheet", next(), "Close", ButtonKind::normal, true,
+             "Leaves the sheet and stays with the patient  (Esc)"))
+    answer = ScoreAnswer::close;
+  if (button(theme, "open_report", next(), "Open the report", ButtonKind::normal, files.has_value(),
+             "Every step and criterion with its reason, pictures and the probe's path, in the browser"))
     answer = ScoreAnswer::open_report;
   if (!watched && button(theme, "leave_sheet", next(), "Start page")) answer = ScoreAnswer::leave;
   if (once) {
     end_overlay();
     return answer;
   }
-  if (button(theme, "practice_after", next(), "Free practice")) answer = ScoreAnswer::practice;
+  if (button(theme, "practice_after", next(), "Free practice", ButtonKind::normal, true,
+             "Goes on without steps, clock and score"))
+    answer = ScoreAnswer::practice;
   if (watched) {
     if (button(theme, "again", next(), "Watch again")) answer = ScoreAnswer::again;
     if (button(theme, "own_try", next(), "Try it yourself", ButtonKind::primary)) answer = ScoreAnswer::own_try;

@@ -155,7 +155,8 @@ PictureSizes Screen::picture_sizes(const Trainer& trainer, float width, float he
 
 bool Screen::render(Trainer& trainer, FrameTimes* times) {
   const ImVec2 size = ImGui::GetIO().DisplaySize;
-  if (theme_.fit(size.x, size.y, trainer.preferences().look) || std::exchange(fonts_are_new_, false) || !ImGui::GetIO().Fonts->TexID)
+  if (theme_.fit(size.x, size.y, trainer.preferences().look) || std::exchange(fonts_are_new_, false) ||
+      !ImGui::GetIO().Fonts->TexID)
     canvas_.make_fonts();
   ImGui::NewFrame();
   lay_out(trainer, size.x, size.y);
@@ -184,8 +185,8 @@ void Screen::capture(Trainer& trainer, bool changed) {
     if (saves_picture_) toast_.hide();  // which uncovers the picture in the next frame
     return;
   }
-  const Image<Rgba8> picture = canvas_.read({int(ultrasound_.x), int(ultrasound_.y),
-                                             int(ultrasound_.x + ultrasound_.w), int(ultrasound_.y + ultrasound_.h)});
+  const Image<Rgba8> picture = canvas_.read(
+      {int(ultrasound_.x), int(ultrasound_.y), int(ultrasound_.x + ultrasound_.w), int(ultrasound_.y + ultrasound_.h)});
   if (clip) trainer.clip().take(picture, ImGui::GetTime());
   if (std::exchange(saves_picture_, false)) trainer.save_picture(picture);
 }
@@ -198,7 +199,8 @@ void Screen::toggle_clip(Trainer& trainer) {
 }
 
 bool Screen::can_save(const Trainer& trainer) const {
-  return (trainer.session() || trainer.replay()) && overlay(trainer) == Overlay::none && trainer.pictures().ultrasound();
+  return (trainer.session() || trainer.replay()) && overlay(trainer) == Overlay::none &&
+         trainer.pictures().ultrasound();
 }
 
 void Screen::draw_panels(Trainer& trainer) {
@@ -299,7 +301,8 @@ void Screen::draw_status(Trainer& trainer) {
   }
   places_["start_page"] = line.take_left(theme_.px(110)).inset(0, theme_.px(6));
   line.take_left(theme_.px(8));
-  if (button(theme_, "start_page", places_["start_page"], "Start page", ButtonKind::normal, trainer.can_leave()))
+  if (button(theme_, "start_page", places_["start_page"], "Start page", ButtonKind::normal, trainer.can_leave(),
+             "Leaves this, and shows what else there is to do  (Esc)"))
     return leave(trainer);
   if (!trainer.replay()) {
     places_["record"] = line.take_left(theme_.px(124)).inset(0, theme_.px(6));
@@ -546,8 +549,7 @@ void Screen::close_page() {
 
 /// What the help is about: the page that it lies on.
 HelpTopic Screen::help_topic(const Trainer& trainer) const {
-  if (pages_.size() > 1)
-    return pages_[pages_.size() - 2] == Overlay::settings ? HelpTopic::settings : HelpTopic::open;
+  if (pages_.size() > 1) return pages_[pages_.size() - 2] == Overlay::settings ? HelpTopic::settings : HelpTopic::open;
   if (trainer.start_page()) return HelpTopic::start;
   if (trainer.setup()) return HelpTopic::setup;
   if (trainer.replay()) return HelpTopic::replay;
@@ -592,8 +594,8 @@ void Screen::draw_overlay(Trainer& trainer) {
       if (draw_about(theme_, screen_, device_)) close_page();
       break;
     case Overlay::settings: {
-      const SettingsAnswer answer =
-          draw_settings(theme_, screen_, trainer.preferences(), trainer.options().out, trainer.preferences_file(), places_);
+      const SettingsAnswer answer = draw_settings(theme_, screen_, trainer.preferences(), trainer.options().out,
+                                                  trainer.preferences_file(), places_);
       if (answer.wanted) trainer.prefer(*answer.wanted);
       if (answer.browse) ask_for_path(*answer.browse);
       if (answer.close) close_page();

@@ -99,8 +99,8 @@ SettingsAnswer draw_settings(const Theme& theme, const Rect& screen, const Prefe
   set(look.tint, rows.choose("tint", "The ultrasound's colour", {"Grey", "Warm", "Cool"}, std::size_t(look.tint)));
 
   rows.heading("The ultrasound");
-  if (const auto level = rows.choose("quality", "Quality", {"Fast", "Balanced", "Exact"},
-                                     std::size_t(quality_named(wanted.quality))))
+  if (const auto level =
+          rows.choose("quality", "Quality", {"Fast", "Balanced", "Exact"}, std::size_t(quality_named(wanted.quality))))
     wanted.quality = quality_names()[*level];
   const std::vector<std::string> servers{"", kHere, kNetwork};
   std::vector<std::string> server_texts{"No", "On this computer", "On the network"};

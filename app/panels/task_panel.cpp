@@ -194,12 +194,14 @@ void draw_task_panel(const Theme& theme, const Rect& panel, Session& session, Pi
              controls.asks_again() ? ButtonKind::warning
              : ready               ? ButtonKind::primary
                                    : ButtonKind::normal,
-             !controls.question() || ready))
+             !controls.question() || ready, controls.question() ? "" : "Ends this step and begins the next  (Enter)"))
     controls.go_on(session);
   right.take_right(theme.px(8));
   if (const auto cost = StepControls::hint_cost(session)) {
     places["hint"] = right;
-    if (button(theme, "hint", right, hint_text(*cost))) controls.take_hint(session);
+    if (button(theme, "hint", right, hint_text(*cost), ButtonKind::normal, true,
+               "Says more about how to find the view. What it costs is taken off this step's points."))
+      controls.take_hint(session);
   }
   rest.take_right(theme.px(16));
 

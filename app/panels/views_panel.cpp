@@ -75,8 +75,7 @@ constexpr std::array<ViewButton, 7> kViewButtons{{
 }};
 
 // Draws a button per side of the patient along the panel's lower edge.
-void draw_view_buttons(const Theme& theme, const Rect& panel, Pictures& pictures,
-                       std::map<std::string, Rect>& places) {
+void draw_view_buttons(const Theme& theme, const Rect& panel, Pictures& pictures, std::map<std::string, Rect>& places) {
   const float size = theme.px(26), between = theme.px(3);
   Rect row{panel.x + theme.px(6), panel.y + panel.h - size - theme.px(6), panel.w, size};
   for (const ViewButton& each : kViewButtons) {
@@ -158,6 +157,7 @@ void draw_blend_panel(const Theme& theme, const Rect& panel, Pictures& pictures)
   fill({panel.x, track.y - theme.px(2), panel.w, panel.y + panel.h - track.y + theme.px(2)}, colour::kPlate);
   ImGui::SetCursorScreenPos(track.min());
   ImGui::InvisibleButton("blend", {track.w, track.h});
+  if (!ImGui::IsItemActive()) draw_tip(theme, track, "More of the CT on the left, more of the ultrasound on the right");
   if (ImGui::IsItemActive())
     pictures.blend_share = std::clamp(double(ImGui::GetIO().MousePos.x - track.x) / track.w, 0.0, 1.0);
   const float y = track.y + track.h / 2, x = track.x + float(pictures.blend_share) * track.w;

@@ -111,7 +111,7 @@ void Pictures::update(const std::optional<Pose>& pose, const Machine& machine, c
 }
 
 void Pictures::look_from_next() {
-  constexpr std::array kSides{view::Side::front, view::Side::left,  view::Side::back,
+  constexpr std::array kSides{view::Side::front, view::Side::left, view::Side::back,
                               view::Side::right, view::Side::head, view::Side::feet};
   look_from(kSides[std::size_t(next_side_)]);
   next_side_ = (next_side_ + 1) % int(kSides.size());

@@ -12,9 +12,9 @@
 
 namespace insonate {
 
-/// Makes a silent WebM clip (VP8) of pictures as they are shown. Encodes on its own thread, so that drawing never waits:
-/// pictures that come faster than it encodes are left out. The file appears when the clip is complete; a program that is
-/// killed before leaves none.
+/// Makes a silent WebM clip (VP8) of pictures as they are shown. Encodes on its own thread, so that drawing never
+/// waits: pictures that come faster than it encodes are left out. The file appears when the clip is complete; a program
+/// that is killed before leaves none.
 class ClipRecorder {
 public:
   /// A longer clip is ended by itself, because it is kept in memory: some 60 MB.

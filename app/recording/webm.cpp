@@ -99,24 +99,21 @@ std::string WebmFile::bytes() const {
                          number(kEbmlMaxSizeLength, 8) + element(kDocType, "webm") + number(kDocTypeVersion, 4) +
                          number(kDocTypeReadVersion, 2));
   const double frame_ms = frames_ > 1 ? double(last_ms_) / double(frames_ - 1) : 0;
-  const std::string info = element(
-      kInfo, number(kTimestampScale, 1000000) + real(kDuration, double(last_ms_) + frame_ms) +
-                 element(kMuxingApp, "Insonate") + element(kWritingApp, "Insonate"));
-  const std::string video = element(
-      kVideo, number(kPixelWidth, std::uint64_t(width_)) + number(kPixelHeight, std::uint64_t(height_)));
-  const std::string tracks =
-      element(kTracks, element(kTrackEntry, number(kTrackNumber, kTrack) + number(kTrackUid, kTrack) +
-                                                number(kTrackType, 1) + number(kFlagLacing, 0) +
-                                                element(kCodecId, "V_VP8") + video));
+  const std::string info =
+      element(kInfo, number(kTimestampScale, 1000000) + real(kDuration, double(last_ms_) + frame_ms) +
+                         element(kMuxingApp, "Insonate") + element(kWritingApp, "Insonate"));
+  const std::string video =
+      element(kVideo, number(kPixelWidth, std::uint64_t(width_)) + number(kPixelHeight, std::uint64_t(height_)));
+  const std::string tracks = element(
+      kTracks, element(kTrackEntry, number(kTrackNumber, kTrack) + number(kTrackUid, kTrack) + number(kTrackType, 1) +
+                                        number(kFlagLacing, 0) + element(kCodecId, "V_VP8") + video));
   // Positions count from the segment's content on.
   const std::size_t seek_size = element(kSeekHead, seek(kInfo, 0) + seek(kTracks, 0) + seek(kCues, 0)).size();
   const std::size_t first_cluster = seek_size + info.size() + tracks.size();
   std::string clusters, cues;
   for (const Cluster& cluster : clusters_) {
-    const std::string place =
-        number(kCueTrack, kTrack) + number(kCueClusterPosition, first_cluster + clusters.size());
-    cues += element(kCuePoint,
-                    number(kCueTime, std::uint64_t(cluster.time_ms)) + element(kCueTrackPositions, place));
+    const std::string place = number(kCueTrack, kTrack) + number(kCueClusterPosition, first_cluster + clusters.size());
+    cues += element(kCuePoint, number(kCueTime, std::uint64_t(cluster.time_ms)) + element(kCueTrackPositions, place));
     clusters += element(kCluster, number(kTimestamp, std::uint64_t(cluster.time_ms)) + cluster.blocks);
   }
   const std::string seeks = element(kSeekHead, seek(kInfo, seek_size) + seek(kTracks, seek_size + info.size()) +

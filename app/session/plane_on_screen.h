@@ -8,8 +8,8 @@ namespace insonate {
 
 /// Converts between the probe's imaging plane (mm; x lateral towards the marker, y along the central beam) and the
 /// screen (pixels from the top left), where a picture of that plane fills an area. The marker's side, +x, is on the
-/// left, or on the right if asked for. Exact for any size of area and picture: each direction has its own scale, because a picture that is computed
-/// for fewer pixels than it is shown in may be stretched by a fraction of a pixel.
+/// left, or on the right if asked for. Exact for any size of area and picture: each direction has its own scale,
+/// because a picture that is computed for fewer pixels than it is shown in may be stretched by a fraction of a pixel.
 class PlaneOnScreen {
 public:
   PlaneOnScreen(const glm::dvec2& area_top_left, const glm::dvec2& area_size, const ImageGeometry& geometry,

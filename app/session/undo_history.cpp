@@ -1,15 +1,27 @@
 #include "app/session/undo_history.h"
 
+#include <glm/geometric.hpp>
+
 #include <utility>
 
 namespace insonate {
-
 UndoHistory::State UndoHistory::state_of(const Session& session) {
   State state{session.machine(), std::nullopt};
   state.machine.frozen = false;  // no knob: Space lets the picture go
   state.machine.frozen_at.reset();
   if (session.holder() == Holder::learner && !session.strict()) state.pose = session.newest_pose();
   return state;
+}
+
+/// A pose comes back from the tracker with rounding errors.
+bool UndoHistory::same(const State& a, const State& b) {
+  constexpr double kRounding_mm = 1e-4, kRounding = 1e-6;
+  if (a.machine != b.machine || a.pose.has_value() != b.pose.has_value()) return false;
+  if (!a.pose) return true;
+  if (glm::distance(a.pose->translation, b.pose->translation) > kRounding_mm) return false;
+  for (int column = 0; column < 3; ++column)
+    if (glm::distance(a.pose->rotation[column], b.pose->rotation[column]) > kRounding) return false;
+  return true;
 }
 
 void UndoHistory::watch(const Session& session) {
@@ -22,7 +34,7 @@ void UndoHistory::watch(const Session& session) {
     future_.clear();
     return;
   }
-  if (std::exchange(latest_, state) != state) moved_s_ = session.now_s();
+  if (!same(std::exchange(latest_, state), state)) moved_s_ = session.now_s();
   // A log changes the machine by itself, and another hand has another pose.
   if (session.source().recording() || latest_.pose.has_value() != settled_.pose.has_value()) settled_ = latest_;
   if (session.now_s() - moved_s_ > kStill_s) settle();
@@ -30,7 +42,7 @@ void UndoHistory::watch(const Session& session) {
 
 /// Remembers what has been moved since the last step.
 void UndoHistory::settle() {
-  if (latest_ == settled_) return;
+  if (same(latest_, settled_)) return;
   past_.push_back(std::exchange(settled_, latest_));
   if (past_.size() > kMost) past_.erase(past_.begin());
   future_.clear();
@@ -51,7 +63,7 @@ bool UndoHistory::go(Session& session, std::vector<State>& from, std::vector<Sta
   to.push_back(settled_);
   settled_ = latest_ = std::move(from.back());
   from.pop_back();
-  moved_s_ = session.now_s();  // the pose arrives with the next sample
+  moved_s_ = session.now_s();
   Machine unfrozen = session.machine();
   unfrozen.frozen = false;
   unfrozen.frozen_at.reset();

@@ -29,11 +29,10 @@ private:
   struct State {
     Machine machine;
     std::optional<Pose> pose;  ///< of the probe in the person's hand
-
-    bool operator==(const State&) const = default;
   };
 
   static State state_of(const Session& session);
+  static bool same(const State& a, const State& b);
   void settle();
   bool go(Session& session, std::vector<State>& from, std::vector<State>& to);
 

@@ -88,8 +88,7 @@ std::optional<FolderEntry> entry_of(const fs::directory_entry& found, Wanted wan
     if (!entry.is_folder) entry.kind = "case";
   } else {
     if (is_folder(wanted)) return std::nullopt;
-    const std::optional<Material> material =
-        wanted == Wanted::results ? std::nullopt : material_of(entry.path);
+    const std::optional<Material> material = wanted == Wanted::results ? std::nullopt : material_of(entry.path);
     if (material) entry.kind = kind_in_words(*material, wanted);
     if (wanted == Wanted::results && entry.path.extension() == ".db") entry.kind = "results";
     if (entry.kind.empty()) return std::nullopt;

@@ -37,12 +37,14 @@ void draw_buttons(const Theme& theme, Rect row, Replay& replay, std::map<std::st
     row.take_left(gap);
     return places[name] = where;
   };
-  if (button(theme, "replay_back", place("replay_back", 38), "\u2190", ButtonKind::normal, replay.time_s() > 0))
+  if (button(theme, "replay_back", place("replay_back", 38), "\u2190", ButtonKind::normal, replay.time_s() > 0,
+             "The sample before  (Left)"))
     replay.step(-1);
-  if (button(theme, "replay_play", place("replay_play", 92), replay.playing() ? "Pause" : "Play", ButtonKind::primary))
+  if (button(theme, "replay_play", place("replay_play", 92), replay.playing() ? "Pause" : "Play", ButtonKind::primary,
+             true, "Plays and pauses  (Space)"))
     replay.toggle();
   if (button(theme, "replay_on", place("replay_on", 38), "\u2192", ButtonKind::normal,
-             replay.time_s() < replay.run().duration_s()))
+             replay.time_s() < replay.run().duration_s(), "The next sample  (Right)"))
     replay.step(+1);
   row.take_left(theme.px(10));
   for (std::size_t i = 0; i < Replay::kSpeeds.size(); ++i) {
@@ -51,7 +53,7 @@ void draw_buttons(const Theme& theme, Rect row, Replay& replay, std::map<std::st
     const bool chosen = Replay::kSpeeds[i] == replay.speed();
     const std::string name = "replay_speed_" + std::to_string(i);
     if (button(theme, name.c_str(), place(name.c_str(), 44), kTexts[i],
-               chosen ? ButtonKind::chosen : ButtonKind::normal))
+               chosen ? ButtonKind::chosen : ButtonKind::normal, true, "How fast it plays  (Up and Down)"))
       while (replay.speed() != Replay::kSpeeds[i]) replay.change_speed(replay.speed() < Replay::kSpeeds[i] ? 1 : -1);
   }
   row.take_left(theme.px(10));

@@ -38,7 +38,9 @@ std::vector<colour::Writing> colour::writings() {
 }
 
 ImU32 colour::of(Tint tint) {
-  return tint == Tint::grey ? IM_COL32_WHITE : tint == Tint::warm ? IM_COL32(255, 236, 205, 255) : IM_COL32(214, 232, 255, 255);
+  return tint == Tint::grey   ? IM_COL32_WHITE
+         : tint == Tint::warm ? IM_COL32(255, 236, 205, 255)
+                              : IM_COL32(214, 232, 255, 255);
 }
 
 std::string depth_text(const Look& look, double depth_mm) {

@@ -136,8 +136,8 @@ float draw_chip(const Theme& theme, const ImVec2& at, ImU32 background, ImU32 co
   return plate.w;
 }
 
-bool button(const Theme& theme, const char* id, const Rect& where, std::string_view text, ButtonKind kind,
-            bool enabled, std::string_view tip) {
+bool button(const Theme& theme, const char* id, const Rect& where, std::string_view text, ButtonKind kind, bool enabled,
+            std::string_view tip) {
   ImGui::SetCursorScreenPos(where.min());
   const bool clicked = ImGui::InvisibleButton(id, {where.w, where.h}) && enabled;
   const bool hovered = ImGui::IsItemHovered() && enabled;
@@ -162,17 +162,18 @@ bool button(const Theme& theme, const char* id, const Rect& where, std::string_v
   fill(where, background, theme.px(4));
   if (hovered) outline(where, colour::kFaint, theme.px(4));
   draw_tip(theme, where, tip);
-  draw_text(where.inset(theme.px(6), 0), theme.text, ink, text, Align::centre);
+  draw_text(where.inset(std::min(theme.px(6), where.w / 8), 0), theme.text, ink, text, Align::centre);
   return clicked;
 }
 
 bool slider(const Theme& theme, const char* id, const Rect& where, std::string_view name, std::string_view value_text,
-            double& value, double least, double most, double step, double normal, bool enabled) {
+            double& value, double least, double most, double step, double normal, bool enabled, std::string_view tip) {
   constexpr float kRadius = 7;
   const double before = value;
   const float left = where.x + theme.px(kRadius), right = where.x + where.w - theme.px(kRadius);
   const double at_mouse = least + (most - least) * (ImGui::GetIO().MousePos.x - left) / (right - left);
   const bool lit = enabled && handle(id, where, {least, most, step, normal}, at_mouse, value);
+  if (enabled && !ImGui::IsItemActive()) draw_tip(theme, where, tip);
 
   Rect line = where;
   line.h = theme.px(20);
@@ -189,12 +190,14 @@ bool slider(const Theme& theme, const char* id, const Rect& where, std::string_v
   return value != before;
 }
 
-bool upright_slider(const Theme& theme, const char* id, const Rect& where, double& value, double reach, bool enabled) {
+bool upright_slider(const Theme& theme, const char* id, const Rect& where, double& value, double reach, bool enabled,
+                    std::string_view tip) {
   constexpr float kRadius = 5;
   const double before = value;
   const float top = where.y + theme.px(kRadius), bottom = where.y + where.h - theme.px(kRadius);
   const double at_mouse = reach * (1 - 2.0 * (ImGui::GetIO().MousePos.y - top) / (bottom - top));
   const bool lit = enabled && handle(id, where, {-reach, reach, 1, 0}, at_mouse, value);
+  if (enabled && !ImGui::IsItemActive()) draw_tip(theme, where, tip);
 
   const float x = std::round(where.x + where.w / 2), half = theme.px(1.5f);
   const float middle = (top + bottom) / 2, y = middle - float(value / reach) * (bottom - top) / 2;

@@ -52,12 +52,14 @@ bool button(const Theme& theme, const char* id, const Rect& where, std::string_v
 /// Draws a slider with its name on the left and its value on the right above the track. A double click sets `normal`.
 /// Returns true if the value changed; it is rounded to whole `step`s. A disabled slider shows its value and does not
 /// change it.
+/// @param tip  as for button()
 bool slider(const Theme& theme, const char* id, const Rect& where, std::string_view name, std::string_view value_text,
-            double& value, double least, double most, double step, double normal, bool enabled = true);
+            double& value, double least, double most, double step, double normal, bool enabled = true,
+            std::string_view tip = {});
 
 /// Draws a short upright slider for values from -reach to reach, such as one of the time gain compensation.
 bool upright_slider(const Theme& theme, const char* id, const Rect& where, double& value, double reach,
-                    bool enabled = true);
+                    bool enabled = true, std::string_view tip = {});
 
 /// Explains ImGui's last item in a box beside the pointer, once the pointer has rested on it for a moment.
 void draw_tip(const Theme& theme, const Rect& of, std::string_view text);

@@ -200,3 +200,30 @@ TEST_CASE("a canvas mixes translucent shapes with what lies below, and lets opaq
   is(90, {200, 0, 0});
   is(200, {20, 30, 40});
 }
+
+TEST_CASE("a picture in another colour is the picture times that colour, in every pixel") {
+  const test::TestContext context;
+  const TestImGui imgui;
+  gl::Texture picture = gl::Texture::make_picture(kWidth, kHeight, gl::Filter::linear);
+  std::vector<std::uint32_t> texels(std::size_t(kWidth) * kHeight);
+  std::mt19937 random(3);
+  for (std::uint32_t& texel : texels) texel = std::uint32_t(random()) | 0xff000000;
+  picture.write(GL_RGBA, GL_UNSIGNED_BYTE, texels.data());
+  const auto drawn_in = [&](ImU32 white) {
+    Canvas canvas;
+    canvas.make_fonts();
+    ImGui::NewFrame();
+    ImGui::GetForegroundDrawList()->AddImage(reinterpret_cast<ImTextureID>(std::uintptr_t(picture.name())), {0, 0},
+                                             {kWidth, kHeight}, {1, 0}, {0, 1}, white);
+    ImGui::Render();
+    canvas.draw(*ImGui::GetDrawData(), kBackground, [](ImTextureID) { return 0; });
+    return canvas.read();
+  };
+  const Image<Rgba8> as_it_is = drawn_in(IM_COL32_WHITE), toned = drawn_in(IM_COL32(255, 200, 100, 255));
+  const std::array<int, 3> factors{255, 200, 100};
+  int worst = 0;
+  for (std::size_t i = 0; i < toned.pixels.size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c)
+      worst = std::max(worst, std::abs(toned.pixels[i][c] - as_it_is.pixels[i][c] * factors[c] / 255));
+  CHECK(worst <= 1);  // rounding
+}

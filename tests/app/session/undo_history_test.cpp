@@ -15,7 +15,8 @@ namespace {
 /// A session that nobody but the learner moves the probe in, watched as the trainer does it.
 struct Watched {
   explicit Watched(ExamRules rules = ExamRules::open, bool with_exam = false)
-      : session(tiny_loaded_case(with_exam), [] { return std::make_unique<MouseTracker>(Pose{}); }, 0, rules) {
+      : session(
+            tiny_loaded_case(with_exam), [] { return std::make_unique<MouseTracker>(Pose{}); }, 0, rules) {
     pass(0.1);
   }
   void pass(double seconds) {
@@ -82,6 +83,23 @@ TEST_CASE("a drag is one step, and what comes after a step back takes the place 
   w.session.set(ActionKind::gain, 5);
   w.pass(1);
   CHECK_FALSE(w.history.redo(w.session));
+}
+
+TEST_CASE("a move with a rotation goes back in one step, however it is rounded") {
+  Watched w;
+  w.session.set(ActionKind::gain, 9);
+  w.pass(1);
+  for (int i = 0; i < 30; ++i) {
+    w.session.move_probe([&](const ProbeHand&, const Pose& pose) { return ProbeHand::turn(pose, 1.1, 0.7, -0.4); });
+    w.slide(0.3);
+    w.pass(1.0 / 60);
+  }
+  w.pass(1);
+  CHECK(w.history.undo(w.session));
+  w.pass(1);
+  CHECK(w.session.machine().gain_db == 9);
+  CHECK(w.history.undo(w.session));
+  CHECK(w.session.machine().gain_db == 0);
 }
 
 TEST_CASE("going back is logged like any other action, and nothing goes back into another attempt") {

@@ -20,7 +20,9 @@ class TrainerFolder {
 public:
   TrainerFolder() : path(std::filesystem::temp_directory_path() / ("insonate-trainer-" + std::to_string(getpid()))) {
     std::filesystem::create_directories(path);
-    setenv("XDG_DATA_HOME", (path / "data").c_str(), 1);  // keeps the user's own results out of the test
+    // Keeps the user's own results and settings out of the test.
+    setenv("XDG_DATA_HOME", (path / "data").c_str(), 1);
+    setenv("XDG_CONFIG_HOME", (path / "config").c_str(), 1);
     write_case(path / "tiny", tiny_case());
     write_file(path / "exam.toml", kTinyScenario);
     write_file(path / "scan.igs.mha", write_sequence(samples_of(4, 60, [](double t) {

@@ -5,7 +5,7 @@ set -euo pipefail
 program=$1
 export INSONATE_ASSETS=$2
 work=$(mktemp -d)
-export XDG_DATA_HOME="$work/data"  # not the user's own results
+export XDG_DATA_HOME="$work/data" XDG_CONFIG_HOME="$work/config"  # not the user's own results and settings
 state="$work/state.json"
 server="" trainer="" helpers=()
 finish() {
@@ -118,7 +118,7 @@ far_enough() { moved face_x "$x" 3 || moved face_y "$y" 3 || moved face_z "$z" 3
 
 # -displayfd lets the server pick a display that is free; -r: no key repeats because a machine is slow to let it go.
 exec 3>"$work/display"
-Xvfb -displayfd 3 -r -screen 0 1280x800x24 -nolisten tcp >"$work/xvfb.log" 2>&1 &
+Xvfb -displayfd 3 -r -screen 0 "${screen_size:-1280x800}x24" -nolisten tcp >"$work/xvfb.log" 2>&1 &
 server=$!
 for _ in $(seq 1 100); do [ -s "$work/display" ] && break; sleep 0.1; done
 [ -s "$work/display" ] || fail "the X server did not start: $(cat "$work/xvfb.log")"

@@ -21,6 +21,10 @@ picture warning
 echo "a click opens the set-up at the first step that is to be made, a click on a step goes to it"
 click_on setup
 await "the set-up opens" is overlay setup
+xdotool key F1
+await "F1 shows its help" is overlay help
+xdotool key F1
+await "F1 closes it" is overlay setup
 is setup_step lag || fail "it begins with $(value setup_step)"
 await "the buttons are there" is_not setup_pivot_x ""
 picture lag
