@@ -106,7 +106,7 @@ void Pictures::update(const std::optional<Pose>& pose, const Machine& machine, c
   body.cut = anatomy && std::abs(glm::dot(camera.patient_from_camera().rotation[2], pose->rotation[2])) > kEdgeOn;
   if (is_due(2, volume_))
     volume_ = &volume_view_.render(std::max(sizes.volume_width, 1), std::max(sizes.volume_height, 1), *patient_, camera,
-                                   plane, body, effort.volume_ms);
+                                   plane, body, {0.5 * effort.volume_ms, 0.5 * effort.volume_ms});
   if (times_) times_->end(FramePart::volume);
 }
 
@@ -138,7 +138,8 @@ const gl::Texture* Pictures::draw_body(const view::OrbitCamera& from, int width,
   view::VolumeStyle body;
   body.cut = body.plane = body.probe = false;
   body.skin = 0.35;
-  return volume_ = &volume_view_.render(width, height, *patient_, from, view::UltrasoundPlane(), body, budget_ms);
+  return volume_ = &volume_view_.render(width, height, *patient_, from, view::UltrasoundPlane(), body,
+                                        {budget_ms, budget_ms});
 }
 
 long Pictures::version_of(GLuint texture) const {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 namespace insonate::gl {
 namespace {
@@ -202,11 +203,19 @@ TexelBuffer::TexelBuffer(GLenum format, std::size_t texels, const void* values) 
   glTextureBuffer(name, format, buffer_.name());
 }
 
-Framebuffer::Framebuffer(const Texture& colour) : width_(colour.width()), height_(colour.height()) {
+Framebuffer::Framebuffer(const Texture& colour) : Framebuffer({&colour}) {}
+
+Framebuffer::Framebuffer(std::initializer_list<const Texture*> colours)
+    : width_((*colours.begin())->width()), height_((*colours.begin())->height()) {
   GLuint name = 0;
   glCreateFramebuffers(1, &name);
   object_ = Object<FramebufferKind>(name);
-  glNamedFramebufferTexture(name, GL_COLOR_ATTACHMENT0, colour.name(), 0);
+  std::vector<GLenum> outputs;
+  for (const Texture* colour : colours) {
+    outputs.push_back(GL_COLOR_ATTACHMENT0 + GLenum(outputs.size()));
+    glNamedFramebufferTexture(name, outputs.back(), colour->name(), 0);
+  }
+  glNamedFramebufferDrawBuffers(name, GLsizei(outputs.size()), outputs.data());
 }
 
 void Framebuffer::bind() const {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <initializer_list>
 #include <stdexcept>
 #include <utility>
 
@@ -159,12 +160,15 @@ struct FramebufferKind {
   static void destroy(GLuint name) { glDeleteFramebuffers(1, &name); }
 };
 
-/// Binds a texture as the target of drawing.
+/// Binds textures as the target of drawing.
 class Framebuffer {
 public:
   Framebuffer() = default;
   /// @param colour  must outlive the framebuffer
   explicit Framebuffer(const Texture& colour);
+  /// Binds several textures of one size; a fragment shader's output i goes to the i-th.
+  explicit Framebuffer(std::initializer_list<const Texture*> colours);
+  int width() const { return width_; }
   /// Binds the framebuffer and sets the viewport to all of it.
   void bind() const;
   /// Copies the texels into a framebuffer of the same size; 0 is the window's.

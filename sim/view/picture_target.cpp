@@ -18,7 +18,7 @@ void PictureTarget::resize(int width, int height) {
   framebuffer = gl::Framebuffer(texture);
 }
 
-ScopedDrawTarget::ScopedDrawTarget(const PictureTarget& target, int first_row, int end_row)
+ScopedDrawTarget::ScopedDrawTarget(const gl::Framebuffer& target, int first_row, int end_row)
     : blend_(glIsEnabled(GL_BLEND)),
       depth_test_(glIsEnabled(GL_DEPTH_TEST)),
       cull_face_(glIsEnabled(GL_CULL_FACE)),
@@ -27,9 +27,9 @@ ScopedDrawTarget::ScopedDrawTarget(const PictureTarget& target, int first_row, i
   glGetIntegerv(GL_VIEWPORT, viewport_);
   glGetIntegerv(GL_SCISSOR_BOX, scissor_);
   for (GLenum capability : {GL_BLEND, GL_DEPTH_TEST, GL_CULL_FACE}) glDisable(capability);
-  target.framebuffer.bind();
+  target.bind();
   glEnable(GL_SCISSOR_TEST);
-  glScissor(0, first_row, target.texture.width(), end_row - first_row);
+  glScissor(0, first_row, target.width(), end_row - first_row);
 }
 
 ScopedDrawTarget::~ScopedDrawTarget() {

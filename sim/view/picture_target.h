@@ -17,7 +17,7 @@ struct PictureTarget {
 /// restores the framebuffer binding, viewport and switches, so that a view can be drawn within another program's frame.
 class ScopedDrawTarget {
 public:
-  ScopedDrawTarget(const PictureTarget& target, int first_row, int end_row);
+  ScopedDrawTarget(const gl::Framebuffer& target, int first_row, int end_row);
   ~ScopedDrawTarget();
   ScopedDrawTarget(const ScopedDrawTarget&) = delete;
   ScopedDrawTarget& operator=(const ScopedDrawTarget&) = delete;

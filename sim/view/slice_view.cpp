@@ -91,7 +91,7 @@ const gl::Texture& SliceView::render(const PatientTextures& patient, const Ultra
   plane.image->bind(1);
   patient.labels().bind(2);
   {
-    const ScopedDrawTarget drawing(s.target, 0, size.y);
+    const ScopedDrawTarget drawing(s.target.framebuffer, 0, size.y);
     s.program.use();
     s.triangle.draw();
   }

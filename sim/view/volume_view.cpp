@@ -104,57 +104,115 @@ private:
   std::optional<double> pixel_ms_;
 };
 
+/// What lies in front of the ultrasound's plane and behind it, and what hides the probe.
+struct Layers {
+  gl::Texture front, back, before_probe;
+  gl::Framebuffer framebuffer;
+
+  void resize(int width, int height) {
+    if (front && front.width() == width && front.height() == height) return;
+    front = gl::Texture::make_2d(GL_RGBA8, width, height, gl::Filter::linear);
+    back = gl::Texture::make_2d(GL_RGBA8, width, height, gl::Filter::linear);
+    before_probe = gl::Texture::make_2d(GL_R8, width, height, gl::Filter::linear);
+    framebuffer = gl::Framebuffer({&front, &back, &before_probe});
+  }
+};
+
 }  // namespace
 
 struct VolumeView::State {
   explicit State(const gl::ShaderSources& sources)
-      : program(sources, {"view/full_screen.vert", "view/volume_view.frag"},
-                {{"VOXELS_PER_BLOCK", std::to_string(TissueClasses::kBlock)}}) {}
+      : whole(sources, {"view/full_screen.vert", "view/volume_view.frag"}, kDefines),
+        layers_program(sources, {"view/full_screen.vert", "view/volume_layers.frag"}, kDefines),
+        finish(sources, {"view/full_screen.vert", "view/volume_finish.frag"}, kDefines) {}
 
-  gl::Program program;
+  inline static const gl::Defines kDefines{{"VOXELS_PER_BLOCK", std::to_string(TissueClasses::kBlock)}};
+  gl::Program whole, layers_program, finish;
   gl::FullScreenTriangle triangle;
   gl::Buffer parameters{sizeof(VolumeViewParameters), nullptr};
   PictureTarget full, reduced;
-  Pace pace;
+  Layers layers;
+  Pace pace, finish_pace;
 
   std::optional<Inputs> drawn;
   int scale = 1;         // scale of the picture shown
   int moving_scale = 1;  // scale of the last picture drawn while inputs changed
+  int finish_scale = 1;  // scale of the plane in that picture
   int full_rows = 0;     // rows of the full picture drawn so far
   long renders = 0;
 
-  int choose_scale(double full_pixels, double budget_ms);
-  void draw(const PictureTarget& target, int first_row, int end_row, const PatientTextures& patient,
-            const UltrasoundPlane& plane, const VolumeViewParameters& values);
+  void bind(const Inputs& inputs, const UltrasoundPlane& plane, int width, int height, int coarseness);
+  void draw_whole(const Inputs& inputs, const UltrasoundPlane& plane, int first_row, int end_row);
+  void draw_moving(const Inputs& inputs, const UltrasoundPlane& plane);
 };
 
-// Returns the finest scale that fits the budget. A finer scale than the last is chosen only if it fits with room to
-// spare, so that the picture does not flicker between two sharpnesses.
-int VolumeView::State::choose_scale(double full_pixels, double budget_ms) {
+namespace {
+
+// Returns the finest scale up to `coarsest` that fits the budget. A finer scale than the last is chosen only if it fits
+// with room to spare, so that the picture does not flicker between two sharpnesses.
+int chosen_scale(Pace& pace, double full_pixels, double budget_ms, int last, int coarsest) {
   if (std::isinf(budget_ms)) return 1;
   const std::optional<double> pixel_ms = pace.pixel_ms();
-  if (!pixel_ms) return kCoarsest;
-  for (int candidate = 1; candidate < kCoarsest; ++candidate) {
+  if (!pixel_ms) return coarsest;
+  for (int candidate = 1; candidate < coarsest; ++candidate) {
     const double expected_ms = *pixel_ms * full_pixels / (candidate * candidate);
-    if (expected_ms <= (candidate < moving_scale ? 0.75 : 1.0) * budget_ms) return candidate;
+    if (expected_ms <= (candidate < last ? 0.75 : 1.0) * budget_ms) return candidate;
   }
-  return kCoarsest;
+  return coarsest;
 }
 
-void VolumeView::State::draw(const PictureTarget& target, int first_row, int end_row, const PatientTextures& patient,
-                             const UltrasoundPlane& plane, const VolumeViewParameters& values) {
+int scaled(int pixels, int scale) {
+  return (pixels + scale - 1) / scale;
+}
+
+}  // namespace
+
+void VolumeView::State::bind(const Inputs& inputs, const UltrasoundPlane& plane, int width, int height,
+                             int coarseness) {
+  const VolumeViewParameters values =
+      parameters_for(*inputs.patient, inputs.camera, plane, inputs.style, width, height, coarseness);
   parameters.write(&values, sizeof values);
   parameters.bind_uniform(0);
-  patient.acoustic_volume().bind(0);
+  inputs.patient->acoustic_volume().bind(0);
   if (plane.image) plane.image->bind(1);
-  patient.tissue().bind(2);
-  patient.body().bind(3);
-  patient.distance().bind(4);
-  const ScopedDrawTarget drawing(target, first_row, end_row);
-  program.use();
+  inputs.patient->tissue().bind(2);
+  inputs.patient->body().bind(3);
+  inputs.patient->distance().bind(4);
+}
+
+void VolumeView::State::draw_whole(const Inputs& inputs, const UltrasoundPlane& plane, int first_row, int end_row) {
+  full.resize(inputs.width, inputs.height);
+  bind(inputs, plane, inputs.width, inputs.height, 1);
+  const ScopedDrawTarget drawing(full.framebuffer, first_row, end_row);
+  whole.use();
   pace.begin(first_row == 0);
   triangle.draw();
-  pace.end(double(target.texture.width()) * (end_row - first_row), end_row == target.texture.height());
+  pace.end(double(inputs.width) * (end_row - first_row), end_row == inputs.height);
+  ++renders;
+}
+
+void VolumeView::State::draw_moving(const Inputs& inputs, const UltrasoundPlane& plane) {
+  const int coarse_width = scaled(inputs.width, scale), coarse_height = scaled(inputs.height, scale);
+  layers.resize(coarse_width, coarse_height);
+  bind(inputs, plane, coarse_width, coarse_height, scale);
+  {
+    const ScopedDrawTarget drawing(layers.framebuffer, 0, coarse_height);
+    layers_program.use();
+    pace.begin(true);
+    triangle.draw();
+    pace.end(double(coarse_width) * coarse_height, true);
+  }
+  const int width = scaled(inputs.width, finish_scale), height = scaled(inputs.height, finish_scale);
+  reduced.resize(width, height);
+  bind(inputs, plane, width, height, finish_scale);
+  layers.front.bind(5);
+  layers.back.bind(6);
+  layers.before_probe.bind(7);
+  const ScopedDrawTarget drawing(reduced.framebuffer, 0, height);
+  finish.use();
+  finish_pace.begin(true);
+  triangle.draw();
+  finish_pace.end(double(width) * height, true);
   ++renders;
 }
 
@@ -164,26 +222,28 @@ VolumeView::VolumeView(VolumeView&&) noexcept = default;
 VolumeView& VolumeView::operator=(VolumeView&&) noexcept = default;
 
 const gl::Texture& VolumeView::render(int width, int height, const PatientTextures& patient, const OrbitCamera& camera,
-                                      const UltrasoundPlane& plane, const VolumeStyle& style, double budget_ms) {
+                                      const UltrasoundPlane& plane, const VolumeStyle& style,
+                                      const VolumeBudget& budget) {
   State& s = *state_;
   const Inputs inputs{width, height, &patient, camera, PlaneState(plane), style};
+  const double pixels = double(width) * height;
   if (s.drawn != inputs) {
     s.drawn = inputs;
-    s.scale = s.moving_scale = s.choose_scale(double(width) * height, budget_ms);
+    s.scale = s.moving_scale = chosen_scale(s.pace, pixels, budget.volume_ms, s.moving_scale, kCoarsest);
     s.full_rows = s.scale == 1 ? height : 0;
-    PictureTarget& target = s.scale == 1 ? s.full : s.reduced;
-    const int w = (width + s.scale - 1) / s.scale, h = (height + s.scale - 1) / s.scale;
-    target.resize(w, h);
-    s.draw(target, 0, h, patient, plane, parameters_for(patient, camera, plane, style, w, h, s.scale));
-    return target.texture;
-  }
-  if (s.full_rows < height) {
-    s.full.resize(width, height);
+    if (s.scale == 1) {
+      s.draw_whole(inputs, plane, 0, height);
+    } else {
+      s.finish_scale = chosen_scale(s.finish_pace, pixels, budget.plane_ms, s.finish_scale, s.scale);
+      s.draw_moving(inputs, plane);
+    }
+  } else if (s.full_rows < height) {
     const double row_ms = s.pace.pixel_ms().value_or(0) * width;
-    const int rows = row_ms * height <= budget_ms ? height : int(std::max(budget_ms / row_ms, height / 64.0)) + 1;
+    const int rows =
+        row_ms * height <= budget.volume_ms ? height : int(std::max(budget.volume_ms / row_ms, height / 64.0)) + 1;
     const int first = s.full_rows;
     s.full_rows = std::min(first + rows, height);
-    s.draw(s.full, first, s.full_rows, patient, plane, parameters_for(patient, camera, plane, style, width, height, 1));
+    s.draw_whole(inputs, plane, first, s.full_rows);
     if (s.full_rows == height) s.scale = 1;
   }
   return s.scale == 1 ? s.full.texture : s.reduced.texture;
@@ -207,7 +267,8 @@ double VolumeView::full_picture_ms() const {
 }
 
 std::optional<std::string> VolumeView::reload(const gl::ShaderSources& sources) {
-  const std::optional<std::string> problem = gl::Program::reload(std::array{&state_->program}, sources);
+  const std::optional<std::string> problem =
+      gl::Program::reload(std::array{&state_->whole, &state_->layers_program, &state_->finish}, sources);
   if (!problem) forget();
   return problem;
 }

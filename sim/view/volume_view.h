@@ -24,6 +24,13 @@ struct VolumeStyle {
   bool operator==(const VolumeStyle&) const = default;
 };
 
+/// Device time that one call may take, ms; infinity always draws the full picture at once.
+struct VolumeBudget {
+  double volume_ms =
+      std::numeric_limits<double>::infinity();  ///< of skin, organs and bone, or a part of the full picture
+  double plane_ms = std::numeric_limits<double>::infinity();  ///< of the plane, the cut and the probe while things move
+};
+
 /// Draws the patient in 3D, with the ultrasound picture where it was taken. It uses direct volume rendering by ray
 /// casting; the picture and the probe are composited at their true depth.
 class VolumeView {
@@ -35,22 +42,23 @@ public:
   VolumeView& operator=(VolumeView&&) noexcept;
 
   /// Returns the picture: RGBA8, alpha 255, row 0 is the top; valid until the next call. The texture is `width` by
-  /// `height`. While the inputs change and a full picture would exceed the budget, it is a half, third or quarter of
-  /// that size: draw it stretched. Once nothing changes, each call draws as much of the full picture as the budget
-  /// allows, and returns it when it is complete. After that nothing is drawn. Leaves the framebuffer binding and
-  /// viewport as they were.
-  /// @param patient    compared by address: call forget() after changing the object there
-  /// @param budget_ms  device time for one call; infinity always draws the full picture at once
+  /// `height`. While the inputs change and a full picture would exceed the budget, skin, organs and bone are drawn with
+  /// a half, third or quarter of the pixels along each side. The plane, the face of the cut and the probe stay sharp as
+  /// far as their own budget allows: the texture is as large as that, and to be drawn stretched. Once nothing changes,
+  /// each call draws as much of the full picture as the budget allows, and returns it when it is complete. After that
+  /// nothing is drawn. Leaves the framebuffer binding and viewport as they were.
+  /// @param patient  compared by address: call forget() after changing the object there
   const gl::Texture& render(int width, int height, const PatientTextures& patient, const OrbitCamera& camera,
                             const UltrasoundPlane& plane, const VolumeStyle& style = {},
-                            double budget_ms = std::numeric_limits<double>::infinity());
+                            const VolumeBudget& budget = {});
 
   /// Makes the next render() redraw.
   void forget();
 
   /// Returns how often it has drawn a picture or a part of one.
   long renders() const;
-  /// Returns the scale of the last picture: 1 is the full size, 2 a half, 3 a third, 4 a quarter.
+  /// Returns the scale of skin, organs and bone in the last picture: 1 is the full size, 2 a half, 3 a third, 4 a
+  /// quarter.
   int scale() const;
   /// Returns the last measured device time of a picture of full size, ms; 0 before the first measurement.
   double full_picture_ms() const;

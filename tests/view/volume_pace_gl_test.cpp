@@ -35,7 +35,7 @@ TEST_CASE("Nothing is drawn while nothing changes, and each change is drawn") {
   view::VolumeStyle style;
   int width = kWidth;
   const auto renders_after = [&] {
-    view.render(width, kHeight, *scene.patient, camera, scene.plane, style, kUnlimited);
+    view.render(width, kHeight, *scene.patient, camera, scene.plane, style, {kUnlimited, kUnlimited});
     return view.renders();
   };
   CHECK(renders_after() == 1);
@@ -63,7 +63,7 @@ TEST_CASE("While things move the picture is as coarse as the budget asks, and sh
   VolumeView view, unhurried;
   OrbitCamera camera;
   const auto render = [&](double budget_ms) -> const gl::Texture& {
-    return view.render(kWidth, kHeight, *scene.patient, camera, scene.plane, {}, budget_ms);
+    return view.render(kWidth, kHeight, *scene.patient, camera, scene.plane, {}, {budget_ms, budget_ms});
   };
   render(kHopeless_ms);
   CHECK(view.scale() == 4);
@@ -88,14 +88,17 @@ TEST_CASE("While things move the picture is as coarse as the budget asks, and sh
   const auto refined = test::read(render(kHopeless_ms)).pixels;
   CHECK(view.renders() == moving + calls);
   CHECK(refined ==
-        test::read(unhurried.render(kWidth, kHeight, *scene.patient, camera, scene.plane, {}, kUnlimited)).pixels);
+        test::read(unhurried.render(kWidth, kHeight, *scene.patient, camera, scene.plane, {}, {kUnlimited, kUnlimited}))
+            .pixels);
 }
 
 TEST_CASE("A coarse picture shows the same as the sharp one") {
   Scene scene = small_patient();
   VolumeView coarse, sharp;
-  const auto small = test::read(coarse.render(kWidth, kHeight, *scene.patient, {}, scene.plane, {}, kHopeless_ms));
-  const auto full = test::read(sharp.render(kWidth, kHeight, *scene.patient, {}, scene.plane, {}, kUnlimited));
+  const auto small =
+      test::read(coarse.render(kWidth, kHeight, *scene.patient, {}, scene.plane, {}, {kHopeless_ms, kHopeless_ms}));
+  const auto full =
+      test::read(sharp.render(kWidth, kHeight, *scene.patient, {}, scene.plane, {}, {kUnlimited, kUnlimited}));
   const int scale = coarse.scale();
   REQUIRE(scale == 4);
   double difference = 0;
@@ -108,6 +111,49 @@ TEST_CASE("A coarse picture shows the same as the sharp one") {
     }
   // Steps are longer and edges fall between pixels; a picture shifted by half a coarse pixel differs by twice as much.
   CHECK(difference / (double(small.width) * (kHeight / scale)) < 3.0);
+}
+
+TEST_CASE("While things move the plane and the probe are as sharp as in the full picture, and in their places") {
+  Scene scene = small_patient();
+  view::VolumeStyle style;
+  style.cut = GENERATE(true, false);
+  style.skin = GENERATE(0.3, 1.0);
+  scene.set_picture(80, 60, 1.0, {255, 0, 255, 255}, [](int x, int y) { return (x / 8 + y / 8) % 2 == 0; });
+  OrbitCamera camera;
+  camera.yaw_deg = GENERATE(20.0, 160.0);  // from the front, and with the body before the probe
+  camera.pitch_deg = GENERATE(-40.0, 50.0);
+  camera.distance_mm = 500;
+  CAPTURE(style.cut, style.skin, camera.yaw_deg, camera.pitch_deg);
+  VolumeView moving, sharp;
+  const auto draw = [&](VolumeView& view, const view::VolumeBudget& budget) {
+    return test::read(view.render(kWidth, kHeight, *scene.patient, camera, scene.plane, style, budget));
+  };
+  draw(moving, {kHopeless_ms, kUnlimited});
+  camera.yaw_deg += 1;  // the first picture has measured what the second one costs
+  const Image<Rgba8> coarse = draw(moving, {kHopeless_ms, kUnlimited}), full = draw(sharp, {});
+  REQUIRE(moving.scale() == 4);
+  REQUIRE(coarse.width == kWidth);
+  const auto differs = [&](int x, int y, int by) {
+    int most = 0;
+    for (std::size_t c = 0; c < 3; ++c) most = std::max(most, std::abs(coarse.at(x, y)[c] - full.at(x, y)[c]));
+    return most > by;
+  };
+  // What has an edge in the layers is blurred over four pixels. All else is the same but for rounding: two layers of
+  // eight bits.
+  int plane = 0, plane_off = 0, off = 0;
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) {
+      const Rgba8& p = full.at(x, y);
+      const bool magenta = p[0] > p[1] + 60 && p[2] > p[1] + 60;
+      plane += magenta;
+      plane_off += magenta && differs(x, y, 24);
+      off += differs(x, y, 24);
+    }
+  if (style.cut) {
+    CHECK(plane > 50);
+    CHECK(plane_off == 0);
+  }
+  CHECK(off < kWidth * kHeight / 50);
 }
 
 TEST_CASE("The volume view leaves the state of the context alone") {

@@ -1,0 +1,34 @@
+// The volume view while things move, second pass, in many pixels: the ultrasound's plane, the face of the cut and the
+// probe, sharp, between the layers that volume_layers.frag has drawn in few pixels.
+//
+// Reads the layers and what shared/volume_ray.glsl lists. Writes the colour. Draw: full-screen pass.
+layout(binding = 5) uniform sampler2D front_layer;
+layout(binding = 6) uniform sampler2D back_layer;
+layout(binding = 7) uniform sampler2D before_probe_layer;
+
+layout(location = 0) out vec4 colour;
+
+#include "shared/volume_ray.glsl"
+
+// Loops stand for `if`, as in shared/volume_ray.glsl.
+void main() {
+  vec2 uv = gl_FragCoord.xy / picture.xy, at = 2.0 * uv - 1.0;
+  Ray ray = ray_at(at);
+  bool probe = ray.t_probe < kNever, plane_first = ray.t_plane < ray.t_probe;
+  vec4 front = vec4(0.0), back = vec4(0.0), hiding = vec4(0.0);
+  for (bool todo = cut == 0; todo; todo = false) front = textureLod(front_layer, uv, 0.0);  // else it is cut away
+  for (bool todo = probe; todo; todo = false) {
+    // The colour of what hides the probe is not known apart from that of its whole layer, which is alike.
+    vec4 nearer = plane_first ? textureLod(back_layer, uv, 0.0) : front;
+    float hides = textureLod(before_probe_layer, uv, 0.0).x;
+    if (nearer.a > 0.0) hiding = nearer * min(hides / nearer.a, 1.0);
+  }
+  if (!probe || plane_first) {
+    composite_layer(front);
+    composite_plane(ray);
+  }
+  for (bool todo = !probe && sum.a < kOpaque; todo; todo = false) back = textureLod(back_layer, uv, 0.0);
+  composite_layer(probe ? hiding : back);
+  composite_probe(ray);
+  colour = over_background(at);
+}
