@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "sim/core/held_files.h"
 #include "sim/core/image.h"
 #include "sim/core/input_error.h"
 #include "sim/core/new_folder.h"
@@ -146,6 +147,20 @@ TEST_CASE("a new folder appears as a whole or not at all, and takes nobody's pla
   CHECK_THROWS_AS(write_folder(failed, fail), InputError);
   CHECK_FALSE(fs::exists(failed.parent_path()));
   CHECK_THROWS_WITH(write_folder(made / "a" / "below", other), Catch::Contains("the folder cannot be written"));
+}
+
+TEST_CASE("a held file is known under all its names, with the files beside it, until it is let go") {
+  const TemporaryFolder folder;
+  for (const char* name : {"lab.db", "other.db", "lab.db-wal"}) std::ofstream(folder.path / name) << "x";
+  fs::create_hard_link(folder.path / "lab.db", folder.path / "link.db");
+  auto first = hold_file(folder.path / "lab.db"), second = hold_file(folder.path / "lab.db");
+  for (const char* name : {"lab.db", "link.db", "lab.db-wal", "lab.db-shm"}) CHECK(is_held(folder.path / name));
+  for (const char* name : {"other.db", "missing", "lab.db-other"}) CHECK_FALSE(is_held(folder.path / name));
+  first.reset();
+  CHECK(is_held(folder.path / "lab.db"));
+  second.reset();
+  CHECK_FALSE(is_held(folder.path / "lab.db"));
+  CHECK_FALSE(hold_file(folder.path / "missing"));
 }
 
 TEST_CASE("a picture is written as PNG or refused with its name") {
