@@ -78,7 +78,10 @@ Screen::~Screen() = default;
 
 void Screen::lay_out(const Trainer& trainer, float width, float height) {
   screen_ = {0, 0, width, height};
-  if (trainer.start_page()) return places_.clear();
+  if (trainer.start_page() || trainer.learners_page()) {
+    ultrasound_ = {};
+    return places_.clear();
+  }
   const float gap = theme_.px(8);
   Rect rest = screen_.inset(gap, gap);
   rest.h += gap;
@@ -204,6 +207,9 @@ void Screen::draw_panels(Trainer& trainer) {
   } else if (trainer.start_page()) {
     draw_start_page(trainer);
     return ImGui::End();
+  } else if (trainer.learners_page()) {
+    draw_learners_page(trainer);
+    return ImGui::End();
   } else if (!trainer.exam_refused()) {
     for (const Rect& panel : {top_, console_}) fill(panel, colour::kPanel, theme_.px(4));
     for (const Rect& panel : {ultrasound_, volume_, slice_, blend_}) fill(panel, colour::kImage, theme_.px(4));
@@ -249,7 +255,8 @@ void Screen::draw_status(Trainer& trainer) {
   }
   places_["start_page"] = line.take_left(theme_.px(110)).inset(0, theme_.px(6));
   line.take_left(theme_.px(8));
-  if (button(theme_, "start_page", places_["start_page"], "Start page", ButtonKind::normal, trainer.can_leave()))
+  if (button(theme_, "start_page", places_["start_page"], trainer.leads_to_learners() ? "Learners" : "Start page",
+             ButtonKind::normal, trainer.can_leave()))
     return leave(trainer);
   if (!trainer.replay()) {
     places_["record"] = line.take_left(theme_.px(124)).inset(0, theme_.px(6));
@@ -303,6 +310,29 @@ void Screen::draw_start_page(Trainer& trainer) {
   }
 }
 
+void Screen::draw_learners_page(Trainer& trainer) {
+  const auto run = [&](const std::function<void()>& action) { trainer.attempt(action); };
+  switch (learners_panel_.draw(theme_, screen_, *trainer.learners_page(), run, places_)) {
+    case LearnersAnswer::none:
+      break;
+    case LearnersAnswer::leave:
+      leave(trainer);
+      break;
+    case LearnersAnswer::help:
+      page_ = Overlay::help;
+      break;
+    case LearnersAnswer::review:
+      trainer.review();
+      break;
+    case LearnersAnswer::report:
+      trainer.report_attempt();
+      break;
+    case LearnersAnswer::tables:
+      trainer.export_tables();
+      break;
+  }
+}
+
 /// Says that a recorded scan is watched, and offers what to do instead, then what to do next.
 void Screen::draw_demonstration(Trainer& trainer) {
   Session& session = *trainer.session();
@@ -349,6 +379,7 @@ Overlay Screen::overlay(const Trainer& trainer) const {
 void Screen::dismiss(Trainer& trainer) {
   switch (overlay(trainer)) {
     case Overlay::none:
+      if (trainer.learners_page() && learners_panel_.types_text()) return learners_panel_.close_fields(false);
       if (trainer.start_page()) start_panel_.close_fields(false);
       if (trainer.start_page() || text_field_.is_open()) break;
       if (!trainer.session() || !trainer.picture_tools().cancel()) leave(trainer);
@@ -378,6 +409,8 @@ void Screen::dismiss(Trainer& trainer) {
 void Screen::confirm(Trainer& trainer) {
   switch (overlay(trainer)) {
     case Overlay::none:
+      if (trainer.learners_page())
+        return learners_panel_.types_text() ? learners_panel_.close_fields(true) : trainer.review();
       if (!trainer.start_page()) return step_on(trainer);
       if (start_panel_.types_text()) return start_panel_.close_fields(true);
       return trainer.begin_chosen();
@@ -455,7 +488,7 @@ void Screen::leave(Trainer& trainer) {
     page_ = Overlay::leave;
     return;
   }
-  trainer.show_start_page();
+  trainer.leave();
 }
 
 void Screen::close_page() {
