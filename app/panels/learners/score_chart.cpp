@@ -111,11 +111,14 @@ void draw_legend(const Theme& theme, Rect line, const ScoreTrend& trend) {
     line.take_left(theme.px(18));
   };
   const float room = theme.px(14), radius = theme.px(4.5f);
-  for (const auto& [mode, name] : {std::pair{AttemptMode::exam, "exam"},
-                                   {AttemptMode::practice, "practice"},
-                                   {AttemptMode::recording, "recorded scan"}})
-    if (std::any_of(trend.points.begin(), trend.points.end(), [&](const TrendPoint& p) { return p.mode == mode; }))
-      word(name, room, [&](const ImVec2& at) { draw_mark(at, radius, mode, false, theme.px(1.5f)); });
+  struct ModeName {
+    AttemptMode mode;
+    const char* name;
+  };
+  for (const ModeName& of : {ModeName{AttemptMode::exam, "exam"}, ModeName{AttemptMode::practice, "practice"},
+                             ModeName{AttemptMode::recording, "recorded scan"}})
+    if (std::any_of(trend.points.begin(), trend.points.end(), [&](const TrendPoint& p) { return p.mode == of.mode; }))
+      word(of.name, room, [&](const ImVec2& at) { draw_mark(at, radius, of.mode, false, theme.px(1.5f)); });
   word("filled: passed", room,
        [&](const ImVec2& at) { draw_mark(at, radius, trend.points.back().mode, true, theme.px(1.5f)); });
   if (trend.pass_mark_percent)
