@@ -32,10 +32,7 @@ AttemptRequest AttemptPanel::draw(const Theme& theme, Rect where, LearnersPage& 
     store_ = forget_ = false;
     doubtful_ = 0;
   }
-  if (!attempt) {
-    draw_text(where.take_top(theme.px(24)), theme.text, colour::kMuted, "Choose an attempt above.");
-    return AttemptRequest::none;
-  }
+  if (!attempt) return AttemptRequest::none;
   AttemptRequest request = AttemptRequest::none;
   Rect buttons = where.take_top(theme.px(34));
   where.take_top(theme.px(10));

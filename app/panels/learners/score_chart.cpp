@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "app/panels/widgets/widgets.h"
@@ -99,38 +102,76 @@ void draw_spreads(const Theme& theme, const Axes& axes, const std::vector<TrendS
   }
 }
 
-/// Draws what the marks mean, of those that the trend has.
-void draw_legend(const Theme& theme, Rect line, const ScoreTrend& trend) {
-  const auto word = [&](const std::string& text, float room, auto&& draw_key) {
-    const float width = room + theme.px(8) + text_width(theme.small_text, text) + 1;
-    if (width > line.w) return;
-    const Rect key = line.take_left(room);
-    draw_key(key.centre());
-    line.take_left(theme.px(8));
-    draw_text(line.take_left(width - room - theme.px(8)), theme.small_text, colour::kMuted, text);
-    line.take_left(theme.px(18));
+/// What a mark or a line means.
+struct LegendEntry {
+  LegendEntry(std::string_view its_text, float its_room, std::function<void(const ImVec2&)> its_key)
+      : text(its_text), room(its_room), draw_key(std::move(its_key)) {}
+
+  std::string_view text;
+  float room;                                   ///< width of the key
+  std::function<void(const ImVec2&)> draw_key;  ///< at its middle
+};
+
+/// Returns the entries of what the chart has.
+/// @param pass_mark  text of the pass mark's entry
+std::vector<LegendEntry> legend_of(const Theme& theme, const ScoreTrend& trend, std::string_view pass_mark) {
+  std::vector<LegendEntry> entries;
+  const float room = theme.px(14), radius = theme.px(4.5f), line = theme.px(1.5f);
+  const auto add_mode = [&](AttemptMode mode, const char* name) {
+    if (std::any_of(trend.points.begin(), trend.points.end(), [&](const TrendPoint& p) { return p.mode == mode; }))
+      entries.emplace_back(name, room, [=](const ImVec2& at) { draw_mark(at, radius, mode, false, line); });
   };
-  const float room = theme.px(14), radius = theme.px(4.5f);
-  struct ModeName {
-    AttemptMode mode;
-    const char* name;
+  add_mode(AttemptMode::exam, "exam");
+  add_mode(AttemptMode::practice, "practice");
+  add_mode(AttemptMode::recording, "recorded scan");
+  const AttemptMode newest = trend.points.back().mode;
+  entries.emplace_back("filled: passed", room, [=](const ImVec2& at) { draw_mark(at, radius, newest, true, line); });
+  if (trend.pass_mark_percent) {
+    const float dash = theme.px(5);
+    entries.emplace_back(pass_mark, 5 * dash, [=](const ImVec2& at) {
+      draw_dashes(std::round(at.y), at.x - 2.5f * dash, at.x + 2.5f * dash, dash, colour::kMuted, line);
+    });
+  }
+  if (!trend.spreads.empty()) {
+    const float width = theme.px(22), height = theme.px(12), thick = theme.px(2);
+    entries.emplace_back("median and quartiles", width, [=](const ImVec2& at) {
+      fill({at.x - width / 2, at.y - height / 2, width, height}, kBand, thick);
+      fill({at.x - width / 2, at.y - thick / 2, width, thick}, colour::kAccent);
+    });
+  }
+  return entries;
+}
+
+/// Draws the legend at the bottom of `where`, in as many lines as it needs, and takes its place off.
+void draw_legend(const Theme& theme, Rect& where, const ScoreTrend& trend) {
+  const float height = theme.px(20), gap = theme.px(8), between = theme.px(18);
+  std::vector<std::vector<LegendEntry>> lines(1);
+  float left = where.w;
+  const auto width_of = [&](const LegendEntry& entry) {
+    return entry.room + gap + text_width(theme.small_text, entry.text) + 1;
   };
-  for (const ModeName& of : {ModeName{AttemptMode::exam, "exam"}, ModeName{AttemptMode::practice, "practice"},
-                             ModeName{AttemptMode::recording, "recorded scan"}})
-    if (std::any_of(trend.points.begin(), trend.points.end(), [&](const TrendPoint& p) { return p.mode == of.mode; }))
-      word(of.name, room, [&](const ImVec2& at) { draw_mark(at, radius, of.mode, false, theme.px(1.5f)); });
-  word("filled: passed", room,
-       [&](const ImVec2& at) { draw_mark(at, radius, trend.points.back().mode, true, theme.px(1.5f)); });
-  if (trend.pass_mark_percent)
-    word("pass mark, " + short_number(*trend.pass_mark_percent) + " %", theme.px(26), [&](const ImVec2& at) {
-      draw_dashes(std::round(at.y), at.x - theme.px(13), at.x + theme.px(13), theme.px(5), colour::kMuted,
-                  theme.px(1.5f));
-    });
-  if (!trend.spreads.empty())
-    word("median and quartiles", theme.px(22), [&](const ImVec2& at) {
-      fill({at.x - theme.px(11), at.y - theme.px(6), theme.px(22), theme.px(12)}, kBand, theme.px(3));
-      fill({at.x - theme.px(11), at.y - theme.px(1), theme.px(22), theme.px(2)}, colour::kAccent);
-    });
+  const std::string pass_mark = "pass mark, " + short_number(trend.pass_mark_percent.value_or(0)) + " %";
+  for (LegendEntry& entry : legend_of(theme, trend, pass_mark)) {
+    const float width = width_of(entry);
+    if (width > left && !lines.back().empty()) {
+      lines.emplace_back();
+      left = where.w;
+    }
+    left -= width + between;
+    lines.back().push_back(std::move(entry));
+  }
+  Rect legend = where.take_bottom(height * float(lines.size()));
+  where.take_bottom(theme.px(6));
+  for (const std::vector<LegendEntry>& entries : lines) {
+    Rect line = legend.take_top(height);
+    for (const LegendEntry& entry : entries) {
+      Rect place = line.take_left(width_of(entry));
+      line.take_left(between);
+      entry.draw_key(place.take_left(entry.room).centre());
+      place.take_left(gap);
+      draw_text(place, theme.small_text, colour::kMuted, entry.text);
+    }
+  }
 }
 
 }  // namespace
@@ -138,8 +179,7 @@ void draw_legend(const Theme& theme, Rect line, const ScoreTrend& trend) {
 std::int64_t draw_score_chart(const Theme& theme, Rect where, const ScoreTrend& trend, std::int64_t chosen,
                               bool group) {
   if (trend.points.empty()) return 0;
-  const Rect legend = where.take_bottom(theme.px(20));
-  where.take_bottom(theme.px(6));
+  draw_legend(theme, where, trend);
   fill(where, colour::kBackground, theme.px(4));
   Rect plot = where;
   plot.take_left(theme.px(56));
@@ -151,7 +191,6 @@ std::int64_t draw_score_chart(const Theme& theme, Rect where, const ScoreTrend& 
             colour::kFaint, "Attempt");
   draw_grid(theme, axes, trend);
   draw_spreads(theme, axes, trend.spreads);
-  draw_legend(theme, legend, trend);
 
   ImDrawList* list = ImGui::GetWindowDrawList();
   if (!group)
