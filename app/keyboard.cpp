@@ -171,11 +171,16 @@ void Keyboard::choose(int index, Trainer& trainer) {
 
 void Keyboard::start_page(const KeyEvent& pressed, Trainer& trainer, ui::Screen& screen) {
   StartPage& page = *trainer.start_page();
-  const int chosen = int(page.task);
-  if (pressed.key == GLFW_KEY_UP) page.task = Task(std::max(chosen - 1, 0));
-  if (pressed.key == GLFW_KEY_DOWN) page.task = Task(std::min(chosen + 1, int(kTasks) - 1));
+  if (pressed.key == GLFW_KEY_UP) page.move_choice(-1);
+  if (pressed.key == GLFW_KEY_DOWN) page.move_choice(+1);
   if (pressed.key == GLFW_KEY_F2) page.task = Task::setup;
   if (pressed.key == GLFW_KEY_O && (pressed.modifiers & GLFW_MOD_CONTROL)) screen.ask_for_path();
+  if (is_enter(pressed) && pressed.kind == KeyEvent::Kind::pressed) screen.confirm(trainer);
+}
+
+void Keyboard::learners_page(const KeyEvent& pressed, LearnersPage& page, Trainer& trainer, ui::Screen& screen) {
+  if (pressed.key == GLFW_KEY_UP) page.move_choice(-1);
+  if (pressed.key == GLFW_KEY_DOWN) page.move_choice(+1);
   if (is_enter(pressed) && pressed.kind == KeyEvent::Kind::pressed) screen.confirm(trainer);
 }
 
@@ -232,6 +237,7 @@ void Keyboard::press(const KeyEvent& pressed, Trainer& trainer, ui::Screen& scre
   if (pressed.key == GLFW_KEY_P && !repeated) return screen.save_picture(trainer);
   if (pressed.key == GLFW_KEY_L && !repeated) return screen.toggle_clip(trainer);
   if (trainer.start_page()) return start_page(pressed, trainer, screen);
+  if (LearnersPage* page = trainer.learners_page()) return learners_page(pressed, *page, trainer, screen);
   if (trainer.replay()) return replay(pressed, trainer, screen);
   if (!(pressed.modifiers & GLFW_MOD_CONTROL)) tapped_.insert(pressed.key);
   if (pressed.key == GLFW_KEY_F2 && !repeated) return trainer.begin_setup();

@@ -64,6 +64,19 @@ void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::
     state["start_tracker"] = page->tracker();
     state["typing"] = screen.types_text(trainer);
   }
+  if (const LearnersPage* page = trainer.learners_page()) {
+    state["learners"] = page->learners().size() - 1;
+    state["learners_learner"] = page->choice().learner;
+    state["learners_scenario"] = page->trend().title;
+    state["learners_mode"] = name_of(page->choice().mode);
+    state["learners_attempt"] = page->choice().attempt;
+    state["learners_attempts"] = page->attempts().size();
+    state["learners_criteria"] = page->trend().criteria.size();
+    state["learners_author"] = page->choice().author;
+    state["learners_comments"] = page->comments().size();
+    state["learners_comment"] = page->comments().empty() ? "" : page->comments().back().text;
+    state["typing"] = screen.types_text(trainer);
+  }
   if (const SetupWizard* setup = trainer.setup()) {
     const SetupView view = setup->view();
     state["setup_step"] = kSetupSteps[setup->current()];

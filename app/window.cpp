@@ -224,7 +224,8 @@ private:
     if (changed || std::exchange(events_.exposed, false)) present();
     ++frames_;
     const bool new_picture = pictures.ultrasound_version() != version_before;
-    if (touched || moved || pictures.drawn() != drawn_before || trainer_.loading() || trainer_.setup())
+    if (touched || moved || pictures.drawn() != drawn_before || trainer_.loading() || trainer_.setup() ||
+        (trainer_.learners_page() && trainer_.learners_page()->reading() > 0))
       changed_s_ = now_s;
     governor_.see(now_s, steady_now_s() - now_s, pictures.simulator_runs() != runs_before);
     rate_.see(now_s, new_picture);

@@ -74,6 +74,14 @@ Help help_of(HelpTopic topic) {
                     {"Ctrl O", "open a case, CT, scenario or recorded scan; or drop it on the window"},
                     {"F2", "set up a tracker"}},
                    kWindow})};
+    case HelpTopic::learners:
+      return {"Help: learners and attempts",
+              "On the left who has practised and taken exams, in the middle how they do over time and where they lose "
+              "points, on the right the chosen attempt with its comments.",
+              keys_of({{{"Up, Down", "choose a learner"},
+                        {"Enter", "look at the chosen attempt again"},
+                        {"Escape", "to the start page"}},
+                       kWindow})};
     case HelpTopic::scan:
       return {"Help: scanning", "The large picture is the ultrasound. The 3D view shows the probe that it comes from.",
               keys_of({kProbe,

@@ -95,7 +95,10 @@ Screen::~Screen() = default;
 
 void Screen::lay_out(const Trainer& trainer, float width, float height) {
   screen_ = {0, 0, width, height};
-  if (trainer.start_page()) return places_.clear();
+  if (trainer.start_page() || trainer.learners_page()) {
+    ultrasound_ = {};
+    return places_.clear();
+  }
   const float gap = theme_.px(8);
   Rect rest = screen_.inset(gap, gap);
   rest.h += gap;
@@ -249,6 +252,9 @@ void Screen::draw_panels(Trainer& trainer) {
   } else if (trainer.start_page()) {
     draw_start_page(trainer);
     return ImGui::End();
+  } else if (trainer.learners_page()) {
+    draw_learners_page(trainer);
+    return ImGui::End();
   } else if (!trainer.exam_refused()) {
     for (const Rect& panel : {top_, console_}) fill(panel, colour::kPanel, theme_.px(4));
     for (const Rect& panel : {ultrasound_, volume_, slice_, blend_}) fill(panel, colour::kImage, theme_.px(4));
@@ -271,7 +277,7 @@ void Screen::draw_time_runs_on(const Session& session) {
 
 /// Above the words at the bottom of the ultrasound, or of the screen where there is none.
 Rect Screen::toast_place() const {
-  const Rect around = ultrasound_.h > 0 && places_.contains("ultrasound") ? ultrasound_ : screen_;
+  const Rect around = ultrasound_.h > 0 ? ultrasound_ : screen_;
   return {around.x, around.y, around.w, around.h - theme_.px(56)};
 }
 
@@ -301,8 +307,10 @@ void Screen::draw_status(Trainer& trainer) {
   }
   places_["start_page"] = line.take_left(theme_.px(110)).inset(0, theme_.px(6));
   line.take_left(theme_.px(8));
-  if (button(theme_, "start_page", places_["start_page"], "Start page", ButtonKind::normal, trainer.can_leave(),
-             "Leaves this, and shows what else there is to do  (Esc)"))
+  if (button(theme_, "start_page", places_["start_page"], trainer.leads_to_learners() ? "Learners" : "Start page",
+             ButtonKind::normal, trainer.can_leave(),
+             trainer.leads_to_learners() ? "Back to the learners  (Esc)"
+                                         : "Leaves this, and shows what else there is to do  (Esc)"))
     return leave(trainer);
   if (!trainer.replay()) {
     places_["record"] = line.take_left(theme_.px(124)).inset(0, theme_.px(6));
@@ -374,6 +382,29 @@ void Screen::draw_start_page(Trainer& trainer) {
   }
 }
 
+void Screen::draw_learners_page(Trainer& trainer) {
+  const auto run = [&](const std::function<void()>& action) { trainer.attempt(action); };
+  switch (learners_panel_.draw(theme_, screen_, *trainer.learners_page(), run, places_)) {
+    case LearnersAnswer::none:
+      break;
+    case LearnersAnswer::leave:
+      leave(trainer);
+      break;
+    case LearnersAnswer::help:
+      show_page(Overlay::help);
+      break;
+    case LearnersAnswer::review:
+      trainer.review();
+      break;
+    case LearnersAnswer::report:
+      trainer.report_attempt();
+      break;
+    case LearnersAnswer::tables:
+      trainer.export_tables();
+      break;
+  }
+}
+
 /// Says that a recorded scan is watched, and offers what to do instead, then what to do next.
 void Screen::draw_demonstration(Trainer& trainer) {
   Session& session = *trainer.session();
@@ -426,6 +457,7 @@ bool Screen::shows_sheet(const Trainer& trainer) const {
 void Screen::dismiss(Trainer& trainer) {
   switch (overlay(trainer)) {
     case Overlay::none:
+      if (trainer.learners_page() && learners_panel_.types_text()) return learners_panel_.close_fields(false);
       if (trainer.start_page()) start_panel_.close_fields(false);
       if (trainer.start_page() || text_field_.is_open()) break;
       if (!trainer.session() || !trainer.picture_tools().cancel()) leave(trainer);
@@ -456,6 +488,8 @@ void Screen::dismiss(Trainer& trainer) {
 void Screen::confirm(Trainer& trainer) {
   switch (overlay(trainer)) {
     case Overlay::none:
+      if (trainer.learners_page())
+        return learners_panel_.types_text() ? learners_panel_.close_fields(true) : trainer.review();
       if (!trainer.start_page()) return step_on(trainer);
       if (start_panel_.types_text()) return start_panel_.close_fields(true);
       return trainer.begin_chosen();
@@ -539,7 +573,7 @@ void Screen::leave(Trainer& trainer) {
     show_page(Overlay::leave);
     return;
   }
-  trainer.show_start_page();
+  trainer.leave();
 }
 
 void Screen::close_page() {
@@ -551,6 +585,7 @@ void Screen::close_page() {
 HelpTopic Screen::help_topic(const Trainer& trainer) const {
   if (pages_.size() > 1) return pages_[pages_.size() - 2] == Overlay::settings ? HelpTopic::settings : HelpTopic::open;
   if (trainer.start_page()) return HelpTopic::start;
+  if (trainer.learners_page()) return HelpTopic::learners;
   if (trainer.setup()) return HelpTopic::setup;
   if (trainer.replay()) return HelpTopic::replay;
   if (trainer.author()) return HelpTopic::author;

@@ -8,6 +8,7 @@
 
 #include "app/panels/canvas.h"
 #include "app/panels/help_page.h"
+#include "app/panels/learners/learners_panel.h"
 #include "app/panels/open_dialog.h"
 #include "app/panels/overlays.h"
 #include "app/panels/replay/recorded_panel.h"
@@ -86,6 +87,7 @@ public:
   bool opens_text_field(const Trainer& trainer) const {
     if (!types_text(trainer)) return false;
     if (!types_in_panel(trainer)) return !open_dialog_.ready();
+    if (trainer.learners_page()) return !learners_panel_.ready();
     return trainer.start_page() ? !start_panel_.ready() : !text_field_.ready();
   }
 
@@ -100,8 +102,9 @@ public:
 
 private:
   bool types_in_panel(const Trainer& trainer) const {
-    return overlay(trainer) == Overlay::none &&
-           (trainer.start_page() ? start_panel_.types_text() : text_field_.is_open());
+    if (overlay(trainer) != Overlay::none) return false;
+    if (trainer.learners_page()) return learners_panel_.types_text();
+    return trainer.start_page() ? start_panel_.types_text() : text_field_.is_open();
   }
   void step_on(Trainer& trainer);
   void lay_out(const Trainer& trainer, float width, float height);
@@ -110,6 +113,7 @@ private:
   void draw_record_button(Trainer& trainer, const Rect& where);
   void draw_status(Trainer& trainer);
   void draw_start_page(Trainer& trainer);
+  void draw_learners_page(Trainer& trainer);
   void draw_demonstration(Trainer& trainer);
   void take_path(Trainer& trainer);
   Rect toast_place() const;
@@ -137,6 +141,7 @@ private:
   OpenDialog open_dialog_;
   TextField text_field_;
   StartPanel start_panel_;
+  LearnersPanel learners_panel_;
   Toast toast_;
   std::vector<Overlay> pages_;  ///< what the person asked for, the topmost last: help, about, settings, open or leave
   bool fonts_are_new_ = false, saves_picture_ = false;

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "sim/core/held_files.h"
 #include "sim/core/input_error.h"
 
 namespace insonate {
@@ -28,6 +29,7 @@ bool is_dicom(const fs::path& file) {
   constexpr int kPreamble = 128;
   const std::string name = lower(file.filename().string());
   if (name == "dicomdir" || name.ends_with(".dcm") || name.ends_with(".ima")) return true;
+  if (is_held(file)) return false;
   char mark[4] = {};
   std::ifstream in(file, std::ios::binary);
   return in.seekg(kPreamble) && in.read(mark, sizeof mark) && std::string_view(mark, sizeof mark) == "DICM";

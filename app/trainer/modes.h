@@ -12,6 +12,7 @@
 #include "app/session/session.h"
 #include "app/session/step_controls.h"
 #include "app/session/undo_history.h"
+#include "app/trainer/learners_page.h"
 #include "app/trainer/setup_wizard.h"
 #include "app/trainer/start_page.h"
 
@@ -25,6 +26,11 @@ struct Idle {};
 /// The person chooses what to do.
 struct Choosing {
   std::unique_ptr<StartPage> page;  ///< never null
+};
+
+/// An instructor looks at the learners and their attempts.
+struct Overseeing {
+  std::unique_ptr<LearnersPage> page;  ///< never null
 };
 
 /// A probe on a patient: what practice, exams and authoring have in common.
@@ -62,7 +68,7 @@ struct SettingUp {
   std::unique_ptr<SetupWizard> wizard;  ///< never null
 };
 
-using TrainerMode = std::variant<Idle, Choosing, Practice, Exam, Authoring, Playback, SettingUp>;
+using TrainerMode = std::variant<Idle, Choosing, Overseeing, Practice, Exam, Authoring, Playback, SettingUp>;
 
 /// Returns what practice, exams and authoring have in common; nullptr in another mode.
 inline Scan* scan_of(TrainerMode& mode) {

@@ -35,6 +35,7 @@ std::string StartPage::why_not() const {
   switch (task) {
     case Task::first_scan:
     case Task::demonstration:
+    case Task::learners:
       return "";
     case Task::practice:
       return why_no_tracker();
@@ -52,6 +53,15 @@ std::string StartPage::why_not() const {
     }
   }
   return "";
+}
+
+Options as_replay(Options options, const ReplaySource& replay) {
+  options.mode = Mode::replay;
+  options.tracker.clear();
+  options.calibration.clear();
+  options.record_raw.clear();
+  options.replay = replay;
+  return options;
 }
 
 std::filesystem::path StartPage::expert() const {
@@ -104,11 +114,7 @@ Beginning StartPage::chosen() const {
     }
     case Task::replay: {
       const OfferedRun& chosen_run = runs_[run];
-      options.mode = Mode::replay;
-      options.tracker.clear();
-      options.calibration.clear();
-      options.record_raw.clear();
-      options.replay = chosen_run.replay;
+      options = as_replay(options, chosen_run.replay);
       if (chosen_run.replay.attempt > 0) options.results = chosen_run.replay.database;
       options.scenario = chosen_run.scenario;
       if (!chosen_run.scenario.empty()) options.seed = chosen_run.seed;
@@ -119,6 +125,8 @@ Beginning StartPage::chosen() const {
     case Task::setup:
       options.mode = Mode::setup;
       break;
+    case Task::learners:
+      break;  // a page of its own, which Trainer::show_learners() shows
   }
   return chosen;
 }

@@ -89,6 +89,8 @@ const char* to_string(Task task) {
       return "replay";
     case Task::setup:
       return "setup";
+    case Task::learners:
+      return "learners";
   }
   return "";
 }
@@ -117,6 +119,19 @@ StartPage::StartPage(Options options, ResultsDatabase* database) : options_(std:
   }
   read_runs();
   list_trackers({});
+}
+
+std::vector<Task> StartPage::tasks() const {
+  std::vector<Task> tasks;
+  for (std::size_t i = 0; i < kTasks; ++i)
+    if (Task(i) != Task::learners || !database_.empty()) tasks.push_back(Task(i));
+  return tasks;
+}
+
+void StartPage::move_choice(int places) {
+  const std::vector<Task> offered = tasks();
+  const auto chosen = std::find(offered.begin(), offered.end(), task) - offered.begin();
+  task = offered[std::size_t(std::clamp(chosen + places, std::ptrdiff_t(0), std::ptrdiff_t(offered.size()) - 1))];
 }
 
 void StartPage::add_scenario(const fs::path& file) {

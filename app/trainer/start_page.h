@@ -15,8 +15,8 @@
 namespace insonate {
 
 /// What there is to do, in the order of the start page.
-enum class Task { first_scan, demonstration, practice, exam, patients, replay, setup };
-inline constexpr std::size_t kTasks = 7;
+enum class Task { first_scan, demonstration, practice, exam, patients, replay, setup, learners };
+inline constexpr std::size_t kTasks = 8;
 
 /// Returns the task's name, as state files have it: "first_scan".
 const char* to_string(Task task);
@@ -73,6 +73,9 @@ struct Beginning {
   bool free_practice = false;  ///< without the scenario's steps
 };
 
+/// Returns the options that replay a run, which needs no tracker.
+Options as_replay(Options options, const ReplaySource& replay);
+
 /// What the start page offers and what has been chosen on it. It reads files and the database and looks for trackers,
 /// and does not know a screen. A file that cannot be read is a problem() and stops nothing else.
 class StartPage {
@@ -82,6 +85,10 @@ public:
   StartPage(Options options, ResultsDatabase* database);
 
   // What is offered
+  /// Returns the tasks: that of the learners only if there is a database of results.
+  std::vector<Task> tasks() const;
+  /// Chooses the task that many places below the chosen one, or above it if negative.
+  void move_choice(int places);
   const std::vector<OfferedScenario>& scenarios() const { return scenarios_; }
   const std::vector<OfferedPatient>& patients() const { return patients_; }
   const std::vector<OfferedRun>& runs() const { return runs_; }

@@ -114,9 +114,12 @@ void Trainer::open(const std::filesystem::path& path) {
     if (in_exam()) throw InputError(path.string(), "", "an exam that counts is taken as it is", "open it in practice");
     Request next;
     if (const StartPage* page = start_page()) {
-      given_ = options_ = page->options();
+      given_ = page->options();
+    }
+    if (start_page() || learners_page()) {
+      options_ = given_;
       find_calibration();
-      next.tracker = page->tracker();
+      next.tracker = options_.tracker;
     }
     const Material kind = kind_of_material(path);
     switch (kind) {

@@ -70,6 +70,26 @@ public:
     const auto* mode = std::get_if<Choosing>(&mode_);
     return mode ? mode->page.get() : nullptr;
   }
+  /// Returns the page of learners; nullptr in another mode.
+  LearnersPage* learners_page() { return const_cast<LearnersPage*>(std::as_const(*this).learners_page()); }
+  const LearnersPage* learners_page() const {
+    const auto* mode = std::get_if<Overseeing>(&mode_);
+    return mode ? mode->page.get() : nullptr;
+  }
+  /// Goes from the start page to the page of learners, if there is a database of results.
+  void show_learners(const LearnersChoice& choice = {});
+  /// Begins to load the attempt that is chosen on the page of learners, to replay it.
+  void review();
+  /// Writes the report of the attempt that is chosen on the page of learners. A notice names the file.
+  void report_attempt();
+  /// Writes the database as CSV files. A notice names their folder.
+  void export_tables();
+
+  /// Leaves the current mode for the page from which it was begun: the page of learners after a review, and otherwise
+  /// the start page. Does nothing where can_leave() is false.
+  void leave();
+  /// Returns whether leave() leads to the page of learners.
+  bool leads_to_learners() const;
   /// Leaves the current mode for the start page, and begins to load the built-in patient in the background. Does
   /// nothing where can_leave() is false.
   void show_start_page();
@@ -224,6 +244,7 @@ private:
   /// Throws, on the loading thread, what the session will throw for reasons that have nothing to do with the patient: a
   /// patient can take a minute to make.
   std::function<void()> refusals(const Request& request);
+  void begin(const Beginning& chosen);
   void load(Request request);
   bool load_prepared();
   Request request_of(const Options& options, bool free_practice) const;
@@ -239,6 +260,10 @@ private:
   void update(Choosing& mode, double now_s) {
     notice_recordings();
     mode.page->update(now_s);
+  }
+  void update(Overseeing& mode, double) {
+    notice_recordings();
+    mode.page->update();
   }
   void update(Playback& mode, double now_s) { mode.replay->advance(now_s); }
   void update(SettingUp& mode, double now_s);
@@ -293,6 +318,7 @@ private:
   bool clients_ = false, records_pictures_ = false;  ///< who wanted pictures at the last frame
   std::unique_ptr<IgtlFeed> feed_;                   ///< nullptr when no clients are asked for
   std::optional<ResultFiles> result_files_;
+  std::optional<LearnersChoice> reviewed_;  ///< on the page of learners, from which the replay was begun
   bool covered_ = false;
   bool results_due_ = false;
   std::optional<ResultsDatabase> results_;

@@ -20,8 +20,54 @@ bool Trainer::loses_by_leaving() const {
   return runner && runner->live().started && !session()->result() && !session()->source().recording();
 }
 
+void Trainer::leave() {
+  if (!replay() || !reviewed_) return show_start_page();
+  const LearnersChoice choice = *reviewed_;
+  show_start_page();
+  show_learners(choice);
+}
+
+bool Trainer::leads_to_learners() const {
+  return replay() && reviewed_;
+}
+
+void Trainer::show_learners(const LearnersChoice& choice) {
+  const StartPage* page = start_page();
+  if (!page || page->database().empty()) return;
+  given_ = options_ = page->options();
+  attempt([&] { mode_ = Overseeing{std::make_unique<LearnersPage>(page->database(), choice)}; });
+}
+
+void Trainer::review() {
+  const LearnersPage* page = learners_page();
+  if (!page || loading_ || !page->attempt()) return;
+  ReplaySource replay;
+  replay.database = page->database();
+  replay.attempt = page->attempt()->number;
+  Beginning chosen{as_replay(given_, replay), false, false};
+  chosen.options.results = page->database();
+  const LearnersChoice choice = page->choice();
+  begin(chosen);
+  reviewed_ = choice;
+}
+
+void Trainer::report_attempt() {
+  attempt([&] {
+    const std::filesystem::path report = learners_page()->write_report(options_.out);
+    notices_.push_back({"Report written to " + std::filesystem::absolute(report).string(), report});
+  });
+}
+
+void Trainer::export_tables() {
+  attempt([&] {
+    const std::filesystem::path tables = learners_page()->export_tables(options_.out);
+    notices_.push_back({"Tables written to " + std::filesystem::absolute(tables).string(), tables});
+  });
+}
+
 void Trainer::show_start_page() {
   if (!can_leave()) return;
+  reviewed_.reset();
   write_results_if_due();
   recorder_.stop();
   loading_.reset();
@@ -68,10 +114,14 @@ void Trainer::take_over_prepared() {
 void Trainer::begin_chosen() {
   const StartPage* page = start_page();
   if (!page || loading_ || !page->why_not().empty()) return;
-  const Beginning chosen = page->chosen();
+  if (page->task == Task::learners) return show_learners();
+  begin(page->chosen());
+}
+
+void Trainer::begin(const Beginning& chosen) {
   const bool possible = attempt([&] { check(chosen.options); });
   if (!possible) return;
-  given_ = page->options();
+  if (const StartPage* page = start_page()) given_ = page->options();
   options_ = chosen.options;
   guide_.turn(chosen.guided);
   why_not_calibrated_.clear();
@@ -81,7 +131,7 @@ void Trainer::begin_chosen() {
 
 /// After what was chosen has not begun: the page is there again, with the options that it had.
 void Trainer::give_up_choice() {
-  if (start_page()) options_ = given_;
+  if (start_page() || learners_page()) options_ = given_;
 }
 
 /// Takes the built-in patient from what the start page has prepared, or prepares still. Returns false if it is not the

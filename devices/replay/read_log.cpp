@@ -6,11 +6,13 @@
 
 #include "devices/replay/raw_replay.h"
 #include "sim/core/files.h"
+#include "sim/core/held_files.h"
 #include "sim/core/input_error.h"
 
 namespace insonate {
 
 bool is_raw_log(const std::filesystem::path& file) {
+  if (is_held(file)) return false;
   check_is_file(file);
   std::array<char, 64> bytes{};
   std::ifstream stream(file, std::ios::binary);

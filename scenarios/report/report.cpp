@@ -225,6 +225,16 @@ std::string whose(const ReportSubject& subject) {
   return rows.empty() ? "" : "<table class='whose'>" + rows + "</table>";
 }
 
+std::string comments_section(const std::vector<ReportComment>& comments) {
+  if (comments.empty()) return "";
+  std::string html = "<section class='comments'><h2>Comments</h2>\n";
+  for (const ReportComment& comment : comments)
+    html += "<p>" + escaped(comment.text) + "<small>" +
+            escaped(comment.author.empty() ? comment.written : comment.author + ", " + comment.written) +
+            "</small></p>\n";
+  return html + "</section>\n";
+}
+
 std::string made_from(const ExamResult& result) {
   const Provenance& p = result.provenance;
   const auto line = [](const char* name, const std::string& value, const std::string& digest = {}) {
@@ -255,7 +265,7 @@ std::string report_html(const ExamResult& result, std::span<const TracePoint> tr
           escaped(result.title) + "</h1><p class='quiet'>" + escaped(result.provenance.case_name) + "</p></div>" +
           whose(subject) + "</header>\n";
   if (!result.briefing.empty()) html += "<p class='briefing'>" + escaped(result.briefing) + "</p>\n";
-  html += verdict(result);
+  html += verdict(result) + comments_section(subject.comments);
   for (std::size_t i = 0; i < result.steps.size(); ++i) html += section(result.steps[i], i, subject.pictures);
   html += "<section><h2>Whole exam</h2>" + table(result.criteria) + "</section>\n";
   if (!trace.empty()) {

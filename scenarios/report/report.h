@@ -21,18 +21,26 @@ struct ReportPicture {
   std::string png;
 };
 
+/// What an instructor has written about the attempt.
+struct ReportComment {
+  std::string author;   ///< an opaque id; empty if the author is not named
+  std::string written;  ///< time
+  std::string text;
+};
+
 /// The attempt that a report describes. Empty texts are left out.
 struct ReportSubject {
   std::string learner;
   std::string attempt;   ///< number of the attempt
   std::string finished;  ///< time of the end
   std::vector<ReportPicture> pictures;
+  std::vector<ReportComment> comments;
 };
 
 /// Returns the result as one HTML page that needs no other files and prints well. It contains the verdict and its
-/// reasons, a summary of each step, and each criterion's value, limits, points and reason beside the pictures. It also
-/// shows the course of the pictures and of the probe over time and in space, and the inputs of the score. The same
-/// result, trace and subject produce the same bytes.
+/// reasons, a summary of each step, the comments, and each criterion's value, limits, points and reason beside the
+/// pictures. It also shows the course of the pictures and of the probe over time and in space, and the inputs of the
+/// score. The same result, trace and subject produce the same bytes.
 std::string report_html(const ExamResult& result, std::span<const TracePoint> trace, const ReportSubject& subject = {});
 
 }  // namespace insonate

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scenarios/report/report.h"
+#include "scenarios/results/comment.h"
 #include "scenarios/runner.h"
 
 namespace insonate {
@@ -24,6 +25,7 @@ struct Attempt {
   std::string score_json;        ///< result_json.h
   std::string trace_json;        ///< trace_json.h
   std::vector<ReportPicture> pictures;  ///< at most one of each kind per step
+  std::vector<Comment> comments;        ///< in the order in which they were written; empty until it is stored
 };
 
 /// Returns an attempt from a runner's scenario and trace, and its result and log. The caller fills in learner, time and

@@ -24,7 +24,8 @@ std::filesystem::path attempt_folder(const std::filesystem::path& folder, const 
 
 /// Writes the files of an attempt for people and programs to a folder: report.html, score.json, score.csv, and
 /// xapi.json if the attempt is in a database. The same attempt always produces the same bytes, at the end of the exam
-/// and later from the database. Throws InputError if the score cannot be read or the folder cannot be written.
+/// and later from the database, until a comment is added: report.html shows the comments, and score.json lists them.
+/// Throws InputError if the score cannot be read or the folder cannot be written.
 /// @param home_page  IRL of the organisation that assigns the learners' ids, for xapi.json; if empty, one that
 ///                   represents the database
 ResultFiles write_report_files(const std::filesystem::path& folder, const Attempt& attempt,

@@ -107,19 +107,11 @@ void ResultsDatabase::add(Attempt& attempt, std::int64_t sitting) {
   attempt.number = number;
 }
 
-Attempt ResultsDatabase::read(std::int64_t number) {
+Attempt ResultsDatabase::read_score(std::int64_t number) {
   sqlite::Statement row(connection_,
-                        "SELECT uuid, learner, finished_ms, scenario, scenario_file, patient, score, scenario_digest, "
-                        "log_digest, log_size, log, trace_size, trace FROM attempt WHERE number = ?");
-  if (!row.bind(1, number).step())
-    throw InputError(connection_.file().string(), "", "there is no attempt " + std::to_string(number),
-                     "list them with 'insonate-score attempts'");
-  const std::string place = "attempt " + std::to_string(number);
-  const auto unpacked = [&](int size_column, const char* what) {
-    const auto bytes = unpack(row, size_column);
-    if (!bytes) fail(place, std::string("its ") + what + " is damaged");
-    return *bytes;
-  };
+                        "SELECT uuid, learner, finished_ms, scenario, scenario_file, patient, score, scenario_digest "
+                        "FROM attempt WHERE number = ?");
+  if (!row.bind(1, number).step()) refuse_missing(number);
   Attempt attempt;
   attempt.number = number;
   attempt.uuid = row.text(0);
@@ -129,11 +121,26 @@ Attempt ResultsDatabase::read(std::int64_t number) {
   attempt.scenario_file = row.text(4);
   attempt.patient = row.text(5);
   attempt.score_json = row.text(6);
-  attempt.log = unpacked(9, "log");
-  attempt.trace_json = unpacked(11, "trace");
-  if (digest_of(attempt.scenario_text) != row.text(7)) fail(place, "its scenario is damaged");
-  if (digest_of(attempt.log) != row.text(8)) fail(place, "its log is damaged");
+  if (digest_of(attempt.scenario_text) != row.text(7))
+    fail("attempt " + std::to_string(number), "its scenario is damaged");
   attempt.database = identity();
+  return attempt;
+}
+
+Attempt ResultsDatabase::read(std::int64_t number) {
+  Attempt attempt = read_score(number);
+  sqlite::Statement row(connection_,
+                        "SELECT log_digest, log_size, log, trace_size, trace FROM attempt WHERE number = ?");
+  if (!row.bind(1, number).step()) refuse_missing(number);
+  const std::string place = "attempt " + std::to_string(number);
+  const auto unpacked = [&](int size_column, const char* what) {
+    const auto bytes = unpack(row, size_column);
+    if (!bytes) fail(place, std::string("its ") + what + " is damaged");
+    return *bytes;
+  };
+  attempt.log = unpacked(1, "log");
+  attempt.trace_json = unpacked(3, "trace");
+  if (digest_of(attempt.log) != row.text(0)) fail(place, "its log is damaged");
 
   sqlite::Statement picture(connection_, "SELECT step, kind, png FROM picture WHERE attempt = ? ORDER BY step, kind");
   picture.bind(1, number);
@@ -144,6 +151,7 @@ Attempt ResultsDatabase::read(std::int64_t number) {
     if (kind == kPictureKinds.end() || picture.integer(0) < 0) fail(place, "its pictures are damaged");
     attempt.pictures.push_back({std::size_t(picture.integer(0)), kind->kind, picture.bytes(2)});
   }
+  attempt.comments = comments(number);
   return attempt;
 }
 
@@ -159,8 +167,12 @@ std::vector<AttemptSummary> ResultsDatabase::attempts() {
 }
 
 std::vector<LearnerSummary> ResultsDatabase::learners() {
+  return learners_of(attempts());
+}
+
+std::vector<LearnerSummary> learners_of(const std::vector<AttemptSummary>& attempts) {
   std::map<std::string, LearnerSummary> by_id;
-  for (const AttemptSummary& attempt : attempts()) {
+  for (const AttemptSummary& attempt : attempts) {
     LearnerSummary& learner = by_id[attempt.learner];
     learner.id = attempt.learner;
     ++learner.attempts;
@@ -187,11 +199,19 @@ void ResultsDatabase::check() {
                      "the database is damaged (" + (orphans ? "a row without what it belongs to" : said) + ")",
                      "go back to a copy of it from before");
   for (const AttemptSummary& attempt : attempts()) read(attempt.number);
+  for (const Comment& comment : comments())
+    if (!why_no_comment(comment.text).empty() || !(comment.author.empty() || why_no_learner_id(comment.author).empty()))
+      fail("comment " + std::to_string(comment.number), "it is damaged");
   for (const Sitting& sitting : sittings()) {
     if (digest_of(sitting.scenario_text) != sitting.scenario_digest)
       fail("sitting " + std::to_string(sitting.number), "its scenario is damaged");
     parts(sitting.number);
   }
+}
+
+void ResultsDatabase::refuse_missing(std::int64_t attempt) const {
+  throw InputError(connection_.file().string(), "", "there is no attempt " + std::to_string(attempt),
+                   "list them with 'insonate-score attempts'");
 }
 
 void ResultsDatabase::fail(const std::string& place, const std::string& problem) const {

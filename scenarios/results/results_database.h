@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scenarios/results/attempt.h"
+#include "scenarios/results/comment.h"
 #include "scenarios/results/sitting.h"
 #include "scenarios/results/sqlite.h"
 
@@ -35,6 +36,9 @@ struct LearnerSummary {
   std::int64_t last_ms = 0;            ///< end of the last attempt
 };
 
+/// Returns the learners of these attempts in the order of their ids.
+std::vector<LearnerSummary> learners_of(const std::vector<AttemptSummary>& attempts);
+
 /// The results of a lab, in one SQLite file. An attempt is stored completely or not at all, even if a program or the
 /// power fails. add() returns after the attempt is on the disk. Several programs on one computer may have it open at
 /// once. A writer waits for another one up to sqlite::Connection::kPatience_ms.
@@ -55,11 +59,23 @@ public:
 
   /// Returns an attempt. Throws InputError if there is no attempt of that number, or if it is damaged.
   Attempt read(std::int64_t number);
+  /// Returns an attempt without its log, trace, pictures and comments, which takes a small part of the time. Throws
+  /// InputError if there is no attempt of that number, or if its scenario is damaged.
+  Attempt read_score(std::int64_t number);
 
   /// Returns all attempts in the order in which they were added.
   std::vector<AttemptSummary> attempts();
   /// Returns all learners in the order of their ids.
   std::vector<LearnerSummary> learners();
+
+  /// Stores a comment on an attempt and sets its number. Throws InputError if the comment is not valid
+  /// (check_comment), or if there is no such attempt.
+  void add(Comment& comment);
+  /// Returns all comments, or those on one attempt, in the order in which they were added.
+  std::vector<Comment> comments();
+  std::vector<Comment> comments(std::int64_t attempt);
+  /// Removes a comment. Throws InputError if there is no comment of that number.
+  void remove_comment(std::int64_t number);
 
   /// Throws ExamTaken if this learner has a graded attempt at this exam, or a sitting. An attempt without a recorded
   /// mode may have been graded and is treated as such.
@@ -88,6 +104,7 @@ public:
 private:
   ResultsDatabase(const std::filesystem::path& file, bool make);
   [[noreturn]] void fail(const std::string& place, const std::string& problem) const;
+  [[noreturn]] void refuse_missing(std::int64_t attempt) const;
   std::int64_t insert_part(std::int64_t sitting, std::string_view log);
   void take_out(std::int64_t sitting);
 

@@ -83,6 +83,16 @@ CREATE TABLE sitting_part (
 -- Out of the score: 'exam', 'practice' or 'recording'; of attempts from before '', but for scores that name a log.
 ALTER TABLE attempt ADD COLUMN mode TEXT NOT NULL DEFAULT '';
 UPDATE attempt SET mode = 'recording' WHERE score GLOB '*"log": "[^"]*';
+)sql",
+                            R"sql(
+CREATE TABLE comment (
+  number INTEGER PRIMARY KEY AUTOINCREMENT,
+  attempt INTEGER NOT NULL REFERENCES attempt (number) ON DELETE CASCADE,
+  author TEXT NOT NULL,                 -- an opaque id, as a learner's; '' for none
+  written_ms INTEGER NOT NULL,          -- since 1970 UTC
+  text TEXT NOT NULL
+) STRICT;
+CREATE INDEX comment_by_attempt ON comment (attempt, number);
 )sql"};
 
 struct Header {

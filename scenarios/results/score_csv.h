@@ -21,4 +21,8 @@ namespace insonate {
 /// an apostrophe.
 std::string score_csv(const Attempt& attempt, const ExamResult& result);
 
+/// Return the parts of it, for a table of many attempts.
+std::string score_csv_head();
+std::string score_csv_rows(const Attempt& attempt, const ExamResult& result);
+
 }  // namespace insonate

@@ -7,6 +7,7 @@
 #include <system_error>
 #include <utility>
 
+#include "sim/core/held_files.h"
 #include "sim/core/input_error.h"
 
 namespace insonate::sqlite {
@@ -30,6 +31,7 @@ Connection::Connection(std::filesystem::path file, bool create) : file_(std::mov
       sqlite3_open_v2(file_.c_str(), &opened, SQLITE_OPEN_READWRITE | (create ? SQLITE_OPEN_CREATE : 0), nullptr);
   handle_.reset(opened);
   if (code != SQLITE_OK) fail(code);
+  held_ = hold_file(file_);
   if (sqlite3_db_readonly(opened, "main") == 1) fail(SQLITE_READONLY);
   sqlite3_busy_timeout(opened, kPatience_ms);
   // The file may come from an untrusted source: nothing in it may run or change how SQLite reads it.

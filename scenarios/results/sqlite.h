@@ -43,6 +43,7 @@ private:
     void operator()(sqlite3* handle) const;
   };
   std::filesystem::path file_;
+  std::shared_ptr<const void> held_;  ///< hold_file(), for as long as the handle is open
   std::unique_ptr<sqlite3, Close> handle_;
 };
 

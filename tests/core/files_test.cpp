@@ -9,8 +9,10 @@
 #include <filesystem>
 #include <fstream>
 
+#include "sim/core/held_files.h"
 #include "sim/core/image.h"
 #include "sim/core/input_error.h"
+#include "sim/core/new_folder.h"
 #include "tests/core/system_faults.h"
 
 using namespace insonate;
@@ -120,6 +122,45 @@ TEST_CASE("what killed programs left of a file goes with its next write once it 
   CHECK_FALSE(fs::exists(folder.path / ".score.12.partial.json"));
   CHECK(fs::exists(folder.path / ".score.13.partial.json"));
   CHECK(entries(folder.path) == 7);
+}
+
+TEST_CASE("a new folder appears as a whole or not at all, and takes nobody's place") {
+  const TemporaryFolder folder;
+  const fs::path made = folder.path / "above" / "made";
+  write_folder(made, [&](const fs::path& temporary) {
+    CHECK_FALSE(fs::exists(made));
+    write_file(temporary / "a", "x");
+  });
+  CHECK(read_file(made / "a") == "x");
+  CHECK(entries(made.parent_path()) == 1);
+  const auto other = [](const fs::path& temporary) { write_file(temporary / "b", "y"); };
+  CHECK_THROWS_WITH(write_folder(made, other), Catch::Contains("name a folder that is new"));
+  CHECK_THROWS_AS(refuse_taken(made / ""), InputError);
+  CHECK(entries(made) == 1);
+  CHECK(entries(made.parent_path()) == 1);
+
+  const fs::path failed = folder.path / "other" / "failed";
+  const auto fail = [&](const fs::path& temporary) {
+    other(temporary);
+    throw InputError("x", "", "y", "z");
+  };
+  CHECK_THROWS_AS(write_folder(failed, fail), InputError);
+  CHECK_FALSE(fs::exists(failed.parent_path()));
+  CHECK_THROWS_WITH(write_folder(made / "a" / "below", other), Catch::Contains("the folder cannot be written"));
+}
+
+TEST_CASE("a held file is known under all its names, with the files beside it, until it is let go") {
+  const TemporaryFolder folder;
+  for (const char* name : {"lab.db", "other.db", "lab.db-wal"}) std::ofstream(folder.path / name) << "x";
+  fs::create_hard_link(folder.path / "lab.db", folder.path / "link.db");
+  auto first = hold_file(folder.path / "lab.db"), second = hold_file(folder.path / "lab.db");
+  for (const char* name : {"lab.db", "link.db", "lab.db-wal", "lab.db-shm"}) CHECK(is_held(folder.path / name));
+  for (const char* name : {"other.db", "missing", "lab.db-other"}) CHECK_FALSE(is_held(folder.path / name));
+  first.reset();
+  CHECK(is_held(folder.path / "lab.db"));
+  second.reset();
+  CHECK_FALSE(is_held(folder.path / "lab.db"));
+  CHECK_FALSE(hold_file(folder.path / "missing"));
 }
 
 TEST_CASE("a picture is written as PNG or refused with its name") {

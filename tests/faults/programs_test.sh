@@ -75,6 +75,9 @@ sum_of "$work" >"$work/before"
 for bytes in 0 100 3000; do
   says 2 "report.html: it cannot be written" limited $bytes "${score[@]}" --report "$work/report.html"
   says 2 "it cannot be written\|disk does not read or write\|disk is full" limited $bytes "$bin/insonate-score" report "$work/lab.db" --out "$work/reports"
+  says 2 "it cannot be written\|disk does not read or write\|disk is full" limited $bytes "$bin/insonate-score" export "$work/lab.db" --out "$work/tables"
+  [ ! -e "$work/tables" ] || fail "a part of the tables is there, at $bytes bytes"
+  says 2 "lab.db" limited $bytes "$bin/insonate-score" comment "$work/lab.db" --attempt 1 --text "Slow down"
   says 2 "cannot be written" limited $bytes "${phantom[@]}" "$work/ball"
   says 2 "cannot be written" limited $bytes "${import[@]}" --out "$work/patient" --replace
   says 2 "case.toml: it cannot be written" limited $((bytes / 10)) "${add_view[@]}"

@@ -132,7 +132,11 @@ TEST_CASE("the report draws the scan over time and in space, and needs no other 
 
 TEST_CASE("the report shows the best picture of a step beside its reference view, and says whose attempt it was") {
   const Scan one = scan(0);
-  ReportSubject subject{"L-07", "12", "2026-11-21", {{1, ReportPicture::Kind::reference, "ref"}}};
+  ReportSubject subject;
+  subject.learner = "L-07";
+  subject.attempt = "12";
+  subject.finished = "2026-11-21";
+  subject.pictures = {{1, ReportPicture::Kind::reference, "ref"}};
   std::string html = report_html(one.result, one.trace, subject);
   CHECK(count(html, "<figure>") == 2);
   CHECK(html.find("The view was not held") < html.find("data:image/png;base64,cmVm'"));

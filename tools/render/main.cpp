@@ -9,6 +9,7 @@
 
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/core/new_folder.h"
 #include "sim/core/suggest.h"
 #include "sim/gl/headless_context.h"
 #include "sim/imaging/simulator.h"

@@ -18,6 +18,8 @@ using CommandRun = std::function<int()>;
 
 /// Each function declares its commands on `arguments` and sets `run` when one of them is parsed.
 void add_check_command(CLI::App& arguments, CommandRun& run);
+void add_comment_command(CLI::App& arguments, CommandRun& run);
+void add_export_command(CLI::App& arguments, CommandRun& run);
 void add_hand_in_command(CLI::App& arguments, CommandRun& run);
 void add_list_commands(CLI::App& arguments, CommandRun& run);
 void add_pass_mark_command(CLI::App& arguments, CommandRun& run);

@@ -1,10 +1,12 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <string>
 
 #include "scenarios/results/results_database.h"
 #include "scenarios/words.h"
+#include "sim/core/input_error.h"
 #include "tools/score/commands.h"
 
 namespace insonate {
@@ -26,11 +28,20 @@ int list_attempts(const Listed& given) {
   const auto mode = find_attempt_mode(given.mode);
   std::printf("%7s  %-20s  %-20s  %-9s  %-10s %9s  %-16s  %s\n", "attempt", "learner", "finished", "mode", "",
               "percent", "digest", "scenario");
+  std::set<std::int64_t> shown;
   for (const AttemptSummary& a : database.attempts())
-    if ((given.learner.empty() || a.learner == given.learner) && (!mode || is_of(a.mode, *mode)))
+    if ((given.learner.empty() || a.learner == given.learner) && (!mode || is_of(a.mode, *mode))) {
+      shown.insert(a.number);
       std::printf("%7lld  %-20s  %-20s  %-9s  %-10s %9.2f  %-16s  %s\n", static_cast<long long>(a.number),
                   a.learner.c_str(), shown_time(a.finished_ms).c_str(), name_of(a.mode).c_str(),
                   a.passed ? "passed" : "not passed", a.percent, a.scenario_digest.c_str(), a.title.c_str());
+    }
+  for (const Comment& comment : database.comments())
+    if (shown.contains(comment.attempt))
+      std::printf("comment %lld on attempt %lld%s, %s: %s\n", static_cast<long long>(comment.number),
+                  static_cast<long long>(comment.attempt),
+                  comment.author.empty() ? "" : (" by " + in_one_line(comment.author)).c_str(),
+                  shown_time(comment.written_ms).c_str(), in_one_line(comment.text).c_str());
   if (mode && mode != AttemptMode::exam) return 0;
   for (const Sitting& s : database.sittings())
     if (given.learner.empty() || s.learner == given.learner)
@@ -53,7 +64,8 @@ int list_learners(const Listed& given) {
 
 void add_list_commands(CLI::App& arguments, CommandRun& run) {
   const auto given = std::make_shared<Listed>();
-  CLI::App* attempts = arguments.add_subcommand("attempts", "List the attempts in a database of results");
+  CLI::App* attempts =
+      arguments.add_subcommand("attempts", "List the attempts in a database of results, and the comments on them");
   attempts->add_option("DATABASE", given->database, "Use this database of results")->type_name("FILE")->required();
   attempts->add_option("--learner", given->learner, "List only the attempts of this learner")->type_name("ID");
   add_mode_option(*attempts, given->mode,

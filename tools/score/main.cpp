@@ -94,6 +94,8 @@ int main(int argc, char** argv) {
       "  insonate-score --log scan.igs.mha --scenario exam.toml --results lab.db --learner L-07\n"
       "  insonate-score attempts lab.db\n"
       "  insonate-score report lab.db --attempt 12 --out reports\n"
+      "  insonate-score comment lab.db --attempt 12 --text \"Slow down over the ribs\"\n"
+      "  insonate-score export lab.db --out tables\n"
       "  insonate-score pass-mark lab.db --novices novices.csv --experts experts.csv\n"
       "  insonate-score check exam.toml");
   Arguments given;
@@ -131,6 +133,8 @@ int main(int argc, char** argv) {
   add_check_command(arguments, run_command);
   add_list_commands(arguments, run_command);
   add_report_command(arguments, run_command);
+  add_comment_command(arguments, run_command);
+  add_export_command(arguments, run_command);
   add_rescore_command(arguments, run_command);
   add_hand_in_command(arguments, run_command);
   add_pass_mark_command(arguments, run_command);

@@ -27,6 +27,7 @@ constexpr std::array<TaskText, kTasks> kTaskTexts{{
     {Task::patients, "Patients", "Scan freely, or open your own CT", "Scan"},
     {Task::replay, "Replay", "Look at a run again", "Replay"},
     {Task::setup, "Set up a tracker", "Fit it to probe and mannequin", "Set up"},
+    {Task::learners, "Learners", "For instructors: how it went", "Open"},
 }};
 
 const TaskText& text_of(Task task) {
@@ -130,8 +131,11 @@ StartAnswer StartPanel::draw(const Theme& theme, const Rect& screen, StartPage& 
   Rect side = rest.take_right(theme.px(336));
   rest.take_right(gap);
   const float between = theme.px(8);
-  const float height = std::min(theme.px(76), (tasks.h - between * float(kTasks - 1)) / float(kTasks));
-  for (const TaskText& text : kTaskTexts) {
+  const std::vector<Task> offered = page.tasks();
+  const auto count = float(offered.size());
+  const float height = std::min(theme.px(76), (tasks.h - between * (count - 1)) / count);
+  for (const Task task : offered) {
+    const TaskText& text = text_of(task);
     const std::string id = std::string("task_") + to_string(text.task);
     const Rect row = tasks.take_top(height);
     tasks.take_top(between);
@@ -341,6 +345,9 @@ StartAnswer StartPanel::draw_task(const Theme& theme, const Rect& panel, StartPa
     case Task::setup:
       detail = draw_setup(theme, rest, page);
       break;
+    case Task::learners:
+      draw_learners(theme, rest, page);
+      break;
   }
   return detail.kind == StartAnswer::Kind::none ? answer : detail;
 }
@@ -444,6 +451,15 @@ StartAnswer StartPanel::draw_runs(const Theme& theme, Rect rest, StartPage& page
     rows.push_back({"run_" + std::to_string(i), page.runs()[i].name, page.runs()[i].about});
   if (const auto clicked = draw_list(theme, "runs", rest, rows, page.run, *places_)) page.run = *clicked;
   return answer;
+}
+
+void StartPanel::draw_learners(const Theme& theme, Rect rest, const StartPage& page) {
+  paragraph(theme, rest, colour::kText,
+            "How learners do: their scores over time, the criteria that lose points, and every attempt, to be reviewed "
+            "and commented on. The whole database can be written as CSV tables.");
+  paragraph(theme, rest, colour::kMuted,
+            "Learners are known by their ids alone. Attempts never change; comments are kept beside them.");
+  paragraph(theme, rest, colour::kMuted, "Database: " + page.database().string());
 }
 
 StartAnswer StartPanel::draw_setup(const Theme& theme, Rect rest, StartPage& page) {

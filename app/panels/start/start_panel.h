@@ -44,6 +44,7 @@ private:
   StartAnswer draw_scenarios(const Theme& theme, Rect rest, StartPage& page);
   StartAnswer draw_patients(const Theme& theme, Rect rest, StartPage& page);
   StartAnswer draw_runs(const Theme& theme, Rect rest, StartPage& page);
+  void draw_learners(const Theme& theme, Rect rest, const StartPage& page);
   StartAnswer draw_setup(const Theme& theme, Rect rest, StartPage& page);
 
   TextField learner_, address_;

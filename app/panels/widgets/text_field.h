@@ -1,7 +1,7 @@
 #pragma once
 
-#include <array>
 #include <string>
+#include <vector>
 
 #include "app/panels/widgets/theme.h"
 #include "app/panels/widgets/widgets.h"
@@ -13,6 +13,9 @@ namespace insonate::ui {
 /// takes the keys.
 class TextField {
 public:
+  /// @param longest  bytes of the longest text
+  explicit TextField(std::size_t longest = Action::kLongestText) : typed_(longest + 1) {}
+
   /// Draws the field and returns its current content.
   /// @param hint  shown while the field is empty
   /// @param unit  of a number, shown behind the field; empty for none
@@ -27,7 +30,7 @@ public:
   void close() { open_ = ready_ = false; }
 
 private:
-  std::array<char, Action::kLongestText + 1> typed_{};
+  std::vector<char> typed_;  ///< ends with 0
   bool open_ = false, ready_ = false, filled_ = false;
 };
 

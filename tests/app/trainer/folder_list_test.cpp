@@ -1,7 +1,10 @@
 #include "app/trainer/folder_list.h"
 
 #include <catch2/catch.hpp>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include "scenarios/results/results_database.h"
 #include "sim/core/files.h"
 #include "tests/scenarios/results/made_attempt.h"
 
@@ -32,6 +35,31 @@ TEST_CASE("a folder's list shows what can be opened for a purpose, folders first
   CHECK(is_plain_folder(folder / "Zoo"));
   CHECK(list_folder(folder / "missing", Wanted::anything).problem.find("missing") != std::string::npos);
   CHECK(list_folder(folder.path, Wanted::patient).entries[2].bytes == 8);
+}
+
+TEST_CASE("a folder's list looks into no open database, whose locks would be lost") {
+  const ResultsFolder folder;
+  int go[2];
+  REQUIRE(pipe(go) == 0);
+  // Another program opens the database and closes it. If nobody else seems to have it open, it takes the log away.
+  const pid_t child = fork();
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    char byte = 0;
+    if (read(go[0], &byte, 1) == 1) ResultsDatabase::open(folder / "lab.db").attempts();
+    _exit(0);
+  }
+  ResultsDatabase database = ResultsDatabase::open_or_make(folder / "lab.db");
+  Attempt attempt = made_attempt("L-01", tiny_exam(0));
+  database.add(attempt);
+  CHECK(list_folder(folder.path, Wanted::anything).entries.empty());
+  is_plain_folder(folder.path);
+  REQUIRE(write(go[1], "!", 1) == 1);
+  REQUIRE(waitpid(child, nullptr, 0) == child);
+  for (const int end : go) close(end);
+  CHECK(std::filesystem::exists(folder / "lab.db-wal"));
+  CHECK(std::filesystem::exists(folder / "lab.db-shm"));
+  database.check();
 }
 
 TEST_CASE("what is typed is a path from the home folder or the current one") {

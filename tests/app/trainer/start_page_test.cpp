@@ -98,6 +98,17 @@ TEST_CASE("each task of the start page turns into what the command line would sa
   CHECK(patient.free_practice);
   CHECK_THROWS_WITH(page.add(folder / "nothing.mha"), Catch::Contains("there is no such file"));
 
+  INFO("without a database there are no learners to look at");
+  CHECK(page.tasks().size() == kTasks - 1);
+  CHECK(page.tasks().back() == Task::setup);
+  page.task = Task::setup;
+  page.move_choice(+1);
+  CHECK(page.task == Task::setup);
+  page.move_choice(-1);
+  CHECK(page.task == Task::replay);
+  page.move_choice(-99);
+  CHECK(page.task == Task::first_scan);
+
   page.task = Task::setup;
   CHECK(page.why_not().find("no sensor") != std::string::npos);
   page.choose_tracker("igtl://localhost/Probe");
@@ -148,6 +159,7 @@ TEST_CASE("an exam needs a learner who has not taken it, and the page says so") 
   page.choose_learner("L-07");
   CHECK(page.why_not().find("as attempt 1") != std::string::npos);
   CHECK(page.attempts().size() == 1);
+  CHECK(page.tasks().back() == Task::learners);
   page.choose_learner("L-08");
   CHECK(page.why_not() == "");
   CHECK(page.attempts().empty());

@@ -114,6 +114,75 @@ TEST_CASE("the start page begins what is chosen, and is there again afterwards")
   CHECK(trainer.can_leave());
 }
 
+TEST_CASE("a review of an attempt leads back to the page of learners, with what was chosen there") {
+  const Patience patience;
+  const test::TestContext context;
+  const TrainerFolder folder;
+  Options scored = folder.options();
+  scored.results = folder.path / "lab.db";
+  scored.learner = "L-07";
+  {
+    Trainer trainer(scored);
+    trainer.open_from_options();
+    trainer.finish_loading();
+    for (int i = 0; trainer.session() && !trainer.session()->result() && i < 20'000; ++i) trainer.update(i / 30.0);
+    trainer.write_results_if_due();
+    REQUIRE(trainer.problems().empty());
+  }
+  Options options;
+  options.out = folder.path / "out";
+  options.results = scored.results;
+  Trainer trainer(options);
+  trainer.open_from_options();
+  REQUIRE(trainer.start_page());
+  trainer.start_page()->task = Task::learners;
+  trainer.begin_chosen();
+  REQUIRE(trainer.learners_page());
+  CHECK_FALSE(trainer.start_page());
+  CHECK(trainer.can_leave());
+  CHECK_FALSE(trainer.loses_by_leaving());
+  trainer.learners_page()->choose_learner("L-07");
+  trainer.learners_page()->choose_author("T-02");
+  trainer.learners_page()->add_comment("Well held");
+  trainer.report_attempt();
+  trainer.export_tables();
+  const std::vector<Notice> notices = trainer.take_notices();
+  REQUIRE(notices.size() == 2);
+  CHECK(notices[0].text.find("report.html") != std::string::npos);
+  CHECK(notices[1].text.find("out/tables/") != std::string::npos);
+
+  INFO("a review that is given up leaves the page as it is");
+  trainer.review();
+  trainer.stop_loading();
+  REQUIRE(trainer.learners_page());
+  CHECK(trainer.options().mode == Mode::practice);
+  trainer.review();
+  trainer.finish_loading();
+  REQUIRE(trainer.replay());
+  CHECK(trainer.leads_to_learners());
+  trainer.leave();
+  REQUIRE(trainer.learners_page());
+  CHECK(trainer.learners_page()->choice().learner == "L-07");
+  CHECK(trainer.learners_page()->choice().author == "T-02");
+  CHECK(trainer.learners_page()->comments().size() == 1);
+
+  INFO("and a replay that the start page begins leads there");
+  trainer.leave();
+  REQUIRE(trainer.start_page());
+  trainer.start_page()->task = Task::replay;
+  begin(trainer);
+  REQUIRE(trainer.replay());
+  CHECK_FALSE(trainer.leads_to_learners());
+  trainer.leave();
+  CHECK(trainer.start_page());
+
+  INFO("what is dropped on the page of learners is opened");
+  trainer.show_learners();
+  REQUIRE(trainer.learners_page());
+  open_and_wait(trainer, folder.path / "tiny");
+  CHECK(trainer.session());
+}
+
 TEST_CASE("the first patient can be given up, and an exam that the command line asks for cannot") {
   const Patience patience;
   const test::TestContext context;

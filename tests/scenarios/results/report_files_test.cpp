@@ -11,34 +11,13 @@
 #include "scenarios/results/score_csv.h"
 #include "scenarios/results/xapi.h"
 #include "sim/core/files.h"
+#include "tests/scenarios/results/csv_cells.h"
 #include "tests/scenarios/results/made_attempt.h"
 
 using namespace insonate;
 using Json = nlohmann::json;
 
 namespace {
-
-/// The cells of CSV without line breaks in them.
-std::vector<std::vector<std::string>> cells_of(const std::string& csv) {
-  std::vector<std::vector<std::string>> rows(1, std::vector<std::string>(1));
-  bool inside = false;
-  for (std::size_t i = 0; i < csv.size(); ++i) {
-    const char c = csv[i];
-    if (c == '"' && inside && i + 1 < csv.size() && csv[i + 1] == '"') {
-      rows.back().back() += csv[++i];
-    } else if (c == '"') {
-      inside = !inside;
-    } else if (c == ',' && !inside) {
-      rows.back().emplace_back();
-    } else if (c == '\n' && !inside) {
-      rows.emplace_back(1);
-    } else if (c != '\r') {
-      rows.back().back() += c;
-    }
-  }
-  rows.pop_back();
-  return rows;
-}
 
 Attempt kept_attempt(const TinyExam& exam) {
   Attempt attempt = made_attempt("L-07", exam);
@@ -60,6 +39,43 @@ TEST_CASE("reports out of the database equal those made at the end of the exam")
   REQUIRE(first.all().size() == 4);
   for (std::size_t i = 0; i < 4; ++i) CHECK(read_file(first.all()[i]) == read_file(again.all()[i]));
   CHECK(read_file(first.report).find("L-07") != std::string::npos);
+}
+
+TEST_CASE("a report shows the comments on its attempt, and the score lists them and is else the same") {
+  const ResultsFolder folder;
+  Attempt attempt = made_attempt("L-07", tiny_exam(1.0 / 3));
+  ResultsDatabase database = ResultsDatabase::open_or_make(folder / "results.db");
+  database.add(attempt);
+  const ResultFiles before = write_report_files(folder / "before", database.read(1));
+  CHECK(read_file(before.report).find("Comments") == std::string::npos);
+  Comment comment;
+  comment.attempt = 1;
+  comment.author = "T-02";
+  comment.written_ms = 1'795'284'309'250;
+  comment.text = "<b>Slower</b> over the \"ribs\" \u2013 good hold";
+  database.add(comment);
+  Comment nameless = comment;
+  nameless.author.clear();
+  nameless.text = "Again";
+  database.add(nameless);
+  const ResultFiles after = write_report_files(folder / "after", database.read(1));
+  const std::string page = read_file(after.report);
+  CHECK(page.find("<p>&lt;b&gt;Slower&lt;/b&gt; over the &quot;ribs&quot; \u2013 good hold"
+                  "<small>T-02, 2026-11-21 18:05 UTC</small></p>") != std::string::npos);
+  CHECK(page.find("<p>Again<small>2026-11-21 18:05 UTC</small></p>") != std::string::npos);
+
+  const std::string score = read_file(after.score);
+  Json json = Json::parse(score);
+  CHECK(json.at("comments").size() == 2);
+  CHECK(json.at("comments")[0] ==
+        Json{{"comment", 1}, {"author", "T-02"}, {"written", "2026-11-21T18:05:09.250Z"}, {"text", comment.text}});
+  json.erase("comments");
+  CHECK(json == Json::parse(attempt.score_json));
+  CHECK(to_json(result_from_json(score, "score")) == attempt.score_json);
+  const std::string same = attempt.score_json.substr(0, attempt.score_json.rfind('}') - 1);
+  CHECK(score.starts_with(same));
+  CHECK(read_file(after.table) == read_file(before.table));
+  CHECK(read_file(after.statements) == read_file(before.statements));
 }
 
 TEST_CASE("each attempt has a folder of its own, and the folders sort by time") {

@@ -176,3 +176,31 @@ TEST_CASE("a database of the first schema is brought up to date and keeps its at
   CHECK(database.read(6).pictures.size() == 3);
   CHECK(sqlite::Connection(folder / "old.db", false).number("PRAGMA user_version") == newest_results_schema());
 }
+
+TEST_CASE("a database without comments is brought up to date, keeps its bytes, and takes them") {
+  const ResultsFolder folder;
+  {
+    sqlite::Connection old(folder / "old.db", true);
+    bring_up_to_date(old, true, 4);
+    old.run("INSERT INTO learner VALUES ('L-01')");
+    old.run(
+        "INSERT INTO attempt VALUES (5, 'uuid', 'L-01', 0, 'title', 1, 50, 0, '2d06800538d394c2', '', '', '', "
+        "'2d06800538d394c2', 0, x'789c030000000001', 0, x'789c030000000001', '{}', 'practice')");
+    CHECK(old.number("PRAGMA user_version") == 4);
+    CHECK_THROWS_AS(old.run("SELECT * FROM comment"), InputError);
+  }
+  ResultsDatabase database = ResultsDatabase::open(folder / "old.db");
+  database.check();
+  CHECK(database.comments().empty());
+  CHECK(database.attempts()[0].mode == AttemptMode::practice);
+  Comment comment;
+  comment.attempt = 5;
+  comment.text = "Well held";
+  database.add(comment);
+  CHECK(database.read(5).comments.size() == 1);
+  database.check();
+
+  INFO("a comment that another program has spoiled is damage");
+  run_sql(folder / "old.db", "UPDATE comment SET text = 'two' || char(10) || 'lines'");
+  CHECK_THROWS_WITH(database.check(), Catch::Contains("old.db: comment 1: it is damaged"));
+}

@@ -381,6 +381,56 @@ TEST_CASE("insonate-score makes the other reports when an attempt is damaged") {
           (number != 2));
 }
 
+TEST_CASE("insonate-score stores comments, lists and reports them, removes them, and writes all tables") {
+  const Folder folder;
+  const std::string database = (folder.path / "lab.db").string();
+  for (const auto& [learner, mode] : {std::pair{"L-01", AttemptMode::exam}, {"L-02", AttemptMode::practice}}) {
+    ExamResult result;
+    result.provenance.mode = mode;
+    Attempt attempt;
+    attempt.learner = learner;
+    attempt.score_json = to_json(result);
+    attempt.trace_json = to_json(std::vector<TracePoint>());
+    ResultsDatabase::open_or_make(database).add(attempt);
+  }
+  const Outcome made = run(folder, "comment " + database + " --attempt 1 --author T-02 --text 'Slow down & hold'");
+  INFO(made.errors);
+  CHECK(made.code == 0);
+  CHECK(made.output == "comment 1 on attempt 1\n");
+  CHECK(run(folder, "comment " + database + " --attempt 2 --text 'Well held'").code == 0);
+
+  const std::string attempts = run(folder, "attempts " + database).output;
+  const std::size_t listed = attempts.find("\ncomment 1 on attempt 1 by T-02, 20");
+  REQUIRE(listed != std::string::npos);
+  CHECK(attempts.find("Z: Slow down & hold\n", listed) != std::string::npos);
+  CHECK(attempts.find("\ncomment 2 on attempt 2, 20") != std::string::npos);
+  CHECK(run(folder, "attempts " + database + " --learner L-01").output.find("comment 2") == std::string::npos);
+  CHECK(run(folder, "attempts " + database + " --mode practice").output.find("comment 1 ") == std::string::npos);
+
+  REQUIRE(run(folder, "report " + database + " --attempt 1 --out " + folder.path.string()).code == 0);
+  CHECK(read_file(folder.path / "attempt-1/report.html").find("Slow down &amp; hold<small>T-02, ") !=
+        std::string::npos);
+
+  const std::string tables = (folder.path / "tables").string();
+  const Outcome exported = run(folder, "export " + database + " --out " + tables);
+  INFO(exported.errors);
+  CHECK(exported.code == 0);
+  CHECK(exported.output == "wrote " + tables + "/learners.csv\nwrote " + tables + "/attempts.csv\nwrote " + tables +
+                               "/scores.csv\nwrote " + tables + "/comments.csv\n");
+  CHECK(read_file(folder.path / "tables/comments.csv").find("\"T-02\"") != std::string::npos);
+
+  CHECK(run(folder, "comment " + database + " --remove 1").output == "comment 1 is removed\n");
+  CHECK(run(folder, "attempts " + database).output.find("comment 1 ") == std::string::npos);
+  CHECK(run(folder, "attempts " + database).output.find("comment 2 ") != std::string::npos);
+
+  INFO("an attempt that is damaged leaves the tables of the others");
+  sqlite::Connection(database, false).run("UPDATE attempt SET score = '{}' WHERE number = 1");
+  const Outcome partly = run(folder, "export " + database + " --out " + tables + "2");
+  CHECK(partly.code == 2);
+  CHECK(partly.errors.find("attempt 1: ") != std::string::npos);
+  CHECK(std::filesystem::exists(tables + "2/attempts.csv"));
+}
+
 TEST_CASE("insonate-score sets a pass mark from two lists of learners") {
   const Folder folder;
   const std::string database = (folder.path / "lab.db").string();
@@ -447,5 +497,18 @@ TEST_CASE("insonate-score refuses databases and lists that it cannot use in one 
   refused("--log x --scenario y --learner 'Ada Lovelace'", "not an opaque id");
   ResultsDatabase::open_or_make(folder.path / "lab.db");
   refused("report " + (folder.path / "lab.db").string() + " --attempt 3", "no attempt 3");
-  refused("report " + (folder.path / "lab.db").string() + " --home-page lab", "not a web address");
+  const std::string lab = (folder.path / "lab.db").string();
+  refused("report " + lab + " --home-page lab", "not a web address");
+  refused("comment " + lab, "--attempt or --remove is required");
+  refused("comment " + lab + " --attempt 3", "--text is required");
+  refused("comment " + lab + " --attempt 3 --text x", "no attempt 3");
+  refused("comment " + lab + " --attempt 3 --text \"$(printf 'two\\nlines')\"",
+          "command line: comment: character 4 of the comment is a line break; write one paragraph");
+  refused("comment " + lab + " --attempt 3 --text x --author 'Ada Lovelace'", "not an opaque id");
+  refused("comment " + lab + " --remove 3", "no comment 3");
+  refused("comment " + lab + " --remove 3 --text x", "excludes");
+  refused("comment " + text + " --attempt 3 --text x", "not a database of results");
+  refused("export " + lab, "--out is required");
+  refused("export " + lab + " --out " + text, "name a folder that is new");
+  refused("export " + text + " --out " + (folder.path / "tables").string(), "not a database of results");
 }
