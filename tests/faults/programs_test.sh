@@ -195,11 +195,12 @@ done
 if ! grep -qa __asan_init "$bin/insonate-score"; then  # whose shadow takes all there is
   codes=""
   # From what the program needs before its first own line, which depends on the libraries.
-  least=20
-  starts() { (prlimit --as=$(($1 << 20)) "$bin/insonate-score" --help; exit $?) >/dev/null 2>&1; }
+  # In units of 256 KiB: a small exam needs less than 1 MiB more than that.
+  least=80
+  starts() { (prlimit --as=$(($1 << 18)) "$bin/insonate-score" --version; exit $?) >/dev/null 2>&1; }
   until starts "$least"; do least=$((least + 1)); done
-  for mb in $(seq $((least + 1)) 1 $((least + 12))) $(seq $((least + 16)) 20 400); do
-    copes prlimit --as=$((mb << 20)) "${score[@]}"
+  for quarters in $(seq $((least + 1)) 1 $((least + 24))) $(seq $((least + 64)) 80 1600); do
+    copes prlimit --as=$((quarters << 18)) "${score[@]}"
   done
   [[ $codes == *" 3"* || $codes == *" 2"* ]] || fail "no limit of memory was met: $codes"
 fi
