@@ -22,7 +22,7 @@ struct Help {
 /// How the probe moves, wherever there is one.
 const std::vector<Key> kProbe{
     {"Up, Down", "slide the probe towards the head, the feet"},
-    {"Left, Right", "slide it to the patient's right, left, as seen from the front"},
+    {"Left, Right", "slide it to the patient's right, left, and on round the body"},
     {"Page Down, Page Up", "press it into the skin, lift it"},
     {"E, Q", "rotate it clockwise, counter-clockwise, seen from its handle"},
     {"W, S", "rock the beam away from the marker, towards the marker"},

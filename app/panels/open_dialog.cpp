@@ -22,6 +22,10 @@ const char* title_of(Wanted wanted) {
       return "Open a recorded scan";
     case Wanted::calibration:
       return "Use a calibration";
+    case Wanted::landmarks:
+      return "Use a patient's landmarks";
+    case Wanted::drawing:
+      return "Use a drawing of the probe";
     case Wanted::output:
       return "The folder for reports, pictures and recordings";
     case Wanted::cases:
@@ -44,6 +48,10 @@ const char* what_is_shown(Wanted wanted) {
       return "Recorded scans (.igs.mha, .seq.mha, .seq.nrrd).";
     case Wanted::calibration:
       return "Calibration files (.toml).";
+    case Wanted::landmarks:
+      return "Lists of landmarks (.toml).";
+    case Wanted::drawing:
+      return "Drawings of a probe (.toml).";
     case Wanted::cases:
       return "Go to the folder whose case folders are to be listed.";
     case Wanted::output:

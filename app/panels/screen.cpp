@@ -437,7 +437,11 @@ void Screen::take_path(Trainer& trainer) {
     return trainer.prefer(preferences);
   }
   if (!page || wanted == Wanted::anything) return trainer.open(path);
-  trainer.attempt([&] { page->add(path); });
+  trainer.attempt([&] {
+    wanted == Wanted::landmarks ? page->choose_landmarks(path)
+    : wanted == Wanted::drawing ? page->choose_drawing(path)
+                                : page->add(path);
+  });
 }
 
 Overlay Screen::overlay(const Trainer& trainer) const {

@@ -87,11 +87,14 @@ std::optional<Pose> ProbeHand::slide(const Pose& from, const glm::dvec2& mm) con
 }
 
 glm::dvec2 ProbeHand::slide_in_patient(const Pose& from, const glm::dvec2& mm) {
-  constexpr double kLeastShare = 0.3;  // of the length along the face: 73 degrees between face and direction
-  const glm::dvec3 asked(mm.x, 0, mm.y);
-  const glm::dvec2 along(glm::dot(asked, from.rotation[0]), glm::dot(asked, from.rotation[2]));
-  const double length = glm::length(along), wanted = glm::length(asked);
-  return length > kLeastShare * wanted ? along * (wanted / length) : glm::dvec2(0);
+  constexpr double kLeastSine = 0.3;  // of the angle between beam and body's axis: 17 degrees
+  const glm::dvec3 head(0, 0, 1), beam = from.rotation[1];
+  const glm::dvec3 around = glm::cross(beam, head);
+  const double sine = glm::length(around);
+  if (sine < kLeastSine) return glm::dvec2(0);
+  const glm::dvec3 up = glm::cross(around, beam);  // the part of `head` along the face
+  const glm::dvec3 moved = (mm.x * around + mm.y * up) / sine;
+  return {glm::dot(moved, from.rotation[0]), glm::dot(moved, from.rotation[2])};
 }
 
 Pose ProbeHand::press(const Pose& from, double mm) const {

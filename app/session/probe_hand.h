@@ -20,9 +20,9 @@ public:
   /// keeps its distance and its angle to the skin. Empty if there is no skin there, as at the end of the CT.
   std::optional<Pose> slide(const Pose& from, const glm::dvec2& mm) const;
 
-  /// Returns the slide (for slide(), mm) that moves the face by `mm` to the patient's left and towards the head, as
-  /// seen from the front. It runs along the face and keeps the length, unless the face stands nearly across the
-  /// direction: then it is zero.
+  /// Returns the slide (for slide(), mm) that moves the face by `mm` around the body and towards the head. Around the
+  /// body is to the patient's left on their front, on over the left flank to the back, and so on. A part is zero where
+  /// the beam runs nearly along the body's axis, so that there is no such direction along the face.
   static glm::dvec2 slide_in_patient(const Pose& from, const glm::dvec2& mm);
 
   /// Returns the pose moved along the beam by `mm`, positive into the body. It never gets deeper than kDeepest_mm or

@@ -65,7 +65,11 @@ std::string kind_in_words(Material material, Wanted wanted) {
     case Material::ct:
       return any || wanted == Wanted::patient ? "CT" : "";
     case Material::scenario:  // every .toml
-      return wanted == Wanted::calibration ? "calibration" : any || wanted == Wanted::scenario ? "scenario" : "";
+      return wanted == Wanted::calibration       ? "calibration"
+             : wanted == Wanted::landmarks       ? "landmarks"
+             : wanted == Wanted::drawing         ? "drawing"
+             : any || wanted == Wanted::scenario ? "scenario"
+                                                 : "";
     case Material::tracker_log:
       return any || wanted == Wanted::recording ? "recorded scan" : "";
     case Material::raw_log:

@@ -10,6 +10,7 @@
 
 #include "app/trainer/folder_list.h"
 #include "devices/calibrated_tracker.h"
+#include "devices/calibration/setup_input.h"
 #include "scenarios/format/variants.h"
 #include "scenarios/results/roster.h"
 #include "scenarios/words.h"
@@ -298,6 +299,16 @@ void StartPage::choose_learner(const std::string& id) {
   }
   check_learner_id(id, "learner", "");
   options_.learner = id;
+}
+
+void StartPage::choose_landmarks(const fs::path& file) {
+  if (!file.empty()) read_landmark_list(file);
+  options_.landmarks = file;
+}
+
+void StartPage::choose_drawing(const fs::path& file) {
+  if (!file.empty()) read_probe_drawing(file);
+  options_.drawing = file;
 }
 
 void StartPage::add(const fs::path& path) {

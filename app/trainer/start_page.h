@@ -120,7 +120,12 @@ public:
   void choose_tracker(const std::string& uri);
   /// Chooses a learner; nobody in particular for an empty id. Throws InputError if the id is not valid.
   void choose_learner(const std::string& id);
+  /// The set-up's files; empty: what is built in. Throw InputError for a file that cannot be used.
   void choose_calibration(const std::filesystem::path& file) { options_.calibration = file; }
+  void choose_landmarks(const std::filesystem::path& file);
+  void choose_drawing(const std::filesystem::path& file);
+  const std::filesystem::path& landmarks() const { return options_.landmarks; }
+  const std::filesystem::path& drawing() const { return options_.drawing; }
   /// Adds a file or folder that a person has chosen for the task, and chooses it. Throws InputError.
   void add(const std::filesystem::path& path);
   /// Lists the cases of another folder.

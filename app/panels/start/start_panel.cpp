@@ -470,12 +470,27 @@ StartAnswer StartPanel::draw_setup(const Theme& theme, Rect rest, StartPage& pag
   paragraph(theme, rest, colour::kMuted,
             "Choose the tracker on the right: a bright light means that it can be used. For one that is plugged in and "
             "cannot be used, the reason stands below it. Only trackers with a sensor need a set-up.");
-  paragraph(theme, rest, colour::kMuted,
-            page.calibration().empty() ? "The last set-up of the same tracker in this folder is used by itself."
-                                       : "Calibration: " + page.calibration().string());
-  (*places_)["browse"] = rest.take_top(theme.px(34)).take_left(theme.px(220));
-  if (button(theme, "browse", (*places_)["browse"], "Use a calibration file\u2026"))
-    answer = {StartAnswer::Kind::browse, Wanted::calibration};
+  struct File {
+    const char* id;
+    const char* text;
+    const char* otherwise;
+    const std::filesystem::path& file;
+    Wanted wanted;
+  };
+  for (const File& each :
+       {File{"browse", "Calibration\u2026", "the last set-up of this tracker, if there is one", page.calibration(),
+             Wanted::calibration},
+        File{"landmarks", "Landmarks\u2026", "those of the built-in patient", page.landmarks(), Wanted::landmarks},
+        File{"drawing", "Drawing of the probe\u2026", "none: the probe's face is touched", page.drawing(),
+             Wanted::drawing}}) {
+    Rect row = rest.take_top(theme.px(34));
+    rest.take_top(theme.px(8));
+    (*places_)[each.id] = row.take_left(theme.px(220));
+    row.take_left(theme.px(12));
+    if (button(theme, each.id, (*places_)[each.id], each.text)) answer = {StartAnswer::Kind::browse, each.wanted};
+    draw_text(row, theme.text, each.file.empty() ? colour::kMuted : colour::kText,
+              each.file.empty() ? each.otherwise : each.file.string());
+  }
   return answer;
 }
 

@@ -115,6 +115,13 @@ TEST_CASE("each task of the start page turns into what the command line would sa
   const Beginning setup = chosen(Task::setup);
   CHECK(setup.options.mode == Mode::setup);
   CHECK(setup.options.tracker == "igtl://localhost/Probe");
+  CHECK(setup.options.landmarks.empty());
+  const auto landmarks = assets_folder() / "calibration" / "abdomen.toml";
+  page.choose_landmarks(landmarks);
+  CHECK_THROWS_AS(page.choose_drawing(landmarks), InputError);
+  CHECK_THROWS_AS(page.choose_landmarks(folder / "nothing.toml"), InputError);
+  CHECK(page.chosen().options.landmarks == landmarks);
+  CHECK(page.chosen().options.drawing.empty());
   CHECK_THROWS_AS(page.choose_tracker("igtl://?frame=x"), InputError);
   CHECK(page.tracker() == "igtl://localhost/Probe");
 }
