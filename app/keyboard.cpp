@@ -40,6 +40,13 @@ bool edits_text(const KeyEvent& event) {
   }
 }
 
+/// Returns the letter on a key of the person's keyboard; 0 if it has none. GLFW numbers keys by their place on an
+/// American one.
+char letter_of(int key) {
+  const char* const name = glfwGetKeyName(key, 0);
+  return name && name[0] >= 'a' && name[0] <= 'z' && !name[1] ? name[0] : '\0';
+}
+
 bool is_enter(const KeyEvent& event) {
   return event.key == GLFW_KEY_ENTER || event.key == GLFW_KEY_KP_ENTER;
 }
@@ -65,7 +72,7 @@ bool Keyboard::move_probe(Session& session, double elapsed_s) const {
   const bool fine = held(GLFW_KEY_LEFT_SHIFT) || held(GLFW_KEY_RIGHT_SHIFT);
   const double amount = elapsed_s * (fine ? kFine : 1.0);
   const auto axis = [&](int plus, int minus) { return double(held(plus)) - double(held(minus)); };
-  // As the guide speaks and as the 3D view shows the patient from the front: their left is on the right, their head up.
+  // As the guide speaks, and on the front as the 3D view shows the patient: their left is on the right, their head up.
   const glm::dvec2 slide =
       glm::dvec2(axis(GLFW_KEY_RIGHT, GLFW_KEY_LEFT), axis(GLFW_KEY_UP, GLFW_KEY_DOWN)) * kSlide_mm_s * amount;
   const double press_mm = axis(GLFW_KEY_PAGE_DOWN, GLFW_KEY_PAGE_UP) * kPress_mm_s * amount;
@@ -246,10 +253,13 @@ void Keyboard::press(const KeyEvent& pressed, Trainer& trainer, ui::Screen& scre
   if (!trainer.session()) return;
   Session& session = *trainer.session();
   if (pressed.modifiers & GLFW_MOD_CONTROL) {
-    const bool back = pressed.key == GLFW_KEY_Z && !(pressed.modifiers & GLFW_MOD_SHIFT);
-    const bool forward = pressed.key == GLFW_KEY_Y || (pressed.key == GLFW_KEY_Z && !back);
-    if (back && !trainer.undo_history().undo(session)) screen.tell("Nothing to undo");
-    if (forward && !trainer.undo_history().redo(session)) screen.tell("Nothing to do again");
+    const char letter = letter_of(pressed.key);
+    const bool back = letter == 'z' && !(pressed.modifiers & GLFW_MOD_SHIFT);
+    const bool forward = letter == 'y' || (letter == 'z' && !back);
+    std::string why_not;
+    if (back) why_not = trainer.undo_history().undo(session);
+    if (forward) why_not = trainer.undo_history().redo(session);
+    if (!why_not.empty()) screen.tell(why_not);
     return;
   }
   const Machine& machine = session.machine();

@@ -54,6 +54,7 @@ void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::
     state[name + "_w"] = int(rect.w);
     state[name + "_h"] = int(rect.h);
   }
+  state["depth_unit"] = trainer.preferences().look.length_unit == LengthUnit::mm ? "mm" : "cm";
   state["clip"] = trainer.clip().running();
   state["camera_yaw_deg"] = trainer.pictures().camera.yaw_deg;
   state["camera_pitch_deg"] = trainer.pictures().camera.pitch_deg;

@@ -135,14 +135,14 @@ private:
 };
 
 /// The person's own preferences, and what is wrong with them.
-struct Own {
+struct OwnPreferences {
   Preferences preferences;
   std::filesystem::path file;  ///< empty: they cannot be stored
   std::string problem;
 };
 
-Own own_preferences() {
-  Own own;
+OwnPreferences own_preferences() {
+  OwnPreferences own;
   try {
     const std::filesystem::path file = preferences_file();
     own.preferences = read_preferences(file);
@@ -157,7 +157,7 @@ Own own_preferences() {
 /// only where it changes.
 class Loop {
 public:
-  Loop(GLFWwindow* window, const Options& options, const Own& own)
+  Loop(GLFWwindow* window, const Options& options, const OwnPreferences& own)
       : window_(window), options_(options), trainer_(options, own.preferences, own.file), events_(window) {
     if (!own.problem.empty()) trainer_.problems().push_back(own.problem);
     if (!options.frame_times.empty()) {

@@ -26,7 +26,7 @@ const std::vector<Key> kProbe{
     {"Page Down, Page Up", "press it into the skin, lift it"},
     {"E, Q", "rotate it clockwise, counter-clockwise, seen from its handle"},
     {"W, S", "rock the beam away from the marker, towards the marker"},
-    {"A, D", "tilt the beam to head or feet, if the marker is on the right"},
+    {"A, D", "tilt the beam to head or feet, if the marker is to the patient's right"},
     {"Shift", "with any of these: slowly"},
     {"Drag on the ultrasound", "slide; with Shift rock and tilt; the wheel rotates"},
     {"Drag the probe", "put it elsewhere on the patient"},
@@ -38,8 +38,8 @@ const std::vector<Key> kPatient{
 const std::vector<Key> kMachine{
     {"Space", "freeze the picture"},
     {"+, \u2212 and [, ]", "gain; depth"},
-    {"Ctrl Z, Ctrl Y", "undo a knob or a move of the probe; do it again"},
 };
+const std::vector<Key> kUndo{{"Ctrl Z, Ctrl Y", "undo a knob or a move of the probe; do it again"}};
 const std::vector<Key> kTools{
     {"Click the frozen picture", "measure from end to end; drag an end to move it"},
     {"C", "calipers or ellipse, where both may be used"},
@@ -88,6 +88,7 @@ Help help_of(HelpTopic topic) {
                        kPatient,
                        {{"Tab", "take the probe, give it back to the tracker"}},
                        kMachine,
+                       kUndo,
                        kTools,
                        {{"Escape", "give up what is being placed; else to the start page"},
                         {"G", "the guide: the way to the view; its use is in the report"}},
@@ -114,7 +115,7 @@ Help help_of(HelpTopic topic) {
                         {"V", "see the patient from the next side"},
                         {"P, L", "save the picture; begin and end a clip of it"},
                         {"Ctrl O", "open another recorded scan"},
-                        {"Escape", "to the start page"}},
+                        {"Escape", "back to the start page, or to the learners"}},
                        kWindow})};
     case HelpTopic::setup:
       return {
@@ -133,6 +134,7 @@ Help help_of(HelpTopic topic) {
               keys_of({kProbe,
                        kPatient,
                        kMachine,
+                       kUndo,
                        {{"1 to 9", "choose a structure of the view"},
                         {"Enter", "store the view"},
                         {"Escape", "to the start page"}},

@@ -43,6 +43,24 @@ std::filesystem::path* setting_of(Preferences& preferences, Wanted wanted) {
   }
 }
 
+/// Takes a file of the set-up, or what is built in for an empty path. Returns whether `wanted` is one. Throws
+/// InputError.
+bool use_for_setup(StartPage& page, Wanted wanted, const std::filesystem::path& path) {
+  switch (wanted) {
+    case Wanted::calibration:
+      page.choose_calibration(path);
+      return true;
+    case Wanted::landmarks:
+      page.choose_landmarks(path);
+      return true;
+    case Wanted::drawing:
+      page.choose_drawing(path);
+      return true;
+    default:
+      return false;
+  }
+}
+
 /// Whether an overlay keeps the learner from the scan behind it. The set-up has no session behind it, the briefing one
 /// that has not begun, and the score one that is over.
 bool covers(Overlay overlay) {
@@ -183,11 +201,9 @@ bool Screen::render(Trainer& trainer, FrameTimes* times) {
 /// Saves the ultrasound as it is on the screen, if the person has asked for it and nothing covers it.
 void Screen::capture(Trainer& trainer, bool changed) {
   const bool clip = trainer.clip().running();
-  if (!(saves_picture_ || (clip && changed)) || ultrasound_.w <= 0 || overlay(trainer) != Overlay::none) return;
-  if (toast_.left_s() > 0) {
-    if (saves_picture_) toast_.hide();  // which uncovers the picture in the next frame
-    return;
-  }
+  if (!can_save(trainer)) saves_picture_ = false;
+  if (!(saves_picture_ || (clip && changed)) || !can_save(trainer)) return;
+  if (toast_.left_s() > 0 && !toast_is_aside_) return toast_.hide();  // which uncovers the picture in the next frame
   const Image<Rgba8> picture = canvas_.read(
       {int(ultrasound_.x), int(ultrasound_.y), int(ultrasound_.x + ultrasound_.w), int(ultrasound_.y + ultrasound_.h)});
   if (clip) trainer.clip().take(picture, ImGui::GetTime());
@@ -195,8 +211,8 @@ void Screen::capture(Trainer& trainer, bool changed) {
 }
 
 void Screen::toggle_clip(Trainer& trainer) {
+  if (trainer.clip().running()) return trainer.clip().stop(ImGui::GetTime());
   if (!can_save(trainer)) return;
-  if (trainer.clip().running()) return trainer.clip().stop();
   toast_.hide();
   trainer.start_clip();
 }
@@ -281,11 +297,12 @@ Rect Screen::toast_place() const {
   return {around.x, around.y, around.w, around.h - theme_.px(56)};
 }
 
-/// A page that the person reads is not covered: the toast waits.
+/// A page that the person reads is not covered: the toast waits. While a clip is made it does not cover the ultrasound.
 void Screen::draw_toast(const Trainer& trainer) {
   if (top_page() != Overlay::none && overlay(trainer) == top_page()) return toast_.wait();
-  const std::filesystem::path file = toast_.draw(theme_, toast_place(), places_);
-  if (!file.empty()) open_on_desktop(std::filesystem::absolute(file).parent_path());
+  toast_is_aside_ = trainer.clip().running() && volume_.w > 0;
+  const std::filesystem::path file = toast_.draw(theme_, toast_is_aside_ ? volume_ : toast_place(), places_);
+  if (!file.empty()) open_on_desktop(file.parent_path());
 }
 
 void Screen::draw_record_button(Trainer& trainer, const Rect& where) {
@@ -333,7 +350,7 @@ void Screen::draw_status(Trainer& trainer) {
   if (next("picture", 80, "Picture", ButtonKind::normal, can_save(trainer), "Saves the ultrasound as a PNG  (P)"))
     saves_picture_ = true;
   if (next("clip", 96, clip.running() ? "Clip " + clock_text(clip.duration_s()) : "Clip",
-           clip.running() ? ButtonKind::recording : ButtonKind::normal, can_save(trainer),
+           clip.running() ? ButtonKind::recording : ButtonKind::normal, clip.running() || can_save(trainer),
            "Begins and ends a film of the ultrasound, a WebM file  (L)"))
     toggle_clip(trainer);
   if (next("settings", 84, "Settings", ButtonKind::normal, true, "Text, marker, colours, folders  (F3)"))
@@ -378,6 +395,9 @@ void Screen::draw_start_page(Trainer& trainer) {
       break;
     case StartAnswer::Kind::browse:
       ask_for_path(answer.wanted);
+      break;
+    case StartAnswer::Kind::reset:
+      use_for_setup(*trainer.start_page(), answer.wanted, {});
       break;
   }
 }
@@ -438,9 +458,7 @@ void Screen::take_path(Trainer& trainer) {
   }
   if (!page || wanted == Wanted::anything) return trainer.open(path);
   trainer.attempt([&] {
-    wanted == Wanted::landmarks ? page->choose_landmarks(path)
-    : wanted == Wanted::drawing ? page->choose_drawing(path)
-                                : page->add(path);
+    if (!use_for_setup(*page, wanted, path)) page->add(path);
   });
 }
 
@@ -587,7 +605,9 @@ void Screen::close_page() {
 
 /// What the help is about: the page that it lies on.
 HelpTopic Screen::help_topic(const Trainer& trainer) const {
-  if (pages_.size() > 1) return pages_[pages_.size() - 2] == Overlay::settings ? HelpTopic::settings : HelpTopic::open;
+  const Overlay below = pages_.size() > 1 ? pages_[pages_.size() - 2] : Overlay::none;
+  if (below == Overlay::settings) return HelpTopic::settings;
+  if (below == Overlay::open) return HelpTopic::open;
   if (trainer.start_page()) return HelpTopic::start;
   if (trainer.learners_page()) return HelpTopic::learners;
   if (trainer.setup()) return HelpTopic::setup;
@@ -633,8 +653,8 @@ void Screen::draw_overlay(Trainer& trainer) {
       if (draw_about(theme_, screen_, device_)) close_page();
       break;
     case Overlay::settings: {
-      const SettingsAnswer answer = draw_settings(theme_, screen_, trainer.preferences(), trainer.options().out,
-                                                  trainer.preferences_file(), places_);
+      const SettingsAnswer answer =
+          draw_settings(theme_, screen_, trainer.preferences(), trainer.options(), trainer.preferences_file(), places_);
       if (answer.wanted) trainer.prefer(*answer.wanted);
       if (answer.browse) ask_for_path(*answer.browse);
       if (answer.close) close_page();

@@ -144,7 +144,7 @@ private:
   LearnersPanel learners_panel_;
   Toast toast_;
   std::vector<Overlay> pages_;  ///< what the person asked for, the topmost last: help, about, settings, open or leave
-  bool fonts_are_new_ = false, saves_picture_ = false;
+  bool fonts_are_new_ = false, saves_picture_ = false, toast_is_aside_ = false;
   const ExamResult* closed_sheet_of_ = nullptr;
   double pictures_per_second_ = 0;
   Rect screen_, top_, strip_, task_, guide_, ultrasound_, recorded_, volume_, slice_, blend_, console_, status_;

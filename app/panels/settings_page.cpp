@@ -50,6 +50,9 @@ public:
     return answer;
   }
 
+  /// Draws a setting that cannot be changed now.
+  void fixed(const char* label, const std::string& text) { draw_text(next(label), theme_.text, colour::kMuted, text); }
+
   void heading(const char* text) {
     rest_.take_top(theme_.px(8));
     draw_text(rest_.take_top(theme_.px(30)), theme_.strong, colour::kAccent, text);
@@ -78,7 +81,7 @@ std::string own_results_text() {
 }  // namespace
 
 SettingsAnswer draw_settings(const Theme& theme, const Rect& screen, const Preferences& preferences,
-                             const std::filesystem::path& out, const std::filesystem::path& kept_in,
+                             const Options& options, const std::filesystem::path& kept_in,
                              std::map<std::string, Rect>& places) {
   SettingsAnswer answer;
   Preferences wanted = preferences;
@@ -100,14 +103,16 @@ SettingsAnswer draw_settings(const Theme& theme, const Rect& screen, const Prefe
 
   rows.heading("The ultrasound");
   if (const auto level =
-          rows.choose("quality", "Quality", {"Fast", "Balanced", "Exact"}, std::size_t(quality_named(wanted.quality))))
+          rows.choose("quality", "Quality", {"Fast", "Balanced", "Exact"}, std::size_t(quality_named(options.quality))))
     wanted.quality = quality_names()[*level];
   const std::vector<std::string> servers{"", kHere, kNetwork};
   std::vector<std::string> server_texts{"No", "On this computer", "On the network"};
   const auto served = std::find(servers.begin(), servers.end(), wanted.igtl_server);
   if (served == servers.end()) server_texts.push_back("At " + wanted.igtl_server);
-  if (const auto server = rows.choose("server", "Sent by OpenIGTLink", server_texts,
-                                      std::size_t(std::distance(servers.begin(), served))))
+  if (!options.igtl_server.empty())
+    rows.fixed("Sent by OpenIGTLink", options.igtl_server + ", by the command line");
+  else if (const auto server = rows.choose("server", "Sent by OpenIGTLink", server_texts,
+                                           std::size_t(std::distance(servers.begin(), served))))
     wanted.igtl_server = servers[*server];
 
   rows.heading("Files");
@@ -125,10 +130,13 @@ SettingsAnswer draw_settings(const Theme& theme, const Rect& screen, const Prefe
     }
   };
   std::error_code error;
-  path("out", "Reports, pictures, recordings", wanted.out, std::filesystem::absolute(out, error).string(),
+  path("out", "Reports, pictures, recordings", wanted.out, std::filesystem::absolute(options.out, error).string(),
        Wanted::output);
   path("cases", "Patients of your own", wanted.cases, "those in the folder of the start", Wanted::cases);
-  path("results", "Results of learners", wanted.results, own_results_text(), Wanted::results);
+  if (!options.results.empty())
+    rows.fixed("Results of learners", options.results.string() + ", by the command line");
+  else
+    path("results", "Results of learners", wanted.results, own_results_text(), Wanted::results);
 
   places["settings_close"] = buttons.take_right(theme.px(150));
   answer.close = button(theme, "settings_close", places["settings_close"], "Close  (Esc)", ButtonKind::primary);

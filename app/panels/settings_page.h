@@ -18,12 +18,12 @@ struct SettingsAnswer {
   bool close = false;
 };
 
-/// Draws the person's preferences with a choice for each.
-/// @param out      the folder that is used now
+/// Draws the person's preferences with a choice for each. Where the command line names something else, that is shown.
+/// @param options  what is used now
 /// @param kept_in  the file that stores them; empty if there is none
 /// @param places   receives the buttons' rectangles
 SettingsAnswer draw_settings(const Theme& theme, const Rect& screen, const Preferences& preferences,
-                             const std::filesystem::path& out, const std::filesystem::path& kept_in,
+                             const Options& options, const std::filesystem::path& kept_in,
                              std::map<std::string, Rect>& places);
 
 }  // namespace insonate::ui

@@ -49,7 +49,7 @@ void Pictures::show(const LoadedCase& loaded_case) {
   blend_view_.forget();
   volume_view_.forget();
   grid_ = loaded_case.subject.ct.grid;
-  camera_placed_ = false;
+  reset_camera();
 }
 
 void Pictures::update(const std::optional<Pose>& pose, const Machine& machine, const PictureSizes& sizes,
@@ -110,11 +110,15 @@ void Pictures::update(const std::optional<Pose>& pose, const Machine& machine, c
   if (times_) times_->end(FramePart::volume);
 }
 
+void Pictures::look_from(view::Side side) {
+  camera = view::OrbitCamera::from(side, grid_);
+  side_ = side;
+}
+
 void Pictures::look_from_next() {
-  constexpr std::array kSides{view::Side::front, view::Side::left, view::Side::back,
-                              view::Side::right, view::Side::head, view::Side::feet};
-  look_from(kSides[std::size_t(next_side_)]);
-  next_side_ = (next_side_ + 1) % int(kSides.size());
+  using view::Side;
+  constexpr std::array kRound{Side::front, Side::left, Side::back, Side::right, Side::head, Side::feet, Side::front};
+  look_from(side_ ? *(std::find(kRound.begin(), kRound.end(), *side_) + 1) : kRound.front());
 }
 
 std::optional<Image<Rgba8>> Pictures::reference_picture(const ReferenceView& view) {

@@ -70,13 +70,13 @@ public:
   const Grid& grid() const { return grid_; }
 
   /// Shows the whole patient from one side in volume().
-  void look_from(view::Side side) { camera = view::OrbitCamera::from(side, grid_); }
-  /// Does so from the side after the one of the last call: the front first.
+  void look_from(view::Side side);
+  /// Does so from the side after the last one: the front first.
   void look_from_next();
   /// Turns the camera back to the plane of the ultrasound, as for a new patient.
   void reset_camera() {
     camera_placed_ = false;
-    next_side_ = 0;
+    side_.reset();
   }
 
   /// Null before update() has drawn a pose. Row 0 is the top; the marker's side is on the right.
@@ -113,7 +113,7 @@ private:
   std::optional<view::PatientTextures> patient_;
   Grid grid_;  ///< the patient's
   bool camera_placed_ = false;
-  int next_side_ = 0;
+  std::optional<view::Side> side_;  ///< that the patient was last looked at from, since the camera was placed
   const gl::Texture* ultrasound_ = nullptr;
   const gl::Texture* slice_ = nullptr;
   const gl::Texture* blend_ = nullptr;

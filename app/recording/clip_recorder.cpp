@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -26,6 +25,16 @@ constexpr unsigned kBitRate = 8000;
 constexpr unsigned kConstantQuality = 10;
 /// Of VP8's real-time mode, 0 to 16.
 constexpr int kSpeed = 8;
+
+Image<Rgba8> fitted(const Image<Rgba8>& picture, int width, int height) {
+  if (picture.width == width && picture.height == height) return picture;
+  Image<Rgba8> out(width, height, {0, 0, 0, 255});
+  const int right = (width - picture.width) / 2, down = (height - picture.height) / 2;
+  for (int y = std::max(down, 0); y < std::min(height, down + picture.height); ++y)
+    for (int x = std::max(right, 0); x < std::min(width, right + picture.width); ++x)
+      out.at(x, y) = picture.at(x - right, y - down);
+  return out;
+}
 
 }  // namespace
 
@@ -73,7 +82,9 @@ public:
 
 private:
   static void check(vpx_codec_err_t error) {
-    if (error != VPX_CODEC_OK) throw std::runtime_error(std::string("the clip: ") + vpx_codec_err_to_string(error));
+    if (error != VPX_CODEC_OK)
+      throw InputError("clip", "", std::string("it cannot be encoded (") + vpx_codec_err_to_string(error) + ")",
+                       "make it again, of a smaller window");
   }
 
   void take_frames() {
@@ -125,14 +136,14 @@ ClipRecorder::~ClipRecorder() {
   changed_.notify_all();
 }
 
-void ClipRecorder::start(const std::filesystem::path& file) {
+void ClipRecorder::start(const std::filesystem::path& stem) {
   if (running_) return;
   wait();
   running_ = true;
   any_ = ending_ = dropped_ = false;
   first_s_ = last_s_ = 0;
   waiting_.clear();
-  thread_ = std::jthread([this, file] { run(file); });
+  thread_ = std::jthread([this, stem] { run(stem); });
 }
 
 void ClipRecorder::stop() {
@@ -142,21 +153,28 @@ void ClipRecorder::stop() {
   changed_.notify_all();
 }
 
+void ClipRecorder::stop(double time_s) {
+  if (running_ && any_ && time_s > last_s_) enqueue(std::exchange(last_, {}), time_s);
+  stop();
+}
+
 void ClipRecorder::take(const Image<Rgba8>& picture, double time_s) {
   if (!running_) return;
   if (!std::exchange(any_, true)) {
-    first_s_ = last_s_ = time_s;
-    width_ = picture.width;
-    height_ = picture.height;
+    first_s_ = time_s;
+    last_ = picture;
+  } else {
+    last_ = fitted(picture, last_.width, last_.height);
   }
-  if (picture.width != width_ || picture.height != height_) return;
-  last_s_ = time_s;
-  {
-    const std::lock_guard lock(mutex_);
-    if (waiting_.size() < kMostWaiting) waiting_.push_back({picture, time_s - first_s_});
-  }
-  changed_.notify_all();
+  enqueue(last_, time_s);
   if (duration_s() >= kLongest_s) stop();
+}
+
+void ClipRecorder::enqueue(Image<Rgba8> picture, double time_s) {
+  last_s_ = time_s;
+  const std::lock_guard lock(mutex_);
+  if (waiting_.size() < kMostWaiting) waiting_.push_back({std::move(picture), time_s - first_s_});
+  changed_.notify_all();
 }
 
 void ClipRecorder::wait() {
@@ -172,7 +190,7 @@ std::optional<std::filesystem::path> ClipRecorder::take_finished() {
   return std::exchange(finished_, std::nullopt);
 }
 
-void ClipRecorder::run(std::filesystem::path file) {
+void ClipRecorder::run(const std::filesystem::path& stem) {
   std::unique_ptr<Encoder> encoder;
   std::unique_lock lock(mutex_);
   try {
@@ -188,7 +206,8 @@ void ClipRecorder::run(std::filesystem::path file) {
       lock.lock();
     }
     lock.unlock();
-    if (!encoder) throw InputError(file.string(), "", "the clip has no picture", "scan while it is made");
+    if (!encoder) throw InputError(stem.string(), "", "the clip has no picture", "scan while it is made");
+    const std::filesystem::path file = free_path(stem, ".webm");
     write_file(file, encoder->finish());
     lock.lock();
     finished_ = file;

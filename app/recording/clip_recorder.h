@@ -17,7 +17,7 @@ namespace insonate {
 /// that is killed before leaves none.
 class ClipRecorder {
 public:
-  /// A longer clip is ended by itself, because it is kept in memory: some 60 MB.
+  /// A longer clip is ended by itself, because it is kept in memory: at most some 120 MB.
   static constexpr double kLongest_s = 120;
 
   ClipRecorder() = default;
@@ -27,14 +27,18 @@ public:
   ClipRecorder& operator=(const ClipRecorder&) = delete;
 
   /// Begins a clip. Waits for the one before.
-  void start(const std::filesystem::path& file);
+  /// @param stem  the file's name without ".webm"; if it is taken by then, the first free one of NAME-2, NAME-3...
+  void start(const std::filesystem::path& stem);
   /// Ends the clip. The thread writes the file in the background.
   void stop();
+  /// Ends the clip at a time until which its last picture was seen.
+  void stop(double time_s);
   bool running() const { return running_; }
   /// Returns the time from the clip's first picture to its last (s).
   double duration_s() const { return last_s_ - first_s_; }
 
-  /// Adds a picture. All pictures of a clip have the size of its first; others are left out.
+  /// Adds a picture. A clip has the size of its first picture; others are cut or get a black edge, and keep their
+  /// middle.
   /// @param time_s  on any clock that rises
   void take(const Image<Rgba8>& picture, double time_s);
 
@@ -50,10 +54,11 @@ private:
   };
   class Encoder;
 
-  void run(std::filesystem::path file);
+  void run(const std::filesystem::path& stem);
+  void enqueue(Image<Rgba8> picture, double time_s);
 
   bool running_ = false, any_ = false;
-  int width_ = 0, height_ = 0;
+  Image<Rgba8> last_;  ///< picture that was taken
   double first_s_ = 0, last_s_ = 0;
 
   std::mutex mutex_;  ///< held to move pictures, never to encode

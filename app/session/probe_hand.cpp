@@ -88,12 +88,15 @@ std::optional<Pose> ProbeHand::slide(const Pose& from, const glm::dvec2& mm) con
 
 glm::dvec2 ProbeHand::slide_in_patient(const Pose& from, const glm::dvec2& mm) {
   constexpr double kLeastSine = 0.3;  // of the angle between beam and body's axis: 17 degrees
-  const glm::dvec3 head(0, 0, 1), beam = from.rotation[1];
-  const glm::dvec3 around = glm::cross(beam, head);
-  const double sine = glm::length(around);
-  if (sine < kLeastSine) return glm::dvec2(0);
-  const glm::dvec3 up = glm::cross(around, beam);  // the part of `head` along the face
-  const glm::dvec3 moved = (mm.x * around + mm.y * up) / sine;
+  const glm::dvec3 left(1, 0, 0), head(0, 0, 1), beam = from.rotation[1];
+  glm::dvec3 around = glm::cross(beam, head), up(0);
+  if (const double sine = glm::length(around); sine > kLeastSine) {
+    around /= sine;
+    up = glm::cross(around, beam);  // the direction of `head` along the face
+  } else {
+    around = glm::normalize(left - glm::dot(left, beam) * beam);
+  }
+  const glm::dvec3 moved = mm.x * around + mm.y * up;
   return {glm::dot(moved, from.rotation[0]), glm::dot(moved, from.rotation[2])};
 }
 

@@ -21,8 +21,9 @@ public:
   std::optional<Pose> slide(const Pose& from, const glm::dvec2& mm) const;
 
   /// Returns the slide (for slide(), mm) that moves the face by `mm` around the body and towards the head. Around the
-  /// body is to the patient's left on their front, on over the left flank to the back, and so on. A part is zero where
-  /// the beam runs nearly along the body's axis, so that there is no such direction along the face.
+  /// body is to the patient's left on their front, on over the left flank to the back, and so on. Where the beam runs
+  /// nearly along the body's axis, no direction along the face leads to the head: that part is zero, and the other one
+  /// is to the patient's left.
   static glm::dvec2 slide_in_patient(const Pose& from, const glm::dvec2& mm);
 
   /// Returns the pose moved along the beam by `mm`, positive into the body. It never gets deeper than kDeepest_mm or

@@ -48,29 +48,32 @@ void UndoHistory::settle() {
   future_.clear();
 }
 
-bool UndoHistory::undo(Session& session) {
+std::string UndoHistory::undo(Session& session) {
   settle();
-  return go(session, past_, future_);
+  return past_.empty() ? "Nothing to undo" : go(session, past_, future_);
 }
 
-bool UndoHistory::redo(Session& session) {
+std::string UndoHistory::redo(Session& session) {
   settle();
-  return go(session, future_, past_);
+  return future_.empty() ? "Nothing to do again" : go(session, future_, past_);
 }
 
-bool UndoHistory::go(Session& session, std::vector<State>& from, std::vector<State>& to) {
-  if (from.empty()) return false;
-  to.push_back(settled_);
-  settled_ = latest_ = std::move(from.back());
-  from.pop_back();
-  moved_s_ = session.now_s();
+std::string UndoHistory::go(Session& session, std::vector<State>& from, std::vector<State>& to) {
+  const State target = from.back();
   Machine unfrozen = session.machine();
   unfrozen.frozen = false;
   unfrozen.frozen_at.reset();
-  for (const Action& action : actions_between(unfrozen, settled_.machine)) session.set(action);
-  if (settled_.pose && session.holder() == Holder::learner)
-    session.move_probe([&](const ProbeHand&, const Pose&) { return settled_.pose; });
-  return true;
+  const std::vector<Action> actions = actions_between(unfrozen, target.machine);
+  for (const Action& action : actions)
+    if (std::string why_not = session.why_not(action.kind); !why_not.empty()) return why_not;
+  from.pop_back();
+  to.push_back(settled_);
+  settled_ = latest_ = target;
+  moved_s_ = session.now_s();
+  for (const Action& action : actions) session.set(action);
+  if (target.pose && session.holder() == Holder::learner)
+    session.move_probe([&](const ProbeHand&, const Pose&) { return target.pose; });
+  return "";
 }
 
 }  // namespace insonate

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "app/session/session.h"
@@ -21,9 +22,9 @@ public:
   /// To be called after each Session::advance().
   void watch(const Session& session);
 
-  /// Goes one step back, or forward again. Returns false if there is none.
-  bool undo(Session& session);
-  bool redo(Session& session);
+  /// Goes one step back, or forward again. Returns a sentence on why it does not; empty if it does.
+  std::string undo(Session& session);
+  std::string redo(Session& session);
 
 private:
   struct State {
@@ -34,7 +35,7 @@ private:
   static State state_of(const Session& session);
   static bool same(const State& a, const State& b);
   void settle();
-  bool go(Session& session, std::vector<State>& from, std::vector<State>& to);
+  std::string go(Session& session, std::vector<State>& from, std::vector<State>& to);
 
   const Session* session_ = nullptr;
   int attempt_ = 0;

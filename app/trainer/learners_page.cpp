@@ -9,6 +9,7 @@
 #include "scenarios/results/learner_id.h"
 #include "scenarios/results/report_files.h"
 #include "scenarios/results/results_export.h"
+#include "sim/core/files.h"
 #include "sim/core/input_error.h"
 
 namespace insonate {
@@ -234,8 +235,14 @@ void LearnersPage::choose_author(const std::string& id) {
   choice_.author = id;
 }
 
+/// A database that cannot be read is a problem that the page shows.
 void LearnersPage::read_comments() {
-  comments_ = choice_.attempt == 0 ? std::vector<Comment>() : database_.comments(choice_.attempt);
+  comments_.clear();
+  try {
+    if (choice_.attempt != 0) comments_ = database_.comments(choice_.attempt);
+  } catch (const InputError& error) {
+    problem_ = error.what();
+  }
   commented_[choice_.attempt] = comments_.size();
 }
 
@@ -250,7 +257,12 @@ void LearnersPage::add_comment(const std::string& text) {
 }
 
 void LearnersPage::remove_comment(std::int64_t number) {
-  database_.remove_comment(number);
+  try {
+    database_.remove_comment(number);
+  } catch (...) {
+    read_comments();  // another program may have removed it
+    throw;
+  }
   read_comments();
 }
 
@@ -260,11 +272,7 @@ fs::path LearnersPage::write_report(const fs::path& out) {
 }
 
 fs::path LearnersPage::export_tables(const fs::path& out) {
-  std::string time = utc_time(now_since_1970_ms()).substr(0, 19) + "Z";
-  std::replace(time.begin(), time.end(), ':', '-');  // which not every file system takes
-  fs::path folder = out / "tables" / time;
-  std::error_code error;  // writing there reports what is wrong
-  for (int i = 2; fs::exists(folder, error); ++i) folder = out / "tables" / (time + "-" + std::to_string(i));
+  const fs::path folder = free_path(out / "tables" / file_time(now_since_1970_ms()), "");
   const ExportedResults exported = export_results(database_, folder);
   if (!exported.problems.empty())
     throw InputError(

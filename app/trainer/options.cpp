@@ -98,6 +98,7 @@ void add_screen(CLI::App& mode, Options& options) {
   mode.add_option("--seconds", options.seconds, "End the session after this many seconds")
       ->check(CLI::Range(0.0, 86400.0));
   mode.add_option("--out", options.out, "Write the report, the score and the pictures to this folder")
+      ->each([&](const std::string&) { options.out_named = true; })
       ->type_name("FOLDER")
       ->capture_default_str();
   mode.add_option("--screenshot", options.screenshot, "Write the whole screen as a PNG when the session ends")
@@ -113,6 +114,7 @@ void add_screen(CLI::App& mode, Options& options) {
           "Set the cost of the ultrasound: fast has fewer samples and pixels, exact has more samples; scores do "
           "not depend on it")
       ->check(CLI::IsMember(quality_names()))
+      ->each([&](const std::string&) { options.quality_named = true; })
       ->capture_default_str();
   CLI::Option* times = mode.add_option("--frame-times", options.frame_times,
                                        "Write how long each frame of the window takes to this file (CSV)")

@@ -49,6 +49,7 @@ struct Options {
   std::filesystem::path record_raw;  ///< the live tracker's bytes; empty: not recorded
   std::filesystem::path latency;     ///< a histogram of the live tracker's latency; empty: none
   std::filesystem::path out = "out";
+  bool out_named = false;         ///< by the person, rather than left to the default
   std::filesystem::path results;  ///< database of results; empty: the user's own in a window, none without
   std::string learner = kNobodyInParticular;
 
@@ -59,6 +60,7 @@ struct Options {
   std::filesystem::path screenshot;  ///< a PNG of the whole screen, written at the end; empty: none
   double seconds = 0;                ///< end after so many seconds; 0: at the exam's end (headless), never (window)
   std::string quality = name_of(Quality::balanced);  ///< of the ultrasound: one of quality_names()
+  bool quality_named = false;                        ///< as out_named
   std::filesystem::path shader_folder;
   int width = 1280;
   int height = 800;

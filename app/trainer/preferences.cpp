@@ -71,9 +71,8 @@ void write_preferences(const fs::path& file, const Preferences& preferences) {
 }
 
 Options with_preferences(Options options, const Preferences& preferences) {
-  const Options untouched;
-  if (options.quality == untouched.quality) options.quality = preferences.quality;
-  if (options.out == untouched.out && !preferences.out.empty()) options.out = preferences.out;
+  if (!options.quality_named) options.quality = preferences.quality;
+  if (!options.out_named && !preferences.out.empty()) options.out = preferences.out;
   return options;
 }
 

@@ -29,7 +29,7 @@ Preferences read_preferences(const std::filesystem::path& file);
 /// Writes preferences so that read_preferences() returns them. Throws InputError if the file cannot be written.
 void write_preferences(const std::filesystem::path& file, const Preferences& preferences);
 
-/// Fills in quality and folder where the command line has left them to their defaults.
+/// Fills in quality and folder where the command line does not name them.
 Options with_preferences(Options options, const Preferences& preferences);
 
 }  // namespace insonate

@@ -110,6 +110,18 @@ StartPage::StartPage(Options options, ResultsDatabase* database) : options_(std:
   }
   read_scenarios();
   read_patients();
+  read_again(options_.out, database);
+  list_trackers({});
+}
+
+void StartPage::read_again(const fs::path& out, ResultsDatabase* database) {
+  options_.out = out;
+  database_.clear();
+  attempts_.clear();
+  learners_.clear();
+  runs_.clear();
+  expert_of_.clear();
+  run = 0;
   if (database) {
     database_ = database->file();
     try {
@@ -119,7 +131,7 @@ StartPage::StartPage(Options options, ResultsDatabase* database) : options_(std:
     }
   }
   read_runs();
-  list_trackers({});
+  if (database_.empty() && task == Task::learners) task = Task::first_scan;
 }
 
 std::vector<Task> StartPage::tasks() const {
@@ -178,10 +190,23 @@ void StartPage::read_patients() {
   }
   for (auto& [phantom, offered] : found) patients_.push_back(std::move(offered));
   std::error_code error;
-  look_for_cases_in(fs::current_path(error));
+  add_cases_in(fs::current_path(error));
 }
 
-void StartPage::look_for_cases_in(const fs::path& folder) {
+void StartPage::list_cases_in(const fs::path& folder) {
+  std::error_code error;
+  std::erase_if(patients_, [&](const OfferedPatient& offered) {
+    return !case_folder_.empty() && offered.source.case_folder.parent_path() == case_folder_;
+  });
+  patient = 0;
+  case_folder_ = folder == fs::current_path(error) ? fs::path() : folder;
+  if (case_folder_.empty()) return;
+  if (const FolderList list = list_folder(folder, Wanted::patient); !list.problem.empty())
+    throw InputError(folder.string(), "", "its cases cannot be listed", "choose another folder in the settings");
+  add_cases_in(folder);
+}
+
+void StartPage::add_cases_in(const fs::path& folder) {
   for (const FolderEntry& entry : list_folder(folder, Wanted::patient).entries)
     if (entry.kind == "case") {
       OfferedPatient offered{entry.path.filename().string(), "Case in " + folder.string(), {}};

@@ -128,8 +128,13 @@ public:
   const std::filesystem::path& drawing() const { return options_.drawing; }
   /// Adds a file or folder that a person has chosen for the task, and chooses it. Throws InputError.
   void add(const std::filesystem::path& path);
-  /// Lists the cases of another folder.
-  void look_for_cases_in(const std::filesystem::path& folder);
+  /// Lists the cases of the person's own folder, in place of the one before; none for an empty path. Throws InputError
+  /// if it cannot be listed.
+  void list_cases_in(const std::filesystem::path& folder);
+  /// Reads the database and the recordings again, or others.
+  /// @param out       the folder of recordings
+  /// @param database  results, or nullptr; used in the call alone
+  void read_again(const std::filesystem::path& out, ResultsDatabase* database);
 
   /// Returns the skilled scan that the chosen run can be compared with; empty if there is none.
   std::filesystem::path expert() const;
@@ -143,6 +148,7 @@ public:
 private:
   void read_scenarios();
   void read_patients();
+  void add_cases_in(const std::filesystem::path& folder);
   void read_runs();
   void read_database(ResultsDatabase& database);
   void list_trackers(const std::vector<FoundTracker>& found);
@@ -155,6 +161,7 @@ private:
   std::filesystem::path database_;  ///< empty if there is none
   std::vector<OfferedScenario> scenarios_;
   std::vector<OfferedPatient> patients_;
+  std::filesystem::path case_folder_;  ///< the person's own; empty if there is none
   std::vector<OfferedRun> runs_;
   std::map<std::string, std::filesystem::path> expert_of_;  ///< a skilled scan, by its scenario's digest
   std::vector<OfferedTracker> trackers_;

@@ -1,6 +1,5 @@
 #include "app/trainer/trainer.h"
 
-#include <chrono>
 #include <cstdio>
 #include <exception>
 #include <utility>
@@ -26,11 +25,9 @@ std::string patient_of(const CaseSource& source) {
   return "the built-in patient";
 }
 
-/// Returns the file of a picture or clip that is saved now.
-std::filesystem::path saved_file(const std::filesystem::path& out, const char* extension) {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  const std::int64_t now_ms = std::chrono::duration_cast<std::chrono::milliseconds>(now).count();
-  return free_path(out / "pictures" / (file_time(now_ms) + extension));
+/// Returns the name of a picture or clip that is begun now, without its ending.
+std::filesystem::path name_of_saved(const std::filesystem::path& out) {
+  return out / "pictures" / file_time(now_since_1970_ms());
 }
 
 gl::ShaderSources shaders_of(const Options& options) {
@@ -69,31 +66,35 @@ void Trainer::prefer(const Preferences& preferences) {
     pictures_.choose(quality_named(preferences_.quality));
   }
   if (preferences_.igtl_server != before.igtl_server) serve();
-  if (preferences_.out != before.out) {
-    const std::filesystem::path out = preferences_.out.empty() ? Options().out : preferences_.out;
-    if (start_page()) given_ = start_page()->options();
-    options_.out = given_.out = out;
+  if (preferences_.results != before.results && !in_exam() && given_.results.empty()) {  // an exam stays as it began
+    const bool opened =
+        attempt([&] { use_results(preferences_.results.empty() ? own_results() : preferences_.results); });
+    if (!opened) preferences_.results = before.results;
   }
-  if (preferences_.results != before.results && !in_exam()) open_results();  // an exam stays where it has begun
-  if (start_page() && (preferences_.out != before.out || preferences_.results != before.results))
-    make_start_page();
-  else if (start_page() && preferences_.cases != before.cases && !preferences_.cases.empty())
-    start_page()->look_for_cases_in(preferences_.cases);
+  if (StartPage* page = start_page()) given_ = page->options();
+  if (preferences_.out != before.out)
+    options_.out = given_.out = preferences_.out.empty() ? Options().out : preferences_.out;
+  if (StartPage* page = start_page()) {
+    if (preferences_.out != before.out || preferences_.results != before.results)
+      page->read_again(options_.out, results_ ? &*results_ : nullptr);
+    if (preferences_.cases != before.cases) attempt([&] { page->list_cases_in(preferences_.cases); });
+  }
   if (!preferences_file_.empty()) attempt([&] { write_preferences(preferences_file_, preferences_); });
 }
 
-/// Opens the database that the command line or the person names, unless it is open.
 void Trainer::open_results() {
   if (options_.replay.any()) return;  // a replay stores nothing
-  const auto open = [&](const std::filesystem::path& file) {
-    if (results_ && results_->file() == file) return;
-    results_.reset();
-    results_ = ResultsDatabase::open_or_make(file);
-  };
   if (!options_.results.empty())
-    open(options_.results);
+    use_results(options_.results);
   else if (!options_.headless)
-    attempt([&] { open(preferences_.results.empty() ? own_results() : preferences_.results); });
+    attempt([&] { use_results(preferences_.results.empty() ? own_results() : preferences_.results); });
+}
+
+/// Opens a database in place of the present one, unless it is the same. If it cannot be opened, the present one stays.
+void Trainer::use_results(const std::filesystem::path& file) {
+  if (results_ && results_->file() == file) return;
+  ResultsDatabase opened = ResultsDatabase::open_or_make(file);
+  results_.emplace(std::move(opened));
 }
 
 void Trainer::open_from_options() {
@@ -360,14 +361,14 @@ void Trainer::finish_recording() {
 
 void Trainer::save_picture(const Image<Rgba8>& picture) {
   attempt([&] {
-    const std::filesystem::path file = saved_file(options_.out, ".png");
+    const std::filesystem::path file = free_path(name_of_saved(options_.out), ".png");
     write_png(file, picture);
     notices_.push_back({"Saved " + std::filesystem::absolute(file).string(), file});
   });
 }
 
 void Trainer::start_clip() {
-  attempt([&] { clip_.start(saved_file(options_.out, ".webm")); });
+  attempt([&] { clip_.start(name_of_saved(options_.out)); });
 }
 
 void Trainer::notice_recordings() {
@@ -395,7 +396,7 @@ void Trainer::keep_and_report() {
   // A log that is only watched, as when the trainer starts, is nobody's attempt.
   const bool replayed = session.source().recording() != nullptr;
   std::exception_ptr not_kept;
-  if (results_ && (!replayed || !options_.results.empty())) {
+  if (results_ && options_.mode != Mode::replay && (!replayed || !options_.results.empty())) {
     try {
       auto* exam = std::get_if<Exam>(&mode_);
       ExamJournal* journal = exam ? exam->journal.get() : nullptr;

@@ -39,8 +39,8 @@ struct Notice {
 /// construction to destruction, on the one thread that uses it.
 class Trainer {
 public:
-  /// Throws InputError if the address for OpenIGTLink clients or the database of results cannot be used that the
-  /// command line names.
+  /// Throws InputError if the command line names an address for OpenIGTLink clients or a database of results that
+  /// cannot be used.
   /// @param file  where preferences are stored; empty: nowhere
   explicit Trainer(Options options, Preferences preferences = {}, std::filesystem::path file = {});
 
@@ -283,6 +283,7 @@ private:
   void reload_shaders();
   void tell_of_shaders(const std::string& problem);
   void open_results();
+  void use_results(const std::filesystem::path& file);
   void make_start_page();
   void serve();
   void notice_recordings();

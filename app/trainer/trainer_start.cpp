@@ -70,6 +70,7 @@ void Trainer::show_start_page() {
   reviewed_.reset();
   write_results_if_due();
   recorder_.stop();
+  clip_.stop();
   loading_.reset();
   loaded_replay_.reset();
   if (loaded_case_ && is_bundled_patient(current_.source)) built_in_ = loaded_case_;
@@ -89,7 +90,7 @@ void Trainer::make_start_page() {
   open_results();
   mode_ = Choosing{std::make_unique<StartPage>(given_, results_ ? &*results_ : nullptr)};
   start_page()->task = task;
-  if (!preferences_.cases.empty()) start_page()->look_for_cases_in(preferences_.cases);
+  attempt([&] { start_page()->list_cases_in(preferences_.cases); });
   given_ = start_page()->options();
   options_ = given_;
 }

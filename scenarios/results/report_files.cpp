@@ -40,7 +40,7 @@ std::string with_comments(const Attempt& attempt) {
 
 std::filesystem::path attempt_folder(const std::filesystem::path& folder, const Attempt& attempt) {
   const std::filesystem::path scenario = std::filesystem::path(attempt.scenario_file).stem();
-  return free_path(folder / "attempts" / (file_time(attempt.finished_ms) + "_" + scenario.string()));
+  return free_path(folder / "attempts" / (file_time(attempt.finished_ms) + "_" + scenario.string()), "");
 }
 
 ResultFiles write_report_files(const std::filesystem::path& folder, const Attempt& attempt,

@@ -115,12 +115,10 @@ void write_file(const fs::path& file, std::string_view bytes) {
   });
 }
 
-fs::path free_path(const fs::path& path) {
-  const fs::path stem = path.parent_path() / path.stem();
-  fs::path free = path;
+fs::path free_path(const fs::path& stem, const std::string& extension) {
+  fs::path free = stem.string() + extension;
   std::error_code error;  // writing there reports what is wrong
-  for (int i = 2; fs::exists(free, error); ++i)
-    free = stem.string() + "-" + std::to_string(i) + path.extension().string();
+  for (int i = 2; fs::exists(free, error); ++i) free = stem.string() + "-" + std::to_string(i) + extension;
   return free;
 }
 

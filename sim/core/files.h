@@ -33,8 +33,9 @@ void write_atomically(const std::filesystem::path& file,
 /// Writes `bytes` to `file` in the same way. Throws InputError.
 void write_file(const std::filesystem::path& file, std::string_view bytes);
 
-/// Returns `path` if nothing has that name, else the first free one of NAME-2.EXTENSION, NAME-3.EXTENSION...
-std::filesystem::path free_path(const std::filesystem::path& path);
+/// Returns STEM followed by `extension` if nothing has that name, else the first free one of STEM-2, STEM-3...
+/// @param extension  ".png"; empty for a folder
+std::filesystem::path free_path(const std::filesystem::path& stem, const std::string& extension);
 
 /// Returns the folder of bundled assets: $INSONATE_ASSETS, or share/insonate beside the folder that holds the program,
 /// in an install as in a build. Throws InputError if the latter does not exist.

@@ -5,11 +5,11 @@
 
 namespace insonate {
 
-/// Files that are open and locked in this process, such as a database. POSIX gives up all locks that a process has on a
-/// file as soon as it closes the file, whatever opened it. So code that looks into files that it happens to find asks
-/// is_held() first, and leaves these alone.
+// Files that are open and locked in this process, such as a database. POSIX gives up all locks that a process has on a
+// file as soon as it closes the file, whatever opened it. So code that looks into files that it happens to find asks
+// is_held() first, and does not open a file that is held.
 
-/// Lists a file, and the -wal, -shm and -journal files beside it, as held until the result and its copies are gone.
+/// Registers a file, and the -wal, -shm and -journal files beside it, as held until the result and its copies are gone.
 /// Does nothing for a file that does not exist.
 std::shared_ptr<const void> hold_file(const std::filesystem::path& file);
 

@@ -238,9 +238,8 @@ const gl::Texture& VolumeView::render(int width, int height, const PatientTextur
       s.draw_moving(inputs, plane);
     }
   } else if (s.full_rows < height) {
-    const double row_ms = s.pace.pixel_ms().value_or(0) * width;
-    const int rows =
-        row_ms * height <= budget.volume_ms ? height : int(std::max(budget.volume_ms / row_ms, height / 64.0)) + 1;
+    const double row_ms = s.pace.pixel_ms().value_or(0) * width, budget_ms = budget.volume_ms + budget.plane_ms;
+    const int rows = row_ms * height <= budget_ms ? height : int(std::max(budget_ms / row_ms, height / 64.0)) + 1;
     const int first = s.full_rows;
     s.full_rows = std::min(first + rows, height);
     s.draw_whole(inputs, plane, first, s.full_rows);

@@ -24,11 +24,11 @@ struct VolumeStyle {
   bool operator==(const VolumeStyle&) const = default;
 };
 
-/// Device time that one call may take, ms; infinity always draws the full picture at once.
+/// Device time that one call may take while things move, ms; infinity always draws the full picture at once. A part of
+/// the full picture may take the sum.
 struct VolumeBudget {
-  double volume_ms =
-      std::numeric_limits<double>::infinity();  ///< of skin, organs and bone, or a part of the full picture
-  double plane_ms = std::numeric_limits<double>::infinity();  ///< of the plane, the cut and the probe while things move
+  double volume_ms = std::numeric_limits<double>::infinity();  ///< of skin, organs and bone
+  double plane_ms = std::numeric_limits<double>::infinity();   ///< of the plane, the cut and the probe
 };
 
 /// Draws the patient in 3D, with the ultrasound picture where it was taken. It uses direct volume rendering by ray

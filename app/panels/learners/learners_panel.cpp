@@ -106,7 +106,7 @@ RowTexts texts_of(const LearnerLine& learner) {
     texts.lower +=
         ", " + std::to_string(learner.passed_exams) + "/" + counted(learner.exams, "exam", "exams") + " passed";
   if (learner.attempts > 0) {
-    texts.upper_right = "best " + fixed(learner.best_percent, 0) + ", last " + fixed(learner.last_percent, 0) + " %";
+    texts.upper_right = "best " + fixed(learner.best_percent, 1) + ", last " + fixed(learner.last_percent, 1) + " %";
     texts.lower_right = time_text(learner.last_ms / 1000).substr(0, 10);
   }
   return texts;

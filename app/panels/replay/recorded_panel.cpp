@@ -33,10 +33,11 @@ void draw_image(const gl::Texture& texture, const std::array<ImVec2, 4>& corners
                                            corners[1], corners[2], corners[3], {0, 0}, {1, 0}, {1, 1}, {0, 1});
 }
 
-/// Returns the corners of an image that is as large as fits, with the marker's side on the left.
-std::array<ImVec2, 4> fitted(const Rect& area, int width, int height) {
+/// Returns the corners of an image that is as large as fits, with the marker's side on the left or the right.
+std::array<ImVec2, 4> fitted(const Rect& area, int width, int height, MarkerSide marker) {
   const float scale = std::min(area.w / float(width), area.h / float(height));
-  const float half_w = scale * float(width) / 2, half_h = scale * float(height) / 2;
+  const float half_w = (marker == MarkerSide::left ? 1 : -1) * scale * float(width) / 2,
+              half_h = scale * float(height) / 2;
   const float x = area.x + area.w / 2, y = area.y + area.h / 2;
   return {ImVec2{x + half_w, y - half_h}, {x - half_w, y - half_h}, {x - half_w, y + half_h}, {x + half_w, y + half_h}};
 }
@@ -92,7 +93,8 @@ void RecordedPanel::draw(const Theme& theme, const Rect& panel, const Replay& re
     const RecordedImages& images = *replay.run().images;
     const Rect area = UltrasoundPanel::picture_area(theme, panel);
     const auto corners = pictures.ultrasound() ? image_corners(images, *sample_) : std::nullopt;
-    std::array<ImVec2, 4> on_screen = fitted(area, int(images.form.width), int(images.form.height));
+    std::array<ImVec2, 4> on_screen =
+        fitted(area, int(images.form.width), int(images.form.height), theme.look().marker);
     std::string note = "Place unknown: the recording has no ImageToProbe";
     if (corners) {
       const PlaneOnScreen plane = UltrasoundPanel::plane(theme, panel, pictures);

@@ -488,6 +488,12 @@ StartAnswer StartPanel::draw_setup(const Theme& theme, Rect rest, StartPage& pag
     (*places_)[each.id] = row.take_left(theme.px(220));
     row.take_left(theme.px(12));
     if (button(theme, each.id, (*places_)[each.id], each.text)) answer = {StartAnswer::Kind::browse, each.wanted};
+    if (!each.file.empty()) {
+      const std::string reset = std::string(each.id) + "_reset";
+      (*places_)[reset] = row.take_right(theme.px(80));
+      row.take_right(theme.px(8));
+      if (button(theme, reset.c_str(), (*places_)[reset], "Reset")) answer = {StartAnswer::Kind::reset, each.wanted};
+    }
     draw_text(row, theme.text, each.file.empty() ? colour::kMuted : colour::kText,
               each.file.empty() ? each.otherwise : each.file.string());
   }

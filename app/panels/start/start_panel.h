@@ -15,9 +15,9 @@ namespace insonate::ui {
 
 /// What a click on the start page asks for.
 struct StartAnswer {
-  enum class Kind { none, begin, help, settings, about, browse };
+  enum class Kind { none, begin, help, settings, about, browse, reset };
   Kind kind = Kind::none;
-  Wanted wanted = Wanted::anything;  ///< what to browse for
+  Wanted wanted = Wanted::anything;  ///< what to browse for, or to reset
 };
 
 /// Draws the start page: what there is to do on the left, the details of the chosen task in the middle, and on the

@@ -216,6 +216,7 @@ void draw_tooltip(const Theme& theme, const Rect& of, std::string_view text) {
   if (ImGui::IsWindowHovered(ImGuiHoveredFlags_RootAndChildWindows) && ImGui::IsMouseHoveringRect(of.min(), of.max()))
     draw_box(theme, of, text);
 }
+
 void draw_ring(const ImVec2& centre, float radius, float thickness, double share, ImU32 colour, ImU32 rest) {
   ImDrawList* list = ImGui::GetWindowDrawList();
   list->AddCircle(centre, radius, rest, 64, thickness);

@@ -123,12 +123,11 @@ TEST_CASE("a clip shows every picture at its time, and other programs can read i
   const auto file = folder.path / "clip.webm";
   constexpr int kWidth = 151, kHeight = 99, kFrames = 100;  // odd, as panels are
   ClipRecorder clip;
-  clip.start(file);
+  clip.start(file.parent_path() / "clip");
   for (int i = 0; i < kFrames; ++i) {
     clip.take(picture(kWidth, kHeight, i), 7 + i / 25.0);
     usleep(4000);  // slower than it encodes, so that none is left out
   }
-  clip.take(picture(kWidth + 2, kHeight, 0), 11.5);  // of another size: not part of it
   CHECK(clip.duration_s() == Approx(99 / 25.0));
   CHECK_FALSE(std::filesystem::exists(file));
   clip.stop();
@@ -164,22 +163,74 @@ TEST_CASE("a clip shows every picture at its time, and other programs can read i
   vpx_codec_destroy(&decoder);
 }
 
+TEST_CASE("a clip keeps the size of its first picture, and shows its last one until it is stopped") {
+  const Folder folder;
+  ClipRecorder clip;
+  clip.start(folder.path / "clip");
+  clip.take(picture(120, 80, 10), 0);
+  clip.take(picture(150, 60, 40), 0.5);  // the panel has become wider and lower
+  clip.stop(2);
+  clip.wait();
+  const auto file = clip.take_finished();
+  REQUIRE(file);
+  const Found found = parsed(*file);
+  CHECK(found.width == 120);
+  CHECK(found.height == 80);
+  REQUIRE(found.frames.size() == 3);
+  CHECK(found.frames[1].time_ms == 500);
+  CHECK(found.frames[2].time_ms == 2000);
+
+  vpx_codec_ctx_t decoder{};
+  REQUIRE(vpx_codec_dec_init(&decoder, vpx_codec_vp8_dx(), nullptr, 0) == VPX_CODEC_OK);
+  // 15 columns are cut off on either side, and 10 rows of black added above and below.
+  Image<Rgba8> second(120, 80, {0, 0, 0, 255});
+  const Image<Rgba8> taken = picture(150, 60, 40);
+  for (int y = 0; y < 60; ++y)
+    for (int x = 0; x < 120; ++x) second.at(x, y + 10) = taken.at(x + 15, y);
+  for (std::size_t i = 0; i < 3; ++i) {
+    CAPTURE(i);
+    const std::string& bytes = found.frames[i].bytes;
+    REQUIRE(vpx_codec_decode(&decoder, reinterpret_cast<const std::uint8_t*>(bytes.data()), unsigned(bytes.size()),
+                             nullptr, 0) == VPX_CODEC_OK);
+    vpx_codec_iter_t at = nullptr;
+    const vpx_image_t* const image = vpx_codec_get_frame(&decoder, &at);
+    REQUIRE(image);
+    CHECK(difference(*image, i == 0 ? picture(120, 80, 10) : second) < 8);
+  }
+  vpx_codec_destroy(&decoder);
+}
+
+TEST_CASE("two clips of one name are two files") {
+  const Folder folder;
+  std::vector<std::filesystem::path> files;
+  for (int i = 0; i < 2; ++i) {
+    ClipRecorder clip;
+    clip.start(folder.path / "clip");
+    clip.take(picture(64, 64, 3), 0);
+    clip.stop();
+    clip.wait();
+    files.push_back(clip.take_finished().value());
+  }
+  CHECK(files[0] == folder.path / "clip.webm");
+  CHECK(files[1] == folder.path / "clip-2.webm");
+}
+
 TEST_CASE("a clip that is given up or has no picture leaves no file, and the next one works") {
   const Folder folder;
   const auto file = folder.path / "clip.webm";
   {
     ClipRecorder clip;
-    clip.start(file);
+    clip.start(file.parent_path() / "clip");
     clip.take(picture(64, 64, 3), 0);
   }
   CHECK_FALSE(std::filesystem::exists(file));
   ClipRecorder clip;
-  clip.start(file);
+  clip.start(file.parent_path() / "clip");
   clip.stop();
   clip.wait();
   CHECK_THROWS_AS(clip.take_finished(), InputError);
   CHECK_FALSE(std::filesystem::exists(file));
-  clip.start(file);
+  clip.start(file.parent_path() / "clip");
   clip.take(picture(64, 64, 3), 0);
   clip.stop();
   clip.wait();
@@ -192,7 +243,7 @@ TEST_CASE("a clip that cannot be written says so, and one that is too long ends 
   std::filesystem::create_directories(folder.path);
   write_file(folder.path / "file", "no folder");
   ClipRecorder clip;
-  clip.start(folder.path / "file" / "clip.webm");
+  clip.start(folder.path / "file" / "clip");
   clip.take(picture(64, 64, 3), 0);
   CHECK(clip.running());
   clip.take(picture(64, 64, 4), ClipRecorder::kLongest_s);

@@ -148,6 +148,7 @@ TEST_CASE("a slide in the patient's directions is the same however the probe is 
   // A beam that runs from the feet to the head: nothing along the face leads to the head.
   const Pose up{glm::dmat3(glm::dvec3(-1, 0, 0), glm::dvec3(0, 0, 1), glm::dvec3(0, 1, 0)), {0, 0, -60}};
   CHECK(ProbeHand::slide_in_patient(up, {0, 5}) == glm::dvec2(0));
+  CHECK(glm::distance(ProbeHand::slide_in_patient(up, {5, 0}), glm::dvec2(-5, 0)) < 1e-9);
 }
 
 TEST_CASE("one key leads the probe all the way round the body, over both flanks and the back") {

@@ -48,19 +48,19 @@ TEST_CASE("knobs go back one by one, and forward again") {
   w.pass(1);
   const Machine after = w.session.machine();
 
-  CHECK(w.history.undo(w.session));
+  CHECK(w.history.undo(w.session).empty());
   CHECK(w.session.machine().gain_db == before.gain_db);
   CHECK(w.session.machine().depth_mm == 90);
   w.pass(1);
-  CHECK(w.history.undo(w.session));
+  CHECK(w.history.undo(w.session).empty());
   CHECK(w.session.machine() == before);
   w.pass(1);
-  CHECK_FALSE(w.history.undo(w.session));
+  CHECK(w.history.undo(w.session) == "Nothing to undo");
 
-  CHECK(w.history.redo(w.session));
-  CHECK(w.history.redo(w.session));
+  CHECK(w.history.redo(w.session).empty());
+  CHECK(w.history.redo(w.session).empty());
   CHECK(w.session.machine() == after);
-  CHECK_FALSE(w.history.redo(w.session));
+  CHECK(w.history.redo(w.session) == "Nothing to do again");
 }
 
 TEST_CASE("a drag is one step, and what comes after a step back takes the place of what was ahead") {
@@ -74,15 +74,15 @@ TEST_CASE("a drag is one step, and what comes after a step back takes the place 
   REQUIRE(w.x_mm() == Approx(start + 10));
   w.slide(7);
   w.pass(0.1);  // not yet still: it counts all the same
-  CHECK(w.history.undo(w.session));
+  CHECK(w.history.undo(w.session).empty());
   w.pass(1);
   CHECK(w.x_mm() == Approx(start + 10));
-  CHECK(w.history.undo(w.session));
+  CHECK(w.history.undo(w.session).empty());
   w.pass(1);
   CHECK(w.x_mm() == Approx(start));
   w.session.set(ActionKind::gain, 5);
   w.pass(1);
-  CHECK_FALSE(w.history.redo(w.session));
+  CHECK(w.history.redo(w.session) == "Nothing to do again");
 }
 
 TEST_CASE("a move with a rotation goes back in one step, however it is rounded") {
@@ -95,10 +95,10 @@ TEST_CASE("a move with a rotation goes back in one step, however it is rounded")
     w.pass(1.0 / 60);
   }
   w.pass(1);
-  CHECK(w.history.undo(w.session));
+  CHECK(w.history.undo(w.session).empty());
   w.pass(1);
   CHECK(w.session.machine().gain_db == 9);
-  CHECK(w.history.undo(w.session));
+  CHECK(w.history.undo(w.session).empty());
   CHECK(w.session.machine().gain_db == 0);
 }
 
@@ -106,7 +106,7 @@ TEST_CASE("going back is logged like any other action, and nothing goes back int
   Watched w(ExamRules::open, true);
   w.session.set(ActionKind::gain, 9);
   w.pass(1);
-  REQUIRE(w.history.undo(w.session));
+  REQUIRE(w.history.undo(w.session).empty());
   w.pass(1);
   std::size_t gains = 0;
   for (const auto& [time_s, actions] : w.session.actions())
@@ -117,7 +117,7 @@ TEST_CASE("going back is logged like any other action, and nothing goes back int
   w.pass(1);
   w.session.start_over();
   w.pass(1);
-  CHECK_FALSE(w.history.undo(w.session));
+  CHECK(w.history.undo(w.session) == "Nothing to undo");
 }
 
 TEST_CASE("a frozen picture stays frozen, and its knobs go back as far as the machine lets them") {
@@ -128,14 +128,22 @@ TEST_CASE("a frozen picture stays frozen, and its knobs go back as far as the ma
   w.pass(1);
   w.session.freeze(true);
   w.pass(1);
-  CHECK(w.history.undo(w.session));
+  CHECK(w.history.undo(w.session).empty());
   w.pass(1);
   CHECK(w.session.machine().frozen);
   CHECK(w.session.machine().gain_db == 0);
-  w.history.undo(w.session);
+  // The echoes are acquired: the step waits until the picture runs.
+  CHECK(w.history.undo(w.session) == w.session.why_not(ActionKind::depth));
   w.pass(1);
   CHECK(w.session.machine().frozen);
-  CHECK(w.session.machine().depth_mm == 90);  // the echoes are acquired
+  CHECK(w.session.machine().depth_mm == 90);
+  w.session.freeze(false);
+  w.pass(1);
+  CHECK(w.history.undo(w.session).empty());
+  CHECK(w.session.machine().depth_mm != 90);
+  CHECK(w.history.redo(w.session).empty());
+  CHECK(w.history.redo(w.session).empty());
+  CHECK(w.session.machine().gain_db == 9);
 }
 
 TEST_CASE("in an exam that counts the probe is not put back") {
@@ -143,7 +151,7 @@ TEST_CASE("in an exam that counts the probe is not put back") {
   w.slide(4);
   w.pass(1);
   const double there = w.x_mm();
-  CHECK_FALSE(w.history.undo(w.session));
+  CHECK(w.history.undo(w.session) == "Nothing to undo");
   w.pass(1);
   CHECK(w.x_mm() == there);
 }
@@ -161,5 +169,5 @@ TEST_CASE("what a replayed log does to the machine is not a person's step") {
     history.watch(session);
   }
   REQUIRE(session.machine().gain_db == 7);
-  CHECK_FALSE(history.undo(session));
+  CHECK(history.undo(session) == "Nothing to undo");
 }

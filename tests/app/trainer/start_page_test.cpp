@@ -182,3 +182,42 @@ TEST_CASE("an exam needs a learner who has not taken it, and the page says so") 
   CHECK(page.chosen().options.replay.attempt == 1);
   CHECK(page.chosen().options.results == folder / "results.db");
 }
+
+TEST_CASE("the person's own folder of cases is listed in place of the one before") {
+  const ResultsFolder folder;
+  for (const char* name : {"mine/liver", "other/spleen"})
+    write_file(folder / name / "case.toml", "format = 1\n");
+  StartPage page(plain_options(folder), nullptr);
+  const auto listed = [&](const std::string& name) {
+    return std::count_if(page.patients().begin(), page.patients().end(),
+                         [&](const OfferedPatient& offered) { return offered.name == name; });
+  };
+  const std::size_t built_in = page.patients().size();
+  page.list_cases_in(folder / "mine");
+  CHECK(listed("liver") == 1);
+  page.list_cases_in(folder / "other");
+  CHECK(listed("liver") == 0);
+  CHECK(listed("spleen") == 1);
+  CHECK_THROWS_AS(page.list_cases_in(folder / "nowhere"), InputError);
+  page.list_cases_in({});
+  CHECK(page.patients().size() == built_in);
+}
+
+TEST_CASE("another database is read into the page, and the learner and the tracker stay") {
+  const ResultsFolder folder;
+  ResultsDatabase database = ResultsDatabase::open_or_make(folder / "lab.db");
+  database.add(made_attempt("L-07", tiny_exam(0)));
+  StartPage page(plain_options(folder), nullptr);
+  page.choose_learner("L-42");
+  page.choose_tracker("igtl://localhost/Probe");
+  CHECK(page.attempts().empty());
+  page.read_again(folder / "out", &database);
+  CHECK(page.database() == folder / "lab.db");
+  CHECK(page.learners() == std::vector<std::string>{"L-07"});
+  CHECK(page.learner() == "L-42");
+  CHECK(page.tracker() == "igtl://localhost/Probe");
+  page.task = Task::learners;
+  page.read_again(folder / "out", nullptr);
+  CHECK(page.database().empty());
+  CHECK(page.task == Task::first_scan);
+}

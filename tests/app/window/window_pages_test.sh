@@ -35,7 +35,7 @@ xdotool key F3
 await "F3 shows the settings" is overlay settings
 await "their buttons are there" is_not settings_depth_1_x ""
 click_on settings_depth_1
-sleep 0.5
+await "the setting is taken" is depth_unit mm
 kept 'marker = "up"' || fail "the damaged file was replaced"
 end_trainer
 rm "$settings"
@@ -156,6 +156,19 @@ xdotool key F11
 await "the ultrasound grows" moved ultrasound_w "$width" 50
 xdotool key F11
 await "the window is as before" is ultrasound_w "$width"
+
+echo "a clip ends when the scan is left"
+clips() { find "$work/files/pictures" -name '*.webm' | wc -l; }
+xdotool key l
+await "the clip is made" is clip true
+xdotool keydown Left
+sleep 1
+xdotool keyup Left
+xdotool key Escape
+await "the page is there" is_not start_task ""
+await "the clip has ended" is clip false
+two() { [ "$(clips)" = 2 ]; }
+await "it is saved" two
 end_trainer
 
 echo "a replay has help too"
