@@ -206,7 +206,8 @@ TEST_CASE("the person's own folder of cases is listed in place of the one before
 TEST_CASE("another database is read into the page, and the learner and the tracker stay") {
   const ResultsFolder folder;
   ResultsDatabase database = ResultsDatabase::open_or_make(folder / "lab.db");
-  database.add(made_attempt("L-07", tiny_exam(0)));
+  Attempt attempt = made_attempt("L-07", tiny_exam(0));
+  database.add(attempt);
   StartPage page(plain_options(folder), nullptr);
   page.choose_learner("L-42");
   page.choose_tracker("igtl://localhost/Probe");

@@ -219,3 +219,38 @@ TEST_CASE("a command line that names nothing usable leads to the start page, wit
   CHECK(trainer.problems().front().find("nowhere.nii.gz") != std::string::npos);
   CHECK(trainer.start_page());
 }
+
+TEST_CASE("settings are taken on the start page and kept, and a database that cannot be opened is not taken") {
+  const Patience patience;
+  const test::TestContext context;
+  const TrainerFolder folder;
+  Options options;
+  options.out = folder.path / "out";
+  options.out_named = true;
+  const auto file = folder.path / "settings.toml";
+  Trainer trainer(options, {}, file);
+  trainer.open_from_options();
+  REQUIRE(trainer.start_page());
+  trainer.start_page()->choose_learner("L-07");
+  const auto own = trainer.start_page()->database();
+
+  Preferences wanted;
+  wanted.results = folder.file("notes.txt", std::string(4096, 'x'));
+  wanted.look.marker = MarkerSide::right;
+  trainer.prefer(wanted);
+  CHECK(trainer.problems().size() == 1);
+  CHECK(trainer.preferences().results.empty());
+  CHECK(trainer.start_page()->database() == own);
+  CHECK(read_preferences(file).results.empty());
+  CHECK(read_preferences(file).look.marker == MarkerSide::right);
+
+  trainer.problems().clear();
+  wanted.results = folder.path / "lab.db";
+  wanted.out = folder.path / "elsewhere";
+  trainer.prefer(wanted);
+  CHECK(trainer.problems().empty());
+  CHECK(trainer.start_page()->database() == wanted.results);
+  CHECK(trainer.start_page()->learner() == "L-07");
+  CHECK(trainer.options().out == wanted.out);
+  CHECK(read_preferences(file) == wanted);
+}
