@@ -185,8 +185,7 @@ TEST_CASE("an exam needs a learner who has not taken it, and the page says so") 
 
 TEST_CASE("the person's own folder of cases is listed in place of the one before") {
   const ResultsFolder folder;
-  for (const char* name : {"mine/liver", "other/spleen"})
-    write_file(folder / name / "case.toml", "format = 1\n");
+  for (const char* name : {"mine/liver", "other/spleen"}) write_file(folder / name / "case.toml", "format = 1\n");
   StartPage page(plain_options(folder), nullptr);
   const auto listed = [&](const std::string& name) {
     return std::count_if(page.patients().begin(), page.patients().end(),
