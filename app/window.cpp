@@ -158,7 +158,10 @@ OwnPreferences own_preferences() {
 class Loop {
 public:
   Loop(GLFWwindow* window, const Options& options, const OwnPreferences& own)
-      : window_(window), options_(options), trainer_(options, own.preferences, own.file), events_(window) {
+      : window_(window),
+        options_(options),
+        trainer_(with_preferences(options, own.preferences), own.preferences, own.file),
+        events_(window) {
     if (!own.problem.empty()) trainer_.problems().push_back(own.problem);
     if (!options.frame_times.empty()) {
       times_.emplace(options.frame_parts);

@@ -37,7 +37,7 @@ gl::ShaderSources shaders_of(const Options& options) {
 }  // namespace
 
 Trainer::Trainer(Options options, Preferences preferences, std::filesystem::path file)
-    : options_(with_preferences(std::move(options), preferences)),
+    : options_(std::move(options)),
       preferences_(std::move(preferences)),
       preferences_file_(std::move(file)),
       given_(options_),

@@ -41,6 +41,7 @@ class Trainer {
 public:
   /// Throws InputError if the command line names an address for OpenIGTLink clients or a database of results that
   /// cannot be used.
+  /// @param options  with_preferences(), if there are any
   /// @param file  where preferences are stored; empty: nowhere
   explicit Trainer(Options options, Preferences preferences = {}, std::filesystem::path file = {});
 

@@ -226,7 +226,6 @@ TEST_CASE("settings are taken on the start page and kept, and a database that ca
   const TrainerFolder folder;
   Options options;
   options.out = folder.path / "out";
-  options.out_named = true;
   const auto file = folder.path / "settings.toml";
   Trainer trainer(options, {}, file);
   trainer.open_from_options();
