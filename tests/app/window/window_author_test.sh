@@ -30,7 +30,6 @@ status=0
 "$program" author >"$work/refused" 2>&1 || status=$?
 [ $status = 2 ] && grep -q -- "--case is required" "$work/refused" || fail "$(cat "$work/refused")"
 
-click_on() { click "$(middle_x "$1")" "$(middle_y "$1")"; }
 views() { grep -c '^\[\[view\]\]' "$block/case.toml" || true; }
 start_trainer author --case "$block"
 await "the probe is seen" is_not face_x ""

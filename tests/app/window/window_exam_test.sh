@@ -71,7 +71,6 @@ full = 100
 zero = 0
 EOF
 
-click_on() { click "$(middle_x "$1")" "$(middle_y "$1")"; }
 
 start_trainer --scenario "$work/exam.toml" --tracker mouse: --record "$work/run.igs.mha"
 

@@ -4,7 +4,6 @@
 #   window_learners_test.sh PROGRAM ASSETS_FOLDER SCORE_PROGRAM
 . "$(dirname "$0")/window_session.sh"
 score=$3
-click_on() { click "$(middle_x "$1")" "$(middle_y "$1")"; }
 lab="$work/lab.db"
 for run in "L-01 aorta poor aorta" "L-01 aorta good aorta" "L-02 kidneys poor kidneys" "L-02 aorta good aorta"; do
   read -r learner log hand scenario <<<"$run"

@@ -4,17 +4,7 @@
 #   window_pages_test.sh PROGRAM ASSETS_FOLDER
 screen_size=1440x900
 . "$(dirname "$0")/window_session.sh"
-click_on() { click "$(middle_x "$1")" "$(middle_y "$1")"; }
 settings="$work/config/insonate/settings.toml"
-start() {
-  rm -f "$state"
-  "$program" "$@" --out "$work/out" --state-file "$state" >"$work/log" 2>&1 &
-  trainer=$!
-}
-end_trainer() {
-  kill "$trainer"
-  wait "$trainer" 2>/dev/null || true
-}
 kept() { grep -qx "$1" "$settings" 2>/dev/null; }
 help_and_back() {
   xdotool key F1
@@ -26,7 +16,7 @@ help_and_back() {
 echo "settings that cannot be used are reported, and stay as they are"
 mkdir -p "${settings%/*}"
 printf 'format = 1\nmarker = "up"\n' >"$settings"
-start
+open_trainer
 await "the problem is there" is overlay problem
 contains problem "settings.toml" || fail "it names no file"
 xdotool key Return
@@ -41,7 +31,7 @@ end_trainer
 rm "$settings"
 
 echo "the start page has help and settings, and settings are kept"
-start
+open_trainer
 await "the page is there" is start_task first_scan
 help_and_back "the start page" ""
 xdotool key F3
@@ -172,7 +162,7 @@ await "it is saved" two
 end_trainer
 
 echo "a replay has help too"
-start replay "$INSONATE_ASSETS/logs/ruq_good.igs.mha"
+open_trainer replay "$INSONATE_ASSETS/logs/ruq_good.igs.mha"
 await "the replay is there" is_not replay_s ""
 help_and_back "the replay" ""
 end_trainer

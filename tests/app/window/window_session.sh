@@ -98,6 +98,7 @@ click() {
   pointer_to "$1" "$2"
   xdotool click 1
 }
+click_on() { click "$(middle_x "$1")" "$(middle_y "$1")"; }
 # Where a point of the imaging plane is on the screen, to the nearest pixel.
 plane_x() { awk -v o="$(value plane_origin_x)" -v t="$(value plane_at_10_10_mm_x)" -v mm="$1" 'BEGIN { printf "%.0f", o + (t - o) * mm / 10 }'; }
 plane_y() { awk -v o="$(value plane_origin_y)" -v t="$(value plane_at_10_10_mm_y)" -v mm="$1" 'BEGIN { printf "%.0f", o + (t - o) * mm / 10 }'; }
@@ -130,4 +131,14 @@ start_trainer() {
   rm -f "$state"
   "$program" "$@" --seconds 500 --out "$work/out" --state-file "$state" >"$work/log" 2>&1 &
   trainer=$!
+}
+# The same as a person starts it: for as long as they like, and with the start page if nothing is named.
+open_trainer() {
+  rm -f "$state"
+  "$program" "$@" --out "$work/out" --state-file "$state" >"$work/log" 2>&1 &
+  trainer=$!
+}
+end_trainer() {
+  kill "$trainer"
+  wait "$trainer" 2>/dev/null || true
 }

@@ -7,7 +7,6 @@ pictures=${4:-$work}
 picture() { import -window root "$pictures/$1.png"; }
 "$3" "$work" "$INSONATE_ASSETS/calibration/abdomen.toml" || fail "no files to set up with"
 water "$work/water.mha"
-click_on() { click "$(middle_x "$1")" "$(middle_y "$1")"; }
 
 cp "$work/lab.toml" "$work/old.toml"
 start_trainer --tracker "replay:$work/pivot.igs.mha?loop=1" --calibration "$work/lab.toml" --ct "$work/water.mha" \

@@ -2,20 +2,10 @@
 # The start page in a real window: what it begins by keys and clicks, and the ways back to it.
 #   window_start_test.sh PROGRAM ASSETS_FOLDER
 . "$(dirname "$0")/window_session.sh"
-click_on() { click "$(middle_x "$1")" "$(middle_y "$1")"; }
 is_page() { is_not start_task "" && is overlay "${1:-}"; }
-start_page() {
-  rm -f "$state"
-  "$program" "$@" --out "$work/out" --state-file "$state" >"$work/log" 2>&1 &
-  trainer=$!
-}
-end_trainer() {
-  kill "$trainer"
-  wait "$trainer" 2>/dev/null || true
-}
 
 echo "a missing file is reported over the page"
-start_page --ct "$work/nowhere.nii.gz"
+open_trainer --ct "$work/nowhere.nii.gz"
 await "the problem lies over the page" is_page problem
 contains problem "nowhere.nii.gz" || fail "the problem names no file"
 xdotool key Return
@@ -23,7 +13,7 @@ await "the page is there" is_page
 end_trainer
 
 echo "without arguments the page is there, and the demonstration says what it is"
-start_page
+open_trainer
 await "the page is there" is_page
 is start_task first_scan || fail "it begins with $(value start_task)"
 xdotool key Down
