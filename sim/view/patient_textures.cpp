@@ -9,9 +9,10 @@
 namespace insonate::view {
 namespace {
 
-gl::Texture upload(GLenum format, const glm::ivec3& size, gl::Filter filter, GLenum layout, const void* voxels) {
+gl::Texture upload(GLenum format, const glm::ivec3& size, gl::Filter filter, GLenum layout, const void* voxels,
+                   GLenum type = GL_UNSIGNED_BYTE) {
   gl::Texture texture = gl::Texture::make_3d(format, size.x, size.y, size.z, filter, gl::Wrap::edge);
-  texture.write(layout, GL_UNSIGNED_BYTE, voxels);
+  texture.write(layout, type, voxels);
   return texture;
 }
 
@@ -26,14 +27,17 @@ glm::dmat4 box_from_patient(const Grid& grid, const glm::dvec3& voxels) {
 
 PatientTextures::PatientTextures(const gl::Texture& acoustic_volume, const Volume<std::int16_t>& ct,
                                  const Volume<std::uint8_t>& labels, const OrganColours& colours)
-    : grid_(ct.grid), colours_(colours), acoustic_volume_(&acoustic_volume) {
+    : grid_(ct.grid), colours_(colours), acoustic_volume_(&acoustic_volume), cells_(ct) {
   const std::uint8_t none = 0;
   labels_ = upload(GL_R8UI, labels.empty() ? glm::ivec3(1) : labels.grid.size, gl::Filter::nearest, GL_RED_INTEGER,
                    labels.empty() ? &none : labels.voxels.data());
   const TissueClasses classes = classify_tissue(ct, labels, colours);
   step_ = classes.step;
+  body_cells_ = cells_;
+  body_cells_.hide(cells_outside_body(classes, cells_.size(), MacroCells::kSide));
   tissue_ = upload(GL_RGBA8, classes.size, gl::Filter::linear, GL_RGBA, classes.tissue.data());
   body_ = upload(GL_RG8, classes.size, gl::Filter::linear, GL_RG, classes.body.data());
+  smooth_ct_ = upload(GL_R16_SNORM, classes.size, gl::Filter::linear, GL_RED, classes.hu.data(), GL_SHORT);
   distance_ = upload(GL_R8UI, classes.blocks, gl::Filter::nearest, GL_RED_INTEGER, classes.distance.data());
 }
 

@@ -2,10 +2,12 @@
 
 #include <glm/mat4x4.hpp>
 
+#include <algorithm>
 #include <cstdint>
 
 #include "sim/core/grid.h"
 #include "sim/gl/objects.h"
+#include "sim/view/macro_cells.h"
 #include "sim/view/organ_colours.h"
 
 namespace insonate::view {
@@ -29,10 +31,19 @@ public:
   /// Maps patient mm to texture coordinates of acoustic_volume() and labels().
   glm::dmat4 texture_from_patient() const;
 
+  /// The ranges of the CT's values, for drawing the CT itself.
+  const MacroCells& cells() const { return cells_; }
+  /// The cells that lie outside the body are hidden in these.
+  const MacroCells& body_cells() const { return body_cells_; }
+  /// Returns the smallest side of the CT's voxels, mm.
+  double ct_voxel_mm() const { return std::min({grid_.spacing.x, grid_.spacing.y, grid_.spacing.z}); }
+
   /// The arrays of TissueClasses, for drawing in 3D: RGBA8, RG8 and R8UI.
   const gl::Texture& tissue() const { return tissue_; }
   const gl::Texture& body() const { return body_; }
   const gl::Texture& distance() const { return distance_; }
+  /// Smoothed HU / 32767 on the same voxels.
+  const gl::Texture& smooth_ct() const { return smooth_ct_; }
   /// Maps patient mm to texture coordinates of tissue() and body().
   glm::dmat4 tissue_from_patient() const;
   /// Returns the smallest side of the voxels of tissue() and body(), mm.
@@ -43,7 +54,8 @@ private:
   OrganColours colours_;
   glm::ivec3 step_{1};  // CT voxels per voxel of tissue(), along each axis
   const gl::Texture* acoustic_volume_ = nullptr;
-  gl::Texture labels_, tissue_, body_, distance_;
+  MacroCells cells_, body_cells_;
+  gl::Texture smooth_ct_, labels_, tissue_, body_, distance_;
 };
 
 }  // namespace insonate::view

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/view/distance_map.h"
+
 namespace insonate::view {
 namespace {
 
@@ -56,7 +58,7 @@ void gather(const Volume<std::int16_t>& ct, const Volume<std::uint8_t>& labels, 
   const Box box{classes.size};
   box.for_each([&](int x, int y, int z, std::size_t at) {
     glm::vec3 colour(0);
-    float coverage = 0, opacity = 0, body = 0;
+    float coverage = 0, opacity = 0, body = 0, density = 0;
     int count = 0;
     const glm::ivec3 first = glm::ivec3(x, y, z) * classes.step;
     const glm::ivec3 end = glm::min(first + classes.step, ct.grid.size);
@@ -65,6 +67,7 @@ void gather(const Volume<std::int16_t>& ct, const Volume<std::uint8_t>& labels, 
         for (int i = first.x; i < end.x; ++i, ++count) {
           const std::size_t v = ct.grid.offset({i, j, k});
           const float hu = ct.voxels[v];
+          density += hu;
           body += ramp(hu, kBodyFromHu, kBodyFullHu);
           const OrganColour* look = labels.empty() ? nullptr : &colours[labels.voxels[v]];
           const bool labelled = look && look->opacity > 0;
@@ -77,6 +80,7 @@ void gather(const Volume<std::int16_t>& ct, const Volume<std::uint8_t>& labels, 
     const float n = float(count);
     classes.tissue[at] = {byte(colour.r / n), byte(colour.g / n), byte(colour.b / n), byte(coverage / n)};
     classes.body[at] = {byte(opacity / n), byte(body / n)};
+    classes.hu[at] = {std::int16_t(std::lround(density / n))};
   });
 }
 
@@ -169,8 +173,8 @@ void keep_body(const glm::dmat3& direction, TissueClasses& classes) {
 }
 
 /// Smooths by (1 2 1)/4 along each axis, which rounds the steps of labels and thresholds.
-template <std::size_t N>
-void smooth(const Box& box, std::vector<std::array<std::uint8_t, N>>& values) {
+template <typename T, std::size_t N>
+void smooth(const Box& box, std::vector<std::array<T, N>>& values) {
   auto source = values;
   for (int axis = 0; axis < 3; ++axis) {
     box.for_each([&](int x, int y, int z, std::size_t at) {
@@ -178,7 +182,7 @@ void smooth(const Box& box, std::vector<std::array<std::uint8_t, N>>& values) {
       const std::size_t before = p > 0 ? at - box.stride(axis) : at;
       const std::size_t after = p + 1 < box.size[axis] ? at + box.stride(axis) : at;
       for (std::size_t c = 0; c < N; ++c)
-        values[at][c] = std::uint8_t((source[before][c] + 2 * source[at][c] + source[after][c] + 2) / 4);
+        values[at][c] = T((source[before][c] + 2 * source[at][c] + source[after][c] + 2) >> 2);
     });
     source = values;
   }
@@ -203,30 +207,6 @@ std::vector<std::uint8_t> busy_blocks(const TissueClasses& classes) {
   return busy;
 }
 
-/// Returns Chebyshev distances by passes along the axes. The distance is the largest of the steps along x, y and z,
-/// which are independent.
-std::vector<std::uint8_t> distances(const glm::ivec3& size, const std::vector<std::uint8_t>& busy) {
-  constexpr std::uint8_t kFar = 255;
-  const Box blocks{size};
-  std::vector<std::uint8_t> distance(busy.size());
-  std::transform(busy.begin(), busy.end(), distance.begin(), [](auto b) { return b ? std::uint8_t(0) : kFar; });
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto source = distance;
-    blocks.for_each([&](int x, int y, int z, std::size_t at) {
-      const int p = axis == 0 ? x : axis == 1 ? y : z;
-      int least = source[at];
-      for (int d = 1; d < least; ++d) {
-        const std::size_t away = std::size_t(d) * blocks.stride(axis);
-        if (p >= d) least = std::min(least, std::max<int>(d, source[at - away]));
-        if (p + d < size[axis]) least = std::min(least, std::max<int>(d, source[at + away]));
-        if (p < d && p + d >= size[axis]) break;
-      }
-      distance[at] = std::uint8_t(least);
-    });
-  }
-  return distance;
-}
-
 }  // namespace
 
 TissueClasses classify_tissue(const Volume<std::int16_t>& ct, const Volume<std::uint8_t>& labels,
@@ -239,12 +219,30 @@ TissueClasses classify_tissue(const Volume<std::int16_t>& ct, const Volume<std::
   const Box box{classes.size};
   classes.tissue.resize(box.count());
   classes.body.resize(box.count());
+  classes.hu.resize(box.count());
   gather(ct, labels, colours, classes);
   keep_body(ct.grid.direction, classes);
   smooth(box, classes.tissue);
   smooth(box, classes.body);
-  classes.distance = distances(classes.blocks, busy_blocks(classes));
+  for (int times = 0; times < 2; ++times) smooth(box, classes.hu);
+  classes.distance = distance_map(classes.blocks, busy_blocks(classes));
   return classes;
+}
+
+std::vector<std::uint8_t> cells_outside_body(const TissueClasses& classes, const glm::ivec3& cells, int side) {
+  const Box box{classes.size}, grid{cells};
+  std::vector<std::uint8_t> outside(grid.count(), 1);
+  grid.for_each([&](int cx, int cy, int cz, std::size_t cell) {
+    // A linear sample within the cell uses voxels up to one beyond those that contain its faces.
+    const glm::ivec3 first = glm::ivec3(cx, cy, cz) * side;
+    const glm::ivec3 low = glm::max(first / classes.step - 1, glm::ivec3(0));
+    const glm::ivec3 high = glm::min((first + side) / classes.step + 2, classes.size);
+    for (int z = low.z; z < high.z; ++z)
+      for (int y = low.y; y < high.y; ++y)
+        for (int x = low.x; x < high.x; ++x)
+          if (classes.body[box.offset(x, y, z)][1] > 0) outside[cell] = 0;
+  });
+  return outside;
 }
 
 }  // namespace insonate::view

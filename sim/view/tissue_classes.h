@@ -17,10 +17,11 @@ struct TissueClasses {
 
   std::vector<std::array<std::uint8_t, 4>> tissue;  ///< colour times coverage, and the coverage by organs and bone
   std::vector<std::array<std::uint8_t, 2>> body;    ///< opacity of 1 mm times coverage, and share of the body
+  std::vector<std::array<std::int16_t, 1>> hu;      ///< smoothed Hounsfield units, for the direction of surfaces
 
   static constexpr int kBlock = 2;     ///< voxels per side of a block
   glm::ivec3 blocks{0};                ///< blocks along each axis
-  std::vector<std::uint8_t> distance;  ///< per block: blocks (Chebyshev) to the nearest change, at most 255
+  std::vector<std::uint8_t> distance;  ///< per block: as distance_map() returns, to the nearest change
 };
 
 /// Returns the classes of a CT. Labels define organs. Density also defines bone, so that a CT without labels shows its
@@ -28,5 +29,9 @@ struct TissueClasses {
 /// nor gas in the bowel has a skin.
 TissueClasses classify_tissue(const Volume<std::int16_t>& ct, const Volume<std::uint8_t>& labels,
                               const OrganColours& colours);
+
+/// Returns 1 for each cube of `side` CT voxels in which no linear sample of `classes.body` finds the body, else 0.
+/// @param cells  cubes along each axis
+std::vector<std::uint8_t> cells_outside_body(const TissueClasses& classes, const glm::ivec3& cells, int side);
 
 }  // namespace insonate::view

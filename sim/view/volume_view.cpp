@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "sim/shaders/shared/volume_view_parameters.h"
+#include "sim/view/classified_ct.h"
 #include "sim/view/picture_target.h"
 #include "sim/view/plane_state.h"
 #include "sim/view/tissue_classes.h"
@@ -20,8 +21,11 @@ constexpr int kCoarsest = 4;
 // One sample every half voxel, fewer where pixels are coarser. Smoothing spreads an edge over two voxels, so that four
 // samples lie in it and no steps show.
 constexpr double kStepInVoxels = 0.5;
+double coarsening(int scale) {
+  return 1 + 0.35 * (scale - 1);
+}
 double step_mm(const PatientTextures& patient, int scale) {
-  return kStepInVoxels * patient.tissue_voxel_mm() * (1 + 0.35 * (scale - 1));
+  return kStepInVoxels * patient.tissue_voxel_mm() * coarsening(scale);
 }
 
 VolumeViewParameters parameters_for(const PatientTextures& patient, const OrbitCamera& camera,
@@ -57,6 +61,12 @@ VolumeViewParameters parameters_for(const PatientTextures& patient, const OrbitC
   p.show_plane = style.plane && plane.image;
   p.show_probe = style.probe;
   p.show_organs = style.organs;
+  if (style.ct) {
+    p.ct_step_mm = float(style.ct->step * patient.ct_voxel_mm() * coarsening(scale));
+    p.jitter = style.ct->jittered;
+    p.skip_empty = style.ct->skips_empty;
+    p.body_only = style.ct->body_only;
+  }
   return p;
 }
 
@@ -127,9 +137,11 @@ struct VolumeView::State {
         finish(sources, {"view/full_screen.vert", "view/volume_finish.frag"}, kDefines) {}
 
   inline static const gl::Defines kDefines{{"VOXELS_PER_BLOCK", std::to_string(TissueClasses::kBlock)}};
+  static gl::Defines defines_for(const std::optional<CtStyle>& ct);
   gl::Program whole, layers_program, finish;
   gl::FullScreenTriangle triangle;
   gl::Buffer parameters{sizeof(VolumeViewParameters), nullptr};
+  ClassifiedCt classified;
   PictureTarget full, reduced;
   Layers layers;
   Pace pace, finish_pace;
@@ -167,6 +179,14 @@ int scaled(int pixels, int scale) {
 
 }  // namespace
 
+gl::Defines VolumeView::State::defines_for(const std::optional<CtStyle>& ct) {
+  if (!ct) return kDefines;
+  return {{"CT_MARCH", "1"},
+          {"CT_CLASSIFICATION", ct->classification == Classification::post ? "POST_CLASSIFICATION" : "PRE_INTEGRATED"},
+          {"CT_SHADED", gl::flag(ct->shaded)},
+          {"VOXELS_PER_CELL", std::to_string(MacroCells::kSide)}};
+}
+
 void VolumeView::State::bind(const Inputs& inputs, const UltrasoundPlane& plane, int width, int height,
                              int coarseness) {
   const VolumeViewParameters values =
@@ -178,12 +198,16 @@ void VolumeView::State::bind(const Inputs& inputs, const UltrasoundPlane& plane,
   inputs.patient->tissue().bind(2);
   inputs.patient->body().bind(3);
   inputs.patient->distance().bind(4);
+  if (!inputs.style.ct) return;
+  classified.update(*inputs.patient, inputs.style.ct->function, inputs.style.ct->body_only);
+  classified.bind();
 }
 
 void VolumeView::State::draw_whole(const Inputs& inputs, const UltrasoundPlane& plane, int first_row, int end_row) {
   full.resize(inputs.width, inputs.height);
   bind(inputs, plane, inputs.width, inputs.height, 1);
   const ScopedDrawTarget drawing(full.framebuffer, first_row, end_row);
+  whole.define(defines_for(inputs.style.ct));
   whole.use();
   pace.begin(first_row == 0);
   triangle.draw();
@@ -197,6 +221,7 @@ void VolumeView::State::draw_moving(const Inputs& inputs, const UltrasoundPlane&
   bind(inputs, plane, coarse_width, coarse_height, scale);
   {
     const ScopedDrawTarget drawing(layers.framebuffer, 0, coarse_height);
+    layers_program.define(defines_for(inputs.style.ct));
     layers_program.use();
     pace.begin(true);
     triangle.draw();
@@ -250,6 +275,7 @@ const gl::Texture& VolumeView::render(int width, int height, const PatientTextur
 
 void VolumeView::forget() {
   state_->drawn.reset();
+  state_->classified.forget();
 }
 
 long VolumeView::renders() const {

@@ -72,11 +72,13 @@ struct Scene {
     plane.geometry = {width, height, mm, {-mm * (width - 1) / 2, mm / 2}};
   }
 
+  /// Makes the one context of all scenes of the program, because OpenGL objects live only in the context in which they
+  /// were created. To be called before a view is made without a scene.
+  static void need_context() { static const gl::HeadlessContext context; }
+
 private:
-  // One context for all scenes of the program, because OpenGL objects live only in the context in which they were
-  // created.
   static gl::Simulator in_context() {
-    static const gl::HeadlessContext context;
+    need_context();
     return gl::Simulator();
   }
 };

@@ -32,6 +32,12 @@ layout(std140, binding = 0) uniform VolumeViewParameters {
   int show_plane;
   int show_probe;
   int show_organs;
+
+  // For the CT itself.
+  float ct_step_mm;
+  int jitter;      // whether samples begin at another place in each pixel
+  int skip_empty;  // whether empty cells are leapt over
+  int body_only;   // whether the table is left out
 #ifdef __cplusplus
 };
 }  // namespace insonate::view

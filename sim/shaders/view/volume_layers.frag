@@ -8,6 +8,11 @@ layout(location = 1) out vec4 back;
 layout(location = 2) out float before_probe;
 
 #include "shared/volume_ray.glsl"
+#ifdef CT_MARCH
+#include "shared/ct_march.glsl"
+#else
+#include "shared/organ_march.glsl"
+#endif
 
 // Returns whether the picture covers all that a pixel of the second pass can see of this one's back layer.
 bool fan_covers(Ray ray) {

@@ -5,6 +5,11 @@
 layout(location = 0) out vec4 colour;
 
 #include "shared/volume_ray.glsl"
+#ifdef CT_MARCH
+#include "shared/ct_march.glsl"
+#else
+#include "shared/organ_march.glsl"
+#endif
 
 void main() {
   vec2 at = 2.0 * gl_FragCoord.xy / picture.xy - 1.0;

@@ -1,0 +1,54 @@
+#include "sim/view/transfer_function_file.h"
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+#include "sim/core/files.h"
+#include "sim/core/toml_table.h"
+#include "sim/core/toml_value.h"
+
+namespace insonate::view {
+namespace fs = std::filesystem;
+
+TransferFunction read_transfer_function(const fs::path& toml_file) {
+  const TomlDocument document(toml_file.string(), read_file(toml_file), OnMistake::collect);
+  const TomlTable root = document.root();
+  TransferFunction function;
+  function.name = root.text("name");
+  double least_hu = kFirstTransferHu;
+  for (const TomlTable& table : root.tables("point", kMostTransferPoints, "point")) {
+    TransferPoint point;
+    point.hu = table.number("hu", {least_hu, kLastTransferHu});
+    point.colour = table.vector("colour", {0, 1});
+    point.opacity = table.number("opacity", {0, kMostOpacity});
+    least_hu = std::nextafter(point.hu, std::numeric_limits<double>::max());
+    function.points.push_back(point);
+  }
+  if (function.points.size() < 2)
+    root.report("point", "a transfer function needs at least 2 points", "add tables [[point]] with rising hu");
+  root.refuse_unknown_keys();
+  document.throw_mistakes();
+  return function;
+}
+
+void write_transfer_function(const fs::path& toml_file, const TransferFunction& function) {
+  std::string text = "name = " + toml_value(function.name) + "\n";
+  for (const TransferPoint& point : function.points)
+    text += "\n[[point]]\nhu = " + toml_value(point.hu) + "\ncolour = [" + toml_value(point.colour.r) + ", " +
+            toml_value(point.colour.g) + ", " + toml_value(point.colour.b) +
+            "]\nopacity = " + toml_value(point.opacity) + "\n";
+  write_file(toml_file, text);
+}
+
+std::vector<TransferFunction> bundled_transfer_functions() {
+  std::vector<fs::path> files;
+  for (const fs::directory_entry& entry : fs::directory_iterator(assets_folder() / "transfer_functions"))
+    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());  // their names begin with a number
+  std::vector<TransferFunction> functions;
+  for (const fs::path& file : files) functions.push_back(read_transfer_function(file));
+  return functions;
+}
+
+}  // namespace insonate::view
