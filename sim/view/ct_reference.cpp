@@ -38,8 +38,8 @@ Volume<std::int16_t> smoothed(const Volume<std::int16_t>& ct) {
 
 }  // namespace
 
-CtReference::CtReference(const Volume<std::int16_t>& ct, const CtStyle& style, const OrbitCamera& camera, int width,
-                         int height, double step_mm)
+CtReference::CtReference(const Volume<std::int16_t>& ct, const CtVolumeStyle& style, const OrbitCamera& camera,
+                         int width, int height, double step_mm)
     : ct_(ct),
       smooth_(style.shaded ? smoothed(ct) : Volume<std::int16_t>()),
       style_(style),

@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "sim/core/grid.h"
-#include "sim/view/ct_style.h"
+#include "sim/view/ct_volume_style.h"
 #include "sim/view/orbit_camera.h"
 
 namespace insonate::view {
@@ -18,8 +18,8 @@ class CtReference {
 public:
   /// @param ct        must outlive the object
   /// @param step_mm   between samples; the style's own step is not used
-  CtReference(const Volume<std::int16_t>& ct, const CtStyle& style, const OrbitCamera& camera, int width, int height,
-              double step_mm);
+  CtReference(const Volume<std::int16_t>& ct, const CtVolumeStyle& style, const OrbitCamera& camera, int width,
+              int height, double step_mm);
 
   /// Returns colour times opacity, and opacity, of what lies along the ray through a point of the picture, from
   /// `begin_mm` to `end_mm` from the eye.
@@ -42,7 +42,7 @@ private:
 
   const Volume<std::int16_t>& ct_;
   Volume<std::int16_t> smooth_;
-  CtStyle style_;
+  CtVolumeStyle style_;
   TransferTable table_;
   double step_mm_;
   double width_, height_;

@@ -137,7 +137,7 @@ struct VolumeView::State {
         finish(sources, {"view/full_screen.vert", "view/volume_finish.frag"}, kDefines) {}
 
   inline static const gl::Defines kDefines{{"VOXELS_PER_BLOCK", std::to_string(TissueClasses::kBlock)}};
-  static gl::Defines defines_for(const std::optional<CtStyle>& ct);
+  static gl::Defines defines_for(const std::optional<CtVolumeStyle>& ct);
   gl::Program whole, layers_program, finish;
   gl::FullScreenTriangle triangle;
   gl::Buffer parameters{sizeof(VolumeViewParameters), nullptr};
@@ -179,7 +179,7 @@ int scaled(int pixels, int scale) {
 
 }  // namespace
 
-gl::Defines VolumeView::State::defines_for(const std::optional<CtStyle>& ct) {
+gl::Defines VolumeView::State::defines_for(const std::optional<CtVolumeStyle>& ct) {
   if (!ct) return kDefines;
   return {{"CT_MARCH", "1"},
           {"CT_CLASSIFICATION", ct->classification == Classification::post ? "POST_CLASSIFICATION" : "PRE_INTEGRATED"},

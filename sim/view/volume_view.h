@@ -7,7 +7,7 @@
 
 #include "sim/gl/objects.h"
 #include "sim/gl/program.h"
-#include "sim/view/ct_style.h"
+#include "sim/view/ct_volume_style.h"
 #include "sim/view/orbit_camera.h"
 #include "sim/view/patient_textures.h"
 #include "sim/view/ultrasound_plane.h"
@@ -16,13 +16,13 @@ namespace insonate::view {
 
 /// How the volume view is drawn.
 struct VolumeStyle {
-  bool cut = true;            ///< removes what lies between the camera and the ultrasound's plane
-  double cut_face = 0.85;     ///< opacity of the CT shown on the cut outside the fan, 0 to 1
-  double skin = 0.14;         ///< opacity of the skin where it faces the camera, 0 to 1
-  bool organs = true;         ///< shows labelled organs and bone
-  bool plane = true;          ///< shows the ultrasound picture in its place
-  bool probe = true;          ///< shows the probe
-  std::optional<CtStyle> ct;  ///< draws the CT itself in place of skin, organs and bone
+  bool cut = true;                  ///< removes what lies between the camera and the ultrasound's plane
+  double cut_face = 0.85;           ///< opacity of the CT shown on the cut outside the fan, 0 to 1
+  double skin = 0.14;               ///< opacity of the skin where it faces the camera, 0 to 1
+  bool organs = true;               ///< shows labelled organs and bone
+  bool plane = true;                ///< shows the ultrasound picture in its place
+  bool probe = true;                ///< shows the probe
+  std::optional<CtVolumeStyle> ct;  ///< draws the CT itself in place of skin, organs and bone
   bool operator==(const VolumeStyle&) const = default;
 };
 

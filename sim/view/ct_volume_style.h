@@ -11,7 +11,7 @@ enum class Classification {
 };
 
 /// How the CT itself is drawn in the volume view, by direct volume rendering.
-struct CtStyle {
+struct CtVolumeStyle {
   TransferFunction function;
   Classification classification = Classification::pre_integrated;
   double step = 0.5;        ///< between samples, in sides of the CT's smallest voxel side, > 0
@@ -19,7 +19,7 @@ struct CtStyle {
   bool jittered = true;     ///< turns rings into fine noise
   bool skips_empty = true;  ///< the picture is the same without, but for rounding
   bool body_only = true;    ///< leaves out the scanner's table, which is not connected to the body
-  bool operator==(const CtStyle&) const = default;
+  bool operator==(const CtVolumeStyle&) const = default;
 };
 
 }  // namespace insonate::view
