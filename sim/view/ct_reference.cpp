@@ -16,6 +16,7 @@ namespace insonate::view {
 namespace {
 
 // As in shared/ct_march.glsl and shared/volume_ray.glsl.
+constexpr double kGradientReach = 1.5;
 constexpr double kUnlit_hu_mm = 4, kLit_hu_mm = 20, kHighlight = 0.18;
 constexpr glm::dvec2 kLightWithin(0.8, 0.0);
 
@@ -67,8 +68,9 @@ glm::dvec3 CtReference::gradient(const glm::dvec3& patient) const {
   const glm::dvec3 index = smooth_.grid.index_from_patient(patient);
   glm::dvec3 per_voxel(0.0);
   for (const glm::dvec3 corner : {glm::dvec3(1, -1, -1), glm::dvec3(-1, -1, 1), glm::dvec3(-1, 1, -1), glm::dvec3(1)}) {
-    const glm::dvec3 at = glm::clamp(index + corner, glm::dvec3(0.0), glm::dvec3(smooth_.grid.size - 1));
-    per_voxel += corner * sample_trilinear(smooth_, at) / 4.0;
+    const glm::dvec3 at =
+        glm::clamp(index + kGradientReach * corner, glm::dvec3(0.0), glm::dvec3(smooth_.grid.size - 1));
+    per_voxel += corner * sample_trilinear(smooth_, at) / (4 * kGradientReach);
   }
   return smooth_.grid.direction * (per_voxel / smooth_.grid.spacing);
 }

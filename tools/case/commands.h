@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -33,5 +34,24 @@ struct RecordedMoment {
 /// Adds a view whose pose comes from either a pose file or a log; see add_view().
 void add_recorded_view(const std::filesystem::path& folder, ReferenceView view, const std::string& pose_file,
                        const RecordedMoment& moment);
+
+/// The look that shows labelled organs, bone by its density, and the skin as glass.
+inline constexpr const char* kLabelledOrgans = "Labelled organs";
+/// The names of the sides, in the order of view::Side.
+inline constexpr std::array<const char*, 6> kSideNames{"front", "back", "right", "left", "head", "feet"};
+
+/// A picture of a patient in 3D.
+struct PatientPicture {
+  std::string subject;        ///< as open_subject() takes it
+  std::string look = "Skin";  ///< kLabelledOrgans, the name of a bundled transfer function, or a file of one (.toml)
+  std::string view;           ///< a reference view of the case, whose ultrasound is shown in its place; empty: none
+  std::string from;           ///< one of kSideNames; empty: towards the view's plane, else obliquely from the front
+  double turn_deg = 0, tilt_deg = 0;  ///< turn the patient from there: about the long axis, and the head to the viewer
+  bool cut = false;                   ///< removes what lies between the camera and the plane
+  int width = 800, height = 600;
+  std::string out;  ///< PNG
+};
+/// Draws the patient by direct volume rendering. Throws InputError.
+void draw_patient(const PatientPicture& picture);
 
 }  // namespace insonate

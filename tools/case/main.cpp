@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
       "  insonate-case inspect --json abdomen.nii.gz\n"
       "  insonate-case import --ct ~/scans/patient7 --labels ~/segmentations/patient7 --out cases/patient7\n"
       "  insonate-case add-view cases/patient7 --name kidney --targets kidney_right --log expert.igs.mha --at 12.5\n"
+      "  insonate-case picture --ct abdomen.nii.gz --look Bones --from left bones.png\n"
       "  insonate-case phantom --set free_fluid=true out/free-fluid");
   program.require_subcommand(1);
 
@@ -109,6 +110,34 @@ int main(int argc, char** argv) {
   at->needs(log);
   transform->needs(log);
 
+  PatientPicture picture;
+  CLI::App* draw = program.add_subcommand("picture", "Draw the patient in 3D, with the ultrasound of a view if named");
+  draw->add_option("--case,--ct", picture.subject, "Draw the patient of this case folder, CT file or DICOM folder")
+      ->type_name("PATH")
+      ->default_str("the built-in patient");
+  draw->add_option("--look", picture.look,
+                   "Show this transfer function of assets/transfer_functions by its name, that of a TOML file, or "
+                   "'Labelled organs'")
+      ->type_name("NAME|FILE")
+      ->capture_default_str();
+  draw->add_option("--view", picture.view, "Show the ultrasound of this view of the case in its place")
+      ->type_name("NAME");
+  draw->add_option("--from", picture.from, "Look from this side")
+      ->check(CLI::IsMember(std::vector<std::string>(kSideNames.begin(), kSideNames.end())))
+      ->default_str("towards the view's plane, or from the front");
+  draw->add_option("--turn", picture.turn_deg, "Turn the patient from there about the long axis, degrees")
+      ->check(CLI::Range(-180.0, 180.0));
+  draw->add_option("--tilt", picture.tilt_deg, "Tilt the patient's head towards the viewer, degrees")
+      ->check(CLI::Range(-90.0, 90.0));
+  draw->add_flag("--cut", picture.cut, "Remove what lies between the viewer and the view's plane");
+  draw->add_option("--width", picture.width, "Set the picture's width, pixels")
+      ->check(CLI::Range(16, 8192))
+      ->capture_default_str();
+  draw->add_option("--height", picture.height, "Set the picture's height, pixels")
+      ->check(CLI::Range(16, 8192))
+      ->capture_default_str();
+  draw->add_option("IMAGE", picture.out, "Write this PNG")->type_name("FILE")->required();
+
   return run_program(program, argc, argv, [&] {
     if (inspect_command->parsed())
       inspect(path, json);
@@ -116,6 +145,8 @@ int main(int argc, char** argv) {
       import_and_write(request, imported_folder, replace);
     else if (add_view->parsed())
       add_recorded_view(case_folder, view, pose_file, moment);
+    else if (draw->parsed())
+      draw_patient(picture);
     else
       make_and_write(recipe, settings, folder);
     return 0;

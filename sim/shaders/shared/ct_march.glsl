@@ -19,6 +19,7 @@ const float kFirstTransferHu = -1024.0, kLastTransferEntry = 4095.0;
 const float kShortSpan_hu = 1.0;
 
 // A surface is lit where the CT changes by more than its noise does, HU per mm.
+const float kGradientReach = 1.5;  // voxels of smooth_ct, far enough that no steps of thick slices show
 const float kUnlit_hu_mm = 4.0, kLit_hu_mm = 20.0;
 const vec2 kLightWithin = vec2(0.8, 0.0);
 const float kHighlight = 0.18;
@@ -96,12 +97,12 @@ void leap(inout March march, float stop) {
 // the smoothed CT, whose slices do not show.
 // @param at  in coordinates of smooth_ct
 vec2 light_at(vec3 at, vec3 view) {
-  vec3 voxel = 1.0 / vec3(textureSize(smooth_ct, 0));
+  vec3 reach = kGradientReach / vec3(textureSize(smooth_ct, 0));
   // Differences over the corners of a tetrahedron, which take 4 fetches in place of 6.
   const vec3 kA = vec3(1, -1, -1), kB = vec3(-1, -1, 1), kC = vec3(-1, 1, -1), kD = vec3(1, 1, 1);
-  vec3 change = (kA * textureLod(smooth_ct, at + kA * voxel, 0.0).x + kB * textureLod(smooth_ct, at + kB * voxel, 0.0).x +
-                 kC * textureLod(smooth_ct, at + kC * voxel, 0.0).x + kD * textureLod(smooth_ct, at + kD * voxel, 0.0).x) /
-                (4.0 * voxel);
+  vec3 change = (kA * textureLod(smooth_ct, at + kA * reach, 0.0).x + kB * textureLod(smooth_ct, at + kB * reach, 0.0).x +
+                 kC * textureLod(smooth_ct, at + kC * reach, 0.0).x + kD * textureLod(smooth_ct, at + kD * reach, 0.0).x) /
+                (4.0 * reach);
   vec3 gradient = transpose(mat3(tissue_from_patient)) * (change * 32767.0);  // HU per mm
   return mix(kLightWithin, lighting(facing(gradient, view), view),
              smoothstep(kUnlit_hu_mm, kLit_hu_mm, length(gradient)));

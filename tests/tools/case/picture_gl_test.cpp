@@ -1,0 +1,63 @@
+// insonate-case picture, as a person runs it.
+
+#include <png.h>
+
+#include "sim/core/image.h"
+#include "tests/tools/case/case_workplace.h"
+
+using namespace insonate;
+
+namespace {
+
+Image<Rgba8> read_png(const std::filesystem::path& file) {
+  png_image header{};
+  header.version = PNG_IMAGE_VERSION;
+  REQUIRE(png_image_begin_read_from_file(&header, file.c_str()));
+  header.format = PNG_FORMAT_RGBA;
+  Image<Rgba8> image(int(header.width), int(header.height));
+  REQUIRE(png_image_finish_read(&header, nullptr, image.pixels.data(), 0, nullptr));
+  return image;
+}
+
+}  // namespace
+
+// The ball has 60 HU and lies in air.
+TEST_CASE("A picture shows what the look shows, and the view's plane") {
+  Workplace place;
+  REQUIRE(place.make(place.made).code == 0);
+  const std::string out = (place.folder.path / "picture.png").string();
+  const auto draw = [&](const std::string& options) {
+    const Outcome told =
+        place.run("picture --case " + place.made.string() + " --width 120 --height 90 " + options + " " + out);
+    INFO(told.errors);
+    REQUIRE(told.code == 0);
+    return read_png(out);
+  };
+  const auto bright = [](const Image<Rgba8>& image) {
+    return std::count_if(image.pixels.begin(), image.pixels.end(), [](const Rgba8& p) { return p[0] > 60; });
+  };
+  const Image<Rgba8> skin = draw("--look Skin");
+  CHECK(skin.width == 120);
+  CHECK(skin.height == 90);
+  CHECK(bright(skin) > 1000);
+  CHECK(bright(draw("--look Bones")) == 0);
+  CHECK(bright(draw("--look Bones --view front")) > 500);
+  CHECK(bright(draw("--look 'Labelled organs' --from left")) > 500);
+}
+
+TEST_CASE("A picture that cannot be drawn is refused") {
+  Workplace place;
+  REQUIRE(place.make(place.made).code == 0);
+  const std::string patient = "picture --case " + place.made.string(), out = (place.folder.path / "p.png").string();
+  const auto refused = [&](const std::string& options, const std::string& words) {
+    const Outcome told = place.run(patient + " " + options);
+    INFO(told.errors);
+    CHECK(told.code == 2);
+    CHECK(contains(told.errors, words));
+    CHECK(!std::filesystem::exists(out));
+  };
+  refused("--look Bons " + out, "did you mean 'Bones'");
+  refused("--look none.toml " + out, "none.toml");
+  refused("--view frnt " + out, "did you mean 'front'");
+  refused((place.folder.path / "p.jpg").string(), "ends in .png");
+}
