@@ -185,6 +185,7 @@ public:
       if (options_.seconds > 0 && now_s - start_s_ >= options_.seconds) break;
     }
     trainer_.hand_in_exam();
+    trainer_.keep_look();
     trainer_.finish_recording();
     if (!options_.latency.empty()) trainer_.latency().write(options_.latency);
     if (times_) times_->write(options_.frame_times);

@@ -26,6 +26,8 @@ const char* title_of(Wanted wanted) {
       return "Use a patient's landmarks";
     case Wanted::drawing:
       return "Use a drawing of the probe";
+    case Wanted::look:
+      return "Use a transfer function";
     case Wanted::output:
       return "The folder for reports, pictures and recordings";
     case Wanted::cases:
@@ -52,6 +54,8 @@ const char* what_is_shown(Wanted wanted) {
       return "Lists of landmarks (.toml).";
     case Wanted::drawing:
       return "Drawings of a probe (.toml).";
+    case Wanted::look:
+      return "Transfer functions (.toml), such as those that were saved here.";
     case Wanted::cases:
       return "Go to the folder whose case folders are to be listed.";
     case Wanted::output:

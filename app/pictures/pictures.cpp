@@ -50,6 +50,7 @@ void Pictures::show(const LoadedCase& loaded_case) {
   volume_view_.forget();
   grid_ = loaded_case.subject.ct.grid;
   reset_camera();
+  look.begin(loaded_case.subject.name, loaded_case.subject.ct);
 }
 
 void Pictures::update(const std::optional<Pose>& pose, const Machine& machine, const PictureSizes& sizes,
@@ -102,6 +103,9 @@ void Pictures::update(const std::optional<Pose>& pose, const Machine& machine, c
   if (!anatomy) {
     body.organs = false;
     body.skin = 1;
+  } else if (look.shown()) {
+    body.ct.emplace();
+    body.ct->function = *look.shown();
   }
   body.cut = anatomy && std::abs(glm::dot(camera.patient_from_camera().rotation[2], pose->rotation[2])) > kEdgeOn;
   if (is_due(2, volume_))

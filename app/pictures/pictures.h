@@ -6,6 +6,7 @@
 #include <string>
 
 #include "app/pictures/frame_times.h"
+#include "app/pictures/patient_look.h"
 #include "app/session/session.h"
 #include "sim/imaging/simulator.h"
 #include "sim/model/quality.h"
@@ -96,6 +97,7 @@ public:
 
   view::OrbitCamera camera;   ///< facing the plane of a new patient's first pose
   double blend_share = 0.55;  ///< 0: the CT, 1: the ultrasound
+  PatientLook look;           ///< in the 3D view, where the patient's inside may be seen
 
   /// Returns how often any picture was drawn; each simulator stage that ran counts as one.
   long drawn() const;

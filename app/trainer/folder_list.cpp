@@ -68,6 +68,7 @@ std::string kind_in_words(Material material, Wanted wanted) {
       return wanted == Wanted::calibration       ? "calibration"
              : wanted == Wanted::landmarks       ? "landmarks"
              : wanted == Wanted::drawing         ? "drawing"
+             : wanted == Wanted::look            ? "transfer function"
              : any || wanted == Wanted::scenario ? "scenario"
                                                  : "";
     case Material::tracker_log:

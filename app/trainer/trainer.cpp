@@ -10,6 +10,7 @@
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
 #include "sim/imaging/upload.h"
+#include "sim/view/transfer_function_file.h"
 
 namespace insonate {
 namespace {
@@ -49,6 +50,9 @@ Trainer::Trainer(Options options, Preferences preferences, std::filesystem::path
   else
     serve();
   open_results();
+  if (!preferences_file_.empty())
+    for (const std::string& problem : pictures_.look.use_folder(preferences_file_.parent_path() / "transfer_functions"))
+      problems_.push_back(problem);
 }
 
 /// Serves OpenIGTLink clients as the person prefers. An address that cannot be used stops nothing else.
@@ -56,6 +60,21 @@ void Trainer::serve() {
   feed_.reset();
   if (preferences_.igtl_server.empty()) return;
   attempt([&] { feed_ = std::make_unique<IgtlFeed>(parse_server_address(preferences_.igtl_server)); });
+}
+
+void Trainer::take_look(const std::filesystem::path& file) {
+  attempt([&] { pictures_.look.take(view::read_transfer_function(file)); });
+}
+
+void Trainer::save_look() {
+  attempt([&] {
+    const std::filesystem::path file = pictures_.look.save();
+    notices_.push_back({"Saved " + std::filesystem::absolute(file).string(), file});
+  });
+}
+
+void Trainer::keep_look() {
+  attempt([&] { pictures_.look.keep(); });
 }
 
 void Trainer::prefer(const Preferences& preferences) {
@@ -251,6 +270,7 @@ void Trainer::begin(std::shared_ptr<const LoadedCase> loaded_case, const Request
 
 void Trainer::show(std::shared_ptr<const LoadedCase> loaded_case, const Request& request) {
   if (loaded_case != loaded_case_) {
+    keep_look();
     gl::upload_ct(patient_of(request.source), loaded_case->subject.ct.grid, [&] { pictures_.show(*loaded_case); });
     guide_.forget_made();
   }

@@ -49,6 +49,12 @@ public:
   const std::filesystem::path& preferences_file() const { return preferences_file_; }
   /// Takes other preferences at once, and stores them. What cannot be used becomes a problem to acknowledge.
   void prefer(const Preferences& preferences);
+  /// Shows the patient with a transfer function from a file. What cannot be used becomes a problem to acknowledge.
+  void take_look(const std::filesystem::path& file);
+  /// Saves how the patient looks now for later patients. A notice names the file.
+  void save_look();
+  /// Stores how this patient looks, for the next time.
+  void keep_look();
 
   /// Begins to load what the command line names, or shows the start page if it names nothing. Returns at once.
   void open_from_options();
