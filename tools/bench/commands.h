@@ -38,6 +38,14 @@ Table measure_denormals(const Request& request);
 /// Measures run time and error over the settings. Writes the scenes' plots to one SVG unless `svg` is empty.
 Table measure_front(const Request& request, const std::string& svg);
 
+/// Measures simulation and visualisation together, as Table 1 of the paper does, by what changes from frame to frame:
+/// for several transfer functions, at 640 x 480 with up to 512 steps a ray.
+Table measure_view(const Request& request);
+
+/// Measures run time and error of the volume rendering over its settings. The error is that against the reference in
+/// double precision with a tenth of half a voxel as its step, shaded and pre-integrated.
+Table measure_view_front(const Request& request);
+
 /// Measures the time that the runner of an exam takes per sample, on one core. Scenarios and recorded scans alternate
 /// in `exams`.
 Table measure_scoring(const std::vector<std::string>& exams);

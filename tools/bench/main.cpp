@@ -80,6 +80,11 @@ int main(int argc, char** argv) {
   filter->add_option("--csv", csv, "Write the table to this file too (CSV)")->type_name("FILE");
   CLI::App* front = add_measurement(arguments, "front", "Measure run time and error over the settings", request, csv);
   front->add_option("--svg", svg, "Draw the plot to this file too (SVG)")->type_name("FILE");
+  const CLI::App* view = add_measurement(
+      arguments, "view", "Measure simulation and volume rendering together, by what changes from frame to frame",
+      request, csv);
+  const CLI::App* view_front = add_measurement(
+      arguments, "view-front", "Measure run time and error of the volume rendering over its settings", request, csv);
   std::vector<std::string> exams;
   CLI::App* scoring =
       arguments.add_subcommand("scoring", "Measure the run time of scoring one sample of an exam, on one core");
@@ -111,16 +116,18 @@ int main(int argc, char** argv) {
       exams = {assets_folder() / "scenarios" / "ruq_hepatorenal.toml", assets_folder() / "logs" / "ruq_good.igs.mha"};
     bench::Table table;
     gl::within_device("--configuration", "take fewer lines, samples or pixels", [&] {
-      table = frames->parsed()     ? bench::measure_frames(request)
-              : paper->parsed()    ? bench::measure_paper(request)
-              : division->parsed() ? bench::measure_work_divisions(request)
-              : filter->parsed()   ? bench::measure_filter()
-              : denormal->parsed() ? bench::measure_denormals(request)
-              : sweep->parsed()    ? bench::measure_sweep(request)
-              : batch->parsed()    ? bench::measure_batch(request)
-              : scoring->parsed()  ? bench::measure_scoring(exams)
-              : window->parsed()   ? bench::measure_window(sizes_of(window_sizes))
-                                   : bench::measure_front(request, svg);
+      table = frames->parsed()       ? bench::measure_frames(request)
+              : paper->parsed()      ? bench::measure_paper(request)
+              : division->parsed()   ? bench::measure_work_divisions(request)
+              : filter->parsed()     ? bench::measure_filter()
+              : denormal->parsed()   ? bench::measure_denormals(request)
+              : sweep->parsed()      ? bench::measure_sweep(request)
+              : batch->parsed()      ? bench::measure_batch(request)
+              : scoring->parsed()    ? bench::measure_scoring(exams)
+              : view->parsed()       ? bench::measure_view(request)
+              : view_front->parsed() ? bench::measure_view_front(request)
+              : window->parsed()     ? bench::measure_window(sizes_of(window_sizes))
+                                     : bench::measure_front(request, svg);
     });
     if (!csv.empty()) write_file(csv, table.csv());
     return 0;
