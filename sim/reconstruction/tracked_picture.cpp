@@ -3,8 +3,6 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <optional>
-#include <utility>
 
 namespace insonate {
 namespace {
@@ -27,6 +25,7 @@ std::vector<glm::dvec2> outline_of(const std::vector<PictureRegion::Span>& spans
   std::vector<glm::dvec2> outline;
   const auto begin = std::find_if(spans.begin(), spans.end(), [](const auto& s) { return s.begin < s.end; });
   const auto end = std::find_if(spans.rbegin(), spans.rend(), [](const auto& s) { return s.begin < s.end; }).base();
+  if (begin == spans.end()) return outline;
   const auto first = std::size_t(begin - spans.begin()), behind = std::size_t(end - spans.begin());
   for (std::size_t y = first; y < behind; ++y) {
     const PictureRegion::Span& span = spans[y];
@@ -37,29 +36,29 @@ std::vector<glm::dvec2> outline_of(const std::vector<PictureRegion::Span>& spans
   return outline;
 }
 
-std::shared_ptr<const PictureRegion> region_of(Image<std::uint8_t> inside) {
+}  // namespace
+
+std::shared_ptr<const PictureRegion> region_where(int width, int height,
+                                                  const std::function<bool(int x, int y)>& inside) {
   auto region = std::make_shared<PictureRegion>();
-  region->spans = spans_of(inside);
+  region->inside = Image<std::uint8_t>(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) region->inside.at(x, y) = inside(x, y);
+  region->spans = spans_of(region->inside);
   region->outline = outline_of(region->spans);
-  region->inside = std::move(inside);
   return region;
 }
 
-}  // namespace
-
 std::shared_ptr<const PictureRegion> fan_region(const Probe& probe, double depth_mm, const ImageGeometry& geometry) {
-  Image<std::uint8_t> inside(geometry.width, geometry.height);
-  for (int y = 0; y < inside.height; ++y)
-    for (int x = 0; x < inside.width; ++x)
-      inside.at(x, y) = line_position(probe, depth_mm, geometry.plane_mm(x, y)).has_value();
-  return region_of(std::move(inside));
+  return region_where(geometry.width, geometry.height, [&](int x, int y) {
+    return line_position(probe, depth_mm, geometry.plane_mm(x, y)).has_value();
+  });
 }
 
 std::shared_ptr<const PictureRegion> rectangle_region(int width, int height, const PixelRectangle& part) {
-  Image<std::uint8_t> inside(width, height);
-  for (int y = part.y; y < part.y + part.height; ++y)
-    for (int x = part.x; x < part.x + part.width; ++x) inside.at(x, y) = 1;
-  return region_of(std::move(inside));
+  return region_where(width, height, [&](int x, int y) {
+    return x >= part.x && y >= part.y && x < part.x + part.width && y < part.y + part.height;
+  });
 }
 
 glm::dmat4 patient_from_pixel(const Pose& patient_from_probe, const ImageGeometry& geometry) {

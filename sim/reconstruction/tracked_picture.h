@@ -4,6 +4,7 @@
 #include <glm/vec2.hpp>
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -31,6 +32,10 @@ struct PictureRegion {
 /// Returns the fan of a probe in a picture of that geometry: the pixels whose centres lie among the lines.
 /// @param depth_mm  0.1 to 1000
 std::shared_ptr<const PictureRegion> fan_region(const Probe& probe, double depth_mm, const ImageGeometry& geometry);
+
+/// Returns the part of a picture where `inside` returns true. Its outline is empty if that is nowhere.
+std::shared_ptr<const PictureRegion> region_where(int width, int height,
+                                                  const std::function<bool(int x, int y)>& inside);
 
 /// A rectangle of pixels.
 struct PixelRectangle {
