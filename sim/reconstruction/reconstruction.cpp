@@ -15,6 +15,8 @@ namespace insonate {
 namespace {
 
 constexpr float kMostSamples = 16384;
+/// Rounding alone decides whether a pixel that lies on a voxel's middle has such weights at the voxels beside it.
+constexpr float kLeastWeight = 1e-3f;
 /// Slabs along j that threads take. Their number does not affect results.
 constexpr int kSlabs = 16;
 
@@ -97,7 +99,7 @@ void Reconstruction::insert_slab(const TrackedPicture& picture, int first_j, int
 }
 
 inline void Reconstruction::insert(std::size_t at, float value, float weight) {
-  if (weight <= 0) return;
+  if (weight < kLeastWeight) return;
   Sum& sum = sums_[at];
   if (settings_.compounding != Compounding::mean && touched_by_[at] != pictures_) {
     if (touched_by_[at] != 0) before_[at] = value_at(at);
