@@ -227,6 +227,15 @@ void Keyboard::replay(const KeyEvent& pressed, Trainer& trainer, ui::Screen& scr
   }
 }
 
+void Keyboard::volume_page(const KeyEvent& pressed, Trainer& trainer, ui::Screen& screen) {
+  if (pressed.key == GLFW_KEY_UP) screen.volume_page().step(+1);
+  if (pressed.key == GLFW_KEY_DOWN) screen.volume_page().step(-1);
+  if (pressed.kind == KeyEvent::Kind::repeated) return;
+  if (pressed.key == GLFW_KEY_HOME) screen.volume_page().reset();
+  if (pressed.key == GLFW_KEY_S) trainer.save_swept();
+  if (pressed.key == GLFW_KEY_U) screen.toggle_volume(trainer);
+}
+
 void Keyboard::press(const KeyEvent& pressed, Trainer& trainer, ui::Screen& screen) {
   using ui::Overlay;
   if (open_page(pressed, trainer, screen)) return;
@@ -240,6 +249,7 @@ void Keyboard::press(const KeyEvent& pressed, Trainer& trainer, ui::Screen& scre
     if (!repeated) is_enter(pressed) ? screen.confirm(trainer) : screen.dismiss(trainer);
     return;
   }
+  if (overlay == Overlay::volume) return volume_page(pressed, trainer, screen);
   if (overlay != Overlay::none) return;
   if (pressed.key == GLFW_KEY_P && !repeated) return screen.save_picture(trainer);
   if (pressed.key == GLFW_KEY_L && !repeated) return screen.toggle_clip(trainer);
@@ -304,6 +314,12 @@ void Keyboard::press(const KeyEvent& pressed, Trainer& trainer, ui::Screen& scre
       break;
     case GLFW_KEY_M:
       if (!repeated) session.press(kEventMarkerButton);
+      break;
+    case GLFW_KEY_T:
+      if (!repeated) trainer.toggle_sweep();
+      break;
+    case GLFW_KEY_U:
+      if (!repeated) screen.toggle_volume(trainer);
       break;
     case GLFW_KEY_R:
       if (!repeated) trainer.recorder().running() ? trainer.stop_recording() : trainer.start_recording();

@@ -56,6 +56,15 @@ void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::
   }
   state["depth_unit"] = trainer.preferences().look.length_unit == LengthUnit::mm ? "mm" : "cm";
   state["clip"] = trainer.clip().running();
+  state["sweeping"] = trainer.sweep().running();
+  if (trainer.sweep().running()) state["sweep_pictures"] = trainer.sweep().quality().pictures;
+  if (trainer.swept()) {
+    const view::MprPlanes& planes = screen.volume_page().planes();
+    state["swept_pictures"] = trainer.swept()->quality.pictures;
+    state["swept_verdict"] = trainer.swept()->quality.verdict();
+    state["planes_turned_deg"] = planes.turned_deg();
+    for (int axis = 0; axis < 3; ++axis) state[std::string("planes_") + "xyz"[axis]] = planes.centre()[axis];
+  }
   state["camera_yaw_deg"] = trainer.pictures().camera.yaw_deg;
   state["camera_pitch_deg"] = trainer.pictures().camera.pitch_deg;
   if (const StartPage* page = trainer.start_page()) {

@@ -52,6 +52,7 @@ const std::vector<Key> kFiles{
     {"R", "record the run; end the recording"},
     {"P, L", "save the picture; begin and end a clip of it"},
 };
+const std::vector<Key> kSweep{{"T, U", "begin and end a sweep; see the volume of its pictures"}};
 const std::vector<Key> kWindow{
     {"F1, F3, F11", "this help; settings; full screen"},
 };
@@ -93,6 +94,7 @@ Help help_of(HelpTopic topic) {
                        {{"Escape", "give up what is being placed; else to the start page"},
                         {"G", "the guide: the way to the view; its use is in the report"}},
                        kFiles,
+                       kSweep,
                        {{"Ctrl O", "open a case, CT, scenario or recorded scan"},
                         {"F2", "choose a tracker, or set up the one in use"}},
                        kWindow})};

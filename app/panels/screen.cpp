@@ -90,6 +90,8 @@ const char* to_string(Overlay overlay) {
       return "open";
     case Overlay::leave:
       return "leave";
+    case Overlay::volume:
+      return "volume";
     case Overlay::briefing:
       return "briefing";
     case Overlay::score:
@@ -191,7 +193,8 @@ bool Screen::render(Trainer& trainer, FrameTimes* times) {
   if (times) times->end(FramePart::layout);
   const bool changed = canvas_.draw(*ImGui::GetDrawData(), colour::kBackground, [&](ImTextureID texture) {
     const GLuint name = GLuint(reinterpret_cast<std::uintptr_t>(texture));
-    return std::max(trainer.pictures().version_of(name), recorded_panel_.version_of(name));
+    return std::max(
+        {trainer.pictures().version_of(name), recorded_panel_.version_of(name), volume_page_.version_of(name)});
   });
   if (times) times->end(FramePart::window);
   capture(trainer, changed);
@@ -240,6 +243,7 @@ void Screen::draw_panels(Trainer& trainer) {
       draw_task_panel(theme_, task_, *session, trainer.picture_tools(), trainer.step_controls(), text_field_, places_);
     UltrasoundPanel::draw(theme_, ultrasound_, *session, pictures, trainer.picture_tools(), places_);
     space_.draw(theme_, volume_, session, pictures, places_);
+    if (trainer.swept() && session->shows_anatomy()) draw_swept_box(theme_, volume_, *trainer.swept(), pictures.camera);
     if (const std::optional<Guiding> guiding = trainer.guide().now(*session); guiding && guide_.h > 0) {
       draw_ghost(theme_, volume_, *guiding, pictures.camera);
       draw_guide_strip(theme_, guide_, *guiding, StepControls::active(*session));
@@ -297,9 +301,11 @@ Rect Screen::toast_place() const {
   return {around.x, around.y, around.w, around.h - theme_.px(56)};
 }
 
-/// A page that the person reads is not covered: the toast waits. While a clip is made it does not cover the ultrasound.
+/// A page that the person reads is not covered: the toast waits, unless that page is the swept volume's. While a clip
+/// is made it does not cover the ultrasound.
 void Screen::draw_toast(const Trainer& trainer) {
-  if (top_page() != Overlay::none && overlay(trainer) == top_page()) return toast_.wait();
+  const bool reads = top_page() != Overlay::none && top_page() != Overlay::volume;
+  if (reads && overlay(trainer) == top_page()) return toast_.wait();
   toast_is_aside_ = trainer.clip().running() && volume_.w > 0;
   const std::filesystem::path file = toast_.draw(theme_, toast_is_aside_ ? volume_ : toast_place(), places_);
   if (!file.empty()) open_on_desktop(file.parent_path());
@@ -313,6 +319,26 @@ void Screen::draw_record_button(Trainer& trainer, const Rect& where) {
               trainer.session() != nullptr, "Records every pose of the probe, for replay and scoring  (R)"))
     return;
   running ? trainer.stop_recording() : trainer.start_recording();
+}
+
+/// The button that begins and ends a sweep, and the one that shows its volume once there is one.
+void Screen::draw_sweep_buttons(Trainer& trainer, Rect& line) {
+  if (!trainer.session()) return;
+  const SweepRecorder& sweep = trainer.sweep();
+  const std::string text = sweep.running()          ? "Sweep " + clock_text(sweep.quality().duration_s)
+                           : sweep.reconstructing() ? "Sweep \u2026"
+                                                    : "Sweep";
+  places_["sweep"] = line.take_left(theme_.px(96)).inset(0, theme_.px(6));
+  line.take_left(theme_.px(8));
+  if (button(theme_, "sweep", places_["sweep"], text, sweep.running() ? ButtonKind::recording : ButtonKind::normal,
+             trainer.can_sweep(), "Begins and ends a sweep, whose pictures become a volume  (T)"))
+    trainer.toggle_sweep();
+  if (!trainer.swept()) return;
+  places_["volume"] = line.take_left(theme_.px(80)).inset(0, theme_.px(6));
+  line.take_left(theme_.px(8));
+  if (button(theme_, "volume", places_["volume"], "Volume", ButtonKind::normal, true,
+             "Shows the swept volume in three planes  (U)"))
+    toggle_volume(trainer);
 }
 
 void Screen::draw_status(Trainer& trainer) {
@@ -353,6 +379,7 @@ void Screen::draw_status(Trainer& trainer) {
            clip.running() ? ButtonKind::recording : ButtonKind::normal, clip.running() || can_save(trainer),
            "Begins and ends a film of the ultrasound, a WebM file  (L)"))
     toggle_clip(trainer);
+  draw_sweep_buttons(trainer, line);
   if (next("settings", 84, "Settings", ButtonKind::normal, true, "Text, marker, colours, folders  (F3)"))
     show_page(Overlay::settings);
   line.take_left(theme_.px(8));
@@ -364,6 +391,12 @@ void Screen::draw_status(Trainer& trainer) {
   }
   if (!trainer.calibration_warning().empty()) {
     draw_text(line, theme_.small_text, colour::kAmber, trainer.calibration_warning());
+    return;
+  }
+  if (trainer.sweep().running()) {
+    const SweepQuality quality = trainer.sweep().quality();
+    const std::string words = quality.flaws.empty() ? quality.verdict() : "Sweep: " + quality.flaws.back().words();
+    draw_text(line, theme_.small_text, quality.flaws.empty() ? colour::kMuted : colour::kAmber, words);
     return;
   }
   const std::string keys =
@@ -498,6 +531,7 @@ void Screen::dismiss(Trainer& trainer) {
     case Overlay::settings:
     case Overlay::open:
     case Overlay::leave:
+    case Overlay::volume:
       close_page();
       break;
     case Overlay::score:
@@ -522,6 +556,7 @@ void Screen::confirm(Trainer& trainer) {
     case Overlay::help:
     case Overlay::about:
     case Overlay::settings:
+    case Overlay::volume:
       return dismiss(trainer);
     case Overlay::open:
       return open_dialog_.confirm();
@@ -543,6 +578,7 @@ void Screen::go_on(Trainer& trainer) {
     case Overlay::settings:
     case Overlay::open:
     case Overlay::leave:
+    case Overlay::volume:
       return dismiss(trainer);
     case Overlay::loading:
     case Overlay::setup:
@@ -572,6 +608,11 @@ void Screen::step_on(Trainer& trainer) {
   if (question && question->is_typed() && !controls.can_answer()) return text_field_.open();
   text_field_.close();
   controls.go_on(*trainer.session());
+}
+
+void Screen::toggle_volume(const Trainer& trainer) {
+  if (!trainer.swept()) return tell("There is no swept volume yet: T begins a sweep and ends it");
+  toggle(Overlay::volume);
 }
 
 void Screen::toggle(Overlay page) {
@@ -670,6 +711,22 @@ void Screen::draw_overlay(Trainer& trainer) {
       if (const std::optional<bool> leaves = draw_leave(theme_, screen_, places_)) {
         close_page();
         if (*leaves) trainer.show_start_page();
+      }
+      break;
+    case Overlay::volume:
+      if (!trainer.swept()) {
+        close_page();
+        break;
+      }
+      switch (volume_page_.draw(theme_, screen_, trainer.swept(), places_)) {
+        case VolumeAnswer::none:
+          break;
+        case VolumeAnswer::close:
+          close_page();
+          break;
+        case VolumeAnswer::save:
+          trainer.save_swept();
+          break;
       }
       break;
     case Overlay::briefing:

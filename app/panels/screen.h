@@ -18,6 +18,7 @@
 #include "app/panels/task_panel.h"
 #include "app/panels/ultrasound_panel.h"
 #include "app/panels/views_panel.h"
+#include "app/panels/volume_page.h"
 #include "app/panels/widgets/text_field.h"
 #include "app/panels/widgets/theme.h"
 #include "app/panels/widgets/toast.h"
@@ -27,7 +28,7 @@
 namespace insonate::ui {
 
 /// What lies over the screen; the later ones wait while an earlier one is there.
-enum class Overlay { none, problem, loading, setup, help, about, settings, open, leave, briefing, score };
+enum class Overlay { none, problem, loading, setup, help, about, settings, open, leave, volume, briefing, score };
 
 /// Returns the overlay's name, as state files have it: "problem"; "" for none.
 const char* to_string(Overlay overlay);
@@ -70,6 +71,10 @@ public:
   void toggle(Overlay page);
   /// Opens the dialog that finds a file or folder.
   void ask_for_path(Wanted wanted = Wanted::anything);
+  /// Shows the page of the swept volume, or closes it; if there is none, tells how one is made.
+  void toggle_volume(const Trainer& trainer);
+  VolumePage& volume_page() { return volume_page_; }
+  const VolumePage& volume_page() const { return volume_page_; }
   /// Goes back to the start page. Asks first if steps would be left unfinished.
   void leave(Trainer& trainer);
   /// Closes the overlay without an answer, as Escape does.
@@ -112,6 +117,7 @@ private:
   void draw_overlay(Trainer& trainer);
   void draw_record_button(Trainer& trainer, const Rect& where);
   void draw_status(Trainer& trainer);
+  void draw_sweep_buttons(Trainer& trainer, Rect& line);
   void draw_start_page(Trainer& trainer);
   void draw_learners_page(Trainer& trainer);
   void draw_demonstration(Trainer& trainer);
@@ -138,12 +144,14 @@ private:
   std::string device_;
   SpacePanel space_;
   RecordedPanel recorded_panel_;
+  VolumePage volume_page_;
   OpenDialog open_dialog_;
   TextField text_field_;
   StartPanel start_panel_;
   LearnersPanel learners_panel_;
   Toast toast_;
-  std::vector<Overlay> pages_;  ///< what the person asked for, the topmost last: help, about, settings, open or leave
+  std::vector<Overlay>
+      pages_;  ///< what the person asked for, the topmost last: help, about, settings, open, leave or volume
   bool fonts_are_new_ = false, saves_picture_ = false, toast_is_aside_ = false;
   const ExamResult* closed_sheet_of_ = nullptr;
   double pictures_per_second_ = 0;

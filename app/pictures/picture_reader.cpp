@@ -9,8 +9,15 @@ void PictureReader::ask(const Session& session, const Pictures& pictures) {
   if (!pictures.ultrasound() || !session.shown_pose() || version == asked_version_ || readback_.full()) return;
   asked_version_ = version;
   readback_.begin(*pictures.ultrasound());
-  asked_.push_back(
-      {{}, pictures.geometry(), *session.shown_pose(), session.source().clock_s(session.now_s()), session.attempt()});
+  const Machine& machine = session.machine();
+  DrawnPicture& picture = asked_.emplace_back();
+  picture.geometry = pictures.geometry();
+  picture.patient_from_probe = *session.shown_pose();
+  picture.time_s = session.source().clock_s(session.now_s());
+  picture.attempt = session.attempt();
+  picture.probe = machine.probe;
+  picture.depth_mm = machine.depth_mm;
+  picture.frozen = machine.frozen;
 }
 
 std::optional<DrawnPicture> PictureReader::take(bool wait) {

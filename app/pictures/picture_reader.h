@@ -2,6 +2,7 @@
 
 #include <deque>
 #include <optional>
+#include <string>
 
 #include "app/pictures/pictures.h"
 #include "app/session/session.h"
@@ -17,6 +18,9 @@ struct DrawnPicture {
   Pose patient_from_probe;
   double time_s = 0;  ///< on the clock of the session's source
   int attempt = 0;    ///< of the session
+  std::string probe;  ///< its name
+  double depth_mm = 0;
+  bool frozen = false;  ///< it was drawn anew although it is frozen, as for another gain
 };
 
 /// Reads the ultrasound back, each picture once and without waiting for the graphics card. Needs its OpenGL context

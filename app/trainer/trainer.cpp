@@ -26,9 +26,9 @@ std::string patient_of(const CaseSource& source) {
   return "the built-in patient";
 }
 
-/// Returns the name of a picture or clip that is begun now, without its ending.
-std::filesystem::path name_of_saved(const std::filesystem::path& out) {
-  return out / "pictures" / file_time(now_since_1970_ms());
+/// Returns the name of a picture, clip or volume that is begun now, without its ending.
+std::filesystem::path name_of_saved(const std::filesystem::path& out, const char* folder = "pictures") {
+  return out / folder / file_time(now_since_1970_ms());
 }
 
 gl::ShaderSources shaders_of(const Options& options) {
@@ -273,6 +273,8 @@ void Trainer::show(std::shared_ptr<const LoadedCase> loaded_case, const Request&
     keep_look();
     gl::upload_ct(patient_of(request.source), loaded_case->subject.ct.grid, [&] { pictures_.show(*loaded_case); });
     guide_.forget_made();
+    sweep_.stop();
+    swept_.reset();
   }
   loaded_case_ = std::move(loaded_case);
   current_ = request;
@@ -288,6 +290,7 @@ void Trainer::update(double now_s) {
     reload_shaders();
   }
   notice_recordings();
+  notice_sweep();
   const bool setting_up = setup() != nullptr;
   std::visit([&](auto& mode) { update(mode, now_s); }, mode_);
   // A session that a finished set-up has begun is advanced before it is drawn.
@@ -351,17 +354,46 @@ void Trainer::draw(const PictureSizes& sizes, const Effort& effort) {
 }
 
 void Trainer::show_pictures() {
-  const bool clients = feed_ && !session()->strict() && feed_->wants_pictures(), recording = recorder_.wants_pictures();
-  if ((clients && !clients_) || (recording && !records_pictures_)) reader_.ask_again();
+  const bool clients = feed_ && !session()->strict() && feed_->wants_pictures(), recording = recorder_.wants_pictures(),
+             sweeping = sweep_.running();
+  if ((clients && !clients_) || (recording && !records_pictures_) || (sweeping && !sweeps_)) reader_.ask_again();
   clients_ = clients;
   records_pictures_ = recording;
-  if (!clients && !recording) return reader_.forget();
+  sweeps_ = sweeping;
+  if (!clients && !recording && !sweeping) return reader_.forget();
   reader_.ask(*session(), pictures_);
   // Without a window nobody sees a frame that takes longer, and every picture counts.
   while (const std::optional<DrawnPicture> picture = reader_.take(options_.headless)) {
     if (clients) feed_->show(*picture);
     recorder_.take(*picture);
+    sweep_.take(*picture);
   }
+}
+
+void Trainer::toggle_sweep() {
+  if (!can_sweep()) return;
+  if (sweep_.running()) return sweep_.stop();
+  sweep_case_ = loaded_case_;
+  sweep_.start();
+}
+
+void Trainer::notice_sweep() {
+  if (sweep_.running() && !session()) sweep_.stop();
+  attempt([&] {
+    std::shared_ptr<const SweptVolume> finished = sweep_.take_finished();
+    if (!finished || sweep_case_ != loaded_case_) return;
+    swept_ = std::move(finished);
+    notices_.push_back({"The swept volume is made: U shows it", {}});
+  });
+}
+
+void Trainer::save_swept() {
+  if (!swept_) return;
+  attempt([&] {
+    const std::filesystem::path file = free_path(name_of_saved(options_.out, "volumes"), ".nrrd");
+    write_swept(file, *swept_);
+    notices_.push_back({"Saved " + std::filesystem::absolute(file).string(), file});
+  });
 }
 
 void Trainer::start_recording() {

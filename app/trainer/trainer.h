@@ -15,6 +15,7 @@
 #include "app/recording/clip_recorder.h"
 #include "app/recording/results.h"
 #include "app/recording/run_recorder.h"
+#include "app/recording/sweep_recorder.h"
 #include "app/replay/replay_source.h"
 #include "app/session/guide.h"
 #include "app/session/loaded_case.h"
@@ -153,6 +154,15 @@ public:
   void start_clip();
   ClipRecorder& clip() { return clip_; }
   const ClipRecorder& clip() const { return clip_; }
+  /// Begins a sweep, whose live pictures become a volume, or ends it. Does nothing where can_sweep() is false.
+  void toggle_sweep();
+  /// Returns whether a sweep can be begun or ended: not in an exam that counts, nor while one is reconstructed.
+  bool can_sweep() const { return session() && !session()->strict() && !sweep_.reconstructing(); }
+  const SweepRecorder& sweep() const { return sweep_; }
+  /// Returns the volume of the last sweep over the patient that is shown; nullptr if there is none.
+  const std::shared_ptr<const SweptVolume>& swept() const { return swept_; }
+  /// Writes that volume under the time in UTC to the folder "volumes" of the results. A notice names the file.
+  void save_swept();
   /// Returns the last file with the tracker's bytes; empty if they are not recorded.
   std::filesystem::path raw_file() const { return raw_ ? raw_->file() : std::filesystem::path(); }
 
@@ -294,6 +304,7 @@ private:
   void make_start_page();
   void serve();
   void notice_recordings();
+  void notice_sweep();
   void keep_and_report();
   void show_pictures();
 
@@ -321,10 +332,13 @@ private:
   PictureReader reader_;
   RunRecorder recorder_;
   ClipRecorder clip_;
-  bool recorded_ = false;                            ///< to the command line's file
-  std::shared_ptr<const RawRecorder> raw_;           ///< of the newest session; nullptr when nobody asked for it
-  bool clients_ = false, records_pictures_ = false;  ///< who wanted pictures at the last frame
-  std::unique_ptr<IgtlFeed> feed_;                   ///< nullptr when no clients are asked for
+  SweepRecorder sweep_;
+  std::shared_ptr<const LoadedCase> sweep_case_;  ///< that the sweep is over
+  std::shared_ptr<const SweptVolume> swept_;
+  bool recorded_ = false;                   ///< to the command line's file
+  std::shared_ptr<const RawRecorder> raw_;  ///< of the newest session; nullptr when nobody asked for it
+  bool clients_ = false, records_pictures_ = false, sweeps_ = false;  ///< who wanted pictures at the last frame
+  std::unique_ptr<IgtlFeed> feed_;                                    ///< nullptr when no clients are asked for
   std::optional<ResultFiles> result_files_;
   std::optional<LearnersChoice> reviewed_;  ///< on the page of learners, from which the replay was begun
   bool covered_ = false;

@@ -1,5 +1,7 @@
 #include "tools/cli/pose_file.h"
 
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -106,21 +108,27 @@ std::vector<double> numbers_of_json(const std::string& file, const std::string& 
   return numbers;
 }
 
-}  // namespace
-
-std::vector<Pose> read_poses(const std::string& file) {
+std::vector<glm::dmat4> read_matrices(const std::string& file) {
   const std::string text = read_file(file, 1u << 24);
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   const bool is_json = first != std::string::npos && (text[first] == '[' || text[first] == '{');
   const std::vector<double> numbers = is_json ? numbers_of_json(file, text) : numbers_of_text(file, text);
   if (numbers.empty() || numbers.size() % kNumbers != 0)
     throw InputError(file, "", "there are " + std::to_string(numbers.size()) + " numbers, not 16 for a pose", kWanted);
+  std::vector<glm::dmat4> matrices(numbers.size() / kNumbers);
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    matrices[i / kNumbers][int(i % 4)][int(i % kNumbers / 4)] = numbers[i];
+  return matrices;
+}
+
+}  // namespace
+
+std::vector<Pose> read_poses(const std::string& file) {
+  const std::vector<glm::dmat4> matrices = read_matrices(file);
   std::vector<Pose> poses;
-  for (std::size_t pose = 0; pose < numbers.size(); pose += kNumbers) {
-    glm::dmat4 matrix;
-    for (int i = 0; i < 16; ++i) matrix[i % 4][i / 4] = numbers[pose + std::size_t(i)];
+  for (const glm::dmat4& matrix : matrices) {
     if (const auto why = why_not_rigid(matrix))
-      throw InputError(file, numbers.size() > kNumbers ? "pose " + std::to_string(pose / kNumbers + 1) : "", *why,
+      throw InputError(file, matrices.size() > 1 ? "pose " + std::to_string(poses.size() + 1) : "", *why,
                        "give a rotation and a translation in mm");
     poses.push_back(pose_from_matrix(matrix));
   }
@@ -132,6 +140,25 @@ Pose read_pose(const std::string& file) {
   if (poses.size() != 1)
     throw InputError(file, "", "there are " + std::to_string(poses.size()) + " poses, not one", "keep one of them");
   return poses.front();
+}
+
+glm::dmat4 read_image_matrix(const std::string& file) {
+  constexpr double kMostShear = 0.01, kLeastPixel_mm = 1e-3, kMostPixel_mm = 10;
+  const std::vector<glm::dmat4> matrices = read_matrices(file);
+  const char* const remedy = "give the matrix ImageToProbe of the probe's calibration, in mm per pixel";
+  if (matrices.size() != 1)
+    throw InputError(file, "", "there are " + std::to_string(matrices.size()) + " matrices, not one", remedy);
+  const glm::dmat4& matrix = matrices.front();
+  const glm::dvec3 column(matrix[0]), row(matrix[1]);
+  for (const glm::dvec3& step : {column, row})
+    if (!(glm::length(step) >= kLeastPixel_mm && glm::length(step) <= kMostPixel_mm))
+      throw InputError(file, "", "a pixel is not from 0.001 mm to 10 mm large", remedy);
+  if (std::abs(glm::dot(column, row)) > kMostShear * glm::length(column) * glm::length(row))
+    throw InputError(file, "", "the image's rows and columns are not perpendicular", remedy);
+  const glm::dvec3 origin(matrix[3]);
+  if (glm::length(origin) > kTrackerRangeMm || glm::transpose(matrix)[3] != glm::dvec4(0, 0, 0, 1))
+    throw InputError(file, "", "the last row is not 0 0 0 1, or the translation is too large", remedy);
+  return matrix;
 }
 
 }  // namespace insonate

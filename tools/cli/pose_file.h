@@ -1,5 +1,7 @@
 #pragma once
 
+#include <glm/mat4x4.hpp>
+
 #include <string>
 #include <vector>
 
@@ -15,5 +17,10 @@ std::vector<Pose> read_poses(const std::string& file);
 
 /// Reads a file with exactly one pose. Throws InputError for any other number.
 Pose read_pose(const std::string& file);
+
+/// Reads the matrix of one image in the same way: it maps (column, row, 0), the centre of a pixel, to mm in the probe's
+/// frame, as PLUS's ImageToProbe does. Throws InputError if it is not one matrix with perpendicular rows and columns
+/// and pixels of 0.001 mm to 10 mm.
+glm::dmat4 read_image_matrix(const std::string& file);
 
 }  // namespace insonate

@@ -26,6 +26,7 @@
 #include "tools/render/stage_description.h"
 #include "tools/render/stage_files.h"
 #include "tools/render/stages.h"
+#include "tools/render/sweep_log.h"
 #include "tools/render/wein.h"
 
 using namespace insonate;
@@ -57,6 +58,31 @@ struct Rendered {
   Stages<float> stages;
   std::string made_by;
 };
+
+Insertion insertion_named(const std::string& name) {
+  return name == to_string(Insertion::nearest) ? Insertion::nearest : Insertion::trilinear;
+}
+
+Compounding compounding_named(const std::string& name) {
+  for (const Compounding each : {Compounding::maximum, Compounding::latest})
+    if (name == to_string(each)) return each;
+  return Compounding::mean;
+}
+
+/// Writes the volume, and prints how well it was swept.
+void write_reconstructed(const std::string& file, const std::string& known_file, const ReconstructedLog& made) {
+  write_labels(file, made.volume.grey);
+  if (!known_file.empty()) write_labels(known_file, made.volume.known);
+  const SweepQuality& quality = made.quality;
+  if (made.has_times) {
+    std::printf("%s\n", quality.verdict().c_str());
+    for (const SweepFlaw& flaw : quality.flaws) std::printf("  %s\n", flaw.words().c_str());
+  } else {
+    std::printf("%zu pictures without times, up to %.1f mm apart.\n", quality.pictures, quality.largest_spacing_mm);
+  }
+  if (made.left_out > 0) std::printf("Frames without a pose, left out: %zu.\n", made.left_out);
+  if (!made.remark.empty()) std::printf("%s\n", made.remark.c_str());
+}
 
 constexpr double kLeastDepth_mm = 10, kMostDepth_mm = 400;
 
@@ -117,6 +143,11 @@ int main(int argc, char** argv) {
   std::string subject_path, view_name, pose_file, probe_name = "curvilinear", model = "S", settings_file, stages_folder,
                                                   out;
   std::string freehand_file, quality_name = name_of(Quality::balanced);
+  std::string log_file, image_matrix_file, known_file, insertion = "trilinear", compounding = "mean";
+  std::vector<int> clip;
+  SweepLogSettings log;
+  // Options of pictures that --sweep-log takes too.
+  const std::vector<std::string> shared{"--help", "--probe", "--depth", "--voxel"};
   double depth_mm = 0, sweep_deg = 0, voxel_mm = 1;
   std::optional<double> pivot_mm;
   int planes = 64;
@@ -196,9 +227,56 @@ int main(int argc, char** argv) {
   for (CLI::Option* of_volume : {sweep, freehand})
     for (CLI::Option* of_picture : {stages_option, reference_flag}) of_volume->excludes(of_picture);
   freehand->excludes(sweep);
+  CLI::Option* sweep_log =
+      arguments
+          .add_option("--sweep-log", log_file,
+                      "Write a volume of the images that this recording of a swept probe holds (PLUS, 3D Slicer, or "
+                      "insonate --record-images): an NRRD of grey levels from 0 to 255, 0 where nothing was seen. Says "
+                      "how evenly the probe was swept. --depth takes only the fan of --probe")
+          ->type_name("LOG");
+  std::vector<CLI::Option*> of_log{
+      arguments.add_option("--transform", log.transform, "Take this transform of the recording for the probe's pose")
+          ->type_name("NAME")
+          ->default_str("ProbeToPatient, or a path to it"),
+      arguments
+          .add_option("--image-to-probe", image_matrix_file,
+                      "Read how the images lie in the probe's frame from this file: 16 numbers by rows, mm per pixel")
+          ->type_name("FILE")
+          ->default_str("the recording's own"),
+      arguments.add_option("--clip", clip, "Take only this part of the images, pixels")
+          ->type_name("X,Y,WIDTH,HEIGHT")
+          ->delimiter(',')
+          ->expected(4)
+          ->default_str("all of them"),
+      arguments.add_option("--insertion", insertion, "Insert each pixel into one voxel, or into the eight around it")
+          ->check(CLI::IsMember({"nearest", "trilinear"}))
+          ->capture_default_str(),
+      arguments.add_option("--compounding", compounding, "Take this of several pictures at one voxel")
+          ->check(CLI::IsMember({"mean", "maximum", "latest"}))
+          ->capture_default_str(),
+      arguments
+          .add_option("--hole-radius", log.reconstruction.hole_radius_mm,
+                      "Fill holes between measured voxels that are up to twice this far apart, mm; 0 fills none")
+          ->check(CLI::Range(0.0, 20.0))
+          ->capture_default_str(),
+      arguments
+          .add_option("--beam-width", log.beam_mm,
+                      "Call a sweep uneven where its pictures are farther apart than this width of the beam, mm")
+          ->check(CLI::Range(0.1, 20.0))
+          ->capture_default_str(),
+      arguments
+          .add_option("--known", known_file,
+                      "Write this NRRD too: 2 where a picture shows the voxel, 1 where it was filled, else 0")
+          ->type_name("FILE"),
+  };
+  for (CLI::Option* option : of_log) option->needs(sweep_log);
+  for (CLI::Option* other : arguments.get_options())
+    if (other != sweep_log && std::find(of_log.begin(), of_log.end(), other) == of_log.end() &&
+        std::find(shared.begin(), shared.end(), other->get_name()) == shared.end())
+      sweep_log->excludes(other);
   arguments
       .add_option("IMAGE", out,
-                  "Write this PNG, with the probe's marker on its left, as clinics show it; for a sweep, this NRRD")
+                  "Write this PNG, with the probe's marker on its left, as clinics show it; for a volume, this NRRD")
       ->type_name("FILE")
       ->required();
 
@@ -220,11 +298,24 @@ int main(int argc, char** argv) {
     for (const CLI::Option* of_model_s : {quality, gain, sweep, freehand})
       if (model == "W" && *of_model_s)
         throw InputError(of_model_s->get_name(), "", "model W has no such thing", "leave it out or take --model S");
-    const bool to_volume = *sweep || *freehand;
+    const bool to_volume = *sweep || *freehand || *sweep_log;
     const std::string ending = to_volume ? ".nrrd" : ".png";
     if (std::filesystem::path(out).extension() != ending)
       throw InputError(out, "", to_volume ? "a sweep is written as NRRD" : "a picture is written as PNG",
                        "name a file that ends in " + ending);
+    if (*sweep_log) {
+      if (!known_file.empty() && std::filesystem::path(known_file).extension() != ".nrrd")
+        throw InputError(known_file, "", "a volume is written as NRRD", "name a file that ends in .nrrd");
+      if (!image_matrix_file.empty()) log.probe_from_pixel = read_image_matrix(image_matrix_file);
+      if (!clip.empty()) log.clip = {clip[0], clip[1], clip[2], clip[3]};
+      if (depth_mm > 0) log.probe = *probe;
+      log.depth_mm = depth_mm;
+      log.voxel_mm = voxel_mm;
+      log.reconstruction.insertion = insertion_named(insertion);
+      log.reconstruction.compounding = compounding_named(compounding);
+      write_reconstructed(out, known_file, reconstruct_log(log_file, log));
+      return;
+    }
     // The patient is read last, because it may take a minute to build.
     std::vector<Pose> by_hand;
     if (*freehand)

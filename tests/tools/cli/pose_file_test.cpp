@@ -41,3 +41,12 @@ TEST_CASE("a pose file that cannot be used is refused with the place of what is 
                     Catch::Contains("two.json: there are 2 poses, not one; keep one of them"));
   CHECK(read_pose(folder.put("one.json", kRows).string()).translation.y == 9);
 }
+
+TEST_CASE("the matrix of an image is read by rows") {
+  const TemporaryFolder folder;
+  const std::string file = folder.put("image.txt", "0 0.2 0 11\n-0.2 0 0 50\n0 0 0.2 3\n0 0 0 1\n").string();
+  const glm::dmat4 matrix = read_image_matrix(file);
+  CHECK(matrix[0] == glm::dvec4(0, -0.2, 0, 0));
+  CHECK(matrix[1] == glm::dvec4(0.2, 0, 0, 0));
+  CHECK(matrix[3] == glm::dvec4(11, 50, 3, 1));
+}

@@ -1,0 +1,69 @@
+#!/usr/bin/env bash
+# A sweep in a real window becomes a volume: begun and ended by key and button, shown in three planes, saved.
+#   window_sweep_test.sh PROGRAM ASSETS_FOLDER
+. "$(dirname "$0")/window_session.sh"
+water "$work/water.mha"
+start_trainer --ct "$work/water.mha"
+at_least() { awk -v a="$(value "$1")" -v b="$2" 'BEGIN { exit !(a >= b) }'; }
+
+echo "without a sweep there is nothing to see"
+await "the session is shown" is activity practice
+await "a pose is there" is_not face_x ""
+xdotool key u
+await "a sentence says how a volume is made" contains toast "no swept volume"
+[ -z "$(value overlay)" ] || fail "a page is open: $(value overlay)"
+
+echo "T begins a sweep, the probe slides, the button ends it"
+remember_probe
+xdotool key t
+await "the sweep runs" is sweeping true
+xdotool keydown Up
+await "the probe slides" far_enough
+sleep 1
+xdotool keyup Up
+await "pictures are taken" at_least sweep_pictures 3
+click_on sweep
+await "the sweep ends" is sweeping false
+await "the volume is made" at_least swept_pictures 3
+
+echo "the button shows the volume, and planes follow the mouse"
+await "the button is there" is_not volume_x ""
+click_on volume
+await "the page is open" is overlay volume
+await "its planes are there" is_not plane_imaging_x ""
+await "nothing changes any more" shows_nothing
+px=$(value planes_x) py=$(value planes_y) pz=$(value planes_z)
+shot "$work/face.png" plane_face 4
+click "$(($(middle_x plane_imaging) + 20))" "$(($(middle_y plane_imaging) + 30))"
+plane_moved() { moved planes_x "$px" 0.5 || moved planes_y "$py" 0.5 || moved planes_z "$pz" 0.5; }
+await "the point follows a click" plane_moved
+await "nothing changes any more" shows_nothing
+shot "$work/face_moved.png" plane_face 4
+pixels=$(different "$work/face.png" "$work/face_moved.png")
+[ "$pixels" -gt 200 ] || fail "the plane parallel to the face is the same: $pixels pixels changed"
+pointer_to "$(($(middle_x plane_imaging) + 120))" "$(($(middle_y plane_imaging) + 30))"
+sleep 0.3
+xdotool mousedown 3
+sleep 0.3
+pointer_to "$(($(middle_x plane_imaging) + 110))" "$(($(middle_y plane_imaging) + 80))"
+sleep 0.3
+xdotool mouseup 3
+await "a drag with the right button turns the planes" at_least planes_turned_deg 5
+xdotool key Home
+await "Home turns them back" is planes_turned_deg 0.0
+is planes_x "$px" || fail "the point is elsewhere: $px, $(value planes_x)"
+
+echo "S saves the volume, Escape goes back to the scan"
+xdotool key s
+await "a message names the file" contains toast "Saved"
+saved() { [ "$(find "$work/out/volumes" -name "*.nrrd" 2>/dev/null | wc -l)" = 2 ]; }
+await "the files are there" saved
+grep -aq "space directions" "$work"/out/volumes/*Z.nrrd || fail "the volume has no directions"
+xdotool key Escape
+await "the page is closed" is overlay ""
+is activity practice || fail "the session was left"
+xdotool key u
+await "U opens it again" is overlay volume
+xdotool key u
+await "and closes it" is overlay ""
+echo "passed"
