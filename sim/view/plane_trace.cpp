@@ -29,13 +29,19 @@ std::optional<PixelLine> clipped(const glm::dvec2& at, const glm::dvec2& directi
 }  // namespace
 
 std::vector<glm::dvec2> fan_outline(const Probe& probe, double depth_mm, int lines) {
+  // A scan line runs in the middle of its share of the fan, so the first and the last are at the fan's edges only where
+  // there are many.
+  constexpr int kFiner = 32;
   Probe sampled = probe;
-  sampled.lines = lines;
+  sampled.lines = kFiner * (lines - 1) + 1;
   const ScanLines fan = scan_lines(sampled, depth_mm, 1);
-  std::vector<glm::dvec2> outline;
-  for (const ScanLine& line : fan.lines) outline.emplace_back(line.start);
-  for (auto line = fan.lines.rbegin(); line != fan.lines.rend(); ++line)
-    outline.emplace_back(line->start + fan.r_max_mm * line->direction);
+  std::vector<glm::dvec2> outline, far_end;
+  for (std::size_t i = 0; i < fan.lines.size(); i += kFiner) {
+    const ScanLine& line = fan.lines[i];
+    outline.emplace_back(line.start);
+    far_end.emplace_back(line.start + fan.r_max_mm * line.direction);
+  }
+  outline.insert(outline.end(), far_end.rbegin(), far_end.rend());
   return outline;
 }
 

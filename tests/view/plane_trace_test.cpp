@@ -51,7 +51,7 @@ TEST_CASE("An axial plane crosses a coronal slice along the face's width") {
   REQUIRE(trace.in_fan.size() == 1);
   CHECK(trace.in_fan[0][0].y == Approx(200));
   const double width_mm = 0.5 * std::abs(trace.in_fan[0][0].x - trace.in_fan[0][1].x);
-  CHECK(width_mm == Approx(linear().width_mm).epsilon(0.05));
+  CHECK(width_mm == Approx(linear().width_mm).epsilon(0.002));
 }
 
 TEST_CASE("A slice above a curved face crosses the fan twice, or not at all") {
