@@ -3,6 +3,7 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "app/panels/guide_layer.h"
 #include "app/panels/open_on_desktop.h"
 #include "app/panels/replay/replay_page.h"
+#include "app/panels/space_lines.h"
 #include "app/panels/ultrasound_panel.h"
 #include "sim/core/files.h"
 #include "sim/gl/headless_context.h"
@@ -45,7 +47,8 @@ Screen::~Screen() = default;
 void Screen::lay_out(const Trainer& trainer, float width, float height) {
   screen_ = {0, 0, width, height};
   if (trainer.start_page() || trainer.learners_page()) {
-    ultrasound_ = {};
+    views_.clear();
+    large_.reset();
     return places_.clear();
   }
   const float gap = theme_.px(8);
@@ -72,37 +75,32 @@ void Screen::lay_out(const Trainer& trainer, float width, float height) {
   }
   console_ = rest.take_bottom(theme_.px(trainer.replay() ? 272 : 120));  // a replay has charts below its time line
   rest.take_bottom(gap);
-  // The ultrasound comes first. The other views get a third of the width, and at most what makes them square. On a wide
-  // screen the height limits a fan, which is at most 1.5 times as wide as high: they get the width that it leaves.
-  float others = std::min(rest.w * 0.35f, rest.h * (trainer.replay() ? 1.0f : 0.82f));
-  if (!trainer.replay()) others = std::max(others, std::min(rest.w * 0.45f, rest.w - gap - rest.h * 1.5f));
-  Rect side = rest.take_right(std::round(others));
-  rest.take_right(gap);
-  recorded_ = {};
-  if (trainer.replay() && trainer.replay()->run().images) {
-    recorded_ = rest.take_right(std::floor((rest.w - gap) / 2));
-    rest.take_right(gap);
-    rest.w = recorded_.w;  // equal sizes give both the same scale
-  }
-  ultrasound_ = rest;
-  places_ = {{"ultrasound", ultrasound_}, {"console", console_}, {"exam", top_}};
-  if (recorded_.w > 0) places_["recorded"] = recorded_;
-  if (trainer.session() && !trainer.session()->shows_anatomy()) {
-    places_["space"] = volume_ = side;
-    return;
-  }
-  places_["space"] = volume_ = side.take_top(std::round(side.h * 0.58f));
-  side.take_top(gap);
-  places_["slice"] = slice_ = side.take_left(std::round((side.w - gap) / 2));
-  side.take_left(gap);
-  places_["blend"] = blend_ = side;
+  const bool anatomy = !trainer.session() || trainer.session()->shows_anatomy();
+  const bool recorded = trainer.replay() && trainer.replay()->run().images;
+  views_ = ui::lay_out({trainer.preferences().look.layout, large_}, rest, gap,
+                       {anatomy, recorded, trainer.replay() != nullptr});
+  places_ = {{"console", console_}, {"exam", top_}};
+  for (const auto& [view, rect] : views_) places_[name_of(view)] = rect;
 }
 
 PictureSizes Screen::picture_sizes(const Trainer& trainer, float width, float height) {
   if (theme_.fit(width, height, trainer.preferences().look)) fonts_are_new_ = true;
   lay_out(trainer, width, height);
-  const Rect ultrasound = UltrasoundPanel::picture_area(theme_, ultrasound_);
-  return {int(ultrasound.w), int(ultrasound.h), int(volume_.w), int(volume_.h), int(slice_.w), int(slice_.h)};
+  const auto size = [&](View view) { return glm::ivec2(place(view).w, place(view).h); };
+  // A hidden ultrasound is drawn for the view that is large: the blend contains it.
+  const Rect ultrasound = UltrasoundPanel::picture_area(
+      theme_, place(View::ultrasound).w > 0 || views_.empty() ? place(View::ultrasound) : views_.begin()->second);
+  const glm::ivec2 volume = size(View::space), slice = size(View::slice), blend = size(View::blend);
+  return {int(ultrasound.w), int(ultrasound.h), volume.x,
+          volume.y,          slice.x,           slice.y,
+          blend.x,           blend.y,           {size(View::axial), size(View::coronal), size(View::sagittal)}};
+}
+
+void Screen::choose(LayoutName layout, Trainer& trainer) {
+  large_.reset();
+  Preferences preferences = trainer.preferences();
+  preferences.look.layout = layout;
+  trainer.prefer(preferences);
 }
 
 bool Screen::render(Trainer& trainer, FrameTimes* times) {
@@ -135,8 +133,8 @@ void Screen::capture(Trainer& trainer, bool changed) {
   if (!can_save(trainer)) saves_picture_ = false;
   if (!(saves_picture_ || (clip && changed)) || !can_save(trainer)) return;
   if (toast_.left_s() > 0 && !toast_is_aside_) return toast_.hide();  // which uncovers the picture in the next frame
-  const Image<Rgba8> picture = canvas_.read(
-      {int(ultrasound_.x), int(ultrasound_.y), int(ultrasound_.x + ultrasound_.w), int(ultrasound_.y + ultrasound_.h)});
+  const Rect seen = place(View::ultrasound);
+  const Image<Rgba8> picture = canvas_.read({int(seen.x), int(seen.y), int(seen.x + seen.w), int(seen.y + seen.h)});
   if (clip) trainer.clip().take(picture, ImGui::GetTime());
   if (std::exchange(saves_picture_, false)) trainer.save_picture(picture);
 }
@@ -150,7 +148,7 @@ void Screen::toggle_clip(Trainer& trainer) {
 
 bool Screen::can_save(const Trainer& trainer) const {
   return (trainer.session() || trainer.replay()) && overlay(trainer) == Overlay::none &&
-         trainer.pictures().ultrasound();
+         trainer.pictures().ultrasound() && place(View::ultrasound).w > 0;
 }
 
 void Screen::draw_panels(Trainer& trainer) {
@@ -160,42 +158,15 @@ void Screen::draw_panels(Trainer& trainer) {
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                    ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav |
                    ImGuiWindowFlags_NoScrollWithMouse);
-  if (Session* session = trainer.session()) {
-    Pictures& pictures = trainer.pictures();
-    draw_exam_panel(theme_, top_, *session, trainer.author() != nullptr);
-    if (strip_.h > 0) draw_demonstration(trainer);
-    if (!trainer.session()) return ImGui::End();  // it was left
-    if (trainer.author())
-      draw_author_panel(theme_, task_, trainer, text_field_, places_);
-    else if (task_.h > 0)
-      draw_task_panel(theme_, task_, *session, trainer.picture_tools(), trainer.step_controls(), text_field_, places_);
-    UltrasoundPanel::draw(theme_, ultrasound_, *session, pictures, trainer.picture_tools(), places_);
-    space_.draw(theme_, volume_, session, pictures, places_);
-    if (const std::optional<Guiding> guiding = trainer.guide().now(*session); guiding && guide_.h > 0) {
-      draw_ghost(theme_, volume_, *guiding, pictures.camera);
-      draw_guide_strip(theme_, guide_, *guiding, StepControls::active(*session));
-      places_["guide"] = guide_;
-    }
-    if (session->shows_anatomy()) {
-      draw_slice_panel(theme_, slice_, pictures);
-      draw_blend_panel(theme_, blend_, pictures);
-    }
-    const auto attempt = [&](const std::function<void()>& action) { trainer.attempt(action); };
-    switch (draw_console_panel(theme_, console_, *session, attempt, places_)) {
-      case ConsoleRequest::help:
-        show_page(Overlay::help);
-        break;
-      case ConsoleRequest::open:
-        ask_for_path();
-        break;
-      case ConsoleRequest::none:
-        break;
-    }
+  if (trainer.session()) {
+    draw_session(trainer);
   } else if (trainer.replay()) {
-    draw_replay_page(theme_, {top_, ultrasound_, recorded_, volume_, console_}, trainer, space_, recorded_panel_,
-                     places_);
-    draw_slice_panel(theme_, slice_, trainer.pictures());
-    draw_blend_panel(theme_, blend_, trainer.pictures());
+    const std::optional<View> double_clicked =
+        draw_replay_page(theme_, {top_, place(View::ultrasound), place(View::recorded), place(View::space), console_},
+                         trainer, space_, recorded_panel_, places_, [&] { draw_names_button(trainer); });
+    draw_space_lines(trainer);
+    draw_ct_views(trainer, nullptr);
+    if (double_clicked) enlarge(*double_clicked);
   } else if (trainer.start_page()) {
     draw_start_page(trainer);
     return ImGui::End();
@@ -204,10 +175,102 @@ void Screen::draw_panels(Trainer& trainer) {
     return ImGui::End();
   } else if (!trainer.exam_refused()) {
     for (const Rect& panel : {top_, console_}) fill(panel, colour::kPanel, theme_.px(4));
-    for (const Rect& panel : {ultrasound_, volume_, slice_, blend_}) fill(panel, colour::kImage, theme_.px(4));
+    for (const auto& [view, panel] : views_) fill(panel, colour::kImage, theme_.px(4));
   }
   if (!trainer.exam_refused()) draw_status(trainer);
   ImGui::End();
+}
+
+void Screen::draw_session(Trainer& trainer) {
+  Session* session = trainer.session();
+  draw_exam_panel(theme_, top_, *session, trainer.author() != nullptr);
+  if (strip_.h > 0) draw_demonstration(trainer);
+  if (!trainer.session()) return;  // it was left
+  if (trainer.author())
+    draw_author_panel(theme_, task_, trainer, text_field_, places_);
+  else if (task_.h > 0)
+    draw_task_panel(theme_, task_, *session, trainer.picture_tools(), trainer.step_controls(), text_field_, places_);
+  if (const Rect panel = place(View::ultrasound); panel.w > 0)
+    if (UltrasoundPanel::draw(theme_, panel, *session, trainer.pictures(), trainer.picture_tools(), places_))
+      enlarge(View::ultrasound);
+  const std::optional<Guiding> guiding = trainer.guide().now(*session);
+  const Guiding* guide = guiding && guide_.h > 0 ? &*guiding : nullptr;
+  draw_space(trainer, guide);
+  if (guide) {
+    draw_guide_strip(theme_, guide_, *guide, StepControls::active(*session));
+    places_["guide"] = guide_;
+  }
+  draw_ct_views(trainer, guide);
+  const auto attempt = [&](const std::function<void()>& action) { trainer.attempt(action); };
+  switch (draw_console_panel(theme_, console_, *session, attempt, places_)) {
+    case ConsoleRequest::help:
+      show_page(Overlay::help);
+      break;
+    case ConsoleRequest::open:
+      ask_for_path();
+      break;
+    case ConsoleRequest::none:
+      break;
+  }
+}
+
+void Screen::draw_space(Trainer& trainer, const Guiding* guiding) {
+  const Rect panel = place(View::space);
+  if (panel.w <= 0) return;
+  if (space_.draw(theme_, panel, trainer.session(), trainer.pictures(), places_, [&] { draw_names_button(trainer); }))
+    enlarge(View::space);
+  draw_space_lines(trainer);
+  if (guiding) draw_ghost(theme_, panel, *guiding, trainer.pictures().camera);
+}
+
+/// Draws the lines over the 3D view. They show what lies inside the patient.
+void Screen::draw_space_lines(const Trainer& trainer) {
+  const Rect panel = place(View::space);
+  const Session* session = trainer.session();
+  if (panel.w <= 0 || !trainer.pictures().volume() || (session && !session->shows_anatomy())) return;
+  draw_fan_edge(theme_, panel, trainer.pictures());
+  if (theme_.look().landmarks && trainer.may_name_landmarks())
+    draw_landmarks(theme_, panel, trainer.loaded_case()->subject.landmarks, trainer.pictures());
+}
+
+void Screen::draw_names_button(Trainer& trainer) {
+  if (!trainer.loaded_case() || trainer.loaded_case()->subject.landmarks.empty()) return;
+  const Rect panel = place(View::space);
+  const bool may = trainer.may_name_landmarks(), shown = theme_.look().landmarks;
+  const Rect where =
+      places_["names"] = {panel.x + panel.w - theme_.px(70), panel.y + theme_.px(4), theme_.px(66), theme_.px(26)};
+  if (button(theme_, "names", where, "Names", shown && may ? ButtonKind::chosen : ButtonKind::normal, may,
+             "Shows the landmarks of this patient with their names  (N)"))
+    trainer.toggle_landmarks();
+  if (!may) draw_tooltip(theme_, where, "Names are help: in scored steps they are shown with the guide  (G)");
+}
+
+void Screen::draw_ct_views(Trainer& trainer, const Guiding* guiding) {
+  CtLook look = trainer.preferences().ct;
+  for (const View view : {View::slice, View::blend, View::axial, View::coronal, View::sagittal})
+    if (const Rect panel = place(view); panel.w > 0)
+      if (ct_panel_.draw(theme_, view, panel, trainer.pictures(), look, guiding, places_)) enlarge(view);
+  trainer.adjust_ct_look(look);
+  if (!ImGui::IsAnyMouseDown()) trainer.keep_ct_look();
+}
+
+/// Draws a button per layout that shows where its views lie.
+void Screen::draw_layout_buttons(Trainer& trainer, Rect& line) {
+  static constexpr std::array<const char*, 3> kTips{
+      "The ultrasound large, beside it the 3D view and the CT in its plane  (F5)",
+      "The ultrasound beside axial, coronal and sagittal slices of the CT  (F6)",
+      "Four views of one size  (F7). A double click makes any view large."};
+  for (std::size_t i = 0; i < kLayoutNames.size(); ++i) {
+    const std::string id = std::string("layout_") + kLayoutNames[i];
+    const Rect where = places_[id] = line.take_left(theme_.px(36)).inset(0, theme_.px(6));
+    line.take_left(theme_.px(4));
+    const bool chosen = trainer.preferences().look.layout == LayoutName(i) && !large_;
+    if (button(theme_, id.c_str(), where, "", chosen ? ButtonKind::chosen : ButtonKind::normal, true, kTips[i]))
+      choose(LayoutName(i), trainer);
+    for (const auto& [view, part] : ui::lay_out({LayoutName(i), {}}, where.inset(theme_.px(6), theme_.px(5)), 2, {}))
+      fill(part, view == View::ultrasound ? colour::kText : colour::kFaint, 1);
+  }
+  line.take_left(theme_.px(4));
 }
 
 /// An overlay hides the clock, so it says that the time does not stand still.
@@ -224,15 +287,17 @@ void Screen::draw_time_runs_on(const Session& session) {
 
 /// Above the words at the bottom of the ultrasound, or of the screen where there is none.
 Rect Screen::toast_place() const {
-  const Rect around = ultrasound_.h > 0 ? ultrasound_ : screen_;
+  const Rect ultrasound = place(View::ultrasound);
+  const Rect around = ultrasound.h > 0 ? ultrasound : screen_;
   return {around.x, around.y, around.w, around.h - theme_.px(56)};
 }
 
 /// A page that the person reads is not covered: the toast waits. While a clip is made it does not cover the ultrasound.
 void Screen::draw_toast(const Trainer& trainer) {
   if (top_page() != Overlay::none && overlay(trainer) == top_page()) return toast_.wait();
-  toast_is_aside_ = trainer.clip().running() && volume_.w > 0;
-  const std::filesystem::path file = toast_.draw(theme_, toast_is_aside_ ? volume_ : toast_place(), places_);
+  const Rect space = place(View::space);
+  toast_is_aside_ = trainer.clip().running() && space.w > 0;
+  const std::filesystem::path file = toast_.draw(theme_, toast_is_aside_ ? space : toast_place(), places_);
   if (!file.empty()) open_on_desktop(file.parent_path());
 }
 
@@ -286,7 +351,7 @@ void Screen::draw_status(Trainer& trainer) {
     toggle_clip(trainer);
   if (next("settings", 84, "Settings", ButtonKind::normal, true, "Text, marker, colours, folders  (F3)"))
     show_page(Overlay::settings);
-  line.take_left(theme_.px(8));
+  draw_layout_buttons(trainer, line);
   if (!trainer.shader_problem().empty()) {
     std::string problem = "Shaders kept as they were: " + trainer.shader_problem();
     std::replace(problem.begin(), problem.end(), '\n', ' ');

@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "app/panels/canvas.h"
+#include "app/panels/ct_panel.h"
 #include "app/panels/help_page.h"
+#include "app/panels/layout.h"
 #include "app/panels/learners/learners_panel.h"
 #include "app/panels/open_dialog.h"
 #include "app/panels/overlays.h"
@@ -54,8 +56,14 @@ public:
   PictureSizes picture_sizes(const Trainer& trainer, float width, float height);
   /// Returns where the ultrasound's plane was on the screen in the last frame.
   PlaneOnScreen plane_on_screen(const Trainer& trainer) const {
-    return UltrasoundPanel::plane(theme_, ultrasound_, trainer.pictures());
+    return UltrasoundPanel::plane(theme_, place(View::ultrasound), trainer.pictures());
   }
+
+  /// Chooses where the views lie, from the next frame on.
+  void choose(LayoutName layout, Trainer& trainer);
+  /// Makes a view large, or all views as they were if one is.
+  void enlarge(View view) { large_ = large_ ? std::nullopt : std::optional(view); }
+  const std::optional<View>& large() const { return large_; }
 
   /// Saves the ultrasound, with everything that is drawn on it, from one of the next frames.
   void save_picture(const Trainer& trainer) { saves_picture_ = can_save(trainer); }
@@ -109,6 +117,12 @@ private:
   void step_on(Trainer& trainer);
   void lay_out(const Trainer& trainer, float width, float height);
   void draw_panels(Trainer& trainer);
+  void draw_session(Trainer& trainer);
+  void draw_space(Trainer& trainer, const Guiding* guiding);
+  void draw_names_button(Trainer& trainer);
+  void draw_space_lines(const Trainer& trainer);
+  void draw_ct_views(Trainer& trainer, const Guiding* guiding);
+  void draw_layout_buttons(Trainer& trainer, Rect& line);
   void draw_overlay(Trainer& trainer);
   void draw_record_button(Trainer& trainer, const Rect& where);
   void draw_status(Trainer& trainer);
@@ -137,6 +151,7 @@ private:
   Theme theme_;
   std::string device_;
   SpacePanel space_;
+  CtPanel ct_panel_;
   RecordedPanel recorded_panel_;
   OpenDialog open_dialog_;
   TextField text_field_;
@@ -147,7 +162,15 @@ private:
   bool fonts_are_new_ = false, saves_picture_ = false, toast_is_aside_ = false;
   const ExamResult* closed_sheet_of_ = nullptr;
   double pictures_per_second_ = 0;
-  Rect screen_, top_, strip_, task_, guide_, ultrasound_, recorded_, volume_, slice_, blend_, console_, status_;
+  /// Returns where a view is; empty if it is hidden.
+  Rect place(View view) const {
+    const auto found = views_.find(view);
+    return found == views_.end() ? Rect() : found->second;
+  }
+
+  Rect screen_, top_, strip_, task_, guide_, console_, status_;
+  std::map<View, Rect> views_;
+  std::optional<View> large_;
   std::map<std::string, Rect> places_;
 };
 
