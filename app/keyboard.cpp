@@ -191,9 +191,43 @@ void Keyboard::learners_page(const KeyEvent& pressed, LearnersPage& page, Traine
   if (is_enter(pressed) && pressed.kind == KeyEvent::Kind::pressed) screen.confirm(trainer);
 }
 
+/// Handles the keys of the views beside the ultrasound. Returns whether this was one.
+bool Keyboard::change_views(const KeyEvent& pressed, Trainer& trainer, ui::Screen& screen) {
+  if (pressed.modifiers & GLFW_MOD_CONTROL) return false;
+  CtLook look = trainer.preferences().ct;
+  switch (pressed.key) {
+    case GLFW_KEY_F5:
+    case GLFW_KEY_F6:
+    case GLFW_KEY_F7:
+      screen.choose(LayoutName(pressed.key - GLFW_KEY_F5), trainer);
+      break;
+    case GLFW_KEY_O:
+      look.outlines = !look.outlines;
+      break;
+    case GLFW_KEY_X:
+      look.cross_hair = look.cross_hair == CrossHair::face ? CrossHair::fan : CrossHair::face;
+      break;
+    case GLFW_KEY_B:
+      trainer.pictures().slices_to_cross_hair();
+      break;
+    case GLFW_KEY_K:
+      screen.toggle_look(trainer);
+      break;
+    case GLFW_KEY_N:
+      if (trainer.may_name_landmarks()) trainer.toggle_landmarks();
+      break;
+    default:
+      return false;
+  }
+  trainer.adjust_ct_look(look);
+  trainer.keep_ct_look();
+  return true;
+}
+
 void Keyboard::replay(const KeyEvent& pressed, Trainer& trainer, ui::Screen& screen) {
   Replay& replay = *trainer.replay();
   const bool repeated = pressed.kind == KeyEvent::Kind::repeated;
+  if (!repeated && change_views(pressed, trainer, screen)) return;
   switch (pressed.key) {
     case GLFW_KEY_SPACE:
       if (!repeated) replay.toggle();
@@ -272,6 +306,7 @@ void Keyboard::press(const KeyEvent& pressed, Trainer& trainer, ui::Screen& scre
     if (!why_not.empty()) screen.tell(why_not);
     return;
   }
+  if (!repeated && change_views(pressed, trainer, screen)) return;
   const Machine& machine = session.machine();
   const auto turn = [&](ActionKind knob, double value) {
     if (const std::string why_not = session.why_not(knob); !why_not.empty()) return screen.tell(why_not);

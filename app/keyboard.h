@@ -48,6 +48,7 @@ private:
   static void choose(int index, Trainer& trainer);
   static void start_page(const KeyEvent& pressed, Trainer& trainer, ui::Screen& screen);
   static void learners_page(const KeyEvent& pressed, LearnersPage& page, Trainer& trainer, ui::Screen& screen);
+  static bool change_views(const KeyEvent& pressed, Trainer& trainer, ui::Screen& screen);
   static void replay(const KeyEvent& pressed, Trainer& trainer, ui::Screen& screen);
   static void volume_page(const KeyEvent& pressed, Trainer& trainer, ui::Screen& screen);
   static void set_up(const KeyEvent& pressed, Trainer& trainer);

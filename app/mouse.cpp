@@ -1,6 +1,13 @@
 #include "app/mouse.h"
 
+#include <cfloat>
+
 namespace insonate {
+namespace {
+
+constexpr double kDoubleClick_s = 0.35;
+
+}  // namespace
 
 void Mouse::apply() {
   ImGuiIO& io = ImGui::GetIO();
@@ -10,6 +17,12 @@ void Mouse::apply() {
     const bool is_there = next.at.x == shown_at_.x && next.at.y == shown_at_.y;
     io.MousePos = next.at;
     if (is_there) {
+      if (next.down) {
+        // ImGui compares the time of the frames with this limit, so the limit decides.
+        double& before_s = pressed_s_[std::size_t(next.number)];
+        io.MouseDoubleClickTime = next.time_s - before_s < kDoubleClick_s ? FLT_MAX : 0;
+        before_s = next.time_s;
+      }
       down_[std::size_t(next.number)] = next.down;
       events_.pop_front();
     }

@@ -9,13 +9,14 @@ namespace insonate {
 
 /// Passes the mouse buttons to ImGui: each press and release at the position where it was made and in a frame of its
 /// own, however long frames take. Dear ImGui 1.86 reads the mouse once per frame. It would place a click where the
-/// pointer has moved to since.
+/// pointer has moved to since, and take two clicks for a double one by the times of their frames.
 class Mouse {
 public:
   struct Button {
     int number = 0;  ///< 0 left, 1 right, 2 middle
     bool down = false;
     ImVec2 at;
+    double time_s = 0;  ///< steady_now_s()
   };
   static constexpr int kButtons = 3;
 
@@ -31,6 +32,7 @@ public:
 private:
   std::deque<Button> events_;
   std::array<bool, kButtons> down_{};
+  std::array<double, kButtons> pressed_s_{};
   ImVec2 shown_at_{-1, -1};
 };
 

@@ -25,6 +25,19 @@ void write_pose(Json& state, const Pose& pose) {
   }
 }
 
+void write_views(Json& state, const Trainer& trainer, const ui::Screen& screen) {
+  const Preferences& preferences = trainer.preferences();
+  state["layout"] = kLayoutNames[std::size_t(preferences.look.layout)];
+  state["large"] = screen.large() ? name_of(*screen.large()) : "";
+  state["landmarks"] = preferences.look.landmarks;
+  state["ct_window"] = preferences.ct.grey.window_hu;
+  state["ct_level"] = preferences.ct.grey.level_hu;
+  state["ct_outlines"] = preferences.ct.outlines;
+  state["blend_colour"] = int(preferences.ct.blend_colour);
+  state["cross_hair"] = preferences.ct.cross_hair == CrossHair::face ? "face" : "fan";
+  state["axial_offset_mm"] = trainer.pictures().slice_offset_mm(view::SliceAxis::axial);
+}
+
 /// Returns a short text for an annotation: its slot and value, or its name.
 std::string in_short(const Action& placed) {
   if (placed.kind == ActionKind::caliper || placed.kind == ActionKind::ellipse)
@@ -67,6 +80,9 @@ void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::
   }
   state["camera_yaw_deg"] = trainer.pictures().camera.yaw_deg;
   state["camera_pitch_deg"] = trainer.pictures().camera.pitch_deg;
+  state["camera_distance_mm"] = trainer.pictures().camera.distance_mm;
+  state["camera_centre_x"] = trainer.pictures().camera.centre.x;
+  write_views(state, trainer, screen);
   if (const StartPage* page = trainer.start_page()) {
     state["start_task"] = to_string(page->task);
     state["start_why_not"] = page->why_not();
@@ -124,10 +140,12 @@ void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::
     state["lost"] = session->lost_for_s().has_value();
     write_machine(state, session->machine());
     if (const auto& pose = session->shown_pose()) {
-      const ui::Rect& space = screen.places().at("space");
-      const glm::dvec2 face = trainer.pictures().camera.project(pose->translation, int(space.w), int(space.h));
-      state["probe_on_screen_x"] = int(face.x + space.x);
-      state["probe_on_screen_y"] = int(face.y + space.y);
+      if (const auto space = screen.places().find("space"); space != screen.places().end()) {
+        const ui::Rect& panel = space->second;
+        const glm::dvec2 face = trainer.pictures().camera.project(pose->translation, int(panel.w), int(panel.h));
+        state["probe_on_screen_x"] = int(face.x + panel.x);
+        state["probe_on_screen_y"] = int(face.y + panel.y);
+      }
       write_pose(state, *pose);
     }
     const PlaneOnScreen plane = screen.plane_on_screen(trainer);

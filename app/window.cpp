@@ -86,7 +86,8 @@ void listen(GLFWwindow* window, Events& events) {
   });
   glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int) {
     events_of(w).any = true;
-    if (button < Mouse::kButtons) events_of(w).mouse.note({button, action == GLFW_PRESS, events_of(w).pointer});
+    if (button < Mouse::kButtons)
+      events_of(w).mouse.note({button, action == GLFW_PRESS, events_of(w).pointer, steady_now_s()});
   });
   // These events go to ImGui unchanged.
   glfwSetScrollCallback(window, [](GLFWwindow* w, double x, double y) {

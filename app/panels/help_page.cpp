@@ -32,8 +32,19 @@ const std::vector<Key> kProbe{
     {"Drag the probe", "put it elsewhere on the patient"},
 };
 const std::vector<Key> kPatient{
-    {"Drag the patient", "turn; right button shifts, the wheel zooms"},
-    {"V, Home", "see the patient from the next side; as at first"},
+    {"Drag the patient", "turn; middle button or Shift shifts; right button or wheel zooms"},
+    {"V, Home, N", "see the patient from the next side; as at first; landmarks' names"},
+};
+const std::vector<Key> kViews{
+    {"F5, F6, F7", "the usual views; slices along the patient's axes; four of one size"},
+    {"Double click a view", "make it large; again: back"},
+    {"Drag the CT, O", "across the window, up and down the level; outlines of organs"},
+    {"Wheel on a slice, B, X", "through the slices; to the probe; cross at its face or in the fan"},
+};
+/// While the anatomy is hidden there is no CT.
+const std::vector<Key> kExamViews{
+    {"F5, F7", "the usual views; views of one size"},
+    {"Double click a view", "make it large; again: back"},
 };
 const std::vector<Key> kMachine{
     {"Space", "freeze the picture"},
@@ -87,6 +98,7 @@ Help help_of(HelpTopic topic) {
       return {"Help: scanning", "The large picture is the ultrasound. The 3D view shows the probe that it comes from.",
               keys_of({kProbe,
                        kPatient,
+                       kViews,
                        {{"Tab", "take the probe, give it back to the tracker"}},
                        kMachine,
                        kUndo,
@@ -103,7 +115,7 @@ Help help_of(HelpTopic topic) {
           "Help: an exam that counts",
           "Do what each step asks for, and hold the view still until its ring is full. The clock runs on while this "
           "page is open.",
-          keys_of({kProbe, kPatient, kMachine, kTools, kFiles, kWindow})};
+          keys_of({kProbe, kPatient, kExamViews, kMachine, kTools, kFiles, kWindow})};
     case HelpTopic::replay:
       return {"Help: looking at a run again",
               "The time line below shows the steps and how far the probe was from their views. Nothing is scored or "
@@ -113,11 +125,12 @@ Help help_of(HelpTopic topic) {
                         {"Up, Down", "faster, slower"},
                         {"Home, End", "the beginning, the end"},
                         {"Drag the time line", "go to that moment"},
-                        {"Drag the patient", "turn; right button shifts, the wheel zooms"},
+                        {"Drag the patient", "turn; middle button or Shift shifts; right button or wheel zooms"},
                         {"V", "see the patient from the next side"},
                         {"P, L", "save the picture; begin and end a clip of it"},
                         {"Ctrl O", "open another recorded scan"},
                         {"Escape", "back to the start page, or to the learners"}},
+                       kViews,
                        kWindow})};
     case HelpTopic::setup:
       return {
@@ -135,6 +148,7 @@ Help help_of(HelpTopic topic) {
               "Scenarios can then ask for it.",
               keys_of({kProbe,
                        kPatient,
+                       kViews,
                        kMachine,
                        kUndo,
                        {{"1 to 9", "choose a structure of the view"},

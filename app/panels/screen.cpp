@@ -3,63 +3,24 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <utility>
 
 #include "app/panels/author_panel.h"
 #include "app/panels/console_panel.h"
 #include "app/panels/exam_panel.h"
 #include "app/panels/guide_layer.h"
+#include "app/panels/open_on_desktop.h"
 #include "app/panels/replay/replay_page.h"
-#include "app/panels/settings_page.h"
+#include "app/panels/space_lines.h"
 #include "app/panels/ultrasound_panel.h"
 #include "sim/core/files.h"
 #include "sim/gl/headless_context.h"
 
 namespace insonate::ui {
 namespace {
-
-/// Opens a file with the desktop's default program, without waiting for it.
-void open_on_desktop(const std::filesystem::path& file) {
-  std::string quoted = "'";
-  for (const char c : std::filesystem::absolute(file).string()) quoted += c == '\'' ? "'\\''" : std::string(1, c);
-  const std::string command = "xdg-open " + quoted + "' >/dev/null 2>&1 &";
-  if (std::system(command.c_str()) != 0) std::fprintf(stderr, "insonate: the desktop does not open files\n");
-}
-
-/// Returns the preference that a dialog asks for; nullptr if it asks for something to open.
-std::filesystem::path* setting_of(Preferences& preferences, Wanted wanted) {
-  switch (wanted) {
-    case Wanted::output:
-      return &preferences.out;
-    case Wanted::cases:
-      return &preferences.cases;
-    case Wanted::results:
-      return &preferences.results;
-    default:
-      return nullptr;
-  }
-}
-
-/// Takes a file of the set-up, or what is built in for an empty path. Returns whether `wanted` is one. Throws
-/// InputError.
-bool use_for_setup(StartPage& page, Wanted wanted, const std::filesystem::path& path) {
-  switch (wanted) {
-    case Wanted::calibration:
-      page.choose_calibration(path);
-      return true;
-    case Wanted::landmarks:
-      page.choose_landmarks(path);
-      return true;
-    case Wanted::drawing:
-      page.choose_drawing(path);
-      return true;
-    default:
-      return false;
-  }
-}
 
 /// Whether an overlay keeps the learner from the scan behind it. The set-up has no session behind it, the briefing one
 /// that has not begun, and the score one that is over.
@@ -69,36 +30,6 @@ bool covers(Overlay overlay) {
 }
 
 }  // namespace
-
-const char* to_string(Overlay overlay) {
-  switch (overlay) {
-    case Overlay::none:
-      return "";
-    case Overlay::problem:
-      return "problem";
-    case Overlay::loading:
-      return "loading";
-    case Overlay::setup:
-      return "setup";
-    case Overlay::help:
-      return "help";
-    case Overlay::about:
-      return "about";
-    case Overlay::settings:
-      return "settings";
-    case Overlay::open:
-      return "open";
-    case Overlay::leave:
-      return "leave";
-    case Overlay::volume:
-      return "volume";
-    case Overlay::briefing:
-      return "briefing";
-    case Overlay::score:
-      return "score";
-  }
-  return "";
-}
 
 Screen::ImGuiOwner::ImGuiOwner() {
   IMGUI_CHECKVERSION();
@@ -116,7 +47,8 @@ Screen::~Screen() = default;
 void Screen::lay_out(const Trainer& trainer, float width, float height) {
   screen_ = {0, 0, width, height};
   if (trainer.start_page() || trainer.learners_page()) {
-    ultrasound_ = {};
+    views_.clear();
+    large_.reset();
     return places_.clear();
   }
   const float gap = theme_.px(8);
@@ -143,37 +75,41 @@ void Screen::lay_out(const Trainer& trainer, float width, float height) {
   }
   console_ = rest.take_bottom(theme_.px(trainer.replay() ? 272 : 120));  // a replay has charts below its time line
   rest.take_bottom(gap);
-  // The ultrasound comes first. The other views get a third of the width, and at most what makes them square. On a wide
-  // screen the height limits a fan, which is at most 1.5 times as wide as high: they get the width that it leaves.
-  float others = std::min(rest.w * 0.35f, rest.h * (trainer.replay() ? 1.0f : 0.82f));
-  if (!trainer.replay()) others = std::max(others, std::min(rest.w * 0.45f, rest.w - gap - rest.h * 1.5f));
-  Rect side = rest.take_right(std::round(others));
-  rest.take_right(gap);
-  recorded_ = {};
-  if (trainer.replay() && trainer.replay()->run().images) {
-    recorded_ = rest.take_right(std::floor((rest.w - gap) / 2));
-    rest.take_right(gap);
-    rest.w = recorded_.w;  // equal sizes give both the same scale
+  const bool anatomy = !trainer.session() || trainer.session()->shows_anatomy();
+  const bool recorded = trainer.replay() && trainer.replay()->run().images;
+  const bool shows_look = shows_look_ && may_look(trainer);
+  views_ = ui::lay_out({shows_look ? LayoutName::standard : trainer.preferences().look.layout, large_}, rest, gap,
+                       {anatomy, recorded, trainer.replay() != nullptr});
+  look_ = {};
+  if (shows_look && !large_) {  // in place of the CT's views
+    const Rect slice = place(View::slice), blend = place(View::blend);
+    look_ = {slice.x, slice.y, blend.x + blend.w - slice.x, slice.h};
+    views_.erase(View::slice);
+    views_.erase(View::blend);
   }
-  ultrasound_ = rest;
-  places_ = {{"ultrasound", ultrasound_}, {"console", console_}, {"exam", top_}};
-  if (recorded_.w > 0) places_["recorded"] = recorded_;
-  if (trainer.session() && !trainer.session()->shows_anatomy()) {
-    places_["space"] = volume_ = side;
-    return;
-  }
-  places_["space"] = volume_ = side.take_top(std::round(side.h * 0.58f));
-  side.take_top(gap);
-  places_["slice"] = slice_ = side.take_left(std::round((side.w - gap) / 2));
-  side.take_left(gap);
-  places_["blend"] = blend_ = side;
+  places_ = {{"console", console_}, {"exam", top_}};
+  for (const auto& [view, rect] : views_) places_[name_of(view)] = rect;
 }
 
 PictureSizes Screen::picture_sizes(const Trainer& trainer, float width, float height) {
   if (theme_.fit(width, height, trainer.preferences().look)) fonts_are_new_ = true;
   lay_out(trainer, width, height);
-  const Rect ultrasound = UltrasoundPanel::picture_area(theme_, ultrasound_);
-  return {int(ultrasound.w), int(ultrasound.h), int(volume_.w), int(volume_.h), int(slice_.w), int(slice_.h)};
+  const auto size = [&](View view) { return glm::ivec2(place(view).w, place(view).h); };
+  // A hidden ultrasound is drawn for the view that is large: the blend contains it.
+  const Rect ultrasound = UltrasoundPanel::picture_area(
+      theme_, place(View::ultrasound).w > 0 || views_.empty() ? place(View::ultrasound) : views_.begin()->second);
+  const glm::ivec2 volume = size(View::space), slice = size(View::slice), blend = size(View::blend);
+  return {int(ultrasound.w), int(ultrasound.h), volume.x,
+          volume.y,          slice.x,           slice.y,
+          blend.x,           blend.y,           {size(View::axial), size(View::coronal), size(View::sagittal)}};
+}
+
+void Screen::choose(LayoutName layout, Trainer& trainer) {
+  shows_look_ = false;
+  large_.reset();
+  Preferences preferences = trainer.preferences();
+  preferences.look.layout = layout;
+  trainer.prefer(preferences);
 }
 
 bool Screen::render(Trainer& trainer, FrameTimes* times) {
@@ -207,8 +143,8 @@ void Screen::capture(Trainer& trainer, bool changed) {
   if (!can_save(trainer)) saves_picture_ = false;
   if (!(saves_picture_ || (clip && changed)) || !can_save(trainer)) return;
   if (toast_.left_s() > 0 && !toast_is_aside_) return toast_.hide();  // which uncovers the picture in the next frame
-  const Image<Rgba8> picture = canvas_.read(
-      {int(ultrasound_.x), int(ultrasound_.y), int(ultrasound_.x + ultrasound_.w), int(ultrasound_.y + ultrasound_.h)});
+  const Rect seen = place(View::ultrasound);
+  const Image<Rgba8> picture = canvas_.read({int(seen.x), int(seen.y), int(seen.x + seen.w), int(seen.y + seen.h)});
   if (clip) trainer.clip().take(picture, ImGui::GetTime());
   if (std::exchange(saves_picture_, false)) trainer.save_picture(picture);
 }
@@ -222,7 +158,7 @@ void Screen::toggle_clip(Trainer& trainer) {
 
 bool Screen::can_save(const Trainer& trainer) const {
   return (trainer.session() || trainer.replay()) && overlay(trainer) == Overlay::none &&
-         trainer.pictures().ultrasound();
+         trainer.pictures().ultrasound() && place(View::ultrasound).w > 0;
 }
 
 void Screen::draw_panels(Trainer& trainer) {
@@ -232,43 +168,16 @@ void Screen::draw_panels(Trainer& trainer) {
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                    ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav |
                    ImGuiWindowFlags_NoScrollWithMouse);
-  if (Session* session = trainer.session()) {
-    Pictures& pictures = trainer.pictures();
-    draw_exam_panel(theme_, top_, *session, trainer.author() != nullptr);
-    if (strip_.h > 0) draw_demonstration(trainer);
-    if (!trainer.session()) return ImGui::End();  // it was left
-    if (trainer.author())
-      draw_author_panel(theme_, task_, trainer, text_field_, places_);
-    else if (task_.h > 0)
-      draw_task_panel(theme_, task_, *session, trainer.picture_tools(), trainer.step_controls(), text_field_, places_);
-    UltrasoundPanel::draw(theme_, ultrasound_, *session, pictures, trainer.picture_tools(), places_);
-    space_.draw(theme_, volume_, session, pictures, places_);
-    if (trainer.swept() && session->shows_anatomy()) draw_swept_box(theme_, volume_, *trainer.swept(), pictures.camera);
-    if (const std::optional<Guiding> guiding = trainer.guide().now(*session); guiding && guide_.h > 0) {
-      draw_ghost(theme_, volume_, *guiding, pictures.camera);
-      draw_guide_strip(theme_, guide_, *guiding, StepControls::active(*session));
-      places_["guide"] = guide_;
-    }
-    if (session->shows_anatomy()) {
-      draw_slice_panel(theme_, slice_, pictures);
-      draw_blend_panel(theme_, blend_, pictures);
-    }
-    const auto attempt = [&](const std::function<void()>& action) { trainer.attempt(action); };
-    switch (draw_console_panel(theme_, console_, *session, attempt, places_)) {
-      case ConsoleRequest::help:
-        show_page(Overlay::help);
-        break;
-      case ConsoleRequest::open:
-        ask_for_path();
-        break;
-      case ConsoleRequest::none:
-        break;
-    }
+  if (trainer.session()) {
+    draw_session(trainer);
   } else if (trainer.replay()) {
-    draw_replay_page(theme_, {top_, ultrasound_, recorded_, volume_, console_}, trainer, space_, recorded_panel_,
-                     places_);
-    draw_slice_panel(theme_, slice_, trainer.pictures());
-    draw_blend_panel(theme_, blend_, trainer.pictures());
+    const std::optional<View> double_clicked =
+        draw_replay_page(theme_, {top_, place(View::ultrasound), place(View::recorded), place(View::space), console_},
+                         trainer, space_, recorded_panel_, places_, [&] { draw_space_buttons(trainer); });
+    draw_space_lines(trainer);
+    draw_ct_views(trainer, nullptr);
+    draw_look(trainer);
+    if (double_clicked) enlarge(*double_clicked);
   } else if (trainer.start_page()) {
     draw_start_page(trainer);
     return ImGui::End();
@@ -277,10 +186,144 @@ void Screen::draw_panels(Trainer& trainer) {
     return ImGui::End();
   } else if (!trainer.exam_refused()) {
     for (const Rect& panel : {top_, console_}) fill(panel, colour::kPanel, theme_.px(4));
-    for (const Rect& panel : {ultrasound_, volume_, slice_, blend_}) fill(panel, colour::kImage, theme_.px(4));
+    for (const auto& [view, panel] : views_) fill(panel, colour::kImage, theme_.px(4));
   }
   if (!trainer.exam_refused()) draw_status(trainer);
   ImGui::End();
+}
+
+void Screen::draw_session(Trainer& trainer) {
+  Session* session = trainer.session();
+  draw_exam_panel(theme_, top_, *session, trainer.author() != nullptr);
+  if (strip_.h > 0) draw_demonstration(trainer);
+  if (!trainer.session()) return;  // it was left
+  if (trainer.author())
+    draw_author_panel(theme_, task_, trainer, text_field_, places_);
+  else if (task_.h > 0)
+    draw_task_panel(theme_, task_, *session, trainer.picture_tools(), trainer.step_controls(), text_field_, places_);
+  if (const Rect panel = place(View::ultrasound); panel.w > 0)
+    if (UltrasoundPanel::draw(theme_, panel, *session, trainer.pictures(), trainer.picture_tools(), places_))
+      enlarge(View::ultrasound);
+  const std::optional<Guiding> guiding = trainer.guide().now(*session);
+  const Guiding* guide = guiding && guide_.h > 0 ? &*guiding : nullptr;
+  draw_space(trainer, guide);
+  if (guide) {
+    draw_guide_strip(theme_, guide_, *guide, StepControls::active(*session));
+    places_["guide"] = guide_;
+  }
+  draw_ct_views(trainer, guide);
+  draw_look(trainer);
+  const auto attempt = [&](const std::function<void()>& action) { trainer.attempt(action); };
+  switch (draw_console_panel(theme_, console_, *session, attempt, places_)) {
+    case ConsoleRequest::help:
+      show_page(Overlay::help);
+      break;
+    case ConsoleRequest::open:
+      ask_for_path();
+      break;
+    case ConsoleRequest::none:
+      break;
+  }
+}
+
+void Screen::draw_space(Trainer& trainer, const Guiding* guiding) {
+  const Rect panel = place(View::space);
+  if (panel.w <= 0) return;
+  if (space_.draw(theme_, panel, trainer.session(), trainer.pictures(), places_, [&] { draw_space_buttons(trainer); }))
+    enlarge(View::space);
+  draw_space_lines(trainer);
+  if (trainer.swept() && trainer.session()->shows_anatomy())
+    draw_swept_box(theme_, panel, *trainer.swept(), trainer.pictures().camera);
+  if (guiding) draw_ghost(theme_, panel, *guiding, trainer.pictures().camera);
+}
+
+/// Draws the lines over the 3D view. They show what lies inside the patient.
+void Screen::draw_space_lines(const Trainer& trainer) {
+  const Rect panel = place(View::space);
+  const Session* session = trainer.session();
+  if (panel.w <= 0 || !trainer.pictures().volume() || (session && !session->shows_anatomy())) return;
+  draw_fan_edge(theme_, panel, trainer.pictures());
+  if (theme_.look().landmarks && trainer.may_name_landmarks())
+    draw_landmarks(theme_, panel, trainer.loaded_case()->subject.landmarks, trainer.pictures());
+}
+
+/// Draws the buttons in the 3D view's upper right corner.
+void Screen::draw_space_buttons(Trainer& trainer) {
+  Rect row = place(View::space).inset(theme_.px(4), theme_.px(4));
+  row.h = theme_.px(26);
+  draw_names_button(trainer, row);
+  if (may_look(trainer) && button(theme_, "look", places_["look"] = row.take_right(theme_.px(58)), "Look",
+                                  shows_look_ ? ButtonKind::chosen : ButtonKind::normal, true,
+                                  "Shows organs, or the CT itself: skin, muscles, vessels, bones  (K)"))
+    toggle_look(trainer);
+}
+
+void Screen::draw_names_button(Trainer& trainer, Rect& row) {
+  if (!trainer.loaded_case() || trainer.loaded_case()->subject.landmarks.empty()) return;
+  const bool may = trainer.may_name_landmarks(), shown = theme_.look().landmarks;
+  const Rect where = places_["names"] = row.take_right(theme_.px(66));
+  row.take_right(theme_.px(4));
+  if (button(theme_, "names", where, "Names", shown && may ? ButtonKind::chosen : ButtonKind::normal, may,
+             "Shows the landmarks of this patient with their names  (N)"))
+    trainer.toggle_landmarks();
+  if (!may) draw_tooltip(theme_, where, "Names are help: in scored steps they are shown with the guide  (G)");
+}
+
+/// Whether the patient's inside may be seen.
+bool Screen::may_look(const Trainer& trainer) const {
+  return trainer.session() ? trainer.session()->shows_anatomy() : trainer.replay() != nullptr;
+}
+
+void Screen::toggle_look(Trainer& trainer) {
+  if (!may_look(trainer)) return;
+  shows_look_ = !shows_look_;
+  large_.reset();
+  if (!shows_look_) trainer.keep_look();
+}
+
+void Screen::draw_look(Trainer& trainer) {
+  if (look_.w <= 0) return;
+  switch (look_panel_.draw(theme_, look_, trainer.pictures().look, places_)) {
+    case LookAnswer::none:
+      break;
+    case LookAnswer::close:
+      toggle_look(trainer);
+      break;
+    case LookAnswer::save:
+      trainer.save_look();
+      break;
+    case LookAnswer::open:
+      ask_for_path(Wanted::look);
+      break;
+  }
+}
+
+void Screen::draw_ct_views(Trainer& trainer, const Guiding* guiding) {
+  CtLook look = trainer.preferences().ct;
+  for (const View view : {View::slice, View::blend, View::axial, View::coronal, View::sagittal})
+    if (const Rect panel = place(view); panel.w > 0)
+      if (ct_panel_.draw(theme_, view, panel, trainer.pictures(), look, guiding, places_)) enlarge(view);
+  trainer.adjust_ct_look(look);
+  if (!ImGui::IsAnyMouseDown()) trainer.keep_ct_look();
+}
+
+/// Draws a button per layout that shows where its views lie.
+void Screen::draw_layout_buttons(Trainer& trainer, Rect& line) {
+  static constexpr std::array<const char*, 3> kTips{
+      "The ultrasound large, beside it the 3D view and the CT in its plane  (F5)",
+      "The ultrasound beside axial, coronal and sagittal slices of the CT  (F6)",
+      "Four views of one size  (F7). A double click makes any view large."};
+  for (std::size_t i = 0; i < kLayoutNames.size(); ++i) {
+    const std::string id = std::string("layout_") + kLayoutNames[i];
+    const Rect where = places_[id] = line.take_left(theme_.px(36)).inset(0, theme_.px(6));
+    line.take_left(theme_.px(4));
+    const bool chosen = trainer.preferences().look.layout == LayoutName(i) && !large_;
+    if (button(theme_, id.c_str(), where, "", chosen ? ButtonKind::chosen : ButtonKind::normal, true, kTips[i]))
+      choose(LayoutName(i), trainer);
+    for (const auto& [view, part] : ui::lay_out({LayoutName(i), {}}, where.inset(theme_.px(6), theme_.px(5)), 2, {}))
+      fill(part, view == View::ultrasound ? colour::kText : colour::kFaint, 1);
+  }
+  line.take_left(theme_.px(4));
 }
 
 /// An overlay hides the clock, so it says that the time does not stand still.
@@ -297,7 +340,8 @@ void Screen::draw_time_runs_on(const Session& session) {
 
 /// Above the words at the bottom of the ultrasound, or of the screen where there is none.
 Rect Screen::toast_place() const {
-  const Rect around = ultrasound_.h > 0 ? ultrasound_ : screen_;
+  const Rect ultrasound = place(View::ultrasound);
+  const Rect around = ultrasound.h > 0 ? ultrasound : screen_;
   return {around.x, around.y, around.w, around.h - theme_.px(56)};
 }
 
@@ -306,8 +350,9 @@ Rect Screen::toast_place() const {
 void Screen::draw_toast(const Trainer& trainer) {
   const bool reads = top_page() != Overlay::none && top_page() != Overlay::volume;
   if (reads && overlay(trainer) == top_page()) return toast_.wait();
-  toast_is_aside_ = trainer.clip().running() && volume_.w > 0;
-  const std::filesystem::path file = toast_.draw(theme_, toast_is_aside_ ? volume_ : toast_place(), places_);
+  const Rect space = place(View::space);
+  toast_is_aside_ = trainer.clip().running() && space.w > 0;
+  const std::filesystem::path file = toast_.draw(theme_, toast_is_aside_ ? space : toast_place(), places_);
   if (!file.empty()) open_on_desktop(file.parent_path());
 }
 
@@ -382,7 +427,7 @@ void Screen::draw_status(Trainer& trainer) {
   draw_sweep_buttons(trainer, line);
   if (next("settings", 84, "Settings", ButtonKind::normal, true, "Text, marker, colours, folders  (F3)"))
     show_page(Overlay::settings);
-  line.take_left(theme_.px(8));
+  draw_layout_buttons(trainer, line);
   if (!trainer.shader_problem().empty()) {
     std::string problem = "Shaders kept as they were: " + trainer.shader_problem();
     std::replace(problem.begin(), problem.end(), '\n', ' ');
@@ -408,56 +453,6 @@ void Screen::draw_status(Trainer& trainer) {
   draw_text(line, theme_.small_text, colour::kMuted, keys);
 }
 
-void Screen::draw_start_page(Trainer& trainer) {
-  const auto attempt = [&](const std::function<void()>& action) { trainer.attempt(action); };
-  const StartAnswer answer = start_panel_.draw(theme_, screen_, *trainer.start_page(), attempt, places_);
-  switch (answer.kind) {
-    case StartAnswer::Kind::none:
-      break;
-    case StartAnswer::Kind::begin:
-      trainer.begin_chosen();
-      break;
-    case StartAnswer::Kind::help:
-      show_page(Overlay::help);
-      break;
-    case StartAnswer::Kind::settings:
-      show_page(Overlay::settings);
-      break;
-    case StartAnswer::Kind::about:
-      show_page(Overlay::about);
-      break;
-    case StartAnswer::Kind::browse:
-      ask_for_path(answer.wanted);
-      break;
-    case StartAnswer::Kind::reset:
-      use_for_setup(*trainer.start_page(), answer.wanted, {});
-      break;
-  }
-}
-
-void Screen::draw_learners_page(Trainer& trainer) {
-  const auto run = [&](const std::function<void()>& action) { trainer.attempt(action); };
-  switch (learners_panel_.draw(theme_, screen_, *trainer.learners_page(), run, places_)) {
-    case LearnersAnswer::none:
-      break;
-    case LearnersAnswer::leave:
-      leave(trainer);
-      break;
-    case LearnersAnswer::help:
-      show_page(Overlay::help);
-      break;
-    case LearnersAnswer::review:
-      trainer.review();
-      break;
-    case LearnersAnswer::report:
-      trainer.report_attempt();
-      break;
-    case LearnersAnswer::tables:
-      trainer.export_tables();
-      break;
-  }
-}
-
 /// Says that a recorded scan is watched, and offers what to do instead, then what to do next.
 void Screen::draw_demonstration(Trainer& trainer) {
   Session& session = *trainer.session();
@@ -478,306 +473,6 @@ void Screen::draw_demonstration(Trainer& trainer) {
   if (own) answer_score(trainer, ScoreAnswer::own_try);
   if (again) answer_score(trainer, ScoreAnswer::again);
   if (leaves) trainer.show_start_page();
-}
-
-/// Gives what the dialog has found to the start page, or opens it.
-void Screen::take_path(Trainer& trainer) {
-  const std::filesystem::path path = open_dialog_.path();
-  StartPage* const page = trainer.start_page();
-  const Wanted wanted = open_dialog_.wanted();
-  if (Preferences preferences = trainer.preferences(); std::filesystem::path* set = setting_of(preferences, wanted)) {
-    *set = path;
-    return trainer.prefer(preferences);
-  }
-  if (!page || wanted == Wanted::anything) return trainer.open(path);
-  trainer.attempt([&] {
-    if (!use_for_setup(*page, wanted, path)) page->add(path);
-  });
-}
-
-Overlay Screen::overlay(const Trainer& trainer) const {
-  if (!trainer.problems().empty()) return Overlay::problem;
-  if (trainer.loading()) return Overlay::loading;
-  if (top_page() != Overlay::none) return top_page();
-  if (trainer.setup()) return Overlay::setup;
-  if (trainer.briefing()) return Overlay::briefing;
-  return shows_sheet(trainer) ? Overlay::score : Overlay::none;
-}
-
-bool Screen::shows_sheet(const Trainer& trainer) const {
-  const Session* session = trainer.session();
-  return session && session->result() && !trainer.demonstration() && &*session->result() != closed_sheet_of_;
-}
-
-void Screen::dismiss(Trainer& trainer) {
-  switch (overlay(trainer)) {
-    case Overlay::none:
-      if (trainer.learners_page() && learners_panel_.types_text()) return learners_panel_.close_fields(false);
-      if (trainer.start_page()) start_panel_.close_fields(false);
-      if (trainer.start_page() || text_field_.is_open()) break;
-      if (!trainer.session() || !trainer.picture_tools().cancel()) leave(trainer);
-      break;
-    case Overlay::problem:
-      trainer.problems().pop_front();
-      break;
-    case Overlay::loading:
-      trainer.stop_loading();
-      break;
-    case Overlay::setup:
-    case Overlay::briefing:
-      break;
-    case Overlay::help:
-    case Overlay::about:
-    case Overlay::settings:
-    case Overlay::open:
-    case Overlay::leave:
-    case Overlay::volume:
-      close_page();
-      break;
-    case Overlay::score:
-      closed_sheet_of_ = &*trainer.session()->result();
-      break;
-  }
-  text_field_.close();
-}
-
-void Screen::confirm(Trainer& trainer) {
-  switch (overlay(trainer)) {
-    case Overlay::none:
-      if (trainer.learners_page())
-        return learners_panel_.types_text() ? learners_panel_.close_fields(true) : trainer.review();
-      if (!trainer.start_page()) return step_on(trainer);
-      if (start_panel_.types_text()) return start_panel_.close_fields(true);
-      return trainer.begin_chosen();
-    case Overlay::leave:
-      pages_.clear();
-      return trainer.show_start_page();
-    case Overlay::problem:
-    case Overlay::help:
-    case Overlay::about:
-    case Overlay::settings:
-    case Overlay::volume:
-      return dismiss(trainer);
-    case Overlay::open:
-      return open_dialog_.confirm();
-    case Overlay::briefing:
-      return trainer.start();
-    case Overlay::loading:
-    case Overlay::setup:
-    case Overlay::score:
-      return;
-  }
-}
-
-void Screen::go_on(Trainer& trainer) {
-  const Overlay shown = overlay(trainer);
-  switch (shown) {
-    case Overlay::problem:
-    case Overlay::help:
-    case Overlay::about:
-    case Overlay::settings:
-    case Overlay::open:
-    case Overlay::leave:
-    case Overlay::volume:
-      return dismiss(trainer);
-    case Overlay::loading:
-    case Overlay::setup:
-      return;
-    case Overlay::briefing:
-      return trainer.start();
-    case Overlay::none:
-      step_on(trainer);
-      break;
-    case Overlay::score:
-      break;
-  }
-  if (trainer.session() && trainer.session()->result()) answer_score(trainer, ScoreAnswer::again);
-}
-
-/// Goes on with the exam, or stores the view that is being authored. If text is still missing, opens its field first.
-void Screen::step_on(Trainer& trainer) {
-  if (!trainer.session()) return;
-  if (const Author* author = trainer.author()) {
-    if (author->parts().empty()) return;
-    if (author->title().empty()) return text_field_.open();
-    text_field_.close();
-    return trainer.keep_view();
-  }
-  StepControls& controls = trainer.step_controls();
-  const AnswerInput* question = controls.question();
-  if (question && question->is_typed() && !controls.can_answer()) return text_field_.open();
-  text_field_.close();
-  controls.go_on(*trainer.session());
-}
-
-void Screen::toggle_volume(const Trainer& trainer) {
-  if (!trainer.swept()) return tell("There is no swept volume yet: T begins a sweep and ends it");
-  toggle(Overlay::volume);
-}
-
-void Screen::toggle(Overlay page) {
-  page == top_page() ? close_page() : show_page(page);
-}
-
-/// Shows a page over the ones that are open; it is never open twice.
-void Screen::show_page(Overlay page) {
-  std::erase(pages_, page);
-  pages_.push_back(page);
-}
-
-void Screen::ask_for_path(Wanted wanted) {
-  open_dialog_.open(wanted);
-  show_page(Overlay::open);
-}
-
-void Screen::leave(Trainer& trainer) {
-  if (!trainer.can_leave()) return;
-  if (trainer.loses_by_leaving()) {
-    show_page(Overlay::leave);
-    return;
-  }
-  trainer.leave();
-}
-
-void Screen::close_page() {
-  if (!pages_.empty()) pages_.pop_back();
-  open_dialog_.close();
-}
-
-/// What the help is about: the page that it lies on.
-HelpTopic Screen::help_topic(const Trainer& trainer) const {
-  const Overlay below = pages_.size() > 1 ? pages_[pages_.size() - 2] : Overlay::none;
-  if (below == Overlay::settings) return HelpTopic::settings;
-  if (below == Overlay::open) return HelpTopic::open;
-  if (trainer.start_page()) return HelpTopic::start;
-  if (trainer.learners_page()) return HelpTopic::learners;
-  if (trainer.setup()) return HelpTopic::setup;
-  if (trainer.replay()) return HelpTopic::replay;
-  if (trainer.author()) return HelpTopic::author;
-  if (shows_sheet(trainer)) return HelpTopic::score;
-  return trainer.session() && trainer.session()->strict() ? HelpTopic::exam : HelpTopic::scan;
-}
-
-void Screen::draw_setup(Trainer& trainer) {
-  if (draw_setup_page(theme_, screen_, *trainer.setup(), trainer.next_start(), trainer.pictures(), places_))
-    trainer.end_setup();
-}
-
-void Screen::draw_overlay(Trainer& trainer) {
-  Session* session = trainer.session();
-  if (session && !session->result()) closed_sheet_of_ = nullptr;
-  const Overlay shown = overlay(trainer);
-  // A page over the set-up leaves it to be seen.
-  if (trainer.setup() && shown != Overlay::setup && shown == top_page()) draw_setup(trainer);
-  switch (shown) {
-    case Overlay::none:
-      break;
-    case Overlay::problem:
-      if (draw_problem(theme_, screen_, trainer.problems().front(), trainer.exam_refused()))
-        trainer.problems().pop_front();
-      break;
-    case Overlay::loading:
-      if (draw_loading(theme_, screen_, trainer.loading()->progress(), trainer.can_stop_loading(), places_))
-        trainer.stop_loading();
-      break;
-    case Overlay::setup:
-      draw_setup(trainer);
-      break;
-    case Overlay::help: {
-      const HelpAnswer answer = draw_help(theme_, screen_, help_topic(trainer), places_);
-      if (answer != HelpAnswer::none) close_page();
-      if (answer == HelpAnswer::about) show_page(Overlay::about);
-      if (answer == HelpAnswer::settings) show_page(Overlay::settings);
-      break;
-    }
-    case Overlay::about:
-      if (draw_about(theme_, screen_, device_)) close_page();
-      break;
-    case Overlay::settings: {
-      const SettingsAnswer answer =
-          draw_settings(theme_, screen_, trainer.preferences(), trainer.options(), trainer.preferences_file(), places_);
-      if (answer.wanted) trainer.prefer(*answer.wanted);
-      if (answer.browse) ask_for_path(*answer.browse);
-      if (answer.close) close_page();
-      break;
-    }
-    case Overlay::open: {
-      const OpenDialog::Answer answer = open_dialog_.draw(theme_, screen_, places_);
-      if (answer != OpenDialog::Answer::none) close_page();
-      if (answer == OpenDialog::Answer::chosen) take_path(trainer);
-      break;
-    }
-    case Overlay::leave:
-      if (const std::optional<bool> leaves = draw_leave(theme_, screen_, places_)) {
-        close_page();
-        if (*leaves) trainer.show_start_page();
-      }
-      break;
-    case Overlay::volume:
-      if (!trainer.swept()) {
-        close_page();
-        break;
-      }
-      switch (volume_page_.draw(theme_, screen_, trainer.swept(), places_)) {
-        case VolumeAnswer::none:
-          break;
-        case VolumeAnswer::close:
-          close_page();
-          break;
-        case VolumeAnswer::save:
-          trainer.save_swept();
-          break;
-      }
-      break;
-    case Overlay::briefing:
-      switch (draw_briefing(theme_, screen_, *trainer.briefing(), trainer.session()->strict(), places_)) {
-        case BriefingAnswer::none:
-          break;
-        case BriefingAnswer::start:
-          trainer.start();
-          break;
-        case BriefingAnswer::leave:
-          trainer.show_start_page();
-          break;
-      }
-      break;
-    case Overlay::score: {
-      const Session& scored = *trainer.session();
-      const bool watched = scored.source().recording() != nullptr;
-      answer_score(trainer, draw_score_sheet(theme_, screen_, *scored.result(), trainer.result_files(),
-                                             trainer.results_due(), watched, scored.strict()));
-      break;
-    }
-  }
-}
-
-void Screen::answer_score(Trainer& trainer, ScoreAnswer answer) {
-  Session& session = *trainer.session();
-  switch (answer) {
-    case ScoreAnswer::again:
-      trainer.attempt([&] { session.start_over(); });
-      break;
-    case ScoreAnswer::own_try:
-      trainer.attempt([&] {
-        session.take_probe();
-        session.start_over();
-      });
-      break;
-    case ScoreAnswer::practice:
-      trainer.attempt([&] { session.practise(); });
-      break;
-    case ScoreAnswer::open_report:
-      open_on_desktop(trainer.result_files()->report);
-      break;
-    case ScoreAnswer::leave:
-      trainer.show_start_page();
-      break;
-    case ScoreAnswer::close:
-      closed_sheet_of_ = &*session.result();
-      break;
-    case ScoreAnswer::none:
-      break;
-  }
 }
 
 }  // namespace insonate::ui

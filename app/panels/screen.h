@@ -7,8 +7,11 @@
 #include <vector>
 
 #include "app/panels/canvas.h"
+#include "app/panels/ct_panel.h"
 #include "app/panels/help_page.h"
+#include "app/panels/layout.h"
 #include "app/panels/learners/learners_panel.h"
+#include "app/panels/look_panel.h"
 #include "app/panels/open_dialog.h"
 #include "app/panels/overlays.h"
 #include "app/panels/replay/recorded_panel.h"
@@ -55,8 +58,16 @@ public:
   PictureSizes picture_sizes(const Trainer& trainer, float width, float height);
   /// Returns where the ultrasound's plane was on the screen in the last frame.
   PlaneOnScreen plane_on_screen(const Trainer& trainer) const {
-    return UltrasoundPanel::plane(theme_, ultrasound_, trainer.pictures());
+    return UltrasoundPanel::plane(theme_, place(View::ultrasound), trainer.pictures());
   }
+
+  /// Chooses where the views lie, from the next frame on.
+  void choose(LayoutName layout, Trainer& trainer);
+  /// Shows the panel that says how the patient looks in the 3D view, in place of the CT's views, or closes it.
+  void toggle_look(Trainer& trainer);
+  /// Makes a view large, or all views as they were if one is.
+  void enlarge(View view) { large_ = large_ ? std::nullopt : std::optional(view); }
+  const std::optional<View>& large() const { return large_; }
 
   /// Saves the ultrasound, with everything that is drawn on it, from one of the next frames.
   void save_picture(const Trainer& trainer) { saves_picture_ = can_save(trainer); }
@@ -114,6 +125,15 @@ private:
   void step_on(Trainer& trainer);
   void lay_out(const Trainer& trainer, float width, float height);
   void draw_panels(Trainer& trainer);
+  void draw_session(Trainer& trainer);
+  void draw_space(Trainer& trainer, const Guiding* guiding);
+  void draw_space_buttons(Trainer& trainer);
+  void draw_names_button(Trainer& trainer, Rect& row);
+  void draw_look(Trainer& trainer);
+  bool may_look(const Trainer& trainer) const;
+  void draw_space_lines(const Trainer& trainer);
+  void draw_ct_views(Trainer& trainer, const Guiding* guiding);
+  void draw_layout_buttons(Trainer& trainer, Rect& line);
   void draw_overlay(Trainer& trainer);
   void draw_record_button(Trainer& trainer, const Rect& where);
   void draw_status(Trainer& trainer);
@@ -143,6 +163,9 @@ private:
   Theme theme_;
   std::string device_;
   SpacePanel space_;
+  CtPanel ct_panel_;
+  LookPanel look_panel_;
+  bool shows_look_ = false;
   RecordedPanel recorded_panel_;
   VolumePage volume_page_;
   OpenDialog open_dialog_;
@@ -155,7 +178,15 @@ private:
   bool fonts_are_new_ = false, saves_picture_ = false, toast_is_aside_ = false;
   const ExamResult* closed_sheet_of_ = nullptr;
   double pictures_per_second_ = 0;
-  Rect screen_, top_, strip_, task_, guide_, ultrasound_, recorded_, volume_, slice_, blend_, console_, status_;
+  /// Returns where a view is; empty if it is hidden.
+  Rect place(View view) const {
+    const auto found = views_.find(view);
+    return found == views_.end() ? Rect() : found->second;
+  }
+
+  Rect screen_, top_, strip_, task_, guide_, console_, status_, look_;
+  std::map<View, Rect> views_;
+  std::optional<View> large_;
   std::map<std::string, Rect> places_;
 };
 

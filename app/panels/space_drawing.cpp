@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "sim/view/plane_trace.h"
+
 namespace insonate::ui {
 
 SpaceDrawing::SpaceDrawing(const Rect& panel, const view::OrbitCamera& camera)
@@ -33,6 +35,22 @@ void SpaceDrawing::path(std::span<const glm::dvec3> points, ImU32 colour, float 
     }
   }
   list->PathStroke(colour, 0, thickness);
+}
+
+void SpaceDrawing::fan_edge(const Pose& patient_from_probe, const Probe& probe, double depth_mm, ImU32 colour,
+                            float thickness) const {
+  std::vector<glm::dvec3> edge;
+  for (const glm::dvec2& point : view::fan_outline(probe, depth_mm))
+    edge.push_back(patient_from_probe.point({point, 0}));
+  edge.push_back(edge.front());
+  path(edge, colour, thickness);
+}
+
+std::optional<ImVec2> SpaceDrawing::seen(const glm::dvec3& patient_mm) const {
+  if (!in_front(patient_mm)) return std::nullopt;
+  const ImVec2 p = at(patient_mm);
+  const bool inside = p.x > panel_.x && p.y > panel_.y && p.x < panel_.x + panel_.w && p.y < panel_.y + panel_.h;
+  return inside ? std::optional(p) : std::nullopt;
 }
 
 void SpaceDrawing::fan(const Pose& patient_from_probe, const Probe& probe, double depth_mm, ImU32 edge,

@@ -42,7 +42,11 @@ void draw_depth_scale(const Theme& theme, const Rect& panel, const PlaneOnScreen
 }
 
 void draw_grey_scale(const Theme& theme, const Rect& panel, double dynamic_range_db) {
-  const Rect bar{panel.x + theme.px(16), panel.y + panel.h * 0.36f, theme.px(12), panel.h * 0.28f};
+  // Below the texts, as far as a small panel has room there.
+  const float top = std::max(panel.h * 0.36f, theme.px(140));
+  const Rect bar{panel.x + theme.px(16), panel.y + top, theme.px(12),
+                 std::min(panel.h * 0.28f, panel.h - theme.px(16) - top)};
+  if (bar.h < theme.px(40)) return;
   ImGui::GetWindowDrawList()->AddRectFilledMultiColor(bar.min(), bar.max(), IM_COL32_WHITE, IM_COL32_WHITE,
                                                       IM_COL32_BLACK, IM_COL32_BLACK);
   outline(bar, colour::kLine);
@@ -173,6 +177,11 @@ PlaneOnScreen draw_picture(const Theme& theme, const Rect& panel, const gl::Text
   return plane;
 }
 
+/// Whether ImGui's last item was.
+bool is_double_clicked() {
+  return ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0);
+}
+
 void take_mouse(const Theme& theme, const Rect& area, Session& session, const PlaneOnScreen& plane,
                 PictureTools& tools) {
   ImGui::SetCursorScreenPos(area.min());
@@ -198,7 +207,7 @@ void take_mouse(const Theme& theme, const Rect& area, Session& session, const Pl
 }  // namespace
 
 Rect UltrasoundPanel::picture_area(const Theme& theme, const Rect& panel) {
-  return panel.inset(theme.px(16), theme.px(12));
+  return panel.inset(theme.px(44), theme.px(12));  // the depth's numbers lie beside it
 }
 
 PlaneOnScreen UltrasoundPanel::plane(const Theme& theme, const Rect& panel, const Pictures& pictures) {
@@ -206,8 +215,9 @@ PlaneOnScreen UltrasoundPanel::plane(const Theme& theme, const Rect& panel, cons
   return {{area.x, area.y}, {area.w, area.h}, pictures.geometry(), theme.look().marker == MarkerSide::right};
 }
 
-void UltrasoundPanel::draw(const Theme& theme, const Rect& panel, Session& session, const Pictures& pictures,
+bool UltrasoundPanel::draw(const Theme& theme, const Rect& panel, Session& session, const Pictures& pictures,
                            PictureTools& tools, std::map<std::string, Rect>& places) {
+  bool double_clicked = false;
   fill(panel, colour::kImage, theme.px(4));
   const Rect area = picture_area(theme, panel);
   if (const gl::Texture* picture = pictures.ultrasound()) {
@@ -215,6 +225,7 @@ void UltrasoundPanel::draw(const Theme& theme, const Rect& panel, Session& sessi
     draw_annotations(theme, panel, plane, shown_annotations(session, tools));
     draw_picture_tools(theme, panel, session, tools, places);  // before the picture's own item, which lies below
     take_mouse(theme, area, session, plane, tools);
+    double_clicked = is_double_clicked() && !PictureTools::ready(session);
   } else {
     draw_text(panel, theme.text, colour::kFaint, "Waiting for the probe", Align::centre);
   }
@@ -223,9 +234,10 @@ void UltrasoundPanel::draw(const Theme& theme, const Rect& panel, Session& sessi
   draw_mark(theme, panel, session);
   draw_banner(theme, panel, session.lost_for_s(), state_text(session, tools));
   draw_tracker_problem(theme, panel, session);
+  return double_clicked;
 }
 
-void UltrasoundPanel::draw_still(const Theme& theme, const Rect& panel, const std::string& patient,
+bool UltrasoundPanel::draw_still(const Theme& theme, const Rect& panel, const std::string& patient,
                                  const Machine& machine, const ShownAnnotations& annotations,
                                  std::optional<double> lost_for_s, const Pictures& pictures) {
   fill(panel, colour::kImage, theme.px(4));
@@ -235,6 +247,9 @@ void UltrasoundPanel::draw_still(const Theme& theme, const Rect& panel, const st
     draw_text(panel, theme.text, colour::kFaint, "No pose has come yet", Align::centre);
   draw_annotations(theme, panel, patient, machine);
   draw_banner(theme, panel, lost_for_s, machine.frozen ? "Frozen" : "");
+  ImGui::SetCursorScreenPos(panel.min());
+  ImGui::InvisibleButton("ultrasound", {panel.w, panel.h});
+  return is_double_clicked();
 }
 
 }  // namespace insonate::ui

@@ -24,11 +24,12 @@ public:
   /// Returns the mapping between the picture's plane and the screen.
   static PlaneOnScreen plane(const Theme& theme, const Rect& panel, const Pictures& pictures);
 
-  /// Draws the panel and adds the positions of its buttons to `places`.
-  static void draw(const Theme& theme, const Rect& panel, Session& session, const Pictures& pictures,
+  /// Draws the panel and adds the positions of its buttons to `places`. Returns whether it was double-clicked; in a
+  /// picture that can be measured in, clicks measure.
+  static bool draw(const Theme& theme, const Rect& panel, Session& session, const Pictures& pictures,
                    PictureTools& tools, std::map<std::string, Rect>& places);
-  /// Draws the same for a finished run, without interaction.
-  static void draw_still(const Theme& theme, const Rect& panel, const std::string& patient, const Machine& machine,
+  /// Draws the same for a finished run, without interaction. Returns whether it was double-clicked.
+  static bool draw_still(const Theme& theme, const Rect& panel, const std::string& patient, const Machine& machine,
                          const ShownAnnotations& annotations, std::optional<double> lost_for_s,
                          const Pictures& pictures);
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 
@@ -9,22 +10,22 @@
 
 namespace insonate::ui {
 
-/// Draws the patient in space with the ultrasound's plane in it. Dragging beside the probe rotates the patient, with
-/// the right button it shifts the patient, and the wheel zooms. Dragging the probe puts it elsewhere on the skin.
+/// Draws the patient in space with the ultrasound's plane in it. The mouse works as in 3D Slicer: dragging beside the
+/// probe rotates the patient; with the middle button, or with Shift, it shifts the patient; with the right button it
+/// zooms, upwards nearer, as the wheel does. Dragging the probe puts it elsewhere on the skin.
 /// Buttons turn the patient to one of six sides, or back to the plane.
 class SpacePanel {
 public:
   /// @param session  nullptr if there is no probe to drag
-  /// @param places   receives the buttons' rectangles
-  void draw(const Theme& theme, const Rect& panel, Session* session, Pictures& pictures,
-            std::map<std::string, Rect>& places);
+  /// Returns whether the panel was double-clicked.
+  /// @param places        receives the buttons' rectangles
+  /// @param more_buttons  draws further buttons over the picture
+  bool draw(
+      const Theme& theme, const Rect& panel, Session* session, Pictures& pictures, std::map<std::string, Rect>& places,
+      const std::function<void()>& more_buttons = [] {});
 
 private:
   bool holds_probe_ = false;
 };
-
-/// Draw the CT in the ultrasound's plane, and both superimposed with a slider between them.
-void draw_slice_panel(const Theme& theme, const Rect& panel, const Pictures& pictures);
-void draw_blend_panel(const Theme& theme, const Rect& panel, Pictures& pictures);
 
 }  // namespace insonate::ui

@@ -33,10 +33,24 @@ Settings settings_of(const Machine& machine) {
   return settings;
 }
 
+glm::vec3 white_of(BlendColour colour) {
+  switch (colour) {
+    case BlendColour::grey:
+      break;
+    case BlendColour::amber:
+      return {1.0f, 0.72f, 0.30f};
+    case BlendColour::green:
+      return {0.45f, 1.0f, 0.55f};
+  }
+  return glm::vec3(1.0f);
+}
+
 }  // namespace
 
 Pictures::Pictures(const gl::ShaderSources& sources, Quality level)
-    : level_(level), simulator_(sources), slice_view_(sources), blend_view_(sources), volume_view_(sources) {}
+    : level_(level), simulator_(sources), slice_view_(sources), blend_view_(sources), volume_view_(sources) {
+  for (int axis = 0; axis < 3; ++axis) axis_slices_.emplace_back(sources);
+}
 
 void Pictures::show(const LoadedCase& loaded_case) {
   // Everything that the device may refuse comes first, so that the current patient stays on the screen then.
@@ -45,6 +59,14 @@ void Pictures::show(const LoadedCase& loaded_case) {
   simulator_.set_volume(loaded_case.acoustic, loaded_case.tissues);
   patient_ = std::move(patient);
   ultrasound_ = slice_ = blend_ = volume_ = nullptr;
+  outlined_.clear();
+  for (std::size_t label = 1; label < patient_->colours().size(); ++label)
+    if (patient_->colours()[label].opacity > 0) outlined_.push_back(std::uint8_t(label));
+  for (AxisPicture& each : axis_slices_) {
+    each.view.forget();
+    each.picture = nullptr;
+  }
+  slices_to_cross_hair();
   slice_view_.forget();
   blend_view_.forget();
   volume_view_.forget();
@@ -80,21 +102,41 @@ void Pictures::update(const std::optional<Pose>& pose, const Machine& machine, c
 
   if (times_) times_->end(FramePart::ultrasound);
 
-  view::UltrasoundPlane plane;
-  plane.image = ultrasound_;
-  plane.image_version = simulator_.image_version();
-  plane.geometry = simulator_.geometry();
-  plane.probe = machine.transducer();
-  plane.patient_from_probe = *pose;
-  turn_ = (turn_ + 1) % 3;
-  const auto is_due = [&](int turn, const gl::Texture* drawn) { return !effort.turns || turn == turn_ || !drawn; };
+  plane_.image = ultrasound_;
+  plane_.image_version = simulator_.image_version();
+  plane_.geometry = simulator_.geometry();
+  plane_.probe = machine.transducer();
+  plane_.patient_from_probe = *pose;
+
+  const bool shows_slice = anatomy && sizes.slice_width > 0, shows_blend = anatomy && sizes.blend_width > 0,
+             shows_volume = sizes.volume_width > 0;
+  std::array<bool, 6> shown{shows_slice, shows_blend, shows_volume};
+  for (std::size_t i = 0; i < axis_slices_.size(); ++i) shown[3 + i] = anatomy && sizes.axis_slices[i].x > 0;
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    turn_ = (turn_ + 1) % shown.size();
+    if (shown[turn_]) break;
+  }
+  const auto is_due = [&](std::size_t turn, const gl::Texture* drawn) {
+    return shown[turn] && (!effort.turns || turn == turn_ || !drawn);
+  };
+
   view::SliceStyle style;
-  style.scale = std::min(1.0, std::max(double(sizes.slice_width) / plane.geometry.width,
-                                       double(sizes.slice_height) / plane.geometry.height));
-  if (!anatomy) slice_ = blend_ = nullptr;
-  if (anatomy && is_due(0, slice_)) slice_ = &slice_view_.render(*patient_, plane, style);
+  static_cast<view::CtStyle&>(style) = ct_style();
+  const auto scale = [&](int wide, int tall) {
+    return std::min(1.0, std::max(double(wide) / plane_.geometry.width, double(tall) / plane_.geometry.height));
+  };
+  if (!shows_slice) slice_ = nullptr;
+  style.scale = scale(sizes.slice_width, sizes.slice_height);
+  if (is_due(0, slice_)) slice_ = &slice_view_.render(*patient_, plane_, style);
+  if (!shows_blend) blend_ = nullptr;
+  style.scale = scale(sizes.blend_width, sizes.blend_height);
   style.ultrasound = blend_share;
-  if (anatomy && is_due(1, blend_)) blend_ = &blend_view_.render(*patient_, plane, style);
+  style.ultrasound_white = white_of(ct.blend_colour);
+  if (is_due(1, blend_)) blend_ = &blend_view_.render(*patient_, plane_, style);
+  for (std::size_t i = 0; i < axis_slices_.size(); ++i) {
+    if (!shown[3 + i]) axis_slices_[i].picture = nullptr;
+    if (is_due(3 + i, axis_slices_[i].picture)) draw_axis_slice(view::SliceAxis(i), sizes.axis_slices[i]);
+  }
   if (times_) times_->end(FramePart::slices);
 
   if (!camera_placed_) camera = view::OrbitCamera::facing(grid_, *pose);
@@ -108,10 +150,51 @@ void Pictures::update(const std::optional<Pose>& pose, const Machine& machine, c
     body.ct->function = *look.shown();
   }
   body.cut = anatomy && std::abs(glm::dot(camera.patient_from_camera().rotation[2], pose->rotation[2])) > kEdgeOn;
-  if (is_due(2, volume_))
-    volume_ = &volume_view_.render(std::max(sizes.volume_width, 1), std::max(sizes.volume_height, 1), *patient_, camera,
-                                   plane, body, {0.5 * effort.volume_ms, 0.5 * effort.volume_ms});
+  if (!shows_volume) volume_ = nullptr;
+  if (is_due(2, volume_)) {
+    volume_camera_ = camera;
+    volume_pose_ = *pose;
+    volume_ = &volume_view_.render(sizes.volume_width, std::max(sizes.volume_height, 1), *patient_, camera, plane_,
+                                   body, {0.5 * effort.volume_ms, 0.5 * effort.volume_ms});
+  }
   if (times_) times_->end(FramePart::volume);
+}
+
+view::CtStyle Pictures::ct_style() const {
+  view::CtStyle style;
+  style.window_hu = ct.grey.window_hu;
+  style.level_hu = ct.grey.level_hu;
+  if (ct.outlines) style.outlined = outlined_;
+  return style;
+}
+
+void Pictures::draw_axis_slice(view::SliceAxis axis, const glm::ivec2& size) {
+  AxisPicture& drawn = axis_slices_[std::size_t(axis)];
+  glm::dvec3 through = cross_hair();
+  through[view::normal_axis(axis)] += drawn.offset_mm;
+  drawn.geometry = view::AxisSlice::fitting(axis, grid_, through, size.x, std::max(size.y, 1));
+  drawn.picture = &drawn.view.render(*patient_, drawn.geometry, ct_style());
+}
+
+glm::dvec3 Pictures::cross_hair() const {
+  return plane_.patient_from_probe.point({0, ct.cross_hair == CrossHair::face ? 0 : depth_mm_ / 2, 0});
+}
+
+void Pictures::move_slice(view::SliceAxis axis, int slices) {
+  const double to_head_front_or_left = axis == view::SliceAxis::coronal ? -1 : 1;
+  double& offset_mm = axis_slices_[std::size_t(axis)].offset_mm;
+  offset_mm += to_head_front_or_left * slices * view::slice_step_mm(axis, grid_);
+  // Within the volume, so that turning the wheel back moves the slice at once.
+  glm::dvec3 through = cross_hair();
+  const int normal = view::normal_axis(axis);
+  const double at_cross_hair = through[normal];
+  through[normal] += offset_mm;
+  offset_mm = view::AxisSlice::fitting(axis, grid_, through, 1, 1).middle[normal] - at_cross_hair;
+  if (std::abs(offset_mm) < 1e-9) offset_mm = 0;
+}
+
+void Pictures::slices_to_cross_hair() {
+  for (AxisPicture& each : axis_slices_) each.offset_mm = 0;
 }
 
 void Pictures::look_from(view::Side side) {
@@ -156,6 +239,8 @@ long Pictures::version_of(GLuint texture) const {
   if (is(slice_)) return slice_view_.renders();
   if (is(blend_)) return blend_view_.renders();
   if (is(volume_)) return volume_view_.renders();
+  for (const AxisPicture& each : axis_slices_)
+    if (is(each.picture)) return each.view.renders();
   return 0;
 }
 
@@ -173,14 +258,21 @@ long Pictures::simulator_runs() const {
 }
 
 long Pictures::drawn() const {
-  return simulator_runs() + slice_view_.renders() + blend_view_.renders() + volume_view_.renders();
+  long sum = simulator_runs() + slice_view_.renders() + blend_view_.renders() + volume_view_.renders();
+  for (const AxisPicture& each : axis_slices_) sum += each.view.renders();
+  return sum;
 }
 
 std::optional<std::string> Pictures::reload(const gl::ShaderSources& sources) {
   std::string problems;
-  for (const auto& problem : {simulator_.reload(sources), slice_view_.reload(sources), blend_view_.reload(sources),
-                              volume_view_.reload(sources)})
+  const auto add = [&](const std::optional<std::string>& problem) {
     if (problem) problems += *problem + "\n";
+  };
+  add(simulator_.reload(sources));
+  add(slice_view_.reload(sources));
+  add(blend_view_.reload(sources));
+  for (AxisPicture& each : axis_slices_) add(each.view.reload(sources));
+  add(volume_view_.reload(sources));
   return problems.empty() ? std::nullopt : std::optional(problems);
 }
 

@@ -1,26 +1,35 @@
 #pragma once
 
+#include <glm/vec2.hpp>
+
+#include <array>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "app/pictures/ct_look.h"
 #include "app/pictures/frame_times.h"
 #include "app/pictures/patient_look.h"
 #include "app/session/session.h"
 #include "sim/imaging/simulator.h"
 #include "sim/model/quality.h"
+#include "sim/view/axis_slice_view.h"
 #include "sim/view/orbit_camera.h"
 #include "sim/view/slice_view.h"
 #include "sim/view/volume_view.h"
 
 namespace insonate {
 
-/// Size of each picture on the screen, in pixels.
+/// Size of each picture on the screen, in pixels. A picture without width is not on the screen and not drawn. Only the
+/// ultrasound is always drawn, because recordings, reports and OpenIGTLink clients take it.
 struct PictureSizes {
   int ultrasound_width = 800, ultrasound_height = 560;
   int volume_width = 440, volume_height = 330;
-  int slice_width = 220, slice_height = 200;  ///< of the slice and of the blend
+  int slice_width = 220, slice_height = 200;
+  int blend_width = 220, blend_height = 200;
+  std::array<glm::ivec2, 3> axis_slices{};  ///< by view::SliceAxis
 };
 
 /// What drawing may leave out to be in time; by default nothing.
@@ -54,8 +63,8 @@ public:
     update(session.shown_pose(), session.machine(), sizes, effort, session.shows_anatomy());
   }
   /// Does the same for a given pose, which may be empty, and a given machine.
-  /// @param anatomy  whether the patient's inside is shown. Without it slice() and blend() are null and volume() shows
-  ///                 the skin only.
+  /// @param anatomy  whether the patient's inside is shown. Without it slice(), blend() and axis_slice() are null and
+  ///                 volume() shows the skin only.
   void update(const std::optional<Pose>& pose, const Machine& machine, const PictureSizes& sizes,
               const Effort& effort = {}, bool anatomy = true);
   /// Reports the time that each picture takes to `times`, which must outlive this object.
@@ -86,9 +95,27 @@ public:
   long ultrasound_version() const { return simulator_.image_version(); }
   /// Returns a number that changes whenever the pixels of that texture do, if it is one of the pictures; 0 if not.
   long version_of(GLuint texture) const;
+  /// These are null while they are not drawn.
   const gl::Texture* slice() const { return slice_; }
   const gl::Texture* blend() const { return blend_; }
   const gl::Texture* volume() const { return volume_; }
+  /// Return what volume() was drawn with. Valid while that is not null.
+  const view::OrbitCamera& volume_camera() const { return volume_camera_; }
+  const Pose& volume_pose() const { return volume_pose_; }
+  const gl::Texture* axis_slice(view::SliceAxis axis) const { return axis_slices_[std::size_t(axis)].picture; }
+  /// Returns what axis_slice() shows. Valid while that is not null.
+  const view::AxisSlice& axis_geometry(view::SliceAxis axis) const { return axis_slices_[std::size_t(axis)].geometry; }
+  /// Returns the plane, probe and depth of the ultrasound. Valid while that is not null.
+  const view::UltrasoundPlane& plane() const { return plane_; }
+  double depth_mm() const { return depth_mm_; }
+  /// Returns where the slices along the patient's axes cross unless they are moved, patient mm.
+  glm::dvec3 cross_hair() const;
+  /// Moves a slice by whole slices of the CT: to the patient's head, front or left.
+  void move_slice(view::SliceAxis axis, int slices);
+  /// Returns how far a slice was moved from the cross-hair, mm along the patient's x, y or z.
+  double slice_offset_mm(view::SliceAxis axis) const { return axis_slices_[std::size_t(axis)].offset_mm; }
+  /// Moves all slices back to the cross-hair.
+  void slices_to_cross_hair();
   /// Returns the screen's pixels per pixel of volume(), along each side.
   int volume_scale() const { return volume_view_.scale(); }
   const ImageGeometry& geometry() const { return simulator_.geometry(); }
@@ -98,6 +125,7 @@ public:
   view::OrbitCamera camera;   ///< facing the plane of a new patient's first pose
   double blend_share = 0.55;  ///< 0: the CT, 1: the ultrasound
   PatientLook look;           ///< in the 3D view, where the patient's inside may be seen
+  CtLook ct;
 
   /// Returns how often any picture was drawn; each simulator stage that ran counts as one.
   long drawn() const;
@@ -108,9 +136,22 @@ public:
   std::optional<std::string> reload(const gl::ShaderSources& sources);
 
 private:
+  struct AxisPicture {
+    explicit AxisPicture(const gl::ShaderSources& sources) : view(sources) {}
+
+    view::AxisSliceView view;
+    const gl::Texture* picture = nullptr;
+    view::AxisSlice geometry;
+    double offset_mm = 0;
+  };
+
+  view::CtStyle ct_style() const;
+  void draw_axis_slice(view::SliceAxis axis, const glm::ivec2& size);
+
   Quality level_;
   gl::Simulator simulator_;
   view::SliceView slice_view_, blend_view_;
+  std::vector<AxisPicture> axis_slices_;  ///< by view::SliceAxis
   view::VolumeView volume_view_;
   std::optional<view::PatientTextures> patient_;
   Grid grid_;  ///< the patient's
@@ -120,6 +161,10 @@ private:
   const gl::Texture* slice_ = nullptr;
   const gl::Texture* blend_ = nullptr;
   const gl::Texture* volume_ = nullptr;
+  view::UltrasoundPlane plane_;
+  view::OrbitCamera volume_camera_;
+  Pose volume_pose_;
+  std::vector<std::uint8_t> outlined_;  ///< labels that have a colour
   std::string probe_name_;
   double depth_mm_ = 0;
 
@@ -128,7 +173,7 @@ private:
   Pose shown_pose_;
   double shown_quality_ = 0;
 
-  int turn_ = 0;  ///< counts the views that take turns
+  std::size_t turn_ = 0;  ///< which of the views that take turns was last
   FrameTimes* times_ = nullptr;
 };
 

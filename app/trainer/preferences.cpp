@@ -16,7 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::vector<std::string> kTextSizes{"normal", "large", "largest"}, kLengthUnits{"cm", "mm"},
-    kMarkers{"left", "right"}, kTints{"grey", "warm", "cool"};
+    kMarkers{"left", "right"}, kTints{"grey", "warm", "cool"}, kBlendColours{"grey", "amber", "green"},
+    kCrossHairs{"fan", "face"};
 
 template <typename Word>
 Word choice(const TomlTable& table, const char* key, const std::vector<std::string>& words) {
@@ -42,6 +43,15 @@ Preferences read_preferences(const fs::path& file) {
   read.look.length_unit = choice<LengthUnit>(table, "lengths", kLengthUnits);
   read.look.marker = choice<MarkerSide>(table, "marker", kMarkers);
   read.look.tint = choice<Tint>(table, "tint", kTints);
+  read.look.layout = choice<LayoutName>(table, "layout", {kLayoutNames.begin(), kLayoutNames.end()});
+  read.look.landmarks = table.boolean("landmarks", read.look.landmarks);
+  read.ct.grey.window_hu =
+      table.number("ct_window", {WindowLevel::kLeastWindow, WindowLevel::kMostWindow}, read.ct.grey.window_hu);
+  read.ct.grey.level_hu =
+      table.number("ct_level", {WindowLevel::kLeastLevel, WindowLevel::kMostLevel}, read.ct.grey.level_hu);
+  read.ct.outlines = table.boolean("ct_outlines", read.ct.outlines);
+  read.ct.blend_colour = choice<BlendColour>(table, "blend_colour", kBlendColours);
+  read.ct.cross_hair = choice<CrossHair>(table, "cross_hair", kCrossHairs);
   const std::vector<std::string> qualities = quality_names();
   read.quality = qualities[table.choice("quality", qualities, std::size_t(quality_named(read.quality)))];
   read.igtl_server = table.text("igtl_server", "");
@@ -58,10 +68,18 @@ void write_preferences(const fs::path& file, const Preferences& preferences) {
   const auto line = [&](const char* key, const std::string& value) {
     text += std::string(key) + " = " + toml_value(value) + "\n";
   };
+  const auto yes_or_no = [](bool yes) { return std::string(yes ? "true" : "false") + "\n"; };
   line("text_size", kTextSizes[std::size_t(preferences.look.text_size)]);
   line("lengths", kLengthUnits[std::size_t(preferences.look.length_unit)]);
   line("marker", kMarkers[std::size_t(preferences.look.marker)]);
   line("tint", kTints[std::size_t(preferences.look.tint)]);
+  line("layout", kLayoutNames[std::size_t(preferences.look.layout)]);
+  text += "landmarks = " + yes_or_no(preferences.look.landmarks);
+  text += "ct_window = " + toml_value(preferences.ct.grey.window_hu) + "\n";
+  text += "ct_level = " + toml_value(preferences.ct.grey.level_hu) + "\n";
+  text += "ct_outlines = " + yes_or_no(preferences.ct.outlines);
+  line("blend_colour", kBlendColours[std::size_t(preferences.ct.blend_colour)]);
+  line("cross_hair", kCrossHairs[std::size_t(preferences.ct.cross_hair)]);
   line("quality", preferences.quality);
   line("igtl_server", preferences.igtl_server);
   line("out", preferences.out.string());

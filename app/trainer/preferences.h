@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 
+#include "app/pictures/ct_look.h"
 #include "app/trainer/look.h"
 #include "app/trainer/options.h"
 
@@ -11,6 +12,7 @@ namespace insonate {
 /// What a person sets once for their computer. None of it changes a score: it is how things look and where files go.
 struct Preferences {
   Look look;
+  CtLook ct;
   std::string quality = name_of(Quality::balanced);  ///< of the ultrasound: one of quality_names()
   std::string igtl_server;                           ///< "[ADDRESS:]PORT" for OpenIGTLink clients; empty: no server
   std::filesystem::path out;                         ///< reports, pictures and recordings; empty: "out", here

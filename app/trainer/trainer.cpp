@@ -40,6 +40,7 @@ gl::ShaderSources shaders_of(const Options& options) {
 Trainer::Trainer(Options options, Preferences preferences, std::filesystem::path file)
     : options_(std::move(options)),
       preferences_(std::move(preferences)),
+      kept_ct_look_(preferences_.ct),
       preferences_file_(std::move(file)),
       given_(options_),
       shaders_changed_(gl::last_change(options_.shader_folder)),
@@ -98,7 +99,30 @@ void Trainer::prefer(const Preferences& preferences) {
       page->read_again(options_.out, results_ ? &*results_ : nullptr);
     if (preferences_.cases != before.cases) attempt([&] { page->list_cases_in(preferences_.cases); });
   }
+  keep_preferences();
+}
+
+void Trainer::toggle_landmarks() {
+  Preferences preferences = preferences_;
+  preferences.look.landmarks = !preferences.look.landmarks;
+  prefer(preferences);
+}
+
+bool Trainer::may_name_landmarks() const {
+  const Session* shown = session();
+  if (!shown) return replay() != nullptr;
+  if (!shown->shows_anatomy()) return false;
+  const bool scored = shown->runner() && !shown->runner()->live().finished;
+  return !scored || guide_.now(*shown).has_value();
+}
+
+void Trainer::keep_preferences() {
+  kept_ct_look_ = preferences_.ct;
   if (!preferences_file_.empty()) attempt([&] { write_preferences(preferences_file_, preferences_); });
+}
+
+void Trainer::keep_ct_look() {
+  if (preferences_.ct != kept_ct_look_) keep_preferences();
 }
 
 void Trainer::open_results() {
@@ -336,6 +360,7 @@ void Trainer::update(Mode& mode, double now_s) {
 }
 
 void Trainer::draw(const PictureSizes& sizes, const Effort& effort) {
+  pictures_.ct = preferences_.ct;
   try {
     if (const Replay* run = replay()) pictures_.update(run->moment().shown_pose, run->machine(), sizes, effort);
     if (session()) pictures_.update(*session(), sizes, effort);

@@ -56,6 +56,15 @@ public:
   void save_look();
   /// Stores how this patient looks, for the next time.
   void keep_look();
+  /// Takes another look of the CT at once. A drag changes it with every frame, so keep_ct_look() stores it.
+  void adjust_ct_look(const CtLook& look) { preferences_.ct = look; }
+  /// Shows or hides the names of landmarks, as a preference.
+  void toggle_landmarks();
+  /// Returns whether the names of landmarks may be shown. They are help, so during scored steps only while the guide is
+  /// on, whose use the result counts.
+  bool may_name_landmarks() const;
+  /// Stores the look of the CT, if adjust_ct_look() has changed it.
+  void keep_ct_look();
 
   /// Begins to load what the command line names, or shows the start page if it names nothing. Returns at once.
   void open_from_options();
@@ -303,6 +312,7 @@ private:
   void use_results(const std::filesystem::path& file);
   void make_start_page();
   void serve();
+  void keep_preferences();
   void notice_recordings();
   void notice_sweep();
   void keep_and_report();
@@ -310,6 +320,7 @@ private:
 
   Options options_;
   Preferences preferences_;
+  CtLook kept_ct_look_;
   std::filesystem::path preferences_file_;
   Options given_;  ///< the command line's; on the start page and behind it options_ are the chosen ones
   std::optional<std::filesystem::file_time_type> shaders_changed_;

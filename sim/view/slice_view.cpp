@@ -1,20 +1,13 @@
 #include "sim/view/slice_view.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <utility>
 
-#include "sim/shaders/shared/slice_parameters.h"
-#include "sim/view/picture_target.h"
 #include "sim/view/plane_state.h"
 
 namespace insonate::view {
 namespace {
-
-// The outline of a label whose organ has no colour: amber, which no tissue has.
-constexpr glm::vec3 kPlainOutline(0.95f, 0.70f, 0.20f);
-// Brightens the muted organ colours, because a thin line on grey needs more brightness.
-constexpr float kOutlineBrightness = 1.35f;
 
 glm::ivec2 size_of(const ImageGeometry& ultrasound, double scale) {
   return {std::max(1, int(std::lround(ultrasound.width * scale))),
@@ -33,24 +26,6 @@ glm::dmat4 plane_from_pixel(const ImageGeometry& ultrasound, const glm::ivec2& s
   return m;
 }
 
-SliceParameters parameters_for(const PatientTextures& patient, const UltrasoundPlane& plane, const SliceStyle& style,
-                               const glm::ivec2& size) {
-  SliceParameters p{};
-  p.texture_from_pixel = glm::mat4(patient.texture_from_patient() * plane.patient_from_probe.matrix() *
-                                   plane_from_pixel(plane.geometry, size));
-  p.picture_size = glm::vec4(size, 0, 0);
-  p.window_hu = float(style.window_hu);
-  p.level_hu = float(style.level_hu);
-  p.ultrasound = float(style.ultrasound);
-  p.outside_fan = float(style.outside_fan);
-  for (const std::uint8_t label : style.outlined) {
-    const OrganColour& look = patient.colours()[label];
-    const glm::vec3 colour = look.opacity > 0 ? kOutlineBrightness * look.colour : kPlainOutline;
-    p.outline[label] = glm::vec4(glm::min(colour, 1.0f), 1);
-  }
-  return p;
-}
-
 struct Inputs {
   const PatientTextures* patient;
   PlaneState plane;
@@ -61,14 +36,10 @@ struct Inputs {
 }  // namespace
 
 struct SliceView::State {
-  explicit State(const gl::ShaderSources& sources) : program(sources, {"view/full_screen.vert", "view/slice.frag"}) {}
+  explicit State(const gl::ShaderSources& sources) : painter(sources) {}
 
-  gl::Program program;
-  gl::FullScreenTriangle triangle;
-  gl::Buffer parameters{sizeof(SliceParameters), nullptr};
-  PictureTarget target;
+  SlicePainter painter;
   std::optional<Inputs> drawn;
-  long renders = 0;
 };
 
 SliceView::SliceView(const gl::ShaderSources& sources) : state_(std::make_unique<State>(sources)) {}
@@ -80,24 +51,12 @@ const gl::Texture& SliceView::render(const PatientTextures& patient, const Ultra
                                      const SliceStyle& style) {
   State& s = *state_;
   Inputs inputs{&patient, PlaneState(plane), style};
-  if (s.drawn == inputs) return s.target.texture;
-
+  if (s.drawn == inputs) return s.painter.picture();
   const glm::ivec2 size = size_of(plane.geometry, style.scale);
-  s.target.resize(size.x, size.y);
-  const SliceParameters parameters = parameters_for(patient, plane, style, size);
-  s.parameters.write(&parameters, sizeof parameters);
-  s.parameters.bind_uniform(0);
-  patient.acoustic_volume().bind(0);
-  plane.image->bind(1);
-  patient.labels().bind(2);
-  {
-    const ScopedDrawTarget drawing(s.target.framebuffer, 0, size.y);
-    s.program.use();
-    s.triangle.draw();
-  }
-  ++s.renders;
+  s.painter.draw(patient, plane.patient_from_probe.matrix() * plane_from_pixel(plane.geometry, size), size, style,
+                 {plane.image, style.ultrasound, style.ultrasound_white, style.outside_fan});
   s.drawn = std::move(inputs);
-  return s.target.texture;
+  return s.painter.picture();
 }
 
 void SliceView::forget() {
@@ -105,11 +64,11 @@ void SliceView::forget() {
 }
 
 long SliceView::renders() const {
-  return state_->renders;
+  return state_->painter.renders();
 }
 
 std::optional<std::string> SliceView::reload(const gl::ShaderSources& sources) {
-  const std::optional<std::string> problem = gl::Program::reload(std::array{&state_->program}, sources);
+  const std::optional<std::string> problem = state_->painter.reload(sources);
   if (!problem) forget();
   return problem;
 }

@@ -1,26 +1,23 @@
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "sim/gl/objects.h"
 #include "sim/gl/program.h"
 #include "sim/view/patient_textures.h"
+#include "sim/view/slice_painter.h"
 #include "sim/view/ultrasound_plane.h"
 
 namespace insonate::view {
 
 /// How the slice view is drawn.
-struct SliceStyle {
-  double window_hu = 400;    ///< width of the grey scale, > 0
-  double level_hu = 40;      ///< middle of the grey scale
-  double ultrasound = 0;     ///< inside the fan: 0 is the CT alone, 1 the ultrasound alone, between: their mix
-  double outside_fan = 0.4;  ///< brightness of the CT outside the fan, 0 to 1
-  double scale = 1;          ///< pixels along a side for each pixel of the ultrasound, above 0 to 1
-  std::vector<std::uint8_t> outlined;  ///< label values whose edges are drawn in their organs' colours
+struct SliceStyle : CtStyle {
+  double ultrasound = 0;             ///< inside the fan: 0 is the CT alone, 1 the ultrasound alone, between: their mix
+  glm::vec3 ultrasound_white{1.0f};  ///< the colour of the ultrasound's white, sRGB, 0 to 1
+  double outside_fan = 0.4;          ///< brightness of the CT outside the fan, 0 to 1
+  double scale = 1;                  ///< pixels along a side for each pixel of the ultrasound, above 0 to 1
   bool operator==(const SliceStyle&) const = default;
 };
 

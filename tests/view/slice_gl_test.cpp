@@ -79,6 +79,23 @@ TEST_CASE("The blend mixes inside the fan and dims the CT outside it") {
   CHECK(worst_difference(image, expected) <= 1.0);
 }
 
+TEST_CASE("The blend's ultrasound has the colour that is asked for, and the CT stays grey") {
+  Scene scene = ramp_scene();
+  SliceView view;
+  SliceStyle style;
+  style.ultrasound = 0.5;
+  style.outside_fan = 1;
+  style.ultrasound_white = {1.0f, 0.5f, 0.0f};
+  const Image<Rgba8> image = test::read(view.render(*scene.patient, scene.plane, style));
+  for (const int y : {20, 100}) {
+    const double ct = expected_grey(scene, 30, y, style);
+    CHECK(std::abs(image.at(30, y)[0] - (0.5 * ct + 0.5 * 200)) <= 1.0);
+    CHECK(std::abs(image.at(30, y)[1] - (0.5 * ct + 0.5 * 100)) <= 1.0);
+    CHECK(std::abs(image.at(30, y)[2] - 0.5 * ct) <= 1.0);
+    CHECK(image.at(150, y)[0] == image.at(150, y)[2]);
+  }
+}
+
 TEST_CASE("Outlines run along a label's edge inside it, in its organ's colour, and only where asked for") {
   Volume<std::uint8_t> labels{test::skewed_grid(80), {}};
   view::OrganColours colours{};

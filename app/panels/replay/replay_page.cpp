@@ -115,18 +115,25 @@ void draw_paths(const Theme& theme, const Rect& panel, const Replay& replay, con
 
 }  // namespace
 
-void draw_replay_page(const Theme& theme, const ReplayPlaces& places, Trainer& trainer, SpacePanel& space,
-                      RecordedPanel& recorded, std::map<std::string, Rect>& names) {
+std::optional<View> draw_replay_page(const Theme& theme, const ReplayPlaces& places, Trainer& trainer,
+                                     SpacePanel& space, RecordedPanel& recorded, std::map<std::string, Rect>& names,
+                                     const std::function<void()>& more_buttons) {
   Replay& replay = *trainer.replay();
   const LoadedCase& loaded_case = *trainer.loaded_case();
   const Scenario* scenario = loaded_case.scenario ? &*loaded_case.scenario : nullptr;
+  std::optional<View> double_clicked;
   draw_top(theme, places.top, replay, scenario);
-  UltrasoundPanel::draw_still(theme, places.ultrasound, loaded_case.subject.name, replay.machine(),
-                              replay.annotations(), replay.run().lost_for_s(replay.time_s()), trainer.pictures());
-  if (replay.run().images) recorded.draw(theme, places.recorded, replay, trainer.pictures());
-  space.draw(theme, places.space, nullptr, trainer.pictures(), names);
-  draw_paths(theme, places.space, replay, trainer.pictures().camera);
+  if (places.ultrasound.w > 0 &&
+      UltrasoundPanel::draw_still(theme, places.ultrasound, loaded_case.subject.name, replay.machine(),
+                                  replay.annotations(), replay.run().lost_for_s(replay.time_s()), trainer.pictures()))
+    double_clicked = View::ultrasound;
+  if (places.recorded.w > 0) recorded.draw(theme, places.recorded, replay, trainer.pictures());
+  if (places.space.w > 0) {
+    if (space.draw(theme, places.space, nullptr, trainer.pictures(), names, more_buttons)) double_clicked = View::space;
+    draw_paths(theme, places.space, replay, trainer.pictures().camera);
+  }
   draw_timeline_panel(theme, places.timeline, replay, scenario, names);
+  return double_clicked;
 }
 
 }  // namespace insonate::ui

@@ -1,4 +1,4 @@
-// The parameters of the slice's shader. The shader reads them and C++ writes them; both include this file (std140).
+// The parameters of the slices' shader. The shader reads them and C++ writes them; both include this file (std140).
 #ifdef __cplusplus
 #pragma once
 #include <glm/mat4x4.hpp>
@@ -13,6 +13,7 @@ layout(std140, binding = 0) uniform SliceParameters {
   mat4 texture_from_pixel;  // (x, y, 0, 1) of a pixel's centre -> coordinates of the patient's textures
 
   vec4 picture_size;        // pixels across and down; 0, 0
+  vec4 ultrasound_white;    // the colour of the ultrasound's white; 0
 
   float window_hu;
   float level_hu;

@@ -20,7 +20,8 @@ struct Folder {
 
 Preferences unusual() {
   Preferences preferences;
-  preferences.look = {TextSize::largest, LengthUnit::mm, MarkerSide::right, Tint::cool};
+  preferences.look = {TextSize::largest, LengthUnit::mm, MarkerSide::right, Tint::cool, LayoutName::four, true};
+  preferences.ct = {{1500, -600}, false, BlendColour::green, CrossHair::face};
   preferences.quality = "exact";
   preferences.igtl_server = "0.0.0.0:18950";
   preferences.out = "/srv/a \"quoted\" place/\u00e4";
@@ -60,6 +61,8 @@ TEST_CASE("a file of preferences that cannot be used is refused with its place, 
   CHECK_THAT(refusal("format = 1\nquality = \"best\"\n"), Catch::Contains("balanced"));
   CHECK_THAT(refusal("format = 1\nigtl_server = \"here\"\n"), Catch::Contains("port"));
   CHECK_THAT(refusal("format = 1\ntint_ = \"warm\"\n"), Catch::Contains("tint"));
+  CHECK_THAT(refusal("format = 1\nlayout = \"five\"\n"), Catch::Contains("slices"));
+  CHECK_THAT(refusal("format = 1\nct_window = 0\n"), Catch::Contains("line 2") && Catch::Contains("4000"));
   CHECK_THAT(refusal("format = \n"), Catch::Contains("line 1"));
 }
 

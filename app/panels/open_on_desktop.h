@@ -1,0 +1,11 @@
+#pragma once
+
+#include <filesystem>
+
+namespace insonate::ui {
+
+/// Opens a file or folder with the desktop's default program, without waiting for it. Writes a line to stderr if there
+/// is no shell to do so.
+void open_on_desktop(const std::filesystem::path& file);
+
+}  // namespace insonate::ui

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string_view>
+
+#include "app/panels/widgets/theme.h"
+#include "app/panels/widgets/widgets.h"
+#include "sim/gl/objects.h"
+#include "sim/view/edge_letters.h"
+
+namespace insonate::ui {
+
+// What lies over every picture of the patient.
+
+/// Returns the picture as ImGui refers to it.
+ImTextureID id_of(const gl::Texture& texture);
+
+/// Draws a picture's name in its upper left corner. Returns the plate's rectangle.
+Rect draw_title(const Theme& theme, const Rect& panel, std::string_view title);
+
+/// Draws letters at the middles of the edges, beside the plates in the corners.
+/// @param upper_left, lower_left  the plates in the corners; empty: none
+void draw_edge_letters(const Theme& theme, const Rect& picture, const view::EdgeLetters& letters,
+                       const Rect& upper_left, const Rect& lower_left);
+
+}  // namespace insonate::ui
