@@ -60,8 +60,10 @@ void draw_curve(const Theme& theme, const Rect& graph, const view::TransferFunct
   for (int i = 0; i < kParts; ++i) {
     const double hu = kLeft_hu + (kRight_hu - kLeft_hu) * (i + 0.5) / kParts;
     const view::TransferPoint at = function.at(hu);
-    const float left = graph.x + graph.w * float(i) / kParts, top = y_of(graph, at.opacity);
-    if (at.opacity > 0) fill({left, top, graph.w / kParts + 0.5f, graph.y + graph.h - top}, ink_of(at.colour, 0.55));
+    // On whole pixels, so that neighbours neither overlap nor leave gaps.
+    const float left = std::round(graph.x + graph.w * float(i) / kParts),
+                right = std::round(graph.x + graph.w * float(i + 1) / kParts), top = y_of(graph, at.opacity);
+    if (at.opacity > 0) fill({left, top, right - left, graph.y + graph.h - top}, ink_of(at.colour, 0.55));
   }
   ImVec2 before{graph.x, y_of(graph, function.points.front().opacity)};
   for (int i = 1; i <= kParts; ++i) {
@@ -73,7 +75,7 @@ void draw_curve(const Theme& theme, const Rect& graph, const view::TransferFunct
 }
 
 void draw_scale(const Theme& theme, const Rect& below) {
-  for (const int hu : {-1000, -500, 0, 500, 1000, 1500}) {
+  for (const int hu : {-1000, -500, 0, 500, 1000}) {
     const float x = x_of(below, hu);
     char text[16];
     std::snprintf(text, sizeof text, "%d", hu);
@@ -136,12 +138,14 @@ void LookPanel::draw_graph(const Theme& theme, const Rect& graph, PatientLook& l
   if (!on_point) draw_tip(theme, graph, "Opacity by Hounsfield unit. A double click adds a point.");
 }
 
-void LookPanel::draw_colours(const Theme& theme, Rect row, PatientLook& look,
+void LookPanel::draw_colours(const Theme& theme, const Rect& where, PatientLook& look,
                              std::map<std::string, Rect>& places) const {
-  const float side = row.h, gap = theme.px(4);
+  const std::size_t per_row = kColours.size() / 2;
+  const float gap = theme.px(4), wide = (where.w - gap * float(per_row - 1)) / float(per_row),
+              high = (where.h - gap) / 2;
   for (std::size_t i = 0; i < kColours.size(); ++i) {
-    const Rect swatch = row.take_left(std::min(side, (row.w - gap) / float(kColours.size() - i)));
-    row.take_left(gap);
+    const Rect swatch{where.x + float(i % per_row) * (wide + gap), where.y + float(i / per_row) * (high + gap), wide,
+                      high};
     const std::string id = "look_colour" + std::to_string(i);
     places[id] = swatch;
     ImGui::SetCursorScreenPos(swatch.min());
@@ -179,7 +183,7 @@ LookAnswer LookPanel::draw(const Theme& theme, const Rect& panel, PatientLook& l
 
   // The looks, in rows that fill the width.
   const std::size_t count = look.offered().size() + 1;
-  const std::size_t per_row = std::max<std::size_t>(2, std::size_t(rest.w / theme.px(104)));
+  const std::size_t per_row = std::max<std::size_t>(2, std::size_t(rest.w / theme.px(80)));
   for (std::size_t first = 0; first < count; first += per_row) {
     Rect row = rest.take_top(high);
     rest.take_top(theme.px(4));
@@ -203,10 +207,10 @@ LookAnswer LookPanel::draw(const Theme& theme, const Rect& panel, PatientLook& l
   rest.take_top(theme.px(4));
   if (!look.shown() || (point_ && *point_ >= look.shown()->points.size())) point_.reset();
   if (look.shown()) {
-    draw_colours(theme, rest.take_bottom(theme.px(20)), look, places);
-    rest.take_bottom(gap);
     Rect sliders = rest.take_bottom(theme.px(40));
     rest.take_bottom(gap);
+    draw_colours(theme, sliders.take_right(theme.px(124)), look, places);
+    sliders.take_right(theme.px(16));
     Rect left = sliders.take_left((sliders.w - theme.px(20)) / 2);
     sliders.take_left(theme.px(20));
     char text[32];

@@ -21,7 +21,8 @@ public:
 
 private:
   void draw_graph(const Theme& theme, const Rect& graph, PatientLook& look, std::map<std::string, Rect>& places);
-  void draw_colours(const Theme& theme, Rect row, PatientLook& look, std::map<std::string, Rect>& places) const;
+  void draw_colours(const Theme& theme, const Rect& where, PatientLook& look,
+                    std::map<std::string, Rect>& places) const;
 
   std::optional<std::size_t> point_;  ///< chosen for its colour
 };

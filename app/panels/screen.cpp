@@ -86,6 +86,12 @@ void Screen::lay_out(const Trainer& trainer, float width, float height) {
     look_ = {slice.x, slice.y, blend.x + blend.w - slice.x, slice.h};
     views_.erase(View::slice);
     views_.erase(View::blend);
+    // A curve needs some height to be edited, also on a small screen.
+    Rect& space = views_[View::space];
+    const float bottom = look_.y + look_.h;
+    look_.h = std::max(look_.h, std::min(theme_.px(250), 0.57f * (bottom - space.y)));
+    look_.y = bottom - look_.h;
+    space.h = look_.y - gap - space.y;
   }
   places_ = {{"console", console_}, {"exam", top_}};
   for (const auto& [view, rect] : views_) places_[name_of(view)] = rect;

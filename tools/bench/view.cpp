@@ -103,8 +103,7 @@ double milliseconds_of(const std::function<void()>& work) {
 std::vector<view::TransferFunction> looks_to_measure() {
   std::vector<view::TransferFunction> looks;
   for (view::TransferFunction& look : view::bundled_transfer_functions())
-    if (look.name == "Skin" || look.name == "Bones" || look.name == "Organs with contrast")
-      looks.push_back(std::move(look));
+    if (look.name == "Skin" || look.name == "Bones" || look.name == "Organs") looks.push_back(std::move(look));
   return looks;
 }
 
