@@ -23,12 +23,14 @@ struct PlaneLook {
   ImU32 colour;
 };
 
+constexpr ImU32 kSide = IM_COL32(130, 204, 140, 255);  // apart from the other planes' accent and violet
+
 PlaneLook look_of(MprPlane plane) {
   switch (plane) {
     case MprPlane::imaging:
       return {"plane_imaging", "As the probe showed it", colour::kAccent};
     case MprPlane::side:
-      return {"plane_side", "From the side, along the sweep", colour::kAmber};
+      return {"plane_side", "From the side, along the sweep", kSide};
     case MprPlane::face:
       break;
   }

@@ -133,7 +133,10 @@ void SweepRecorder::run() {
       throw InputError("sweep", "", "it has fewer than two pictures", "move the probe while the sweep is recorded");
     swept->volume = growing.finish();
     swept->remark = growing.remark();
-    if (full) swept->remark += "The sweep was ended when its pictures filled 512 MiB.";
+    if (full) {
+      if (!swept->remark.empty()) swept->remark += " ";
+      swept->remark += "The sweep was ended when its pictures filled 512 MiB.";
+    }
     lock.lock();
     finished_ = std::move(swept);
   } catch (...) {

@@ -11,7 +11,19 @@
 namespace insonate {
 
 /// What a person looks for: something to open, or a folder or file for the settings.
-enum class Wanted { anything, patient, scenario, recording, calibration, landmarks, drawing, look, cases, output, results };
+enum class Wanted {
+  anything,
+  patient,
+  scenario,
+  recording,
+  calibration,
+  landmarks,
+  drawing,
+  look,
+  cases,
+  output,
+  results
+};
 
 /// Returns whether a folder itself is looked for.
 inline bool is_folder(Wanted wanted) {

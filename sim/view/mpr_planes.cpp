@@ -69,7 +69,7 @@ double MprPlanes::turned_deg() const {
 }
 
 std::string direction_letters(const glm::dvec3& patient_direction) {
-  const std::array<char, 6> names{'R', 'A', 'F', 'L', 'P', 'H'};
+  const std::array<char, 6> names{'R', 'A', 'I', 'L', 'P', 'S'};
   const glm::dvec3 unit = glm::normalize(patient_direction);
   std::array<int, 3> axes{0, 1, 2};
   std::stable_sort(axes.begin(), axes.end(), [&](int a, int b) { return std::abs(unit[a]) > std::abs(unit[b]); });

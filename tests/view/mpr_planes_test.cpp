@@ -86,8 +86,8 @@ TEST_CASE("A direction of the patient has the letter of its axis, and a second o
   CHECK(view::direction_letters({-1, 0.1, 0}) == "R");
   CHECK(view::direction_letters({0, 1, 0}) == "P");
   CHECK(view::direction_letters({0, -3, 0}) == "A");
-  CHECK(view::direction_letters({0, 0, 2}) == "H");
-  CHECK(view::direction_letters({0, 0, -1}) == "F");
+  CHECK(view::direction_letters({0, 0, 2}) == "S");
+  CHECK(view::direction_letters({0, 0, -1}) == "I");
   CHECK(view::direction_letters({1, -0.9, 0}) == "LA");
-  CHECK(view::direction_letters({0, 0.7, -0.8}) == "FP");
+  CHECK(view::direction_letters({0, 0.7, -0.8}) == "IP");
 }

@@ -73,7 +73,8 @@ void draw_patient(const PatientPicture& picture) {
   if (plane_shown) {
     const Probe* probe = find_probe(plane_shown->probe);
     simulator.set_probe(*probe, plane_shown->depth_mm);
-    simulator.set_settings(at_quality(trainer_settings(probe->frequency_mhz, plane_shown->depth_mm), Quality::balanced));
+    simulator.set_settings(
+        at_quality(trainer_settings(probe->frequency_mhz, plane_shown->depth_mm), Quality::balanced));
     simulator.set_pose(plane_shown->patient_from_probe);
     plane.image = &simulator.image();
     plane.image_version = simulator.image_version();
