@@ -35,7 +35,8 @@ public:
   /// switches as they were.
   /// @param patient  compared by address: call forget() after changing the object there
   /// @param plane    must have an image
-  const gl::Texture& render(const PatientTextures& patient, const UltrasoundPlane& plane, const SliceStyle& style = {});
+  const gl::Texture& render(const PatientTextures& patient, const UltrasoundPlane& plane,
+                            const SliceStyle& style = SliceStyle());
 
   /// Makes the next render() redraw.
   void forget();

@@ -1,6 +1,7 @@
 #include "sim/view/transfer_function_file.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 

@@ -51,7 +51,7 @@ public:
   /// nothing is drawn. Leaves the framebuffer binding and viewport as they were.
   /// @param patient  compared by address: call forget() after changing the object there
   const gl::Texture& render(int width, int height, const PatientTextures& patient, const OrbitCamera& camera,
-                            const UltrasoundPlane& plane, const VolumeStyle& style = {},
+                            const UltrasoundPlane& plane, const VolumeStyle& style = VolumeStyle(),
                             const VolumeBudget& budget = {});
 
   /// Makes the next render() redraw.

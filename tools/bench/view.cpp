@@ -188,13 +188,14 @@ Table measure_view_front(const Request& request) {
               for (int frame = -1; frame < request.frames; ++frame) {
                 stage.view.forget();
                 const double ms = milliseconds_of([&] {
-                  stage.view.render(kWidth, kHeight, *stage.patient, stage.camera, {}, stage.style);
+                  stage.view.render(kWidth, kHeight, *stage.patient, stage.camera, view::UltrasoundPlane(),
+                                    stage.style);
                   glFinish();
                 });
                 if (frame >= 0) times.push_back(ms);
               }
-              const gl::Texture& drawn =
-                  stage.view.render(kErrorWidth, kErrorHeight, *stage.patient, stage.camera, {}, stage.style);
+              const gl::Texture& drawn = stage.view.render(kErrorWidth, kErrorHeight, *stage.patient, stage.camera,
+                                                           view::UltrasoundPlane(), stage.style);
               std::vector<std::array<std::uint8_t, 4>> pixels(truth.size());
               drawn.read(GL_RGBA, GL_UNSIGNED_BYTE, pixels.data(), pixels.size() * 4);
               RootMeanSquare error;
