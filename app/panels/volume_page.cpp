@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <cstdio>
 
 #include "app/panels/overlays.h"
+#include "app/panels/picture_plates.h"
 #include "app/panels/space_drawing.h"
 
 namespace insonate::ui {
@@ -92,19 +92,6 @@ void draw_cuts(const Theme& theme, const PlanePicture& picture, const view::MprP
   }
 }
 
-void draw_letters(const Theme& theme, const PlanePicture& picture) {
-  const Rect& p = picture.panel;
-  const float w = theme.px(30), h = theme.px(20), edge = theme.px(4);
-  const glm::dvec3 x = picture.frame.rotation[0], y = picture.frame.rotation[1];
-  const auto letter = [&](const Rect& where, const glm::dvec3& direction) {
-    draw_text(where, theme.small_text, colour::kText, view::direction_letters(direction), Align::centre);
-  };
-  letter({p.x + edge, p.centre().y - h / 2, w, h}, -x);
-  letter({p.x + p.w - w - edge, p.centre().y - h / 2, w, h}, x);
-  letter({p.centre().x - w / 2, p.y + edge, w, h}, -y);
-  letter({p.centre().x - w / 2, p.y + p.h - h - edge, w, h}, y);
-}
-
 /// Draws how well it was swept, and what the volume is.
 void draw_words(const Theme& theme, Rect rest, const SweptVolume& swept) {
   const auto paragraph = [&](ImFont* font, ImU32 ink, const std::string& text) {
@@ -166,7 +153,11 @@ void VolumePage::draw_plane(const Theme& theme, const Rect& panel, MprPlane plan
                          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
   const PlanePicture before(planes_.frame(plane, marker_left), grid.centre(), panel, mm_per_pixel);
   const ImGuiIO& io = ImGui::GetIO();
-  if (ImGui::IsItemHovered() && io.MouseWheel != 0) planes_.shift(plane, std::round(io.MouseWheel) * grid.spacing.x);
+  if (ImGui::IsItemHovered() && io.MouseWheel != 0) {
+    wheel_ += io.MouseWheel;  // a trackpad moves it by small steps
+    planes_.shift(plane, std::trunc(wheel_) * grid.spacing.x);
+    wheel_ -= std::trunc(wheel_);
+  }
   if (ImGui::IsItemActive() && io.MouseDown[0]) {
     planes_.move_to(before.patient(io.MousePos));
   } else if (ImGui::IsItemActive() && io.MouseDown[1] && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0)) {
@@ -188,10 +179,12 @@ void VolumePage::draw_plane(const Theme& theme, const Rect& panel, MprPlane plan
   pictures_[number] = texture.name();
   ImDrawList* list = ImGui::GetWindowDrawList();
   list->PushClipRect(panel.min(), panel.max(), true);
-  list->AddImage(reinterpret_cast<ImTextureID>(std::uintptr_t(texture.name())), panel.min(), panel.max());
+  list->AddImage(id_of(texture), panel.min(), panel.max());
   draw_cuts(theme, picture, planes_, plane);
-  draw_letters(theme, picture);
-  draw_chip(theme, {panel.x + theme.px(4), panel.y + theme.px(4)}, colour::kPlate, look.colour, look.title);
+  const ImVec2 corner{panel.x + theme.px(4), panel.y + theme.px(4)};
+  const float title_width = draw_chip(theme, corner, colour::kPlate, look.colour, look.title);
+  draw_edge_letters(theme, panel, view::edge_letters(picture.frame.rotation[0], picture.frame.rotation[1]),
+                    {corner.x, corner.y, title_width, 0}, {});
   list->PopClipRect();
   outline(panel, look.colour);
 }

@@ -43,6 +43,7 @@ private:
   std::unique_ptr<view::SweptTexture> texture_;
   std::array<std::unique_ptr<view::MprView>, 3> views_;  ///< made when the page is first shown
   std::array<GLuint, 3> pictures_{};                     ///< textures of the views
+  float wheel_ = 0;                                      ///< turned by less than a step
   view::MprPlanes planes_;
   std::string problem_;
 };

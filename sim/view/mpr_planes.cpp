@@ -68,16 +68,4 @@ double MprPlanes::turned_deg() const {
   return angle_between_deg({volume_.direction, {}}, {normals_, {}});
 }
 
-std::string direction_letters(const glm::dvec3& patient_direction) {
-  const std::array<char, 6> names{'R', 'A', 'I', 'L', 'P', 'S'};
-  const glm::dvec3 unit = glm::normalize(patient_direction);
-  std::array<int, 3> axes{0, 1, 2};
-  std::stable_sort(axes.begin(), axes.end(), [&](int a, int b) { return std::abs(unit[a]) > std::abs(unit[b]); });
-  const auto letter = [&](int axis) { return names[std::size_t(axis + (unit[axis] > 0 ? 3 : 0))]; };
-  const auto off_deg = [&](int axis) { return glm::degrees(std::acos(std::min(std::abs(unit[axis]), 1.0))); };
-  std::string letters(1, letter(axes[0]));
-  if (off_deg(axes[1]) - off_deg(axes[0]) < 30) letters += letter(axes[1]);
-  return letters;
-}
-
 }  // namespace insonate::view

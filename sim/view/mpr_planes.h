@@ -58,8 +58,4 @@ private:
   glm::dmat3 normals_{1.0};  ///< column c is the normal of the plane across the volume's axis c
 };
 
-/// Returns the letters of a direction of the patient: "L", "R", "P", "A", "S" or "I" for the axis nearest to it, and
-/// the next one behind it if that is less than 30 degrees farther off: "LA".
-std::string direction_letters(const glm::dvec3& patient_direction);
-
 }  // namespace insonate::view

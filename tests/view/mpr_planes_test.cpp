@@ -80,14 +80,3 @@ TEST_CASE("The planes' point stays within the volume") {
   planes.shift(MprPlane::imaging, 400);
   CHECK(near(planes.centre(), grid.centre() + 10.0 * grid.direction[2]));
 }
-
-TEST_CASE("A direction of the patient has the letter of its axis, and a second one where it is oblique") {
-  CHECK(view::direction_letters({1, 0, 0}) == "L");
-  CHECK(view::direction_letters({-1, 0.1, 0}) == "R");
-  CHECK(view::direction_letters({0, 1, 0}) == "P");
-  CHECK(view::direction_letters({0, -3, 0}) == "A");
-  CHECK(view::direction_letters({0, 0, 2}) == "S");
-  CHECK(view::direction_letters({0, 0, -1}) == "I");
-  CHECK(view::direction_letters({1, -0.9, 0}) == "LA");
-  CHECK(view::direction_letters({0, 0.7, -0.8}) == "IP");
-}
