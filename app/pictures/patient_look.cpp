@@ -32,11 +32,12 @@ std::vector<float> histogram_of(const Volume<std::int16_t>& ct) {
   return bins;
 }
 
-/// Returns the name with what a file name should not have replaced.
+/// Returns a file name for a function. Names in other scripts would all become underscores, so a digest tells them
+/// apart.
 std::string file_name(const std::string& name) {
   std::string text;
   for (const char c : name) text += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
-  return text.substr(0, 60) + ".toml";
+  return text.substr(0, 40) + "-" + digest_of(name).substr(0, 8) + ".toml";
 }
 
 }  // namespace
@@ -55,6 +56,7 @@ std::vector<std::string> PatientLook::use_folder(const fs::path& folder) {
   for (const fs::path& file : files) {
     try {
       offered_.push_back(view::read_transfer_function(file));
+      own_files_.emplace(offered_.back().name, file);
     } catch (const InputError& error) {
       problems.push_back(error.what());
     }
@@ -133,7 +135,7 @@ fs::path PatientLook::save() {
   const auto bundled_end = offered_.begin() + std::ptrdiff_t(bundled_);
   if (std::any_of(offered_.begin(), bundled_end, [&](const auto& bundled) { return bundled.name == saved.name; }))
     saved.name += " (edited)";
-  const fs::path file = folder_ / file_name(saved.name);
+  const fs::path file = own_files_.emplace(saved.name, folder_ / file_name(saved.name)).first->second;
   fs::create_directories(folder_);
   view::write_transfer_function(file, saved);
   const auto same = std::find_if(bundled_end, offered_.end(), [&](const auto& own) { return own.name == saved.name; });

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -55,8 +56,9 @@ public:
   double shift_hu() const { return shift_hu_; }
   double scale_factor() const { return scale_; }
 
-  /// Writes the shown function to the person's folder under its name and "(edited)" if a bundled one has that name, and
-  /// offers it. Returns the file. Throws InputError if it cannot be written, std::logic_error without a folder.
+  /// Writes the shown function to the person's folder and offers it, with "(edited)" behind the name of a bundled one.
+  /// A function that came from a file there replaces it. Returns the file. Throws InputError if it cannot be written,
+  /// std::logic_error without a folder.
   std::filesystem::path save();
 
   /// Shows a patient as they were left the last time; with labelled organs if that is unknown or not readable.
@@ -75,6 +77,7 @@ private:
   std::vector<view::TransferFunction> offered_;
   std::size_t bundled_;  ///< the first of offered_
   std::filesystem::path folder_;
+  std::map<std::string, std::filesystem::path> own_files_;  ///< by the function's name
   std::optional<std::size_t> chosen_;
   std::optional<view::TransferFunction> base_, shown_;  ///< before and after shift and scale
   double shift_hu_ = 0, scale_ = 1;

@@ -1,8 +1,6 @@
 #include "sim/view/transfer_function_file.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <string>
 
 #include "sim/core/files.h"
@@ -17,13 +15,13 @@ TransferFunction read_transfer_function(const fs::path& toml_file) {
   const TomlTable root = document.root();
   TransferFunction function;
   function.name = root.text("name");
-  double least_hu = kFirstTransferHu;
   for (const TomlTable& table : root.tables("point", kMostTransferPoints, "point")) {
     TransferPoint point;
-    point.hu = table.number("hu", {least_hu, kLastTransferHu});
+    point.hu = table.number("hu", {kFirstTransferHu, kLastTransferHu});
     point.colour = table.vector("colour", {0, 1});
     point.opacity = table.number("opacity", {0, kMostOpacity});
-    least_hu = std::nextafter(point.hu, std::numeric_limits<double>::max());
+    if (!function.points.empty() && point.hu <= function.points.back().hu)
+      table.report("hu", "'hu' is not above that of the point before", "put the points in the order of rising hu");
     function.points.push_back(point);
   }
   if (function.points.size() < 2)

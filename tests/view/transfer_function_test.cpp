@@ -136,7 +136,8 @@ TEST_CASE("A transfer function that cannot be used is refused with line and reas
   };
   using Catch::Contains;
   CHECK(refusal(head + "hu = 10\ncolour = [1, 1, 1]\nopacity = 0.5\n").empty());
-  CHECK_THAT(refusal(head + "hu = 0\ncolour = [1, 1, 1]\nopacity = 0.5\n"), Contains("line 7") && Contains("hu"));
+  CHECK_THAT(refusal(head + "hu = 0\ncolour = [1, 1, 1]\nopacity = 0.5\n"),
+             Contains("line 7") && Contains("rising hu"));
   CHECK_THAT(refusal(head + "hu = 5000\ncolour = [1, 1, 1]\nopacity = 0.5\n"), Contains("hu"));
   CHECK_THAT(refusal(head + "hu = 10\ncolour = [1, 2, 1]\nopacity = 0.5\n"), Contains("colour"));
   CHECK_THAT(refusal(head + "hu = 10\ncolour = [1, 1, 1]\nopacity = 1\n"), Contains("opacity"));

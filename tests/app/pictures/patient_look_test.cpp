@@ -98,7 +98,26 @@ TEST_CASE("A saved look is offered from then on, also to the next start, and lea
   CHECK(next.offered().back().points == edited.points);
 }
 
-TEST_CASE("A file in the person's folder that cannot be used is told of, and the others are offered") {
+TEST_CASE("A look from a file is saved to that file, and names in another script get files of their own") {
+  const TemporaryFolder home;
+  const std::filesystem::path first = home.path / "mine.toml";
+  view::write_transfer_function(first, {"\u9aa8", {{0, {}, 0}, {100, {}, 0.5}}});
+  PatientLook look;
+  look.use_folder(home.path);
+  const std::size_t mine = look.offered().size() - 1;
+  look.choose(mine);
+  look.move_point(1, 200, 0.5);
+  CHECK(look.save() == first);
+  look.take({"\u808c", {{0, {}, 0}, {50, {}, 0.5}}});
+  CHECK(look.save() != first);
+  PatientLook next;
+  CHECK(next.use_folder(home.path).empty());
+  REQUIRE(next.offered().size() == mine + 2);
+  CHECK(std::any_of(next.offered().begin(), next.offered().end(),
+                    [](const auto& offered) { return offered.name == "\u9aa8" && offered.points[1].hu == 200; }));
+}
+
+TEST_CASE("A file in the person's folder that cannot be used is reported, and the others are offered") {
   const TemporaryFolder home;
   home.put("a.toml", "name = \"A\"\n");
   view::write_transfer_function(home.path / "b.toml", {"B", {{0, {}, 0}, {1, {}, 0.5}}});
