@@ -61,6 +61,7 @@ VolumeViewParameters parameters_for(const PatientTextures& patient, const OrbitC
   p.show_plane = style.plane && plane.image;
   p.show_probe = style.probe;
   p.show_organs = style.organs;
+  p.fan_edge = scale == 1;
   if (style.ct) {
     p.ct_step_mm = float(style.ct->step * patient.ct_voxel_mm() * coarsening(scale));
     p.jitter = style.ct->jittered;
@@ -253,6 +254,8 @@ const gl::Texture& VolumeView::render(int width, int height, const PatientTextur
   const Inputs inputs{width, height, &patient, camera, PlaneState(plane), style};
   const double pixels = double(width) * height;
   if (s.drawn != inputs) {
+    if (s.drawn && s.drawn->style.ct.has_value() != style.ct.has_value())
+      s.pace = Pace();  // costs several times as much
     s.drawn = inputs;
     s.scale = s.moving_scale = chosen_scale(s.pace, pixels, budget.volume_ms, s.moving_scale, kCoarsest);
     s.full_rows = s.scale == 1 ? height : 0;

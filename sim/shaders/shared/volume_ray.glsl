@@ -71,7 +71,7 @@ void composite_plane(vec3 patient, float t, float slant) {
     float fan = 0.25 * (fan_at(uv + reach * vec2(0.9, 0.4)) + fan_at(uv + reach * vec2(-0.4, 0.9)) +
                         fan_at(uv + reach * vec2(-0.9, -0.4)) + fan_at(uv + reach * vec2(0.4, -0.9)));
     vec3 echo = textureLod(ultrasound_image, uv, 0.0).rgb;
-    composite(mix(kFanEdge, echo, smoothstep(0.75, 1.0, fan)), smoothstep(0.0, 0.5, fan));
+    composite(mix(kFanEdge, echo, fan_edge == 1 ? smoothstep(0.75, 1.0, fan) : 1.0), smoothstep(0.0, 0.5, fan));
   }
   vec3 at = (tissue_from_patient * vec4(patient, 1.0)).xyz;
   bool in_box = all(greaterThanEqual(at, vec3(0.0))) && all(lessThanEqual(at, vec3(1.0)));

@@ -38,6 +38,9 @@ layout(std140, binding = 0) uniform VolumeViewParameters {
   int jitter;      // whether samples begin at another place in each pixel
   int skip_empty;  // whether empty cells are leapt over
   int body_only;   // whether the table is left out
+
+  int fan_edge;  // whether the fan's edge has a colour of its own: with few pixels it would be a broad band
+  int unused_1, unused_2, unused_3;
 #ifdef __cplusplus
 };
 }  // namespace insonate::view
