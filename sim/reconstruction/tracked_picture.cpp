@@ -1,6 +1,7 @@
 #include "sim/reconstruction/tracked_picture.h"
 
 #include <glm/geometric.hpp>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 
@@ -42,8 +43,9 @@ std::shared_ptr<const PictureRegion> region_where(int width, int height,
                                                   const std::function<bool(int x, int y)>& inside) {
   auto region = std::make_shared<PictureRegion>();
   region->inside = Image<std::uint8_t>(width, height);
-  for (int y = 0; y < height; ++y)
+  tbb::parallel_for(0, height, [&](int y) {
     for (int x = 0; x < width; ++x) region->inside.at(x, y) = inside(x, y);
+  });
   region->spans = spans_of(region->inside);
   region->outline = outline_of(region->spans);
   return region;

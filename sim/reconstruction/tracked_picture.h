@@ -34,6 +34,7 @@ struct PictureRegion {
 std::shared_ptr<const PictureRegion> fan_region(const Probe& probe, double depth_mm, const ImageGeometry& geometry);
 
 /// Returns the part of a picture where `inside` returns true. Its outline is empty if that is nowhere.
+/// @param inside  called from several threads
 std::shared_ptr<const PictureRegion> region_where(int width, int height,
                                                   const std::function<bool(int x, int y)>& inside);
 

@@ -22,8 +22,8 @@ struct PlaneTrace {
       outline;  ///< the fan's outline, closed, if the slice lies in its plane; then there is no line
 };
 
-/// Planes that differ by less are taken as one, if the slice passes the middle of the fan by less than
-/// kSamePlane_mm; farther apart there is no trace.
+/// Planes that differ by less are taken as one. A slice that then passes the middle of the fan by kSamePlane_mm or more
+/// has an empty trace.
 inline constexpr double kSamePlane_deg = 2, kSamePlane_mm = 3;
 
 /// @param depth_mm  how deep the fan reaches

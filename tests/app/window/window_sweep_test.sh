@@ -10,7 +10,7 @@ echo "without a sweep there is nothing to see"
 await "the session is shown" is activity practice
 await "a pose is there" is_not face_x ""
 xdotool key u
-await "a sentence says how a volume is made" contains toast "no swept volume"
+await "a sentence says how a volume is made" contains toast "Sweep a volume first"
 [ -z "$(value overlay)" ] || fail "a page is open: $(value overlay)"
 
 echo "T begins a sweep, the probe slides, the button ends it"
