@@ -18,6 +18,10 @@ Settings in_use(Settings settings) {
   else
     forget(&S::focus_mm, &S::f_number);
   if (!settings.absorption && !settings.focused_beam && !has_elevation_focus(settings)) forget(&S::frequency_mhz);
+  if (settings.waves)
+    forget(&S::reflection_sigma_mm, &S::transmission_sigma_mm);
+  else
+    forget(&S::specular_exponent);
   if (!settings.clutter) forget(&S::clutter_db);
   if (!settings.electronic_noise) forget(&S::noise_db);
   if (!settings.electronic_noise && settings.reference_level == ReferenceLevel::frame_maximum) forget(&S::fixed_level);
@@ -59,15 +63,19 @@ DirtyStages dirty_stages(const Settings& before, const Settings& now) {
   const auto differ = [&](auto... members) { return ((from.*members != to.*members) || ...); };
 
   DirtyStages dirty;
-  dirty.layout = differ(&S::samples, &S::slice_planes, &S::image_width, &S::image_height);
+  dirty.layout = differ(&S::samples, &S::waves, &S::slice_planes, &S::image_width, &S::image_height);
   dirty.beam = differ(&S::beam_window, &S::beam_lines, &S::focused_beam, &S::focus_mm, &S::f_number, &S::frequency_mhz,
                       &S::speckle, &S::reverberation, &S::face_reflection, &S::speckle_cell_mm, &S::slice_thickness_mm,
-                      &S::elevation_focus_mm);
+                      &S::elevation_focus_mm, &S::waves, &S::reflection_length_mm);
 
   if (differ(&S::samples, &S::reflection_length_mm, &S::frequency_mhz, &S::absorption, &S::gel_mm, &S::speckle,
              &S::speckle_seed, &S::speckle_cell_mm, &S::slice_planes, &S::slice_thickness_mm, &S::elevation_focus_mm,
-             &S::edge_shadow, &S::image_width, &S::image_height, &S::exact_filter, &S::skipping) ||
+             &S::edge_shadow, &S::waves, &S::specular_exponent, &S::image_width, &S::image_height, &S::exact_filter,
+             &S::skipping) ||
       (keeps_middle_plane(to) && !keeps_middle_plane(from)) ||
+      // The scatterers' scale depends on the beam.
+      (to.waves && differ(&S::blend, &S::two_way, &S::beam_window, &S::beam_lines, &S::focused_beam, &S::focus_mm,
+                          &S::f_number)) ||
       least_alpha_with_normal(to) != least_alpha_with_normal(from))  // other interfaces are worth a normal
     dirty.first = Stage::traverse;
   else if (differ(&S::beam_window, &S::beam_lines, &S::focused_beam, &S::focus_mm, &S::f_number, &S::reverberation,

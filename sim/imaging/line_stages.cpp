@@ -6,6 +6,7 @@
 #include "sim/imaging/stage_tables.h"
 #include "sim/model/beam.h"
 #include "sim/model/scatterers.h"
+#include "sim/model/waves.h"
 
 namespace insonate::gl {
 namespace {
@@ -26,6 +27,8 @@ Defines traversal(const Settings& settings, double dr_mm, bool group_a_line) {
                                     : "kEdgesAnywhere"},
           {"ABSORPTION", flag(settings.absorption)},
           {"SPECKLE", flag(settings.speckle)},
+          {"WAVES", flag(settings.waves)},
+          {"TWO_WAY", flag(settings.two_way)},
           {"EDGE_SHADOW", flag(settings.edge_shadow)},
           {"EXACT_FILTER", flag(settings.exact_filter)},
           {"SKIPPING", flag(settings.skipping)},
@@ -36,6 +39,14 @@ Defines traversal(const Settings& settings, double dr_mm, bool group_a_line) {
 
 Defines reverberation_of(const Settings& settings) {
   return {{"IN_TISSUE", flag(settings.reverberation)}, {"AT_FACE", flag(settings.face_reflection > 0)}};
+}
+
+Defines pulse_of(int radius) {
+  return {{"PULSE_RADIUS", std::to_string(radius)}};
+}
+
+Defines clutter_of(const Settings& settings) {
+  return {{"WAVES", flag(settings.waves)}};
 }
 
 Defines beam_of(const Settings& settings) {
@@ -51,8 +62,11 @@ LineStages::LineStages(const ShaderSources& sources, const WorkDivision& divisio
       traverse_(sources, {"imaging/traverse.comp"}, with(division, traversal({}, 1, division.lines_that_fill > 0))),
       reverberation_(sources, {"imaging/reverberation.comp"}, with(division, reverberation_of({}))),
       beam_(sources, {"imaging/beam.comp"}, with(division, beam_of({}))),
-      clutter_(sources, {"imaging/clutter.comp"}, with(division)),
-      clutter_tail_(sources, {"imaging/clutter_tail.comp"}) {}
+      pulse_(sources, {"imaging/pulse.comp"}, pulse_of(1)),
+      wave_beam_(sources, {"imaging/wave_beam.comp"}, beam_of({})),
+      clutter_(sources, {"imaging/clutter.comp"}, with(division, clutter_of({}))),
+      clutter_tail_(sources, {"imaging/clutter_tail.comp"}),
+      scatterers_(sources, division) {}
 
 void LineStages::lay_out(const ScanLines& of_plane, int most_planes, const Settings& settings) {
   lines_ = of_plane;
@@ -64,16 +78,18 @@ void LineStages::lay_out(const ScanLines& of_plane, int most_planes, const Setti
   scan_ = TexelBuffer(GL_RGBA32F, n * d);
   middle_ = TexelBuffer();
   echoes_ = TexelBuffer(GL_RGBA32F, n * d);
+  pulsed_ = TexelBuffer();
+  if (settings.waves) scatterers_.lay_out(lines_, most_planes, settings);
   mean_echo_ = TexelBuffer(GL_R32F, std::size_t(most_planes) * d);
   beam_changed_ = true;
 }
 
-void LineStages::prepare_scatterers(const Settings& settings) {
-  if (scatterers_ && scatterers_seed_ == settings.speckle_seed) return;
+void LineStages::prepare_lattice(const Settings& settings) {
+  if (lattice_ && lattice_seed_ == settings.speckle_seed) return;
   constexpr int side = ScattererLattice::kSide;
-  scatterers_ = Texture::make_3d(GL_RG16_SNORM, side, side, side, Filter::linear, Wrap::repeat);
-  scatterers_.write(GL_RG, GL_SHORT, make_scatterers(settings.speckle_seed).stored.data());
-  scatterers_seed_ = settings.speckle_seed;
+  lattice_ = Texture::make_3d(GL_RG16_SNORM, side, side, side, Filter::linear, Wrap::repeat);
+  lattice_.write(GL_RG, GL_SHORT, make_scatterers(settings.speckle_seed).stored.data());
+  lattice_seed_ = settings.speckle_seed;
 }
 
 std::size_t LineStages::set_lines() const {
@@ -98,10 +114,16 @@ void LineStages::traverse(const DeviceVolume& volume, std::span<const Pose> pati
                           const Settings& settings) {
   planes_ = int(patient_from_plane.size());
   traverse_.define(with(division_, traversal(settings, lines_.dr_mm(), group_a_line())));
-  if (settings.speckle) prepare_scatterers(settings);
+  if (settings.speckle && settings.waves) {
+    scatterers_.place(patient_from_plane, settings);
+    scatterers_.scattered().bind(3);
+    scatterers_.scale().bind(4);
+  } else if (settings.speckle) {
+    prepare_lattice(settings);
+    lattice_.bind(1);
+  }
   if (keeps_middle_plane(settings) && !middle_) middle_ = TexelBuffer(GL_RG32F, most_samples());
   volume.texture().bind(0);
-  scatterers_.bind(1);
   volume.tissue_lookup().bind(7);
   if (keeps_middle_plane(settings)) middle_.bind_storage(3);  // the results of the line in air are overwritten
 
@@ -132,7 +154,14 @@ void LineStages::dispatch(const Program& program, std::size_t groups) const {
 
 void LineStages::prepare_beam(const Settings& settings) {
   if (reverberates(settings)) reverberation_.define(with(division_, reverberation_of(settings)));
-  beam_.define(with(division_, beam_of(settings)));
+  if (settings.waves) {
+    pulse_.define(pulse_of(int(pulse_weights(lines_, settings).size() / 2)));
+    wave_beam_.define(beam_of(settings));
+    if (!pulsed_) pulsed_ = TexelBuffer(GL_RG32F, most_samples());
+  } else {
+    beam_.define(with(division_, beam_of(settings)));
+  }
+  clutter_.define(with(division_, clutter_of(settings)));
   if (!beam_changed_) return;
   if (reverberates(settings)) repeats_ = TexelBuffer(GL_R32F, most_samples());
   beam_window_ = half_beam_window(settings);
@@ -152,10 +181,19 @@ void LineStages::beam(const Settings& settings) {
   scan_.bind(0);
   beam_window_.bind_uniform(1);
   beam_at_depth_.bind(1);
-  echoes_.bind_storage(0);
-  beam_.dispatch(lines_.samples, (int(lines_.lines.size()) + 3) / 4, planes_);
+  const glm::ivec2 in_fours(lines_.samples, (int(lines_.lines.size()) + 3) / 4);
+  if (settings.waves) {
+    pulsed_.bind_storage(0);
+    pulse_.dispatch((lines_.samples + 3) / 4, int(set_lines()));
+    pulsed_.bind(0);
+    echoes_.bind_storage(0);
+    wave_beam_.dispatch(in_fours.x, in_fours.y, planes_);
+  } else {
+    echoes_.bind_storage(0);
+    beam_.dispatch(in_fours.x, in_fours.y, planes_);
+  }
   if (!settings.clutter) return;
-  echoes_.bind(0);
+  (settings.waves ? scan_ : echoes_).bind(0);
   mean_echo_.bind_storage(0);
   clutter_.dispatch(lines_.samples, planes_);
   clutter_tail_.dispatch(planes_, 1);
@@ -168,7 +206,7 @@ SampleCounts LineStages::sample_counts() const {
 }
 
 std::vector<Program*> LineStages::programs() {
-  return {&traverse_, &reverberation_, &beam_, &clutter_, &clutter_tail_};
+  return {&traverse_, &reverberation_, &beam_, &pulse_, &wave_beam_, &clutter_, &clutter_tail_, &scatterers_.program()};
 }
 
 }  // namespace insonate::gl

@@ -9,6 +9,7 @@
 #include "sim/gl/program.h"
 #include "sim/gl/work_division.h"
 #include "sim/imaging/device_volume.h"
+#include "sim/imaging/scatterer_stage.h"
 #include "sim/model/settings.h"
 #include "sim/probe/probe.h"
 
@@ -52,10 +53,12 @@ public:
   /// Runs the beam's stages. Call it after traverse(), with settings that differ at most in what the traversal ignores.
   void beam(const Settings& settings);
 
-  const ScanLines& lines() const { return lines_; }      ///< per plane
-  const TexelBuffer& scan() const { return scan_; }      ///< by sample: I, R, scatterers' echo (re, im)
-  const TexelBuffer& echoes() const { return echoes_; }  ///< by sample: R, T, S, V
-  /// By plane and depth: mean of T S with its tail; only with clutter.
+  const ScanLines& lines() const { return lines_; }  ///< per plane
+  /// By sample: I, R, scatterers' echo (re, im); with waves I, scattered power, e (re, im), see sim/model/stages.h.
+  const TexelBuffer& scan() const { return scan_; }
+  /// By sample: R, T, S, V; with waves f (re, im), 0, V.
+  const TexelBuffer& echoes() const { return echoes_; }
+  /// By plane and depth: mean of T S, with waves of the scattered power, with its tail; only with clutter.
   const TexelBuffer& mean_echo() const { return mean_echo_; }
   /// Returns the counts since restart_counts(). Blocks until the device has finished.
   SampleCounts sample_counts() const;
@@ -64,7 +67,7 @@ public:
   std::vector<Program*> programs();
 
 private:
-  void prepare_scatterers(const Settings& settings);
+  void prepare_lattice(const Settings& settings);
   void prepare_beam(const Settings& settings);
   std::size_t set_lines() const;
   bool group_a_line() const;
@@ -75,18 +78,19 @@ private:
   void dispatch(const Program& program, std::size_t groups) const;
 
   WorkDivision division_;
-  Program traverse_, reverberation_, beam_, clutter_, clutter_tail_;
+  Program traverse_, reverberation_, beam_, pulse_, wave_beam_, clutter_, clutter_tail_;
+  ScattererStage scatterers_;
 
   ScanLines lines_;
   int most_planes_ = 1, planes_ = 1;  // planes_: of the last traversal
-  Texture scatterers_;
-  std::uint32_t scatterers_seed_ = 0;  // of scatterers_
+  Texture lattice_;
+  std::uint32_t lattice_seed_ = 0;  // of lattice_
   Buffer line_buffer_, air_line_buffer_, beam_window_;
   TexelBuffer beam_at_depth_;
   bool beam_changed_ = true;
 
   TexelBuffer in_air_;  // by sample, as scan(): of a line that does not meet the body
-  TexelBuffer scan_, middle_, repeats_, echoes_, mean_echo_;
+  TexelBuffer scan_, middle_, repeats_, pulsed_, echoes_, mean_echo_;
   Buffer counters_{sizeof(SampleCounts), nullptr}, uncounted_{sizeof(SampleCounts), nullptr};
 };
 

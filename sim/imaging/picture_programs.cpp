@@ -9,6 +9,7 @@ Defines conversion(const PictureVariant& variant) {
   return {{"REFLECTION_SMOOTHED", flag(variant.reflection_radius_px > 0)},
           {"TRANSMISSION_SMOOTHED", flag(variant.transmission_radius_px > 0)},
           {"SMOOTHED", variant.transmission_radius_px > 0 ? "vec2" : "float"},
+          {"WAVES", flag(variant.settings.waves)},
           {"NOISE", flag(is_noisy(variant.settings))},
           {"CLUTTER", flag(variant.settings.clutter)}};
 }

@@ -12,6 +12,7 @@
 #include "sim/imaging/picture_programs.h"
 #include "sim/imaging/stage_tables.h"
 #include "sim/imaging/view_limits.h"
+#include "sim/model/noise.h"
 #include "sim/model/settings_file.h"
 #include "sim/shaders/shared/simulation_parameters.h"
 
@@ -124,13 +125,17 @@ void Simulator::State::prepare() {
   programs.build_from(*first_outdated,
                       {settings, reflection_gaussian.radius, transmission_gaussian.radius, stages_are_read});
   parameters = parameters_of(settings, line_stages.lines(), reflection_gaussian, transmission_gaussian);
+  const glm::ivec2 shift = noise_shift(patient_from_probe) % glm::ivec2(settings.image_width, settings.image_height);
+  parameters.noise_shift_x = shift.x;
+  parameters.noise_shift_y = shift.y;
   parameter_buffer.write(&parameters, sizeof parameters);
 }
 
 void Simulator::State::prepare_smoothing() {
   const int w = settings.image_width, h = settings.image_height, limit = std::max(w, h) - 1;
-  const Gaussian reflection(settings.reflection_sigma_mm / fan.geometry.mm_per_pixel, limit);
-  const Gaussian transmission(settings.transmission_sigma_mm / fan.geometry.mm_per_pixel, limit);
+  const double per_pixel = settings.waves ? 0 : 1 / fan.geometry.mm_per_pixel;  // waves are not smoothed
+  const Gaussian reflection(settings.reflection_sigma_mm * per_pixel, limit);
+  const Gaussian transmission(settings.transmission_sigma_mm * per_pixel, limit);
   if (fan_weights && reflection == reflection_gaussian && transmission == transmission_gaussian) return;
   reflection_gaussian = reflection;
   transmission_gaussian = transmission;
@@ -150,7 +155,8 @@ void Simulator::State::prepare_fusion() {
 void Simulator::State::prepare_noise() {
   if (noise && noise_length_mm == settings.reflection_length_mm) return;
   noise_length_mm = settings.reflection_length_mm;
-  noise = noise_of_pixels(fan, line_stages.lines(), settings);
+  noise = settings.waves ? noise_waves_of_pixels(fan.geometry, line_stages.lines(), settings)
+                         : noise_of_pixels(fan, line_stages.lines(), settings);
 }
 
 bool Simulator::State::needed(Stage stage) const {
@@ -327,10 +333,18 @@ Stages<float> Simulator::read_stages() {
   const auto scan = read_fours(s.line_stages.scan(), d, n);
   const auto echoes = read_fours(s.line_stages.echoes(), d, n);
   stages.intensity = transposed(scan[0]);
-  stages.reflection = transposed(scan[1]);
-  stages.reflection_beam = transposed(echoes[0]);
-  stages.transmission = transposed(echoes[1]);
-  stages.speckle = transposed(echoes[2]);
+  if (s.settings.waves) {
+    stages.scattered = transposed(scan[1]);
+    stages.echo_re = transposed(scan[2]);
+    stages.echo_im = transposed(scan[3]);
+    stages.wave_re = transposed(echoes[0]);
+    stages.wave_im = transposed(echoes[1]);
+  } else {
+    stages.reflection = transposed(scan[1]);
+    stages.reflection_beam = transposed(echoes[0]);
+    stages.transmission = transposed(echoes[1]);
+    stages.speckle = transposed(echoes[2]);
+  }
   stages.repeated = transposed(echoes[3]);
   const int w = s.image.width(), h = s.image.height();
   stages.fused = Image<float>(w, h);

@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 
 #include "sim/core/image.h"
 #include "sim/model/beam.h"
 #include "sim/model/noise.h"
 #include "sim/model/refraction.h"
 #include "sim/model/scatterers.h"
+#include "sim/model/waves.h"
 
 namespace insonate::gl {
 namespace {
@@ -72,6 +74,7 @@ std::vector<PlacedLine> line_in_air(const Settings& settings) {
   PlacedLine line{};
   line.start = glm::vec4(-1, -1, -1, -kFar);  // outside the texture; no sample from the face on lies in the body
   line.along.w = -kFar;
+  line.elevation.w = 1;
   std::vector<PlacedLine> planes(std::size_t(settings.slice_planes), line);
   planes.front().lateral.w = 1;  // all slice planes give the same there; they are weighted where they are stored
   return planes;
@@ -129,12 +132,18 @@ Buffer half_beam_window(const Settings& settings) {
 
 TexelBuffer beam_by_depth(const ScanLines& lines, const Settings& settings) {
   std::vector<glm::vec4> depths(std::size_t(lines.samples), glm::vec4(1, 0, 0, 0));
-  if (settings.speckle) {
+  const std::vector<double> sigma = focused_beam_sigma(lines, settings);
+  if (settings.waves) {
+    // beam_weights() has the sum 1 already; the shader's own Gaussian begins with 1.
+    for (std::size_t k = 0; settings.focused_beam && k < depths.size(); ++k) {
+      const std::vector<double> weights = beam_weights_at(settings, sigma[k]);
+      depths[k].x = float(weights[weights.size() / 2]);
+    }
+  } else if (settings.speckle) {
     const std::vector<double> scale = envelope_scale(lines, settings);
     for (std::size_t k = 0; k < depths.size(); ++k) depths[k].x = float(scale[k]);
   }
   if (settings.focused_beam) {
-    const std::vector<double> sigma = focused_beam_sigma(lines, settings);
     for (std::size_t k = 0; k < depths.size(); ++k) {
       depths[k].y = float(focused_radius(sigma[k]));
       depths[k].z = depths[k].y > 0 ? float(-0.5 / (sigma[k] * sigma[k])) : 0;
@@ -159,7 +168,7 @@ bool has_time_gain(const Settings& settings) {
   return std::ranges::any_of(settings.tgc_db, [](double db) { return db != 0; });
 }
 bool keeps_middle_plane(const Settings& settings) {
-  return settings.slice_planes > 1 && reverberates(settings);
+  return (settings.slice_planes > 1 || settings.waves) && reverberates(settings);
 }
 
 double least_alpha_with_normal(const Settings& settings) {
@@ -194,6 +203,11 @@ SimulationParameters parameters_of(const Settings& settings, const ScanLines& li
   p.clutter_kept = float(std::exp(-dr / kClutterTail_mm));
   p.slice_spread = float(slice_spread(settings));
   p.two_way = settings.two_way;
+  p.specular_exponent = float(settings.specular_exponent);
+  p.blend_amplitude = float(std::sqrt(settings.blend));
+  const std::vector<double> pulse = pulse_weights(lines, settings);
+  if (const std::size_t middle = pulse.size() / 2; middle > 0)
+    p.pulse_exponent = float(std::log(pulse[middle + 1] / pulse[middle]));
   p.blend = float(settings.blend);
   p.clutter_share = float(clutter_share(settings));
   p.noise_level = float(noise_level(settings));
@@ -225,6 +239,25 @@ TexelBuffer noise_of_lines(const ScanLines& lines, const Settings& settings) {
   for (int line = 0; line < noise.width; ++line)
     for (int k = 0; k < noise.height; ++k) rows.push_back(float(noise.at(line, k)));
   return TexelBuffer(GL_R32F, rows.size(), rows.data());
+}
+
+TexelBuffer noise_waves_of_lines(const ScanLines& lines, const Settings& settings) {
+  const Image<std::complex<double>> noise = noise_wave(lines, settings);
+  std::vector<glm::vec2> rows;
+  for (int line = 0; line < noise.width; ++line)
+    for (int k = 0; k < noise.height; ++k) rows.emplace_back(noise.at(line, k).real(), noise.at(line, k).imag());
+  return TexelBuffer(GL_RG32F, rows.size(), rows.data());
+}
+
+TexelBuffer noise_waves_of_pixels(const ImageGeometry& geometry, const ScanLines& lines, const Settings& settings) {
+  const Image<std::complex<double>> of_samples = noise_wave(lines, settings);
+  std::vector<glm::vec2> of_pixels;
+  for (int y = 0; y < geometry.height; ++y)
+    for (int x = 0; x < geometry.width; ++x) {
+      const std::complex<double> noise = noise_of_pixel(of_samples, geometry, lines, x, y);
+      of_pixels.emplace_back(noise.real(), noise.imag());
+    }
+  return TexelBuffer(GL_RG32F, of_pixels.size(), of_pixels.data());
 }
 
 TexelBuffer noise_of_pixels(const FanLayout& fan, const ScanLines& lines, const Settings& settings) {

@@ -75,4 +75,8 @@ TexelBuffer noise_of_lines(const ScanLines& lines, const Settings& settings);
 /// Returns the receiver's noise, mean 1, scan-converted to each pixel of the fan; 0 outside.
 TexelBuffer noise_of_pixels(const FanLayout& fan, const ScanLines& lines, const Settings& settings);
 
+/// Return the same with waves: complex, mean square 1; for a picture at every pixel (noise_shift()).
+TexelBuffer noise_waves_of_lines(const ScanLines& lines, const Settings& settings);
+TexelBuffer noise_waves_of_pixels(const ImageGeometry& geometry, const ScanLines& lines, const Settings& settings);
+
 }  // namespace insonate::gl

@@ -36,7 +36,7 @@ std::vector<Part> parts_of(const Sweep& sweep, const Settings& settings, const W
 }
 
 Defines fusion(const Settings& settings) {
-  return {{"NOISE", is_noisy(settings) ? "1" : "0"}, {"CLUTTER", settings.clutter ? "1" : "0"}};
+  return {{"NOISE", flag(is_noisy(settings))}, {"CLUTTER", flag(settings.clutter)}, {"WAVES", flag(settings.waves)}};
 }
 
 Defines display(const Settings& settings, bool finds_maximum) {
@@ -123,7 +123,8 @@ void SweepSimulator::State::lay_out() {
 void SweepSimulator::State::prepare() {
   lay_out();
   if (is_noisy(settings) && (!noise || noise_length_mm != settings.reflection_length_mm)) {
-    noise = noise_of_lines(line_stages.lines(), settings);
+    noise = settings.waves ? noise_waves_of_lines(line_stages.lines(), settings)
+                           : noise_of_lines(line_stages.lines(), settings);
     noise_length_mm = settings.reflection_length_mm;
   }
   fuse.define(fusion(settings));

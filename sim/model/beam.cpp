@@ -72,8 +72,11 @@ std::vector<double> focused_beam_sigma(const ScanLines& lines, const Settings& s
   std::vector<double> sigma;
   for (int k = 0; k < lines.samples; ++k) {
     const double r = lines.r_min_mm + (k + 0.5) * lines.dr_mm(), spacing = line_spacing_mm(lines, r);
-    sigma.push_back(
-        spacing > 0 ? std::min(of_fwhm * focused_beam_fwhm_mm(settings, r) / spacing, kMaxFocusedRadius / 3.0) : 0);
+    double of_window = spacing > 0 ? of_fwhm * focused_beam_fwhm_mm(settings, r) / spacing : 0;
+    // Waves add up as amplitudes, whose width is 2^(1/2) times that of a Gaussian intensity. The linear weights that
+    // place scatterers between lines (waves.h) have a variance of 1/6 of it already.
+    if (settings.waves) of_window = std::sqrt(std::max(2 * of_window * of_window - 1.0 / 6.0, 0.0));
+    sigma.push_back(std::min(of_window, kMaxFocusedRadius / 3.0));
   }
   return sigma;
 }

@@ -2,6 +2,8 @@
 
 #include <glm/gtc/constants.hpp>
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <complex>
 
@@ -19,10 +21,9 @@ std::complex<double> complex_normal(std::uint32_t line, std::uint32_t place) {
   return std::polar(std::sqrt(-4 / glm::pi<double>() * std::log(share)), phase);
 }
 
-}  // namespace
-
-Image<double> electronic_noise(const ScanLines& lines, const Settings& settings) {
-  Image<double> noise(int(lines.lines.size()), lines.samples);
+// Returns the noise as complex numbers whose magnitude has mean 1.
+Image<std::complex<double>> filtered_noise(const ScanLines& lines, const Settings& settings) {
+  Image<std::complex<double>> noise(int(lines.lines.size()), lines.samples);
   const double step = lines.dr_mm() / settings.reflection_length_mm;
   for (int line = 0; line < noise.width; ++line) {
     std::uint32_t place = 0;
@@ -36,10 +37,52 @@ Image<double> electronic_noise(const ScanLines& lines, const Settings& settings)
         place = now;
       }
       const double f = position - place;
-      noise.at(line, k) = std::abs((1 - f) * before + f * behind) / std::hypot(1 - f, f);
+      noise.at(line, k) = ((1 - f) * before + f * behind) / std::hypot(1 - f, f);
     }
   }
   return noise;
+}
+
+}  // namespace
+
+Image<double> electronic_noise(const ScanLines& lines, const Settings& settings) {
+  const Image<std::complex<double>> waves = filtered_noise(lines, settings);
+  Image<double> noise(waves.width, waves.height);
+  for (std::size_t i = 0; i < noise.pixels.size(); ++i) noise.pixels[i] = std::abs(waves.pixels[i]);
+  return noise;
+}
+
+Image<std::complex<double>> noise_wave(const ScanLines& lines, const Settings& settings) {
+  Image<std::complex<double>> noise = filtered_noise(lines, settings);
+  for (std::complex<double>& n : noise.pixels) n *= std::sqrt(glm::pi<double>()) / 2;  // mean of the square 4/pi
+  return noise;
+}
+
+glm::ivec2 noise_shift(const Pose& patient_from_probe) {
+  const glm::dmat4 matrix = patient_from_probe.matrix();
+  std::uint32_t h = kSeed;
+  for (int column = 0; column < 4; ++column)
+    for (int row = 0; row < 3; ++row) h = hash(h, std::bit_cast<std::uint32_t>(float(matrix[column][row])));
+  return {int(hash(h, 0) >> 8), int(hash(h, 1) >> 8)};
+}
+
+std::complex<double> noise_of_pixel(const Image<std::complex<double>>& noise, const ImageGeometry& geometry,
+                                    const ScanLines& lines, int x, int y) {
+  const glm::dvec2 plane_mm = geometry.plane_mm(x, y);
+  const LinePosition position = position_among(lines.fan, {plane_mm.x, std::abs(plane_mm.y)});
+  const double line = position.line, sample = (position.r_mm - lines.r_min_mm) / lines.dr_mm() - 0.5;
+  const double i = std::floor(line), k = std::floor(sample), fi = line - i, fk = sample - k;
+  const auto at = [&](double of_line, double of_sample) {
+    const auto wrapped = [](double value, int size) {
+      const int rest = int(std::fmod(value, double(size)));
+      return rest < 0 ? rest + size : rest;
+    };
+    return noise.at(wrapped(of_line, noise.width), wrapped(of_sample, noise.height));
+  };
+  // Lines are independent, so that a mean of two has less power than either.
+  return ((1 - fi) * ((1 - fk) * at(i, k) + fk * at(i, k + 1)) +
+          fi * ((1 - fk) * at(i + 1, k) + fk * at(i + 1, k + 1))) /
+         std::hypot(1 - fi, fi);
 }
 
 double noise_level(const Settings& settings) {

@@ -1,8 +1,12 @@
 #pragma once
 
+#include <glm/vec2.hpp>
+
+#include <complex>
 #include <numeric>
 
 #include "sim/core/image.h"
+#include "sim/core/pose.h"
 #include "sim/model/settings.h"
 #include "sim/probe/probe.h"
 
@@ -16,6 +20,21 @@ namespace insonate {
 /// Statistical Optics, 2.9). The noise depends on depth in mm and not on the number of samples per line. The numbers
 /// are hashes of line and place. Every frame has the same ones, so that a still picture is still.
 Image<double> electronic_noise(const ScanLines& lines, const Settings& settings);
+
+/// The same as complex numbers whose squared magnitude has mean 1, as waves need it (sim/model/waves.h). There the
+/// noise, times the root of noise_level() and clutter, is added to f.
+Image<std::complex<double>> noise_wave(const ScanLines& lines, const Settings& settings);
+
+/// Returns the shift of the noise wave in a picture, pixels: pixel (x, y) has the noise of pixel ((x + shift.x) %
+/// width, (y + shift.y) % height), which lies among lines and samples that repeat beyond the fan. It is a hash of the
+/// pose in single precision. So noise is new in each frame of a moving probe, and the same for the same pose.
+glm::ivec2 noise_shift(const Pose& patient_from_probe);
+
+/// Returns the noise wave at a pixel before that shift, bilinear between lines and samples with
+/// the power of a line. It repeats beyond the fan.
+/// In front of the face it is that of the same distance behind.
+std::complex<double> noise_of_pixel(const Image<std::complex<double>>& noise, const ImageGeometry& geometry,
+                                    const ScanLines& lines, int x, int y);
 
 /// Returns the shift of the noise, in lines, from one plane of a volume to the next. It is about the golden section of
 /// the lines, so that neighbouring planes have the noise far apart. It has no common divisor with `lines`, so that the

@@ -41,7 +41,13 @@ Settings trainer_settings(double frequency_mhz, double depth_mm) {
   settings.slice_planes = 3;
   settings.reverberation = settings.edge_shadow = settings.clutter = settings.electronic_noise = true;
   settings.face_reflection = 0.02;
-  settings.transmission_sigma_mm = 1;  // a beam passes a limb in part, so its shadow has soft edges
+  settings.waves = true;
+  settings.f_number = 3.5;  // between the transmit and the receive apertures that abdominal presets use, estimate
+  settings.specular_exponent = 6;  // by eye: side walls of vessels and cysts drop out, as they do on machines
+  // Ten scatterers in a resolution cell, which is smallest at the focus (focused_beam_fwhm_mm()).
+  const double lateral_mm = 0.886 * 1.54 / frequency_mhz * settings.f_number;
+  settings.speckle_cell_mm =
+      std::clamp(std::cbrt(settings.reflection_length_mm * lateral_mm * settings.slice_thickness_mm / 10), 0.05, 10.0);
   const double two_way_db = 2 * kSoftTissueAbsorption * frequency_mhz * depth_mm / 10;
   for (std::size_t i = 0; i < settings.tgc_db.size(); ++i)
     settings.tgc_db[i] = std::min(two_way_db * double(i) / double(settings.tgc_db.size() - 1), kMostTimeGainDb);

@@ -63,10 +63,14 @@ struct Settings {
   bool reverberation = false;  ///< reverberation between strong interfaces in the tissue, see reverberation.h
   double face_reflection = 0;  ///< share of the returning sound that the probe's face reflects, 0 (none) to 1
 
+  /// Echoes add up as waves, see sim/model/waves.h; off in the paper's mode. The smoothing of (6) is then left out.
+  bool waves = false;
+  double specular_exponent = 1;  ///< with waves: m, how steeply an interface's echo falls with its tilt, 1 to 64
+
   // Speckle
   bool speckle = true;
   std::uint32_t speckle_seed = 1;
-  double speckle_cell_mm = 0.65;  ///< pitch of the scatterer lattice, 0.05 to 10
+  double speckle_cell_mm = 0.65;  ///< side of a scatterer's cell, 0.05 to 10
 
   // Fusion (6)
   double reflection_sigma_mm = 0.45;  ///< s1: smoothing of the reflections in the image, 0 (none) to 1000

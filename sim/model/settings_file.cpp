@@ -34,6 +34,8 @@ const std::vector<Key<Settings>>& all_keys() {
       number("elevation_focus_mm", &S::elevation_focus_mm, 0, 400),
       flag("reverberation", &S::reverberation),
       number("face_reflection", &S::face_reflection, 0, 1),
+      flag("waves", &S::waves),
+      number("specular_exponent", &S::specular_exponent, 1, 64),
       flag("speckle", &S::speckle),
       whole("speckle_seed", &S::speckle_seed, 0u, std::numeric_limits<std::uint32_t>::max()),
       number("speckle_cell_mm", &S::speckle_cell_mm, 0.05, 10),

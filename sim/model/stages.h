@@ -39,18 +39,23 @@ namespace insonate {
 /// linear between. It is an amplifier's gain in dB of U, an intensity. White is the level L: the frame's brightest E in
 /// the paper, or fixed_level, so that the brightness does not change while the probe moves. m is grey_map.
 ///
-/// The first six images are on scan lines: x is the line, y the sample. The last three are on the picture's pixels.
+/// Images up to `wave_im` are on scan lines: x is the line, y the sample. The last three are on the picture's pixels.
+/// With Settings::waves, echoes add up as sim/model/waves.h says, not as (3) to (6) do. `reflection`,
+/// `reflection_beam`, `transmission` and `speckle` are empty then. Without it, those that need waves are empty.
 template <typename Real>
 struct Stages {
-  Image<Real> intensity;        ///< I, 0 to 1 (5)
-  Image<Real> reflection;       ///< R before the beam's width, 0 to 1 (3)
-  Image<Real> reflection_beam;  ///< R after the beam's width (4)
-  Image<Real> transmission;     ///< T of (6): I, or I^2 where the echo's way back counts
-  Image<Real> repeated;         ///< V of reverberation.h, after the beam's width; 0 where there is none
-  Image<Real> speckle;          ///< S: envelope of the scatterers' echo, mean 1 in liver; 0 at kSilentDb and below
-  Image<Real> fused;            ///< U (6), before gain
-  Image<std::uint8_t> inside;   ///< 1 inside the fan
-  Image<std::uint8_t> grey;     ///< after log compression (7), 0 to 255
+  Image<Real> intensity;         ///< I, 0 to 1 (5)
+  Image<Real> reflection;        ///< R before the beam's width, 0 to 1 (3)
+  Image<Real> reflection_beam;   ///< R after the beam's width (4)
+  Image<Real> transmission;      ///< T of (6): I, or I^2 where the echo's way back counts
+  Image<Real> repeated;          ///< V of reverberation.h, after the beam's width; 0 where there is none
+  Image<Real> speckle;           ///< S: envelope of the scatterers' echo, mean 1 in liver; 0 at kSilentDb and below
+  Image<Real> scattered;         ///< with waves: expected power of the scatterers' echo, sum_p g_p b T_p A_p^2
+  Image<Real> echo_re, echo_im;  ///< with waves: e
+  Image<Real> wave_re, wave_im;  ///< with waves: f
+  Image<Real> fused;             ///< U (6), before gain
+  Image<std::uint8_t> inside;    ///< 1 inside the fan
+  Image<std::uint8_t> grey;      ///< after log compression (7), 0 to 255
 };
 
 }  // namespace insonate

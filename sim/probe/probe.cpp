@@ -14,6 +14,16 @@ double angle_at(const Probe& probe, double across) {
   return glm::radians(probe.field_of_view_deg) * (across - 0.5);
 }
 
+LineFan line_fan(const Probe& probe) {
+  using Face = LineFan::Face;
+  if (probe.kind == ProbeKind::linear) {
+    const double step = probe.width_mm / probe.lines;
+    return {Face::parallel, 0, (step - probe.width_mm) / 2, step};
+  }
+  const double view = glm::radians(probe.field_of_view_deg), step = view / probe.lines;
+  return {probe.kind == ProbeKind::phased ? Face::flat : Face::round, apex_behind_mm(probe), (step - view) / 2, step};
+}
+
 struct Extent {
   glm::dvec2 low, high;  // mm in the imaging plane
 };
@@ -84,6 +94,7 @@ ScanLines scan_lines(const Probe& probe, double depth_mm, int samples) {
   ScanLines set;
   set.samples = samples;
   set.r_max_mm = depth_mm;
+  set.fan = line_fan(probe);
   for (int i = 0; i < probe.lines; ++i) {
     const double across = (i + 0.5) / probe.lines;
     if (probe.kind == ProbeKind::linear) {
@@ -115,6 +126,13 @@ std::optional<LinePosition> line_position(const Probe& probe, double depth_mm, c
   }
   if (across < 0 || across > 1 || r < 0 || r > depth_mm) return std::nullopt;
   return LinePosition{across * probe.lines - 0.5, r};
+}
+
+LinePosition position_among(const LineFan& fan, const glm::dvec2& xy_mm) {
+  if (fan.face == LineFan::Face::parallel) return {(xy_mm.x - fan.first) / fan.step, xy_mm.y};
+  const double below_apex = xy_mm.y + fan.apex_mm, from_apex = std::hypot(xy_mm.x, below_apex);
+  const double r = fan.face == LineFan::Face::flat ? from_apex * xy_mm.y / below_apex : from_apex - fan.apex_mm;
+  return {(std::atan2(xy_mm.x, below_apex) - fan.first) / fan.step, r};
 }
 
 ImageGeometry image_geometry(const Probe& probe, double depth_mm, int width, int height) {

@@ -52,9 +52,24 @@ struct ScanLine {
   glm::dvec3 direction{0, 1, 0};  ///< unit
 };
 
+/// Where the lines lie beside each other: line i is at first + i step across, and a point of the imaging plane lies
+/// between lines as its own place across.
+struct LineFan {
+  enum class Face {
+    parallel,  ///< across is x, mm; r is y
+    round,     ///< across is the angle at the apex, rad; r is the distance from an arc about the apex
+    flat       ///< the same, but r is the distance along the line from y = 0
+  };
+  Face face = Face::parallel;
+  double apex_mm = 0;  ///< distance of the apex behind the face's middle, where lines meet; 0 if parallel
+  double first = 0;    ///< of line 0, rad or mm
+  double step = 1;     ///< from one line to the next, above 0
+};
+
 /// The scan lines to traverse. The traversal depends on them alone, not on the probe.
 struct ScanLines {
   std::vector<ScanLine> lines;  ///< 1 to 4096
+  LineFan fan;                  ///< how these lie beside each other
   int samples = 512;            ///< samples per line, 1 to 8192
   double r_min_mm = 0;          ///< where the first sample's part of a line begins, from the line's start; 0 or more
   double r_max_mm = 160;        ///< where the last sample's part ends, above r_min_mm
@@ -80,6 +95,9 @@ struct LinePosition {
 /// face, or deeper than `depth_mm`.
 /// @param depth_mm  0.1 to 1000
 std::optional<LinePosition> line_position(const Probe& probe, double depth_mm, const glm::dvec2& xy_mm);
+
+/// Returns the position of any point of the imaging plane in front of the apex, also beyond the fan's edges.
+LinePosition position_among(const LineFan& fan, const glm::dvec2& xy_mm);
 
 /// Places the pixels of the displayed image in the imaging plane. Pixels are square; the fan is as large as fits, and
 /// centred. Pixel (x, y), counted from the top left, has its centre at top_left_mm + mm_per_pixel * (x, y) in the

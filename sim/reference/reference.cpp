@@ -12,7 +12,9 @@
 #include "sim/model/noise.h"
 #include "sim/model/refraction.h"
 #include "sim/model/scatterers.h"
+#include "sim/model/waves.h"
 #include "sim/reference/reverberation_reference.h"
+#include "sim/reference/wave_reference.h"
 
 namespace insonate {
 namespace {
@@ -137,9 +139,14 @@ ReferenceScan traverse_reference(const MediumField& field, const TissueTable& ta
                                  const Settings& settings, const Pose& patient_from_probe, const SlicePlane& plane) {
   const int count = int(lines.lines.size());
   const double dr = lines.dr_mm(), l = settings.reflection_length_mm, coupled = coupling_depth_mm(settings);
-  const Scatterers scatterers(settings);
-  ReferenceScan scan{Image<double>(count, lines.samples), Image<double>(count, lines.samples),
-                     Image<double>(count, lines.samples), Image<double>(count, lines.samples)};
+  const Scatterers lattice(settings);
+  ReferenceScan scan;
+  const auto reserve = [&](auto... parts) { ((scan.*parts = Image<double>(count, lines.samples)), ...); };
+  reserve(&ReferenceScan::intensity, &ReferenceScan::reflection);
+  if (settings.waves)
+    reserve(&ReferenceScan::amplitude, &ReferenceScan::mirror);
+  else
+    reserve(&ReferenceScan::echo_re, &ReferenceScan::echo_im);
 
   for (int line = 0; line < count; ++line) {
     const glm::dvec3 start = patient_from_probe.point(lines.lines[std::size_t(line)].start);
@@ -177,12 +184,21 @@ ReferenceScan traverse_reference(const MediumField& field, const TissueTable& ta
 
       if (k == 0) intensity *= absorbed(dr / 2);
       scan.intensity.at(line, k) = intensity;
-      scan.reflection.at(line, k) = heard(alpha * intensity * intensity * cosine);  // (3)
+      const double directed = settings.waves ? std::pow(cosine, settings.specular_exponent) : cosine;
+      scan.reflection.at(line, k) = heard(alpha * intensity * intensity * directed);  // (3)
+      const double per_tenfold = settings.waves ? 20 : 10;  // amplitudes in dB of power, or as the paper's are
       const double amplitude =
-          std::max(std::pow(10.0, here.echogenicity_db / 10) - std::pow(10.0, kSilentDb / 10), 0.0);
-      const std::complex<double> echo = amplitude * (settings.speckle ? scatterers.at(p) : 1.0);
-      scan.echo_re.at(line, k) = echo.real();
-      scan.echo_im.at(line, k) = echo.imag();
+          std::max(std::pow(10.0, here.echogenicity_db / per_tenfold) - std::pow(10.0, kSilentDb / per_tenfold), 0.0);
+      if (settings.waves) {
+        scan.amplitude.at(line, k) = amplitude;
+        const double weak = settings.blend / 2,
+                     surface = alpha * alpha / std::max(alpha * alpha + weak * weak, kLeastEcho);
+        scan.mirror.at(line, k) = std::copysign(std::sqrt(alpha * directed) * surface, behind - before);
+      } else {
+        const std::complex<double> echo = amplitude * (settings.speckle ? lattice.at(p) : 1.0);
+        scan.echo_re.at(line, k) = echo.real();
+        scan.echo_im.at(line, k) = echo.imag();
+      }
 
       intensity *= std::pow(1 - alpha, dr / l) * absorbed(dr);  // (5)
       if (settings.edge_shadow) {
@@ -218,81 +234,177 @@ std::uint8_t grey_level(const Settings& settings, double echo, double level) {
   return std::uint8_t(std::lround(255 * grey_of(settings.grey_map, std::clamp(grey, 0.0, 1.0))));
 }
 
-Stages<double> simulate_reference(const MediumField& field, const TissueTable& table, const Probe& probe,
-                                  double depth_mm, const Settings& settings, const Pose& patient_from_probe) {
-  const ScanLines lines = scan_lines(probe, depth_mm, settings.samples);
-  const int n = int(lines.lines.size()), d = lines.samples;
-  ReferenceScan scan{Image<double>(n, d), Image<double>(n, d), Image<double>(n, d), Image<double>(n, d)};
-  const std::vector<SlicePlane> planes = slice_planes(settings);
-  Image<double> repeats;
-  for (const SlicePlane& plane : planes) {
-    const ReferenceScan one = traverse_reference(field, table, lines, settings, patient_from_probe, plane);
-    for (Image<double> ReferenceScan::*part :
-         {&ReferenceScan::intensity, &ReferenceScan::reflection, &ReferenceScan::echo_re, &ReferenceScan::echo_im})
-      for (std::size_t i = 0; i < (one.*part).pixels.size(); ++i)
-        (scan.*part).pixels[i] += plane.weight * (one.*part).pixels[i];
-    if (&plane == &planes[planes.size() / 2])
-      repeats = reverberation_reference(one.intensity, one.reflection, lines, settings);
-  }
+namespace {
 
-  Stages<double> stages;
-  stages.reflection_beam = Image<double>(n, d);
-  stages.transmission = Image<double>(n, d);
-  stages.speckle = Image<double>(n, d);
-  stages.repeated = Image<double>(n, d);
+using Wave = Image<std::complex<double>>;
+
+/// Adds the planes of the slice up, and computes V before the beam's width.
+struct Slice {
+  ReferenceScan scan;  // without waves: weighted sums over the planes
+  Wave echo;           // with waves: e
+  Image<double> scattered, repeats;
+};
+
+/// Adds what a plane sends back to e (sim/model/waves.h).
+void add_waves(Slice& slice, const ReferenceScan& one, const Wave& scatterers, double weight,
+               const Settings& settings) {
+  for (std::size_t i = 0; i < one.intensity.pixels.size(); ++i) {
+    const double intensity = one.intensity.pixels[i], squared = heard(intensity * intensity);
+    const double transmission = settings.two_way ? squared : heard(intensity);
+    const double scattered = std::sqrt(settings.blend * transmission) * one.amplitude.pixels[i];
+    const std::complex<double> n = scatterers.pixels[i];
+    slice.echo.pixels[i] +=
+        std::sqrt(squared) * one.mirror.pixels[i] * (weight * kMirrorShare + kRoughShare * n) + scattered * n;
+    slice.scattered.pixels[i] += weight * scattered * scattered;
+    slice.scan.intensity.pixels[i] += weight * intensity;
+  }
+}
+
+Slice traverse_slice(const MediumField& field, const TissueTable& table, const ScanLines& lines,
+                     const Settings& settings, const Pose& patient_from_probe) {
+  const Image<double> none(int(lines.lines.size()), lines.samples);
+  Slice slice{ReferenceScan{none, none, none, none, {}, {}}, Wave(none.width, none.height), none, none};
+  const std::vector<SlicePlane> planes = slice_planes(settings);
+  std::vector<Wave> scatterers;
+  if (settings.waves) scatterers = scatterers_reference(lines, settings, patient_from_probe);
+  for (std::size_t p = 0; p < planes.size(); ++p) {
+    const ReferenceScan one = traverse_reference(field, table, lines, settings, patient_from_probe, planes[p]);
+    if (settings.waves) {
+      add_waves(slice, one, scatterers[p], planes[p].weight, settings);
+    } else {
+      for (Image<double> ReferenceScan::*part :
+           {&ReferenceScan::intensity, &ReferenceScan::reflection, &ReferenceScan::echo_re, &ReferenceScan::echo_im})
+        for (std::size_t i = 0; i < (one.*part).pixels.size(); ++i)
+          (slice.scan.*part).pixels[i] += planes[p].weight * (one.*part).pixels[i];
+    }
+    if (p == planes.size() / 2) slice.repeats = reverberation_reference(one.intensity, one.reflection, lines, settings);
+  }
+  return slice;
+}
+
+/// Computes the stages of the beam (4) as the paper's model has them.
+void widen(Stages<double>& stages, Slice& slice, const ScanLines& lines, const Settings& settings) {
+  const int n = int(lines.lines.size()), d = lines.samples;
+  stages.reflection_beam = stages.transmission = stages.speckle = Image<double>(n, d);
   const std::vector<double> sigma = focused_beam_sigma(lines, settings);
   const std::vector<double> scale = envelope_scale(lines, settings);
   for (int k = 0; k < d; ++k) {
     const std::vector<double> weights = beam_weights_at(settings, sigma[std::size_t(k)]);
     const int half = int(weights.size() / 2);
     for (int line = 0; line < n; ++line) {
-      double reflection = 0, repeat = 0, total = 0;
+      double reflection = 0, total = 0;
       std::complex<double> echo = 0;
       for (int j = -half; j <= half; ++j) {  // (4)
         if (line + j < 0 || line + j >= n) continue;
         const double weight = weights[std::size_t(j + half)];
-        reflection += weight * scan.reflection.at(line + j, k);
-        repeat += weight * repeats.at(line + j, k);
-        echo += weight * std::complex(scan.echo_re.at(line + j, k), scan.echo_im.at(line + j, k));
+        reflection += weight * slice.scan.reflection.at(line + j, k);
+        echo += weight * std::complex(slice.scan.echo_re.at(line + j, k), slice.scan.echo_im.at(line + j, k));
         total += weight;
       }
       stages.reflection_beam.at(line, k) = reflection / total;
-      stages.repeated.at(line, k) = repeat / total;
-      const double intensity = scan.intensity.at(line, k);
+      const double intensity = slice.scan.intensity.at(line, k);
       stages.transmission.at(line, k) = heard(settings.two_way ? intensity * intensity : intensity);
       stages.speckle.at(line, k) = std::abs(echo) / total * (settings.speckle ? scale[std::size_t(k)] : 1);
+      slice.scattered.at(line, k) = settings.blend * stages.transmission.at(line, k) * stages.speckle.at(line, k);
     }
   }
-  stages.intensity = std::move(scan.intensity);
-  stages.reflection = std::move(scan.reflection);
+  stages.reflection = std::move(slice.scan.reflection);
+}
+
+void sum_waves(Stages<double>& stages, const Slice& slice, const ScanLines& lines, const Settings& settings) {
+  const auto part = [](const Wave& wave, auto of) {
+    Image<double> image(wave.width, wave.height);
+    std::ranges::transform(wave.pixels, image.pixels.begin(), of);
+    return image;
+  };
+  const auto re = [](const std::complex<double>& c) { return c.real(); };
+  const auto im = [](const std::complex<double>& c) { return c.imag(); };
+  const Wave wave = wave_reference(slice.echo, lines, settings);
+  stages.echo_re = part(slice.echo, re);
+  stages.echo_im = part(slice.echo, im);
+  stages.wave_re = part(wave, re);
+  stages.wave_im = part(wave, im);
+  stages.scattered = slice.scattered;
+}
+
+/// Returns V behind the beam's width: a mean over the aperture or, with waves, a sum over the lines that are there.
+Image<double> widened(const Image<double>& repeats, const ScanLines& lines, const Settings& settings) {
+  Image<double> wide(repeats.width, repeats.height);
+  const std::vector<double> sigma = focused_beam_sigma(lines, settings);
+  for (int k = 0; k < wide.height; ++k) {
+    const std::vector<double> weights = beam_weights_at(settings, sigma[std::size_t(k)]);
+    const int half = int(weights.size() / 2);
+    for (int line = 0; line < wide.width; ++line) {
+      double sum = 0, total = 0;
+      for (int j = -half; j <= half; ++j) {
+        if (line + j < 0 || line + j >= wide.width) continue;
+        sum += weights[std::size_t(j + half)] * repeats.at(line + j, k);
+        total += weights[std::size_t(j + half)];
+      }
+      wide.at(line, k) = settings.waves ? sum : sum / total;
+    }
+  }
+  return wide;
+}
+
+/// Returns the mean of the scatterers' echo at each depth over the lines, with its tail, for clutter.
+Image<double> mean_echo_of(const Image<double>& scattered, double dr_mm) {
+  Image<double> mean(1, scattered.height);
+  for (int k = 0; k < scattered.height; ++k)
+    for (int line = 0; line < scattered.width; ++line) mean.at(0, k) += scattered.at(line, k) / scattered.width;
+  for (int k = 1; k < scattered.height; ++k)
+    mean.at(0, k) += (mean.at(0, k - 1) - mean.at(0, k)) * std::exp(-dr_mm / kClutterTail_mm);
+  return mean;
+}
+
+}  // namespace
+
+Stages<double> simulate_reference(const MediumField& field, const TissueTable& table, const Probe& probe,
+                                  double depth_mm, const Settings& settings, const Pose& patient_from_probe) {
+  const ScanLines lines = scan_lines(probe, depth_mm, settings.samples);
+  Slice slice = traverse_slice(field, table, lines, settings, patient_from_probe);
+  Stages<double> stages;
+  if (settings.waves)
+    sum_waves(stages, slice, lines, settings);
+  else
+    widen(stages, slice, lines, settings);
+  stages.repeated = widened(slice.repeats, lines, settings);
+  stages.intensity = std::move(slice.scan.intensity);
 
   const int w = settings.image_width, h = settings.image_height;
   const ImageGeometry geometry = image_geometry(probe, depth_mm, w, h);
+  const Image<double> mean_echo = mean_echo_of(slice.scattered, lines.dr_mm()),
+                      noise_of_lines = electronic_noise(lines, settings);
+  const Wave waves_of_receiver = noise_wave(lines, settings);
+  const glm::ivec2 shift = noise_shift(patient_from_probe);
   Image<double> reflection(w, h), transmission(w, h), speckle(w, h), beside(w, h), gain(w, h);
   stages.inside = Image<std::uint8_t>(w, h);
-  Image<double> mean_echo(1, d);  // over the lines, for clutter
-  for (int k = 0; k < d; ++k)
-    for (int line = 0; line < n; ++line)
-      mean_echo.at(0, k) += settings.blend * stages.transmission.at(line, k) * stages.speckle.at(line, k) / n;
-  for (int k = 1; k < d; ++k)
-    mean_echo.at(0, k) += (mean_echo.at(0, k - 1) - mean_echo.at(0, k)) * std::exp(-lines.dr_mm() / kClutterTail_mm);
-  const Image<double> noise_of_lines = electronic_noise(lines, settings);
   for (int y = 0; y < h; ++y)
     for (int x = 0; x < w; ++x) {
       const auto position = line_position(probe, depth_mm, geometry.plane_mm(x, y));
       if (!position) continue;
       const double sample = position->r_mm / lines.dr_mm() - 0.5;
+      const auto here = [&](const Image<double>& image) { return bilinear(image, position->line, sample); };
+      const double noise = noise_level(settings) + clutter_share(settings) * bilinear(mean_echo, 0, sample);
       stages.inside.at(x, y) = 1;
-      reflection.at(x, y) = bilinear(stages.reflection_beam, position->line, sample);
-      transmission.at(x, y) = bilinear(stages.transmission, position->line, sample);
-      speckle.at(x, y) = bilinear(stages.speckle, position->line, sample);
-      beside.at(x, y) = bilinear(stages.repeated, position->line, sample) +
-                        (noise_level(settings) + clutter_share(settings) * bilinear(mean_echo, 0, sample)) *
-                            bilinear(noise_of_lines, position->line, sample);
       gain.at(x, y) = time_gain(settings, position->r_mm / depth_mm);
+      if (settings.waves) {
+        std::complex<double> wave(here(stages.wave_re), here(stages.wave_im));
+        if (noise > 0)
+          wave += std::sqrt(noise) *
+                  noise_of_pixel(waves_of_receiver, geometry, lines, (x + shift.x) % w, (y + shift.y) % h);
+        beside.at(x, y) = heard(std::norm(wave) + here(stages.repeated));
+        continue;
+      }
+      reflection.at(x, y) = here(stages.reflection_beam);
+      transmission.at(x, y) = here(stages.transmission);
+      speckle.at(x, y) = here(stages.speckle);
+      beside.at(x, y) = here(stages.repeated) + noise * here(noise_of_lines);
     }
-  reflection = smoothed(reflection, stages.inside, settings.reflection_sigma_mm / geometry.mm_per_pixel);
-  transmission = smoothed(transmission, stages.inside, settings.transmission_sigma_mm / geometry.mm_per_pixel);
+  if (!settings.waves) {
+    reflection = smoothed(reflection, stages.inside, settings.reflection_sigma_mm / geometry.mm_per_pixel);
+    transmission = smoothed(transmission, stages.inside, settings.transmission_sigma_mm / geometry.mm_per_pixel);
+  }
 
   stages.fused = Image<double>(w, h);
   double brightest = 0;

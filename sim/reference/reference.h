@@ -49,10 +49,11 @@ std::uint8_t grey_level(const Settings& settings, double echo, double level);
 Stages<double> simulate_reference(const MediumField& field, const TissueTable& table, const Probe& probe,
                                   double depth_mm, const Settings& settings, const Pose& patient_from_probe);
 
-/// The results of the first step alone: I and R along given lines, and the scatterers' echo.
+/// The results of the first step alone: I and R along given lines, and what makes the scatterers' echo.
 struct ReferenceScan {
   Image<double> intensity, reflection;  ///< x line, y sample
-  Image<double> echo_re, echo_im;
+  Image<double> echo_re, echo_im;       ///< empty with waves
+  Image<double> amplitude, mirror;      ///< with waves: A and q of sim/model/waves.h
 };
 ReferenceScan traverse_reference(const MediumField& field, const TissueTable& table, const ScanLines& lines,
                                  const Settings& settings, const Pose& patient_from_probe,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
 
 #include "sim/model/noise.h"
@@ -24,24 +25,32 @@ double bilinear(const SweepValues& values, int plane, double line, double sample
 }
 
 // Appends U (6) at each sample of a plane to the values.
-void append_fused(SweepValues& values, const Stages<double>& stages, const Image<double>& noise, int plane,
-                  double dr_mm, const Settings& settings) {
+void append_fused(SweepValues& values, const Stages<double>& stages, const Image<std::complex<double>>& noise,
+                  int plane, double dr_mm, const Settings& settings) {
+  const auto scattered_at = [&](int line, int k) {
+    return settings.waves ? stages.scattered.at(line, k)
+                          : settings.blend * stages.transmission.at(line, k) * stages.speckle.at(line, k);
+  };
   const double tail = std::exp(-dr_mm / kClutterTail_mm);
   std::vector<double> beside;  // the noise's mean at each depth
   double late = 0;
   for (int k = 0; k < values.samples; ++k) {
     double mean = 0;
-    for (int line = 0; line < values.lines; ++line)
-      mean += settings.blend * stages.transmission.at(line, k) * stages.speckle.at(line, k) / values.lines;
+    for (int line = 0; line < values.lines; ++line) mean += scattered_at(line, k) / values.lines;
     late = k == 0 ? mean : mean + (late - mean) * tail;
     beside.push_back(noise_level(settings) + clutter_share(settings) * late);
   }
   for (int line = 0; line < values.lines; ++line)
     for (int k = 0; k < values.samples; ++k) {
-      const double scattered = settings.blend * stages.transmission.at(line, k);
-      values.values.push_back((stages.reflection_beam.at(line, k) + scattered) * stages.speckle.at(line, k) +
-                              stages.repeated.at(line, k) +
-                              beside[std::size_t(k)] * noise.at(noise_line(line, plane, values.lines), k));
+      const std::complex<double> of_receiver = noise.at(noise_line(line, plane, values.lines), k);
+      double fused = stages.repeated.at(line, k);
+      if (settings.waves)
+        fused += std::norm(std::complex<double>(stages.wave_re.at(line, k), stages.wave_im.at(line, k)) +
+                           std::sqrt(beside[std::size_t(k)]) * of_receiver);
+      else
+        fused += stages.reflection_beam.at(line, k) * stages.speckle.at(line, k) + scattered_at(line, k) +
+                 beside[std::size_t(k)] * of_receiver.real();
+      values.values.push_back(settings.waves ? heard(fused) : fused);
     }
 }
 
@@ -67,7 +76,8 @@ Volume<double> convert_sweep_reference(const Sweep& sweep, const SweepValues& va
 ReferenceVolume simulate_sweep_reference(const MediumField& field, const TissueTable& table, const Sweep& sweep,
                                          const Settings& settings, const Grid& grid) {
   const ScanLines lines = scan_lines(sweep.probe, sweep.depth_mm, settings.samples);
-  const Image<double> noise = electronic_noise(lines, settings);
+  Image<std::complex<double>> noise = noise_wave(lines, settings);
+  if (!settings.waves) std::ranges::copy(electronic_noise(lines, settings).pixels, noise.pixels.begin());
   Settings without_picture = settings;
   without_picture.image_width = without_picture.image_height = 1;
   SweepValues fused{settings.samples, sweep.probe.lines, {}};

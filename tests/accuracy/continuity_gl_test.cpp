@@ -16,6 +16,7 @@
 #include "tests/accuracy/stressed.h"
 #include "tests/imaging/real_ct.h"
 #include "tests/imaging/test_body.h"
+#include "tests/model/amplitudes.h"
 
 using namespace insonate;
 using namespace insonate::test;
@@ -99,7 +100,7 @@ Scene over_a_body(const char* probe) {
   scene.probe = *find_probe(probe);
   scene.probe.lines = 96;
   scene.depth_mm = 120;
-  scene.settings = trainer_settings(scene.probe.frequency_mhz, scene.depth_mm);
+  scene.settings = test::trainer_with_amplitudes(scene.probe.frequency_mhz, scene.depth_mm);
   scene.settings.image_width = 320;
   scene.settings.image_height = 240;
   return scene;

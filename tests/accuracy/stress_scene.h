@@ -15,6 +15,7 @@
 #include "sim/model/settings.h"
 #include "sim/probe/probe.h"
 #include "sim/registration/wein_settings.h"
+#include "tests/model/amplitudes.h"
 
 /// Stress inputs for the pipeline: everything that a picture depends on, up to the ends of its range.
 namespace insonate::test {
@@ -69,7 +70,7 @@ inline Scene ordinary_scene() {
   scene.volume = make_volume({12, 16, 10}, {5, 5, 5}, mixed);
   scene.probe = *find_probe("curvilinear");
   scene.probe.lines = 12;
-  scene.settings = trainer_settings(3.5, scene.depth_mm);
+  scene.settings = test::trainer_with_amplitudes(3.5, scene.depth_mm);
   scene.settings.samples = 100;
   scene.settings.reflection_length_mm = 0.9;
   scene.settings.image_width = 48;

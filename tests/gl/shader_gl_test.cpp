@@ -57,7 +57,7 @@ TEST_CASE("a shader that does not build keeps the last good program and names fi
 TEST_CASE("of programs that belong together none is taken when one does not build, and every problem is told") {
   const test::TestContext context;
   const EditedShaders shaders;
-  gl::Program first(shaders.read(), {"imaging/clutter.comp"}, {{"GROUP", "8"}}),
+  gl::Program first(shaders.read(), {"imaging/clutter.comp"}, {{"GROUP", "8"}, {"WAVES", "0"}}),
       second(shaders.read(), {"imaging/clutter_tail.comp"}), third(shaders.read(), {"imaging/maximum.comp"});
   const std::array programs = {&first, &second, &third};
   const auto names = [&] { return std::array{first.name(), second.name(), third.name()}; };

@@ -8,6 +8,7 @@
 #include "sim/imaging/simulator.h"
 #include "tests/gl/test_context.h"
 #include "tests/imaging/test_divisions.h"
+#include "tests/model/amplitudes.h"
 
 using namespace insonate;
 
@@ -45,7 +46,7 @@ TEST_CASE("in a homogeneous medium sound is absorbed exactly, however many sampl
   simulator.set_pose(at_y(-200));
   const double a = table.at(kHu).absorption_db_cm_mhz;
   for (const int samples : {1, 512, 2132, 8192}) {
-    Settings settings = trainer_settings(kFrequency_mhz, kDepth_mm);
+    Settings settings = test::trainer_with_amplitudes(kFrequency_mhz, kDepth_mm);
     settings.samples = samples;
     settings.image_width = settings.image_height = 16;
     simulator.set_settings(settings);
@@ -81,7 +82,7 @@ TEST_CASE("a probe in air, or held off the skin, shows its own face and nothing 
     return int(brightest);
   };
   const Settings paper = paper_settings(kDepth_mm, 512);
-  Settings dry = trainer_settings(7.5, kDepth_mm), with_gel = dry;
+  Settings dry = test::trainer_with_amplitudes(7.5, kDepth_mm), with_gel = dry;
   dry.gel_mm = 0;
   for (Settings* settings : {&dry, &with_gel}) {
     settings->clutter = settings->electronic_noise = false;
@@ -114,7 +115,7 @@ TEST_CASE("where half of the face is in the air there is no image under that hal
   };
   Probe probe = *find_probe("linear");
   probe.lines = 64;
-  Settings settings = trainer_settings(7.5, kDepth_mm);
+  Settings settings = test::trainer_with_amplitudes(7.5, kDepth_mm);
   settings.gel_mm = 0;
   settings.clutter = settings.electronic_noise = false;
   settings.reflection_sigma_mm = settings.transmission_sigma_mm = 0;

@@ -13,12 +13,13 @@
 #include "tests/imaging/stage_parity.h"
 #include "tests/imaging/test_body.h"
 #include "tests/imaging/test_divisions.h"
+#include "tests/model/amplitudes.h"
 
 using namespace insonate;
 
 namespace {
 
-void check_parity(const Probe& probe, double depth_mm, Settings settings, const Pose& pose) {
+void check_parity_as_set(const Probe& probe, double depth_mm, Settings settings, const Pose& pose) {
   settings.skipping = false;  // which the reference does not implement
   const test::TestContext context;
   const AcousticVolume body = test::test_body();
@@ -37,8 +38,17 @@ void check_parity(const Probe& probe, double depth_mm, Settings settings, const 
       INFO((exact ? "exact filtering" : "the device's own filter"));
       INFO((division.lines_that_fill > 0 ? "a line a group of " : "a line an invocation, in groups of ")
            << division.group);
-      test::check_stages(reference, simulator.read_stages(), settings);
+      test::check_stages(reference, simulator.read_stages(), scan_lines(probe, depth_mm, settings.samples), settings);
     }
+  }
+}
+
+/// Checks the paper's sums of amplitudes and the trainer's of waves.
+void check_parity(const Probe& probe, double depth_mm, Settings settings, const Pose& pose) {
+  for (const bool waves : {false, true}) {
+    INFO((waves ? "waves" : "amplitudes"));
+    settings.waves = waves;
+    check_parity_as_set(probe, depth_mm, settings, pose);
   }
 }
 
@@ -252,7 +262,7 @@ TEST_CASE("where there is only air no line starts, and one starts that passes be
   block.grid.size = {20, 40, 20};
   block.grid.spacing = glm::dvec3(2);
   block.grid.origin = {-19, 0, -19};
-  Settings settings = small(trainer_settings(7.5, 60));
+  Settings settings = small(test::trainer_with_amplitudes(7.5, 60));
   settings.absorption = false;  // so that nothing ends a line
   Probe probe = *find_probe("linear");
   probe.lines = 1;

@@ -13,6 +13,7 @@
 #include "sim/imaging/simulator.h"
 #include "tests/gl/test_context.h"
 #include "tests/imaging/real_ct.h"
+#include "tests/model/amplitudes.h"
 
 using namespace insonate;
 
@@ -27,7 +28,7 @@ struct Look {
 
 Look look(gl::Simulator& simulator, const Pose& pose, const std::string& picture) {
   const Probe& probe = *find_probe("curvilinear");
-  Settings settings = trainer_settings(probe.frequency_mhz, kDepthMm);
+  Settings settings = test::trainer_with_amplitudes(probe.frequency_mhz, kDepthMm);
   settings.slice_planes = 1;  // the test looks up what a line meets along that line only
   simulator.set_probe(probe, kDepthMm);
   simulator.set_settings(settings);

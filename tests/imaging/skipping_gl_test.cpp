@@ -8,6 +8,7 @@
 #include "sim/imaging/simulator.h"
 #include "tests/gl/test_context.h"
 #include "tests/imaging/test_body.h"
+#include "tests/model/amplitudes.h"
 
 using namespace insonate;
 using gl::Stage;
@@ -24,7 +25,7 @@ void set_up(gl::Simulator& simulator, const Settings& settings) {
 struct Fixture {
   test::TestContext context;
   gl::Simulator simulator;
-  Settings settings = trainer_settings(3.5, 100);
+  Settings settings = test::trainer_with_amplitudes(3.5, 100);
 
   Fixture() {
     settings.samples = 64;

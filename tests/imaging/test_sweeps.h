@@ -6,6 +6,7 @@
 
 #include "sim/imaging/sweep_simulator.h"
 #include "tests/imaging/test_body.h"
+#include "tests/model/amplitudes.h"
 
 /// Sweeps over the test body, and settings in which all of it is visible.
 namespace insonate::test {
@@ -44,7 +45,7 @@ inline Sweep by_hand() {
 
 /// Returns settings with every effect on, strong enough to be visible.
 inline Settings everything() {
-  Settings settings = trainer_settings(3.5, kDepth_mm);
+  Settings settings = test::trainer_with_amplitudes(3.5, kDepth_mm);
   settings.samples = 150;
   settings.reverberation = settings.clutter = settings.electronic_noise = settings.edge_shadow = true;
   settings.face_reflection = 0.3;

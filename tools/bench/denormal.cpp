@@ -81,7 +81,8 @@ Table measure_denormals(const Request& request) {
     const Stages<float> stages = simulators[i].read_stages();
     long denormal = 0;
     for (const auto* stage : {&stages.intensity, &stages.reflection, &stages.reflection_beam, &stages.transmission,
-                              &stages.repeated, &stages.speckle, &stages.fused})
+                              &stages.repeated, &stages.speckle, &stages.scattered, &stages.echo_re, &stages.echo_im,
+                              &stages.wave_re, &stages.wave_im, &stages.fused})
       denormal += std::ranges::count_if(stage->pixels, [](float v) { return std::fpclassify(v) == FP_SUBNORMAL; });
     double faintest = 1;
     for (const float intensity : stages.intensity.pixels)

@@ -78,8 +78,8 @@ std::vector<Setting> settings_to_try(const Request& request, const Scene& scene)
   without("one plane", [](Settings& s) { s.slice_planes = 1; });
   without("no edge shadow", [](Settings& s) { s.edge_shadow = false; });
   without("no reverberation", [](Settings& s) { s.reverberation = false, s.face_reflection = 0; });
-  without("a beam of one line", [](Settings& s) { s.focused_beam = false, s.beam_lines = 1; });
-  without("no smoothing", [](Settings& s) { s.reflection_sigma_mm = s.transmission_sigma_mm = 0; });
+  without("a beam of three lines", [](Settings& s) { s.focused_beam = false, s.beam_lines = 3; });
+  without("amplitudes instead of waves", [](Settings& s) { s.waves = false; });
   return tried;
 }
 

@@ -69,7 +69,7 @@ Table measure_paper(const Request& request) {
         Settings settings = settings_of(scene, c, trainer);
         settings.skipping = settings.edge_shadow = false;  // so that both methods compute the same
         settings.slice_planes = 1;
-        settings.speckle = false;  // the comparison is without scatterers
+        settings.speckle = settings.waves = false;  // the comparison is without scatterers, of I and R
         const ScanLines lines = scan_lines(probe, scene.depth_mm, c.samples);
         simulator.set_probe(probe, scene.depth_mm);
         simulator.set_settings(settings);

@@ -7,6 +7,7 @@
 #include "sim/model/reverberation.h"
 #include "sim/model/scatterers.h"
 #include "sim/model/stages.h"
+#include "sim/model/waves.h"
 #include "sim/reference/reference.h"
 #include "sim/volume/ct_reader.h"
 #include "tools/render/stage_files.h"
@@ -138,7 +139,15 @@ Json describe(const RenderedScene& scene, const StageGeometry& geometry, const s
                         {"most_hu", kMostRefractingHu},
                         {"turn_rad", kDeflection_rad},
                         {"turn_mm", kDeflection_mm}};
-  text["envelope_scale"] = envelope_scale(lines, scene.settings);
+  if (scene.settings.waves)
+    text["waves"] = {{"cell_mm", scatterer_pitch_mm(lines, scene.settings)},
+                     {"pulse_weights", pulse_weights(lines, scene.settings)},
+                     {"scatterer_scale", scatterer_scale(lines, scene.settings)},
+                     {"slice_half", kSliceHalf},
+                     {"mirror_share", kMirrorShare},
+                     {"rough_share", kRoughShare}};
+  else
+    text["envelope_scale"] = envelope_scale(lines, scene.settings);
   const std::vector<SlicePlane> planes = slice_planes(scene.settings);
   for (std::size_t i = 0; i < planes.size(); ++i)
     text["slice_planes"].push_back(

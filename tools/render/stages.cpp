@@ -2,9 +2,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <complex>
+
 #include "sim/core/files.h"
 #include "sim/model/noise.h"
 #include "sim/reference/reference.h"
+#include "sim/reference/wave_reference.h"
 #include "sim/volume/ct_reader.h"
 #include "tools/render/stage_description.h"
 #include "tools/render/stage_files.h"
@@ -35,6 +39,24 @@ void add(Image<double>& to, double weight, const Image<double>& what) {
   for (std::size_t i = 0; i < to.pixels.size(); ++i) to.pixels[i] += weight * what.pixels[i];
 }
 
+/// Writes the sums of scatterers that each plane of the slice holds.
+void write_scatterers(const fs::path& folder, const RenderedScene& scene, const ScanLines& lines) {
+  const std::vector<SlicePlane> planes = slice_planes(scene.settings);
+  const std::vector<Image<std::complex<double>>> scatterers =
+      scatterers_reference(lines, scene.settings, scene.patient_from_probe);
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    const auto write = [&](const char* name, auto part, const char* content) {
+      Image<double> image(scatterers[i].width, scatterers[i].height);
+      std::ranges::transform(scatterers[i].pixels, image.pixels.begin(), part);
+      write_among_lines(folder / slice_folder(planes, i), name, in_single_precision(image), content);
+    };
+    write(
+        "scatterers_re", [](std::complex<double> n) { return n.real(); }, "n of sim/model/waves.h, real part");
+    write(
+        "scatterers_im", [](std::complex<double> n) { return n.imag(); }, "n of sim/model/waves.h, imaginary part");
+  }
+}
+
 /// Writes the tissue of each plane of the slice, and the scatterers' echo of all planes.
 void write_planes(const fs::path& folder, const RenderedScene& scene, const ScanLines& lines) {
   const MediumField field = trilinear_field(scene.volume);
@@ -55,13 +77,46 @@ void write_planes(const fs::path& folder, const RenderedScene& scene, const Scan
         write_among_lines(folder, "alpha", tissue.alpha, kAlpha);
       }
     }
-    add(echo_re, planes[i].weight, scan.echo_re);
-    add(echo_im, planes[i].weight, scan.echo_im);
+    if (scene.settings.waves) {
+      write_among_lines(of_plane, "amplitude", in_single_precision(scan.amplitude), "A of sim/model/waves.h");
+      write_among_lines(of_plane, "mirror", in_single_precision(scan.mirror), "q of sim/model/waves.h");
+    } else {
+      add(echo_re, planes[i].weight, scan.echo_re);
+      add(echo_im, planes[i].weight, scan.echo_im);
+    }
+  }
+  if (scene.settings.waves) {
+    write_scatterers(folder, scene, lines);
+    return;
   }
   write_among_lines(folder, "echo_re", in_single_precision(echo_re),
                     "the scatterers' echo before the beam's width, real part, of all planes");
   write_among_lines(folder, "echo_im", in_single_precision(echo_im),
                     "the scatterers' echo before the beam's width, imaginary part, of all planes");
+}
+
+/// Writes the receiver's noise: along the lines or, with waves, as the picture has it.
+void write_noise(const fs::path& folder, const RenderedScene& scene, const StageGeometry& geometry) {
+  if (!scene.settings.waves) {
+    write_among_lines(
+        folder, "noise", in_single_precision(electronic_noise(geometry.lines, scene.settings)),
+        "of mean 1: in U times noise_level + clutter_share M, M the scatterers' mean echo at the pixel's depth");
+    return;
+  }
+  const Image<std::complex<double>> noise = noise_wave(geometry.lines, scene.settings);
+  const glm::ivec2 shift = noise_shift(scene.patient_from_probe);
+  const int w = geometry.image.width, h = geometry.image.height;
+  Image<float> re(w, h), im(w, h);
+  for (int y = 0; y < h; ++y)
+    for (int x = 0; x < w; ++x) {
+      const std::complex<double> n =
+          noise_of_pixel(noise, geometry.image, geometry.lines, (x + shift.x) % w, (y + shift.y) % h);
+      re.at(x, y) = float(n.real());
+      im.at(x, y) = float(n.imag());
+    }
+  const char* const content = "of mean square 1: added to f, times the root of noise_level + clutter_share M";
+  write_as_picture(folder, "noise_re", re, content);
+  write_as_picture(folder, "noise_im", im, content);
 }
 
 }  // namespace
@@ -71,15 +126,22 @@ std::string slice_folder(const std::vector<SlicePlane>& planes, std::size_t plan
 }
 
 Stages<float> in_single_precision(const Stages<double>& stages) {
-  return {in_single_precision(stages.intensity),
-          in_single_precision(stages.reflection),
-          in_single_precision(stages.reflection_beam),
-          in_single_precision(stages.transmission),
-          in_single_precision(stages.repeated),
-          in_single_precision(stages.speckle),
-          in_single_precision(stages.fused),
-          stages.inside,
-          stages.grey};
+  Stages<float> single;
+  single.intensity = in_single_precision(stages.intensity);
+  single.reflection = in_single_precision(stages.reflection);
+  single.reflection_beam = in_single_precision(stages.reflection_beam);
+  single.transmission = in_single_precision(stages.transmission);
+  single.repeated = in_single_precision(stages.repeated);
+  single.speckle = in_single_precision(stages.speckle);
+  single.scattered = in_single_precision(stages.scattered);
+  single.echo_re = in_single_precision(stages.echo_re);
+  single.echo_im = in_single_precision(stages.echo_im);
+  single.wave_re = in_single_precision(stages.wave_re);
+  single.wave_im = in_single_precision(stages.wave_im);
+  single.fused = in_single_precision(stages.fused);
+  single.inside = stages.inside;
+  single.grey = stages.grey;
+  return single;
 }
 
 void write_stages(const fs::path& folder, const RenderedScene& scene, const Stages<float>& stages,
@@ -97,15 +159,20 @@ void write_stages(const fs::path& folder, const RenderedScene& scene, const Stag
     write_among_lines(folder, name, image, content);
   };
   among_lines("transmission", stages.intensity, "I (5), relative to the intensity at the face");
-  among_lines("reflection", stages.reflection, "R (3) before the beam's width");
-  among_lines("reflection_beam", stages.reflection_beam, "R behind the beam's width (4)");
-  among_lines("speckle", stages.speckle, "S: envelope of the scatterers' echo behind the beam's width");
+  if (settings.waves) {
+    among_lines("scattered", stages.scattered, "expected power of the scatterers' echo, as in sim/model/stages.h");
+    among_lines("echo_re", stages.echo_re, "e of sim/model/waves.h, real part, of all planes");
+    among_lines("echo_im", stages.echo_im, "e of sim/model/waves.h, imaginary part, of all planes");
+    among_lines("wave_re", stages.wave_re, "f of sim/model/waves.h, real part");
+    among_lines("wave_im", stages.wave_im, "f of sim/model/waves.h, imaginary part");
+  } else {
+    among_lines("reflection", stages.reflection, "R (3) before the beam's width");
+    among_lines("reflection_beam", stages.reflection_beam, "R behind the beam's width (4)");
+    among_lines("speckle", stages.speckle, "S: envelope of the scatterers' echo behind the beam's width");
+  }
   if (settings.reverberation || settings.face_reflection > 0)
     among_lines("repeated", stages.repeated, "V behind the beam's width, as sim/model/reverberation.h says");
-  if (settings.electronic_noise || settings.clutter)
-    among_lines(
-        "noise", in_single_precision(electronic_noise(geometry.lines, settings)),
-        "of mean 1: in U times noise_level + clutter_share M, M the scatterers' mean echo at the pixel's depth");
+  if (settings.electronic_noise || settings.clutter) write_noise(folder, scene, geometry);
 
   write_pixel_positions(folder, geometry);
   write_as_picture(folder, "fused", stages.fused, "U (6), before gain");

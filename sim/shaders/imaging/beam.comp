@@ -8,8 +8,7 @@
 //
 // Reads the scan of the traversal, the tables by depth, the window and, with REVERBERATION, V. Writes R, T, S, V.
 // Dispatch: samples x lines / 4 x planes invocations, in work groups of 64 x 1 x 1. An invocation computes one sample
-// of four neighbouring lines. Their apertures overlap, so it reads each value once for all four. The beam's half width
-// BEAM_HALF is compiled in, so that a narrow aperture needs no loop.
+// of four neighbouring lines. Their apertures overlap, so it reads each value once for all four.
 
 layout(local_size_x = 64) in;
 
@@ -20,28 +19,13 @@ layout(binding = 0) uniform samplerBuffer scan;      // one row per line: I, R, 
 layout(binding = 1) uniform samplerBuffer at_depth;  // per sample: factor that makes the mean envelope 1, radius of the
                                                      // focused beam in lines, exponent of its Gaussian
 layout(binding = 2) uniform samplerBuffer repeats;   // one row per line: V before the window, with REVERBERATION
-layout(std140, binding = 1) uniform Window { vec4 window[32]; };         // weights from the middle line outwards
 layout(std430, binding = 0) writeonly buffer Echoes { vec4 echoes[]; };  // one row per line: R, T, S, V
 
-#if FOCUSED_BEAM == 1
-int reach;       // radius of the aperture at this sample, lines
-float exponent;  // of the aperture's Gaussian
-#else
-const int reach = BEAM_HALF;
-#endif
+#include "shared/aperture.glsl"
+
 vec4 reflection = vec4(0.0), re = vec4(0.0), im = vec4(0.0), repeated = vec4(0.0), total = vec4(0.0);
 int plane_row;             // index of the plane's first sample
 vec4 weights = vec4(0.0);  // of the line that is being added, for each of the four lines
-
-// Returns the weight of a line `away` lines from the aperture's middle.
-float weight_at(int away) {
-#if FOCUSED_BEAM == 1
-  return abs(away) <= reach ? exp(exponent * float(away * away)) : 0.0;
-#else
-  int place = abs(away);
-  return place <= reach ? window[place >> 2][place & 3] : 0.0;
-#endif
-}
 
 // Adds line first + j and returns its intensity. Each call must take the line behind the previous call's line, because
 // `weights` moves on by one line per call.
@@ -66,10 +50,7 @@ void main() {
   plane_row = int(gl_GlobalInvocationID.z) * lines * samples;
 
   vec4 here = texelFetch(at_depth, k);
-#if FOCUSED_BEAM == 1
-  reach = int(here.y);
-  exponent = here.z;
-#endif
+  place_aperture(here);
 
   for (int j = -reach; j < 0; ++j) add(first, j, k);
   vec4 intensity;  // one statement each: GLSL leaves open in which order a constructor's arguments are evaluated

@@ -7,6 +7,8 @@
 // not smoothed. The position of each pixel among the lines is computed once per probe and depth, so this stage does not
 // depend on the probe.
 //
+// With WAVES, f is interpolated and U = |f + noise|^2 + V (sim/model/waves.h): X = U, and nothing is smoothed.
+//
 // Reads the echoes, the pixels' positions, the noise and the mean echo. Writes X and S, and R and T where smoothed.
 // Dispatch: one work group of 64 x 1 per block of the fan (shared/fan_blocks.glsl). An invocation serves four pixels of
 // a column.
@@ -14,12 +16,13 @@
 layout(local_size_x = 64, local_size_y = 1) in;
 
 #include "shared/simulation_parameters.h"
+#include "shared/least_echo.glsl"
 #include "shared/fan_blocks.glsl"
 
-layout(binding = 0) uniform samplerBuffer echoes;           // one row per line: R, T, S, V
+layout(binding = 0) uniform samplerBuffer echoes;           // one row per line: R, T, S, V; with WAVES f, 0, V
 layout(binding = 1) uniform samplerBuffer line_and_sample;  // per pixel; line below -1 outside the fan
-layout(binding = 2) uniform samplerBuffer noise;            // per pixel, with mean 1
-layout(binding = 3) uniform samplerBuffer mean_echo;        // per sample: mean of T S over the lines, with its tail
+layout(binding = 2) uniform samplerBuffer noise;            // per pixel, with mean 1; with WAVES complex
+layout(binding = 3) uniform samplerBuffer mean_echo;        // per sample: mean echo over the lines, with its tail
 layout(std430, binding = 0) writeonly buffer Picture { vec2 picture[]; };  // X, S
 layout(std430, binding = 1) writeonly buffer Sharp { SMOOTHED sharp[]; };  // R, T where smoothed; -1 outside the fan
 
@@ -29,7 +32,7 @@ float noise_at(float sample_position) {
   float position = clamp(sample_position, 0.0, float(samples - 1));
   int low = int(position), high = min(low + 1, samples - 1);
   float mean = mix(texelFetch(mean_echo, low).x, texelFetch(mean_echo, high).x, position - float(low));
-  return noise_level + clutter_share * blend * mean;
+  return noise_level + clutter_share * (WAVES == 1 ? 1.0 : blend) * mean;
 #else
   return noise_level;
 #endif
@@ -50,6 +53,14 @@ void convert(ivec2 pixel) {
   vec4 value = mix(mix(echo_at(low.x, low.y), echo_at(high.x, low.y), f.x),
                    mix(echo_at(low.x, high.y), echo_at(high.x, high.y), f.x), f.y);
 
+#if WAVES == 1
+#if NOISE == 1
+  ivec2 shifted = (pixel + ivec2(noise_shift_x, noise_shift_y)) % ivec2(width, height);
+  value.xy += sqrt(noise_at(place.y)) * texelFetch(noise, index_of(shifted)).xy;
+#endif
+  float echo = dot(value.xy, value.xy) + value.w;
+  picture[index_of(pixel)] = vec2(inside && echo > kLeastEcho ? echo : 0.0, 0.0);
+#else
   float rest = value.w;
 #if REFLECTION_SMOOTHED == 0
   rest += value.z * value.x;
@@ -63,6 +74,7 @@ void convert(ivec2 pixel) {
   picture[index_of(pixel)] = vec2(rest, value.z);
 #if REFLECTION_SMOOTHED == 1 || TRANSMISSION_SMOOTHED == 1
   sharp[index_of(pixel)] = inside ? SMOOTHED(value) : SMOOTHED(-1.0);
+#endif
 #endif
 }
 

@@ -1,6 +1,6 @@
 // Fusion of a sweep, (6) of Kutter, Shams, Navab 2009, on its lines:
 //
-//     U = (R + b T) S + V + noise
+//     U = (R + b T) S + V + noise,  with WAVES U = |f + noise|^2 + V (sim/model/waves.h)
 //
 // A volume is not smoothed as a picture is, so fusion need not follow scan conversion.
 //
@@ -10,10 +10,11 @@
 layout(local_size_x = 64) in;
 
 #include "shared/simulation_parameters.h"
+#include "shared/least_echo.glsl"
 
-layout(binding = 0) uniform samplerBuffer echoes;     // one row per line, plane by plane: R, T, S, V
-layout(binding = 1) uniform samplerBuffer noise;      // one row per line of a plane, with mean 1
-layout(binding = 2) uniform samplerBuffer mean_echo;  // one row per plane: mean of T S over the lines, with its tail
+layout(binding = 0) uniform samplerBuffer echoes;     // one row per line, plane by plane: R, T, S, V; with WAVES f, 0, V
+layout(binding = 1) uniform samplerBuffer noise;      // one row per line of a plane, with mean 1; with WAVES complex
+layout(binding = 2) uniform samplerBuffer mean_echo;  // one row per plane: mean echo over the lines, with its tail
 layout(std430, binding = 0) writeonly buffer Fused { float fused[]; };  // U, in the order of `echoes`
 
 void main() {
@@ -22,13 +23,20 @@ void main() {
   int at = (plane * lines + line) * samples + k;
   vec4 value = texelFetch(echoes, at);
   float echo = (value.x + blend * value.y) * value.z + value.w;
+  vec2 wave = value.xy;
 #if NOISE == 1
   int noise_line = (line + (first_plane + plane) * noise_step) % lines;
   float mean = noise_level;
 #if CLUTTER == 1
-  mean += clutter_share * blend * texelFetch(mean_echo, plane * samples + k).x;
+  mean += clutter_share * (WAVES == 1 ? 1.0 : blend) * texelFetch(mean_echo, plane * samples + k).x;
 #endif
-  echo += mean * texelFetch(noise, noise_line * samples + k).x;
+  vec2 of_receiver = texelFetch(noise, noise_line * samples + k).xy;
+  echo += mean * of_receiver.x;
+  wave += sqrt(mean) * of_receiver;
 #endif
+  if (WAVES == 1) {
+    echo = dot(wave, wave) + value.w;
+    if (echo <= kLeastEcho) echo = 0.0;
+  }
   fused[at] = echo;
 }

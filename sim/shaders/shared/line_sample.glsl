@@ -12,15 +12,20 @@
 #include "shared/exact_filter.glsl"
 
 layout(binding = 1) uniform sampler3D scatterers;  // complex, variance 1 at the lattice's points
-layout(binding = 2) uniform samplerBuffer in_air;  // I, R of a line that does not meet the body, by sample
-layout(std430, binding = 1) buffer Scan { vec4 scan[]; };  // one row per line: I, R, scatterers' echo (re, im)
+layout(binding = 3) uniform isamplerBuffer scattered;     // with WAVES: of scatter.comp, slice plane by slice plane
+layout(binding = 4) uniform samplerBuffer scatterer_scale;  // and what its whole numbers are multiplied by, by sample
+layout(binding = 2) uniform samplerBuffer in_air;  // of a line that does not meet the body, by sample: I, R; with WAVES then
+                                                   // its echo without rough parts
+layout(std430, binding = 1) buffer Scan { vec4 scan[]; };  // one row per line: I, R, scatterers' echo (re, im); with
+                                                            // WAVES I, scattered power, echo (re, im)
 
 // A line and the directions beside it, computed in double precision for each pose. Sums of single-precision products
 // here would move samples by a thousandth of a voxel, which shows at the surface of gas.
 struct Line {
   vec4 start, along;        // in the volume's texture: sample 0, step to the next; start.w and along.w: first and last
                             // sample that may lie in the body, first > last if none does
-  vec4 lateral, elevation;  // half the reflection length to either side; lateral.w: the slice plane's weight
+  vec4 lateral, elevation;  // half the reflection length to either side; lateral.w: the slice plane's weight;
+                            // elevation.w: 1 for the line whose results those that meet no body take over
   vec4 lattice_start, lattice_along;  // in the scatterers' lattice
   vec4 beside, lattice_beside;        // with ELEVATION_FOCUS: step to the slice plane per mm of the slice's thickness
 };
@@ -39,12 +44,18 @@ const int kEdgesAnywhere = 0;
 const float kMeanCosine = 0.5;           // |d . n| over all directions, for interfaces too weak to need a normal
 const float kLn10 = 2.302585093;
 // As in sim/model/acoustic_volume.h: the level in hundredths of a dB, and 10^(level / 1000).
-const float kSilentEchogenicity = -5999.5, kSilentAmplitude = 1.00115195e-6;
+const float kSilentEchogenicity = -5999.5;
+#if WAVES == 1
+const float kSilentAmplitude = 1.00057581e-3;  // 10^(level / 2000)
+#else
+const float kSilentAmplitude = 1.00115195e-6;
+#endif
 // ln 10^-33. Intensity is a factor of each echo at least once, and echoes below 10^-30 count as 0 (least_echo.glsl).
 // The planes of a slice add up to one echo, so each is known to a thousandth of that limit.
 const float kLeastLogIntensity = -76.0;
 
 Line line;
+int scattered_row;  // index of the line's first sample in `scattered`
 uint traversed = 0u, normals = 0u;  // by this invocation
 
 // Returns the number of lines to traverse: those of all planes, or 1 for the line in air.
@@ -52,7 +63,9 @@ int line_count() { return min(planes * lines, scan_lines.length() / SLICE_PLANES
 
 void place_line(int slice_plane, int index) {
   int stride = min(lines, line_count());
-  line = scan_lines[index + (index / stride * (SLICE_PLANES - 1) + slice_plane) * stride];
+  int placed = index + (index / stride * (SLICE_PLANES - 1) + slice_plane) * stride;
+  line = scan_lines[placed];
+  scattered_row = placed * samples;
 }
 
 bool starts() { return line.start.w <= line.along.w; }
@@ -138,7 +151,29 @@ float incidence(Surroundings around) {
   return abs(around.along) * inversesqrt(max(around.along * around.along + dot(across, across), 1e-30));
 }
 
-// Returns the complex amplitude of the scatterers at a sample.
+#if WAVES == 1
+// Shares of an interface's amplitude, as in sim/model/waves.h.
+const float kMirrorShare = 0.8, kRoughShare = 0.6;
+
+// Returns n_p of sim/model/waves.h; without speckle, the plane's share of 1. The line in air stands for many, each of
+// which has its own.
+vec2 scatterers_at(int k) {
+  if (line.elevation.w > 0.0) return vec2(0.0);
+#if SPECKLE == 1
+  int both = texelFetch(scattered, scattered_row + k).x, re = both << 16 >> 16;
+  return vec2(re, (both - re) >> 16) * texelFetch(scatterer_scale, k).x;
+#else
+  return vec2(line.lateral.w, 0.0);
+#endif
+}
+
+// Returns the amplitude of scatterers of the medium, relative to liver's.
+float scatterer_amplitude(Medium here) {
+  return max(exp(here.echogenicity * (kLn10 / 2000.0)) - kSilentAmplitude, 0.0);
+}
+#endif
+
+// Returns the complex amplitude of the scatterers at a sample of the paper's model.
 vec2 scatterers_echo(float k, Medium here) {
   float above_silence = max(here.echogenicity - kSilentEchogenicity, 0.0);
   vec2 echo = vec2(kSilentAmplitude * (exp(above_silence * (kLn10 / 1000.0)) - 1.0), 0.0);
@@ -151,7 +186,7 @@ struct Sample {
   float alpha, cosine;  // of the interface
   float change;         // of ln I, without the loss by refraction
   vec2 turn;            // rotation of the sound's direction by refraction, in units of kDeflection_rad
-  vec2 echo;            // of the scatterers
+  vec2 echo;            // of the scatterers; with WAVES their amplitude, and the interface's q
 };
 
 float absorbed(Medium here) { return ABSORPTION == 1 ? here.absorption * absorption_per_sample : 0.0; }
@@ -177,7 +212,14 @@ Sample sample_at(float k, Medium here, Medium before, Medium behind) {
   }
   float transmitted = log_transmission(met.alpha, before.impedance, behind.impedance);
   met.change = reflection_exponent * transmitted - absorbed(here);  // (5)
+#if WAVES == 1
+  met.cosine = pow(met.cosine, specular_exponent);
+  float squared = met.alpha * met.alpha, weak = 0.5 * blend;
+  float mirrored = sqrt(met.alpha * met.cosine) * squared / max(squared + weak * weak, kLeastEcho);
+  met.echo = vec2(scatterer_amplitude(here), behind.impedance < before.impedance ? -mirrored : mirrored);
+#else
   met.echo = scatterers_echo(k, here);
+#endif
   return met;
 }
 
@@ -206,30 +248,63 @@ bool is_heard(LogIntensity log_intensity) { return log_intensity.value > kLeastL
 // Stores a sample; the planes of the slice add up by their weights. Reverberation needs the middle plane alone: layers
 // that lie in different planes hold no sound between them.
 void put(int slice_plane, int at, vec4 value) {
-#if KEEP_MIDDLE == 1
+#if KEEP_MIDDLE == 1 && WAVES == 0
   if (slice_plane == SLICE_PLANES / 2) middle[at] = value.xy;
 #endif
 #if SLICE_PLANES > 1
+#if WAVES == 1
+  value.xy *= line.lateral.w;
+#else
   value *= line.lateral.w;
+#endif
   if (slice_plane > 0) value += scan[at];
 #endif
   scan[at] = value;
 }
 
 // Stores what a sample sends back of the intensity that arrives.
-void put(int slice_plane, int at, Sample met, LogIntensity log_intensity) {
+void put(int slice_plane, int row, int k, Sample met, LogIntensity log_intensity) {
   float intensity = is_heard(log_intensity) ? exp(log_intensity.value) : 0.0;
   float heard = intensity > kLeastIntensity ? intensity : 0.0;
   float reflection = met.alpha * heard * heard * met.cosine;  // (3)
   if (reflection < kLeastEcho) reflection = 0.0;
-  put(slice_plane, at, vec4(intensity, reflection, met.echo));
+#if WAVES == 1
+  vec2 scatterers = scatterers_at(k);
+#if TWO_WAY == 1
+  float arriving = heard;
+#else
+  float arriving = intensity > kLeastEcho ? sqrt(intensity) : 0.0;
+#endif
+  float scattered_amplitude = blend_amplitude * met.echo.x * arriving;
+  vec2 mirror = vec2(kMirrorShare * line.lateral.w, 0.0) + kRoughShare * scatterers;
+  vec2 echo = heard * met.echo.y * mirror + scattered_amplitude * scatterers;
+#if KEEP_MIDDLE == 1
+  if (slice_plane == SLICE_PLANES / 2) middle[row + k] = vec2(intensity, reflection);
+#endif
+  float beside = line.elevation.w > 0.0 ? reflection : scattered_amplitude * scattered_amplitude;
+  put(slice_plane, row + k, vec4(intensity, beside, echo));
+#else
+  put(slice_plane, row + k, vec4(intensity, reflection, met.echo));
+#endif
 }
 
 // Stores sample k and every `step`th sample behind it, where no sound arrives. As far as the body extends, such samples
 // still scatter in the apertures of the lines beside this one.
 void put_silent(int slice_plane, int row, int k, int step) {
+#if WAVES == 0
   for (int end = int(min(line.along.w + 1.0, float(samples))); k < end; k += step)
     put(slice_plane, row + k, vec4(0.0, 0.0, scatterers_echo(float(k), medium(float(k)))));
-  for (; k < samples; k += step)
+#endif
+  for (; k < samples; k += step) {
+#if WAVES == 1
+    vec3 air = starts() ? vec3(0.0) : texelFetch(in_air, k).xyz;
+    vec2 mirror = vec2(line.lateral.w, 0.0) + kRoughShare / kMirrorShare * scatterers_at(k);
+    put(slice_plane, row + k, vec4(air.x, 0.0, air.z * mirror));
+#if KEEP_MIDDLE == 1
+    if (slice_plane == SLICE_PLANES / 2) middle[row + k] = air.xy;
+#endif
+#else
     put(slice_plane, row + k, vec4(starts() ? vec2(0.0) : texelFetch(in_air, k).xy, 0.0, 0.0));
+#endif
+  }
 }

@@ -47,7 +47,12 @@ layout(std140, binding = 0) uniform SimulationParameters {
   int planes;       // whose lines are processed together, stored one after the other: 1 for a picture
   int first_plane;  // index of the first of these in the sweep
   int noise_step;   // shift of the noise from one plane to the next, lines
-  int unused_1;     // std140: a row has 16 bytes
+  float specular_exponent;
+
+  int noise_shift_x;  // with waves: of the picture's noise, pixels
+  int noise_shift_y;
+  float blend_amplitude;  // b^(1/2)
+  float pulse_exponent;   // of the pulse's Gaussian, by samples^2
 
   vec4 tgc_db[2];  // time gain at 8 depths from the face to full depth
 #ifdef __cplusplus

@@ -63,7 +63,7 @@ void traverse_line(int slice_plane, int index) {
     scan_changes(me, met.change);
     LogIntensity log_intensity = arriving;
     if (me > 0) log_intensity = changed(arriving, changes[me - 1]);
-    if (k < samples) put(slice_plane, row + k, met, log_intensity);
+    if (k < samples) put(slice_plane, row, k, met, log_intensity);
     arriving = changed(arriving, changes[kLast]);
   }
   put_silent(slice_plane, row, first + me, GROUP);

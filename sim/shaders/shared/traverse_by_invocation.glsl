@@ -15,7 +15,7 @@ void traverse_line(int slice_plane, int index) {
     if (EDGES_AT != kEdgesAtSamples) behind = medium(position + half_reflection_length);
     if (EDGES_AT == kEdgesAnywhere) before = medium(position - half_reflection_length);
     Sample met = sample_at(position, here, before, behind);
-    put(slice_plane, row + k, met, log_intensity);
+    put(slice_plane, row, k, met, log_intensity);
 #if EDGE_SHADOW == 1
     turn = turn * turn_kept + met.turn;
     met.change += change_by(turn);

@@ -136,36 +136,35 @@ TEST_CASE("a shader that builds as it is and not for other settings is told of, 
   const test::TestContext context;
   const TrainerFolder folder;
   std::vector<std::string> files;
-  const std::string smooth = gl::ShaderSources().text("imaging/smooth.comp", files);
+  const std::string scatter = gl::ShaderSources().text("imaging/scatter.comp", files);
   fs::create_directories(folder.path / "shaders");
-  // A picture of less depth has more pixels a millimetre.
-  folder.file("shaders/imaging/smooth.comp", "#if TRANSMISSION_RADIUS > 3\n#error too wide\n#endif\n" + smooth);
+  folder.file("shaders/imaging/scatter.comp", "#if FACE == 0\n#error not for linear probes\n#endif\n" + scatter);
   Options options = folder.options();
   options.shader_folder = folder.path / "shaders";
   Trainer trainer(options);
   trainer.open_from_options();
   trainer.finish_loading();
   trainer.update(0.5);
-  const auto set_depth = [&](double mm) { trainer.session()->set(ActionKind::depth, mm); };
-  set_depth(240);
+  const auto choose = [&](const char* probe) { trainer.session()->choose_probe(probe); };
+  choose("curvilinear");
   trainer.draw(kSizes);
   const auto pixels = read_back(*trainer.pictures().ultrasound()).pixels;
   CHECK(trainer.shader_problem().empty());
 
-  set_depth(40);
+  choose("linear");
   trainer.draw(kSizes);
-  CHECK(trainer.shader_problem().find("too wide") != std::string::npos);
-  set_depth(240);
+  CHECK(trainer.shader_problem().find("not for linear probes") != std::string::npos);
+  choose("curvilinear");
   trainer.draw(kSizes);
   CHECK((read_back(*trainer.pictures().ultrasound()).pixels == pixels));
 
   INFO("once the file is mended the picture is drawn");
-  folder.file("shaders/imaging/smooth.comp", smooth);
-  fs::last_write_time(options.shader_folder / "imaging/smooth.comp",
-                      fs::last_write_time(options.shader_folder / "imaging/smooth.comp") + std::chrono::seconds(2));
+  folder.file("shaders/imaging/scatter.comp", scatter);
+  fs::last_write_time(options.shader_folder / "imaging/scatter.comp",
+                      fs::last_write_time(options.shader_folder / "imaging/scatter.comp") + std::chrono::seconds(2));
   trainer.update(1.5);
   CHECK(trainer.shader_problem().empty());
-  set_depth(40);
+  choose("linear");
   trainer.draw(kSizes);
   CHECK(trainer.shader_problem().empty());
   CHECK((read_back(*trainer.pictures().ultrasound()).pixels != pixels));

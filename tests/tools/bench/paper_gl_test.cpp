@@ -8,6 +8,7 @@
 #include "tests/gl/test_context.h"
 #include "tests/imaging/parity.h"
 #include "tests/imaging/test_body.h"
+#include "tests/model/amplitudes.h"
 #include "tools/bench/paper_traversal.h"
 
 using namespace insonate;
@@ -61,7 +62,7 @@ TEST_CASE("the paper's passes agree with the reference in the paper's own mode")
 }
 
 TEST_CASE("the paper's passes agree with the reference in the trainer's mode, two samples a reflection length or any") {
-  Settings settings = trainer_settings(3.5, 110);
+  Settings settings = test::trainer_with_amplitudes(3.5, 110);
   settings.slice_planes = 1;  // the paper knows neither
   settings.edge_shadow = false;
   settings.samples = 300;

@@ -162,7 +162,7 @@ TEST_CASE("a sweep's volume holds echoes of echoes, and clutter") {
   const Scene scene;
   const std::string volume = scene.in("swept.nrrd");
   const auto swept = [&](const std::string& more) {
-    scene.folder.file("sweep.toml", "samples = 200\nelectronic_noise = false\ngain_db = 15\n" + more);
+    scene.folder.file("sweep.toml", "waves = false\nsamples = 200\nelectronic_noise = false\ngain_db = 15\n" + more);
     const Outcome outcome = run(scene.folder, INSONATE_RENDER_PROGRAM,
                                 "--ct " + scene.in("ct.nrrd") + " --pose " + scene.in("pose.txt") + " --settings " +
                                     scene.in("sweep.toml") + " --depth 60 --voxel 2 --sweep 20 --planes 5 " + volume);
@@ -182,6 +182,6 @@ TEST_CASE("a sweep's volume holds echoes of echoes, and clutter") {
     }
     INFO(what);
     CHECK(brighter > 100);
-    CHECK(darker == 0);  // added effects do not darken anything
+    CHECK(darker == 0);  // added intensities darken nothing
   }
 }

@@ -12,6 +12,8 @@
 #include "sim/model/refraction.h"
 #include "sim/model/reverberation.h"
 #include "sim/model/scatterers.h"
+#include "sim/model/waves.h"
+#include "sim/reference/wave_reference.h"
 #include "sim/volume/ct_reader.h"
 #include "sim/volume/open_case.h"
 #include "tests/imaging/stage_parity.h"
@@ -30,10 +32,16 @@ const View kSlice = {
     60,
     // rotated about the beam, and pressed in until the fan's corners are under the skin
     {{{0.96, 0, -0.28}, {0, 1, 0}, {0.28, 0, 0.96}}, {-4, 9, 1}},
-    "preset = 'trainer'\nsamples = 240\nreflection_length_mm = 0.7\ngel_mm = 3.1\nslice_planes = 3\n"
+    "preset = 'trainer'\nwaves = false\nsamples = 240\nreflection_length_mm = 0.7\ngel_mm = 3.1\nslice_planes = 3\n"
     "slice_thickness_mm = 4\nelevation_focus_mm = 35\nedge_shadow = true\nreverberation = true\nface_reflection = 1\n"
     "electronic_noise = true\nnoise_db = -70\nclutter = true\nclutter_db = -10\n"
     "tgc_db = [0, 2, 5, 9, 14, 20, 27, 35]\ngain_db = 4\nimage_width = 160\nimage_height = 120\nexact_filter = true\n"};
+
+// The same with waves, and without the elevation focus.
+const View kWaves = {"curvilinear", kSlice.depth_mm, kSlice.patient_from_probe,
+                     "preset = 'trainer'\nsamples = 240\nslice_thickness_mm = 4\nface_reflection = 1\n"
+                     "noise_db = -70\nclutter_db = -10\ntgc_db = [0, 2, 5, 9, 14, 20, 27, 35]\ngain_db = 4\n"
+                     "image_width = 160\nimage_height = 120\nexact_filter = true\n"};
 
 // One plane, no effect that the paper leaves out, and gel in front of a face that stands off the skin.
 const View kPaper = {"linear",
@@ -83,7 +91,18 @@ void check_description(const nlohmann::json& text, const Insonated& scene) {
   CHECK(text.at("beam_weights") == beam_weights(settings));
   CHECK(text.contains("beam_sigma_lines") == settings.focused_beam);
   if (settings.focused_beam) CHECK(text.at("beam_sigma_lines") == focused_beam_sigma(scene.lines, settings));
-  CHECK(text.at("envelope_scale") == envelope_scale(scene.lines, settings));
+  CHECK(text.contains("waves") == settings.waves);
+  if (settings.waves) {
+    const nlohmann::json& waves = text.at("waves");
+    CHECK(waves.at("scatterer_scale") == scatterer_scale(scene.lines, settings));
+    CHECK(waves.at("pulse_weights") == pulse_weights(scene.lines, settings));
+    CHECK(waves.at("cell_mm") == scatterer_pitch_mm(scene.lines, settings));
+    CHECK(waves.at("slice_half") == kSliceHalf);
+    CHECK(waves.at("mirror_share") == kMirrorShare);
+    CHECK(waves.at("rough_share") == kRoughShare);
+  } else {
+    CHECK(text.at("envelope_scale") == envelope_scale(scene.lines, settings));
+  }
   const std::vector<SlicePlane> planes = slice_planes(settings);
   REQUIRE(text.at("slice_planes").size() == planes.size());
   for (std::size_t i = 0; i < planes.size(); ++i) {
@@ -176,7 +195,7 @@ void check_tissue(const StageFolder& stages, const Insonated& scene, const Slice
 
   // Without other losses (5) gives alpha from the reference's I, and (3) then gives the incidence from its R.
   Settings interfaces_alone = settings;
-  interfaces_alone.absorption = interfaces_alone.edge_shadow = false;
+  interfaces_alone.absorption = interfaces_alone.edge_shadow = interfaces_alone.waves = false;
   const ReferenceScan scan = scene.traversed(interfaces_alone, plane);
   const Image<float> alpha = stages.image(prefix + "alpha"), incidence = stages.image(prefix + "incidence");
   double worst_alpha = 0, worst_incidence = 0;
@@ -197,17 +216,37 @@ void check_tissue(const StageFolder& stages, const Insonated& scene, const Slice
   CHECK(oblique > n * d / 20);
 }
 
+Image<double> real_part(const Image<std::complex<double>>& wave) {
+  Image<double> part(wave.width, wave.height);
+  std::ranges::transform(wave.pixels, part.pixels.begin(), [](const std::complex<double>& c) { return c.real(); });
+  return part;
+}
+
+Image<double> imaginary_part(const Image<std::complex<double>>& wave) {
+  Image<double> part(wave.width, wave.height);
+  std::ranges::transform(wave.pixels, part.pixels.begin(), [](const std::complex<double>& c) { return c.imag(); });
+  return part;
+}
+
 /// Checks the planes of the slice and the scatterers' echo of all.
 void check_planes(const StageFolder& stages, const Insonated& scene) {
   const std::vector<SlicePlane> planes = slice_planes(scene.settings);
   Image<double> echo_re(scene.probe.lines, scene.lines.samples), echo_im = echo_re;
+  std::vector<Image<std::complex<double>>> scatterers;
+  if (scene.settings.waves) scatterers = scatterers_reference(scene.lines, scene.settings, scene.pose);
   for (std::size_t p = 0; p < planes.size(); ++p) {
     const std::string folder = stages.description.at("slice_planes").at(p).at("folder");
     CHECK(folder == (planes.size() == 1 ? "" : "plane_" + std::to_string(p + 1)));
     const std::string prefix = folder.empty() ? "" : folder + "/";
     check_tissue(stages, scene, planes[p], prefix);
     const ReferenceScan scan = scene.traversed(scene.settings, planes[p]);
-    for (std::size_t i = 0; i < echo_re.pixels.size(); ++i) {
+    if (scene.settings.waves) {
+      check_rounded(stages, prefix + "amplitude", scan.amplitude);
+      check_rounded(stages, prefix + "mirror", scan.mirror);
+      check_rounded(stages, prefix + "scatterers_re", real_part(scatterers[p]));
+      check_rounded(stages, prefix + "scatterers_im", imaginary_part(scatterers[p]));
+    }
+    for (std::size_t i = 0; i < scan.echo_re.pixels.size(); ++i) {
       echo_re.pixels[i] += planes[p].weight * scan.echo_re.pixels[i];
       echo_im.pixels[i] += planes[p].weight * scan.echo_im.pixels[i];
     }
@@ -218,6 +257,7 @@ void check_planes(const StageFolder& stages, const Insonated& scene) {
       for (const std::string name : {"impedance", "alpha"})
         CHECK((stages.files.at(name).bytes == stages.files.at(prefix + name).bytes));
   }
+  if (scene.settings.waves) return;  // e is the device's
   check_rounded(stages, "echo_re", echo_re);
   check_rounded(stages, "echo_im", echo_im);
 }
@@ -239,15 +279,20 @@ void check_volume(const StageFolder& stages, const AcousticVolume& volume) {
 
 /// Checks the form of every file. The content of each names its quantity or unit.
 void check_files(const StageFolder& stages, const Settings& settings, std::vector<std::string> volumes) {
-  const std::vector<FileForm> tissue = {
+  std::vector<FileForm> tissue = {
       {"hounsfield", "Hounsfield units"},     {"echogenicity", "dB"}, {"impedance", "Z, MRayl"},
       {"absorption", "dB/(cm MHz), one way"}, {"alpha", "alpha (1)"}, {"incidence", "|d . n|"}};
-  std::vector<FileForm> among_lines = {{"echo_re", "real part"},
-                                       {"echo_im", "imaginary part"},
-                                       {"transmission", "I (5)"},
-                                       {"reflection", "R (3)"},
-                                       {"reflection_beam", "R behind the beam's width (4)"},
-                                       {"speckle", "S: envelope"}};
+  std::vector<FileForm> among_lines = {
+      {"echo_re", "real part"}, {"echo_im", "imaginary part"}, {"transmission", "I (5)"}};
+  if (settings.waves) {
+    among_lines.insert(among_lines.end(), {{"scattered", "expected power"}, {"wave_re", "f of"}, {"wave_im", "f of"}});
+    tissue.insert(tissue.end(),
+                  {{"amplitude", "A of"}, {"mirror", "q of"}, {"scatterers_re", "n of"}, {"scatterers_im", "n of"}});
+  } else {
+    among_lines.insert(
+        among_lines.end(),
+        {{"reflection", "R (3)"}, {"reflection_beam", "R behind the beam's width (4)"}, {"speckle", "S: envelope"}});
+  }
   if (settings.slice_planes == 1) among_lines.insert(among_lines.end(), tissue.begin(), tissue.end());
   for (int plane = 1; plane <= settings.slice_planes && settings.slice_planes > 1; ++plane) {
     const std::string folder = "plane_" + std::to_string(plane) + "/";
@@ -257,14 +302,16 @@ void check_files(const StageFolder& stages, const Settings& settings, std::vecto
   }
   if (settings.slice_planes > 1) among_lines.insert(among_lines.end(), {tissue[2], tissue[4]});
   if (settings.reverberation) among_lines.push_back({"repeated", "V behind the beam's width"});
-  if (settings.electronic_noise) among_lines.push_back({"noise", "of mean 1"});
+  std::vector<FileForm> of_pixels = {{"pixel_line", "scan line at the pixel, 0 on the first; -2 outside the fan"},
+                                     {"pixel_sample", "sample at the pixel, 0 on the first; -2 outside the fan"},
+                                     {"fused", "U (6), before gain"},
+                                     {"image", "grey level"}};
+  if (settings.electronic_noise && settings.waves)
+    of_pixels.insert(of_pixels.end(), {{"noise_re", "of mean square 1"}, {"noise_im", "of mean square 1"}});
+  else if (settings.electronic_noise)
+    among_lines.push_back({"noise", "of mean 1"});
   volumes.insert(volumes.end(), {"volume", "volume_echogenicity"});
-  check_forms(stages, among_lines,
-              {{"pixel_line", "scan line at the pixel, 0 on the first; -2 outside the fan"},
-               {"pixel_sample", "sample at the pixel, 0 on the first; -2 outside the fan"},
-               {"fused", "U (6), before gain"},
-               {"image", "grey level"}},
-              volumes);
+  check_forms(stages, among_lines, of_pixels, volumes);
 }
 
 /// Checks all but the values that are read back from the device.
@@ -277,18 +324,27 @@ void check_export(const StageFolder& stages, const View& view, const Insonated& 
   check_description(stages.description, scene);
   check_volume(stages, scene.volume);
   check_planes(stages, scene);
-  if (scene.settings.electronic_noise) check_rounded(stages, "noise", electronic_noise(scene.lines, scene.settings));
+  if (scene.settings.electronic_noise && !scene.settings.waves)
+    check_rounded(stages, "noise", electronic_noise(scene.lines, scene.settings));
 }
 
 /// Returns the stages that the files hold. T is not among them.
 Stages<float> stages_of(const StageFolder& folder, const Settings& settings) {
   Stages<float> stages;
   stages.intensity = folder.image("transmission");
-  stages.reflection = folder.image("reflection");
-  stages.reflection_beam = folder.image("reflection_beam");
-  stages.repeated = settings.reverberation ? folder.image("repeated")
-                                           : Image<float>(stages.reflection.width, stages.reflection.height);
-  stages.speckle = folder.image("speckle");
+  stages.repeated =
+      settings.reverberation ? folder.image("repeated") : Image<float>(stages.intensity.width, stages.intensity.height);
+  if (settings.waves) {
+    stages.scattered = folder.image("scattered");
+    stages.echo_re = folder.image("echo_re");
+    stages.echo_im = folder.image("echo_im");
+    stages.wave_re = folder.image("wave_re");
+    stages.wave_im = folder.image("wave_im");
+  } else {
+    stages.reflection = folder.image("reflection");
+    stages.reflection_beam = folder.image("reflection_beam");
+    stages.speckle = folder.image("speckle");
+  }
   stages.fused = folder.image("fused");
   stages.grey = folder.grey();
   const Image<float> line = folder.image("pixel_line");
@@ -310,7 +366,7 @@ StageFolder export_of(const TestFolder& folder, const Volume<std::int16_t>& ct, 
 }  // namespace
 
 TEST_CASE("each file of the graphics card's stages has its form, and holds the stage of its name") {
-  const View& view = GENERATE_REF(kSlice, kPaper);
+  const View& view = GENERATE_REF(kSlice, kWaves, kPaper);
   const TestFolder folder;
   const Volume<std::int16_t> ct = synthetic_ct();
   const AcousticVolume volume = acoustic(ct);
@@ -319,11 +375,11 @@ TEST_CASE("each file of the graphics card's stages has its form, and holds the s
   CHECK(stages.description.at("made_by") != "reference in double precision");
   check_export(stages, view, scene);
   check_stages(reference_stages(scene.field, scene.table, scene.probe, scene.depth_mm, scene.settings, scene.pose),
-               stages_of(stages, scene.settings), scene.settings);
+               stages_of(stages, scene.settings), scene.lines, scene.settings);
 }
 
 TEST_CASE("each file of the reference's stages has its form, and holds the stage of its name") {
-  const View& view = GENERATE_REF(kSlice, kPaper);
+  const View& view = GENERATE_REF(kSlice, kWaves, kPaper);
   const TestFolder folder;
   const Volume<std::int16_t> ct = synthetic_ct();
   const AcousticVolume volume = acoustic(ct);
@@ -334,9 +390,17 @@ TEST_CASE("each file of the reference's stages has its form, and holds the stage
   const Stages<double> expected =
       simulate_reference(scene.field, scene.table, scene.probe, scene.depth_mm, scene.settings, scene.pose);
   check_rounded(stages, "transmission", expected.intensity);
-  check_rounded(stages, "reflection", expected.reflection);
-  check_rounded(stages, "reflection_beam", expected.reflection_beam);
-  check_rounded(stages, "speckle", expected.speckle);
+  if (scene.settings.waves) {
+    check_rounded(stages, "scattered", expected.scattered);
+    check_rounded(stages, "echo_re", expected.echo_re);
+    check_rounded(stages, "echo_im", expected.echo_im);
+    check_rounded(stages, "wave_re", expected.wave_re);
+    check_rounded(stages, "wave_im", expected.wave_im);
+  } else {
+    check_rounded(stages, "reflection", expected.reflection);
+    check_rounded(stages, "reflection_beam", expected.reflection_beam);
+    check_rounded(stages, "speckle", expected.speckle);
+  }
   if (scene.settings.reverberation) check_rounded(stages, "repeated", expected.repeated);
   check_rounded(stages, "fused", expected.fused);
   CHECK((stages.grey().pixels == expected.grey.pixels));

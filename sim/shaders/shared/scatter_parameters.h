@@ -1,0 +1,36 @@
+// What scatter.comp needs to place scatterers among the lines of one plane. The shader reads it and C++ writes it; both
+// include this file. Layout std140.
+#ifdef __cplusplus
+#pragma once
+#include <glm/vec4.hpp>
+namespace insonate::gl {
+using glm::ivec4;
+using glm::vec4;
+struct ScatterParameters {
+#else
+layout(std140, binding = 2) uniform ScatterParameters {
+#endif
+  vec4 probe_from_cell[3];  // steps along the three axes, mm in the probe's frame
+  vec4 probe_from_corner;   // lower corner of cell `corner`; w: half the slice with a cell's extent, mm
+  ivec4 corner;             // a cell near the probe
+  ivec4 across, up, down;   // unit steps: along a row of columns, from row to row, and along a column, where z rises
+
+  float z_per_step;  // rise of z along a column, mm, above 0
+  int steps;         // cells of a column that can lie in the slice
+  uint seed;
+  float quanta;  // of the fixed-point numbers, per unit
+
+  float apex_mm;       // as LineFan (sim/probe/probe.h)
+  float first_across;  // of line 0, rad or mm
+  float lines_across;  // lines per rad or mm
+  int first_row;       // index of the plane's first line in the buffer
+
+  float slice_planes_per_thickness;
+  float slice_half;  // in thicknesses
+  int unused_1, unused_2;
+#ifdef __cplusplus
+};
+}  // namespace insonate::gl
+#else
+};
+#endif

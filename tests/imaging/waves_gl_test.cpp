@@ -1,0 +1,277 @@
+// Waves on the graphics card, beside their parity with the reference (parity_gl_test.cpp): what runs when, that equal
+// poses give equal bits, and that a small move of the probe is a small move of the echo.
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "sim/imaging/line_stages.h"
+#include "sim/imaging/scatterer_stage.h"
+#include "sim/imaging/simulator.h"
+#include "sim/imaging/stage_tables.h"
+#include "sim/model/beam.h"
+#include "sim/model/waves.h"
+#include "tests/gl/test_context.h"
+#include "tests/imaging/test_body.h"
+#include "tests/imaging/test_divisions.h"
+#include "tests/imaging/test_sweeps.h"
+
+using namespace insonate;
+using gl::Stage;
+
+namespace {
+
+Settings small_waves(double depth_mm = 100) {
+  Settings settings = trainer_settings(3.5, depth_mm);
+  settings.samples = 128;
+  settings.image_width = 96;
+  settings.image_height = 72;
+  return settings;
+}
+
+void set_up(gl::Simulator& simulator, const Settings& settings, const Pose& pose = test::on_the_skin(0, 9, 0)) {
+  simulator.set_volume(test::test_body(), test::tissues());
+  simulator.set_probe(*find_probe("curvilinear"), 100);
+  simulator.set_settings(settings);
+  simulator.set_pose(pose);
+}
+
+/// Returns the stages that run after a change, as a string of their numbers.
+std::string ran_after(gl::Simulator& simulator, Settings& settings, const std::function<void()>& change) {
+  const auto before = simulator.runs();
+  change();
+  simulator.set_settings(settings);
+  simulator.image();
+  std::string ran;
+  for (int stage = 0; stage < gl::kStageCount; ++stage)
+    if (simulator.runs()[std::size_t(stage)] > before[std::size_t(stage)]) ran += char('0' + stage);
+  return ran;
+}
+
+}  // namespace
+
+TEST_CASE("waves run the stages that a change reaches, and never smooth") {
+  const test::TestContext context;
+  gl::Simulator simulator;
+  Settings s = small_waves();
+  set_up(simulator, s);
+  simulator.image();
+  const auto after = [&](const std::function<void()>& change) { return ran_after(simulator, s, change); };
+  CHECK(after([] {}) == "");
+  CHECK(after([&] { simulator.set_pose(test::on_the_skin(1, 9, 0)); }) == "0124");
+  CHECK(after([&] { s.reflection_sigma_mm = 2, s.transmission_sigma_mm = 2; }) == "");
+  CHECK(after([&] { s.f_number = 5; }) == "0124");  // the scatterers' scale depends on the beam
+  CHECK(after([&] { s.blend *= 2; }) == "0124");
+  CHECK(after([&] { s.specular_exponent = 3; }) == "0124");
+  CHECK(after([&] { s.two_way = false; }) == "0124");
+  CHECK(after([&] { s.speckle_seed = 9; }) == "0124");
+  CHECK(after([&] { s.face_reflection = 0.1; }) == "124");
+  CHECK(after([&] { s.electronic_noise = false; }) == "24");
+  CHECK(after([&] { s.gain_db = 6; }) == "4");
+}
+
+TEST_CASE("a picture of waves after a change is the picture that a new simulator draws") {
+  const std::function<void(Settings&)> changes[] = {
+      [](Settings& s) { s.waves = false; },
+      [](Settings& s) { s.waves = true; },
+      [](Settings& s) { s.speckle = false; },
+      [](Settings& s) { s.speckle_seed = 7, s.speckle_cell_mm = 1.3; },
+      [](Settings& s) { s.speckle = true; },
+      [](Settings& s) { s.f_number = 5, s.focus_mm = 30; },
+      [](Settings& s) { s.focused_beam = false; },
+      [](Settings& s) { s.beam_lines = 15, s.beam_window = BeamWindow::box; },
+      [](Settings& s) { s.frequency_mhz = 5; },
+      [](Settings& s) { s.absorption = false; },
+      [](Settings& s) { s.frequency_mhz = 3; },  // the carrier, even where nothing absorbs
+      [](Settings& s) { s.slice_thickness_mm = 5, s.elevation_focus_mm = 60; },
+      [](Settings& s) { s.slice_planes = 5; },
+      [](Settings& s) { s.slice_planes = 1; },
+      [](Settings& s) { s.reflection_length_mm = 1.7; },
+      [](Settings& s) { s.samples = 90; },
+      [](Settings& s) { s.reverberation = false, s.face_reflection = 0; },
+      [](Settings& s) { s.reverberation = true; },
+      [](Settings& s) { s.clutter = s.electronic_noise = false; },
+      [](Settings& s) { s.electronic_noise = true, s.noise_db = -70; },
+      [](Settings& s) { s.clutter = true, s.clutter_db = -10; },
+      [](Settings& s) { s.blend *= 10, s.two_way = false, s.specular_exponent = 1; },
+      [](Settings& s) { s.image_width = 80; },
+      [](Settings& s) { s.reference_level = ReferenceLevel::frame_maximum; },
+  };
+  const test::TestContext context;
+  gl::Simulator simulator;
+  Settings settings = small_waves();
+  set_up(simulator, settings);
+  simulator.image();
+  for (std::size_t i = 0; i < std::size(changes); ++i) {
+    INFO("change " << i);
+    changes[i](settings);
+    simulator.set_settings(settings);
+    gl::Simulator fresh;
+    set_up(fresh, settings);
+    CHECK((simulator.read_stages().fused.pixels == fresh.read_stages().fused.pixels));
+    CHECK((simulator.read_stages().grey.pixels == fresh.read_stages().grey.pixels));
+  }
+}
+
+TEST_CASE("the picture of waves comes back to the bit when the probe does, and its noise is that of the pose") {
+  const test::TestContext context;
+  gl::Simulator simulator;
+  Settings settings = small_waves();
+  settings.noise_db = -40;
+  set_up(simulator, settings);
+  const auto at = [&](double x_mm, double z_mm) {
+    simulator.set_pose(test::on_the_skin(x_mm, 9, z_mm));
+    return simulator.read_stages();
+  };
+  const Stages<float> first = at(0, 0);
+  const Stages<float> beside = at(0.001, 0);
+  at(20, 10);
+  const Stages<float> again = at(0, 0);
+  CHECK((first.fused.pixels == again.fused.pixels));
+  CHECK((first.wave_re.pixels == again.wave_re.pixels));
+
+  // Where no sound arrives, a picture is noise alone: another pose's noise is as loud and not the same.
+  double here = 0, there = 0, product = 0, squares = 0, other_squares = 0, n = 0;
+  for (std::size_t i = 0; i < first.fused.pixels.size(); ++i) {
+    if (!first.inside.pixels[i] || i < first.fused.pixels.size() * 8 / 10) continue;
+    const double a = first.fused.pixels[i], b = beside.fused.pixels[i];
+    here += a, there += b, product += a * b, squares += a * a, other_squares += b * b, ++n;
+  }
+  REQUIRE(n > 300);
+  CHECK(there / here == Approx(1).margin(0.3));
+  const double correlation =
+      (product / n - here * there / n / n) /
+      std::sqrt((squares / n - here * here / n / n) * (other_squares / n - there * there / n / n));
+  CHECK(std::abs(correlation) < 0.3);
+}
+
+TEST_CASE("a move of the probe by a hundredth of a millimetre changes the echo's amplitude by a few hundredths") {
+  const test::TestContext context;
+  gl::Simulator simulator;
+  Settings settings = small_waves();
+  settings.electronic_noise = settings.clutter = false;
+  settings.samples = 320;
+  set_up(simulator, settings);
+  double worst = 0;
+  for (int place = 0; place < 12; ++place) {
+    const auto at = [&](double more_mm) {
+      simulator.set_pose(test::on_the_skin(-30 + 5.1 * place + more_mm, 9, 7 - place));
+      return simulator.read_stages();
+    };
+    const Stages<float> before = at(0), after = at(0.01);
+    for (int k = 8; k < before.wave_re.height - 8; ++k)
+      for (int line = 8; line < before.wave_re.width - 8; ++line) {
+        if (before.intensity.at(line, k) < 1e-3) continue;  // behind gas, where the intensity itself jumps
+        double loudest = 0;
+        for (int j = -8; j <= 8; ++j)
+          for (int i = -8; i <= 8; ++i)
+            loudest = std::max(
+                loudest, double(std::hypot(before.wave_re.at(line + i, k + j), before.wave_im.at(line + i, k + j))));
+        const double change = std::abs(std::hypot(before.wave_re.at(line, k), before.wave_im.at(line, k)) -
+                                       std::hypot(after.wave_re.at(line, k), after.wave_im.at(line, k)));
+        worst = std::max(worst, change / loudest);
+      }
+  }
+  std::printf("a step of 0.01 mm: the amplitude of waves changes by at most %.3f of the loudest around\n", worst);
+  CHECK(worst < 0.1);
+}
+
+TEST_CASE("the lines of many planes hold what each plane's picture holds, with waves, to the last bit") {
+  for (const gl::WorkDivision& division : {test::line_an_invocation(), test::line_a_group()}) {
+    Settings settings = test::everything();
+    settings.waves = true;
+    settings.specular_exponent = 6;
+    Sweep sweep = test::by_hand();
+    sweep.patient_from_plane.push_back(test::on_the_skin(60, 2, 0));     // half of its lines meet no body
+    sweep.patient_from_plane.push_back(test::on_the_skin(0, -40, 180));  // none of its lines meets the body
+    const int n = sweep.probe.lines, d = settings.samples, planes = int(sweep.patient_from_plane.size());
+
+    const test::TestContext context;
+    const gl::DeviceVolume body(test::test_body(), test::tissues());
+    gl::LineStages stages({}, division);
+    stages.lay_out(scan_lines(sweep.probe, sweep.depth_mm, d), planes, settings);
+    gl::SimulationParameters parameters = gl::parameters_of(settings, stages.lines(), {}, {});
+    parameters.planes = planes;
+    const gl::Buffer block(sizeof parameters, &parameters);
+    block.bind_uniform(0);
+    stages.traverse(body, sweep.patient_from_plane, settings);
+    stages.beam(settings);
+    std::vector<std::array<float, 4>> scan(std::size_t(planes * n * d)), echoes(scan.size());
+    stages.scan().read(scan.data(), scan.size() * sizeof scan[0]);
+    stages.echoes().read(echoes.data(), echoes.size() * sizeof echoes[0]);
+
+    gl::Simulator simulator({}, division);
+    simulator.set_volume(test::test_body(), test::tissues());
+    simulator.set_probe(sweep.probe, sweep.depth_mm);
+    simulator.set_settings(settings);
+    for (int plane = 0; plane < planes; ++plane) {
+      CAPTURE(plane);
+      simulator.set_pose(sweep.patient_from_plane[std::size_t(plane)]);
+      const Stages<float> picture = simulator.read_stages();
+      long differ = 0, heard = 0;
+      for (int line = 0; line < n; ++line)
+        for (int k = 0; k < d; ++k) {
+          const std::size_t at = std::size_t((plane * n + line) * d + k);
+          heard += echoes[at][0] != 0;
+          differ += scan[at] != std::array{picture.intensity.at(line, k), picture.scattered.at(line, k),
+                                           picture.echo_re.at(line, k), picture.echo_im.at(line, k)};
+          differ += echoes[at] != std::array{picture.wave_re.at(line, k), picture.wave_im.at(line, k), 0.0f,
+                                             picture.repeated.at(line, k)};
+        }
+      CHECK(differ == 0);
+      CHECK((heard > n * d / 4 || plane >= 9));
+    }
+  }
+}
+
+TEST_CASE("every scatterer that reaches a sample lies in one column of the list, and no column is there twice") {
+  for (const char* name : {"curvilinear", "linear", "phased"}) {
+    const Probe& probe = *find_probe(name);
+    Settings settings = trainer_settings(probe.frequency_mhz, probe.depth_mm);
+    settings.speckle_cell_mm *= 2;
+    settings.elevation_focus_mm = 30;
+    const ScanLines lines = scan_lines(probe, probe.depth_mm, settings.samples);
+    for (const double turn : {0.0, 17.0, 90.0, 200.0}) {
+      CAPTURE(name, turn);
+      const Pose pose = test::on_the_skin(3 * turn, -turn, turn);
+      const gl::ScattererColumns columns = gl::scatterer_columns(pose, lines, settings);
+      std::vector<std::pair<int, int>> listed;
+      for (const glm::ivec2& group : columns.groups)
+        for (int i = 0; i < gl::ScattererColumns::kGroup; ++i) listed.emplace_back(group.x + i, group.y);
+      std::ranges::sort(listed);
+      CHECK(std::ranges::adjacent_find(listed) == listed.end());
+
+      const glm::dmat4 cells = cells_from_patient(scatterer_pitch_mm(lines, settings)) * pose.matrix();
+      const gl::ScatterParameters& p = columns.parameters;
+      int missed = 0, checked = 0;
+      for (double line = -0.99; line < double(lines.lines.size()); line += 1.7)
+        for (double sample = -0.99; sample < lines.samples; sample += 5.3)
+          for (const double share : {-0.999, -0.4, 0.0, 0.7, 0.999}) {
+            const double r = lines.r_min_mm + (sample + 0.5) * lines.dr_mm();
+            const double across = lines.fan.first + line * lines.fan.step;
+            const double apex =
+                lines.fan.face == LineFan::Face::flat ? lines.fan.apex_mm / std::cos(across) : lines.fan.apex_mm;
+            const glm::dvec2 at =
+                lines.fan.face == LineFan::Face::parallel
+                    ? glm::dvec2(across, r)
+                    : glm::dvec2((r + apex) * std::sin(across), (r + apex) * std::cos(across) - lines.fan.apex_mm);
+            const double z = share * kSliceHalf * slice_thickness_at_mm(settings, r);
+            const glm::ivec3 cell =
+                glm::ivec3(glm::floor(glm::dvec3(cells * glm::dvec4(at, z, 1)))) - glm::ivec3(p.corner);
+            const auto along = [&](const glm::ivec4& unit) {
+              return unit.x * cell.x + unit.y * cell.y + unit.z * cell.z;
+            };
+            ++checked;
+            missed += !std::ranges::binary_search(listed, std::pair(along(p.across), along(p.up)));
+          }
+      REQUIRE(checked > 10000);
+      CHECK(missed == 0);
+    }
+  }
+}
