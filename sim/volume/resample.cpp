@@ -177,16 +177,4 @@ Volume<std::int16_t> resample_isotropic(const Volume<std::int16_t>& ct, double s
   return out;
 }
 
-Volume<std::uint8_t> resample_labels(const Volume<std::uint8_t>& labels, const Grid& onto) {
-  const glm::dmat4 from_new = glm::inverse(labels.grid.matrix()) * onto.matrix();
-  Volume<std::uint8_t> out{onto, std::vector<std::uint8_t>(onto.count())};
-  tbb::parallel_for(tbb::blocked_range<int>(0, onto.size.z), [&](const auto& slices) {
-    for (int z = slices.begin(); z != slices.end(); ++z)
-      for (int y = 0; y < onto.size.y; ++y)
-        for (int x = 0; x < onto.size.x; ++x)
-          out.at({x, y, z}) = sample_nearest(labels, glm::dvec3(from_new * glm::dvec4(x, y, z, 1)));
-  });
-  return out;
-}
-
 }  // namespace insonate

@@ -38,7 +38,7 @@ TEST_CASE("a real CT with TotalSegmentator's labels becomes a case with views th
   CHECK(subject.name == "Upper abdomen");
   CHECK(subject.ct.grid.spacing == glm::dvec3(1.0));
   CHECK(subject.labels.grid.size == subject.ct.grid.size);
-  // The slab's own figures, in 3 mm voxels: 38634 of liver; the nearest neighbour keeps each.
+  // The slab's own figures, in 3 mm voxels: 38634 of liver; smooth surfaces keep its volume.
   const auto liver = subject.find_label("liver");
   REQUIRE(liver);
   CHECK(double(std::count(subject.labels.voxels.begin(), subject.labels.voxels.end(), liver->value)) ==

@@ -157,7 +157,7 @@ TEST_CASE("a file of many labels comes with its names onto the CT's grid") {
   CHECK(read_segmentation(file, ct_grid(), "total").table[1].name == "liver");
 }
 
-TEST_CASE("labels on another grid are resampled by nearest neighbour and what lies outside is told") {
+TEST_CASE("labels on another grid are resampled and what lies outside is told") {
   const TemporaryFolder folder;
   // Voxels of 2 mm, the first covering two of the CT's each way: centres at -9.5, -19.5 and 5.5 mm. The labels go on
   // to the patient's right, which is where the CT ends: 4 x 3 x 2 of them lie in the CT, as many outside.
