@@ -140,3 +140,34 @@ TEST_CASE("the picture shows the whole fan, centred, with square pixels") {
       CHECK(glm::distance(image.pixel(image.plane_mm(12.5, 7)), glm::dvec2(12.5, 7)) < 1e-9);
     }
 }
+
+TEST_CASE("a point beyond the fan has a position among lines that go on as they begin") {
+  for (const Probe& probe : probes()) {
+    INFO(probe.name);
+    const ScanLines set = scan_lines(probe, 100, 50);
+    for (std::size_t i = 0; i < set.lines.size(); i += 17)
+      for (const double r : {0.5, 40.0, 99.0, 130.0}) {
+        const glm::dvec3 p = set.lines[i].start + r * set.lines[i].direction;
+        const LinePosition at = position_among(set.fan, {p.x, p.y});
+        CHECK(at.line == Approx(double(i)).margin(1e-9));
+        CHECK(at.r_mm == Approx(r));
+        if (const auto inside = line_position(probe, 100, {p.x, p.y})) {
+          CHECK(inside->line == Approx(at.line).margin(1e-9));
+          CHECK(inside->r_mm == Approx(at.r_mm));
+        }
+      }
+    // Ten lines' widths beyond the outer line: a wider probe's line there.
+    Probe wider = probe;
+    wider.lines += 20;
+    const double more = double(wider.lines) / probe.lines;
+    if (probe.kind == ProbeKind::linear)
+      wider.width_mm *= more;
+    else if (probe.kind == ProbeKind::curvilinear)
+      wider.field_of_view_deg *= more;
+    else
+      continue;  // its apex would move
+    const ScanLine outer = scan_lines(wider, 100, 50).lines.front();
+    const glm::dvec3 p = outer.start + 60.0 * outer.direction;
+    CHECK(position_among(set.fan, {p.x, p.y}).line == Approx(-10).margin(1e-9));
+  }
+}

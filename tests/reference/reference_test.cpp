@@ -106,6 +106,33 @@ TEST_CASE("electronic noise has the envelope of a complex normal signal, whateve
   for (int k = 0; k < noise.height; ++k) CHECK(same.at(7, 5 * k + 2) == Approx(noise.at(7, k)).epsilon(1e-9));
 }
 
+TEST_CASE("the noise of waves has power 1 at every pixel, on either side of a line, and is shifted by the pose alone") {
+  const Probe& probe = *find_probe("curvilinear");
+  const Settings settings = trainer_settings(3.5, 160);
+  const ScanLines lines = scan_lines(probe, 160, settings.samples);
+  const Image<std::complex<double>> noise = noise_wave(lines, settings);
+  const ImageGeometry picture = image_geometry(probe, 160, 400, 300);
+  double power = 0, corner = 0, n = 0, corners = 0;
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x) {
+      const double here = std::norm(noise_of_pixel(noise, picture, lines, x, y));
+      const bool inside = line_position(probe, 160, picture.plane_mm(x, y)).has_value();
+      (inside ? power : corner) += here;
+      ++(inside ? n : corners);
+    }
+  // Between samples of one line, which are not independent, a mean has a little less power.
+  CHECK(power / n == Approx(1).epsilon(0.15));
+  CHECK(corner / corners == Approx(1).epsilon(0.25));
+
+  Pose here;
+  here.translation = {12, -3, 55};
+  Pose beside = here;
+  beside.translation.x += 1e-4;
+  CHECK(noise_shift(here) == noise_shift(here));
+  CHECK(noise_shift(here) != noise_shift(beside));
+  CHECK(noise_shift(here).x >= 0);
+}
+
 TEST_CASE("a volume's planes have the noise of all their lines, and neighbours have it in other places") {
   for (int lines = 30; lines <= 300; ++lines) {
     CAPTURE(lines);
