@@ -245,6 +245,20 @@ TEST_CASE("a dynamic receive focus keeps lines narrow beside the transmit focus"
           0.85 * beam_profile(transducer, fixed, line, depth).lateral_mm);
 }
 
+TEST_CASE("widths lie between samples") {
+  const Transducer transducer = shipped("linear");
+  const ScanLine line = line_at(transducer, 0);
+  for (const double per_us : {100.0, 130.0, 170.0}) {
+    Beamforming coarse = focused(20, 4), fine = focused(20, 4);
+    coarse.sampling.per_us = per_us;
+    fine.sampling.per_us = 1000;
+    CAPTURE(per_us);
+    // The envelope is straight between samples to the square of a step, 0.1 % here.
+    CHECK(beam_profile(transducer, coarse, line, 20).axial_mm ==
+          Approx(beam_profile(transducer, fine, line, 20).axial_mm).epsilon(0.005));
+  }
+}
+
 TEST_CASE("lines beside the middle have the focus of the middle line") {
   for (const auto& [name, position] :
        std::vector<std::pair<std::string, double>>{{"curvilinear", 40 * 0.508}, {"linear", -12}, {"phased", 25}}) {
