@@ -40,8 +40,11 @@ std::complex<double> Pulse::raw_spectrum(double frequency_mhz) const {
   const std::complex<double> element(0,
                                      one_way(frequency_mhz + frequency_mhz_) - one_way(frequency_mhz - frequency_mhz_));
   if (excitation_us_ == 0) return element * element;
-  const std::complex<double> sine(0, sinc((frequency_mhz + frequency_mhz_) * excitation_us_) -
-                                         sinc((frequency_mhz - frequency_mhz_) * excitation_us_));
+  // The sine begins at 0, so its phase in the middle is that of half its length.
+  const std::complex<double> turn = std::polar(1.0, glm::pi<double>() * frequency_mhz_ * excitation_us_);
+  const std::complex<double> sine =
+      std::complex<double>(0, -1) * (turn * sinc((frequency_mhz - frequency_mhz_) * excitation_us_) -
+                                     std::conj(turn) * sinc((frequency_mhz + frequency_mhz_) * excitation_us_));
   return element * element * sine;
 }
 

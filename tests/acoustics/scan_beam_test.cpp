@@ -245,6 +245,18 @@ TEST_CASE("a dynamic receive focus keeps lines narrow beside the transmit focus"
           0.85 * beam_profile(transducer, fixed, line, depth).lateral_mm);
 }
 
+TEST_CASE("widths across the line are resolved to a thousandth") {
+  const Transducer transducer = shipped("linear");
+  const ScanLine line = line_at(transducer, 0);
+  const Beamforming beamforming = focused(20, 4);
+  const ScanBeam beam(transducer, beamforming, line);
+  const Pulse pulse(transducer);
+  const auto amplitude = [&](double x, double z) { return largest(point_echo(beam, pulse, {x, 26, z}).envelope()); };
+  const BeamProfile profile = beam_profile(transducer, beamforming, line, 26, 0.3);
+  CHECK(profile.lateral_mm == Approx(full_width([&](double x) { return amplitude(x, 0); }, 0.3)).epsilon(1e-3));
+  CHECK(profile.elevation_mm == Approx(full_width([&](double z) { return amplitude(0, z); }, 0.3)).epsilon(1e-3));
+}
+
 TEST_CASE("widths lie between samples") {
   const Transducer transducer = shipped("linear");
   const ScanLine line = line_at(transducer, 0);
