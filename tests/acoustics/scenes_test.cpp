@@ -158,7 +158,22 @@ TEST_CASE("blocks and cysts have their scatterers per resolution cell") {
     const double expected = 2 / cell * 6 * 15 * 1;
     CAPTURE(name);
     CHECK(within == Approx(expected).margin(5 * std::sqrt(expected)));
-    CHECK(scene_of(transducer, beamforming, request_of(SceneKind::cyst)).size() < block.size());
+
+    // Echo-free cylinders on the left, bright ones on the right, at 3 depths from 10 to 40 mm.
+    SceneRequest cysts = request_of(SceneKind::cyst);
+    const std::vector<Scatterer> phantom = scene_of(transducer, beamforming, cysts);
+    CHECK(phantom.size() < block.size());
+    int bright = 0;
+    for (const Scatterer& scatterer : phantom)
+      for (const double depth : {15.0, 25.0, 35.0}) {
+        CHECK(std::hypot(scatterer.position_mm.x + 3, scatterer.position_mm.y - depth) >= 1.2);
+        if (std::hypot(scatterer.position_mm.x - 3, scatterer.position_mm.y - depth) >= 1.2) continue;
+        CHECK(std::abs(scatterer.amplitude) == Approx(std::sqrt(10)));
+        ++bright;
+      }
+    CHECK(bright > 0);
+    cysts.seed = 2;
+    CHECK(scene_of(transducer, beamforming, cysts) != phantom);
   }
   SceneRequest large = request_of(SceneKind::block);
   large.per_cell = 1000;
