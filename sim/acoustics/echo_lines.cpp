@@ -92,7 +92,8 @@ EchoLine point_echo(const ScanBeam& beam, const Pulse& pulse, const glm::dvec3& 
   std::vector<double> padded(response.samples.size() + std::size_t(2 * reach));
   std::copy(response.samples.begin(), response.samples.end(), padded.begin() + reach);
 
-  const Transform transform(fast_length(padded.size()));
+  // Twice as long, because the imaginary part dies away slowly if the band begins near 0 MHz (Pulse::reach_us()).
+  const Transform transform(fast_length(2 * padded.size()));
   std::vector<std::complex<double>> sum(transform.length());
   add_filtered(sum, transform.forward(padded), pulse, beam.beamforming(), glm::distance(point_mm, beam.line().start));
   EchoLine echo{double(response.first - reach) * sampling.step_us(), sampling.step_us(), sampling.speed_mm_us,

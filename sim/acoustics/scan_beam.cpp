@@ -30,7 +30,9 @@ Aperture divided(const ElementPlace& place, const Transducer& transducer, double
       part.height_mm = height;
       if (focus > 0) {
         const double path = std::hypot(focus, z);
-        part.delay_us = (focus - path) / speed;
+        // The mean over the rectangle: the second derivative of the path along z adds a 24th of it times height^2.
+        const double longer = height * height * focus * focus / (24 * path * path * path);
+        part.delay_us = (focus - path - longer) / speed;
         part.slope = -z / path / speed;
       }
       parts.push_back(part);
@@ -41,8 +43,8 @@ Aperture divided(const ElementPlace& place, const Transducer& transducer, double
 }  // namespace
 
 double largest_rectangle_mm(const Transducer& transducer, double nearest_mm) {
-  // The edge of a side a at the distance z lies a^2 / (8 z) behind its middle's front: a 32nd of a wavelength.
-  return std::sqrt(transducer.wavelength_mm() * nearest_mm / 4);
+  // The edge of a side a at the distance z lies a^2 / (8 z) behind its middle's front: a 16th of a wavelength.
+  return std::sqrt(transducer.wavelength_mm() * nearest_mm / 2);
 }
 
 ScanBeam::ScanBeam(const Transducer& transducer, const Beamforming& beamforming, const ScanLine& line)

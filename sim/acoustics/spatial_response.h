@@ -13,7 +13,7 @@ struct Rectangle {
   glm::dvec3 lateral{1, 0, 0};    ///< unit, along its width
   glm::dvec3 elevation{0, 0, 1};  ///< unit, along its height; perpendicular to `lateral`
   double width_mm = 0, height_mm = 0;
-  double delay_us = 0;  ///< when its middle moves, us
+  double delay_us = 0;  ///< when it moves, in the mean, us
   double slope = 0;     ///< rise of the delay along the height, us/mm: the lens
   double weight = 1;    ///< apodization
 };
@@ -44,7 +44,7 @@ double hat_spectrum(double frequency_mhz, const Sampling& sampling);
 /// How a rectangle's response is computed.
 enum class RectangleMethod {
   exact,      ///< at any distance; ignores Rectangle::slope
-  far_field,  ///< as a trapezoid: for points some width^2 / (4 wavelengths) away or more
+  far_field,  ///< as a trapezoid: for points some width^2 / wavelength away or more
 };
 
 /// Returns an aperture's spatial impulse response h at a point, mm/us: the velocity potential there, if the face moves
