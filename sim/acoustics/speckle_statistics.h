@@ -16,7 +16,7 @@ struct RayleighTest {
   double distance = 0;   ///< of Kolmogorov and Smirnov: the largest difference of the cumulative distributions
   double statistic = 0;  ///< `distance`, scaled so that its distribution does not depend on the number of values
   /// The 5 % point of `statistic`. Squares of Rayleigh numbers are exponential, and for an exponential distribution
-  /// whose mean comes from the values themselves it is this (Stephens, J. Amer. Statist. Assoc. 69, 1974, table 1.3).
+  /// whose mean comes from the values themselves it is this (Stephens, J. Amer. Statist. Assoc. 69, 1974).
   static constexpr double kLimit = 1.094;
 
   bool is_rayleigh() const { return statistic <= kLimit; }
