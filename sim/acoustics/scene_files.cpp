@@ -1,8 +1,11 @@
 #include "sim/acoustics/scene_files.h"
 
 #include <cmath>
+#include <complex>
 #include <cstdio>
 #include <initializer_list>
+#include <string>
+#include <vector>
 
 #include "sim/core/files.h"
 #include "sim/core/new_folder.h"

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <cstdint>
+#include <vector>
 
 #include "sim/acoustics/beam_profile.h"
 #include "sim/acoustics/transform.h"

@@ -3,9 +3,15 @@
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
+#include <glm/trigonometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "sim/acoustics/beam_profile.h"
 #include "sim/acoustics/echo_lines.h"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <vector>
 
 #include "sim/core/input_error.h"
 #include "tests/acoustics/helpers.h"

@@ -3,10 +3,12 @@
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
+#include <glm/trigonometric.hpp>
 
 #include <cmath>
 #include <complex>
 #include <numeric>
+#include <vector>
 
 #include "tests/acoustics/helpers.h"
 

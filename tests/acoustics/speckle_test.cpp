@@ -2,6 +2,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "sim/acoustics/scenes.h"

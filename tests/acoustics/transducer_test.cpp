@@ -2,11 +2,14 @@
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <unistd.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
