@@ -1,10 +1,14 @@
 // insonate-bench: measures the simulator's run time on this machine, as medians with their spread, and its accuracy.
 
+#include <algorithm>
 #include <cstdio>
 
+#include "sim/acoustics/scenes.h"
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
 #include "sim/imaging/upload.h"
+#include "sim/probe/probe.h"
+#include "tools/bench/acoustics.h"
 #include "tools/bench/commands.h"
 #include "tools/cli/program.h"
 
@@ -34,6 +38,27 @@ CLI::App* add_measurement(CLI::App& arguments, const char* name, const char* wha
       ->type_name("LINES,SAMPLES,WIDTH,HEIGHT");
   command->add_option("--csv", csv, "Write the table to this file too (CSV)")->type_name("FILE");
   return command;
+}
+
+void add_acoustics(CLI::App& command, bench::AcousticRequest& request) {
+  CLI::Option* probe = command.add_option("--probe", request.probes, "Take this probe's transducer; may be repeated")
+                           ->check(CLI::IsMember(probe_names()))
+                           ->default_str("all");
+  command.add_option("--transducer", request.transducer, "Take this transducer's file (TOML) instead")
+      ->type_name("FILE")
+      ->excludes(probe);
+  command.add_option("--depth", request.depth_mm, "Reach to this depth, mm")
+      ->check(CLI::Range(10.0, 400.0))
+      ->default_str("the probe's");
+  command.add_option("--focus", request.focus_mm, "Transmit to this focus, mm")
+      ->check(CLI::Range(5.0, 400.0))
+      ->default_str("half the depth");
+  command.add_option("--f-number", request.f_number, "Take this f-number for transmission and reception")
+      ->check(CLI::Range(0.5, 30.0))
+      ->capture_default_str();
+  command.add_option("--attenuation", request.attenuation_db_cm_mhz, "Attenuate by this much, dB/(cm MHz)")
+      ->check(CLI::Range(0.0, 10.0))
+      ->capture_default_str();
 }
 
 std::vector<bench::WindowSize> sizes_of(const std::vector<std::string>& texts) {
@@ -100,6 +125,34 @@ int main(int argc, char** argv) {
       ->type_name("WIDTHxHEIGHT")
       ->capture_default_str();
   window->add_option("--csv", csv, "Write the table to this file too (CSV)")->type_name("FILE");
+  bench::AcousticRequest acoustics;
+  CLI::App* beam = arguments.add_subcommand(
+      "beam", "Measure the resolution cell of each transducer by depth, beside the widths of the live simulator");
+  add_acoustics(*beam, acoustics);
+  beam->add_option("--csv", csv, "Write the table to this file too (CSV)")->type_name("FILE");
+  beam->add_option("--svg", svg, "Draw the plots to this file too (SVG)")->type_name("FILE");
+  int speckle_lines = 300;
+  CLI::App* speckle = arguments.add_subcommand(
+      "speckle", "Measure the speckle that the sum over many scatterers gives for each transducer at its focus");
+  add_acoustics(*speckle, acoustics);
+  speckle->add_option("--lines", speckle_lines, "Measure this many scan lines per row")
+      ->check(CLI::Range(10, 100000))
+      ->capture_default_str();
+  speckle->add_option("--csv", csv, "Write the table to this file too (CSV)")->type_name("FILE");
+  SceneRequest scene_request;
+  std::string scene_kind, scene_folder;
+  CLI::App* scene = arguments.add_subcommand(
+      "scene", "Write point scatterers and a transducer as text, for other simulators such as Field II and SIMUS");
+  scene->add_option("KIND", scene_kind, "Write this scene")->check(CLI::IsMember(scene_names()))->required();
+  scene->add_option("FOLDER", scene_folder, "Write it to this new folder")->type_name("FOLDER")->required();
+  add_acoustics(*scene, acoustics);
+  scene->add_option("--width", scene_request.width_mm, "Make block and cysts this wide, mm")
+      ->check(CLI::Range(1.0, 200.0))
+      ->capture_default_str();
+  scene->add_option("--per-cell", scene_request.per_cell, "Put this many scatterers into a resolution cell")
+      ->check(CLI::Range(0.01, 1000.0))
+      ->capture_default_str();
+  scene->add_option("--seed", scene_request.seed, "Place the scatterers by this seed")->capture_default_str();
   CLI::App* compare = arguments.add_subcommand("compare", "Compare the run times of two CSV files, setting by setting");
   compare->add_option("OLD", old_file, "Read this CSV file of the earlier run")->type_name("FILE")->required();
   compare->add_option("NEW", new_file, "Read this CSV file of the later run of the same command")
@@ -109,6 +162,12 @@ int main(int argc, char** argv) {
   return run_program(arguments, argc, argv, [&] {
     if (compare->parsed()) {
       bench::compare_runs(old_file, new_file);
+      return 0;
+    }
+    if (scene->parsed()) {
+      const auto kind = std::find(scene_names().begin(), scene_names().end(), scene_kind) - scene_names().begin();
+      scene_request.kind = SceneKind(kind);
+      bench::write_scenes(acoustics, scene_request, scene_folder);
       return 0;
     }
     if (exams.size() % 2 != 0) throw CLI::ValidationError("FILE", "a scenario comes without a recorded scan");
@@ -123,6 +182,8 @@ int main(int argc, char** argv) {
               : denormal->parsed()   ? bench::measure_denormals(request)
               : sweep->parsed()      ? bench::measure_sweep(request)
               : batch->parsed()      ? bench::measure_batch(request)
+              : beam->parsed()       ? bench::measure_beams(acoustics, svg)
+              : speckle->parsed()    ? bench::measure_speckle(acoustics, speckle_lines)
               : scoring->parsed()    ? bench::measure_scoring(exams)
               : view->parsed()       ? bench::measure_view(request)
               : view_front->parsed() ? bench::measure_view_front(request)

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
+
+#include "tools/bench/svg.h"
 
 namespace insonate::bench {
 namespace {
@@ -15,25 +15,8 @@ constexpr double kHead = 30;
 constexpr double kLegend = kWidth - kRight + 16, kLegendLine = 16;
 
 constexpr char kStyle[] =
-    "text{font:12px sans-serif;fill:#1d2733}.quiet{fill:#5f6c7b}.name{font-weight:600}"
-    ".grid{stroke:#e3e8ee}.front{fill:none;stroke:#2567a8;stroke-width:1.5}"
     "circle{fill:#b4bec9}circle.best{fill:#2567a8}circle.standard{stroke:#b3362b;stroke-width:2.5}"
     ".label{font-size:10px}.label tspan{font-weight:600}";
-
-std::string print(const char* format, ...) {
-  va_list arguments;
-  va_start(arguments, format);
-  char text[400];
-  std::vsnprintf(text, sizeof text, format, arguments);
-  va_end(arguments);
-  return text;
-}
-
-std::string escaped(const std::string& text) {
-  std::string safe;
-  for (const char c : text) safe += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
-  return safe;
-}
 
 /// Maps values to positions, logarithmically, with a margin at both ends.
 struct Axis {
@@ -114,7 +97,7 @@ std::string front_svg(const std::string& device, const std::vector<Panel>& panel
   std::string svg =
       print("<svg xmlns='http://www.w3.org/2000/svg' width='%.0f' height='%.0f' viewBox='0 0 %.0f %.0f'>\n", kWidth,
             height, kWidth, height);
-  svg += std::string("<style>") + kStyle + "</style>\n<rect width='100%' height='100%' fill='#fff'/>\n";
+  svg += std::string("<style>") + kPlotStyle + kStyle + "</style>\n<rect width='100%' height='100%' fill='#fff'/>\n";
   svg += print("<text class='quiet' x='%.0f' y='20'>", kLeft) + escaped(device) + "</text>\n";
   for (std::size_t i = 0; i < panels.size(); ++i) svg += drawn(panels[i], kHead + kPanelHeight * double(i));
   return svg + "</svg>\n";

@@ -1,0 +1,85 @@
+// The widths that the trainer's simulator computes by formulas (sim/model/beam.h), against those of real arrays. They
+// are widths at half power, -3 dB both ways.
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/acoustics/beam_profile.h"
+#include "sim/model/beam.h"
+#include "sim/model/settings.h"
+#include "sim/probe/probe.h"
+#include "tests/acoustics/helpers.h"
+
+using namespace insonate;
+using test::shipped;
+
+namespace {
+
+/// An array at the trainer's frequency, and the trainer's settings for it.
+struct Pair {
+  Transducer transducer;
+  Settings settings;
+  Beamforming beamforming;
+};
+
+Pair pair_of(const Probe& probe) {
+  Pair pair{shipped(probe.name), trainer_settings(probe.frequency_mhz, probe.depth_mm), {}};
+  pair.transducer.frequency_mhz = probe.frequency_mhz;
+  pair.beamforming.transmit_focus_mm = pair.settings.focus_mm;
+  pair.beamforming.transmit_f_number = pair.beamforming.receive_f_number = pair.settings.f_number;
+  return pair;
+}
+
+double ratio(double live_mm, double width_mm) {
+  return live_mm / width_mm;
+}
+
+}  // namespace
+
+TEST_CASE("the live simulator's lateral width is that at half power, from the focus to twice its depth") {
+  for (const Probe& probe : probes()) {
+    Pair pair = pair_of(probe);
+    // The formula's aperture is focus / f-number wide, for reception at any depth too.
+    pair.transducer.elements =
+        std::min(pair.transducer.elements,
+                 int(std::lround(pair.settings.focus_mm / pair.settings.f_number / pair.transducer.pitch_mm)));
+    const ScanLine line = line_at(pair.transducer, 0);
+    for (const double share : {0.875, 1.0, 1.25, 1.5, 2.0}) {
+      const double depth = share * pair.settings.focus_mm, live = focused_beam_fwhm_mm(pair.settings, depth);
+      CAPTURE(probe.name, share);
+      // A Gaussian beam is not that of an evenly weighted aperture, and a short pulse contains lower frequencies.
+      CHECK(ratio(live, beam_profile(pair.transducer, pair.beamforming, line, depth, kHalfPower).lateral_mm) ==
+            Approx(1).margin(0.16));
+      // Taken as a width at half amplitude, it is a third to two fifths too narrow, sqrt(2) for a Gaussian.
+      CHECK(ratio(live, beam_profile(pair.transducer, pair.beamforming, line, depth, kHalfAmplitude).lateral_mm) ==
+            Approx(1 / std::sqrt(2.0)).margin(0.13));
+    }
+  }
+}
+
+TEST_CASE("the live simulator's slice follows a lens's, at half power, behind its focus") {
+  for (const Probe& probe : probes()) {
+    Pair pair = pair_of(probe);
+    const double focus = pair.transducer.elevation_focus_mm;
+    pair.beamforming.transmit_focus_mm = focus;
+    const ScanLine line = line_at(pair.transducer, 0);
+    const auto thickness = [&](double depth) {
+      return beam_profile(pair.transducer, pair.beamforming, line, depth, kHalfPower).elevation_mm;
+    };
+    pair.settings.slice_planes = 3;
+    pair.settings.elevation_focus_mm = focus;
+    pair.settings.slice_thickness_mm = thickness(focus);
+    CAPTURE(probe.name);
+    // 0.638 lambda F / height, a little more for a short pulse.
+    CHECK(pair.settings.slice_thickness_mm / (pair.transducer.wavelength_mm() * focus / pair.transducer.height_mm) ==
+          Approx(0.638).epsilon(0.05));
+    for (const double share : {1.125, 1.25, 1.5, 2.0}) {
+      CAPTURE(share);
+      // The formula's Gaussian beam spreads faster than the middle of an evenly weighted aperture's.
+      CHECK(ratio(slice_thickness_at_mm(pair.settings, share * focus), thickness(share * focus)) ==
+            Approx(1.1).margin(0.2));
+    }
+  }
+}
