@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "sim/acoustics/beam_profile.h"
@@ -74,7 +75,8 @@ BeamRow beam_row(const Subject& subject, double depth_mm) {
   const ScanLine line = line_at(subject.transducer, 0);
   return {beam_profile(subject.transducer, subject.beamforming, line, depth_mm, kHalfAmplitude),
           beam_profile(subject.transducer, subject.beamforming, line, depth_mm, kHalfPower),
-          focused_beam_fwhm_mm(subject.settings, depth_mm), slice_thickness_at_mm(subject.settings, depth_mm)};
+          std::sqrt(2.0) * focused_beam_fwhm_mm(subject.settings, depth_mm),
+          slice_thickness_at_mm(subject.settings, depth_mm)};
 }
 
 CurvePlot plot_of(const Subject& subject, int points) {

@@ -17,7 +17,7 @@ struct AcousticRequest {
   std::string transducer;           ///< a transducer's file instead of the probes' bundled ones; empty for those
   double depth_mm = 0;              ///< 0 for the probe's default depth
   double focus_mm = 0;              ///< transmit focus; 0 for half the depth, as in the trainer
-  double f_number = 6;              ///< of transmission and reception, as in the trainer
+  double f_number = 3.5;            ///< of transmission and reception, as in the trainer
   double attenuation_db_cm_mhz = 0;
 };
 

@@ -35,6 +35,10 @@ Table measure_filter();
 /// alternates with one of equally many samples in plain tissue.
 Table measure_denormals(const Request& request);
 
+/// Measures the live simulator's speckle in a uniform block, beside what theory expects of its pulse, beam and slice:
+/// the envelope's statistics, the display's, the grain, and how alike it is after a move of the probe.
+Table measure_grain();
+
 /// Measures run time and error over the settings. Writes the scenes' plots to one SVG unless `svg` is empty.
 Table measure_front(const Request& request, const std::string& svg);
 

@@ -131,6 +131,9 @@ int main(int argc, char** argv) {
   add_acoustics(*beam, acoustics);
   beam->add_option("--csv", csv, "Write the table to this file too (CSV)")->type_name("FILE");
   beam->add_option("--svg", svg, "Draw the plots to this file too (SVG)")->type_name("FILE");
+  CLI::App* grain = arguments.add_subcommand(
+      "grain", "Measure the speckle of the live simulator in a uniform block, beside what theory expects of it");
+  grain->add_option("--csv", csv, "Write the table to this file too (CSV)")->type_name("FILE");
   int speckle_lines = 300;
   CLI::App* speckle = arguments.add_subcommand(
       "speckle", "Measure the speckle that the sum over many scatterers gives for each transducer at its focus");
@@ -182,6 +185,7 @@ int main(int argc, char** argv) {
               : denormal->parsed()   ? bench::measure_denormals(request)
               : sweep->parsed()      ? bench::measure_sweep(request)
               : batch->parsed()      ? bench::measure_batch(request)
+              : grain->parsed()      ? bench::measure_grain()
               : beam->parsed()       ? bench::measure_beams(acoustics, svg)
               : speckle->parsed()    ? bench::measure_speckle(acoustics, speckle_lines)
               : scoring->parsed()    ? bench::measure_scoring(exams)
