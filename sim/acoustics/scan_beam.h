@@ -24,8 +24,8 @@ struct Beamforming {
   double attenuation_db_cm_mhz = 0;  ///< of the medium, one way, proportional to the frequency; 0 to 10
   Sampling sampling;
   /// Depth from which the responses of an aperture without a lens are accurate to a hundredth of their integral, and
-  /// from twice as deep to 0.3 %, mm. Elements are divided into rectangles so small that a front that meets their middle
-  /// there is a 16th of a wavelength from their edges.
+  /// from twice as deep to 0.3 %, mm. Elements are divided into rectangles so small that a front that meets their
+  /// middle there is a 16th of a wavelength from their edges.
   double nearest_mm = 10;
 };
 
