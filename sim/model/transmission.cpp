@@ -11,6 +11,7 @@ namespace {
 constexpr int kLeastHu = -1024;
 constexpr int kMostHu = 3071;         // what a 12-bit scanner writes; denser metal counts as bone
 constexpr double kAirBelowHu = -500;  // half way between air and fat; gel fills what is below
+constexpr double kSoftTissueHu = 50;  // between fluid and muscle: an organ such as liver, without contrast agent
 
 }  // namespace
 
@@ -21,6 +22,14 @@ VoxelLine voxel_line(const Grid& grid, const ScanLines& set, std::size_t line, c
   };
   const glm::dvec3 start = index(set.r_min_mm);
   return {start, (index(set.r_max_mm) - start) / double(set.samples)};
+}
+
+std::vector<double> soft_tissue_intensity(const ScanLines& lines, const TissueTable& tissues, double frequency_mhz) {
+  const double loss_db_mm = tissues.at(kSoftTissueHu).absorption_db_cm_mhz * frequency_mhz / 10;
+  std::vector<double> intensity;
+  for (int k = 0; k < lines.samples; ++k)
+    intensity.push_back(std::pow(10.0, -loss_db_mm * (k + 0.5) * lines.dr_mm() / 10));
+  return intensity;
 }
 
 Transmission::Transmission(const Volume<std::int16_t>& ct, const TissueTable& tissues, double sample_distance_mm,

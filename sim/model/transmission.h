@@ -22,6 +22,13 @@ struct VoxelLine {
 /// Returns line number `line` of `set` in the indices of `grid`.
 VoxelLine voxel_line(const Grid& grid, const ScanLines& set, std::size_t line, const Pose& patient_from_probe);
 
+/// The share of soft_tissue_intensity() above which the sound counts as arriving: -20 dB of intensity.
+inline constexpr double kArrivingShare = 0.01;
+
+/// Returns the one-way intensity, relative to the emitted one, that soft tissue alone would let through to the middle
+/// of each sample of a line.
+std::vector<double> soft_tissue_intensity(const ScanLines& lines, const TissueTable& tissues, double frequency_mhz);
+
 /// Computes the sound that arrives along scan lines: model S's transmission (Kutter, Shams, Navab 2009, equations 1 and
 /// 5), with the reflection length equal to the sample distance, on the CPU in double precision.
 /// Air nearer to the face than kUsualGel_mm counts as coupling gel.
