@@ -33,8 +33,8 @@ std::vector<double> soft_tissue_intensity(const ScanLines& lines, const TissueTa
 }
 
 Transmission::Transmission(const Volume<std::int16_t>& ct, const TissueTable& tissues, double sample_distance_mm,
-                           double frequency_mhz)
-    : ct_(&ct), dr_mm_(sample_distance_mm) {
+                           double frequency_mhz, const GelLayer& gel)
+    : ct_(&ct), dr_mm_(sample_distance_mm), gel_(gel) {
   const double half_step_cm_mhz = dr_mm_ / 20 * frequency_mhz;
   medium_of_hu_.reserve(kMostHu - kLeastHu + 1);
   for (int hu = kLeastHu; hu <= kMostHu; ++hu) {
@@ -45,7 +45,12 @@ Transmission::Transmission(const Volume<std::int16_t>& ct, const TissueTable& ti
 
 const Transmission::Medium& Transmission::medium(const glm::dvec3& index, double distance_mm) const {
   double hu = sample_trilinear(*ct_, index);
-  if (distance_mm < kUsualGel_mm && hu < kAirBelowHu) hu = 0;
+  if (distance_mm < gel_.thickness_mm) {
+    if (gel_.gradual)
+      hu *= 1 - std::clamp((kCouplingTissueHu - hu) / (kCouplingTissueHu - kCouplingAirHu), 0.0, 1.0);
+    else if (hu < kAirBelowHu)
+      hu = 0;
+  }
   constexpr double kHalfBelow = kLeastHu - 0.5;  // truncation after subtracting it rounds to the nearest integer
   return medium_of_hu_[std::size_t(std::clamp(hu, double(kLeastHu), double(kMostHu)) - kHalfBelow)];
 }

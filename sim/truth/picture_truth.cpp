@@ -16,14 +16,16 @@ constexpr double kMostPressed_mm = 100;  // no hand presses a probe further in
 
 TruthMaker::TruthMaker(const Case& subject, const TissueTable& tissues) : case_(&subject), tissues_(&tissues) {}
 
-void TruthMaker::set_view(const Probe& probe, double depth_mm, double frequency_mhz, int width, int height) {
-  const View view{Probe(probe), depth_mm, frequency_mhz, width, height};
+void TruthMaker::set_view(const Probe& probe, double depth_mm, const Settings& settings) {
+  const int width = settings.image_width, height = settings.image_height;
+  const double frequency_mhz = settings.frequency_mhz;
+  const View view{Probe(probe), depth_mm, frequency_mhz, coupling_depth_mm(settings), width, height};
   if (view == view_) return;
   const bool same_pixels =
       view.probe == view_.probe && depth_mm == view_.depth_mm && width == view_.width && height == view_.height;
   view_ = view;
   lines_ = scan_lines(probe, depth_mm, int(std::ceil(depth_mm / kSampleDistance_mm)));
-  transmission_.emplace(case_->ct, *tissues_, lines_.dr_mm(), frequency_mhz);
+  transmission_.emplace(case_->ct, *tissues_, lines_.dr_mm(), frequency_mhz, GelLayer{view.gel_mm, true});
   least_intensity_ = soft_tissue_intensity(lines_, *tissues_, frequency_mhz);
   for (double& intensity : least_intensity_) intensity *= kArrivingShare;
   if (same_pixels) return;

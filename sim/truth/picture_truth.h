@@ -8,6 +8,7 @@
 #include "sim/core/grid.h"
 #include "sim/core/image.h"
 #include "sim/core/pose.h"
+#include "sim/model/settings.h"
 #include "sim/model/tissue.h"
 #include "sim/model/transmission.h"
 #include "sim/probe/probe.h"
@@ -37,7 +38,7 @@ struct PictureTruth {
 /// traversed on the probe's own lines, every kSampleDistance_mm, through the CT alone (Transmission).
 ///
 ///     TruthMaker truth(subject, tissues);
-///     truth.set_view(probe, depth_mm, settings.frequency_mhz, settings.image_width, settings.image_height);
+///     truth.set_view(probe, depth_mm, settings);
 ///     const PictureTruth known = truth.at(patient_from_probe);
 class TruthMaker {
 public:
@@ -46,10 +47,10 @@ public:
   /// Keeps references to both. A case without labels has label 0 everywhere.
   TruthMaker(const Case& subject, const TissueTable& tissues);
 
-  /// Sets how the following pictures lie in the probe's plane. Does nothing if nothing changes.
-  /// @param depth_mm       0.1 to 1000
-  /// @param width, height  pixels, 1 to 8192
-  void set_view(const Probe& probe, double depth_mm, double frequency_mhz, int width, int height);
+  /// Sets the probe of the following pictures. Of the settings, it uses the picture's size, the frequency and the gel.
+  /// Does nothing if none of these changes.
+  /// @param depth_mm  0.1 to 1000
+  void set_view(const Probe& probe, double depth_mm, const Settings& settings);
 
   /// Call set_view() before it.
   PictureTruth at(const Pose& patient_from_probe) const;
@@ -57,7 +58,7 @@ public:
 private:
   struct View {
     Probe probe;
-    double depth_mm = 0, frequency_mhz = 0;
+    double depth_mm = 0, frequency_mhz = 0, gel_mm = 0;
     int width = 0, height = 0;
     bool operator==(const View&) const = default;
   };

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -40,6 +41,14 @@ Case block() {
   return subject;
 }
 
+Settings picture(int width, int height, double frequency_mhz) {
+  Settings settings;
+  settings.image_width = width;
+  settings.image_height = height;
+  settings.frequency_mhz = frequency_mhz;
+  return settings;
+}
+
 /// Looks along +y with the marker towards +x.
 Pose from_front(double y_mm) {
   return {glm::dmat3(1.0), glm::dvec3(0.25, y_mm, 0.25)};
@@ -55,7 +64,7 @@ TEST_CASE("each pixel has the label of its nearest voxel, and none outside the f
   const Case subject = block();
   TruthMaker maker(subject, tissues());
   const Pose pose = from_front(12);
-  maker.set_view(linear(), 50, 7.5, 200, 150);
+  maker.set_view(linear(), 50, picture(200, 150, 7.5));
   const PictureTruth truth = maker.at(pose);
   const ImageGeometry geometry = image_geometry(linear(), 50, 200, 150);
   const glm::dmat4 to_patient = patient_from_pixel(geometry, pose);
@@ -79,7 +88,7 @@ TEST_CASE("each pixel has the label of its nearest voxel, and none outside the f
 TEST_CASE("sound does not arrive behind bone, and its labels are not visible there") {
   const Case subject = block();
   TruthMaker maker(subject, tissues());
-  maker.set_view(linear(), 50, 7.5, 200, 150);
+  maker.set_view(linear(), 50, picture(200, 150, 7.5));
   const PictureTruth truth = maker.at(from_front(12));
   const ImageGeometry geometry = image_geometry(linear(), 50, 200, 150);
   const auto reach_at = [&](double x_mm, double depth_mm) {
@@ -99,7 +108,7 @@ TEST_CASE("sound does not arrive behind bone, and its labels are not visible the
 TEST_CASE("the distance to the skin is positive in front of it, negative where the face is pressed in") {
   const Case subject = block();
   TruthMaker maker(subject, tissues());
-  maker.set_view(linear(), 50, 7.5, 64, 64);
+  maker.set_view(linear(), 50, picture(64, 64, 7.5));
   // The skin is at -500 HU, which lies between the voxels of -1000 and 50 HU at y = 9 and 10.
   const double skin_y = 9 + 500.0 / 1050;
   for (const double y : {4.0, 8.5, 12.0, 15.0})
@@ -118,16 +127,19 @@ TEST_CASE("sound arrives where the scores say that it does") {
   probe.lines = Visibility::kLines;
   TruthMaker maker(subject, tissues());
   constexpr int kSize = 256;
-  maker.set_view(probe, view.depth_mm, probe.frequency_mhz, kSize, kSize);
+  maker.set_view(probe, view.depth_mm, picture(kSize, kSize, probe.frequency_mhz));
   const PictureTruth truth = maker.at(view.patient_from_probe);
   Visibility visibility(subject, probe, view.depth_mm, tissues());
   visibility.look_from(view.patient_from_probe);
-  const glm::dmat4 to_patient =
-      patient_from_pixel(image_geometry(probe, view.depth_mm, kSize, kSize), view.patient_from_probe);
+  const ImageGeometry geometry = image_geometry(probe, view.depth_mm, kSize, kSize);
+  const glm::dmat4 to_patient = patient_from_pixel(geometry, view.patient_from_probe);
   int compared = 0, shadowed = 0, differing = 0;
   for (std::uint32_t n = 0; n < 20000; ++n) {
     const int x = int(hash(n, 1) % kSize), y = int(hash(n, 2) % kSize);
     if (truth.reach.at(x, y) == int(Reach::outside)) continue;
+    // Scores count gel in another way. Where the face is this deep in the skin, there is none.
+    const double line = line_position(probe, view.depth_mm, geometry.plane_mm(x, y))->line;
+    if (truth.skin_mm[std::size_t(std::clamp(std::lround(line), 0l, long(probe.lines) - 1))] > -4) continue;
     ++compared;
     shadowed += truth.reach.at(x, y) == int(Reach::shadowed);
     differing += visibility.reaches(glm::dvec3(to_patient * glm::dvec4(x, y, 0, 1))) !=
@@ -139,15 +151,34 @@ TEST_CASE("sound arrives where the scores say that it does") {
   CHECK(differing <= compared / 1000);
 }
 
+TEST_CASE("the skin's outermost voxels count as gel in part, so that they cast no shadow") {
+  Case subject = block();
+  // A skin that rises from air to tissue over three voxels.
+  for (int z = 0; z < 41; ++z)
+    for (int x = 0; x < 121; ++x)
+      for (int y = 7; y < 10; ++y) subject.ct.at({x, y, z}) = std::int16_t(-1000 + 250 * (y - 6));
+  TruthMaker maker(subject, tissues());
+  Settings settings = picture(100, 100, 7.5);
+  const auto shadowed = [&] {
+    maker.set_view(linear(), 50, settings);
+    const PictureTruth truth = maker.at(from_front(5));
+    return std::count(truth.reach.pixels.begin(), truth.reach.pixels.end(), std::uint8_t(Reach::shadowed));
+  };
+  const auto with_gel = shadowed();
+  settings.gel_mm = 0;
+  CHECK(shadowed() > 5000);  // air in front of the face
+  CHECK(with_gel < 2500);    // behind the plate alone
+}
+
 TEST_CASE("another view of the same maker gives what a new maker gives") {
   const Case subject = block();
   TruthMaker used(subject, tissues());
-  used.set_view(linear(), 50, 7.5, 64, 64);
+  used.set_view(linear(), 50, picture(64, 64, 7.5));
   used.at(from_front(12));
-  used.set_view(*find_probe("curvilinear"), 80, 3.5, 96, 64);
-  used.set_view(*find_probe("curvilinear"), 80, 5, 96, 64);
+  used.set_view(*find_probe("curvilinear"), 80, picture(96, 64, 3.5));
+  used.set_view(*find_probe("curvilinear"), 80, picture(96, 64, 5));
   TruthMaker fresh(subject, tissues());
-  fresh.set_view(*find_probe("curvilinear"), 80, 5, 96, 64);
+  fresh.set_view(*find_probe("curvilinear"), 80, picture(96, 64, 5));
   const PictureTruth a = used.at(from_front(9)), b = fresh.at(from_front(9));
   CHECK(a.label.pixels == b.label.pixels);
   CHECK(a.reach.pixels == b.reach.pixels);
