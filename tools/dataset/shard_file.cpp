@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <limits>
@@ -16,6 +17,10 @@
 
 namespace insonate {
 namespace {
+
+/// Set once a file could not be written. From then on nothing is closed: the library would try to write again what it
+/// could not write before, and Debian's ends the process over it.
+std::atomic<bool> given_up = false;
 
 /// An identifier of the HDF5 library, which is closed at the end.
 class Id {
@@ -32,7 +37,7 @@ public:
   ~Id() { close(); }
   bool close() {
     const hid_t id = std::exchange(id_, H5I_INVALID_HID);
-    return id < 0 || close_(id) >= 0;
+    return id < 0 || given_up || close_(id) >= 0;
   }
   operator hid_t() const { return id_; }
 
@@ -41,8 +46,11 @@ private:
   Close close_ = nullptr;
 };
 
-/// The library prints each error unless it is told not to, and does so per thread.
-void print_no_errors() {
+/// Begins the use of the library on a thread. It prints each error unless it is told not to, and at the program's end
+/// it closes what is open, see given_up.
+void use_library() {
+  static const herr_t without_exit_handler = H5dont_atexit();
+  (void)without_exit_handler;
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
@@ -72,6 +80,9 @@ std::string attribute_of(hid_t file, const char* name) {
 }
 
 constexpr const char* kMaps[] = {"image", "label", "visible_label", "reach"};
+constexpr const char* kOtherData[] = {
+    "patient_from_pixel", "patient_from_probe", "depth_mm", "mm_per_pixel", "skin_mm", "settings", "probe",
+    "pose_source"};
 
 }  // namespace
 
@@ -88,6 +99,7 @@ struct ShardWriter::State {
 
   [[noreturn]] void refuse() const {
     const std::string why = errno == 0 ? "" : std::string(" (") + std::strerror(errno) + ")";
+    given_up = true;
     throw InputError(shown.string(), "", "it cannot be written" + why, "check the folder's permissions and free space");
   }
   void need(bool done) const {
@@ -137,12 +149,16 @@ ShardWriter::ShardWriter(const std::filesystem::path& temporary, const std::file
                          const ShardShape& shape, const std::vector<std::pair<std::string, std::string>>& about)
     : state_(std::make_unique<State>()) {
   State& s = *state_;
-  print_no_errors();
+  use_library();
   s.temporary = temporary;
   s.shown = shown;
   s.shape = shape;
   errno = 0;
-  s.file = Id(H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
+  const Id how(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_libver_bounds(how, H5F_LIBVER_V110, H5F_LIBVER_V110);  // the first whose structures have checksums too
+  const Id made(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  H5Pset_obj_track_times(made, false);
+  s.file = Id(H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, made, how), H5Fclose);
   s.need(s.file >= 0);
   for (const auto& [name, text] : about) s.write_attribute(name, text);
   for (std::size_t i = 0; i < s.maps.size(); ++i)
@@ -164,7 +180,7 @@ ShardWriter::~ShardWriter() = default;
 
 void ShardWriter::put(std::uint32_t row, const DatasetImage& image) {
   State& s = *state_;
-  print_no_errors();
+  use_library();
   errno = 0;
   const hsize_t start[] = {row, 0, 0}, size[] = {1, hsize_t(s.shape.height), hsize_t(s.shape.width)};
   const Image<std::uint8_t>* maps[] = {&image.grey, &image.truth.label, &image.truth.visible_label, &image.truth.reach};
@@ -196,7 +212,7 @@ void ShardWriter::finish() {
   State& s = *state_;
   if (std::count(s.put.begin(), s.put.end(), 1) != std::ptrdiff_t(s.put.size()))
     throw std::logic_error("a shard lacks an image");
-  print_no_errors();
+  use_library();
   errno = 0;
   s.write_all("patient_from_pixel", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, {4, 4}, s.patient_from_pixel.data());
   s.write_all("patient_from_probe", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, {4, 4}, s.patient_from_probe.data());
@@ -221,7 +237,7 @@ void ShardWriter::finish() {
 }
 
 ShardSummary read_shard_summary(const std::filesystem::path& path) {
-  print_no_errors();
+  use_library();
   const Id file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
   const ShardSummary summary{attribute_of(file, "study_digest"), attribute_of(file, "case_digest"),
                              attribute_of(file, "device"), attribute_of(file, "digest")};
@@ -232,7 +248,7 @@ ShardSummary read_shard_summary(const std::filesystem::path& path) {
 }
 
 std::string damage_of_shard(const std::filesystem::path& path) {
-  print_no_errors();
+  use_library();
   const Id file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
   if (file < 0) return "it is not an HDF5 file, or its structure is damaged";
   for (const char* name : kMaps) {
@@ -250,6 +266,15 @@ std::string damage_of_shard(const std::filesystem::path& path) {
       if (H5Dread(data, H5T_NATIVE_UINT8, in_memory, space, H5P_DEFAULT, pixels.data()) < 0)
         return "'" + std::string(name) + "' of its image " + std::to_string(i) + " is damaged";
     }
+  }
+  for (const char* name : kOtherData) {
+    const Id data = opened(file, name);
+    const Id type(H5Dget_type(data), H5Tclose), space(H5Dget_space(data), H5Sclose);
+    const hssize_t values = H5Sget_simple_extent_npoints(space);
+    if (data < 0 || values < 0) return std::string("it has no data '") + name + "'";
+    std::vector<char> bytes(std::size_t(values) * H5Tget_size(type));
+    if (H5Dread(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()) < 0)
+      return "its data '" + std::string(name) + "' are damaged";
   }
   const Id digests = opened(file, "digest");
   const Id space(H5Dget_space(digests), H5Sclose);
