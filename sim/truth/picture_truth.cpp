@@ -19,7 +19,9 @@ TruthMaker::TruthMaker(const Case& subject, const TissueTable& tissues) : case_(
 void TruthMaker::set_view(const Probe& probe, double depth_mm, const Settings& settings) {
   const int width = settings.image_width, height = settings.image_height;
   const double frequency_mhz = settings.frequency_mhz;
-  const View view{Probe(probe), depth_mm, frequency_mhz, coupling_depth_mm(settings), width, height};
+  Probe shape = probe;
+  shape.frequency_mhz = 0;  // the settings' counts
+  const View view{Probe(shape), depth_mm, frequency_mhz, coupling_depth_mm(settings), width, height};
   if (view == view_) return;
   const bool same_pixels =
       view.probe == view_.probe && depth_mm == view_.depth_mm && width == view_.width && height == view_.height;

@@ -126,11 +126,15 @@ void DatasetFolder::begin(const Study& study, const std::vector<StudyPatient>& p
     if (error)
       throw InputError(path_.string(), "", "the folder cannot be made (" + error.message() + ")",
                        "name a folder that may be written");
-    fs::path temporary = path_ / (".manifest." + host_name() + "." + std::to_string(getpid()) + ".partial.json");
+    const fs::path temporary = temporary_manifest();
     write_file(temporary, manifest_of(study, patients).dump(2) + "\n");
     if (rename_to_new(temporary, manifest_file()) != Renamed::done) fs::remove(temporary, error);
   }
   check_is_of(study);
+}
+
+fs::path DatasetFolder::temporary_manifest() const {
+  return path_ / (".manifest." + host_name() + "." + std::to_string(getpid()) + ".partial.json");
 }
 
 bool DatasetFolder::has_begun() const {
@@ -208,8 +212,13 @@ void DatasetFolder::complete() const {
   json["shards"] = std::move(shards);
   const std::string text = json.dump(2) + "\n";
   if (read_file(manifest_file(), kLargestManifest) == text) return;
-  write_file(manifest_file(), text);
+  const fs::path temporary = temporary_manifest();
+  write_file(temporary, text);
   std::error_code error;
+  fs::rename(temporary, manifest_file(), error);
+  if (error)
+    throw InputError(manifest_file().string(), "", "it cannot be written (" + error.message() + ")",
+                     "check the folder's permissions and free space");
   for (fs::directory_iterator entry(path_ / "shards", error), end; !error && entry != end; entry.increment(error)) {
     const std::string name = entry->path().filename().string();
     std::error_code ignored;

@@ -53,6 +53,7 @@ public:
 
 private:
   std::filesystem::path manifest_file() const { return path_ / "manifest.json"; }
+  std::filesystem::path temporary_manifest() const;
 
   std::filesystem::path path_;
 };

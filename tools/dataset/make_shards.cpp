@@ -71,8 +71,8 @@ std::vector<Shot> shots_of(const Study& study, const ShotMaker& maker, std::uint
   std::vector<Shot> shots;
   for (std::uint32_t i = 0; i < study.images_of(shard); ++i) shots.push_back(maker.at(study.first_image(shard) + i));
   const auto layout = [](const Shot& shot) {
-    return std::tuple(std::string_view(shot.probe.name), shot.depth_mm, shot.probe.frequency_mhz, shot.settings.samples,
-                      shot.index);
+    return std::tuple(std::string_view(shot.probe.name), shot.depth_mm, shot.settings.frequency_mhz,
+                      shot.settings.samples, shot.index);
   };
   std::sort(shots.begin(), shots.end(), [&](const Shot& a, const Shot& b) { return layout(a) < layout(b); });
   return shots;
@@ -104,6 +104,7 @@ void make_shard(const Study& study, OpenedPatient& opened, const DatasetTissues&
   } catch (...) {
     std::error_code ignored;
     std::filesystem::remove(temporary, ignored);
+    if (folder.has_shard(shard)) return;  // another process was faster, and has removed what was left of this one's
     throw;
   }
   folder.put_in_place(temporary, shard);

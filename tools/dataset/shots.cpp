@@ -160,7 +160,6 @@ Shot ShotMaker::at(std::uint32_t index) const {
     shot.probe = listed.probe;
     shot.depth_mm = draws.step_of(listed.depth_mm, "depth_mm");
     const double frequency_mhz = draws.step_of(listed.frequency_mhz, "frequency_mhz");
-    shot.probe.frequency_mhz = frequency_mhz;
     shot.settings = draw_settings(*study_, draws, frequency_mhz, shot.depth_mm, hash(study_->seed, patient_->number));
     return shot;
   }

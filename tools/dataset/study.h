@@ -109,7 +109,6 @@ struct Study {
   std::uint32_t shards() const { return (images + shard_images - 1) / shard_images; }
   std::uint32_t first_image(std::uint32_t shard) const { return shard * shard_images; }
   std::uint32_t images_of(std::uint32_t shard) const { return std::min(shard_images, images - first_image(shard)); }
-  const StudyProbe* find_probe(std::string_view name) const;
 };
 
 /// Reads a study (docs/datasets.md describes its keys). Throws one InputError that names every unknown key, wrong type,

@@ -148,12 +148,6 @@ void check_unique(const TomlTable& table, const char* key, const std::string& na
 
 }  // namespace
 
-const StudyProbe* Study::find_probe(std::string_view wanted) const {
-  for (const StudyProbe& each : probes)
-    if (each.probe.name == wanted) return &each;
-  return nullptr;
-}
-
 Study read_study(const std::filesystem::path& file) {
   Study study;
   study.file = file;

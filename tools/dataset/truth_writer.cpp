@@ -18,8 +18,10 @@ TruthWriter::~TruthWriter() {
 
 void TruthWriter::put(Shot&& shot, Image<std::uint8_t>&& grey) {
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [&] { return waiting_.size() < kMostWaiting || failure_; });
+  const std::size_t bytes = grey.pixels.size();
+  changed_.wait(lock, [&] { return waiting_.empty() || waiting_bytes_ + bytes <= kMostWaiting || failure_; });
   rethrow();
+  waiting_bytes_ += bytes;
   waiting_.push_back({std::move(shot), std::move(grey)});
   lock.unlock();
   changed_.notify_all();
@@ -47,6 +49,7 @@ void TruthWriter::run() {
       if (waiting_.empty() || dropped_) return;
       Picture picture = std::move(waiting_.front());
       waiting_.pop_front();
+      waiting_bytes_ -= picture.grey.pixels.size();
       lock.unlock();
       changed_.notify_all();
       const std::uint32_t row = picture.shot.index - first_image_;

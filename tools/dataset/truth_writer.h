@@ -16,8 +16,9 @@ namespace insonate {
 /// Computes the truth of pictures, and encodes and writes them, on a thread of its own. So drawing goes on meanwhile.
 class TruthWriter {
 public:
-  /// Most pictures that wait, 256 KiB each at 512 x 512. Drawing waits only if they are behind by as many.
-  static constexpr std::size_t kMostWaiting = 64;
+  /// Most bytes of pictures that wait: 128 pictures of 512 x 512. Drawing waits only if this thread is behind by as
+  /// many, and always lets one wait.
+  static constexpr std::size_t kMostWaiting = std::size_t(1) << 25;
 
   /// Keeps references to both. The thread alone uses them until finish() returns.
   /// @param first_image  of the shard
@@ -44,6 +45,7 @@ private:
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Picture> waiting_;
+  std::size_t waiting_bytes_ = 0;
   bool closed_ = false, dropped_ = false;
   std::exception_ptr failure_;
   std::thread thread_;

@@ -156,6 +156,17 @@ TEST_CASE("one process, ranks, single shards and merged folders give the same by
   CHECK(files_of(work.path / "here") == whole);
   CHECK(files_of(work.path / "there").size() == 1);  // its manifest: a shard is moved, not copied
 
+  // From another disk, shards are copied. /dev/shm is one of its own.
+  const fs::path other = fs::path("/dev/shm") / work.path.filename();
+  if (fs::exists("/dev/shm")) {
+    work.make(other.string() + " --shards 2-4");
+    work.make("joined --shards 0-1,5");
+    CHECK(work.run("merge joined " + other.string()).code == 0);
+    CHECK(files_of(work.path / "joined") == whole);
+    CHECK(files_of(other).size() == 1);
+    fs::remove_all(other);
+  }
+
   work.make("narrow", "LP_NUM_THREADS=1");
   CHECK(files_of(work.path / "narrow") == whole);
   const Ran checked = work.run("check whole");

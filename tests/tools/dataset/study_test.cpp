@@ -111,8 +111,6 @@ height_percent = [20, 60]
   CHECK(study.poses[1].log.filename() == "hand.igs.mha");
   CHECK(study.poses[2].around_deg.most == 0);
   CHECK(study.poses[2].tilt_deg.least == -20);
-  CHECK(study.find_probe("curvilinear") == &study.probes[0]);
-  CHECK(study.find_probe("linear") == nullptr);
 }
 
 TEST_CASE("what is wrong with a study is refused with its place, and what to do") {
