@@ -28,7 +28,7 @@ struct OpenedPatient {
 
   OpenedPatient(const Study& study, const StudyPatient& of, const TissueTable& tissues)
       : patient(&of),
-        subject(open_patient(of, show_progress)),
+        subject(open_patient(study, of, show_progress)),
         digest(digest_of(subject)),
         shots(study, of, subject),
         truth(subject, tissues) {}
@@ -114,7 +114,7 @@ void make_shard(const Study& study, OpenedPatient& opened, const DatasetTissues&
 
 void check_patients(const Study& study, const std::vector<StudyPatient>& patients) {
   for (const StudyPatient& patient : patients) {
-    const Case subject = open_patient(patient, show_progress);
+    const Case subject = open_patient(study, patient, show_progress);
     const ShotMaker maker(study, patient, subject);
     for (std::uint32_t i = 0; i < patient.shards; ++i) maker.at(study.first_image(patient.first_shard + i));
   }

@@ -89,9 +89,11 @@ const StudyPatient& patient_of(const std::vector<StudyPatient>& patients, std::u
   throw std::out_of_range("there is no shard " + std::to_string(shard));
 }
 
-Case open_patient(const StudyPatient& patient, const Progress& progress) {
+Case open_patient(const Study& study, const StudyPatient& patient, const Progress& progress) {
   if (patient.of->source != kBuiltIn) return open_case(patient.of->source);
-  return cached_phantom(recipe_file(), patient.options, cache_folder(), progress);
+  std::size_t in_study = 0;
+  for (const StudyCase& subject : study.cases) in_study += subject.patients;
+  return cached_phantom(recipe_file(), patient.options, cache_folder(), progress, std::max(kKeptPhantoms, in_study));
 }
 
 }  // namespace insonate

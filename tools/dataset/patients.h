@@ -29,7 +29,8 @@ std::vector<StudyPatient> patients_of(const Study& study);
 /// Returns the patient of a shard.
 const StudyPatient& patient_of(const std::vector<StudyPatient>& patients, std::uint32_t shard);
 
-/// Opens a patient. Throws InputError.
-Case open_patient(const StudyPatient& patient, const Progress& progress = {});
+/// Opens a patient. The cache keeps as many phantoms as the study has patients, so that every process finds them.
+/// Throws InputError.
+Case open_patient(const Study& study, const StudyPatient& patient, const Progress& progress = {});
 
 }  // namespace insonate

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <cstdlib>
 #include <functional>
 #include <set>
 
@@ -287,6 +288,23 @@ kind = "skin"
   }
   CHECK(diameters.size() == 4);
   CHECK(patients_of(study)[2].options == patients[2].options);
+}
+
+TEST_CASE("the cache keeps every patient of a study") {
+  const test::StudyFolder folder;
+  setenv("XDG_CACHE_HOME", folder.path.c_str(), 1);
+  constexpr std::size_t kPatients = kKeptPhantoms + 2;
+  const Study study = read_study(folder.file(
+      "study.toml", "format = 1\nname = \"n\"\nseed = 3\nimages = 100\nshard_images = 1\n[[case]]\npatients = " +
+                        std::to_string(kPatients) +
+                        "\nphantom = { voxel_mm = 10, aorta_diameter_mm = [18, 50] }\n[[probe]]\nname = "
+                        "\"linear\"\n[[poses]]\nkind = \"skin\"\n"));
+  for (const StudyPatient& patient : patients_of(study)) open_patient(study, patient);
+  std::size_t kept = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path / "insonate" / "phantoms"))
+    kept += entry.is_directory() && entry.path().filename().string().front() != '.';
+  unsetenv("XDG_CACHE_HOME");
+  CHECK(kept == kPatients);
 }
 
 TEST_CASE("options that the phantom lacks, and patients without a shard, are refused") {
