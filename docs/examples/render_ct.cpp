@@ -14,6 +14,9 @@ using namespace insonate;
 
 int main(int argc, char** argv) try {
   if (argc != 3) throw std::runtime_error("usage: example-render-ct CT IMAGE.png");
+#ifdef INSONATE_ASSETS_FOLDER
+  set_assets_folder(INSONATE_ASSETS_FOLDER);
+#endif
 
   // The patient: a CT as the sound meets it.
   const Case patient = open_case(argv[1]);

@@ -8,8 +8,6 @@ namespace {
 
 /// Same sample distance as in ViewMeter: model S's default reflection length.
 constexpr double kSampleDistance_mm = 0.6;
-/// Between fluid and muscle: an organ such as liver or spleen, without contrast agent.
-constexpr double kSoftTissueHu = 50;
 
 Probe coarse(Probe probe) {
   probe.lines = Visibility::kLines;
@@ -24,10 +22,8 @@ Visibility::Visibility(const Case& subject, const Probe& probe, double depth_mm,
       depth_mm_(depth_mm),
       lines_(scan_lines(probe_, depth_mm, int(std::ceil(depth_mm / kSampleDistance_mm)))),
       transmission_(subject.ct, tissues, lines_.dr_mm(), probe_.frequency_mhz),
+      soft_tissue_(soft_tissue_intensity(lines_, tissues, probe_.frequency_mhz)),
       looked_(lines_.lines.size()) {
-  const double loss_db_mm = tissues.at(kSoftTissueHu).absorption_db_cm_mhz * probe_.frequency_mhz / 10;
-  for (int k = 0; k < lines_.samples; ++k)
-    soft_tissue_.push_back(std::pow(10.0, -loss_db_mm * (k + 0.5) * lines_.dr_mm() / 10));
   for (Line& line : looked_) line.intensity.resize(std::size_t(lines_.samples));
 }
 

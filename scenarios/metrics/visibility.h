@@ -17,7 +17,7 @@ class Visibility {
 public:
   static constexpr int kLines = 48;
   static constexpr double kHalfSlice_mm = 2.5;  ///< maximum distance from the plane that counts as in the picture
-  static constexpr double kArrives = 0.01;      ///< -20 dB of intensity
+  static constexpr double kArrives = kArrivingShare;
 
   /// Keeps a reference to the case. `depth_mm` is the depth of the picture from the face.
   Visibility(const Case& subject, const Probe& probe, double depth_mm, const TissueTable& tissues);

@@ -22,6 +22,11 @@ std::string reason() {
   return errno == 0 ? "" : std::string(" (") + std::strerror(errno) + ")";
 }
 
+fs::path& told_assets() {
+  static fs::path folder;
+  return folder;
+}
+
 /// The parts of a temporary name before and after the process id.
 struct TemporaryName {
   std::string front, back;
@@ -125,11 +130,16 @@ fs::path free_path(const fs::path& stem, const std::string& extension) {
 fs::path assets_folder() {
   std::error_code error;
   if (const char* named = std::getenv("INSONATE_ASSETS")) return named;
+  if (!told_assets().empty()) return told_assets();
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
   const fs::path folder = program.parent_path() / INSONATE_ASSETS_FROM_PROGRAM;
   if (fs::is_directory(folder, error)) return fs::weakly_canonical(folder, error);
   throw InputError(folder.lexically_normal().string(), "", "the bundled assets are not there",
                    "install Insonate again, or set INSONATE_ASSETS to their folder");
+}
+
+void set_assets_folder(const fs::path& folder) {
+  told_assets() = folder;
 }
 
 fs::path cache_folder() {

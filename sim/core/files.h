@@ -37,9 +37,12 @@ void write_file(const std::filesystem::path& file, std::string_view bytes);
 /// @param extension  ".png"; empty for a folder
 std::filesystem::path free_path(const std::filesystem::path& stem, const std::string& extension);
 
-/// Returns the folder of bundled assets: $INSONATE_ASSETS, or share/insonate beside the folder that holds the program,
-/// in an install as in a build. Throws InputError if the latter does not exist.
+/// Returns the folder of bundled assets: $INSONATE_ASSETS, or that of set_assets_folder(), or share/insonate beside the
+/// folder that holds the program, in an install as in a build. Throws InputError if the latter does not exist.
 std::filesystem::path assets_folder();
+
+/// Sets what assets_folder() returns in a program that is not installed with the assets. Call it before threads do.
+void set_assets_folder(const std::filesystem::path& folder);
 
 /// Returns $XDG_CACHE_HOME/insonate, else $HOME/.cache/insonate, else a folder under the system's temporary folder.
 std::filesystem::path cache_folder();

@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "sim/core/text.h"
@@ -30,19 +32,25 @@ struct Key {
   std::function<SettingValue(const S&)> get;
   std::function<void(const TomlTable&, S&)> read;    ///< the file has the key
   std::function<bool(const SettingValue&)> allowed;  ///< requires a value of the right kind
+  std::function<void(const SettingValue&, S&)> set;  ///< requires a value that is allowed
 };
 
 template <typename S>
 Key<S> flag(const char* name, bool S::*member) {
-  return {name, "true or false", [=](const S& s) { return s.*member; },
+  return {name,
+          "true or false",
+          [=](const S& s) { return s.*member; },
           [=](const TomlTable& file, S& s) { s.*member = file.boolean(name); },
-          [](const SettingValue&) { return true; }};
+          [](const SettingValue&) { return true; },
+          [=](const SettingValue& value, S& s) { s.*member = std::get<bool>(value); }};
 }
 
 template <typename S, typename Integer>
 Key<S> whole(const char* name, Integer S::*member, Integer least, Integer most, bool odd = false) {
   const std::string wanted = (odd ? "an odd number " : "a whole number ") + from_to(double(least), double(most));
-  return {name, wanted, [=](const S& s) { return std::int64_t(s.*member); },
+  return {name,
+          wanted,
+          [=](const S& s) { return std::int64_t(s.*member); },
           [=](const TomlTable& file, S& s) {
             s.*member = Integer(file.whole_number(name, std::int64_t(least), std::int64_t(most)));
             if (odd && s.*member % 2 == 0)
@@ -51,24 +59,29 @@ Key<S> whole(const char* name, Integer S::*member, Integer least, Integer most, 
           [=](const SettingValue& value) {
             const std::int64_t n = std::get<std::int64_t>(value);
             return n >= std::int64_t(least) && n <= std::int64_t(most) && (!odd || n % 2 != 0);
-          }};
+          },
+          [=](const SettingValue& value, S& s) { s.*member = Integer(std::get<std::int64_t>(value)); }};
 }
 
 template <typename S>
 Key<S> number(const char* name, double S::*member, double least, double most) {
-  return {name, "a number " + from_to(least, most), [=](const S& s) { return s.*member; },
+  return {name,
+          "a number " + from_to(least, most),
+          [=](const S& s) { return s.*member; },
           [=](const TomlTable& file, S& s) {
             s.*member = file.number(name, {least, most});
           },
           [=](const SettingValue& value) {
             const double x = std::get<double>(value);
             return x >= least && x <= most;  // false for NaN
-          }};
+          },
+          [=](const SettingValue& value, S& s) { s.*member = std::get<double>(value); }};
 }
 
 template <typename S, std::size_t N>
 Key<S> numbers(const char* name, std::array<double, N> S::*member, double least, double most) {
-  return {name, "a list of " + std::to_string(N) + " numbers " + from_to(least, most),
+  return {name,
+          "a list of " + std::to_string(N) + " numbers " + from_to(least, most),
           [=](const S& s) { return std::vector<double>((s.*member).begin(), (s.*member).end()); },
           [=](const TomlTable& file, S& s) {
             std::copy_n(file.numbers(name, N, {least, most}).begin(), N, (s.*member).begin());
@@ -77,6 +90,9 @@ Key<S> numbers(const char* name, std::array<double, N> S::*member, double least,
             const auto& list = std::get<std::vector<double>>(value);
             return list.size() == N &&
                    std::all_of(list.begin(), list.end(), [&](double x) { return x >= least && x <= most; });
+          },
+          [=](const SettingValue& value, S& s) {
+            std::copy_n(std::get<std::vector<double>>(value).begin(), N, (s.*member).begin());
           }};
 }
 
@@ -86,7 +102,8 @@ Key<S> choice(const char* name, Enum S::*member, const std::vector<std::string>&
   std::string wanted;
   for (std::size_t i = 0; i < names.size(); ++i)
     wanted += (i == 0 ? "'" : i + 1 == names.size() ? " or '" : ", '") + names[i] + "'";
-  return {name, wanted,
+  return {name,
+          wanted,
           [=](const S& s) {
             const std::size_t index = std::size_t(s.*member);
             return index < names.size() ? names[index] : "number " + std::to_string(index);
@@ -94,6 +111,9 @@ Key<S> choice(const char* name, Enum S::*member, const std::vector<std::string>&
           [=](const TomlTable& file, S& s) { s.*member = Enum(file.choice(name, names)); },
           [=](const SettingValue& value) {
             return std::find(names.begin(), names.end(), std::get<std::string>(value)) != names.end();
+          },
+          [=](const SettingValue& value, S& s) {
+            s.*member = Enum(std::find(names.begin(), names.end(), std::get<std::string>(value)) - names.begin());
           }};
 }
 
@@ -109,6 +129,21 @@ std::optional<std::string> first_not_valid(const std::vector<Key<S>>& keys, cons
   for (const Key<S>& key : keys)
     if (const SettingValue value = key.get(settings); !key.allowed(value))
       return in_quotes(key.name) + " is " + in_words(value) + ", not " + key.wanted;
+  return std::nullopt;
+}
+
+/// As set_setting().
+template <typename S>
+std::optional<std::string> set_named(const std::vector<Key<S>>& keys, S& settings, const std::string& name,
+                                     SettingValue value) {
+  const auto key = std::find_if(keys.begin(), keys.end(), [&](const Key<S>& each) { return each.name == name; });
+  if (key == keys.end()) throw std::invalid_argument("there is no setting " + in_quotes(name));
+  const SettingValue now = key->get(settings);
+  if (const auto* whole = std::get_if<std::int64_t>(&value); whole && std::holds_alternative<double>(now))
+    value = double(*whole);
+  if (value.index() != now.index() || !key->allowed(value))
+    return in_quotes(name) + " is " + in_words(value) + ", not " + key->wanted;
+  key->set(value, settings);
   return std::nullopt;
 }
 

@@ -83,6 +83,10 @@ std::optional<std::string> why_not_valid(const Settings& settings) {
   return first_not_valid(all_keys(), settings);
 }
 
+std::optional<std::string> set_setting(Settings& settings, const std::string& name, const SettingValue& value) {
+  return set_named(all_keys(), settings, name, value);
+}
+
 std::vector<std::pair<std::string, SettingValue>> named_settings(const Settings& settings) {
   return named(all_keys(), settings);
 }

@@ -33,6 +33,11 @@ std::optional<std::string> why_not_valid(const Settings& settings);
 /// The value of a setting in a file; enumerators are texts.
 using SettingValue = std::variant<bool, std::int64_t, double, std::string, std::vector<double>>;
 
+/// Sets the setting of that name; a whole number also sets a setting that need not be whole. Returns what is wrong, as
+/// the problem part of an InputError, and then changes nothing: a value of another kind or out of range. Throws
+/// std::invalid_argument for a name that named_settings() does not list.
+std::optional<std::string> set_setting(Settings& settings, const std::string& name, const SettingValue& value);
+
 /// Returns every setting with its name, in the order of Settings.
 std::vector<std::pair<std::string, SettingValue>> named_settings(const Settings& settings);
 

@@ -16,6 +16,11 @@ inline constexpr double kSkinHu = -500;
 std::optional<double> distance_to_skin(const Volume<std::int16_t>& ct, const glm::dvec3& point,
                                        const glm::dvec3& direction, double reach_mm);
 
+/// Returns how far a point in the body moves along a unit direction (patient, mm) until it leaves the body, to 0.01 mm.
+/// Returns nothing if it does not within `reach_mm`, and 0 if it starts outside.
+std::optional<double> distance_out_of_body(const Volume<std::int16_t>& ct, const glm::dvec3& point,
+                                           const glm::dvec3& direction, double reach_mm);
+
 /// Detects whether a probe's face is on the skin. It tests evenly spaced places across the face. The face is on the
 /// skin if at half of the places or more there is body along the beam within the thickness of coupling gel. A face
 /// deeper than the skin counts as on it.

@@ -112,9 +112,9 @@ void mark_used(const fs::path& folder) {
   utimensat(AT_FDCWD, folder.c_str(), nullptr, 0);
 }
 
-// Keeps the most recently used phantoms, including `newest`. A process that ended too early leaves half-written or
-// half-removed folders under names with a leading dot. They are removed when they are a day older than `newest`.
-void tidy(const fs::path& newest) {
+// Keeps the `kept` most recently used phantoms, including `newest`. A process that ended too early leaves half-written
+// or half-removed folders under names with a leading dot. They are removed when they are a day older than `newest`.
+void tidy(const fs::path& newest, std::size_t kept) {
   std::error_code error;
   const fs::file_time_type day_before = fs::last_write_time(newest, error) - std::chrono::hours(24);
   std::vector<std::pair<fs::file_time_type, fs::path>> found;
@@ -128,13 +128,13 @@ void tidy(const fs::path& newest) {
       fs::remove_all(entry->path(), unknown);
   }
   std::sort(found.begin(), found.end(), std::greater<>());
-  for (std::size_t n = kKeptPhantoms; n < found.size(); ++n) throw_away(found[n].second);
+  for (std::size_t n = kept; n < found.size(); ++n) throw_away(found[n].second);
 }
 
 }  // namespace
 
 Case cached_phantom(const fs::path& recipe, const std::vector<std::pair<std::string, std::string>>& options,
-                    const fs::path& cache, const Progress& progress) {
+                    const fs::path& cache, const Progress& progress, std::size_t kept) {
   const std::string text = read_file(recipe, std::size_t(16) << 20);
   const fs::path folder = cache / "phantoms" / (recipe.stem().string() + "-" + key_of(text, options));
   {
@@ -155,7 +155,7 @@ Case cached_phantom(const fs::path& recipe, const std::vector<std::pair<std::str
     fs::remove_all(folder, ignored);
     write_case(folder, subject);
     write_file(folder / kDigestsFile, digests_of(folder));
-    tidy(folder);
+    tidy(folder, kept);
   } catch (const InputError&) {
     // The case is complete all the same. A cache that cannot be written costs only the time to make it again.
   } catch (const fs::filesystem_error&) {

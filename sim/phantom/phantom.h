@@ -43,10 +43,10 @@ inline constexpr std::size_t kKeptPhantoms = 16;
 /// Returns the same case as make_phantom() and stores it under `cache`, in a folder named after a digest of the recipe,
 /// the options and the maker's version. A cached case whose files do not match the digests stored beside them is
 /// discarded and made again. If the cache cannot be written, every call makes the case again. Storing a new case
-/// removes those that are not among the kKeptPhantoms most recently used, except any that another process is reading.
+/// removes those that are not among the `kept` most recently used, except any that another process is reading.
 /// Throws InputError.
 Case cached_phantom(const std::filesystem::path& recipe,
                     const std::vector<std::pair<std::string, std::string>>& options, const std::filesystem::path& cache,
-                    const Progress& progress = {});
+                    const Progress& progress = {}, std::size_t kept = kKeptPhantoms);
 
 }  // namespace insonate

@@ -15,7 +15,18 @@ namespace fs = std::filesystem;
 constexpr double kBodyHu = -300;
 constexpr double kThickMm = 20;
 
-/// Returns where a ray from outside first meets 20 mm of body; nothing if it does not within `reach_mm`.
+ReferenceView looking_in(std::string name, std::string title, const glm::dvec3& face, const glm::dvec3& into,
+                         const glm::dvec3& marker) {
+  ReferenceView view;
+  view.name = std::move(name);
+  view.title = std::move(title);
+  view.probe = "curvilinear";
+  view.patient_from_probe = {glm::dmat3(marker, into, glm::cross(marker, into)), face};
+  return view;
+}
+
+}  // namespace
+
 std::optional<glm::dvec3> skin_along(const Volume<std::int16_t>& ct, const glm::dvec3& from,
                                      const glm::dvec3& direction, double reach_mm) {
   constexpr double kStepMm = 0.5;
@@ -30,18 +41,6 @@ std::optional<glm::dvec3> skin_along(const Volume<std::int16_t>& ct, const glm::
   }
   return std::nullopt;
 }
-
-ReferenceView looking_in(std::string name, std::string title, const glm::dvec3& face, const glm::dvec3& into,
-                         const glm::dvec3& marker) {
-  ReferenceView view;
-  view.name = std::move(name);
-  view.title = std::move(title);
-  view.probe = "curvilinear";
-  view.patient_from_probe = {glm::dmat3(marker, into, glm::cross(marker, into)), face};
-  return view;
-}
-
-}  // namespace
 
 Case open_case(const fs::path& path) {
   std::error_code error;

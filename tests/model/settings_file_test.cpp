@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <limits>
+#include <stdexcept>
 
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
@@ -204,6 +205,31 @@ TEST_CASE("settings that no file could hold are told of by name") {
   settings = {};
   settings.tgc_db[3] = 1e9;
   CHECK(why_not_valid(settings).value_or("").find("'tgc_db' is [0, 0, 0, 1000000000") == 0);
+}
+
+TEST_CASE("every setting can be set by its name, and keeps its value if the new one cannot be used") {
+  // Each differs between the two.
+  Settings from = trainer_settings(kFrequency, kDepth), to = paper_settings(kDepth, 300);
+  from.speckle_seed = 7;
+  for (const auto& [name, value] : named_settings(from)) {
+    CAPTURE(name);
+    CHECK_FALSE(set_setting(to, name, value));
+  }
+  CHECK(to == from);
+  CHECK_FALSE(set_setting(to, "gain_db", std::int64_t(3)));
+  CHECK(to.gain_db == 3);
+
+  const Settings before = to;
+  CHECK(set_setting(to, "gain_db", 61.0) == "'gain_db' is 61, not a number from -60 to 60");
+  CHECK(set_setting(to, "gain_db", true) == "'gain_db' is true, not a number from -60 to 60");
+  CHECK(set_setting(to, "samples", 100.0) == "'samples' is 100, not a whole number from 1 to 8192");
+  CHECK(set_setting(to, "beam_lines", std::int64_t(4)) == "'beam_lines' is 4, not an odd number from 1 to 255");
+  CHECK(set_setting(to, "grey_map", std::string("soggy")) ==
+        "'grey_map' is 'soggy', not 'linear', 'soft', 'contrast' or 's_curve'");
+  CHECK(set_setting(to, "tgc_db", std::vector<double>{1, 2}) ==
+        "'tgc_db' is [1, 2], not a list of 8 numbers from -300 to 300");
+  CHECK_THROWS_AS(set_setting(to, "gian_db", 1.0), std::invalid_argument);
+  CHECK(to == before);
 }
 
 TEST_CASE("model W's settings: every field is a key, and what is not written stays as it is") {

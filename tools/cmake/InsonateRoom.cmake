@@ -11,9 +11,12 @@ set(CMAKE_CXX_EXTENSIONS OFF)
 option(INSONATE_WERROR "Treat the project's own warnings as errors" OFF)
 
 # Compiler options of all targets of the project's own code. Contraction is off because a fused multiply-add
-# rounds differently from the pair it replaces, and scores must be identical to the last bit everywhere.
+# rounds differently from the pair it replaces, and scores must be identical to the last bit everywhere. All code is
+# position independent, so that shared objects such as the Python module can contain it; programs too, because a
+# precompiled header serves only one kind. Nothing is interposed, so that GCC may inline as in a program.
 add_library(insonate_options INTERFACE)
 target_compile_options(insonate_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -ffp-contract=off
+                                                  -fPIC $<$<CXX_COMPILER_ID:GNU>:-fno-semantic-interposition>
                                                   $<$<BOOL:${INSONATE_WERROR}>:-Werror>)
 
 # ccache needs permission to use a precompiled header in place of its text.
@@ -57,12 +60,13 @@ function(insonate_room name)
 
   if(ROOM_SOURCES)
     add_library(insonate_${name} STATIC ${ROOM_SOURCES})
-    target_include_directories(insonate_${name} PUBLIC "${include_root}")
-    target_link_libraries(insonate_${name} PUBLIC ${ROOM_USES} PRIVATE insonate_options ${ROOM_PRIVATELY})
+    target_include_directories(insonate_${name} PUBLIC "$<BUILD_INTERFACE:${include_root}>")
+    target_link_libraries(insonate_${name} PUBLIC ${ROOM_USES}
+                                           PRIVATE $<BUILD_INTERFACE:insonate_options> ${ROOM_PRIVATELY})
     target_precompile_headers(insonate_${name} REUSE_FROM insonate_precompiled)
   else()
     add_library(insonate_${name} INTERFACE)
-    target_include_directories(insonate_${name} INTERFACE "${include_root}")
+    target_include_directories(insonate_${name} INTERFACE "$<BUILD_INTERFACE:${include_root}>")
     target_link_libraries(insonate_${name} INTERFACE ${ROOM_USES})
   endif()
   add_library(insonate::${name} ALIAS insonate_${name})

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <memory>
+#include <string>
+
+#include "sim/model/tissue.h"
+#include "sim/probe/probe.h"
+#include "sim/volume/case.h"
+
+namespace insonate::python {
+
+/// A case as Python holds it: simulators keep it alive.
+struct HeldCase {
+  Case subject;
+  std::string source;  ///< in error sentences
+};
+using CasePtr = std::shared_ptr<const HeldCase>;
+
+/// Each adds its classes and functions to the module.
+void bind_probes(pybind11::module_& module);
+void bind_cases(pybind11::module_& module);
+void bind_simulator(pybind11::module_& module);
+void bind_registration(pybind11::module_& module);
+
+/// Returns the probe that a name or a Probe stands for. Throws InputError for an unknown name.
+Probe probe_of(const pybind11::object& given);
+
+/// Returns the bundled tissue table, read once.
+const TissueTable& tissues();
+
+}  // namespace insonate::python

@@ -1,0 +1,160 @@
+from os import PathLike
+from types import TracebackType
+from typing import Any, Literal, TypedDict, Union, overload
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+__version__: str
+
+class InputError(ValueError):
+    """An input that cannot be used: one sentence that names it and says what to do."""
+
+def probe_names() -> list[str]:
+    """The names of the built-in probes."""
+
+class Probe:
+    """A transducer: a built-in one, or one that differs from it."""
+    def __init__(self, like: str, *, radius_mm: float = ..., field_of_view_deg: float = ..., width_mm: float = ...,
+                 frequency_mhz: float = ..., depth_mm: float = ..., lines: int = ...) -> None: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def kind(self) -> Literal["linear", "curvilinear", "phased"]: ...
+    @property
+    def radius_mm(self) -> float: ...
+    @property
+    def field_of_view_deg(self) -> float: ...
+    @property
+    def width_mm(self) -> float: ...
+    @property
+    def frequency_mhz(self) -> float: ...
+    @property
+    def depth_mm(self) -> float:
+        """The usual imaging depth."""
+    @property
+    def lines(self) -> int: ...
+
+class View:
+    """The pose in which an expert holds the probe to show a structure."""
+    @property
+    def name(self) -> str: ...
+    @property
+    def title(self) -> str: ...
+    @property
+    def probe(self) -> str: ...
+    @property
+    def depth_mm(self) -> float: ...
+    @property
+    def landmarks(self) -> list[str]: ...
+    @property
+    def targets(self) -> list[str]: ...
+    @property
+    def pose(self) -> NDArray[np.float64]:
+        """patient_from_probe, 4 x 4."""
+
+class Case:
+    """A patient. Its arrays share the case's memory and cannot be written."""
+    @property
+    def name(self) -> str: ...
+    @property
+    def views(self) -> dict[str, View]: ...
+    @property
+    def label_names(self) -> dict[int, str]: ...
+    @property
+    def landmarks(self) -> dict[str, tuple[float, float, float]]:
+        """Patient positions in mm, LPS."""
+    @property
+    def ct(self) -> NDArray[np.int16]:
+        """Hounsfield units, indexed [k, j, i]."""
+    @property
+    def labels(self) -> NDArray[np.uint8] | None:
+        """Label values on the CT's grid, indexed [k, j, i]; None if the case has none."""
+    @property
+    def patient_from_voxel(self) -> NDArray[np.float64]:
+        """From (i, j, k, 1) to patient mm, 4 x 4."""
+
+def open_case(path: Union[str, PathLike[str]]) -> Case:
+    """Opens a case folder, a CT file or a DICOM folder. Raises InputError."""
+
+def phantom(**options: Union[bool, float, str]) -> Case:
+    """Makes the built-in patient, or takes it from the cache. Options are those of its recipe, such as gallstone=True.
+    Raises InputError."""
+
+class Truth(TypedDict):
+    label: NDArray[np.uint8]
+    visible_label: NDArray[np.uint8]
+    reach: NDArray[np.uint8]
+    skin_mm: NDArray[np.float32]
+
+class LabelledImages(TypedDict):
+    image: NDArray[np.uint8]
+    label: NDArray[np.uint8]
+    visible_label: NDArray[np.uint8]
+    reach: NDArray[np.uint8]
+
+class Stages(TypedDict):
+    intensity: NDArray[np.float32]
+    reflection: NDArray[np.float32]
+    reflection_beam: NDArray[np.float32]
+    transmission: NDArray[np.float32]
+    repeated: NDArray[np.float32]
+    speckle: NDArray[np.float32]
+    fused: NDArray[np.float32]
+    inside: NDArray[np.uint8]
+    image: NDArray[np.uint8]
+
+class Simulator:
+    """Draws pictures of a case. It begins at the case's first view, with the trainer's settings. Any thread may use it;
+    a process that is forked may not."""
+    def __init__(self, case: Case) -> None: ...
+    def __enter__(self) -> Simulator: ...
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None,
+                 trace: TracebackType | None) -> None: ...
+    def close(self) -> None:
+        """Frees the graphics memory. Drawing then raises RuntimeError."""
+    def set_probe(self, probe: Union[str, Probe], depth_mm: float | None = None) -> None:
+        """Sets the probe, the depth and the trainer's settings for them; only the size of pictures stays."""
+    @property
+    def probe(self) -> Probe: ...
+    @property
+    def depth_mm(self) -> float: ...
+    @property
+    def settings(self) -> dict[str, Any]:
+        """All settings by name. Change them with set()."""
+    def set(self, **settings: Any) -> None:
+        """Sets settings by name: set(gain_db=3, image_width=512). If one cannot be used, all stay. Raises InputError."""
+    @property
+    def pose(self) -> NDArray[np.float64]: ...
+    @pose.setter
+    def pose(self, patient_from_probe: ArrayLike) -> None: ...
+    def image(self) -> NDArray[np.uint8]:
+        """The picture, rows x columns."""
+    @overload
+    def images(self, poses: ArrayLike, *, labels: Literal[False] = False) -> NDArray[np.uint8]: ...
+    @overload
+    def images(self, poses: ArrayLike, *, labels: Literal[True]) -> LabelledImages: ...
+    def truth(self) -> Truth:
+        """What is known of the picture: per pixel the label, the label where the sound arrives, and the reach (0 outside
+        the fan, 1 in shadow, 2 where the sound arrives); per scan line the distance to the skin in mm, negative where
+        the face is pressed in."""
+    def stages(self) -> Stages:
+        """All stages of the picture. The first six are on scan lines, [sample, line]; the others are pixels."""
+    @property
+    def patient_from_pixel(self) -> NDArray[np.float64]:
+        """From (column, row, 0, 1) of the picture to patient mm, 4 x 4."""
+    @property
+    def device(self) -> str: ...
+
+class Registration:
+    """Compares an ultrasound image with images that model W simulates of a case (LC2)."""
+    def __init__(self, case: Case, ultrasound: ArrayLike, probe: Union[str, Probe], depth_mm: float | None = None,
+                 settings: Union[str, PathLike[str], None] = None) -> None:
+        """The ultrasound image shows the probe's fan down to the depth as Simulator does; NaN excludes a pixel. The
+        settings are a TOML file of model W. Raises InputError."""
+    def __enter__(self) -> Registration: ...
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None,
+                 trace: TracebackType | None) -> None: ...
+    def close(self) -> None: ...
+    def similarity(self, poses: ArrayLike) -> NDArray[np.float32]:
+        """LC2 at each of N poses, 0 to 1."""

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "sim/core/toml_table.h"
+#include "sim/model/settings.h"
+#include "tools/dataset/draws.h"
+#include "tools/dataset/study.h"
+
+namespace insonate {
+
+/// The size of pictures that a study leaves open, pixels.
+inline constexpr int kUsualPictureSide = 512;
+
+/// Reads the table [settings] of a study. A key is the name of a field of Settings. It takes one value, a range of a
+/// number as [least, most], a list of texts of which one is drawn, and for a field that is true or false "either".
+void read_setting_ranges(const TomlTable& table, Study& study);
+
+/// Returns the settings of one image.
+/// @param patient_seed  of the speckle, if the study gives none: a patient's scatterers stay where they are
+Settings draw_settings(const Study& study, const Draws& draws, double frequency_mhz, double depth_mm,
+                       std::uint32_t patient_seed);
+
+}  // namespace insonate
