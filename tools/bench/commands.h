@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/alignment/registration.h"
 #include "tools/bench/scene.h"
 #include "tools/bench/table.h"
 
@@ -27,6 +28,20 @@ Table measure_batch(const Request& request);
 /// Measures the time of a 3D probe's volume, by configuration; the width is also the volume's third side. The cases are
 /// a moving probe, a repeated scan conversion, and a change of the gain only.
 Table measure_sweep(const Request& request);
+
+/// What measure_registration() measures.
+struct RegistrationRequest {
+  std::vector<std::string> measures{"lc2", "mi", "cr"};
+  int starts = 200;
+  int first_start = 0;
+  double most_mm = 40, most_deg = 40;  ///< of the starts' errors
+  int images = 20;                     ///< of the sweep
+  double tilt_deg = 20, slide_mm = 20;
+  RegistrationSettings settings{};
+};
+
+/// Registers a synthetic sweep of model S from many starts that are off by known amounts, by each measure.
+Table measure_registration(const Request& request, const RegistrationRequest& wanted);
 
 /// Measures the error of the device's linear filter, which `exact_filter` in Settings avoids.
 Table measure_filter();

@@ -70,6 +70,26 @@ int main(int argc, char** argv) {
       request, csv);
   const CLI::App* sweep = add_measurement(
       arguments, "sweep", "Measure the run time of a 3D probe's volume of WIDTH x HEIGHT x WIDTH voxels", request, csv);
+  bench::RegistrationRequest registration_request;
+  CLI::App* registration = add_measurement(
+      arguments, "registration", "Measure error, capture range and run time of the registration of synthetic sweeps",
+      request, csv);
+  registration->add_option("--starts", registration_request.starts, "Register from this many starts")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  registration->add_option("--first-start", registration_request.first_start, "");
+  registration->add_option("--measures", registration_request.measures, "")->delimiter(',');
+  registration->add_option("--most-mm", registration_request.most_mm, "");
+  registration->add_option("--most-deg", registration_request.most_deg, "");
+  registration->add_option("--tilt", registration_request.tilt_deg, "");
+  registration->add_option("--slide", registration_request.slide_mm, "");
+  registration->add_option("--search-mm", registration_request.settings.search_mm, "");
+  registration->add_option("--search-deg", registration_request.settings.search_deg, "");
+  registration->add_option("--scattered", registration_request.settings.scattered, "");
+  registration->add_option("--followed", registration_request.settings.followed, "");
+  registration->add_option("--wide-slices", registration_request.settings.wide_slices, "");
+  registration->add_option("--patch", registration_request.settings.wein.similarity_patch, "");
+  registration->add_option("--length", registration_request.settings.wein.reflection_length_mm, "");
   CLI::App* denormal =
       arguments.add_subcommand("denormal", "Compare the run time with numbers near 0 with that of ordinary numbers");
   denormal->add_option("--frames", request.frames, "Measure this many frames")
@@ -116,18 +136,19 @@ int main(int argc, char** argv) {
       exams = {assets_folder() / "scenarios" / "ruq_hepatorenal.toml", assets_folder() / "logs" / "ruq_good.igs.mha"};
     bench::Table table;
     gl::within_device("--configuration", "take fewer lines, samples or pixels", [&] {
-      table = frames->parsed()       ? bench::measure_frames(request)
-              : paper->parsed()      ? bench::measure_paper(request)
-              : division->parsed()   ? bench::measure_work_divisions(request)
-              : filter->parsed()     ? bench::measure_filter()
-              : denormal->parsed()   ? bench::measure_denormals(request)
-              : sweep->parsed()      ? bench::measure_sweep(request)
-              : batch->parsed()      ? bench::measure_batch(request)
-              : scoring->parsed()    ? bench::measure_scoring(exams)
-              : view->parsed()       ? bench::measure_view(request)
-              : view_front->parsed() ? bench::measure_view_front(request)
-              : window->parsed()     ? bench::measure_window(sizes_of(window_sizes))
-                                     : bench::measure_front(request, svg);
+      table = frames->parsed()         ? bench::measure_frames(request)
+              : paper->parsed()        ? bench::measure_paper(request)
+              : division->parsed()     ? bench::measure_work_divisions(request)
+              : filter->parsed()       ? bench::measure_filter()
+              : denormal->parsed()     ? bench::measure_denormals(request)
+              : registration->parsed() ? bench::measure_registration(request, registration_request)
+              : sweep->parsed()        ? bench::measure_sweep(request)
+              : batch->parsed()        ? bench::measure_batch(request)
+              : scoring->parsed()      ? bench::measure_scoring(exams)
+              : view->parsed()         ? bench::measure_view(request)
+              : view_front->parsed()   ? bench::measure_view_front(request)
+              : window->parsed()       ? bench::measure_window(sizes_of(window_sizes))
+                                       : bench::measure_front(request, svg);
     });
     if (!csv.empty()) write_file(csv, table.csv());
     return 0;

@@ -1,0 +1,98 @@
+#include "sim/alignment/registration.h"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/matrix.hpp>
+
+#include <array>
+#include <cstdio>
+
+#include "sim/alignment/synthetic_sweep.h"
+#include "sim/core/hash.h"
+#include "sim/gl/headless_context.h"
+#include "sim/imaging/upload.h"
+#include "sim/model/settings.h"
+#include "tools/bench/commands.h"
+#include "tools/bench/statistics.h"
+
+namespace insonate::bench {
+namespace {
+
+// Numbers from 0 to 1 that depend on the start alone, so that every measure gets the same starts.
+double random_number(int start, int which) {
+  return unit_float(hash(std::uint32_t(start), std::uint32_t(which)));
+}
+
+glm::dvec3 random_direction(int start, int which) {
+  const double z = 2 * random_number(start, which) - 1, turn = glm::radians(360 * random_number(start, which + 1)),
+               r = std::sqrt(1 - z * z);
+  return {r * std::cos(turn), r * std::sin(turn), z};
+}
+
+struct Start {
+  double mm = 0, deg = 0;
+  glm::dmat4 ct_from_sweep{1.0};
+};
+
+// Returns a start that is off by a translation and by a rotation about the middle of the sweep.
+Start start_at(int number, double most_mm, double most_deg, const glm::dvec3& middle) {
+  Start start;
+  start.mm = most_mm * random_number(number, 0);
+  start.deg = most_deg * random_number(number, 1);
+  const glm::dvec3 shift = start.mm * random_direction(number, 2), axis = random_direction(number, 4);
+  start.ct_from_sweep = glm::translate(glm::dmat4(1.0), middle + shift) *
+                        glm::rotate(glm::dmat4(1.0), glm::radians(start.deg), axis) *
+                        glm::translate(glm::dmat4(1.0), -middle);
+  return start;
+}
+
+}  // namespace
+
+Table measure_registration(const Request& request, const RegistrationRequest& wanted) {
+  Table table{{"device", "case", "view", "measure", "start", "start_mm", "start_deg", "start_error_mm", "error_mm",
+               "expected_mm", "converged", "similarity_truth", "similarity", "wide_best", "runner_up", "evaluations",
+               "seconds"},
+              {}};
+  const gl::HeadlessContext context;
+  tell_device();
+  for_each_scene(request, [&](const Scene& scene) {
+    const std::vector<Pose> poses = hand_sweep(scene.pose, wanted.images, wanted.tilt_deg, wanted.slide_mm);
+    const TrackedSweep sweep =
+        synthetic_sweep(scene.volume, scene.table, scene.probe, scene.depth_mm,
+                        trainer_settings(scene.probe.frequency_mhz, scene.depth_mm), poses, 128, 96);
+    const std::vector<glm::dvec3> targets = target_points(sweep);
+    const glm::dvec3 middle = motion_about(targets, glm::dmat4(1.0), Freedom::rigid).centre_in_ct;
+    for (const std::string& name : wanted.measures) {
+      RegistrationSettings settings = wanted.settings;
+      settings.measure = measure_named(name);
+      std::vector<double> errors, seconds;
+      int within = 0;
+      for (int i = 0; i < wanted.starts; ++i) {
+        const Start start = start_at(wanted.first_start + i, wanted.most_mm, wanted.most_deg, middle);
+        const Registration found = register_sweep(scene.volume, sweep, start.ct_from_sweep, settings);
+        const double error = target_error_mm(targets, found.ct_from_sweep, glm::dmat4(1.0));
+        const double start_error = target_error_mm(targets, start.ct_from_sweep, glm::dmat4(1.0));
+        errors.push_back(error);
+        seconds.push_back(found.seconds);
+        within += error < 5;
+        std::printf(
+            "%s %3d: %5.1f mm %5.1f deg (%5.1f) -> %6.2f mm, expected %.2f, %d, similarity %.4f (%.4f), wide %.4f "
+            "%.4f, %zu, %.1f s\n",
+            name.c_str(), i, start.mm, start.deg, start_error, error, found.expected_error_mm, int(found.converged()),
+            found.similarity_after, found.similarity_before, found.wide_best, found.runner_up, found.evaluations.size(),
+            found.seconds);
+        std::fflush(stdout);
+        table.rows.push_back(
+            {gl::device_description(), scene.name, scene.view, name, std::to_string(i), cell_of(start.mm, 2),
+             cell_of(start.deg, 2), cell_of(start_error, 2), cell_of(error, 3), cell_of(found.expected_error_mm, 3),
+             found.converged() ? "1" : "0", "0", cell_of(found.similarity_after, 5), cell_of(found.wide_best, 5),
+             cell_of(found.runner_up, 5), std::to_string(found.evaluations.size()), cell_of(found.seconds, 3)});
+      }
+      std::printf("%s, %s, %s: success %d of %d, median %.3f mm, %.1f s\n", scene.name.c_str(), scene.view.c_str(),
+                  name.c_str(), within, wanted.starts, spread_of(errors).median, spread_of(seconds).median);
+    }
+  });
+  return table;
+}
+
+}  // namespace insonate::bench
