@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
@@ -153,9 +154,11 @@ std::vector<Optimum> maximise_from(const std::vector<Parameters>& starts, const 
   return Runners(starts, search).finish(evaluate);
 }
 
-std::vector<Parameters> scattered_motions(std::size_t count, double translation_mm, double rotation_mm) {
+std::vector<Parameters> scattered_motions(std::size_t first, std::size_t count, double translation_mm,
+                                          double rotation_mm) {
   constexpr std::array<std::size_t, 6> kBases{2, 3, 5, 7, 11, 13};
   std::vector<Parameters> points;
+  std::size_t passed = 0;
   for (std::size_t index = 1; points.size() < count; ++index) {
     Parameters point;
     std::array<double, 2> squares{};
@@ -163,8 +166,9 @@ std::vector<Parameters> scattered_motions(std::size_t count, double translation_
       point.push_back(2 * halton(index, kBases[i]) - 1);
       squares[i / 3] += point.back() * point.back();
     }
-    if (squares[0] > 1 || squares[1] > 1) continue;
-    for (std::size_t i = 0; i < point.size(); ++i) point[i] *= i < 3 ? translation_mm : rotation_mm;
+    if (squares[0] > 1 || squares[1] > 1 || passed++ < first) continue;
+    for (std::size_t i = 0; i < point.size(); ++i)
+      point[i] *= std::sqrt(squares[i / 3]) * (i < 3 ? translation_mm : rotation_mm);
     points.push_back(std::move(point));
   }
   return points;

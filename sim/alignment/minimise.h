@@ -39,8 +39,12 @@ struct Optimum {
 std::vector<Optimum> maximise_from(const std::vector<Parameters>& starts, const EvaluateAll& evaluate,
                                    const LocalSearch& search);
 
-/// Returns parameters of rigid motions that fill a range evenly: translations in a ball, rotations in another. They are
-/// points of Halton's sequence (J. H. Halton, Numerische Mathematik 2, 1960), so equal calls give equal points.
-std::vector<Parameters> scattered_motions(std::size_t count, double translation_mm, double rotation_mm);
+/// Returns parameters of rigid motions that fill a range: translations in a ball, rotations in another. They are points
+/// of Halton's sequence (J. H. Halton, Numerische Mathematik 2, 1960), so equal calls give equal points. Both are
+/// denser at the middle, where a start that is worth giving is likely to be right: an even point at the share r of a
+/// ball's radius is moved to r^2.
+/// @param first  how many points of the sequence come before these
+std::vector<Parameters> scattered_motions(std::size_t first, std::size_t count, double translation_mm,
+                                          double rotation_mm);
 
 }  // namespace insonate

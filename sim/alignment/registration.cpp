@@ -2,23 +2,28 @@
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <glm/vec3.hpp>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <memory>
-#include <numeric>
 #include <stdexcept>
 #include <utility>
+
+#include "sim/alignment/uncertainty.h"
 
 namespace insonate {
 namespace {
 
 enum Stage { kScatter, kWide, kFine, kAffine };
 
-constexpr int kWideWidth = 48, kWideHeight = 36;
+constexpr int kWideWidth = 64, kWideHeight = 48, kWidePatch = 8;  // pixels
+constexpr std::size_t kFineStarts = 4;
 constexpr double kWideLength_mm = 4;  // of a reflection, so that interfaces are as wide as a pixel
 constexpr double kBasin_mm = 8;       // ends that are nearer to each other are one
+constexpr double kBasin_deg = 8;
+constexpr double kAmbiguous = 0.9;  // of the similarity
 constexpr double kMostStretch = 0.15;
 constexpr std::size_t kBatch = 512;  // places per call, to bound memory
 
@@ -33,7 +38,7 @@ struct Run {
   const TrackedSweep& sweep;
   const RegistrationSettings& settings;
   std::vector<glm::dvec3> targets;
-  Registration& result;
+  SweepRegistration& result;
 
   EvaluateAll evaluator(Similarity& similarity, Stage stage) {
     return [this, &similarity, stage](std::span<const Parameters> points) {
@@ -66,6 +71,24 @@ struct Run {
     return kept;
   }
 
+  // Finds out how far the result can be trusted.
+  void judge(const Optimum& end, const EvaluateAll& evaluate, const TrackedSweep& compared) {
+    const auto doubt = [&](const char* why) { result.doubts.emplace_back(why); };
+    if (end.value <= 0) return doubt("the images show nothing of the CT");
+    if (!end.within_tolerance) doubt("the search used up its evaluations");
+    const double mm = glm::length(glm::dvec3(end.at[0], end.at[1], end.at[2])),
+                 deg = glm::degrees(glm::length(glm::dvec3(end.at[3], end.at[4], end.at[5])) / result.motion.radius_mm);
+    if (mm > settings.search_mm + kBasin_mm || deg > settings.search_deg + kBasin_deg)
+      doubt("the search left its range around the start");
+    if (result.runner_up > kAmbiguous * result.similarity_after) doubt("another place is nearly as similar");
+    if (settings.measure == Measure::mutual_information) return;  // it is not a share of variance
+    const Uncertainty uncertainty =
+        uncertainty_at(end.at, result.motion, evaluate, independent_pixels(compared), targets);
+    if (!uncertainty.is_maximum) return doubt("the similarity has no maximum there");
+    result.deviation = uncertainty.deviation;
+    result.expected_error_mm = uncertainty.expected_error_mm;
+  }
+
   LocalSearch search(double first_step, double tolerance, int most) const {
     const double mm = settings.search_mm + 20,
                  turn = (glm::radians(settings.search_deg) * result.motion.radius_mm) + 20,
@@ -83,54 +106,69 @@ struct Run {
 
 }  // namespace
 
-Registration register_sweep(const AcousticVolume& volume, const TrackedSweep& sweep, const glm::dmat4& start,
+SweepRegistration register_sweep(const AcousticVolume& volume, const TrackedSweep& sweep, const glm::dmat4& start,
                             const RegistrationSettings& settings) {
   const auto begin = std::chrono::steady_clock::now();
-  Registration result;
+  SweepRegistration result;
   Run run{volume, sweep, settings, target_points(sweep), result};
   result.motion = motion_about(run.targets, start, Freedom::rigid);
   const Parameters none(6, 0.0);
 
   // Wide: small images.
   WeinSettings wide = settings.wein;
-  wide.samples = 48;
+  wide.samples = kWideWidth;
+  if (wide.similarity_patch > 0) wide.similarity_patch = kWidePatch;
   wide.reflection_length_mm = std::max(settings.wein.reflection_length_mm, kWideLength_mm);
   TrackedSweep small = reduced(sweep, settings.wide_slices, kWideWidth, kWideHeight);
   small.probe.lines = kWideWidth;
-  std::vector<Optimum> ends;
-  {
-    const auto similarity = similarity_of(volume, small, wide, settings.measure);
-    std::vector<Parameters> starts{none};
-    if (settings.search_mm > 0 || settings.search_deg > 0)
-      for (Parameters& each : scattered_motions(std::size_t(settings.scattered), settings.search_mm,
-                                                glm::radians(settings.search_deg) * result.motion.radius_mm))
-        starts.push_back(std::move(each));
-    const std::vector<double> values = run.evaluator(*similarity, kScatter)(starts);
-    std::vector<Optimum> scattered;
-    for (std::size_t i = 0; i < starts.size(); ++i) scattered.push_back({std::move(starts[i]), values[i], 1, true});
-    std::vector<Parameters> followed;
-    for (const Optimum& each : run.distinct(std::move(scattered), std::size_t(settings.followed)))
-      followed.push_back(each.at);
-    ends = run.distinct(maximise_from(followed, run.evaluator(*similarity, kWide), run.search(5, 0.5, 120)), 4);
-    result.wide_best = ends.front().value;
-    if (ends.size() > 1) result.runner_up = ends[1].value;
-  }
+  const auto wide_similarity = similarity_of(volume, small, wide, settings.measure);
+  const EvaluateAll scatter = run.evaluator(*wide_similarity, kScatter),
+                    follow = run.evaluator(*wide_similarity, kWide);
 
   // Fine: the images as they are.
   const Image<float>& full = sweep.images.front().grey;
   const TrackedSweep chosen = reduced(sweep, settings.slices, full.width, full.height);
   const auto similarity = similarity_of(volume, chosen, settings.wein, settings.measure);
-  std::vector<Parameters> starts;
-  for (const Optimum& end : ends) starts.push_back(end.at);
   const EvaluateAll fine = run.evaluator(*similarity, kFine);
   result.similarity_before = fine({&none, 1}).front();
-  std::vector<Optimum> rough = maximise_from(starts, fine, run.search(2, 0.5, 40));
-  const Optimum& best = *std::ranges::max_element(rough, {}, &Optimum::value);
-  const Optimum end = maximise_from({best.at}, fine, run.search(0.7, 0.01, 250)).front();
+
+  // Where no end stands out, the basin of the truth may have been missed: more places are scattered.
+  std::vector<Optimum> rough;
+  const bool wanders = settings.search_mm > 0 || settings.search_deg > 0;
+  for (int round = 0; round < settings.rounds; ++round) {
+    std::vector<Parameters> starts;
+    if (round == 0) starts.push_back(none);
+    if (wanders)
+      for (Parameters& each :
+           scattered_motions(std::size_t(round * settings.scattered), std::size_t(settings.scattered),
+                             settings.search_mm, glm::radians(settings.search_deg) * result.motion.radius_mm))
+        starts.push_back(std::move(each));
+    const std::vector<double> values = scatter(starts);
+    std::vector<Optimum> scattered;
+    for (std::size_t i = 0; i < starts.size(); ++i) scattered.push_back({std::move(starts[i]), values[i], 1, true});
+    std::vector<Parameters> followed;
+    for (const Optimum& each : run.distinct(std::move(scattered), std::size_t(settings.followed)))
+      followed.push_back(each.at);
+    std::vector<Parameters> promising;
+    for (const Optimum& each : run.distinct(maximise_from(followed, follow, run.search(5, 0.5, 120)), kFineStarts))
+      promising.push_back(each.at);
+    for (Optimum& each : maximise_from(promising, fine, run.search(2, 0.5, 40))) rough.push_back(std::move(each));
+    rough = run.distinct(std::move(rough), kFineStarts);
+    if (!wanders || rough.size() == 1 || rough[1].value < kAmbiguous * rough[0].value) break;
+  }
+  Optimum end = maximise_from({rough.front().at}, fine, run.search(0.7, 0.01, 250)).front();
+  if (rough.size() > 1) result.runner_up = rough[1].value;
+  EvaluateAll last = fine;
+  if (settings.freedom == Freedom::affine) {
+    result.motion.freedom = Freedom::affine;
+    end.at.resize(parameters_of(Freedom::affine));
+    last = run.evaluator(*similarity, kAffine);
+    end = maximise_from({end.at}, last, run.search(0.7, 0.01, 600)).front();
+  }
   result.at = end.at;
   result.similarity_after = end.value;
   result.ct_from_sweep = result.motion.at(result.at);
-  if (!end.within_tolerance) result.doubts.emplace_back("the search used up its evaluations");
+  run.judge(end, last, chosen);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;
 }

@@ -16,16 +16,25 @@
 
 namespace insonate {
 
+/// Returns model W's settings for registration: its defaults, and patches of 8 x 8 pixels. Attenuation, shadows and the
+/// gain change an image's brightness over its depth, so one linear relation does not hold for all of it.
+inline WeinSettings registration_settings() {
+  WeinSettings settings;
+  settings.similarity_patch = 8;
+  return settings;
+}
+
 /// How a sweep is registered.
 struct RegistrationSettings {
   Measure measure = Measure::lc2;
   Freedom freedom = Freedom::rigid;
-  WeinSettings wein{};  ///< of the finest stage; the image's size is not used
+  WeinSettings wein = registration_settings();  ///< of the finest stage; the image's size is not used
 
   double search_mm = 30;   ///< how far the start may be off, 0 (search from the start alone) to 200
   double search_deg = 25;  ///< likewise, 0 to 90
-  int scattered = 1500;    ///< places that the widest stage evaluates, 1 to 100000
-  int followed = 12;       ///< the best of them, from which local searches start, 1 to 64
+  int scattered = 2000;    ///< places that the widest stage evaluates, 1 to 100000
+  int followed = 16;       ///< the best of them, from which local searches start, 1 to 64
+  int rounds = 4;          ///< how often that is repeated with other places until one end stands out, 1 to 100
   int wide_slices = 12;    ///< images of the widest stage, 1 to 1000
   int slices = 20;         ///< images of the finer stages, 1 to 1000
 };
@@ -33,7 +42,7 @@ struct RegistrationSettings {
 /// One evaluation of the similarity.
 struct Evaluation {
   int stage = 0;  ///< index into kStages
-  Parameters at;  ///< of Registration::motion, mm
+  Parameters at;  ///< of SweepRegistration::motion, mm
   double similarity = 0;
 };
 
@@ -41,13 +50,12 @@ struct Evaluation {
 inline constexpr std::array<const char*, 4> kStages{"scatter", "wide", "fine", "affine"};
 
 /// What came of a registration.
-struct Registration {
+struct SweepRegistration {
   Motion motion;                  ///< with the start as its origin
   Parameters at;                  ///< where the search ended
   glm::dmat4 ct_from_sweep{1.0};  ///< the map there
   double similarity_before = 0, similarity_after = 0;
-  double runner_up = 0;  ///< highest similarity of the places beyond kBasin_mm from the end, at the wide stage
-  double wide_best = 0;  ///< that of the end, at the wide stage
+  double runner_up = 0;                 ///< highest similarity of the fine stage's other ends; 0 if there is none
   std::vector<std::string> doubts;      ///< why it did not converge, as parts of sentences; empty if it did
   std::vector<double> deviation;        ///< standard deviation of each parameter, mm; see uncertainty.h
   double expected_error_mm = 0;         ///< root mean square over the target points, from the parameters' covariance
@@ -60,7 +68,7 @@ struct Registration {
 /// Registers a sweep with a CT. In the widest stage it evaluates places that are scattered over the search range, with
 /// small images, and follows the best by local searches. The finer stages go on from the best ends with the images as
 /// they are. Throws what the similarity throws, and std::invalid_argument for settings out of range.
-Registration register_sweep(const AcousticVolume& volume, const TrackedSweep& sweep, const glm::dmat4& start,
+SweepRegistration register_sweep(const AcousticVolume& volume, const TrackedSweep& sweep, const glm::dmat4& start,
                             const RegistrationSettings& settings);
 
 }  // namespace insonate

@@ -50,8 +50,7 @@ Start start_at(int number, double most_mm, double most_deg, const glm::dvec3& mi
 
 Table measure_registration(const Request& request, const RegistrationRequest& wanted) {
   Table table{{"device", "case", "view", "measure", "start", "start_mm", "start_deg", "start_error_mm", "error_mm",
-               "expected_mm", "converged", "similarity_truth", "similarity", "wide_best", "runner_up", "evaluations",
-               "seconds"},
+               "expected_mm", "converged", "similarity", "runner_up", "evaluations", "seconds"},
               {}};
   const gl::HeadlessContext context;
   tell_device();
@@ -69,24 +68,22 @@ Table measure_registration(const Request& request, const RegistrationRequest& wa
       int within = 0;
       for (int i = 0; i < wanted.starts; ++i) {
         const Start start = start_at(wanted.first_start + i, wanted.most_mm, wanted.most_deg, middle);
-        const Registration found = register_sweep(scene.volume, sweep, start.ct_from_sweep, settings);
+        const SweepRegistration found = register_sweep(scene.volume, sweep, start.ct_from_sweep, settings);
         const double error = target_error_mm(targets, found.ct_from_sweep, glm::dmat4(1.0));
         const double start_error = target_error_mm(targets, start.ct_from_sweep, glm::dmat4(1.0));
         errors.push_back(error);
         seconds.push_back(found.seconds);
         within += error < 5;
-        std::printf(
-            "%s %3d: %5.1f mm %5.1f deg (%5.1f) -> %6.2f mm, expected %.2f, %d, similarity %.4f (%.4f), wide %.4f "
-            "%.4f, %zu, %.1f s\n",
-            name.c_str(), i, start.mm, start.deg, start_error, error, found.expected_error_mm, int(found.converged()),
-            found.similarity_after, found.similarity_before, found.wide_best, found.runner_up, found.evaluations.size(),
-            found.seconds);
+        std::printf("%-8s%5d  %5.1f mm  %5.1f deg  %8.2f mm  %8.2f mm  %-4s  %.4f  %.4f  %6zu  %6.1f s\n", name.c_str(),
+                    wanted.first_start + i, start.mm, start.deg, error, found.expected_error_mm,
+                    found.converged() ? "yes" : "no", found.similarity_after, found.runner_up,
+                    found.evaluations.size(), found.seconds);
         std::fflush(stdout);
-        table.rows.push_back(
-            {gl::device_description(), scene.name, scene.view, name, std::to_string(i), cell_of(start.mm, 2),
-             cell_of(start.deg, 2), cell_of(start_error, 2), cell_of(error, 3), cell_of(found.expected_error_mm, 3),
-             found.converged() ? "1" : "0", "0", cell_of(found.similarity_after, 5), cell_of(found.wide_best, 5),
-             cell_of(found.runner_up, 5), std::to_string(found.evaluations.size()), cell_of(found.seconds, 3)});
+        table.rows.push_back({gl::device_description(), scene.name, scene.view, name, std::to_string(i),
+                              cell_of(start.mm, 2), cell_of(start.deg, 2), cell_of(start_error, 2), cell_of(error, 3),
+                              cell_of(found.expected_error_mm, 3), found.converged() ? "1" : "0",
+                              cell_of(found.similarity_after, 5), cell_of(found.runner_up, 5),
+                              std::to_string(found.evaluations.size()), cell_of(found.seconds, 3)});
       }
       std::printf("%s, %s, %s: success %d of %d, median %.3f mm, %.1f s\n", scene.name.c_str(), scene.view.c_str(),
                   name.c_str(), within, wanted.starts, spread_of(errors).median, spread_of(seconds).median);
