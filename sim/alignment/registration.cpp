@@ -107,7 +107,7 @@ struct Run {
 }  // namespace
 
 SweepRegistration register_sweep(const AcousticVolume& volume, const TrackedSweep& sweep, const glm::dmat4& start,
-                            const RegistrationSettings& settings) {
+                                 const RegistrationSettings& settings) {
   const auto begin = std::chrono::steady_clock::now();
   SweepRegistration result;
   Run run{volume, sweep, settings, target_points(sweep), result};

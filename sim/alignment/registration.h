@@ -69,6 +69,6 @@ struct SweepRegistration {
 /// small images, and follows the best by local searches. The finer stages go on from the best ends with the images as
 /// they are. Throws what the similarity throws, and std::invalid_argument for settings out of range.
 SweepRegistration register_sweep(const AcousticVolume& volume, const TrackedSweep& sweep, const glm::dmat4& start,
-                            const RegistrationSettings& settings);
+                                 const RegistrationSettings& settings);
 
 }  // namespace insonate

@@ -76,8 +76,8 @@ Table measure_registration(const Request& request, const RegistrationRequest& wa
         within += error < 5;
         std::printf("%-8s%5d  %5.1f mm  %5.1f deg  %8.2f mm  %8.2f mm  %-4s  %.4f  %.4f  %6zu  %6.1f s\n", name.c_str(),
                     wanted.first_start + i, start.mm, start.deg, error, found.expected_error_mm,
-                    found.converged() ? "yes" : "no", found.similarity_after, found.runner_up,
-                    found.evaluations.size(), found.seconds);
+                    found.converged() ? "yes" : "no", found.similarity_after, found.runner_up, found.evaluations.size(),
+                    found.seconds);
         std::fflush(stdout);
         table.rows.push_back({gl::device_description(), scene.name, scene.view, name, std::to_string(i),
                               cell_of(start.mm, 2), cell_of(start.deg, 2), cell_of(start_error, 2), cell_of(error, 3),

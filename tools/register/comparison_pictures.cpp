@@ -10,10 +10,10 @@
 namespace insonate {
 namespace {
 
-constexpr int kWidth = 384, kHeight = 288;             // pixels
-constexpr double kDarkHu = -150, kBrightHu = 250;      // of the CT's slices
-constexpr Rgba8 kNothing{20, 24, 30, 255};             // outside the fan
-constexpr double kOrange[] = {1.0, 0.55, 0.1};         // of the ultrasound; blue is the rest to white
+constexpr int kWidth = 384, kHeight = 288;         // pixels
+constexpr double kDarkHu = -150, kBrightHu = 250;  // of the CT's slices
+constexpr Rgba8 kNothing{20, 24, 30, 255};         // outside the fan
+constexpr double kOrange[] = {1.0, 0.55, 0.1};     // of the ultrasound; blue is the rest to white
 
 std::uint8_t level(double value) {
   return std::uint8_t(std::lround(std::clamp(value, 0.0, 1.0) * 255));

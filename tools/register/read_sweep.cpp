@@ -81,10 +81,10 @@ void check_shows_fan(const SweepInput& input, const TrackedSweep& sweep) {
       }
   }
   if (known < kLeastShown * fan)
-    throw InputError(input.file, "",
-                     "the images show only " + std::to_string(int(100 * known / std::max(fan, 1.0))) +
-                         " % of the probe's fan",
-                     "name the probe and the depth that they are from, or --face-pixel");
+    throw InputError(
+        input.file, "",
+        "the images show only " + std::to_string(int(100 * known / std::max(fan, 1.0))) + " % of the probe's fan",
+        "name the probe and the depth that they are from, or --face-pixel");
   if (squares / known - std::pow(sum / known, 2) < 1)
     throw InputError(input.file, "", "the images show nothing in the probe's fan: it is of one grey level",
                      "name the probe and the depth that they are from, or another recording");

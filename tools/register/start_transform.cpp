@@ -6,8 +6,11 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <exception>
 #include <sstream>
+#include <string>
 #include <vector>
 
 #include "sim/core/files.h"
@@ -38,8 +41,9 @@ glm::dmat4 start_from_landmarks(const std::string& file) {
       used = 0;
     }
     if (used != word.size() || !std::isfinite(number))
-      throw InputError(file, "", "'" + word + "' is not a number", "write six numbers per landmark: x y z in the sweep "
-                                                                   "and x y z in the CT, mm");
+      throw InputError(file, "", "'" + word + "' is not a number",
+                       "write six numbers per landmark: x y z in the sweep "
+                       "and x y z in the CT, mm");
     numbers.push_back(number);
   }
   const std::size_t pairs = numbers.size() / 6;
@@ -53,8 +57,10 @@ glm::dmat4 start_from_landmarks(const std::string& file) {
   Eigen::Vector3d along = Eigen::Vector3d::Zero();
   for (Eigen::Index i = 1; i < in_sweep.cols(); ++i)
     if ((in_sweep.col(i) - first).norm() > along.norm()) along = in_sweep.col(i) - first;
-  for (Eigen::Index i = 1; i < in_sweep.cols() && along.norm() > 0; ++i)
-    off_line = std::max(off_line, (in_sweep.col(i) - first).cross(along.normalized()).norm());
+  for (Eigen::Index i = 1; i < in_sweep.cols() && along.norm() > 0; ++i) {
+    const Eigen::Vector3d apart = in_sweep.col(i) - first;
+    off_line = std::max(off_line, apart.cross(along.normalized()).norm());
+  }
   if (off_line < kLeastOffLine_mm)
     throw InputError(file, "", "the landmarks lie on a line, so no rotation follows from them",
                      "add one that lies beside it");
