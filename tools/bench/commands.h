@@ -31,9 +31,10 @@ Table measure_sweep(const Request& request);
 
 /// What measure_registration() measures.
 struct RegistrationRequest {
-  std::vector<std::string> measures{"lc2", "mi", "cr"};
+  /// "lc2", "mi" or "cr"; with "-local" behind it, the search begins at the start alone.
+  std::vector<std::string> measures{"lc2", "lc2-local", "mi-local", "cr-local"};
   int starts = 200;
-  int first_start = 0;
+  int first_start = 0;                 ///< number of the first start, for measurements in parts
   double most_mm = 40, most_deg = 40;  ///< of the starts' errors
   int images = 20;                     ///< of the sweep
   double tilt_deg = 20, slide_mm = 20;

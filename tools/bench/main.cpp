@@ -6,6 +6,7 @@
 #include "sim/core/input_error.h"
 #include "sim/imaging/upload.h"
 #include "tools/bench/commands.h"
+#include "tools/bench/registration_summary.h"
 #include "tools/cli/program.h"
 
 using namespace insonate;
@@ -77,19 +78,20 @@ int main(int argc, char** argv) {
   registration->add_option("--starts", registration_request.starts, "Register from this many starts")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
-  registration->add_option("--first-start", registration_request.first_start, "");
-  registration->add_option("--measures", registration_request.measures, "")->delimiter(',');
-  registration->add_option("--most-mm", registration_request.most_mm, "");
-  registration->add_option("--most-deg", registration_request.most_deg, "");
-  registration->add_option("--tilt", registration_request.tilt_deg, "");
-  registration->add_option("--slide", registration_request.slide_mm, "");
-  registration->add_option("--search-mm", registration_request.settings.search_mm, "");
-  registration->add_option("--search-deg", registration_request.settings.search_deg, "");
-  registration->add_option("--scattered", registration_request.settings.scattered, "");
-  registration->add_option("--followed", registration_request.settings.followed, "");
-  registration->add_option("--wide-slices", registration_request.settings.wide_slices, "");
-  registration->add_option("--patch", registration_request.settings.wein.similarity_patch, "");
-  registration->add_option("--length", registration_request.settings.wein.reflection_length_mm, "");
+  registration
+      ->add_option("--first-start", registration_request.first_start,
+                   "Begin with this start, for a measurement in several parts")
+      ->check(CLI::Range(0, 1000000))
+      ->capture_default_str();
+  registration
+      ->add_option("--measure", registration_request.measures,
+                   "Register by this measure; may be repeated. With -local the search begins at the start alone")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"lc2", "mi", "cr", "lc2-local", "mi-local", "cr-local"}))
+      ->capture_default_str();
+  registration->add_option("--read", old_file, "Summarise this table of an earlier run (CSV) instead of measuring")
+      ->type_name("FILE");
+  registration->add_option("--svg", svg, "Draw the plot to this file too (SVG)")->type_name("FILE");
   CLI::App* denormal =
       arguments.add_subcommand("denormal", "Compare the run time with numbers near 0 with that of ordinary numbers");
   denormal->add_option("--frames", request.frames, "Measure this many frames")
@@ -141,7 +143,8 @@ int main(int argc, char** argv) {
               : division->parsed()     ? bench::measure_work_divisions(request)
               : filter->parsed()       ? bench::measure_filter()
               : denormal->parsed()     ? bench::measure_denormals(request)
-              : registration->parsed() ? bench::measure_registration(request, registration_request)
+              : registration->parsed() ? (old_file.empty() ? bench::measure_registration(request, registration_request)
+                                                           : bench::Table::parse(old_file, read_file(old_file)))
               : sweep->parsed()        ? bench::measure_sweep(request)
               : batch->parsed()        ? bench::measure_batch(request)
               : scoring->parsed()      ? bench::measure_scoring(exams)
@@ -150,6 +153,11 @@ int main(int argc, char** argv) {
               : window->parsed()       ? bench::measure_window(sizes_of(window_sizes))
                                        : bench::measure_front(request, svg);
     });
+    if (registration->parsed()) {
+      const std::string name = old_file.empty() ? "the table" : old_file;
+      bench::print_registrations(name, table);
+      if (!svg.empty()) write_file(svg, bench::registrations_svg(name, table));
+    }
     if (!csv.empty()) write_file(csv, table.csv());
     return 0;
   });
