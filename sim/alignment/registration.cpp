@@ -34,11 +34,10 @@ std::unique_ptr<Similarity> similarity_of(const AcousticVolume& volume, const Tr
 
 // The search of one registration, with what its stages share.
 struct Run {
-  const AcousticVolume& volume;
-  const TrackedSweep& sweep;
   const RegistrationSettings& settings;
-  std::vector<glm::dvec3> targets;
+  const std::vector<glm::dvec3>& targets;
   SweepRegistration& result;
+  bool confirmed = false;  // two rounds have found the same place
 
   EvaluateAll evaluator(Similarity& similarity, Stage stage) {
     return [this, &similarity, stage](std::span<const Parameters> points) {
@@ -80,6 +79,7 @@ struct Run {
                  deg = glm::degrees(glm::length(glm::dvec3(end.at[3], end.at[4], end.at[5])) / result.motion.radius_mm);
     if (mm > settings.search_mm + kBasin_mm || deg > settings.search_deg + kBasin_deg)
       doubt("the search left its range around the start");
+    if (!confirmed) doubt("no second search found the same place");
     if (result.runner_up > kAmbiguous * result.similarity_after) doubt("another place is nearly as similar");
     if (settings.measure == Measure::mutual_information) return;  // it is not a share of variance
     const Uncertainty uncertainty =
@@ -106,33 +106,41 @@ struct Run {
 
 }  // namespace
 
-SweepRegistration register_sweep(const AcousticVolume& volume, const TrackedSweep& sweep, const glm::dmat4& start,
-                                 const RegistrationSettings& settings) {
+SweepRegistrar::SweepRegistrar(const AcousticVolume& volume, const TrackedSweep& sweep,
+                               const RegistrationSettings& settings)
+    : settings_(settings), targets_(target_points(sweep)) {
   const auto begin = std::chrono::steady_clock::now();
-  SweepRegistration result;
-  Run run{volume, sweep, settings, target_points(sweep), result};
-  result.motion = motion_about(run.targets, start, Freedom::rigid);
-  const Parameters none(6, 0.0);
-
-  // Wide: small images.
   WeinSettings wide = settings.wein;
   wide.samples = kWideWidth;
   if (wide.similarity_patch > 0) wide.similarity_patch = kWidePatch;
   wide.reflection_length_mm = std::max(settings.wein.reflection_length_mm, kWideLength_mm);
   TrackedSweep small = reduced(sweep, settings.wide_slices, kWideWidth, kWideHeight);
   small.probe.lines = kWideWidth;
-  const auto wide_similarity = similarity_of(volume, small, wide, settings.measure);
-  const EvaluateAll scatter = run.evaluator(*wide_similarity, kScatter),
-                    follow = run.evaluator(*wide_similarity, kWide);
-
-  // Fine: the images as they are.
+  wide_ = similarity_of(volume, small, wide, settings.measure);
   const Image<float>& full = sweep.images.front().grey;
-  const TrackedSweep chosen = reduced(sweep, settings.slices, full.width, full.height);
-  const auto similarity = similarity_of(volume, chosen, settings.wein, settings.measure);
-  const EvaluateAll fine = run.evaluator(*similarity, kFine);
+  compared_ = reduced(sweep, settings.slices, full.width, full.height);
+  fine_ = similarity_of(volume, compared_, settings.wein, settings.measure);
+  seconds_to_prepare_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+void SweepRegistrar::set_range(double search_mm, double search_deg) {
+  settings_.search_mm = search_mm;
+  settings_.search_deg = search_deg;
+}
+
+SweepRegistration SweepRegistrar::from(const glm::dmat4& start) {
+  const auto begin = std::chrono::steady_clock::now();
+  const RegistrationSettings& settings = settings_;
+  SweepRegistration result;
+  Run run{settings, targets_, result, false};
+  result.motion = motion_about(targets_, start, Freedom::rigid);
+  const Parameters none(6, 0.0);
+  const EvaluateAll scatter = run.evaluator(*wide_, kScatter), follow = run.evaluator(*wide_, kWide),
+                    fine = run.evaluator(*fine_, kFine);
   result.similarity_before = fine({&none, 1}).front();
 
-  // Where no end stands out, the basin of the truth may have been missed: more places are scattered.
+  // A single round may miss the basin of the truth. So rounds go on until one end stands out and two rounds in
+  // succession have found it.
   std::vector<Optimum> rough;
   const bool wanders = settings.search_mm > 0 || settings.search_deg > 0;
   for (int round = 0; round < settings.rounds; ++round) {
@@ -152,9 +160,13 @@ SweepRegistration register_sweep(const AcousticVolume& volume, const TrackedSwee
     std::vector<Parameters> promising;
     for (const Optimum& each : run.distinct(maximise_from(followed, follow, run.search(5, 0.5, 120)), kFineStarts))
       promising.push_back(each.at);
-    for (Optimum& each : maximise_from(promising, fine, run.search(2, 0.5, 40))) rough.push_back(std::move(each));
+    std::vector<Optimum> of_round = run.distinct(maximise_from(promising, fine, run.search(2, 0.5, 40)), kFineStarts);
+    run.confirmed = !rough.empty() && run.apart(of_round.front().at, rough.front().at) < kBasin_mm;
+    for (Optimum& each : of_round) rough.push_back(std::move(each));
     rough = run.distinct(std::move(rough), kFineStarts);
-    if (!wanders || rough.size() == 1 || rough[1].value < kAmbiguous * rough[0].value) break;
+    run.confirmed = run.confirmed || !wanders;
+    if (!wanders) break;
+    if (run.confirmed && (rough.size() == 1 || rough[1].value < kAmbiguous * rough[0].value)) break;
   }
   Optimum end = maximise_from({rough.front().at}, fine, run.search(0.7, 0.01, 250)).front();
   if (rough.size() > 1) result.runner_up = rough[1].value;
@@ -162,13 +174,13 @@ SweepRegistration register_sweep(const AcousticVolume& volume, const TrackedSwee
   if (settings.freedom == Freedom::affine) {
     result.motion.freedom = Freedom::affine;
     end.at.resize(parameters_of(Freedom::affine));
-    last = run.evaluator(*similarity, kAffine);
+    last = run.evaluator(*fine_, kAffine);
     end = maximise_from({end.at}, last, run.search(0.7, 0.01, 600)).front();
   }
   result.at = end.at;
   result.similarity_after = end.value;
   result.ct_from_sweep = result.motion.at(result.at);
-  run.judge(end, last, chosen);
+  run.judge(end, last, compared_);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;
 }

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -34,7 +35,7 @@ struct RegistrationSettings {
   double search_deg = 25;  ///< likewise, 0 to 90
   int scattered = 2000;    ///< places that the widest stage evaluates, 1 to 100000
   int followed = 16;       ///< the best of them, from which local searches start, 1 to 64
-  int rounds = 4;          ///< how often that is repeated with other places until one end stands out, 1 to 100
+  int rounds = 5;          ///< most repetitions of that with other places, 2 to 100; see register_sweep()
   int wide_slices = 12;    ///< images of the widest stage, 1 to 1000
   int slices = 20;         ///< images of the finer stages, 1 to 1000
 };
@@ -60,15 +61,38 @@ struct SweepRegistration {
   std::vector<double> deviation;        ///< standard deviation of each parameter, mm; see uncertainty.h
   double expected_error_mm = 0;         ///< root mean square over the target points, from the parameters' covariance
   std::vector<Evaluation> evaluations;  ///< all of them, in their order
-  double seconds = 0;
+  double seconds = 0;                   ///< of the search
 
   bool converged() const { return doubts.empty(); }
 };
 
-/// Registers a sweep with a CT. In the widest stage it evaluates places that are scattered over the search range, with
-/// small images, and follows the best by local searches. The finer stages go on from the best ends with the images as
-/// they are. Throws what the similarity throws, and std::invalid_argument for settings out of range.
-SweepRegistration register_sweep(const AcousticVolume& volume, const TrackedSweep& sweep, const glm::dmat4& start,
-                                 const RegistrationSettings& settings);
+/// Registers one sweep with one CT, from any number of starts. In the widest stage it evaluates places that are
+/// scattered over the search range, with small images, and follows the best by local searches. The finer stages go on
+/// from the best ends with the images as they are. That is repeated with other places until two rounds in succession
+/// agree on the best end, and no other end is nearly as similar.
+///
+/// LC2 needs an OpenGL context that is current at every use.
+class SweepRegistrar {
+public:
+  /// Prepares the similarities, which takes longer than one search from the start alone. Throws what they throw.
+  /// @param volume  must outlive the registrar
+  SweepRegistrar(const AcousticVolume& volume, const TrackedSweep& sweep, const RegistrationSettings& settings);
+
+  /// Replaces RegistrationSettings::search_mm and search_deg.
+  void set_range(double search_mm, double search_deg);
+
+  /// Registers from a start.
+  /// @param start  ct_from_sweep
+  SweepRegistration from(const glm::dmat4& start);
+
+  double seconds_to_prepare() const { return seconds_to_prepare_; }
+
+private:
+  RegistrationSettings settings_;
+  std::vector<glm::dvec3> targets_;
+  TrackedSweep compared_;  // the fine stage's images
+  std::unique_ptr<Similarity> wide_, fine_;
+  double seconds_to_prepare_ = 0;
+};
 
 }  // namespace insonate

@@ -53,7 +53,7 @@ struct Fixture {
 TEST_CASE("a synthetic sweep of model S is registered with the body that it shows, and the result is sure of it") {
   const Fixture f;
   const glm::dmat4 start = f.start({4, -3, 3}, 6);
-  const SweepRegistration found = register_sweep(f.body, f.sweep, start, f.settings);
+  const SweepRegistration found = SweepRegistrar(f.body, f.sweep, f.settings).from(start);
   INFO("doubts: " << (found.doubts.empty() ? std::string("none") : found.doubts.front()));
   INFO("similarity " << found.similarity_before << " to " << found.similarity_after << ", next " << found.runner_up);
   CHECK(target_error_mm(f.targets, start, glm::dmat4(1.0)) > 5);
@@ -72,8 +72,8 @@ TEST_CASE("a synthetic sweep of model S is registered with the body that it show
 
 TEST_CASE("equal registrations give equal results") {
   const Fixture f;
-  const SweepRegistration one = register_sweep(f.body, f.sweep, f.start({2, 0, 1}, 3), f.settings),
-                          other = register_sweep(f.body, f.sweep, f.start({2, 0, 1}, 3), f.settings);
+  const SweepRegistration one = SweepRegistrar(f.body, f.sweep, f.settings).from(f.start({2, 0, 1}, 3)),
+                          other = SweepRegistrar(f.body, f.sweep, f.settings).from(f.start({2, 0, 1}, 3));
   CHECK(one.at == other.at);
   CHECK(one.evaluations.size() == other.evaluations.size());
 }
@@ -90,8 +90,8 @@ TEST_CASE("an affine registration finds a stretch that a rigid one cannot") {
   affine.search_mm = affine.search_deg = 0;
   RegistrationSettings rigid = affine;
   rigid.freedom = Freedom::rigid;
-  const SweepRegistration with = register_sweep(f.body, stretched, glm::dmat4(1.0), affine),
-                          without = register_sweep(f.body, stretched, glm::dmat4(1.0), rigid);
+  const SweepRegistration with = SweepRegistrar(f.body, stretched, affine).from(glm::dmat4(1.0)),
+                          without = SweepRegistrar(f.body, stretched, rigid).from(glm::dmat4(1.0));
   CHECK(with.at.size() == 12);
   CHECK(with.similarity_after > without.similarity_after);
 }
@@ -103,7 +103,7 @@ TEST_CASE("images of noise do not converge") {
   for (SweepImage& image : noise.images)
     for (float& pixel : image.grey.pixels)
       if (!std::isnan(pixel)) pixel = 255 * unit_float(hash(next++));
-  const SweepRegistration found = register_sweep(f.body, noise, glm::dmat4(1.0), f.settings);
+  const SweepRegistration found = SweepRegistrar(f.body, noise, f.settings).from(glm::dmat4(1.0));
   INFO("similarity " << found.similarity_after << ", next " << found.runner_up);
   CHECK_FALSE(found.converged());
 }

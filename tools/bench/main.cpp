@@ -155,7 +155,7 @@ int main(int argc, char** argv) {
     });
     if (registration->parsed()) {
       const std::string name = old_file.empty() ? "the table" : old_file;
-      bench::print_registrations(name, table);
+      bench::print_summaries(bench::summaries_of(name, table));
       if (!svg.empty()) write_file(svg, bench::registrations_svg(name, table));
     }
     if (!csv.empty()) write_file(csv, table.csv());

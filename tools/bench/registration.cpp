@@ -39,8 +39,12 @@ struct Start {
   glm::dmat4 ct_from_sweep{1.0};
 };
 
+// Every second start is a near one.
+constexpr double kFar_mm = 40, kFar_deg = 40, kNear_mm = 20, kNear_deg = 15;
+
 // Returns a start that is off by a translation and by a rotation about the middle of the sweep.
-Start start_at(int number, double most_mm, double most_deg, const glm::dvec3& middle) {
+Start start_at(int number, const glm::dvec3& middle) {
+  const double most_mm = number % 2 ? kNear_mm : kFar_mm, most_deg = number % 2 ? kNear_deg : kFar_deg;
   Start start;
   start.mm = most_mm * random_number(number, 0);
   start.deg = most_deg * random_number(number, 1);
@@ -55,7 +59,7 @@ Start start_at(int number, double most_mm, double most_deg, const glm::dvec3& mi
 
 Table measure_registration(const Request& request, const RegistrationRequest& wanted) {
   Table table{{"device", "case", "view", "measure", "start", "start_mm", "start_deg", "start_error_mm", "error_mm",
-               "expected_mm", "converged", "similarity", "runner_up", "evaluations", "seconds"},
+               "expected_mm", "converged", "similarity", "runner_up", "evaluations", "seconds", "seconds_to_prepare"},
               {}};
   const gl::HeadlessContext context;
   tell_device();
@@ -75,9 +79,10 @@ Table measure_registration(const Request& request, const RegistrationRequest& wa
       const bool local = name.ends_with(kLocal);
       settings.measure = measure_named(name.substr(0, name.size() - (local ? kLocal.size() : 0)));
       if (local) settings.search_mm = settings.search_deg = 0;
+      SweepRegistrar registrar(scene.volume, sweep, settings);
       for (int i = 0; i < wanted.starts; ++i) {
-        const Start start = start_at(wanted.first_start + i, wanted.most_mm, wanted.most_deg, middle);
-        const SweepRegistration found = register_sweep(scene.volume, sweep, start.ct_from_sweep, settings);
+        const Start start = start_at(wanted.first_start + i, middle);
+        const SweepRegistration found = registrar.from(start.ct_from_sweep);
         const double error = target_error_mm(targets, found.ct_from_sweep, glm::dmat4(1.0));
         const double start_error = target_error_mm(targets, start.ct_from_sweep, glm::dmat4(1.0));
         std::printf("%-10s%5d  %5.1f mm  %5.1f deg  %8.2f mm  %8.2f mm  %-7s  %.4f      %.4f  %6zu  %6.1f s\n",
@@ -89,7 +94,8 @@ Table measure_registration(const Request& request, const RegistrationRequest& wa
                               cell_of(start.mm, 2), cell_of(start.deg, 2), cell_of(start_error, 2), cell_of(error, 3),
                               cell_of(found.expected_error_mm, 3), found.converged() ? "1" : "0",
                               cell_of(found.similarity_after, 5), cell_of(found.runner_up, 5),
-                              std::to_string(found.evaluations.size()), cell_of(found.seconds, 3)});
+                              std::to_string(found.evaluations.size()), cell_of(found.seconds, 3),
+                              cell_of(registrar.seconds_to_prepare(), 3)});
       }
     }
   });

@@ -89,27 +89,45 @@ std::string escaped(const std::string& text) {
 
 }  // namespace
 
-void print_registrations(const std::string& file, const Table& table) {
+std::vector<RegistrationSummary> summaries_of(const std::string& file, const Table& table) {
+  std::vector<RegistrationSummary> all;
+  for (const auto& [name, runs] : runs_of(file, table)) {
+    const std::vector<Run> near = only(runs, [](const Run& r) { return r.start_mm <= 20 && r.start_deg <= 15; });
+    const auto error = [](const Run& run) { return run.error_mm; };
+    const auto count = [&](auto&& which) { return std::size_t(std::ranges::count_if(runs, which)); };
+    RegistrationSummary one;
+    one.patient = name.first;
+    one.measure = name.second;
+    one.starts = runs.size();
+    one.success = success_of(runs);
+    one.near_starts = near.size();
+    one.near_success = success_of(near);
+    one.median_mm = median_of(runs, error);
+    one.median_of_successes_mm = median_of(only(runs, &Run::succeeded), error);
+    one.capture_mm = capture_range(runs);
+    one.trusted_failures = count([](const Run& r) { return r.converged && !r.succeeded(); });
+    one.doubted_successes = count([](const Run& r) { return !r.converged && r.succeeded(); });
+    one.evaluations = median_of(runs, [](const Run& run) { return run.evaluations; });
+    one.seconds = median_of(runs, [](const Run& run) { return run.seconds; });
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
+void print_summaries(const std::vector<RegistrationSummary>& summaries) {
   std::printf(
-      "\nmeasure    starts  success  within 20 mm, 15 deg  median error  of successes  capture  wrong verdicts  "
+      "\nmeasure    starts  success  within 20 mm, 15 deg  median error  of successes  capture  verdicts     "
       "evaluations  time\n");
   std::string patient;
-  for (const auto& [name, runs] : runs_of(file, table)) {
-    if (name.first != patient) std::printf("%s\n", name.first.c_str());
-    patient = name.first;
-    const std::vector<Run> near = only(runs, [](const Run& r) { return r.start_mm <= 20 && r.start_deg <= 15; });
-    const std::vector<Run> successes = only(runs, &Run::succeeded);
-    const auto error = [](const Run& run) { return run.error_mm; };
-    const auto trusted = std::ranges::count_if(runs, [](const Run& r) { return r.converged && !r.succeeded(); });
-    const auto doubted = std::ranges::count_if(runs, [](const Run& r) { return !r.converged && r.succeeded(); });
+  for (const RegistrationSummary& s : summaries) {
+    if (s.patient != patient) std::printf("%s\n", s.patient.c_str());
+    patient = s.patient;
     std::printf(
-        "%-10s %6zu  %5.1f %%  %5.1f %% of %-9zu    %8.2f mm   %8.2f mm  %4.0f mm  %3td + %-3td       %11.0f  %.1f s\n",
-        name.second.c_str(), runs.size(), 100 * success_of(runs), 100 * success_of(near), near.size(),
-        median_of(runs, error), median_of(successes, error), capture_range(runs), trusted, doubted,
-        median_of(runs, [](const Run& run) { return run.evaluations; }),
-        median_of(runs, [](const Run& run) { return run.seconds; }));
+        "%-10s %6zu  %5.1f %%  %5.1f %% of %-9zu    %8.2f mm   %8.2f mm  %4.0f mm  %3zu and %-3zu  %11.0f  %.1f s\n",
+        s.measure.c_str(), s.starts, 100 * s.success, 100 * s.near_success, s.near_starts, s.median_mm,
+        s.median_of_successes_mm, s.capture_mm, s.trusted_failures, s.doubted_successes, s.evaluations, s.seconds);
   }
-  std::printf("wrong verdicts: converged with an error of 5 mm or more + not converged with less\n");
+  std::printf("success: an error below 5 mm; verdicts: failures that count as converged, and successes that do not\n");
 }
 
 std::string registrations_svg(const std::string& file, const Table& table) {

@@ -158,8 +158,11 @@ int main(int argc, char** argv) {
     const AcousticVolume volume = make_acoustic_volume(subject.ct, subject.labels, tissue_by_label(subject), table);
     const gl::HeadlessContext context;
     SweepRegistration found;
-    gl::upload_ct(subject_path, volume.grid,
-                  [&] { found = register_sweep(volume, read.sweep, ct_from_sweep, settings); });
+    gl::upload_ct(subject_path, volume.grid, [&] {
+      SweepRegistrar registrar(volume, read.sweep, settings);
+      found = registrar.from(ct_from_sweep);
+      found.seconds += registrar.seconds_to_prepare();
+    });
 
     const std::string sentence = verdict(found);
     write_folder(out, [&](const std::filesystem::path& folder) {
