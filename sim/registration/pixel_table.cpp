@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "sim/registration/wein_settings.h"
 
@@ -15,25 +16,38 @@ namespace {
 
 const PixelPlace kNowhere(-1, 0, 0, 0);
 
-PixelTable table_of(const std::vector<std::vector<PixelPlace>>& columns, const PixelPlace& filler, std::size_t group) {
+struct Entries {
+  std::size_t columns = 0, pixels = 0;
+  std::vector<PixelPlace> places;  // row by row
+
+  PixelTable uploaded() const {
+    PixelTable table;
+    table.columns = columns;
+    table.pixels = pixels;
+    if (columns > 0) table.places = TexelBuffer(GL_RGBA32I, places.size(), places.data());
+    return table;
+  }
+};
+
+Entries entries_of(const std::vector<std::vector<PixelPlace>>& columns, const PixelPlace& filler, std::size_t group) {
   std::size_t steps = 0;
-  PixelTable result;
+  Entries result;
   for (const auto& column : columns) {
     steps = std::max(steps, column.size());
     result.pixels += std::size_t(std::ranges::count_if(column, [](const PixelPlace& place) { return place.x >= 0; }));
   }
   result.columns = (columns.size() + group - 1) / group * group;
-  std::vector<PixelPlace> table(result.columns * steps, filler);
+  result.places.assign(result.columns * steps, filler);
   for (std::size_t i = 0; i < columns.size(); ++i)
-    for (std::size_t step = 0; step < columns[i].size(); ++step) table[step * result.columns + i] = columns[i][step];
-  result.places = TexelBuffer(GL_RGBA32I, table.size(), table.data());
+    for (std::size_t step = 0; step < columns[i].size(); ++step)
+      result.places[step * result.columns + i] = columns[i][step];
   return result;
 }
 
 // Divides pixels into columns of about 64, with `together` pixels in sequence, so that a group takes neighbours per
 // step.
-PixelTable divided(const std::vector<PixelPlace>& pixels, std::size_t together, const PixelPlace& filler,
-                   std::size_t group, std::size_t most_columns) {
+Entries divided(const std::vector<PixelPlace>& pixels, std::size_t together, const PixelPlace& filler,
+                std::size_t group, std::size_t most_columns) {
   if (pixels.empty()) return {};
   const std::size_t units = pixels.size() / together,
                     groups = std::clamp<std::size_t>(pixels.size() / (64 * group), 1, most_columns / group);
@@ -43,7 +57,7 @@ PixelTable divided(const std::vector<PixelPlace>& pixels, std::size_t together, 
     const std::size_t unit = i / together;
     columns[unit / group / steps * group + unit % group].push_back(pixels[i]);
   }
-  return table_of(columns, filler, group);
+  return entries_of(columns, filler, group);
 }
 
 // Returns an image's pixels in strips of width `strip`, each from top to bottom. A work group that goes down a strip
@@ -89,39 +103,55 @@ PixelTable picture_pixels(const std::vector<PixelPlace>& places, int width, int 
       four[0].w = y << 16 | word;
       if (touched) pixels.insert(pixels.end(), four.begin(), four.end());
     }
-  return divided(pixels, kWordPixels, PixelPlace(-1, 0, 0, -1), group, 512 * group);
+  return divided(pixels, kWordPixels, PixelPlace(-1, 0, 0, -1), group, 512 * group).uploaded();
 }
 
-PixelTable compared_pixels(const std::vector<PixelPlace>& places, const Image<float>& image, int patch,
-                           std::size_t group) {
-  const auto counts = [&](std::size_t i) { return places[i].x >= 0 && !std::isnan(image.pixels[i]); };
-  double count = 0, sum = 0, squares = 0;
-  float least = std::numeric_limits<float>::infinity(), most = -least;
-  for (std::size_t i = 0; i < places.size(); ++i)
-    if (counts(i)) {
-      ++count;
-      sum += image.pixels[i];
-      least = std::min(least, image.pixels[i]);
-      most = std::max(most, image.pixels[i]);
-    }
-  const double mean = sum / std::max(count, 1.0);
-  for (std::size_t i = 0; i < places.size(); ++i)
-    if (counts(i)) squares += (image.pixels[i] - mean) * (image.pixels[i] - mean);
-  const double scale = most > least ? 1 / std::sqrt(squares / count) : 0;
-
-  const int across = patch ? (image.width + patch - 1) / patch : 0;
+ComparedPixels compared_pixels(const std::vector<PixelPlace>& places, std::span<const Image<float>> images, int patch,
+                               std::size_t group) {
+  const auto counts = [&](const Image<float>& image, std::size_t i) {
+    return places[i].x >= 0 && !std::isnan(image.pixels[i]);
+  };
+  const int width = images.front().width, height = images.front().height,
+            across = patch ? (width + patch - 1) / patch : 0;
   std::vector<PixelPlace> pixels;
   std::vector<std::vector<PixelPlace>> patches;
-  for (const std::size_t i : strip_by_strip(image.width, image.height, int(group)))
-    if (counts(i)) {
-      pixels.push_back(places[i]);
-      pixels.back().w = std::bit_cast<int>(float((image.pixels[i] - mean) * scale));
-      if (!patch) continue;
-      const std::size_t in = std::size_t(int(i) / image.width / patch * across + int(i) % image.width / patch);
-      patches.resize(std::max(patches.size(), in + 1));
-      patches[in].push_back(pixels.back());
-    }
-  return patches.empty() ? divided(pixels, 1, kNowhere, group, kMostPatches) : table_of(patches, kNowhere, group);
+  for (const std::size_t i : strip_by_strip(width, height, int(group))) {
+    if (std::ranges::none_of(images, [&](const Image<float>& image) { return counts(image, i); })) continue;
+    pixels.push_back(places[i]);
+    pixels.back().w = int(i);
+    if (!patch) continue;
+    const std::size_t in = std::size_t(int(i) / width / patch * across + int(i) % width / patch);
+    patches.resize(std::max(patches.size(), in + 1));
+    patches[in].push_back(pixels.back());
+  }
+  const Entries entries =
+      patches.empty() ? divided(pixels, 1, kNowhere, group, kMostPatches) : entries_of(patches, kNowhere, group);
+
+  ComparedPixels result{entries.uploaded(), TexelBuffer{}, std::vector<double>{}};
+  std::vector<float> values;
+  values.reserve(entries.places.size() * images.size());
+  for (const Image<float>& image : images) {
+    double count = 0, sum = 0, squares = 0;
+    float least = std::numeric_limits<float>::infinity(), most = -least;
+    for (std::size_t i = 0; i < places.size(); ++i)
+      if (counts(image, i)) {
+        ++count;
+        sum += image.pixels[i];
+        least = std::min(least, image.pixels[i]);
+        most = std::max(most, image.pixels[i]);
+      }
+    const double mean = sum / std::max(count, 1.0);
+    for (std::size_t i = 0; i < places.size(); ++i)
+      if (counts(image, i)) squares += (image.pixels[i] - mean) * (image.pixels[i] - mean);
+    const double scale = most > least ? 1 / std::sqrt(squares / count) : 0;
+    result.variation.push_back(most > least ? squares : 0);
+    for (const PixelPlace& place : entries.places)
+      values.push_back(place.x >= 0 && counts(image, std::size_t(place.w))
+                           ? float((image.pixels[std::size_t(place.w)] - mean) * scale)
+                           : kNotCompared);
+  }
+  if (!values.empty()) result.values = TexelBuffer(GL_R32F, values.size(), values.data());
+  return result;
 }
 
 }  // namespace insonate::gl

@@ -3,6 +3,7 @@
 #include <glm/vec4.hpp>
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "sim/core/image.h"
@@ -38,11 +39,23 @@ inline constexpr int kWordPixels = 4;
 /// @param group  invocations per work group, 1 or more
 PixelTable picture_pixels(const std::vector<PixelPlace>& places, int width, int height, std::size_t group);
 
-/// Returns the table for lc2_parts.comp: the pixels inside the fan whose value is not NaN, with the values scaled to
-/// mean 0 and variance 1. LC2 does not depend on gain and offset, but single precision would. A flat image has 0
-/// everywhere. With up to kMostPatches patches, and groups of up to 128, the sums of all columns fit a texture.
-/// @param patch  side in pixels of the squares that are each compared by itself, one column each; 0: the whole picture
-PixelTable compared_pixels(const std::vector<PixelPlace>& places, const Image<float>& image, int patch,
-                           std::size_t group);
+/// Stands in ComparedPixels::values for a pixel that does not count.
+inline constexpr float kNotCompared = 1e30f;
+
+/// Ultrasound images for lc2_parts.comp.
+struct ComparedPixels {
+  PixelTable table;               ///< pixels inside the fan that count in at least one image
+  TexelBuffer values;             ///< R32F: per image and entry of the table, the pixel's value, or kNotCompared
+  std::vector<double> variation;  ///< per image: sum of (u - mean u)^2 over the pixels that count
+};
+
+/// Returns ultrasound images for the comparison. A pixel counts inside the fan where its value is not NaN. Each image's
+/// values are scaled to mean 0 and variance 1: LC2 does not depend on gain and offset, but single precision would. A
+/// flat image has 0 everywhere. With up to kMostPatches patches, and groups of up to 128, the sums of all columns fit a
+/// texture.
+/// @param images  at least one, all of one size
+/// @param patch   side in pixels of the squares that are each compared by itself, one column each; 0: the whole picture
+ComparedPixels compared_pixels(const std::vector<PixelPlace>& places, std::span<const Image<float>> images, int patch,
+                               std::size_t group);
 
 }  // namespace insonate::gl

@@ -1,5 +1,6 @@
 #include "sim/registration/wein_simulator.h"
 
+#include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
@@ -9,6 +10,7 @@
 #include <cmath>
 #include <cstdio>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 
@@ -45,6 +47,25 @@ void check_poses(std::span<const Pose> poses) {
   for (const Pose& pose : poses) check_pose(kName, pose);
 }
 
+void check_places(std::span<const glm::dmat4> places) {
+  for (const glm::dmat4& place : places) {
+    const glm::dvec4 last(place[0][3], place[1][3], place[2][3], place[3][3]);
+    bool fine = last == glm::dvec4(0, 0, 0, 1) && glm::length(glm::dvec3(place[3])) <= kMostDistanceMm;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double scale = glm::length(glm::dvec3(place[axis]));
+      fine = fine && scale >= WeinSimulator::kLeastStretch && scale <= WeinSimulator::kMostStretch;
+    }
+    if (!fine) throw std::invalid_argument(std::string(kName) + ": a place is not an affine map that it accepts");
+  }
+}
+
+std::vector<glm::dmat4> matrices_of(std::span<const Pose> poses) {
+  std::vector<glm::dmat4> matrices;
+  matrices.reserve(poses.size());
+  for (const Pose& pose : poses) matrices.push_back(pose.matrix());
+  return matrices;
+}
+
 // Returns a number as a GLSL expression.
 std::string literal(double value) {
   char text[40];
@@ -59,12 +80,12 @@ struct WeinSimulator::State {
         const ShaderSources& given, const WorkDivision& chosen);
 
   const ScanStages& stages_for(std::size_t images) const { return images > 1 && interleaved ? *interleaved : alone; }
-  void traverse(std::span<const Pose> chunk, std::size_t first, const ScanStages& stages, const Program& program,
+  void traverse(std::span<const glm::dmat4> chunk, std::size_t first, const ScanStages& stages, const Program& program,
                 const TexelBuffer& scan);
   void ran(WeinStage stage, std::size_t images, std::size_t pixels);
   template <typename Work>
-  void by_chunks(std::span<const Pose> poses, const ScanStages& stages, const Program& program, const TexelBuffer& scan,
-                 Work&& work);
+  void by_chunks(std::span<const glm::dmat4> poses, const ScanStages& stages, const Program& program,
+                 const TexelBuffer& scan, Work&& work);
   Defines constants(const AcousticVolume& volume) const;
 
   WeinSettings settings;
@@ -86,12 +107,13 @@ struct WeinSimulator::State {
   std::size_t similarities_held = 0;
   TexelBuffer tiles;
   std::vector<PixelPlace> pixel_places;
-  PixelTable fan_pixels, counted_pixels;
+  PixelTable fan_pixels;
+  ComparedPixels ultrasound;
   Texture density, probe_lines, places, sums, grid;
   std::vector<glm::vec4> place_rows;
 
-  std::vector<Pose> drawn, compared;  // of the last calls
-  std::vector<float> similar;         // for `compared`
+  std::vector<glm::dmat4> drawn, compared;  // of the last calls
+  std::vector<float> similar;               // for `compared`
 
   Buffer samples_traversed{sizeof(GLuint), nullptr};  // by the last call
   std::array<StageCount, kWeinStageCount> counts{};
@@ -136,6 +158,7 @@ WeinSimulator::State::State(const AcousticVolume& volume, const Probe& probe, do
   place_rows.resize(3 * chunk_images);
 
   parameters.columns = 1;
+  parameters.ultrasounds = 1;
   pixel_places = places_in_scan(fan, lines, row_samples);
   fan_pixels = picture_pixels(pixel_places, wanted.image_width, wanted.image_height, group);
 }
@@ -167,10 +190,10 @@ Defines WeinSimulator::State::constants(const AcousticVolume& volume) const {
 }
 
 // Places a chunk's lines and traverses them.
-void WeinSimulator::State::traverse(std::span<const Pose> chunk, std::size_t first, const ScanStages& stages,
+void WeinSimulator::State::traverse(std::span<const glm::dmat4> chunk, std::size_t first, const ScanStages& stages,
                                     const Program& program, const TexelBuffer& scan) {
   for (std::size_t i = 0; i < chunk.size(); ++i) {
-    const glm::dmat4 rows = glm::transpose(texture_from_patient * chunk[i].matrix());
+    const glm::dmat4 rows = glm::transpose(texture_from_patient * chunk[i]);
     for (int row = 0; row < 3; ++row) place_rows[3 * i + std::size_t(row)] = glm::vec4(rows[row]);
   }
   places.write(GL_RGBA, GL_FLOAT, place_rows.data());
@@ -196,15 +219,15 @@ void WeinSimulator::State::ran(WeinStage stage, std::size_t images, std::size_t 
 }
 
 template <typename Work>
-void WeinSimulator::State::by_chunks(std::span<const Pose> poses, const ScanStages& stages, const Program& program,
-                                     const TexelBuffer& scan, Work&& work) {
+void WeinSimulator::State::by_chunks(std::span<const glm::dmat4> poses, const ScanStages& stages,
+                                     const Program& program, const TexelBuffer& scan, Work&& work) {
   if (poses.empty()) return;
   samples_traversed.clear();
   StageCount& count = counts[std::size_t(WeinStage::traverse)];
   ++count.runs;
   count.possible = poses.size() * lines.lines.size() * std::size_t(lines.samples);
   for (std::size_t first = 0; first < poses.size(); first += chunk_images) {
-    const std::span<const Pose> chunk = poses.subspan(first, std::min(chunk_images, poses.size() - first));
+    const std::span<const glm::dmat4> chunk = poses.subspan(first, std::min(chunk_images, poses.size() - first));
     traverse(chunk, first, stages, program, scan);
     scan.bind(0);
     work(int(chunk.size()));
@@ -230,6 +253,11 @@ const Image<std::uint8_t>& WeinSimulator::inside() const {
 
 const Texture& WeinSimulator::simulate(std::span<const Pose> patient_from_probe) {
   check_poses(patient_from_probe);
+  return simulate(std::span<const glm::dmat4>(matrices_of(patient_from_probe)));
+}
+
+const Texture& WeinSimulator::simulate(std::span<const glm::dmat4> patient_from_probe) {
+  check_places(patient_from_probe);
   State& s = *state_;
   if (s.grid && std::ranges::equal(patient_from_probe, s.drawn)) return s.grid;
   s.drawn.clear();  // stays empty until all are drawn
@@ -264,21 +292,34 @@ glm::ivec2 WeinSimulator::tile(int image) const {
          glm::ivec2(s.tile_words * kWordPixels, s.settings.image_height);
 }
 
-void WeinSimulator::set_ultrasound(const Image<float>& image) {
+void WeinSimulator::set_ultrasound(std::span<const Image<float>> images) {
   State& s = *state_;
-  if (image.width != s.fan.inside.width || image.height != s.fan.inside.height)
-    throw std::invalid_argument(std::string(kName) + ": the ultrasound image has another size than the simulated ones");
+  for (const Image<float>& image : images)
+    if (image.width != s.fan.inside.width || image.height != s.fan.inside.height)
+      throw std::invalid_argument(std::string(kName) +
+                                  ": the ultrasound image has another size than the simulated ones");
   s.compared.clear();
-  s.counted_pixels = compared_pixels(s.pixel_places, image, s.settings.similarity_patch, s.group);
-  if (s.counted_pixels)
-    s.sums = Texture::make_2d(GL_RGBA32F, 3 * int(s.counted_pixels.columns), int(s.chunk_images), Filter::nearest);
+  s.ultrasound =
+      images.empty() ? ComparedPixels{} : compared_pixels(s.pixel_places, images, s.settings.similarity_patch, s.group);
+  s.parameters.ultrasounds = std::max(int(images.size()), 1);
+  if (s.ultrasound.table)
+    s.sums = Texture::make_2d(GL_RGBA32F, 3 * int(s.ultrasound.table.columns), int(s.chunk_images), Filter::nearest);
+}
+
+const std::vector<double>& WeinSimulator::ultrasound_variation() const {
+  return state_->ultrasound.variation;
 }
 
 std::vector<float> WeinSimulator::similarity(std::span<const Pose> patient_from_probe) {
   check_poses(patient_from_probe);
+  return similarity(std::span<const glm::dmat4>(matrices_of(patient_from_probe)));
+}
+
+std::vector<float> WeinSimulator::similarity(std::span<const glm::dmat4> patient_from_probe) {
+  check_places(patient_from_probe);
   State& s = *state_;
   std::vector<float> result(patient_from_probe.size());
-  if (result.empty() || !s.counted_pixels) return result;
+  if (result.empty() || !s.ultrasound.table) return result;
   if (std::ranges::equal(patient_from_probe, s.compared)) return s.similar;
   const std::size_t bytes = result.size() * sizeof(float);
   if (s.similarities_held < result.size()) {
@@ -287,15 +328,16 @@ std::vector<float> WeinSimulator::similarity(std::span<const Pose> patient_from_
   }
   const ScanStages& stages = s.stages_for(patient_from_probe.size());
   s.by_chunks(patient_from_probe, stages, stages.traverse_terms, stages.term_scan, [&](int images) {
-    s.counted_pixels.places.bind(1);
+    s.ultrasound.table.places.bind(1);
+    s.ultrasound.values.bind(2);
     s.sums.bind_image(0, GL_WRITE_ONLY);
-    stages.parts.dispatch(int(s.counted_pixels.columns), stages.term_groups(images));
+    stages.parts.dispatch(int(s.ultrasound.table.columns), stages.term_groups(images));
     s.similarities.bind_storage(0);
     s.sums.bind(0);
     s.lc2.dispatch(images, 1);
   });
   s.similarities.read(result.data(), bytes);
-  s.ran(WeinStage::compare, result.size(), s.counted_pixels.pixels);
+  s.ran(WeinStage::compare, result.size(), s.ultrasound.table.pixels);
   s.compared.assign(patient_from_probe.begin(), patient_from_probe.end());
   s.similar = result;
   return result;
@@ -312,13 +354,14 @@ StageCount WeinSimulator::count(WeinStage stage) const {
 
 WeinStages<float> WeinSimulator::read_stages(const Pose& patient_from_probe) {
   State& s = *state_;
-  simulate({&patient_from_probe, 1});
+  simulate(std::span<const Pose>(&patient_from_probe, 1));
   const int n = int(s.lines.lines.size()), d = s.lines.samples;
   Texture intensities = Texture::make_2d(GL_R32F, d, n, Filter::nearest);
   intensities.clear();  // the traversal does not write behind a line's end
   intensities.bind_image(1, GL_WRITE_ONLY);
   s.samples_traversed.clear();
-  s.traverse({&patient_from_probe, 1}, 0, s.alone,
+  const glm::dmat4 matrix = patient_from_probe.matrix();
+  s.traverse({&matrix, 1}, 0, s.alone,
              ScanStages::traverse_program(s.sources, s.alone.compiled_in, ScanStages::Leaves::intensity),
              s.alone.term_scan);
   const std::size_t count = std::size_t(n) * std::size_t(d), row = std::size_t(s.row_samples);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 
 #include <cstdint>
@@ -47,18 +48,30 @@ public:
   /// the next call; the device may still be drawing it. Throws std::runtime_error if the device does not accept a grid
   /// of that many images.
   const Texture& simulate(std::span<const Pose> patient_from_probe);
+  /// The same for affine maps, which stretch and shear what the probe sees; distances along a line are the probe's.
+  /// Throws std::invalid_argument for a map whose axes are not kLeastStretch to kMostStretch long.
+  const Texture& simulate(std::span<const glm::dmat4> patient_from_probe);
+  static constexpr double kLeastStretch = 0.5, kMostStretch = 2;
   /// Returns the top left pixel of an image in the last grid.
   glm::ivec2 tile(int image) const;
 
-  /// Sets the image that similarity() compares with: grey values, linear or compressed, of any finite range, on
+  /// Sets the images that similarity() compares with: grey values, linear or compressed, of any finite range, on
   /// geometry()'s pixels. NaN excludes a pixel; pixels outside the fan never count. Throws std::invalid_argument for
   /// another size.
-  void set_ultrasound(const Image<float>& image);
+  void set_ultrasound(std::span<const Image<float>> images);
+  void set_ultrasound(const Image<float>& image) { set_ultrasound({&image, 1}); }
+
+  /// Returns, per ultrasound image, the sum of (u - mean u)^2 over the pixels that count: its weight where the LC2 of
+  /// several images are averaged.
+  const std::vector<double>& ultrasound_variation() const;
 
   /// Returns LC2 of the image at each pose with the ultrasound image, 0 to 1, as sim/registration/wein_reference.h
-  /// defines it, with patches if the settings ask for them. The images stay on the device; one number per image is read
-  /// back. Returns 0 without an ultrasound image. Blocks until the device has finished.
+  /// defines it, with patches if the settings ask for them. With n ultrasound images, pose i is compared with image
+  /// i modulo n, so that one call can evaluate a sweep at many places. The simulated images stay on the device; one
+  /// number per image is read back. Returns 0 without an ultrasound image. Blocks until the device has finished.
   std::vector<float> similarity(std::span<const Pose> patient_from_probe);
+  /// The same for affine maps, as simulate() takes them.
+  std::vector<float> similarity(std::span<const glm::dmat4> patient_from_probe);
 
   /// Returns what a stage did in all images of the last call. A call with at least one pose is one run of its stages; a
   /// call with the same poses as the call before runs nothing. Evaluated samples are modulo 2^32; a line counts until

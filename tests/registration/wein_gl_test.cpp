@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "sim/registration/wein_reference.h"
@@ -324,7 +325,7 @@ TEST_CASE("LC2 counts no pixel outside the fan and none that is masked") {
 
 TEST_CASE("LC2 is 0 where there is nothing to compare") {
   Fixture f;
-  CHECK(f.simulator.similarity({}).empty());
+  CHECK(f.simulator.similarity(std::span<const Pose>()).empty());
   CHECK(f.simulator.similarity({&f.pose, 1}).front() == 0);  // no ultrasound image yet
   const WeinSettings& s = f.settings;
   CHECK(f.similarity(Image<float>(s.image_width, s.image_height, 0.1f), f.pose) == 0);

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/alignment/registration.h"
 #include "tools/bench/scene.h"
 #include "tools/bench/table.h"
 
@@ -27,6 +28,21 @@ Table measure_batch(const Request& request);
 /// Measures the time of a 3D probe's volume, by configuration; the width is also the volume's third side. The cases are
 /// a moving probe, a repeated scan conversion, and a change of the gain only.
 Table measure_sweep(const Request& request);
+
+/// What measure_registration() measures.
+struct RegistrationRequest {
+  /// "lc2", "mi" or "cr"; with "-local" behind it, the search begins at the start alone.
+  std::vector<std::string> measures{"lc2", "lc2-local", "mi-local", "cr-local"};
+  int starts = 200;
+  int first_start = 0;  ///< number of the first start, for measurements in parts
+  int images = 20;      ///< of the sweep
+  double tilt_deg = 20, slide_mm = 20;
+  RegistrationSettings settings{};
+};
+
+/// Registers a synthetic sweep of model S from many starts that are off by known amounts, by each measure: half of them
+/// by up to 40 mm and 40 degrees, the others by up to 20 mm and 15 degrees.
+Table measure_registration(const Request& request, const RegistrationRequest& wanted);
 
 /// Measures the error of the device's linear filter, which `exact_filter` in Settings avoids.
 Table measure_filter();

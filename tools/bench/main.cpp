@@ -10,6 +10,7 @@
 #include "sim/probe/probe.h"
 #include "tools/bench/acoustics.h"
 #include "tools/bench/commands.h"
+#include "tools/bench/registration_summary.h"
 #include "tools/cli/program.h"
 
 using namespace insonate;
@@ -95,6 +96,27 @@ int main(int argc, char** argv) {
       request, csv);
   const CLI::App* sweep = add_measurement(
       arguments, "sweep", "Measure the run time of a 3D probe's volume of WIDTH x HEIGHT x WIDTH voxels", request, csv);
+  bench::RegistrationRequest registration_request;
+  CLI::App* registration = add_measurement(
+      arguments, "registration", "Measure error, capture range and run time of the registration of synthetic sweeps",
+      request, csv);
+  registration->add_option("--starts", registration_request.starts, "Register from this many starts")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  registration
+      ->add_option("--first-start", registration_request.first_start,
+                   "Begin with this start, for a measurement in several parts")
+      ->check(CLI::Range(0, 1000000))
+      ->capture_default_str();
+  registration
+      ->add_option("--measure", registration_request.measures,
+                   "Register by this measure; may be repeated. With -local the search begins at the start alone")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"lc2", "mi", "cr", "lc2-local", "mi-local", "cr-local"}))
+      ->capture_default_str();
+  registration->add_option("--read", old_file, "Summarise this table of an earlier run (CSV) instead of measuring")
+      ->type_name("FILE");
+  registration->add_option("--svg", svg, "Draw the plot to this file too (SVG)")->type_name("FILE");
   CLI::App* denormal =
       arguments.add_subcommand("denormal", "Compare the run time with numbers near 0 with that of ordinary numbers");
   denormal->add_option("--frames", request.frames, "Measure this many frames")
@@ -178,22 +200,29 @@ int main(int argc, char** argv) {
       exams = {assets_folder() / "scenarios" / "ruq_hepatorenal.toml", assets_folder() / "logs" / "ruq_good.igs.mha"};
     bench::Table table;
     gl::within_device("--configuration", "take fewer lines, samples or pixels", [&] {
-      table = frames->parsed()       ? bench::measure_frames(request)
-              : paper->parsed()      ? bench::measure_paper(request)
-              : division->parsed()   ? bench::measure_work_divisions(request)
-              : filter->parsed()     ? bench::measure_filter()
-              : denormal->parsed()   ? bench::measure_denormals(request)
-              : sweep->parsed()      ? bench::measure_sweep(request)
-              : batch->parsed()      ? bench::measure_batch(request)
-              : grain->parsed()      ? bench::measure_grain()
-              : beam->parsed()       ? bench::measure_beams(acoustics, svg)
-              : speckle->parsed()    ? bench::measure_speckle(acoustics, speckle_lines)
-              : scoring->parsed()    ? bench::measure_scoring(exams)
-              : view->parsed()       ? bench::measure_view(request)
-              : view_front->parsed() ? bench::measure_view_front(request)
-              : window->parsed()     ? bench::measure_window(sizes_of(window_sizes))
-                                     : bench::measure_front(request, svg);
+      table = frames->parsed()         ? bench::measure_frames(request)
+              : paper->parsed()        ? bench::measure_paper(request)
+              : division->parsed()     ? bench::measure_work_divisions(request)
+              : filter->parsed()       ? bench::measure_filter()
+              : denormal->parsed()     ? bench::measure_denormals(request)
+              : registration->parsed() ? (old_file.empty() ? bench::measure_registration(request, registration_request)
+                                                           : bench::Table::parse(old_file, read_file(old_file)))
+              : sweep->parsed()        ? bench::measure_sweep(request)
+              : batch->parsed()        ? bench::measure_batch(request)
+              : grain->parsed()        ? bench::measure_grain()
+              : beam->parsed()         ? bench::measure_beams(acoustics, svg)
+              : speckle->parsed()      ? bench::measure_speckle(acoustics, speckle_lines)
+              : scoring->parsed()      ? bench::measure_scoring(exams)
+              : view->parsed()         ? bench::measure_view(request)
+              : view_front->parsed()   ? bench::measure_view_front(request)
+              : window->parsed()       ? bench::measure_window(sizes_of(window_sizes))
+                                       : bench::measure_front(request, svg);
     });
+    if (registration->parsed()) {
+      const std::string name = old_file.empty() ? "the table" : old_file;
+      bench::print_summaries(bench::summaries_of(name, table));
+      if (!svg.empty()) write_file(svg, bench::registrations_svg(name, table));
+    }
     if (!csv.empty()) write_file(csv, table.csv());
     return 0;
   });

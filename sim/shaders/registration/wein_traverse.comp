@@ -52,7 +52,7 @@ const float kNothing = -1e6;  // stands for ln 0, what total reflection transmit
 // A scan line of one image, in coordinates of the volume's texture.
 struct Line {
   vec3 start, along;  // sample 0, step to the next
-  vec3 direction;     // unit, along the CT's axes
+  vec3 direction;     // unit if the pose is rigid, along the CT's axes
 };
 
 // The terms of a pair of samples.

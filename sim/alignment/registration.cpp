@@ -1,0 +1,188 @@
+#include "sim/alignment/registration.h"
+
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+#include "sim/alignment/uncertainty.h"
+
+namespace insonate {
+namespace {
+
+enum Stage { kScatter, kWide, kFine, kAffine };
+
+constexpr int kWideWidth = 64, kWideHeight = 48, kWidePatch = 8;  // pixels
+constexpr std::size_t kFineStarts = 4;
+constexpr double kWideLength_mm = 4;  // of a reflection, so that interfaces are as wide as a pixel
+constexpr double kBasin_mm = 8;       // ends that are nearer to each other are one
+constexpr double kBasin_deg = 8;
+constexpr double kAmbiguous = 0.9;  // of the similarity
+constexpr double kMostStretch = 0.15;
+constexpr std::size_t kBatch = 512;  // places per call, to bound memory
+
+std::unique_ptr<Similarity> similarity_of(const AcousticVolume& volume, const TrackedSweep& sweep,
+                                          const WeinSettings& wein, Measure measure) {
+  return measure == Measure::lc2 ? lc2_similarity(volume, sweep, wein) : slice_similarity(measure, volume, sweep, wein);
+}
+
+// The search of one registration, with what its stages share.
+struct Run {
+  const RegistrationSettings& settings;
+  const std::vector<glm::dvec3>& targets;
+  SweepRegistration& result;
+  bool confirmed = false;  // two rounds have found the same place
+
+  EvaluateAll evaluator(Similarity& similarity, Stage stage) {
+    return [this, &similarity, stage](std::span<const Parameters> points) {
+      std::vector<double> values;
+      for (std::size_t first = 0; first < points.size(); first += kBatch) {
+        std::vector<glm::dmat4> places;
+        for (const Parameters& point : points.subspan(first, std::min(kBatch, points.size() - first)))
+          places.push_back(result.motion.at(point));
+        for (const double value : similarity.at(places)) {
+          result.evaluations.push_back({stage, Parameters(points[values.size()]), value});
+          values.push_back(value);
+        }
+      }
+      return values;
+    };
+  }
+
+  double apart(const Parameters& a, const Parameters& b) const {
+    return target_error_mm(targets, result.motion.at(a), result.motion.at(b));
+  }
+
+  // Returns the best, of which no two lie in one basin.
+  std::vector<Optimum> distinct(std::vector<Optimum> ends, std::size_t most) const {
+    std::ranges::stable_sort(ends, std::ranges::greater{}, &Optimum::value);
+    std::vector<Optimum> kept;
+    for (Optimum& end : ends)
+      if (kept.size() < most &&
+          std::ranges::none_of(kept, [&](const Optimum& k) { return apart(k.at, end.at) < kBasin_mm; }))
+        kept.push_back(std::move(end));
+    return kept;
+  }
+
+  // Finds out how far the result can be trusted.
+  void judge(const Optimum& end, const EvaluateAll& evaluate, const TrackedSweep& compared) {
+    const auto doubt = [&](const char* why) { result.doubts.emplace_back(why); };
+    if (end.value <= 0) return doubt("the images show nothing of the CT");
+    if (!end.within_tolerance) doubt("the search used up its evaluations");
+    const double mm = glm::length(glm::dvec3(end.at[0], end.at[1], end.at[2])),
+                 deg = glm::degrees(glm::length(glm::dvec3(end.at[3], end.at[4], end.at[5])) / result.motion.radius_mm);
+    if (mm > settings.search_mm + kBasin_mm || deg > settings.search_deg + kBasin_deg)
+      doubt("the search left its range around the start");
+    if (!confirmed) doubt("no second search found the same place");
+    if (result.runner_up > kAmbiguous * result.similarity_after) doubt("another place is nearly as similar");
+    if (settings.measure == Measure::mutual_information) return;  // it is not a share of variance
+    const Uncertainty uncertainty =
+        uncertainty_at(end.at, result.motion, evaluate, independent_pixels(compared), targets);
+    if (!uncertainty.is_maximum) return doubt("the similarity has no maximum there");
+    result.deviation = uncertainty.deviation;
+    result.expected_error_mm = uncertainty.expected_error_mm;
+  }
+
+  LocalSearch search(double first_step, double tolerance, int most) const {
+    const double mm = settings.search_mm + 20,
+                 turn = (glm::radians(settings.search_deg) * result.motion.radius_mm) + 20,
+                 stretch = kMostStretch * result.motion.radius_mm;
+    LocalSearch local;
+    for (std::size_t i = 0; i < parameters_of(result.motion.freedom); ++i)
+      local.high.push_back(i < 3 ? mm : i < 6 ? turn : stretch);
+    for (const double bound : local.high) local.low.push_back(-bound);
+    local.first_step = first_step;
+    local.tolerance = tolerance;
+    local.most_evaluations = most;
+    return local;
+  }
+};
+
+}  // namespace
+
+SweepRegistrar::SweepRegistrar(const AcousticVolume& volume, const TrackedSweep& sweep,
+                               const RegistrationSettings& settings)
+    : settings_(settings), targets_(target_points(sweep)) {
+  const auto begin = std::chrono::steady_clock::now();
+  WeinSettings wide = settings.wein;
+  wide.samples = kWideWidth;
+  if (wide.similarity_patch > 0) wide.similarity_patch = kWidePatch;
+  wide.reflection_length_mm = std::max(settings.wein.reflection_length_mm, kWideLength_mm);
+  TrackedSweep small = reduced(sweep, settings.wide_slices, kWideWidth, kWideHeight);
+  small.probe.lines = kWideWidth;
+  wide_ = similarity_of(volume, small, wide, settings.measure);
+  const Image<float>& full = sweep.images.front().grey;
+  compared_ = reduced(sweep, settings.slices, full.width, full.height);
+  fine_ = similarity_of(volume, compared_, settings.wein, settings.measure);
+  seconds_to_prepare_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+void SweepRegistrar::set_range(double search_mm, double search_deg) {
+  settings_.search_mm = search_mm;
+  settings_.search_deg = search_deg;
+}
+
+SweepRegistration SweepRegistrar::from(const glm::dmat4& start) {
+  const auto begin = std::chrono::steady_clock::now();
+  const RegistrationSettings& settings = settings_;
+  SweepRegistration result;
+  Run run{settings, targets_, result, false};
+  result.motion = motion_about(targets_, start, Freedom::rigid);
+  const Parameters none(6, 0.0);
+  const EvaluateAll scatter = run.evaluator(*wide_, kScatter), follow = run.evaluator(*wide_, kWide),
+                    fine = run.evaluator(*fine_, kFine);
+  result.similarity_before = fine({&none, 1}).front();
+
+  // A single round may miss the basin of the truth. So rounds go on until one end stands out and two rounds in
+  // succession have found it.
+  std::vector<Optimum> rough;
+  const bool wanders = settings.search_mm > 0 || settings.search_deg > 0;
+  for (int round = 0; round < settings.rounds; ++round) {
+    std::vector<Parameters> starts;
+    if (round == 0) starts.push_back(none);
+    if (wanders)
+      for (Parameters& each :
+           scattered_motions(std::size_t(round * settings.scattered), std::size_t(settings.scattered),
+                             settings.search_mm, glm::radians(settings.search_deg) * result.motion.radius_mm))
+        starts.push_back(std::move(each));
+    const std::vector<double> values = scatter(starts);
+    std::vector<Optimum> scattered;
+    for (std::size_t i = 0; i < starts.size(); ++i) scattered.push_back({std::move(starts[i]), values[i], 1, true});
+    std::vector<Parameters> followed;
+    for (const Optimum& each : run.distinct(std::move(scattered), std::size_t(settings.followed)))
+      followed.push_back(each.at);
+    std::vector<Parameters> promising;
+    for (const Optimum& each : run.distinct(maximise_from(followed, follow, run.search(5, 0.5, 120)), kFineStarts))
+      promising.push_back(each.at);
+    std::vector<Optimum> of_round = run.distinct(maximise_from(promising, fine, run.search(2, 0.5, 40)), kFineStarts);
+    run.confirmed = !rough.empty() && run.apart(of_round.front().at, rough.front().at) < kBasin_mm;
+    for (Optimum& each : of_round) rough.push_back(std::move(each));
+    rough = run.distinct(std::move(rough), kFineStarts);
+    run.confirmed = run.confirmed || !wanders;
+    if (!wanders) break;
+    if (run.confirmed && (rough.size() == 1 || rough[1].value < kAmbiguous * rough[0].value)) break;
+  }
+  Optimum end = maximise_from({rough.front().at}, fine, run.search(0.7, 0.01, 250)).front();
+  if (rough.size() > 1) result.runner_up = rough[1].value;
+  EvaluateAll last = fine;
+  if (settings.freedom == Freedom::affine) {
+    result.motion.freedom = Freedom::affine;
+    end.at.resize(parameters_of(Freedom::affine));
+    last = run.evaluator(*fine_, kAffine);
+    end = maximise_from({end.at}, last, run.search(0.7, 0.01, 600)).front();
+  }
+  result.at = end.at;
+  result.similarity_after = end.value;
+  result.ct_from_sweep = result.motion.at(result.at);
+  run.judge(end, last, compared_);
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return result;
+}
+
+}  // namespace insonate

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sim/alignment/tracked_sweep.h"
+#include "sim/core/pose.h"
+#include "sim/model/acoustic_volume.h"
+#include "sim/model/settings.h"
+#include "sim/model/tissue.h"
+
+namespace insonate {
+
+/// Returns the poses of a hand that sweeps a probe over the skin: it tilts the probe about its face along the elevation
+/// from -tilt_deg to tilt_deg and slides it by slide_mm meanwhile, both evenly.
+/// @param patient_from_probe  the middle of the sweep
+std::vector<Pose> hand_sweep(const Pose& patient_from_probe, int images, double tilt_deg, double slide_mm);
+
+/// Returns the sweep that model S, with all its effects, shows of a patient. It is what registration is measured with:
+/// its speckle, shadows, attenuation, clutter and noise are not those of model W. Needs an OpenGL context. Throws what
+/// gl::Simulator throws.
+/// @param patient_from_probe  of each image; they are the sweep's poses too, so the truth is the identity
+/// @param width, height       of the images, pixels; they are averages over a picture of three times the size
+TrackedSweep synthetic_sweep(const AcousticVolume& volume, const TissueTable& table, const Probe& probe,
+                             double depth_mm, const Settings& settings, const std::vector<Pose>& patient_from_probe,
+                             int width, int height);
+
+}  // namespace insonate

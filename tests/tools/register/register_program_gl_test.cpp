@@ -1,0 +1,169 @@
+// Tests insonate-register from a recording and a CT to its folder, and what it refuses.
+
+#include <catch2/catch.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "devices/record/sequence_recorder.h"
+#include "sim/alignment/synthetic_sweep.h"
+#include "sim/gl/headless_context.h"
+#include "sim/reconstruction/tracked_picture.h"
+#include "sim/volume/ct_reader.h"
+#include "tests/imaging/test_body.h"
+#include "tests/tools/render/render_program.h"
+
+using namespace insonate;
+using insonate::test::Outcome;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double kDepthMm = 100;
+constexpr int kWidth = 160, kHeight = 120;
+
+/// A folder with the test body's CT, and a recording of a sweep over it whose frame is shifted by 3, -2, 4 mm.
+struct Workplace {
+  test::TestFolder folder;
+  Volume<std::int16_t> ct;
+
+  explicit Workplace(bool with_images = true) {
+    const AcousticVolume body = test::test_body();
+    ct.grid = body.grid;
+    for (const AcousticVoxel& voxel : body.voxels) ct.voxels.push_back(voxel.hu);
+    write_ct(folder.path / "ct.nrrd", ct);
+    if (!with_images) return;
+    const gl::HeadlessContext context;
+    const Probe probe = *find_probe("curvilinear");
+    const TrackedSweep sweep = synthetic_sweep(body, read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml"), probe,
+                                               kDepthMm, trainer_settings(probe.frequency_mhz, kDepthMm),
+                                               hand_sweep(test::on_the_skin(0, 6, 0), 12, 12, 16), kWidth, kHeight);
+    record("sweep.igs.mha", sweep, [](float grey) { return std::isnan(grey) ? 0 : int(grey); });
+    record("black.igs.mha", sweep, [](float) { return 0; });
+  }
+  template <typename Grey>
+  void record(const char* name, const TrackedSweep& sweep, Grey&& grey) const {
+    SequenceRecorder recorder(folder.path / name, kWidth, kHeight);
+    const ImageGeometry geometry = image_geometry(sweep.probe, kDepthMm, kWidth, kHeight);
+    double time_s = 1;
+    for (const SweepImage& image : sweep.images) {
+      Image<std::uint8_t> picture(kWidth, kHeight);
+      std::ranges::transform(image.grey.pixels, picture.pixels.begin(),
+                             [&](float each) { return std::uint8_t(grey(each)); });
+      Pose pose = image.sweep_from_probe;
+      pose.translation -= glm::dvec3(3, -2, 4);
+      recorder.add({time_s, PoseStatus::ok, pose}, picture, patient_from_pixel(Pose{}, geometry));
+      time_s += 0.1;
+    }
+    recorder.finish();
+  }
+  std::string in(const char* name) const { return (folder.path / name).string(); }
+  Outcome run(const std::string& arguments, const std::string& search = "--search-mm 12 --search-deg 8") const {
+    return test::run(folder, INSONATE_REGISTER_PROGRAM,
+                     "--ct " + in("ct.nrrd") + " --depth 100 " + search + " " + arguments + " >" + in("printed"));
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a recording is registered, and everything about it lies in a new folder") {
+  const Workplace place;
+  const Outcome outcome = place.run(place.in("sweep.igs.mha") + " " + place.in("out"));
+  INFO(outcome.errors << test::bytes_of(place.in("printed")));
+  REQUIRE(outcome.code == 0);
+  CHECK(test::bytes_of(place.in("printed")).find("Converged: the expected error") == 0);
+  const fs::path out = place.in("out");
+  const auto json = nlohmann::json::parse(test::bytes_of(out / "registration.json"));
+  CHECK(json["converged"] == true);
+  CHECK(json["frames"] == 12);
+  CHECK(json["similarity_after"] > json["similarity_before"]);
+  // The shift of the recording, within the size of the CT's voxels.
+  const double shift[] = {3, -2, 4};
+  for (std::size_t row = 0; row < 3; ++row) {
+    CHECK(json["ct_from_sweep"][row][3].get<double>() == Approx(shift[row]).margin(4));
+    CHECK(json["ct_from_sweep"][row][row].get<double>() > 0.995);
+    CHECK(json["parameters"][row == 0 ? "tx" : row == 1 ? "ty" : "tz"]["standard_deviation_mm"] > 0);
+  }
+  for (const char* file : {"ct_from_sweep.tfm", "sweep_from_ct.tfm", "scene.mrml", "index.html"})
+    CHECK(test::bytes_of(out / file).find("Converged") != std::string::npos);
+  const std::string csv = test::bytes_of(out / "evaluations.csv");
+  CHECK(csv.find("evaluation,stage,similarity,tx_mm,ty_mm,tz_mm,rx_mm,ry_mm,rz_mm\n0,") == 0);
+  CHECK(std::size_t(std::count(csv.begin(), csv.end(), '\n')) == json["evaluations"].get<std::size_t>() + 1);
+  CHECK(read_ct(out / "ct.nrrd").grid.spacing.x == Approx(1).epsilon(0.2));  // the program resamples what it reads
+  CHECK(read_labels(out / "sweep.nrrd").grid.size.x > 50);
+  std::size_t shown = 0;
+  const std::string page = test::bytes_of(out / "index.html");
+  for (const auto& picture : fs::directory_iterator(out / "pictures")) {
+    CHECK(page.find("src='pictures/" + picture.path().filename().string() + "'") != std::string::npos);
+    ++shown;
+  }
+  CHECK(shown == 20);
+  // A name that is taken is refused before any work.
+  const Outcome again = place.run(place.in("sweep.igs.mha") + " " + place.in("out"));
+  CHECK(again.code == 2);
+}
+
+TEST_CASE("a registration that does not converge exits with 3 and says so in every file") {
+  const Workplace place;
+  // The search may not leave the start, which is 50 mm off.
+  place.folder.file("start.txt", "1 0 0 40 0 1 0 0 0 0 1 30 0 0 0 1\n");
+  const Outcome outcome =
+      place.run("--start " + place.in("start.txt") + " " + place.in("sweep.igs.mha") + " " + place.in("out"),
+                "--search-mm 0 --search-deg 0");
+  INFO(outcome.errors << test::bytes_of(place.in("printed")));
+  REQUIRE(outcome.code == 3);
+  CHECK(test::bytes_of(place.in("printed")).find("Not converged: ") == 0);
+  const fs::path out = place.in("out");
+  CHECK(nlohmann::json::parse(test::bytes_of(out / "registration.json"))["converged"] == false);
+  for (const char* file : {"ct_from_sweep.tfm", "sweep_from_ct.tfm", "scene.mrml", "index.html"})
+    CHECK(test::bytes_of(out / file).find("Not converged: ") != std::string::npos);
+}
+
+TEST_CASE("what insonate-register cannot use it refuses in a sentence, with exit code 2") {
+  const Workplace place;
+  place.folder.file("away.txt", "1 0 0 0 0 1 0 -100 0 0 1 0 0 0 0 1\n");
+  place.folder.file("far.txt", "1 0 0 0 0 1 0 0 0 0 1 900 0 0 0 1\n");
+  place.folder.file("probe.toml", "kind = \"convex\"\n");
+  const std::string sweep = place.in("sweep.igs.mha") + " " + place.in("out");
+  const auto refused = [&](const std::string& arguments, const std::string& sentence) {
+    const Outcome outcome = place.run(arguments);
+    INFO(arguments << ": " << outcome.errors);
+    CHECK(outcome.code == 2);
+    CHECK(outcome.errors.find(sentence) != std::string::npos);
+    CHECK(std::count(outcome.errors.begin(), outcome.errors.end(), '\n') == 1);
+    CHECK_FALSE(fs::exists(place.in("out")));
+  };
+  refused("--start " + place.in("far.txt") + " " + sweep, "of what the sweep shows lies in the CT");
+  refused("--start " + place.in("away.txt") + " " + sweep, "at the start ");
+  refused(place.in("black.igs.mha") + " " + place.in("out"), "the images show nothing in the probe's fan");
+  refused("--face-pixel 900,900 " + sweep, "% of the probe's fan; name the probe");
+  refused("--probe-file " + place.in("probe.toml") + " " + sweep, "there is no kind of probe named 'convex'");
+  refused("--transform ToolToTracker " + sweep, "sweep.igs.mha: ");
+  refused("--patch 3 " + sweep, "--patch: ");
+  refused(place.in("missing.igs.mha") + " " + place.in("out"), "missing.igs.mha: ");
+}
+
+TEST_CASE("recordings of PLUS without what a registration needs are refused in a sentence") {
+  const fs::path plus = fs::path(INSONATE_SCANS_FOLDER) / "plus";
+  if (!fs::exists(plus)) {
+    WARN("skipped: there is no " << plus);
+    return;
+  }
+  const Workplace place(false);
+  std::size_t tried = 0;
+  for (const auto& recording : fs::directory_iterator(plus)) {
+    const std::string name = recording.path().filename().string();
+    if (name.find(".igs.") == std::string::npos) continue;
+    ++tried;
+    const Outcome outcome = place.run(recording.path().string() + " " + place.in("out"));
+    INFO(name << ": " << outcome.errors);
+    CHECK(outcome.code == 2);
+    CHECK(std::count(outcome.errors.begin(), outcome.errors.end(), '\n') == 1);
+  }
+  CHECK(tried > 3);
+}

@@ -1,0 +1,153 @@
+#include "tools/register/read_sweep.h"
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/vec4.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "devices/replay/read_log.h"
+#include "devices/sequence/recorded_images.h"
+#include "sim/core/files.h"
+#include "sim/core/input_error.h"
+#include "sim/core/toml_table.h"
+
+namespace insonate {
+namespace {
+
+constexpr double kMostOffPlane_mm = 1;  // of the face's middle from the image, where no --face-pixel is given
+constexpr double kLeastShown = 0.5;     // share of the fan that an image has to show
+constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+
+struct Placed {
+  Pose sweep_from_fan;
+  glm::dmat3 pixel_from_plane;
+  std::uint64_t number = 0;
+};
+
+// Returns where the fan lies, for an image that lies in the probe's frame as the matrix says.
+Placed placed(const Pose& sweep_from_probe, const glm::dmat4& probe_from_pixel, const SweepInput& input) {
+  const glm::dvec3 x(probe_from_pixel[0]), y(probe_from_pixel[1]), corner(probe_from_pixel[3]);
+  const double mm_x = glm::length(x), mm_y = glm::length(y);
+  const glm::dmat3 axes(x / mm_x, y / mm_y, glm::cross(x, y) / (mm_x * mm_y));
+  glm::dvec2 face(0.0);
+  if (input.face_pixel) {
+    face = *input.face_pixel;
+  } else {
+    const glm::dvec3 origin = glm::transpose(axes) * -corner;
+    if (std::abs(origin.z) > kMostOffPlane_mm)
+      throw InputError(input.file, "",
+                       "the origin of its probe's frame does not lie in the images, so it is not known where the "
+                       "probe's face is",
+                       "give the pixel of the face's middle as --face-pixel X,Y");
+    face = {origin.x / mm_x, origin.y / mm_y};
+  }
+  Placed result;
+  result.sweep_from_fan = sweep_from_probe * Pose{axes, corner + face.x * x + face.y * y};
+  result.pixel_from_plane = glm::dmat3(1 / mm_x, 0, 0, 0, 1 / mm_y, 0, face.x, face.y, 1);
+  return result;
+}
+
+Image<float> clipped(const Image<std::uint8_t>& picture, const SweepInput& input) {
+  Image<float> result(picture.width, picture.height, kUnknown);
+  const auto [x, y, width, height] = input.clip.value_or(std::array{0, 0, picture.width, picture.height});
+  if (x < 0 || y < 0 || width < 1 || height < 1 || width > picture.width - x || height > picture.height - y)
+    throw InputError("--clip", "",
+                     "the rectangle is not within the images of " + std::to_string(picture.width) + " x " +
+                         std::to_string(picture.height) + " pixels",
+                     "give X,Y,WIDTH,HEIGHT in pixels");
+  for (int row = y; row < y + height; ++row)
+    for (int column = x; column < x + width; ++column) result.at(column, row) = float(picture.at(column, row));
+  return result;
+}
+
+// Throws InputError unless the images show the fan and something in it.
+void check_shows_fan(const SweepInput& input, const TrackedSweep& sweep) {
+  double fan = 0, known = 0, sum = 0, squares = 0;
+  for (const SweepImage& image : sweep.images) {
+    const ImageGeometry geometry = image_geometry(sweep.probe, sweep.depth_mm, image.grey.width, image.grey.height);
+    for (int y = 0; y < geometry.height; ++y)
+      for (int x = 0; x < geometry.width; ++x) {
+        if (!line_position(sweep.probe, sweep.depth_mm, geometry.plane_mm(x, y))) continue;
+        ++fan;
+        const double value = image.grey.at(x, y);
+        if (std::isnan(value)) continue;
+        ++known;
+        sum += value;
+        squares += value * value;
+      }
+  }
+  if (known < kLeastShown * fan)
+    throw InputError(
+        input.file, "",
+        "the images show only " + std::to_string(int(100 * known / std::max(fan, 1.0))) + " % of the probe's fan",
+        "name the probe and the depth that they are from, or --face-pixel");
+  if (squares / known - std::pow(sum / known, 2) < 1)
+    throw InputError(input.file, "", "the images show nothing in the probe's fan: it is of one grey level",
+                     "name the probe and the depth that they are from, or another recording");
+}
+
+}  // namespace
+
+ReadSweep read_sweep(const SweepInput& input) {
+  RecordingOptions options;
+  options.transform = input.transform;
+  options.without_times = true;
+  const RecordedScan scan = read_log(input.file, options);
+  if (!scan.images)
+    throw InputError(input.file, "", "it holds no images that can be read", "record the ultrasound with the poses");
+  ReadSweep result;
+  result.frames = scan.samples.size();
+  std::vector<Placed> all;
+  bool is_placed = false;
+  for (std::size_t n = 0; n < scan.samples.size(); ++n) {
+    const RecordedImages::Frame& frame = scan.images->frames[n];
+    const auto probe_from_pixel = input.probe_from_pixel ? input.probe_from_pixel : frame.probe_from_pixel;
+    is_placed = is_placed || probe_from_pixel;
+    if (!probe_from_pixel || scan.samples[n].status != PoseStatus::ok) continue;
+    all.push_back(placed(scan.samples[n].patient_from_probe, *probe_from_pixel, input));
+    all.back().number = frame.number;
+  }
+  if (!is_placed)
+    throw InputError(input.file, "", "it does not say how its images lie in the probe's frame: ImageToProbe is missing",
+                     "give that matrix as --image-to-probe FILE");
+  if (all.size() < 2)
+    throw InputError(input.file, "", "fewer than two of its images have a pose", "name the probe's with --transform");
+  result.left_out = result.frames - all.size();
+
+  const ImageGeometry geometry = image_geometry(input.probe, input.depth_mm, input.width, input.height);
+  result.sweep.probe = input.probe;
+  result.sweep.depth_mm = input.depth_mm;
+  ImageReader reader(*scan.images);
+  const std::size_t kept = std::min(all.size(), std::size_t(input.slices));
+  for (std::size_t i = 0; i < kept; ++i) {
+    const Placed& place = all[(2 * i + 1) * all.size() / (2 * kept)];
+    result.sweep.images.push_back(
+        {place.sweep_from_fan, resampled(clipped(reader.grey(place.number), input), place.pixel_from_plane, geometry)});
+  }
+  check_shows_fan(input, result.sweep);
+  return result;
+}
+
+Probe read_probe(const std::string& file) {
+  const TomlDocument document(file, read_file(file));
+  const TomlTable root = document.root();
+  Probe probe = *find_probe("curvilinear");
+  const std::string kind = root.text("kind");
+  const Probe* like = find_probe(kind);
+  if (!like)
+    throw InputError(file, "key 'kind'", "there is no kind of probe named '" + kind + "'",
+                     "write curvilinear, linear or phased");
+  probe = *like;
+  if (probe.kind == ProbeKind::curvilinear) probe.radius_mm = root.number("radius_mm", {5, 200});
+  if (probe.kind != ProbeKind::linear) probe.field_of_view_deg = root.number("field_of_view_deg", {5, 150});
+  if (probe.kind != ProbeKind::curvilinear) probe.width_mm = root.number("width_mm", {5, 200});
+  probe.depth_mm = root.number("depth_mm", {10, 400});
+  root.refuse_unknown_keys();
+  return probe;
+}
+
+}  // namespace insonate

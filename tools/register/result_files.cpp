@@ -1,0 +1,208 @@
+#include "tools/register/result_files.h"
+
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "sim/core/text.h"
+#include "sim/reconstruction/reconstruction.h"
+#include "sim/reconstruction/sweep_extent.h"
+#include "sim/reconstruction/tracked_picture.h"
+
+namespace insonate {
+namespace {
+
+constexpr double kVoxel_mm = 1;  // of the sweep's volume
+constexpr std::array<const char*, 12> kParameters{"tx", "ty", "tz", "rx",       "ry",       "rz",
+                                                  "sx", "sy", "sz", "shear_yz", "shear_xz", "shear_xy"};
+
+std::string fixed(double value, int digits) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f", digits, value);
+  return text;
+}
+
+nlohmann::json rows_of(const glm::dmat4& matrix) {
+  nlohmann::json rows = nlohmann::json::array();
+  for (int row = 0; row < 4; ++row) {
+    nlohmann::json numbers = nlohmann::json::array();
+    for (int column = 0; column < 4; ++column) numbers.push_back(matrix[column][row]);
+    rows.push_back(std::move(numbers));
+  }
+  return rows;
+}
+
+std::string escaped(const std::string& text) {
+  std::string safe;
+  for (const char c : text)
+    safe += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '"' ? "&quot;" : std::string(1, c);
+  return safe;
+}
+
+std::string row(const std::string& name, const std::string& value) {
+  return "<tr><th>" + name + "</th><td>" + value + "</td></tr>\n";
+}
+
+std::string figure(const std::string& file, const std::string& caption) {
+  return "<figure><img alt='" + caption + "' src='" + file + "'><figcaption>" + caption + "</figcaption></figure>";
+}
+
+constexpr char kStyle[] =
+    "body{font:15px/1.5 sans-serif;color:#1d2733;max-width:1500px;margin:2em auto;padding:0 1em}"
+    ".verdict{font-weight:600;padding:.6em 1em;border-left:6px solid #2e7d4f;background:#eef6f0}"
+    ".verdict.no{border-color:#b3362b;background:#fbeeec}th{text-align:left;padding-right:2em;font-weight:400}"
+    "td{font-variant-numeric:tabular-nums}.row{display:flex;gap:8px;flex-wrap:wrap}figure{margin:0 0 1em}"
+    "img{width:280px;display:block}figcaption{font-size:12px;color:#5f6c7b}";
+
+}  // namespace
+
+std::string verdict(const SweepRegistration& found) {
+  if (found.converged())
+    return found.deviation.empty() ? "Converged; mutual information gives no expected error."
+                                   : "Converged: the expected error from the similarity's curvature is " +
+                                         fixed(found.expected_error_mm, 2) + " mm.";
+  std::string text = "Not converged: ";
+  for (std::size_t i = 0; i < found.doubts.size(); ++i) text += (i > 0 ? ", and " : "") + found.doubts[i];
+  return text + ". Do not use this transform.";
+}
+
+std::string itk_transform(const glm::dmat4& matrix, const std::string& why) {
+  std::string text =
+      "#Insight Transform File V1.0\n# " + why + "\n#Transform 0\nTransform: AffineTransform_double_3_3\n";
+  text += "Parameters:";
+  for (int r = 0; r < 3; ++r)
+    for (int column = 0; column < 3; ++column) text += " " + exact_text(matrix[column][r]);
+  for (int r = 0; r < 3; ++r) text += " " + exact_text(matrix[3][r]);
+  return text + "\nFixedParameters: 0 0 0\n";
+}
+
+std::string registration_json(const RegistrationReport& report) {
+  const SweepRegistration& found = report.found;
+  nlohmann::ordered_json json;
+  json["format"] = 1;
+  json["converged"] = found.converged();
+  json["verdict"] = verdict(found);
+  json["doubts"] = found.doubts;
+  json["ct"] = report.ct.empty() ? "built-in" : report.ct;
+  json["recording"] = report.recording;
+  json["frames"] = report.input.frames;
+  json["frames_left_out"] = report.input.left_out;
+  json["slices"] = report.input.sweep.images.size();
+  json["coordinates"] = "LPS, mm; matrices by rows";
+  json["ct_from_sweep"] = rows_of(found.ct_from_sweep);
+  json["sweep_from_ct"] = rows_of(glm::inverse(found.ct_from_sweep));
+  json["ct_from_sweep_at_start"] = rows_of(found.motion.ct_from_sweep);
+  json["measure"] = std::string(to_string(report.settings.measure));
+  json["similarity_before"] = found.similarity_before;
+  json["similarity_after"] = found.similarity_after;
+  json["similarity_of_runner_up"] = found.runner_up;
+  nlohmann::ordered_json parameters;
+  for (std::size_t i = 0; i < found.at.size(); ++i) {
+    parameters[kParameters[i]]["mm"] = found.at[i];
+    if (!found.deviation.empty()) parameters[kParameters[i]]["standard_deviation_mm"] = found.deviation[i];
+  }
+  json["parameters"] = parameters;
+  json["radius_mm"] = found.motion.radius_mm;
+  const glm::dvec3& centre = found.motion.centre_in_ct;
+  json["centre_in_ct"] = {centre.x, centre.y, centre.z};
+  if (!found.deviation.empty()) json["expected_error_mm"] = found.expected_error_mm;
+  json["search_mm"] = report.settings.search_mm;
+  json["search_deg"] = report.settings.search_deg;
+  json["evaluations"] = found.evaluations.size();
+  json["seconds"] = found.seconds;
+  return json.dump(2) + "\n";
+}
+
+std::string evaluations_csv(const SweepRegistration& found) {
+  std::string csv = "evaluation,stage,similarity";
+  for (std::size_t i = 0; i < found.at.size(); ++i) csv += std::string(",") + kParameters[i] + "_mm";
+  csv += "\n";
+  for (std::size_t n = 0; n < found.evaluations.size(); ++n) {
+    const Evaluation& each = found.evaluations[n];
+    csv += std::to_string(n) + "," + kStages[std::size_t(each.stage)] + "," + fixed(each.similarity, 6);
+    for (std::size_t i = 0; i < found.at.size(); ++i) csv += "," + fixed(i < each.at.size() ? each.at[i] : 0, 4);
+    csv += "\n";
+  }
+  return csv;
+}
+
+std::string registration_page(const RegistrationReport& report) {
+  const SweepRegistration& found = report.found;
+  std::string html = "<!doctype html>\n<html lang='en'><head><meta charset='utf-8'><title>Registration</title><style>";
+  html += kStyle;
+  html += "</style></head><body>\n<h1>Registration of tracked ultrasound with CT</h1>\n<p class='verdict";
+  html += found.converged() ? "" : " no";
+  html += "'>" + escaped(verdict(found)) + "</p>\n<table>\n";
+  html += row("CT", escaped(report.ct.empty() ? "the built-in patient" : report.ct));
+  html += row("Recording", escaped(report.recording) + ", " + std::to_string(report.input.sweep.images.size()) +
+                               " of " + std::to_string(report.input.frames) + " images");
+  html += row("Similarity (" + std::string(to_string(report.settings.measure)) + ") before and after",
+              fixed(found.similarity_before, 4) + " &rarr; " + fixed(found.similarity_after, 4));
+  html += row("Similarity of the next best place", found.runner_up > 0 ? fixed(found.runner_up, 4) : "none was found");
+  const std::vector<double>& at = found.at;
+  html += row("Moved from the start",
+              fixed(std::hypot(at[0], at[1], at[2]), 1) + " mm, " +
+                  fixed(std::hypot(at[3], at[4], at[5]) / found.motion.radius_mm * 180 / M_PI, 1) + " degrees");
+  html += row("Evaluations", std::to_string(found.evaluations.size()) + " in " + fixed(found.seconds, 1) + " s");
+  html +=
+      "</table>\n<p>The blends show the ultrasound in orange and the CT in blue. Where both are bright they are "
+      "white. The probe's marker is on the left.</p>\n";
+  for (const ComparisonPictures& one : report.pictures)
+    html += "<h2>Image " + std::to_string(one.image + 1) + "</h2>\n<div class='row'>" +
+            figure(one.ultrasound, "Ultrasound") + figure(one.ct_before, "CT, before") +
+            figure(one.blend_before, "Both, before") + figure(one.ct_after, "CT, after") +
+            figure(one.blend_after, "Both, after") + "</div>\n";
+  return html + "</body></html>\n";
+}
+
+std::string slicer_scene(const std::string& why) {
+  const auto volume = [](int number, const std::string& name, const std::string& file, const std::string& window,
+                         const std::string& more) {
+    const std::string n = std::to_string(number);
+    return "  <ScalarVolumeDisplay id=\"vtkMRMLScalarVolumeDisplayNode" + n +
+           "\" colorNodeID=\"vtkMRMLColorTableNodeGrey\" " + window +
+           " autoWindowLevel=\"0\"/>\n  <VolumeArchetypeStorage id=\"vtkMRMLVolumeArchetypeStorageNode" + n +
+           "\" fileName=\"" + file + "\"/>\n  <Volume id=\"vtkMRMLScalarVolumeNode" + n + "\" name=\"" + name +
+           "\" displayNodeRef=\"vtkMRMLScalarVolumeDisplayNode" + n +
+           "\" storageNodeRef=\"vtkMRMLVolumeArchetypeStorageNode" + n + "\"" + more + "/>\n";
+  };
+  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<!-- " + escaped(why) +
+         " -->\n<MRML version=\"Slicer4.4.0\" userTags=\"\">\n"
+         "  <TransformStorage id=\"vtkMRMLTransformStorageNode1\" fileName=\"sweep_from_ct.tfm\"/>\n"
+         "  <LinearTransform id=\"vtkMRMLLinearTransformNode1\" name=\"ct_from_sweep\" "
+         "storageNodeRef=\"vtkMRMLTransformStorageNode1\"/>\n" +
+         volume(1, "CT", "ct.nrrd", "window=\"400\" level=\"50\"", "") +
+         volume(2, "Sweep", "sweep.nrrd", "window=\"255\" level=\"127\"",
+                " transformNodeRef=\"vtkMRMLLinearTransformNode1\"") +
+         "  <Selection id=\"vtkMRMLSelectionNodeSingleton\" activeVolumeID=\"vtkMRMLScalarVolumeNode1\" "
+         "secondaryVolumeID=\"vtkMRMLScalarVolumeNode2\"/>\n</MRML>\n";
+}
+
+Volume<std::uint8_t> volume_of(const TrackedSweep& sweep) {
+  std::vector<TrackedPicture> pictures;
+  const Image<float>& first = sweep.images.front().grey;
+  const ImageGeometry geometry = image_geometry(sweep.probe, sweep.depth_mm, first.width, first.height);
+  const auto region = fan_region(sweep.probe, sweep.depth_mm, geometry);
+  for (const SweepImage& image : sweep.images) {
+    TrackedPicture picture;
+    picture.region = region;
+    picture.patient_from_pixel = patient_from_pixel(image.sweep_from_probe, geometry);
+    picture.time_s = double(pictures.size());
+    picture.grey = Image<std::uint8_t>(first.width, first.height);
+    for (std::size_t i = 0; i < image.grey.pixels.size(); ++i)
+      picture.grey.pixels[i] = std::isnan(image.grey.pixels[i])
+                                   ? std::uint8_t(0)
+                                   : std::uint8_t(std::clamp(image.grey.pixels[i], 0.0f, 255.0f));
+    pictures.push_back(std::move(picture));
+  }
+  Reconstruction reconstruction(choose_grid(pictures, kVoxel_mm).grid, {});
+  for (const TrackedPicture& picture : pictures) reconstruction.add(picture);
+  return reconstruction.filled().grey;
+}
+
+}  // namespace insonate

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "sim/alignment/registration.h"
+#include "sim/core/grid.h"
+#include "tools/register/comparison_pictures.h"
+#include "tools/register/read_sweep.h"
+
+namespace insonate {
+
+/// Everything that the files about a registration describe.
+struct RegistrationReport {
+  std::string ct, recording;  ///< as the user named them
+  const ReadSweep& input;
+  const RegistrationSettings& settings;
+  const SweepRegistration& found;
+  std::vector<ComparisonPictures> pictures;
+};
+
+/// Returns the verdict in one sentence: "Converged: ..." or "Not converged: ...".
+std::string verdict(const SweepRegistration& found);
+
+/// Returns a transform as ITK reads it (.tfm): an affine transform of LPS points, mm, with the verdict as a comment.
+std::string itk_transform(const glm::dmat4& matrix, const std::string& verdict);
+
+/// Returns the transforms in both directions, the verdict, the uncertainty, the settings and the similarities as JSON.
+std::string registration_json(const RegistrationReport& report);
+
+/// Returns every evaluation as CSV: number, stage, similarity and the parameters in mm.
+std::string evaluations_csv(const SweepRegistration& found);
+
+/// Returns the page about a registration. Its pictures lie beside it.
+std::string registration_page(const RegistrationReport& report);
+
+/// Returns a scene of 3D Slicer: ct.nrrd, and sweep.nrrd behind the transform of sweep_from_ct.tfm. Slicer reads an ITK
+/// transform as the map from the parent's points, which here are the CT's.
+std::string slicer_scene(const std::string& verdict);
+
+/// Returns the sweep as a volume of grey levels in its own frame.
+Volume<std::uint8_t> volume_of(const TrackedSweep& sweep);
+
+}  // namespace insonate

@@ -1,0 +1,96 @@
+#include "tools/register/start_transform.h"
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "sim/core/files.h"
+#include "sim/core/input_error.h"
+
+namespace insonate {
+namespace {
+
+constexpr double kLeastOffLine_mm = 5;  // of the landmarks
+constexpr double kBodyHu = -300;
+constexpr double kLeastShare = 0.1;  // of what the sweep shows that lies in the CT, and in the body
+
+std::string percent(double share) {
+  return std::to_string(int(std::lround(100 * share))) + " %";
+}
+
+}  // namespace
+
+glm::dmat4 start_from_landmarks(const std::string& file) {
+  std::istringstream text(read_file(file));
+  std::vector<double> numbers;
+  for (std::string word; text >> word;) {
+    std::size_t used = 0;
+    double number = NAN;
+    try {
+      number = std::stod(word, &used);
+    } catch (const std::exception&) {
+      used = 0;
+    }
+    if (used != word.size() || !std::isfinite(number))
+      throw InputError(file, "", "'" + word + "' is not a number",
+                       "write six numbers per landmark: x y z in the sweep "
+                       "and x y z in the CT, mm");
+    numbers.push_back(number);
+  }
+  const std::size_t pairs = numbers.size() / 6;
+  if (numbers.size() % 6 != 0 || pairs < 3)
+    throw InputError(file, "", "it holds " + std::to_string(numbers.size()) + " numbers",
+                     "write six per landmark, of three or more landmarks");
+  const Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic>> all(numbers.data(), 6, Eigen::Index(pairs));
+  const Eigen::MatrixXd in_sweep = all.topRows(3), in_ct = all.bottomRows(3);
+  double off_line = 0;
+  const Eigen::Vector3d first = in_sweep.col(0);
+  Eigen::Vector3d along = Eigen::Vector3d::Zero();
+  for (Eigen::Index i = 1; i < in_sweep.cols(); ++i)
+    if ((in_sweep.col(i) - first).norm() > along.norm()) along = in_sweep.col(i) - first;
+  for (Eigen::Index i = 1; i < in_sweep.cols() && along.norm() > 0; ++i) {
+    const Eigen::Vector3d apart = in_sweep.col(i) - first;
+    off_line = std::max(off_line, apart.cross(along.normalized()).norm());
+  }
+  if (off_line < kLeastOffLine_mm)
+    throw InputError(file, "", "the landmarks lie on a line, so no rotation follows from them",
+                     "add one that lies beside it");
+  const Eigen::Matrix4d fit = Eigen::umeyama(in_sweep, in_ct, false);
+  glm::dmat4 result(1.0);
+  for (int column = 0; column < 4; ++column)
+    for (int row = 0; row < 4; ++row) result[column][row] = fit(row, column);
+  return result;
+}
+
+void check_start(const std::string& ct_file, const Volume<std::int16_t>& ct, const TrackedSweep& sweep,
+                 const glm::dmat4& ct_from_sweep) {
+  const std::string name = ct_file.empty() ? "the built-in patient" : ct_file;
+  double points = 0, in_ct = 0, in_body = 0;
+  for (const glm::dvec3& point : target_points(sweep)) {
+    const glm::dvec3 index = ct.grid.index_from_patient(glm::dvec3(ct_from_sweep * glm::dvec4(point, 1)));
+    ++points;
+    if (!ct.grid.contains(glm::ivec3(glm::round(index)))) continue;
+    ++in_ct;
+    in_body += sample_trilinear(ct, index) > kBodyHu;
+  }
+  if (in_ct < kLeastShare * points)
+    throw InputError(name, "",
+                     "at the start only " + percent(in_ct / points) + " of what the sweep shows lies in the CT",
+                     "give a nearer --start or --landmarks, or a CT of the region that was scanned");
+  if (in_body < kLeastShare * points)
+    throw InputError(name, "",
+                     "at the start the sweep looks away from the body: only " + percent(in_body / points) +
+                         " of what it shows is tissue",
+                     "give a nearer --start or --landmarks");
+}
+
+}  // namespace insonate
