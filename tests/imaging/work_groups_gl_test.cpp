@@ -182,7 +182,7 @@ TEST_CASE("LC2's sums fit a texture, however large the picture and the groups an
   const auto table_of = [](int width, int height, int patch, std::size_t group) {
     const std::vector<gl::PixelPlace> places(std::size_t(width) * std::size_t(height), gl::PixelPlace(0));
     const Image<float> compared(width, height);
-    gl::PixelTable table = gl::compared_pixels(places, {&compared, 1}, patch, group);
+    gl::PixelTable table = gl::compared_pixels(places, {&compared, 1}, patch, group).table;
     CHECK(table.pixels == places.size());
     return table;
   };
