@@ -18,8 +18,8 @@ struct Segmentation {
 
 /// Reads TotalSegmentator's output: one file with many labels, or a folder with one mask per structure. A mask is named
 /// after its structure (liver.nii.gz) and consists of all voxels that are not 0. Labels on another grid than the CT's
-/// are resampled to smooth surfaces (resample_labels()). Names become lower case with underscores. An unknown structure is treated as
-/// soft tissue.
+/// are resampled to smooth surfaces (resample_labels()). Names become lower case with underscores. An unknown structure
+/// is treated as soft tissue.
 ///
 /// The names of a file's labels come from its header. If `label_table` names a standard table
 /// (standard_label_tables()), that table replaces them. Where masks overlap, the smaller structure gets the voxel.

@@ -53,9 +53,10 @@ Volume<std::int16_t> resample_isotropic(const Volume<std::int16_t>& ct, double s
 
 /// Returns the labels on another grid over the same patient; 0 outside theirs.
 ///
-/// A voxel takes the label with the largest sum of weights around it. The weights are the mean of linear interpolation's
-/// and the cubic B-spline's. The spline's would make surfaces without the old voxels' steps, but would lose what is one
-/// voxel thin; linear interpolation keeps that, and steps. A voxel at an old voxel's middle keeps its label.
+/// A voxel takes the label with the largest sum of weights around it. The weights are the mean of linear
+/// interpolation's and the cubic B-spline's. The spline's would make surfaces without the old voxels' steps, but would
+/// lose what is one voxel thin; linear interpolation keeps that, and steps. A voxel at an old voxel's middle keeps its
+/// label.
 Volume<std::uint8_t> resample_labels(const Volume<std::uint8_t>& labels, const Grid& onto);
 
 }  // namespace insonate

@@ -28,8 +28,8 @@ std::optional<glm::dvec3> skin_along(const Volume<std::int16_t>& ct, const glm::
                                      const glm::dvec3& direction, double reach_mm);
 
 /// Returns views for a body without reference views: from the middle of the skin in front, marker to the patient's
-/// right, and from the right flank over the liver, marker to the head. The face is pressed in by `press_mm` from the skin
-/// (skin_along()). Returns nothing if there is no such body.
+/// right, and from the right flank over the liver, marker to the head. The face is pressed in by `press_mm` from the
+/// skin (skin_along()). Returns nothing if there is no such body.
 std::vector<ReferenceView> default_views(const Volume<std::int16_t>& ct, double press_mm = 8);
 
 }  // namespace insonate
