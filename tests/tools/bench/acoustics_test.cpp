@@ -54,6 +54,7 @@ TEST_CASE("insonate-bench beam: eight depths per probe, with the profile and the
 
   Beamforming beamforming;
   beamforming.transmit_focus_mm = linear.depth_mm / 2;
+  beamforming.transmit_f_number = beamforming.receive_f_number = request.f_number;
   beamforming.attenuation_db_cm_mhz = 0.5;
   beamforming.nearest_mm = linear.depth_mm / 8;
   const Transducer transducer = bundled_transducer("linear");
