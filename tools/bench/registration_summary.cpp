@@ -161,7 +161,8 @@ std::string registrations_svg(const std::string& file, const Table& table) {
                    i * kDrawnBand_mm);
     svg += print("<text x='%.0f' y='%.1f' text-anchor='end'>target registration error of the start, mm</text>\n",
                  kWidth - kRight, bottom + 34);
-    svg += print("<text x='8' y='%.1f'>final error below 5 mm</text>\n", top - 4);
+    svg += print("<text x='%.0f' y='%.1f' text-anchor='end'>starts whose final error is below 5 mm</text>\n",
+                 kWidth - kRight, top - 18);
     std::size_t line = 0;
     for (const auto& [name, all] : runs) {
       if (name.first != patients[p]) continue;
