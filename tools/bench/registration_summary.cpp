@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdarg>
 #include <cstdio>
 #include <iterator>
 #include <utility>
 #include <vector>
 
 #include "tools/bench/statistics.h"
+#include "tools/bench/svg.h"
 
 namespace insonate::bench {
 namespace {
@@ -70,21 +70,6 @@ double capture_range(const std::vector<Run>& runs) {
     const std::vector<Run> within = band(runs, range, range + kBand_mm);
     if (within.empty() || success_of(within) < kCaptured) return range;
   }
-}
-
-std::string print(const char* format, ...) {
-  va_list arguments;
-  va_start(arguments, format);
-  char text[300];
-  std::vsnprintf(text, sizeof text, format, arguments);
-  va_end(arguments);
-  return text;
-}
-
-std::string escaped(const std::string& text) {
-  std::string safe;
-  for (const char c : text) safe += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
-  return safe;
 }
 
 }  // namespace
