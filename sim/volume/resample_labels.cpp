@@ -27,8 +27,8 @@ Weights weights_at(double position) {
            float(t * t * t / 6)}};
 }
 
-/// Tells for each old voxel whether it and the 63 others that a new voxel behind it depends on have one label. Most do,
-/// and then nothing has to be counted.
+/// Returns for each old voxel whether it and the 63 others that a new voxel behind it depends on have one label. Most
+/// do, and then nothing has to be counted.
 std::vector<std::uint8_t> uniform_surroundings(const Volume<std::uint8_t>& labels) {
   const glm::ivec3 size = labels.grid.size;
   std::vector<std::uint8_t> uniform(labels.voxels.size());

@@ -46,8 +46,8 @@ private:
   Close close_ = nullptr;
 };
 
-/// Begins the use of the library on a thread. It prints each error unless it is told not to, and at the program's end
-/// it closes what is open, see given_up.
+/// Begins the use of the library on a thread. It prints each error unless that is switched off, and at the program's
+/// end it closes what is open, see given_up.
 void use_library() {
   static const herr_t without_exit_handler = H5dont_atexit();
   (void)without_exit_handler;
