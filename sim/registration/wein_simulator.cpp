@@ -299,8 +299,10 @@ void WeinSimulator::set_ultrasound(std::span<const Image<float>> images) {
       throw std::invalid_argument(std::string(kName) +
                                   ": the ultrasound image has another size than the simulated ones");
   s.compared.clear();
-  s.ultrasound =
-      images.empty() ? ComparedPixels{} : compared_pixels(s.pixel_places, images, s.settings.similarity_patch, s.group);
+  if (images.empty())
+    s.ultrasound = ComparedPixels();
+  else
+    s.ultrasound = compared_pixels(s.pixel_places, images, s.settings.similarity_patch, s.group);
   s.parameters.ultrasounds = std::max(int(images.size()), 1);
   if (s.ultrasound.table)
     s.sums = Texture::make_2d(GL_RGBA32F, 3 * int(s.ultrasound.table.columns), int(s.chunk_images), Filter::nearest);

@@ -76,7 +76,9 @@ double capture_range(const std::vector<Run>& runs) {
 
 std::vector<RegistrationSummary> summaries_of(const std::string& file, const Table& table) {
   std::vector<RegistrationSummary> all;
-  for (const auto& [name, runs] : runs_of(file, table)) {
+  for (const auto& named : runs_of(file, table)) {
+    const auto& name = named.first;
+    const std::vector<Run>& runs = named.second;
     const std::vector<Run> near = only(runs, [](const Run& r) { return r.start_mm <= 20 && r.start_deg <= 15; });
     const auto error = [](const Run& run) { return run.error_mm; };
     const auto count = [&](auto&& which) { return std::size_t(std::ranges::count_if(runs, which)); };

@@ -20,7 +20,7 @@ struct SweepInput {
   std::optional<glm::dmat4> probe_from_pixel;  ///< in place of the recording's own ImageToProbe
   std::optional<glm::dvec2> face_pixel;        ///< where the middle of the probe's face lies in the images
   std::optional<std::array<int, 4>> clip;      ///< x, y, width, height of the part that is used, pixels
-  Probe probe{};                               ///< whose fan the images show
+  Probe probe = Probe();                       ///< whose fan the images show
   double depth_mm = 160;
   int slices = 20;  ///< images that are used, evenly spread over the recording
   int width = 128, height = 96;
