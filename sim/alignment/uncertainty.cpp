@@ -61,30 +61,38 @@ Uncertainty uncertainty_at(const Parameters& at, const Motion& motion, const Eva
   const std::size_t n = at.size();
   const double h = kCurvatureStep_mm;
   std::vector<Parameters> points{at};
-  const auto moved = [&](std::size_t i, std::size_t j, double step) {
-    Parameters point = at;
-    point[i] += step;
-    if (j != i) point[j] += step;
-    points.push_back(std::move(point));
-  };
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = i; j < n; ++j) {
-      moved(i, j, h);
-      moved(i, j, -h);
+  // Both sides along a direction.
+  const auto add_sides = [&](std::size_t i, std::size_t j, double towards_j) {
+    for (const double step : {h, -h}) {
+      Parameters point = at;
+      point[i] += step;
+      if (j != i) point[j] += towards_j * step;
+      points.push_back(std::move(point));
     }
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    add_sides(i, i, 0);
+    for (std::size_t j = i + 1; j < n; ++j) {
+      add_sides(i, j, 1);
+      add_sides(i, j, -1);
+    }
+  }
   const std::vector<double> values = evaluate(points);
-  // The sum of the values on both sides, along i for j = i, else along the diagonal of i and j.
-  Eigen::MatrixXd sums(n, n);
   std::size_t next = 1;
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = i; j < n; ++j, next += 2)
-      sums(Eigen::Index(i), Eigen::Index(j)) = sums(Eigen::Index(j), Eigen::Index(i)) = values[next] + values[next + 1];
+  const auto sum_of_sides = [&] {
+    next += 2;
+    return values[next - 2] + values[next - 1];
+  };
+  // A mixed derivative from both diagonals: from one and the two axes, it would have ten times the variance.
   Eigen::MatrixXd information(n, n);
   const double scale = -independent_pixels / (2 * std::max(1 - values.front(), 1e-6) * h * h);
-  for (Eigen::Index i = 0; i < Eigen::Index(n); ++i)
-    for (Eigen::Index j = 0; j < Eigen::Index(n); ++j)
-      information(i, j) = scale * (i == j ? sums(i, i) - 2 * values.front()
-                                          : (sums(i, j) - sums(i, i) - sums(j, j) + 2 * values.front()) / 2);
+  for (Eigen::Index i = 0; i < Eigen::Index(n); ++i) {
+    information(i, i) = scale * (sum_of_sides() - 2 * values.front());
+    for (Eigen::Index j = i + 1; j < Eigen::Index(n); ++j) {
+      const double along = sum_of_sides(), across = sum_of_sides();
+      information(i, j) = information(j, i) = scale * (along - across) / 4;
+    }
+  }
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(information);
   Uncertainty result;
   result.is_maximum = solver.info() == Eigen::Success && solver.eigenvalues().minCoeff() > 0;

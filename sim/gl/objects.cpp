@@ -26,6 +26,7 @@ std::size_t texel_bytes(GLenum format) {
     case GL_R16:
       return 2;
     case GL_RG32F:
+    case GL_RG32I:
     case GL_RGBA16:
     case GL_RGBA16F:
       return 8;

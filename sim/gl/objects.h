@@ -140,7 +140,8 @@ public:
   TexelBuffer() = default;
   /// Allocates `texels` texels and fills them from `values` unless that is null. Throws DeviceRefused if they are more
   /// than the device allows shaders, or its memory does not suffice.
-  /// @param format  GL_R16, GL_R32F, GL_R32UI, GL_RG16, GL_RG16F, GL_RG32F, GL_RGBA16, GL_RGBA16F, GL_RGBA32F or
+  /// @param format  GL_R16, GL_R32F, GL_R32UI, GL_RG16, GL_RG16F, GL_RG32F, GL_RG32I, GL_RGBA16, GL_RGBA16F, GL_RGBA32F
+  /// or
   ///                GL_RGBA32I
   TexelBuffer(GLenum format, std::size_t texels, const void* values = nullptr);
 

@@ -11,7 +11,7 @@ Settings in_use(Settings settings) {
   const Settings unset;
   const auto forget = [&](auto... members) { ((settings.*members = unset.*members), ...); };
   using S = Settings;
-  if (settings.slice_planes == 1) forget(&S::slice_thickness_mm, &S::elevation_focus_mm);
+  if (!has_slice(settings)) forget(&S::slice_thickness_mm, &S::elevation_focus_mm);
   if (!settings.speckle) forget(&S::speckle_seed, &S::speckle_cell_mm);
   if (settings.focused_beam)
     forget(&S::beam_window, &S::beam_lines);

@@ -79,7 +79,7 @@ void LineStages::lay_out(const ScanLines& of_plane, int most_planes, const Setti
   middle_ = TexelBuffer();
   echoes_ = TexelBuffer(GL_RGBA32F, n * d);
   pulsed_ = TexelBuffer();
-  if (settings.waves) scatterers_.lay_out(lines_, most_planes, settings);
+  if (settings.waves) scatterers_.lay_out(lines_, most_planes);
   mean_echo_ = TexelBuffer(GL_R32F, std::size_t(most_planes) * d);
   beam_changed_ = true;
 }

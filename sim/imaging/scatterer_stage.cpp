@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/core/hash.h"
 #include "sim/model/beam.h"
 #include "sim/model/waves.h"
 
@@ -17,7 +18,7 @@ namespace {
 
 constexpr double kLargestQuantum = 32000;  // of the 16 bits, with room for rounding
 // The parts of a sum of many scatterers stay below six times its root mean square, 8.5 standard deviations. Those of a
-// few scatterers, of up to 1.73 each, stay below 6.
+// few scatterers stay below 6.
 constexpr double kMostRms = 6, kMostOfFew = 6;
 
 double quanta_of(const ScanLines& lines, const Settings& settings) {
@@ -34,18 +35,26 @@ double slice_half_mm(const ScanLines& lines, const Settings& settings) {
 glm::dvec2 point_among(const LineFan& fan, double line, double r_mm) {
   const double across = fan.first + line * fan.step;
   if (fan.face == LineFan::Face::parallel) return {across, r_mm};
-  const double from_apex = r_mm + (fan.face == LineFan::Face::flat ? fan.apex_mm / std::cos(across) : fan.apex_mm);
+  const double face = fan.face == LineFan::Face::flat ? std::max(std::cos(across), std::cos(fan.first)) : 1;
+  const double from_apex = r_mm + fan.apex_mm / face;
   return {from_apex * std::sin(across), from_apex * std::cos(across) - fan.apex_mm};
 }
 
-// Returns points whose convex hull holds all places from which a scatterer reaches a sample, to the hundredth of a mm.
+// Returns points whose convex hull holds all places from which a scatterer reaches a sample.
 std::vector<glm::dvec2> outline(const ScanLines& lines) {
   constexpr int kParts = 32;
-  const double n = double(lines.lines.size()), dr = lines.dr_mm();
+  const LineFan& fan = lines.fan;
+  const bool parallel = fan.face == LineFan::Face::parallel;
+  const double n = double(lines.lines.size()), dr = lines.dr_mm(), part = (n + 1) / kParts;
+  const double nearest = lines.r_min_mm - dr, first = parallel ? nearest : std::max(nearest, -fan.apex_mm);
   std::vector<glm::dvec2> points;
-  for (int i = 0; i <= kParts; ++i)
-    for (const double r : {std::max(lines.r_min_mm - dr, -lines.fan.apex_mm), lines.r_max_mm + dr})
-      points.push_back(point_among(lines.fan, -1 + i * (n + 1) / kParts, r));
+  for (int i = 0; i <= kParts; ++i) {
+    const double line = -1 + i * part;
+    points.push_back(point_among(fan, line, first));
+    // Between two points an arc lies farther out than their chord.
+    const glm::dvec2 last = point_among(fan, line, lines.r_max_mm + dr), apex(0, -fan.apex_mm);
+    points.push_back(parallel ? last : apex + (last - apex) / std::cos(part * fan.step / 2));
+  }
   return points;
 }
 
@@ -118,6 +127,7 @@ ScattererColumns scatterer_columns(const Pose& patient_from_probe, const ScanLin
     projected.emplace_back(point[across] - corner[across], point[up] - corner[up]);
 
   ScattererColumns columns;
+  columns.corner = corner;
   append_groups(columns.groups, convex_hull(std::move(projected)));
 
   ScatterParameters& p = columns.parameters;
@@ -127,7 +137,8 @@ ScattererColumns scatterer_columns(const Pose& patient_from_probe, const ScanLin
     extent += std::abs(probe_from_cells[axis].z) / 2;
   }
   p.probe_from_corner = glm::vec4(glm::dvec3(probe_from_cells * glm::dvec4(corner, 1)), half + extent);
-  p.corner = glm::ivec4(corner, 0);
+  p.keys = glm::uvec4(kCellKeys[0], kCellKeys[1], kCellKeys[2], hash(settings.speckle_seed));
+  for (int axis = 0; axis < 3; ++axis) p.keys.w += std::uint32_t(corner[axis]) * p.keys[axis];
   const auto unit = [](int axis, int sign) {
     glm::ivec4 step(0);
     step[axis] = sign;
@@ -139,25 +150,22 @@ ScattererColumns scatterer_columns(const Pose& patient_from_probe, const ScanLin
   const double rise = std::abs(probe_from_cells[along].z);
   p.z_per_step = float(rise);
   p.steps = int(2 * (half + extent) / rise) + 1;
-  p.seed = settings.speckle_seed;
   p.apex_mm = float(lines.fan.apex_mm);
   p.first_across = float(lines.fan.first);
   p.lines_across = float(1 / lines.fan.step);
+  p.face_of_outer_line = float(std::cos(lines.fan.first));
   p.quanta = float(quanta_of(lines, settings));
-  // Planes lie at the middles of equal parts of four standard deviations (slice_planes()).
-  p.slice_planes_per_thickness = float(settings.slice_planes * std::sqrt(8 * std::log(2.0)) / 4);
   p.slice_half = float(kSliceHalf);
   return columns;
 }
 
 ScattererStage::ScattererStage(const ShaderSources& sources, const WorkDivision& division)
-    : division_(division),
-      program_(sources, {"imaging/scatter.comp"}, {{"FACE", "1"}, {"ELEVATION_FOCUS", "0"}, {"SLICE_PLANES", "1"}}) {}
+    : division_(division), program_(sources, {"imaging/scatter.comp"}, {{"FACE", "1"}, {"ELEVATION_FOCUS", "0"}}) {}
 
-void ScattererStage::lay_out(const ScanLines& of_plane, int most_planes, const Settings& settings) {
+void ScattererStage::lay_out(const ScanLines& of_plane, int most_planes) {
   lines_ = of_plane;
-  const std::size_t rows = std::size_t(most_planes) * std::size_t(settings.slice_planes) * lines_.lines.size();
-  scattered_ = TexelBuffer(GL_R32I, rows * std::size_t(lines_.samples));
+  const std::size_t rows = std::size_t(most_planes) * lines_.lines.size();
+  scattered_ = TexelBuffer(GL_RG32I, rows * std::size_t(lines_.samples + 1));
   scale_ = TexelBuffer();
 }
 
@@ -168,13 +176,12 @@ void ScattererStage::place(std::span<const Pose> patient_from_plane, const Setti
     scale_ = TexelBuffer(GL_R32F, scale.size(), scale.data());
     scale_of_ = settings;
   }
-  program_.define({{"FACE", std::to_string(int(lines_.fan.face))},
-                   {"ELEVATION_FOCUS", flag(has_elevation_focus(settings))},
-                   {"SLICE_PLANES", std::to_string(settings.slice_planes)}});
+  program_.define(
+      {{"FACE", std::to_string(int(lines_.fan.face))}, {"ELEVATION_FOCUS", flag(has_elevation_focus(settings))}});
   scattered_.clear();
   for (std::size_t plane = 0; plane < patient_from_plane.size(); ++plane) {
     ScattererColumns columns = scatterer_columns(patient_from_plane[plane], lines_, settings);
-    columns.parameters.first_row = int(plane) * settings.slice_planes * int(lines_.lines.size());
+    columns.parameters.first_row = int(plane * lines_.lines.size());
     const glm::ivec2 in_rows = division_.in_rows(columns.groups.size());
     // Groups that fill up the last row visit the last columns again, beyond them: far outside the lines.
     columns.groups.resize(std::size_t(in_rows.x) * std::size_t(in_rows.y), glm::ivec2(1 << 20));

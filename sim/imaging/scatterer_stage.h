@@ -19,7 +19,8 @@ struct ScattererColumns {
   static constexpr int kGroup = 32;  ///< columns that one work group visits, neighbours along a row
 
   ScatterParameters parameters{};
-  std::vector<glm::ivec2> groups;  ///< first column of each, counted from parameters.corner along `across` and `up`
+  glm::ivec3 corner{};             ///< parameters.probe_from_corner's cell
+  std::vector<glm::ivec2> groups;  ///< first column of each, counted from `corner` along `across` and `up`
 };
 
 /// Returns them for a pose. Every scatterer that reaches a sample lies in a column of the list.
@@ -31,12 +32,12 @@ public:
   ScattererStage(const ShaderSources& sources, const WorkDivision& division);
 
   /// Allocates the buffer. Throws DeviceRefused.
-  void lay_out(const ScanLines& of_plane, int most_planes, const Settings& settings);
+  void lay_out(const ScanLines& of_plane, int most_planes);
   /// Runs the stage. The caller has bound the block of parameters (sim/shaders/shared/simulation_parameters.h).
   /// @param patient_from_plane  1 to most_planes poses
   void place(std::span<const Pose> patient_from_plane, const Settings& settings);
 
-  /// n_p / c in fixed point, as scatter.comp packs it: one row per line, in the order of the placed lines.
+  /// n / c in fixed point, as scatter.comp stores it: one row per line, in the order of the placed lines.
   const TexelBuffer& scattered() const { return scattered_; }
   /// c by sample, for these fixed-point numbers.
   const TexelBuffer& scale() const { return scale_; }

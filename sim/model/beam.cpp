@@ -94,8 +94,12 @@ std::vector<double> beam_weights_at(const Settings& settings, double sigma_lines
   return with_sum_1(std::move(weights));
 }
 
+bool has_slice(const Settings& settings) {
+  return settings.slice_planes > 1 || settings.waves;
+}
+
 bool has_elevation_focus(const Settings& settings) {
-  return settings.slice_planes > 1 && settings.elevation_focus_mm > 0;
+  return has_slice(settings) && settings.elevation_focus_mm > 0;
 }
 
 double slice_spread(const Settings& settings) {

@@ -49,7 +49,10 @@ std::vector<double> beam_weights_at(const Settings& settings, double sigma_lines
 /// (Siegman, Lasers, 17.1, both ways; Goldstein, Ultrasound in Medicine and Biology 14, 1988: slice thickness).
 double slice_thickness_at_mm(const Settings& settings, double r_mm);
 
-/// Returns whether there are several planes whose distances grow away from an elevation focus.
+/// Returns whether the slice has a thickness: several planes, or scatterers (waves.h).
+bool has_slice(const Settings& settings);
+
+/// Returns whether the slice gets thicker away from an elevation focus.
 bool has_elevation_focus(const Settings& settings);
 
 /// Returns how much thicker the slice gets far from its focus, mm per mm; 0 without an elevation focus.

@@ -65,11 +65,13 @@ glm::dmat4 cells_from_patient(double pitch_mm) {
 }
 
 Scatterer scatterer_of(const glm::ivec3& cell, std::uint32_t seed) {
-  const std::uint32_t h = hash(hash(hash(seed, std::uint32_t(cell.x)), std::uint32_t(cell.y)), std::uint32_t(cell.z));
-  const auto byte = [&](int i) { return double(h >> (8 * i) & 255u); };
-  const double size = (double(h >> 25) - 63.5) * std::sqrt(12.0 / 16383.0);
-  const bool imaginary = h >> 24 & 1u;
-  return {(glm::dvec3(byte(0), byte(1), byte(2)) + 0.5) / 256.0, {imaginary ? 0 : size, imaginary ? size : 0}};
+  std::uint32_t key = hash(seed);
+  for (int axis = 0; axis < 3; ++axis) key += std::uint32_t(cell[axis]) * kCellKeys[std::size_t(axis)];
+  const std::uint32_t h = hash(key);
+  const auto share = [&](int lowest_bit) { return (double(h >> lowest_bit & 1023u) + 0.5) / 1024.0; };
+  const bool imaginary = h >> 30 & 1u;
+  const double size = h >> 31 ? -1 : 1;
+  return {{share(0), share(10), share(20)}, {imaginary ? 0 : size, imaginary ? size : 0}};
 }
 
 double slice_window(double z_mm, double thickness_mm) {

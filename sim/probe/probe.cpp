@@ -131,7 +131,8 @@ std::optional<LinePosition> line_position(const Probe& probe, double depth_mm, c
 LinePosition position_among(const LineFan& fan, const glm::dvec2& xy_mm) {
   if (fan.face == LineFan::Face::parallel) return {(xy_mm.x - fan.first) / fan.step, xy_mm.y};
   const double below_apex = xy_mm.y + fan.apex_mm, from_apex = std::hypot(xy_mm.x, below_apex);
-  const double r = fan.face == LineFan::Face::flat ? from_apex * xy_mm.y / below_apex : from_apex - fan.apex_mm;
+  const double face = fan.face == LineFan::Face::flat ? std::max(below_apex / from_apex, std::cos(fan.first)) : 1;
+  const double r = from_apex - fan.apex_mm / face;
   return {(std::atan2(xy_mm.x, below_apex) - fan.first) / fan.step, r};
 }
 

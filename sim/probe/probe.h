@@ -58,7 +58,7 @@ struct LineFan {
   enum class Face {
     parallel,  ///< across is x, mm; r is y
     round,     ///< across is the angle at the apex, rad; r is the distance from an arc about the apex
-    flat       ///< the same, but r is the distance along the line from y = 0
+    flat       ///< the same, but r is the distance along the line from y = 0; beyond the outer lines as from them
   };
   Face face = Face::parallel;
   double apex_mm = 0;  ///< distance of the apex behind the face's middle, where lines meet; 0 if parallel

@@ -240,21 +240,20 @@ using Wave = Image<std::complex<double>>;
 
 /// Adds the planes of the slice up, and computes V before the beam's width.
 struct Slice {
-  ReferenceScan scan;  // without waves: weighted sums over the planes
-  Wave echo;           // with waves: e
+  ReferenceScan scan;            // weighted sums over the planes
+  Image<double> mirrors, rough;  // with waves: of q I, and of the square that n's factor is the root of
   Image<double> scattered, repeats;
 };
 
-/// Adds what a plane sends back to e (sim/model/waves.h).
-void add_waves(Slice& slice, const ReferenceScan& one, const Wave& scatterers, double weight,
-               const Settings& settings) {
+/// Adds what a plane sends back, as waves (sim/model/waves.h).
+void add_waves(Slice& slice, const ReferenceScan& one, double weight, const Settings& settings) {
   for (std::size_t i = 0; i < one.intensity.pixels.size(); ++i) {
     const double intensity = one.intensity.pixels[i], squared = heard(intensity * intensity);
     const double transmission = settings.two_way ? squared : heard(intensity);
     const double scattered = std::sqrt(settings.blend * transmission) * one.amplitude.pixels[i];
-    const std::complex<double> n = scatterers.pixels[i];
-    slice.echo.pixels[i] +=
-        std::sqrt(squared) * one.mirror.pixels[i] * (weight * kMirrorShare + kRoughShare * n) + scattered * n;
+    const double mirrored = std::sqrt(squared) * one.mirror.pixels[i];
+    slice.mirrors.pixels[i] += weight * mirrored;
+    slice.rough.pixels[i] += weight * std::pow(kRoughShare * mirrored + scattered, 2);
     slice.scattered.pixels[i] += weight * scattered * scattered;
     slice.scan.intensity.pixels[i] += weight * intensity;
   }
@@ -263,14 +262,12 @@ void add_waves(Slice& slice, const ReferenceScan& one, const Wave& scatterers, d
 Slice traverse_slice(const MediumField& field, const TissueTable& table, const ScanLines& lines,
                      const Settings& settings, const Pose& patient_from_probe) {
   const Image<double> none(int(lines.lines.size()), lines.samples);
-  Slice slice{ReferenceScan{none, none, none, none, {}, {}}, Wave(none.width, none.height), none, none};
+  Slice slice{ReferenceScan{none, none, none, none, {}, {}}, none, none, none, none};
   const std::vector<SlicePlane> planes = slice_planes(settings);
-  std::vector<Wave> scatterers;
-  if (settings.waves) scatterers = scatterers_reference(lines, settings, patient_from_probe);
   for (std::size_t p = 0; p < planes.size(); ++p) {
     const ReferenceScan one = traverse_reference(field, table, lines, settings, patient_from_probe, planes[p]);
     if (settings.waves) {
-      add_waves(slice, one, scatterers[p], planes[p].weight, settings);
+      add_waves(slice, one, planes[p].weight, settings);
     } else {
       for (Image<double> ReferenceScan::*part :
            {&ReferenceScan::intensity, &ReferenceScan::reflection, &ReferenceScan::echo_re, &ReferenceScan::echo_im})
@@ -311,7 +308,8 @@ void widen(Stages<double>& stages, Slice& slice, const ScanLines& lines, const S
   stages.reflection = std::move(slice.scan.reflection);
 }
 
-void sum_waves(Stages<double>& stages, const Slice& slice, const ScanLines& lines, const Settings& settings) {
+void sum_waves(Stages<double>& stages, const Slice& slice, const ScanLines& lines, const Settings& settings,
+               const Pose& patient_from_probe) {
   const auto part = [](const Wave& wave, auto of) {
     Image<double> image(wave.width, wave.height);
     std::ranges::transform(wave.pixels, image.pixels.begin(), of);
@@ -319,9 +317,12 @@ void sum_waves(Stages<double>& stages, const Slice& slice, const ScanLines& line
   };
   const auto re = [](const std::complex<double>& c) { return c.real(); };
   const auto im = [](const std::complex<double>& c) { return c.imag(); };
-  const Wave wave = wave_reference(slice.echo, lines, settings);
-  stages.echo_re = part(slice.echo, re);
-  stages.echo_im = part(slice.echo, im);
+  Wave echo = scatterers_reference(lines, settings, patient_from_probe);
+  for (std::size_t i = 0; i < echo.pixels.size(); ++i)
+    echo.pixels[i] = kMirrorShare * slice.mirrors.pixels[i] + std::sqrt(slice.rough.pixels[i]) * echo.pixels[i];
+  const Wave wave = wave_reference(echo, lines, settings);
+  stages.echo_re = part(echo, re);
+  stages.echo_im = part(echo, im);
   stages.wave_re = part(wave, re);
   stages.wave_im = part(wave, im);
   stages.scattered = slice.scattered;
@@ -365,7 +366,7 @@ Stages<double> simulate_reference(const MediumField& field, const TissueTable& t
   Slice slice = traverse_slice(field, table, lines, settings, patient_from_probe);
   Stages<double> stages;
   if (settings.waves)
-    sum_waves(stages, slice, lines, settings);
+    sum_waves(stages, slice, lines, settings, patient_from_probe);
   else
     widen(stages, slice, lines, settings);
   stages.repeated = widened(slice.repeats, lines, settings);

@@ -30,7 +30,9 @@ Box box_of(const ScanLines& lines, const Settings& settings) {
       thickness = std::max(thickness, slice_thickness_at_mm(settings, r));
     }
   // Scatterers beside the outer lines reach them from one line's distance; the arc's sagitta is shorter than that.
-  const double beside = 2 * lines.fan.step * (lines.fan.apex_mm > 0 ? lines.fan.apex_mm + lines.r_max_mm + dr : 1);
+  const LineFan& fan = lines.fan;
+  const double apex = fan.face == LineFan::Face::flat ? fan.apex_mm / std::cos(fan.first) : fan.apex_mm;
+  const double beside = 2 * fan.step * (fan.face == LineFan::Face::parallel ? 1 : apex + lines.r_max_mm + dr);
   box.low -= glm::dvec3(beside, beside, 0);
   box.high += glm::dvec3(beside, beside, 0);
   box.low.z = -kSliceHalf * thickness;
@@ -38,35 +40,27 @@ Box box_of(const ScanLines& lines, const Settings& settings) {
   return box;
 }
 
-/// Adds a scatterer to the samples around it, in the plane that it is nearest to.
-void add(std::vector<Wave>& planes, const ScanLines& lines, const Settings& settings, const glm::dvec3& at,
+/// Adds a scatterer to the samples around it.
+void add(Wave& sums, const ScanLines& lines, const Settings& settings, const glm::dvec3& at,
          const std::complex<double>& amplitude) {
   const LinePosition place = position_among(lines.fan, {at.x, at.y});
-  const double thickness = slice_thickness_at_mm(settings, place.r_mm), window = slice_window(at.z, thickness);
+  const double window = slice_window(at.z, slice_thickness_at_mm(settings, place.r_mm));
   if (window <= 0) return;
-  const std::vector<SlicePlane> slice = slice_planes(settings);
-  std::size_t nearest = 0;
-  for (std::size_t p = 1; p < slice.size(); ++p)
-    if (std::abs(at.z / thickness - slice[p].offset) < std::abs(at.z / thickness - slice[nearest].offset)) nearest = p;
   const double sample = (place.r_mm - lines.r_min_mm) / lines.dr_mm() - 0.5;
   const std::complex<double> echo = amplitude * window;
-  Wave& plane = planes[nearest];
   for (int line = int(std::floor(place.line)); line <= std::floor(place.line) + 1; ++line)
     for (int k = int(std::floor(sample)); k <= std::floor(sample) + 1; ++k)
-      if (line >= 0 && line < plane.width && k >= 0 && k < plane.height)
-        plane.at(line, k) += echo * ((1 - std::abs(place.line - line)) * (1 - std::abs(sample - k)));
+      if (line >= 0 && line < sums.width && k >= 0 && k < sums.height)
+        sums.at(line, k) += echo * ((1 - std::abs(place.line - line)) * (1 - std::abs(sample - k)));
 }
 
 }  // namespace
 
-std::vector<Wave> scatterers_reference(const ScanLines& lines, const Settings& settings,
-                                       const Pose& patient_from_probe) {
-  const std::vector<SlicePlane> slice = slice_planes(settings);
-  std::vector<Wave> planes(slice.size(), Wave(int(lines.lines.size()), lines.samples));
+Wave scatterers_reference(const ScanLines& lines, const Settings& settings, const Pose& patient_from_probe) {
+  Wave sums(int(lines.lines.size()), lines.samples);
   if (!settings.speckle) {
-    for (std::size_t p = 0; p < slice.size(); ++p)
-      std::ranges::fill(planes[p].pixels, std::complex<double>(slice[p].weight));
-    return planes;
+    std::ranges::fill(sums.pixels, 1.0);
+    return sums;
   }
 
   const glm::dmat4 cells_from_probe =
@@ -99,14 +93,13 @@ std::vector<Wave> scatterers_reference(const ScanLines& lines, const Settings& s
       for (int z = int(first); z <= last; ++z) {
         const Scatterer scatterer = scatterer_of({x, y, z}, settings.speckle_seed);
         const glm::dvec3 at(probe_from_cells * glm::dvec4(glm::dvec3(x, y, z) + scatterer.place, 1));
-        add(planes, lines, settings, at, scatterer.amplitude);
+        add(sums, lines, settings, at, scatterer.amplitude);
       }
     }
   const std::vector<double> scale = scatterer_scale(lines, settings);
-  for (Wave& plane : planes)
-    for (int k = 0; k < plane.height; ++k)
-      for (int line = 0; line < plane.width; ++line) plane.at(line, k) *= scale[std::size_t(k)];
-  return planes;
+  for (int k = 0; k < sums.height; ++k)
+    for (int line = 0; line < sums.width; ++line) sums.at(line, k) *= scale[std::size_t(k)];
+  return sums;
 }
 
 Wave wave_reference(const Wave& echo, const ScanLines& lines, const Settings& settings) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <complex>
-#include <vector>
 
 #include "sim/core/image.h"
 #include "sim/core/pose.h"
@@ -10,9 +9,9 @@
 
 namespace insonate {
 
-/// Returns n_p of sim/model/waves.h for each slice plane: x line, y sample. Without speckle it is the plane's weight.
-std::vector<Image<std::complex<double>>> scatterers_reference(const ScanLines& lines, const Settings& settings,
-                                                              const Pose& patient_from_probe);
+/// Returns n of sim/model/waves.h: x line, y sample. Without speckle it is 1.
+Image<std::complex<double>> scatterers_reference(const ScanLines& lines, const Settings& settings,
+                                                 const Pose& patient_from_probe);
 
 /// Returns f of sim/model/waves.h, the echo behind the pulse and the beam.
 Image<std::complex<double>> wave_reference(const Image<std::complex<double>>& echo, const ScanLines& lines,

@@ -40,14 +40,16 @@ std::uint32_t leader_of(std::uint32_t seed, std::uint32_t group = kGroup) {
   return seed / group * group;
 }
 
-/// Runs `check` for the scenes of `frames` seeds, in groups of which each has its own programs.
+/// Runs `check` for the scenes of `frames` seeds, in groups of which each has its own programs. In two groups of four
+/// echoes add up as waves.
 void for_many_scenes(long frames, std::uint32_t group, const std::function<void(long, const Scene&)>& check) {
   const long first = from_environment("INSONATE_STRESS_SEED", 1);
   Scene leader;
   for (long seed = first; seed < first + frames; ++seed) {
     INFO("seed " << seed);
-    const Scene scene = random_scene_at_body(std::uint32_t(seed));
-    if (seed == first || seed % group == 0) leader = random_scene_at_body(leader_of(std::uint32_t(seed), group));
+    const auto scene_of = seed / group / 2 % 2 ? random_scene_of_waves : random_scene_at_body;
+    const Scene scene = scene_of(std::uint32_t(seed));
+    if (seed == first || seed % group == 0) leader = scene_of(leader_of(std::uint32_t(seed), group));
     check(seed, compiled_as(leader, scene));
     if ((seed - first + 1) % 1000 == 0) std::printf("seeds %ld to %ld\n", first, seed), std::fflush(stdout);
   }
@@ -55,10 +57,11 @@ void for_many_scenes(long frames, std::uint32_t group, const std::function<void(
 
 /// Counts how often each effect was on.
 struct Effects {
-  static constexpr std::array<bool Settings::*, 9> kSwitches = {
-      &Settings::absorption,   &Settings::speckle,          &Settings::edge_shadow,
-      &Settings::focused_beam, &Settings::reverberation,    &Settings::clutter,
-      &Settings::two_way,      &Settings::electronic_noise, &Settings::skipping};
+  static constexpr std::array<bool Settings::*, 10> kSwitches = {
+      &Settings::waves,       &Settings::absorption,   &Settings::speckle,
+      &Settings::edge_shadow, &Settings::focused_beam, &Settings::reverberation,
+      &Settings::clutter,     &Settings::two_way,      &Settings::electronic_noise,
+      &Settings::skipping};
   std::array<long, kSwitches.size()> on{};
   long bent = 0, at_face = 0, sliced = 0, scenes = 0;
 
@@ -86,6 +89,17 @@ TEST_CASE("random scenes, each from its seed") {
     INFO("seed " << seed);
     check(stressed, random_scene(std::uint32_t(seed)));
     check(stressed, random_scene_at_body(std::uint32_t(seed)));
+  }
+}
+
+TEST_CASE("random scenes whose echoes add up as waves, each from its seed") {
+  const long frames = from_environment("INSONATE_STRESS_FRAMES", 25);
+  const long first = from_environment("INSONATE_STRESS_SEED", 1);
+  const int every_other = GENERATE(0, 1);
+  Stressed stressed(every_other ? line_a_group() : line_an_invocation());
+  for (long seed = first + every_other; seed < first + frames; seed += 2) {
+    INFO("seed " << seed);
+    check(stressed, random_scene_of_waves(std::uint32_t(seed)));
   }
 }
 
@@ -144,15 +158,18 @@ TEST_CASE("random scenes in groups that share their programs") {
   Stressed stressed(GENERATE(line_an_invocation(), line_a_group()));
   Effects effects;
   long with_echo = 0;
+  Compared of_amplitudes;
   for_many_scenes(200, 20, [&](long, const Scene& scene) {
-    const long before = stressed.compared().with_echo;
+    const Compared before = stressed.compared();
     check(stressed, scene);
-    with_echo += stressed.compared().with_echo > before;
+    const Compared all = stressed.compared();
+    with_echo += all.with_echo > before.with_echo;
+    if (!scene.settings.waves) of_amplitudes += {all.with_echo - before.with_echo, all.in_grey - before.in_grey};
     effects.count(scene.settings);
   });
   CHECK(effects.each_on_and_off());
   CHECK(with_echo > effects.scenes / 2);
-  CHECK(stressed.compared().share() > 0.65);
+  CHECK(of_amplitudes.share() > 0.65);
 }
 
 // Hidden because it takes half an hour on two cores: build/dev/tests/stress_test "[many]".

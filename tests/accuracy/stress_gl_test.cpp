@@ -15,24 +15,27 @@ using namespace insonate::test;
 
 namespace {
 
-/// Runs `cases` one by one on an ordinary scene, with both work divisions. U must be known well enough to compare
-/// grey in a sufficient share of the pixels with an echo. The share is lowest with few pixels (8192 samples, 0.40), and
-/// 0.70 or more overall.
+/// Runs `cases` one by one on an ordinary scene, with both work divisions, as amplitudes and as waves. Of amplitudes,
+/// U must be known well enough to compare grey in a sufficient share of the pixels with an echo. The share is lowest
+/// with few pixels (8192 samples, 0.40), and 0.70 or more overall. Of waves, e and f are compared everywhere, but grey
+/// may be compared nowhere: gas is 40 dB louder than tissue, and what is rounded of it hides the grains beside it.
 void check_each(const std::vector<ExtremeCase>& cases) {
   const gl::WorkDivision division = GENERATE(line_an_invocation(), line_a_group(32));
-  CAPTURE(division.lines_that_fill);
+  const bool waves = GENERATE(false, true);
+  CAPTURE(division.lines_that_fill, waves);
   Stressed stressed(division);
   for (const ExtremeCase& extreme : cases) {
     INFO(extreme.name);
     Scene scene = ordinary_scene();
+    scene.settings.waves = waves;
     extreme.apply(scene);
     const Compared before = stressed.compared();
     stressed.check(scene);
     const Compared all = stressed.compared();
     const Compared of_extreme{all.with_echo - before.with_echo, all.in_grey - before.in_grey};
-    CHECK((of_extreme.with_echo == 0 || of_extreme.share() > 0.35));
+    CHECK((waves || of_extreme.with_echo == 0 || of_extreme.share() > 0.35));
   }
-  CHECK(stressed.compared().share() > 0.65);
+  CHECK((waves || stressed.compared().share() > 0.65));
 }
 
 }  // namespace
@@ -100,6 +103,8 @@ TEST_CASE("settings at the ends of their ranges") {
       {"S-curve", set(&S::grey_map, GreyMap::s_curve)},
       {"scatterers 0.05 mm apart", set(&S::speckle_cell_mm, 0.05)},
       {"scatterers 10 mm apart", set(&S::speckle_cell_mm, 10.0)},
+      {"an echo of what is met squarely alone", set(&S::specular_exponent, 64.0)},
+      {"an echo whatever the angle", set(&S::specular_exponent, 1.0)},
       {"reflections smoothed by 1000 mm", set(&S::reflection_sigma_mm, 1000.0)},
       {"transmission smoothed by 1000 mm", set(&S::transmission_sigma_mm, 1000.0)},
       {"shadows at every edge", set(&S::edge_shadow, true)},

@@ -195,6 +195,15 @@ inline Scene random_scene_at_body(std::uint32_t seed) {
   return scene;
 }
 
+/// Returns the same scene with echoes that add up as waves (sim/model/waves.h).
+inline Scene random_scene_of_waves(std::uint32_t seed) {
+  Scene scene = random_scene_at_body(seed);
+  Draw draw(hash(seed, 0x3a7eu));
+  scene.settings.waves = true;
+  scene.settings.specular_exponent = draw.within(1, 64);
+  return scene;
+}
+
 /// Returns `scene` with those settings changed that would need compiling again after `first`: compiling takes as long
 /// as hundreds of small pictures. Volume, probe, depth, pose and all other settings stay.
 inline Scene compiled_as(const Scene& first, Scene scene) {
@@ -202,7 +211,7 @@ inline Scene compiled_as(const Scene& first, Scene scene) {
   Settings& s = scene.settings;
   const auto take = [&](auto... members) { ((s.*members = as.*members), ...); };
   using S = Settings;
-  take(&S::absorption, &S::speckle, &S::edge_shadow, &S::slice_planes, &S::focused_beam, &S::beam_lines,
+  take(&S::waves, &S::absorption, &S::speckle, &S::edge_shadow, &S::slice_planes, &S::focused_beam, &S::beam_lines,
        &S::reverberation, &S::electronic_noise, &S::clutter, &S::grey_map, &S::reference_level, &S::image_width,
        &S::image_height);
   if (as.elevation_focus_mm == 0) s.elevation_focus_mm = 0;

@@ -9,11 +9,16 @@
 
 #include "sim/model/settings_file.h"
 #include "sim/probe/probe.h"
+#include "tests/accuracy/spread.h"
 #include "tests/accuracy/stress_bounds.h"
+#include "tests/accuracy/stressed_waves.h"
 #include "tests/imaging/parity.h"
+#include "tests/imaging/wave_tolerance.h"
 
 namespace insonate::test {
 namespace {
+
+using S = Stages<double>;
 
 /// Returns what is wrong in a picture; "" if nothing is.
 template <typename Real>
@@ -27,6 +32,11 @@ std::string out_of_bounds(const Stages<Real>& stages) {
   if (const auto fault = outside("V", stages.repeated, kFinite)) return *fault;
   if (const auto fault = outside("T", stages.transmission, 2 * kOne - 1)) return *fault;
   if (const auto fault = outside("S", stages.speckle, kFinite)) return *fault;
+  if (const auto fault = outside("the scattered power", stages.scattered, kFinite)) return *fault;
+  for (const auto wave :
+       {&Stages<Real>::echo_re, &Stages<Real>::echo_im, &Stages<Real>::wave_re, &Stages<Real>::wave_im})
+    for (std::size_t i = 0; i < (stages.*wave).pixels.size(); ++i)
+      if (!std::isfinite((stages.*wave).pixels[i])) return at("e or f", stages.*wave, i);
   if (const auto fault = outside("U", stages.fused, kFinite)) return *fault;
   const std::size_t lines = std::size_t(stages.intensity.width);
   for (std::size_t i = lines; i < stages.intensity.pixels.size(); ++i)
@@ -38,49 +48,6 @@ std::string out_of_bounds(const Stages<Real>& stages) {
 
 double largest(const Image<double>& image) {
   return image.pixels.empty() ? 0 : *std::max_element(image.pixels.begin(), image.pixels.end());
-}
-
-/// The distance between references with single-precision places and densities and the reference with exact ones.
-struct Spread {
-  Image<double> intensity, reflection, reflection_beam, transmission, repeated, speckle, fused, grey;
-
-  explicit Spread(const Stages<double>& of)
-      : intensity(of.intensity.width, of.intensity.height),
-        reflection(intensity),
-        reflection_beam(intensity),
-        transmission(intensity),
-        repeated(intensity),
-        speckle(intensity),
-        fused(of.fused.width, of.fused.height),
-        grey(fused) {}
-
-  void include(const Stages<double>& expected, const Stages<double>& other) {
-    widen(intensity, expected.intensity, other.intensity);
-    widen(reflection, expected.reflection, other.reflection);
-    widen(reflection_beam, expected.reflection_beam, other.reflection_beam);
-    widen(transmission, expected.transmission, other.transmission);
-    widen(repeated, expected.repeated, other.repeated);
-    widen(speckle, expected.speckle, other.speckle);
-    widen(fused, expected.fused, other.fused);
-    widen(grey, expected.grey, other.grey);
-  }
-
-private:
-  template <typename Pixel>
-  static void widen(Image<double>& spread, const Image<Pixel>& expected, const Image<Pixel>& other) {
-    for (std::size_t i = 0; i < spread.pixels.size(); ++i)
-      spread.pixels[i] = std::max(spread.pixels[i], std::abs(double(other.pixels[i]) - double(expected.pixels[i])));
-  }
-};
-
-/// Returns the tolerance at each place: `basic` of the reference's value, plus four times `spread`, because it comes
-/// from few draws.
-template <typename Basic>
-Image<double> tolerated(const Image<double>& expected, const Image<double>& spread, Basic&& basic) {
-  Image<double> result = expected;
-  for (std::size_t i = 0; i < result.pixels.size(); ++i)
-    result.pixels[i] = basic(expected.pixels[i]) + 4 * spread.pixels[i];
-  return result;
 }
 
 /// Returns the largest value within `reach` pixels of each pixel, along x and along y.
@@ -129,28 +96,23 @@ Beside loudest_samples_around(const Scene& scene, const Stages<double>& of) {
 /// around 6000, which are known to 2.4e-4.
 constexpr double kSilentRounding = 2e-12;
 
-/// Returns where shaders and reference differ by more than allowed; "" if nowhere.
-std::string disagreement(const Scene& scene, const Stages<double>& expected, const Stages<float>& got,
-                         const Spread& spread, Compared& extent) {
-  const Worst intensity =
-      worst(expected.intensity, got.intensity,
-            tolerated(expected.intensity, spread.intensity, [](double i) { return 1e-4 * std::max(i, 1e-6); }));
-  if (!(intensity.error < 1)) return told("I", intensity);
-
+/// Compares the stages of echoes that add up as amplitudes. Returns where they differ by more than allowed; "" if
+/// nowhere. Otherwise sets the tolerance of U.
+std::string disagreement_of_amplitudes(const Scene& scene, const Stages<double>& expected, const Stages<float>& got,
+                                       const Spread& spread, Image<double>& fused_tolerance) {
   // A homogeneous medium is only homogeneous to the last place: 1e-12.
   const double brightest = std::max(largest(expected.reflection), 1e-8);
-  const Worst reflection =
-      worst(expected.reflection, got.reflection,
-            tolerated(expected.reflection, spread.reflection, [&](double) { return 1e-4 * brightest; }));
+  const Worst reflection = worst(expected.reflection, got.reflection,
+                                 spread.tolerated(expected, &S::reflection, [&](double) { return 1e-4 * brightest; }));
   if (!(reflection.error < 1)) return told("R", reflection);
 
-  const Worst beam = worst(expected.reflection_beam, got.reflection_beam,
-                           tolerated(expected.reflection_beam, spread.reflection_beam,
-                                     [&](double r) { return 1e-4 * r + 1e-6 * brightest; }));
+  const Worst beam =
+      worst(expected.reflection_beam, got.reflection_beam,
+            spread.tolerated(expected, &S::reflection_beam, [&](double r) { return 1e-4 * r + 1e-6 * brightest; }));
   if (!(beam.error < 1)) return told("R behind the beam", beam);
   const Worst transmission =
       worst(expected.transmission, got.transmission,
-            tolerated(expected.transmission, spread.transmission, [](double t) { return 2e-4 * std::max(t, 1e-12); }));
+            spread.tolerated(expected, &S::transmission, [](double t) { return 2e-4 * std::max(t, 1e-12); }));
   if (!(transmission.error < 1)) return told("T", transmission);
 
   // A place in the lattice is known to the last place of the number of periods in a line's length; a period has 128
@@ -158,17 +120,15 @@ std::string disagreement(const Scene& scene, const Stages<double>& expected, con
   const double periods = 1 + scene.depth_mm / (128 * scene.settings.speckle_cell_mm);
   const double of_loudest = 1e-3 + (scene.settings.speckle ? 4 * 128 * 1.2e-7 * periods : 0);
   const double loudest = largest(expected.speckle);
-  const Worst speckle =
-      worst(expected.speckle, got.speckle,
-            tolerated(expected.speckle, spread.speckle, [&](double) { return of_loudest * loudest; }));
+  const Worst speckle = worst(expected.speckle, got.speckle,
+                              spread.tolerated(expected, &S::speckle, [&](double) { return of_loudest * loudest; }));
   if (!(speckle.error < 1)) return told("S", speckle);
 
   const Worst repeated = worst(expected.repeated, got.repeated,
-                               tolerated(expected.repeated, spread.repeated, [&](double) { return 1e-4 * brightest; }));
+                               spread.tolerated(expected, &S::repeated, [&](double) { return 1e-4 * brightest; }));
   if (!(repeated.error < 1)) return told("V", repeated);
 
-  // Near its zero an envelope is as wrong as the envelopes around it are large. The tolerance of grey follows from that
-  // of U, in decibels, plus two levels.
+  // Near its zero an envelope is as wrong as the envelopes around it are large.
   const Settings& s = scene.settings;
   const Image<double> around = loudest_around(expected.fused, 2);
   const Beside beside = loudest_samples_around(scene, expected);
@@ -178,10 +138,29 @@ std::string disagreement(const Scene& scene, const Stages<double>& expected, con
       beside.echo,
       int(std::min(std::ceil(smoothed_mm / picture.mm_per_pixel), double(std::max(around.width, around.height)))));
   const double place = 2.4e-7 * std::max(expected.intensity.width, expected.intensity.height);
-  Image<double> fused_tolerance = tolerated(expected.fused, spread.fused, [](double) { return kLeastEcho; });
+  fused_tolerance = spread.tolerated(expected, &S::fused, [](double) { return kLeastEcho; });
   for (std::size_t i = 0; i < around.pixels.size(); ++i)
     fused_tolerance.pixels[i] +=
         1e-3 * around.pixels[i] + place * beside.fused.pixels[i] + kSilentRounding * silent.pixels[i];
+  return "";
+}
+
+/// Returns where shaders and reference differ by more than allowed; "" if nowhere.
+/// @param rounding  with waves: rounding_of_waves()
+std::string disagreement(const Scene& scene, const Stages<double>& expected, const Image<double>& rounding,
+                         const Stages<float>& got, const Spread& spread, Compared& extent) {
+  const Worst intensity =
+      worst(expected.intensity, got.intensity,
+            spread.tolerated(expected, &S::intensity, [](double i) { return 1e-4 * std::max(i, 1e-6); }));
+  if (!(intensity.error < 1)) return told("I", intensity);
+
+  const Settings& s = scene.settings;
+  Image<double> fused_tolerance;
+  const std::string of_lines = s.waves ? disagreement_of_waves(scene, expected, rounding, got, spread, fused_tolerance)
+                                       : disagreement_of_amplitudes(scene, expected, got, spread, fused_tolerance);
+  if (!of_lines.empty()) return of_lines;
+
+  // The tolerance of grey follows from that of U, in decibels, plus two levels.
   const Worst fused = worst(expected.fused, got.fused, fused_tolerance);
   if (!(fused.error < 1)) return told("U", fused);
 
@@ -192,7 +171,8 @@ std::string disagreement(const Scene& scene, const Stages<double>& expected, con
     if (fused_tolerance.pixels[i] >= 0.5 * u) continue;
     ++extent.in_grey;
     const double db = -10 * std::log10(1 - fused_tolerance.pixels[i] / u);
-    const double allowed = 2 + std::ceil(255 * db / s.dynamic_range_db) + 4 * spread.grey.pixels[i];
+    const double drawn = s.waves ? 0 : 4 * spread.grey().pixels[i];
+    const double allowed = 2 + std::ceil(255 * db / s.dynamic_range_db) + drawn;
     if (std::abs(int(got.grey.pixels[i]) - int(expected.grey.pixels[i])) > allowed)
       return at("grey", got.grey, i) + ", " + at("reference", expected.grey, i) + ", " + at("U", expected.fused, i) +
              ", " + at("shader's U", got.fused, i);
@@ -237,8 +217,13 @@ Stages<float> Stressed::check(const Scene& scene) {
   const Grid& grid = scene.volume.grid;
   const double reach =
       glm::length(grid.spacing * glm::dvec3(grid.size)) + glm::length(scene.pose.translation) + scene.depth_mm;
+  const double extent_mm = scene.depth_mm + std::max(scene.probe.radius_mm, scene.probe.width_mm);
   double densest = 1000;
   for (const AcousticVoxel& voxel : volume.voxels) densest = std::max(densest, std::abs(double(voxel.hu)));
+  Image<double> rounding;
+  if (scene.settings.waves)
+    rounding = rounding_of_waves(field, table_, scan_lines(scene.probe, scene.depth_mm, scene.settings.samples),
+                                 scene.settings, scene.pose);
   Spread spread(expected);
   std::string problem;
   Compared extent;
@@ -248,14 +233,16 @@ Stages<float> Stressed::check(const Scene& scene) {
       // If the gel's end falls on a sample, the last place decides on which side.
       Scene near = scene;
       near.settings.gel_mm += (drawn % 2 ? 3e-7 : -3e-7) * (scene.depth_mm + scene.settings.reflection_length_mm);
-      // Scatterers have their own places. Along a line these are sums of steps in single precision.
+      // Scatterers have their own places. Along a line these are sums of steps in single precision; with waves they are
+      // coordinates in the probe's frame, which is as wide as its face at least.
       for (int axis = 0; axis < 3; ++axis)
-        near.pose.translation[axis] += 2e-7 * scene.depth_mm * (2 * unit_float(hash(drawn, std::uint32_t(axis))) - 1);
+        near.pose.translation[axis] += 2e-7 * (scene.settings.waves ? extent_mm : scene.depth_mm) *
+                                       (2 * unit_float(hash(drawn, std::uint32_t(axis))) - 1);
       spread.include(expected,
                      reference(near, as_single_precision_knows_it(field, drawn, 2e-7 * reach, 2e-7 * densest)));
     }
     extent = {};
-    problem = disagreement(scene, expected, got, spread, extent);
+    problem = disagreement(scene, expected, rounding, got, spread, extent);
     if (problem.empty()) break;
   }
   CHECK(problem == "");

@@ -36,11 +36,7 @@ struct Block {
   ScanLines lines() const { return scan_lines(probe, depth_mm, settings.samples); }
   /// f in a block that scatters as liver does, without absorption or interfaces; b T = 1.
   Wave wave(const Pose& pose = {}) const {
-    const std::vector<Wave> planes = scatterers_reference(lines(), settings, pose);
-    Wave sum = planes.front();
-    for (std::size_t p = 1; p < planes.size(); ++p)
-      for (std::size_t i = 0; i < sum.pixels.size(); ++i) sum.pixels[i] += planes[p].pixels[i];
-    return wave_reference(sum, lines(), settings);
+    return wave_reference(scatterers_reference(lines(), settings, pose), lines(), settings);
   }
 };
 

@@ -255,15 +255,16 @@ TEST_CASE("every scatterer that reaches a sample lies in one column of the list,
           for (const double share : {-0.999, -0.4, 0.0, 0.7, 0.999}) {
             const double r = lines.r_min_mm + (sample + 0.5) * lines.dr_mm();
             const double across = lines.fan.first + line * lines.fan.step;
-            const double apex =
-                lines.fan.face == LineFan::Face::flat ? lines.fan.apex_mm / std::cos(across) : lines.fan.apex_mm;
+            const double outer = std::cos(lines.fan.first);  // beyond the outer lines as from them
+            const double apex = lines.fan.face == LineFan::Face::flat
+                                    ? lines.fan.apex_mm / std::max(std::cos(across), outer)
+                                    : lines.fan.apex_mm;
             const glm::dvec2 at =
                 lines.fan.face == LineFan::Face::parallel
                     ? glm::dvec2(across, r)
                     : glm::dvec2((r + apex) * std::sin(across), (r + apex) * std::cos(across) - lines.fan.apex_mm);
             const double z = share * kSliceHalf * slice_thickness_at_mm(settings, r);
-            const glm::ivec3 cell =
-                glm::ivec3(glm::floor(glm::dvec3(cells * glm::dvec4(at, z, 1)))) - glm::ivec3(p.corner);
+            const glm::ivec3 cell = glm::ivec3(glm::floor(glm::dvec3(cells * glm::dvec4(at, z, 1)))) - columns.corner;
             const auto along = [&](const glm::ivec4& unit) {
               return unit.x * cell.x + unit.y * cell.y + unit.z * cell.z;
             };

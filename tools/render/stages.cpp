@@ -39,22 +39,18 @@ void add(Image<double>& to, double weight, const Image<double>& what) {
   for (std::size_t i = 0; i < to.pixels.size(); ++i) to.pixels[i] += weight * what.pixels[i];
 }
 
-/// Writes the sums of scatterers that each plane of the slice holds.
+/// Writes the sums of scatterers around each sample.
 void write_scatterers(const fs::path& folder, const RenderedScene& scene, const ScanLines& lines) {
-  const std::vector<SlicePlane> planes = slice_planes(scene.settings);
-  const std::vector<Image<std::complex<double>>> scatterers =
-      scatterers_reference(lines, scene.settings, scene.patient_from_probe);
-  for (std::size_t i = 0; i < planes.size(); ++i) {
-    const auto write = [&](const char* name, auto part, const char* content) {
-      Image<double> image(scatterers[i].width, scatterers[i].height);
-      std::ranges::transform(scatterers[i].pixels, image.pixels.begin(), part);
-      write_among_lines(folder / slice_folder(planes, i), name, in_single_precision(image), content);
-    };
-    write(
-        "scatterers_re", [](std::complex<double> n) { return n.real(); }, "n of sim/model/waves.h, real part");
-    write(
-        "scatterers_im", [](std::complex<double> n) { return n.imag(); }, "n of sim/model/waves.h, imaginary part");
-  }
+  const Image<std::complex<double>> scatterers = scatterers_reference(lines, scene.settings, scene.patient_from_probe);
+  const auto write = [&](const char* name, auto part, const char* content) {
+    Image<double> image(scatterers.width, scatterers.height);
+    std::ranges::transform(scatterers.pixels, image.pixels.begin(), part);
+    write_among_lines(folder, name, in_single_precision(image), content);
+  };
+  write(
+      "scatterers_re", [](std::complex<double> n) { return n.real(); }, "n of sim/model/waves.h, real part");
+  write(
+      "scatterers_im", [](std::complex<double> n) { return n.imag(); }, "n of sim/model/waves.h, imaginary part");
 }
 
 /// Writes the tissue of each plane of the slice, and the scatterers' echo of all planes.

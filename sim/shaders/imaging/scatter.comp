@@ -1,10 +1,12 @@
-// Places the scatterers of sim/model/waves.h among the lines: n_p / c, a complex number for each sample of each slice
-// plane.
+// Places the scatterers of sim/model/waves.h among the lines: n / c, a complex number for each sample.
 //
 // Scatterers lie in cubic cells that are fixed to the patient. The slice cuts through columns of cells. An invocation
 // takes the column through which the slice cuts most steeply, draws the scatterer of each of its cells that can lie in
-// the slice, and adds it to the four samples around it. Neighbouring columns add to the same samples, so the sums are
-// atomic and in fixed point: the order does not matter, and equal poses give equal bits.
+// the slice, and adds it to the two samples around it on both lines beside it. Neighbouring columns add to the same
+// samples, so the sums are atomic and in fixed point: the order does not matter, and equal poses give equal bits.
+//
+// Atomic sums are most of the work. So a sum holds both shares of what lies between two samples: in its lower half that
+// of the sample in front, in its upper half that of the one behind.
 //
 // Reads the list of columns. Adds to the scatterers' sums, which are 0 before.
 // Dispatch: one work group of 32 per entry of the list, in rows; an entry is the first of 32 columns.
@@ -18,7 +20,8 @@ layout(local_size_x = 32) in;
 const int kParallel = 0, kRound = 1, kFlat = 2;
 
 layout(std430, binding = 0) readonly buffer Columns { ivec2 first_column[]; };
-layout(std430, binding = 1) buffer Scattered { int scattered[]; };  // a row per line: re in the lower half, im above
+// A row per line: re and im of what lies in front of sample 0, between samples 0 and 1, ..., and behind the last.
+layout(std430, binding = 1) buffer Scattered { int scattered[]; };
 
 // As sim/core/hash.h.
 uint hash(uint h) {
@@ -28,7 +31,18 @@ uint hash(uint h) {
   h *= 0xc2b2ae35u;
   return h ^ (h >> 16);
 }
-uint hash(uint a, uint b) { return hash(hash(a) + 0x9e3779b9u + b); }
+
+// Returns the angle between (0, 1) and `at`, which is `length` long, to 6e-7: twice that at the far end of the diameter,
+// by the polynomial for the arc tangent of 0 to 1 that has the least largest error. GLSL leaves the accuracy of its own
+// open, and Mesa's takes longer.
+float angle_of(vec2 at, float length) {
+  float across = abs(at.x), along = max(length + at.y, 1e-6);
+  float t = min(across, along) / max(across, along), s = t * t;
+  float half_angle = t * (0.99999613 + s * (-0.33317369 + s * (0.19807816 + s * (-0.13233341 + s * (0.079623662 +
+                     s * (-0.033604212 + s * 0.0068117911))))));
+  if (across > along) half_angle = 1.57079633 - half_angle;
+  return at.x < 0.0 ? -2.0 * half_angle : 2.0 * half_angle;
+}
 
 // Returns the place among lines (x) and the distance from the face (y).
 vec2 place_among(vec2 at) {
@@ -36,8 +50,12 @@ vec2 place_among(vec2 at) {
   return vec2((at.x - first_across) * lines_across, at.y);
 #else
   float below_apex = at.y + apex_mm, from_apex = sqrt(at.x * at.x + below_apex * below_apex);
-  float r = FACE == kFlat ? from_apex * at.y / below_apex : from_apex - apex_mm;
-  return vec2((atan(at.x, below_apex) - first_across) * lines_across, r);
+  float r = from_apex - apex_mm;
+  if (FACE == kFlat)
+    r = below_apex > face_of_outer_line * from_apex ? from_apex * at.y / below_apex
+                                                    : from_apex - apex_mm / face_of_outer_line;
+  float angle = angle_of(vec2(at.x, below_apex), from_apex);
+  return vec2((angle - first_across) * lines_across, r);
 #endif
 }
 
@@ -50,9 +68,10 @@ float thickness_at_mm(float r) {
 #endif
 }
 
-// Adds an amplitude to a sample's real part (part 0) or its imaginary part (16).
-void add(int at, bool lies, float amplitude, int part) {
-  if (lies) atomicAdd(scattered[at], int(round(amplitude * quanta)) << part);
+// Adds what lies `behind` of the way between two samples of a row.
+void add(int row, int between, float amplitude, float behind, int part) {
+  ivec2 shares = ivec2(round(amplitude * quanta * vec2(1.0 - behind, behind)));
+  atomicAdd(scattered[2 * (row * (samples + 1) + between) + part], shares.x + (shares.y << 16));
 }
 
 void main() {
@@ -63,28 +82,25 @@ void main() {
   float z_of_middle = probe_from_corner.z + (steps_mm * (vec3(bottom) + 0.5)).z;
   bottom += int(ceil((-probe_from_corner.w - z_of_middle) / z_per_step)) * down.xyz;
 
+  vec3 corner_mm = probe_from_corner.xyz + steps_mm * (vec3(bottom) + 0.5 / 1024.0);
+  vec3 down_mm = steps_mm * vec3(down.xyz);
+  mat3 per_place_mm = steps_mm / 1024.0;
+  uint key = keys.w + keys.x * uint(bottom.x) + keys.y * uint(bottom.y) + keys.z * uint(bottom.z);
+  uint key_step = keys.x * uint(down.x) + keys.y * uint(down.y) + keys.z * uint(down.z);
   for (int i = 0; i < steps; ++i) {
-    ivec3 cell = bottom + i * down.xyz;
-    uvec3 absolute = uvec3(cell + corner.xyz);
-    uint bits = hash(hash(hash(seed, absolute.x), absolute.y), absolute.z);
-    uvec3 bytes = (uvec3(bits) >> uvec3(0u, 8u, 16u)) & 255u;
-    vec3 at = probe_from_corner.xyz + steps_mm * (vec3(cell) + (vec3(bytes) + 0.5) / 256.0);
+    uint bits = hash(key + uint(i) * key_step);
+    uvec3 places = (uvec3(bits) >> uvec3(0u, 10u, 20u)) & 1023u;
+    vec3 at = corner_mm + float(i) * down_mm + per_place_mm * vec3(places);
     vec2 place = place_among(at.xy);
-    float thickness = at.z / thickness_at_mm(place.y), share = thickness / slice_half;
-    float window = max(1.0 - share * share, 0.0);
-    float amplitude = (float(bits >> 25) - 63.5) * 0.02706412 * window * window;  // (12/16383)^(1/2)
-    int part = int(bits >> 20) & 16;  // the fourth byte's lowest bit
+    float share = at.z / (slice_half * thickness_at_mm(place.y)), window = max(1.0 - share * share, 0.0);
+    vec2 position = vec2(place.x, (place.y - r_min_mm) / dr_mm + 0.5);  // among lines, and among sums of a row
+    if (window == 0.0 || position.y < 0.0 || position.y >= float(samples + 1)) continue;
 
-    int slice_plane = clamp(int(floor(thickness * slice_planes_per_thickness + 0.5 * float(SLICE_PLANES))), 0,
-                            SLICE_PLANES - 1);
-    vec2 position = vec2(place.x, (place.y - r_min_mm) / dr_mm - 0.5), low = floor(position), f = position - low;
-    int line = int(low.x), k = int(low.y), at_low = (first_row + slice_plane * lines + line) * samples + k;
-    bool drawn = window > 0.0;
-    bvec2 line_lies = bvec2(drawn && line >= 0 && line < lines, drawn && line >= -1 && line < lines - 1);
-    bvec2 sample_lies = bvec2(k >= 0 && k < samples, k >= -1 && k < samples - 1);
-    add(at_low, line_lies.x && sample_lies.x, amplitude * (1.0 - f.x) * (1.0 - f.y), part);
-    add(at_low + 1, line_lies.x && sample_lies.y, amplitude * (1.0 - f.x) * f.y, part);
-    add(at_low + samples, line_lies.y && sample_lies.x, amplitude * f.x * (1.0 - f.y), part);
-    add(at_low + samples + 1, line_lies.y && sample_lies.y, amplitude * f.x * f.y, part);
+    float amplitude = (bits >> 31) == 0u ? window * window : -window * window;
+    int part = int(bits >> 30) & 1;
+    int line = int(floor(position.x)), between = int(position.y);
+    vec2 beside = fract(position);
+    if (line >= 0 && line < lines) add(first_row + line, between, amplitude * (1.0 - beside.x), beside.y, part);
+    if (line >= -1 && line < lines - 1) add(first_row + line + 1, between, amplitude * beside.x, beside.y, part);
   }
 }

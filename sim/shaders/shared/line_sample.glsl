@@ -12,10 +12,10 @@
 #include "shared/exact_filter.glsl"
 
 layout(binding = 1) uniform sampler3D scatterers;  // complex, variance 1 at the lattice's points
-layout(binding = 3) uniform isamplerBuffer scattered;     // with WAVES: of scatter.comp, slice plane by slice plane
+layout(binding = 3) uniform isamplerBuffer scattered;     // with WAVES: of scatter.comp
 layout(binding = 4) uniform samplerBuffer scatterer_scale;  // and what its whole numbers are multiplied by, by sample
 layout(binding = 2) uniform samplerBuffer in_air;  // of a line that does not meet the body, by sample: I, R; with WAVES then
-                                                   // its echo without rough parts
+                                                   // the mirrored part and the square of the rough one
 layout(std430, binding = 1) buffer Scan { vec4 scan[]; };  // one row per line: I, R, scatterers' echo (re, im); with
                                                             // WAVES I, scattered power, echo (re, im)
 
@@ -55,7 +55,7 @@ const float kSilentAmplitude = 1.00115195e-6;
 const float kLeastLogIntensity = -76.0;
 
 Line line;
-int scattered_row;  // index of the line's first sample in `scattered`
+int scattered_row;  // index of the line's first sum in `scattered`
 uint traversed = 0u, normals = 0u;  // by this invocation
 
 // Returns the number of lines to traverse: those of all planes, or 1 for the line in air.
@@ -65,7 +65,7 @@ void place_line(int slice_plane, int index) {
   int stride = min(lines, line_count());
   int placed = index + (index / stride * (SLICE_PLANES - 1) + slice_plane) * stride;
   line = scan_lines[placed];
-  scattered_row = placed * samples;
+  scattered_row = index * (samples + 1);
 }
 
 bool starts() { return line.start.w <= line.along.w; }
@@ -152,18 +152,14 @@ float incidence(Surroundings around) {
 }
 
 #if WAVES == 1
-// Shares of an interface's amplitude, as in sim/model/waves.h.
-const float kMirrorShare = 0.8, kRoughShare = 0.6;
-
-// Returns n_p of sim/model/waves.h; without speckle, the plane's share of 1. The line in air stands for many, each of
-// which has its own.
+// Returns n of sim/model/waves.h; 1 without speckle.
 vec2 scatterers_at(int k) {
-  if (line.elevation.w > 0.0) return vec2(0.0);
 #if SPECKLE == 1
-  int both = texelFetch(scattered, scattered_row + k).x, re = both << 16 >> 16;
-  return vec2(re, (both - re) >> 16) * texelFetch(scatterer_scale, k).x;
+  ivec2 before = texelFetch(scattered, scattered_row + k).xy, behind = texelFetch(scattered, scattered_row + k + 1).xy;
+  ivec2 of_before = (before - (before << 16 >> 16)) >> 16, of_behind = behind << 16 >> 16;
+  return vec2(of_before + of_behind) * texelFetch(scatterer_scale, k).x;
 #else
-  return vec2(line.lateral.w, 0.0);
+  return vec2(1.0, 0.0);
 #endif
 }
 
@@ -247,19 +243,21 @@ bool is_heard(LogIntensity log_intensity) { return log_intensity.value > kLeastL
 
 // Stores a sample; the planes of the slice add up by their weights. Reverberation needs the middle plane alone: layers
 // that lie in different planes hold no sound between them.
-void put(int slice_plane, int at, vec4 value) {
+// With WAVES the value is I, scattered power, the mirrored part of e and the square of the rough one, which the last
+// plane makes e. The line in air stands for many lines, each with scatterers of its own.
+void put(int slice_plane, int row, int k, vec4 value) {
 #if KEEP_MIDDLE == 1 && WAVES == 0
-  if (slice_plane == SLICE_PLANES / 2) middle[at] = value.xy;
+  if (slice_plane == SLICE_PLANES / 2) middle[row + k] = value.xy;
 #endif
 #if SLICE_PLANES > 1
-#if WAVES == 1
-  value.xy *= line.lateral.w;
-#else
   value *= line.lateral.w;
+  if (slice_plane > 0) value += scan[row + k];
 #endif
-  if (slice_plane > 0) value += scan[at];
+#if WAVES == 1
+  if (slice_plane == SLICE_PLANES - 1 && line.elevation.w == 0.0)
+    value.zw = vec2(kMirrorShare * value.z, 0.0) + sqrt(value.w) * scatterers_at(k);
 #endif
-  scan[at] = value;
+  scan[row + k] = value;
 }
 
 // Stores what a sample sends back of the intensity that arrives.
@@ -269,22 +267,20 @@ void put(int slice_plane, int row, int k, Sample met, LogIntensity log_intensity
   float reflection = met.alpha * heard * heard * met.cosine;  // (3)
   if (reflection < kLeastEcho) reflection = 0.0;
 #if WAVES == 1
-  vec2 scatterers = scatterers_at(k);
 #if TWO_WAY == 1
   float arriving = heard;
 #else
   float arriving = intensity > kLeastEcho ? sqrt(intensity) : 0.0;
 #endif
   float scattered_amplitude = blend_amplitude * met.echo.x * arriving;
-  vec2 mirror = vec2(kMirrorShare * line.lateral.w, 0.0) + kRoughShare * scatterers;
-  vec2 echo = heard * met.echo.y * mirror + scattered_amplitude * scatterers;
+  float mirrored = heard * met.echo.y, rough = kRoughShare * mirrored + scattered_amplitude;
 #if KEEP_MIDDLE == 1
   if (slice_plane == SLICE_PLANES / 2) middle[row + k] = vec2(intensity, reflection);
 #endif
   float beside = line.elevation.w > 0.0 ? reflection : scattered_amplitude * scattered_amplitude;
-  put(slice_plane, row + k, vec4(intensity, beside, echo));
+  put(slice_plane, row, k, vec4(intensity, beside, mirrored, rough * rough));
 #else
-  put(slice_plane, row + k, vec4(intensity, reflection, met.echo));
+  put(slice_plane, row, k, vec4(intensity, reflection, met.echo));
 #endif
 }
 
@@ -293,18 +289,17 @@ void put(int slice_plane, int row, int k, Sample met, LogIntensity log_intensity
 void put_silent(int slice_plane, int row, int k, int step) {
 #if WAVES == 0
   for (int end = int(min(line.along.w + 1.0, float(samples))); k < end; k += step)
-    put(slice_plane, row + k, vec4(0.0, 0.0, scatterers_echo(float(k), medium(float(k)))));
+    put(slice_plane, row, k, vec4(0.0, 0.0, scatterers_echo(float(k), medium(float(k)))));
 #endif
   for (; k < samples; k += step) {
 #if WAVES == 1
-    vec3 air = starts() ? vec3(0.0) : texelFetch(in_air, k).xyz;
-    vec2 mirror = vec2(line.lateral.w, 0.0) + kRoughShare / kMirrorShare * scatterers_at(k);
-    put(slice_plane, row + k, vec4(air.x, 0.0, air.z * mirror));
+    vec4 air = starts() ? vec4(0.0) : texelFetch(in_air, k);
+    put(slice_plane, row, k, vec4(air.x, 0.0, air.zw));
 #if KEEP_MIDDLE == 1
     if (slice_plane == SLICE_PLANES / 2) middle[row + k] = air.xy;
 #endif
 #else
-    put(slice_plane, row + k, vec4(starts() ? vec2(0.0) : texelFetch(in_air, k).xy, 0.0, 0.0));
+    put(slice_plane, row, k, vec4(starts() ? vec2(0.0) : texelFetch(in_air, k).xy, 0.0, 0.0));
 #endif
   }
 }

@@ -22,6 +22,9 @@ INSONATE_REAL kLeastRefractingHu = -150.0, kMostRefractingHu = 150.0, kLogSpeedB
 INSONATE_REAL kLeastRound = 1e-3, kLeastFromFace = 1e-2, kLeastReverberant = 1e-12;
 INSONATE_INT kMostRepeats = 16, kMostReflectors = 64;
 
+// Shares of an interface's amplitude (sim/model/waves.h).
+INSONATE_REAL kMirrorShare = 0.8, kRoughShare = 0.6;
+
 // What a stored number of the scatterers' lattice is multiplied by (sim/model/scatterers.h).
 INSONATE_REAL kScattererScale = 4.0;
 

@@ -5,29 +5,29 @@
 #include <glm/vec4.hpp>
 namespace insonate::gl {
 using glm::ivec4;
+using glm::uvec4;
 using glm::vec4;
 struct ScatterParameters {
 #else
 layout(std140, binding = 2) uniform ScatterParameters {
 #endif
   vec4 probe_from_cell[3];  // steps along the three axes, mm in the probe's frame
-  vec4 probe_from_corner;   // lower corner of cell `corner`; w: half the slice with a cell's extent, mm
-  ivec4 corner;             // a cell near the probe
+  vec4 probe_from_corner;   // lower corner of `corner`, a cell near the probe; w: half the slice with a cell's extent, mm
+  uvec4 keys;               // what a cell's hash takes a step along each axis for; w: the key of cell `corner`
   ivec4 across, up, down;   // unit steps: along a row of columns, from row to row, and along a column, where z rises
 
   float z_per_step;  // rise of z along a column, mm, above 0
   int steps;         // cells of a column that can lie in the slice
-  uint seed;
-  float quanta;  // of the fixed-point numbers, per unit
+  float quanta;      // of the fixed-point numbers, per unit
+  int first_row;     // index of the plane's first line in the buffer
 
-  float apex_mm;       // as LineFan (sim/probe/probe.h)
-  float first_across;  // of line 0, rad or mm
-  float lines_across;  // lines per rad or mm
-  int first_row;       // index of the plane's first line in the buffer
+  float apex_mm;             // as LineFan (sim/probe/probe.h)
+  float first_across;        // of line 0, rad or mm
+  float lines_across;        // lines per rad or mm
+  float face_of_outer_line;  // the cosine of its angle
 
-  float slice_planes_per_thickness;
   float slice_half;  // in thicknesses
-  int unused_1, unused_2;
+  int unused_1, unused_2, unused_3;
 #ifdef __cplusplus
 };
 }  // namespace insonate::gl

@@ -232,8 +232,6 @@ Image<double> imaginary_part(const Image<std::complex<double>>& wave) {
 void check_planes(const StageFolder& stages, const Insonated& scene) {
   const std::vector<SlicePlane> planes = slice_planes(scene.settings);
   Image<double> echo_re(scene.probe.lines, scene.lines.samples), echo_im = echo_re;
-  std::vector<Image<std::complex<double>>> scatterers;
-  if (scene.settings.waves) scatterers = scatterers_reference(scene.lines, scene.settings, scene.pose);
   for (std::size_t p = 0; p < planes.size(); ++p) {
     const std::string folder = stages.description.at("slice_planes").at(p).at("folder");
     CHECK(folder == (planes.size() == 1 ? "" : "plane_" + std::to_string(p + 1)));
@@ -243,8 +241,6 @@ void check_planes(const StageFolder& stages, const Insonated& scene) {
     if (scene.settings.waves) {
       check_rounded(stages, prefix + "amplitude", scan.amplitude);
       check_rounded(stages, prefix + "mirror", scan.mirror);
-      check_rounded(stages, prefix + "scatterers_re", real_part(scatterers[p]));
-      check_rounded(stages, prefix + "scatterers_im", imaginary_part(scatterers[p]));
     }
     for (std::size_t i = 0; i < scan.echo_re.pixels.size(); ++i) {
       echo_re.pixels[i] += planes[p].weight * scan.echo_re.pixels[i];
@@ -257,7 +253,12 @@ void check_planes(const StageFolder& stages, const Insonated& scene) {
       for (const std::string name : {"impedance", "alpha"})
         CHECK((stages.files.at(name).bytes == stages.files.at(prefix + name).bytes));
   }
-  if (scene.settings.waves) return;  // e is the device's
+  if (scene.settings.waves) {  // e is the device's
+    const Image<std::complex<double>> scatterers = scatterers_reference(scene.lines, scene.settings, scene.pose);
+    check_rounded(stages, "scatterers_re", real_part(scatterers));
+    check_rounded(stages, "scatterers_im", imaginary_part(scatterers));
+    return;
+  }
   check_rounded(stages, "echo_re", echo_re);
   check_rounded(stages, "echo_im", echo_im);
 }
@@ -285,9 +286,12 @@ void check_files(const StageFolder& stages, const Settings& settings, std::vecto
   std::vector<FileForm> among_lines = {
       {"echo_re", "real part"}, {"echo_im", "imaginary part"}, {"transmission", "I (5)"}};
   if (settings.waves) {
-    among_lines.insert(among_lines.end(), {{"scattered", "expected power"}, {"wave_re", "f of"}, {"wave_im", "f of"}});
-    tissue.insert(tissue.end(),
-                  {{"amplitude", "A of"}, {"mirror", "q of"}, {"scatterers_re", "n of"}, {"scatterers_im", "n of"}});
+    among_lines.insert(among_lines.end(), {{"scattered", "expected power"},
+                                           {"wave_re", "f of"},
+                                           {"wave_im", "f of"},
+                                           {"scatterers_re", "n of"},
+                                           {"scatterers_im", "n of"}});
+    tissue.insert(tissue.end(), {{"amplitude", "A of"}, {"mirror", "q of"}});
   } else {
     among_lines.insert(
         among_lines.end(),
