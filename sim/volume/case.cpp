@@ -200,7 +200,6 @@ struct TemporaryFolder {
   explicit TemporaryFolder(const fs::path& target) : path(temporary_beside(target)) {
     remove_old_temporaries(target);
     std::error_code error;
-    fs::remove_all(path, error);
     fs::create_directories(path, error);
     if (error)
       throw InputError(target.string(), "", "the folder cannot be made (" + error.message() + ")",

@@ -11,6 +11,7 @@
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
 #include "sim/view/transfer_function_file.h"
+#include "tests/core/temporary_folder.h"
 
 using namespace insonate;
 using namespace insonate::view;
@@ -31,12 +32,6 @@ TransferFunction random_function(std::mt19937& random) {
 
 double extinction_at(const TransferFunction& function, double hu) {
   return -std::log1p(-function.at(hu).opacity);
-}
-
-std::filesystem::path file_with(const std::string& text) {
-  const std::filesystem::path file = std::filesystem::temp_directory_path() / "insonate_transfer_function_test.toml";
-  write_file(file, text);
-  return file;
 }
 
 }  // namespace
@@ -109,7 +104,8 @@ TEST_CASE("A transfer function that was written is read again as it was") {
   std::mt19937 random(7);
   TransferFunction function = random_function(random);
   function.name = "Ducts, \"thin\"";
-  const std::filesystem::path file = file_with("");
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path / "function.toml";
   write_transfer_function(file, function);
   CHECK(read_transfer_function(file) == function);
 }
@@ -126,9 +122,10 @@ TEST_CASE("The bundled transfer functions can be read and each shows something")
 
 TEST_CASE("A transfer function that cannot be used is refused with line and reason") {
   const std::string head = "name = \"A\"\n[[point]]\nhu = 0\ncolour = [0, 0, 0]\nopacity = 0\n[[point]]\n";
+  const TemporaryFolder folder;
   const auto refusal = [&](const std::string& text) -> std::string {
     try {
-      read_transfer_function(file_with(text));
+      read_transfer_function(folder.put("function.toml", text));
     } catch (const InputError& error) {
       return error.what();
     }

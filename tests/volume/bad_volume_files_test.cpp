@@ -12,7 +12,7 @@
 #include "sim/core/input_error.h"
 #include "sim/volume/ct_reader.h"
 #include "sim/volume/dicom_series.h"
-#include "tests/volume/temporary_folder.h"
+#include "tests/core/temporary_folder.h"
 #include "tests/volume/volume_files.h"
 
 // GCC and clang each have a word of their own for it.

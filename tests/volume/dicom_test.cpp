@@ -8,8 +8,8 @@
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
 #include "sim/volume/ct_reader.h"
+#include "tests/core/temporary_folder.h"
 #include "tests/volume/dicom_files.h"
-#include "tests/volume/temporary_folder.h"
 
 using namespace insonate;
 namespace fs = std::filesystem;

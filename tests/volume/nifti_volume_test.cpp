@@ -8,7 +8,7 @@
 
 #include "sim/core/input_error.h"
 #include "sim/volume/ct_reader.h"
-#include "tests/volume/temporary_folder.h"
+#include "tests/core/temporary_folder.h"
 #include "tests/volume/volume_files.h"
 
 using namespace insonate;

@@ -4,7 +4,7 @@
 
 #include "sim/core/files.h"
 #include "sim/view/transfer_function_file.h"
-#include "tests/volume/temporary_folder.h"
+#include "tests/core/temporary_folder.h"
 
 using namespace insonate;
 

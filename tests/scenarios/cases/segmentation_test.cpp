@@ -11,8 +11,8 @@
 #include "sim/core/input_error.h"
 #include "sim/model/tissue.h"
 #include "tests/core/system_faults.h"
+#include "tests/core/temporary_folder.h"
 #include "tests/scenarios/cases/labelled_files.h"
-#include "tests/volume/temporary_folder.h"
 
 using namespace insonate;
 

@@ -13,7 +13,7 @@ using Json = nlohmann::json;
 
 TEST_CASE("insonate-case phantom makes the recipe's case and says how far it is") {
   const Workplace place;
-  const Outcome outcome = place.make(place.made, "--set radius_mm=3");
+  const ProgramOutcome outcome = place.make(place.made, "--set radius_mm=3");
   INFO(outcome.errors);
   REQUIRE(outcome.code == 0);
   CHECK(outcome.output.empty());
@@ -71,7 +71,7 @@ TEST_CASE("insonate-case inspect tells what a case holds") {
   CHECK(about["landmarks"][0]["position_mm"] == Json({12, 10, 8}));
   CHECK(about["views"][0]["patient_from_probe"].size() == 16);
 
-  const Outcome words = place.run("inspect " + place.made.string());
+  const ProgramOutcome words = place.run("inspect " + place.made.string());
   CHECK(words.code == 0);
   for (const char* part : {"24 x 20 x 20 voxels", "i to the left, j to the back, k to the head", "From the front"})
     CHECK(contains(words.output, part));

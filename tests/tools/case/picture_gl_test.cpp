@@ -27,7 +27,7 @@ TEST_CASE("A picture shows what the look shows, and the view's plane") {
   REQUIRE(place.make(place.made).code == 0);
   const std::string out = (place.folder.path / "picture.png").string();
   const auto draw = [&](const std::string& options) {
-    const Outcome told =
+    const ProgramOutcome told =
         place.run("picture --case " + place.made.string() + " --width 120 --height 90 " + options + " " + out);
     INFO(told.errors);
     REQUIRE(told.code == 0);
@@ -50,7 +50,7 @@ TEST_CASE("A picture that cannot be drawn is refused") {
   REQUIRE(place.make(place.made).code == 0);
   const std::string patient = "picture --case " + place.made.string(), out = (place.folder.path / "p.png").string();
   const auto refused = [&](const std::string& options, const std::string& words) {
-    const Outcome told = place.run(patient + " " + options);
+    const ProgramOutcome told = place.run(patient + " " + options);
     INFO(told.errors);
     CHECK(told.code == 2);
     CHECK(contains(told.errors, words));

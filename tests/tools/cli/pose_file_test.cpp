@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "tests/volume/temporary_folder.h"
+#include "tests/core/temporary_folder.h"
 
 using namespace insonate;
 

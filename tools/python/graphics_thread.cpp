@@ -1,4 +1,4 @@
-#include "python/graphics_thread.h"
+#include "tools/python/graphics_thread.h"
 
 #include <unistd.h>
 

@@ -1,6 +1,3 @@
-#include "python/arrays.h"
-#include "python/bindings.h"
-#include "python/graphics_thread.h"
 #include <pybind11/stl.h>
 
 #include <memory>
@@ -16,6 +13,9 @@
 #include "sim/model/settings_file.h"
 #include "sim/truth/picture_truth.h"
 #include "sim/volume/open_case.h"
+#include "tools/python/arrays.h"
+#include "tools/python/bindings.h"
+#include "tools/python/graphics_thread.h"
 
 namespace insonate::python {
 namespace {

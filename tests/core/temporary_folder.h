@@ -16,7 +16,7 @@ struct TemporaryFolder {
   TemporaryFolder() {
     static std::atomic<int> count{0};
     path = std::filesystem::temp_directory_path() /
-           ("insonate-volume-test-" + std::to_string(getpid()) + "-" + std::to_string(count++));
+           ("insonate-test-" + std::to_string(getpid()) + "-" + std::to_string(count++));
     std::filesystem::create_directories(path);
   }
   TemporaryFolder(const TemporaryFolder&) = delete;

@@ -1,6 +1,3 @@
-#include "python/arrays.h"
-#include "python/bindings.h"
-#include "python/graphics_thread.h"
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
@@ -14,6 +11,9 @@
 #include "sim/registration/wein_settings_file.h"
 #include "sim/registration/wein_simulator.h"
 #include "sim/volume/open_case.h"
+#include "tools/python/arrays.h"
+#include "tools/python/bindings.h"
+#include "tools/python/graphics_thread.h"
 
 namespace insonate::python {
 namespace {

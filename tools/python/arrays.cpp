@@ -1,4 +1,4 @@
-#include "python/arrays.h"
+#include "tools/python/arrays.h"
 
 #include "sim/core/input_error.h"
 

@@ -1,6 +1,5 @@
 // The extension module insonate._insonate; insonate/__init__.py presents it, and insonate/__init__.pyi describes it.
 
-#include "python/bindings.h"
 #include <dlfcn.h>
 #include <pybind11/pybind11.h>
 
@@ -9,6 +8,7 @@
 
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "tools/python/bindings.h"
 
 namespace insonate::python {
 namespace {

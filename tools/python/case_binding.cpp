@@ -1,5 +1,3 @@
-#include "python/arrays.h"
-#include "python/bindings.h"
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
@@ -7,6 +5,8 @@
 #include "sim/core/text.h"
 #include "sim/phantom/phantom.h"
 #include "sim/volume/open_case.h"
+#include "tools/python/arrays.h"
+#include "tools/python/bindings.h"
 
 namespace insonate::python {
 namespace {

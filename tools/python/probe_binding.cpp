@@ -1,9 +1,9 @@
-#include "python/bindings.h"
 #include <pybind11/stl.h>
 
 #include "sim/core/input_error.h"
 #include "sim/core/suggest.h"
 #include "sim/imaging/view_limits.h"
+#include "tools/python/bindings.h"
 
 namespace insonate::python {
 namespace {
