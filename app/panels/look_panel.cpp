@@ -101,13 +101,13 @@ void LookPanel::draw_graph(const Theme& theme, const Rect& graph, PatientLook& l
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const auto hu_at = [&](float x) { return kLeft_hu + (kRight_hu - kLeft_hu) * double((x - graph.x) / graph.w); };
   const auto opacity_of = [&](float y) { return opacity_at(double(1 - (y - graph.y) / graph.h)); };
-  const float reach = theme.px(8);
+  const float radius = theme.px(8);
   bool on_point = false;
   std::optional<std::size_t> removed;
   for (std::size_t i = 0; i < look.shown()->points.size(); ++i) {
     const view::TransferPoint& point = look.shown()->points[i];
     const ImVec2 at{x_of(graph, point.hu), y_of(graph, point.opacity)};
-    const Rect grip{at.x - reach, at.y - reach, 2 * reach, 2 * reach};
+    const Rect grip{at.x - radius, at.y - radius, 2 * radius, 2 * radius};
     const std::string id = "look_point" + std::to_string(i);
     places[id] = grip;
     ImGui::SetCursorScreenPos(grip.min());

@@ -75,14 +75,14 @@ public:
   void toggle_clip(Trainer& trainer);
 
   /// Shows a sentence over the screen for some seconds.
-  void tell(std::string text) { toast_.show(std::move(text)); }
+  void show_note(std::string text) { toast_.show(std::move(text)); }
   const Toast& toast() const { return toast_; }
 
   /// Opens a page that a person can ask for, such as the help, or closes it if it is the topmost.
   void toggle(Overlay page);
   /// Opens the dialog that finds a file or folder.
   void ask_for_path(Wanted wanted = Wanted::anything);
-  /// Shows the page of the swept volume, or closes it; if there is none, tells how one is made.
+  /// Shows the page of the swept volume, or closes it; if there is none, shows how one is made.
   void toggle_volume(const Trainer& trainer);
   VolumePage& volume_page() { return volume_page_; }
   const VolumePage& volume_page() const { return volume_page_; }

@@ -202,7 +202,7 @@ void Screen::step_on(Trainer& trainer) {
 }
 
 void Screen::toggle_volume(const Trainer& trainer) {
-  if (!trainer.swept()) return tell("Sweep a volume first: T begins a sweep and ends it");
+  if (!trainer.swept()) return show_note("Sweep a volume first: T begins a sweep and ends it");
   toggle(Overlay::volume);
 }
 

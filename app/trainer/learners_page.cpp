@@ -103,7 +103,7 @@ void LearnersPage::list_attempts() {
     else
       ++of->attempts;
   }
-  // Another text is another exam. What tells two of one title apart is the digest that the lists of attempts have.
+  // Another text is another exam. Two of one title differ in the digest that the lists of attempts have.
   std::map<std::string, int> titles;
   for (const AttemptedScenario& scenario : scenarios_) ++titles[scenario.title];
   for (AttemptedScenario& scenario : scenarios_)

@@ -255,7 +255,7 @@ void Trainer::update(Mode& mode, double now_s) {
   }
   if (!options_.record.empty() && !recorded_) start_recording();
   const bool had_result = session.result().has_value();
-  guide_.tell(session);
+  guide_.report_use(session);
   session.advance(now_s - mode.behind_s);
   mode.tools.see(session);
   mode.controls.see(session);
@@ -277,7 +277,7 @@ void Trainer::draw(const PictureSizes& sizes, const Effort& effort) {
   } catch (const std::runtime_error& error) {
     // What was built when the file changed may not build for settings that come later.
     if (options_.shader_folder.empty()) throw;
-    tell_of_shaders(error.what());
+    report_shader_problem(error.what());
   }
   if (!session()) return;
   if (!options_.latency.empty()) {
@@ -309,10 +309,10 @@ void Trainer::reload_shaders() {
   const auto changed = gl::last_change(options_.shader_folder);
   if (changed == shaders_changed_) return;
   shaders_changed_ = changed;
-  tell_of_shaders(pictures_.reload(gl::ShaderSources(options_.shader_folder)).value_or(""));
+  report_shader_problem(pictures_.reload(gl::ShaderSources(options_.shader_folder)).value_or(""));
 }
 
-void Trainer::tell_of_shaders(const std::string& problem) {
+void Trainer::report_shader_problem(const std::string& problem) {
   if (problem == shader_problem_) return;
   shader_problem_ = problem;
   // The screen has room for its beginning; whoever edits shaders has a terminal.

@@ -192,11 +192,11 @@ std::string ResultsDatabase::identity() {
 }
 
 void ResultsDatabase::check() {
-  const std::string said = connection_.text("PRAGMA integrity_check(1)");
+  const std::string verdict = connection_.text("PRAGMA integrity_check(1)");
   const bool orphans = sqlite::Statement(connection_, "PRAGMA foreign_key_check").step();
-  if (said != "ok" || orphans)
+  if (verdict != "ok" || orphans)
     throw InputError(connection_.file().string(), "",
-                     "the database is damaged (" + (orphans ? "a row without what it belongs to" : said) + ")",
+                     "the database is damaged (" + (orphans ? "a row without what it belongs to" : verdict) + ")",
                      "go back to a copy of it from before");
   for (const AttemptSummary& attempt : attempts()) read(attempt.number);
   for (const Comment& comment : comments())

@@ -60,7 +60,7 @@ std::int64_t Connection::last_row() const {
 }
 
 void Connection::fail(int code) const {
-  const std::string said = handle() ? sqlite3_errmsg(handle()) : sqlite3_errstr(code);
+  const std::string message = handle() ? sqlite3_errmsg(handle()) : sqlite3_errstr(code);
   const auto throw_with = [&](const std::string& problem, const char* remedy) {
     throw InputError(file_.string(), "", problem, remedy);
   };
@@ -80,19 +80,19 @@ void Connection::fail(int code) const {
     case SQLITE_CANTOPEN:
     case SQLITE_PERM:
     case SQLITE_AUTH:
-      throw_with("the database cannot be opened for writing (" + said + ")",
+      throw_with("the database cannot be opened for writing (" + message + ")",
                  "check the permissions of the file and of its folder, where two more files lie beside it");
       break;
     case SQLITE_IOERR:
       // The shared memory file beside the database cannot grow.
       if (handle() && sqlite3_extended_errcode(handle()) == SQLITE_IOERR_SHMSIZE)
         throw_with("the disk is full", "make room on it and try again");
-      throw_with("the disk does not read or write it (" + said + ")", "check the disk, or copy the file to another");
+      throw_with("the disk does not read or write it (" + message + ")", "check the disk, or copy the file to another");
       break;
     case SQLITE_NOMEM:
       throw std::bad_alloc();
     default:
-      throw_with("the database is damaged (" + said + ")", "go back to a copy of it from before");
+      throw_with("the database is damaged (" + message + ")", "go back to a copy of it from before");
   }
   throw std::logic_error("unreachable");
 }

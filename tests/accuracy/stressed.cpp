@@ -135,23 +135,23 @@ std::string disagreement(const Scene& scene, const Stages<double>& expected, con
   const Worst intensity =
       worst(expected.intensity, got.intensity,
             tolerated(expected.intensity, spread.intensity, [](double i) { return 1e-4 * std::max(i, 1e-6); }));
-  if (!(intensity.error < 1)) return told("I", intensity);
+  if (!(intensity.error < 1)) return described("I", intensity);
 
   // A homogeneous medium is only homogeneous to the last place: 1e-12.
   const double brightest = std::max(largest(expected.reflection), 1e-8);
   const Worst reflection =
       worst(expected.reflection, got.reflection,
             tolerated(expected.reflection, spread.reflection, [&](double) { return 1e-4 * brightest; }));
-  if (!(reflection.error < 1)) return told("R", reflection);
+  if (!(reflection.error < 1)) return described("R", reflection);
 
   const Worst beam = worst(expected.reflection_beam, got.reflection_beam,
                            tolerated(expected.reflection_beam, spread.reflection_beam,
                                      [&](double r) { return 1e-4 * r + 1e-6 * brightest; }));
-  if (!(beam.error < 1)) return told("R behind the beam", beam);
+  if (!(beam.error < 1)) return described("R behind the beam", beam);
   const Worst transmission =
       worst(expected.transmission, got.transmission,
             tolerated(expected.transmission, spread.transmission, [](double t) { return 2e-4 * std::max(t, 1e-12); }));
-  if (!(transmission.error < 1)) return told("T", transmission);
+  if (!(transmission.error < 1)) return described("T", transmission);
 
   // A place in the lattice is known to the last place of the number of periods in a line's length; a period has 128
   // cells.
@@ -161,11 +161,11 @@ std::string disagreement(const Scene& scene, const Stages<double>& expected, con
   const Worst speckle =
       worst(expected.speckle, got.speckle,
             tolerated(expected.speckle, spread.speckle, [&](double) { return of_loudest * loudest; }));
-  if (!(speckle.error < 1)) return told("S", speckle);
+  if (!(speckle.error < 1)) return described("S", speckle);
 
   const Worst repeated = worst(expected.repeated, got.repeated,
                                tolerated(expected.repeated, spread.repeated, [&](double) { return 1e-4 * brightest; }));
-  if (!(repeated.error < 1)) return told("V", repeated);
+  if (!(repeated.error < 1)) return described("V", repeated);
 
   // Near its zero an envelope is as wrong as the envelopes around it are large. The tolerance of grey follows from that
   // of U, in decibels, plus two levels.
@@ -183,7 +183,7 @@ std::string disagreement(const Scene& scene, const Stages<double>& expected, con
     fused_tolerance.pixels[i] +=
         1e-3 * around.pixels[i] + place * beside.fused.pixels[i] + kSilentRounding * silent.pixels[i];
   const Worst fused = worst(expected.fused, got.fused, fused_tolerance);
-  if (!(fused.error < 1)) return told("U", fused);
+  if (!(fused.error < 1)) return described("U", fused);
 
   for (std::size_t i = 0; i < expected.grey.pixels.size(); ++i) {
     const double u = expected.fused.pixels[i];

@@ -71,7 +71,7 @@ TEST_CASE("what other settings leave unused reaches nothing, until they use it")
   CHECK(f.after([&] { f.settings.slice_thickness_mm = 4; }) == "01234");
 }
 
-TEST_CASE("each stage tells how often it ran and how much it evaluated of what there is") {
+TEST_CASE("each stage reports how often it ran and how much it evaluated of what there is") {
   Fixture f;
   f.settings.image_width = 400;
   f.settings.image_height = 300;

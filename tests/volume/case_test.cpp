@@ -210,7 +210,7 @@ TEST_CASE("a case that cannot be used is refused with the place and the reason")
   write_case(path, small_case());
   const std::string good = read_file(path / "case.toml");
   const struct {
-    const char *what, *by, *told;
+    const char *what, *by, *sentence;
   } cases[] = {
       {"format = 1", "format = 2", "line 2, column 10: the case has format 2"},
       {"format = 1", "", "the key 'format' is missing"},
@@ -252,7 +252,7 @@ TEST_CASE("a case that cannot be used is refused with the place and the reason")
     folder.put("case/case.toml", replaced(good, bad.what, bad.by));
     const std::string why = why_refused(path);
     INFO(bad.by << " -> " << why);
-    CHECK(why.find(bad.told) != std::string::npos);
+    CHECK(why.find(bad.sentence) != std::string::npos);
     CHECK(why.find(path.string()) == 0);
   }
   folder.put("case/case.toml", good);

@@ -35,7 +35,7 @@ protected:
 
 private:
   std::vector<Pose> poses_;
-  double spread_deg_ = 0, began_s_ = 0, lasted_s_ = 0, told_s_ = 0;
+  double spread_deg_ = 0, began_s_ = 0, lasted_s_ = 0, evaluated_s_ = 0;
   std::optional<double> residual_mm_;  ///< residual of a fit to the poses so far, if there is one
   bool reading_ = false;
   TipFit found_;
@@ -47,7 +47,7 @@ void PivotStep::marked(double time_s) {
     poses_.clear();
     spread_deg_ = lasted_s_ = 0;
     residual_mm_.reset();
-    began_s_ = told_s_ = time_s;
+    began_s_ = evaluated_s_ = time_s;
     return;
   }
   reading_ = false;
@@ -58,8 +58,8 @@ void PivotStep::take(const SensorSample& sample) {
   if (!reading_) return;
   lasted_s_ = std::max(0.0, sample.time_s - began_s_);
   if (sample.status == PoseStatus::ok) poses_.push_back(base_.tracker_from_sensor(sample.tracker_from_sensor));
-  if (sample.time_s - told_s_ > 0.25) {
-    told_s_ = sample.time_s;
+  if (sample.time_s - evaluated_s_ > 0.25) {
+    evaluated_s_ = sample.time_s;
     spread_deg_ = pivot_spread_deg(poses_);
     const auto fit = fit_tip(some_of(poses_, kFittedOnTheWay));
     residual_mm_ = fit ? std::optional(fit->residual_mm) : std::nullopt;

@@ -164,7 +164,7 @@ TEST_CASE("pictures lie beside the samples, all of the first one's size and wher
   CHECK(probe_samples(sequence)[0].patient_from_probe == picture(0, 1, 1, 0).patient_from_probe);
 }
 
-TEST_CASE("what cannot be recorded is told once and ends the recording, and the next one goes on") {
+TEST_CASE("what cannot be recorded is reported once and ends the recording, and the next one goes on") {
   const TemporaryFolder folder;
   write_file(folder.path / "file", "no folder");
   Session session = replaying();

@@ -182,7 +182,7 @@ TEST_CASE("knobs and acts between two samples keep their order, in practice too"
     session.advance(0.1);
     CHECK_FALSE(session.frozen_picture());
     session.freeze(true);
-    CHECK_FALSE(session.frozen_picture());  // nobody has been told yet
+    CHECK_FALSE(session.frozen_picture());  // no sample has followed yet
     session.act({ActionKind::point, {1, 2}});
     session.set(ActionKind::gain, 5);
     session.act({ActionKind::point, {3, 4}});

@@ -41,7 +41,7 @@ TEST_CASE("a live tracker is opened once, and what it says while the learner has
   CHECK(opened == 1);
 }
 
-TEST_CASE("a tracker that tells no place goes on from where the learner has put the probe, any other from its own") {
+TEST_CASE("a tracker without an absolute position goes on from where the learner put it, any other from its own") {
   const Pose before = turned(0, {1, 0, 0}, {1, 2, 3}), after = turned(30, {0, 1, 0}, {1, 2, 3});
   const glm::dvec3 chosen(40, -20, 7);
   for (const bool relative : {true, false}) {
@@ -71,7 +71,7 @@ TEST_CASE("a tracker that tells no place goes on from where the learner has put 
   }
 }
 
-TEST_CASE("of a live tracker the pose at the time of the picture is shown, and how it was found is told") {
+TEST_CASE("of a live tracker the pose at the time of the picture is shown, and how it was found is reported") {
   // 100 mm/s along x, at 60 Hz for a second.
   std::vector<ProbeSample> steady;
   for (int i = 0; i <= 60; ++i) steady.push_back(sample_at(i / 60.0, turned(0, {1, 0, 0}, {100 * i / 60.0, 0, 30})));

@@ -166,7 +166,7 @@ TEST_CASE("a group has quartiles where a handful of learners have a score of one
   CHECK(mixed.trend().spreads.size() == 1);
 }
 
-TEST_CASE("two texts of one title are two scenarios, and can be told apart") {
+TEST_CASE("two texts of one title are two scenarios, and can be distinguished") {
   const ResultsFolder folder;
   ResultsDatabase database = ResultsDatabase::open_or_make(folder / "results.db");
   add(database, "L-01", AttemptMode::practice, 40, 0, "exam 1");

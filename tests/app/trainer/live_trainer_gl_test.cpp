@@ -139,7 +139,7 @@ TEST_CASE("a tracker without bytes, none at all, and a file that is there are re
   CHECK_THROWS_WITH(check(options), Catch::Contains("such a file already"));
 }
 
-TEST_CASE("a set-up that was made of this very tracker is used from the next start on, and of any other it is told") {
+TEST_CASE("a set-up that was made of this very tracker is used from the next start on, and any other is reported") {
   const test::TestContext context;
   Lab lab;
   const fs::path file = lab.options.out / "calibration.toml";

@@ -112,7 +112,7 @@ TEST_CASE("a set-up goes on where it was left, and to any step that can be made"
   CHECK(fresh.current() == 0);
 }
 
-TEST_CASE("marks of the keyboard are taken back, and a file that cannot be written is told of") {
+TEST_CASE("marks of the keyboard are taken back, and a file that cannot be written is reported") {
   const TemporaryFolder folder;
   const std::vector<SensorSample> samples = whole_setup();
   SetupWizard wizard = wizard_of(samples, none_yet(), folder.path / "lab.toml");

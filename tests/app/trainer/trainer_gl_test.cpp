@@ -47,7 +47,7 @@ TEST_CASE("the trainer replays a log, draws it, and leaves a report and the runn
   CHECK(frame.at(1, 1)[3] == 0);
 }
 
-TEST_CASE("a tracker with a calibration tells the probe's pose, and an old calibration warns") {
+TEST_CASE("a tracker with a calibration gives the probe's pose, and an old calibration warns") {
   const test::TestContext context;
   const TrainerFolder folder;
   Calibration calibration;

@@ -30,7 +30,7 @@ std::string water(int voxels_along_x, double spacing_x_mm) {
 
 }  // namespace
 
-TEST_CASE("what cannot be opened is told of, and the session goes on as it was") {
+TEST_CASE("what cannot be opened is reported, and the session goes on as it was") {
   const test::TestContext context;
   const TrainerFolder folder;
   Trainer trainer(folder.options());
@@ -69,7 +69,7 @@ TEST_CASE("what cannot be opened is told of, and the session goes on as it was")
   }
 }
 
-TEST_CASE("a CT that the device cannot hold is told of, and the patient on the screen stays there") {
+TEST_CASE("a CT that the device cannot hold is reported, and the patient on the screen stays there") {
   const test::TestContext context;
   const TrainerFolder folder;
   Trainer trainer(folder.options());
@@ -97,11 +97,11 @@ TEST_CASE("a CT that the device cannot hold is told of, and the patient on the s
   constexpr int kVoxels = 600;
   open_and_wait(trainer, folder.file("long.mha", water(kVoxels, (limit + 50.0) / kVoxels)));
   REQUIRE(trainer.problems().size() == 1);
-  const std::string told = trainer.problems().front();
-  CAPTURE(told);
+  const std::string problem = trainer.problems().front();
+  CAPTURE(problem);
   // The volume on the card has a voxel of air at either end.
   for (const std::string& words : {std::string("long.mha"), std::to_string(limit - 2), std::string("crop")})
-    CHECK(told.find(words) != std::string::npos);
+    CHECK(problem.find(words) != std::string::npos);
   CHECK(trainer.session() == session);
   REQUIRE(pictures.ultrasound());
   CHECK((pixels() == before));

@@ -78,7 +78,7 @@ TEST_CASE("fewer pixels are drawn of a picture that changes, and never of one th
   CHECK(width_at(0.7) == 280);
 }
 
-TEST_CASE("a shader that builds as it is and not for other settings is told of, and the trainer goes on") {
+TEST_CASE("a shader that builds as it is and not for other settings is reported, and the trainer goes on") {
   const test::TestContext context;
   const TrainerFolder folder;
   std::vector<std::string> files;

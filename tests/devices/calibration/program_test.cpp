@@ -157,7 +157,7 @@ TEST_CASE("insonate-devices calibrate refuses what it cannot use in a sentence, 
   CHECK_THAT(run("pivot" + to + cut).output, Contains("lab.toml: line 1"));
 }
 
-TEST_CASE("trackers are told apart by kind and by what their URI names, recordings are not") {
+TEST_CASE("trackers are distinguished by kind and by what their URI names, recordings are not") {
   CHECK(tracker_identity("hydra:17") == TrackerIdentity{"hydra", "17"});
   CHECK(tracker_identity("hydra:17?handset=2") == TrackerIdentity{"hydra", "17", 2});
   CHECK(tracker_identity("polhemus:?sensor=3&raw=1") == TrackerIdentity{"polhemus", "", 3});

@@ -146,7 +146,7 @@ TEST_CASE("text in the table is text to a spreadsheet") {
   CHECK(rows[1][12] == "a \"b\", c");
 }
 
-TEST_CASE("statements tell a learning record store of an attempt") {
+TEST_CASE("statements inform a learning record store of an attempt") {
   TinyExam good = tiny_exam(0);
   good.result.provenance.mode = AttemptMode::exam;
   const Attempt attempt = kept_attempt(good);
@@ -194,7 +194,7 @@ TEST_CASE("statements tell a learning record store of an attempt") {
             .at("plane_distance_mm") == *good.result.steps[0].criteria[0].value);
 }
 
-TEST_CASE("of practice and recordings statements tell the score, and neither pass nor failure") {
+TEST_CASE("of practice and recordings statements hold the score, and neither pass nor failure") {
   for (const AttemptMode mode : {AttemptMode::practice, AttemptMode::recording}) {
     TinyExam exam = tiny_exam(0);
     exam.result.provenance.mode = mode;

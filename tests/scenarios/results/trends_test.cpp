@@ -71,7 +71,7 @@ TEST_CASE("a group's share is the mean of its learners, and of those that were j
   CHECK(distance->lost == 2);
 }
 
-TEST_CASE("a warm-up and a criterion without points are nobody's loss, and hints are told apart") {
+TEST_CASE("a warm-up and a criterion without points are nobody's loss, and hints are distinguished") {
   ExamResult result = result_of(1, 1, 1);
   result.steps[0].counts = false;
   result.criteria.push_back(scored(Metric::path_length_mm, 0, 0));

@@ -61,7 +61,7 @@ TEST_CASE("on the front lies what no other setting beats in one and equals in th
         std::vector<bool>{true, true, false, false, true, false});
 }
 
-TEST_CASE("of settings that cannot be told apart the first lies on the front, whichever is faster by chance") {
+TEST_CASE("of settings that cannot be distinguished the first lies on the front, whichever is faster by chance") {
   const Cost usual{{9, 10, 11}, 1.0}, by_chance{{8, 9.5, 11}, 0.999}, faster{{7, 8, 8.9}, 1.0},
       finer{{9, 10, 11}, 0.98}, slower{{12, 13, 14}, 0.999};
   CHECK(on_front({usual, by_chance, slower}) == std::vector<bool>{true, false, false});
@@ -99,7 +99,7 @@ TEST_CASE("what is no table is refused with its place") {
   CHECK_THROWS_WITH(words.number("t.csv", 0, "median_ms"), Catch::Contains("line 2") && Catch::Contains("'fast'"));
 }
 
-TEST_CASE("two runs compare setting by setting, on whatever device, and tell a change from the spread") {
+TEST_CASE("two runs compare setting by setting, on whatever device, and distinguish a change from the spread") {
   const auto compared = compare("old", run("X", 9, 10, 11), "new", run("Y", 17, 20, 24)).changes;
   REQUIRE(compared.size() == 2);
   CHECK(compared[0].setting == "case=a, lines=64");
@@ -117,7 +117,7 @@ TEST_CASE("two runs compare setting by setting, on whatever device, and tell a c
   CHECK_FALSE(within.faster());
 }
 
-TEST_CASE("a run whose errors have grown is told from one that is as accurate, however fast") {
+TEST_CASE("a run whose errors have grown is distinguished from one that is as accurate, however fast") {
   const auto with_error = [](const char* db, const char* grey) {
     Table table = run("X", 9, 10, 11);
     table.columns.emplace_back("error_grey");
@@ -165,11 +165,11 @@ TEST_CASE("runs that cannot be compared are refused") {
     const Table good = run("X", 1, 2, 3);
     Table bad = good;
     bad.rows[1][bad.column("q3_ms")] = none;
-    const auto told = [&](const char* file) {
+    const auto refusal = [&](const char* file) {
       return Catch::Contains(std::string(file) + ": line 3, column 'q3_ms': '" + none + "' is not a positive time");
     };
-    CHECK_THROWS_WITH(compare("old", bad, "new", good), told("old"));
-    CHECK_THROWS_WITH(compare("old", good, "new", bad), told("new"));
+    CHECK_THROWS_WITH(compare("old", bad, "new", good), refusal("old"));
+    CHECK_THROWS_WITH(compare("old", good, "new", bad), refusal("new"));
   }
 }
 
@@ -205,7 +205,7 @@ TEST_CASE("the levels of quality are points of the measured fronts") {
   }
 }
 
-TEST_CASE("the converged reference tells of the places that the fewer samples have") {
+TEST_CASE("the converged reference shows the places that the fewer samples have") {
   Scene scene;
   scene.table = tiny_tissues();
   scene.volume.grid.size = {3, 3, 3};
@@ -257,7 +257,7 @@ TEST_CASE("a picture's error counts what is displayed: in dB within the dynamic 
     CHECK(error.db == Approx(11));
     CHECK(error.grey == Approx(11 * 255 / 55.0));
   }
-  // Below black nothing is told apart.
+  // Below black all is alike.
   CHECK(error_of(picture(80, 60, -70), converged, 55).db == Approx(35));
   CHECK(error_of(converged, picture(80, 60, -70), 55).db == 0);
   CHECK(error_of(picture(80, 60, 3), picture(80, 60, 1), 55).db == 0);

@@ -96,7 +96,7 @@ TEST_CASE("insonate-case import refuses in a sentence what it cannot use, and wr
     INFO(outcome.output << outcome.errors);
     CHECK(outcome.code == 2);
     CHECK(outcome.output.empty());
-    CHECK(contains(outcome.errors, "insonate-case: "));  // after what was told of the progress
+    CHECK(contains(outcome.errors, "insonate-case: "));  // after the progress
     CHECK(contains(outcome.errors, words));
   };
   refused(lab.import(""), "labels.nrrd: its header does not name its labels");

@@ -36,11 +36,11 @@ struct Workplace {
   }
 
   nlohmann::json inspect(const std::filesystem::path& what) const {
-    const ProgramOutcome told = run("inspect --json " + what.string());
-    INFO(told.errors);
-    REQUIRE(told.code == 0);
-    CHECK(told.errors.empty());
-    return nlohmann::json::parse(told.output);
+    const ProgramOutcome outcome = run("inspect --json " + what.string());
+    INFO(outcome.errors);
+    REQUIRE(outcome.code == 0);
+    CHECK(outcome.errors.empty());
+    return nlohmann::json::parse(outcome.output);
   }
 
   // Checks for exit code 2, nothing on standard output, and one sentence that contains each of the words.

@@ -56,7 +56,7 @@ TEST_CASE("insonate-case phantom refuses a folder before the work, and a bad rec
   CHECK_FALSE(fs::exists(place.made));
 }
 
-TEST_CASE("insonate-case inspect tells what a case holds") {
+TEST_CASE("insonate-case inspect reports what a case holds") {
   const Workplace place;
   REQUIRE(place.make(place.made).code == 0);
   const Json about = place.inspect(place.made);
@@ -77,7 +77,7 @@ TEST_CASE("insonate-case inspect tells what a case holds") {
     CHECK(contains(words.output, part));
 }
 
-TEST_CASE("insonate-case inspect tells what a CT file holds") {
+TEST_CASE("insonate-case inspect reports what a CT file holds") {
   const Workplace place;
   REQUIRE(place.make(place.made).code == 0);
   const Json about = place.inspect(place.made / "ct.nrrd");
@@ -88,7 +88,7 @@ TEST_CASE("insonate-case inspect tells what a CT file holds") {
   CHECK_FALSE(about.contains("labels"));
 }
 
-TEST_CASE("insonate-case inspect tells what a DICOM folder holds, and the series that it left") {
+TEST_CASE("insonate-case inspect reports what a DICOM folder holds, and the series that it left") {
   const Workplace place;
   const fs::path folder = place.folder.path / "dicom";
   fs::create_directories(folder);

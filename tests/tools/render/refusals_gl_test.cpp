@@ -80,7 +80,7 @@ TEST_CASE("insonate-render makes no patient for what it refuses without one") {
   refused("--pose " + scene.in("bad_pose.txt"), "bad_pose.txt");
 }
 
-TEST_CASE("a pose is 16 numbers as text, or JSON of them or of their rows, and what is wrong is told with its place") {
+TEST_CASE("a pose is 16 numbers as text, or JSON of them or of their rows, and faults have their place") {
   const Scene scene;
   const auto outcome_of = [&](const char* name, const std::string& text) {
     scene.folder.put(name, text);

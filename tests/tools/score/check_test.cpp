@@ -16,7 +16,7 @@ TEST_CASE("insonate-score check passes the bundled exam") {
   CHECK(outcome.output.find("no problems found") != std::string::npos);
 }
 
-TEST_CASE("insonate-score check tells of a scenario's text and then of its case") {
+TEST_CASE("insonate-score check reports faults of a scenario's text and then of its case") {
   const TemporaryFolder folder;
   std::string exam = coarse_exam();
   const auto spoil = [&](const std::string& from, const std::string& to) { replace_first(exam, from, to); };
@@ -42,7 +42,7 @@ TEST_CASE("insonate-score check tells of a scenario's text and then of its case"
   CHECK(text.errors.find("hepatorenl") == std::string::npos);
 }
 
-TEST_CASE("insonate-score check tells what is wrong with every variant and its patient, each where it stands") {
+TEST_CASE("insonate-score check reports what is wrong with every variant and its patient, each where it stands") {
   const TemporaryFolder folder;
   std::string exam = coarse_exam();
   const auto spoil = [&](const std::string& from, const std::string& to) { replace_first(exam, from, to); };
@@ -58,23 +58,23 @@ TEST_CASE("insonate-score check tells what is wrong with every variant and its p
   const auto line_of = [&](const std::string& text) {
     return "line " + std::to_string(1 + std::count(exam.begin(), exam.begin() + long(exam.find(text)), '\n')) + ",";
   };
-  const auto told = [&](const std::string& at, const std::string& words) {
+  const auto reported = [&](const std::string& at, const std::string& words) {
     INFO(words);
     const std::size_t found = outcome.errors.find(words);
     REQUIRE(found != std::string::npos);
     const std::size_t line = outcome.errors.rfind("line ", found);
     CHECK(outcome.errors.substr(line, line_of(at).size()) == line_of(at));
   };
-  told("fre_fluid", "the phantom's option 'fre_fluid': the recipe has no such option; did you mean 'free_fluid'?");
-  told("900", "the phantom's option 'aorta_diameter_mm': '900' is out of range");
-  told("\"gone\"", "the case 'gone' is not a folder beside the file");
-  told("${view}", "the view 'hepatorenl'");
-  told("${view}", "the view 'liver_lng'");
-  told("plane_angel_deg", "did you mean 'plane_angle_deg'?");
+  reported("fre_fluid", "the phantom's option 'fre_fluid': the recipe has no such option; did you mean 'free_fluid'?");
+  reported("900", "the phantom's option 'aorta_diameter_mm': '900' is out of range");
+  reported("\"gone\"", "the case 'gone' is not a folder beside the file");
+  reported("${view}", "the view 'hepatorenl'");
+  reported("${view}", "the view 'liver_lng'");
+  reported("plane_angel_deg", "did you mean 'plane_angle_deg'?");
   CHECK(outcome.errors.find("'hepatorenal', which") == std::string::npos);
 }
 
-TEST_CASE("insonate-score check tells of the text first, then of each patient, with progress on a terminal alone") {
+TEST_CASE("insonate-score check reports faults of the text, then of each patient, with progress on a terminal alone") {
   const TemporaryFolder folder;
   std::string exam = coarse_exam();
   replace_first(exam, "view = \"hepatorenal\"", "view = \"${view}\"");
