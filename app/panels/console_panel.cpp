@@ -1,18 +1,13 @@
 #include "app/panels/console_panel.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <string>
 #include <utility>
 
+#include "sim/core/text.h"
+
 namespace insonate::ui {
 namespace {
-
-std::string formatted(const char* format, double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
 
 std::string tip_of(const Probe& probe) {
   return probe.title + " probe, " + formatted("%.1f MHz", probe.frequency_mhz) +

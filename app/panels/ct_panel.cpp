@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "app/panels/picture_plates.h"
+#include "sim/core/text.h"
 #include "sim/view/plane_trace.h"
 
 namespace insonate::ui {
@@ -37,17 +37,11 @@ std::string title_of(View view, const Pictures& pictures) {
   const Name& name = kNames[std::size_t(*axis_of(view))];
   const double offset_mm = pictures.slice_offset_mm(*axis_of(view));
   if (offset_mm == 0) return name.title;
-  char text[80];
-  std::snprintf(text, sizeof text, "%s, %.0f mm %s", name.title, std::abs(offset_mm),
-                offset_mm > 0 ? name.plus : name.minus);
-  return text;
+  return formatted("%s, %.0f mm %s", name.title, std::abs(offset_mm), offset_mm > 0 ? name.plus : name.minus);
 }
 
 std::string grey_text(const WindowLevel& grey) {
-  char text[40];
-  std::snprintf(text, sizeof text, "W %.0f  L %s%.0f", grey.window_hu, grey.level_hu < 0 ? "\u2212" : "",
-                std::abs(grey.level_hu));
-  return text;
+  return formatted("W %.0f  L %s%.0f", grey.window_hu, grey.level_hu < 0 ? "\u2212" : "", std::abs(grey.level_hu));
 }
 
 /// Draws a picture in the middle of the panel, with the marker on the same side as in the ultrasound. Crops its sides,

@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <string>
 
+#include "sim/core/text.h"
+
 namespace insonate::ui {
 namespace {
 
@@ -155,9 +157,7 @@ std::string rejection_advice(const TrackerState& state) {
 
 std::string clock_text(double seconds) {
   const int whole = int(std::floor(seconds));
-  char text[32];
-  std::snprintf(text, sizeof text, "%d:%02d", whole / 60, whole % 60);
-  return text;
+  return formatted("%d:%02d", whole / 60, whole % 60);
 }
 
 void draw_exam_panel(const Theme& theme, const Rect& panel, const Session& session, bool makes_views) {

@@ -2,21 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
 #include "app/panels/annotation_layer.h"
 #include "app/panels/exam_panel.h"
+#include "sim/core/text.h"
 
 namespace insonate::ui {
 namespace {
-
-template <typename... Values>
-std::string formatted(const char* format, Values... values) {
-  char text[160];
-  std::snprintf(text, sizeof text, format, values...);
-  return text;
-}
 
 ImVec2 at(const PlaneOnScreen& plane, const glm::dvec2& plane_mm) {
   const glm::dvec2 p = plane.screen(plane_mm);

@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "app/panels/overlays.h"
 #include "app/panels/picture_plates.h"
 #include "app/panels/space_drawing.h"
+#include "sim/core/text.h"
 
 namespace insonate::ui {
 namespace {
@@ -35,13 +35,6 @@ PlaneLook look_of(MprPlane plane) {
       break;
   }
   return {"plane_face", "Parallel to the probe's face", colour::kExpert};
-}
-
-template <typename... Values>
-std::string formatted(const char* format, Values... values) {
-  char text[160];
-  std::snprintf(text, sizeof text, format, values...);
-  return text;
 }
 
 /// Returns the scale at which all three planes show the whole volume while they are not turned.

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "scenarios/results/measured.h"
+#include "sim/core/text.h"
 
 namespace insonate {
 namespace {
@@ -24,9 +25,7 @@ std::string statement_id(const std::string& uuid, int statement) {
 
 /// ISO 8601 with hundredths of a second, as the specification requires for a duration.
 std::string duration(double seconds) {
-  char text[40];
-  std::snprintf(text, sizeof text, "PT%.2fS", seconds);
-  return text;
+  return formatted("PT%.2fS", seconds);
 }
 
 /// Returns every metric with a value, by its name, for the exam and for each step.

@@ -5,13 +5,13 @@
 #include <cerrno>
 #include <chrono>
 #include <cinttypes>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <system_error>
 
 #include "sim/core/input_error.h"
+#include "sim/core/text.h"
 
 namespace insonate {
 
@@ -73,10 +73,8 @@ fs::path temporary_beside(const fs::path& target) {
   const TemporaryName name(target);
   std::uint64_t number = 0;
   if (getentropy(&number, sizeof number) != 0) throw std::system_error(errno, std::generic_category(), "getentropy");
-  char id[17];
-  std::snprintf(id, sizeof id, "%016" PRIx64, number);
   fs::path temporary = target;
-  return temporary.replace_filename(name.front + id + name.back);
+  return temporary.replace_filename(name.front + formatted("%016" PRIx64, number) + name.back);
 }
 
 void remove_old_temporaries(const fs::path& target) {

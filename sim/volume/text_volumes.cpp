@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <map>
 
@@ -265,9 +264,7 @@ void check_packed_size(const fs::path& file, const VoxelData& data, std::string_
 
 /// Returns the shortest decimal with 17 digits or fewer that `%.17g` gives, which reads back to the same double.
 std::string exact(double number) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.17g", number);
-  return text;
+  return formatted("%.17g", number);
 }
 
 std::string vector_text(const glm::dvec3& v) {

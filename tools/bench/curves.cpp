@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/core/text.h"
 #include "tools/bench/svg.h"
 
 namespace insonate::bench {
@@ -34,30 +35,32 @@ std::string drawn(const CurvePlot& plot, double left, double top) {
   const auto at_y = [&](double y) { return from_y + (to_y - from_y) * y / most_y; };
 
   std::string svg =
-      print("<text class='name' x='%.0f' y='%.0f'>", from_x, top + 14) + escaped(plot.title) + "</text>\n";
+      formatted("<text class='name' x='%.0f' y='%.0f'>", from_x, top + 14) + escaped(plot.title) + "</text>\n";
   for (double x = 0; x <= most_x * 1.0001; x += grid_step(most_x))
-    svg += print(
+    svg += formatted(
         "<line class='grid' x1='%.1f' x2='%.1f' y1='%.1f' y2='%.1f'/>"
         "<text class='quiet' x='%.1f' y='%.1f' text-anchor='middle'>%g</text>\n",
         at_x(x), at_x(x), from_y, to_y, at_x(x), from_y + 16, x);
   for (double y = 0; y <= most_y; y += grid_step(most_y))
-    svg += print(
+    svg += formatted(
         "<line class='grid' x1='%.1f' x2='%.1f' y1='%.1f' y2='%.1f'/>"
         "<text class='quiet' x='%.1f' y='%.1f' text-anchor='end'>%g</text>\n",
         from_x, to_x, at_y(y), at_y(y), from_x - 6, at_y(y) + 4, y);
-  svg += print("<text x='%.0f' y='%.0f' text-anchor='end'>", to_x, from_y + 34) + escaped(plot.x_name) + "</text>\n";
-  svg += print("<text x='%.0f' y='%.0f'>", left + 8, to_y - 8) + escaped(plot.y_name) + "</text>\n";
+  svg +=
+      formatted("<text x='%.0f' y='%.0f' text-anchor='end'>", to_x, from_y + 34) + escaped(plot.x_name) + "</text>\n";
+  svg += formatted("<text x='%.0f' y='%.0f'>", left + 8, to_y - 8) + escaped(plot.y_name) + "</text>\n";
   double legend = top + kPlotHeight;  // below the plot
   for (const Curve& curve : plot.curves) {
     const char* dashes = curve.dashed ? "5 3" : "none";
     std::string line;
-    for (const auto& [x, y] : curve.points) line += print("%.1f,%.1f ", at_x(x), at_y(y));
-    svg += print("<polyline fill='none' stroke='%s' stroke-width='1.5' stroke-dasharray='%s' points='",
-                 curve.colour.c_str(), dashes) +
+    for (const auto& [x, y] : curve.points) line += formatted("%.1f,%.1f ", at_x(x), at_y(y));
+    svg += formatted("<polyline fill='none' stroke='%s' stroke-width='1.5' stroke-dasharray='%s' points='",
+                     curve.colour.c_str(), dashes) +
            line + "'/>\n";
-    svg += print("<line stroke='%s' stroke-width='1.5' stroke-dasharray='%s' x1='%.1f' x2='%.1f' y1='%.1f' y2='%.1f'/>",
-                 curve.colour.c_str(), dashes, from_x + 8, from_x + 30, legend, legend) +
-           print("<text x='%.1f' y='%.1f'>", from_x + 36, legend + 4) + escaped(curve.name) + "</text>\n";
+    svg += formatted(
+               "<line stroke='%s' stroke-width='1.5' stroke-dasharray='%s' x1='%.1f' x2='%.1f' y1='%.1f' y2='%.1f'/>",
+               curve.colour.c_str(), dashes, from_x + 8, from_x + 30, legend, legend) +
+           formatted("<text x='%.1f' y='%.1f'>", from_x + 36, legend + 4) + escaped(curve.name) + "</text>\n";
     legend += kLegendLine;
   }
   return svg;
@@ -71,10 +74,10 @@ std::string curves_svg(const std::string& head, const std::vector<CurvePlot>& pl
   const double width = kPlotWidth * double(plots.size());
   const double height = kHead + kPlotHeight + kLegendLine * double(names) + kEnd;
   std::string svg =
-      print("<svg xmlns='http://www.w3.org/2000/svg' width='%.0f' height='%.0f' viewBox='0 0 %.0f %.0f'>\n", width,
-            height, width, height);
+      formatted("<svg xmlns='http://www.w3.org/2000/svg' width='%.0f' height='%.0f' viewBox='0 0 %.0f %.0f'>\n", width,
+                height, width, height);
   svg += std::string("<style>") + kPlotStyle + "</style>\n<rect width='100%' height='100%' fill='#fff'/>\n";
-  svg += print("<text class='quiet' x='%.0f' y='20'>", kLeft) + escaped(head) + "</text>\n";
+  svg += formatted("<text class='quiet' x='%.0f' y='20'>", kLeft) + escaped(head) + "</text>\n";
   for (std::size_t i = 0; i < plots.size(); ++i) svg += drawn(plots[i], kPlotWidth * double(i), kHead);
   return svg + "</svg>\n";
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/core/text.h"
 #include "tools/bench/svg.h"
 
 namespace insonate::bench {
@@ -53,39 +54,39 @@ std::string drawn(const Panel& panel, double top) {
   const Axis x(times, kLeft, kWidth - kRight), y(errors, bottom, top + kTop);
 
   std::string svg =
-      print("<text class='name' x='%.0f' y='%.0f'>", kLeft, top + 14) + escaped(panel.title) + "</text>\n";
+      formatted("<text class='name' x='%.0f' y='%.0f'>", kLeft, top + 14) + escaped(panel.title) + "</text>\n";
   for (const double tick : x.ticks())
-    svg += print(
+    svg += formatted(
         "<line class='grid' x1='%.1f' x2='%.1f' y1='%.1f' y2='%.1f'/>"
         "<text class='quiet' x='%.1f' y='%.1f' text-anchor='middle'>%g</text>\n",
         x.at(tick), x.at(tick), top + kTop, bottom, x.at(tick), bottom + 16, tick);
   for (const double tick : y.ticks())
-    svg += print(
+    svg += formatted(
         "<line class='grid' x1='%.1f' x2='%.1f' y1='%.1f' y2='%.1f'/>"
         "<text class='quiet' x='%.1f' y='%.1f' text-anchor='end'>%g</text>\n",
         kLeft, kWidth - kRight, y.at(tick), y.at(tick), kLeft - 6, y.at(tick) + 4, tick);
-  svg += print("<text x='%.0f' y='%.0f' text-anchor='end'>frame with a moving probe, ms</text>\n", kWidth - kRight,
-               bottom + 34);
-  svg += print("<text x='8' y='%.0f'>RMS error, dB</text>\n", top + kTop - 8);
+  svg += formatted("<text x='%.0f' y='%.0f' text-anchor='end'>frame with a moving probe, ms</text>\n", kWidth - kRight,
+                   bottom + 34);
+  svg += formatted("<text x='8' y='%.0f'>RMS error, dB</text>\n", top + kTop - 8);
 
   std::string front;
   for (const Point& p : points)
-    if (p.on_front) front += print("%.1f,%.1f ", x.at(p.time_ms), y.at(p.error_db));
+    if (p.on_front) front += formatted("%.1f,%.1f ", x.at(p.time_ms), y.at(p.error_db));
   svg += "<polyline class='front' points='" + front + "'/>\n";
   int named = 0;
   for (const Point& p : points) {
-    svg += print("<circle class='%s%s' cx='%.1f' cy='%.1f' r='4'><title>", p.on_front ? "best" : "",
-                 p.quality.empty() ? "" : " standard", x.at(p.time_ms), y.at(p.error_db)) +
-           escaped(p.name) + print(": %.2f ms, %.3f dB</title></circle>\n", p.time_ms, p.error_db);
+    svg += formatted("<circle class='%s%s' cx='%.1f' cy='%.1f' r='4'><title>", p.on_front ? "best" : "",
+                     p.quality.empty() ? "" : " standard", x.at(p.time_ms), y.at(p.error_db)) +
+           escaped(p.name) + formatted(": %.2f ms, %.3f dB</title></circle>\n", p.time_ms, p.error_db);
     if (!p.on_front && p.quality.empty()) continue;
     // The point shows a number at its lower left, where no other setting lies. The list beside the panel explains it.
     ++named;
-    svg += print(
+    svg += formatted(
                "<text class='label' x='%.1f' y='%.1f' text-anchor='end'>%d</text>"
                "<text class='label' x='%.0f' y='%.1f'><tspan>%d</tspan>  ",
                x.at(p.time_ms) - 5, y.at(p.error_db) + 11, named, kLegend, top + kTop + kLegendLine * named, named) +
            escaped(p.name + (p.quality.empty() ? "" : " (" + p.quality + ")")) +
-           print(": %.1f ms, %.2f dB</text>\n", p.time_ms, p.error_db);
+           formatted(": %.1f ms, %.2f dB</text>\n", p.time_ms, p.error_db);
   }
   return svg;
 }
@@ -95,10 +96,10 @@ std::string drawn(const Panel& panel, double top) {
 std::string front_svg(const std::string& device, const std::vector<Panel>& panels) {
   const double height = kHead + kPanelHeight * double(panels.size());
   std::string svg =
-      print("<svg xmlns='http://www.w3.org/2000/svg' width='%.0f' height='%.0f' viewBox='0 0 %.0f %.0f'>\n", kWidth,
-            height, kWidth, height);
+      formatted("<svg xmlns='http://www.w3.org/2000/svg' width='%.0f' height='%.0f' viewBox='0 0 %.0f %.0f'>\n", kWidth,
+                height, kWidth, height);
   svg += std::string("<style>") + kPlotStyle + kStyle + "</style>\n<rect width='100%' height='100%' fill='#fff'/>\n";
-  svg += print("<text class='quiet' x='%.0f' y='20'>", kLeft) + escaped(device) + "</text>\n";
+  svg += formatted("<text class='quiet' x='%.0f' y='20'>", kLeft) + escaped(device) + "</text>\n";
   for (std::size_t i = 0; i < panels.size(); ++i) svg += drawn(panels[i], kHead + kPanelHeight * double(i));
   return svg + "</svg>\n";
 }

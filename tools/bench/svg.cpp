@@ -1,22 +1,12 @@
 #include "tools/bench/svg.h"
 
-#include <cstdarg>
-#include <cstdio>
+#include "sim/core/text.h"
 
 namespace insonate::bench {
 
 const char kPlotStyle[] =
     "text{font:12px sans-serif;fill:#1d2733}.quiet{fill:#5f6c7b}.name{font-weight:600}"
     ".grid{stroke:#e3e8ee}.front{fill:none;stroke:#2567a8;stroke-width:1.5}";
-
-std::string print(const char* format, ...) {
-  va_list arguments;
-  va_start(arguments, format);
-  char text[400];
-  std::vsnprintf(text, sizeof text, format, arguments);
-  va_end(arguments);
-  return text;
-}
 
 std::string escaped(const std::string& text) {
   std::string safe;

@@ -4,9 +4,6 @@
 
 namespace insonate::bench {
 
-/// Returns a text formatted as by std::printf, of up to 400 characters.
-[[gnu::format(printf, 1, 2)]] std::string print(const char* format, ...);
-
 /// Returns a text with the characters that XML reserves escaped.
 std::string escaped(const std::string& text);
 

@@ -1,11 +1,11 @@
 #include "tools/bench/table.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <stdexcept>
 
 #include "sim/core/input_error.h"
+#include "sim/core/text.h"
 
 namespace insonate::bench {
 namespace {
@@ -91,9 +91,7 @@ double Table::number(const std::string& file, std::size_t row, std::string_view 
 }
 
 std::string cell_of(double value, int digits) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", digits, value);
-  return text;
+  return formatted("%.*f", digits, value);
 }
 
 }  // namespace insonate::bench

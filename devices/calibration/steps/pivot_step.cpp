@@ -3,6 +3,7 @@
 
 #include "devices/calibration/steps/finding_step.h"
 #include "devices/calibration/steps/steps.h"
+#include "sim/core/text.h"
 
 namespace insonate {
 namespace {
@@ -77,14 +78,14 @@ void PivotStep::ask(SetupView& view) const {
                     "for ten seconds.";
   if (!reading_) return;
   view.share = std::min({1.0, lasted_s_ / kPivotS, spread_deg_ / (1.3 * kLeastPivotSpreadDeg)});
-  view.feedback = worded("%.0f s, %zu poses, turned by %.0f of %.0f degrees", lasted_s_, poses_.size(), spread_deg_,
-                         1.3 * kLeastPivotSpreadDeg);
-  if (residual_mm_) view.feedback += worded(", residual %.2f mm", *residual_mm_);
+  view.feedback = formatted("%.0f s, %zu poses, turned by %.0f of %.0f degrees", lasted_s_, poses_.size(), spread_deg_,
+                            1.3 * kLeastPivotSpreadDeg);
+  if (residual_mm_) view.feedback += formatted(", residual %.2f mm", *residual_mm_);
 }
 
 std::string PivotStep::result() const {
-  return worded("residual %.2f mm over %zu poses (%zu rejected); the tip is known to %.2f mm", found_.residual_mm,
-                found_.used, found_.rejected, found_.tip_sd_mm);
+  return formatted("residual %.2f mm over %zu poses (%zu rejected); the tip is known to %.2f mm", found_.residual_mm,
+                   found_.used, found_.rejected, found_.tip_sd_mm);
 }
 
 void PivotStep::store(Calibration& calibration, std::int64_t now_s) const {
