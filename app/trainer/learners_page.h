@@ -9,6 +9,7 @@
 
 #include "scenarios/results/results_database.h"
 #include "scenarios/results/trends.h"
+#include "sim/core/spread.h"
 
 namespace insonate {
 

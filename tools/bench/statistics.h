@@ -2,16 +2,9 @@
 
 #include <vector>
 
+#include "sim/core/spread.h"
+
 namespace insonate::bench {
-
-/// Summary of repeated measurements: half of them lie between the quartiles.
-struct Spread {
-  double first_quartile = 0, median = 0, third_quartile = 0;
-};
-
-/// Returns the quartiles, with quantiles at the ends and evenly between, interpolated linearly. Returns zeros for no
-/// values.
-Spread spread_of(std::vector<double> values);
 
 /// Accumulates a root mean square.
 class RootMeanSquare {

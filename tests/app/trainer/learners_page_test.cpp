@@ -150,9 +150,9 @@ TEST_CASE("a group has quartiles where a handful of learners have a score of one
   REQUIRE(page.trend().spreads.size() == 1);  // four at the second attempt are no handful
   CHECK(page.trend().spreads[0].ordinal == 0);
   CHECK(page.trend().spreads[0].learners == 5);
-  CHECK(page.trend().spreads[0].percent.lower == 20);
+  CHECK(page.trend().spreads[0].percent.first_quartile == 20);
   CHECK(page.trend().spreads[0].percent.median == 30);
-  CHECK(page.trend().spreads[0].percent.upper == 40);
+  CHECK(page.trend().spreads[0].percent.third_quartile == 40);
   CHECK(page.trend().attempts == 2);
   read_all(page);
   CHECK(page.trend().criteria[0].shares[0] == Approx(0.3));

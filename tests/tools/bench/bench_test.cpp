@@ -29,20 +29,6 @@ Table run(const std::string& device, double first_quartile, double median, doubl
 
 }  // namespace
 
-TEST_CASE("quartiles lie between the values that enclose them") {
-  const Spread even = spread_of({4, 1, 3, 2});
-  CHECK(even.first_quartile == 1.75);
-  CHECK(even.median == 2.5);
-  CHECK(even.third_quartile == 3.25);
-  const Spread odd = spread_of({10, 30, 20, 50, 40});
-  CHECK(odd.first_quartile == 20);
-  CHECK(odd.median == 30);
-  CHECK(odd.third_quartile == 40);
-  const Spread one = spread_of({7});
-  CHECK(one.first_quartile == 7);
-  CHECK(one.third_quartile == 7);
-}
-
 TEST_CASE("the root mean square of nothing is 0, of others the root of their mean square") {
   RootMeanSquare rms;
   CHECK(rms.value() == 0);
