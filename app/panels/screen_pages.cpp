@@ -1,6 +1,6 @@
-#include "app/panels/open_on_desktop.h"
+#include "app/panels/pages/open_on_desktop.h"
+#include "app/panels/pages/settings_page.h"
 #include "app/panels/screen.h"
-#include "app/panels/settings_page.h"
 
 // The pages and sheets over the screen: which one is shown, and what its answers do.
 namespace insonate::ui {

@@ -8,7 +8,7 @@
 #include "sim/core/digest.h"
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
-#include "sim/view/transfer_function_file.h"
+#include "sim/view/body/transfer_function_file.h"
 
 namespace insonate {
 namespace fs = std::filesystem;

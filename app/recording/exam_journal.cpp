@@ -5,7 +5,7 @@
 
 #include "app/recording/results.h"
 #include "devices/sequence/sequence.h"
-#include "scenarios/results/results_database.h"
+#include "scenarios/results/database/results_database.h"
 
 namespace insonate {
 namespace {

@@ -6,7 +6,7 @@
 #include <future>
 
 #include "app/session/session.h"
-#include "scenarios/results/sitting.h"
+#include "scenarios/results/database/sitting.h"
 
 namespace insonate {
 

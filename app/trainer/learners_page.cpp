@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "scenarios/result_json.h"
+#include "scenarios/results/export/report_files.h"
+#include "scenarios/results/export/results_export.h"
 #include "scenarios/results/learner_id.h"
-#include "scenarios/results/report_files.h"
-#include "scenarios/results/results_export.h"
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
 

@@ -24,8 +24,8 @@
 #include "app/trainer/options.h"
 #include "app/trainer/preferences.h"
 #include "devices/record/raw_recorder.h"
-#include "scenarios/results/report_files.h"
-#include "scenarios/results/results_database.h"
+#include "scenarios/results/database/results_database.h"
+#include "scenarios/results/export/report_files.h"
 
 namespace insonate {
 

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "app/trainer/trainer.h"
-#include "sim/view/transfer_function_file.h"
+#include "sim/view/body/transfer_function_file.h"
 
 namespace insonate {
 

@@ -1,7 +1,6 @@
 #include "scenarios/results/trends.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <utility>
 

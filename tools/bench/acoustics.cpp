@@ -18,7 +18,7 @@
 #include "sim/model/beam.h"
 #include "sim/model/settings.h"
 #include "sim/probe/probe.h"
-#include "tools/bench/curves.h"
+#include "tools/bench/tables/curves.h"
 
 namespace insonate::bench {
 namespace {

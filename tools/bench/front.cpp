@@ -15,8 +15,8 @@
 #include "tools/bench/commands.h"
 #include "tools/bench/converged.h"
 #include "tools/bench/display.h"
-#include "tools/bench/plot.h"
-#include "tools/bench/statistics.h"
+#include "tools/bench/tables/plot.h"
+#include "tools/bench/tables/statistics.h"
 
 namespace insonate::bench {
 namespace {

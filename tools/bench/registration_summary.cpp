@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "sim/core/text.h"
-#include "tools/bench/statistics.h"
-#include "tools/bench/svg.h"
+#include "tools/bench/tables/statistics.h"
+#include "tools/bench/tables/svg.h"
 
 namespace insonate::bench {
 namespace {

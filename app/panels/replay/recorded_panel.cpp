@@ -9,7 +9,7 @@
 #include <cmath>
 #include <vector>
 
-#include "app/panels/ultrasound_panel.h"
+#include "app/panels/scan/ultrasound_panel.h"
 #include "sim/core/input_error.h"
 #include "sim/core/text.h"
 

@@ -9,7 +9,7 @@
 #include "devices/live/steady_clock.h"
 #include "devices/sequence/probe_samples.h"
 #include "devices/sequence/sequence.h"
-#include "scenarios/results/results_database.h"
+#include "scenarios/results/database/results_database.h"
 #include "tests/app/session/tiny_session.h"
 #include "tests/scenarios/results/made_attempt.h"
 

@@ -20,7 +20,7 @@
 #include "sim/model/settings.h"
 #include "sim/probe/probe.h"
 #include "tests/core/temporary_folder.h"
-#include "tools/bench/curves.h"
+#include "tools/bench/tables/curves.h"
 
 using namespace insonate;
 using namespace insonate::bench;

@@ -15,7 +15,7 @@
 #include "tests/core/run_program.h"
 #include "tests/core/temporary_folder.h"
 #include "tests/scenarios/tiny_case.h"
-#include "tools/bench/table.h"
+#include "tools/bench/tables/table.h"
 
 using namespace insonate;
 namespace fs = std::filesystem;

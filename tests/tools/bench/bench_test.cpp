@@ -9,12 +9,12 @@
 #include "sim/core/input_error.h"
 #include "sim/model/quality.h"
 #include "tests/scenarios/tiny_case.h"
-#include "tools/bench/compare.h"
 #include "tools/bench/converged.h"
 #include "tools/bench/display.h"
-#include "tools/bench/plot.h"
-#include "tools/bench/statistics.h"
-#include "tools/bench/table.h"
+#include "tools/bench/tables/compare.h"
+#include "tools/bench/tables/plot.h"
+#include "tools/bench/tables/statistics.h"
+#include "tools/bench/tables/table.h"
 
 using namespace insonate;
 using namespace insonate::bench;

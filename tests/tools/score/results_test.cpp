@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "scenarios/result_json.h"
-#include "scenarios/results/results_database.h"
+#include "scenarios/results/database/results_database.h"
 #include "scenarios/results/trace_json.h"
 #include "tests/tools/score/score_program.h"
 

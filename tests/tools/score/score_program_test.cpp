@@ -7,7 +7,7 @@
 #include "devices/igtl/igtl_message.h"
 #include "devices/replay/read_log.h"
 #include "scenarios/result_json.h"
-#include "scenarios/results/results_database.h"
+#include "scenarios/results/database/results_database.h"
 #include "scenarios/results/trace_json.h"
 #include "scenarios/runner.h"
 #include "sim/core/digest.h"
