@@ -30,8 +30,8 @@
 ///
 /// q = +-(alpha |d . n|^m)^(1/2) alpha^2 / (alpha^2 + b^2/4) is the interface's amplitude (1, 3): negative where the
 /// impedance falls, m = specular_exponent. The last factor keeps the noise and the texture of a CT from counting as
-/// surfaces: what reflects less than scatterers do is no interface. A = 10^(e/20) - 10^(kSilentDb/20) is the amplitude
-/// of scatterers of echogenicity e dB. I, T, b, V are those of sim/model/stages.h.
+/// surfaces: what reflects less than scatterers do is not an interface. A = 10^(e/20) - 10^(kSilentDb/20) is the
+/// amplitude of scatterers of echogenicity e dB. I, T, b, V are those of sim/model/stages.h.
 ///
 /// So fully developed speckle has the statistics of a Rayleigh envelope at 20 log10: a standard deviation of 5.57 dB
 /// (Wagner, Smith, Sandrik, Lopez, IEEE Transactions on Sonics and Ultrasonics 30, 1983). It moves with the tissue,

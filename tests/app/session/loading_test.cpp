@@ -24,7 +24,7 @@ void until_nobody_works() {
 
 }  // namespace
 
-TEST_CASE("what is loaded is handed over, with the progress on the way and what was thrown") {
+TEST_CASE("what is loaded is returned, with the progress on the way and what was thrown") {
   std::promise<void> begun, go_on;
   Loading loading([&](const LoadProgress& progress) {
     progress("Reading", 0.25);

@@ -34,7 +34,7 @@ std::size_t count(const std::vector<ProbeSample>& samples, PoseStatus status) {
 
 }  // namespace
 
-TEST_CASE("a live tracker hands over every sample once, in order, with rising times on the clock it is polled with") {
+TEST_CASE("a live tracker publishes every sample once, in order, with rising times on the clock it is polled with") {
   ScriptedDevice device;
   device.in_one_read = 8;
   const auto tracker = tracker_of(device);

@@ -41,11 +41,11 @@ TEST_CASE("insonate-case phantom refuses a folder before the work, and a bad rec
   };
   const std::string recipe = "--recipe " + place.recipe.string() + " ";
   // Not a line of progress: refused() counts the lines.
-  refused(recipe + thesis.string(), {thesis.string(), "something that is no case is in the way"});
-  refused(recipe + thesis.string() + "/", {"something that is no case is in the way"});
+  refused(recipe + thesis.string(), {thesis.string(), "something that is not a case is in the way"});
+  refused(recipe + thesis.string() + "/", {"something that is not a case is in the way"});
   refused(recipe + (thesis / "chapter.tex" / "case").string(), {"the folder cannot be made"});
   refused(recipe + "/proc/none/case", {"the folder cannot be made"});
-  refused(recipe + ".", {"it is no name of a folder"});
+  refused(recipe + ".", {"it is not the name of a folder"});
   CHECK(read_file(thesis / "chapter.tex") == "years of work");
 
   const std::string to = place.made.string();

@@ -112,7 +112,7 @@ TEST_CASE("a pose is 16 numbers as text, or JSON of them or of their rows, and f
   refused("[1,0,0,0, 0,1,0,9, 0,0,1,0, 0,0,0,1, \"x\", null]", "pose 2, number 1 of 16: it is of type string");
   refused("[1,0,0,0, 0,null,0,9, 0,0,1,0, 0,0,0,1]", "number 6 of 16: it is of type null");
   refused("[[1,0,0,0],[0,1,0],[0,0,1,0],[0,0,0,1,0]]", "row 2: it has not 4 numbers");
-  refused("[1,0,0,0,\n0,NaN,0,9, 0,0,1,0, 0,0,0,1]", "line 2: what stands here is no JSON, whose numbers are finite");
+  refused("[1,0,0,0,\n0,NaN,0,9, 0,0,1,0, 0,0,0,1]", "line 2: this is not JSON with finite numbers");
   refused("[1,0,0,0, 0,1e999,0,9, 0,0,1,0, 0,0,0,1]", "a number is larger than double precision holds");
   refused("{\"pose\": 3}", "there is no key 'patient_from_probe'");
   refused("{\"patient_from_probe\": 3}", "'patient_from_probe' is not an array");
