@@ -303,13 +303,13 @@ void Keyboard::press(const KeyEvent& pressed, Trainer& trainer, ui::Screen& scre
     std::string why_not;
     if (back) why_not = trainer.undo_history().undo(session);
     if (forward) why_not = trainer.undo_history().redo(session);
-    if (!why_not.empty()) screen.tell(why_not);
+    if (!why_not.empty()) screen.show_note(why_not);
     return;
   }
   if (!repeated && change_views(pressed, trainer, screen)) return;
   const Machine& machine = session.machine();
   const auto turn = [&](ActionKind knob, double value) {
-    if (const std::string why_not = session.why_not(knob); !why_not.empty()) return screen.tell(why_not);
+    if (const std::string why_not = session.why_not(knob); !why_not.empty()) return screen.show_note(why_not);
     session.set(knob, value);
   };
   if (!repeated && pressed.key >= GLFW_KEY_1 && pressed.key <= GLFW_KEY_9)

@@ -1,15 +1,14 @@
 #include "scenarios/words.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
+
+#include "sim/core/text.h"
 
 namespace insonate {
 
 std::string fixed(double value, int decimals) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", decimals, value);
-  return text;
+  return formatted("%.*f", decimals, value);
 }
 
 std::string short_number(double value) {

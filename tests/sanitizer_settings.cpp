@@ -28,7 +28,7 @@ extern "C" UNCOUNTED const char* __lsan_default_suppressions() {
          "leak:libumockdev\n";
 }
 
-// A driver that is unloaded before the leak check has no name by which its leaks could be told from ours.
+// A driver that is unloaded before the leak check has no name by which its leaks could be distinguished from ours.
 extern "C" UNCOUNTED int dlclose(void*) {
   return 0;
 }

@@ -8,14 +8,14 @@
 #include <cstdio>
 #include <utility>
 
-#include "app/panels/author_panel.h"
-#include "app/panels/console_panel.h"
-#include "app/panels/exam_panel.h"
-#include "app/panels/guide_layer.h"
-#include "app/panels/open_on_desktop.h"
+#include "app/panels/pages/open_on_desktop.h"
 #include "app/panels/replay/replay_page.h"
-#include "app/panels/space_lines.h"
-#include "app/panels/ultrasound_panel.h"
+#include "app/panels/scan/author_panel.h"
+#include "app/panels/scan/console_panel.h"
+#include "app/panels/scan/exam_panel.h"
+#include "app/panels/scan/guide_layer.h"
+#include "app/panels/scan/ultrasound_panel.h"
+#include "app/panels/views/space_lines.h"
 #include "sim/core/files.h"
 #include "sim/gl/headless_context.h"
 

@@ -7,21 +7,21 @@
 #include <vector>
 
 #include "app/panels/canvas.h"
-#include "app/panels/ct_panel.h"
-#include "app/panels/help_page.h"
 #include "app/panels/layout.h"
 #include "app/panels/learners/learners_panel.h"
-#include "app/panels/look_panel.h"
-#include "app/panels/open_dialog.h"
-#include "app/panels/overlays.h"
+#include "app/panels/pages/help_page.h"
+#include "app/panels/pages/open_dialog.h"
+#include "app/panels/pages/overlays.h"
 #include "app/panels/replay/recorded_panel.h"
-#include "app/panels/score_sheet.h"
+#include "app/panels/scan/score_sheet.h"
+#include "app/panels/scan/task_panel.h"
+#include "app/panels/scan/ultrasound_panel.h"
 #include "app/panels/setup/setup_page.h"
 #include "app/panels/start/start_panel.h"
-#include "app/panels/task_panel.h"
-#include "app/panels/ultrasound_panel.h"
-#include "app/panels/views_panel.h"
-#include "app/panels/volume_page.h"
+#include "app/panels/views/ct_panel.h"
+#include "app/panels/views/look_panel.h"
+#include "app/panels/views/views_panel.h"
+#include "app/panels/views/volume_page.h"
 #include "app/panels/widgets/text_field.h"
 #include "app/panels/widgets/theme.h"
 #include "app/panels/widgets/toast.h"
@@ -75,14 +75,14 @@ public:
   void toggle_clip(Trainer& trainer);
 
   /// Shows a sentence over the screen for some seconds.
-  void tell(std::string text) { toast_.show(std::move(text)); }
+  void show_note(std::string text) { toast_.show(std::move(text)); }
   const Toast& toast() const { return toast_; }
 
   /// Opens a page that a person can ask for, such as the help, or closes it if it is the topmost.
   void toggle(Overlay page);
   /// Opens the dialog that finds a file or folder.
   void ask_for_path(Wanted wanted = Wanted::anything);
-  /// Shows the page of the swept volume, or closes it; if there is none, tells how one is made.
+  /// Shows the page of the swept volume, or closes it; if there is none, shows how one is made.
   void toggle_volume(const Trainer& trainer);
   VolumePage& volume_page() { return volume_page_; }
   const VolumePage& volume_page() const { return volume_page_; }

@@ -1,6 +1,6 @@
-#include "app/panels/open_on_desktop.h"
+#include "app/panels/pages/open_on_desktop.h"
+#include "app/panels/pages/settings_page.h"
 #include "app/panels/screen.h"
-#include "app/panels/settings_page.h"
 
 // The pages and sheets over the screen: which one is shown, and what its answers do.
 namespace insonate::ui {
@@ -202,7 +202,7 @@ void Screen::step_on(Trainer& trainer) {
 }
 
 void Screen::toggle_volume(const Trainer& trainer) {
-  if (!trainer.swept()) return tell("Sweep a volume first: T begins a sweep and ends it");
+  if (!trainer.swept()) return show_note("Sweep a volume first: T begins a sweep and ends it");
   toggle(Overlay::volume);
 }
 

@@ -8,7 +8,7 @@
 #include "sim/core/digest.h"
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
-#include "sim/view/transfer_function_file.h"
+#include "sim/view/body/transfer_function_file.h"
 
 namespace insonate {
 namespace fs = std::filesystem;
@@ -17,7 +17,7 @@ using view::TransferPoint;
 
 namespace {
 
-// Every 13th voxel gives the histogram of any CT to within what the eye can tell, in some milliseconds.
+// Every 13th voxel gives the histogram of any CT to within what the eye can see, in some milliseconds.
 constexpr std::size_t kEachVoxel = 13;
 
 std::vector<float> histogram_of(const Volume<std::int16_t>& ct) {
@@ -32,8 +32,7 @@ std::vector<float> histogram_of(const Volume<std::int16_t>& ct) {
   return bins;
 }
 
-/// Returns a file name for a function. Names in other scripts would all become underscores, so a digest tells them
-/// apart.
+/// Returns a file name for a function. Names in other scripts would all become underscores, so they also have a digest.
 std::string file_name(const std::string& name) {
   std::string text;
   for (const char c : name) text += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';

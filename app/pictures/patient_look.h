@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "sim/core/grid.h"
-#include "sim/view/transfer_function.h"
+#include "sim/view/body/transfer_function.h"
 
 namespace insonate {
 

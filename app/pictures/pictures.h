@@ -16,9 +16,9 @@
 #include "sim/imaging/simulator.h"
 #include "sim/model/quality.h"
 #include "sim/view/axis_slice_view.h"
-#include "sim/view/orbit_camera.h"
+#include "sim/view/body/orbit_camera.h"
+#include "sim/view/body/volume_view.h"
 #include "sim/view/slice_view.h"
-#include "sim/view/volume_view.h"
 
 namespace insonate {
 

@@ -5,7 +5,7 @@
 
 #include "app/recording/results.h"
 #include "devices/sequence/sequence.h"
-#include "scenarios/results/results_database.h"
+#include "scenarios/results/database/results_database.h"
 
 namespace insonate {
 namespace {
@@ -33,7 +33,7 @@ void ExamJournal::settle() {
   if (!writing_.valid()) return;
   writing_.get();
   kept_ = handed_over_;
-  told_ = false;
+  reported_ = false;
 }
 
 void ExamJournal::write(const Session& session) {
@@ -52,7 +52,7 @@ void ExamJournal::take(const Session& session) {
   } catch (const ExamTaken&) {
     throw;
   } catch (const InputError&) {
-    if (!std::exchange(told_, true)) throw;
+    if (!std::exchange(reported_, true)) throw;
   }
   const bool due = handed_over_ == 0 || session.now_s() - tried_s_ >= kPart_s;
   if (due && session.exam_samples().size() > kept_) write(session);

@@ -6,7 +6,7 @@
 #include <future>
 
 #include "app/session/session.h"
-#include "scenarios/results/sitting.h"
+#include "scenarios/results/database/sitting.h"
 
 namespace insonate {
 
@@ -38,7 +38,7 @@ private:
   std::size_t handed_over_ = 0;  ///< samples passed to the thread
   std::size_t kept_ = 0;         ///< samples stored in the database
   double tried_s_ = 0;           ///< on the session's clock
-  bool told_ = false;            ///< whether the current failure has been thrown
+  bool reported_ = false;        ///< whether the current failure has been thrown
 };
 
 }  // namespace insonate

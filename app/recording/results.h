@@ -6,7 +6,7 @@
 
 #include "app/session/session.h"
 #include "scenarios/results/attempt.h"
-#include "scenarios/results/sitting.h"
+#include "scenarios/results/database/sitting.h"
 #include "sim/core/image.h"
 
 namespace insonate {

@@ -37,8 +37,8 @@ public:
     files_->begin_next();
     written_.push_back(files_->file());
   }
-  void operator()(const Samples& said) {
-    if (files_) files_->add(said.samples, said.actions);
+  void operator()(const Samples& taken) {
+    if (files_) files_->add(taken.samples, taken.actions);
   }
   void operator()(const DrawnPicture& picture) {
     if (files_) files_->add(picture);

@@ -1,23 +1,16 @@
 #include "app/replay/recorded_run.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <iterator>
 #include <utility>
 
 #include "devices/replay/replay_tracker.h"
 #include "scenarios/metrics/motion_meter.h"
 #include "scenarios/words.h"
+#include "sim/core/text.h"
 
 namespace insonate {
 namespace {
-
-template <typename... Values>
-std::string formatted(const char* format, Values... values) {
-  char text[96];
-  std::snprintf(text, sizeof text, format, values...);
-  return text;
-}
 
 std::string in_words(const Action& action) {
   switch (action.kind) {

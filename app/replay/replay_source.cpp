@@ -6,7 +6,7 @@
 
 #include "devices/replay/read_log.h"
 #include "scenarios/result_json.h"
-#include "scenarios/results/results_database.h"
+#include "scenarios/results/database/results_database.h"
 #include "sim/core/input_error.h"
 
 namespace insonate {

@@ -47,10 +47,10 @@ void Guide::next(const Session& session) {
   view_ = at == views.end() ? std::string() : *at;
 }
 
-void Guide::tell(Session& session) {
-  if (std::exchange(told_attempt_, session.attempt()) != session.attempt()) told_ = false;
-  if (session.strict() || !view_of_step(session) || told_ == in_run_) return;
-  told_ = in_run_;
+void Guide::report_use(Session& session) {
+  if (std::exchange(reported_attempt_, session.attempt()) != session.attempt()) reported_on_ = false;
+  if (session.strict() || !view_of_step(session) || reported_on_ == in_run_) return;
+  reported_on_ = in_run_;
   session.act({ActionKind::guide, {double(in_run_)}});
 }
 

@@ -35,9 +35,9 @@ public:
   /// pose.
   std::optional<Guiding> now(const Session& session) const;
 
-  /// Tells the session whether the guide is on in its exam, whose result counts it. To be called before each
+  /// Adds an action to the session's exam, whose result counts it, when the guide goes on or off. Call it before each
   /// Session::advance().
-  void tell(Session& session);
+  void report_use(Session& session);
 
   /// Adds a view that was authored after the case was read.
   void add(const ReferenceView& made) { made_.push_back(made); }
@@ -50,8 +50,8 @@ private:
   static const std::string* view_of_step(const Session& session);
 
   bool in_run_ = false;              ///< on or off while a scenario runs
-  int told_attempt_ = 0;             ///< the attempt that knows of told_
-  bool told_ = false;                ///< what it knows
+  int reported_attempt_ = 0;         ///< the attempt that knows of reported_on_
+  bool reported_on_ = false;         ///< what it knows
   std::string view_;                 ///< the view selected when no scenario runs; empty: off
   std::vector<ReferenceView> made_;  ///< their names do not occur in the case
 };

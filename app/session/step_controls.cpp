@@ -16,18 +16,18 @@ bool StepControls::active(const Session& session) {
 }
 
 void StepControls::see(const Session& session) {
-  if (!session.latest_samples().empty()) told_ = false;
+  if (!session.latest_samples().empty()) acted_ = false;
   const auto step = active(session) ? std::optional(session.runner()->live().step) : std::nullopt;
   if (session.attempt() == attempt_ && step == step_) return;
   attempt_ = session.attempt();
   step_ = step;
   input_ = step ? step_of(session).task->input() : StepInput();
   draft_.clear();
-  asks_again_ = told_ = false;
+  asks_again_ = acted_ = false;
 }
 
 void StepControls::record(Session& session, const Action& action) {
-  if (!std::exchange(told_, true)) session.act(action);
+  if (!std::exchange(acted_, true)) session.act(action);
 }
 
 bool StepControls::can_answer() const {

@@ -61,7 +61,7 @@ private:
   StepInput input_;  ///< of the current step
   std::string draft_;
   bool asks_again_ = false;
-  bool told_ = false;  ///< an action waits for the next sample; a second one would reach the next step
+  bool acted_ = false;  ///< an action waits for the next sample; a second one would go to the next step
 };
 
 }  // namespace insonate

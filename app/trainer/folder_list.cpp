@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstdio>
 #include <cstdlib>
 #include <ctime>
 #include <fstream>
@@ -14,6 +13,7 @@
 
 #include "sim/core/held_files.h"
 #include "sim/core/input_error.h"
+#include "sim/core/text.h"
 
 namespace insonate {
 namespace {
@@ -162,9 +162,7 @@ std::string size_text(std::uintmax_t bytes) {
   double size = double(bytes);
   std::size_t unit = 0;
   for (; size >= 999.5 && unit + 1 < std::size(kUnits); ++unit) size /= 1000;
-  char text[32];
-  std::snprintf(text, sizeof text, "%.0f %s", size, kUnits[unit]);
-  return text;
+  return formatted("%.0f %s", size, kUnits[unit]);
 }
 
 std::string time_text(std::int64_t since_1970_s) {

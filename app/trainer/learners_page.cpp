@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "scenarios/result_json.h"
+#include "scenarios/results/export/report_files.h"
+#include "scenarios/results/export/results_export.h"
 #include "scenarios/results/learner_id.h"
-#include "scenarios/results/report_files.h"
-#include "scenarios/results/results_export.h"
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
 
@@ -103,7 +103,7 @@ void LearnersPage::list_attempts() {
     else
       ++of->attempts;
   }
-  // Another text is another exam. What tells two of one title apart is the digest that the lists of attempts have.
+  // Another text is another exam. Two of one title differ in the digest that the lists of attempts have.
   std::map<std::string, int> titles;
   for (const AttemptedScenario& scenario : scenarios_) ++titles[scenario.title];
   for (AttemptedScenario& scenario : scenarios_)

@@ -7,8 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "scenarios/results/results_database.h"
+#include "scenarios/results/database/results_database.h"
 #include "scenarios/results/trends.h"
+#include "sim/core/spread.h"
 
 namespace insonate {
 

@@ -1,8 +1,9 @@
 #include "app/trainer/setup_wizard.h"
 
-#include <cstdio>
 #include <ctime>
 #include <utility>
+
+#include "sim/core/text.h"
 
 namespace insonate {
 namespace {
@@ -10,22 +11,16 @@ namespace {
 constexpr std::size_t kLandmarks = 3;
 static_assert(kSetupSteps[kLandmarks] == "landmarks");
 
-std::string figure(const char* format, double value) {
-  char text[48];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
 /// What the steps say of themselves, in the order of kSetupSteps; empty for those that were not made.
 std::vector<std::string> figures(const Calibration& c) {
   std::vector<std::string> made(kSetupSteps.size());
   if (c.axes)
-    made[0] = c.axes->value.signs.none() ? figure("moves agree to %.0f\u00b0", c.axes->value.misfit_deg)
+    made[0] = c.axes->value.signs.none() ? formatted("moves agree to %.0f\u00b0", c.axes->value.misfit_deg)
                                          : "a mirrored axis was put right";
-  if (c.tip) made[1] = figure("residual %.2f mm", c.tip->value.residual_mm);
-  if (c.face) made[2] = figure("off the right angle by %.1f\u00b0", c.face->value.fit.skew_deg);
-  if (c.mannequin) made[3] = figure("accuracy %.1f mm", c.mannequin->value.accuracy_mm);
-  if (c.lag) made[4] = figure("%.0f ms late", c.lag->value.lag_s * 1e3);
+  if (c.tip) made[1] = formatted("residual %.2f mm", c.tip->value.residual_mm);
+  if (c.face) made[2] = formatted("off the right angle by %.1f\u00b0", c.face->value.fit.skew_deg);
+  if (c.mannequin) made[3] = formatted("accuracy %.1f mm", c.mannequin->value.accuracy_mm);
+  if (c.lag) made[4] = formatted("%.0f ms late", c.lag->value.lag_s * 1e3);
   return made;
 }
 

@@ -10,7 +10,7 @@
 
 #include "app/trainer/options.h"
 #include "devices/found_trackers.h"
-#include "scenarios/results/results_database.h"
+#include "scenarios/results/database/results_database.h"
 
 namespace insonate {
 

@@ -10,7 +10,6 @@
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
 #include "sim/imaging/upload.h"
-#include "sim/view/transfer_function_file.h"
 
 namespace insonate {
 namespace {
@@ -24,11 +23,6 @@ std::string patient_of(const CaseSource& source) {
   for (const std::filesystem::path& named : {source.ct, source.case_folder, source.scenario})
     if (!named.empty()) return named.string();
   return "the built-in patient";
-}
-
-/// Returns the name of a picture, clip or volume that is begun now, without its ending.
-std::filesystem::path name_of_saved(const std::filesystem::path& out, const char* folder = "pictures") {
-  return out / folder / file_time(now_since_1970_ms());
 }
 
 gl::ShaderSources shaders_of(const Options& options) {
@@ -54,90 +48,6 @@ Trainer::Trainer(Options options, Preferences preferences, std::filesystem::path
   if (!preferences_file_.empty())
     for (const std::string& problem : pictures_.look.use_folder(preferences_file_.parent_path() / "transfer_functions"))
       problems_.push_back(problem);
-}
-
-/// Serves OpenIGTLink clients as the person prefers. An address that cannot be used stops nothing else.
-void Trainer::serve() {
-  feed_.reset();
-  if (preferences_.igtl_server.empty()) return;
-  attempt([&] { feed_ = std::make_unique<IgtlFeed>(parse_server_address(preferences_.igtl_server)); });
-}
-
-void Trainer::take_look(const std::filesystem::path& file) {
-  attempt([&] { pictures_.look.take(view::read_transfer_function(file)); });
-}
-
-void Trainer::save_look() {
-  attempt([&] {
-    const std::filesystem::path file = pictures_.look.save();
-    notices_.push_back({"Saved " + std::filesystem::absolute(file).string(), file});
-  });
-}
-
-void Trainer::keep_look() {
-  attempt([&] { pictures_.look.keep(); });
-}
-
-void Trainer::prefer(const Preferences& preferences) {
-  const Preferences before = std::exchange(preferences_, preferences);
-  if (before == preferences_) return;
-  if (preferences_.quality != before.quality) {
-    options_.quality = given_.quality = preferences_.quality;
-    pictures_.choose(quality_named(preferences_.quality));
-  }
-  if (preferences_.igtl_server != before.igtl_server) serve();
-  if (preferences_.results != before.results && !in_exam() && given_.results.empty()) {  // an exam stays as it began
-    const bool opened =
-        attempt([&] { use_results(preferences_.results.empty() ? own_results() : preferences_.results); });
-    if (!opened) preferences_.results = before.results;
-  }
-  if (StartPage* page = start_page()) given_ = page->options();
-  if (preferences_.out != before.out)
-    options_.out = given_.out = preferences_.out.empty() ? Options().out : preferences_.out;
-  if (StartPage* page = start_page()) {
-    if (preferences_.out != before.out || preferences_.results != before.results)
-      page->read_again(options_.out, results_ ? &*results_ : nullptr);
-    if (preferences_.cases != before.cases) attempt([&] { page->list_cases_in(preferences_.cases); });
-  }
-  keep_preferences();
-}
-
-void Trainer::toggle_landmarks() {
-  Preferences preferences = preferences_;
-  preferences.look.landmarks = !preferences.look.landmarks;
-  prefer(preferences);
-}
-
-bool Trainer::may_name_landmarks() const {
-  const Session* shown = session();
-  if (!shown) return replay() != nullptr;
-  if (!shown->shows_anatomy()) return false;
-  const bool scored = shown->runner() && !shown->runner()->live().finished;
-  return !scored || guide_.now(*shown).has_value();
-}
-
-void Trainer::keep_preferences() {
-  kept_ct_look_ = preferences_.ct;
-  if (!preferences_file_.empty()) attempt([&] { write_preferences(preferences_file_, preferences_); });
-}
-
-void Trainer::keep_ct_look() {
-  if (preferences_.ct != kept_ct_look_) keep_preferences();
-}
-
-void Trainer::open_results() {
-  if (options_.replay.any()) return;  // a replay stores nothing
-  if (!options_.results.empty())
-    use_results(options_.results);
-  else if (!options_.headless)
-    attempt([&] { use_results(preferences_.results.empty() ? own_results() : preferences_.results); });
-}
-
-/// Opens a database in place of the present one, unless it is the same. If it cannot be opened, the present one stays.
-void Trainer::use_results(const std::filesystem::path& file) {
-  if (results_ && results_->file() == file) return;
-  ResultsDatabase opened = ResultsDatabase::open_or_make(file);
-  results_.emplace(std::move(opened));
 }
 
 void Trainer::open_from_options() {
@@ -345,7 +255,7 @@ void Trainer::update(Mode& mode, double now_s) {
   }
   if (!options_.record.empty() && !recorded_) start_recording();
   const bool had_result = session.result().has_value();
-  guide_.tell(session);
+  guide_.report_use(session);
   session.advance(now_s - mode.behind_s);
   mode.tools.see(session);
   mode.controls.see(session);
@@ -367,7 +277,7 @@ void Trainer::draw(const PictureSizes& sizes, const Effort& effort) {
   } catch (const std::runtime_error& error) {
     // What was built when the file changed may not build for settings that come later.
     if (options_.shader_folder.empty()) throw;
-    tell_of_shaders(error.what());
+    report_shader_problem(error.what());
   }
   if (!session()) return;
   if (!options_.latency.empty()) {
@@ -395,108 +305,14 @@ void Trainer::show_pictures() {
   }
 }
 
-void Trainer::toggle_sweep() {
-  if (!can_sweep()) return;
-  if (sweep_.running()) return sweep_.stop();
-  sweep_case_ = loaded_case_;
-  sweep_.start();
-}
-
-void Trainer::notice_sweep() {
-  if (sweep_.running() && !session()) sweep_.stop();
-  attempt([&] {
-    std::shared_ptr<const SweptVolume> finished = sweep_.take_finished();
-    if (!finished || sweep_case_ != loaded_case_) return;
-    swept_ = std::move(finished);
-    notices_.push_back({"The swept volume is made: U shows it", {}});
-  });
-}
-
-void Trainer::save_swept() {
-  if (!swept_) return;
-  attempt([&] {
-    const std::filesystem::path file = free_path(name_of_saved(options_.out, "volumes"), ".nrrd");
-    write_swept(file, *swept_);
-    notices_.push_back({"Saved " + std::filesystem::absolute(file).string(), file});
-  });
-}
-
-void Trainer::start_recording() {
-  // What the command line names is taken once; later recordings lie beside it.
-  const bool named = !options_.record.empty() && !std::exchange(recorded_, true);
-  recorder_.start(options_.record.empty() ? options_.out / "recording.igs.mha" : options_.record, named);
-}
-
-void Trainer::finish_recording() {
-  recorder_.stop();
-  recorder_.wait();
-  attempt([&] { recorder_.check(); });
-  clip_.stop();
-  clip_.wait();
-  attempt([&] { clip_.take_finished(); });
-}
-
-void Trainer::save_picture(const Image<Rgba8>& picture) {
-  attempt([&] {
-    const std::filesystem::path file = free_path(name_of_saved(options_.out), ".png");
-    write_png(file, picture);
-    notices_.push_back({"Saved " + std::filesystem::absolute(file).string(), file});
-  });
-}
-
-void Trainer::start_clip() {
-  attempt([&] { clip_.start(name_of_saved(options_.out)); });
-}
-
-void Trainer::notice_recordings() {
-  attempt([&] {
-    if (const auto clip = clip_.take_finished())
-      notices_.push_back({"Saved " + std::filesystem::absolute(*clip).string(), *clip});
-  });
-  const std::vector<std::filesystem::path> files = recorder_.take_finished();
-  if (files.empty()) return;
-  std::string notice = "Recorded to " + std::filesystem::absolute(files.front()).string();
-  if (files.size() > 1) notice += " and, from each new start on, to " + files.back().filename().string();
-  notices_.push_back({notice, files.front()});
-}
-
-void Trainer::write_results_if_due() {
-  if (!std::exchange(results_due_, false) || !scan()) return;
-  scan()->best_frames.forget_older(*session());
-  attempt([&] { keep_and_report(); });
-}
-
-void Trainer::keep_and_report() {
-  const Session& session = *scan()->session;
-  Attempt finished = finished_attempt(session, current_.source, options_.learner,
-                                      scan()->best_frames.report_pictures(session, pictures_));
-  // A log that is only watched, as when the trainer starts, is nobody's attempt.
-  const bool replayed = session.source().recording() != nullptr;
-  std::exception_ptr not_kept;
-  if (results_ && options_.mode != Mode::replay && (!replayed || !options_.results.empty())) {
-    try {
-      auto* exam = std::get_if<Exam>(&mode_);
-      ExamJournal* journal = exam ? exam->journal.get() : nullptr;
-      const std::int64_t sitting = journal ? journal->finish(session) : 0;
-      if (journal && sitting == 0) results_->check_not_taken(options_.learner, loaded_case_->scenario->digest);
-      results_->add(finished, sitting);
-    } catch (const InputError&) {
-      not_kept = std::current_exception();  // the report is wanted all the more
-    }
-  }
-  result_files_ =
-      write_report_files(options_.headless ? options_.out : attempt_folder(options_.out, finished), finished);
-  if (not_kept) std::rethrow_exception(not_kept);
-}
-
 void Trainer::reload_shaders() {
   const auto changed = gl::last_change(options_.shader_folder);
   if (changed == shaders_changed_) return;
   shaders_changed_ = changed;
-  tell_of_shaders(pictures_.reload(gl::ShaderSources(options_.shader_folder)).value_or(""));
+  report_shader_problem(pictures_.reload(gl::ShaderSources(options_.shader_folder)).value_or(""));
 }
 
-void Trainer::tell_of_shaders(const std::string& problem) {
+void Trainer::report_shader_problem(const std::string& problem) {
   if (problem == shader_problem_) return;
   shader_problem_ = problem;
   // The screen has room for its beginning; whoever edits shaders has a terminal.

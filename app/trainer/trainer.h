@@ -24,8 +24,8 @@
 #include "app/trainer/options.h"
 #include "app/trainer/preferences.h"
 #include "devices/record/raw_recorder.h"
-#include "scenarios/results/report_files.h"
-#include "scenarios/results/results_database.h"
+#include "scenarios/results/database/results_database.h"
+#include "scenarios/results/export/report_files.h"
 
 namespace insonate {
 
@@ -137,7 +137,7 @@ public:
   /// Says whether something covers the screen, such as the help, from the next update() on. Time stands still meanwhile
   /// if it can (Session::can_stand_still()).
   void cover(bool covered) { covered_ = covered; }
-  /// Returns whether something covers the screen and time does not stand still, so that the learner has to be told.
+  /// Returns whether something covers the screen and time does not stand still, which the learner has to know.
   bool time_runs_on() const {
     return covered_ && session() && session()->runner() && !session()->result() && !session()->can_stand_still();
   }
@@ -307,7 +307,7 @@ private:
   void check_raw();
   void open_setup();
   void reload_shaders();
-  void tell_of_shaders(const std::string& problem);
+  void report_shader_problem(const std::string& problem);
   void open_results();
   void use_results(const std::filesystem::path& file);
   void make_start_page();

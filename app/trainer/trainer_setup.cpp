@@ -67,7 +67,7 @@ std::string Trainer::next_start() const {
 }
 
 bool Trainer::uses_calibration(const Request& request) const {
-  // What is dropped on the window is no tracker of the command line's.
+  // What is dropped on the window is not the command line's tracker.
   return !options_.calibration.empty() && !request.tracker.empty() && request.tracker == options_.tracker;
 }
 
@@ -84,7 +84,7 @@ Session::OpenTracker Trainer::opener(const std::string& uri, const LoadedCase& l
 }
 
 void Trainer::record_raw(Session& session, const Request& request) {
-  // What is dropped on the window is no tracker of the command line's.
+  // What is dropped on the window is not the command line's tracker.
   if (options_.record_raw.empty() || request.tracker != options_.tracker || !session.tracker()) return;
   const bool calibrated = uses_calibration(request) && !setup_left_;
   const std::string uri = calibrated ? sensor_uri(request.tracker, true) : request.tracker;

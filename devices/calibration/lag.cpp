@@ -42,11 +42,11 @@ double vertex(double before, double at, double after) {
 }
 
 std::vector<double> smoothed(const std::vector<double>& values, double step_s) {
-  const int reach = int(std::ceil(3 * kSmoothS / step_s));
+  const int radius = int(std::ceil(3 * kSmoothS / step_s));
   std::vector<double> out(values.size());
   for (int i = 0; i < int(values.size()); ++i) {
     double sum = 0, weights = 0;
-    for (int k = std::max(0, i - reach); k <= std::min(int(values.size()) - 1, i + reach); ++k) {
+    for (int k = std::max(0, i - radius); k <= std::min(int(values.size()) - 1, i + radius); ++k) {
       const double weight = std::exp(-0.5 * std::pow((k - i) * step_s / kSmoothS, 2));
       sum += weight * values[std::size_t(k)];
       weights += weight;

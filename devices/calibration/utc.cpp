@@ -2,7 +2,8 @@
 
 #include <charconv>
 #include <chrono>
-#include <cstdio>
+
+#include "sim/core/text.h"
 
 namespace insonate {
 
@@ -12,11 +13,8 @@ std::string utc_text(std::int64_t seconds) {
   const sys_days day = floor<days>(time);
   const year_month_day date(day);
   const hh_mm_ss clock(time - day);
-  char text[40];
-  std::snprintf(text, sizeof text, "%04d-%02u-%02uT%02d:%02d:%02dZ", int(date.year()), unsigned(date.month()),
-                unsigned(date.day()), int(clock.hours().count()), int(clock.minutes().count()),
-                int(clock.seconds().count()));
-  return text;
+  return formatted("%04d-%02u-%02uT%02d:%02d:%02dZ", int(date.year()), unsigned(date.month()), unsigned(date.day()),
+                   int(clock.hours().count()), int(clock.minutes().count()), int(clock.seconds().count()));
 }
 
 std::optional<std::int64_t> utc_seconds(std::string_view text) {

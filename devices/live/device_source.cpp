@@ -80,7 +80,7 @@ void DeviceSource::begin(const AttachedDevice& device, std::unique_ptr<Transport
   asked_s_ = heard_s_ = time_s;
   started_ = false;
   starts_ = 1;
-  told_.clear();
+  problem_.clear();
 }
 
 bool DeviceSource::replay_open(const AttachedDevice& device, double time_s) {
@@ -119,14 +119,14 @@ std::string DeviceSource::note(double now_s) {
            " times: unplug it and plug it in again.";
   // Each change would be a new message. So the counts are updated only with the first incident after a pause.
   if (started_ && tally_.incidents() != incidents_) {
-    if (told_.empty())
-      told_ = "Reports of the " + name + " were damaged or lost: " + tally_.incidents_in_words() + " so far.";
+    if (problem_.empty())
+      problem_ = "Reports of the " + name + " were damaged or lost: " + tally_.incidents_in_words() + " so far.";
     incident_s_ = now_s;
   } else if (now_s - incident_s_ >= kIncidentShownS) {
-    told_.clear();
+    problem_.clear();
   }
   incidents_ = tally_.incidents();
-  return told_;
+  return problem_;
 }
 
 void DeviceSource::close() noexcept {

@@ -102,7 +102,7 @@ private:
   int starts_ = 0;
   std::uint64_t incidents_ = 0;
   double incident_s_ = 0;
-  std::string told_;
+  std::string problem_;
 };
 
 }  // namespace insonate

@@ -63,7 +63,7 @@ public:
   void drain(std::vector<ProbeSample>& samples, std::string& problem) {
     ring_.drain(samples);
     // If the lock is taken now, the previous problem is kept.
-    if (const std::unique_lock lock(mutex_, std::try_to_lock); lock) problem = told_;
+    if (const std::unique_lock lock(mutex_, std::try_to_lock); lock) problem = latest_problem_;
   }
   std::uint64_t dropped() const { return ring_.dropped(); }
   bool ends_within(std::chrono::milliseconds how_long) {
@@ -119,7 +119,7 @@ private:
 
   void report(const std::string& problem) {
     const std::lock_guard lock(mutex_);
-    if (told_ != problem) told_ = problem;
+    if (latest_problem_ != problem) latest_problem_ = problem;
   }
 
   void pause(const std::stop_token& stop, std::chrono::milliseconds how_long) {
@@ -146,7 +146,7 @@ private:
   // Shared between the threads.
   SampleRing<ProbeSample> ring_;
   std::mutex mutex_;
-  std::string told_;
+  std::string latest_problem_;
   bool ended_ = false;
   std::condition_variable end_;
 };

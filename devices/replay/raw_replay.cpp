@@ -137,7 +137,7 @@ private:
 
   void open(std::string_view numbers, double time_s) {
     const auto device = device_of(numbers);
-    if (!device) fail(quoted(numbers) + " are no USB numbers, as in '1532:0300'", kRecordAgain);
+    if (!device) fail(quoted(numbers) + " are not USB numbers, as in '1532:0300'", kRecordAgain);
     open_ = source_->replay_open(*device, time_s);
     if (!open_) fail("a device " + std::string(numbers) + " is none of '" + scan_.tracker + "'", kRecordAgain);
   }

@@ -82,7 +82,7 @@ SequenceLayout nrrd_layout(const HeaderFields& fields, const CutBytes& data, con
   std::uint64_t raw = bytes_of(claimed.type);
   for (const std::uint64_t size : claimed.sizes) raw *= size;
   if (!is_whole_gzip(data, raw))
-    throw InputError(file, "image data", "it is no gzip stream of " + std::to_string(raw) + " bytes, or truncated",
+    throw InputError(file, "image data", "it is not a gzip stream of " + std::to_string(raw) + " bytes, or truncated",
                      "copy or record the file again");
   layout.image_bytes = data.size;
   return layout;

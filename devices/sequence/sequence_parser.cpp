@@ -73,7 +73,7 @@ public:
     const auto keep_field = [&](std::string_view name, std::string_view value, std::size_t line) {
       if (is_nrrd_ ? is_nrrd_data_file(name) : name == "ElementDataFile" && value != "LOCAL")
         fail("line " + std::to_string(line),
-             "the image data is said to lie in " + quoted(value) + " instead of in this file",
+             "the header places the image data in " + quoted(value) + " instead of in this file",
              std::string("save the sequence as one ") + (is_nrrd_ ? ".seq.nrrd" : ".igs.mha or .seq.mha") + " file");
       keep_layout(name, value, line);
       keep_key(name, value, line);

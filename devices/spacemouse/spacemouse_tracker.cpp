@@ -53,7 +53,7 @@ void SpaceMouseSource::move(double elapsed_s) {
 
 bool SpaceMouseSource::take(Bytes bytes, double time_s, LiveBatch& batch, ReportTally& tally) {
   // Until now the cap moved at the rate it last reported, but no longer than kLetGoS after that report.
-  if (now_s_ > 0) move(std::clamp(std::min(time_s, told_s_ + kLetGoS) - now_s_, 0.0, kLetGoS));
+  if (now_s_ > 0) move(std::clamp(std::min(time_s, reported_s_ + kLetGoS) - now_s_, 0.0, kLetGoS));
   now_s_ = time_s;
   bool understood = false;
   if (!bytes.empty()) {
@@ -65,7 +65,7 @@ bool SpaceMouseSource::take(Bytes bytes, double time_s, LiveBatch& batch, Report
       const SpaceMouseReport& report = parsed.report;
       if (report.push) push_ = probe_from_cap(*report.push);
       if (report.turn) turn_ = probe_from_cap(*report.turn);
-      if (report.push || report.turn) told_s_ = time_s;
+      if (report.push || report.turn) reported_s_ = time_s;
       if (report.buttons) buttons_ = *report.buttons;
     }
   }

@@ -43,7 +43,7 @@ private:
   glm::dvec3 push_{0}, turn_{0};  ///< in the probe's frame
   std::uint32_t buttons_ = 0;
   double now_s_ = 0;
-  double told_s_ = 0;  ///< time of the cap's last report
+  double reported_s_ = 0;  ///< time of the cap's last report
 };
 
 /// Its models, whose numbers the devices' public drivers and their makers' manuals give.

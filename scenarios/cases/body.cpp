@@ -18,9 +18,9 @@ namespace {
 constexpr double kPeeled_mm = 3.5;  // removed from each side
 constexpr int kRimVoxels = 2;
 
-/// Erosion (or dilation): each voxel becomes the minimum (or maximum) within `reach` voxels along each axis. Values
+/// Erosion (or dilation): each voxel becomes the minimum (or maximum) within `radius` voxels along each axis. Values
 /// beyond the border equal those on it, so that a body cut by the CT is not eroded there.
-void filter_box(Volume<std::uint8_t>& mask, const glm::ivec3& reach, bool grow) {
+void filter_box(Volume<std::uint8_t>& mask, const glm::ivec3& radius, bool grow) {
   const glm::ivec3 size = mask.grid.size;
   const std::ptrdiff_t strides[3] = {1, size.x, std::ptrdiff_t(size.x) * size.y};
   for (int axis = 0; axis < 3; ++axis) {
@@ -33,15 +33,15 @@ void filter_box(Volume<std::uint8_t>& mask, const glm::ivec3& reach, bool grow) 
           for (int i = 0; i < n; ++i) line[std::size_t(i)] = at[i * strides[axis]];
           // Distance to the last voxel of the spreading value; then the same from the other end.
           const std::uint8_t spreads = grow ? 1 : 0;
-          int away = reach[axis] + 1;
+          int away = radius[axis] + 1;
           for (int i = 0; i < n; ++i) {
             away = line[std::size_t(i)] == spreads ? 0 : away + 1;
-            if (away <= reach[axis]) at[i * strides[axis]] = spreads;
+            if (away <= radius[axis]) at[i * strides[axis]] = spreads;
           }
-          away = reach[axis] + 1;
+          away = radius[axis] + 1;
           for (int i = n - 1; i >= 0; --i) {
             away = line[std::size_t(i)] == spreads ? 0 : away + 1;
-            if (away <= reach[axis]) at[i * strides[axis]] = spreads;
+            if (away <= radius[axis]) at[i * strides[axis]] = spreads;
           }
         }
     });
@@ -134,12 +134,12 @@ void fill_slices(Volume<std::uint8_t>& mask) {
 BodyMask find_body(const Volume<std::int16_t>& ct) {
   BodyMask dense{ct.grid, std::vector<std::uint8_t>(ct.voxels.size())};
   for (std::size_t v = 0; v < ct.voxels.size(); ++v) dense.voxels[v] = ct.voxels[v] > kSkinHu;
-  const glm::ivec3 reach = glm::ivec3(glm::max(glm::dvec3(1.0), glm::round(kPeeled_mm / ct.grid.spacing)));
+  const glm::ivec3 radius = glm::ivec3(glm::max(glm::dvec3(1.0), glm::round(kPeeled_mm / ct.grid.spacing)));
   BodyMask body = dense;
-  filter_box(body, reach, false);
+  filter_box(body, radius, false);
   keep_largest_piece(body);
   if (std::find(body.voxels.begin(), body.voxels.end(), 1) == body.voxels.end()) return {};
-  filter_box(body, reach + 1, true);
+  filter_box(body, radius + 1, true);
   for (std::size_t v = 0; v < body.voxels.size(); ++v) body.voxels[v] &= dense.voxels[v];
   fill_slices(body);
   return body;

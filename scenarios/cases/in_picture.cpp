@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "scenarios/metrics/view_meter.h"
+#include "sim/core/text.h"
 
 namespace insonate {
 namespace {
@@ -48,9 +48,7 @@ std::string why_not_in_picture(const Landmark& landmark, const Probe& probe, dou
                                const Pose& patient_from_probe) {
   const glm::dvec3 p = patient_from_probe.inverse().point(landmark.position);
   if (std::abs(p.z) > ViewMeter::kLandmarkDistance_mm) {
-    char text[64];
-    std::snprintf(text, sizeof text, "lies %.0f mm beside its plane", std::abs(p.z));
-    return text;
+    return formatted("lies %.0f mm beside its plane", std::abs(p.z));
   }
   return line_position(probe, depth_mm, glm::dvec2(p)) ? "" : "lies outside its fan";
 }

@@ -11,6 +11,7 @@
 #include "scenarios/cases/structures.h"
 #include "sim/core/input_error.h"
 #include "sim/core/suggest.h"
+#include "sim/core/text.h"
 #include "sim/volume/ct_reader.h"
 
 namespace insonate {
@@ -74,9 +75,7 @@ double share_within(const Volume<std::uint8_t>& labels, const Grid& ct) {
 }
 
 std::string percent(double share) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f %%", 100 * share);
-  return text;
+  return formatted("%.1f %%", 100 * share);
 }
 
 /// Returns a structure's name in the form that case files accept.

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "scenarios/report/svg.h"
+#include "sim/core/text.h"
 
 namespace insonate {
 namespace {
@@ -42,7 +43,7 @@ std::string curve(const Quantity& quantity, const Axes& axes, std::span<const Tr
   bool drawing = false;
   for (const TracePoint& point : trace) {
     if (point.valid)
-      path += print("%c%.1f %.1f", drawing ? 'L' : 'M', axes.x(point.time_s), axes.y(quantity.value(point)));
+      path += formatted("%c%.1f %.1f", drawing ? 'L' : 'M', axes.x(point.time_s), axes.y(quantity.value(point)));
     drawing = point.valid;
   }
   return "<path class='curve' d='" + path + "'/>";
@@ -56,8 +57,8 @@ std::string untracked(const Axes& axes, std::span<const TracePoint> trace) {
     const std::size_t first = i;
     while (i + 1 < trace.size() && !trace[i + 1].valid) ++i;
     const double end = i + 1 < trace.size() ? trace[i + 1].time_s : axes.duration_s;
-    bars += print("<rect class='lost' x='%.1f' y='%.1f' width='%.1f' height='%.1f'/>", axes.x(trace[first].time_s),
-                  axes.top, std::max(1.0, axes.x(end) - axes.x(trace[first].time_s)), kChartHeight);
+    bars += formatted("<rect class='lost' x='%.1f' y='%.1f' width='%.1f' height='%.1f'/>", axes.x(trace[first].time_s),
+                      axes.top, std::max(1.0, axes.x(end) - axes.x(trace[first].time_s)), kChartHeight);
   }
   return bars;
 }
@@ -66,16 +67,16 @@ std::string steps_on(const Axes& axes, const ExamResult& result, const std::opti
   std::string svg;
   for (const StepResult& step : result.steps) {
     if (step.judged_from_s && step.judged_to_s)
-      svg += print("<rect class='%s' x='%.1f' y='%.1f' width='%.1f' height='%.1f'/>",
-                   step.outcome == StepOutcome::held ? "held" : "judged", axes.x(*step.judged_from_s), axes.top,
-                   std::max(2.0, axes.x(*step.judged_to_s) - axes.x(*step.judged_from_s)), kChartHeight);
+      svg += formatted("<rect class='%s' x='%.1f' y='%.1f' width='%.1f' height='%.1f'/>",
+                       step.outcome == StepOutcome::held ? "held" : "judged", axes.x(*step.judged_from_s), axes.top,
+                       std::max(2.0, axes.x(*step.judged_to_s) - axes.x(*step.judged_from_s)), kChartHeight);
     if (step.start_s > 0 && step.outcome != StepOutcome::not_reached)
-      svg += print("<line class='step' x1='%.1f' x2='%.1f' y1='%.1f' y2='%.1f'/>", axes.x(step.start_s),
-                   axes.x(step.start_s), axes.top, axes.top + kChartHeight);
+      svg += formatted("<line class='step' x1='%.1f' x2='%.1f' y1='%.1f' y2='%.1f'/>", axes.x(step.start_s),
+                       axes.x(step.start_s), axes.top, axes.top + kChartHeight);
     for (const CriterionScore& m : step.criteria)
       if (m.metric == shown && step.end_s > step.start_s)
-        svg += print("<line class='full' x1='%.1f' x2='%.1f' y1='%.1f' y2='%.1f'/>", axes.x(step.start_s),
-                     axes.x(step.end_s), axes.y(m.full), axes.y(m.full));
+        svg += formatted("<line class='full' x1='%.1f' x2='%.1f' y1='%.1f' y2='%.1f'/>", axes.x(step.start_s),
+                         axes.x(step.end_s), axes.y(m.full), axes.y(m.full));
   }
   return svg;
 }
@@ -84,13 +85,13 @@ std::string scale(const Quantity& quantity, const Axes& axes, std::span<const Tr
   const bool cut = std::any_of(trace.begin(), trace.end(), [&](const TracePoint& point) {
     return point.valid && quantity.value(point) > axes.most;
   });
-  std::string svg = print("<text class='name' x='%.0f' y='%.1f'>%s</text>", kLeft, axes.top - 7, quantity.title);
+  std::string svg = formatted("<text class='name' x='%.0f' y='%.1f'>%s</text>", kLeft, axes.top - 7, quantity.title);
   for (const double share : {0.0, 0.5, 1.0}) {
     const double value = share * axes.most;
-    svg += print("<line class='grid' x1='%.0f' x2='%.0f' y1='%.1f' y2='%.1f'/>", kLeft, kWidth - kRight, axes.y(value),
-                 axes.y(value));
-    svg += print("<text class='tick' x='%.0f' y='%.1f' text-anchor='end'>%g%s</text>", kLeft - 6, axes.y(value) + 4,
-                 value, share == 1.0 && cut ? "+" : "");
+    svg += formatted("<line class='grid' x1='%.0f' x2='%.0f' y1='%.1f' y2='%.1f'/>", kLeft, kWidth - kRight,
+                     axes.y(value), axes.y(value));
+    svg += formatted("<text class='tick' x='%.0f' y='%.1f' text-anchor='end'>%g%s</text>", kLeft - 6, axes.y(value) + 4,
+                     value, share == 1.0 && cut ? "+" : "");
   }
   return svg;
 }
@@ -100,8 +101,8 @@ std::string time_axis(const Axes& axes) {
   const double step = round_step(axes.duration_s);
   const double y = axes.top + kChartHeight + 16;
   for (int tick = 0; tick * step <= axes.duration_s; ++tick)
-    svg += print("<text class='tick' x='%.1f' y='%.1f' text-anchor='middle'>%g%s</text>", axes.x(tick * step), y,
-                 tick * step, tick == 0 ? " s" : "");
+    svg += formatted("<text class='tick' x='%.1f' y='%.1f' text-anchor='middle'>%g%s</text>", axes.x(tick * step), y,
+                     tick * step, tick == 0 ? " s" : "");
   return svg;
 }
 
@@ -123,7 +124,7 @@ std::string time_charts_svg(const ExamResult& result, std::span<const TracePoint
                [](const TracePoint& p) { return p.speed_mm_s; }}};
 
   const double height = kTop + quantities.size() * (kChartHeight + kChartGap) - kChartGap + kAxisHeight;
-  std::string svg = print("<svg class='chart' viewBox='0 0 %.0f %.0f' role='img'>", kWidth, height);
+  std::string svg = formatted("<svg class='chart' viewBox='0 0 %.0f %.0f' role='img'>", kWidth, height);
   Axes axes{kTop, std::max(1.0, result.motion.time_s), 1};
   for (const Quantity& quantity : quantities) {
     axes.most = quantity.most;

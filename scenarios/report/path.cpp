@@ -8,6 +8,7 @@
 
 #include "scenarios/report/embedded_files.h"
 #include "scenarios/report/svg.h"
+#include "sim/core/text.h"
 
 namespace insonate {
 namespace {
@@ -78,36 +79,37 @@ std::string projected(const Projection& projection, double left, const ProbePath
     return kTop + kSize / 2 - scale * glm::dot(p - path.middle(), projection.up);
   };
   std::string svg =
-      print("<rect class='frame' x='%.0f' y='%.0f' width='%.0f' height='%.0f'/>", left, kTop, kSize, kSize);
-  svg += print("<text class='name' x='%.0f' y='%.0f'>%s</text>", left, kTop - 8, projection.title);
-  svg += print("<text class='tick' x='%.0f' y='%.0f'>%s</text>", left + 6, kTop + kSize / 2 + 4, projection.left_side);
+      formatted("<rect class='frame' x='%.0f' y='%.0f' width='%.0f' height='%.0f'/>", left, kTop, kSize, kSize);
+  svg += formatted("<text class='name' x='%.0f' y='%.0f'>%s</text>", left, kTop - 8, projection.title);
+  svg +=
+      formatted("<text class='tick' x='%.0f' y='%.0f'>%s</text>", left + 6, kTop + kSize / 2 + 4, projection.left_side);
   for (const ProbePath::Stretch& stretch : path.stretches) {
-    svg += print("<path class='path path%d' d='", int(stretch.step % 4));
+    svg += formatted("<path class='path path%d' d='", int(stretch.step % 4));
     for (const glm::dvec3& p : stretch.points)
-      svg += print("%c%.1f %.1f", &p == &stretch.points.front() ? 'M' : 'L', x(p), y(p));
+      svg += formatted("%c%.1f %.1f", &p == &stretch.points.front() ? 'M' : 'L', x(p), y(p));
     svg += "'/>";
   }
-  svg += print("<circle class='start' cx='%.1f' cy='%.1f' r='4'/><text class='tick' x='%.1f' y='%.1f'>start</text>",
-               x(path.start), y(path.start), x(path.start) + 7, y(path.start) - 5);
+  svg += formatted("<circle class='start' cx='%.1f' cy='%.1f' r='4'/><text class='tick' x='%.1f' y='%.1f'>start</text>",
+                   x(path.start), y(path.start), x(path.start) + 7, y(path.start) - 5);
   for (const ProbePath::Spot& spot : path.spots)
-    svg += print("<circle class='spot %s' cx='%.1f' cy='%.1f' r='5'/>", spot.held ? "good" : "bad", x(spot.at),
-                 y(spot.at));
+    svg += formatted("<circle class='spot %s' cx='%.1f' cy='%.1f' r='5'/>", spot.held ? "good" : "bad", x(spot.at),
+                     y(spot.at));
   const double ruler_mm = round_step(path.across() * 1.5);
-  svg += print("<line class='ruler' x1='%.1f' x2='%.1f' y1='%.1f' y2='%.1f'/>", left + 10, left + 10 + ruler_mm * scale,
-               kTop + kSize - 12, kTop + kSize - 12);
-  svg += print("<text class='tick' x='%.1f' y='%.1f'>%g mm</text>", left + 10, kTop + kSize - 18, ruler_mm);
+  svg += formatted("<line class='ruler' x1='%.1f' x2='%.1f' y1='%.1f' y2='%.1f'/>", left + 10,
+                   left + 10 + ruler_mm * scale, kTop + kSize - 12, kTop + kSize - 12);
+  svg += formatted("<text class='tick' x='%.1f' y='%.1f'>%g mm</text>", left + 10, kTop + kSize - 18, ruler_mm);
   return svg;
 }
 
 std::string triple(const glm::dvec3& p) {
-  return print("%.1f,%.1f,%.1f", p.x, p.y, p.z);
+  return formatted("%.1f,%.1f,%.1f", p.x, p.y, p.z);
 }
 
 /// Returns the path relative to its middle, mm, in the form that the script of the rotatable drawing reads.
 std::string path_json(const ProbePath& path) {
   std::string stretches, spots;
   for (const ProbePath::Stretch& stretch : path.stretches) {
-    stretches += print("%s[%d", stretches.empty() ? "" : ",", int(stretch.step % 4));
+    stretches += formatted("%s[%d", stretches.empty() ? "" : ",", int(stretch.step % 4));
     for (const glm::dvec3& p : stretch.points) stretches += "," + triple(p - path.middle());
     stretches += "]";
   }
@@ -126,9 +128,10 @@ std::string path_html(const ExamResult& result, std::span<const TracePoint> trac
   const Projection front{"From the front", "R", {1, 0, 0}, {0, 0, 1}};
   const Projection feet{"From the feet", "R", {1, 0, 0}, {0, -1, 0}};
   const double width = 2 * kSize + kGap, height = kTop + kSize + 4;
-  return "<div class='paths'>" + print("<svg class='chart' viewBox='-1 0 %.0f %.0f' role='img'>", width + 2, height) +
+  return "<div class='paths'>" +
+         formatted("<svg class='chart' viewBox='-1 0 %.0f %.0f' role='img'>", width + 2, height) +
          projected(front, 0, *path) + projected(feet, kSize + kGap, *path) + "</svg>" +
-         print("<svg class='chart turn' viewBox='-1 0 %.0f %.0f' role='img'></svg></div>", kSize + 2, height) +
+         formatted("<svg class='chart turn' viewBox='-1 0 %.0f %.0f' role='img'></svg></div>", kSize + 2, height) +
          "<script>" + std::string(report_file("turn.js")) + "(" + path_json(*path) + ");</script>";
 }
 

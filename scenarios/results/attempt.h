@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "scenarios/report/report.h"
-#include "scenarios/results/comment.h"
+#include "scenarios/results/database/comment.h"
 #include "scenarios/runner.h"
 
 namespace insonate {

@@ -1,7 +1,6 @@
 #include "scenarios/results/trends.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <utility>
 
@@ -31,17 +30,6 @@ struct Sums {
 };
 
 }  // namespace
-
-Spread spread_of(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const auto at = [&](double share) {
-    const double place = share * double(values.size() - 1);
-    const auto below = std::size_t(place);
-    const std::size_t above = std::min(below + 1, values.size() - 1);
-    return std::lerp(values[below], values[above], place - double(below));
-  };
-  return {at(0.25), at(0.5), at(0.75)};
-}
 
 std::vector<CriterionTrend> criterion_trends(const std::vector<PlacedResult>& results) {
   // A key of the step and the metric; the whole exam comes after the steps.

@@ -9,15 +9,6 @@
 
 namespace insonate {
 
-/// The spread of a group's values.
-struct Spread {
-  double lower = 0, median = 0, upper = 0;  ///< lower and upper are the quartiles
-};
-
-/// Returns the median and the quartiles of at least one value. A quartile between two values is interpolated, as
-/// Hyndman and Fan's definition 7 does it (American Statistician 50, 1996), which spreadsheets use.
-Spread spread_of(std::vector<double> values);
-
 /// An attempt at a scenario, with its place among the attempts of its learner.
 struct PlacedResult {
   std::size_t ordinal = 0;  ///< from 0: the learner's first attempt at the scenario

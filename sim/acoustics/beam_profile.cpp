@@ -43,11 +43,11 @@ public:
   double outermost(double threshold, double first_step_mm) const {
     constexpr int kSamples = 48, kBisections = 10;
     constexpr double kWellBelow = 0.3;  // of the threshold: less than any dip within a main lobe
-    double reach = first_step_mm;
-    while (std::abs(reach) < kFarthest_mm && at(reach) > kWellBelow * threshold) reach *= 1.5;
-    double inside = 0, outside = reach;
+    double far = first_step_mm;
+    while (std::abs(far) < kFarthest_mm && at(far) > kWellBelow * threshold) far *= 1.5;
+    double inside = 0, outside = far;
     for (int i = kSamples - 1; i > 0; --i) {
-      inside = reach * i / kSamples;
+      inside = far * i / kSamples;
       if (at(inside) >= threshold) break;
       outside = inside;
       inside = 0;

@@ -88,15 +88,15 @@ std::vector<double> EchoLine::envelope() const {
 EchoLine point_echo(const ScanBeam& beam, const Pulse& pulse, const glm::dvec3& point_mm) {
   const Sampling& sampling = beam.beamforming().sampling;
   const SampledResponse response = beam.both_ways(point_mm);
-  const std::int64_t reach = steps(pulse.reach_us(), sampling);
-  std::vector<double> padded(response.samples.size() + std::size_t(2 * reach));
-  std::copy(response.samples.begin(), response.samples.end(), padded.begin() + reach);
+  const std::int64_t half_length = steps(pulse.half_length_us(), sampling);
+  std::vector<double> padded(response.samples.size() + std::size_t(2 * half_length));
+  std::copy(response.samples.begin(), response.samples.end(), padded.begin() + half_length);
 
-  // Twice as long, because the imaginary part dies away slowly if the band begins near 0 MHz (Pulse::reach_us()).
+  // Twice as long, because the imaginary part dies away slowly if the band begins near 0 MHz (Pulse::half_length_us()).
   const Transform transform(fast_length(2 * padded.size()));
   std::vector<std::complex<double>> sum(transform.length());
   add_filtered(sum, transform.forward(padded), pulse, beam.beamforming(), glm::distance(point_mm, beam.line().start));
-  EchoLine echo{double(response.first - reach) * sampling.step_us(), sampling.step_us(), sampling.speed_mm_us,
+  EchoLine echo{double(response.first - half_length) * sampling.step_us(), sampling.step_us(), sampling.speed_mm_us,
                 transform.backward(sum)};
   echo.samples.resize(padded.size());
   return echo;
@@ -105,23 +105,24 @@ EchoLine point_echo(const ScanBeam& beam, const Pulse& pulse, const glm::dvec3& 
 EchoLine echo_line(const ScanBeam& beam, const Pulse& pulse, const std::vector<Scatterer>& scatterers, double from_mm,
                    double to_mm) {
   const Sampling& sampling = beam.beamforming().sampling;
-  const std::int64_t reach = steps(pulse.reach_us(), sampling);
+  const std::int64_t half_length = steps(pulse.half_length_us(), sampling);
   const std::int64_t first = std::int64_t(std::floor(2 * from_mm / sampling.speed_mm_us * sampling.per_us));
   const std::int64_t end = steps(2 * to_mm / sampling.speed_mm_us, sampling) + 1;
-  const std::size_t padded = std::size_t(end - first + 2 * reach);
+  const std::size_t padded = std::size_t(end - first + 2 * half_length);
 
-  Zones zones(beam, pulse.frequency_mhz(), from_mm, to_mm, first - reach, padded);
+  Zones zones(beam, pulse.frequency_mhz(), from_mm, to_mm, first - half_length, padded);
   for (const Scatterer& scatterer : scatterers)
     zones.add(beam.both_ways(scatterer.position_mm), scatterer.amplitude,
               glm::distance(scatterer.position_mm, beam.line().start));
 
-  const Transform transform(fast_length(padded + std::size_t(reach)));  // so that the pulse does not wrap around
+  const Transform transform(fast_length(padded + std::size_t(half_length)));  // so that the pulse does not wrap around
   std::vector<std::complex<double>> sum(transform.length());
   for (std::size_t zone = 0; zone < zones.size(); ++zone)
     add_filtered(sum, transform.forward(zones.samples(zone)), pulse, beam.beamforming(), zones.distance_mm(zone));
   const std::vector<std::complex<double>> samples = transform.backward(sum);
-  return {double(first) * sampling.step_us(), sampling.step_us(), sampling.speed_mm_us,
-          std::vector<std::complex<double>>(samples.begin() + reach, samples.begin() + reach + (end - first))};
+  return {
+      double(first) * sampling.step_us(), sampling.step_us(), sampling.speed_mm_us,
+      std::vector<std::complex<double>>(samples.begin() + half_length, samples.begin() + half_length + (end - first))};
 }
 
 std::vector<EchoLine> echo_lines(const Transducer& transducer, const Beamforming& beamforming,

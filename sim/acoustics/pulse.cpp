@@ -52,7 +52,7 @@ std::complex<double> Pulse::spectrum(double frequency_mhz) const {
   return frequency_mhz > 0 ? scale_ * raw_spectrum(frequency_mhz) : 0;
 }
 
-double Pulse::reach_us() const {
+double Pulse::half_length_us() const {
   return excitation_us_ / 2 + kGaussianReach / (glm::two_pi<double>() * sigma_mhz_);
 }
 

@@ -27,7 +27,7 @@ public:
 
   /// Returns the time from the middle beyond which the real part is below 1e-6, us. The envelope of a pulse whose band
   /// begins near 0 MHz is up to 2e-3 there, and falls with the third power of the time.
-  double reach_us() const;
+  double half_length_us() const;
 
   /// Returns the full width at half maximum of the envelope of the elements' response both ways, us, which is the
   /// pulse's if an impulse drives them: 4 ln 2 / (pi bandwidth), with the bandwidth in MHz.

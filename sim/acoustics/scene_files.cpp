@@ -2,13 +2,13 @@
 
 #include <cmath>
 #include <complex>
-#include <cstdio>
 #include <initializer_list>
 #include <string>
 #include <vector>
 
 #include "sim/core/files.h"
 #include "sim/core/new_folder.h"
+#include "sim/core/text.h"
 
 namespace insonate {
 namespace {
@@ -17,9 +17,7 @@ constexpr double kMetres = 1e-3, kSeconds = 1e-6, kHertz = 1e6;
 
 // Nine digits are a tenth of a nanometre of a position.
 std::string nine_digits(double number) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.9g", number);
-  return text;
+  return formatted("%.9g", number);
 }
 
 void append_line(std::string& text, std::initializer_list<double> numbers) {

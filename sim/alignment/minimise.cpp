@@ -118,7 +118,7 @@ private:
       const nlopt::result result = optimiser.optimize(at, value);
       runner.found.within_tolerance = result != nlopt::MAXEVAL_REACHED;
     } catch (const nlopt::roundoff_limited&) {
-      runner.found.within_tolerance = true;  // the best point cannot be told from its neighbours
+      runner.found.within_tolerance = true;  // the best point does not differ from its neighbours
     } catch (const nlopt::forced_stop&) {
       // Abandoned: nobody reads the result.
     } catch (const std::exception& error) {

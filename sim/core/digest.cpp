@@ -3,15 +3,14 @@
 #include <xxhash.h>
 
 #include <cinttypes>
-#include <cstdio>
+
+#include "sim/core/text.h"
 
 namespace insonate {
 namespace {
 
 std::string digits(XXH64_hash_t hash) {
-  char text[17];
-  std::snprintf(text, sizeof text, "%016" PRIx64, std::uint64_t(hash));
-  return text;
+  return formatted("%016" PRIx64, std::uint64_t(hash));
 }
 
 }  // namespace

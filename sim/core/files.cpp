@@ -4,12 +4,14 @@
 
 #include <cerrno>
 #include <chrono>
+#include <cinttypes>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <system_error>
 
 #include "sim/core/input_error.h"
+#include "sim/core/text.h"
 
 namespace insonate {
 
@@ -22,12 +24,12 @@ std::string reason() {
   return errno == 0 ? "" : std::string(" (") + std::strerror(errno) + ")";
 }
 
-fs::path& told_assets() {
+fs::path& chosen_assets() {
   static fs::path folder;
   return folder;
 }
 
-/// The parts of a temporary name before and after the process id.
+/// The parts of a temporary name before and after its random digits.
 struct TemporaryName {
   std::string front, back;
   explicit TemporaryName(const fs::path& target)
@@ -35,8 +37,8 @@ struct TemporaryName {
 
   bool matches(const std::string& name) const {
     if (name.size() <= front.size() + back.size() || !name.starts_with(front) || !name.ends_with(back)) return false;
-    const std::string number = name.substr(front.size(), name.size() - front.size() - back.size());
-    return number.find_first_not_of("0123456789") == std::string::npos;
+    const std::string id = name.substr(front.size(), name.size() - front.size() - back.size());
+    return id.find_first_not_of("0123456789abcdef") == std::string::npos;
   }
 };
 
@@ -69,8 +71,10 @@ std::string read_file(const fs::path& file, std::size_t limit) {
 
 fs::path temporary_beside(const fs::path& target) {
   const TemporaryName name(target);
+  std::uint64_t number = 0;
+  if (getentropy(&number, sizeof number) != 0) throw std::system_error(errno, std::generic_category(), "getentropy");
   fs::path temporary = target;
-  return temporary.replace_filename(name.front + std::to_string(getpid()) + name.back);
+  return temporary.replace_filename(name.front + formatted("%016" PRIx64, number) + name.back);
 }
 
 void remove_old_temporaries(const fs::path& target) {
@@ -130,7 +134,7 @@ fs::path free_path(const fs::path& stem, const std::string& extension) {
 fs::path assets_folder() {
   std::error_code error;
   if (const char* named = std::getenv("INSONATE_ASSETS")) return named;
-  if (!told_assets().empty()) return told_assets();
+  if (!chosen_assets().empty()) return chosen_assets();
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
   const fs::path folder = program.parent_path() / INSONATE_ASSETS_FROM_PROGRAM;
   if (fs::is_directory(folder, error)) return fs::weakly_canonical(folder, error);
@@ -139,7 +143,7 @@ fs::path assets_folder() {
 }
 
 void set_assets_folder(const fs::path& folder) {
-  told_assets() = folder;
+  chosen_assets() = folder;
 }
 
 fs::path cache_folder() {

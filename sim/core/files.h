@@ -15,8 +15,10 @@ std::string read_file(const std::filesystem::path& file, std::size_t limit = 1u 
 /// Returns the size of a file in bytes. Throws InputError if it is missing, a folder, not a file on a disk, or empty.
 std::uintmax_t check_is_file(const std::filesystem::path& file);
 
-/// Returns the temporary name beside `target` that this process fills before it renames it:
-/// `.STEM.PID.partial.EXTENSION`. It keeps the extension, for writers that choose their format by it.
+/// Returns a name beside `target` for a file or folder that is filled and then renamed to `target`:
+/// `.STEM.ID.partial.EXTENSION`, where ID is 16 random hexadecimal digits, so that no two calls return the same name,
+/// in threads, processes or on machines that share a disk. It keeps the extension, for writers that choose their format
+/// by it.
 std::filesystem::path temporary_beside(const std::filesystem::path& target);
 
 /// Removes the temporary files or folders of `target` (temporary_beside) that are more than a day old. Killed programs

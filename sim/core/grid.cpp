@@ -4,16 +4,6 @@
 #include <glm/matrix.hpp>
 
 namespace insonate {
-namespace {
-
-/// For values that fit an int. std::floor is a library call, whose cost is noticeable when millions of voxels are
-/// sampled.
-int floor_of(double x) {
-  const int cut = int(x);
-  return cut - (x < cut);
-}
-
-}  // namespace
 
 glm::dvec3 Grid::index_from_patient(const glm::dvec3& p) const {
   return (glm::inverse(direction) * (p - origin)) / spacing;

@@ -1,11 +1,9 @@
 #include "sim/core/new_folder.h"
 
-#include <unistd.h>
-
-#include <string>
 #include <system_error>
 #include <vector>
 
+#include "sim/core/files.h"
 #include "sim/core/input_error.h"
 
 namespace insonate {
@@ -38,8 +36,8 @@ void refuse_taken(const fs::path& folder) {
 
 void write_folder(const fs::path& folder, const std::function<void(const fs::path&)>& fill) {
   const fs::path target = without_slash(folder);
-  fs::path temporary = target;
-  temporary.replace_filename("." + target.filename().string() + "." + std::to_string(getpid()) + ".partial");
+  const fs::path temporary = temporary_beside(target);
+  remove_old_temporaries(target);
   const std::vector<fs::path> made = missing_above(target);
   const auto clean_up = [&] {
     std::error_code ignored;

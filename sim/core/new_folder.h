@@ -9,7 +9,8 @@ namespace insonate {
 void refuse_taken(const std::filesystem::path& folder);
 
 /// Calls `fill` with a temporary folder and then renames it, so that the folder appears completely or not at all. If
-/// `fill` throws, nothing remains. Throws InputError if the folder cannot be created, or if its name is taken.
+/// `fill` throws, nothing remains. Removes what killed programs left of it (remove_old_temporaries()). Throws
+/// InputError if the folder cannot be created, or if its name is taken.
 void write_folder(const std::filesystem::path& folder, const std::function<void(const std::filesystem::path&)>& fill);
 
 }  // namespace insonate

@@ -7,7 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "sim/core/text.h"
 
 namespace insonate {
 
@@ -24,12 +25,6 @@ constexpr double kRoundingError = 1e-12;
 glm::dmat3 nearest_rotation(glm::dmat3 matrix) {
   for (int round = 0; round < 4; ++round) matrix = 0.5 * (matrix + glm::transpose(glm::inverse(matrix)));
   return matrix;
-}
-
-std::string with_number(const char* format, double number) {
-  char text[160];
-  std::snprintf(text, sizeof text, format, number);
-  return text;
 }
 
 }  // namespace
@@ -67,13 +62,12 @@ std::optional<std::string> why_not_rigid(const glm::dmat4& m, double reach_mm, d
   const glm::dmat3 rotation(m);
   const double determinant = glm::determinant(rotation);
   if (std::abs(determinant) < kSingular)
-    return with_number("the rotation is singular: its determinant is %g", determinant);
-  if (determinant < 0) return with_number("the rotation mirrors: its determinant is %g", determinant);
+    return formatted("the rotation is singular: its determinant is %g", determinant);
+  if (determinant < 0) return formatted("the rotation mirrors: its determinant is %g", determinant);
   const double error = orthonormal_error(rotation);
-  if (error > largest_error)
-    return with_number("the rotation is not orthonormal: it stretches or shears by %.2g", error);
+  if (error > largest_error) return formatted("the rotation is not orthonormal: it stretches or shears by %.2g", error);
   const double length = glm::length(glm::dvec3(m[3]));
-  if (length > reach_mm) return with_number("the translation is %g mm long, further than anything reaches", length);
+  if (length > reach_mm) return formatted("the translation is %g mm long, further than anything reaches", length);
   return std::nullopt;
 }
 

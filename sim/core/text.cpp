@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdarg>
 #include <cstdio>
 
 namespace insonate {
@@ -32,10 +33,19 @@ std::string unwrapped(std::string_view text) {
   return out;
 }
 
-std::string number_text(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", value);
+std::string formatted(const char* format, ...) {
+  std::va_list values, again;
+  va_start(values, format);
+  va_copy(again, values);
+  std::string text(std::size_t(std::max(std::vsnprintf(nullptr, 0, format, values), 0)), '\0');
+  std::vsnprintf(text.data(), text.size() + 1, format, again);
+  va_end(again);
+  va_end(values);
   return text;
+}
+
+std::string number_text(double value) {
+  return formatted("%g", value);
 }
 
 std::string exact_text(double number) {

@@ -18,6 +18,9 @@ std::string in_quotes(std::string_view text);
 /// separates paragraphs, stays, and the ends are trimmed.
 std::string unwrapped(std::string_view text);
 
+/// Returns what std::printf writes for a format and its values.
+[[gnu::format(printf, 1, 2)]] std::string formatted(const char* format, ...);
+
 /// Returns a number with up to six significant digits: "0.25", "1e+30".
 std::string number_text(double value);
 

@@ -195,9 +195,9 @@ SimulationParameters parameters_of(const Settings& settings, const ScanLines& li
   p.reflection_exponent_px = float(reflection.exponent);
   p.transmission_exponent_px = float(transmission.exponent);
   p.face_reflection = float(settings.face_reflection);
-  p.turn_kept = float(std::exp(-dr / kDeflection_mm));
-  p.turn_per_step = float(dr / (settings.reflection_length_mm * kDeflection_rad));
-  p.turn_loss = float(dr / kDeflection_mm);
+  p.deflection_kept = float(std::exp(-dr / kDeflection_mm));
+  p.deflection_per_step = float(dr / (settings.reflection_length_mm * kDeflection_rad));
+  p.deflection_loss = float(dr / kDeflection_mm);
   p.slice_thickness_mm = float(settings.slice_thickness_mm);
   p.elevation_focus_mm = float(settings.elevation_focus_mm);
   p.clutter_kept = float(std::exp(-dr / kClutterTail_mm));

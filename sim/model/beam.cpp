@@ -87,9 +87,9 @@ int focused_radius(double sigma_lines) {
 
 std::vector<double> beam_weights_at(const Settings& settings, double sigma_lines) {
   if (!settings.focused_beam) return beam_weights(settings);
-  const int reach = focused_radius(sigma_lines);
+  const int radius = focused_radius(sigma_lines);
   std::vector<double> weights;
-  for (int j = -reach; j <= reach; ++j)
+  for (int j = -radius; j <= radius; ++j)
     weights.push_back(j == 0 ? 1 : std::exp(-0.5 * j * j / (sigma_lines * sigma_lines)));
   return with_sum_1(std::move(weights));
 }

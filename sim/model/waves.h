@@ -34,7 +34,7 @@
 ///
 /// q = +-(alpha |d . n|^m)^(1/2) alpha^2 / (alpha^2 + b^2/4) is the interface's amplitude (1, 3): negative where the
 /// impedance falls, m = specular_exponent. The last factor keeps the noise and the texture of a CT from counting as
-/// surfaces: what reflects less than scatterers do is no interface. kMirrorShare and kRoughShare are estimates:
+/// surfaces: what reflects less than scatterers do is not an interface. kMirrorShare and kRoughShare are estimates:
 /// organs' surfaces are smooth mirrors only in part, so that their echo is patchy where they are met squarely, and
 /// does not vanish where they are not. A = 10^(e/20) - 10^(kSilentDb/20) is the amplitude of scatterers of
 /// echogenicity e dB. I, T, b, V are those of sim/model/stages.h.

@@ -100,8 +100,7 @@ private:
 void throw_away(const fs::path& folder) {
   const FolderLock lock(folder, FolderLock::Kind::alone);
   if (!lock.held()) return;
-  fs::path gone = folder;
-  gone.replace_filename("." + folder.filename().string() + "." + std::to_string(getpid()) + ".gone");
+  const fs::path gone = temporary_beside(folder);
   std::error_code error;
   fs::rename(folder, gone, error);
   if (!error) fs::remove_all(gone, error);

@@ -41,9 +41,9 @@ std::array<Line, 13> lines_of(const Grid& grid, double radius_mm) {
 /// Which parts of a volume have measured voxels, so that empty space is passed over.
 class Neighbourhood {
 public:
-  Neighbourhood(const Volume<std::uint8_t>& known, double reach_mm) : known_(known) {
+  Neighbourhood(const Volume<std::uint8_t>& known, double radius_mm) : known_(known) {
     // No line between two measured voxels is longer than a block.
-    side_ = glm::max(glm::ivec3(glm::ceil(reach_mm / known.grid.spacing)), glm::ivec3(4));
+    side_ = glm::max(glm::ivec3(glm::ceil(radius_mm / known.grid.spacing)), glm::ivec3(4));
     blocks_.size = (known.grid.size + side_ - 1) / side_;
     measured_.resize(blocks_.count());
     tbb::parallel_for(0, blocks_.size.z, [&](int bz) {

@@ -31,12 +31,6 @@ std::pair<int, int> span_between(double a, double b, double low, double high, in
   return {int(from), int(to)};
 }
 
-/// For values that fit an int.
-int floor_of(double x) {
-  const int cut = int(x);
-  return cut - (x < cut);
-}
-
 }  // namespace
 
 Reconstruction::Reconstruction(const Grid& grid, const ReconstructionSettings& settings)

@@ -5,9 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <optional>
+
+#include "sim/core/text.h"
 
 namespace insonate {
 namespace {
@@ -16,13 +17,6 @@ namespace {
 constexpr double kTremor_mm = 0.5;
 /// Pictures are missing where the time between two is longer than this many of the median.
 constexpr double kMissing = 1.5;
-
-template <typename... Values>
-std::string formatted(const char* format, Values... values) {
-  char text[160];
-  std::snprintf(text, sizeof text, format, values...);
-  return text;
-}
 
 double median_duration_s(const std::vector<SweepStep>& steps) {
   std::vector<double> durations;

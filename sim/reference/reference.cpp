@@ -161,7 +161,7 @@ ReferenceScan traverse_reference(const MediumField& field, const TissueTable& ta
     };
 
     double intensity = 1;
-    glm::dvec2 turn(0);
+    glm::dvec2 deflection(0);
     for (int k = 0; k < lines.samples; ++k) {
       const double r = lines.r_min_mm + (k + 0.5) * dr;
       const glm::dvec3 p = place(r);
@@ -207,8 +207,8 @@ ReferenceScan traverse_reference(const MediumField& field, const TissueTable& ta
                  (density < 0 ? kLogSpeedBelowWater : kLogSpeedAboveWater);
         };
         const glm::dvec2 rise(log_speed(right) - log_speed(left), log_speed(above) - log_speed(below));
-        turn = std::exp(-dr / kDeflection_mm) * turn + dr / l * rise;
-        const double q = std::pow(glm::length(turn) / kDeflection_rad, 4);
+        deflection = std::exp(-dr / kDeflection_mm) * deflection + dr / l * rise;
+        const double q = std::pow(glm::length(deflection) / kDeflection_rad, 4);
         intensity *= std::exp(-2 * q / (2 + q) * dr / kDeflection_mm);
       }
     }

@@ -8,12 +8,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
 
+#include "sim/core/text.h"
 #include "sim/imaging/device_volume.h"
 #include "sim/imaging/fan_layout.h"
 #include "sim/imaging/view_limits.h"
@@ -68,9 +68,7 @@ std::vector<glm::dmat4> matrices_of(std::span<const Pose> poses) {
 
 // Returns a number as a GLSL expression.
 std::string literal(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "float(%.9g)", value);
-  return text;
+  return formatted("float(%.9g)", value);
 }
 
 }  // namespace

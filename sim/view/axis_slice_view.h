@@ -6,7 +6,7 @@
 #include "sim/gl/objects.h"
 #include "sim/gl/program.h"
 #include "sim/view/axis_slice.h"
-#include "sim/view/patient_textures.h"
+#include "sim/view/body/patient_textures.h"
 #include "sim/view/slice_painter.h"
 
 namespace insonate::view {

@@ -11,7 +11,7 @@
 
 #include "sim/gl/objects.h"
 #include "sim/gl/program.h"
-#include "sim/view/patient_textures.h"
+#include "sim/view/body/patient_textures.h"
 #include "sim/view/picture_target.h"
 
 namespace insonate::view {

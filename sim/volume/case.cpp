@@ -200,7 +200,6 @@ struct TemporaryFolder {
   explicit TemporaryFolder(const fs::path& target) : path(temporary_beside(target)) {
     remove_old_temporaries(target);
     std::error_code error;
-    fs::remove_all(path, error);
     fs::create_directories(path, error);
     if (error)
       throw InputError(target.string(), "", "the folder cannot be made (" + error.message() + ")",
@@ -279,11 +278,11 @@ void check_case_can_be_written(const fs::path& folder) {
   const fs::path target = without_slash(folder);
   const std::string name = target.filename().string();
   if (name.empty() || name == "." || name == "..")
-    throw InputError(folder.string(), "", "it is no name of a folder to make", "name a new folder");
+    throw InputError(folder.string(), "", "it is not the name of a folder to make", "name a new folder");
   std::error_code error;
   if (fs::exists(target, error) && !fs::exists(target / kTableFile, error) &&
       !(fs::is_directory(target, error) && fs::is_empty(target, error)))
-    throw InputError(target.string(), "", "something that is no case is in the way", "name another folder");
+    throw InputError(target.string(), "", "something that is not a case is in the way", "name another folder");
   // The lowest existing parent folder must accept a new folder. Only a trial shows whether it does.
   fs::path above = fs::absolute(target, error).parent_path();
   while (above.has_relative_path() && !fs::exists(above, error)) above = above.parent_path();

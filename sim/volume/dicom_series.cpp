@@ -21,6 +21,7 @@
 
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/core/text.h"
 #include "sim/volume/volume_checks.h"
 
 namespace insonate {
@@ -233,9 +234,7 @@ void check_for_lost_files(const Stack& stack, const std::vector<fs::path>& other
 }
 
 std::string millimetres(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g mm", value);
-  return text;
+  return formatted("%.4g mm", value);
 }
 
 std::string or_none(const std::string& text) {

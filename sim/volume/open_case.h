@@ -10,8 +10,8 @@
 
 namespace insonate {
 
-/// The voxel size to which scans are resampled before insonation, mm. Reflections are read from differences over less
-/// than a millimetre, and the facets of thicker voxels would appear in them as dashes.
+/// The voxel size to which scans are resampled before they are simulated, mm. Reflections are read from differences
+/// over less than a millimetre, and the facets of thicker voxels would appear in them as dashes.
 inline constexpr double kInsonatedVoxelMm = 1.0;
 
 /// Opens a case folder, or a CT file or DICOM folder as a case without labels and landmarks, with default_views().

@@ -65,16 +65,16 @@ std::string receive_all(int pipe_end) {
   // The handlers of a test runner or sanitizer would report the death as the parent's.
   for (int death : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL}) signal(death, SIG_DFL);
   char kind = kResult;
-  std::string told;
+  std::string answer;
   try {
-    told = work();
+    answer = work();
   } catch (const InputError& error) {
     kind = kInputError;
-    told = error.what();
+    answer = error.what();
   } catch (...) {
     _exit(EXIT_FAILURE);
   }
-  _exit(send(pipe_end, &kind, 1) && send(pipe_end, told.data(), told.size()) ? EXIT_SUCCESS : EXIT_FAILURE);
+  _exit(send(pipe_end, &kind, 1) && send(pipe_end, answer.data(), answer.size()) ? EXIT_SUCCESS : EXIT_FAILURE);
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <map>
 
@@ -102,7 +101,7 @@ glm::ivec3 three_sizes(const fs::path& file, std::string_view dimensions, std::s
     if (!number) break;
     numbers.push_back(*number);
   }
-  if (numbers.size() != 3) refuse(file, "the sizes are " + quoted(sizes), "give three whole numbers");
+  if (numbers.size() < 3) refuse(file, "the sizes are " + quoted(sizes), "give three whole numbers");
   check_size(file.string(), numbers[0], numbers[1], numbers[2]);
   return glm::ivec3(numbers[0], numbers[1], numbers[2]);
 }
@@ -265,9 +264,7 @@ void check_packed_size(const fs::path& file, const VoxelData& data, std::string_
 
 /// Returns the shortest decimal with 17 digits or fewer that `%.17g` gives, which reads back to the same double.
 std::string exact(double number) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.17g", number);
-  return text;
+  return formatted("%.17g", number);
 }
 
 std::string vector_text(const glm::dvec3& v) {

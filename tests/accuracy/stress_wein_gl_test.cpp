@@ -172,7 +172,7 @@ public:
                            auto&& basic) {
       const Image<double> allowed = tolerated(expected, uncertain, stage, basic);
       const Worst found = worst(expected.*stage, image, allowed);
-      INFO(told(what, found));
+      INFO(described(what, found));
       CHECK(found.error < 1);
       return allowed;
     };
@@ -263,7 +263,7 @@ void check_each(const std::vector<ExtremeCase>& cases) {
 
 }  // namespace
 
-TEST_CASE("model W: what both models are told, at the ends of its ranges") {
+TEST_CASE("model W: what both models are given, at the ends of its ranges") {
   check_each(extreme_views());
 }
 

@@ -104,16 +104,16 @@ std::string disagreement_of_amplitudes(const Scene& scene, const Stages<double>&
   const double brightest = std::max(largest(expected.reflection), 1e-8);
   const Worst reflection = worst(expected.reflection, got.reflection,
                                  spread.tolerated(expected, &S::reflection, [&](double) { return 1e-4 * brightest; }));
-  if (!(reflection.error < 1)) return told("R", reflection);
+  if (!(reflection.error < 1)) return described("R", reflection);
 
   const Worst beam =
       worst(expected.reflection_beam, got.reflection_beam,
             spread.tolerated(expected, &S::reflection_beam, [&](double r) { return 1e-4 * r + 1e-6 * brightest; }));
-  if (!(beam.error < 1)) return told("R behind the beam", beam);
+  if (!(beam.error < 1)) return described("R behind the beam", beam);
   const Worst transmission =
       worst(expected.transmission, got.transmission,
             spread.tolerated(expected, &S::transmission, [](double t) { return 2e-4 * std::max(t, 1e-12); }));
-  if (!(transmission.error < 1)) return told("T", transmission);
+  if (!(transmission.error < 1)) return described("T", transmission);
 
   // A place in the lattice is known to the last place of the number of periods in a line's length; a period has 128
   // cells.
@@ -122,11 +122,11 @@ std::string disagreement_of_amplitudes(const Scene& scene, const Stages<double>&
   const double loudest = largest(expected.speckle);
   const Worst speckle = worst(expected.speckle, got.speckle,
                               spread.tolerated(expected, &S::speckle, [&](double) { return of_loudest * loudest; }));
-  if (!(speckle.error < 1)) return told("S", speckle);
+  if (!(speckle.error < 1)) return described("S", speckle);
 
   const Worst repeated = worst(expected.repeated, got.repeated,
                                spread.tolerated(expected, &S::repeated, [&](double) { return 1e-4 * brightest; }));
-  if (!(repeated.error < 1)) return told("V", repeated);
+  if (!(repeated.error < 1)) return described("V", repeated);
 
   // Near its zero an envelope is as wrong as the envelopes around it are large.
   const Settings& s = scene.settings;
@@ -152,7 +152,7 @@ std::string disagreement(const Scene& scene, const Stages<double>& expected, con
   const Worst intensity =
       worst(expected.intensity, got.intensity,
             spread.tolerated(expected, &S::intensity, [](double i) { return 1e-4 * std::max(i, 1e-6); }));
-  if (!(intensity.error < 1)) return told("I", intensity);
+  if (!(intensity.error < 1)) return described("I", intensity);
 
   const Settings& s = scene.settings;
   Image<double> fused_tolerance;
@@ -162,7 +162,7 @@ std::string disagreement(const Scene& scene, const Stages<double>& expected, con
 
   // The tolerance of grey follows from that of U, in decibels, plus two levels.
   const Worst fused = worst(expected.fused, got.fused, fused_tolerance);
-  if (!(fused.error < 1)) return told("U", fused);
+  if (!(fused.error < 1)) return described("U", fused);
 
   for (std::size_t i = 0; i < expected.grey.pixels.size(); ++i) {
     const double u = expected.fused.pixels[i];

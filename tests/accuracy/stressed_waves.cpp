@@ -40,7 +40,7 @@ std::string disagreement_of_waves(const Scene& scene, const Stages<double>& expe
   const auto differs = [&](const char* what, Image<double> S::*part, const Image<float>& shaders,
                            const Image<double>& allowed) {
     const Worst found = worst(expected.*part, shaders, allowed);
-    return found.error < 1 ? "" : told(what, found);
+    return found.error < 1 ? "" : described(what, found);
   };
 
   const double strongest = largest(expected.scattered);

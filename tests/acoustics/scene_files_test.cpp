@@ -13,6 +13,7 @@
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
 #include "tests/acoustics/helpers.h"
+#include "tests/core/temporary_folder.h"
 
 using namespace insonate;
 using test::shipped;
@@ -33,11 +34,6 @@ std::vector<std::vector<double>> numbers_of(const std::string& csv) {
   }
   return rows;
 }
-
-struct Folder {
-  fs::path path = fs::temp_directory_path() / ("insonate-scene-" + std::to_string(::getpid()));
-  ~Folder() { fs::remove_all(path); }
-};
 
 }  // namespace
 
@@ -82,15 +78,16 @@ TEST_CASE("a written scene holds all that repeats its central line") {
   transducer.elevation_focus_mm = 20;
   Beamforming beamforming;
   beamforming.transmit_focus_mm = 20;
-  const Folder folder;
+  const TemporaryFolder temporary;
+  const fs::path folder = temporary.path / "scene";
   // One scatterer at the focus: the line is the pulse, which the two sampled responses and the excitation give.
-  write_scene(folder.path, transducer, beamforming, {{{0, 20, 0}, 1}}, 30);
-  CHECK_THROWS_AS(write_scene(folder.path, transducer, beamforming, {}, 30), InputError);
-  for (const char* name : {"scatterers.csv", "transducer.csv", "elements.csv"}) CHECK(fs::exists(folder.path / name));
+  write_scene(folder, transducer, beamforming, {{{0, 20, 0}, 1}}, 30);
+  CHECK_THROWS_AS(write_scene(folder, transducer, beamforming, {}, 30), InputError);
+  for (const char* name : {"scatterers.csv", "transducer.csv", "elements.csv"}) CHECK(fs::exists(folder / name));
 
   const auto column = [&](const char* name, std::size_t which) {
     std::vector<double> values;
-    for (const auto& row : numbers_of(read_file(folder.path / name))) values.push_back(row[which]);
+    for (const auto& row : numbers_of(read_file(folder / name))) values.push_back(row[which]);
     return values;
   };
   const std::vector<double> rf = column("central_line.csv", 1), element = column("element_response.csv", 1),

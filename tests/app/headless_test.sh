@@ -93,7 +93,7 @@ grep -q 'under way, or broken off only just' "$work/handed.txt" || fail "$(cat "
 sit L-08 && fail "an exam was begun twice"
 grep -q "the exam was begun at" "$work/log" || fail "$(cat "$work/log")"
 
-echo "how long a live tracker's reports take to the picture is told"
+echo "how long a live tracker's reports take to the picture is reported"
 "$trainer" --headless --tracker "synthetic:1?live=1" --seconds 2 --latency "$work/latency.csv" --out "$work/live" \
   >"$work/log" 2>&1 || fail "$(cat "$work/log")"
 grep -q '^from_ms,report_to_frame,report_to_picture$' "$work/latency.csv" || fail "$(cat "$work/latency.csv")"

@@ -31,7 +31,7 @@ TEST_CASE("a button that is held across a dropout of any kind was pressed once")
     }
 }
 
-TEST_CASE("a button that is pressed during a dropout acts when it is told of, once") {
+TEST_CASE("a button that is pressed during a dropout acts when it is reported, once") {
   for (const PoseStatus unseen : kUnseen) {
     CAPTURE(to_string(unseen));
     ButtonPresses presses(0);

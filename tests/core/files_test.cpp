@@ -5,26 +5,25 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <barrier>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <future>
+#include <string>
+#include <vector>
 
 #include "sim/core/held_files.h"
 #include "sim/core/image.h"
 #include "sim/core/input_error.h"
 #include "sim/core/new_folder.h"
 #include "tests/core/system_faults.h"
+#include "tests/core/temporary_folder.h"
 
 using namespace insonate;
 namespace fs = std::filesystem;
 
 namespace {
-
-struct TemporaryFolder {
-  fs::path path = fs::temp_directory_path() / ("insonate-files-test-" + std::to_string(::getpid()));
-  TemporaryFolder() { fs::create_directories(path); }
-  ~TemporaryFolder() { fs::remove_all(path); }
-};
 
 std::string why_unreadable(const fs::path& file) {
   try {
@@ -114,14 +113,35 @@ TEST_CASE("what killed programs left of a file goes with its next write once it 
     std::ofstream(folder.path / name) << "left";
     fs::last_write_time(folder.path / name, fs::file_time_type::clock::now() - std::chrono::hours(hours));
   };
+  put(".score.0123456789abcdef.partial.json", 48);
   for (const char* name : {".score.12.partial.json", "score.12.partial.json", ".score.12.partial.csv",
                            ".other.12.partial.json", ".score.x.partial.json", ".score..partial.json"})
     put(name, 48);
   put(".score.13.partial.json", 1);
   write_file(folder.path / "score.json", "{}");
-  CHECK_FALSE(fs::exists(folder.path / ".score.12.partial.json"));
+  CHECK_FALSE(fs::exists(folder.path / ".score.0123456789abcdef.partial.json"));
+  CHECK_FALSE(fs::exists(folder.path / ".score.12.partial.json"));  // as earlier versions named it
   CHECK(fs::exists(folder.path / ".score.13.partial.json"));
   CHECK(entries(folder.path) == 7);
+}
+
+TEST_CASE("threads that write the same file at once do not write into each other's temporary file") {
+  constexpr int kThreads = 4;
+  const TemporaryFolder folder;
+  const fs::path file = folder.path / "score.json";
+  std::barrier all_write(kThreads);
+  std::vector<std::future<void>> threads;
+  for (int thread = 0; thread < kThreads; ++thread)
+    threads.push_back(std::async(std::launch::async, [&, thread] {
+      write_atomically(file, [&](const fs::path& temporary) {
+        std::ofstream(temporary) << std::string(100, char('a' + thread));
+        all_write.arrive_and_wait();
+      });
+    }));
+  for (std::future<void>& thread : threads) CHECK_NOTHROW(thread.get());
+  const std::string text = read_file(file);
+  CHECK(text == std::string(100, text.front()));
+  CHECK(entries(folder.path) == 1);
 }
 
 TEST_CASE("a new folder appears as a whole or not at all, and takes nobody's place") {

@@ -11,6 +11,13 @@ TEST_CASE("unwrapping joins the lines of a paragraph and keeps paragraphs apart"
   CHECK(unwrapped(" \n\n").empty());
 }
 
+TEST_CASE("a format is filled in, however long the text becomes") {
+  CHECK(formatted("%d of %.2f %s", 3, 0.125, "mm") == "3 of 0.12 mm");
+  CHECK(formatted("plain").size() == 5);
+  const std::string longest(5000, 'x');
+  CHECK(formatted("<%s>", longest.c_str()) == "<" + longest + ">");
+}
+
 TEST_CASE("a number in a sentence has the digits that it needs") {
   CHECK(exact_text(100000) == "100000");
   CHECK(exact_text(4294967295.0) == "4294967295");

@@ -234,7 +234,7 @@ TEST_CASE("samples that were read in one go are no quicker for it") {
   }
 }
 
-TEST_CASE("a live tracker's filters are chosen by its option: all, none, or as told") {
+TEST_CASE("a live tracker's filters are chosen by its option: all, none, or as named") {
   const auto taken = [](const std::string& text) {
     TrackerUri uri = parse_tracker_uri(text);
     const FilterSettings settings = take_filter_options(uri);

@@ -4,7 +4,7 @@
 
 using namespace insonate;
 
-TEST_CASE("a latency histogram counts by the millisecond and tells what a share stays below") {
+TEST_CASE("a latency histogram counts by the millisecond and returns what a share stays below") {
   LatencyHistogram histogram;
   CHECK(histogram.quantile_s(0.5) == 0);
   for (int i = 0; i < 90; ++i) histogram.add(0.0045);

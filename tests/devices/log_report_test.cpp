@@ -103,7 +103,7 @@ TEST_CASE("a jump is a step that no hand makes, in place or in turn") {
   CHECK(report.jumps[1].deg == Approx(20));
 }
 
-TEST_CASE("marks are told, each once, also when tracking is lost while the button is held") {
+TEST_CASE("marks are published, each once, also when tracking is lost while the button is held") {
   auto samples = steady();
   for (std::size_t i = 300; i < 340; ++i) samples[i].buttons = kEventMarkerButton | kFreezeButton;
   for (std::size_t i = 310; i < 320; ++i) samples[i] = {samples[i].time_s, PoseStatus::missing, Pose{}, 0};

@@ -26,6 +26,7 @@
 #include "sim/core/hash.h"
 #include "sim/core/input_error.h"
 #include "tests/core/system_faults.h"
+#include "tests/core/temporary_folder.h"
 #include "tests/devices/test_samples.h"
 
 using namespace insonate;
@@ -34,13 +35,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// A folder of its own for a test.
-struct Folder {
-  fs::path path = fs::temp_directory_path() / ("insonate_recorder_" + std::to_string(getpid()));
-  Folder() {
-    fs::remove_all(path);
-    fs::create_directories(path);
-  }
-  ~Folder() { fs::remove_all(path); }
+struct Folder : TemporaryFolder {
   std::size_t files() const {
     return std::size_t(std::distance(fs::directory_iterator(path), fs::directory_iterator()));
   }

@@ -80,7 +80,7 @@ TEST_CASE("a looping replay goes on with the log's poses and with times that ris
   CHECK(replay.state().condition != TrackerCondition::finished);
 }
 
-TEST_CASE("times that cannot be told apart once a loop has shifted them still rise") {
+TEST_CASE("times that cannot be distinguished once a loop has shifted them still rise") {
   std::vector<ProbeSample> log(3);
   log[1].time_s = 1e-13;
   log[2].time_s = 1e3;

@@ -59,7 +59,7 @@ TEST_CASE("the checksums are the catalogued ones") {
   CHECK(crc16_arc(bytes) == 0xbb3d);
 }
 
-TEST_CASE("a Hydra's report tells both handsets") {
+TEST_CASE("a Hydra's report holds both handsets") {
   const auto hydra = parse_hydra(golden::kHydra);
   REQUIRE(hydra.fault == ReportFault::none);
   CHECK(hydra.report.sequence == 0x2a);
@@ -75,7 +75,7 @@ TEST_CASE("a Hydra's report tells both handsets") {
   CHECK(second.reading.buttons == 0);
 }
 
-TEST_CASE("a Hydra's report that is cut, prolonged or has any bit flipped is told apart from a whole one") {
+TEST_CASE("a Hydra's report that is cut, prolonged or has any bit flipped is distinguished from a whole one") {
   const Report whole = copy(golden::kHydra);
   for (std::size_t length = 0; length < whole.size(); ++length)
     CHECK(parse_hydra(Bytes(whole).first(length)).fault == ReportFault::length);
@@ -100,7 +100,7 @@ TEST_CASE("a Hydra's handset whose numbers are no rotation is invalid, the other
   CHECK(hydra.report.handsets[1].reading.status == PoseStatus::ok);
 }
 
-TEST_CASE("a Hydra is told to send poses, and to be a gamepad again") {
+TEST_CASE("a Hydra is made to send poses, and to be a gamepad again") {
   const auto poses = hydra_mode(true), gamepad = hydra_mode(false);
   for (std::size_t i = 0; i < poses.size(); ++i) {
     CHECK(poses[i] == (i == 6 ? 1 : i == 8 ? 4 : i == 9 ? 3 : i == 89 ? 6 : 0));
@@ -126,7 +126,7 @@ TEST_CASE("Liberty's and Patriot's records are read in centimetres, with their f
   CHECK(records_of(flagged)[0].reading.status == PoseStatus::invalid);
 }
 
-TEST_CASE("a Viper's frame tells its own units") {
+TEST_CASE("a Viper's frame holds its own units") {
   const auto records = records_of(golden::kViper);
   REQUIRE(records.size() == 1);
   CHECK(records[0].frame == 88);
@@ -201,7 +201,7 @@ TEST_CASE("a Viper's commands carry their size and checksum") {
   CHECK(crc16_arc(Bytes(units).first(36)) == u32_at(units, 36));
 }
 
-TEST_CASE("a SpaceMouse tells push, turn and buttons, together or in turn") {
+TEST_CASE("a SpaceMouse reports push, rotation and buttons, together or one by one") {
   const auto push = parse_spacemouse(golden::kSpaceMousePush);
   REQUIRE(push.fault == ReportFault::none);
   CHECK(push.report.push == glm::dvec3(1, -0.5, 0));
@@ -219,7 +219,7 @@ TEST_CASE("a SpaceMouse tells push, turn and buttons, together or in turn") {
   CHECK(parse_spacemouse(Report{23, 80}).fault == ReportFault::header);
 }
 
-TEST_CASE("an OSVR report tells orientation, and is refused when it is none") {
+TEST_CASE("an OSVR report holds orientation, and is refused when it is none") {
   const auto osvr = parse_osvr(golden::kOsvr);
   REQUIRE(osvr.fault == ReportFault::none);
   CHECK(osvr.report.sequence == 9);

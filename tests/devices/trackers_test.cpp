@@ -132,7 +132,7 @@ TEST_CASE("every kind of tracker opens by the registry, and its form begins with
   CHECK_NOTHROW(open_tracker("synthetic:"));
 }
 
-TEST_CASE("a tracker's state tells rate, status and loss on the tracker's own clock") {
+TEST_CASE("a tracker's state reports rate, status and loss on the tracker's own clock") {
   SyntheticTracker hand(1, 100, {});
   CHECK(hand.state().condition == TrackerCondition::waiting);
   CHECK(hand.state().rate_hz == 0);

@@ -6,7 +6,7 @@
 #include "devices/replay/read_log.h"
 #include "devices/sequence/sequence.h"
 #include "scenarios/result_json.h"
-#include "scenarios/results/results_database.h"
+#include "scenarios/results/database/results_database.h"
 #include "sim/core/input_error.h"
 #include "sim/phantom/phantom.h"
 #include "sim/volume/case.h"

@@ -1,6 +1,6 @@
 // Tables of run times as CSV.
 #include "tests/fuzz/fuzz_target.h"
-#include "tools/bench/table.h"
+#include "tools/bench/tables/table.h"
 
 namespace insonate::fuzz {
 namespace {

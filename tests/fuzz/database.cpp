@@ -1,6 +1,6 @@
 // The database of results: opened, checked, listed and read as insonate-score does.
 #include "scenarios/result_json.h"
-#include "scenarios/results/results_database.h"
+#include "scenarios/results/database/results_database.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace insonate::fuzz {

@@ -1,8 +1,8 @@
 // Scores and traces as attempts keep them, and what is made of them: the same bytes as either.
 #include "scenarios/result_json.h"
-#include "scenarios/results/score_csv.h"
+#include "scenarios/results/export/score_csv.h"
+#include "scenarios/results/export/xapi.h"
 #include "scenarios/results/trace_json.h"
-#include "scenarios/results/xapi.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace insonate::fuzz {

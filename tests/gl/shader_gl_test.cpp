@@ -54,7 +54,7 @@ TEST_CASE("a shader that does not build keeps the last good program and names fi
   CHECK(program.name() != good);
 }
 
-TEST_CASE("of programs that belong together none is taken when one does not build, and every problem is told") {
+TEST_CASE("of programs that belong together none is taken when one does not build, and every problem is reported") {
   const test::TestContext context;
   const EditedShaders shaders;
   gl::Program first(shaders.read(), {"imaging/clutter.comp"}, {{"GROUP", "8"}, {"WAVES", "0"}}),

@@ -49,7 +49,7 @@ inline Worst worst(const Image<double>& expected, const Image<float>& got, const
   return found;
 }
 
-inline std::string told(const char* what, const Worst& w) {
+inline std::string described(const char* what, const Worst& w) {
   char text[200];
   std::snprintf(text, sizeof text, "%s: worst %.3g of the tolerance at (%d, %d): reference %.9g, GLSL %.9g", what,
                 w.error, w.x, w.y, w.expected, w.got);
@@ -116,7 +116,7 @@ inline void check_fused(const Image<double>& expected, const std::array<Image<do
     tolerated_db.pixels[std::size_t(i)] += 20 * std::log10(1 + of_amplitude * std::sqrt(around / here));
   }
   const Worst fused = worst(expected_db, in_db(got, got), tolerated_db);
-  INFO(told("U in dB", fused));
+  INFO(described("U in dB", fused));
   CHECK(fused.error < 1);
 }
 

@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "sim/imaging/simulator.h"
-#include "tests/gl/test_context.h"
-#include "tests/imaging/test_body.h"
+#include "tests/imaging/changed_simulator.h"
 #include "tests/model/amplitudes.h"
 
 using namespace insonate;
@@ -15,38 +13,17 @@ using gl::Stage;
 
 namespace {
 
-void set_up(gl::Simulator& simulator, const Settings& settings) {
-  simulator.set_volume(test::test_body(), read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml"));
-  simulator.set_probe(*find_probe("curvilinear"), 100);
-  simulator.set_settings(settings);
-  simulator.set_pose(test::on_the_skin(0, 9, 0));
-}
+struct Fixture : test::ChangedSimulator {
+  Fixture() : ChangedSimulator(small_picture()) {}
 
-struct Fixture {
-  test::TestContext context;
-  gl::Simulator simulator;
-  Settings settings = test::trainer_with_amplitudes(3.5, 100);
-
-  Fixture() {
+  static Settings small_picture() {
+    Settings settings = test::trainer_with_amplitudes(3.5, 100);
     settings.samples = 64;
     settings.slice_planes = 1;
     settings.transmission_sigma_mm = 0;
     settings.image_width = 64;
     settings.image_height = 48;
-    set_up(simulator, settings);
-    simulator.image();
-  }
-
-  /// Returns the stages that run after a change, as a string of their numbers.
-  std::string after(const std::function<void()>& change) {
-    const auto before = simulator.runs();
-    change();
-    simulator.set_settings(settings);
-    simulator.image();
-    std::string ran;
-    for (int stage = 0; stage < gl::kStageCount; ++stage)
-      if (simulator.runs()[std::size_t(stage)] > before[std::size_t(stage)]) ran += char('0' + stage);
-    return ran;
+    return settings;
   }
 };
 
@@ -94,7 +71,7 @@ TEST_CASE("what other settings leave unused reaches nothing, until they use it")
   CHECK(f.after([&] { f.settings.slice_thickness_mm = 4; }) == "01234");
 }
 
-TEST_CASE("each stage tells how often it ran and how much it evaluated of what there is") {
+TEST_CASE("each stage reports how often it ran and how much it evaluated of what there is") {
   Fixture f;
   f.settings.image_width = 400;
   f.settings.image_height = 300;
@@ -174,14 +151,5 @@ TEST_CASE("a picture after a change is the picture that a new simulator draws") 
       // and back: weak interfaces are not seen any more
       [](Settings& s) { s.blend *= 1e4, s.clutter = true, s.clutter_db = 0; },
   };
-  Fixture f;
-  for (std::size_t i = 0; i < std::size(changes); ++i) {
-    INFO("change " << i);
-    changes[i](f.settings);
-    f.simulator.set_settings(f.settings);
-    gl::Simulator fresh;
-    set_up(fresh, f.settings);
-    CHECK(f.simulator.read_stages().grey.pixels == fresh.read_stages().grey.pixels);
-    CHECK(f.simulator.read_stages().fused.pixels == fresh.read_stages().fused.pixels);
-  }
+  Fixture().compare_with_new(changes);
 }

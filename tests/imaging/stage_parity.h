@@ -38,7 +38,7 @@ inline void check_waves(const ReferenceStages& reference, const Stages<float>& g
   const Worst scattered = worst(expected.scattered, got.scattered,
                                 tolerated(expected, reference.uncertain, &Stages<double>::scattered,
                                           [&](double value) { return 3e-4 * value + 1e-10 * strongest; }));
-  INFO(told("scattered", scattered));
+  INFO(described("scattered", scattered));
   CHECK(scattered.error < 1);
 
   const WaveTolerance allowed = wave_tolerance(expected, reference.rounding, lines, settings);
@@ -47,7 +47,7 @@ inline void check_waves(const ReferenceStages& reference, const Stages<float>& g
     Image<double> tolerance = tolerated(expected, reference.uncertain, part, [](double) { return 1e-20; });
     for (std::size_t i = 0; i < tolerance.pixels.size(); ++i) tolerance.pixels[i] += of_rounding.pixels[i];
     const Worst wave = worst(expected.*part, of_device, tolerance);
-    INFO(told(what, wave));
+    INFO(described(what, wave));
     CHECK(wave.error < 1);
   };
   compare("e, real", &Stages<double>::echo_re, got.echo_re, allowed.echo);
@@ -68,7 +68,7 @@ inline void check_stages(const ReferenceStages& reference, const Stages<float>& 
   const Worst intensity =
       worst(expected.intensity, got.intensity,
             tolerance(&Stages<double>::intensity, [](double value) { return 1e-4 * std::max(value, 1e-6); }));
-  INFO(told("I", intensity));
+  INFO(described("I", intensity));
   CHECK(intensity.error < 1);
 
   REQUIRE(expected.inside.pixels == got.inside.pixels);
@@ -83,7 +83,7 @@ inline void check_stages(const ReferenceStages& reference, const Stages<float>& 
     const double loudest = *std::max_element(expected.fused.pixels.begin(), expected.fused.pixels.end());
     const Worst repeated = worst(expected.repeated, got.repeated,
                                  tolerance(&Stages<double>::repeated, [&](double) { return 1e-4 * loudest; }));
-    INFO(told("V", repeated));
+    INFO(described("V", repeated));
     CHECK(repeated.error < 1);
     check_waves(reference, got, lines, settings);
     check_grey_of_waves(expected_grey, got_grey);
@@ -95,21 +95,21 @@ inline void check_stages(const ReferenceStages& reference, const Stages<float>& 
   const auto of_brightest = [&](double) { return 1e-4 * brightest; };
   const Worst reflection =
       worst(expected.reflection, got.reflection, tolerance(&Stages<double>::reflection, of_brightest));
-  INFO(told("R", reflection));
+  INFO(described("R", reflection));
   CHECK(reflection.error < 1);
   const Worst beam =
       worst(expected.reflection_beam, got.reflection_beam, tolerance(&Stages<double>::reflection_beam, of_brightest));
-  INFO(told("R behind the beam", beam));
+  INFO(described("R behind the beam", beam));
   CHECK(beam.error < 1);
 
   const Worst repeated = worst(expected.repeated, got.repeated, tolerance(&Stages<double>::repeated, of_brightest));
-  INFO(told("V", repeated));
+  INFO(described("V", repeated));
   CHECK(repeated.error < 1);
 
   // The envelope of speckle passes through 0, so its error is measured relative to its mean of 1.
   const Worst speckle =
       worst(expected.speckle, got.speckle, tolerance(&Stages<double>::speckle, [](double) { return 1e-3; }));
-  INFO(told("S", speckle));
+  INFO(described("S", speckle));
   CHECK(speckle.error < 1);
 
   std::array<Image<double>, 4> uncertain_fused;

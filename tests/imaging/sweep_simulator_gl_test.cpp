@@ -11,15 +11,13 @@
 #include <string>
 #include <vector>
 
-#include "sim/imaging/line_stages.h"
-#include "sim/imaging/simulator.h"
-#include "sim/imaging/stage_tables.h"
 #include "tests/gl/test_context.h"
+#include "tests/imaging/changed_simulator.h"
+#include "tests/imaging/swept_lines.h"
 #include "tests/imaging/test_divisions.h"
 #include "tests/imaging/test_sweeps.h"
 
 using namespace insonate;
-using test::by_hand;
 using test::everything;
 using test::of_the_paper;
 using test::simulator_of;
@@ -63,40 +61,19 @@ TEST_CASE("the lines of many planes hold what each plane's picture holds, to the
     settings.f_number = 2;
     settings.focus_mm = 20;
     if (!focused) settings.elevation_focus_mm = 0;  // lines of bent planes start whatever they meet
-    Sweep sweep = by_hand();
-    sweep.patient_from_plane.push_back(test::on_the_skin(60, 2, 0));     // half of its lines meet no body
-    sweep.patient_from_plane.push_back(test::on_the_skin(0, -40, 180));  // none of its lines meets the body
-    const int n = sweep.probe.lines, d = settings.samples, planes = int(sweep.patient_from_plane.size());
-
     const test::TestContext context;
-    const gl::DeviceVolume body(test::test_body(), tissues());
-    gl::LineStages stages({}, division);
-    stages.lay_out(scan_lines(sweep.probe, sweep.depth_mm, d), planes, settings);
-    gl::SimulationParameters parameters = gl::parameters_of(settings, stages.lines(), {}, {});
-    parameters.planes = planes;
-    const gl::Buffer block(sizeof parameters, &parameters);
-    block.bind_uniform(0);
-    stages.traverse(body, sweep.patient_from_plane, settings);
-    stages.beam(settings);
-    std::vector<std::array<float, 4>> scan(std::size_t(planes * n * d)), echoes(scan.size());
-    stages.scan().read(scan.data(), scan.size() * sizeof scan[0]);
-    stages.echoes().read(echoes.data(), echoes.size() * sizeof echoes[0]);
-
-    gl::Simulator simulator({}, division);
-    simulator.set_volume(test::test_body(), tissues());
-    simulator.set_probe(sweep.probe, sweep.depth_mm);
-    simulator.set_settings(settings);
-    for (int plane = 0; plane < planes; ++plane) {
+    const std::vector<test::SweptPlane> planes = test::swept_lines(settings, division);
+    for (std::size_t plane = 0; plane < planes.size(); ++plane) {
       CAPTURE(focused, plane);
-      simulator.set_pose(sweep.patient_from_plane[std::size_t(plane)]);
-      const Stages<float> picture = simulator.read_stages();
+      const auto& [picture, scan, echoes] = planes[plane];
       long differ = 0;
-      for (int line = 0; line < n; ++line)
-        for (int k = 0; k < d; ++k) {
-          const std::size_t at = std::size_t((plane * n + line) * d + k);
-          differ += scan[at][0] != picture.intensity.at(line, k) || scan[at][1] != picture.reflection.at(line, k);
-          differ += echoes[at] != std::array{picture.reflection_beam.at(line, k), picture.transmission.at(line, k),
-                                             picture.speckle.at(line, k), picture.repeated.at(line, k)};
+      for (int line = 0; line < scan.width; ++line)
+        for (int k = 0; k < scan.height; ++k) {
+          differ += scan.at(line, k)[0] != picture.intensity.at(line, k);
+          differ += scan.at(line, k)[1] != picture.reflection.at(line, k);
+          differ +=
+              echoes.at(line, k) != std::array{picture.reflection_beam.at(line, k), picture.transmission.at(line, k),
+                                               picture.speckle.at(line, k), picture.repeated.at(line, k)};
         }
       CHECK(differ == 0);
     }
@@ -148,10 +125,7 @@ TEST_CASE("a sweep runs the first stage that a change reaches and those behind i
       simulator.set_sweep(sweep);
       simulator.set_grid(grid);
       simulator.volume();
-      std::string ran;
-      for (int stage = 0; stage < gl::kSweepStageCount; ++stage)
-        if (simulator.runs()[std::size_t(stage)] > before[std::size_t(stage)]) ran += char('0' + stage);
-      return ran;
+      return test::stages_run(before, simulator.runs());
     };
     // If the sweep is processed in parts, only the lines of the last part are stored.
     const auto lines_too = [&](const char* stages) { return std::string(in_parts ? "01235" : stages); };

@@ -8,6 +8,7 @@
 #include "sim/core/hash.h"
 #include "sim/core/pose.h"
 #include "sim/model/acoustic_volume.h"
+#include "sim/model/tissue.h"
 
 namespace insonate::test {
 
@@ -49,6 +50,11 @@ inline AcousticVolume test_body() {
                             std::int16_t(std::lround(point.echogenicity_db * 100))};
       }
   return volume;
+}
+
+inline const TissueTable& tissues() {
+  static const TissueTable table = read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml");
+  return table;
 }
 
 /// Returns the pose of a probe on the body's skin, pressed in by `press_mm`, pointing along +y, tilted by `tilt_deg`

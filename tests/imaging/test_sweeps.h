@@ -13,11 +13,6 @@ namespace insonate::test {
 
 inline constexpr double kDepth_mm = 110;
 
-inline const TissueTable& tissues() {
-  static const TissueTable table = read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml");
-  return table;
-}
-
 inline Probe small_probe(const char* name) {
   Probe probe = *find_probe(name);
   probe.lines = 30;  // not a multiple of a work group, nor of the four lines that share their windows

@@ -76,11 +76,11 @@ TEST_CASE("a volume that the device refuses leaves the simulator with the one be
   CHECK(simulator.runs().front() == runs);
 }
 
-TEST_CASE("whoever gave a CT that does not fit is told the file, the limit and what to do") {
+TEST_CASE("whoever gave a CT that does not fit is given the file, the limit and what to do") {
   Grid grid;
   grid.size = {600, 512, 512};
   grid.spacing = {0.4, 0.4, 0.45};
-  const auto told = [&](int limit) {
+  const auto refusal = [&](int limit) {
     try {
       upload_ct("thorax.nii.gz", grid, [&] { throw TextureRefused(600, 512, 512, limit); });
     } catch (const InputError& error) {
@@ -89,10 +89,10 @@ TEST_CASE("whoever gave a CT that does not fit is told the file, the limit and w
     return std::string("nothing");
   };
   // The volume has one voxel of air on either side of each axis.
-  CHECK(told(514) ==
+  CHECK(refusal(514) ==
         "thorax.nii.gz: 600 x 512 x 512 voxels of 0.4 x 0.4 x 0.45 mm are more than the 512 a side that the graphics "
         "card takes; resample it to at most 512 voxels along each axis, or crop it.");
-  CHECK(told(0) ==
+  CHECK(refusal(0) ==
         "thorax.nii.gz: the graphics card has no memory for 600 x 512 x 512 voxels of 0.4 x 0.4 x 0.45 mm; resample it "
         "to larger voxels, or crop it.");
 }

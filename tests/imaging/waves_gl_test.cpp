@@ -11,13 +11,13 @@
 #include <string>
 #include <vector>
 
-#include "sim/imaging/line_stages.h"
 #include "sim/imaging/scatterer_stage.h"
 #include "sim/imaging/simulator.h"
-#include "sim/imaging/stage_tables.h"
 #include "sim/model/beam.h"
 #include "sim/model/waves.h"
 #include "tests/gl/test_context.h"
+#include "tests/imaging/changed_simulator.h"
+#include "tests/imaging/swept_lines.h"
 #include "tests/imaging/test_body.h"
 #include "tests/imaging/test_divisions.h"
 #include "tests/imaging/test_sweeps.h"
@@ -35,34 +35,13 @@ Settings small_waves(double depth_mm = 100) {
   return settings;
 }
 
-void set_up(gl::Simulator& simulator, const Settings& settings, const Pose& pose = test::on_the_skin(0, 9, 0)) {
-  simulator.set_volume(test::test_body(), test::tissues());
-  simulator.set_probe(*find_probe("curvilinear"), 100);
-  simulator.set_settings(settings);
-  simulator.set_pose(pose);
-}
-
-/// Returns the stages that run after a change, as a string of their numbers.
-std::string ran_after(gl::Simulator& simulator, Settings& settings, const std::function<void()>& change) {
-  const auto before = simulator.runs();
-  change();
-  simulator.set_settings(settings);
-  simulator.image();
-  std::string ran;
-  for (int stage = 0; stage < gl::kStageCount; ++stage)
-    if (simulator.runs()[std::size_t(stage)] > before[std::size_t(stage)]) ran += char('0' + stage);
-  return ran;
-}
-
 }  // namespace
 
 TEST_CASE("waves run the stages that a change reaches, and never smooth") {
-  const test::TestContext context;
-  gl::Simulator simulator;
-  Settings s = small_waves();
-  set_up(simulator, s);
-  simulator.image();
-  const auto after = [&](const std::function<void()>& change) { return ran_after(simulator, s, change); };
+  test::ChangedSimulator changed(small_waves());
+  gl::Simulator& simulator = changed.simulator;
+  Settings& s = changed.settings;
+  const auto after = [&](const std::function<void()>& change) { return changed.after(change); };
   CHECK(after([] {}) == "");
   CHECK(after([&] { simulator.set_pose(test::on_the_skin(1, 9, 0)); }) == "0124");
   CHECK(after([&] { s.reflection_sigma_mm = 2, s.transmission_sigma_mm = 2; }) == "");
@@ -103,20 +82,7 @@ TEST_CASE("a picture of waves after a change is the picture that a new simulator
       [](Settings& s) { s.image_width = 80; },
       [](Settings& s) { s.reference_level = ReferenceLevel::frame_maximum; },
   };
-  const test::TestContext context;
-  gl::Simulator simulator;
-  Settings settings = small_waves();
-  set_up(simulator, settings);
-  simulator.image();
-  for (std::size_t i = 0; i < std::size(changes); ++i) {
-    INFO("change " << i);
-    changes[i](settings);
-    simulator.set_settings(settings);
-    gl::Simulator fresh;
-    set_up(fresh, settings);
-    CHECK((simulator.read_stages().fused.pixels == fresh.read_stages().fused.pixels));
-    CHECK((simulator.read_stages().grey.pixels == fresh.read_stages().grey.pixels));
-  }
+  test::ChangedSimulator(small_waves()).compare_with_new(changes);
 }
 
 TEST_CASE("the picture of waves comes back to the bit when the probe does, and its noise is that of the pose") {
@@ -124,7 +90,7 @@ TEST_CASE("the picture of waves comes back to the bit when the probe does, and i
   gl::Simulator simulator;
   Settings settings = small_waves();
   settings.noise_db = -40;
-  set_up(simulator, settings);
+  test::set_up(simulator, settings);
   const auto at = [&](double x_mm, double z_mm) {
     simulator.set_pose(test::on_the_skin(x_mm, 9, z_mm));
     return simulator.read_stages();
@@ -157,7 +123,7 @@ TEST_CASE("a move of the probe by a hundredth of a millimetre changes the echo's
   Settings settings = small_waves();
   settings.electronic_noise = settings.clutter = false;
   settings.samples = 320;
-  set_up(simulator, settings);
+  test::set_up(simulator, settings);
   double worst = 0;
   for (int place = 0; place < 12; ++place) {
     const auto at = [&](double more_mm) {
@@ -187,45 +153,22 @@ TEST_CASE("the lines of many planes hold what each plane's picture holds, with w
     Settings settings = test::everything();
     settings.waves = true;
     settings.specular_exponent = 6;
-    Sweep sweep = test::by_hand();
-    sweep.patient_from_plane.push_back(test::on_the_skin(60, 2, 0));     // half of its lines meet no body
-    sweep.patient_from_plane.push_back(test::on_the_skin(0, -40, 180));  // none of its lines meets the body
-    const int n = sweep.probe.lines, d = settings.samples, planes = int(sweep.patient_from_plane.size());
-
     const test::TestContext context;
-    const gl::DeviceVolume body(test::test_body(), test::tissues());
-    gl::LineStages stages({}, division);
-    stages.lay_out(scan_lines(sweep.probe, sweep.depth_mm, d), planes, settings);
-    gl::SimulationParameters parameters = gl::parameters_of(settings, stages.lines(), {}, {});
-    parameters.planes = planes;
-    const gl::Buffer block(sizeof parameters, &parameters);
-    block.bind_uniform(0);
-    stages.traverse(body, sweep.patient_from_plane, settings);
-    stages.beam(settings);
-    std::vector<std::array<float, 4>> scan(std::size_t(planes * n * d)), echoes(scan.size());
-    stages.scan().read(scan.data(), scan.size() * sizeof scan[0]);
-    stages.echoes().read(echoes.data(), echoes.size() * sizeof echoes[0]);
-
-    gl::Simulator simulator({}, division);
-    simulator.set_volume(test::test_body(), test::tissues());
-    simulator.set_probe(sweep.probe, sweep.depth_mm);
-    simulator.set_settings(settings);
-    for (int plane = 0; plane < planes; ++plane) {
+    const std::vector<test::SweptPlane> planes = test::swept_lines(settings, division);
+    for (std::size_t plane = 0; plane < planes.size(); ++plane) {
       CAPTURE(plane);
-      simulator.set_pose(sweep.patient_from_plane[std::size_t(plane)]);
-      const Stages<float> picture = simulator.read_stages();
+      const auto& [picture, scan, echoes] = planes[plane];
       long differ = 0, heard = 0;
-      for (int line = 0; line < n; ++line)
-        for (int k = 0; k < d; ++k) {
-          const std::size_t at = std::size_t((plane * n + line) * d + k);
-          heard += echoes[at][0] != 0;
-          differ += scan[at] != std::array{picture.intensity.at(line, k), picture.scattered.at(line, k),
-                                           picture.echo_re.at(line, k), picture.echo_im.at(line, k)};
-          differ += echoes[at] != std::array{picture.wave_re.at(line, k), picture.wave_im.at(line, k), 0.0f,
-                                             picture.repeated.at(line, k)};
+      for (int line = 0; line < scan.width; ++line)
+        for (int k = 0; k < scan.height; ++k) {
+          heard += echoes.at(line, k)[0] != 0;
+          differ += scan.at(line, k) != std::array{picture.intensity.at(line, k), picture.scattered.at(line, k),
+                                                   picture.echo_re.at(line, k), picture.echo_im.at(line, k)};
+          differ += echoes.at(line, k) != std::array{picture.wave_re.at(line, k), picture.wave_im.at(line, k), 0.0f,
+                                                     picture.repeated.at(line, k)};
         }
       CHECK(differ == 0);
-      CHECK((heard > n * d / 4 || plane >= 9));
+      CHECK((heard > scan.width * scan.height / 4 || plane >= 9));
     }
   }
 }

@@ -181,7 +181,7 @@ TEST_CASE("a settings file that cannot be used is refused with every place and r
   }
 }
 
-TEST_CASE("of a file that is wrong throughout a hundred places are told") {
+TEST_CASE("of a file that is wrong throughout a hundred places are reported") {
   std::string text;
   for (int i = 0; i < 1000; ++i) text += "key" + std::to_string(i) + " = 1\n";
   for (const std::string& said :
@@ -189,7 +189,7 @@ TEST_CASE("of a file that is wrong throughout a hundred places are told") {
     CHECK(std::count(said.begin(), said.end(), '\n') == 101);
 }
 
-TEST_CASE("settings that no file could hold are told of by name") {
+TEST_CASE("settings that no file could hold are reported by name") {
   CHECK_FALSE(why_not_valid(Settings{}));
   CHECK_FALSE(why_not_valid(paper_settings(160, 512)));
   CHECK_FALSE(why_not_valid(trainer_settings(30, 400)));  // whose absorption no gain makes up for

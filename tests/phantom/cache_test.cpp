@@ -12,6 +12,7 @@
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
 #include "sim/phantom/phantom.h"
+#include "tests/core/temporary_folder.h"
 
 using namespace insonate;
 namespace fs = std::filesystem;
@@ -30,11 +31,7 @@ views = [{ name = "front", title = "From the front", probe = "curvilinear", aim 
 // A cache of its own that goes with the test, and a count of how often a phantom was made.
 class Workplace {
 public:
-  Workplace() : folder_(fs::temp_directory_path() / ("insonate-phantom-cache-test-" + std::to_string(getpid()))) {
-    fs::remove_all(folder_);
-    write_file(recipe(), kRecipe);
-  }
-  ~Workplace() { fs::remove_all(folder_); }
+  Workplace() { write_file(recipe(), kRecipe); }
 
   fs::path recipe() const { return folder_ / "ball.toml"; }
   fs::path cache() const { return folder_ / "cache"; }
@@ -55,7 +52,8 @@ public:
   int made = 0;
 
 private:
-  fs::path folder_;
+  TemporaryFolder temporary_;
+  fs::path folder_ = temporary_.path;
 };
 
 bool same(const Case& a, const Case& b) {

@@ -108,7 +108,7 @@ TEST_CASE("a point between a 3D probe's planes is found by its angle") {
   CHECK_FALSE(sweep_position(sweep, pose.point({0, 101, 0})));
 }
 
-TEST_CASE("a sweep that goes back is told from one that goes one way or rests") {
+TEST_CASE("a sweep that goes back is distinguished from one that goes one way or rests") {
   const auto at = [](const std::vector<double>& elevations_mm) {
     Sweep sweep{*find_probe("linear"), 60, {}};
     for (const double z : elevations_mm) sweep.patient_from_plane.push_back({glm::dmat3(1.0), {0, 0, z}});

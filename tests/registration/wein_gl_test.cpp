@@ -143,7 +143,7 @@ TEST_CASE("model W: images of one call are those of a call each, over more than 
   }
 }
 
-TEST_CASE("model W's stages tell how often they ran and how much they evaluated of what there is") {
+TEST_CASE("model W's stages report how often they ran and how much they evaluated of what there is") {
   Fixture f;
   using Stage = gl::WeinStage;
   const auto count = [&](Stage stage) { return f.simulator.count(stage); };

@@ -42,7 +42,7 @@ inline void check_wein_stages(const ReferenceWeinStages& reference, const WeinSt
   const auto check = [&](const char* what, Image<double> WeinStages<double>::*stage, const Image<float>& image,
                          auto&& basic) {
     const Worst found = worst(expected.*stage, image, tolerated(expected, reference.uncertain, stage, basic));
-    INFO(told(what, found));
+    INFO(described(what, found));
     CHECK(found.error < 1);
   };
   // I: 1e-4 relative, or 1e-10 below 1e-6. R and E: 1e-4 of 1.

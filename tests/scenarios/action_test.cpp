@@ -8,6 +8,7 @@
 #include "scenarios/result_json.h"
 #include "scenarios/runner.h"
 #include "sim/core/hash.h"
+#include "tests/core/temporary_folder.h"
 #include "tests/scenarios/tiny_case.h"
 
 using namespace insonate;
@@ -95,8 +96,8 @@ TEST_CASE("whatever a log's actions hold, they are read or refused in words") {
 TEST_CASE("a log that keeps the learner's actions gets the live run's score to the bit") {
   const Case subject = tiny_case();
   const Scenario scenario = parse_scenario(kTinyScenario, "exam.toml");
-  const auto folder = std::filesystem::temp_directory_path() / ("insonate_actions_" + std::to_string(getpid()));
-  std::filesystem::create_directories(folder);
+  const TemporaryFolder temporary;
+  const std::filesystem::path& folder = temporary.path;
   const auto samples = samples_of(8, 40, [](double t) {
     return turned(3 * std::sin(t), {1, 0, 0}, {0, 0, std::max(3.0, 40 - 12 * t)});
   });
@@ -116,7 +117,6 @@ TEST_CASE("a log that keeps the learner's actions gets the live run's score to t
   }
   live.end();
   const RecordedScan scan = read_recorded_scan(folder / "scan.igs.mha");
-  std::filesystem::remove_all(folder);
   CHECK(scan.recording.actions.size() == 2);
   Runner replayed(scenario, subject, tiny_tissues());
   replayed.feed(scan.samples, parse_action_log(scan.recording.actions, "scan.igs.mha"));

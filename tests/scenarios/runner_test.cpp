@@ -85,7 +85,7 @@ TEST_CASE("a scan's score can be computed by hand") {
   CHECK(result.passed);
 }
 
-TEST_CASE("who never shows the view runs out of time, is judged by the last second, and is told so") {
+TEST_CASE("who never shows the view runs out of time, is judged by the last second, and is informed") {
   const ExamResult result = scored(samples_of(25, 20, [](double) { return at_z(60); }));
   CHECK(result.complete);
   CHECK_FALSE(result.passed);

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <random>
 
-#include "sim/view/ct_reference.h"
-#include "sim/view/volume_view.h"
+#include "sim/view/body/ct_reference.h"
+#include "sim/view/body/volume_view.h"
 #include "tests/view/test_patient.h"
 
 using namespace insonate;

@@ -10,7 +10,7 @@
 #include "sim/core/image.h"
 #include "sim/gl/headless_context.h"
 #include "sim/imaging/simulator.h"
-#include "sim/view/patient_textures.h"
+#include "sim/view/body/patient_textures.h"
 #include "sim/view/ultrasound_plane.h"
 
 namespace insonate::test {

@@ -12,7 +12,7 @@
 #include "sim/core/input_error.h"
 #include "sim/volume/ct_reader.h"
 #include "sim/volume/dicom_series.h"
-#include "tests/volume/temporary_folder.h"
+#include "tests/core/temporary_folder.h"
 #include "tests/volume/volume_files.h"
 
 // GCC and clang each have a word of their own for it.
@@ -60,7 +60,7 @@ struct Limited {
 };
 
 struct BadFile {
-  std::string name, bytes, told;
+  std::string name, bytes, sentence;
 };
 
 void check_refused(const std::vector<BadFile>& files) {
@@ -69,8 +69,8 @@ void check_refused(const std::vector<BadFile>& files) {
     const fs::path file = folder.path / bad.name;
     folder.put(bad.name, bad.bytes);
     const std::string why = why_refused(file);
-    INFO(bad.name << " (" << bad.told << ") -> " << why << "\n" << bad.bytes.substr(0, 300));
-    CHECK(why.find(bad.told) != std::string::npos);
+    INFO(bad.name << " (" << bad.sentence << ") -> " << why << "\n" << bad.bytes.substr(0, 300));
+    CHECK(why.find(bad.sentence) != std::string::npos);
     CHECK(why.find(file.string()) == 0);
     CHECK(why.find('\n') == std::string::npos);
   }

@@ -11,7 +11,7 @@
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
 #include "sim/volume/ct_reader.h"
-#include "tests/volume/temporary_folder.h"
+#include "tests/core/temporary_folder.h"
 
 using namespace insonate;
 namespace fs = std::filesystem;
@@ -143,8 +143,8 @@ TEST_CASE("a view goes to the end of a case's table, and one that cannot be read
 TEST_CASE("a case whose folder cannot be made is refused, and the longest name that can be made is replaced too") {
   const TemporaryFolder folder;
   Case subject = small_case();
-  // File systems take names of 255 bytes, and beside the folder goes ".NAME.PID.partial".
-  const std::size_t longest = 255 - (2 + std::to_string(getpid()).size() + std::string(".partial").size());
+  // File systems take names of 255 bytes, and beside the folder goes ".NAME.ID.partial" with 16 digits.
+  const std::size_t longest = 255 - (2 + 16 + std::string(".partial").size());
   const auto of_length = [&](std::size_t length) { return folder.path / std::string(length, 'c'); };
   CHECK_THROWS_WITH(write_case(of_length(longest + 1), subject),
                     Catch::Contains("the folder cannot be made (File name"));
@@ -210,7 +210,7 @@ TEST_CASE("a case that cannot be used is refused with the place and the reason")
   write_case(path, small_case());
   const std::string good = read_file(path / "case.toml");
   const struct {
-    const char *what, *by, *told;
+    const char *what, *by, *sentence;
   } cases[] = {
       {"format = 1", "format = 2", "line 2, column 10: the case has format 2"},
       {"format = 1", "", "the key 'format' is missing"},
@@ -252,7 +252,7 @@ TEST_CASE("a case that cannot be used is refused with the place and the reason")
     folder.put("case/case.toml", replaced(good, bad.what, bad.by));
     const std::string why = why_refused(path);
     INFO(bad.by << " -> " << why);
-    CHECK(why.find(bad.told) != std::string::npos);
+    CHECK(why.find(bad.sentence) != std::string::npos);
     CHECK(why.find(path.string()) == 0);
   }
   folder.put("case/case.toml", good);

@@ -12,7 +12,7 @@
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
 #include "sim/volume/text_volumes.h"
-#include "tests/volume/temporary_folder.h"
+#include "tests/core/temporary_folder.h"
 #include "tests/volume/volume_files.h"
 
 using namespace insonate;

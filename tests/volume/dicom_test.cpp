@@ -8,8 +8,8 @@
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
 #include "sim/volume/ct_reader.h"
+#include "tests/core/temporary_folder.h"
 #include "tests/volume/dicom_files.h"
-#include "tests/volume/temporary_folder.h"
 
 using namespace insonate;
 namespace fs = std::filesystem;
@@ -160,7 +160,7 @@ TEST_CASE("of a mixed DICOM folder the largest CT series is taken and the others
 TEST_CASE("a DICOM folder that gives no whole volume is refused with the reason") {
   using Change = std::function<bool(int, DicomSlice&)>;
   const struct {
-    const char* told;
+    const char* sentence;
     Change change;
   } cases[] = {
       {"slices are missing between IM2 and IM3: 10 mm instead of 5 mm", [](int s, DicomSlice&) { return s != 3; }},
@@ -191,8 +191,8 @@ TEST_CASE("a DICOM folder that gives no whole volume is refused with the reason"
     const TemporaryFolder folder;
     write_series(folder.path, bad.change);
     const std::string why = why_refused(folder.path);
-    INFO(bad.told << " -> " << why);
-    CHECK(why.find(bad.told) != std::string::npos);
+    INFO(bad.sentence << " -> " << why);
+    CHECK(why.find(bad.sentence) != std::string::npos);
     CHECK(why.find(folder.path.string()) == 0);
   }
   const auto without = [](std::uint16_t group, std::uint16_t element) {
@@ -224,7 +224,7 @@ TEST_CASE("a DICOM image that does not give Hounsfield units is refused by name"
     return [=](const fs::path& file) { set_tag(file, 0x0028, element, text); };
   };
   const struct {
-    const char* told;
+    const char* sentence;
     Change change;
   } cases[] = {
       {"its rescale slope is missing and its rescale intercept -1024, so",
@@ -252,13 +252,13 @@ TEST_CASE("a DICOM image that does not give Hounsfield units is refused by name"
       const TemporaryFolder folder;
       write_series(folder.path);
       const fs::path file = file_of(folder.path, s);
-      if (std::string(bad.told).find("slope is missing and its rescale intercept missing") != std::string::npos)
+      if (std::string(bad.sentence).find("slope is missing and its rescale intercept missing") != std::string::npos)
         set_tag(file, 0x0028, 0x1053, "");
       bad.change(file);
       const std::string why = why_refused(folder.path);
-      INFO(bad.told << " in slice " << s << " -> " << why);
+      INFO(bad.sentence << " in slice " << s << " -> " << why);
       CHECK(why.find(file.string() + ": header: ") == 0);
-      CHECK(why.find(bad.told) != std::string::npos);
+      CHECK(why.find(bad.sentence) != std::string::npos);
     }
 }
 
@@ -295,7 +295,7 @@ TEST_CASE("no image of a DICOM series is left out without a word, whichever it i
   const auto position_of = [](const fs::path& file, const std::string& tag) { return read_file(file).find(tag); };
   using Change = std::function<void(const fs::path&)>;
   const struct {
-    const char* told;
+    const char* sentence;
     Change change;
   } cases[] = {
       {": the file is empty, but it is named like the images of series 3", [&](const fs::path& f) { cut_to(f, 0); }},
@@ -339,9 +339,9 @@ TEST_CASE("no image of a DICOM series is left out without a word, whichever it i
       const fs::path file = file_of(folder.path, s);
       bad.change(file);
       const std::string why = why_refused(folder.path);
-      INFO(bad.told << " in slice " << s << " -> " << why);
+      INFO(bad.sentence << " in slice " << s << " -> " << why);
       CHECK(why.find(file.string() + ": ") == 0);
-      CHECK(why.find(bad.told) != std::string::npos);
+      CHECK(why.find(bad.sentence) != std::string::npos);
     }
 }
 

@@ -8,7 +8,7 @@
 
 #include "sim/core/input_error.h"
 #include "sim/volume/ct_reader.h"
-#include "tests/volume/temporary_folder.h"
+#include "tests/core/temporary_folder.h"
 #include "tests/volume/volume_files.h"
 
 using namespace insonate;
@@ -155,10 +155,10 @@ TEST_CASE("the extensions of a NIfTI header are read in either order of bytes, p
 
 TEST_CASE("a NIfTI extension that cannot be is refused with the reason") {
   const TemporaryFolder folder;
-  const auto refused = [&](const std::string& bytes, const std::string& told) {
+  const auto refused = [&](const std::string& bytes, const std::string& sentence) {
     const auto file = folder.put("a.nii", bytes);
     CHECK_THROWS_WITH(read_nifti_extensions(file),
-                      Catch::Equals(file.string() + ": header extension: " + told + "; write the file again."));
+                      Catch::Equals(file.string() + ": header extension: " + sentence + "; write the file again."));
   };
   const std::string one = extension(16, "liver = ");
   refused(with_extensions(extension(0, "liver = ")), "it claims 0 bytes");

@@ -14,10 +14,11 @@
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
 #include "sim/core/suggest.h"
+#include "sim/core/text.h"
 #include "sim/model/beam.h"
 #include "sim/model/settings.h"
 #include "sim/probe/probe.h"
-#include "tools/bench/curves.h"
+#include "tools/bench/tables/curves.h"
 
 namespace insonate::bench {
 namespace {
@@ -58,11 +59,9 @@ std::vector<Subject> subjects_of(const AcousticRequest& request) {
 }
 
 std::string in_words(const Subject& subject) {
-  char text[200];
-  std::snprintf(text, sizeof text, "%s (%s, %.2f MHz), focus %.0f mm, f/%g", subject.transducer.name.c_str(),
-                subject.transducer.title.c_str(), subject.transducer.frequency_mhz,
-                subject.beamforming.transmit_focus_mm, subject.beamforming.transmit_f_number);
-  return text;
+  return formatted("%s (%s, %.2f MHz), focus %.0f mm, f/%g", subject.transducer.name.c_str(),
+                   subject.transducer.title.c_str(), subject.transducer.frequency_mhz,
+                   subject.beamforming.transmit_focus_mm, subject.beamforming.transmit_f_number);
 }
 
 // A row of the table of beams.

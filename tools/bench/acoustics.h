@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "sim/acoustics/scenes.h"
-#include "tools/bench/table.h"
+#include "tools/bench/tables/table.h"
 
 /// The commands of insonate-bench about the wave physics of the transducers. They need no OpenGL.
 namespace insonate::bench {

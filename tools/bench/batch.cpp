@@ -7,7 +7,7 @@
 #include "sim/imaging/upload.h"
 #include "sim/registration/wein_simulator.h"
 #include "tools/bench/commands.h"
-#include "tools/bench/statistics.h"
+#include "tools/bench/tables/statistics.h"
 #include "tools/bench/texture_rate.h"
 
 namespace insonate::bench {

@@ -5,7 +5,7 @@
 
 #include "sim/alignment/registration.h"
 #include "tools/bench/scene.h"
-#include "tools/bench/table.h"
+#include "tools/bench/tables/table.h"
 
 /// The commands of insonate-bench. Each prints its table while it runs and returns it for --csv.
 namespace insonate::bench {

@@ -6,7 +6,7 @@
 #include "sim/gl/headless_context.h"
 #include "sim/imaging/simulator.h"
 #include "tools/bench/commands.h"
-#include "tools/bench/statistics.h"
+#include "tools/bench/tables/statistics.h"
 
 namespace insonate::bench {
 namespace {

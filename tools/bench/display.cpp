@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/bench/statistics.h"
+#include "tools/bench/tables/statistics.h"
 
 namespace insonate::bench {
 namespace {

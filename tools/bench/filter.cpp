@@ -16,7 +16,7 @@ Table measure_filter() {
       "%.2g), as weights of %.0f bits would be.\n%s\n",
       error.largest, error.rms, std::round(-std::log2(error.largest / 3)) - 1,
       error.is_coarse() ? "Coarse: exact_filter = true in a settings file weighs voxels in single precision; "
-                          "insonate-bench front tells what that costs and gains."
+                          "insonate-bench front measures what that costs and gains."
                         : "Fine: exact_filter = true in a settings file would gain nothing.");
   Table table{{"device", "largest_error", "rms_error", "coarse"}, {}};
   table.rows.push_back(

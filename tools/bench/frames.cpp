@@ -8,7 +8,7 @@
 #include "sim/imaging/simulator.h"
 #include "sim/imaging/upload.h"
 #include "tools/bench/commands.h"
-#include "tools/bench/statistics.h"
+#include "tools/bench/tables/statistics.h"
 
 namespace insonate::bench {
 namespace {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "sim/core/files.h"
+#include "sim/core/text.h"
 #include "sim/gl/headless_context.h"
 #include "sim/imaging/simulator.h"
 #include "sim/imaging/upload.h"
@@ -14,8 +15,8 @@
 #include "tools/bench/commands.h"
 #include "tools/bench/converged.h"
 #include "tools/bench/display.h"
-#include "tools/bench/plot.h"
-#include "tools/bench/statistics.h"
+#include "tools/bench/tables/plot.h"
+#include "tools/bench/tables/statistics.h"
 
 namespace insonate::bench {
 namespace {
@@ -83,8 +84,8 @@ std::vector<Setting> settings_to_try(const Request& request, const Scene& scene)
   return tried;
 }
 
-void print(const Scene& scene, const Panel& panel, const std::vector<Cost>& costs,
-           const std::vector<DisplayError>& errors) {
+void formatted(const Scene& scene, const Panel& panel, const std::vector<Cost>& costs,
+               const std::vector<DisplayError>& errors) {
   std::printf("\n%s, view %s: run time of a frame against error\n", scene.name.c_str(), scene.view.c_str());
   std::printf("  ms       (quartiles)        error, dB   grey levels   volume, MiB\n");
   std::vector<std::size_t> order(costs.size());
@@ -186,7 +187,7 @@ Table measure_front(const Request& request, const std::string& svg) {
       panel.points.push_back({tried[i].name, costs[i].time.median, errors[i].db, on_it,
                               quality_of(tried[i], tried.front()), !tried[i].whole});
     }
-    print(scene, panel, costs, errors);
+    formatted(scene, panel, costs, errors);
     panels.push_back(std::move(panel));
   });
   if (!svg.empty()) write_file(svg, front_svg(gl::device_description(), panels));

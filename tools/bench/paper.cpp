@@ -8,7 +8,7 @@
 #include "tools/bench/commands.h"
 #include "tools/bench/converged.h"
 #include "tools/bench/paper_traversal.h"
-#include "tools/bench/statistics.h"
+#include "tools/bench/tables/statistics.h"
 
 namespace insonate::bench {
 namespace {

@@ -7,8 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "tools/bench/statistics.h"
-#include "tools/bench/svg.h"
+#include "sim/core/text.h"
+#include "tools/bench/tables/statistics.h"
+#include "tools/bench/tables/svg.h"
 
 namespace insonate::bench {
 namespace {
@@ -128,8 +129,8 @@ std::string registrations_svg(const std::string& file, const Table& table) {
     for (const Run& run : all) most = std::max(most, run.start_error_mm);
   }
   const int bands = int(most / kDrawnBand_mm) + 1;
-  std::string svg = print("<svg xmlns='http://www.w3.org/2000/svg' width='%.0f' height='%.0f'>\n", kWidth,
-                          kPanel * double(patients.size()));
+  std::string svg = formatted("<svg xmlns='http://www.w3.org/2000/svg' width='%.0f' height='%.0f'>\n", kWidth,
+                              kPanel * double(patients.size()));
   svg +=
       "<style>text{font:12px sans-serif;fill:#1d2733}.grid{stroke:#e3e8ee}polyline{fill:none;stroke-width:2}</style>"
       "<rect width='100%' height='100%' fill='#fff'/>\n";
@@ -137,19 +138,20 @@ std::string registrations_svg(const std::string& file, const Table& table) {
     const double top = kPanel * double(p) + kTop, bottom = kPanel * double(p + 1) - kBottom;
     const auto x = [&](double mm) { return kLeft + (kWidth - kRight - kLeft) * mm / (bands * kDrawnBand_mm); };
     const auto y = [&](double share) { return bottom - (bottom - top) * share; };
-    svg += print("<text x='%.0f' y='%.0f' font-weight='600'>", kLeft, top - 18) + escaped(patients[p]) + "</text>\n";
+    svg +=
+        formatted("<text x='%.0f' y='%.0f' font-weight='600'>", kLeft, top - 18) + escaped(patients[p]) + "</text>\n";
     for (int i = 0; i <= 4; ++i)
-      svg += print(
+      svg += formatted(
           "<line class='grid' x1='%.0f' x2='%.0f' y1='%.1f' y2='%.1f'/>"
           "<text x='%.0f' y='%.1f' text-anchor='end'>%d %%</text>\n",
           kLeft, kWidth - kRight, y(i / 4.0), y(i / 4.0), kLeft - 6, y(i / 4.0) + 4, 25 * i);
     for (int i = 0; i <= bands; ++i)
-      svg += print("<text x='%.1f' y='%.1f' text-anchor='middle'>%.0f</text>\n", x(i * kDrawnBand_mm), bottom + 16,
-                   i * kDrawnBand_mm);
-    svg += print("<text x='%.0f' y='%.1f' text-anchor='end'>target registration error of the start, mm</text>\n",
-                 kWidth - kRight, bottom + 34);
-    svg += print("<text x='%.0f' y='%.1f' text-anchor='end'>starts whose final error is below 5 mm</text>\n",
-                 kWidth - kRight, top - 18);
+      svg += formatted("<text x='%.1f' y='%.1f' text-anchor='middle'>%.0f</text>\n", x(i * kDrawnBand_mm), bottom + 16,
+                       i * kDrawnBand_mm);
+    svg += formatted("<text x='%.0f' y='%.1f' text-anchor='end'>target registration error of the start, mm</text>\n",
+                     kWidth - kRight, bottom + 34);
+    svg += formatted("<text x='%.0f' y='%.1f' text-anchor='end'>starts whose final error is below 5 mm</text>\n",
+                     kWidth - kRight, top - 18);
     std::size_t line = 0;
     for (const auto& [name, all] : runs) {
       if (name.first != patients[p]) continue;
@@ -159,14 +161,14 @@ std::string registrations_svg(const std::string& file, const Table& table) {
         const std::vector<Run> within = band(all, i * kDrawnBand_mm, (i + 1) * kDrawnBand_mm);
         if (within.empty()) continue;
         const double at_x = x((i + 0.5) * kDrawnBand_mm), at_y = y(success_of(within));
-        points += print("%.1f,%.1f ", at_x, at_y);
-        svg += print("<circle cx='%.1f' cy='%.1f' r='4' fill='%s'><title>%zu starts</title></circle>\n", at_x, at_y,
-                     colour, within.size());
+        points += formatted("%.1f,%.1f ", at_x, at_y);
+        svg += formatted("<circle cx='%.1f' cy='%.1f' r='4' fill='%s'><title>%zu starts</title></circle>\n", at_x, at_y,
+                         colour, within.size());
       }
-      svg += print("<polyline stroke='%s' points='", colour) + points + "'/>\n";
-      svg += print("<text x='%.0f' y='%.1f' style='fill:%s'>", kWidth - kRight + 16, top + 16.0 * double(line) + 8,
-                   colour) +
-             escaped(name.second) + print(": %zu starts</text>\n", all.size());
+      svg += formatted("<polyline stroke='%s' points='", colour) + points + "'/>\n";
+      svg += formatted("<text x='%.0f' y='%.1f' style='fill:%s'>", kWidth - kRight + 16, top + 16.0 * double(line) + 8,
+                       colour) +
+             escaped(name.second) + formatted(": %zu starts</text>\n", all.size());
       ++line;
     }
   }

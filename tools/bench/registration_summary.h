@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/bench/table.h"
+#include "tools/bench/tables/table.h"
 
 namespace insonate::bench {
 

@@ -7,7 +7,7 @@
 #include "scenarios/runner.h"
 #include "sim/core/files.h"
 #include "tools/bench/commands.h"
-#include "tools/bench/statistics.h"
+#include "tools/bench/tables/statistics.h"
 #include "tools/cli/subject.h"
 
 namespace insonate::bench {

@@ -13,11 +13,11 @@
 #include "sim/gl/headless_context.h"
 #include "sim/imaging/simulator.h"
 #include "sim/imaging/upload.h"
-#include "sim/view/ct_reference.h"
-#include "sim/view/transfer_function_file.h"
-#include "sim/view/volume_view.h"
+#include "sim/view/body/ct_reference.h"
+#include "sim/view/body/transfer_function_file.h"
+#include "sim/view/body/volume_view.h"
 #include "tools/bench/commands.h"
-#include "tools/bench/statistics.h"
+#include "tools/bench/tables/statistics.h"
 
 namespace insonate::bench {
 namespace {

@@ -19,7 +19,7 @@
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
 #include "tools/bench/commands.h"
-#include "tools/bench/statistics.h"
+#include "tools/bench/tables/statistics.h"
 
 namespace fs = std::filesystem;
 

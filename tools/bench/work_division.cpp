@@ -11,7 +11,7 @@
 #include "sim/imaging/upload.h"
 #include "sim/probe/sweep.h"
 #include "tools/bench/commands.h"
-#include "tools/bench/statistics.h"
+#include "tools/bench/tables/statistics.h"
 
 namespace insonate::bench {
 namespace {

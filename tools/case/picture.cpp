@@ -8,8 +8,8 @@
 #include "sim/imaging/simulator.h"
 #include "sim/imaging/upload.h"
 #include "sim/model/quality.h"
-#include "sim/view/transfer_function_file.h"
-#include "sim/view/volume_view.h"
+#include "sim/view/body/transfer_function_file.h"
+#include "sim/view/body/volume_view.h"
 #include "tools/case/commands.h"
 #include "tools/cli/subject.h"
 

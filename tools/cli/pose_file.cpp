@@ -86,7 +86,7 @@ Json parsed(const std::string& file, const std::string& text) {
   } catch (const Json::parse_error& error) {
     const auto end = text.begin() + std::ptrdiff_t(std::min(error.byte, text.size()));
     throw InputError(file, "line " + std::to_string(1 + std::count(text.begin(), end, '\n')),
-                     "what stands here is no JSON, whose numbers are finite", kWanted);
+                     "this is not JSON with finite numbers", kWanted);
   } catch (const Json::out_of_range&) {
     throw InputError(file, "", "a number is larger than double precision holds", "give finite numbers");
   }

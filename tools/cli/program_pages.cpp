@@ -294,7 +294,7 @@ constexpr const char* kEnvironment =
 
 std::string see_also(const std::string& program) {
   std::vector<std::string> others;
-  for (const std::string& other : split(INSONATE_INSTALLED_PROGRAMS, ' '))
+  for (const std::string& other : split(INSONATE_PROGRAM_NAMES, ' '))
     if (other != program) others.push_back(bold(other) + "(1)");
   return ".SH SEE ALSO\n" + joined(others, ",\n") + "\n";
 }

@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <set>
@@ -40,12 +39,6 @@ std::string about(const std::string& name) {
   for (const AboutLine& line : about_this_build())
     if (line.name == name) return line.text;
   return "";
-}
-
-std::string host_name() {
-  std::array<char, 256> name{};
-  if (gethostname(name.data(), name.size() - 1) != 0) return "host";
-  return name.data();
 }
 
 enum class Renamed { done, taken, on_another_disk };
@@ -126,15 +119,11 @@ void DatasetFolder::begin(const Study& study, const std::vector<StudyPatient>& p
     if (error)
       throw InputError(path_.string(), "", "the folder cannot be made (" + error.message() + ")",
                        "name a folder that may be written");
-    const fs::path temporary = temporary_manifest();
+    const fs::path temporary = temporary_beside(manifest_file());
     write_file(temporary, manifest_of(study, patients).dump(2) + "\n");
     if (rename_to_new(temporary, manifest_file()) != Renamed::done) fs::remove(temporary, error);
   }
   check_is_of(study);
-}
-
-fs::path DatasetFolder::temporary_manifest() const {
-  return path_ / (".manifest." + host_name() + "." + std::to_string(getpid()) + ".partial.json");
 }
 
 bool DatasetFolder::has_begun() const {
@@ -168,8 +157,7 @@ bool DatasetFolder::has_shard(std::uint32_t shard) const {
 }
 
 fs::path DatasetFolder::temporary_for(std::uint32_t shard) const {
-  return path_ / "shards" /
-         ("." + number_of(shard) + "." + host_name() + "." + std::to_string(getpid()) + ".partial.h5");
+  return temporary_beside(shard_file(shard));
 }
 
 void DatasetFolder::put_in_place(const fs::path& temporary, std::uint32_t shard) const {
@@ -212,13 +200,8 @@ void DatasetFolder::complete() const {
   json["shards"] = std::move(shards);
   const std::string text = json.dump(2) + "\n";
   if (read_file(manifest_file(), kLargestManifest) == text) return;
-  const fs::path temporary = temporary_manifest();
-  write_file(temporary, text);
+  write_file(manifest_file(), text);
   std::error_code error;
-  fs::rename(temporary, manifest_file(), error);
-  if (error)
-    throw InputError(manifest_file().string(), "", "it cannot be written (" + error.message() + ")",
-                     "check the folder's permissions and free space");
   for (fs::directory_iterator entry(path_ / "shards", error), end; !error && entry != end; entry.increment(error)) {
     const std::string name = entry->path().filename().string();
     std::error_code ignored;

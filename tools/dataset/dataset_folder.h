@@ -28,7 +28,7 @@ public:
   /// Returns the name of a shard's file, and whether it is there.
   std::filesystem::path shard_file(std::uint32_t shard) const;
   bool has_shard(std::uint32_t shard) const;
-  /// Returns a name for the file of a shard that this process writes. No other process has the same, on any machine.
+  /// Returns a new name for the file of a shard that is being written (temporary_beside()).
   std::filesystem::path temporary_for(std::uint32_t shard) const;
   /// Gives a finished shard its name. If another process was faster, its shard stays and this one is removed. Throws
   /// InputError if the name cannot be taken.
@@ -53,7 +53,6 @@ public:
 
 private:
   std::filesystem::path manifest_file() const { return path_ / "manifest.json"; }
-  std::filesystem::path temporary_manifest() const;
 
   std::filesystem::path path_;
 };

@@ -13,7 +13,7 @@ struct Rank {
 
 /// Returns the rank that Open MPI, a program with the PMI interface (MPICH, Intel MPI) or Slurm's srun has given this
 /// process in its environment; {0, 1} without one. MPI itself is not needed: ranks do not talk. Throws InputError for
-/// numbers that are no rank.
+/// numbers that are not a rank.
 Rank rank_of_environment();
 
 /// Reads a list of shards as Slurm writes arrays: "3", "0-15", "1,4-6", "0-30:10". Throws InputError for anything else

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "sim/core/text.h"
 #include "sim/reconstruction/reconstruction.h"
@@ -22,9 +21,7 @@ constexpr std::array<const char*, 12> kParameters{"tx", "ty", "tz", "rx",       
                                                   "sx", "sy", "sz", "shear_yz", "shear_xz", "shear_xy"};
 
 std::string fixed(double value, int digits) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", digits, value);
-  return text;
+  return formatted("%.*f", digits, value);
 }
 
 nlohmann::json rows_of(const glm::dmat4& matrix) {

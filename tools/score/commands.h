@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "scenarios/results/results_database.h"
+#include "scenarios/results/database/results_database.h"
 
 // The commands of insonate-score, except scoring.
 

@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "scenarios/results/results_database.h"
+#include "scenarios/results/database/results_database.h"
 #include "tools/score/commands.h"
 
 namespace insonate {

@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "scenarios/results/results_export.h"
+#include "scenarios/results/export/results_export.h"
 #include "tools/score/commands.h"
 
 namespace insonate {

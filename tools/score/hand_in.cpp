@@ -5,7 +5,7 @@
 
 #include "devices/sequence/probe_samples.h"
 #include "devices/sequence/sequence.h"
-#include "scenarios/results/results_database.h"
+#include "scenarios/results/database/results_database.h"
 #include "scenarios/runner.h"
 #include "sim/core/digest.h"
 #include "sim/core/files.h"

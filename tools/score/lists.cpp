@@ -4,7 +4,7 @@
 #include <set>
 #include <string>
 
-#include "scenarios/results/results_database.h"
+#include "scenarios/results/database/results_database.h"
 #include "scenarios/words.h"
 #include "sim/core/input_error.h"
 #include "tools/score/commands.h"

@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "scenarios/results/report_files.h"
+#include "scenarios/results/export/report_files.h"
 #include "sim/core/input_error.h"
 #include "tools/score/commands.h"
 

@@ -5,8 +5,8 @@
 
 #include "devices/sequence/probe_samples.h"
 #include "scenarios/result_json.h"
+#include "scenarios/results/database/results_database.h"
 #include "scenarios/results/rescoring.h"
-#include "scenarios/results/results_database.h"
 #include "scenarios/runner.h"
 #include "sim/core/files.h"
 #include "tools/score/attempt_cases.h"

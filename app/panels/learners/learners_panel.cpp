@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "app/panels/exam_panel.h"
 #include "app/panels/learners/criteria_list.h"
 #include "app/panels/learners/score_chart.h"
+#include "app/panels/scan/exam_panel.h"
 #include "app/panels/start/start_list.h"
 #include "app/panels/widgets/choice_rows.h"
 #include "app/panels/widgets/scroll_area.h"

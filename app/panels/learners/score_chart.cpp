@@ -92,8 +92,8 @@ void draw_spreads(const Theme& theme, const Axes& axes, const std::vector<TrendS
   for (std::size_t i = 0; i < spreads.size(); ++i) {
     const TrendSpread& spread = spreads[i];
     const float x = axes.x(spread.ordinal), width = std::min(half * 0.8f, theme.px(28));
-    list->AddRectFilled({x - width, axes.y(spread.percent.upper)}, {x + width, axes.y(spread.percent.lower)}, kBand,
-                        theme.px(3));
+    list->AddRectFilled({x - width, axes.y(spread.percent.third_quartile)},
+                        {x + width, axes.y(spread.percent.first_quartile)}, kBand, theme.px(3));
     list->AddLine({x - width, axes.y(spread.percent.median)}, {x + width, axes.y(spread.percent.median)},
                   colour::kAccent, theme.px(2.5f));
     if (i > 0 && spreads[i - 1].ordinal + 1 == spread.ordinal)

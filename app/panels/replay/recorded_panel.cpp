@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <vector>
 
-#include "app/panels/ultrasound_panel.h"
+#include "app/panels/scan/ultrasound_panel.h"
 #include "sim/core/input_error.h"
+#include "sim/core/text.h"
 
 namespace insonate::ui {
 namespace {
@@ -23,9 +23,7 @@ std::string off_plane_text(const std::array<glm::dvec3, 4>& corners) {
   const double tilt_deg = glm::degrees(std::acos(std::min(std::abs(normal.z), 1.0)));
   const double offset_mm = std::abs(corners[0].z + corners[2].z) / 2;
   if (tilt_deg < kTilt_deg && offset_mm < kOffset_mm) return "";
-  char text[96];
-  std::snprintf(text, sizeof text, "%.0f\u00b0 and %.0f mm off the simulated plane", tilt_deg, offset_mm);
-  return text;
+  return formatted("%.0f\u00b0 and %.0f mm off the simulated plane", tilt_deg, offset_mm);
 }
 
 void draw_image(const gl::Texture& texture, const std::array<ImVec2, 4>& corners) {

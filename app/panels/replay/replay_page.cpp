@@ -6,8 +6,8 @@
 
 #include "app/panels/replay/replay_charts.h"
 #include "app/panels/replay/timeline_panel.h"
-#include "app/panels/space_drawing.h"
-#include "app/panels/ultrasound_panel.h"
+#include "app/panels/scan/ultrasound_panel.h"
+#include "app/panels/views/space_drawing.h"
 #include "scenarios/words.h"
 
 namespace insonate::ui {

@@ -7,7 +7,7 @@
 
 #include "app/panels/layout.h"
 #include "app/panels/replay/recorded_panel.h"
-#include "app/panels/views_panel.h"
+#include "app/panels/views/views_panel.h"
 #include "app/trainer/trainer.h"
 
 namespace insonate::ui {

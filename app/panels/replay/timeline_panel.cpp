@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "app/panels/replay/replay_charts.h"
+#include "sim/core/text.h"
 
 namespace insonate::ui {
 namespace {
@@ -132,9 +132,7 @@ void draw_cursor(const Theme& theme, const Rect& plot, float x) {
 std::string clock_text_fine(double seconds) {
   // Rounds to tenths first; otherwise 59.96 would be shown as 0:60.0.
   const long tenths = std::lround(seconds * 10);
-  char text[32];
-  std::snprintf(text, sizeof text, "%ld:%02ld.%ld", tenths / 600, tenths / 10 % 60, tenths % 10);
-  return text;
+  return formatted("%ld:%02ld.%ld", tenths / 600, tenths / 10 % 60, tenths % 10);
 }
 
 void draw_timeline_panel(const Theme& theme, const Rect& panel, Replay& replay, const Scenario* scenario,

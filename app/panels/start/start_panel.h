@@ -5,20 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "app/panels/start/task_details.h"
 #include "app/panels/widgets/text_field.h"
 #include "app/panels/widgets/theme.h"
 #include "app/panels/widgets/widgets.h"
-#include "app/trainer/folder_list.h"
 #include "app/trainer/start_page.h"
 
 namespace insonate::ui {
-
-/// What a click on the start page asks for.
-struct StartAnswer {
-  enum class Kind { none, begin, help, settings, about, browse, reset };
-  Kind kind = Kind::none;
-  Wanted wanted = Wanted::anything;  ///< what to browse for, or to reset
-};
 
 /// Draws the start page: what there is to do on the left, the details of the chosen task in the middle, and on the
 /// right who is learning, with which tracker, and what has been done before.
@@ -40,12 +33,6 @@ private:
   void draw_learner(const Theme& theme, Rect panel, StartPage& page, const Attempt& attempt);
   void draw_trackers(const Theme& theme, Rect panel, StartPage& page, const Attempt& attempt);
   void draw_attempts(const Theme& theme, Rect panel, StartPage& page);
-  StartAnswer draw_task(const Theme& theme, const Rect& panel, StartPage& page);
-  StartAnswer draw_scenarios(const Theme& theme, Rect rest, StartPage& page);
-  StartAnswer draw_patients(const Theme& theme, Rect rest, StartPage& page);
-  StartAnswer draw_runs(const Theme& theme, Rect rest, StartPage& page);
-  void draw_learners(const Theme& theme, Rect rest, const StartPage& page);
-  StartAnswer draw_setup(const Theme& theme, Rect rest, StartPage& page);
 
   TextField learner_, address_;
   std::string typed_learner_, typed_address_;

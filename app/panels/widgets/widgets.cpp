@@ -190,17 +190,17 @@ bool slider(const Theme& theme, const char* id, const Rect& where, std::string_v
   return value != before;
 }
 
-bool upright_slider(const Theme& theme, const char* id, const Rect& where, double& value, double reach, bool enabled,
+bool upright_slider(const Theme& theme, const char* id, const Rect& where, double& value, double limit, bool enabled,
                     std::string_view tip) {
   constexpr float kRadius = 5;
   const double before = value;
   const float top = where.y + theme.px(kRadius), bottom = where.y + where.h - theme.px(kRadius);
-  const double at_mouse = reach * (1 - 2.0 * (ImGui::GetIO().MousePos.y - top) / (bottom - top));
-  const bool lit = enabled && handle(id, where, {-reach, reach, 1, 0}, at_mouse, value);
+  const double at_mouse = limit * (1 - 2.0 * (ImGui::GetIO().MousePos.y - top) / (bottom - top));
+  const bool lit = enabled && handle(id, where, {-limit, limit, 1, 0}, at_mouse, value);
   if (enabled && !ImGui::IsItemActive()) draw_tip(theme, where, tip);
 
   const float x = std::round(where.x + where.w / 2), half = theme.px(1.5f);
-  const float middle = (top + bottom) / 2, y = middle - float(value / reach) * (bottom - top) / 2;
+  const float middle = (top + bottom) / 2, y = middle - float(value / limit) * (bottom - top) / 2;
   fill({x - half, where.y, 2 * half, where.h}, colour::kRaised, half);
   fill({x - half, std::min(y, middle), 2 * half, std::abs(y - middle)}, colour::kAccent);
   if (enabled) draw_knob(theme, {x, y}, kRadius, lit);

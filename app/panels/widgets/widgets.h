@@ -57,8 +57,8 @@ bool slider(const Theme& theme, const char* id, const Rect& where, std::string_v
             double& value, double least, double most, double step, double normal, bool enabled = true,
             std::string_view tip = {});
 
-/// Draws a short upright slider for values from -reach to reach, such as one of the time gain compensation.
-bool upright_slider(const Theme& theme, const char* id, const Rect& where, double& value, double reach,
+/// Draws a short upright slider for values from -limit to limit, such as one of the time gain compensation.
+bool upright_slider(const Theme& theme, const char* id, const Rect& where, double& value, double limit,
                     bool enabled = true, std::string_view tip = {});
 
 /// Explains ImGui's last item in a box beside the pointer, once the pointer has rested on it for a moment.

@@ -5,6 +5,7 @@
 
 #include "devices/calibration/steps/finding_step.h"
 #include "devices/calibration/steps/steps.h"
+#include "sim/core/text.h"
 
 namespace insonate {
 namespace {
@@ -67,13 +68,14 @@ void AxesStep::ask(SetupView& view) const {
   view.share = double(ends_.size()) / 8;
   const std::size_t move = ends_.size() / 2;
   view.reading = ends_.size() % 2 == 1;
-  view.task = worded("%zu of 4: ", move + 1) + (view.reading ? kEnd[move] : kBegin[move]);
+  view.task = formatted("%zu of 4: ", move + 1) + (view.reading ? kEnd[move] : kBegin[move]);
   if (view.reading && newest_)
-    view.feedback = worded("%.0f mm from the beginning", glm::distance(ends_.back().translation, newest_->translation));
+    view.feedback =
+        formatted("%.0f mm from the beginning", glm::distance(ends_.back().translation, newest_->translation));
 }
 
 std::string AxesStep::result() const {
-  return found_.signs.words() + worded("; the moves agree to %.0f degrees", found_.misfit_deg) +
+  return found_.signs.words() + formatted("; the moves agree to %.0f degrees", found_.misfit_deg) +
          (found_.signs.none() ? "" : "; what is mirrored is put right from here on");
 }
 

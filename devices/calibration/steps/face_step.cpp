@@ -1,5 +1,6 @@
 #include "devices/calibration/steps/steps.h"
 #include "devices/calibration/steps/touching_step.h"
+#include "sim/core/text.h"
 
 namespace insonate {
 namespace {
@@ -57,8 +58,8 @@ void FaceStep::finish() {
 }
 
 std::string FaceStep::result() const {
-  return worded("face and handle miss the right angle by %.1f degrees; the middle lies %.1f mm off the ends' middle",
-                found_.skew_deg, found_.off_middle_mm);
+  return formatted("face and handle miss the right angle by %.1f degrees; the middle lies %.1f mm off the ends' middle",
+                   found_.skew_deg, found_.off_middle_mm);
 }
 
 void FaceStep::store(Calibration& calibration, std::int64_t now_s) const {
@@ -75,7 +76,7 @@ DrawnFaceStep::DrawnFaceStep(const Calibration& base, const ProbeDrawing& drawin
   view_.share = 1;
   view_.result =
       "taken from the drawing of " + drawing.name +
-      (found_.tip_off_mm > 0 ? worded(", shifted by the %.1f mm that the tip lies elsewhere", found_.tip_off_mm)
+      (found_.tip_off_mm > 0 ? formatted(", shifted by the %.1f mm that the tip lies elsewhere", found_.tip_off_mm)
                              : std::string());
 }
 

@@ -3,6 +3,7 @@
 
 #include "devices/calibration/steps/finding_step.h"
 #include "devices/calibration/steps/steps.h"
+#include "sim/core/text.h"
 
 namespace insonate {
 namespace {
@@ -44,14 +45,14 @@ void LagStep::take(const SensorSample& sample) {
 
 void LagStep::ask(SetupView& view) const {
   view.share = std::min(1.0, double(blows_s_.size()) / double(kBlows));
-  view.task = worded(
+  view.task = formatted(
       "Strike the key that marks with the probe itself, %zu times, with uneven pauses of a second or so.", kBlows);
-  view.feedback = worded("%zu of %zu", blows_s_.size(), kBlows);
+  view.feedback = formatted("%zu of %zu", blows_s_.size(), kBlows);
 }
 
 std::string LagStep::result() const {
-  return worded("the tracker lags by %.0f ms, single blows within %.0f ms of it", found_.lag_s * 1e3,
-                found_.spread_s * 1e3);
+  return formatted("the tracker lags by %.0f ms, single blows within %.0f ms of it", found_.lag_s * 1e3,
+                   found_.spread_s * 1e3);
 }
 
 void LagStep::store(Calibration& calibration, std::int64_t now_s) const {

@@ -2,6 +2,7 @@
 
 #include "devices/calibration/steps/steps.h"
 #include "devices/calibration/steps/touching_step.h"
+#include "sim/core/text.h"
 
 namespace insonate {
 namespace {
@@ -48,7 +49,7 @@ void LandmarkStep::finish() {
 }
 
 std::string LandmarkStep::result() const {
-  return worded(
+  return formatted(
       "accuracy %.1f mm, where the landmark that was held out should be; the others miss by %.1f mm, %s most "
       "(%.1f mm)",
       found_.accuracy_mm, found_.residual_mm, found_.worst.c_str(), found_.worst_mm);

@@ -3,6 +3,7 @@
 
 #include "devices/calibration/steps/finding_step.h"
 #include "devices/calibration/steps/steps.h"
+#include "sim/core/text.h"
 
 namespace insonate {
 namespace {
@@ -35,7 +36,7 @@ protected:
 
 private:
   std::vector<Pose> poses_;
-  double spread_deg_ = 0, began_s_ = 0, lasted_s_ = 0, told_s_ = 0;
+  double spread_deg_ = 0, began_s_ = 0, lasted_s_ = 0, evaluated_s_ = 0;
   std::optional<double> residual_mm_;  ///< residual of a fit to the poses so far, if there is one
   bool reading_ = false;
   TipFit found_;
@@ -47,7 +48,7 @@ void PivotStep::marked(double time_s) {
     poses_.clear();
     spread_deg_ = lasted_s_ = 0;
     residual_mm_.reset();
-    began_s_ = told_s_ = time_s;
+    began_s_ = evaluated_s_ = time_s;
     return;
   }
   reading_ = false;
@@ -58,8 +59,8 @@ void PivotStep::take(const SensorSample& sample) {
   if (!reading_) return;
   lasted_s_ = std::max(0.0, sample.time_s - began_s_);
   if (sample.status == PoseStatus::ok) poses_.push_back(base_.tracker_from_sensor(sample.tracker_from_sensor));
-  if (sample.time_s - told_s_ > 0.25) {
-    told_s_ = sample.time_s;
+  if (sample.time_s - evaluated_s_ > 0.25) {
+    evaluated_s_ = sample.time_s;
     spread_deg_ = pivot_spread_deg(poses_);
     const auto fit = fit_tip(some_of(poses_, kFittedOnTheWay));
     residual_mm_ = fit ? std::optional(fit->residual_mm) : std::nullopt;
@@ -77,14 +78,14 @@ void PivotStep::ask(SetupView& view) const {
                     "for ten seconds.";
   if (!reading_) return;
   view.share = std::min({1.0, lasted_s_ / kPivotS, spread_deg_ / (1.3 * kLeastPivotSpreadDeg)});
-  view.feedback = worded("%.0f s, %zu poses, turned by %.0f of %.0f degrees", lasted_s_, poses_.size(), spread_deg_,
-                         1.3 * kLeastPivotSpreadDeg);
-  if (residual_mm_) view.feedback += worded(", residual %.2f mm", *residual_mm_);
+  view.feedback = formatted("%.0f s, %zu poses, turned by %.0f of %.0f degrees", lasted_s_, poses_.size(), spread_deg_,
+                            1.3 * kLeastPivotSpreadDeg);
+  if (residual_mm_) view.feedback += formatted(", residual %.2f mm", *residual_mm_);
 }
 
 std::string PivotStep::result() const {
-  return worded("residual %.2f mm over %zu poses (%zu rejected); the tip is known to %.2f mm", found_.residual_mm,
-                found_.used, found_.rejected, found_.tip_sd_mm);
+  return formatted("residual %.2f mm over %zu poses (%zu rejected); the tip is known to %.2f mm", found_.residual_mm,
+                   found_.used, found_.rejected, found_.tip_sd_mm);
 }
 
 void PivotStep::store(Calibration& calibration, std::int64_t now_s) const {

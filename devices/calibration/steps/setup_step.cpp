@@ -1,25 +1,15 @@
 #include "devices/calibration/steps/setup_step.h"
 
-#include <cstdarg>
-#include <cstdio>
 #include <stdexcept>
 
 #include "devices/calibration/steps/steps.h"
+#include "sim/core/text.h"
 
 namespace insonate {
 
 void SetupStep::feed(const SensorSample& sample) {
   if (presses_.see(sample) != 0) mark(sample.time_s);
   take(sample);
-}
-
-std::string worded(const char* format, ...) {
-  char text[300];
-  std::va_list values;
-  va_start(values, format);
-  std::vsnprintf(text, sizeof text, format, values);
-  va_end(values);
-  return text;
 }
 
 std::string why_not_yet(std::string_view step, const Calibration& base, const SetupInput& given) {

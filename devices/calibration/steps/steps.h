@@ -27,7 +27,4 @@ std::unique_ptr<SetupStep> lag_step(const Calibration& base);
 /// memory.
 inline constexpr std::size_t kMostStepPoses = 60000;
 
-/// Formats a view's text like printf; at most 299 characters.
-__attribute__((format(printf, 1, 2))) std::string worded(const char* format, ...);
-
 }  // namespace insonate

@@ -1,6 +1,7 @@
 #include "devices/calibration/steps/touching_step.h"
 
 #include "devices/calibration/steps/steps.h"
+#include "sim/core/text.h"
 
 namespace insonate {
 
@@ -35,12 +36,12 @@ void TouchingStep::taken_back(bool all) {
 void TouchingStep::ask(SetupView& view) const {
   view.reading = held_.reading();
   view.share = double(points_.size()) / double(touches_);
-  view.task = worded("%zu of %zu: ", points_.size() + 1, touches_) + task(points_.size());
+  view.task = formatted("%zu of %zu: ", points_.size() + 1, touches_) + task(points_.size());
   const auto read = held_.so_far();
   if (view.reading)
-    view.feedback = read ? worded("Hold still: within %.1f mm.", read->wander_mm) : "Hold still.";
+    view.feedback = read ? formatted("Hold still: within %.1f mm.", read->wander_mm) : "Hold still.";
   else if (!points_.empty())
-    view.feedback = worded("Read; the hand and the tracker wandered by %.1f mm.", wander_mm_);
+    view.feedback = formatted("Read; the hand and the tracker wandered by %.1f mm.", wander_mm_);
 }
 
 }  // namespace insonate

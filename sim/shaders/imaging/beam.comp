@@ -52,13 +52,13 @@ void main() {
   vec4 here = texelFetch(at_depth, k);
   place_aperture(here);
 
-  for (int j = -reach; j < 0; ++j) add(first, j, k);
+  for (int j = -radius; j < 0; ++j) add(first, j, k);
   vec4 intensity;  // one statement each: GLSL leaves open in which order a constructor's arguments are evaluated
   intensity.x = add(first, 0, k);
   intensity.y = add(first, 1, k);
   intensity.z = add(first, 2, k);
   intensity.w = add(first, 3, k);
-  for (int j = 4; j <= reach + 3; ++j) add(first, j, k);
+  for (int j = 4; j <= radius + 3; ++j) add(first, j, k);
 
   reflection /= total;
   repeated /= total;

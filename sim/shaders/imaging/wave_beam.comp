@@ -45,7 +45,7 @@ void main() {
 
   vec4 here = texelFetch(at_depth, k);
   place_aperture(here);
-  for (int j = -reach; j <= reach + 3; ++j) add(first, j, k);
+  for (int j = -radius; j <= radius + 3; ++j) add(first, j, k);
   for (int i = 0; i < 4; ++i)
     if (first + i < lines)
       echoes[plane_row + (first + i) * samples + k] = vec4(re[i], im[i], 0.0, repeated[i]) * here.x;

@@ -4,15 +4,15 @@
 layout(std140, binding = 1) uniform Window { vec4 window[32]; };  // weights from the middle line outwards
 
 #if FOCUSED_BEAM == 1
-int reach;       // radius of the aperture at this sample, lines
+int radius;      // of the aperture at this sample, lines
 float exponent;  // of the aperture's Gaussian
 #else
-const int reach = BEAM_HALF;
+const int radius = BEAM_HALF;
 #endif
 
 void place_aperture(vec4 depth) {
 #if FOCUSED_BEAM == 1
-  reach = int(depth.y);
+  radius = int(depth.y);
   exponent = depth.z;
 #endif
 }
@@ -20,9 +20,9 @@ void place_aperture(vec4 depth) {
 // Returns the weight of a line `away` lines from the aperture's middle.
 float weight_at(int away) {
 #if FOCUSED_BEAM == 1
-  return abs(away) <= reach ? exp(exponent * float(away * away)) : 0.0;
+  return abs(away) <= radius ? exp(exponent * float(away * away)) : 0.0;
 #else
   int place = abs(away);
-  return place <= reach ? window[place >> 2][place & 3] : 0.0;
+  return place <= radius ? window[place >> 2][place & 3] : 0.0;
 #endif
 }

@@ -6,7 +6,7 @@
 // CT_CLASSIFICATION, one of the two below, CT_SHADED, and VOXELS_PER_CELL, the side of a cell in voxels.
 
 #define POST_CLASSIFICATION 0  // the function at each sample
-#define PRE_INTEGRATED 1       // the mean of the function between one sample and the next (sim/view/transfer_function.h)
+#define PRE_INTEGRATED 1       // the mean of the function between one sample and the next (sim/view/body/transfer_function.h)
 
 // Per whole HU from kFirstTransferHu on, two texels: colour times extinction and extinction, 1/mm, and their integrals.
 layout(binding = 8) uniform samplerBuffer transfer;

@@ -181,7 +181,7 @@ vec2 scatterers_echo(float k, Medium here) {
 struct Sample {
   float alpha, cosine;  // of the interface
   float change;         // of ln I, without the loss by refraction
-  vec2 turn;            // rotation of the sound's direction by refraction, in units of kDeflection_rad
+  vec2 deflection;      // rotation of the sound's direction by refraction, in units of kDeflection_rad
   vec2 echo;            // of the scatterers; with WAVES their amplitude, and the interface's q
 };
 
@@ -197,7 +197,7 @@ Sample sample_at(float k, Medium here, Medium before, Medium behind) {
   Surroundings around = surroundings(k, behind.hu - before.hu);
   vec4 soft = clamp(around.beside, kLeastRefractingHu, kMostRefractingHu);
   vec4 log_speed = kLogSpeedBelowWater * min(soft, 0.0) + kLogSpeedAboveWater * max(soft, 0.0);
-  met.turn = (log_speed.xz - log_speed.yw) * turn_per_step;
+  met.deflection = (log_speed.xz - log_speed.yw) * deflection_per_step;
 #endif
   if (met.alpha > least_alpha_with_normal) {
 #if EDGE_SHADOW == 0
@@ -219,10 +219,10 @@ Sample sample_at(float k, Medium here, Medium before, Medium behind) {
   return met;
 }
 
-// Returns the change of ln I where sound that refraction has rotated by `turn` leaves the line.
-float change_by(vec2 turn) {
-  float turned = dot(turn, turn), to_the_fourth = turned * turned;
-  return -2.0 * to_the_fourth / (2.0 + to_the_fourth) * turn_loss;
+// Returns the change of ln I where sound that refraction has rotated by `deflection` leaves the line.
+float change_by(vec2 deflection) {
+  float square = dot(deflection, deflection), to_the_fourth = square * square;
+  return -2.0 * to_the_fourth / (2.0 + to_the_fourth) * deflection_loss;
 }
 
 // ln of the intensity that arrives at a sample, as a compensated (Kahan) sum. Otherwise thousands of small losses would

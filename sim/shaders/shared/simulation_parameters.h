@@ -36,10 +36,10 @@ layout(std140, binding = 0) uniform SimulationParameters {
 
   float dynamic_range_db;  // beta
   float clutter_kept;      // e^(-dr/kClutterTail_mm), see sim/model/noise.h
-  float turn_kept;         // e^(-dr/kDeflection_mm), see sim/model/refraction.h
-  float turn_per_step;     // dr/(l kDeflection_rad)
+  float deflection_kept;   // e^(-dr/kDeflection_mm), see sim/model/refraction.h
+  float deflection_per_step;  // dr/(l kDeflection_rad)
 
-  float turn_loss;  // dr/kDeflection_mm
+  float deflection_loss;  // dr/kDeflection_mm
   float slice_thickness_mm;
   float slice_spread;  // growth of the slice's thickness per mm from its focus
   float elevation_focus_mm;

@@ -9,7 +9,7 @@
 
 const int kLast = GROUP - 1;
 shared float changes[GROUP];  // of ln I, from the stretch's start to behind each sample
-shared vec2 turns[GROUP];
+shared vec2 deflections[GROUP];
 
 // A level joins neighbouring parts of the stretch, twice as long as those of the level before. It adds the value of the
 // front part's last sample to each sample of the back part. A level writes nothing that it reads. Rounding keeps
@@ -26,14 +26,15 @@ void scan_changes(int me, float change) {
 
 // The same for a rotation, which decays with distance. The first sample adds what is left of `before`, the rotation in
 // front of the stretch.
-void scan_turns(int me, vec2 turn, vec2 before) {
-  float kept = turn_kept, kept_over_part = turn_kept;  // kept: from the front part's last sample to this one
+void scan_deflections(int me, vec2 deflection, vec2 before) {
+  float kept = deflection_kept;  // from the front part's last sample to this one
+  float kept_over_part = deflection_kept;
   barrier();
-  turns[me] = me == 0 ? before * turn_kept + turn : turn;
+  deflections[me] = me == 0 ? before * deflection_kept + deflection : deflection;
   for (int part = 1; part < GROUP; part *= 2) {
     barrier();
     if ((me & part) != 0) {
-      turns[me] += turns[(me & -part) - 1] * kept;
+      deflections[me] += deflections[(me & -part) - 1] * kept;
       kept *= kept_over_part;
     }
     kept_over_part *= kept_over_part;
@@ -45,7 +46,7 @@ void traverse_line(int slice_plane, int index) {
   place_line(slice_plane, index);
   int me = int(gl_LocalInvocationID.x), row = index * samples, end = starts() ? samples : 0, first = 0;
   LogIntensity arriving = arriving_first(medium(0.0));  // at the stretch's first sample
-  vec2 turn = vec2(0.0);                                // rotation behind its last sample
+  vec2 deflection = vec2(0.0);                          // rotation behind its last sample
   for (; first < end && (SKIPPING == 0 || is_heard(arriving)); first += GROUP) {
     int k = first + me;
     float position = float(k);
@@ -56,9 +57,9 @@ void traverse_line(int slice_plane, int index) {
       ++traversed;
     }
 #if EDGE_SHADOW == 1
-    scan_turns(me, met.turn, turn);
-    met.change += change_by(turns[me]);
-    turn = turns[kLast];
+    scan_deflections(me, met.deflection, deflection);
+    met.change += change_by(deflections[me]);
+    deflection = deflections[kLast];
 #endif
     scan_changes(me, met.change);
     LogIntensity log_intensity = arriving;

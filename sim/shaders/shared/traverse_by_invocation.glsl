@@ -7,7 +7,7 @@ void traverse_line(int slice_plane, int index) {
   Medium here = medium(0.0), before = medium(-half_reflection_length);
   LogIntensity log_intensity = arriving_first(here);
 #if EDGE_SHADOW == 1
-  vec2 turn = vec2(0.0);
+  vec2 deflection = vec2(0.0);
 #endif
   for (; k < end && (SKIPPING == 0 || is_heard(log_intensity)); ++k) {
     float position = float(k);
@@ -17,8 +17,8 @@ void traverse_line(int slice_plane, int index) {
     Sample met = sample_at(position, here, before, behind);
     put(slice_plane, row, k, met, log_intensity);
 #if EDGE_SHADOW == 1
-    turn = turn * turn_kept + met.turn;
-    met.change += change_by(turn);
+    deflection = deflection * deflection_kept + met.deflection;
+    met.change += change_by(deflection);
 #endif
     log_intensity = changed(log_intensity, met.change);
     before = behind;

@@ -9,7 +9,7 @@ layout(std140, binding = 0) uniform WeinParameters {
   int images;   // in this chunk
   int first;    // index of the chunk's first image among all
   int columns;  // of images in the grid
-  int ultrasounds;  // images that the simulated ones are compared with, in turn; 1 or more
+  int ultrasounds;  // images that the simulated ones are compared with, one after the other; 1 or more
 #ifdef __cplusplus
 };
 }  // namespace insonate::gl

@@ -1,4 +1,4 @@
-// Sessions whose poses come over OpenIGTLink, and what clients are told of one.
+// Sessions whose poses come over OpenIGTLink, and what clients get of one.
 
 #include <catch2/catch.hpp>
 
@@ -112,7 +112,7 @@ TEST_CASE("a session's picture stands still while its OpenIGTLink server is gone
   CHECK_FALSE(session.lost_for_s());
 }
 
-TEST_CASE("clients are told of pose, picture and events, and without clients no picture is wanted") {
+TEST_CASE("clients get pose, picture and events, and without clients no picture is wanted") {
   Session session(tiny_loaded_case(), [] { return open_tracker("mouse:"); });
   session.advance(0);
   IgtlFeed feed(igtl::numeric_address("127.0.0.1", 0));
@@ -167,7 +167,7 @@ TEST_CASE("a large picture is thinned and stays where it is") {
   CHECK(ras_from_picture(thin).translation == glm::dvec3(-0.0, -3.0, 0));
 }
 
-TEST_CASE("a server listens on loopback unless it is told otherwise") {
+TEST_CASE("a server listens on loopback unless it is set otherwise") {
   CHECK(parse_server_address("18944").text() == "127.0.0.1");
   CHECK(parse_server_address("0.0.0.0:18945").text() == "0.0.0.0");
   CHECK(parse_server_address("0.0.0.0:18945").port() == 18945);

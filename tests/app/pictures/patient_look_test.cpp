@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 
 #include "sim/core/files.h"
-#include "sim/view/transfer_function_file.h"
-#include "tests/volume/temporary_folder.h"
+#include "sim/view/body/transfer_function_file.h"
+#include "tests/core/temporary_folder.h"
 
 using namespace insonate;
 

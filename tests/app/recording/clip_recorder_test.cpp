@@ -17,6 +17,7 @@
 #include "app/recording/webm.h"
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "tests/core/temporary_folder.h"
 
 using namespace insonate;
 
@@ -111,15 +112,10 @@ double difference(const vpx_image_t& decoded, const Image<Rgba8>& original) {
   return std::sqrt(sum / double(original.pixels.size()));
 }
 
-struct Folder {
-  ~Folder() { std::filesystem::remove_all(path); }
-  std::filesystem::path path = std::filesystem::temp_directory_path() / ("insonate_clip_" + std::to_string(getpid()));
-};
-
 }  // namespace
 
 TEST_CASE("a clip shows every picture at its time, and other programs can read it and seek in it") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto file = folder.path / "clip.webm";
   constexpr int kWidth = 151, kHeight = 99, kFrames = 100;  // odd, as panels are
   ClipRecorder clip;
@@ -164,7 +160,7 @@ TEST_CASE("a clip shows every picture at its time, and other programs can read i
 }
 
 TEST_CASE("a clip keeps the size of its first picture, and shows its last one until it is stopped") {
-  const Folder folder;
+  const TemporaryFolder folder;
   ClipRecorder clip;
   clip.start(folder.path / "clip");
   clip.take(picture(120, 80, 10), 0);
@@ -201,7 +197,7 @@ TEST_CASE("a clip keeps the size of its first picture, and shows its last one un
 }
 
 TEST_CASE("two clips of one name are two files") {
-  const Folder folder;
+  const TemporaryFolder folder;
   std::vector<std::filesystem::path> files;
   for (int i = 0; i < 2; ++i) {
     ClipRecorder clip;
@@ -216,7 +212,7 @@ TEST_CASE("two clips of one name are two files") {
 }
 
 TEST_CASE("a clip that is given up or has no picture leaves no file, and the next one works") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto file = folder.path / "clip.webm";
   {
     ClipRecorder clip;
@@ -239,7 +235,7 @@ TEST_CASE("a clip that is given up or has no picture leaves no file, and the nex
 }
 
 TEST_CASE("a clip that cannot be written says so, and one that is too long ends by itself") {
-  const Folder folder;
+  const TemporaryFolder folder;
   std::filesystem::create_directories(folder.path);
   write_file(folder.path / "file", "no folder");
   ClipRecorder clip;
@@ -253,7 +249,7 @@ TEST_CASE("a clip that cannot be written says so, and one that is too long ends 
 }
 
 TEST_CASE("a block's time stays within what the container can express") {
-  const Folder folder;
+  const TemporaryFolder folder;
   WebmFile webm(64, 64);
   webm.add("key", 0, true);
   webm.add("next", 50000, false);  // without a key frame meanwhile

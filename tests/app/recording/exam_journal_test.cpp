@@ -9,7 +9,7 @@
 #include "devices/live/steady_clock.h"
 #include "devices/sequence/probe_samples.h"
 #include "devices/sequence/sequence.h"
-#include "scenarios/results/results_database.h"
+#include "scenarios/results/database/results_database.h"
 #include "tests/app/session/tiny_session.h"
 #include "tests/scenarios/results/made_attempt.h"
 
@@ -122,7 +122,7 @@ TEST_CASE("an exam that is being taken elsewhere is not this program's to take")
   CHECK(database.sittings().size() == 1);
 }
 
-TEST_CASE("a database that cannot be written is told of once, and has all again as soon as it can") {
+TEST_CASE("a database that cannot be written is reported once, and has all again as soon as it can") {
   const ResultsFolder folder;
   Exam exam;
   ExamJournal journal(folder / "lab.db", exam.sitting());

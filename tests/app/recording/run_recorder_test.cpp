@@ -11,6 +11,7 @@
 #include "scenarios/result_json.h"
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "tests/core/temporary_folder.h"
 #include "tests/devices/test_samples.h"
 #include "tests/scenarios/tiny_case.h"
 
@@ -18,15 +19,6 @@ using namespace insonate;
 namespace fs = std::filesystem;
 
 namespace {
-
-struct Folder {
-  fs::path path = fs::temp_directory_path() / ("insonate_run_recorder_" + std::to_string(getpid()));
-  Folder() {
-    fs::remove_all(path);
-    fs::create_directories(path);
-  }
-  ~Folder() { fs::remove_all(path); }
-};
 
 /// A scan of the tiny ball with losses of tracking and a button on the way.
 std::vector<ProbeSample> scan() {
@@ -73,7 +65,7 @@ DrawnPicture picture(double time_s, int width, int height, std::uint8_t grey) {
 }  // namespace
 
 TEST_CASE("a recorded exam is the samples to the bit, and another attempt is another file") {
-  const Folder folder;
+  const TemporaryFolder folder;
   Session session = replaying();
   RunRecorder recorder(false);
   run(session, recorder, 0, 1);  // before it records
@@ -110,7 +102,7 @@ TEST_CASE("a recorded exam is the samples to the bit, and another attempt is ano
 }
 
 TEST_CASE("what the learner does is recorded with the samples, and from the middle on how the machine was set") {
-  const Folder folder;
+  const TemporaryFolder folder;
   Session session(tiny_loaded_case(), [] { return std::make_unique<MouseTracker>(Pose{}); });
   RunRecorder recorder(false);
   recorder.start(folder.path / "whole.igs.mha", true);
@@ -140,7 +132,7 @@ TEST_CASE("what the learner does is recorded with the samples, and from the midd
 }
 
 TEST_CASE("pictures lie beside the samples, all of the first one's size and where they were") {
-  const Folder folder;
+  const TemporaryFolder folder;
   Session session = replaying();
   RunRecorder recorder(true);
   recorder.start(folder.path / "run.igs.mha", true);
@@ -172,8 +164,8 @@ TEST_CASE("pictures lie beside the samples, all of the first one's size and wher
   CHECK(probe_samples(sequence)[0].patient_from_probe == picture(0, 1, 1, 0).patient_from_probe);
 }
 
-TEST_CASE("what cannot be recorded is told once and ends the recording, and the next one goes on") {
-  const Folder folder;
+TEST_CASE("what cannot be recorded is reported once and ends the recording, and the next one goes on") {
+  const TemporaryFolder folder;
   write_file(folder.path / "file", "no folder");
   Session session = replaying();
   RunRecorder recorder(false);

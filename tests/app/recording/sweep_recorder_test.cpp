@@ -7,6 +7,7 @@
 
 #include "sim/core/input_error.h"
 #include "sim/volume/ct_reader.h"
+#include "tests/core/temporary_folder.h"
 
 using namespace insonate;
 namespace fs = std::filesystem;
@@ -118,8 +119,8 @@ TEST_CASE("A recorder that is destroyed in the middle of a sweep drops it") {
 }
 
 TEST_CASE("A swept volume reads back from its files as it was") {
-  const fs::path folder = fs::temp_directory_path() / ("insonate_swept_" + std::to_string(getpid()));
-  fs::create_directories(folder);
+  const TemporaryFolder temporary;
+  const fs::path& folder = temporary.path;
   SweepRecorder recorder;
   recorder.start();
   for (int n = 0; n < 5; ++n) recorder.take(picture_at(n, n));
@@ -132,5 +133,4 @@ TEST_CASE("A swept volume reads back from its files as it was") {
   CHECK(known.voxels == swept->volume.known.voxels);
   CHECK(grey.grid.size == swept->volume.grey.grid.size);
   CHECK(glm::distance(grey.grid.origin, swept->volume.grey.grid.origin) < 1e-6);
-  fs::remove_all(folder);
 }

@@ -7,7 +7,7 @@
 #include "devices/sequence/sequence.h"
 #include "scenarios/caliper.h"
 #include "scenarios/result_json.h"
-#include "scenarios/results/results_database.h"
+#include "scenarios/results/database/results_database.h"
 #include "sim/core/hash.h"
 #include "sim/core/input_error.h"
 #include "tests/app/session/tiny_session.h"

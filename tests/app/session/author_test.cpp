@@ -7,7 +7,7 @@
 #include "app/session/guide.h"
 #include "sim/core/input_error.h"
 #include "tests/app/session/tiny_session.h"
-#include "tests/volume/temporary_folder.h"
+#include "tests/core/temporary_folder.h"
 
 using namespace insonate;
 

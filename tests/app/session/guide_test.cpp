@@ -94,14 +94,14 @@ TEST_CASE("while a scenario is practised the guide leads to the view of the step
   CHECK_FALSE(guide.now(session));
 }
 
-TEST_CASE("the result of an attempt tells how long the guide was shown, also if it was on from the start") {
+TEST_CASE("the result of an attempt holds how long the guide was shown, also if it was on from the start") {
   const auto loaded_case = tiny_loaded_case();
   Session session = by_hand(loaded_case);
   Guide guide;
   double now_s = 0;
   const auto scan = [&](double seconds) {
     for (const double end_s = now_s + seconds; now_s < end_s; now_s += 0.1) {
-      guide.tell(session);
+      guide.report_use(session);
       session.advance(now_s);
     }
   };

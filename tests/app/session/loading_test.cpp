@@ -24,17 +24,17 @@ void until_nobody_works() {
 
 }  // namespace
 
-TEST_CASE("what is loaded is handed over, with the progress on the way and what was thrown") {
-  std::promise<void> told, go_on;
+TEST_CASE("what is loaded is returned, with the progress on the way and what was thrown") {
+  std::promise<void> begun, go_on;
   Loading loading([&](const LoadProgress& progress) {
     progress("Reading", 0.25);
-    told.set_value();
+    begun.set_value();
     go_on.get_future().wait();
     auto loaded_case = std::make_shared<LoadedCase>();
     loaded_case->subject.name = "Somebody";
     return loaded_case;
   });
-  told.get_future().wait();
+  begun.get_future().wait();
   CHECK(loading.progress().what == "Reading");
   CHECK(loading.progress().share == 0.25);
   CHECK_FALSE(loading.done());
@@ -91,7 +91,7 @@ TEST_CASE("what was loaded after it was given up goes away with its thread") {
   CHECK(Loading::given_up() == 0);
 }
 
-TEST_CASE("the time left follows the share that is done, and is not told before it can be known") {
+TEST_CASE("the time left follows the share that is done, and is not shown before it can be known") {
   CHECK_FALSE(time_left_s(0.5, 0, 0.5));
   CHECK_FALSE(time_left_s(20, 0, 0.02));
   CHECK(time_left_s(10, 0, 0.25) == Approx(30));

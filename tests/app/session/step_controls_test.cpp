@@ -100,7 +100,7 @@ TEST_CASE("a step that is not done is left at the second asking") {
   CHECK_FALSE(StepControls::active(desk.session));
 }
 
-TEST_CASE("a hint tells its cost before it is taken, and costs once however often the button is pressed") {
+TEST_CASE("a hint shows its cost before it is taken, and costs once however often the button is pressed") {
   Desk desk(step("free_scan",
                  "[[step.hint]]\ntext = \"first\"\ncost = [0, 1, 3]\n[[step.hint]]\ntext = \"second\"\n"
                  "cost = 0.5"),

@@ -2,11 +2,13 @@
 
 #include <cmath>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "app/session/session.h"
 #include "devices/replay/replay_tracker.h"
+#include "scenarios/result_json.h"
 #include "tests/scenarios/tiny_case.h"
 
 /// Sessions with the tiny case, and scans of it.
@@ -36,6 +38,13 @@ inline Session::OpenTracker replay_of(std::vector<ProbeSample> samples) {
   return [samples = std::move(samples)] {
     return std::make_unique<ReplayTracker>("a log", samples, ReplayTracker::Options{});
   };
+}
+
+/// Returns a runner's score as that of a session without a file.
+inline std::string score_of(const Runner& runner) {
+  ExamResult result = runner.result();
+  result.provenance.mode = AttemptMode::practice;
+  return to_json(result);
 }
 
 /// Advances with `steps_per_s` steps per second. Returns the time of the last step, s.

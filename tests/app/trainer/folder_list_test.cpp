@@ -4,7 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "scenarios/results/results_database.h"
+#include "scenarios/results/database/results_database.h"
 #include "sim/core/files.h"
 #include "tests/scenarios/results/made_attempt.h"
 

@@ -150,9 +150,9 @@ TEST_CASE("a group has quartiles where a handful of learners have a score of one
   REQUIRE(page.trend().spreads.size() == 1);  // four at the second attempt are no handful
   CHECK(page.trend().spreads[0].ordinal == 0);
   CHECK(page.trend().spreads[0].learners == 5);
-  CHECK(page.trend().spreads[0].percent.lower == 20);
+  CHECK(page.trend().spreads[0].percent.first_quartile == 20);
   CHECK(page.trend().spreads[0].percent.median == 30);
-  CHECK(page.trend().spreads[0].percent.upper == 40);
+  CHECK(page.trend().spreads[0].percent.third_quartile == 40);
   CHECK(page.trend().attempts == 2);
   read_all(page);
   CHECK(page.trend().criteria[0].shares[0] == Approx(0.3));
@@ -166,7 +166,7 @@ TEST_CASE("a group has quartiles where a handful of learners have a score of one
   CHECK(mixed.trend().spreads.size() == 1);
 }
 
-TEST_CASE("two texts of one title are two scenarios, and can be told apart") {
+TEST_CASE("two texts of one title are two scenarios, and can be distinguished") {
   const ResultsFolder folder;
   ResultsDatabase database = ResultsDatabase::open_or_make(folder / "results.db");
   add(database, "L-01", AttemptMode::practice, 40, 0, "exam 1");

@@ -13,6 +13,7 @@
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
 #include "sim/volume/case.h"
+#include "tests/core/temporary_folder.h"
 #include "tests/devices/test_samples.h"
 #include "tests/gl/test_context.h"
 #include "tests/scenarios/tiny_case.h"
@@ -22,14 +23,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct Folder {
-  fs::path path = fs::temp_directory_path() / ("insonate_live_trainer_" + std::to_string(getpid()));
-  Folder() {
-    fs::remove_all(path);
-    fs::create_directories(path);
-    write_case(path / "tiny", tiny_case());
-  }
-  ~Folder() { fs::remove_all(path); }
+struct Folder : TemporaryFolder {
+  Folder() { write_case(path / "tiny", tiny_case()); }
 };
 
 /// A server, and a trainer's options to follow it.
@@ -144,7 +139,7 @@ TEST_CASE("a tracker without bytes, none at all, and a file that is there are re
   CHECK_THROWS_WITH(check(options), Catch::Contains("such a file already"));
 }
 
-TEST_CASE("a set-up that was made of this very tracker is used from the next start on, and of any other it is told") {
+TEST_CASE("a set-up that was made of this very tracker is used from the next start on, and any other is reported") {
   const test::TestContext context;
   Lab lab;
   const fs::path file = lab.options.out / "calibration.toml";

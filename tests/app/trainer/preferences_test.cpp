@@ -6,17 +6,11 @@
 
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "tests/core/temporary_folder.h"
 
 using namespace insonate;
 
 namespace {
-
-struct Folder {
-  Folder() { std::filesystem::create_directories(path); }
-  ~Folder() { std::filesystem::remove_all(path); }
-  std::filesystem::path path =
-      std::filesystem::temp_directory_path() / ("insonate_preferences_" + std::to_string(getpid()));
-};
 
 Preferences unusual() {
   Preferences preferences;
@@ -33,7 +27,7 @@ Preferences unusual() {
 }  // namespace
 
 TEST_CASE("preferences are read as they were written, and without a file they are the defaults") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto file = folder.path / "new" / "settings.toml";
   CHECK(read_preferences(file) == Preferences());
   write_preferences(file, unusual());
@@ -43,7 +37,7 @@ TEST_CASE("preferences are read as they were written, and without a file they ar
 }
 
 TEST_CASE("a file of preferences that cannot be used is refused with its place, one key at a time") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto file = folder.path / "settings.toml";
   const auto refusal = [&](const std::string& text) -> std::string {
     write_file(file, text);

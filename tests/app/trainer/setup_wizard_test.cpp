@@ -8,6 +8,7 @@
 
 #include "devices/replay/replay_tracker.h"
 #include "sim/core/input_error.h"
+#include "tests/core/temporary_folder.h"
 #include "tests/devices/calibration/hand.h"
 
 using namespace insonate;
@@ -15,12 +16,6 @@ using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
 
 namespace {
-
-struct Folder {
-  fs::path path = fs::temp_directory_path() / ("insonate_setup_wizard_" + std::to_string(getpid()));
-  Folder() { fs::create_directories(path); }
-  ~Folder() { fs::remove_all(path); }
-};
 
 SetupInput given() {
   SetupInput made;
@@ -70,7 +65,7 @@ std::vector<SensorSample> whole_setup() {
 }  // namespace
 
 TEST_CASE("the whole set-up is made with the probe's buttons alone, and is in the file after each step") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const fs::path file = folder.path / "lab.toml";
   const std::vector<SensorSample> samples = whole_setup();
   SetupWizard wizard = wizard_of(samples, none_yet(), file);
@@ -93,7 +88,7 @@ TEST_CASE("the whole set-up is made with the probe's buttons alone, and is in th
 }
 
 TEST_CASE("a set-up goes on where it was left, and to any step that can be made") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const fs::path file = folder.path / "lab.toml";
   const std::vector<SensorSample> samples = whole_setup();
   SetupWizard first = wizard_of(samples, none_yet(), file);
@@ -117,8 +112,8 @@ TEST_CASE("a set-up goes on where it was left, and to any step that can be made"
   CHECK(fresh.current() == 0);
 }
 
-TEST_CASE("marks of the keyboard are taken back, and a file that cannot be written is told of") {
-  const Folder folder;
+TEST_CASE("marks of the keyboard are taken back, and a file that cannot be written is reported") {
+  const TemporaryFolder folder;
   const std::vector<SensorSample> samples = whole_setup();
   SetupWizard wizard = wizard_of(samples, none_yet(), folder.path / "lab.toml");
   wizard.update(0);

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -11,15 +9,14 @@
 #include "devices/sequence/sequence.h"
 #include "sim/core/files.h"
 #include "sim/volume/case.h"
+#include "tests/core/temporary_folder.h"
 #include "tests/scenarios/tiny_case.h"
 
 namespace insonate {
 
 /// A temporary folder for one test, with the tiny case, its exam, and a scan that shows the ball.
-class TrainerFolder {
-public:
-  TrainerFolder() : path(std::filesystem::temp_directory_path() / ("insonate-trainer-" + std::to_string(getpid()))) {
-    std::filesystem::create_directories(path);
+struct TrainerFolder : TemporaryFolder {
+  TrainerFolder() {
     // Keeps the user's own results and settings out of the test.
     setenv("XDG_DATA_HOME", (path / "data").c_str(), 1);
     setenv("XDG_CONFIG_HOME", (path / "config").c_str(), 1);
@@ -28,10 +25,6 @@ public:
     write_file(path / "scan.igs.mha", write_sequence(samples_of(4, 60, [](double t) {
                  return Pose{glm::dmat3(1.0), {0, 1, std::max(2.0, 20 - 20 * t)}};
                })));
-  }
-  ~TrainerFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path, ignored);
   }
 
   Options options() const {
@@ -47,8 +40,6 @@ public:
     std::ofstream(path / name, std::ios::binary) << bytes;
     return path / name;
   }
-
-  std::filesystem::path path;
 };
 
 inline constexpr PictureSizes kSizes{320, 240, 160, 120};

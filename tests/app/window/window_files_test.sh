@@ -84,7 +84,7 @@ await "the picture is drawn" at_rest
 shot "$work/before.png" ultrasound 20
 shot "$work/console.png" console
 echo 'this is no GLSL' >>"$work/shaders/shared/grey.glsl"
-await "a broken shader is told of" does_not_build
+await "a broken shader is reported" does_not_build
 grep -q 'shared/grey.glsl' "$state" || fail "the broken shader is not named"
 await "the picture is drawn" at_rest
 shot "$work/broken.png" ultrasound 20

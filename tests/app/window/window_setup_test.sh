@@ -39,10 +39,10 @@ click_on setup_pivot
 await "the tip is next" is setup_step pivot
 picture pivot
 
-echo "the tip is pivoted, its residual told on the way"
+echo "the tip is pivoted, its residual shown on the way"
 click_on setup_mark
 await "a click marks" is setup_reading true
-await "the residual is told" contains setup_feedback "residual 0."
+await "the residual is shown" contains setup_feedback "residual 0."
 picture pivoting
 await "the tip is found" is setup_done true
 contains setup_result "residual 0." || fail "no residual: $(value setup_result)"

@@ -27,7 +27,7 @@ middle_of_picture() { shot "$work/$1" ultrasound 220; }
 echo "the server is killed: the picture stands still and a banner says so"
 kill -9 "$pose_server"
 await "the loss is noticed" is lost true
-await "the reason is told" contains tracker_problem ': "[A-Za-z]'
+await "the reason is shown" contains tracker_problem ': "[A-Za-z]'
 await "the banner is drawn" amber_in ultrasound
 remember_probe
 await "the simulator rests" at_rest
@@ -37,7 +37,7 @@ middle_of_picture still_standing.png
 pixels=$(different "$work/standing.png" "$work/still_standing.png")
 [ "$pixels" = 0 ] || fail "$pixels pixels of a picture that stands still have changed"
 moved face_z "$z" 0 && fail "the probe moved without a tracker"
-is lost true || fail "the loss is not told any more"
+is lost true || fail "the loss is not shown any more"
 
 echo "the server is there again: the trainer recovers by itself"
 serve "$3" "$port"

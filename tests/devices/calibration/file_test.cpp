@@ -7,8 +7,8 @@
 #include "devices/calibration/setup_input.h"
 #include "devices/calibration/utc.h"
 #include "sim/core/input_error.h"
+#include "tests/core/temporary_folder.h"
 #include "tests/devices/calibration/synthetic.h"
-#include "tests/volume/temporary_folder.h"
 
 using namespace insonate;
 using Catch::Matchers::Contains;

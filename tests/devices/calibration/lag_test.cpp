@@ -91,7 +91,7 @@ TEST_CASE("one signal against another: the lag between them, wherever each begin
   }
 }
 
-TEST_CASE("motions that do not tell the lag are refused") {
+TEST_CASE("motions that do not determine the lag are refused") {
   using Catch::Matchers::Contains;
   Dice dice(3);
   const std::vector<double> times = blows(dice);

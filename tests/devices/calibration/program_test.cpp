@@ -1,9 +1,5 @@
 // insonate-devices calibrate as a person runs it, on the recording of a made-up set-up; and what its file then does.
 #include <catch2/catch.hpp>
-#include <sys/wait.h>
-
-#include <array>
-#include <cstdio>
 
 #include "devices/calibrated_tracker.h"
 #include "devices/calibration/setup_input.h"
@@ -11,28 +7,17 @@
 #include "devices/replay/replay_tracker.h"
 #include "devices/sequence/sequence.h"
 #include "sim/core/input_error.h"
+#include "tests/core/run_program.h"
+#include "tests/core/temporary_folder.h"
 #include "tests/devices/calibration/hand.h"
-#include "tests/volume/temporary_folder.h"
 
 using namespace insonate;
 using Catch::Matchers::Contains;
 
 namespace {
 
-struct Run {
-  int exit_code;
-  std::string output;
-};
-
-Run run(const std::string& arguments, const std::string& input = "</dev/null ") {
-  const std::string command = input + std::string(INSONATE_DEVICES_PROGRAM) + " calibrate " + arguments + " 2>&1";
-  FILE* pipe = popen(command.c_str(), "r");
-  REQUIRE(pipe);
-  Run result{0, ""};
-  std::array<char, 4096> part;
-  while (const std::size_t got = std::fread(part.data(), 1, part.size(), pipe)) result.output.append(part.data(), got);
-  result.exit_code = WEXITSTATUS(pclose(pipe));
-  return result;
+ProgramOutcome run(const std::string& arguments, const std::string& input = "</dev/null ") {
+  return run_program(input + INSONATE_DEVICES_PROGRAM + " calibrate " + arguments + " 2>&1");
 }
 
 LandmarkList patient() {
@@ -60,9 +45,10 @@ TEST_CASE("insonate-devices calibrate makes the whole set-up from a recording, a
   const TemporaryFolder folder;
   const Lab lab;
   const std::string out = (folder.path / "lab.toml").string();
-  const Run made = run("--tracker " + recorded(folder, "setup.igs.mha", whole_set_up(lab)) + " --out " + out);
+  const ProgramOutcome made =
+      run("--tracker " + recorded(folder, "setup.igs.mha", whole_set_up(lab)) + " --out " + out);
   CAPTURE(made.output);
-  REQUIRE(made.exit_code == 0);
+  REQUIRE(made.code == 0);
   for (const char* words : {"no axis is mirrored", "residual 0.", "accuracy", "lags by"})
     CHECK_THAT(made.output, Contains(words));
   const Calibration calibration = read_calibration(out);
@@ -110,20 +96,20 @@ TEST_CASE("insonate-devices calibrate makes one step at a time and keeps the oth
   pivot.pivot(14);
   face.face();
   landmarks.landmarks(patient().landmarks, 0.3);
-  const Run first = run("landmarks" + to + recorded(folder, "3.igs.mha", landmarks));
-  CHECK(first.exit_code == 2);
+  const ProgramOutcome first = run("landmarks" + to + recorded(folder, "3.igs.mha", landmarks));
+  CHECK(first.code == 2);
   CHECK_THAT(first.output, Contains("make the step 'pivot' first"));
   CHECK_THAT(run("pivot" + to + recorded(folder, "1.igs.mha", pivot)).output,
              Contains("the step 'face' is still to be made"));
   CHECK_THAT(run("face" + to + recorded(folder, "2.igs.mha", face)).output, Contains("the step 'landmarks' is still"));
-  const Run last = run("landmarks" + to + recorded(folder, "3.igs.mha", landmarks));
-  CHECK(last.exit_code == 0);
+  const ProgramOutcome last = run("landmarks" + to + recorded(folder, "3.igs.mha", landmarks));
+  CHECK(last.code == 0);
   CHECK_FALSE(Catch::Matchers::Contains("still to be made").match(last.output));
   CHECK(why_incomplete(read_calibration(out)).empty());
 
   // The file of one tracker is not another's.
-  const Run other = run("pivot" + to + "synthetic:3");
-  CHECK(other.exit_code == 2);
+  const ProgramOutcome other = run("pivot" + to + "synthetic:3");
+  CHECK(other.code == 2);
   CHECK_THAT(other.output, Contains("another tracker (replay)"));
 }
 
@@ -135,10 +121,11 @@ TEST_CASE("insonate-devices calibrate marks by the keyboard as well") {
   Hand still(fast, 4);
   still.hold(Pose{}, 5);
   // Two marks without a move between them: too short, which shows that both arrived.
-  const Run typed = run("axes --out " + (folder.path / "lab.toml").string() + " --tracker 'replay:" +
-                            folder.put("still.igs.mha", write_sequence(as_raw(still.samples()))).string() + "'",
-                        "(sleep 0.2; echo; sleep 0.3; echo) | ");
-  CHECK(typed.exit_code == 2);
+  const ProgramOutcome typed = run(
+      "axes --out " + (folder.path / "lab.toml").string() +
+          " --tracker 'replay:" + folder.put("still.igs.mha", write_sequence(as_raw(still.samples()))).string() + "'",
+      "(sleep 0.2; echo; sleep 0.3; echo) | ");
+  CHECK(typed.code == 2);
   CHECK_THAT(typed.output, Contains("That was too short"));
 }
 
@@ -160,9 +147,9 @@ TEST_CASE("insonate-devices calibrate refuses what it cannot use in a sentence, 
       {"landmarks --moved" + to + cut, "'pivot' first"},
   };
   for (const auto& [arguments, says] : wrong) {
-    const Run refused = run(arguments);
+    const ProgramOutcome refused = run(arguments);
     CAPTURE(arguments, refused.output);
-    CHECK(refused.exit_code == 2);
+    CHECK(refused.code == 2);
     CHECK_THAT(refused.output, Contains(says));
     CHECK_FALSE(std::filesystem::exists(out));
   }
@@ -170,7 +157,7 @@ TEST_CASE("insonate-devices calibrate refuses what it cannot use in a sentence, 
   CHECK_THAT(run("pivot" + to + cut).output, Contains("lab.toml: line 1"));
 }
 
-TEST_CASE("trackers are told apart by kind and by what their URI names, recordings are not") {
+TEST_CASE("trackers are distinguished by kind and by what their URI names, recordings are not") {
   CHECK(tracker_identity("hydra:17") == TrackerIdentity{"hydra", "17"});
   CHECK(tracker_identity("hydra:17?handset=2") == TrackerIdentity{"hydra", "17", 2});
   CHECK(tracker_identity("polhemus:?sensor=3&raw=1") == TrackerIdentity{"polhemus", "", 3});

@@ -71,7 +71,7 @@ TEST_CASE("landmarks without error give the very motion, whatever it is") {
   }
 }
 
-TEST_CASE("errors at the target are the published ones, and the held-out landmark, not the residual, tells them") {
+TEST_CASE("errors at the target are the published ones, and the held-out landmark, not the residual, shows them") {
   constexpr double kErrorMm = 2;  // RMS length, as DEVICES counts it
   constexpr int kRuns = 1500;
   struct {
@@ -79,7 +79,7 @@ TEST_CASE("errors at the target are the published ones, and the held-out landmar
     double least_mm, most_mm;
   } const published[] = {{6, 1.0, 1.2}, {8, 0.9, 1.0}};
   for (const auto& row : published) {
-    double squares = 0, expected = 0, told = 0;
+    double squares = 0, expected = 0, estimated = 0;
     double sum_residual = 0, sum_error = 0, sum_both = 0, sum_residual2 = 0, sum_error2 = 0;
     for (int run = 0; run < kRuns; ++run) {
       Dice dice(std::uint32_t(1000 * row.landmarks + std::size_t(run)));
@@ -91,21 +91,21 @@ TEST_CASE("errors at the target are the published ones, and the held-out landmar
       for (const glm::dvec3& target : kTargets)
         error2 += std::pow(glm::distance(found->ct_from_touched.point(touched_from_ct.point(target)), target), 2) / 4;
       squares += error2 / kRuns;
-      told += std::pow(found->accuracy_mm, 2) / kRuns;
+      estimated += std::pow(found->accuracy_mm, 2) / kRuns;
       const double error = std::sqrt(error2);
       sum_residual += found->residual_mm, sum_error += error, sum_both += found->residual_mm * error;
       sum_residual2 += std::pow(found->residual_mm, 2), sum_error2 += error2;
     }
     for (const glm::dvec3& target : kTargets)
       expected += std::pow(expected_error_mm(landmarks(row.landmarks), target, kErrorMm), 2) / 4;
-    CAPTURE(row.landmarks, std::sqrt(squares), std::sqrt(expected), std::sqrt(told));
+    CAPTURE(row.landmarks, std::sqrt(squares), std::sqrt(expected), std::sqrt(estimated));
     CHECK(std::sqrt(squares) >= row.least_mm);
     CHECK(std::sqrt(squares) <= row.most_mm);
     // The formula is of first order and takes the axes along x, y and z; 1500 runs know the RMS to 2 %.
     CHECK(std::sqrt(squares) == Approx(std::sqrt(expected)).epsilon(0.08));
     // The check's error is the target's there and its own localisation error.
     const double there = expected_error_mm(landmarks(row.landmarks), kTrunk.back(), kErrorMm);
-    CHECK(std::sqrt(told) == Approx(std::hypot(there, kErrorMm)).epsilon(0.06));
+    CHECK(std::sqrt(estimated) == Approx(std::hypot(there, kErrorMm)).epsilon(0.06));
     // Fitzpatrick 2009: uncorrelated. 1500 runs know a correlation to 0.026; four times that.
     const double n = kRuns;
     const double correlation =
@@ -172,7 +172,7 @@ TEST_CASE("a landmark that was missed is named") {
   }
 }
 
-TEST_CASE("landmarks that cannot tell the motion are refused, and say why") {
+TEST_CASE("landmarks that do not determine the motion are refused, and say why") {
   using Catch::Matchers::Contains;
   Dice dice(4);
   const Pose touched_from_ct = dice.pose(300);

@@ -82,7 +82,7 @@ TEST_CASE("a tracker with mirrored axes is put right on the way") {
   }
 }
 
-TEST_CASE("landmarks touched to 2 mm: the accuracy told is that of the check") {
+TEST_CASE("landmarks touched to 2 mm: the accuracy reported is that of the check") {
   const Lab lab;
   const Calibration calibration = set_up(lab, {.landmarks = patient()}, 2 / std::sqrt(3.0));
   CHECK(calibration.mannequin->value.accuracy_mm > 0.3);

@@ -30,18 +30,18 @@ TEST_CASE("the tip of a probe that pivots without noise is found to rounding err
 TEST_CASE("noise moves the tip by what the fit says, and the residual is the noise") {
   constexpr double kNoiseMm = 0.3;  // along each axis
   constexpr int kRuns = 60;
-  double squares = 0, told = 0, residual = 0;
+  double squares = 0, reported = 0, residual = 0;
   for (int run = 0; run < kRuns; ++run) {
     Dice dice(std::uint32_t(100 + run));
     const auto fit = fit_tip(pivoting_well(dice, kNoiseMm));
     REQUIRE(fit);
     squares += std::pow(glm::distance(fit->tip_mm, kTip), 2) / kRuns;
-    told += fit->tip_sd_mm / kRuns;
+    reported += fit->tip_sd_mm / kRuns;
     residual += fit->residual_mm / kRuns;
   }
-  // The worst direction's deviation is told; of three directions the RMS error is 1 to sqrt(3) times as much.
-  CHECK(std::sqrt(squares) > 0.9 * told);
-  CHECK(std::sqrt(squares) < 1.1 * std::sqrt(3.0) * told);
+  // The worst direction's deviation is reported; of three directions the RMS error is 1 to sqrt(3) times as much.
+  CHECK(std::sqrt(squares) > 0.9 * reported);
+  CHECK(std::sqrt(squares) < 1.1 * std::sqrt(3.0) * reported);
   CHECK(std::sqrt(squares) < 0.06);
   // RMS length of a noise of 0.3 mm an axis is 0.52; the cut at 99 % takes 4 % off.
   CHECK(residual == Approx(std::sqrt(3.0) * kNoiseMm).epsilon(0.06));
@@ -82,7 +82,7 @@ TEST_CASE("where the tracker's base stands and how its axes run does not matter 
   }
 }
 
-TEST_CASE("pivoting that cannot tell the tip is refused, and says why") {
+TEST_CASE("pivoting that does not determine the tip is refused, and says why") {
   Dice dice(5);
   const Pose start = dice.pose(1);
   const auto refusal = [](const std::vector<Pose>& poses) {

@@ -185,7 +185,7 @@ TEST_CASE("a Hydra's other handset, and the base's own frame, on demand") {
   CHECK(glm::distance(batch.samples[0].patient_from_probe.translation, glm::dvec3(-1, 2, -3)) < 1e-9);
 }
 
-TEST_CASE("short, corrupt, repeated, late and missing reports are counted, told, and never a sample") {
+TEST_CASE("short, corrupt, repeated, late and missing reports are counted, reported, and never a sample") {
   Bench<HydraSource> bench(std::size_t{0}, Placement({}, true));
   bench.bus->attached.devices = {kHydra};
   bench.source.open();
@@ -214,7 +214,7 @@ TEST_CASE("short, corrupt, repeated, late and missing reports are counted, told,
   CHECK(bench.read_all().note.empty());
 }
 
-TEST_CASE("a device that says nothing is started again and again, and people are told") {
+TEST_CASE("a device that says nothing is started again and again, and people are informed") {
   Bench<HydraSource> bench(std::size_t{0}, Placement({}, true));
   bench.bus->attached.devices = {kHydra};
   bench.source.open();
@@ -279,7 +279,7 @@ TEST_CASE("a Liberty is set up in its own words, and one of its sensors is follo
   CHECK(bench.bus->sent.back() == Report{'P', '\r'});
 }
 
-TEST_CASE("a Polhemus sensor that is not plugged in is told with those that are, and text between records is counted") {
+TEST_CASE("a Polhemus sensor that is missing is reported with those that are, and text between records is counted") {
   Bench<PolhemusSource> bench(2u, Placement({}, true));
   bench.bus->attached.devices = {kLiberty};
   bench.source.open();
@@ -306,7 +306,7 @@ TEST_CASE("a tracker that nobody has calibrated says so in its name") {
   CHECK(open_tracker("spacemouse:")->state().name == "SpaceMouse");
 }
 
-TEST_CASE("a Viper is told its units and to send, and a frame that fails its checksum is counted") {
+TEST_CASE("a Viper is set to its units and to send, and a frame that fails its checksum is counted") {
   Bench<PolhemusSource> bench(1u, Placement({}, true));
   bench.bus->attached.devices = {kViper};
   bench.source.open();

@@ -52,7 +52,7 @@ TEST_CASE("a client takes the first transform that comes, or the one that is nam
   CHECK(named.samples[0].patient_from_probe.rotation == glm::dmat3(-1, 0, 0, 0, -1, 0, 0, 0, 1));
 }
 
-TEST_CASE("a client tells what is wrong: a name that never comes, a status, another protocol") {
+TEST_CASE("a client reports what is wrong: a name that never comes, a status, another protocol") {
   const Socket listener = loopback_listener();
   {
     Client client(listener, "/Probe");
@@ -134,7 +134,7 @@ TEST_CASE("a server that is silent, ends and starts again is lost and found") {
     CHECK(client.samples[i].time_s > client.samples[i - 1].time_s);
 }
 
-TEST_CASE("what a server complains of is told for a while, or until it says that all is well") {
+TEST_CASE("what a server complains of is shown for a while, or until it says that all is well") {
   ClientRequest request;
   request.host = "there";
   ClientSource client(request);

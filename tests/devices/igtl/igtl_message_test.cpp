@@ -131,7 +131,7 @@ TEST_CASE("Debian's library reads what is sent, and what it writes is read here"
   CHECK((*parse_transform(parts->content))[3][2] == 300.125);
 }
 
-TEST_CASE("metadata of version 2 tells the status of a transform") {
+TEST_CASE("metadata of version 2 holds the status of a transform") {
   const auto messages = read(with_metadata("TransformStatus", "OUT_OF_VIEW"));
   REQUIRE(messages.size() == 1);
   const auto parts = parts_of(messages[0].first, messages[0].second);
@@ -177,7 +177,7 @@ TEST_CASE("what the fuzzer has found keeps the promises too") {
   CHECK(count > 50);
 }
 
-TEST_CASE("a stream of anything else is told from OpenIGTLink") {
+TEST_CASE("a stream of anything else is distinguished from OpenIGTLink") {
   MessageReader reader([](const Header&) { return true; }, [](const Header&, ByteView) { FAIL("no message"); });
   const std::string web = "HTTP/1.1 400 Bad Request\r\nContent-Type: text/plain; charset=utf-8\r\n\r\n";
   CHECK(reader.feed({reinterpret_cast<const std::uint8_t*>(web.data()), web.size()}) ==

@@ -137,7 +137,7 @@ TEST_CASE("of two Hydras the one with the serial number is used") {
   CHECK(first.features().empty());
 }
 
-TEST_CASE("a Hydra that may not be opened is told with the rule, and used as soon as it may") {
+TEST_CASE("a Hydra that may not be opened is reported with the rule, and used as soon as it may") {
   HidGadget hydra(kHydra, 0);
   REQUIRE(wait_for([] { return contains(listed(), "/dev/hidraw0"); }));
   REQUIRE(wait_for([] { return chmod("/dev/hidraw0", 0) == 0; }));

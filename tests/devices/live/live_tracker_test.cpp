@@ -34,7 +34,7 @@ std::size_t count(const std::vector<ProbeSample>& samples, PoseStatus status) {
 
 }  // namespace
 
-TEST_CASE("a live tracker hands over every sample once, in order, with rising times on the clock it is polled with") {
+TEST_CASE("a live tracker publishes every sample once, in order, with rising times on the clock it is polled with") {
   ScriptedDevice device;
   device.in_one_read = 8;
   const auto tracker = tracker_of(device);
@@ -61,7 +61,7 @@ TEST_CASE("a live tracker hands over every sample once, in order, with rising ti
   CHECK(state.problem.empty());
 }
 
-TEST_CASE("a live tracker tells a place or none as its device does, before it is opened") {
+TEST_CASE("a live tracker reports a place or none as its device does, before it is opened") {
   ScriptedDevice device;
   CHECK_FALSE(tracker_of(device)->relative());
   device.relative = true;
@@ -87,7 +87,7 @@ TEST_CASE("a device may be plugged in late, pulled out and plugged in again, and
   for (int round = 1; round <= 3; ++round) {
     device.plugged_in = false;
     REQUIRE(poll_until(*tracker, samples, [&] { return device.closed == round; }));
-    INFO("the silence is told by samples that carry no pose");
+    INFO("the silence is shown by samples that carry no pose");
     samples.clear();
     REQUIRE(poll_until(*tracker, samples, [&] { return count(samples, PoseStatus::missing) >= 3; }));
     CHECK(tracker->state().problem == "The scripted device is not plugged in.");
@@ -120,7 +120,7 @@ TEST_CASE("an open device that says nothing is silent, not gone") {
   REQUIRE(poll_until(*tracker, samples, [&] { return samples.back().status == PoseStatus::ok; }));
 }
 
-TEST_CASE("who does not poll in time loses samples, is told how many, and stops nobody") {
+TEST_CASE("who does not poll in time loses samples, is informed how many, and stops nobody") {
   ScriptedDevice device;
   device.in_one_read = 50;
   LiveTracker::Options options = hasty();

@@ -8,7 +8,7 @@
 
 using namespace insonate;
 
-TEST_CASE("a ring hands over in order, round and round, and counts what it has no room for") {
+TEST_CASE("a ring publishes in order, round and round, and counts what it has no room for") {
   SampleRing<int> ring(5);
   CHECK(ring.capacity() == 8);
   std::vector<int> out;

@@ -103,7 +103,7 @@ TEST_CASE("a Hydra that is plugged in late is started, and each of its reports c
   REQUIRE(watch.until([&] { return places(watch.child.out).size() >= 400; }, [&] { hydra.send(reports); }));
   CHECK(places(watch.child.out) == counted(1, 400));
 
-  // Corrupt, cut and repeated: none becomes a sample, and people are told.
+  // Corrupt, cut and repeated: none becomes a sample, and people are informed.
   Report corrupt = hydra_report(401), cut = hydra_report(402);
   corrupt[8] ^= 1;
   cut.resize(30);
@@ -165,7 +165,7 @@ TEST_CASE("what a Hydra sent until the program was killed replays to the samples
   fs::remove_all(folder);
 }
 
-TEST_CASE("a Hydra that may not be opened is told with the rule, and used as soon as it may") {
+TEST_CASE("a Hydra that may not be opened is reported with the rule, and used as soon as it may") {
   if (!possible()) return;
   Testbed testbed;
   MockedHid hydra(testbed, kHydra, 0);
@@ -239,7 +239,7 @@ TEST_CASE("a Viper that is pulled out in mid-transfer is missed, and goes on whe
   CHECK(places(watch.child.out) == counted(1, 2));
 }
 
-TEST_CASE("a Viper that may not be opened, and one that waits for its firmware, are told as such") {
+TEST_CASE("a Viper that may not be opened, and one that waits for its firmware, are reported as such") {
   if (!possible()) return;
   Testbed testbed;
   {
@@ -255,7 +255,7 @@ TEST_CASE("a Viper that may not be opened, and one that waits for its firmware, 
   watch.until_told("waits for its firmware");
 }
 
-TEST_CASE("a Viper that another program has is told as busy, and used as soon as it is free") {
+TEST_CASE("a Viper that another program has is reported as busy, and used as soon as it is free") {
   if (!possible()) return;
   Testbed testbed;
   MockedUsb viper(testbed, kViper, 4);

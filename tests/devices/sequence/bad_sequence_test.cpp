@@ -13,7 +13,7 @@
 #include "sim/core/hash.h"
 #include "sim/core/input_error.h"
 #include "tests/core/system_faults.h"
-#include "tests/volume/temporary_folder.h"
+#include "tests/core/temporary_folder.h"
 
 using namespace insonate;
 

@@ -12,8 +12,8 @@
 #include "devices/sequence/probe_samples.h"
 #include "devices/sequence/transform_path.h"
 #include "sim/core/input_error.h"
+#include "tests/core/temporary_folder.h"
 #include "tests/devices/test_samples.h"
-#include "tests/volume/temporary_folder.h"
 
 using namespace insonate;
 using Catch::Contains;

@@ -10,7 +10,7 @@
 #include "devices/sequence/recorded_images.h"
 #include "sim/core/hash.h"
 #include "sim/core/input_error.h"
-#include "tests/volume/temporary_folder.h"
+#include "tests/core/temporary_folder.h"
 
 using namespace insonate;
 using Catch::Contains;

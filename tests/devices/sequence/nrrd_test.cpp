@@ -138,7 +138,7 @@ TEST_CASE("every NRRD that is damaged in a way people meet is refused with the p
   }
   std::string forged = golden(kImages);
   forged.replace(forged.find("sizes: 4 3 5"), 12, "sizes: 4 4 5");
-  CHECK(refusal(forged).find("no gzip stream of 80 bytes") != std::string::npos);
+  CHECK(refusal(forged).find("not a gzip stream of 80 bytes") != std::string::npos);
 }
 
 TEST_CASE("a NRRD cut short anywhere is refused") {

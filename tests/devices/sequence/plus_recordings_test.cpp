@@ -103,7 +103,7 @@ TEST_CASE("what is read of PLUS's recordings is what an independent reader finds
   CHECK(compared == 25);
 }
 
-TEST_CASE("PLUS's recordings that do not tell where the probe was are refused with what to do") {
+TEST_CASE("PLUS's recordings that do not show where the probe was are refused with what to do") {
   if (!is_there()) return;
   CHECK_THAT(refusal("BkCurvilinearScanConvertedData.igs.mha"),
              Contains("it has ReferenceToTracker, StylusToTracker") && Contains("--transform StylusToTracker"));

@@ -6,8 +6,8 @@
 
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "tests/core/temporary_folder.h"
 #include "tests/scenarios/tiny_case.h"
-#include "tests/volume/temporary_folder.h"
 
 using namespace insonate;
 

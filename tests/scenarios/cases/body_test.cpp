@@ -10,7 +10,7 @@
 #include "scenarios/cases/import_case.h"
 #include "sim/model/tissue.h"
 #include "sim/volume/ct_reader.h"
-#include "tests/volume/temporary_folder.h"
+#include "tests/core/temporary_folder.h"
 
 using namespace insonate;
 

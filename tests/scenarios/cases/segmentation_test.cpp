@@ -11,8 +11,8 @@
 #include "sim/core/input_error.h"
 #include "sim/model/tissue.h"
 #include "tests/core/system_faults.h"
+#include "tests/core/temporary_folder.h"
 #include "tests/scenarios/cases/labelled_files.h"
-#include "tests/volume/temporary_folder.h"
 
 using namespace insonate;
 
@@ -39,7 +39,7 @@ std::string mask_file(const std::function<bool(int, int, int)>& inside) {
   return label_file(kSize, kFirst, [&](int i, int j, int k) { return inside(i, j, k) ? 1 : 0; });
 }
 
-bool told(const std::vector<std::string>& notes, const std::string& words) {
+bool noted(const std::vector<std::string>& notes, const std::string& words) {
   return std::any_of(notes.begin(), notes.end(), [&](const auto& n) { return n.find(words) != std::string::npos; });
 }
 
@@ -157,7 +157,7 @@ TEST_CASE("a file of many labels comes with its names onto the CT's grid") {
   CHECK(read_segmentation(file, ct_grid(), "total").table[1].name == "liver");
 }
 
-TEST_CASE("labels on another grid are resampled and what lies outside is told") {
+TEST_CASE("labels on another grid are resampled and what lies outside is reported") {
   const TemporaryFolder folder;
   // Voxels of 2 mm, the first covering two of the CT's each way: centres at -9.5, -19.5 and 5.5 mm. The labels go on
   // to the patient's right, which is where the CT ends: 4 x 3 x 2 of them lie in the CT, as many outside.
@@ -165,7 +165,7 @@ TEST_CASE("labels on another grid are resampled and what lies outside is told") 
       {8, 3, 2}, {-9.5, -19.5, 5.5}, [](int i, int, int) { return i < 2 || i > 3 ? 1 : 5; }, "", 2);
   const Segmentation read = read_segmentation(folder.put("coarse.nii", coarse), ct_grid(), "total");
   for (int i = 0; i < 8; ++i) CHECK(int(read.labels.at({i, 3, 2})) == (i < 4 ? 1 : 5));
-  CHECK(told(read.notes, "50.0 % of what is labelled lies outside the CT"));
+  CHECK(noted(read.notes, "50.0 % of what is labelled lies outside the CT"));
 }
 
 TEST_CASE("a folder of masks becomes one label volume, and overlaps go to the smaller and are reported") {
@@ -186,9 +186,9 @@ TEST_CASE("a folder of masks becomes one label volume, and overlaps go to the sm
   CHECK(read.labels.at({3, 2, 0}) == 1);
   CHECK(read.labels.at({3, 2, 1}) == 2);
   CHECK(read.labels.at({5, 2, 1}) == 0);
-  CHECK(told(read.notes, "6 voxels are claimed by 'gallbladder' and 'liver'"));
-  CHECK(told(read.notes, "'thing' is not known"));
-  CHECK(told(read.notes, "1 masks are empty"));
+  CHECK(noted(read.notes, "6 voxels are claimed by 'gallbladder' and 'liver'"));
+  CHECK(noted(read.notes, "'thing' is not known"));
+  CHECK(noted(read.notes, "1 masks are empty"));
 }
 
 TEST_CASE("segmentations that cannot be used are refused in a sentence") {

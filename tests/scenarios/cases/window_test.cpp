@@ -121,7 +121,7 @@ TEST_CASE("where the CT ends within the body there is no skin") {
   CHECK(std::hypot(face.x, face.y) > kSkin_mm - 13);
 }
 
-TEST_CASE("suggested views pass the scorer's own checks, and one without a window is told, not made") {
+TEST_CASE("suggested views pass the scorer's own checks, and one without a window is reported, not made") {
   const auto suggested_for = [](const Case& subject) {
     Case with_landmarks = subject;
     const auto shapes = structure_shapes(subject);

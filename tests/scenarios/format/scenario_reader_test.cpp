@@ -244,7 +244,7 @@ TEST_CASE("whatever a scenario file holds, it is read or refused in words") {
   CHECK(refused > 700);
 }
 
-TEST_CASE("phantom options are handed on as they are written") {
+TEST_CASE("phantom options are passed as they are written") {
   std::string text = with(kTinyScenario, "case = \"tiny\"", "case = \"abdomen\"");
   text += "[phantom]\nfree_fluid = true\naorta_diameter_mm = 45.25\nvoxel_mm = 2\n";
   const auto options = parse_scenario(text, "exam.toml").phantom_options;

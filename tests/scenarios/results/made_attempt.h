@@ -1,7 +1,5 @@
 #pragma once
 
-#include <unistd.h>
-
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -10,16 +8,13 @@
 #include "scenarios/results/attempt.h"
 #include "scenarios/results/trace_json.h"
 #include "scenarios/runner.h"
+#include "tests/core/temporary_folder.h"
 #include "tests/scenarios/tiny_case.h"
 
 namespace insonate {
 
 /// A temporary folder for databases, removed at the end.
-struct ResultsFolder {
-  std::filesystem::path path =
-      std::filesystem::temp_directory_path() / ("insonate_results_" + std::to_string(getpid()));
-  ResultsFolder() { clear(); }
-  ~ResultsFolder() { std::filesystem::remove_all(path); }
+struct ResultsFolder : TemporaryFolder {
   void clear() const {
     std::filesystem::remove_all(path);
     std::filesystem::create_directories(path);

@@ -27,21 +27,6 @@ ExamResult result_of(double distance, double angle, double time) {
 
 }  // namespace
 
-TEST_CASE("the spread of values is their median and quartiles") {
-  const Spread one = spread_of({7});
-  CHECK(one.lower == 7);
-  CHECK(one.median == 7);
-  CHECK(one.upper == 7);
-  const Spread odd = spread_of({9, 1, 5, 3, 7});
-  CHECK(odd.lower == 3);
-  CHECK(odd.median == 5);
-  CHECK(odd.upper == 7);
-  const Spread even = spread_of({4, 1, 2, 3});  // R: quantile(1:4), type 7
-  CHECK(even.lower == 1.75);
-  CHECK(even.median == 2.5);
-  CHECK(even.upper == 3.25);
-}
-
 TEST_CASE("criteria are in the order of the points that they lose, with their shares attempt by attempt") {
   const ExamResult first = result_of(1, 2, 0.5), second = result_of(3, 2, 1);
   const std::vector<CriterionTrend> trends = criterion_trends({{0, &first}, {1, &second}});
@@ -71,7 +56,7 @@ TEST_CASE("a group's share is the mean of its learners, and of those that were j
   CHECK(distance->lost == 2);
 }
 
-TEST_CASE("a warm-up and a criterion without points are nobody's loss, and hints are told apart") {
+TEST_CASE("a warm-up and a criterion without points are nobody's loss, and hints are distinguished") {
   ExamResult result = result_of(1, 1, 1);
   result.steps[0].counts = false;
   result.criteria.push_back(scored(Metric::path_length_mm, 0, 0));

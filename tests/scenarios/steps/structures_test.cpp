@@ -45,7 +45,7 @@ const std::vector<std::vector<std::string>> kSets = {{"one"}, {"two", "three"}, 
 
 }  // namespace
 
-TEST_CASE("what an index tells of structures is what reading every voxel tells, to the bit") {
+TEST_CASE("what an index holds of structures is what reading every voxel finds, to the bit") {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> mm(-60, 60);
   for (int round = 0; round < 20; ++round) {

@@ -19,19 +19,14 @@
 #include "sim/model/beam.h"
 #include "sim/model/settings.h"
 #include "sim/probe/probe.h"
-#include "tools/bench/curves.h"
+#include "tests/core/temporary_folder.h"
+#include "tools/bench/tables/curves.h"
 
 using namespace insonate;
 using namespace insonate::bench;
 namespace fs = std::filesystem;
 
 namespace {
-
-struct Folder {
-  fs::path path = fs::temp_directory_path() / ("insonate-bench-acoustics-" + std::to_string(getpid()));
-  Folder() { fs::create_directory(path); }
-  ~Folder() { fs::remove_all(path); }
-};
 
 std::size_t lines_in(const fs::path& file) {
   const std::string text = read_file(file);
@@ -41,7 +36,7 @@ std::size_t lines_in(const fs::path& file) {
 }  // namespace
 
 TEST_CASE("insonate-bench beam: eight depths per probe, with the profile and the live simulator's widths") {
-  const Folder folder;
+  const TemporaryFolder folder;
   AcousticRequest request;
   request.attenuation_db_cm_mhz = 0.5;
   const Table table = measure_beams(request, (folder.path / "beams.svg").string());
@@ -110,7 +105,7 @@ TEST_CASE("insonate-bench speckle: few scatterers are no Rayleigh speckle") {
 }
 
 TEST_CASE("insonate-bench scene: a folder per probe, or one for a transducer's file") {
-  const Folder folder;
+  const TemporaryFolder folder;
   AcousticRequest request;
   SceneRequest scene;
   scene.kind = SceneKind::points;

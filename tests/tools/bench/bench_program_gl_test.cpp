@@ -2,21 +2,20 @@
 // the machine and is not asserted.
 
 #include <catch2/catch.hpp>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "sim/core/files.h"
+#include "tests/core/run_program.h"
+#include "tests/core/temporary_folder.h"
 #include "tests/scenarios/tiny_case.h"
-#include "tools/bench/table.h"
+#include "tools/bench/tables/table.h"
 
 using namespace insonate;
 namespace fs = std::filesystem;
@@ -24,20 +23,17 @@ namespace fs = std::filesystem;
 namespace {
 
 struct Fixture {
-  fs::path folder = fs::temp_directory_path() / ("insonate-bench-" + std::to_string(getpid()));
+  TemporaryFolder temporary;
+  fs::path folder = temporary.path;
   fs::path csv = folder / "table.csv";
   std::string output;
 
   Fixture() { write_case(folder / "tiny", tiny_case()); }
-  ~Fixture() { fs::remove_all(folder); }
 
   int run(const std::string& arguments) {
-    FILE* pipe = popen((std::string(INSONATE_BENCH_PROGRAM) + " " + arguments + " 2>&1").c_str(), "r");
-    REQUIRE(pipe);
-    output.clear();
-    std::array<char, 4096> part;
-    while (const std::size_t got = std::fread(part.data(), 1, part.size(), pipe)) output.append(part.data(), got);
-    return WEXITSTATUS(pclose(pipe));
+    ProgramOutcome outcome = run_program(std::string(INSONATE_BENCH_PROGRAM) + " " + arguments + " 2>&1");
+    output = std::move(outcome.output);
+    return outcome.code;
   }
 
   /// Runs a measurement of two small configurations and checks what every table must hold.

@@ -9,12 +9,12 @@
 #include "sim/core/input_error.h"
 #include "sim/model/quality.h"
 #include "tests/scenarios/tiny_case.h"
-#include "tools/bench/compare.h"
 #include "tools/bench/converged.h"
 #include "tools/bench/display.h"
-#include "tools/bench/plot.h"
-#include "tools/bench/statistics.h"
-#include "tools/bench/table.h"
+#include "tools/bench/tables/compare.h"
+#include "tools/bench/tables/plot.h"
+#include "tools/bench/tables/statistics.h"
+#include "tools/bench/tables/table.h"
 
 using namespace insonate;
 using namespace insonate::bench;
@@ -28,20 +28,6 @@ Table run(const std::string& device, double first_quartile, double median, doubl
 }
 
 }  // namespace
-
-TEST_CASE("quartiles lie between the values that enclose them") {
-  const Spread even = spread_of({4, 1, 3, 2});
-  CHECK(even.first_quartile == 1.75);
-  CHECK(even.median == 2.5);
-  CHECK(even.third_quartile == 3.25);
-  const Spread odd = spread_of({10, 30, 20, 50, 40});
-  CHECK(odd.first_quartile == 20);
-  CHECK(odd.median == 30);
-  CHECK(odd.third_quartile == 40);
-  const Spread one = spread_of({7});
-  CHECK(one.first_quartile == 7);
-  CHECK(one.third_quartile == 7);
-}
 
 TEST_CASE("the root mean square of nothing is 0, of others the root of their mean square") {
   RootMeanSquare rms;
@@ -61,7 +47,7 @@ TEST_CASE("on the front lies what no other setting beats in one and equals in th
         std::vector<bool>{true, true, false, false, true, false});
 }
 
-TEST_CASE("of settings that cannot be told apart the first lies on the front, whichever is faster by chance") {
+TEST_CASE("of settings that cannot be distinguished the first lies on the front, whichever is faster by chance") {
   const Cost usual{{9, 10, 11}, 1.0}, by_chance{{8, 9.5, 11}, 0.999}, faster{{7, 8, 8.9}, 1.0},
       finer{{9, 10, 11}, 0.98}, slower{{12, 13, 14}, 0.999};
   CHECK(on_front({usual, by_chance, slower}) == std::vector<bool>{true, false, false});
@@ -99,7 +85,7 @@ TEST_CASE("what is no table is refused with its place") {
   CHECK_THROWS_WITH(words.number("t.csv", 0, "median_ms"), Catch::Contains("line 2") && Catch::Contains("'fast'"));
 }
 
-TEST_CASE("two runs compare setting by setting, on whatever device, and tell a change from the spread") {
+TEST_CASE("two runs compare setting by setting, on whatever device, and distinguish a change from the spread") {
   const auto compared = compare("old", run("X", 9, 10, 11), "new", run("Y", 17, 20, 24)).changes;
   REQUIRE(compared.size() == 2);
   CHECK(compared[0].setting == "case=a, lines=64");
@@ -117,7 +103,7 @@ TEST_CASE("two runs compare setting by setting, on whatever device, and tell a c
   CHECK_FALSE(within.faster());
 }
 
-TEST_CASE("a run whose errors have grown is told from one that is as accurate, however fast") {
+TEST_CASE("a run whose errors have grown is distinguished from one that is as accurate, however fast") {
   const auto with_error = [](const char* db, const char* grey) {
     Table table = run("X", 9, 10, 11);
     table.columns.emplace_back("error_grey");
@@ -165,11 +151,11 @@ TEST_CASE("runs that cannot be compared are refused") {
     const Table good = run("X", 1, 2, 3);
     Table bad = good;
     bad.rows[1][bad.column("q3_ms")] = none;
-    const auto told = [&](const char* file) {
+    const auto refusal = [&](const char* file) {
       return Catch::Contains(std::string(file) + ": line 3, column 'q3_ms': '" + none + "' is not a positive time");
     };
-    CHECK_THROWS_WITH(compare("old", bad, "new", good), told("old"));
-    CHECK_THROWS_WITH(compare("old", good, "new", bad), told("new"));
+    CHECK_THROWS_WITH(compare("old", bad, "new", good), refusal("old"));
+    CHECK_THROWS_WITH(compare("old", good, "new", bad), refusal("new"));
   }
 }
 
@@ -205,7 +191,7 @@ TEST_CASE("the levels of quality are points of the measured fronts") {
   }
 }
 
-TEST_CASE("the converged reference tells of the places that the fewer samples have") {
+TEST_CASE("the converged reference shows the places that the fewer samples have") {
   Scene scene;
   scene.table = tiny_tissues();
   scene.volume.grid.size = {3, 3, 3};
@@ -257,7 +243,7 @@ TEST_CASE("a picture's error counts what is displayed: in dB within the dynamic 
     CHECK(error.db == Approx(11));
     CHECK(error.grey == Approx(11 * 255 / 55.0));
   }
-  // Below black nothing is told apart.
+  // Below black all is alike.
   CHECK(error_of(picture(80, 60, -70), converged, 55).db == Approx(35));
   CHECK(error_of(converged, picture(80, 60, -70), 55).db == 0);
   CHECK(error_of(picture(80, 60, 3), picture(80, 60, 1), 55).db == 0);

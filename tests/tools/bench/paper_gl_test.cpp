@@ -44,14 +44,14 @@ void check(const Settings& settings, const Pose& pose) {
   const test::Worst intensity = test::worst(expected.intensity, got.intensity,
                                             test::tolerated(expected, uncertain, &ReferenceScan::intensity,
                                                             [](double value) { return 1e-4 * std::max(value, 1e-6); }));
-  INFO(test::told("I", intensity));
+  INFO(test::described("I", intensity));
   CHECK(intensity.error < 1);
   const double brightest = *std::max_element(expected.reflection.pixels.begin(), expected.reflection.pixels.end());
   REQUIRE(brightest > 0);
   const test::Worst reflection = test::worst(
       expected.reflection, got.reflection,
       test::tolerated(expected, uncertain, &ReferenceScan::reflection, [&](double) { return 1e-4 * brightest; }));
-  INFO(test::told("R", reflection));
+  INFO(test::described("R", reflection));
   CHECK(reflection.error < 1);
 }
 

@@ -38,7 +38,7 @@ struct Lab : Workplace {
   }
 
   void make() const {
-    const Outcome outcome = run(import());
+    const ProgramOutcome outcome = run(import());
     INFO(outcome.errors);
     REQUIRE(outcome.code == 0);
   }
@@ -55,7 +55,7 @@ std::string pose_text(const Pose& pose) {
 
 TEST_CASE("insonate-case import makes a case with named targets, landmarks and views, and says what it did") {
   const Lab lab;
-  const Outcome outcome = lab.run(lab.import("--label-table total --name 'Patient 7'"));
+  const ProgramOutcome outcome = lab.run(lab.import("--label-table total --name 'Patient 7'"));
   INFO(outcome.errors << outcome.output);
   REQUIRE(outcome.code == 0);
   CHECK(contains(outcome.errors, "Importing: 100 %\n"));
@@ -81,7 +81,7 @@ TEST_CASE("a case with an expert's view is written over only when that is asked 
   ReferenceView expert = read_case(lab.out).views.front();
   expert.name = "expert";
   append_view(lab.out, expert);
-  const Outcome again = lab.run(lab.import("--label-table total"));
+  const ProgramOutcome again = lab.run(lab.import("--label-table total"));
   CHECK(again.code == 2);
   CHECK(contains(again.errors, "there is a case already"));
   CHECK(read_case(lab.out).find_view("expert"));
@@ -92,11 +92,11 @@ TEST_CASE("a case with an expert's view is written over only when that is asked 
 TEST_CASE("insonate-case import refuses in a sentence what it cannot use, and writes nothing") {
   const Lab lab;
   const auto refused = [&](const std::string& arguments, const std::string& words) {
-    const Outcome outcome = lab.run(arguments);
+    const ProgramOutcome outcome = lab.run(arguments);
     INFO(outcome.output << outcome.errors);
     CHECK(outcome.code == 2);
     CHECK(outcome.output.empty());
-    CHECK(contains(outcome.errors, "insonate-case: "));  // after what was told of the progress
+    CHECK(contains(outcome.errors, "insonate-case: "));  // after the progress
     CHECK(contains(outcome.errors, words));
   };
   refused(lab.import(""), "labels.nrrd: its header does not name its labels");
@@ -113,8 +113,8 @@ TEST_CASE("insonate-case add-view adds the plane of a pose file or of a moment i
   const std::size_t before = read_case(lab.out).views.size();
   const Pose held = read_case(lab.folder.path / "scan").find_view("front")->patient_from_probe;
   const auto pose_file = lab.folder.put("pose.txt", pose_text(held));
-  const Outcome by_pose = lab.run("add-view " + lab.out + " --name by_pose --targets kidney_right --pose " +
-                                  pose_file.string() + " --landmarks kidney_right_centre --depth 140");
+  const ProgramOutcome by_pose = lab.run("add-view " + lab.out + " --name by_pose --targets kidney_right --pose " +
+                                         pose_file.string() + " --landmarks kidney_right_centre --depth 140");
   INFO(by_pose.errors);
   REQUIRE(by_pose.code == 0);
 
@@ -130,7 +130,7 @@ TEST_CASE("insonate-case add-view adds the plane of a pose file or of a moment i
   }
   const auto log = lab.folder.put("expert.igs.mha", write_sequence(samples)).string();
   const std::string add = "add-view " + lab.out + " --name by_log --targets kidney_right,spleen --log " + log;
-  const Outcome by_log = lab.run(add + " --at 1.99 --title 'As the expert held it'");
+  const ProgramOutcome by_log = lab.run(add + " --at 1.99 --title 'As the expert held it'");
   INFO(by_log.errors);
   REQUIRE(by_log.code == 0);
 

@@ -2,15 +2,13 @@
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
-#include "sim/core/files.h"
-#include "tests/volume/temporary_folder.h"
+#include "tests/core/run_program.h"
+#include "tests/core/temporary_folder.h"
 
 namespace insonate {
 
@@ -23,47 +21,31 @@ landmarks = [{ name = "middle", at = [12, 10, 8] }]
 views = [{ name = "front", title = "From the front", probe = "curvilinear", aim = "middle", from = [9, 0, 7], marker = [1, 0, 0], press_mm = 1, landmarks = ["middle"], targets = ["ball"] }]
 )";
 
-struct Outcome {
-  int code;
-  std::string output, errors;
-};
-
-inline std::string text_of(const std::filesystem::path& file) {
-  return std::filesystem::file_size(file) > 0 ? read_file(file) : "";
-}
-
-inline bool contains(const std::string& text, const std::string& words) {
-  return text.find(words) != std::string::npos;
-}
-
 // A folder with a recipe. Runs the program there and captures what it prints.
 struct Workplace {
   TemporaryFolder folder;
   std::filesystem::path recipe = folder.put("ball.toml", kBallRecipe);
   std::filesystem::path made = folder.path / "ball";
 
-  Outcome run(const std::string& arguments) const {
-    const std::filesystem::path output = folder.path / "output", errors = folder.path / "errors";
-    const std::string line = std::string(INSONATE_CASE_PROGRAM) + " " + arguments;
-    const int status = std::system((line + " >" + output.string() + " 2>" + errors.string()).c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(output), text_of(errors)};
+  ProgramOutcome run(const std::string& arguments) const {
+    return run_program(std::string(INSONATE_CASE_PROGRAM) + " " + arguments);
   }
 
-  Outcome make(const std::filesystem::path& to, const std::string& more = "") const {
+  ProgramOutcome make(const std::filesystem::path& to, const std::string& more = "") const {
     return run("phantom --recipe " + recipe.string() + " " + more + " " + to.string());
   }
 
   nlohmann::json inspect(const std::filesystem::path& what) const {
-    const Outcome told = run("inspect --json " + what.string());
-    INFO(told.errors);
-    REQUIRE(told.code == 0);
-    CHECK(told.errors.empty());
-    return nlohmann::json::parse(told.output);
+    const ProgramOutcome outcome = run("inspect --json " + what.string());
+    INFO(outcome.errors);
+    REQUIRE(outcome.code == 0);
+    CHECK(outcome.errors.empty());
+    return nlohmann::json::parse(outcome.output);
   }
 
   // Checks for exit code 2, nothing on standard output, and one sentence that contains each of the words.
   void refused(const std::string& arguments, const std::vector<std::string>& words) const {
-    const Outcome outcome = run(arguments);
+    const ProgramOutcome outcome = run(arguments);
     INFO(arguments << "\n" << outcome.output << outcome.errors);
     CHECK(outcome.code == 2);
     CHECK(outcome.output.empty());

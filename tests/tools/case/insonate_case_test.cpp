@@ -13,7 +13,7 @@ using Json = nlohmann::json;
 
 TEST_CASE("insonate-case phantom makes the recipe's case and says how far it is") {
   const Workplace place;
-  const Outcome outcome = place.make(place.made, "--set radius_mm=3");
+  const ProgramOutcome outcome = place.make(place.made, "--set radius_mm=3");
   INFO(outcome.errors);
   REQUIRE(outcome.code == 0);
   CHECK(outcome.output.empty());
@@ -41,11 +41,11 @@ TEST_CASE("insonate-case phantom refuses a folder before the work, and a bad rec
   };
   const std::string recipe = "--recipe " + place.recipe.string() + " ";
   // Not a line of progress: refused() counts the lines.
-  refused(recipe + thesis.string(), {thesis.string(), "something that is no case is in the way"});
-  refused(recipe + thesis.string() + "/", {"something that is no case is in the way"});
+  refused(recipe + thesis.string(), {thesis.string(), "something that is not a case is in the way"});
+  refused(recipe + thesis.string() + "/", {"something that is not a case is in the way"});
   refused(recipe + (thesis / "chapter.tex" / "case").string(), {"the folder cannot be made"});
   refused(recipe + "/proc/none/case", {"the folder cannot be made"});
-  refused(recipe + ".", {"it is no name of a folder"});
+  refused(recipe + ".", {"it is not the name of a folder"});
   CHECK(read_file(thesis / "chapter.tex") == "years of work");
 
   const std::string to = place.made.string();
@@ -56,7 +56,7 @@ TEST_CASE("insonate-case phantom refuses a folder before the work, and a bad rec
   CHECK_FALSE(fs::exists(place.made));
 }
 
-TEST_CASE("insonate-case inspect tells what a case holds") {
+TEST_CASE("insonate-case inspect reports what a case holds") {
   const Workplace place;
   REQUIRE(place.make(place.made).code == 0);
   const Json about = place.inspect(place.made);
@@ -71,13 +71,13 @@ TEST_CASE("insonate-case inspect tells what a case holds") {
   CHECK(about["landmarks"][0]["position_mm"] == Json({12, 10, 8}));
   CHECK(about["views"][0]["patient_from_probe"].size() == 16);
 
-  const Outcome words = place.run("inspect " + place.made.string());
+  const ProgramOutcome words = place.run("inspect " + place.made.string());
   CHECK(words.code == 0);
   for (const char* part : {"24 x 20 x 20 voxels", "i to the left, j to the back, k to the head", "From the front"})
     CHECK(contains(words.output, part));
 }
 
-TEST_CASE("insonate-case inspect tells what a CT file holds") {
+TEST_CASE("insonate-case inspect reports what a CT file holds") {
   const Workplace place;
   REQUIRE(place.make(place.made).code == 0);
   const Json about = place.inspect(place.made / "ct.nrrd");
@@ -88,7 +88,7 @@ TEST_CASE("insonate-case inspect tells what a CT file holds") {
   CHECK_FALSE(about.contains("labels"));
 }
 
-TEST_CASE("insonate-case inspect tells what a DICOM folder holds, and the series that it left") {
+TEST_CASE("insonate-case inspect reports what a DICOM folder holds, and the series that it left") {
   const Workplace place;
   const fs::path folder = place.folder.path / "dicom";
   fs::create_directories(folder);

@@ -27,10 +27,10 @@ TEST_CASE("A picture shows what the look shows, and the view's plane") {
   REQUIRE(place.make(place.made).code == 0);
   const std::string out = (place.folder.path / "picture.png").string();
   const auto draw = [&](const std::string& options) {
-    const Outcome told =
+    const ProgramOutcome outcome =
         place.run("picture --case " + place.made.string() + " --width 120 --height 90 " + options + " " + out);
-    INFO(told.errors);
-    REQUIRE(told.code == 0);
+    INFO(outcome.errors);
+    REQUIRE(outcome.code == 0);
     return read_png(out);
   };
   const auto bright = [](const Image<Rgba8>& image) {
@@ -50,10 +50,10 @@ TEST_CASE("A picture that cannot be drawn is refused") {
   REQUIRE(place.make(place.made).code == 0);
   const std::string patient = "picture --case " + place.made.string(), out = (place.folder.path / "p.png").string();
   const auto refused = [&](const std::string& options, const std::string& words) {
-    const Outcome told = place.run(patient + " " + options);
-    INFO(told.errors);
-    CHECK(told.code == 2);
-    CHECK(contains(told.errors, words));
+    const ProgramOutcome outcome = place.run(patient + " " + options);
+    INFO(outcome.errors);
+    CHECK(outcome.code == 2);
+    CHECK(contains(outcome.errors, words));
     CHECK(!std::filesystem::exists(out));
   };
   refused("--look Bons " + out, "did you mean 'Bones'");

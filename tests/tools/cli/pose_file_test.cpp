@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "tests/volume/temporary_folder.h"
+#include "tests/core/temporary_folder.h"
 
 using namespace insonate;
 
@@ -27,7 +27,7 @@ TEST_CASE("a pose file that cannot be used is refused with the place of what is 
       {"[1,0,0,0, 0,1,0,9, 0,0,1,0, 0,0,0,1, \"x\"]", "pose 2, number 1 of 16: it is of type string"},
       {"[[1,0,0,0],[0,1,0],[0,0,1,0],[0,0,0,1,0]]", "row 2: it has not 4 numbers"},
       {"[" + kRows + ", [1,0]]", "pose 2, matrix: it has not 16 numbers"},
-      {"[1,0,0,0,\n0,NaN,0,9, 0,0,1,0, 0,0,0,1]", "line 2: what stands here is no JSON, whose numbers are finite"},
+      {"[1,0,0,0,\n0,NaN,0,9, 0,0,1,0, 0,0,0,1]", "line 2: this is not JSON with finite numbers"},
       {"[1,0,0,0, 0,1e999,0,9, 0,0,1,0, 0,0,0,1]", "a number is larger than double precision holds"},
       {"{\"pose\": 3}", "there is no key 'patient_from_probe'"},
       {"{\"patient_from_probe\": 3}", "'patient_from_probe' is not an array"},

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <string>
 
-#include "tests/volume/temporary_folder.h"
+#include "tests/core/temporary_folder.h"
 #include "tools/cli/program.h"
 
 using namespace insonate;

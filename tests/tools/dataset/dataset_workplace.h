@@ -1,7 +1,6 @@
 #pragma once
 
 #include <catch2/catch.hpp>
-#include <sys/wait.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -9,6 +8,7 @@
 #include <string>
 
 #include "sim/core/files.h"
+#include "tests/core/run_program.h"
 #include "tests/tools/dataset/study_folder.h"
 
 namespace insonate::test {
@@ -47,11 +47,6 @@ slide_mm = 5
 kind = "skin"
 )";
 
-struct Ran {
-  int code;
-  std::string out, errors;
-};
-
 struct Workplace : StudyFolder {
   std::filesystem::path study = file("study.toml", kStudy);
 
@@ -59,22 +54,14 @@ struct Workplace : StudyFolder {
   ~Workplace() { unsetenv("XDG_CACHE_HOME"); }
 
   /// @param before  settings of the environment and limits, in front of the program
-  Ran run(const std::string& arguments, const std::string& before = "") const {
-    const std::filesystem::path out = path / "out", errors = path / "errors";
-    const std::string line = "cd " + path.string() + " && " + before + " " + INSONATE_DATASET_PROGRAM + " " +
-                             arguments + " >" + out.string() + " 2>" + errors.string();
-    const int status = std::system(line.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(out), text_of(errors)};
+  ProgramOutcome run(const std::string& arguments, const std::string& before = "") const {
+    return run_program("cd " + path.string() + " && " + before + " " + INSONATE_DATASET_PROGRAM + " " + arguments);
   }
   std::string make(const std::string& arguments, const std::string& before = "") const {
-    const Ran ran = run("make study.toml " + arguments, before);
+    const ProgramOutcome ran = run("make study.toml " + arguments, before);
     INFO(ran.errors);
     REQUIRE(ran.code == 0);
-    return ran.out;
-  }
-  static std::string text_of(const std::filesystem::path& file) {
-    std::error_code error;
-    return std::filesystem::file_size(file, error) > 0 && !error ? read_file(file) : "";
+    return ran.output;
   }
 };
 

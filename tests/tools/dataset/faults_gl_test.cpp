@@ -66,9 +66,9 @@ TEST_CASE("a killed run leaves no shard that looks finished, and the next one ma
       finished.emplace(shard, identity_of(entry.path()));
     }
     CHECK(finished.size() >= 2);
-    const Ran missing = work.run("status --missing " + name);
+    const ProgramOutcome missing = work.run("status --missing " + name);
     CHECK(missing.code == (finished.size() == 6 ? 0 : 1));
-    if (missing.code == 1) work.make(name + " --shards " + missing.out.substr(0, missing.out.find('\n')));
+    if (missing.code == 1) work.make(name + " --shards " + missing.output.substr(0, missing.output.find('\n')));
     for (const auto& [shard, before] : finished) CHECK(identity_of(folder / "shards" / shard) == before);
     // Completes the manifest, if the kill came between the last shard and it, and makes nothing.
     CHECK(work.make(name).empty());
@@ -95,7 +95,7 @@ TEST_CASE("what cannot be done ends in one sentence and code 2, and leaves nothi
       {"check study.toml", "study.toml/manifest.json: there is no such file"},
   };
   for (const auto& bad : cases) {
-    const Ran ran = work.run(bad.arguments);
+    const ProgramOutcome ran = work.run(bad.arguments);
     INFO(bad.arguments << " -> " << ran.errors);
     CHECK(ran.code == 2);
     CHECK(ran.errors.find(bad.problem) != std::string::npos);
@@ -119,12 +119,12 @@ TEST_CASE("what cannot be done ends in one sentence and code 2, and leaves nothi
   CHECK(work.run("make study.toml set", "INSONATE_ASSETS=" + (work.path / "assets").string())
             .errors.find("this dataset was begun with another tissue table") != std::string::npos);
 
-  const Ran ranks = work.run("make study.toml set", "OMPI_COMM_WORLD_SIZE=2 OMPI_COMM_WORLD_RANK=2");
+  const ProgramOutcome ranks = work.run("make study.toml set", "OMPI_COMM_WORLD_SIZE=2 OMPI_COMM_WORLD_RANK=2");
   CHECK(ranks.code == 2);
   CHECK(ranks.errors.find("the rank '2' of '2' processes does not exist") != std::string::npos);
 
   // No room for a shard: 16 blocks of 512 or 1024 bytes.
-  const Ran full = work.run("make study.toml set --shards 1", "ulimit -f 16;");
+  const ProgramOutcome full = work.run("make study.toml set --shards 1", "ulimit -f 16;");
   INFO(full.errors);
   CHECK(full.code == 2);
   CHECK(full.errors.find("shards/00001.h5: it cannot be written") != std::string::npos);
@@ -142,17 +142,17 @@ TEST_CASE("damaged shards and shards of other studies are found") {
     std::string bytes = sound;
     for (std::size_t i = 0; i < 64; ++i) bytes[at + i] = char(bytes[at + i] ^ 0x5a);
     write_file(shard, bytes);
-    const Ran checked = work.run("check set");
-    INFO(checked.out);
+    const ProgramOutcome checked = work.run("check set");
+    INFO(checked.output);
     CHECK(checked.code == 1);
-    CHECK(checked.out.find("00002.h5") != std::string::npos);
-    CHECK(checked.out.find("5 shards are sound, 1 are damaged") != std::string::npos);
+    CHECK(checked.output.find("00002.h5") != std::string::npos);
+    CHECK(checked.output.find("5 shards are sound, 1 are damaged") != std::string::npos);
   }
   // The same images under another name are not what the manifest lists.
   write_file(shard, read_file(work.path / "set" / "shards" / "00003.h5"));
-  CHECK(work.run("check set").out.find("it is not the shard that the manifest lists") != std::string::npos);
+  CHECK(work.run("check set").output.find("it is not the shard that the manifest lists") != std::string::npos);
   fs::remove(shard);
-  CHECK(work.run("status --missing set").out == "2\n");
+  CHECK(work.run("status --missing set").output == "2\n");
   work.make("set");
   CHECK((read_file(shard) == sound));  // its bytes would be printed
 
@@ -160,7 +160,7 @@ TEST_CASE("damaged shards and shards of other studies are found") {
   REQUIRE(work.run("make other.toml other").code == 0);
   CHECK(work.run("merge set other").errors.find("it holds the dataset of another study") != std::string::npos);
   write_file(shard, read_file(work.path / "other" / "shards" / "00002.h5"));
-  CHECK(work.run("check set").out.find("it is a shard of another study") != std::string::npos);
+  CHECK(work.run("check set").output.find("it is a shard of another study") != std::string::npos);
   CHECK(work.run("make study.toml set").errors.find("it is a shard of another study") != std::string::npos);
   write_file(shard, "not HDF5");
   CHECK(work.run("make study.toml set").errors.find("it is not a shard of a dataset") != std::string::npos);

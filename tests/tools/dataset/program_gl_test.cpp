@@ -77,9 +77,9 @@ TEST_CASE("one process, ranks, single shards and merged folders give the same by
 
   work.make("narrow", "LP_NUM_THREADS=1");
   CHECK(files_of(work.path / "narrow") == whole);
-  const Ran checked = work.run("check whole");
+  const ProgramOutcome checked = work.run("check whole");
   CHECK(checked.code == 0);
-  CHECK(checked.out.find("6 shards are sound, 0 are damaged, 0 are missing") != std::string::npos);
+  CHECK(checked.output.find("6 shards are sound, 0 are damaged, 0 are missing") != std::string::npos);
 }
 
 TEST_CASE("any image can be made again alone, to the bit") {

@@ -15,11 +15,10 @@
 #include "sim/gl/headless_context.h"
 #include "sim/reconstruction/tracked_picture.h"
 #include "sim/volume/ct_reader.h"
+#include "tests/core/run_program.h"
 #include "tests/imaging/test_body.h"
-#include "tests/tools/render/render_program.h"
 
 using namespace insonate;
-using insonate::test::Outcome;
 namespace fs = std::filesystem;
 
 namespace {
@@ -29,7 +28,7 @@ constexpr int kWidth = 160, kHeight = 120;
 
 /// A folder with the test body's CT, and a recording of a sweep over it whose frame is shifted by 3, -2, 4 mm.
 struct Workplace {
-  test::TestFolder folder;
+  TemporaryFolder folder;
   Volume<std::int16_t> ct;
 
   explicit Workplace(bool with_images = true) {
@@ -63,9 +62,8 @@ struct Workplace {
     recorder.finish();
   }
   std::string in(const char* name) const { return (folder.path / name).string(); }
-  Outcome run(const std::string& arguments, const std::string& search = "--search-mm 12 --search-deg 8") const {
-    return test::run(folder, INSONATE_REGISTER_PROGRAM,
-                     "--ct " + in("ct.nrrd") + " --depth 100 " + search + " " + arguments + " >" + in("printed"));
+  ProgramOutcome run(const std::string& arguments, const std::string& search = "--search-mm 12 --search-deg 8") const {
+    return run_program(INSONATE_REGISTER_PROGRAM " --ct " + in("ct.nrrd") + " --depth 100 " + search + " " + arguments);
   }
 };
 
@@ -73,12 +71,12 @@ struct Workplace {
 
 TEST_CASE("a recording is registered, and everything about it lies in a new folder") {
   const Workplace place;
-  const Outcome outcome = place.run(place.in("sweep.igs.mha") + " " + place.in("out"));
-  INFO(outcome.errors << test::bytes_of(place.in("printed")));
+  const ProgramOutcome outcome = place.run(place.in("sweep.igs.mha") + " " + place.in("out"));
+  INFO(outcome.errors << outcome.output);
   REQUIRE(outcome.code == 0);
-  CHECK(test::bytes_of(place.in("printed")).find("Converged: the expected error") == 0);
+  CHECK(outcome.output.find("Converged: the expected error") == 0);
   const fs::path out = place.in("out");
-  const auto json = nlohmann::json::parse(test::bytes_of(out / "registration.json"));
+  const auto json = nlohmann::json::parse(read_file(out / "registration.json"));
   CHECK(json["converged"] == true);
   CHECK(json["frames"] == 12);
   CHECK(json["similarity_after"] > json["similarity_before"]);
@@ -90,48 +88,48 @@ TEST_CASE("a recording is registered, and everything about it lies in a new fold
     CHECK(json["parameters"][row == 0 ? "tx" : row == 1 ? "ty" : "tz"]["standard_deviation_mm"] > 0);
   }
   for (const char* file : {"ct_from_sweep.tfm", "sweep_from_ct.tfm", "scene.mrml", "index.html"})
-    CHECK(test::bytes_of(out / file).find("Converged") != std::string::npos);
-  const std::string csv = test::bytes_of(out / "evaluations.csv");
+    CHECK(read_file(out / file).find("Converged") != std::string::npos);
+  const std::string csv = read_file(out / "evaluations.csv");
   CHECK(csv.find("evaluation,stage,similarity,tx_mm,ty_mm,tz_mm,rx_mm,ry_mm,rz_mm\n0,") == 0);
   CHECK(std::size_t(std::count(csv.begin(), csv.end(), '\n')) == json["evaluations"].get<std::size_t>() + 1);
   CHECK(read_ct(out / "ct.nrrd").grid.spacing.x == Approx(1).epsilon(0.2));  // the program resamples what it reads
   CHECK(read_labels(out / "sweep.nrrd").grid.size.x > 50);
   std::size_t shown = 0;
-  const std::string page = test::bytes_of(out / "index.html");
+  const std::string page = read_file(out / "index.html");
   for (const auto& picture : fs::directory_iterator(out / "pictures")) {
     CHECK(page.find("src='pictures/" + picture.path().filename().string() + "'") != std::string::npos);
     ++shown;
   }
   CHECK(shown == 20);
   // A name that is taken is refused before any work.
-  const Outcome again = place.run(place.in("sweep.igs.mha") + " " + place.in("out"));
+  const ProgramOutcome again = place.run(place.in("sweep.igs.mha") + " " + place.in("out"));
   CHECK(again.code == 2);
 }
 
 TEST_CASE("a registration that does not converge exits with 3 and says so in every file") {
   const Workplace place;
   // The search may not leave the start, which is 50 mm off.
-  place.folder.file("start.txt", "1 0 0 40 0 1 0 0 0 0 1 30 0 0 0 1\n");
-  const Outcome outcome =
+  place.folder.put("start.txt", "1 0 0 40 0 1 0 0 0 0 1 30 0 0 0 1\n");
+  const ProgramOutcome outcome =
       place.run("--start " + place.in("start.txt") + " " + place.in("sweep.igs.mha") + " " + place.in("out"),
                 "--search-mm 0 --search-deg 0");
-  INFO(outcome.errors << test::bytes_of(place.in("printed")));
+  INFO(outcome.errors << outcome.output);
   REQUIRE(outcome.code == 3);
-  CHECK(test::bytes_of(place.in("printed")).find("Not converged: ") == 0);
+  CHECK(outcome.output.find("Not converged: ") == 0);
   const fs::path out = place.in("out");
-  CHECK(nlohmann::json::parse(test::bytes_of(out / "registration.json"))["converged"] == false);
+  CHECK(nlohmann::json::parse(read_file(out / "registration.json"))["converged"] == false);
   for (const char* file : {"ct_from_sweep.tfm", "sweep_from_ct.tfm", "scene.mrml", "index.html"})
-    CHECK(test::bytes_of(out / file).find("Not converged: ") != std::string::npos);
+    CHECK(read_file(out / file).find("Not converged: ") != std::string::npos);
 }
 
 TEST_CASE("what insonate-register cannot use it refuses in a sentence, with exit code 2") {
   const Workplace place;
-  place.folder.file("away.txt", "1 0 0 0 0 1 0 -100 0 0 1 0 0 0 0 1\n");
-  place.folder.file("far.txt", "1 0 0 0 0 1 0 0 0 0 1 900 0 0 0 1\n");
-  place.folder.file("probe.toml", "kind = \"convex\"\n");
+  place.folder.put("away.txt", "1 0 0 0 0 1 0 -100 0 0 1 0 0 0 0 1\n");
+  place.folder.put("far.txt", "1 0 0 0 0 1 0 0 0 0 1 900 0 0 0 1\n");
+  place.folder.put("probe.toml", "kind = \"convex\"\n");
   const std::string sweep = place.in("sweep.igs.mha") + " " + place.in("out");
   const auto refused = [&](const std::string& arguments, const std::string& sentence) {
-    const Outcome outcome = place.run(arguments);
+    const ProgramOutcome outcome = place.run(arguments);
     INFO(arguments << ": " << outcome.errors);
     CHECK(outcome.code == 2);
     CHECK(outcome.errors.find(sentence) != std::string::npos);
@@ -160,7 +158,7 @@ TEST_CASE("recordings of PLUS without what a registration needs are refused in a
     const std::string name = recording.path().filename().string();
     if (name.find(".igs.") == std::string::npos) continue;
     ++tried;
-    const Outcome outcome = place.run(recording.path().string() + " " + place.in("out"));
+    const ProgramOutcome outcome = place.run(recording.path().string() + " " + place.in("out"));
     INFO(name << ": " << outcome.errors);
     CHECK(outcome.code == 2);
     CHECK(std::count(outcome.errors.begin(), outcome.errors.end(), '\n') == 1);

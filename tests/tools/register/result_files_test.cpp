@@ -10,7 +10,7 @@
 #include <string>
 
 #include "sim/core/input_error.h"
-#include "tests/tools/render/render_program.h"
+#include "tests/core/run_program.h"
 #include "tools/register/start_transform.h"
 
 using namespace insonate;
@@ -48,7 +48,7 @@ TEST_CASE("the scene places the sweep behind its transform") {
 }
 
 TEST_CASE("landmarks give the start that maps them, and bad ones are refused in a sentence") {
-  const test::TestFolder folder;
+  const TemporaryFolder folder;
   const glm::dmat4 truth =
       glm::translate(glm::dmat4(1.0), glm::dvec3(5, -8, 100)) * glm::rotate(glm::dmat4(1.0), 0.7, glm::dvec3(1, 0, 0));
   std::ostringstream text;
@@ -58,11 +58,11 @@ TEST_CASE("landmarks give the start that maps them, and bad ones are refused in 
     const glm::dvec4 in_ct = truth * glm::dvec4(point, 1);
     text << point.x << " " << point.y << " " << point.z << " " << in_ct.x << " " << in_ct.y << " " << in_ct.z << "\n";
   }
-  const glm::dmat4 found = start_from_landmarks(folder.file("landmarks.txt", text.str()).string());
+  const glm::dmat4 found = start_from_landmarks(folder.put("landmarks.txt", text.str()).string());
   for (int column = 0; column < 4; ++column)
     for (int row = 0; row < 4; ++row) CHECK(found[column][row] == Approx(truth[column][row]).margin(1e-9));
   const auto refused = [&](const std::string& bad, const std::string& sentence) {
-    const std::string file = folder.file("bad.txt", bad).string();
+    const std::string file = folder.put("bad.txt", bad).string();
     CHECK_THROWS_WITH(start_from_landmarks(file), Catch::Contains(sentence));
   };
   refused("1 2 3 4 5 6\n1 2 3", "it holds 9 numbers; write six per landmark, of three or more landmarks.");

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "tests/tools/render/render_program.h"
+#include "sim/core/files.h"
 
 namespace insonate::test {
 namespace {
@@ -20,7 +20,7 @@ glm::dvec3 vector(std::istream& from) {
 }  // namespace
 
 NrrdFile::NrrdFile(const std::filesystem::path& file) {
-  const std::string all = bytes_of(file);
+  const std::string all = read_file(file);
   const std::size_t end = std::min(all.find("\n\n"), all.size());
   std::istringstream header(all.substr(0, end));
   std::string line;

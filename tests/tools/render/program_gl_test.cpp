@@ -41,7 +41,8 @@ TEST_CASE("the picture is what the stages end in, and the command line is above 
   const Scene scene;
   const std::string common = "--pose " + scene.in("pose.txt") + " --settings " + scene.in("small.toml");
   for (const std::string by : {"", " --reference"}) {
-    const Outcome outcome = scene.render(common + by + " --gain 7 --width 70 --stages " + scene.in("stages") + "/");
+    const ProgramOutcome outcome =
+        scene.render(common + by + " --gain 7 --width 70 --stages " + scene.in("stages") + "/");
     INFO(outcome.errors);
     REQUIRE(outcome.code == 0);
     const StageFolder stages(scene.in("stages"));
@@ -63,7 +64,7 @@ TEST_CASE("the picture is what the stages end in, and the command line is above 
 TEST_CASE("a level of quality takes its share of the settings' samples and pixels") {
   const Scene scene;
   const std::string common = "--pose " + scene.in("pose.txt") + " --settings " + scene.in("small.toml");
-  const Outcome outcome = scene.render(common + " --quality exact --height 40 --stages " + scene.in("stages"));
+  const ProgramOutcome outcome = scene.render(common + " --quality exact --height 40 --stages " + scene.in("stages"));
   INFO(outcome.errors);
   REQUIRE(outcome.code == 0);
   const auto settings = StageFolder(scene.in("stages")).description.at("settings");
@@ -74,7 +75,7 @@ TEST_CASE("a level of quality takes its share of the settings' samples and pixel
 
 TEST_CASE("model W has its own settings file and picture, alike from the graphics card and from the reference") {
   const Scene scene;
-  scene.folder.file("wein.toml", "samples = 80\nimage_width = 60\nimage_height = 50\nreflection_share = 0.3\n");
+  scene.folder.put("wein.toml", "samples = 80\nimage_width = 60\nimage_height = 50\nreflection_share = 0.3\n");
   const std::string common = "--model W --pose " + scene.in("pose.txt") + " --settings ";
   REQUIRE(scene.render(common + scene.in("wein.toml")).code == 0);
   const std::vector<std::uint8_t> drawn = grey_levels(scene.in("image.png"));
@@ -89,7 +90,7 @@ TEST_CASE("model W has its own settings file and picture, alike from the graphic
 
   REQUIRE(scene.render("--model W --pose " + scene.in("pose.txt")).code == 0);
   CHECK(grey_levels(scene.in("image.png")).size() == 128 * 96);
-  Outcome outcome = scene.render(common + scene.in("small.toml"));
+  ProgramOutcome outcome = scene.render(common + scene.in("small.toml"));
   CHECK(outcome.code == 2);
   CHECK(outcome.errors.find("small.toml: line 4, column 1: the key 'gain_db' is unknown here") != std::string::npos);
   outcome = scene.render("--model W --gain 3");
@@ -100,15 +101,15 @@ TEST_CASE("model W has its own settings file and picture, alike from the graphic
 TEST_CASE("the example of the library renders the picture that insonate-render renders") {
   const Scene scene;
   REQUIRE(scene.render("").code == 0);
-  const Outcome outcome =
-      run(scene.folder, INSONATE_EXAMPLE_PROGRAM, scene.in("ct.nrrd") + " " + scene.in("example.png"));
+  const ProgramOutcome outcome =
+      run_program(INSONATE_EXAMPLE_PROGRAM " " + scene.in("ct.nrrd") + " " + scene.in("example.png"));
   INFO(outcome.errors);
   REQUIRE(outcome.code == 0);
   const std::vector<std::uint8_t> grey = grey_levels(scene.in("example.png"));
   CHECK(grey == grey_levels(scene.in("image.png")));
   CHECK(*std::max_element(grey.begin(), grey.end()) > 100);
 
-  CHECK(run(scene.folder, INSONATE_EXAMPLE_PROGRAM, scene.in("none.nrrd") + " " + scene.in("none.png")).code == 2);
+  CHECK(run_program(INSONATE_EXAMPLE_PROGRAM " " + scene.in("none.nrrd") + " " + scene.in("none.png")).code == 2);
 }
 
 TEST_CASE("a sweep becomes a volume in which the patient's parts lie where they are") {
@@ -116,13 +117,12 @@ TEST_CASE("a sweep becomes a volume in which the patient's parts lie where they 
   std::string poses;
   for (int plane = 0; plane < 8; ++plane)
     poses += "1 0 0 0  0 1 0 9  0 0 1 " + std::to_string(3 * plane - 10) + "  0 0 0 1\n";
-  scene.folder.file("poses.txt", poses);
+  scene.folder.put("poses.txt", poses);
   const std::string volume = scene.in("swept.nrrd");
   for (const std::string& how :
        {"--pose " + scene.in("pose.txt") + " --sweep 30 --planes 9", "--freehand " + scene.in("poses.txt")}) {
-    const Outcome outcome =
-        run(scene.folder, INSONATE_RENDER_PROGRAM,
-            "--ct " + scene.in("ct.nrrd") + " --probe phased --depth 60 --voxel 1.5 " + how + " " + volume);
+    const ProgramOutcome outcome = run_program(INSONATE_RENDER_PROGRAM " --ct " + scene.in("ct.nrrd") +
+                                               " --probe phased --depth 60 --voxel 1.5 " + how + " " + volume);
     INFO(how << ": " << outcome.errors);
     REQUIRE(outcome.code == 0);
     const Volume<std::int16_t> swept = NrrdFile(volume).volume<std::int16_t>();
@@ -136,22 +136,21 @@ TEST_CASE("a sweep becomes a volume in which the patient's parts lie where they 
     CHECK(around(swept, {45, 20, 0}) == -1);
 
     // The program's own CT reader accepts it.
-    CHECK(run(scene.folder, INSONATE_RENDER_PROGRAM,
-              "--ct " + volume + " --pose " + scene.in("pose.txt") + " --settings " + scene.in("small.toml") + " " +
-                  scene.in("image.png"))
+    CHECK(run_program(INSONATE_RENDER_PROGRAM " --ct " + volume + " --pose " + scene.in("pose.txt") + " --settings " +
+                      scene.in("small.toml") + " " + scene.in("image.png"))
               .code == 0);
   }
-  const Outcome one_plane = run(scene.folder, INSONATE_RENDER_PROGRAM,
-                                "--ct " + scene.in("ct.nrrd") + " --freehand " + scene.in("pose.txt") + " " + volume);
+  const ProgramOutcome one_plane = run_program(INSONATE_RENDER_PROGRAM " --ct " + scene.in("ct.nrrd") + " --freehand " +
+                                               scene.in("pose.txt") + " " + volume);
   CHECK(one_plane.code == 2);
   CHECK(one_plane.errors.find("pose.txt: it holds 1 of the 2 to 2048 poses of a sweep") != std::string::npos);
   std::string and_back;
   for (const double z : {-6.0, 0.0, 6.0, 0.0})
     and_back += "1 0 0 0  0 1 0 9  0 0 1 " + std::to_string(z) + "  0 0 0 1\n";
-  scene.folder.file("back.txt", and_back);
+  scene.folder.put("back.txt", and_back);
   fs::remove(volume);
-  const Outcome turned = run(scene.folder, INSONATE_RENDER_PROGRAM,
-                             "--ct " + scene.in("ct.nrrd") + " --freehand " + scene.in("back.txt") + " " + volume);
+  const ProgramOutcome turned = run_program(INSONATE_RENDER_PROGRAM " --ct " + scene.in("ct.nrrd") + " --freehand " +
+                                            scene.in("back.txt") + " " + volume);
   CHECK(turned.code == 2);
   CHECK(turned.errors.find("back.txt: pose 4: the sweep goes back here") != std::string::npos);
   CHECK(!fs::exists(volume));
@@ -162,10 +161,10 @@ TEST_CASE("a sweep's volume holds echoes of echoes, and clutter") {
   const Scene scene;
   const std::string volume = scene.in("swept.nrrd");
   const auto swept = [&](const std::string& more) {
-    scene.folder.file("sweep.toml", "waves = false\nsamples = 200\nelectronic_noise = false\ngain_db = 15\n" + more);
-    const Outcome outcome = run(scene.folder, INSONATE_RENDER_PROGRAM,
-                                "--ct " + scene.in("ct.nrrd") + " --pose " + scene.in("pose.txt") + " --settings " +
-                                    scene.in("sweep.toml") + " --depth 60 --voxel 2 --sweep 20 --planes 5 " + volume);
+    scene.folder.put("sweep.toml", "waves = false\nsamples = 200\nelectronic_noise = false\ngain_db = 15\n" + more);
+    const ProgramOutcome outcome =
+        run_program(INSONATE_RENDER_PROGRAM " --ct " + scene.in("ct.nrrd") + " --pose " + scene.in("pose.txt") +
+                    " --settings " + scene.in("sweep.toml") + " --depth 60 --voxel 2 --sweep 20 --planes 5 " + volume);
     INFO(outcome.errors);
     REQUIRE(outcome.code == 0);
     return NrrdFile(volume).volume<std::int16_t>().voxels;

@@ -14,12 +14,12 @@ namespace fs = std::filesystem;
 
 Scene::Scene() {
   write_ct(folder.path / "ct.nrrd", synthetic_ct());
-  folder.file("pose.txt", "1 0 0 0  0 1 0 9  0 0 1 0  0 0 0 1");
-  folder.file("small.toml", "samples = 64\nimage_width = 60\nimage_height = 50\ngain_db = 1\n");
+  folder.put("pose.txt", "1 0 0 0  0 1 0 9  0 0 1 0  0 0 0 1");
+  folder.put("small.toml", "samples = 64\nimage_width = 60\nimage_height = 50\ngain_db = 1\n");
 }
 
-Outcome Scene::render(const std::string& more) const {
-  return run(folder, INSONATE_RENDER_PROGRAM, "--ct " + in("ct.nrrd") + " " + more + " " + in("image.png"));
+ProgramOutcome Scene::render(const std::string& more) const {
+  return run_program(INSONATE_RENDER_PROGRAM " --ct " + in("ct.nrrd") + " " + more + " " + in("image.png"));
 }
 
 std::vector<std::string> Scene::names() const {

@@ -3,17 +3,17 @@
 #include <string>
 #include <vector>
 
-#include "tests/tools/render/render_program.h"
+#include "tests/core/run_program.h"
 
 namespace insonate::test {
 
 /// A folder with the synthetic CT (ct.nrrd), a pose over it (pose.txt) and settings that draw fast (small.toml).
 struct Scene {
-  TestFolder folder;
+  TemporaryFolder folder;
   Scene();
   std::string in(const char* name) const { return (folder.path / name).string(); }
   /// Runs insonate-render on the CT; it writes image.png.
-  Outcome render(const std::string& more) const;
+  ProgramOutcome render(const std::string& more) const;
   /// Returns the names of the files in the folder, sorted.
   std::vector<std::string> names() const;
 };

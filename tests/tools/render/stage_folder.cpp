@@ -56,16 +56,16 @@ Image<std::uint8_t> StageFolder::grey() const {
   return grey;
 }
 
-StageFolder export_stages(const TestFolder& folder, const std::string& patient, const View& view,
+StageFolder export_stages(const TemporaryFolder& folder, const std::string& patient, const View& view,
                           const std::string& more) {
-  folder.file("pose.txt", text_of(view.patient_from_probe));
-  folder.file("settings.toml", view.settings);
+  folder.put("pose.txt", text_of(view.patient_from_probe));
+  folder.put("settings.toml", view.settings);
   const std::string in = folder.path.string();
   fs::remove_all(folder.path / "stages");
-  const Outcome outcome = run(folder, INSONATE_RENDER_PROGRAM,
-                              patient + " --pose " + in + "/pose.txt --settings " + in + "/settings.toml --probe " +
-                                  view.probe + " --depth " + std::to_string(view.depth_mm) + " --stages " + in +
-                                  "/stages " + more + " " + in + "/image.png");
+  const ProgramOutcome outcome =
+      run_program(INSONATE_RENDER_PROGRAM " " + patient + " --pose " + in + "/pose.txt --settings " + in +
+                  "/settings.toml --probe " + view.probe + " --depth " + std::to_string(view.depth_mm) + " --stages " +
+                  in + "/stages " + more + " " + in + "/image.png");
   INFO(outcome.errors);
   REQUIRE(outcome.code == 0);
   return StageFolder(folder.path / "stages");

@@ -11,8 +11,8 @@
 
 #include "sim/core/pose.h"
 #include "sim/model/settings_file.h"
+#include "tests/core/run_program.h"
 #include "tests/tools/render/nrrd_file.h"
-#include "tests/tools/render/render_program.h"
 
 namespace insonate::test {
 
@@ -40,7 +40,7 @@ struct View {
 /// Runs insonate-render on a patient, and returns what it wrote.
 /// @param folder   gets settings.toml, among others
 /// @param patient  --ct or --case and a path
-StageFolder export_stages(const TestFolder& folder, const std::string& patient, const View& view,
+StageFolder export_stages(const TemporaryFolder& folder, const std::string& patient, const View& view,
                           const std::string& more);
 
 /// A file of the folder, and the quantity or unit that it has to name.

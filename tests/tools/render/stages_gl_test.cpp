@@ -52,7 +52,7 @@ const View kPaper = {"linear",
 
 /// The inputs of an exported picture.
 struct Insonated {
-  Insonated(const TestFolder& folder, const View& view, const AcousticVolume& of_patient)
+  Insonated(const TemporaryFolder& folder, const View& view, const AcousticVolume& of_patient)
       : volume(of_patient), probe(*find_probe(view.probe)), depth_mm(view.depth_mm), pose(view.patient_from_probe) {
     settings = read_settings(folder.path / "settings.toml", probe.frequency_mhz, depth_mm);
     settings.skipping = false;  // as --stages sets it
@@ -361,7 +361,7 @@ AcousticVolume acoustic(const Volume<std::int16_t>& ct) {
   return make_acoustic_volume(ct, {}, {}, read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml"));
 }
 
-StageFolder export_of(const TestFolder& folder, const Volume<std::int16_t>& ct, const View& view,
+StageFolder export_of(const TemporaryFolder& folder, const Volume<std::int16_t>& ct, const View& view,
                       const std::string& more) {
   write_ct(folder.path / "ct.nrrd", ct);
   return export_stages(folder, "--ct " + (folder.path / "ct.nrrd").string(), view, more);
@@ -371,7 +371,7 @@ StageFolder export_of(const TestFolder& folder, const Volume<std::int16_t>& ct, 
 
 TEST_CASE("each file of the graphics card's stages has its form, and holds the stage of its name") {
   const View& view = GENERATE_REF(kSlice, kWaves, kPaper);
-  const TestFolder folder;
+  const TemporaryFolder folder;
   const Volume<std::int16_t> ct = synthetic_ct();
   const AcousticVolume volume = acoustic(ct);
   const StageFolder stages = export_of(folder, ct, view, "");
@@ -384,7 +384,7 @@ TEST_CASE("each file of the graphics card's stages has its form, and holds the s
 
 TEST_CASE("each file of the reference's stages has its form, and holds the stage of its name") {
   const View& view = GENERATE_REF(kSlice, kWaves, kPaper);
-  const TestFolder folder;
+  const TemporaryFolder folder;
   const Volume<std::int16_t> ct = synthetic_ct();
   const AcousticVolume volume = acoustic(ct);
   const StageFolder stages = export_of(folder, ct, view, "--reference");
@@ -419,7 +419,7 @@ TEST_CASE("a CT that is resampled lies beside the stages as it was insonated") {
   for (int k = 0; k < coarse.grid.size.z; ++k)
     for (int j = 0; j < coarse.grid.size.y; ++j)
       for (int i = 0; i < coarse.grid.size.x; ++i) coarse.voxels.push_back(fine.at(3 * glm::ivec3(i, j, k) + 1));
-  const TestFolder folder;
+  const TemporaryFolder folder;
   const StageFolder stages = export_of(folder, coarse, kPaper, "--reference");
   const AcousticVolume insonated = acoustic(resample_isotropic(coarse, kInsonatedVoxelMm));
   CHECK(glm::distance(insonated.grid.origin, fine.grid.origin) < 1e-9);
@@ -430,14 +430,14 @@ TEST_CASE("the labels of a case lie beside the stages, and the tissue of each") 
   const Volume<std::int16_t> ct = synthetic_ct();
   Volume<std::uint8_t> labels{ct.grid, {}};
   for (const int hu : ct.voxels) labels.voxels.push_back(hu > 20 ? 1 : hu > -20 ? 3 : 0);  // 0: by density
-  const TestFolder folder;
+  const TemporaryFolder folder;
   std::filesystem::create_directory(folder.path / "case");
   write_ct(folder.path / "case" / "ct.nrrd", ct);
   write_labels(folder.path / "case" / "labels.nrrd", labels);
-  folder.file("case/case.toml",
-              "format = 1\nname = \"Labelled\"\nct = \"ct.nrrd\"\nlabels = \"labels.nrrd\"\n"
-              "[[label]]\nvalue = 1\nname = \"liver\"\ntissue = \"liver\"\n"
-              "[[label]]\nvalue = 3\nname = \"kidney\"\ntissue = \"kidney_cortex\"\n");
+  folder.put("case/case.toml",
+             "format = 1\nname = \"Labelled\"\nct = \"ct.nrrd\"\nlabels = \"labels.nrrd\"\n"
+             "[[label]]\nvalue = 1\nname = \"liver\"\ntissue = \"liver\"\n"
+             "[[label]]\nvalue = 3\nname = \"kidney\"\ntissue = \"kidney_cortex\"\n");
   const StageFolder stages = export_stages(folder, "--case " + (folder.path / "case").string(), kPaper, "--reference");
   const AcousticVolume volume = make_acoustic_volume(ct, labels, {"", "liver", "", "kidney_cortex"},
                                                      read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml"));

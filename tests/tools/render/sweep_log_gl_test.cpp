@@ -8,13 +8,12 @@
 #include "devices/record/sequence_recorder.h"
 #include "devices/replay/read_log.h"
 #include "sim/volume/ct_reader.h"
+#include "tests/core/run_program.h"
 #include "tests/reconstruction/swept_scene.h"
 #include "tests/tools/render/nrrd_file.h"
-#include "tests/tools/render/render_program.h"
 
 using namespace insonate;
 using insonate::test::NrrdFile;
-using insonate::test::Outcome;
 namespace fs = std::filesystem;
 
 namespace {
@@ -23,7 +22,7 @@ constexpr double kRadius_mm = 8;
 
 /// A folder, and a recording in it of a hand that sweeps over a bright ball in a grey block.
 struct SweptBall {
-  test::TestFolder folder;
+  TemporaryFolder folder;
   HandSweep sweep;
   glm::dvec3 centre{0.0};
 
@@ -42,9 +41,8 @@ struct SweptBall {
     recorder.finish();
   }
   std::string in(const char* name) const { return (folder.path / name).string(); }
-  std::string printed() const { return test::bytes_of(folder.path / "printed"); }
-  Outcome render(const std::string& arguments) const {
-    return test::run(folder, INSONATE_RENDER_PROGRAM, arguments + " >" + in("printed"));
+  ProgramOutcome render(const std::string& arguments) const {
+    return run_program(INSONATE_RENDER_PROGRAM " " + arguments);
   }
 };
 
@@ -67,8 +65,8 @@ std::pair<glm::dvec3, double> ball_in(const Volume<std::uint8_t>& volume) {
 TEST_CASE("a recording's images become a volume at their place in the patient") {
   const SweptBall swept;
   for (const std::string how : {"", "--insertion nearest ", "--compounding maximum --hole-radius 0 "}) {
-    const Outcome outcome = swept.render("--sweep-log " + swept.in("swept.igs.mha") + " --voxel 0.6 " + how +
-                                         swept.in("volume.nrrd") + " --known " + swept.in("known.nrrd"));
+    const ProgramOutcome outcome = swept.render("--sweep-log " + swept.in("swept.igs.mha") + " --voxel 0.6 " + how +
+                                                swept.in("volume.nrrd") + " --known " + swept.in("known.nrrd"));
     INFO(how << outcome.errors);
     REQUIRE(outcome.code == 0);
     const auto volume = NrrdFile(swept.in("volume.nrrd")).volume<std::uint8_t>();
@@ -80,9 +78,9 @@ TEST_CASE("a recording's images become a volume at their place in the patient") 
     CHECK(known.grid == volume.grid);
     for (std::size_t n = 0; n < known.voxels.size(); ++n)
       if ((known.voxels[n] == 0) != (volume.voxels[n] == 0)) FAIL("a voxel is not known, or not grey");
-    INFO(swept.printed());
-    CHECK(swept.printed().find("Even: 60 pictures over 30 mm in 2.9 s") == 0);
-    CHECK(swept.printed().find("\nFrames without a pose, left out: 1.") != std::string::npos);
+    INFO(outcome.output);
+    CHECK(outcome.output.find("Even: 60 pictures over 30 mm in 2.9 s") == 0);
+    CHECK(outcome.output.find("\nFrames without a pose, left out: 1.") != std::string::npos);
     // The project's own reader takes it as what it is.
     CHECK(read_labels(swept.in("volume.nrrd")).voxels == volume.voxels);
   }
@@ -91,7 +89,7 @@ TEST_CASE("a recording's images become a volume at their place in the patient") 
 TEST_CASE("a part of the images, or the fan of a probe, can be taken alone") {
   const SweptBall swept;
   const auto measured = [&](const std::string& how) {
-    const Outcome outcome =
+    const ProgramOutcome outcome =
         swept.render("--sweep-log " + swept.in("swept.igs.mha") + " " + how + " " + swept.in("volume.nrrd"));
     INFO(how << outcome.errors);
     REQUIRE(outcome.code == 0);
@@ -110,23 +108,24 @@ TEST_CASE("a hasty sweep is called uneven, with where and when") {
   hasty.pictures = 21;
   hasty.tremor_deg = 0;
   const SweptBall swept(hasty);
-  const Outcome outcome = swept.render("--sweep-log " + swept.in("swept.igs.mha") + " " + swept.in("volume.nrrd"));
+  const ProgramOutcome outcome =
+      swept.render("--sweep-log " + swept.in("swept.igs.mha") + " " + swept.in("volume.nrrd"));
   REQUIRE(outcome.code == 0);
-  CHECK(swept.printed().find(
+  CHECK(outcome.output.find(
             "Uneven: 21 pictures over 100 mm in 1.0 s, up to 5.0 mm apart.\n  gap of 5.0 mm at 0 mm\n") == 0);
   REQUIRE(
       swept.render("--sweep-log " + swept.in("swept.igs.mha") + " --hole-radius 4 " + swept.in("volume.nrrd")).code ==
       0);
-  CHECK(swept.printed().find("too fast between 0.0 s and 1.0 s\n") != std::string::npos);
+  CHECK(outcome.output.find("too fast between 0.0 s and 1.0 s\n") != std::string::npos);
 }
 
 TEST_CASE("what cannot be reconstructed is refused in a sentence") {
   const SweptBall swept;
   const std::string log = "--sweep-log " + swept.in("swept.igs.mha") + " ", volume = swept.in("volume.nrrd");
-  swept.folder.file("sheared.txt", "0.2 0.1 0 0  0 0.2 0 0  0 0 0.2 0  0 0 0 1");
-  swept.folder.file("huge.txt", "20 0 0 0  0 20 0 0  0 0 20 0  0 0 0 1");
-  swept.folder.file("open.txt", "1 0 0 0  0 1 0 0  0 0 1 0  0 0 1 1");
-  swept.folder.file("two.txt", "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1");
+  swept.folder.put("sheared.txt", "0.2 0.1 0 0  0 0.2 0 0  0 0 0.2 0  0 0 0 1");
+  swept.folder.put("huge.txt", "20 0 0 0  0 20 0 0  0 0 20 0  0 0 0 1");
+  swept.folder.put("open.txt", "1 0 0 0  0 1 0 0  0 0 1 0  0 0 1 1");
+  swept.folder.put("two.txt", "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1");
   {
     SequenceRecorder recorder(swept.folder.path / "dark.igs.mha");
     recorder.add({1, PoseStatus::ok, {}});
@@ -134,7 +133,7 @@ TEST_CASE("what cannot be reconstructed is refused in a sentence") {
     recorder.finish();
   }
   const auto refused = [&](const std::string& arguments, const std::string& sentence) {
-    const Outcome outcome = swept.render(arguments);
+    const ProgramOutcome outcome = swept.render(arguments);
     INFO(arguments << ": " << outcome.errors);
     CHECK(outcome.code == 2);
     CHECK(outcome.errors.find(sentence) != std::string::npos);
@@ -158,14 +157,14 @@ TEST_CASE("a recording of PLUS becomes a volume that shows each of its images wh
     WARN("the folder of real scans is not here: " << log);
     return;
   }
-  const test::TestFolder folder;
+  const TemporaryFolder folder;
   const std::string matrix = "0.15 0 0 -15  0 0.15 0 2  0 0 0.15 0  0 0 0 1";
   const std::string volume_file = (folder.path / "volume.nrrd").string();
-  const auto matrix_file = folder.file("image_to_probe.txt", matrix);
-  REQUIRE(test::run(folder, INSONATE_RENDER_PROGRAM, "--sweep-log " + log.string() + " " + volume_file).code == 2);
-  const Outcome outcome = test::run(folder, INSONATE_RENDER_PROGRAM,
-                                    "--sweep-log " + log.string() + " --image-to-probe " + matrix_file.string() +
-                                        " --voxel 0.15 " + volume_file + " >/dev/null");
+  const auto matrix_file = folder.put("image_to_probe.txt", matrix);
+  REQUIRE(run_program(INSONATE_RENDER_PROGRAM " --sweep-log " + log.string() + " " + volume_file).code == 2);
+  const ProgramOutcome outcome =
+      run_program(INSONATE_RENDER_PROGRAM " --sweep-log " + log.string() + " --image-to-probe " + matrix_file.string() +
+                  " --voxel 0.15 " + volume_file + " >/dev/null");
   INFO(outcome.errors);
   REQUIRE(outcome.code == 0);
   const auto volume = NrrdFile(volume_file).volume<std::uint8_t>();

@@ -25,7 +25,7 @@ TEST_CASE("model W: each file of the stages has its form, and holds the stage of
   const Volume<std::int16_t> ct = synthetic_ct();
   AcousticVolume volume{ct.grid, {}};  // model W has no use for echogenicity
   for (const std::int16_t hu : ct.voxels) volume.voxels.push_back({hu, 0});
-  const TestFolder folder;
+  const TemporaryFolder folder;
   write_ct(folder.path / "ct.nrrd", ct);
   const StageFolder stages = export_stages(folder, "--ct " + (folder.path / "ct.nrrd").string(), view,
                                            std::string("--model W") + (by_reference ? " --reference" : ""));

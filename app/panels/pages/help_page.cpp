@@ -1,0 +1,212 @@
+#include "app/panels/pages/help_page.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "app/panels/pages/overlays.h"
+
+namespace insonate::ui {
+namespace {
+
+struct Key {
+  const char* keys;
+  const char* meaning;
+};
+
+struct Help {
+  const char* title;
+  const char* purpose;
+  std::vector<Key> keys;
+};
+
+/// How the probe moves, wherever there is one.
+const std::vector<Key> kProbe{
+    {"Up, Down", "slide the probe towards the head, the feet"},
+    {"Left, Right", "slide it to the patient's right, left, and on round the body"},
+    {"Page Down, Page Up", "press it into the skin, lift it"},
+    {"E, Q", "rotate it clockwise, counter-clockwise, seen from its handle"},
+    {"W, S", "rock the beam away from the marker, towards the marker"},
+    {"A, D", "tilt the beam to head or feet, if the marker is to the patient's right"},
+    {"Shift", "with any of these: slowly"},
+    {"Drag on the ultrasound", "slide; with Shift rock and tilt; the wheel rotates"},
+    {"Drag the probe", "put it elsewhere on the patient"},
+};
+const std::vector<Key> kPatient{
+    {"Drag the patient", "turn; middle button or Shift shifts; right button or wheel zooms"},
+    {"V, Home, N", "see the patient from the next side; as at first; landmarks' names"},
+};
+const std::vector<Key> kViews{
+    {"F5, F6, F7", "the usual views; slices along the patient's axes; four of one size"},
+    {"Double click a view", "make it large; again: back"},
+    {"Drag the CT, O", "across the window, up and down the level; outlines of organs"},
+    {"K", "how the patient looks in 3D: organs, or skin, muscles, bones"},
+    {"Wheel on a slice, B, X", "through the slices; to the probe; cross at its face or in the fan"},
+};
+/// While the anatomy is hidden there is no CT.
+const std::vector<Key> kExamViews{
+    {"F5, F7", "the usual views; views of one size"},
+    {"Double click a view", "make it large; again: back"},
+};
+const std::vector<Key> kMachine{
+    {"Space", "freeze the picture"},
+    {"+, \u2212 and [, ]", "gain; depth"},
+};
+const std::vector<Key> kUndo{{"Ctrl Z, Ctrl Y", "undo a knob or a move of the probe; do it again"}};
+const std::vector<Key> kTools{
+    {"Click the frozen picture", "measure from end to end; drag an end to move it"},
+    {"C", "calipers or ellipse, where both may be used"},
+    {"Backspace, Delete", "take back the last thing placed; all of it"},
+    {"1 to 9", "choose an answer, a name, or which caliper comes next"},
+    {"Enter", "answer; go on to the next step of an exam"},
+};
+const std::vector<Key> kFiles{
+    {"M", "mark this moment, in the recording too"},
+    {"R", "record the run; end the recording"},
+    {"P, L", "save the picture; begin and end a clip of it"},
+};
+const std::vector<Key> kSweep{{"T, U", "begin and end a sweep; see the volume of its pictures"}};
+const std::vector<Key> kWindow{
+    {"F1, F3, F11", "this help; settings; full screen"},
+};
+
+std::vector<Key> keys_of(std::initializer_list<std::vector<Key>> parts) {
+  std::vector<Key> all;
+  for (const std::vector<Key>& part : parts) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+Help help_of(HelpTopic topic) {
+  switch (topic) {
+    case HelpTopic::start:
+      return {
+          "Help: the start page",
+          "Choose on the left what to do, in the middle on which patient, and on the right who is learning and with "
+          "which tracker. The mouse can always move the probe.",
+          keys_of({{{"Up, Down", "choose what to do"},
+                    {"Enter", "begin it"},
+                    {"Ctrl O", "open a case, CT, scenario or recorded scan; or drop it on the window"},
+                    {"F2", "set up a tracker"}},
+                   kWindow})};
+    case HelpTopic::learners:
+      return {"Help: learners and attempts",
+              "On the left who has practised and taken exams, in the middle how they do over time and where they lose "
+              "points, on the right the chosen attempt with its comments.",
+              keys_of({{{"Up, Down", "choose a learner"},
+                        {"Enter", "look at the chosen attempt again"},
+                        {"Escape", "to the start page"}},
+                       kWindow})};
+    case HelpTopic::scan:
+      return {"Help: scanning", "The large picture is the ultrasound. The 3D view shows the probe that it comes from.",
+              keys_of({kProbe,
+                       kPatient,
+                       kViews,
+                       {{"Tab", "take the probe, give it back to the tracker"}},
+                       kMachine,
+                       kUndo,
+                       kTools,
+                       {{"Escape", "give up what is being placed; else to the start page"},
+                        {"G", "the guide: the way to the view; its use is in the report"}},
+                       kFiles,
+                       kSweep,
+                       {{"Ctrl O", "open a case, CT, scenario or recorded scan"},
+                        {"F2", "choose a tracker, or set up the one in use"}},
+                       kWindow})};
+    case HelpTopic::exam:
+      return {
+          "Help: an exam that counts",
+          "Do what each step asks for, and hold the view still until its ring is full. The clock runs on while this "
+          "page is open.",
+          keys_of({kProbe, kPatient, kExamViews, kMachine, kTools, kFiles, kWindow})};
+    case HelpTopic::replay:
+      return {"Help: looking at a run again",
+              "The time line below shows the steps and how far the probe was from their views. Nothing is scored or "
+              "stored.",
+              keys_of({{{"Space", "play, pause"},
+                        {"Left, Right", "sample by sample"},
+                        {"Up, Down", "faster, slower"},
+                        {"Home, End", "the beginning, the end"},
+                        {"Drag the time line", "go to that moment"},
+                        {"Drag the patient", "turn; middle button or Shift shifts; right button or wheel zooms"},
+                        {"V", "see the patient from the next side"},
+                        {"P, L", "save the picture; begin and end a clip of it"},
+                        {"Ctrl O", "open another recorded scan"},
+                        {"Escape", "back to the start page, or to the learners"}},
+                       kViews,
+                       kWindow})};
+    case HelpTopic::setup:
+      return {
+          "Help: setting up a tracker",
+          "The five steps on the left find how the sensor lies on the dummy probe and where the mannequin lies. Each "
+          "says what to do. The foot switch or the probe's button works like Space.",
+          keys_of({{{"Space, Enter", "mark the place; go on to the next step"},
+                    {"Backspace", "take the last mark back; do the step again"},
+                    {"Click a step", "go back to it"},
+                    {"Escape", "close; what is complete is kept"}},
+                   kWindow})};
+    case HelpTopic::author:
+      return {"Help: making views of a case",
+              "Hold the probe where the view should be, choose the structures that it shows, name it and store it. "
+              "Scenarios can then ask for it.",
+              keys_of({kProbe,
+                       kPatient,
+                       kViews,
+                       kMachine,
+                       kUndo,
+                       {{"1 to 9", "choose a structure of the view"},
+                        {"Enter", "store the view"},
+                        {"Escape", "to the start page"}},
+                       kWindow})};
+    case HelpTopic::score:
+      return {
+          "Help: the score",
+          "Each step has its points and, where some are missing, the reason. The report has all of it, with pictures "
+          "and the probe's path, for printing or for a teacher.",
+          keys_of({{{"Escape", "close the sheet, and go on scanning"}}, kWindow})};
+    case HelpTopic::open:
+      return {"Help: opening a file",
+              "Click through the folders or type a path. A CT is a NIfTI, NRRD or MetaImage file or a folder of DICOM "
+              "files; a case is a folder that insonate-case has made.",
+              keys_of({{{"Enter", "go into the folder, or open the file"}, {"Escape", "cancel"}}, kWindow})};
+    case HelpTopic::settings:
+      return {"Help: settings",
+              "They hold for this computer's user, take effect at once, and are kept. None of them changes a score.",
+              keys_of({{{"Escape", "close"}}, kWindow})};
+  }
+  return {};
+}
+
+}  // namespace
+
+HelpAnswer draw_help(const Theme& theme, const Rect& screen, HelpTopic topic, std::map<std::string, Rect>& places) {
+  const Help help = help_of(topic);
+  const float width = theme.px(760), text = width - 2 * theme.px(28), keys = theme.px(230);
+  const float purpose = paragraph_height(theme.text, help.purpose, text);
+  const float around = theme.px(28 + 10 + 14 + 14 + 38 + 2 * 24) + purpose;
+  // Where many keys meet a low screen, their rows move together rather than off it.
+  const float row =
+      std::min(theme.px(25), (screen.h - theme.px(16) - around) / float(std::max<std::size_t>(help.keys.size(), 1)));
+  Rect sheet = begin_overlay(theme, screen, {width, around + row * float(help.keys.size())});
+  draw_text(sheet.take_top(theme.px(28)), theme.heading, colour::kText, help.title);
+  sheet.take_top(theme.px(10));
+  draw_paragraph(sheet.take_top(purpose), theme.text, colour::kText, help.purpose);
+  sheet.take_top(theme.px(14));
+  for (const Key& key : help.keys) {
+    Rect line = sheet.take_top(row);
+    draw_text(line.take_left(keys), theme.strong, colour::kText, key.keys);
+    draw_text(line, theme.text, colour::kMuted, key.meaning);
+  }
+  Rect buttons = sheet.take_bottom(theme.px(38));
+  HelpAnswer answer = HelpAnswer::none;
+  places["close_help"] = buttons.take_right(theme.px(150));
+  if (button(theme, "close_help", places["close_help"], "Close  (Esc)", ButtonKind::primary))
+    answer = HelpAnswer::close;
+  places["about"] = buttons.take_left(theme.px(150));
+  if (button(theme, "about", places["about"], "About Insonate")) answer = HelpAnswer::about;
+  buttons.take_left(theme.px(8));
+  places["help_settings"] = buttons.take_left(theme.px(130));
+  if (button(theme, "help_settings", places["help_settings"], "Settings  (F3)")) answer = HelpAnswer::settings;
+  end_overlay();
+  return answer;
+}
+
+}  // namespace insonate::ui

@@ -1,0 +1,145 @@
+#include "app/panels/scan/console_panel.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "sim/core/text.h"
+
+namespace insonate::ui {
+namespace {
+
+std::string tip_of(const Probe& probe) {
+  return probe.title + " probe, " + formatted("%.1f MHz", probe.frequency_mhz) +
+         formatted(", %.0f mm deep", probe.depth_mm);
+}
+
+void draw_probe_choice(const Theme& theme, Rect where, Session& session, std::map<std::string, Rect>& places) {
+  draw_text(where.take_top(theme.px(20)), theme.small_text, colour::kMuted, "Probe");
+  where.take_top(theme.px(4));
+  const float between = theme.px(5), count = float(probes().size());
+  const float height = std::min((where.h - (count - 1) * between) / count, theme.px(30));
+  for (const Probe& probe : probes()) {
+    const Rect place = places["probe_" + probe.name] = where.take_top(height);
+    where.take_top(between);
+    const bool chosen = session.machine().probe == probe.name;
+    const std::string why_not = chosen ? "" : session.why_not(ActionKind::probe);
+    if (button(theme, probe.name.c_str(), place, probe.title.c_str(), chosen ? ButtonKind::chosen : ButtonKind::normal,
+               why_not.empty(), why_not.empty() ? tip_of(probe) : "") &&
+        !chosen)
+      session.choose_probe(probe.name);
+    if (!why_not.empty()) draw_tooltip(theme, place, why_not);
+  }
+}
+
+void draw_knobs(const Theme& theme, Rect where, Session& session) {
+  const Machine& machine = session.machine();
+  const Probe& probe = machine.transducer();
+  const float gap = theme.px(24);
+  const float width = (where.w - gap) / 2, height = theme.px(46);
+  const Rect left{where.x, where.y, width, height}, right{where.x + width + gap, where.y, width, height};
+  const float next = theme.px(50);
+  const auto knob = [&](const char* id, const Rect& place, const char* name, const std::string& text, ActionKind kind,
+                        double value, double least, double most, double step, double normal, const char* tip) {
+    const std::string why_not = session.why_not(kind);
+    if (slider(theme, id, place, name, text, value, least, most, step, normal, why_not.empty(), tip))
+      session.set(kind, value);
+    if (!why_not.empty()) draw_tooltip(theme, place, why_not);
+  };
+  knob("depth", left, "Depth", depth_text(theme.look(), machine.depth_mm), ActionKind::depth, machine.depth_mm,
+       Machine::kLeastDepth_mm, Machine::kMostDepth_mm, 5, probe.depth_mm,
+       "How deep the picture goes. A double click takes the probe's own depth.  ([ and ])");
+  knob("gain", right, "Gain", formatted("%+.0f dB", machine.gain_db), ActionKind::gain, machine.gain_db,
+       -Machine::kMostGain_db, Machine::kMostGain_db, 1, 0,
+       "Makes all echoes brighter or darker. A double click takes it back.  (+ and \u2212)");
+  knob("frequency", {left.x, left.y + next, width, height}, "Frequency", formatted("%.1f MHz", machine.frequency_mhz),
+       ActionKind::frequency, machine.frequency_mhz, 1.5, 12, 0.5, probe.frequency_mhz,
+       "A high frequency shows finer detail and reaches less deep. A double click takes the probe's own.");
+  knob("range", {right.x, right.y + next, width, height}, "Dynamic range",
+       formatted("%.0f dB", machine.dynamic_range_db), ActionKind::dynamic_range, machine.dynamic_range_db,
+       Machine::kLeastDynamicRange_db, Machine::kMostDynamicRange_db, 5, Machine::kDynamicRange_db,
+       "How weak an echo is still grey. A small range is rich in contrast, a large one shows weak echoes.");
+}
+
+void draw_time_gain(const Theme& theme, Rect where, Session& session) {
+  Rect head = where.take_top(theme.px(20));
+  draw_text(head, theme.small_text, colour::kMuted, "Time gain");
+  draw_text(head, theme.small_text, colour::kFaint, "near to far", Align::right);
+  where.take_top(theme.px(4));
+  const std::string why_not = session.why_not(ActionKind::time_gain);
+  if (!why_not.empty()) draw_tooltip(theme, where, why_not);
+  const auto& sliders = session.machine().time_gain_db;
+  const float width = where.w / float(sliders.size());
+  for (std::size_t i = 0; i < sliders.size(); ++i) {
+    const std::string id = "tgc" + std::to_string(i);
+    double value = sliders[i];
+    if (upright_slider(theme, id.c_str(), where.take_left(width), value, Machine::kMostTimeGain_db, why_not.empty(),
+                       "Gain at this depth. A double click takes it back."))
+      session.set({ActionKind::time_gain, {double(i + 1), value}});
+  }
+}
+
+}  // namespace
+
+ConsoleRequest draw_console_panel(const Theme& theme, const Rect& panel, Session& session,
+                                  const std::function<void(const std::function<void()>&)>& attempt,
+                                  std::map<std::string, Rect>& places) {
+  fill(panel, colour::kPanel, theme.px(4));
+  Rect rest = panel.inset(theme.px(16), theme.px(10));
+  const float gap = theme.px(28);
+  draw_probe_choice(theme, rest.take_left(theme.px(112)), session, places);
+  rest.take_left(gap);
+
+  Rect buttons = rest.take_right(theme.px(276));
+  rest.take_right(gap);
+  draw_time_gain(theme, rest.take_right(theme.px(190)), session);
+  rest.take_right(gap);
+  draw_knobs(theme, rest, session);
+
+  ConsoleRequest request = ConsoleRequest::none;
+  const float height = theme.px(44), between = theme.px(8);
+  buttons.take_top((buttons.h - 2 * height - between) / 2);
+  Rect upper = buttons.take_top(height);
+  buttons.take_top(between);
+  Rect lower = buttons.take_top(height);
+  if (button(theme, "freeze", upper.take_left(theme.px(86)), session.machine().frozen ? "Live" : "Freeze",
+             session.machine().frozen ? ButtonKind::chosen : ButtonKind::normal, true,
+             session.machine().frozen ? "Lets the picture run again  (Space)"
+                                      : "Holds the picture, to measure in it or to save it  (Space)"))
+    session.freeze(!session.machine().frozen);
+  upper.take_left(between);
+  const bool learner = session.holder() == Holder::learner;
+  if (session.only_learner()) {
+    if (button(theme, "restart", upper, session.loaded_case().scenario ? "Start over" : "Back to the start",
+               ButtonKind::normal, !session.strict(), "Begins again: the probe goes back to where it started"))
+      attempt([&] { session.start_over(); });
+  } else if (button(theme, "hands", upper, learner ? "Give the probe back" : "Take the probe",
+                    learner ? ButtonKind::chosen : ButtonKind::normal, !session.strict(),
+                    learner ? "The tracker moves the probe again, from the beginning  (Tab)"
+                            : "Mouse and keys move the probe from here on  (Tab)")) {
+    attempt([&] { learner ? session.give_back_probe() : session.take_probe(); });
+  }
+  if (button(theme, "help", lower.take_left(theme.px(86)), "Help", ButtonKind::normal, true,
+             "What the keys and the mouse do  (F1)"))
+    request = ConsoleRequest::help;
+  lower.take_left(between);
+  const bool practising = session.activity() == Activity::practice && session.loaded_case().scenario;
+  const Rect first = lower.take_left((lower.w - between) / 2);
+  lower.take_left(between);
+  if (practising) {
+    if (button(theme, "exam", first, "Exam", ButtonKind::normal, true,
+               "Begins the scored steps again, with their clock"))
+      attempt([&] { session.start_over(); });
+  } else if (button(theme, "practice", first, "Practice", ButtonKind::normal,
+                    session.loaded_case().scenario.has_value() && !session.strict(),
+                    "Scans without steps, clock and score")) {
+    // In a recorded scan no hand moves the probe, so practice must take it.
+    std::as_const(session).source().recording() ? session.take_probe() : session.practise();
+  }
+  if (button(theme, "open", lower, "Open", ButtonKind::normal, !session.strict(),
+             "Opens a case, CT, scenario or recorded scan  (Ctrl O)"))
+    request = ConsoleRequest::open;
+  return request;
+}
+
+}  // namespace insonate::ui

@@ -1,0 +1,52 @@
+#include "app/panels/scan/guide_layer.h"
+
+#include <algorithm>
+#include <array>
+
+#include "app/panels/views/space_drawing.h"
+#include "scenarios/words.h"
+
+namespace insonate::ui {
+namespace {
+
+constexpr float kMargin = 8, kRow = 22;
+
+}  // namespace
+
+void draw_ghost(const Theme& theme, const Rect& space, const Guiding& guiding, const view::OrbitCamera& camera) {
+  const SpaceDrawing drawing(space, camera);
+  const ReferenceView& view = *guiding.view;
+  const Probe* probe = find_probe(view.probe);
+  if (!probe) return;
+  drawing.fan(view.patient_from_probe, *probe, view.depth_mm, colour::kText, IM_COL32(232, 236, 240, 44));
+  // A stroke along the handle shows on which side of the plane the probe is.
+  const std::array<glm::dvec3, 2> handle{view.patient_from_probe.point({0, 0, 0}),
+                                         view.patient_from_probe.point({0, -80, 0})};
+  drawing.path(handle, colour::kText, theme.px(2));
+}
+
+float guide_strip_height(const Theme& theme) {
+  return theme.px(2 * kMargin + 2 * kRow);
+}
+
+void draw_guide_strip(const Theme& theme, const Rect& strip, const Guiding& guiding, bool counted) {
+  fill(strip, colour::kPanel, theme.px(4));
+  if (guiding.there) outline(strip, colour::kAccent, theme.px(4));
+  Rect rest = strip.inset(theme.px(16), theme.px(kMargin));
+  Rect head = rest.take_top(theme.px(kRow));
+  const std::string title = "Guide: " + (guiding.view->title.empty() ? guiding.view->name : guiding.view->title);
+  draw_text(head.take_left(std::min(head.w, text_width(theme.strong, title))), theme.strong, colour::kText, title);
+  head.take_left(theme.px(16));
+  draw_text(head, theme.text, colour::kMuted,
+            "plane " + fixed(guiding.plane_distance_mm, 0) + " mm and " + fixed(guiding.plane_angle_deg, 0) +
+                "\u00b0 off" + (counted ? "; costs no points, but the report says how long it was shown" : ""));
+  if (guiding.there) return draw_text(rest, theme.text, colour::kAccent, "Here it is. Hold still.");
+  for (const std::string& advice : guiding.advice) {
+    const bool next = &advice == &guiding.advice.front();
+    draw_text(rest.take_left(std::min(rest.w, text_width(theme.text, advice) + 1)), theme.text,
+              next ? colour::kText : colour::kMuted, advice);
+    rest.take_left(theme.px(16));
+  }
+}
+
+}  // namespace insonate::ui

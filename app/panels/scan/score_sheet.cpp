@@ -1,0 +1,172 @@
+#include "app/panels/scan/score_sheet.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "app/panels/pages/overlays.h"
+#include "app/panels/scan/exam_panel.h"
+#include "scenarios/words.h"
+
+namespace insonate::ui {
+namespace {
+
+std::string outcome_text(const StepResult& step) {
+  char text[64];
+  switch (step.outcome) {
+    case StepOutcome::held:
+      std::snprintf(text, sizeof text, "held after %.1f s", step.end_s - step.start_s);
+      return text;
+    case StepOutcome::done:
+      std::snprintf(text, sizeof text, "done after %.1f s", step.end_s - step.start_s);
+      return text;
+    case StepOutcome::went_on:
+      return "left undone";
+    case StepOutcome::timed_out:
+      return "time ran out";
+    case StepOutcome::scan_ended:
+      return "the scan ended first";
+    case StepOutcome::skipped:
+      return "left out";
+    case StepOutcome::not_reached:
+      return "not reached";
+  }
+  return {};
+}
+
+struct Columns {
+  Rect criterion, value, limits, points;
+};
+
+Columns columns_of(const Theme& theme, Rect row) {
+  Columns columns;
+  columns.points = row.take_right(theme.px(84));
+  columns.limits = row.take_right(theme.px(150));
+  columns.value = row.take_right(theme.px(90));
+  columns.criterion = row;
+  return columns;
+}
+
+void draw_verdict(const Theme& theme, Rect head, const ExamResult& result) {
+  const ImU32 colour = result.passed ? colour::kAccent : colour::kRed;
+  draw_text(head.take_right(theme.px(190)), theme.huge, colour, percentage(result) + " %", Align::right);
+  draw_text(head.take_top(theme.px(26)), theme.heading, colour::kText, result.title);
+  draw_text(head.take_top(theme.px(24)), theme.strong, colour, result.passed ? "Passed" : "Not passed");
+  std::string line = short_number(result.points) + " of " + short_number(result.points_possible) + " points; " +
+                     short_number(result.pass_mark_percent) + " % are needed";
+  if (result.provenance.mode == AttemptMode::practice) line += "; practice, which does not count as an exam";
+  draw_text(head.take_top(theme.px(20)), theme.small_text, colour::kMuted, line);
+}
+
+void draw_mark(const Theme& theme, const Rect& row, const CriterionScore& mark) {
+  const Columns columns = columns_of(theme, row);
+  const double share = mark.weight > 0 ? mark.points / mark.weight : 1;
+  const ImU32 ink = mark.fails_exam() ? colour::kRed : share < 0.5 ? colour::kAmber : colour::kText;
+  std::string name = title_of(mark.metric);
+  if (mark.critical) name += " (critical)";
+  draw_text(columns.criterion, theme.text, mark.fails_exam() ? colour::kRed : colour::kText, name);
+  draw_text(columns.value, theme.text, ink, mark.value ? in_words(mark.metric, *mark.value) : "\u2013", Align::right);
+  draw_text(columns.limits, theme.small_text, colour::kMuted,
+            in_words(mark.metric, mark.full) + " \u2013 " + in_words(mark.metric, mark.zero), Align::right);
+  draw_text(columns.points, theme.text, ink, short_number(mark.points) + " / " + short_number(mark.weight),
+            Align::right);
+  draw_tooltip(theme, row, mark.why);
+}
+
+void draw_column_titles(const Theme& theme, const Rect& row) {
+  const Columns columns = columns_of(theme, row);
+  draw_text(columns.value, theme.small_text, colour::kFaint, "Value", Align::right);
+  draw_text(columns.limits, theme.small_text, colour::kFaint, "Full \u2013 no points", Align::right);
+  draw_text(columns.points, theme.small_text, colour::kFaint, "Points", Align::right);
+}
+
+void draw_group(const Theme& theme, const Rect& row, const std::string& title, const std::string& remark) {
+  Rect line = row;
+  line.y += theme.px(6);
+  line.h -= theme.px(6);
+  draw_text(line, theme.strong, colour::kText, title);
+  draw_text(line, theme.small_text, colour::kMuted, remark, Align::right);
+  ImGui::GetWindowDrawList()->AddLine({row.x, row.y + row.h}, {row.x + row.w, row.y + row.h}, colour::kLine);
+}
+
+std::size_t row_count(const ExamResult& result) {
+  std::size_t rows = result.steps.size() + 1 + result.criteria.size();
+  for (const StepResult& step : result.steps) rows += step.criteria.size();
+  return rows;
+}
+
+void draw_rows(const Theme& theme, Rect rows, float height, const ExamResult& result) {
+  for (std::size_t i = 0; i < result.steps.size(); ++i) {
+    const StepResult& step = result.steps[i];
+    draw_group(theme, rows.take_top(height), std::to_string(i + 1) + "  " + step.title, outcome_text(step));
+    for (const CriterionScore& mark : step.criteria) draw_mark(theme, rows.take_top(height), mark);
+  }
+  if (result.criteria.empty()) return;
+  draw_group(theme, rows.take_top(height), "The whole exam", clock_text(result.motion.time_s));
+  for (const CriterionScore& mark : result.criteria) draw_mark(theme, rows.take_top(height), mark);
+}
+
+}  // namespace
+
+ScoreAnswer draw_score_sheet(const Theme& theme, const Rect& screen, const ExamResult& result,
+                             const std::optional<ResultFiles>& files, bool writing, bool watched, bool once) {
+  const float row = theme.px(26), head_height = theme.px(74), reason_height = theme.px(22);
+  const std::size_t reasons = std::min<std::size_t>(result.reasons.size(), 3);
+  const float rows_height = row * float(row_count(result));
+  const float others = theme.px(48) + row + head_height + theme.px(20) + reason_height * float(reasons) + theme.px(104);
+  const float height = std::min(screen.h - theme.px(40), rows_height + others);
+  Rect sheet = begin_overlay(theme, screen, {std::min(theme.px(860), screen.w - theme.px(40)), height});
+  draw_verdict(theme, sheet.take_top(head_height), result);
+  sheet.take_top(theme.px(8));
+  for (std::size_t i = 0; i < reasons; ++i)
+    draw_text(sheet.take_top(reason_height), theme.small_text, colour::kAmber, result.reasons[i]);
+  sheet.take_top(theme.px(4));
+  draw_column_titles(theme, sheet.take_top(row));
+
+  Rect bottom = sheet.take_bottom(theme.px(92));
+  ImGui::SetCursorScreenPos(sheet.min());
+  ImGui::BeginChild("marks", {sheet.w + theme.px(14), sheet.h});
+  const ImVec2 origin = ImGui::GetCursorScreenPos();
+  draw_rows(theme, {origin.x, origin.y, sheet.w, rows_height}, row, result);
+  ImGui::Dummy({sheet.w, rows_height});
+  ImGui::EndChild();
+
+  ScoreAnswer answer = ScoreAnswer::none;
+  bottom.take_top(theme.px(12));
+  draw_text(bottom.take_top(theme.px(24)), theme.small_text, files || writing ? colour::kMuted : colour::kAmber,
+            files     ? "Report: " + std::filesystem::absolute(files->report).string()
+            : writing ? "Writing the report \u2026"
+                      : "The report could not be written.");
+  bottom.take_top(theme.px(14));
+  Rect buttons = bottom.take_top(theme.px(40));
+  const float gap = theme.px(8);
+  const float width = (buttons.w - 4 * gap) / 5;
+  const auto next = [&] {
+    const Rect place = buttons.take_right(width);
+    buttons.take_right(gap);
+    return place;
+  };
+  if (button(theme, "close_sheet", next(), "Close", ButtonKind::normal, true,
+             "Leaves the sheet and stays with the patient  (Esc)"))
+    answer = ScoreAnswer::close;
+  if (button(theme, "open_report", next(), "Open the report", ButtonKind::normal, files.has_value(),
+             "Every step and criterion with its reason, pictures and the probe's path, in the browser"))
+    answer = ScoreAnswer::open_report;
+  if (!watched && button(theme, "leave_sheet", next(), "Start page")) answer = ScoreAnswer::leave;
+  if (once) {
+    end_overlay();
+    return answer;
+  }
+  if (button(theme, "practice_after", next(), "Free practice", ButtonKind::normal, true,
+             "Goes on without steps, clock and score"))
+    answer = ScoreAnswer::practice;
+  if (watched) {
+    if (button(theme, "again", next(), "Watch again")) answer = ScoreAnswer::again;
+    if (button(theme, "own_try", next(), "Try it yourself", ButtonKind::primary)) answer = ScoreAnswer::own_try;
+  } else if (button(theme, "again", next(), "Try again", ButtonKind::primary)) {
+    answer = ScoreAnswer::again;
+  }
+  end_overlay();
+  return answer;
+}
+
+}  // namespace insonate::ui

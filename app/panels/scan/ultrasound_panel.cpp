@@ -1,0 +1,248 @@
+#include "app/panels/scan/ultrasound_panel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "app/panels/scan/annotation_layer.h"
+#include "app/panels/scan/exam_panel.h"
+#include "sim/core/text.h"
+
+namespace insonate::ui {
+namespace {
+
+ImVec2 at(const PlaneOnScreen& plane, const glm::dvec2& plane_mm) {
+  const glm::dvec2 p = plane.screen(plane_mm);
+  return {float(p.x), float(p.y)};
+}
+
+// Draws a tick per centimetre; every fifth is longer and numbered, or every one if there is room.
+void draw_depth_scale(const Theme& theme, const Rect& panel, const PlaneOnScreen& plane, double depth_mm) {
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  const bool in_mm = theme.look().length_unit == LengthUnit::mm;
+  const float right = panel.x + panel.w - theme.px(14);
+  const int numbered_cm = plane.pixels_per_mm() * 10 > theme.px(34) ? 1 : 5;
+  for (int cm = 0; 10 * cm <= depth_mm + 0.5; ++cm) {
+    const float y = std::round(at(plane, {0, 10.0 * cm}).y);
+    const bool major = cm % 5 == 0;
+    list->AddLine({right - theme.px(major ? 12 : 6), y}, {right, y}, major ? colour::kText : colour::kMuted, 1);
+    if (cm % numbered_cm == 0 && cm > 0)
+      draw_text({right - theme.px(52), y - theme.px(10), theme.px(34), theme.px(20)}, theme.small_text, colour::kMuted,
+                std::to_string(in_mm ? 10 * cm : cm), Align::right);
+  }
+  draw_text({right - theme.px(52), at(plane, {0, 0}).y - theme.px(10), theme.px(34), theme.px(20)}, theme.small_text,
+            colour::kFaint, in_mm ? "mm" : "cm", Align::right);
+}
+
+void draw_grey_scale(const Theme& theme, const Rect& panel, double dynamic_range_db) {
+  // Below the texts, as far as a small panel has room there.
+  const float top = std::max(panel.h * 0.36f, theme.px(140));
+  const Rect bar{panel.x + theme.px(16), panel.y + top, theme.px(12),
+                 std::min(panel.h * 0.28f, panel.h - theme.px(16) - top)};
+  if (bar.h < theme.px(40)) return;
+  ImGui::GetWindowDrawList()->AddRectFilledMultiColor(bar.min(), bar.max(), IM_COL32_WHITE, IM_COL32_WHITE,
+                                                      IM_COL32_BLACK, IM_COL32_BLACK);
+  outline(bar, colour::kLine);
+  const Rect label{bar.x + theme.px(18), bar.y, theme.px(60), theme.px(16)};
+  draw_text(label, theme.small_text, colour::kMuted, "0 dB");
+  draw_text({label.x, bar.y + bar.h - theme.px(16), label.w, label.h}, theme.small_text, colour::kMuted,
+            formatted("\u2212%.0f", dynamic_range_db));
+}
+
+// Draws the dot beside the face's edge that is on the marker's side.
+void draw_marker(const Theme& theme, const PlaneOnScreen& plane, const Probe& probe) {
+  const ImVec2 edge = at(plane, face_edge(probe));
+  const float aside = theme.px(theme.look().marker == MarkerSide::left ? -20 : 20);
+  const ImVec2 dot{edge.x + aside, edge.y + theme.px(4)};
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  list->AddCircleFilled(dot, theme.px(6), colour::kAccent, 24);
+  list->AddCircle(dot, theme.px(9), colour::kAccent, 24, 1.2f);
+}
+
+std::string mark_text(const Session& session) {
+  return "Mark " + std::to_string(session.event_markers_s().size()) + " at " +
+         clock_text(session.event_markers_s().back());
+}
+
+// Shows an event marker for a short time after it was set.
+void draw_mark(const Theme& theme, const Rect& panel, const Session& session) {
+  constexpr double kShown_s = 2;
+  if (session.event_markers_s().empty() || session.attempt_for_s() - session.event_markers_s().back() > kShown_s)
+    return;
+  const std::string text = mark_text(session);
+  const float width = text_width(theme.strong, text) + theme.px(24);
+  draw_chip(theme, {panel.x + (panel.w - width) / 2, panel.y + theme.px(14)}, colour::kAccent, colour::kBackground,
+            text);
+}
+
+/// Draws the texts around the picture. Returns where the next line goes.
+Rect draw_annotations(const Theme& theme, const Rect& panel, const std::string& patient, const Machine& machine) {
+  Rect line{panel.x + theme.px(16), panel.y + theme.px(12), panel.w * 0.27f, theme.px(24)};
+  draw_text(line, theme.strong, colour::kText, patient);
+  line.y += line.h;
+  line.h = theme.px(19);
+  for (const std::string& text :
+       {machine.transducer().title + formatted(", %.1f MHz", machine.frequency_mhz),
+        "Depth " + depth_text(theme.look(), machine.depth_mm), formatted("Gain %+.0f dB", machine.gain_db),
+        formatted("Range %.0f dB", machine.dynamic_range_db)}) {
+    draw_text(line, theme.small_text, colour::kMuted, text);
+    line.y += line.h;
+  }
+  return line;
+}
+
+void draw_banner(const Theme& theme, const Rect& panel, std::optional<double> lost_for_s, const std::string& state) {
+  std::string text;
+  ImU32 background = colour::kAmber, ink = colour::kBackground;
+  if (lost_for_s) {
+    text = formatted("No usable pose for %.1f s: the picture stands still", *lost_for_s);
+  } else if (!state.empty()) {
+    text = state;
+    background = colour::kAccentDark;
+    ink = colour::kText;
+  } else {
+    return;
+  }
+  const float width = text_width(theme.strong, text) + theme.px(24);
+  draw_chip(theme, {panel.x + (panel.w - width) / 2, panel.y + panel.h - theme.px(46)}, background, ink, text);
+}
+
+std::string state_text(const Session& session, const PictureTools& tools) {
+  if (session.stopped_at_edge()) return "No skin to follow there: the CT ends";
+  if (!session.machine().frozen) return "";
+  return PictureTools::ready(session) ? "Frozen:  " + tool_prompt(tools) : "Frozen";
+}
+
+// Shows the tracker's problem in full. The tracker's own panel has room only for its beginning.
+void draw_tracker_problem(const Theme& theme, const Rect& panel, const Session& session) {
+  const TrackerState state = session.tracker_state();
+  const bool stands_still = session.lost_for_s().has_value() && session.holder() == Holder::tracker;
+  const std::string problem = !state.problem.empty() ? state.problem
+                              : stands_still         ? rejection_advice(state)
+                                                     : std::string();
+  if (problem.empty()) return;
+  const float width = std::min(panel.w * 0.6f, theme.px(560)), margin = theme.px(12);
+  const ImVec2 text = theme.text->CalcTextSizeA(theme.text->FontSize, 3e38f, width - 2 * margin, problem.data(),
+                                                problem.data() + problem.size());
+  const float height = std::min(text.y + 2 * margin, panel.h * 0.5f);
+  const Rect plate{panel.x + (panel.w - width) / 2, panel.y + panel.h - theme.px(58) - height, width, height};
+  fill(plate, colour::kRaised, theme.px(4));
+  draw_paragraph(plate.inset(margin, margin), theme.text, colour::kText, problem);
+}
+
+/// Covers the fan's edge by a smooth line of the background's colour: the picture has no half-covered pixels there, and
+/// may have fewer pixels than the screen.
+void smooth_edge(const PlaneOnScreen& plane, const Probe& probe, double depth_mm) {
+  constexpr float kThickness = 3;
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  Probe outlined = probe;
+  outlined.lines = 128;
+  const ScanLines fan = scan_lines(outlined, depth_mm, 1);
+  const auto end = [&](const ScanLine& line, double r_mm) { return glm::dvec2(line.start + r_mm * line.direction); };
+  // The fan ends half a line beyond its outer lines.
+  const auto beyond = [&](std::size_t outer, std::size_t inner, double r_mm) {
+    return 1.5 * end(fan.lines[outer], r_mm) - 0.5 * end(fan.lines[inner], r_mm);
+  };
+  const std::size_t last = fan.lines.size() - 1;
+  list->PathLineTo(at(plane, beyond(0, 1, 0)));
+  for (const ScanLine& line : fan.lines) list->PathLineTo(at(plane, end(line, 0)));
+  list->PathLineTo(at(plane, beyond(last, last - 1, 0)));
+  list->PathLineTo(at(plane, beyond(last, last - 1, depth_mm)));
+  for (auto line = fan.lines.rbegin(); line != fan.lines.rend(); ++line)
+    list->PathLineTo(at(plane, end(*line, depth_mm)));
+  list->PathLineTo(at(plane, beyond(0, 1, depth_mm)));
+  list->PathStroke(colour::kImage, ImDrawFlags_Closed, kThickness);
+}
+
+/// Draws the picture with its scales. Returns where it lies on the screen.
+PlaneOnScreen draw_picture(const Theme& theme, const Rect& panel, const gl::Texture& picture, const Pictures& pictures,
+                           const Machine& machine) {
+  const Rect area = UltrasoundPanel::picture_area(theme, panel);
+  const PlaneOnScreen plane = UltrasoundPanel::plane(theme, panel, pictures);
+  const bool mirrored = theme.look().marker == MarkerSide::left;
+  ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(std::uintptr_t(picture.name())), area.min(),
+                                       area.max(), {mirrored ? 1.0f : 0.0f, 0}, {mirrored ? 0.0f : 1.0f, 1},
+                                       colour::of(theme.look().tint));
+  smooth_edge(plane, machine.transducer(), machine.depth_mm);
+  draw_depth_scale(theme, panel, plane, machine.depth_mm);
+  draw_grey_scale(theme, panel, machine.dynamic_range_db);
+  draw_marker(theme, plane, machine.transducer());
+  return plane;
+}
+
+/// Whether ImGui's last item was.
+bool is_double_clicked() {
+  return ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0);
+}
+
+void take_mouse(const Theme& theme, const Rect& area, Session& session, const PlaneOnScreen& plane,
+                PictureTools& tools) {
+  ImGui::SetCursorScreenPos(area.min());
+  ImGui::InvisibleButton("ultrasound", {area.w, area.h});
+  if (PictureTools::ready(session)) return take_pointer(theme, plane, session, tools);
+  const ImGuiIO& io = ImGui::GetIO();
+  if (ImGui::IsItemHovered() && io.MouseWheel != 0) {
+    const double turn_deg = 3.0 * io.MouseWheel;
+    session.move_probe([&](const ProbeHand&, const Pose& pose) { return ProbeHand::turn(pose, 0, turn_deg, 0); });
+  }
+  if (!ImGui::IsItemActive() || (io.MouseDelta.x == 0 && io.MouseDelta.y == 0)) return;
+  constexpr double kDegPerPixel = 0.15;
+  // The tissue follows the pointer, so the probe moves the other way: with the marker on the left that is +x.
+  const double to_marker = theme.look().marker == MarkerSide::left ? 1 : -1;
+  const glm::dvec2 mm = glm::dvec2(to_marker * io.MouseDelta.x, io.MouseDelta.y) / plane.pixels_per_mm();
+  session.move_probe([&](const ProbeHand& hand, const Pose& pose) -> std::optional<Pose> {
+    if (io.KeyShift)
+      return ProbeHand::turn(pose, kDegPerPixel * io.MouseDelta.y, 0, to_marker * kDegPerPixel * io.MouseDelta.x);
+    return hand.slide(pose, mm);
+  });
+}
+
+}  // namespace
+
+Rect UltrasoundPanel::picture_area(const Theme& theme, const Rect& panel) {
+  return panel.inset(theme.px(44), theme.px(12));  // the depth's numbers lie beside it
+}
+
+PlaneOnScreen UltrasoundPanel::plane(const Theme& theme, const Rect& panel, const Pictures& pictures) {
+  const Rect area = picture_area(theme, panel);
+  return {{area.x, area.y}, {area.w, area.h}, pictures.geometry(), theme.look().marker == MarkerSide::right};
+}
+
+bool UltrasoundPanel::draw(const Theme& theme, const Rect& panel, Session& session, const Pictures& pictures,
+                           PictureTools& tools, std::map<std::string, Rect>& places) {
+  bool double_clicked = false;
+  fill(panel, colour::kImage, theme.px(4));
+  const Rect area = picture_area(theme, panel);
+  if (const gl::Texture* picture = pictures.ultrasound()) {
+    const PlaneOnScreen plane = draw_picture(theme, panel, *picture, pictures, session.machine());
+    draw_annotations(theme, panel, plane, shown_annotations(session, tools));
+    draw_picture_tools(theme, panel, session, tools, places);  // before the picture's own item, which lies below
+    take_mouse(theme, area, session, plane, tools);
+    double_clicked = is_double_clicked() && !PictureTools::ready(session);
+  } else {
+    draw_text(panel, theme.text, colour::kFaint, "Waiting for the probe", Align::centre);
+  }
+  const Rect below = draw_annotations(theme, panel, session.loaded_case().subject.name, session.machine());
+  if (!session.event_markers_s().empty()) draw_text(below, theme.small_text, colour::kAccent, mark_text(session));
+  draw_mark(theme, panel, session);
+  draw_banner(theme, panel, session.lost_for_s(), state_text(session, tools));
+  draw_tracker_problem(theme, panel, session);
+  return double_clicked;
+}
+
+bool UltrasoundPanel::draw_still(const Theme& theme, const Rect& panel, const std::string& patient,
+                                 const Machine& machine, const ShownAnnotations& annotations,
+                                 std::optional<double> lost_for_s, const Pictures& pictures) {
+  fill(panel, colour::kImage, theme.px(4));
+  if (const gl::Texture* picture = pictures.ultrasound())
+    draw_annotations(theme, panel, draw_picture(theme, panel, *picture, pictures, machine), annotations);
+  else
+    draw_text(panel, theme.text, colour::kFaint, "No pose has come yet", Align::centre);
+  draw_annotations(theme, panel, patient, machine);
+  draw_banner(theme, panel, lost_for_s, machine.frozen ? "Frozen" : "");
+  ImGui::SetCursorScreenPos(panel.min());
+  ImGui::InvisibleButton("ultrasound", {panel.w, panel.h});
+  return is_double_clicked();
+}
+
+}  // namespace insonate::ui

@@ -1,0 +1,65 @@
+#include "app/panels/views/space_lines.h"
+
+#include <algorithm>
+#include <string>
+
+#include "app/panels/views/space_drawing.h"
+
+namespace insonate::ui {
+namespace {
+
+std::string readable(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+bool overlap(const Rect& a, const Rect& b) {
+  return a.x < b.x + b.w && b.x < a.x + a.w && a.y < b.y + b.h && b.y < a.y + a.h;
+}
+
+}  // namespace
+
+void draw_fan_edge(const Theme& theme, const Rect& space, const Pictures& pictures) {
+  const SpaceDrawing drawing(space, pictures.volume_camera());
+  drawing.fan_edge(pictures.volume_pose(), pictures.plane().probe, pictures.depth_mm(), colour::kAccent,
+                   theme.px(1.5f));
+}
+
+void draw_landmarks(const Theme& theme, const Rect& space, const std::vector<Landmark>& landmarks,
+                    const Pictures& pictures) {
+  const SpaceDrawing drawing(space, pictures.volume_camera());
+  const float dot = theme.px(4), height = theme.px(19);
+  struct Seen {
+    const Landmark* landmark;
+    ImVec2 at;
+  };
+  std::vector<Seen> seen;
+  std::vector<Rect> taken;  // by dots, and then by names
+  for (const Landmark& landmark : landmarks)
+    if (const std::optional<ImVec2> at = drawing.seen(landmark.position)) {
+      seen.push_back({&landmark, *at});
+      taken.push_back({at->x - dot, at->y - dot, 2 * dot, 2 * dot});
+    }
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  for (const auto& [landmark, at] : seen) {
+    list->AddCircleFilled(at, dot, colour::kBackground, 16);
+    list->AddCircleFilled(at, theme.px(3), colour::kText, 16);
+    const std::string name = readable(landmark->name);
+    const float width = text_width(theme.small_text, name) + theme.px(8);
+    const float right = at.x + dot + theme.px(2), left = at.x - dot - theme.px(2) - width, up = at.y - height;
+    for (const ImVec2& corner : {ImVec2(right, at.y - height / 2), ImVec2(left, at.y - height / 2), ImVec2(right, up),
+                                 ImVec2(right, at.y), ImVec2(left, up), ImVec2(left, at.y)}) {
+      const Rect plate{corner.x, corner.y, width, height};
+      const bool inside = plate.x >= space.x && plate.x + plate.w <= space.x + space.w && plate.y >= space.y &&
+                          plate.y + plate.h <= space.y + space.h;
+      if (!inside || std::any_of(taken.begin(), taken.end(), [&](const Rect& other) { return overlap(plate, other); }))
+        continue;
+      taken.push_back(plate);
+      fill(plate, colour::kPlate, theme.px(3));
+      draw_text(plate, theme.small_text, colour::kText, name, Align::centre);
+      break;
+    }
+  }
+}
+
+}  // namespace insonate::ui

@@ -1,0 +1,129 @@
+#include "app/panels/views/views_panel.h"
+
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "app/panels/scan/picture_plates.h"
+
+namespace insonate::ui {
+namespace {
+
+// Shows how the patient lies: the axes that point towards the viewer, with their anatomical letters.
+void draw_orientation(const Theme& theme, const Rect& panel, const view::OrbitCamera& camera) {
+  struct Axis {
+    glm::dvec3 direction;
+    const char* name;
+  };
+  static constexpr double kFaces = 0.08;
+  const std::array<Axis, 6> axes{
+      {{{1, 0, 0}, "L"}, {{-1, 0, 0}, "R"}, {{0, 1, 0}, "P"}, {{0, -1, 0}, "A"}, {{0, 0, 1}, "S"}, {{0, 0, -1}, "I"}}};
+  const glm::dmat3 camera_from_patient = glm::transpose(camera.patient_from_camera().rotation);
+  const ImVec2 centre{panel.x + panel.w - theme.px(40), panel.y + panel.h - theme.px(40)};
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  list->AddCircleFilled(centre, theme.px(31), colour::kPlate, 32);
+  for (const Axis& axis : axes) {
+    const glm::dvec3 seen = camera_from_patient * axis.direction;  // z points into the picture
+    const ImVec2 tip{centre.x + float(seen.x) * theme.px(22), centre.y + float(seen.y) * theme.px(22)};
+    if (seen.z > kFaces) continue;
+    list->AddLine(centre, tip, colour::kFaint, 1);
+    draw_text({tip.x - theme.px(10), tip.y - theme.px(9), theme.px(20), theme.px(18)}, theme.small_text, colour::kText,
+              axis.name, Align::centre);
+  }
+}
+
+struct ViewButton {
+  const char* id;
+  const char* letter;
+  const char* tip;
+  std::optional<view::Side> side;  ///< empty: back to the plane
+};
+constexpr std::array<ViewButton, 7> kViewButtons{{
+    {"view_front", "A", "Seen from the front (anterior)", view::Side::front},
+    {"view_back", "P", "Seen from behind (posterior)", view::Side::back},
+    {"view_right", "R", "Seen from the patient's right", view::Side::right},
+    {"view_left", "L", "Seen from the patient's left", view::Side::left},
+    {"view_head", "S", "Seen from the head (superior)", view::Side::head},
+    {"view_feet", "I", "Seen from the feet (inferior), as axial CT slices are", view::Side::feet},
+    {"view_reset", "\u21ba", "Turned to the plane of the ultrasound again  (Home)", {}},
+}};
+
+// Draws a button per side of the patient along the panel's lower edge.
+void draw_view_buttons(const Theme& theme, const Rect& panel, Pictures& pictures, std::map<std::string, Rect>& places) {
+  const float size = theme.px(26), between = theme.px(3);
+  Rect row{panel.x + theme.px(6), panel.y + panel.h - size - theme.px(6), panel.w, size};
+  for (const ViewButton& each : kViewButtons) {
+    const Rect place = places[each.id] = row.take_left(size);
+    row.take_left(between);
+    if (button(theme, each.id, place, each.letter, ButtonKind::normal, true, each.tip))
+      each.side ? pictures.look_from(*each.side) : pictures.reset_camera();
+  }
+}
+
+// The line of sight through a point of the screen, in patient mm.
+struct Sight {
+  glm::dvec3 eye, direction;
+};
+
+Sight sight(const view::OrbitCamera& camera, const Rect& panel, const ImVec2& pointer) {
+  const Pose pose = camera.patient_from_camera();
+  const double focal = panel.h / 2 / std::tan(glm::radians(camera.field_of_view_deg / 2));
+  const glm::dvec3 ray((pointer.x - panel.x - panel.w / 2) / focal, (pointer.y - panel.y - panel.h / 2) / focal, 1);
+  return {pose.translation, glm::normalize(pose.rotation * ray)};
+}
+
+// Returns whether the pointer is on the dummy probe: near its face or its handle.
+bool on_probe(const Theme& theme, const view::OrbitCamera& camera, const Rect& panel, const Pose& probe,
+              const ImVec2& pointer) {
+  constexpr double kHandle_mm = 90;
+  for (const double back : {0.0, 0.33, 0.67, 1.0}) {
+    const glm::dvec2 at = camera.project(probe.point({0, -kHandle_mm * back, 0}), int(panel.w), int(panel.h));
+    if (std::hypot(at.x + panel.x - pointer.x, at.y + panel.y - pointer.y) < theme.px(26)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+bool SpacePanel::draw(const Theme& theme, const Rect& panel, Session* session, Pictures& pictures,
+                      std::map<std::string, Rect>& places, const std::function<void()>& more_buttons) {
+  fill(panel, colour::kImage, theme.px(4));
+  if (const gl::Texture* picture = pictures.volume())
+    ImGui::GetWindowDrawList()->AddImage(id_of(*picture), panel.min(), panel.max());
+  draw_view_buttons(theme, panel, pictures, places);  // before the picture's own item, which lies below
+  more_buttons();
+  ImGui::SetCursorScreenPos(panel.min());
+  ImGui::InvisibleButton(
+      "space", {panel.w, panel.h},
+      ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
+  const bool double_clicked = ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0);
+  const ImGuiIO& io = ImGui::GetIO();
+  view::OrbitCamera& camera = pictures.camera;
+  const bool over_probe = ImGui::IsItemHovered() && session && session->shown_pose() &&
+                          on_probe(theme, camera, panel, *session->shown_pose(), io.MousePos);
+  if (ImGui::IsItemHovered() && io.MouseWheel != 0) camera.zoom(std::pow(1.1, io.MouseWheel));
+  if (ImGui::IsItemActivated()) holds_probe_ = over_probe && io.MouseDown[0] && !io.KeyShift;
+  if (over_probe || (holds_probe_ && ImGui::IsItemActive())) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+  if (ImGui::IsItemActive() && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0)) {
+    constexpr double kDegPerPixel = 0.4;
+    if (holds_probe_ && session) {
+      const Sight to = sight(camera, panel, io.MousePos);
+      session->move_probe(
+          [&](const ProbeHand& hand, const Pose& pose) { return hand.put(pose, to.eye, to.direction); });
+    } else if (io.MouseDown[1]) {
+      camera.zoom(std::pow(1.1, -io.MouseDelta.y / theme.px(12)));
+    } else if (io.MouseDown[2] || io.KeyShift) {
+      camera.pan({io.MouseDelta.x, io.MouseDelta.y}, int(panel.h));
+    } else {
+      camera.orbit(kDegPerPixel * io.MouseDelta.x, kDegPerPixel * io.MouseDelta.y);
+    }
+  }
+  draw_title(theme, panel, "Patient");
+  draw_orientation(theme, panel, camera);
+  return double_clicked;
+}
+
+}  // namespace insonate::ui

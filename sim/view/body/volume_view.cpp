@@ -1,0 +1,304 @@
+#include "sim/view/body/volume_view.h"
+
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "sim/shaders/shared/volume_view_parameters.h"
+#include "sim/view/body/classified_ct.h"
+#include "sim/view/body/tissue_classes.h"
+#include "sim/view/picture_target.h"
+#include "sim/view/plane_state.h"
+
+namespace insonate::view {
+namespace {
+
+constexpr int kCoarsest = 4;
+
+// One sample every half voxel, fewer where pixels are coarser. Smoothing spreads an edge over two voxels, so that four
+// samples lie in it and no steps show.
+constexpr double kStepInVoxels = 0.5;
+double coarsening(int scale) {
+  return 1 + 0.35 * (scale - 1);
+}
+double step_mm(const PatientTextures& patient, int scale) {
+  return kStepInVoxels * patient.tissue_voxel_mm() * coarsening(scale);
+}
+
+VolumeViewParameters parameters_for(const PatientTextures& patient, const OrbitCamera& camera,
+                                    const UltrasoundPlane& plane, const VolumeStyle& style, int width, int height,
+                                    int scale) {
+  const Pose patient_from_camera = camera.patient_from_camera();
+  const double slope = std::tan(glm::radians(camera.field_of_view_deg / 2));
+  const double aspect = double(width) / height;
+  const auto axis = [&](int i, double length) {
+    return glm::vec4(glm::vec3(patient_from_camera.rotation[i] * length), 0);
+  };
+  const ImageGeometry& g = plane.geometry;
+  const bool curved = plane.probe.kind == ProbeKind::curvilinear;
+
+  VolumeViewParameters p{};
+  p.tissue_from_patient = glm::mat4(patient.tissue_from_patient());
+  p.texture_from_patient = glm::mat4(patient.texture_from_patient());
+  p.probe_from_patient = glm::mat4(plane.patient_from_probe.inverse().matrix());
+  p.eye = glm::vec4(glm::vec3(patient_from_camera.translation), 1);
+  p.right = axis(0, slope * aspect);
+  p.down = axis(1, slope);
+  p.into = axis(2, 1);
+  p.picture = glm::vec4(width, height, 2 * slope / height, 0);
+  // Texels extend half a pixel around their centres.
+  p.image_geometry = glm::vec4(glm::vec2(g.top_left_mm - g.mm_per_pixel / 2), g.mm_per_pixel, 0);
+  p.probe_shape = curved ? glm::vec4(plane.probe.radius_mm, glm::radians(plane.probe.field_of_view_deg / 2), 0, 0)
+                         : glm::vec4(0, plane.probe.width_mm / 2, 0, 0);
+  p.step_mm = float(step_mm(patient, scale));
+  p.voxel_mm = float(patient.tissue_voxel_mm());
+  p.skin = float(style.skin);
+  p.cut_face = float(style.cut_face);
+  p.cut = style.cut;
+  p.show_plane = style.plane && plane.image;
+  p.show_probe = style.probe;
+  p.show_organs = style.organs;
+  p.fan_edge = scale == 1;
+  if (style.ct) {
+    p.ct_step_mm = float(style.ct->step * patient.ct_voxel_mm() * coarsening(scale));
+    p.jitter = style.ct->jittered;
+    p.skip_empty = style.ct->skips_empty;
+    p.body_only = style.ct->body_only;
+  }
+  return p;
+}
+
+struct Inputs {
+  int width, height;
+  const PatientTextures* patient;
+  OrbitCamera camera;
+  PlaneState plane;
+  VolumeStyle style;
+  bool operator==(const Inputs&) const = default;
+};
+
+/// Measures how long drawing takes, from whole pictures: parts differ, because the patient lies in the middle. The
+/// device time of a part is read only when the next part begins. By then it has long been ready, so that nothing waits.
+class Pace {
+public:
+  void begin(bool first_part) {
+    collect();
+    if (first_part) sum_ms_ = sum_pixels_ = 0;
+    timer_.begin();
+  }
+  void end(double pixels, bool last_part) {
+    timer_.end();
+    pending_pixels_ = pixels;
+    pending_is_last_ = last_part;
+  }
+  /// Returns the time per pixel, ms; nothing before the first whole picture.
+  std::optional<double> pixel_ms() {
+    collect();
+    return pixel_ms_;
+  }
+
+private:
+  void collect() {
+    if (pending_pixels_ == 0) return;
+    sum_ms_ += timer_.milliseconds();
+    sum_pixels_ += std::exchange(pending_pixels_, 0);
+    if (pending_is_last_) pixel_ms_ = sum_ms_ / sum_pixels_;
+  }
+
+  gl::Timer timer_;
+  double pending_pixels_ = 0;
+  bool pending_is_last_ = false;
+  double sum_ms_ = 0, sum_pixels_ = 0;
+  std::optional<double> pixel_ms_;
+};
+
+/// What lies in front of the ultrasound's plane and behind it, and what hides the probe.
+struct Layers {
+  gl::Texture front, back, before_probe;
+  gl::Framebuffer framebuffer;
+
+  void resize(int width, int height) {
+    if (front && front.width() == width && front.height() == height) return;
+    front = gl::Texture::make_2d(GL_RGBA8, width, height, gl::Filter::linear);
+    back = gl::Texture::make_2d(GL_RGBA8, width, height, gl::Filter::linear);
+    before_probe = gl::Texture::make_2d(GL_R8, width, height, gl::Filter::linear);
+    framebuffer = gl::Framebuffer({&front, &back, &before_probe});
+  }
+};
+
+}  // namespace
+
+struct VolumeView::State {
+  explicit State(const gl::ShaderSources& sources)
+      : whole(sources, {"view/full_screen.vert", "view/volume_view.frag"}, kDefines),
+        layers_program(sources, {"view/full_screen.vert", "view/volume_layers.frag"}, kDefines),
+        finish(sources, {"view/full_screen.vert", "view/volume_finish.frag"}, kDefines) {}
+
+  inline static const gl::Defines kDefines{{"VOXELS_PER_BLOCK", std::to_string(TissueClasses::kBlock)}};
+  static gl::Defines defines_for(const std::optional<CtVolumeStyle>& ct);
+  gl::Program whole, layers_program, finish;
+  gl::FullScreenTriangle triangle;
+  gl::Buffer parameters{sizeof(VolumeViewParameters), nullptr};
+  ClassifiedCt classified;
+  PictureTarget full, reduced;
+  Layers layers;
+  Pace pace, finish_pace;
+
+  std::optional<Inputs> drawn;
+  int scale = 1;         // scale of the picture shown
+  int moving_scale = 1;  // scale of the last picture drawn while inputs changed
+  int finish_scale = 1;  // scale of the plane in that picture
+  int full_rows = 0;     // rows of the full picture drawn so far
+  long renders = 0;
+
+  void bind(const Inputs& inputs, const UltrasoundPlane& plane, int width, int height, int coarseness);
+  void draw_whole(const Inputs& inputs, const UltrasoundPlane& plane, int first_row, int end_row);
+  void draw_moving(const Inputs& inputs, const UltrasoundPlane& plane);
+};
+
+namespace {
+
+// Returns the finest scale up to `coarsest` that fits the budget. A finer scale than the last is chosen only if it fits
+// with room to spare, so that the picture does not flicker between two sharpnesses.
+int chosen_scale(Pace& pace, double full_pixels, double budget_ms, int last, int coarsest) {
+  if (std::isinf(budget_ms)) return 1;
+  const std::optional<double> pixel_ms = pace.pixel_ms();
+  if (!pixel_ms) return coarsest;
+  for (int candidate = 1; candidate < coarsest; ++candidate) {
+    const double expected_ms = *pixel_ms * full_pixels / (candidate * candidate);
+    if (expected_ms <= (candidate < last ? 0.75 : 1.0) * budget_ms) return candidate;
+  }
+  return coarsest;
+}
+
+int scaled(int pixels, int scale) {
+  return (pixels + scale - 1) / scale;
+}
+
+}  // namespace
+
+gl::Defines VolumeView::State::defines_for(const std::optional<CtVolumeStyle>& ct) {
+  if (!ct) return kDefines;
+  return {{"CT_MARCH", "1"},
+          {"CT_CLASSIFICATION", ct->classification == Classification::post ? "POST_CLASSIFICATION" : "PRE_INTEGRATED"},
+          {"CT_SHADED", gl::flag(ct->shaded)},
+          {"VOXELS_PER_CELL", std::to_string(MacroCells::kSide)}};
+}
+
+void VolumeView::State::bind(const Inputs& inputs, const UltrasoundPlane& plane, int width, int height,
+                             int coarseness) {
+  const VolumeViewParameters values =
+      parameters_for(*inputs.patient, inputs.camera, plane, inputs.style, width, height, coarseness);
+  parameters.write(&values, sizeof values);
+  parameters.bind_uniform(0);
+  inputs.patient->acoustic_volume().bind(0);
+  if (plane.image) plane.image->bind(1);
+  inputs.patient->tissue().bind(2);
+  inputs.patient->body().bind(3);
+  inputs.patient->distance().bind(4);
+  if (!inputs.style.ct) return;
+  classified.update(*inputs.patient, inputs.style.ct->function, inputs.style.ct->body_only);
+  classified.bind();
+}
+
+void VolumeView::State::draw_whole(const Inputs& inputs, const UltrasoundPlane& plane, int first_row, int end_row) {
+  full.resize(inputs.width, inputs.height);
+  bind(inputs, plane, inputs.width, inputs.height, 1);
+  const ScopedDrawTarget drawing(full.framebuffer, first_row, end_row);
+  whole.define(defines_for(inputs.style.ct));
+  whole.use();
+  pace.begin(first_row == 0);
+  triangle.draw();
+  pace.end(double(inputs.width) * (end_row - first_row), end_row == inputs.height);
+  ++renders;
+}
+
+void VolumeView::State::draw_moving(const Inputs& inputs, const UltrasoundPlane& plane) {
+  const int coarse_width = scaled(inputs.width, scale), coarse_height = scaled(inputs.height, scale);
+  layers.resize(coarse_width, coarse_height);
+  bind(inputs, plane, coarse_width, coarse_height, scale);
+  {
+    const ScopedDrawTarget drawing(layers.framebuffer, 0, coarse_height);
+    layers_program.define(defines_for(inputs.style.ct));
+    layers_program.use();
+    pace.begin(true);
+    triangle.draw();
+    pace.end(double(coarse_width) * coarse_height, true);
+  }
+  const int width = scaled(inputs.width, finish_scale), height = scaled(inputs.height, finish_scale);
+  reduced.resize(width, height);
+  bind(inputs, plane, width, height, finish_scale);
+  layers.front.bind(5);
+  layers.back.bind(6);
+  layers.before_probe.bind(7);
+  const ScopedDrawTarget drawing(reduced.framebuffer, 0, height);
+  finish.use();
+  finish_pace.begin(true);
+  triangle.draw();
+  finish_pace.end(double(width) * height, true);
+  ++renders;
+}
+
+VolumeView::VolumeView(const gl::ShaderSources& sources) : state_(std::make_unique<State>(sources)) {}
+VolumeView::~VolumeView() = default;
+VolumeView::VolumeView(VolumeView&&) noexcept = default;
+VolumeView& VolumeView::operator=(VolumeView&&) noexcept = default;
+
+const gl::Texture& VolumeView::render(int width, int height, const PatientTextures& patient, const OrbitCamera& camera,
+                                      const UltrasoundPlane& plane, const VolumeStyle& style,
+                                      const VolumeBudget& budget) {
+  State& s = *state_;
+  const Inputs inputs{width, height, &patient, camera, PlaneState(plane), style};
+  const double pixels = double(width) * height;
+  if (s.drawn != inputs) {
+    if (s.drawn && s.drawn->style.ct.has_value() != style.ct.has_value())
+      s.pace = Pace();  // costs several times as much
+    s.drawn = inputs;
+    s.scale = s.moving_scale = chosen_scale(s.pace, pixels, budget.volume_ms, s.moving_scale, kCoarsest);
+    s.full_rows = s.scale == 1 ? height : 0;
+    if (s.scale == 1) {
+      s.draw_whole(inputs, plane, 0, height);
+    } else {
+      s.finish_scale = chosen_scale(s.finish_pace, pixels, budget.plane_ms, s.finish_scale, s.scale);
+      s.draw_moving(inputs, plane);
+    }
+  } else if (s.full_rows < height) {
+    const double row_ms = s.pace.pixel_ms().value_or(0) * width, budget_ms = budget.volume_ms + budget.plane_ms;
+    const int rows = row_ms * height <= budget_ms ? height : int(std::max(budget_ms / row_ms, height / 64.0)) + 1;
+    const int first = s.full_rows;
+    s.full_rows = std::min(first + rows, height);
+    s.draw_whole(inputs, plane, first, s.full_rows);
+    if (s.full_rows == height) s.scale = 1;
+  }
+  return s.scale == 1 ? s.full.texture : s.reduced.texture;
+}
+
+void VolumeView::forget() {
+  state_->drawn.reset();
+  state_->classified.forget();
+}
+
+long VolumeView::renders() const {
+  return state_->renders;
+}
+
+int VolumeView::scale() const {
+  return state_->scale;
+}
+
+double VolumeView::full_picture_ms() const {
+  const std::optional<Inputs>& drawn = state_->drawn;
+  return drawn ? state_->pace.pixel_ms().value_or(0) * drawn->width * drawn->height : 0;
+}
+
+std::optional<std::string> VolumeView::reload(const gl::ShaderSources& sources) {
+  const std::optional<std::string> problem =
+      gl::Program::reload(std::array{&state_->whole, &state_->layers_program, &state_->finish}, sources);
+  if (!problem) forget();
+  return problem;
+}
+
+}  // namespace insonate::view

@@ -1,0 +1,94 @@
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "sim/core/files.h"
+#include "sim/core/text.h"
+#include "sim/phantom/phantom.h"
+#include "sim/volume/open_case.h"
+#include "tools/python/arrays.h"
+#include "tools/python/bindings.h"
+
+namespace insonate::python {
+namespace {
+
+std::vector<py::ssize_t> shape_of(const Grid& grid) {
+  return {grid.size.z, grid.size.y, grid.size.x};
+}
+
+std::shared_ptr<HeldCase> opened(const std::filesystem::path& path) {
+  const py::gil_scoped_release without_lock;
+  return std::make_shared<HeldCase>(HeldCase{open_case(path), path.string()});
+}
+
+std::shared_ptr<HeldCase> made_phantom(const py::kwargs& given) {
+  std::vector<std::pair<std::string, std::string>> options;
+  for (const auto& [key, value] : given) {
+    const std::string name = py::str(key);
+    if (py::isinstance<py::bool_>(value))
+      options.emplace_back(name, value.cast<bool>() ? "true" : "false");
+    else if (py::isinstance<py::str>(value))
+      options.emplace_back(name, value.cast<std::string>());
+    else
+      options.emplace_back(name, exact_text(value.cast<double>()));
+  }
+  const py::gil_scoped_release without_lock;
+  const std::filesystem::path recipe = assets_folder() / "phantoms" / "abdomen.toml";
+  return std::make_shared<HeldCase>(HeldCase{cached_phantom(recipe, options, cache_folder()), "the built-in patient"});
+}
+
+}  // namespace
+
+void bind_cases(py::module_& module) {
+  py::class_<ReferenceView>(module, "View")
+      .def_readonly("name", &ReferenceView::name)
+      .def_readonly("title", &ReferenceView::title)
+      .def_readonly("probe", &ReferenceView::probe)
+      .def_readonly("depth_mm", &ReferenceView::depth_mm)
+      .def_readonly("landmarks", &ReferenceView::landmarks)
+      .def_readonly("targets", &ReferenceView::targets)
+      .def_property_readonly("pose",
+                             [](const ReferenceView& view) { return array_of(view.patient_from_probe.matrix()); })
+      .def("__repr__", [](const ReferenceView& view) { return "<insonate.View " + view.name + ">"; });
+  py::class_<HeldCase, std::shared_ptr<HeldCase>>(module, "Case")
+      .def_property_readonly("name", [](const HeldCase& held) { return held.subject.name; })
+      .def_property_readonly("views",
+                             [](const HeldCase& held) {
+                               py::dict views;
+                               for (const ReferenceView& view : held.subject.views) views[py::str(view.name)] = view;
+                               return views;
+                             })
+      .def_property_readonly("label_names",
+                             [](const HeldCase& held) {
+                               py::dict names;
+                               for (const Label& label : held.subject.label_table)
+                                 names[py::int_(label.value)] = label.name;
+                               return names;
+                             })
+      .def_property_readonly("landmarks",
+                             [](const HeldCase& held) {
+                               py::dict landmarks;
+                               for (const Landmark& landmark : held.subject.landmarks) {
+                                 const glm::dvec3& p = landmark.position;
+                                 landmarks[py::str(landmark.name)] = py::make_tuple(p.x, p.y, p.z);
+                               }
+                               return landmarks;
+                             })
+      .def_property_readonly("ct",
+                             [](const std::shared_ptr<HeldCase>& held) {
+                               const Volume<std::int16_t>& ct = held->subject.ct;
+                               return shared_array(ct.voxels, shape_of(ct.grid), py::cast(held));
+                             })
+      .def_property_readonly("labels",
+                             [](const std::shared_ptr<HeldCase>& held) -> py::object {
+                               const Volume<std::uint8_t>& labels = held->subject.labels;
+                               if (labels.empty()) return py::none();
+                               return shared_array(labels.voxels, shape_of(labels.grid), py::cast(held));
+                             })
+      .def_property_readonly("patient_from_voxel",
+                             [](const HeldCase& held) { return array_of(held.subject.ct.grid.matrix()); })
+      .def("__repr__", [](const HeldCase& held) { return "<insonate.Case " + held.subject.name + ">"; });
+  module.def("open_case", &opened, py::arg("path"));
+  module.def("phantom", &made_phantom);
+}
+
+}  // namespace insonate::python

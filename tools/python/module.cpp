@@ -1,0 +1,48 @@
+// The extension module insonate._insonate; insonate/__init__.py presents it, and insonate/__init__.pyi describes it.
+
+#include <dlfcn.h>
+#include <pybind11/pybind11.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "sim/core/files.h"
+#include "sim/core/input_error.h"
+#include "tools/python/bindings.h"
+
+namespace insonate::python {
+namespace {
+
+/// Tells the simulator where the assets are from where this module is, in an install as in a build.
+void find_assets() {
+  Dl_info module;
+  if (std::getenv("INSONATE_ASSETS") || dladdr(reinterpret_cast<void*>(&find_assets), &module) == 0) return;
+  const std::filesystem::path folder = std::filesystem::path(module.dli_fname).parent_path();
+  for (const char* way : {INSONATE_ASSETS_FROM_MODULE, INSONATE_ASSETS_FROM_BUILT_MODULE}) {
+    std::error_code error;
+    const std::filesystem::path assets = std::filesystem::weakly_canonical(folder / way, error);
+    if (!std::filesystem::exists(assets / "tissues.toml", error)) continue;
+    set_assets_folder(assets);
+    return;
+  }
+}
+
+}  // namespace
+
+const TissueTable& tissues() {
+  static const TissueTable table = read_tissue_table(assets_folder() / "tissues.toml");
+  return table;
+}
+
+}  // namespace insonate::python
+
+PYBIND11_MODULE(_insonate, module) {
+  using namespace insonate::python;
+  find_assets();
+  module.attr("__version__") = INSONATE_VERSION;
+  pybind11::register_exception<insonate::InputError>(module, "InputError", PyExc_ValueError);
+  bind_probes(module);
+  bind_cases(module);
+  bind_simulator(module);
+  bind_registration(module);
+}

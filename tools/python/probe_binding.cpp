@@ -1,0 +1,65 @@
+#include <pybind11/stl.h>
+
+#include "sim/core/input_error.h"
+#include "sim/core/suggest.h"
+#include "sim/imaging/view_limits.h"
+#include "tools/python/bindings.h"
+
+namespace insonate::python {
+namespace {
+
+namespace py = pybind11;
+
+const std::vector<std::string> kKinds{"linear", "curvilinear", "phased"};
+
+Probe made(const std::string& like, const py::kwargs& changes) {
+  Probe probe = probe_of(py::str(like));
+  for (const auto& [key, value] : changes) {
+    const std::string name = py::str(key);
+    if (name == "radius_mm")
+      probe.radius_mm = value.cast<double>();
+    else if (name == "field_of_view_deg")
+      probe.field_of_view_deg = value.cast<double>();
+    else if (name == "width_mm")
+      probe.width_mm = value.cast<double>();
+    else if (name == "frequency_mhz")
+      probe.frequency_mhz = value.cast<double>();
+    else if (name == "depth_mm")
+      probe.depth_mm = value.cast<double>();
+    else if (name == "lines")
+      probe.lines = value.cast<int>();
+    else
+      throw InputError(
+          "Probe", "", "a probe has no '" + name + "'",
+          suggest(name, {"radius_mm", "field_of_view_deg", "width_mm", "frequency_mhz", "depth_mm", "lines"}));
+  }
+  gl::check_probe("Probe", probe, probe.depth_mm);
+  return probe;
+}
+
+}  // namespace
+
+Probe probe_of(const py::object& given) {
+  if (py::isinstance<Probe>(given)) return given.cast<Probe>();
+  if (!py::isinstance<py::str>(given)) throw py::type_error("a probe is given by its name or as a Probe");
+  const std::string name = given.cast<std::string>();
+  if (const Probe* probe = find_probe(name)) return *probe;
+  throw InputError("probe", "", "there is no probe named '" + name + "'", suggest(name, probe_names()));
+}
+
+void bind_probes(py::module_& module) {
+  py::class_<Probe>(module, "Probe")
+      .def(py::init(&made), py::arg("like"))
+      .def_readonly("name", &Probe::name)
+      .def_property_readonly("kind", [](const Probe& probe) { return kKinds.at(std::size_t(probe.kind)); })
+      .def_readonly("radius_mm", &Probe::radius_mm)
+      .def_readonly("field_of_view_deg", &Probe::field_of_view_deg)
+      .def_readonly("width_mm", &Probe::width_mm)
+      .def_readonly("frequency_mhz", &Probe::frequency_mhz)
+      .def_readonly("depth_mm", &Probe::depth_mm)
+      .def_readonly("lines", &Probe::lines)
+      .def("__repr__", [](const Probe& probe) { return "<insonate.Probe " + probe.name + ">"; });
+  module.def("probe_names", &probe_names);
+}
+
+}  // namespace insonate::python

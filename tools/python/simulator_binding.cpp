@@ -1,0 +1,243 @@
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <optional>
+
+#include "sim/core/input_error.h"
+#include "sim/core/suggest.h"
+#include "sim/gl/headless_context.h"
+#include "sim/imaging/simulator.h"
+#include "sim/imaging/upload.h"
+#include "sim/imaging/view_limits.h"
+#include "sim/model/acoustic_volume.h"
+#include "sim/model/settings_file.h"
+#include "sim/truth/picture_truth.h"
+#include "sim/volume/open_case.h"
+#include "tools/python/arrays.h"
+#include "tools/python/bindings.h"
+#include "tools/python/graphics_thread.h"
+
+namespace insonate::python {
+namespace {
+
+SettingValue setting_value(const py::handle& value) {
+  if (py::isinstance<py::bool_>(value)) return value.cast<bool>();
+  if (py::isinstance<py::int_>(value)) return value.cast<std::int64_t>();
+  if (py::isinstance<py::float_>(value)) return value.cast<double>();
+  if (py::isinstance<py::str>(value)) return value.cast<std::string>();
+  return value.cast<std::vector<double>>();
+}
+
+/// A simulator with its patient. Pictures are as clinics show them: the probe's marker on the left.
+class SimulatorBinding {
+public:
+  explicit SimulatorBinding(CasePtr subject) : case_(std::move(subject)), truth_(case_->subject, tissues()) {
+    const Case& patient = case_->subject;
+    simulator_.open();
+    AcousticVolume volume;
+    {
+      const py::gil_scoped_release without_lock;
+      volume = make_acoustic_volume(patient.ct, patient.labels, tissue_by_label(patient), tissues());
+    }
+    with([&](gl::Simulator& simulator) {
+      gl::upload_ct(case_->source, volume.grid, [&] { simulator.set_volume(volume, tissues()); });
+    });
+    if (patient.views.empty()) {
+      set_probe(py::str("curvilinear"), std::nullopt);
+    } else {
+      const ReferenceView& view = patient.views.front();
+      set_probe(py::str(view.probe), view.depth_mm);
+      pose_ = view.patient_from_probe;
+    }
+  }
+
+  void close() { simulator_.close(); }
+
+  void set_probe(const py::object& given, std::optional<double> depth_mm) {
+    const Probe probe = probe_of(given);
+    const double depth = depth_mm.value_or(probe.depth_mm);
+    gl::check_probe("Simulator", probe, depth);
+    Settings settings = trainer_settings(probe.frequency_mhz, depth);
+    settings.image_width = settings_.image_width;
+    settings.image_height = settings_.image_height;
+    probe_ = probe;
+    depth_mm_ = depth;
+    settings_ = settings;
+  }
+
+  py::dict settings() const {
+    py::dict all;
+    for (const auto& [name, value] : named_settings(settings_)) all[py::str(name)] = py::cast(value);
+    return all;
+  }
+
+  void set(const py::kwargs& changes) {
+    Settings settings = settings_;
+    for (const auto& [key, value] : changes) {
+      const std::string name = py::str(key);
+      std::vector<std::string> known;
+      for (const auto& [each, ignored] : named_settings(settings)) known.push_back(each);
+      if (std::find(known.begin(), known.end(), name) == known.end())
+        throw InputError("settings", "", "there is no setting '" + name + "'", suggest(name, known));
+      if (const auto why = set_setting(settings, name, setting_value(value)))
+        throw InputError("settings", "", *why, "give such a value");
+    }
+    settings_ = settings;
+  }
+
+  py::array_t<double> pose() const { return array_of(pose_.matrix()); }
+  void set_pose(const Doubles& matrix) { pose_ = pose_of(matrix); }
+
+  py::array_t<std::uint8_t> image() {
+    Image<std::uint8_t> grey;
+    with([&](gl::Simulator& simulator) {
+      prepare(simulator);
+      simulator.set_pose(pose_);
+      grey = read(simulator);
+    });
+    return array_of(mirrored(grey));
+  }
+
+  /// Draws all poses in one call, and computes their labels at will.
+  py::object images(const Doubles& matrices, bool with_labels) {
+    const std::vector<Pose> poses = poses_of(matrices);
+    const std::size_t pixels = std::size_t(settings_.image_width) * std::size_t(settings_.image_height);
+    std::vector<std::uint8_t> grey(poses.size() * pixels);
+    const auto keep = [&](std::vector<std::uint8_t>& all, std::size_t i, const Image<std::uint8_t>& image) {
+      const Image<std::uint8_t> shown = mirrored(image);
+      std::copy(shown.pixels.begin(), shown.pixels.end(), all.begin() + std::ptrdiff_t(i * pixels));
+    };
+    with([&](gl::Simulator& simulator) {
+      prepare(simulator);
+      for (std::size_t i = 0; i < poses.size(); ++i) {
+        simulator.set_pose(poses[i]);
+        keep(grey, i, read(simulator));
+      }
+    });
+    const std::vector<py::ssize_t> shape{py::ssize_t(poses.size()), settings_.image_height, settings_.image_width};
+    if (!with_labels) return array_of(std::move(grey), shape);
+    std::vector<std::uint8_t> label(grey.size()), visible(grey.size()), reach(grey.size());
+    {
+      const py::gil_scoped_release without_lock;
+      truth_.set_view(probe_, depth_mm_, settings_);
+      for (std::size_t i = 0; i < poses.size(); ++i) {
+        const PictureTruth truth = truth_.at(poses[i]);
+        keep(label, i, truth.label);
+        keep(visible, i, truth.visible_label);
+        keep(reach, i, truth.reach);
+      }
+    }
+    py::dict all;
+    all["image"] = array_of(std::move(grey), shape);
+    all["label"] = array_of(std::move(label), shape);
+    all["visible_label"] = array_of(std::move(visible), shape);
+    all["reach"] = array_of(std::move(reach), shape);
+    return all;
+  }
+
+  py::dict truth() {
+    PictureTruth truth;
+    {
+      const py::gil_scoped_release without_lock;
+      truth_.set_view(probe_, depth_mm_, settings_);
+      truth = truth_.at(pose_);
+    }
+    py::dict all;
+    all["label"] = array_of(mirrored(truth.label));
+    all["visible_label"] = array_of(mirrored(truth.visible_label));
+    all["reach"] = array_of(mirrored(truth.reach));
+    const auto lines = py::ssize_t(truth.skin_mm.size());
+    all["skin_mm"] = array_of(std::move(truth.skin_mm), {lines});
+    return all;
+  }
+
+  py::dict stages() {
+    Stages<float> stages;
+    with([&](gl::Simulator& simulator) {
+      prepare(simulator);
+      simulator.set_pose(pose_);
+      stages = simulator.read_stages();
+    });
+    py::dict all;
+    all["intensity"] = array_of(std::move(stages.intensity));
+    all["reflection"] = array_of(std::move(stages.reflection));
+    all["reflection_beam"] = array_of(std::move(stages.reflection_beam));
+    all["transmission"] = array_of(std::move(stages.transmission));
+    all["repeated"] = array_of(std::move(stages.repeated));
+    all["speckle"] = array_of(std::move(stages.speckle));
+    all["fused"] = array_of(mirrored(stages.fused));
+    all["inside"] = array_of(mirrored(stages.inside));
+    all["image"] = array_of(mirrored(stages.grey));
+    return all;
+  }
+
+  py::array_t<double> patient_from_pixel() const {
+    const ImageGeometry geometry = image_geometry(probe_, depth_mm_, settings_.image_width, settings_.image_height);
+    glm::dmat4 drawn_from_shown(1.0);
+    drawn_from_shown[0][0] = -1;
+    drawn_from_shown[3][0] = settings_.image_width - 1;
+    return array_of(python_matrix(geometry) * drawn_from_shown);
+  }
+
+  std::string device() {
+    std::string text;
+    with([&](gl::Simulator&) { text = gl::device_description(); });
+    return text;
+  }
+
+  const Probe& probe() const { return probe_; }
+  double depth_mm() const { return depth_mm_; }
+
+private:
+  template <typename Use>
+  void with(const Use& use) {
+    simulator_.with("simulator", [&](gl::Simulator& simulator) {
+      gl::within_device("settings", "take fewer samples, lines or pixels", [&] { use(simulator); });
+    });
+  }
+  void prepare(gl::Simulator& simulator) const {
+    simulator.set_probe(probe_, depth_mm_);
+    simulator.set_settings(settings_);
+  }
+  Image<std::uint8_t> read(gl::Simulator& simulator) const {
+    Image<std::uint8_t> grey(settings_.image_width, settings_.image_height);
+    simulator.image().read(GL_RED, GL_UNSIGNED_BYTE, grey.pixels.data(), grey.pixels.size());
+    return grey;
+  }
+  glm::dmat4 python_matrix(const ImageGeometry& geometry) const {
+    return insonate::patient_from_pixel(geometry, pose_);
+  }
+
+  CasePtr case_;
+  TruthMaker truth_;
+  OnGraphicsThread<gl::Simulator> simulator_;
+  Probe probe_;
+  double depth_mm_ = 0;
+  Settings settings_;
+  Pose pose_;
+};
+
+}  // namespace
+
+void bind_simulator(py::module_& module) {
+  py::class_<SimulatorBinding>(module, "Simulator")
+      .def(py::init([](const std::shared_ptr<HeldCase>& held) { return std::make_unique<SimulatorBinding>(held); }),
+           py::arg("case").none(false))
+      .def("__enter__", [](py::object self) { return self; })
+      .def("__exit__", [](SimulatorBinding& self, const py::args&) { self.close(); })
+      .def("close", &SimulatorBinding::close)
+      .def("set_probe", &SimulatorBinding::set_probe, py::arg("probe"), py::arg("depth_mm") = py::none())
+      .def_property_readonly("probe", &SimulatorBinding::probe)
+      .def_property_readonly("depth_mm", &SimulatorBinding::depth_mm)
+      .def_property_readonly("settings", &SimulatorBinding::settings)
+      .def("set", &SimulatorBinding::set)
+      .def_property("pose", &SimulatorBinding::pose, &SimulatorBinding::set_pose)
+      .def("image", &SimulatorBinding::image)
+      .def("images", &SimulatorBinding::images, py::arg("poses"), py::kw_only(), py::arg("labels") = false)
+      .def("truth", &SimulatorBinding::truth)
+      .def("stages", &SimulatorBinding::stages)
+      .def_property_readonly("patient_from_pixel", &SimulatorBinding::patient_from_pixel)
+      .def_property_readonly("device", &SimulatorBinding::device);
+}
+
+}  // namespace insonate::python
