@@ -27,13 +27,14 @@ ShapePtr ShapeReader::tree(const TomlTable& table, const std::string& name) {
   TreeRule rule;
   for (const std::string& stem : table.texts("stems", 1))
     for (const Strand& strand : strands(table, "stems", stem)) rule.stems.push_back(strand);
+  if (rule.stems.empty()) table.fail("stems", "no stem has a line", "name a tube");
   rule.within = part(table, "within");
   const Bounds& bounds = rule.within->bounds();
   if (bounds.high.x >= kEverywhere.high.x || bounds.high.y >= kEverywhere.high.y || bounds.high.z >= kEverywhere.high.z)
     table.fail("within", "the shape that 'within' names has no end", "name one that half spaces do not make endless");
   rule.clear_of = parts(table, "avoid");
   rule.gap_mm = float(table.number("avoid_mm", {0, 50}, 1));
-  rule.tips = int(table.whole_number("tips", 1, 2000));
+  rule.tips = int(table.whole_number("tips", 1, 500));
   rule.tip_radius_mm = float(table.number("tip_mm", {0.2, 50}));
   rule.seed = seed_of(name);
   strands_[name] = bounds.empty() ? rule.stems : grow_tree(rule);
@@ -87,8 +88,9 @@ std::shared_ptr<const Septa> ShapeReader::read_septa(const TomlTable& shape) con
     form.layers_of = part(table, "layers_of");
   } else {
     const std::string line = table.text("along");
-    for (const Strand& strand : strands(table, "along", line))
-      form.along.insert(form.along.end(), strand.begin(), strand.end());
+    const std::vector<Strand>& found = strands(table, "along", line);
+    if (found.size() != 1) table.fail("along", "'" + line + "' is not one line", "name a tube");
+    form.along = found.front();
   }
   form.seed = hash(seed_of(shape.text("name")), 1);
   return std::make_shared<Septa>(form);

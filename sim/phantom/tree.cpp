@@ -14,6 +14,12 @@ namespace insonate {
 namespace {
 
 constexpr float kStep_mm = 3.0f;  // between the nodes of a branch, as on a tube's spline
+constexpr int kMostSteps = 64;    // of a branch; longer ones have longer steps
+
+// Unlike normalize() it has a value for a vector without length.
+glm::vec3 unit(const glm::vec3& v) {
+  return v / std::max(glm::length(v), 1e-6f);
+}
 
 struct Node {
   glm::vec3 position{0.0f};
@@ -89,7 +95,7 @@ private:
     first_.push_back(nodes_.size());
     for (std::size_t n = 0; n < stem.size(); ++n) {
       const glm::vec3 way = positions[std::min(n + 1, stem.size() - 1)] - positions[n == 0 ? 0 : n - 1];
-      nodes_.push_back({positions[n], glm::normalize(way), stem[n].radius, parent, 0, 0, outside[n] < 0});
+      nodes_.push_back({positions[n], unit(way), stem[n].radius, parent, 0, 0, outside[n] < 0});
       parent = int(nodes_.size()) - 1;
     }
   }
@@ -170,7 +176,7 @@ private:
     for (const glm::vec3& p : path) {
       const glm::vec3 way = p - nodes_[std::size_t(parent)].position;
       // Not at the fork itself, where a second one would make a star.
-      nodes_.push_back({p, glm::normalize(way), 0, parent, 1, 0, parent != from});
+      nodes_.push_back({p, unit(way), 0, parent, 1, 0, parent != from});
       parent = int(nodes_.size()) - 1;
     }
     return true;
@@ -182,10 +188,9 @@ private:
     const float length = glm::length(way);
     if (length < 2 * kStep_mm) return {};
     const auto random = [&](std::uint32_t axis) { return unit_float(hash(rule_.seed, attempt, axis, 2)) - 0.5f; };
-    const glm::vec3 leaving = glm::normalize(way / length + 0.7f * from.flow) * length;
-    const glm::vec3 arriving =
-        glm::normalize(way / length + 1.2f * glm::vec3(random(0), random(1), random(2))) * length;
-    const int steps = int(std::ceil(length / kStep_mm));
+    const glm::vec3 leaving = unit(way / length + 0.7f * from.flow) * length;
+    const glm::vec3 arriving = unit(way / length + 1.2f * glm::vec3(random(0), random(1), random(2))) * length;
+    const int steps = std::min(int(std::ceil(length / kStep_mm)), kMostSteps);
     std::vector<glm::vec3> path;
     for (int step = 1; step <= steps; ++step) {
       const float t = float(step) / float(steps), u = 1 - t;
@@ -217,7 +222,7 @@ std::vector<Strand> companions(const std::vector<Strand>& strands, const Compani
       const float radius = std::min(point.radius * rule.share, rule.most_radius_mm);
       if (radius < rule.least_radius_mm) break;  // vessels taper from their first point on
       const glm::vec3 ahead = strand[std::min(n + 1, strand.size() - 1)].position - strand[n == 0 ? 0 : n - 1].position;
-      const glm::vec3 tangent = glm::normalize(ahead);
+      const glm::vec3 tangent = unit(ahead);
       const glm::vec3 across = rule.towards - tangent * glm::dot(rule.towards, tangent);
       const glm::vec3 side = across / std::max(glm::length(across), 1e-3f);
       companion.push_back({point.position + side * (point.radius + rule.gap_mm + radius), radius});
@@ -242,7 +247,7 @@ std::vector<Strand> spokes(const SpokesForm& form) {
         return shift * (2 * unit_float(hash(form.seed, std::uint32_t(n), axis, 3)) - 1);
       };
       const glm::vec3 u =
-          glm::normalize(glm::vec3(r * std::cos(around) + random(0), r * std::sin(around) + random(1), z + random(2)));
+          unit(glm::vec3(r * std::cos(around) + random(0), r * std::sin(around) + random(1), z + random(2)));
       if (opening_length > 0 && glm::dot(u, form.opening) > least_cosine * opening_length) continue;
       kept.push_back(u);
     }

@@ -387,6 +387,16 @@ TEST_CASE("a recipe that cannot be used is refused with its line and a way out")
            R"({ name = "a", kind = "spokes", centre = [0, 0, 0], inner = [1, 1, 1], outer = [2, 2, 2], count = 0 },)"),
        {"'count' is 0"}},
       {small_recipe(
+           stem +
+           R"({ name = "thin", kind = "companion", of = "stem", share = 0.1, least_mm = 1, towards = [1, 0, 0] },
+    { name = "a", kind = "tree", stems = ["thin"], within = "all", tips = 3, tip_mm = 1 },)"),
+       {"no stem has a line"}},
+      {small_recipe(
+           stem +
+           R"({ name = "thin", kind = "companion", of = "stem", share = 0.1, least_mm = 1, towards = [1, 0, 0] },
+    { name = "a", kind = "copy", of = "all", label = "fat", septa = { hu = 9, apart_mm = 2, along_mm = 9, along = "thin" } },)"),
+       {"'thin' is not one line"}},
+      {small_recipe(
            R"({ name = "a", kind = "copy", of = "all", label = "fat", septa = { hu = 9, apart_mm = 2, along_mm = 9 } },)"),
        {"shape 'a', its septa", "'along' is missing"}},
       {small_recipe(
