@@ -52,8 +52,7 @@ public:
     for (std::size_t n = 0; n < nodes_.size(); ++n) {
       const Node& node = nodes_[n];
       const float fed = rule_.tip_radius_mm * std::cbrt(float(std::max(node.tips, 1)));
-      const float own = node.given_mm > 0 && node.tips == 0 ? node.given_mm : std::max(node.given_mm, fed);
-      radii[n] = node.parent < 0 ? own : std::min(own, std::max(radii[std::size_t(node.parent)], node.given_mm));
+      radii[n] = node.given_mm > 0 && node.tips == 0 ? node.given_mm : std::max(node.given_mm, fed);
     }
     std::vector<Strand> strands;
     for (std::size_t s = 0; s < first_.size(); ++s) {

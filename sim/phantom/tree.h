@@ -14,8 +14,7 @@ namespace insonate {
 /// The tips are added one by one: each lies where the organ is emptiest, and joins the vessel that reaches it on the
 /// shortest way with the smallest bend (constrained constructive optimisation without its search for the least volume:
 /// Schreiner and Buxbaum, IEEE Trans Biomed Eng 40, 1993). A vessel that feeds n tips has the radius
-/// tip_radius_mm n^(1/3), by Murray's law (Proc Natl Acad Sci 12, 1926), but is never thicker than the vessel from
-/// which it branches.
+/// tip_radius_mm n^(1/3), by Murray's law (Proc Natl Acad Sci 12, 1926).
 struct TreeRule {
   std::vector<Strand> stems;       ///< centre lines; the first one begins at the root, each other one on an earlier one
   ShapePtr within;                 ///< branches stay inside this shape, which has finite bounds

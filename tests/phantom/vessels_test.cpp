@@ -87,7 +87,7 @@ TEST_CASE("the liver's vessels are two trees that reach all of it, and only the 
                                hepatic = values(subject, {"hepatic_veins"}),
                                sheath = values(subject, {"portal_vein_wall", "bile_ducts", "vessels"});
   std::map<std::string, std::size_t> rim;  // neighbours of each tree, by what they are
-  std::size_t near_vessel = 0, places = 0;
+  std::size_t near_portal = 0, near_hepatic = 0, places = 0;
   for (int k = 12; k + 12 < grid.size.z; ++k)
     for (int j = 12; j + 12 < grid.size.y; ++j)
       for (int i = 12; i + 12 < grid.size.x; ++i) {
@@ -101,21 +101,25 @@ TEST_CASE("the liver's vessels are two trees that reach all of it, and only the 
           }
         if (own != *liver.begin() || i % 8 != 0 || j % 8 != 0 || k % 8 != 0) continue;
         ++places;
-        bool is_near = false;
-        for (int n = 0; n < 25 * 25 * 25 && !is_near; ++n) {
+        bool is_near_portal = false, is_near_hepatic = false;
+        for (int n = 0; n < 25 * 25 * 25; ++n) {
           const glm::ivec3 off(n % 25 - 12, n / 25 % 25 - 12, n / 625 - 12);
+          if (off.x * off.x + off.y * off.y + off.z * off.z > 144) continue;
           const std::uint8_t there = subject.labels.at(glm::ivec3(i, j, k) + off);
-          is_near = off.x * off.x + off.y * off.y + off.z * off.z <= 144 &&
-                    (portal.count(there) != 0 || hepatic.count(there) != 0);
+          is_near_portal = is_near_portal || there == *portal.begin();
+          is_near_hepatic = is_near_hepatic || there == *hepatic.begin();
         }
-        near_vessel += is_near ? 1 : 0;
+        near_portal += is_near_portal ? 1 : 0;
+        near_hepatic += is_near_hepatic ? 1 : 0;
       }
   // Of 1 mm, the sheath is here and there thinner than a voxel.
   INFO(rim["portal in liver"] << " of " << rim["portal in sheath"]);
   CHECK(double(rim["portal in liver"]) < 0.1 * double(rim["portal in sheath"]));
   CHECK(double(rim["hepatic in sheath"]) < 0.05 * double(rim["hepatic in liver"]));
-  INFO(near_vessel << " of " << places << " places have a vessel within 12 mm");
-  CHECK(double(near_vessel) > 0.8 * double(places));
+  INFO("of " << places << " places, " << near_portal << " have a branch of the portal vein within 12 mm, "
+             << near_hepatic << " one of the hepatic veins");
+  CHECK(double(near_portal) > 0.7 * double(places));
+  CHECK(double(near_hepatic) > 0.6 * double(places));
 }
 
 TEST_CASE("a kidney has pyramids of differing size, and columns of cortex between them that reach the sinus") {
@@ -179,7 +183,8 @@ TEST_CASE("the diaphragm is as thin as a resting one, between liver and lung") {
   CHECK(thickness[thickness.size() / 2] < 3.3);
   CHECK(thickness[thickness.size() / 20] > 0.8);
   CHECK(thickness[thickness.size() * 19 / 20] < 4.0);
-  CHECK(thickness[thickness.size() * 9 / 10] > thickness[thickness.size() / 10] + 0.4);  // not the same everywhere
+  INFO("from " << thickness[thickness.size() / 10] << " to " << thickness[thickness.size() * 9 / 10] << " mm");
+  CHECK(thickness[thickness.size() * 9 / 10] > thickness[thickness.size() / 10] + 0.8);  // not the same everywhere
 }
 
 TEST_CASE("the gallbladder's wall has two layers and is at most 3 mm thick") {
