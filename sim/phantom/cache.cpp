@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Raise it when the same recipe would give other voxels, or when the layout of the files changes.
-constexpr const char* kMakerVersion = "phantom maker 1";
+constexpr const char* kMakerVersion = "phantom maker 2";
 constexpr const char* kDigestsFile = "digests.txt";
 
 // 128 bits protect against damage and mix-ups, not against an attacker, who can write the digests as well as the cache.

@@ -52,6 +52,34 @@ private:
   float blend_;
 };
 
+class Apart : public Shape {
+public:
+  Apart(std::vector<ShapePtr> parts, float gap) : Shape(bounds_of(parts)), parts_(std::move(parts)), gap_(gap) {}
+
+  void distances(Points& points, float* out) const override {
+    std::vector<float> second(points.count(), 1e6f);
+    std::fill_n(out, points.count(), 1e6f);
+    for (const ShapePtr& part : parts_) {
+      const std::vector<float>& d = points.distances_to(*part);
+      for (std::size_t n = 0; n < d.size(); ++n) {
+        second[n] = std::min(second[n], std::max(out[n], d[n]));
+        out[n] = std::min(out[n], d[n]);
+      }
+    }
+    // Midway between two parts their distances are equal, and the difference grows by 2 per mm away from there.
+    for (std::size_t n = 0; n < points.count(); ++n) out[n] = std::max(out[n], 0.5f * (gap_ - (second[n] - out[n])));
+  }
+
+private:
+  static Bounds bounds_of(const std::vector<ShapePtr>& parts) {
+    Bounds bounds;
+    for (const ShapePtr& part : parts) bounds = bounds.united(part->bounds());
+    return bounds;
+  }
+  std::vector<ShapePtr> parts_;
+  float gap_;
+};
+
 class Intersection : public Shape {
 public:
   Intersection(std::vector<ShapePtr> parts, float blend)
@@ -176,6 +204,10 @@ private:
 
 ShapePtr make_union(std::vector<ShapePtr> parts, float blend_mm) {
   return std::make_shared<Union>(std::move(parts), blend_mm);
+}
+
+ShapePtr make_apart(std::vector<ShapePtr> parts, float gap_mm) {
+  return std::make_shared<Apart>(std::move(parts), gap_mm);
 }
 
 ShapePtr make_intersection(std::vector<ShapePtr> parts, float blend_mm) {

@@ -69,56 +69,68 @@ public:
     // Traverse from the last shape, which displaces all others, back to the first. The share that is still free shows
     // the next shape below.
     std::vector<float> hu(points.count(), 0.0f), free(points.count(), 1.0f);
-    std::vector<int> label(points.count(), -1);
+    std::vector<int> owner(points.count(), -1);  // the shape whose label the point gets
     const auto pitch = float(grid.spacing.x);
-    for (auto painted = plan_.shapes.rbegin(); painted != plan_.shapes.rend(); ++painted) {
-      const DistanceRange range = points.range_of(*painted->shape);
+    for (int index = int(plan_.shapes.size()) - 1; index >= 0; --index) {
+      const PaintedShape& painted = plan_.shapes[std::size_t(index)];
+      const DistanceRange range = points.range_of(*painted.shape);
       if (range.least > 0.5f * pitch) continue;
-      const float own_hu = plan_.labels[painted->label].hu;
+      const float own_hu = plan_.labels[painted.label].hu;
       if (range.most < -0.5f * pitch) {
         for (std::size_t n = 0; n < points.count(); ++n) {
           hu[n] += free[n] * own_hu;
           free[n] = 0;
-          if (label[n] < 0) label[n] = int(painted->label);
+          if (owner[n] < 0) owner[n] = index;
         }
         break;
       }
-      const std::vector<float>& distance = points.distances_to(*painted->shape);
+      const std::vector<float>& distance = points.distances_to(*painted.shape);
       float most_free = 0;
       for (std::size_t n = 0; n < points.count(); ++n) {
         const float share = free[n] * std::clamp(0.5f - distance[n] / pitch, 0.0f, 1.0f);
         hu[n] += share * own_hu;
         free[n] -= share;
-        if (label[n] < 0 && distance[n] < 0) label[n] = int(painted->label);
+        if (owner[n] < 0 && distance[n] < 0) owner[n] = index;
         most_free = std::max(most_free, free[n]);
       }
       if (most_free < 1e-4f) break;
     }
 
     for (std::size_t n = 0; n < points.count(); ++n) hu[n] += free[n] * float(kAirHu);
-    add_textures(points, label, hu);
+    add_textures(points, owner, hu);
     for (std::size_t n = 0; n < points.count(); ++n) {
-      if (label[n] >= 0) subject.labels.voxels[offsets[n]] = plan_.labels[std::size_t(label[n])].label.value;
+      if (owner[n] >= 0) subject.labels.voxels[offsets[n]] = label_of(owner[n]).label.value;
       subject.ct.voxels[offsets[n]] = std::int16_t(std::clamp(std::round(hu[n]), -1024.0f, 32767.0f));
     }
   }
 
 private:
-  // Adds textures label by label: a texture is evaluated fastest for many points at once.
-  void add_textures(const Points& points, const std::vector<int>& label, std::vector<float>& hu) const {
-    std::vector<bool> done(plan_.labels.size(), false);
+  const PaintedLabel& label_of(int owner) const { return plan_.labels[plan_.shapes[std::size_t(owner)].label]; }
+
+  // Adds the texture of each label, or the septa of a shape that has them: either is evaluated fastest for many points
+  // at once.
+  void add_textures(Points& points, const std::vector<int>& owner, std::vector<float>& hu) const {
+    std::vector<bool> done(owner.size(), false);
     std::vector<std::size_t> alike;
-    for (std::size_t first = 0; first < label.size(); ++first) {
-      if (label[first] < 0 || done[std::size_t(label[first])]) continue;
-      const auto index = std::size_t(label[first]);
-      done[index] = true;
-      const float deviation = plan_.labels[index].texture_hu;
-      if (deviation <= 0) continue;
+    for (std::size_t first = 0; first < owner.size(); ++first) {
+      if (owner[first] < 0 || done[first]) continue;
+      const PaintedShape& shape = plan_.shapes[std::size_t(owner[first])];
       alike.clear();
-      for (std::size_t n = first; n < label.size(); ++n)
-        if (label[n] == label[first]) alike.push_back(n);
-      const std::vector<float> texture = textures_[index].at(points, alike);
-      for (std::size_t n = 0; n < alike.size(); ++n) hu[alike[n]] += deviation * texture[n];
+      for (std::size_t n = first; n < owner.size(); ++n) {
+        if (owner[n] < 0 || done[n]) continue;
+        const PaintedShape& other = plan_.shapes[std::size_t(owner[n])];
+        if (other.label != shape.label || other.septa != shape.septa) continue;
+        alike.push_back(n);
+        done[n] = true;
+      }
+      const float deviation = plan_.labels[shape.label].texture_hu;
+      if (shape.septa) {
+        const std::vector<float> septa = shape.septa->at(points, alike);
+        for (std::size_t n = 0; n < alike.size(); ++n) hu[alike[n]] += septa[n];
+      } else if (deviation > 0) {
+        const std::vector<float> texture = textures_[shape.label].at(points, alike);
+        for (std::size_t n = 0; n < alike.size(); ++n) hu[alike[n]] += deviation * texture[n];
+      }
     }
   }
 

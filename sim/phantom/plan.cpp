@@ -89,7 +89,7 @@ std::vector<PaintedShape> read_shapes(const TomlTable& root, ShapeReader& reader
       const auto found = label_index.find(label);
       if (found == label_index.end())
         table.fail("label", "there is no label '" + label + "'", suggest_from(label, label_index));
-      shapes.push_back({shape, found->second});
+      shapes.push_back({shape, found->second, reader.read_septa(table)});
     }
     table.refuse_unknown_keys();
   }

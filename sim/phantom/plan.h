@@ -3,10 +3,12 @@
 #include <glm/vec3.hpp>
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "sim/phantom/recipe.h"
+#include "sim/phantom/septa.h"
 #include "sim/phantom/shapes.h"
 #include "sim/volume/case.h"
 
@@ -23,7 +25,8 @@ struct PaintedLabel {
 /// A shape with its label.
 struct PaintedShape {
   ShapePtr shape;
-  std::size_t label = 0;  ///< index into PhantomPlan::labels
+  std::size_t label = 0;               ///< index into PhantomPlan::labels
+  std::shared_ptr<const Septa> septa;  ///< takes the place of the label's texture; may be empty
 };
 
 /// A reference view before the position of the skin is known.

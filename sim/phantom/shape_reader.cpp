@@ -22,34 +22,39 @@ Frame frame_of(const TomlTable& table, const std::map<std::string, Frame>& frame
   return found->second;
 }
 
-ShapePtr ShapeReader::known(const TomlTable& table, const std::string& key, const std::string& name) {
+ShapePtr ShapeReader::known(const TomlTable& table, const std::string& key, const std::string& name) const {
   const auto found = shapes_.find(name);
   if (found == shapes_.end())
     table.fail(key, "there is no shape '" + name + "' above this one", suggest_from(name, shapes_));
   return found->second;
 }
 
-ShapePtr ShapeReader::part(const TomlTable& table, const std::string& key) {
+ShapePtr ShapeReader::part(const TomlTable& table, const std::string& key) const {
   return known(table, key, table.text(key));
 }
 
-std::vector<ShapePtr> ShapeReader::parts(const TomlTable& table, const std::string& key) {
+std::vector<ShapePtr> ShapeReader::parts(const TomlTable& table, const std::string& key) const {
   std::vector<ShapePtr> shapes;
   for (const std::string& name : table.texts(key)) shapes.push_back(known(table, key, name));
   return shapes;
 }
 
+// The seed depends on the shape's name, not on its place: a new shape changes no other.
+std::uint32_t ShapeReader::seed_of(const std::string& name) const {
+  std::uint32_t seed = seed_;
+  for (const char c : name) seed = hash(seed, std::uint32_t(static_cast<unsigned char>(c)));
+  return seed;
+}
+
 ShapePtr ShapeReader::read(const TomlTable& table) {
   const std::string name = read_name(table);
   if (shapes_.count(name) != 0) table.fail("name", "there is another shape '" + name + "' above", "rename one");
-  const std::uint32_t seed = hash(seed_, ++read_so_far_);
-
   ShapePtr shape = solid(table, name);
   if (table.has("frame")) shape = make_placed(shape, frame_of(table, frames_));
   if (table.has("uneven_mm")) {
     const auto amplitude = float(table.number("uneven_mm", {0, 10}));
     const auto grain = float(table.number("uneven_grain_mm", {2, 500}, 30));
-    if (amplitude > 0) shape = make_uneven(shape, amplitude, grain, seed);
+    if (amplitude > 0) shape = make_uneven(shape, amplitude, grain, seed_of(name));
   }
   if (table.boolean("mirrored", false)) {
     Frame mirror;
@@ -93,7 +98,10 @@ ShapePtr ShapeReader::solid(const TomlTable& table, const std::string& name) {
     if (glm::length(normal) < 1e-6) table.fail("normal", "'normal' has no length", "give it a direction");
     return make_half_space(table.vector("point", {-kFar_mm, kFar_mm}), normal);
   }
-  if (kind == "tube") return tube(table);
+  if (kind == "tube") return tube(table, name);
+  if (kind == "tree") return tree(table, name);
+  if (kind == "companion") return companion(table, name);
+  if (kind == "spokes") return spokes_of(table, name);
   if (kind == "rib") return rib(table);
   if (kind == "loft") return loft(table, name);
   if (kind == "union") return make_union(several("of"), blend());
@@ -110,8 +118,8 @@ ShapePtr ShapeReader::solid(const TomlTable& table, const std::string& name) {
     return make_placed(part(table, "of"), shift);
   }
   table.fail("kind", "there is no kind '" + kind + "'",
-             suggest(kind, {"ellipsoid", "box", "half_space", "tube", "rib", "loft", "union", "intersection",
-                            "difference", "offset", "shell", "copy"}));
+             suggest(kind, {"ellipsoid", "box", "half_space", "tube", "rib", "loft", "tree", "companion", "spokes",
+                            "union", "intersection", "difference", "offset", "shell", "copy"}));
 }
 
 TubeForm ShapeReader::tube_form(const TomlTable& table) {
@@ -123,18 +131,23 @@ TubeForm ShapeReader::tube_form(const TomlTable& table) {
   return form;
 }
 
-ShapePtr ShapeReader::tube(const TomlTable& table) {
+ShapePtr ShapeReader::tube(const TomlTable& table, const std::string& name) {
   TubeForm form = tube_form(table);
-  if (form.flatness < 1) form.flat_towards = table.vector("flat_towards", {-kFar_mm, kFar_mm});
   const double radius = table.number("radius_mm", {kThin_mm, 500}, 0);
   std::vector<TubePoint> points;
-  for (const std::vector<double>& row : table.rows("points", 2, radius > 0 ? 3 : 4, 4, {-kFar_mm, kFar_mm})) {
-    const double own = row.size() == 4 ? row[3] : radius;
+  bool is_flat = form.flatness < 1;
+  for (const std::vector<double>& row : table.rows("points", 2, radius > 0 ? 3 : 4, 5, {-kFar_mm, kFar_mm})) {
+    const double own = row.size() > 3 ? row[3] : radius, flatness = row.size() > 4 ? row[4] : 1;
     if (own < kThin_mm || own > 500)
       table.fail("points", "a point's radius is " + std::to_string(own) + " mm", "give it 0.2 to 500 mm");
-    points.push_back({glm::vec3(row[0], row[1], row[2]), float(own)});
+    if (flatness < 0.1 || flatness > 1)
+      table.fail("points", "a point's flatness is " + std::to_string(flatness), "give it 0.1 to 1");
+    is_flat = is_flat || flatness < 1;
+    points.push_back({glm::vec3(row[0], row[1], row[2]), float(own), float(flatness)});
   }
-  return make_tube(points, form);
+  if (is_flat) form.flat_towards = table.vector("flat_towards", {-kFar_mm, kFar_mm});
+  strands_[name] = {centre_line(points, form)};
+  return make_tubes(strands_[name], form);
 }
 
 ShapePtr ShapeReader::rib(const TomlTable& table) {

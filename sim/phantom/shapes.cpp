@@ -169,11 +169,12 @@ private:
   // As for the ellipsoid, with f = (x^n + y^n)^(1/n), whose derivatives are (x/f)^(n-1) and (y/f)^(n-1).
   float outline_distance(float x, float y, float width, float depth) const {
     const float n = squareness_;
-    const float f = n == 2.0f ? std::sqrt(x * x + y * y) : std::pow(std::pow(x, n) + std::pow(y, n), 1.0f / n);
+    const float x_n = n == 2.0f ? x * x : std::pow(x, n), y_n = n == 2.0f ? y * y : std::pow(y, n), sum = x_n + y_n;
+    const float f = n == 2.0f ? std::sqrt(sum) : std::pow(sum, 1.0f / n);
     const float shortest = std::min(width, depth);
     if (f < 1e-3f) return -shortest;
-    const float fx = n == 2.0f ? x / f : std::pow(x / f, n - 1.0f);
-    const float fy = n == 2.0f ? y / f : std::pow(y / f, n - 1.0f);
+    // (x/f)^(n-1) = x^n / f^n * f / x, without another power.
+    const float fx = x > 0 ? x_n / sum * f / x : 0.0f, fy = y > 0 ? y_n / sum * f / y : 0.0f;
     return std::max((f - 1.0f) / std::sqrt(fx * fx / (width * width) + fy * fy / (depth * depth)), -shortest);
   }
 

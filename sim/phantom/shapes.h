@@ -94,11 +94,15 @@ ShapePtr make_box(const glm::vec3& centre, const glm::vec3& half_sizes, float ro
 /// Returns the half space on the side of the plane opposite to `normal`, which may have any length.
 ShapePtr make_half_space(const glm::vec3& point, const glm::vec3& normal);
 
-/// A point of a tube's centre line, with the tube's radius there, mm.
+/// A point of a tube's centre line, with the tube's section there, mm.
 struct TubePoint {
   glm::vec3 position{0.0f};
   float radius = 1.0f;
+  float flatness = 1.0f;  ///< multiplies that of the form, 0.1 to 1
 };
+
+/// The centre line of a vessel between its ends.
+using Strand = std::vector<TubePoint>;
 
 /// The form of a tube around its centre line.
 struct TubeForm {
@@ -109,8 +113,15 @@ struct TubeForm {
   float bead_depth = 0.0f;   ///< narrowing between two of these, as a share of the radius, 0 to 0.5
 };
 
-/// Returns a tube with round ends through at least two points; its radius is interpolated between them.
+/// Returns the centre line of a tube with at least two points: its spline in steps so short that straight pieces
+/// between them are indistinguishable from it.
+Strand centre_line(const std::vector<TubePoint>& points, const TubeForm& form);
+
+/// Returns a tube with round ends through at least two points; its section is interpolated between them.
 ShapePtr make_tube(const std::vector<TubePoint>& points, const TubeForm& form);
+
+/// Returns one solid of many tubes, whose centre lines consist of straight pieces; empty without strands.
+ShapePtr make_tubes(const std::vector<Strand>& strands, const TubeForm& form = {});
 
 /// An ellipse-like section of a loft: an outline in the axial plane, mm.
 struct LoftSection {
@@ -139,6 +150,8 @@ ShapePtr make_loft(const LoftForm& form);
 
 /// `blend_mm` rounds the seam over that length; 0 leaves it sharp. `gap_mm` is the distance kept from the cuts.
 ShapePtr make_union(std::vector<ShapePtr> parts, float blend_mm);
+/// Returns the union of parts that overlap, with a gap of about `gap_mm` midway between any two of them.
+ShapePtr make_apart(std::vector<ShapePtr> parts, float gap_mm);
 ShapePtr make_intersection(std::vector<ShapePtr> parts, float blend_mm);
 ShapePtr make_difference(ShapePtr from, std::vector<ShapePtr> cuts, float gap_mm, float blend_mm);
 

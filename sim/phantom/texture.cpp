@@ -82,9 +82,13 @@ std::vector<float> Texture::at(const Points& points, const std::vector<std::size
     for (std::size_t n = 0; n < which.size(); ++n) taken[n] = coordinate[which[n]];
     return taken;
   };
-  const std::vector<float> x = taken_from(points.x), y = taken_from(points.y), z = taken_from(points.z);
-  std::vector<float> values(which.size());
-  fill_noise(seed_, per_mm_, x.data(), y.data(), z.data(), which.size(), values.data());
+  return at(taken_from(points.x), taken_from(points.y), taken_from(points.z));
+}
+
+std::vector<float> Texture::at(const std::vector<float>& x_mm, const std::vector<float>& y_mm,
+                               const std::vector<float>& z_mm) const {
+  std::vector<float> values(x_mm.size());
+  fill_noise(seed_, per_mm_, x_mm.data(), y_mm.data(), z_mm.data(), values.size(), values.data());
   return values;
 }
 

@@ -25,6 +25,10 @@ public:
   /// Returns the noise at the points with the indices `which`, in that order, several times as fast.
   std::vector<float> at(const Points& points, const std::vector<std::size_t>& which) const;
 
+  /// Returns the noise at positions given as one coordinate per position in each vector, mm.
+  std::vector<float> at(const std::vector<float>& x_mm, const std::vector<float>& y_mm,
+                        const std::vector<float>& z_mm) const;
+
 private:
   std::uint32_t seed_;
   float per_mm_;

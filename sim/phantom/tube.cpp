@@ -15,6 +15,7 @@ struct Segment {
   glm::vec3 from{0.0f}, along{0.0f};
   float per_length_squared = 0;
   float radius_from = 0, radius_to = 0;
+  float flatness_from = 1, flatness_to = 1;
   Bounds bounds;
 };
 
@@ -25,10 +26,11 @@ glm::vec3 catmull_rom(const glm::vec3& before, const glm::vec3& from, const glm:
                                           t * (3.0f * (from - to) + after - before)));
 }
 
-// Samples the spline at beads so close that the straight pieces between them are indistinguishable from it.
-std::vector<TubePoint> beads_along(const std::vector<TubePoint>& points, const TubeForm& form) {
+}  // namespace
+
+Strand centre_line(const std::vector<TubePoint>& points, const TubeForm& form) {
   if (!form.smooth && form.bead_mm == 0) return points;
-  std::vector<TubePoint> beads{points.front()};
+  Strand beads{points.front()};
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
     const TubePoint &from = points[i], &to = points[i + 1];
     const glm::vec3 before = i == 0 ? 2.0f * from.position - to.position : points[i - 1].position;
@@ -37,11 +39,11 @@ std::vector<TubePoint> beads_along(const std::vector<TubePoint>& points, const T
     const int steps = std::max(1, int(std::ceil(glm::length(to.position - from.position) / kStep_mm)));
     for (int step = 1; step <= steps; ++step) {
       const float t = float(step) / float(steps);
-      // The radius eases in and out, so that it has no kink at a point.
+      // The section eases in and out, so that it has no kink at a point.
       const float eased = t * t * (3.0f - 2.0f * t);
       beads.push_back({form.smooth ? catmull_rom(before, from.position, to.position, after, t)
                                    : glm::mix(from.position, to.position, t),
-                       glm::mix(from.radius, to.radius, eased)});
+                       glm::mix(from.radius, to.radius, eased), glm::mix(from.flatness, to.flatness, eased)});
     }
   }
   if (form.bead_mm > 0) {
@@ -55,8 +57,9 @@ std::vector<TubePoint> beads_along(const std::vector<TubePoint>& points, const T
   return beads;
 }
 
-std::vector<Segment> segments_between(const std::vector<TubePoint>& beads) {
-  std::vector<Segment> segments;
+namespace {
+
+void add_segments(const Strand& beads, const TubeForm& form, std::vector<Segment>& segments) {
   for (std::size_t i = 0; i + 1 < beads.size(); ++i) {
     Segment segment;
     segment.from = beads[i].position;
@@ -64,13 +67,14 @@ std::vector<Segment> segments_between(const std::vector<TubePoint>& beads) {
     segment.per_length_squared = 1.0f / std::max(glm::dot(segment.along, segment.along), 1e-9f);
     segment.radius_from = beads[i].radius;
     segment.radius_to = beads[i + 1].radius;
+    segment.flatness_from = beads[i].flatness * form.flatness;
+    segment.flatness_to = beads[i + 1].flatness * form.flatness;
     for (const TubePoint& bead : {beads[i], beads[i + 1]}) {
       segment.bounds.include(bead.position - bead.radius);
       segment.bounds.include(bead.position + bead.radius);
     }
     segments.push_back(segment);
   }
-  return segments;
 }
 
 Bounds bounds_of(const std::vector<Segment>& segments) {
@@ -82,7 +86,9 @@ Bounds bounds_of(const std::vector<Segment>& segments) {
 class Tube : public Shape {
 public:
   Tube(std::vector<Segment> segments, const TubeForm& form)
-      : Shape(bounds_of(segments)), segments_(std::move(segments)), form_(form) {
+      : Shape(bounds_of(segments)), segments_(std::move(segments)), flat_towards_(form.flat_towards) {
+    for (const Segment& segment : segments_)
+      is_flat_ = is_flat_ || std::min(segment.flatness_from, segment.flatness_to) < 1.0f;
     constexpr std::size_t kTogether = 8;
     for (std::size_t begin = 0; begin < segments_.size(); begin += kTogether) {
       Stretch stretch{begin, std::min(begin + kTogether, segments_.size()), {}};
@@ -136,32 +142,33 @@ private:
   // Lowers `out` to the segment's distances where these are smaller.
   void lower_to(const Segment& segment, const float* x, const float* y, const float* z, std::size_t count,
                 float* out) const {
-    if (form_.flatness == 1.0f)
-      lower_to<false>(segment, form_, x, y, z, count, out);
+    if (is_flat_)
+      lower_to<true>(segment, flat_towards_, x, y, z, count, out);
     else
-      lower_to<true>(segment, form_, x, y, z, count, out);
+      lower_to<false>(segment, flat_towards_, x, y, z, count, out);
   }
 
   // Everything is by value and without branches, so that the compiler vectorizes the loop.
   template <bool kFlat>
-  [[gnu::flatten]] static void lower_to(const Segment segment, const TubeForm form, const float* x, const float* y,
-                                        const float* z, std::size_t count, float* out) {
+  [[gnu::flatten]] static void lower_to(const Segment segment, const glm::vec3 flat_towards, const float* x,
+                                        const float* y, const float* z, std::size_t count, float* out) {
     for (std::size_t n = 0; n < count; ++n) {
       const glm::vec3 p(x[n], y[n], z[n]);
-      const float distance = kFlat ? flat_distance(segment, form, p) : round_distance(segment, p);
+      const float distance = kFlat ? flat_distance(segment, flat_towards, p) : round_distance(segment, p);
       out[n] = distance < out[n] ? distance : out[n];
     }
   }
 
-  // The nearest point of the segment's axis, and the tube's radius there.
+  // The nearest point of the segment's axis, and the tube's section there.
   struct Foot {
     glm::vec3 at;
-    float radius;
+    float radius, flatness;
   };
 
   static Foot foot_of(const Segment& segment, const glm::vec3& p) {
     const float t = std::clamp(glm::dot(p - segment.from, segment.along) * segment.per_length_squared, 0.0f, 1.0f);
-    return {segment.from + t * segment.along, glm::mix(segment.radius_from, segment.radius_to, t)};
+    return {segment.from + t * segment.along, glm::mix(segment.radius_from, segment.radius_to, t),
+            glm::mix(segment.flatness_from, segment.flatness_to, t)};
   }
 
   static float round_distance(const Segment& segment, const glm::vec3& p) {
@@ -171,15 +178,15 @@ private:
 
   // The section is an ellipse of half axes radius and flatness * radius; its distance is exact to first order, as for
   // the ellipsoid.
-  static float flat_distance(const Segment& segment, const TubeForm& form, const glm::vec3& p) {
+  static float flat_distance(const Segment& segment, const glm::vec3& flat_towards, const glm::vec3& p) {
     const Foot foot = foot_of(segment, p);
-    const glm::vec3 off = p - foot.at, look = form.flat_towards - foot.at;
+    const glm::vec3 off = p - foot.at, look = flat_towards - foot.at;
     const glm::vec3 narrow = look / std::max(glm::length(look), 1e-3f);
-    const float stretch = 1.0f / form.flatness - 1.0f;
+    const float stretch = 1.0f / foot.flatness - 1.0f;
     const glm::vec3 stretched = off + narrow * (glm::dot(off, narrow) * stretch);
     const glm::vec3 twice = stretched + narrow * (glm::dot(stretched, narrow) * stretch);
     const float f = glm::length(stretched);
-    const float beside = (f - foot.radius) * f / glm::length(twice), on_axis = -foot.radius * form.flatness;
+    const float beside = (f - foot.radius) * f / glm::length(twice), on_axis = -foot.radius * foot.flatness;
     return f < 1e-3f ? on_axis : beside;
   }
 
@@ -191,13 +198,21 @@ private:
 
   std::vector<Segment> segments_;
   std::vector<Stretch> stretches_;
-  TubeForm form_;
+  glm::vec3 flat_towards_;
+  bool is_flat_ = false;
 };
 
 }  // namespace
 
 ShapePtr make_tube(const std::vector<TubePoint>& points, const TubeForm& form) {
-  return std::make_shared<Tube>(segments_between(beads_along(points, form)), form);
+  return make_tubes({centre_line(points, form)}, form);
+}
+
+ShapePtr make_tubes(const std::vector<Strand>& strands, const TubeForm& form) {
+  std::vector<Segment> segments;
+  for (const Strand& strand : strands) add_segments(strand, form, segments);
+  if (segments.empty()) return make_empty();
+  return std::make_shared<Tube>(std::move(segments), form);
 }
 
 }  // namespace insonate

@@ -34,6 +34,8 @@ TEST_CASE("every organ of the abdomen has a volume that an adult's may have") {
   // an organ (bone, muscle, lung bases, bowel as full as it happens to be) the range says "there, and not everywhere".
   const std::vector<Range> ranges{
       {{"liver", "hepatic_veins", "portal_vein", "portal_vein_wall"}, 1493 - 230, 1493 + 230},
+      {{"bile_ducts"}, 1, 20},
+      {{"liver_ligaments"}, 1, 15},
       {{"hepatic_veins"}, 5, 60},
       {{"portal_vein"}, 8, 60},
       {{"spleen"}, 219 - 2 * 76, 219 + 2 * 76},
@@ -45,7 +47,7 @@ TEST_CASE("every organ of the abdomen has a volume that an adult's may have") {
       {{"left_kidney_sinus"}, 8, 30},
       {{"pancreas"}, 35, 110},
       {{"gallbladder"}, 15, 60},
-      {{"gallbladder_wall"}, 3, 20},
+      {{"gallbladder_wall", "gallbladder_serosa"}, 3, 20},
       {{"bladder"}, 100, 400},
       {{"bladder_wall"}, 20, 90},
       {{"stomach", "stomach_content", "stomach_gas"}, 100, 600},
@@ -142,7 +144,7 @@ TEST_CASE("each landmark lies in what it names, or at its edge") {
       {"left_kidney_lower_pole", {{"left_kidney_cortex"}}},
       {"splenorenal_recess", {{"spleen"}, {"left_kidney_cortex"}}},
       {"spleen_tip", {{"spleen"}}},
-      {"gallbladder_neck", {{"gallbladder", "gallbladder_wall"}}},
+      {"gallbladder_neck", {{"gallbladder", "gallbladder_wall", "gallbladder_serosa"}}},
       {"gallbladder_fundus", {{"gallbladder"}}},
       {"portal_bifurcation", {{"portal_vein"}}},
       {"hepatic_vein_confluence", {{"hepatic_veins", "vena_cava"}}},

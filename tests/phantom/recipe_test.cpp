@@ -160,6 +160,59 @@ TEST_CASE("the same recipe gives the same bits with one, two and five threads") 
   CHECK(make_phantom("test.toml", reseeded).ct.voxels != one.ct.voxels);
 }
 
+TEST_CASE("a shape added to a recipe leaves the others as they were") {
+  const std::string rough =
+      R"({ name = "a", label = "organ", kind = "ellipsoid", centre = [1, 2, 3], radii = [14, 12, 13], uneven_mm = 1, uneven_grain_mm = 6 },)";
+  const std::string other =
+      R"({ name = "b", kind = "ellipsoid", centre = [0, 0, 0], radii = [3, 3, 3], uneven_mm = 1, uneven_grain_mm = 6 },)";
+  const Case alone = make(rough), behind = make(other + rough);
+  CHECK((alone.ct.voxels == behind.ct.voxels));
+}
+
+TEST_CASE("a tree of a recipe branches into its organ, in one thread or several") {
+  const std::string grown =
+      R"({ name = "organ", label = "organ", kind = "ellipsoid", centre = [0, 0, 0], radii = [18, 18, 18] },
+    { name = "hole", kind = "ellipsoid", centre = [9, 0, 6], radii = [5, 5, 5] },
+    { name = "stem", kind = "tube", points = [[0, 0, -19, 2.4], [0, 0, 2, 1.6]] },
+    { name = "stem_alone", label = "rough", kind = "copy", of = "stem", when = "extra" },
+    { name = "grown", KIND label = "rough" },)";
+  const auto with = [&](const std::string& kind) {
+    std::string text = grown;
+    return text.replace(text.find("KIND"), 4, kind);
+  };
+  const std::string tree =
+      R"(kind = "tree", stems = ["stem"], within = "organ", avoid = ["hole"], avoid_mm = 1.5, tips = 25, tip_mm = 1,)";
+  const Case bare = make(with(R"(kind = "copy", of = "stem",)")), branched = make(with(tree));
+  CHECK(count(branched, "rough") > 2 * count(bare, "rough"));
+  const std::uint8_t vessel = branched.find_label("rough")->value;
+  for (int k = 0; k < 40; ++k)
+    for (int j = 0; j < 40; ++j)
+      for (int i = 0; i < 40; ++i) {
+        if (branched.labels.at({i, j, k}) != vessel) continue;
+        const glm::dvec3 p = branched.labels.grid.patient_from_index(glm::dvec3(i, j, k));
+        CHECK(glm::length(p - glm::dvec3(9, 0, 6)) > 5);
+        CHECK((glm::length(p) < 18 || p.z < -15));  // but for the stem's root
+      }
+  const std::string beside = R"(kind = "companion", of = "stem", share = 0.5, least_mm = 0.5, towards = [1, 0, 0],)";
+  const Case accompanied = make(with(beside));
+  CHECK(count(accompanied, "rough") > 20);
+  CHECK(count(accompanied, "rough") < count(bare, "rough"));
+}
+
+TEST_CASE("a tube may be flattened in one place more than in another") {
+  const Case subject = make(
+      R"({ name = "made", label = "organ", kind = "tube", flat_towards = [0, 500, 0], points = [[0, 0, -30, 8, 0.5], [0, 0, 30, 8, 1]] },)");
+  const auto extent = [&](int k, const glm::ivec3& step) {
+    int n = 0;
+    for (glm::ivec3 at(20, 20, k); subject.labels.at(at) == subject.find_label("organ")->value; at += step) ++n;
+    return n;
+  };
+  CHECK(extent(0, {1, 0, 0}) == 8);
+  CHECK(extent(39, {1, 0, 0}) == 8);
+  CHECK(extent(0, {0, 1, 0}) < 6);  // of 8 mm, two thirds at a sixth of the way
+  CHECK(extent(39, {0, 1, 0}) > 6);
+}
+
 TEST_CASE("texture has no mean, unit deviation, and nothing finer than its grain") {
   const Texture texture(3, 4.0f);
   double sum = 0, squares = 0, step_squares = 0;
@@ -263,6 +316,8 @@ TEST_CASE("a recipe that cannot be used is refused with its line and a way out")
   const std::string view = R"(views = [{ name = "v", title = "V", probe = "curvilinear", )";
   const std::string point = R"(landmarks = [{ name = "p", at = [0, 0, 0] }]
 )";
+  const std::string stem = R"({ name = "stem", kind = "tube", points = [[0, 0, 0, 1], [0, 0, 9, 1]] },
+    { name = "h", kind = "half_space", point = [0, 0, 0], normal = [0, 0, 1] }, )";
   struct Bad {
     std::string text;
     std::vector<std::string> said;  // what the sentence has to hold
@@ -307,13 +362,49 @@ TEST_CASE("a recipe that cannot be used is refused with its line and a way out")
       {small_recipe(R"({ name = "a", kind = "copy", of = "all", when = "extr" },)"), {"did you mean 'extra'"}},
       {small_recipe(R"({ name = "a", kind = "tube", points = [[0, 0, 0, 1]] },)"), {"'points' has 1 rows"}},
       {small_recipe(R"({ name = "a", kind = "tube", points = [[0, 0, 0], [0, 0, 1]] },)"),
-       {"a row that is not a list of 4 numbers"}},
+       {"a row that is not a list of 4 to 5 numbers"}},
       {small_recipe(R"({ name = "a", kind = "tube", points = [[0, 0, 0, 0], [0, 0, 1, 1]] },)"), {"radius"}},
       {small_recipe(R"({ name = "a", kind = "loft", sections = [[1, 0, 0, 1, 1, 1], [0, 0, 0, 1, 1, 1]] },)"),
        {"z does not rise"}},
       {small_recipe(R"({ name = "a", kind = "rib", on = "all", radius_mm = 3, stations = [[0, 0], [9, 9]] },)"),
        {"no loft 'all'"}},
       {small_recipe(R"({ name = "a", kind = "half_space", point = [0, 0, 0], normal = [0, 0, 0] },)"), {"no length"}},
+      {small_recipe(R"({ name = "a", kind = "tube", points = [[0, 0, 0, 1, 2], [0, 0, 1, 1]] },)"), {"flatness is 2"}},
+      {small_recipe(R"({ name = "a", kind = "tube", points = [[0, 0, 0, 1, 0.5], [0, 0, 1, 1]] },)"),
+       {"'flat_towards' is missing"}},
+      {small_recipe(R"({ name = "a", kind = "tree", stems = ["s"], within = "all", tips = 3, tip_mm = 1 },)"),
+       {"line 13", "no tube, tree or companion 's' above"}},
+      {small_recipe(stem + R"({ name = "a", kind = "tree", stems = ["stem"], within = "al", tips = 3, tip_mm = 1 },)"),
+       {"did you mean 'all'"}},
+      {small_recipe(stem + R"({ name = "a", kind = "tree", stems = ["stem"], within = "h", tips = 3, tip_mm = 1 },)"),
+       {"'within' names has no end"}},
+      {small_recipe(stem + R"({ name = "a", kind = "tree", stems = ["stem"], within = "all", tips = 0, tip_mm = 1 },)"),
+       {"'tips' is 0"}},
+      {small_recipe(stem +
+                    R"({ name = "a", kind = "companion", of = "stm", share = 1, least_mm = 1, towards = [1, 0, 0] },)"),
+       {"did you mean 'stem'"}},
+      {small_recipe(
+           R"({ name = "a", kind = "spokes", centre = [0, 0, 0], inner = [1, 1, 1], outer = [2, 2, 2], count = 0 },)"),
+       {"'count' is 0"}},
+      {small_recipe(
+           stem +
+           R"({ name = "thin", kind = "companion", of = "stem", share = 0.1, least_mm = 1, towards = [1, 0, 0] },
+    { name = "a", kind = "tree", stems = ["thin"], within = "all", tips = 3, tip_mm = 1 },)"),
+       {"no stem has a line"}},
+      {small_recipe(
+           stem +
+           R"({ name = "thin", kind = "companion", of = "stem", share = 0.1, least_mm = 1, towards = [1, 0, 0] },
+    { name = "a", kind = "copy", of = "all", label = "fat", septa = { hu = 9, apart_mm = 2, along_mm = 9, along = "thin" } },)"),
+       {"'thin' is not one line"}},
+      {small_recipe(
+           R"({ name = "a", kind = "copy", of = "all", label = "fat", septa = { hu = 9, apart_mm = 2, along_mm = 9 } },)"),
+       {"shape 'a', its septa", "'along' is missing"}},
+      {small_recipe(
+           R"({ name = "a", kind = "copy", of = "all", label = "fat", septa = { hu = 9, apart_mm = 2, along_mm = 9, layers_of = "alll" } },)"),
+       {"did you mean 'all'"}},
+      {small_recipe(
+           R"({ name = "a", kind = "copy", of = "all", septa = { hu = 9, apart_mm = 2, along_mm = 9, layers_of = "all" } },)"),
+       {"'septa' is unknown"}},
       {small_recipe(R"({ name = "a", kind = "shell", of = "all", inner_mm = 2, outer_mm = 1 },)"), {"'outer_mm' is 1"}},
       {small_recipe("", "frames = [{ name = \"f\", at = [0, 0, 0] }, { name = \"f\", at = [0, 0, 0] }]\n"),
        {"two frames 'f'"}},
