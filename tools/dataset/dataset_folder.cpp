@@ -8,8 +8,10 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <set>
+#include <string_view>
 
 #include "sim/core/digest.h"
 #include "sim/core/files.h"
@@ -50,10 +52,11 @@ std::string host_name() {
 
 enum class Renamed { done, taken, on_another_disk };
 
-/// Gives a file a name, unless something has it.
-Renamed rename_to_new(const fs::path& from, const fs::path& to) {
-  if (renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return Renamed::done;
-  if (errno == EINVAL || errno == ENOSYS) {  // file systems such as NFS, which can give a second name instead
+/// Gives a file a name. What has the name is replaced, or else stays.
+Renamed rename_to(const fs::path& from, const fs::path& to, bool replace) {
+  if (renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), replace ? 0 : RENAME_NOREPLACE) == 0)
+    return Renamed::done;
+  if (!replace && (errno == EINVAL || errno == ENOSYS)) {  // file systems such as NFS, which can give a second name instead
     if (link(from.c_str(), to.c_str()) == 0) {
       unlink(from.c_str());
       return Renamed::done;
@@ -92,15 +95,34 @@ Json manifest_of(const Study& study, const std::vector<StudyPatient>& patients) 
   return json;
 }
 
+/// Returns whether a key holds a whole number from 0 to `most`.
+bool has_number(const Json& json, const char* key, std::uint64_t most) {
+  return json.at(key).is_number_unsigned() && json.at(key).get<std::uint64_t>() <= most;
+}
+
+/// Returns whether a manifest has everything that is read of it.
+bool is_complete_manifest(const Json& json) {
+  if (json.at("format") != kManifestFormat || !has_number(json, "shard_count", kMostShards) ||
+      !json.at("study").at("digest").is_string() || !json.at("program").at("version").is_string() ||
+      !json.at("program").at("commit").is_string() || !json.at("tissue_table").at("digest").is_string() ||
+      !json.at("patients").is_array() || !json.at("complete").is_boolean())
+    return false;
+  const std::uint64_t shards = json.at("shard_count").get<std::uint64_t>();
+  for (const Json& patient : json.at("patients"))
+    if (!patient.at("name").is_string() || !has_number(patient, "first_shard", shards) ||
+        !has_number(patient, "shards", shards - patient.at("first_shard").get<std::uint64_t>()))
+      return false;
+  if (!json.contains("shards")) return true;
+  const auto has_digest = [](const Json& shard) { return shard.at("digest").is_string(); };
+  return json.at("shards").is_array() && std::ranges::all_of(json.at("shards"), has_digest);
+}
+
 Json read_manifest(const fs::path& file) {
   const std::string text = read_file(file, kLargestManifest);
   const char* const remedy = "name the folder of a dataset, or make it anew";
   try {
     Json json = Json::parse(text);
-    if (json.at("format") != kManifestFormat || !json.at("shard_count").is_number_unsigned() ||
-        !json.at("study").at("digest").is_string() || !json.at("program").at("version").is_string() ||
-        !json.at("program").at("commit").is_string() || !json.at("tissue_table").at("digest").is_string() ||
-        !json.at("patients").is_array() || !json.at("complete").is_boolean())
+    if (!is_complete_manifest(json))
       throw InputError(file.string(), "", "it is not the manifest of a dataset of this version", remedy);
     return json;
   } catch (const Json::exception&) {
@@ -128,7 +150,7 @@ void DatasetFolder::begin(const Study& study, const std::vector<StudyPatient>& p
                        "name a folder that may be written");
     const fs::path temporary = temporary_manifest();
     write_file(temporary, manifest_of(study, patients).dump(2) + "\n");
-    if (rename_to_new(temporary, manifest_file()) != Renamed::done) fs::remove(temporary, error);
+    if (rename_to(temporary, manifest_file(), false) != Renamed::done) fs::remove(temporary, error);
   }
   check_is_of(study);
 }
@@ -174,7 +196,7 @@ fs::path DatasetFolder::temporary_for(std::uint32_t shard) const {
 
 void DatasetFolder::put_in_place(const fs::path& temporary, std::uint32_t shard) const {
   std::error_code error;
-  if (rename_to_new(temporary, shard_file(shard)) != Renamed::done) fs::remove(temporary, error);
+  if (rename_to(temporary, shard_file(shard), false) != Renamed::done) fs::remove(temporary, error);
 }
 
 std::uint32_t DatasetFolder::shards() const {
@@ -210,20 +232,31 @@ void DatasetFolder::complete() const {
   }
   json["devices"] = devices;
   json["shards"] = std::move(shards);
-  const std::string text = json.dump(2) + "\n";
-  if (read_file(manifest_file(), kLargestManifest) == text) return;
-  const fs::path temporary = temporary_manifest();
-  write_file(temporary, text);
-  std::error_code error;
-  fs::rename(temporary, manifest_file(), error);
-  if (error)
-    throw InputError(manifest_file().string(), "", "it cannot be written (" + error.message() + ")",
-                     "check the folder's permissions and free space");
-  for (fs::directory_iterator entry(path_ / "shards", error), end; !error && entry != end; entry.increment(error)) {
-    const std::string name = entry->path().filename().string();
-    std::error_code ignored;
-    if (name.starts_with(".") && name.ends_with(".partial.h5")) fs::remove(entry->path(), ignored);
+  // The name of a device comes from a shard, which may be damaged.
+  const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  if (read_file(manifest_file(), kLargestManifest) != text) {
+    const fs::path temporary = temporary_manifest();
+    write_file(temporary, text);
+    rename_to(temporary, manifest_file(), true);
   }
+  remove_leftovers();
+}
+
+void DatasetFolder::remove_leftovers() const {
+  const auto remove = [](const fs::path& folder, std::string_view ending, fs::file_time_type before) {
+    std::error_code error;
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+      const std::string name = entry->path().filename().string();
+      if (!name.starts_with(".") || !name.ends_with(ending)) continue;
+      std::error_code ignored;
+      const fs::file_time_type written = fs::last_write_time(entry->path(), ignored);
+      if (!ignored && written < before) fs::remove(entry->path(), ignored);
+    }
+  };
+  const auto now = fs::file_time_type::clock::now();
+  // All shards are there, so whoever still writes one does so in vain. Another process may be writing its manifest.
+  remove(path_ / "shards", ".partial.h5", fs::file_time_type::max());
+  remove(path_, ".partial.json", now - std::chrono::hours(24));
 }
 
 bool DatasetFolder::is_complete() const {
@@ -240,7 +273,7 @@ std::uint32_t DatasetFolder::take_shards_of(const DatasetFolder& other) const {
   for (std::uint32_t shard = 0; shard < shards(); ++shard) {
     if (has_shard(shard) || !other.has_shard(shard)) continue;
     const fs::path from = other.shard_file(shard);
-    if (rename_to_new(from, shard_file(shard)) == Renamed::on_another_disk) {
+    if (rename_to(from, shard_file(shard), false) == Renamed::on_another_disk) {
       std::error_code error;
       const fs::path near = temporary_for(shard);
       fs::copy_file(from, near, fs::copy_options::overwrite_existing, error);
