@@ -45,9 +45,9 @@ std::string status_text(const Session& session) {
 
 }  // namespace
 
-igtl::Address parse_server_address(const std::string& text) {
+igtl::Address parse_server_address(const std::string& text, const std::string& file, const std::string& place) {
   const auto refuse = [&](const std::string& problem) {
-    throw InputError("command line", "--igtl-server", "'" + text + "' " + problem,
+    throw InputError(file, place, "'" + text + "' " + problem,
                      "write a port as in '18944', or an address of this computer before it as in '0.0.0.0:18944'");
   };
   const std::size_t colon = text.rfind(':');

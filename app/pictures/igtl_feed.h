@@ -9,9 +9,11 @@
 
 namespace insonate {
 
-/// Parses the address of --igtl-server: "[ADDRESS:]PORT". The default is loopback; an IPv6 address is written in
-/// brackets. Throws InputError.
-igtl::Address parse_server_address(const std::string& text);
+/// Parses a server's address: "[ADDRESS:]PORT". The default is loopback; an IPv6 address is written in brackets. Throws
+/// InputError.
+/// @param file, place  where the text comes from
+igtl::Address parse_server_address(const std::string& text, const std::string& file = "command line",
+                                   const std::string& place = "--igtl-server");
 
 /// Publishes the session to OpenIGTLink clients, in RAS as 3D Slicer uses it:
 ///   TRANSFORM "ProbeToRas"  the pose of the picture, each frame; none while no usable pose comes

@@ -1,6 +1,7 @@
 #include "app/trainer/preferences.h"
 
 #include <cstdlib>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,8 @@ namespace insonate {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::size_t kLargestFile = 1 << 20;
 
 const std::vector<std::string> kTextSizes{"normal", "large", "largest"}, kLengthUnits{"cm", "mm"},
     kMarkers{"left", "right"}, kTints{"grey", "warm", "cool"}, kBlendColours{"grey", "amber", "green"},
@@ -36,7 +39,7 @@ Preferences read_preferences(const fs::path& file) {
   Preferences read;
   std::error_code error;
   if (!fs::exists(file, error)) return read;
-  const TomlDocument document(file.string(), read_file(file));
+  const TomlDocument document(file.string(), read_file(file, kLargestFile));
   const TomlTable table = document.root();
   table.whole_number("format", 1, 1);
   read.look.text_size = choice<TextSize>(table, "text_size", kTextSizes);
@@ -55,7 +58,9 @@ Preferences read_preferences(const fs::path& file) {
   const std::vector<std::string> qualities = quality_names();
   read.quality = qualities[table.choice("quality", qualities, std::size_t(quality_named(read.quality)))];
   read.igtl_server = table.text("igtl_server", "");
-  if (!read.igtl_server.empty()) parse_server_address(read.igtl_server);
+  if (!read.igtl_server.empty())
+    parse_server_address(read.igtl_server, file.string(),
+                         "line " + std::to_string(table.place("igtl_server").line) + ", 'igtl_server'");
   read.out = table.text("out", "");
   read.cases = table.text("cases", "");
   read.results = table.text("results", "");

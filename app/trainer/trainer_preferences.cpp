@@ -11,7 +11,9 @@ namespace insonate {
 void Trainer::serve() {
   feed_.reset();
   if (preferences_.igtl_server.empty()) return;
-  attempt([&] { feed_ = std::make_unique<IgtlFeed>(parse_server_address(preferences_.igtl_server)); });
+  attempt([&] {
+    feed_ = std::make_unique<IgtlFeed>(parse_server_address(preferences_.igtl_server, "settings", "igtl_server"));
+  });
 }
 
 void Trainer::take_look(const std::filesystem::path& file) {

@@ -99,7 +99,9 @@ Pose pose_in(const Sequence& sequence, std::size_t frame, const TransformPath& p
       if (!why_not_pose(whole)) return rounded(whole, worst_error);
       throw InputError(sequence.file,
                        path[i].constant ? "header" : "frame " + std::to_string(sequence.frames[frame].number),
-                       path[i].name + "Transform: " + *why, "calibrate and record again, or mark the frame as INVALID");
+                       path[i].name + "Transform: " + *why,
+                       path[i].constant ? "correct the header, or calibrate and record again"
+                                        : "calibrate and record again, or mark the frame as INVALID");
     }
     const Pose link = rounded(matrix, worst_error);
     pose = i == 0 ? link : link * pose;

@@ -150,7 +150,13 @@ const Image<std::uint8_t>& ImageReader::grey(std::uint64_t number) {
   if (number == number_) return picture_;
   number_.reset();
   const ImageForm& form = images_.form;
-  frame_.resize(std::size_t(form.frame_bytes));
+  try {
+    frame_.resize(std::size_t(form.frame_bytes));
+  } catch (const std::bad_alloc&) {
+    throw InputError(images_.file.string(), "image data",
+                     "there is not enough memory for one image of " + std::to_string(form.frame_bytes) + " bytes",
+                     "close other programs, or record smaller images");
+  }
   bytes_->read(number * form.frame_bytes, frame_.data(), frame_.size());
 
   const auto width = std::size_t(form.width), height = std::size_t(form.height);

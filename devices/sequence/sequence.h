@@ -53,7 +53,7 @@ struct Sequence {
   bool has_images = false;
   std::size_t image_offset = 0;         ///< offset in the file's bytes
   std::size_t image_bytes = 0;          ///< compressed size if the file is compressed
-  std::optional<ImageForm> image_form;  ///< empty without images, or if their frames are interleaved
+  std::optional<ImageForm> image_form;  ///< SequenceLayout::form
   std::string image_orientation;        ///< value of UltrasoundImageOrientation, such as "MFA"; empty if it is missing
 
   /// Returns the index into transform_names, or -1.

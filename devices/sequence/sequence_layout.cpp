@@ -10,6 +10,10 @@
 namespace insonate {
 namespace {
 
+/// How many bytes one byte of a deflate stream can stand for (zlib's technical details:
+/// https://zlib.net/zlib_tech.html).
+constexpr std::uint64_t kMostCompression = 1032;
+
 std::size_t count_kinds(const ClaimedImages& claimed, std::initializer_list<std::string_view> names) {
   return std::size_t(std::count_if(claimed.kinds.begin(), claimed.kinds.end(), [&](std::string_view kind) {
     return std::any_of(names.begin(), names.end(),
@@ -82,6 +86,7 @@ std::optional<ImageForm> image_form(const ClaimedImages& claimed, std::optional<
   if (lengths.size() < 2) return std::nullopt;
   form.width = lengths[0];
   form.height = lengths[1];
+  if (std::max(form.width, form.height) > kLongestImageSide || form.frame_bytes > kMostImageBytes) return std::nullopt;
   return form;
 }
 
@@ -115,6 +120,11 @@ SequenceLayout sequence_layout(const ClaimedImages& claimed, std::uint64_t bytes
     throw InputError(file, "image data",
                      "it is truncated: " + std::to_string(bytes_after) + " bytes of " +
                          std::to_string(layout.image_bytes) + " are there",
+                     "copy or record the file again");
+  if (claimed.compressed && raw / kMostCompression > bytes_after)
+    throw InputError(file, "image data",
+                     "it is truncated: " + std::to_string(bytes_after) + " bytes cannot hold images of " +
+                         std::to_string(raw) + " bytes, even compressed",
                      "copy or record the file again");
   return layout;
 }

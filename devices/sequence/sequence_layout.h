@@ -19,6 +19,11 @@ using HeaderFields = std::map<std::string_view, std::string_view>;
 /// The remedy for a header that its writer wrote incorrectly.
 inline constexpr const char* kExportAgain = "record or export the file again";
 
+/// The longest side of an image that is read, pixels: that of the largest texture of most graphics cards.
+inline constexpr std::uint64_t kLongestImageSide = 16384;
+/// The most bytes of a frame's image that is read, with all its slices: zlib counts to 4 GiB.
+inline constexpr std::uint64_t kMostImageBytes = std::uint64_t(1) << 30;
+
 /// Form of one frame's image in a file whose frames are stored one after the other.
 struct ImageForm {
   std::uint64_t width = 0, height = 0;  ///< pixels, above 0; for a stack of slices those of the first
@@ -34,7 +39,8 @@ struct SequenceLayout {
   std::uint64_t frames = 0;       ///< at least 1; only a claim, so do not allocate memory by it alone
   bool has_images = false;        ///< false for transform-only files, whose images have zero pixels or one
   std::uint64_t image_bytes = 0;  ///< bytes of all frames, as stored; no more than there are
-  std::optional<ImageForm> form;  ///< empty without images, or if frames are not stored one after the other
+  /// Empty without images, if frames are not stored one after the other, or if an image is too large to be read.
+  std::optional<ImageForm> form;
 };
 
 /// What a header states about its images.
@@ -56,8 +62,8 @@ struct ClaimedImages {
 bool dimensions_agree(std::optional<std::size_t> dimensions, const ClaimedImages& claimed);
 
 /// Finds the dimension that counts the frames, which is missing in PLUS files with a single frame. Checks that the
-/// images are present in the `bytes_after` bytes after the header. Throws InputError if they are not, or if the claims
-/// contradict each other or exceed what any file can hold.
+/// images are, or can be, present in the `bytes_after` bytes after the header. Throws InputError if they are not, or if
+/// the claims contradict each other or exceed what any file can hold.
 SequenceLayout sequence_layout(const ClaimedImages& claimed, std::uint64_t bytes_after, const std::string& file);
 
 }  // namespace insonate

@@ -18,15 +18,24 @@
 #include "devices/sequence/sequence.h"
 #include "devices/tracker_uri.h"
 #include "scenarios/action.h"
+#include "scenarios/results/database/comment.h"
 #include "scenarios/results/roster.h"
 #include "scenarios/scenario.h"
+#include "sim/acoustics/transducer.h"
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
 #include "sim/model/settings_file.h"
 #include "sim/model/tissue.h"
 #include "sim/phantom/phantom.h"
+#include "sim/registration/wein_settings_file.h"
+#include "sim/view/body/transfer_function_file.h"
 #include "sim/volume/ct_reader.h"
 #include "tests/scenarios/tiny_case.h"
+#include "tools/cli/pose_file.h"
+#include "tools/dataset/ranks.h"
+#include "tools/dataset/study.h"
+#include "tools/register/read_sweep.h"
+#include "tools/register/start_transform.h"
 
 namespace {
 
@@ -192,6 +201,33 @@ TEST_CASE("readers of TOML outlive a failure at each allocation") {
   CHECK(run_out_everywhere([&] { return read_settings(settings, 3.5, 160).gain_db; }) > 10);
   const fs::path roster = folder.put("roster.toml", "format = 1\nlearners = [\"L-01\", \"L-02\"]\n");
   CHECK(run_out_everywhere([&] { return double(read_roster(roster).size()); }) > 10);
+}
+
+TEST_CASE("readers of looks, probes, transducers and studies outlive a failure at each allocation") {
+  const Folder folder;
+  const fs::path assets = INSONATE_ASSETS_FOLDER;
+  CHECK(run_out_everywhere([&] {
+          return double(view::read_transfer_function(assets / "transfer_functions" / "3_organs.toml").points.size());
+        }) > 10);
+  const fs::path transducer = assets / "transducers" / "linear.toml";
+  CHECK(run_out_everywhere([&] { return read_transducer(transducer).pitch_mm; }) > 10);
+  const fs::path wein = folder.put("wein.toml", "similarity_patch = 8\n");
+  CHECK(run_out_everywhere([&] { return double(read_wein_settings(wein).similarity_patch); }) > 10);
+  const fs::path study = folder.put("study.toml",
+                                    "format = 1\nname = \"n\"\nseed = 3\nimages = 100\n[settings]\ngain_db = [-3, 3]\n"
+                                    "[[case]]\ncase = \"abdomen\"\n[[probe]]\nname = \"linear\"\n[[poses]]\nkind = "
+                                    "\"skin\"\n");
+  CHECK(run_out_everywhere([&] { return double(read_study(study).shards()); }) > 10);
+  CHECK(run_out_everywhere([&] { return double(read_shard_list("--shards", "0-9:2,4", 20).size()); }) > 0);
+  const std::string probe = folder.put("probe.toml", "kind = \"linear\"\nwidth_mm = 40\ndepth_mm = 50\n").string();
+  CHECK(run_out_everywhere([&] { return read_probe(probe).width_mm; }) > 10);
+  const std::string landmarks = folder.put("landmarks.txt", "0 0 0 1 2 3\n50 0 0 51 2 3\n0 50 0 1 52 3\n").string();
+  CHECK(run_out_everywhere([&] { return start_from_landmarks(landmarks)[3].x; }) > 0);
+  const std::string pose = folder.put("pose.txt", "1 0 0 0 0 1 0 9 0 0 1 0 0 0 0 1\n").string();
+  CHECK(run_out_everywhere([&] { return read_pose(pose).translation.y; }) > 0);
+  Comment comment;
+  comment.text = "Slow down \xc2";
+  CHECK(run_out_everywhere([&] { return double(why_no_comment(comment.text).size()); }) > 0);
 }
 
 TEST_CASE("readers of cases, recipes and calibrations outlive a failure at each allocation") {

@@ -31,43 +31,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int32_t kFinished = -1;
-
-/// The most that was promised of one thing; nothing when nothing was.
-std::optional<std::int32_t> most(const Promises& promises, std::int32_t what) {
-  std::optional<std::int32_t> number;
-  for (const Promise& promise : promises)
-    if (promise.what == what) number = std::max(number.value_or(promise.number), promise.number);
-  return number;
-}
-
-bool promised(const Promises& promises, std::int32_t what, std::int32_t number) {
-  return std::any_of(promises.begin(), promises.end(),
-                     [&](const Promise& p) { return p.what == what && p.number == number; });
-}
-
-std::int32_t next_of(const Promises& promises) {
-  std::int32_t next = 0;
-  for (const Promise& promise : promises) next = std::max(next, promise.what + 1);
-  return next;
-}
-
-/// One above the highest N of PREFIX-N.anything in the folder, and of what was promised: a writer may have been killed
-/// between its beginning and its promise.
-std::int32_t next_of(const fs::path& folder, const std::string& prefix, const Promises& promises) {
-  std::int32_t next = next_of(promises);
-  for (const std::string& entry : names_in(folder)) {
-    const std::size_t at = entry.find(prefix + "-");
-    if (at != std::string::npos) next = std::max(next, std::stoi(entry.substr(at + prefix.size() + 1)) + 1);
-  }
-  return next;
-}
-
 // Results
 
 class Attempts : public Kind {
 public:
-  Attempts() : Kind("attempts in the results database") {}
+  Attempts() : Kind("attempts and comments in the database") {}
 
   void write(const fs::path& folder, const Promises&, const Commit& commit) override {
     ResultsDatabase database = ResultsDatabase::open_or_make(folder / "results.db");
@@ -76,6 +44,11 @@ public:
       Attempt attempt = made_attempt("L-" + std::to_string(i), exam_, noise(std::uint32_t(i)));
       database.add(attempt);
       commit({i, 0});
+      Comment comment;
+      comment.attempt = attempt.number;
+      comment.text = "on attempt " + std::to_string(i);
+      database.add(comment);
+      commit({i, 1});
     }
   }
 
@@ -89,6 +62,9 @@ public:
         require(attempts[i].learner == "L-" + std::to_string(i), "an attempt is another's");
         const Attempt kept = database.read(attempts[i].number);
         require(kept.log == noise(std::uint32_t(i)), "a log is another");
+        require(!kept.comments.empty() || !promised(promises, std::int32_t(i), 1), "a comment is lost");
+        require(kept.comments.empty() || kept.comments[0].text == "on attempt " + std::to_string(i),
+                "a comment is another");
         require(kept.pictures.size() == 3 && kept.pictures[0].png == "best" + kept.log, "a picture is another");
       }
     }
@@ -391,179 +367,6 @@ private:
   }
 };
 
-// Cases
-
-const std::string kRecipe = R"(name = "Test"
-grid = { from = [0, 0, 0], to = [24, 20, 16], voxel_mm = 1 }
-options.radius_mm = { default = 6, least = 1, most = 9, about = "a radius" }
-labels = [{ name = "ball", tissue = "liver", hu = 60, texture_hu = 5 }]
-shapes = [{ name = "ball", kind = "ellipsoid", centre = [12, 10, 8], radii = [7, 7, "radius_mm"], label = "ball" }]
-landmarks = [{ name = "middle", at = [12, 10, 8] }]
-views = [{ name = "front", title = "From the front", probe = "curvilinear", aim = "middle", from = [9, 0, 7], marker = [1, 0, 0], press_mm = 1, landmarks = ["middle"], targets = ["ball"] }]
-)";
-
-class Cache : public Kind {
-public:
-  Cache() : Kind("the cache of phantoms") {}
-
-  void write(const fs::path& folder, const Promises& before, const Commit& commit) override {
-    put_recipe(folder);
-    const std::int32_t first = next_of(before);
-    for (std::int32_t number = first; number < first + 3; ++number) {
-      get(folder, number);
-      // A cache on a full disk keeps nothing, and promises nothing.
-      bool made_again = false;
-      get(folder, number, &made_again);
-      if (!made_again) commit({number, 0});
-    }
-  }
-
-  void check(const fs::path& folder, const Promises& promises) override {
-    put_recipe(folder);
-    const std::int32_t next = next_of(promises);
-    for (std::int32_t number = std::max(0, next - 3); number <= next; ++number) {
-      bool made = false;
-      const Case cached = get(folder, number, &made);
-      const Case fresh = make_phantom("ball", kRecipe, options(number));
-      require(cached.ct.voxels == fresh.ct.voxels && cached.labels.voxels == fresh.labels.voxels &&
-                  cached.views.size() == 1 && cached.landmarks.size() == 1,
-              "half a phantom looks whole");
-      require(!promised(promises, number, 0) || !made, "a phantom is lost from the cache");
-    }
-    const fs::path phantoms = folder / "cache" / "phantoms";
-    age_temporaries(phantoms);
-    // Another one than all others, so that it is made.
-    const auto other = std::vector<std::pair<std::string, std::string>>{
-        {"radius_mm", std::to_string(7 + double(std::random_device{}() % 100'000) / 1e5)}};
-    cached_phantom(folder / "ball.toml", other, folder / "cache");
-    require_no_temporaries(phantoms);
-    require(names_in(phantoms).size() <= kKeptPhantoms, "the cache keeps too many phantoms");
-  }
-
-private:
-  static std::vector<std::pair<std::string, std::string>> options(std::int32_t number) {
-    return {{"radius_mm", std::to_string(1 + 0.001 * number)}};
-  }
-  static void put_recipe(const fs::path& folder) {
-    if (!fs::exists(folder / "ball.toml")) write_file(folder / "ball.toml", kRecipe);
-  }
-  static Case get(const fs::path& folder, std::int32_t number, bool* made = nullptr) {
-    return cached_phantom(folder / "ball.toml", options(number), folder / "cache", [made](double) {
-      if (made) *made = true;
-    });
-  }
-};
-
-class Cases : public Kind {
-public:
-  Cases() : Kind("case folders, replaced and added to") {}
-
-  void write(const fs::path& folder, const Promises& before, const Commit& commit) override {
-    const std::int32_t first = next_of(before) + 1;
-    for (std::int32_t number = first; number < first + 3; ++number) {
-      write_case(folder / "patient", version(number));
-      commit({number, 0});
-      for (int more = 1; more <= 2; ++more) {
-        ReferenceView view;
-        view.name = "view_" + std::to_string(more);
-        view.title = "A view";
-        view.probe = "curvilinear";
-        view.depth_mm = 100;
-        append_view(folder / "patient", view);
-        commit({number, more});
-      }
-    }
-  }
-
-  void check(const fs::path& folder, const Promises& promises) override {
-    const std::int32_t last = next_of(promises) - 1;
-    if (!fs::exists(folder / "patient")) {
-      require(last < 0, "a case is lost");
-      return;
-    }
-    const Case found = read_case(folder / "patient");
-    const std::int32_t number = std::stoi(found.name);
-    require(number >= last, "a case that was replaced is back");
-    require(found.ct.voxels == version(number).ct.voxels, "a case is mixed of two");
-    require(number > last || int(found.views.size()) >= most(promises, last).value_or(0), "a view is lost");
-    for (const fs::path& place : {folder, folder / "patient"}) age_temporaries(place);
-    write_case(folder / "patient", found);
-    require(names_in(folder) == std::vector<std::string>{"patient"}, "something is left beside the case");
-    require_no_temporaries(folder / "patient");
-  }
-
-private:
-  static Case version(std::int32_t number) {
-    Case subject;
-    subject.name = std::to_string(number);
-    subject.ct.grid.size = {30, 30, 30};
-    subject.ct.grid.spacing = glm::dvec3(2.0);
-    for (std::size_t i = 0; i < subject.ct.grid.count(); ++i)
-      subject.ct.voxels.push_back(std::int16_t(hash(std::uint32_t(number), std::uint32_t(i)) % 1000));
-    return subject;
-  }
-};
-
-// Reports and other files that replace an older one
-
-class Files : public Kind {
-public:
-  Files() : Kind("reports, pictures, calibration, state") {}
-
-  void write(const fs::path& folder, const Promises& before, const Commit& commit) override {
-    const std::int32_t first = next_of(before) + 1;
-    for (std::int32_t number = first; number < first + 3; ++number) {
-      write_all(folder, number);
-      commit({number, 0});
-    }
-  }
-
-  void check(const fs::path& folder, const Promises& promises) override {
-    const std::int32_t last = next_of(promises) - 1;
-    const fs::path expected = fs::temp_directory_path() / ("insonate-expected-" + std::to_string(getpid()));
-    for (const char* name : kNames) {
-      if (!fs::exists(folder / name)) {
-        require(last < 0, std::string(name) + " is lost");
-        continue;
-      }
-      const std::string bytes = read_file(folder / name);
-      bool whole = false;
-      for (std::int32_t number = std::max(last, 1); number <= last + 2 && !whole; ++number) {
-        write_all(expected, number);
-        whole = bytes == read_file(expected / name);
-      }
-      require(whole, std::string(name) + " is none of the files that were written");
-    }
-    fs::remove_all(expected);
-    age_temporaries(folder);
-    write_all(folder, std::max(last, 1));
-    require_no_temporaries(folder);
-  }
-
-private:
-  static constexpr const char* kNames[] = {"report.html", "score.json",       "score.csv", "xapi.json",
-                                           "state.json",  "calibration.toml", "best.png"};
-
-  void write_all(const fs::path& folder, std::int32_t number) const {
-    Attempt attempt = made_attempt("L-" + std::to_string(number), exam_);
-    attempt.pictures.clear();
-    attempt.number = number;
-    attempt.uuid = "00000000-0000-4000-8000-000000000000";
-    attempt.database = std::string(32, '0');
-    write_report_files(folder, attempt);
-    write_file(folder / "state.json", "{\"version\": " + std::to_string(number) + "}\n" + std::string(100'000, ' '));
-    Calibration calibration;
-    calibration.tracker = {"hydra", std::to_string(number), 1};
-    write_calibration(folder / "calibration.toml", calibration);
-    Image<std::uint8_t> image(100, 80);
-    for (std::size_t i = 0; i < image.pixels.size(); ++i)
-      image.pixels[i] = std::uint8_t(hash(std::uint32_t(number), std::uint32_t(i)));
-    write_png(folder / "best.png", image);
-  }
-
-  TinyExam exam_ = tiny_exam(0);
-};
-
 }  // namespace
 
 std::vector<std::unique_ptr<Kind>> library_kinds() {
@@ -573,9 +376,7 @@ std::vector<std::unique_ptr<Kind>> library_kinds() {
   kinds.push_back(std::make_unique<Recordings>());
   kinds.push_back(std::make_unique<Runs>());
   kinds.push_back(std::make_unique<RawRecordings>());
-  kinds.push_back(std::make_unique<Cache>());
-  kinds.push_back(std::make_unique<Cases>());
-  kinds.push_back(std::make_unique<Files>());
+  add_folder_kinds(kinds);
   return kinds;
 }
 

@@ -32,6 +32,8 @@ public:
 };
 
 std::vector<std::unique_ptr<Kind>> library_kinds();
+/// Adds the kinds that write into folders. library_kinds() has them too.
+void add_folder_kinds(std::vector<std::unique_ptr<Kind>>& kinds);
 /// Returns the kinds that run programs. Their scratch files come from `made`, a folder that must outlive them.
 std::vector<std::unique_ptr<Kind>> program_kinds(const std::filesystem::path& made);
 

@@ -23,6 +23,9 @@ const Target target("database", [](std::string_view bytes) -> std::string {
     });
     if (!broken.empty()) return broken;
   }
+  for (const Comment& comment : database.comments())
+    for (const Comment& on_attempt : database.comments(comment.attempt))
+      if (on_attempt.attempt != comment.attempt) return "a comment on another attempt was read";
   for (const Sitting& sitting : database.sittings()) database.parts(sitting.number);
   database.check();
   return "";

@@ -142,23 +142,26 @@ Pose read_pose(const std::string& file) {
   return poses.front();
 }
 
-glm::dmat4 read_image_matrix(const std::string& file) {
+std::optional<std::string> why_not_image_matrix(const glm::dmat4& matrix) {
   constexpr double kMostShear = 0.01, kLeastPixel_mm = 1e-3, kMostPixel_mm = 10;
+  const glm::dvec3 column(matrix[0]), row(matrix[1]), origin(matrix[3]);
+  for (const glm::dvec3& step : {column, row})
+    if (!(glm::length(step) >= kLeastPixel_mm && glm::length(step) <= kMostPixel_mm))
+      return "a pixel is not from 0.001 mm to 10 mm large";
+  if (!(std::abs(glm::dot(column, row)) <= kMostShear * glm::length(column) * glm::length(row)))
+    return "the image's rows and columns are not perpendicular";
+  if (!(glm::length(origin) <= kTrackerRangeMm) || glm::transpose(matrix)[3] != glm::dvec4(0, 0, 0, 1))
+    return "the last row is not 0 0 0 1, or the translation is too large";
+  return std::nullopt;
+}
+
+glm::dmat4 read_image_matrix(const std::string& file) {
   const std::vector<glm::dmat4> matrices = read_matrices(file);
   const char* const remedy = "give the matrix ImageToProbe of the probe's calibration, in mm per pixel";
   if (matrices.size() != 1)
     throw InputError(file, "", "there are " + std::to_string(matrices.size()) + " matrices, not one", remedy);
-  const glm::dmat4& matrix = matrices.front();
-  const glm::dvec3 column(matrix[0]), row(matrix[1]);
-  for (const glm::dvec3& step : {column, row})
-    if (!(glm::length(step) >= kLeastPixel_mm && glm::length(step) <= kMostPixel_mm))
-      throw InputError(file, "", "a pixel is not from 0.001 mm to 10 mm large", remedy);
-  if (std::abs(glm::dot(column, row)) > kMostShear * glm::length(column) * glm::length(row))
-    throw InputError(file, "", "the image's rows and columns are not perpendicular", remedy);
-  const glm::dvec3 origin(matrix[3]);
-  if (glm::length(origin) > kTrackerRangeMm || glm::transpose(matrix)[3] != glm::dvec4(0, 0, 0, 1))
-    throw InputError(file, "", "the last row is not 0 0 0 1, or the translation is too large", remedy);
-  return matrix;
+  if (const auto why = why_not_image_matrix(matrices.front())) throw InputError(file, "", *why, remedy);
+  return matrices.front();
 }
 
 }  // namespace insonate

@@ -2,6 +2,7 @@
 
 #include <glm/mat4x4.hpp>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,8 +20,11 @@ std::vector<Pose> read_poses(const std::string& file);
 Pose read_pose(const std::string& file);
 
 /// Reads the matrix of one image in the same way: it maps (column, row, 0), the centre of a pixel, to mm in the probe's
-/// frame, as PLUS's ImageToProbe does. Throws InputError if it is not one matrix with perpendicular rows and columns
-/// and pixels of 0.001 mm to 10 mm.
+/// frame, as PLUS's ImageToProbe does. Throws InputError if it is not one matrix, or not one of an image.
 glm::dmat4 read_image_matrix(const std::string& file);
+
+/// Returns why a matrix does not place an image, as the problem part of an InputError. Returns nothing if rows and
+/// columns are perpendicular, a pixel is from 0.001 mm to 10 mm large, and the origin is within a tracker's range.
+std::optional<std::string> why_not_image_matrix(const glm::dmat4& matrix);
 
 }  // namespace insonate

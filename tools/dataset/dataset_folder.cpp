@@ -85,15 +85,34 @@ Json manifest_of(const Study& study, const std::vector<StudyPatient>& patients) 
   return json;
 }
 
+/// Returns whether a key holds a whole number from 0 to `most`.
+bool has_number(const Json& json, const char* key, std::uint64_t most) {
+  return json.at(key).is_number_unsigned() && json.at(key).get<std::uint64_t>() <= most;
+}
+
+/// Returns whether a manifest has everything that is read of it.
+bool is_complete_manifest(const Json& json) {
+  if (json.at("format") != kManifestFormat || !has_number(json, "shard_count", kMostShards) ||
+      !json.at("study").at("digest").is_string() || !json.at("program").at("version").is_string() ||
+      !json.at("program").at("commit").is_string() || !json.at("tissue_table").at("digest").is_string() ||
+      !json.at("patients").is_array() || !json.at("complete").is_boolean())
+    return false;
+  const std::uint64_t shards = json.at("shard_count").get<std::uint64_t>();
+  for (const Json& patient : json.at("patients"))
+    if (!patient.at("name").is_string() || !has_number(patient, "first_shard", shards) ||
+        !has_number(patient, "shards", shards - patient.at("first_shard").get<std::uint64_t>()))
+      return false;
+  if (!json.contains("shards")) return true;
+  const auto has_digest = [](const Json& shard) { return shard.at("digest").is_string(); };
+  return json.at("shards").is_array() && std::ranges::all_of(json.at("shards"), has_digest);
+}
+
 Json read_manifest(const fs::path& file) {
   const std::string text = read_file(file, kLargestManifest);
   const char* const remedy = "name the folder of a dataset, or make it anew";
   try {
     Json json = Json::parse(text);
-    if (json.at("format") != kManifestFormat || !json.at("shard_count").is_number_unsigned() ||
-        !json.at("study").at("digest").is_string() || !json.at("program").at("version").is_string() ||
-        !json.at("program").at("commit").is_string() || !json.at("tissue_table").at("digest").is_string() ||
-        !json.at("patients").is_array() || !json.at("complete").is_boolean())
+    if (!is_complete_manifest(json))
       throw InputError(file.string(), "", "it is not the manifest of a dataset of this version", remedy);
     return json;
   } catch (const Json::exception&) {
@@ -198,9 +217,11 @@ void DatasetFolder::complete() const {
   }
   json["devices"] = devices;
   json["shards"] = std::move(shards);
-  const std::string text = json.dump(2) + "\n";
-  if (read_file(manifest_file(), kLargestManifest) == text) return;
-  write_file(manifest_file(), text);
+  // The name of a device comes from a shard, which may be damaged.
+  const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  if (read_file(manifest_file(), kLargestManifest) != text) write_file(manifest_file(), text);
+
+  // All shards are there, so whoever still writes one does so in vain.
   std::error_code error;
   for (fs::directory_iterator entry(path_ / "shards", error), end; !error && entry != end; entry.increment(error)) {
     const std::string name = entry->path().filename().string();

@@ -39,8 +39,9 @@ public:
   std::uint32_t shards() const;
   std::vector<std::uint32_t> missing() const;
 
-  /// Completes the manifest by the digests of all shards, and removes what killed processes left. Call it when none is
-  /// missing. Every process that does so writes the same bytes.
+  /// Completes the manifest by the digests of all shards, and removes what killed processes left: shards that were not
+  /// finished, and manifests that are a day old. Call it when none is missing. Every process that does so writes the
+  /// same bytes.
   void complete() const;
   bool is_complete() const;
 

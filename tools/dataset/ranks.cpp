@@ -61,7 +61,7 @@ std::vector<std::uint32_t> read_shard_list(const std::string& option, const std:
     if (*last >= shards)
       throw InputError(option, "", "there is no shard " + std::to_string(*last) + " of " + std::to_string(shards),
                        "count them from 0");
-    for (std::uint32_t shard = *first; shard <= *last; shard += *step) listed.insert(shard);
+    for (std::uint64_t shard = *first; shard <= *last; shard += *step) listed.insert(std::uint32_t(shard));
     if (part.size() == left.size()) break;
     left = left.substr(part.size() + 1);
   }

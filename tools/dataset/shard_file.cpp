@@ -14,6 +14,7 @@
 
 #include "sim/core/digest.h"
 #include "sim/core/input_error.h"
+#include "tools/dataset/study.h"
 
 namespace insonate {
 namespace {
@@ -56,6 +57,9 @@ void use_library() {
 
 constexpr unsigned kDeflateLevel = 1;  // of 9: each further level saves 1 % and takes a third more time
 constexpr std::size_t kDigestSize = 16;
+// A shard is damaged if it claims more. Its images and texts are far smaller.
+constexpr std::uint64_t kMostPixels = std::uint64_t(1) << 26, kMostBytes = std::uint64_t(1) << 30;
+constexpr std::size_t kLongestText = 1 << 20;
 
 Id text_type(std::size_t size) {
   Id type(H5Tcopy(H5T_C_S1), H5Tclose);
@@ -73,9 +77,14 @@ Id opened(hid_t file, const char* name) {
 std::string attribute_of(hid_t file, const char* name) {
   const Id attribute(H5Aopen(file, name, H5P_DEFAULT), H5Aclose);
   if (attribute < 0) return "";
-  const Id type(H5Aget_type(attribute), H5Tclose);
-  std::string text(H5Tget_size(type), '\0');
-  if (H5Tget_class(type) != H5T_STRING || H5Aread(attribute, type, text.data()) < 0) return "";
+  const Id type(H5Aget_type(attribute), H5Tclose), space(H5Aget_space(attribute), H5Sclose);
+  const std::size_t size = H5Tget_size(type);
+  // The library writes as many texts, or pointers, as a damaged file claims.
+  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0 || H5Sget_simple_extent_npoints(space) != 1 ||
+      size > kLongestText)
+    return "";
+  std::string text(size, '\0');
+  if (H5Aread(attribute, type, text.data()) < 0) return "";
   return text.substr(0, text.find('\0'));
 }
 
@@ -251,12 +260,16 @@ std::string damage_of_shard(const std::filesystem::path& path) {
   use_library();
   const Id file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
   if (file < 0) return "it is not an HDF5 file, or its structure is damaged";
+  hsize_t images = 0;
   for (const char* name : kMaps) {
     const Id data = opened(file, name);
     const Id space(H5Dget_space(data), H5Sclose);
     hsize_t size[3] = {};
     if (data < 0 || H5Sget_simple_extent_ndims(space) != 3 || H5Sget_simple_extent_dims(space, size, nullptr) < 0)
       return std::string("it has no data '") + name + "'";
+    images = size[0];
+    if (images > kMostShardImages || size[1] > kMostPixels || size[2] > kMostPixels / std::max<hsize_t>(size[1], 1))
+      return std::string("the size of its data '") + name + "' is damaged";
     const hsize_t row[] = {1, size[1], size[2]};
     const Id in_memory(H5Screate_simple(3, row, nullptr), H5Sclose);
     std::vector<std::uint8_t> pixels(size[1] * size[2]);
@@ -272,16 +285,20 @@ std::string damage_of_shard(const std::filesystem::path& path) {
     const Id type(H5Dget_type(data), H5Tclose), space(H5Dget_space(data), H5Sclose);
     const hssize_t values = H5Sget_simple_extent_npoints(space);
     if (data < 0 || values < 0) return std::string("it has no data '") + name + "'";
-    std::vector<char> bytes(std::size_t(values) * H5Tget_size(type));
+    const std::size_t of_value = H5Tget_size(type);
+    if (H5Tis_variable_str(type) != 0 || H5Tdetect_class(type, H5T_VLEN) != 0 || of_value == 0 ||
+        std::uint64_t(values) > kMostBytes / of_value)
+      return std::string("the size of its data '") + name + "' is damaged";
+    std::vector<char> bytes(std::size_t(values) * of_value);
     if (H5Dread(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()) < 0)
       return "its data '" + std::string(name) + "' are damaged";
   }
   const Id digests = opened(file, "digest");
   const Id space(H5Dget_space(digests), H5Sclose);
   const Id type = text_type(kDigestSize);
-  std::string all(std::size_t(std::max<hssize_t>(H5Sget_simple_extent_npoints(space), 0)) * kDigestSize, '\0');
-  if (digests < 0 || H5Dread(digests, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, all.data()) < 0)
-    return "its list of digests is damaged";
+  if (digests < 0 || H5Sget_simple_extent_npoints(space) != hssize_t(images)) return "its list of digests is damaged";
+  std::string all(std::size_t(images) * kDigestSize, '\0');
+  if (H5Dread(digests, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, all.data()) < 0) return "its list of digests is damaged";
   if (digest_of(all) != attribute_of(file, "digest"))
     return "its list of digests is not the one that it was written with";
   return "";

@@ -160,7 +160,7 @@ Study read_study(const std::filesystem::path& file) {
   study.name = root.text("name");
   study.seed = std::uint32_t(root.whole_number("seed", 0, std::numeric_limits<std::uint32_t>::max()));
   study.images = std::uint32_t(root.whole_number("images", 1, kMostImages));
-  study.shard_images = std::uint32_t(root.whole_number("shard_images", 1, 100'000, study.shard_images));
+  study.shard_images = std::uint32_t(root.whole_number("shard_images", 1, kMostShardImages, study.shard_images));
   if (study.shards() > kMostShards)
     root.report("shard_images", "there would be " + std::to_string(study.shards()) + " shards, above 100000",
                 "take more images per shard");

@@ -14,12 +14,14 @@
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
 #include "sim/core/toml_table.h"
+#include "tools/cli/pose_file.h"
 
 namespace insonate {
 namespace {
 
 constexpr double kMostOffPlane_mm = 1;  // of the face's middle from the image, where no --face-pixel is given
-constexpr double kLeastShown = 0.5;     // share of the fan that an image has to show
+constexpr std::size_t kLargestProbeFile = 1 << 20;
+constexpr double kLeastShown = 0.5;  // share of the fan that an image has to show
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
 struct Placed {
@@ -108,6 +110,9 @@ ReadSweep read_sweep(const SweepInput& input) {
     const auto probe_from_pixel = input.probe_from_pixel ? input.probe_from_pixel : frame.probe_from_pixel;
     is_placed = is_placed || probe_from_pixel;
     if (!probe_from_pixel || scan.samples[n].status != PoseStatus::ok) continue;
+    if (const auto why = why_not_image_matrix(*probe_from_pixel))
+      throw InputError(input.file, "frame " + std::to_string(frame.number), "ImageToProbe: " + *why,
+                       "give that matrix as --image-to-probe FILE, or calibrate and record again");
     all.push_back(placed(scan.samples[n].patient_from_probe, *probe_from_pixel, input));
     all.back().number = frame.number;
   }
@@ -133,15 +138,12 @@ ReadSweep read_sweep(const SweepInput& input) {
 }
 
 Probe read_probe(const std::string& file) {
-  const TomlDocument document(file, read_file(file));
+  const TomlDocument document(file, read_file(file, kLargestProbeFile));
   const TomlTable root = document.root();
-  Probe probe = *find_probe("curvilinear");
   const std::string kind = root.text("kind");
   const Probe* like = find_probe(kind);
-  if (!like)
-    throw InputError(file, "key 'kind'", "there is no kind of probe named '" + kind + "'",
-                     "write curvilinear, linear or phased");
-  probe = *like;
+  if (!like) root.fail("kind", "there is no kind of probe named '" + kind + "'", "write curvilinear, linear or phased");
+  Probe probe = *like;
   if (probe.kind == ProbeKind::curvilinear) probe.radius_mm = root.number("radius_mm", {5, 200});
   if (probe.kind != ProbeKind::linear) probe.field_of_view_deg = root.number("field_of_view_deg", {5, 150});
   if (probe.kind != ProbeKind::curvilinear) probe.width_mm = root.number("width_mm", {5, 200});

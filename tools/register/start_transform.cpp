@@ -19,9 +19,26 @@
 namespace insonate {
 namespace {
 
+constexpr std::size_t kLargestFile = 1 << 20;
+constexpr double kFarthest_mm = 1e5;    // of a landmark from the origin; a tracker's range is far smaller
 constexpr double kLeastOffLine_mm = 5;  // of the landmarks
 constexpr double kBodyHu = -300;
 constexpr double kLeastShare = 0.1;  // of what the sweep shows that lies in the CT, and in the body
+
+/// Returns how far the point that lies farthest from a line through the first point and the one farthest from it lies
+/// off that line. Points are columns.
+double off_line_mm(const Eigen::MatrixXd& points) {
+  double most = 0;
+  const Eigen::Vector3d first = points.col(0);
+  Eigen::Vector3d along = Eigen::Vector3d::Zero();
+  for (Eigen::Index i = 1; i < points.cols(); ++i)
+    if ((points.col(i) - first).norm() > along.norm()) along = points.col(i) - first;
+  for (Eigen::Index i = 1; i < points.cols() && along.norm() > 0; ++i) {
+    const Eigen::Vector3d apart = points.col(i) - first;
+    most = std::max(most, apart.cross(along.normalized()).norm());
+  }
+  return most;
+}
 
 std::string percent(double share) {
   return std::to_string(int(std::lround(100 * share))) + " %";
@@ -30,7 +47,7 @@ std::string percent(double share) {
 }  // namespace
 
 glm::dmat4 start_from_landmarks(const std::string& file) {
-  std::istringstream text(read_file(file));
+  std::istringstream text(read_file(file, kLargestFile));
   std::vector<double> numbers;
   for (std::string word; text >> word;) {
     std::size_t used = 0;
@@ -40,10 +57,10 @@ glm::dmat4 start_from_landmarks(const std::string& file) {
     } catch (const std::exception&) {
       used = 0;
     }
-    if (used != word.size() || !std::isfinite(number))
-      throw InputError(file, "", "'" + word + "' is not a number",
-                       "write six numbers per landmark: x y z in the sweep "
-                       "and x y z in the CT, mm");
+    if (used != word.size() || !(std::abs(number) <= kFarthest_mm))
+      throw InputError(file, "number " + std::to_string(numbers.size() + 1),
+                       "'" + word + "' is not a number within 100 m of the origin",
+                       "write six numbers per landmark: x y z in the sweep and x y z in the CT, mm");
     numbers.push_back(number);
   }
   const std::size_t pairs = numbers.size() / 6;
@@ -52,16 +69,7 @@ glm::dmat4 start_from_landmarks(const std::string& file) {
                      "write six per landmark, of three or more landmarks");
   const Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic>> all(numbers.data(), 6, Eigen::Index(pairs));
   const Eigen::MatrixXd in_sweep = all.topRows(3), in_ct = all.bottomRows(3);
-  double off_line = 0;
-  const Eigen::Vector3d first = in_sweep.col(0);
-  Eigen::Vector3d along = Eigen::Vector3d::Zero();
-  for (Eigen::Index i = 1; i < in_sweep.cols(); ++i)
-    if ((in_sweep.col(i) - first).norm() > along.norm()) along = in_sweep.col(i) - first;
-  for (Eigen::Index i = 1; i < in_sweep.cols() && along.norm() > 0; ++i) {
-    const Eigen::Vector3d apart = in_sweep.col(i) - first;
-    off_line = std::max(off_line, apart.cross(along.normalized()).norm());
-  }
-  if (off_line < kLeastOffLine_mm)
+  if (off_line_mm(in_sweep) < kLeastOffLine_mm || off_line_mm(in_ct) < kLeastOffLine_mm)
     throw InputError(file, "", "the landmarks lie on a line, so no rotation follows from them",
                      "add one that lies beside it");
   const Eigen::Matrix4d fit = Eigen::umeyama(in_sweep, in_ct, false);

@@ -8,6 +8,7 @@
 #include "devices/replay/read_log.h"
 #include "sim/core/input_error.h"
 #include "sim/reconstruction/sweep_extent.h"
+#include "tools/cli/pose_file.h"
 
 namespace insonate {
 namespace {
@@ -52,6 +53,9 @@ std::vector<PlacedFrame> placed_frames(const std::string& file, const RecordedSc
     const auto probe_from_pixel = settings.probe_from_pixel ? settings.probe_from_pixel : frame.probe_from_pixel;
     placed = placed || probe_from_pixel;
     if (!probe_from_pixel || scan.samples[n].status != PoseStatus::ok) continue;
+    if (const auto why = why_not_image_matrix(*probe_from_pixel))
+      throw InputError(file, "frame " + std::to_string(frame.number), "ImageToProbe: " + *why,
+                       "give that matrix as --image-to-probe FILE, or calibrate and record again");
     if (!region) region = region_of(*scan.images, *probe_from_pixel, settings);
     PlacedFrame taken;
     taken.picture.region = region;

@@ -10,8 +10,12 @@
 namespace insonate::view {
 namespace fs = std::filesystem;
 
+namespace {
+constexpr std::size_t kLargestFile = 1 << 20;
+}
+
 TransferFunction read_transfer_function(const fs::path& toml_file) {
-  const TomlDocument document(toml_file.string(), read_file(toml_file), OnMistake::collect);
+  const TomlDocument document(toml_file.string(), read_file(toml_file, kLargestFile), OnMistake::collect);
   const TomlTable root = document.root();
   TransferFunction function;
   function.name = root.text("name");

@@ -152,7 +152,7 @@ TEST_CASE("a pose that is not rigid is refused by the name of the link that is a
              Contains("frame 0: ReferenceToTrackerTransform: the rotation is not orthonormal"));
   CHECK_THAT(refusal(text_of({at("1", {transform("ProbeToTracker", moved(1, 0))})},
                              "TrackerToPatientTransform = " + stretched + "\n")),
-             Contains("header: TrackerToPatientTransform"));
+             Contains("header: TrackerToPatientTransform") && Contains("; correct the header, or calibrate"));
 }
 
 TEST_CASE("a way may lead through a frame that is not in mm") {

@@ -143,6 +143,23 @@ TEST_CASE("columns run to the marker and rows away from the probe, however the f
   CHECK_FALSE(images(metaimage("DimSize = 0 0 2\n", 2, "")));
 }
 
+TEST_CASE("images that their file cannot hold are refused, and images that are too large are left in it") {
+  TemporaryFolder folder;
+  const auto scan = [&](const std::string& sizes, const std::string& more, const std::string& data) {
+    return read_recorded_scan(
+        folder.put("scan.igs.mha", metaimage("DimSize = " + sizes + "\nElementType = MET_UCHAR\n" + more, 1, data)));
+  };
+  const std::string compressed = "CompressedData = True\n";
+  CHECK_THROWS_WITH(scan("10000 10000 1", compressed, std::string(96898, 'x')),
+                    Contains("image data: it is truncated: 96898 bytes cannot hold images of 100000000 bytes, even"));
+  CHECK(scan("10000 10000 1", compressed, std::string(96899, 'x')).images);
+  CHECK(scan("16384 2 1", "", std::string(32768, 'x')).images);
+  CHECK_FALSE(scan("16385 2 1", "", std::string(32770, 'x')).images);
+  CHECK_FALSE(scan("2 16385 1", "", std::string(32770, 'x')).images);
+  CHECK(scan("16384 16384 1", compressed + "ElementNumberOfChannels = 4\n", std::string(1100000, 'x')).images);
+  CHECK_FALSE(scan("16384 16384 1", compressed + "ElementNumberOfChannels = 5\n", std::string(1400000, 'x')).images);
+}
+
 TEST_CASE("an image lies where ImageToProbe puts it, of its frame or of the header") {
   TemporaryFolder folder;
   const auto placed = [&](const std::string& header, const std::string& more) {

@@ -50,3 +50,22 @@ TEST_CASE("the matrix of an image is read by rows") {
   CHECK(matrix[1] == glm::dvec4(0.2, 0, 0, 0));
   CHECK(matrix[3] == glm::dvec4(11, 50, 3, 1));
 }
+
+TEST_CASE("a matrix that places no image is refused") {
+  const TemporaryFolder folder;
+  const struct {
+    std::string text, says;
+  } bad[] = {
+      {"1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1", "there are 2 matrices, not one"},
+      {"0 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1", "a pixel is not from 0.001 mm to 10 mm large"},
+      {"1 0 0 0 0 11 0 0 0 0 1 0 0 0 0 1", "a pixel is not from 0.001 mm to 10 mm large"},
+      {"1 0.02 0 0 0 1 0 0 0 0 1 0 0 0 0 1", "the image's rows and columns are not perpendicular"},
+      {"1 0 0 1e300 0 1 0 0 0 0 1 0 0 0 0 1", "the last row is not 0 0 0 1, or the translation is too large"},
+      {"1 0 0 0 0 1 0 0 0 0 1 0 0 0 1 1", "the last row is not 0 0 0 1, or the translation is too large"},
+  };
+  for (const auto& [text, says] : bad) {
+    INFO(text);
+    CHECK_THROWS_WITH(read_image_matrix(folder.put("image.txt", text).string()),
+                      Catch::Contains("image.txt: " + std::string(says) + "; give the matrix ImageToProbe"));
+  }
+}

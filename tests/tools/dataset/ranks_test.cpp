@@ -38,6 +38,7 @@ TEST_CASE("lists of shards are those of Slurm's arrays") {
   CHECK(read_shard_list("--shards", "0-3,7,5-6", 100) == List{0, 1, 2, 3, 5, 6, 7});
   CHECK(read_shard_list("--shards", "0-30:10", 100) == List{0, 10, 20, 30});
   CHECK(read_shard_list("--shards", "4,4,3-5", 100) == List{3, 4, 5});
+  CHECK(read_shard_list("--shards", "5-6:4294967295,8-99:4294967290", 100) == List{5, 8});
   CHECK(shard_list({0, 1, 2, 5, 7, 8}) == "0-2,5,7-8");
   CHECK(shard_list({}) == "");
   for (const char* const wrong :

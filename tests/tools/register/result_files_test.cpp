@@ -66,6 +66,9 @@ TEST_CASE("landmarks give the start that maps them, and bad ones are refused in 
     CHECK_THROWS_WITH(start_from_landmarks(file), Catch::Contains(sentence));
   };
   refused("1 2 3 4 5 6\n1 2 3", "it holds 9 numbers; write six per landmark, of three or more landmarks.");
-  refused("1 2 3 4 5 six", "'six' is not a number");
+  refused("1 2 3 4 5 six", "number 6: 'six' is not a number within 100 m of the origin; write six numbers");
+  refused("1 2 3 4 5 nan", "number 6: 'nan' is not a number");
+  refused("1e300 2 3 4 5 6", "number 1: '1e300' is not a number within 100 m");
   refused("0 0 0 0 0 0 1 1 1 1 1 1 2 2 2 2 2 2", "the landmarks lie on a line");
+  refused("0 0 0 0 0 0 50 0 0 1 1 1 0 50 0 2 2 2", "the landmarks lie on a line");
 }

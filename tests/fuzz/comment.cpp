@@ -1,0 +1,56 @@
+// An instructor's comment: the author's id up to the first line break, then the text. What is valid is shown as it is;
+// what another program has put into the database must not keep a report from being written.
+#include "scenarios/results/database/comment.h"
+
+#include <nlohmann/json.hpp>
+
+#include "scenarios/results/export/report_files.h"
+#include "scenarios/results/learner_id.h"
+#include "sim/core/files.h"
+#include "tests/fuzz/fuzz_target.h"
+
+namespace insonate::fuzz {
+namespace {
+
+/// Returns the text of the comment in score.json.
+std::string comment_in(const std::filesystem::path& score) {
+  return nlohmann::json::parse(read_file(score)).at("comments").at(0).at("text");
+}
+
+const Target target("comment", [](std::string_view bytes) -> std::string {
+  Comment comment;
+  const std::size_t end = std::min(bytes.find('\n'), bytes.size());
+  comment.author = bytes.substr(0, end);
+  comment.text = bytes.substr(std::min(end + 1, bytes.size()));
+  comment.number = comment.attempt = 1;
+  // Any time, as a damaged database may have it.
+  for (const char byte : comment.text) comment.written_ms = std::int64_t(std::uint64_t(comment.written_ms) * 31) + byte;
+  bool is_valid = true;
+  const std::string broken = broken_by([&]() -> std::string {
+    is_valid = false;
+    check_comment(comment, "command line");
+    is_valid = true;
+    return "";
+  });
+  if (!broken.empty()) return broken;
+  if (is_valid !=
+      (why_no_comment(comment.text).empty() && (comment.author.empty() || why_no_learner_id(comment.author).empty())))
+    return "the check and the reasons disagree";
+
+  static const std::string score = read_file(std::filesystem::path(INSONATE_FUZZ_CORPORA) / "score" / "passed"),
+                           trace = read_file(std::filesystem::path(INSONATE_FUZZ_CORPORA) / "score" / "trace");
+  Attempt attempt;
+  attempt.number = 1;
+  attempt.database = std::string(32, 'a');
+  attempt.uuid = "00000000-0000-4000-8000-000000000000";
+  attempt.learner = "L-01";
+  attempt.score_json = score;
+  attempt.trace_json = trace;
+  attempt.comments = {comment};
+  const ResultFiles files = write_report_files(file_with("report/.made", "").parent_path(), attempt, "");
+  if (is_valid && comment_in(files.score) != comment.text) return "the score has another comment";
+  return "";
+});
+
+}  // namespace
+}  // namespace insonate::fuzz

@@ -1,0 +1,148 @@
+// What insonate-register reads besides the CT: recordings with images, probes, and whether the start fits the CT.
+#include <catch2/catch.hpp>
+
+#include <functional>
+#include <string>
+
+#include "devices/record/sequence_recorder.h"
+#include "sim/core/input_error.h"
+#include "tests/core/temporary_folder.h"
+#include "tools/register/read_sweep.h"
+#include "tools/register/start_transform.h"
+
+using namespace insonate;
+using Catch::Contains;
+
+namespace {
+
+constexpr int kWidth = 40, kHeight = 30;
+constexpr double kPixelMm = 1.5;  // an image of 60 x 45 mm, which a linear probe of 40 mm fits into
+
+/// Images of a gradient, whose top middle is the probe's face.
+glm::dmat4 usual_matrix() {
+  return {{kPixelMm, 0, 0, 0}, {0, kPixelMm, 0, 0}, {0, 0, 1, 0}, {-kPixelMm * kWidth / 2, 0, 0, 1}};
+}
+
+struct Recorded {
+  TemporaryFolder folder;
+  SweepInput input;
+
+  Recorded() {
+    input.file = (folder.path / "scan.igs.mha").string();
+    input.probe = *find_probe("linear");
+    input.probe.lines = 64;
+    input.depth_mm = 40;
+  }
+
+  void record(const glm::dmat4& matrix, int grey_step = 5, PoseStatus status = PoseStatus::ok) const {
+    std::filesystem::remove(input.file);
+    SequenceRecorder recorder(input.file, kWidth, kHeight);
+    for (int i = 0; i < 3; ++i) {
+      Image<std::uint8_t> picture(kWidth, kHeight);
+      for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) picture.at(x, y) = std::uint8_t(60 + grey_step * y);
+      ProbeSample sample;
+      sample.time_s = i;
+      sample.status = i == 0 ? PoseStatus::ok : status;
+      if (sample.status == PoseStatus::ok) sample.patient_from_probe.translation.z = 2.0 * i;
+      recorder.add(sample, picture, matrix);
+    }
+    recorder.finish();
+  }
+  void refused(const std::string& sentence) const { CHECK_THROWS_WITH(read_sweep(input), Contains(sentence)); }
+};
+
+Probe probe_of(const std::string& text) {
+  const TemporaryFolder folder;
+  return read_probe(folder.put("probe.toml", text).string());
+}
+
+}  // namespace
+
+TEST_CASE("a recording is read with its images at the probe's face") {
+  Recorded recorded;
+  recorded.record(usual_matrix());
+  const ReadSweep read = read_sweep(recorded.input);
+  CHECK(read.frames == 3);
+  CHECK(read.left_out == 0);
+  REQUIRE(read.sweep.images.size() == 3);
+  CHECK(read.sweep.images[1].sweep_from_probe.translation.z == Approx(2));
+  // A clip hides what is outside of it.
+  recorded.input.clip = {{0, 0, kWidth, kHeight - 4}};
+  CHECK(read_sweep(recorded.input).sweep.images.size() == 3);
+}
+
+TEST_CASE("a recording that cannot be registered is refused in a sentence") {
+  Recorded recorded;
+  recorded.record(usual_matrix());
+  recorded.input.clip = {{0, 0, kWidth + 1, kHeight}};
+  recorded.refused(
+      "--clip: the rectangle is not within the images of 40 x 30 pixels; give X,Y,WIDTH,HEIGHT in pixels.");
+  recorded.input.clip.reset();
+  recorded.input.face_pixel = {{500, 500}};
+  recorded.refused("scan.igs.mha: the images show only 0 % of the probe's fan; name the probe and the depth");
+  recorded.input.face_pixel.reset();
+  recorded.input.transform = "ToolToTracker";
+  recorded.refused("no frame has the transform 'ToolToTracker'");
+  recorded.input.transform.clear();
+
+  recorded.record(usual_matrix(), 0);
+  recorded.refused("the images show nothing in the probe's fan: it is of one grey level");
+  recorded.record(usual_matrix(), 5, PoseStatus::missing);
+  recorded.refused("fewer than two of its images have a pose; name the probe's with --transform.");
+
+  glm::dmat4 off_plane = usual_matrix();
+  off_plane[3].z = 3;
+  recorded.record(off_plane);
+  recorded.refused("the origin of its probe's frame does not lie in the images");
+  glm::dmat4 without_size = usual_matrix();
+  without_size[0] = {};
+  recorded.record(without_size);
+  recorded.refused(
+      "scan.igs.mha: frame 0: ImageToProbe: a pixel is not from 0.001 mm to 10 mm large; give that matrix");
+  recorded.input.probe_from_pixel = usual_matrix();
+  CHECK(read_sweep(recorded.input).sweep.images.size() == 3);
+  recorded.input.probe_from_pixel.reset();
+
+  const std::string frame =
+      "Seq_Frame0000_ProbeToPatientTransform = 1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1\n"
+      "Seq_Frame0000_ProbeToPatientTransformStatus = OK\nSeq_Frame0000_Timestamp = 0\nElementDataFile = LOCAL\n";
+  recorded.folder.put("scan.igs.mha", "ObjectType = Image\nNDims = 3\nDimSize = 0 0 1\n" + frame);
+  recorded.refused("it holds no images that can be read; record the ultrasound with the poses.");
+  recorded.folder.put("scan.igs.mha",
+                      "ObjectType = Image\nNDims = 3\nDimSize = 2 2 1\nElementType = MET_UCHAR\n" + frame + "abcd");
+  recorded.refused("it does not say how its images lie in the probe's frame: ImageToProbe is missing");
+}
+
+TEST_CASE("a probe is read from a file, and refused with its line") {
+  CHECK(probe_of("kind = \"curvilinear\"\nradius_mm = 50\nfield_of_view_deg = 70\ndepth_mm = 150\n").radius_mm == 50);
+  CHECK(probe_of("kind = \"phased\"\nfield_of_view_deg = 90\nwidth_mm = 20\ndepth_mm = 150\n").width_mm == 20);
+  const auto refused = [](const std::string& text, const std::string& sentence) {
+    CHECK_THROWS_WITH(probe_of(text), Contains("probe.toml: line ") && Contains(sentence));
+  };
+  refused("\nkind = \"convex\"\n", "line 2, column 8: there is no kind of probe named 'convex'; write curvilinear");
+  refused("kind = \"linear\"\nwidth_mm = 4\ndepth_mm = 50\n", "line 2");
+  refused("kind = \"linear\"\nwidth_mm = 40\ndepth_mm = 500\n", "line 3");
+  refused("kind = \"linear\"\nwidth_mm = 40\ndepth_mm = 50\nradius_mm = 60\n", "radius_mm");
+}
+
+TEST_CASE("a start that does not fit the CT is refused before the search") {
+  Recorded recorded;
+  recorded.record(usual_matrix());
+  const TrackedSweep sweep = read_sweep(recorded.input).sweep;
+  Volume<std::int16_t> ct;
+  ct.grid.size = {41, 31, 11};
+  ct.grid.spacing = glm::dvec3(2);
+  ct.grid.origin = {-40, -10, -5};
+  ct.voxels.assign(ct.grid.count(), 40);
+  check_start("ct.nrrd", ct, sweep, glm::dmat4(1.0));
+  glm::dmat4 away(1.0);
+  away[3].x = 500;
+  CHECK_THROWS_WITH(check_start("ct.nrrd", ct, sweep, away),
+                    "ct.nrrd: at the start only 0 % of what the sweep shows lies in the CT; give a nearer --start or "
+                    "--landmarks, or a CT of the region that was scanned.");
+  ct.voxels.assign(ct.grid.count(), -1000);
+  CHECK_THROWS_WITH(check_start("", ct, sweep, glm::dmat4(1.0)),
+                    "the built-in patient: at the start the sweep looks away from the body: only 0 % of what it shows "
+                    "is tissue; give a nearer --start or --landmarks.");
+}
