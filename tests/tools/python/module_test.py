@@ -198,7 +198,7 @@ class Pictures(unittest.TestCase):
 class Registrations(unittest.TestCase):
     def test_lc2_is_highest_at_the_pose_of_the_picture(self):
         case = insonate.phantom(voxel_mm=2)
-        view = case.views["right_kidney_long"]  # its outline is sharp in both models
+        view = case.views["gallbladder_long"]  # its outline is sharp in both models
         with insonate.Simulator(case) as simulator:
             simulator.set_probe(view.probe, view.depth_mm)
             simulator.pose = view.pose
