@@ -56,7 +56,8 @@ enum class Renamed { done, taken, on_another_disk };
 Renamed rename_to(const fs::path& from, const fs::path& to, bool replace) {
   if (renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), replace ? 0 : RENAME_NOREPLACE) == 0)
     return Renamed::done;
-  if (!replace && (errno == EINVAL || errno == ENOSYS)) {  // file systems such as NFS, which can give a second name instead
+  if (!replace &&
+      (errno == EINVAL || errno == ENOSYS)) {  // file systems such as NFS, which can give a second name instead
     if (link(from.c_str(), to.c_str()) == 0) {
       unlink(from.c_str());
       return Renamed::done;
