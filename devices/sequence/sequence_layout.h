@@ -62,8 +62,8 @@ struct ClaimedImages {
 bool dimensions_agree(std::optional<std::size_t> dimensions, const ClaimedImages& claimed);
 
 /// Finds the dimension that counts the frames, which is missing in PLUS files with a single frame. Checks that the
-/// images are, or can be, present in the `bytes_after` bytes after the header. Throws InputError if they are not, or if the claims
-/// contradict each other or exceed what any file can hold.
+/// images are, or can be, present in the `bytes_after` bytes after the header. Throws InputError if they are not, or if
+/// the claims contradict each other or exceed what any file can hold.
 SequenceLayout sequence_layout(const ClaimedImages& claimed, std::uint64_t bytes_after, const std::string& file);
 
 }  // namespace insonate
