@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "scenarios/json_problem.h"
 #include "sim/core/input_error.h"
 
 namespace insonate {
@@ -246,6 +247,10 @@ private:
   }
 };
 
+[[noreturn]] void refuse(const std::string& name, const std::string& why) {
+  throw InputError(name, "", "this is not a result of Insonate: " + why, "score the log again");
+}
+
 }  // namespace
 
 std::string to_json(const ExamResult& result) {
@@ -264,8 +269,10 @@ ExamResult result_from_json(std::string_view text, const std::string& name) {
     Reader reader{json};
     each_field(reader, result);
     return result;
-  } catch (const std::exception& error) {
-    throw InputError(name, "", std::string("this is not a result of insonate: ") + error.what(), "score the log again");
+  } catch (const Json::exception& error) {
+    refuse(name, json_problem(error, text));
+  } catch (const std::runtime_error& error) {
+    refuse(name, error.what());
   }
 }
 

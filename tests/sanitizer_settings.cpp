@@ -15,7 +15,8 @@ extern "C" UNCOUNTED const char* __lsan_default_options() {
   return "print_suppressions=0";
 }
 
-// What Mesa's software renderer and the loader beneath it keep until the process ends, and GLib beneath umockdev.
+// What Mesa's software renderer and the loader beneath it keep until the process ends, and GLib beneath umockdev. HDF5
+// keeps some memory of damaged files.
 extern "C" UNCOUNTED const char* __lsan_default_suppressions() {
   return "leak:swrast_dri.so\n"
          "leak:libgallium\n"
@@ -25,7 +26,8 @@ extern "C" UNCOUNTED const char* __lsan_default_suppressions() {
          "leak:libglib\n"
          "leak:libgobject\n"
          "leak:libgio\n"
-         "leak:libumockdev\n";
+         "leak:libumockdev\n"
+         "leak:libhdf5\n";
 }
 
 // A driver that is unloaded before the leak check has no name by which its leaks could be distinguished from ours.

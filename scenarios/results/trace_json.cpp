@@ -5,6 +5,7 @@
 #include <array>
 #include <stdexcept>
 
+#include "scenarios/json_problem.h"
 #include "sim/core/input_error.h"
 
 namespace insonate {
@@ -39,6 +40,10 @@ void each_list(Visit&& visit) {
         std::string(info(field.metric).name).c_str(), false, [field](auto& p) -> auto& { return p.view.*field.value; });
 }
 
+[[noreturn]] void refuse(const std::string& name, const std::string& why) {
+  throw InputError(name, "", "this is not a trace of Insonate: " + why, "score the log again");
+}
+
 }  // namespace
 
 std::string to_json(std::span<const TracePoint> trace) {
@@ -62,8 +67,10 @@ std::vector<TracePoint> trace_from_json(std::string_view text, const std::string
         if (!list[i].is_null()) list[i].get_to(field(trace[i]));
     });
     return trace;
-  } catch (const std::exception& error) {
-    throw InputError(name, "", std::string("this is not a trace of insonate: ") + error.what(), "score the log again");
+  } catch (const Json::exception& error) {
+    refuse(name, json_problem(error, text));
+  } catch (const std::runtime_error& error) {
+    refuse(name, error.what());
   }
 }
 

@@ -289,7 +289,9 @@ double TomlTable::number(std::string_view key, const NumberRange& range, std::op
 
 std::int64_t TomlTable::whole_number(std::string_view key, std::int64_t least, std::int64_t most,
                                      std::optional<std::int64_t> otherwise) const {
-  const std::string wanted = "a whole number from " + std::to_string(least) + " to " + std::to_string(most);
+  const std::string wanted = least == most
+                                 ? "the number " + std::to_string(least)
+                                 : "a whole number from " + std::to_string(least) + " to " + std::to_string(most);
   if (const toml::node* value = node_->find(key, otherwise.has_value(), wanted)) {
     const auto* number = value->as_integer();
     if (number && number->get() >= least && number->get() <= most) return number->get();

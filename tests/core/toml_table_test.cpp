@@ -146,6 +146,7 @@ TEST_CASE("a key that is missing, of another kind or out of range is a mistake i
       {"a = nan", [](T t) { t.number("a"); }, "1:5 'a' is nan; give a finite number"},
       {"a = 0.5", [](T t) { t.whole_number("a", 0, 100000); },
        "1:5 'a' is not a whole number; give a whole number from 0 to 100000"},
+      {"a = 2", [](T t) { t.whole_number("a", 1, 1); }, "1:5 'a' is 2; give the number 1"},
       {"a = -1", [](T t) { t.whole_number("a", 0, 9, 3); }, "1:5 'a' is -1; give a whole number from 0 to 9"},
       {"", [](T t) { t.boolean("a"); }, "1:1 the key 'a' is missing; add it: true or false"},
       {"a = 1", [](T t) { t.boolean("a", true); },

@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "scenarios/result_json.h"
 #include "scenarios/results/export/report_files.h"
 #include "sim/core/input_error.h"
 #include "tools/score/commands.h"
@@ -25,6 +26,7 @@ int report(const Given& given) {
   bool all = true;
   for (const std::int64_t number : chosen_attempts(database, given.attempt)) try {
       const Attempt attempt = database.read(number);
+      result_from_json(attempt.score_json, database.file().string() + ": attempt " + std::to_string(number));
       const std::filesystem::path folder = given.out / ("attempt-" + std::to_string(number));
       std::printf("wrote %s\n", write_report_files(folder, attempt, given.home_page).report.c_str());
     } catch (const InputError& error) {  // a damaged attempt must not prevent the reports of the others

@@ -36,6 +36,10 @@ TEST_CASE("JSON that is no trace is refused") {
   const std::string json = to_json(tiny_exam(1).trace);
   CHECK_THROWS_AS(trace_from_json("", "x"), InputError);
   CHECK_THROWS_AS(trace_from_json("[]", "x"), InputError);
+  CHECK_THROWS_WITH(trace_from_json("{\n\"", "x"),
+                    "x: this is not a trace of Insonate: line 2 is not JSON; score the log again.");
+  CHECK_THROWS_WITH(trace_from_json("{}", "x"),
+                    "x: this is not a trace of Insonate: key 'format' not found; score the log again.");
   const auto spoiled = [&](const std::string& from, const std::string& to) {
     std::string text = json;
     REQUIRE(text.find(from) != std::string::npos);
