@@ -31,7 +31,7 @@ struct Setting {
   std::string name;
   int lines;
   Settings settings;
-  bool whole = true;  ///< draws every effect; other pictures are not on the front
+  bool whole = true;  ///< draws the same; other pictures are not on the front
 };
 
 std::string size_name(const Settings& settings) {
@@ -72,20 +72,22 @@ std::vector<Setting> settings_to_try(const Request& request, const Scene& scene)
     setting.whole = whole;
     tried.push_back(setting);
   };
-  const auto without = [&](const char* what, auto change) { changed(what, false, change); };
+  const auto other = [&](const char* what, auto change) { changed(what, false, change); };
   changed("nothing skipped", true, [](Settings& s) { s.skipping = false; });
   changed("exact filtering", true, [](Settings& s) { s.exact_filter = true; });
-  without("no speckle", [](Settings& s) { s.speckle = false; });
-  without("one plane", [](Settings& s) { s.slice_planes = 1; });
-  without("no edge shadow", [](Settings& s) { s.edge_shadow = false; });
-  without("no reverberation", [](Settings& s) { s.reverberation = false, s.face_reflection = 0; });
-  without("a beam of three lines", [](Settings& s) { s.focused_beam = false, s.beam_lines = 3; });
-  without("amplitudes instead of waves", [](Settings& s) { s.waves = false; });
+  other("no speckle", [](Settings& s) { s.speckle = false; });
+  other("one plane", [](Settings& s) { s.slice_planes = 1; });
+  other("no edge shadow", [](Settings& s) { s.edge_shadow = false; });
+  other("no reverberation", [](Settings& s) { s.reverberation = false, s.face_reflection = 0; });
+  other("a beam of three lines", [](Settings& s) { s.focused_beam = false, s.beam_lines = 3; });
+  other("amplitudes instead of waves", [](Settings& s) { s.waves = false; });
+  other("half the scatterers", [](Settings& s) { s.speckle_cell_mm *= std::cbrt(2); });
+  other("twice the scatterers", [](Settings& s) { s.speckle_cell_mm /= std::cbrt(2); });
   return tried;
 }
 
-void formatted(const Scene& scene, const Panel& panel, const std::vector<Cost>& costs,
-               const std::vector<DisplayError>& errors) {
+void print(const Scene& scene, const Panel& panel, const std::vector<Cost>& costs,
+           const std::vector<DisplayError>& errors) {
   std::printf("\n%s, view %s: run time of a frame against error\n", scene.name.c_str(), scene.view.c_str());
   std::printf("  ms       (quartiles)        error, dB   grey levels   volume, MiB\n");
   std::vector<std::size_t> order(costs.size());
@@ -187,7 +189,7 @@ Table measure_front(const Request& request, const std::string& svg) {
       panel.points.push_back({tried[i].name, costs[i].time.median, errors[i].db, on_it,
                               quality_of(tried[i], tried.front()), !tried[i].whole});
     }
-    formatted(scene, panel, costs, errors);
+    print(scene, panel, costs, errors);
     panels.push_back(std::move(panel));
   });
   if (!svg.empty()) write_file(svg, front_svg(gl::device_description(), panels));

@@ -78,7 +78,7 @@ TEST_CASE("insonate-score makes the other reports when an attempt is damaged") {
     CHECK(std::filesystem::exists(folder.path / ("reports/attempt-" + std::to_string(number)) / "report.html") ==
           (number != 2));
   sqlite::Connection(database, false).run("UPDATE attempt SET score = '{' WHERE number = 3");
-  const Outcome without_score = run(folder, "report " + database + " --out " + (folder.path / "again").string());
+  const ProgramOutcome without_score = run_score("report " + database + " --out " + (folder.path / "again").string());
   INFO(without_score.errors);
   CHECK(without_score.errors.find("lab.db: attempt 3: this is not a result of Insonate: line 1 is not JSON; score") !=
         std::string::npos);
