@@ -101,7 +101,7 @@ glm::ivec3 three_sizes(const fs::path& file, std::string_view dimensions, std::s
     if (!number) break;
     numbers.push_back(*number);
   }
-  if (numbers.size() < 3) refuse(file, "the sizes are " + quoted(sizes), "give three whole numbers");
+  if (numbers.size() != 3) refuse(file, "the sizes are " + quoted(sizes), "give three whole numbers");
   check_size(file.string(), numbers[0], numbers[1], numbers[2]);
   return glm::ivec3(numbers[0], numbers[1], numbers[2]);
 }

@@ -209,6 +209,7 @@ TEST_CASE("NRRD files that cannot be a CT are refused with the reason") {
       {"a.nrrd", nrrd_with("sizes", "sizes: 2048 2048 1024"), "above the limit of 2^31"},
       {"a.nrrd", nrrd_with("sizes", "sizes: 4 3 20"), "it claims 480 bytes of voxels, the file holds 48"},
       {"a.nrrd", nrrd_with("sizes", "sizes: 4 3"), "three whole numbers"},
+      {"a.nrrd", nrrd_with("sizes", "sizes: 4 3 2 1"), "three whole numbers"},
       {"a.nrrd", nrrd_with("sizes", "sizes: 4 3 -2"), "three whole numbers"},
       {"a.nrrd", nrrd_with("sizes", "sizes: 4 3 99999999999999999999"), "three whole numbers"},
       {"a.nrrd", nrrd_with("sizes", ""), "three whole numbers"},
