@@ -144,7 +144,7 @@ TEST_CASE("insonate-bench front: errors against the converged reference, a front
   const fs::path svg = f.folder / "front.svg";
   const bench::Table table =
       f.measure("front --svg " + svg.string(), "24,1600,60,45,24,200,60,45,24,1600,15,11,24,1200,45,34");
-  REQUIRE(table.rows.size() == 4 + 8);
+  REQUIRE(table.rows.size() == 4 + 10);
   const auto error = [&](std::size_t row) { return table.number("table.csv", row, "error_db"); };
   CHECK(error(0) > 0);
   CHECK(error(1) > 2 * error(0));  // an eighth of the samples
@@ -158,7 +158,7 @@ TEST_CASE("insonate-bench front: errors against the converged reference, a front
   CHECK(error(6) > 2);  // the envelope of speckle is off by 5.6 dB from its mean wherever there is echo
   for (std::size_t i = 7; i < table.rows.size(); ++i) {
     INFO(table.cell(i, "setting"));
-    CHECK(error(i) != error(0));  // each leaves something out
+    CHECK(error(i) != error(0));  // each draws something else
   }
   CHECK(std::count_if(table.rows.begin(), table.rows.end(), [](const auto& row) { return row.back() == "1"; }) >= 1);
   CHECK(read_file(svg).starts_with("<svg"));
