@@ -76,7 +76,7 @@ TEST_CASE("a volume that the device refuses leaves the simulator with the one be
   CHECK(simulator.runs().front() == runs);
 }
 
-TEST_CASE("whoever gave a CT that does not fit is given the file, the limit and what to do") {
+TEST_CASE("a CT that does not fit is refused with its file, the limit and what to do") {
   Grid grid;
   grid.size = {600, 512, 512};
   grid.spacing = {0.4, 0.4, 0.45};

@@ -221,7 +221,7 @@ void DatasetFolder::complete() const {
   const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
   if (read_file(manifest_file(), kLargestManifest) != text) write_file(manifest_file(), text);
 
-  // All shards are there, so whoever still writes one does so in vain.
+  // All shards are there, so a process that still writes one does so in vain.
   std::error_code error;
   for (fs::directory_iterator entry(path_ / "shards", error), end; !error && entry != end; entry.increment(error)) {
     const std::string name = entry->path().filename().string();
