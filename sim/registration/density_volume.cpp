@@ -33,25 +33,33 @@ Texture stored_as(GLenum format, const Grid& grid, const std::vector<std::array<
 
 }  // namespace
 
+glm::dvec3 density_change(const AcousticVolume& volume, const glm::ivec3& voxel, double reflection_length_mm) {
+  const Grid& grid = volume.grid;
+  const glm::tvec3<std::ptrdiff_t> stride(1, grid.size.x, std::ptrdiff_t(grid.size.x) * grid.size.y);
+  const AcousticVoxel* here = volume.voxels.data() + grid.offset(voxel);
+  glm::dvec3 change;
+  for (int axis = 0; axis < 3; ++axis) {
+    const AcousticVoxel* row = here - voxel[axis] * stride[axis];
+    const double half = reflection_length_mm / 2 / grid.spacing[axis];
+    change[axis] = between(row, stride[axis], grid.size[axis], voxel[axis] + half) -
+                   between(row, stride[axis], grid.size[axis], voxel[axis] - half);
+  }
+  return change;
+}
+
 Texture density_volume(const AcousticVolume& volume, double reflection_length_mm) {
   const Grid& grid = volume.grid;
-  const glm::dvec3 half_voxels = reflection_length_mm / 2 / grid.spacing;
-  const glm::tvec3<std::ptrdiff_t> stride(1, grid.size.x, std::ptrdiff_t(grid.size.x) * grid.size.y);
   std::vector<std::array<std::int16_t, 4>> voxels(grid.count());
   tbb::parallel_for(0, grid.size.z, [&](int z) {
     for (int y = 0; y < grid.size.y; ++y)
       for (int x = 0; x < grid.size.x; ++x) {
         const glm::ivec3 i(x, y, z);
         const std::size_t v = grid.offset(i);
-        const AcousticVoxel* here = volume.voxels.data() + v;
-        voxels[v][0] = here->hu;
-        for (int axis = 0; axis < 3; ++axis) {
-          const AcousticVoxel* row = here - i[axis] * stride[axis];
-          const double change = between(row, stride[axis], grid.size[axis], i[axis] + half_voxels[axis]) -
-                                between(row, stride[axis], grid.size[axis], i[axis] - half_voxels[axis]);
+        voxels[v][0] = volume.voxels[v].hu;
+        const glm::dvec3 change = density_change(volume, i, reflection_length_mm);
+        for (int axis = 0; axis < 3; ++axis)
           voxels[v][std::size_t(axis) + 1] =
-              std::int16_t(std::lround(std::clamp(kStepsPerHu * change, -32767.0, 32767.0)));
-        }
+              std::int16_t(std::lround(std::clamp(kStepsPerHu * change[axis], -32767.0, 32767.0)));
       }
   });
   // A processor uses a voxel of floats as it is, but has to unpack one of integers, which costs a tenth of an image's

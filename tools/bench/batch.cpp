@@ -25,13 +25,6 @@ std::vector<Configuration> usual_sizes() {
   return sizes;
 }
 
-// Returns poses as registration requests them around a pose, each offset by a fraction of a millimetre.
-std::vector<Pose> poses_around(const Pose& pose, std::size_t images) {
-  std::vector<Pose> poses;
-  for (std::size_t i = 0; i < images; ++i) poses.push_back(wandering(pose, 7 * int(i)));
-  return poses;
-}
-
 Image<float> random_picture(int width, int height) {
   Image<float> picture(width, height);
   for (std::size_t i = 0; i < picture.pixels.size(); ++i) picture.pixels[i] = unit_float(hash(std::uint32_t(i)));

@@ -25,6 +25,10 @@ Table measure_work_divisions(const Request& request);
 /// ultrasound image, and for comparison the trainer's model S.
 Table measure_batch(const Request& request);
 
+/// Compares model W's images with the processor's own implementations, plain and vectorised, in alternation: single
+/// images by configuration, and 1 to 512 images of 256 x 256 in one call. Writes the plots to `svg` unless it is empty.
+Table measure_throughput(const Request& request, const std::string& svg);
+
 /// Measures the time of a 3D probe's volume, by configuration; the width is also the volume's third side. The cases are
 /// a moving probe, a repeated scan conversion, and a change of the gain only.
 Table measure_sweep(const Request& request);

@@ -94,6 +94,11 @@ int main(int argc, char** argv) {
   const CLI::App* batch = add_measurement(
       arguments, "batch", "Compare many images of model W in one call, as for registration, with one image per call",
       request, csv);
+  CLI::App* throughput = add_measurement(
+      arguments, "throughput",
+      "Compare model W's images, single ones and up to 512 in one call, with the processor's own implementations",
+      request, csv);
+  throughput->add_option("--svg", svg, "Draw the plots to this file too (SVG)")->type_name("FILE");
   const CLI::App* sweep = add_measurement(
       arguments, "sweep", "Measure the run time of a 3D probe's volume of WIDTH x HEIGHT x WIDTH voxels", request, csv);
   bench::RegistrationRequest registration_request;
@@ -209,6 +214,7 @@ int main(int argc, char** argv) {
                                                            : bench::Table::parse(old_file, read_file(old_file)))
               : sweep->parsed()        ? bench::measure_sweep(request)
               : batch->parsed()        ? bench::measure_batch(request)
+              : throughput->parsed()   ? bench::measure_throughput(request, svg)
               : grain->parsed()        ? bench::measure_grain()
               : beam->parsed()         ? bench::measure_beams(acoustics, svg)
               : speckle->parsed()      ? bench::measure_speckle(acoustics, speckle_lines)

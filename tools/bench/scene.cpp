@@ -97,6 +97,12 @@ Pose wandering(const Pose& start, int frame) {
   return pose;
 }
 
+std::vector<Pose> poses_around(const Pose& pose, std::size_t images) {
+  std::vector<Pose> poses;
+  for (std::size_t i = 0; i < images; ++i) poses.push_back(wandering(pose, 7 * int(i)));
+  return poses;
+}
+
 std::vector<std::vector<double>> alternating_times(const Pose& start, int frames,
                                                    const std::vector<std::function<void(const Pose&)>>& methods,
                                                    int first) {

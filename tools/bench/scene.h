@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <vector>
@@ -56,6 +57,9 @@ Settings settings_of(const Scene& scene, const Configuration& configuration, boo
 
 /// Returns the probe's pose in a frame. It moves around `start` by a few millimetres along and across the face.
 Pose wandering(const Pose& start, int frame);
+
+/// Returns poses as registration requests them around a pose, each offset by some millimetres.
+std::vector<Pose> poses_around(const Pose& pose, std::size_t images);
 
 /// Runs the methods in alternation, frame by frame, with the same poses. Measures the time from the pose until the
 /// device has finished. A few frames before the measured ones warm up.

@@ -128,6 +128,23 @@ TEST_CASE("insonate-bench batch: images and LC2, one a call and many, as through
   CHECK(f.output.find(" MPixel/s; ") != std::string::npos);
 }
 
+TEST_CASE("insonate-bench throughput: images of the device and of the processor, and a plot of both") {
+  Fixture f;
+  const fs::path svg = f.folder / "throughput.svg";
+  const bench::Table table = f.measure("throughput --svg " + svg.string());
+  constexpr const char* kMethods[] = {"OpenGL", "plain", "vectorised"};
+  REQUIRE(table.rows.size() == 2 * 3);
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    CHECK(table.cell(i, "method") == kMethods[i % 3]);
+    CHECK(table.cell(i, "images_a_call") == "1");
+    const double plain_ms = table.number("table.csv", i / 3 * 3 + 1, "median_ms");
+    // Times keep five digits behind the point, of at least a hundredth of a millisecond.
+    CHECK(table.number("table.csv", i, "speed_up_of_plain") * table.number("table.csv", i, "median_ms") ==
+          Approx(plain_ms).epsilon(0.02).margin(0.001));
+  }
+  CHECK(read_file(svg).find("<polyline") != std::string::npos);
+}
+
 TEST_CASE("insonate-bench sweep: a volume with a moving probe, of the same lines elsewhere, and with another gain") {
   Fixture f;
   const bench::Table table = f.measure("sweep", "12,40,16,20");
