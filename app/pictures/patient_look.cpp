@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <functional>
 #include <stdexcept>
 
+#include "scenarios/words.h"
 #include "sim/core/digest.h"
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
@@ -162,6 +164,27 @@ void PatientLook::begin(const std::string& patient, const Volume<std::int16_t>& 
     }
   }
   kept_ = shown_;
+}
+
+void PatientLook::offer(const std::vector<Label>& labels, const view::OrganColours& colours) {
+  structures_.clear();
+  for (const Label& label : labels)
+    if (colours[label.value].opacity > 0)
+      structures_.push_back({label.value, in_words(label.name), colours[label.value].colour, false});
+  // Bones come last, because looks of the CT show them anyway.
+  const auto is_bone = [&](const StructureChoice& choice) {
+    const auto label =
+        std::find_if(labels.begin(), labels.end(), [&](const Label& l) { return l.value == choice.label; });
+    return label->tissue.find("bone") != std::string::npos || label->tissue == "cartilage";
+  };
+  std::stable_partition(structures_.begin(), structures_.end(), std::not_fn(is_bone));
+}
+
+std::vector<std::uint8_t> PatientLook::shown_structures() const {
+  std::vector<std::uint8_t> shown;
+  for (const StructureChoice& structure : structures_)
+    if (structure.shown) shown.push_back(structure.label);
+  return shown;
 }
 
 void PatientLook::keep() {

@@ -11,9 +11,19 @@
 #include <vector>
 
 #include "sim/core/grid.h"
+#include "sim/view/body/organ_colours.h"
 #include "sim/view/body/transfer_function.h"
+#include "sim/volume/case.h"
 
 namespace insonate {
+
+/// A labelled structure whose surface can be shown within the CT.
+struct StructureChoice {
+  std::uint8_t label = 0;
+  std::string title;  ///< as a person reads it: "right kidney cortex"
+  glm::vec3 colour{1.0f};
+  bool shown = false;
+};
 
 /// How the patient looks in the 3D view: with labelled organs, or as the CT through a transfer function, which a person
 /// chooses and edits. What they leave a patient with is there again when that patient is shown the next time.
@@ -63,6 +73,14 @@ public:
 
   /// Shows a patient as they were left the last time; with labelled organs if that is unknown or not readable.
   void begin(const std::string& patient, const Volume<std::int16_t>& ct);
+  /// Offers a patient's structures: those labels that have a colour, none of them shown.
+  void offer(const std::vector<Label>& labels, const view::OrganColours& colours);
+  const std::vector<StructureChoice>& structures() const { return structures_; }
+  /// Shows a structure's surface within the CT, or leaves it out. The surfaces stay when another look is chosen.
+  void show_structure(std::size_t index, bool shown) { structures_[index].shown = shown; }
+  /// Returns the labels of the structures that are shown.
+  std::vector<std::uint8_t> shown_structures() const;
+
   /// Stores how the patient looks, if that has changed since begin(). Throws InputError if it cannot be written.
   void keep();
 
@@ -81,6 +99,7 @@ private:
   std::optional<std::size_t> chosen_;
   std::optional<view::TransferFunction> base_, shown_;  ///< before and after shift and scale
   double shift_hu_ = 0, scale_ = 1;
+  std::vector<StructureChoice> structures_;
   std::string patient_;
   std::optional<view::TransferFunction> kept_;
   std::vector<float> histogram_;

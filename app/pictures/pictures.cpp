@@ -73,6 +73,7 @@ void Pictures::show(const LoadedCase& loaded_case) {
   grid_ = loaded_case.subject.ct.grid;
   reset_camera();
   look.begin(loaded_case.subject.name, loaded_case.subject.ct);
+  look.offer(loaded_case.subject.label_table, patient_->colours());
 }
 
 void Pictures::update(const std::optional<Pose>& pose, const Machine& machine, const PictureSizes& sizes,
@@ -148,6 +149,7 @@ void Pictures::update(const std::optional<Pose>& pose, const Machine& machine, c
   } else if (look.shown()) {
     body.ct.emplace();
     body.ct->function = *look.shown();
+    body.ct->structures = look.shown_structures();
   }
   body.cut = anatomy && std::abs(glm::dot(camera.patient_from_camera().rotation[2], pose->rotation[2])) > kEdgeOn;
   if (!shows_volume) volume_ = nullptr;

@@ -44,8 +44,9 @@ inline constexpr std::array<const char*, 6> kSideNames{"front", "back", "right",
 struct PatientPicture {
   std::string subject;        ///< as open_subject() takes it
   std::string look = "Skin";  ///< kLabelledOrgans, the name of a bundled transfer function, or a file of one (.toml)
-  std::string view;           ///< a reference view of the case, whose ultrasound is shown in its place; empty: none
-  std::string from;           ///< one of kSideNames; empty: towards the view's plane, else obliquely from the front
+  std::vector<std::string> structures;  ///< labels of the case whose surfaces are drawn within the CT
+  std::string view;  ///< a reference view of the case, whose ultrasound is shown in its place; empty: none
+  std::string from;  ///< one of kSideNames; empty: towards the view's plane, else obliquely from the front
   double turn_deg = 0, tilt_deg = 0;  ///< turn the patient from there: about the long axis, and the head to the viewer
   bool cut = false;                   ///< removes what lies between the camera and the plane
   int width = 800, height = 600;

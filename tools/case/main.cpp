@@ -120,6 +120,9 @@ int main(int argc, char** argv) {
                    "'Labelled organs'")
       ->type_name("NAME|FILE")
       ->capture_default_str();
+  draw->add_option("--structure", picture.structures,
+                   "Show the surface of this labelled structure within the CT; may be repeated")
+      ->type_name("NAME");
   draw->add_option("--view", picture.view, "Show the ultrasound of this view of the case in its place")
       ->type_name("NAME");
   draw->add_option("--from", picture.from, "Look from this side")

@@ -1,5 +1,8 @@
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
@@ -31,6 +34,21 @@ std::optional<view::TransferFunction> look_named(const std::string& named) {
   throw InputError("--look", "", "there is no look named '" + named + "'", suggest(named, names));
 }
 
+/// Returns the values of labels by their names. Throws InputError for a name that the patient lacks.
+std::vector<std::uint8_t> structures_named(const std::vector<std::string>& names, const Case& subject) {
+  std::vector<std::uint8_t> values;
+  for (const std::string& name : names) {
+    if (const Label* label = subject.find_label(name)) {
+      values.push_back(label->value);
+      continue;
+    }
+    std::vector<std::string> known;
+    for (const Label& label : subject.label_table) known.push_back(label.name);
+    throw InputError("--structure", "", "the patient has no structure named '" + name + "'", suggest(name, known));
+  }
+  return values;
+}
+
 view::Side side_named(const std::string& name) {
   const auto found = std::find(kSideNames.begin(), kSideNames.end(), name);
   return view::Side(found - kSideNames.begin());
@@ -44,6 +62,9 @@ void draw_patient(const PatientPicture& picture) {
   const std::optional<view::TransferFunction> look = look_named(picture.look);
   const TissueTable table = read_tissue_table(assets_folder() / "tissues.toml");
   const Case subject = open_subject(picture.subject);
+  if (!look && !picture.structures.empty())
+    throw InputError("--structure", "", "all structures are shown with '" + std::string(kLabelledOrgans) + "'",
+                     "choose a look of the CT, such as Bones");
   const ReferenceView* plane_shown = picture.view.empty() ? nullptr : subject.find_view(picture.view);
   if (!picture.view.empty() && !plane_shown) {
     std::vector<std::string> names;
@@ -65,6 +86,7 @@ void draw_patient(const PatientPicture& picture) {
   if (look) {
     style.ct.emplace();
     style.ct->function = *look;
+    style.ct->structures = structures_named(picture.structures, subject);
   }
   view::UltrasoundPlane plane;
   style.plane = style.probe = plane_shown != nullptr;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "app/panels/widgets/scroll_area.h"
+
 namespace insonate::ui {
 namespace {
 
@@ -157,6 +159,32 @@ void LookPanel::draw_colours(const Theme& theme, const Rect& where, PatientLook&
   }
 }
 
+void LookPanel::draw_structures(const Theme& theme, const Rect& where, PatientLook& look,
+                                std::map<std::string, Rect>& places) const {
+  const float height = theme.px(20);
+  Rect list = where;
+  draw_text(list.take_top(height), theme.small_text, colour::kMuted, "Structures");
+  const ScrollArea area(theme, "look_structures", whole_rows(list, height), height * float(look.structures().size()));
+  for (std::size_t i = 0; i < look.structures().size(); ++i) {
+    const StructureChoice& structure = look.structures()[i];
+    Rect row{area.content().x, area.content().y + height * float(i), area.content().w, height};
+    if (!area.shows(row)) continue;
+    const std::string id = "structure_" + std::to_string(structure.label);
+    if (area.shows_all_of(row)) places[id] = row;
+    ImGui::SetCursorScreenPos(row.min());
+    if (ImGui::InvisibleButton(id.c_str(), {row.w, row.h})) look.show_structure(i, !structure.shown);
+    if (ImGui::IsItemHovered()) fill(row, colour::kHovered, theme.px(3));
+    draw_tip(theme, row, "Shows its surface within the CT");
+    Rect swatch = row.take_left(theme.px(24)).inset(theme.px(5), theme.px(4));
+    const glm::dvec3 ink(structure.colour);
+    if (structure.shown)
+      fill(swatch, ink_of(ink), theme.px(3));
+    else
+      outline(swatch, ink_of(ink, 0.8), theme.px(3), theme.px(1.5f));
+    draw_text(row, theme.small_text, structure.shown ? colour::kText : colour::kMuted, structure.title);
+  }
+}
+
 LookAnswer LookPanel::draw(const Theme& theme, const Rect& panel, PatientLook& look,
                            std::map<std::string, Rect>& places) {
   LookAnswer answer = LookAnswer::none;
@@ -183,7 +211,7 @@ LookAnswer LookPanel::draw(const Theme& theme, const Rect& panel, PatientLook& l
 
   // The looks, in rows that fill the width.
   const std::size_t count = look.offered().size() + 1;
-  const std::size_t per_row = std::max<std::size_t>(2, std::size_t(rest.w / theme.px(80)));
+  const std::size_t per_row = std::max<std::size_t>(2, std::size_t(rest.w / theme.px(68)));
   for (std::size_t first = 0; first < count; first += per_row) {
     Rect row = rest.take_top(high);
     rest.take_top(theme.px(4));
@@ -207,10 +235,15 @@ LookAnswer LookPanel::draw(const Theme& theme, const Rect& panel, PatientLook& l
   rest.take_top(theme.px(4));
   if (!look.shown() || (point_ && *point_ >= look.shown()->points.size())) point_.reset();
   if (look.shown()) {
+    const float column = theme.px(look.structures().empty() ? 124 : 164);
     Rect sliders = rest.take_bottom(theme.px(40));
     rest.take_bottom(gap);
-    draw_colours(theme, sliders.take_right(theme.px(124)), look, places);
+    draw_colours(theme, sliders.take_right(column), look, places);
     sliders.take_right(theme.px(16));
+    if (!look.structures().empty()) {
+      draw_structures(theme, rest.take_right(column), look, places);
+      rest.take_right(theme.px(16));
+    }
     Rect left = sliders.take_left((sliders.w - theme.px(20)) / 2);
     sliders.take_left(theme.px(20));
     char text[32];

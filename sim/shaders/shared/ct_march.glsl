@@ -3,7 +3,8 @@
 //
 // Samples lie at first + k step along a ray, k whole: each pixel has its own `first`, which turns rings into fine noise.
 // Leaps end on such places too, so that a picture does not depend on what is leapt over. The C++ side defines
-// CT_CLASSIFICATION, one of the two below, CT_SHADED, and VOXELS_PER_CELL, the side of a cell in voxels.
+// CT_CLASSIFICATION, one of the two below, CT_SHADED, STRUCTURES (whether surfaces of structures are drawn), and
+// VOXELS_PER_CELL, the side of a cell in voxels.
 
 #define POST_CLASSIFICATION 0  // the function at each sample
 #define PRE_INTEGRATED 1       // the mean of the function between one sample and the next (sim/view/body/transfer_function.h)
@@ -12,6 +13,9 @@
 layout(binding = 8) uniform samplerBuffer transfer;
 layout(binding = 10) uniform sampler3D smooth_ct;      // HU / 32767, on the voxels of the tissue texture
 layout(binding = 9) uniform usampler3D cell_distance;  // cells to the nearest one where something can be visible
+#if STRUCTURES
+layout(binding = 11) uniform sampler3D structures;  // colour times coverage, coverage; on the voxels of the tissue texture
+#endif
 
 const float kFirstTransferHu = -1024.0, kLastTransferEntry = 4095.0;
 
@@ -41,6 +45,7 @@ struct March {
   float hu;                // at t
   vec4 integral;           // at hu
   bool known;              // whether hu and integral are those at t
+  float covered;           // by structures, at t; cells that were leapt over have none
 };
 
 // Returns a number from 0 to 1 that differs irregularly from pixel to pixel.
@@ -61,6 +66,7 @@ March march_of(Ray ray) {
   march.end = min(min(high.x, high.y), high.z);
   march.first = march.t + (jitter == 1 ? dither(uvec2(gl_FragCoord.xy)) : 0.0) * ct_step_mm;
   march.known = false;
+  march.covered = 0.0;
   vec3 texels = vec3(textureSize(acoustic_volume, 0));  // with a margin of 1
   march.origin = (origin * (texels - 2.0) + 1.0) / texels;
   march.direction = direction * (texels - 2.0) / texels;
@@ -90,6 +96,7 @@ void leap(inout March march, float stop) {
     if (t <= march.t) break;
     march.t = t;
     march.known = false;
+    march.covered = 0.0;
   }
 }
 
@@ -114,6 +121,30 @@ float of_body(vec3 at) {
   return body_only == 0 ? 1.0 : smoothstep(kOutsideBody, kWithinBody, textureLod(body, at, 0.0).y);
 }
 
+#if STRUCTURES
+// Composites the surface of a structure if the ray passes one between march.t and t. It is where the coverage is one
+// half, so that its depth does not depend on the steps.
+void composite_structures(inout March march, vec3 direction, float t) {
+  vec3 box_direction = mat3(tissue_from_patient) * direction;
+  vec3 box_origin = (tissue_from_patient * vec4(eye.xyz, 1.0)).xyz;
+  float covered = textureLod(structures, box_origin + t * box_direction, 0.0).a;
+  for (bool todo = (covered > 0.5) != (march.covered > 0.5); todo; todo = false) {
+    vec3 at = box_origin + mix(march.t, t, (0.5 - march.covered) / (covered - march.covered)) * box_direction;
+    vec3 reach = 1.0 / vec3(textureSize(structures, 0));
+    vec3 change;
+    for (int axis = 0; axis < 3; ++axis) {
+      vec3 aside = vec3(axis == 0, axis == 1, axis == 2) * reach;
+      change[axis] = textureLod(structures, at + aside, 0.0).a - textureLod(structures, at - aside, 0.0).a;
+    }
+    vec3 gradient = transpose(mat3(tissue_from_patient)) * (change / reach);
+    vec2 light = lighting(facing(gradient, direction), direction);
+    vec4 surface = textureLod(structures, at, 0.0);
+    composite(surface.rgb / max(surface.a, 0.01) * light.x + kHighlight * light.y, structure_opacity);
+  }
+  march.covered = covered;
+}
+#endif
+
 // Advances to `stop`, and composites the tissue on the way. Loops stand for `if`, as in volume_ray.glsl.
 void march_to(inout March march, vec3 direction, float stop) {
   stop = min(stop, march.end);
@@ -127,6 +158,9 @@ void march_to(inout March march, vec3 direction, float stop) {
     float next = march.first + (floor((march.t - march.first) / ct_step_mm + 1e-3) + 1.0) * ct_step_mm;
     float t = min(next, stop), segment_mm = t - march.t;
     float hu = hounsfield_at(march, t);
+#if STRUCTURES
+    composite_structures(march, direction, t);
+#endif
 #if CT_CLASSIFICATION == PRE_INTEGRATED
     vec4 integral = transferred(hu, 1), tissue_seen = (integral - march.integral) / (hu - march.hu);
     for (bool todo = abs(hu - march.hu) < kShortSpan_hu; todo; todo = false)

@@ -40,7 +40,8 @@ layout(std140, binding = 0) uniform VolumeViewParameters {
   int body_only;   // whether the table is left out
 
   int fan_edge;  // whether the fan's edge has a colour of its own: with few pixels it would be a broad band
-  int unused_1, unused_2, unused_3;
+  float structure_opacity;  // of the surfaces of structures within the CT
+  int unused_1, unused_2;
 #ifdef __cplusplus
 };
 }  // namespace insonate::view

@@ -1,20 +1,25 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "sim/gl/objects.h"
+#include "sim/view/body/ct_volume_style.h"
 #include "sim/view/body/patient_textures.h"
-#include "sim/view/body/transfer_function.h"
 
 namespace insonate::view {
 
-/// Holds on the graphics card what a transfer function makes of a CT: its table, and the distances to what it shows.
+/// Holds on the graphics card what a style makes of a CT: the transfer function's table, the surfaces of structures,
+/// and the distances to what is shown.
 class ClassifiedCt {
 public:
-  /// Updates both if the function or the patient differs from the last call's.
+  /// Updates what depends on a part of the style, or the patient, that differs from the last call's.
   /// @param patient  compared by address: call forget() after changing the object there
-  void update(const PatientTextures& patient, const TransferFunction& function, bool body_only);
+  void update(const PatientTextures& patient, const CtVolumeStyle& style);
   void forget() { patient_ = nullptr; }
+  /// Returns whether there are surfaces of structures to draw.
+  bool shows_structures() const { return !with_structures_.empty(); }
 
   /// Binds the textures that shared/ct_march.glsl reads.
   void bind() const;
@@ -23,8 +28,10 @@ private:
   const PatientTextures* patient_ = nullptr;
   std::optional<TransferFunction> function_;
   bool body_only_ = false;
+  std::vector<std::uint8_t> structures_;
+  std::vector<std::uint8_t> with_structures_;  ///< per cell: 1 if it shows a part of their surfaces
   gl::TexelBuffer table_;
-  gl::Texture distance_;
+  gl::Texture distance_, surfaces_;
 };
 
 }  // namespace insonate::view

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "sim/view/body/transfer_function.h"
 
 namespace insonate::view {
@@ -19,6 +22,9 @@ struct CtVolumeStyle {
   bool jittered = true;     ///< turns rings into fine noise
   bool skips_empty = true;  ///< the picture is the same without, but for rounding
   bool body_only = true;    ///< leaves out the scanner's table, which is not connected to the body
+  /// Labelled structures whose surfaces are drawn within the CT: label values, 1 to 255; nothing without labels.
+  std::vector<std::uint8_t> structures = {};
+  double structure_opacity = 0.9;  ///< of a surface, 0 to 1
   bool operator==(const CtVolumeStyle&) const = default;
 };
 

@@ -27,7 +27,7 @@ glm::dmat4 box_from_patient(const Grid& grid, const glm::dvec3& voxels) {
 
 PatientTextures::PatientTextures(const gl::Texture& acoustic_volume, const Volume<std::int16_t>& ct,
                                  const Volume<std::uint8_t>& labels, const OrganColours& colours)
-    : grid_(ct.grid), colours_(colours), acoustic_volume_(&acoustic_volume), cells_(ct) {
+    : grid_(ct.grid), colours_(colours), acoustic_volume_(&acoustic_volume), label_volume_(&labels), cells_(ct) {
   const std::uint8_t none = 0;
   labels_ = upload(GL_R8UI, labels.empty() ? glm::ivec3(1) : labels.grid.size, gl::Filter::nearest, GL_RED_INTEGER,
                    labels.empty() ? &none : labels.voxels.data());

@@ -17,12 +17,13 @@ namespace insonate::view {
 class PatientTextures {
 public:
   /// @param acoustic_volume  gl::Simulator::volume_texture() of the same CT; must outlive this object
-  /// @param labels           on the CT's grid, or empty
+  /// @param labels           on the CT's grid, or empty; must outlive this object
   PatientTextures(const gl::Texture& acoustic_volume, const Volume<std::int16_t>& ct,
                   const Volume<std::uint8_t>& labels, const OrganColours& colours);
 
   const Grid& grid() const { return grid_; }
   const OrganColours& colours() const { return colours_; }
+  const Volume<std::uint8_t>& label_volume() const { return *label_volume_; }
 
   /// (HU, ...) / 32767 at the CT's own resolution; air outside.
   const gl::Texture& acoustic_volume() const { return *acoustic_volume_; }
@@ -54,6 +55,7 @@ private:
   OrganColours colours_;
   glm::ivec3 step_{1};  // CT voxels per voxel of tissue(), along each axis
   const gl::Texture* acoustic_volume_ = nullptr;
+  const Volume<std::uint8_t>* label_volume_ = nullptr;
   MacroCells cells_, body_cells_;
   gl::Texture smooth_ct_, labels_, tissue_, body_, distance_;
 };

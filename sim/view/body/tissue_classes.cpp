@@ -1,18 +1,15 @@
 #include "sim/view/body/tissue_classes.h"
 
 #include <glm/common.hpp>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "sim/view/body/distance_map.h"
+#include "sim/view/body/voxel_box.h"
 
 namespace insonate::view {
 namespace {
-
-constexpr double kVoxel_mm = 2;
 
 // Compact bone is above 300 HU, spongy bone from 100 to 300 HU. Enhanced vessels and kidneys stay below 200 HU in the
 // portal phase, in which abdomens are scanned.
@@ -25,32 +22,6 @@ constexpr OrganColour kBone{{0.90f, 0.85f, 0.73f}, 0.9f};
 float ramp(float value, float from, float to) {
   return std::clamp((value - from) / (to - from), 0.0f, 1.0f);
 }
-
-std::uint8_t byte(float share) {
-  return std::uint8_t(std::lround(std::clamp(share, 0.0f, 1.0f) * 255));
-}
-
-/// A box of voxels, x fastest.
-struct Box {
-  glm::ivec3 size;
-
-  std::size_t count() const { return std::size_t(size.x) * std::size_t(size.y) * std::size_t(size.z); }
-  std::size_t offset(int x, int y, int z) const {
-    return (std::size_t(z) * std::size_t(size.y) + std::size_t(y)) * std::size_t(size.x) + std::size_t(x);
-  }
-  std::size_t stride(int axis) const {
-    return axis == 0 ? 1 : axis == 1 ? std::size_t(size.x) : std::size_t(size.x) * std::size_t(size.y);
-  }
-
-  /// Calls `visit(x, y, z, offset)` for all voxels, planes in parallel.
-  template <typename Visit>
-  void for_each(const Visit& visit) const {
-    tbb::parallel_for(0, size.z, [&](int z) {
-      for (int y = 0; y < size.y; ++y)
-        for (int x = 0; x < size.x; ++x) visit(x, y, z, offset(x, y, z));
-    });
-  }
-};
 
 /// Sets each voxel to the mean of the CT voxels in it.
 void gather(const Volume<std::int16_t>& ct, const Volume<std::uint8_t>& labels, const OrganColours& colours,
@@ -172,22 +143,6 @@ void keep_body(const glm::dmat3& direction, TissueClasses& classes) {
   }
 }
 
-/// Smooths by (1 2 1)/4 along each axis, which rounds the steps of labels and thresholds.
-template <typename T, std::size_t N>
-void smooth(const Box& box, std::vector<std::array<T, N>>& values) {
-  auto source = values;
-  for (int axis = 0; axis < 3; ++axis) {
-    box.for_each([&](int x, int y, int z, std::size_t at) {
-      const int p = axis == 0 ? x : axis == 1 ? y : z;
-      const std::size_t before = p > 0 ? at - box.stride(axis) : at;
-      const std::size_t after = p + 1 < box.size[axis] ? at + box.stride(axis) : at;
-      for (std::size_t c = 0; c < N; ++c)
-        values[at][c] = T((source[before][c] + 2 * source[at][c] + source[after][c] + 2) >> 2);
-    });
-    source = values;
-  }
-}
-
 /// Returns 1 for each block that holds, or has within one voxel, tissue or the body's surface; else 0.
 std::vector<std::uint8_t> busy_blocks(const TissueClasses& classes) {
   const Box box{classes.size}, blocks{classes.blocks};
@@ -212,8 +167,7 @@ std::vector<std::uint8_t> busy_blocks(const TissueClasses& classes) {
 TissueClasses classify_tissue(const Volume<std::int16_t>& ct, const Volume<std::uint8_t>& labels,
                               const OrganColours& colours) {
   TissueClasses classes;
-  for (int axis = 0; axis < 3; ++axis)
-    classes.step[axis] = std::clamp(int(std::lround(kVoxel_mm / ct.grid.spacing[axis])), 1, ct.grid.size[axis]);
+  classes.step = view_step(ct.grid);
   classes.size = (ct.grid.size + classes.step - 1) / classes.step;
   classes.blocks = (classes.size + TissueClasses::kBlock - 1) / TissueClasses::kBlock;
   const Box box{classes.size};

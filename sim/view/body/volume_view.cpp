@@ -67,6 +67,7 @@ VolumeViewParameters parameters_for(const PatientTextures& patient, const OrbitC
     p.jitter = style.ct->jittered;
     p.skip_empty = style.ct->skips_empty;
     p.body_only = style.ct->body_only;
+    p.structure_opacity = float(style.ct->structure_opacity);
   }
   return p;
 }
@@ -138,7 +139,7 @@ struct VolumeView::State {
         finish(sources, {"view/full_screen.vert", "view/volume_finish.frag"}, kDefines) {}
 
   inline static const gl::Defines kDefines{{"VOXELS_PER_BLOCK", std::to_string(TissueClasses::kBlock)}};
-  static gl::Defines defines_for(const std::optional<CtVolumeStyle>& ct);
+  gl::Defines defines_for(const std::optional<CtVolumeStyle>& ct) const;
   gl::Program whole, layers_program, finish;
   gl::FullScreenTriangle triangle;
   gl::Buffer parameters{sizeof(VolumeViewParameters), nullptr};
@@ -180,11 +181,12 @@ int scaled(int pixels, int scale) {
 
 }  // namespace
 
-gl::Defines VolumeView::State::defines_for(const std::optional<CtVolumeStyle>& ct) {
+gl::Defines VolumeView::State::defines_for(const std::optional<CtVolumeStyle>& ct) const {
   if (!ct) return kDefines;
   return {{"CT_MARCH", "1"},
           {"CT_CLASSIFICATION", ct->classification == Classification::post ? "POST_CLASSIFICATION" : "PRE_INTEGRATED"},
           {"CT_SHADED", gl::flag(ct->shaded)},
+          {"STRUCTURES", gl::flag(classified.shows_structures())},
           {"VOXELS_PER_CELL", std::to_string(MacroCells::kSide)}};
 }
 
@@ -200,7 +202,7 @@ void VolumeView::State::bind(const Inputs& inputs, const UltrasoundPlane& plane,
   inputs.patient->body().bind(3);
   inputs.patient->distance().bind(4);
   if (!inputs.style.ct) return;
-  classified.update(*inputs.patient, inputs.style.ct->function, inputs.style.ct->body_only);
+  classified.update(*inputs.patient, *inputs.style.ct);
   classified.bind();
 }
 

@@ -163,3 +163,30 @@ TEST_CASE("The histogram has its peaks where the CT's values are") {
   CHECK(at(-1000) > 0.9);
   CHECK(at(500) == 0);
 }
+
+TEST_CASE("A look offers the structures that have a colour, bones last, and each is switched by itself") {
+  PatientLook look;
+  const std::vector<Label> labels{{1, "skin", "skin"},
+                                  {2, "rib_left_7", "bone"},
+                                  {4, "liver", "liver"},
+                                  {9, "right_kidney_cortex", "kidney_cortex"}};
+  std::vector<std::string> names(256);
+  for (const Label& label : labels) names[label.value] = label.name;
+  look.offer(labels, view::colours_of_organs(names));
+  const auto titles = [&] {
+    std::vector<std::string> offered;
+    for (const StructureChoice& structure : look.structures()) offered.push_back(structure.title);
+    return offered;
+  };
+  CHECK(titles() == std::vector<std::string>{"liver", "right kidney cortex", "rib left 7"});
+  CHECK(look.shown_structures().empty());
+  look.show_structure(1, true);
+  look.show_structure(2, true);
+  CHECK(look.shown_structures() == std::vector<std::uint8_t>{9, 2});
+  look.show_structure(2, false);
+  look.choose(0);  // another look keeps them
+  CHECK(look.shown_structures() == std::vector<std::uint8_t>{9});
+  look.offer({}, {});  // another patient does not
+  CHECK(look.structures().empty());
+  CHECK(look.shown_structures().empty());
+}

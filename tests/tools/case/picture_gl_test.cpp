@@ -43,6 +43,7 @@ TEST_CASE("A picture shows what the look shows, and the view's plane") {
   CHECK(bright(draw("--look Bones")) == 0);
   CHECK(bright(draw("--look Bones --view front")) > 500);
   CHECK(bright(draw("--look 'Labelled organs' --from left")) > 500);
+  CHECK(bright(draw("--look Bones --structure ball")) > 500);
 }
 
 TEST_CASE("A picture that cannot be drawn is refused") {
@@ -58,6 +59,8 @@ TEST_CASE("A picture that cannot be drawn is refused") {
   };
   refused("--look Bons " + out, "did you mean 'Bones'");
   refused("--look none.toml " + out, "none.toml");
+  refused("--structure bal " + out, "did you mean 'ball'");
+  refused("--look 'Labelled organs' --structure ball " + out, "all structures are shown");
   refused("--view frnt " + out, "did you mean 'front'");
   refused((place.folder.path / "p.jpg").string(), "ends in .png");
 }
