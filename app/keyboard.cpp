@@ -266,6 +266,7 @@ void Keyboard::volume_page(const KeyEvent& pressed, Trainer& trainer, ui::Screen
   if (pressed.key == GLFW_KEY_DOWN) screen.volume_page().step(-1);
   if (pressed.kind == KeyEvent::Kind::repeated) return;
   if (pressed.key == GLFW_KEY_HOME) screen.volume_page().reset();
+  if (pressed.key == GLFW_KEY_C) screen.volume_page().switch_cut();
   if (pressed.key == GLFW_KEY_S) trainer.save_swept();
   if (pressed.key == GLFW_KEY_U) screen.toggle_volume(trainer);
 }

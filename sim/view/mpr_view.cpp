@@ -26,7 +26,7 @@ MprParameters parameters_for(const Grid& grid, const MprPicture& picture) {
   MprParameters p{};
   p.index_from_pixel =
       glm::mat4(glm::inverse(grid.matrix()) * picture.patient_from_picture.matrix() * picture_from_pixel);
-  p.unseen = kUnseen;
+  p.unseen = picture.unseen_clear ? glm::vec4(glm::vec3(kUnseen), 0) : kUnseen;
   p.filled_tint = picture.tints_filled ? kFilledTint : glm::vec4(1.0f);
   return p;
 }

@@ -31,6 +31,7 @@ struct MprPicture {
   double mm_per_pixel = 0.5;  ///< above 0
   int width = 1, height = 1;  ///< pixels, above 0
   bool tints_filled = true;   ///< whether filled voxels are bluish
+  bool unseen_clear = false;  ///< whether alpha is 0 where nothing is known, instead of 255
   bool operator==(const MprPicture&) const = default;
 };
 
@@ -43,8 +44,9 @@ public:
   MprView(MprView&&) noexcept;
   MprView& operator=(MprView&&) noexcept;
 
-  /// Returns the picture: RGBA8, alpha 255, row 0 is the top. It is redrawn only if something changed, and valid until
-  /// the next call. Leaves the framebuffer binding, viewport and switches as they were.
+  /// Returns the picture: RGBA8, alpha 255 unless the picture says otherwise, row 0 is the top. It is redrawn only if
+  /// something changed, and valid until the next call. Leaves the framebuffer binding, viewport and switches as they
+  /// were.
   /// @param volume  compared by its texture's name: call forget() when another volume has been made
   const gl::Texture& render(const SweptTexture& volume, const MprPicture& picture);
   /// Redraws at the next render().

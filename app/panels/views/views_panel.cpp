@@ -8,32 +8,10 @@
 #include <cmath>
 
 #include "app/panels/scan/picture_plates.h"
+#include "app/panels/views/camera_controls.h"
 
 namespace insonate::ui {
 namespace {
-
-// Shows how the patient lies: the axes that point towards the viewer, with their anatomical letters.
-void draw_orientation(const Theme& theme, const Rect& panel, const view::OrbitCamera& camera) {
-  struct Axis {
-    glm::dvec3 direction;
-    const char* name;
-  };
-  static constexpr double kFaces = 0.08;
-  const std::array<Axis, 6> axes{
-      {{{1, 0, 0}, "L"}, {{-1, 0, 0}, "R"}, {{0, 1, 0}, "P"}, {{0, -1, 0}, "A"}, {{0, 0, 1}, "S"}, {{0, 0, -1}, "I"}}};
-  const glm::dmat3 camera_from_patient = glm::transpose(camera.patient_from_camera().rotation);
-  const ImVec2 centre{panel.x + panel.w - theme.px(40), panel.y + panel.h - theme.px(40)};
-  ImDrawList* list = ImGui::GetWindowDrawList();
-  list->AddCircleFilled(centre, theme.px(31), colour::kPlate, 32);
-  for (const Axis& axis : axes) {
-    const glm::dvec3 seen = camera_from_patient * axis.direction;  // z points into the picture
-    const ImVec2 tip{centre.x + float(seen.x) * theme.px(22), centre.y + float(seen.y) * theme.px(22)};
-    if (seen.z > kFaces) continue;
-    list->AddLine(centre, tip, colour::kFaint, 1);
-    draw_text({tip.x - theme.px(10), tip.y - theme.px(9), theme.px(20), theme.px(18)}, theme.small_text, colour::kText,
-              axis.name, Align::centre);
-  }
-}
 
 struct ViewButton {
   const char* id;
@@ -104,22 +82,13 @@ bool SpacePanel::draw(const Theme& theme, const Rect& panel, Session* session, P
   view::OrbitCamera& camera = pictures.camera;
   const bool over_probe = ImGui::IsItemHovered() && session && session->shown_pose() &&
                           on_probe(theme, camera, panel, *session->shown_pose(), io.MousePos);
-  if (ImGui::IsItemHovered() && io.MouseWheel != 0) camera.zoom(std::pow(1.1, io.MouseWheel));
   if (ImGui::IsItemActivated()) holds_probe_ = over_probe && io.MouseDown[0] && !io.KeyShift;
   if (over_probe || (holds_probe_ && ImGui::IsItemActive())) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
-  if (ImGui::IsItemActive() && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0)) {
-    constexpr double kDegPerPixel = 0.4;
-    if (holds_probe_ && session) {
-      const Sight to = sight(camera, panel, io.MousePos);
-      session->move_probe(
-          [&](const ProbeHand& hand, const Pose& pose) { return hand.put(pose, to.eye, to.direction); });
-    } else if (io.MouseDown[1]) {
-      camera.zoom(std::pow(1.1, -io.MouseDelta.y / theme.px(12)));
-    } else if (io.MouseDown[2] || io.KeyShift) {
-      camera.pan({io.MouseDelta.x, io.MouseDelta.y}, int(panel.h));
-    } else {
-      camera.orbit(kDegPerPixel * io.MouseDelta.x, kDegPerPixel * io.MouseDelta.y);
-    }
+  const bool drags_probe = holds_probe_ && session;
+  move_by_mouse(theme, panel, camera, !drags_probe);
+  if (drags_probe && ImGui::IsItemActive() && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0)) {
+    const Sight to = sight(camera, panel, io.MousePos);
+    session->move_probe([&](const ProbeHand& hand, const Pose& pose) { return hand.put(pose, to.eye, to.direction); });
   }
   draw_title(theme, panel, "Patient");
   draw_orientation(theme, panel, camera);

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "app/panels/pages/overlays.h"
 #include "app/panels/scan/picture_plates.h"
+#include "app/panels/views/camera_controls.h"
 #include "app/panels/views/space_drawing.h"
 #include "sim/core/text.h"
 
@@ -85,6 +87,37 @@ void draw_cuts(const Theme& theme, const PlanePicture& picture, const view::MprP
   }
 }
 
+/// Returns a camera that sees the whole volume, obliquely towards the imaging plane.
+view::OrbitCamera facing_plane(const Grid& grid, const view::MprPlanes& planes) {
+  view::OrbitCamera camera = view::OrbitCamera::facing(grid, planes.frame(MprPlane::imaging, false));
+  camera.distance_mm = view::OrbitCamera::framing(grid).distance_mm;
+  camera.centre = grid.centre();
+  return camera;
+}
+
+/// Returns the closed outline of the part of a plane that lies in a grid's box; empty if the plane misses it.
+std::vector<glm::dvec3> outline_in_box(const Grid& grid, const glm::dvec3& through, const glm::dvec3& normal) {
+  const auto corner = [&](int n) {
+    return grid.patient_from_index(glm::dvec3(n & 1, n >> 1 & 1, n >> 2) * glm::dvec3(grid.size) - 0.5);
+  };
+  std::vector<glm::dvec3> points;
+  for (int from = 0; from < 8; ++from)
+    for (const int axis : {1, 2, 4}) {
+      if (from & axis) continue;
+      const glm::dvec3 a = corner(from), b = corner(from | axis);
+      const double of_a = glm::dot(a - through, normal), of_b = glm::dot(b - through, normal);
+      if ((of_a < 0) != (of_b < 0)) points.push_back(a + of_a / (of_a - of_b) * (b - a));
+    }
+  if (points.empty()) return points;
+  glm::dvec3 middle(0);
+  for (const glm::dvec3& point : points) middle += point / double(points.size());
+  const glm::dvec3 u = glm::normalize(points.front() - middle), v = glm::cross(normal, u);
+  const auto angle = [&](const glm::dvec3& p) { return std::atan2(glm::dot(p - middle, v), glm::dot(p - middle, u)); };
+  std::sort(points.begin(), points.end(), [&](const auto& p, const auto& q) { return angle(p) < angle(q); });
+  points.push_back(points.front());
+  return points;
+}
+
 /// Draws how well it was swept, and what the volume is.
 void draw_words(const Theme& theme, Rect rest, const SweptVolume& swept) {
   const auto paragraph = [&](ImFont* font, ImU32 ink, const std::string& text) {
@@ -104,8 +137,8 @@ void draw_words(const Theme& theme, Rect rest, const SweptVolume& swept) {
                       grid.size.y, grid.size.z, grid.spacing.x));
   if (!swept.remark.empty()) paragraph(theme.small_text, colour::kMuted, swept.remark);
   paragraph(theme.small_text, colour::kFaint,
-            "Drag: move the point. Right button: turn the other planes. Wheel: move this plane. Up, Down: along the "
-            "sweep.");
+            "In a plane: drag to move the point, with the right button to turn the other planes; the wheel moves the "
+            "plane. Up, Down: along the sweep. The volume turns as the patient does in the 3D view.");
 }
 
 }  // namespace
@@ -116,12 +149,16 @@ void VolumePage::show(const std::shared_ptr<const SweptVolume>& swept) {
   planes_ = view::MprPlanes(swept->volume.grey.grid);
   problem_.clear();
   texture_.reset();
+  volume_.reset();
+  camera_ = facing_plane(swept->volume.grey.grid, planes_);
   try {
     texture_ = std::make_unique<view::SweptTexture>(swept->volume.grey, swept->volume.known);
+    volume_ = std::make_unique<view::SweptView>(swept->volume.grey, swept->volume.known);
     for (auto& each : views_) {
       if (!each) each = std::make_unique<view::MprView>();
       each->forget();
     }
+    face_ = std::make_unique<view::MprView>();
   } catch (const gl::DeviceRefused& error) {
     problem_ = error.what();
   }
@@ -131,7 +168,17 @@ void VolumePage::step(int voxels) {
   if (swept_) planes_.shift(MprPlane::imaging, voxels * swept_->volume.grey.grid.spacing.z);
 }
 
+void VolumePage::reset() {
+  planes_.reset();
+  if (swept_) camera_ = facing_plane(swept_->volume.grey.grid, planes_);
+}
+
+void VolumePage::switch_cut() {
+  cut_ = !cut_;
+}
+
 long VolumePage::version_of(GLuint texture) const {
+  if (volume_ && texture == volume_picture_) return volume_->renders();
   for (std::size_t n = 0; n < pictures_.size(); ++n)
     if (views_[n] && pictures_[n] == texture) return views_[n]->renders();
   return 0;
@@ -182,6 +229,46 @@ void VolumePage::draw_plane(const Theme& theme, const Rect& panel, MprPlane plan
   outline(panel, look.colour);
 }
 
+void VolumePage::draw_volume(const Theme& theme, const Rect& panel) {
+  ImGui::SetCursorScreenPos(panel.min());
+  ImGui::InvisibleButton(
+      "swept_volume", {panel.w, panel.h},
+      ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
+  move_by_mouse(theme, panel, camera_);
+  // While a button is down something moves: a coarser picture in time, and the whole one when it is let go.
+  constexpr double kMoving_ms = 30;
+  const view::VolumeBudget budget =
+      ImGui::IsAnyMouseDown() ? view::VolumeBudget{kMoving_ms, kMoving_ms} : view::VolumeBudget();
+  view::UltrasoundPlane face;
+  if (cut_) {
+    const Grid& grid = swept_->volume.grey.grid;
+    view::MprPicture drawn;
+    drawn.patient_from_picture = planes_.frame(MprPlane::imaging, false);
+    // Twice the volume's diagonal wide, so that the plane covers it however it is turned and wherever the point lies.
+    drawn.width = drawn.height = 600;
+    drawn.mm_per_pixel = 2 * glm::length(grid.spacing * glm::dvec3(grid.size)) / drawn.width;
+    drawn.unseen_clear = true;
+    face.image = &face_->render(*texture_, drawn);
+    face.image_version = face_->renders();
+    face.geometry = {drawn.width, drawn.height, drawn.mm_per_pixel,
+                     glm::dvec2(-drawn.mm_per_pixel * (drawn.width - 1) / 2)};
+    face.patient_from_probe = drawn.patient_from_picture;
+  }
+  const gl::Texture& texture = volume_->render(int(panel.w), int(panel.h), camera_, look_, face, budget);
+  volume_picture_ = texture.name();
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  list->PushClipRect(panel.min(), panel.max(), true);
+  list->AddImage(id_of(texture), panel.min(), panel.max());
+  const SpaceDrawing drawing(panel, camera_);
+  for (const MprPlane plane : kMprPlanes)
+    drawing.path(outline_in_box(swept_->volume.grey.grid, planes_.centre(), planes_.normal(plane)),
+                 look_of(plane).colour, theme.px(1.2f));
+  draw_chip(theme, {panel.x + theme.px(4), panel.y + theme.px(4)}, colour::kPlate, colour::kText, "The volume");
+  draw_orientation(theme, panel, camera_);
+  list->PopClipRect();
+  outline(panel, colour::kFaint);
+}
+
 VolumeAnswer VolumePage::draw(const Theme& theme, const Rect& screen, const std::shared_ptr<const SweptVolume>& swept,
                               std::map<std::string, Rect>& places) {
   show(swept);
@@ -198,6 +285,8 @@ VolumeAnswer VolumePage::draw(const Theme& theme, const Rect& screen, const std:
     const Rect& panel = places[look_of(plane).id] = panels[std::size_t(plane)];
     if (problem_.empty()) draw_plane(theme, panel, plane, mm_per_pixel);
   }
+  const Rect& volume_panel = places["swept_volume"] = {x + w + gap, y + h + gap, w, h};
+  if (problem_.empty()) draw_volume(theme, volume_panel);
   if (!problem_.empty()) draw_paragraph(panels[0], theme.text, colour::kAmber, problem_);
 
   VolumeAnswer answer = VolumeAnswer::none;
@@ -210,6 +299,21 @@ VolumeAnswer VolumePage::draw(const Theme& theme, const Rect& screen, const std:
   if (next("save_volume", "Save  (S)", ButtonKind::normal, "Writes the volume as an NRRD, which 3D Slicer opens"))
     answer = VolumeAnswer::save;
   if (next("reset_planes", "Planes as at first  (Home)", ButtonKind::normal, "")) reset();
+  const auto look_slider = [&](const char* id, const char* name, const std::string& text, double& value, double most,
+                               double step, double normal, const char* tip) {
+    const Rect place = places[id] = side.take_bottom(theme.px(40));
+    side.take_bottom(gap);
+    slider(theme, id, place, name, text, value, 0, most, step, normal, problem_.empty(), tip);
+  };
+  const view::SweptLook usual;
+  look_slider("swept_opacity", "Opacity", formatted("%.0f %%", 100 * look_.opacity), look_.opacity, view::kMostOpacity,
+              0.005, usual.opacity, "Of 1 mm of white tissue in the volume. A double click takes it back.");
+  look_slider("swept_threshold", "Threshold", formatted("%.0f", look_.threshold), look_.threshold,
+              view::kMostSweptThreshold, 1, usual.threshold,
+              "Grey level from which tissue shows in the volume. A double click takes it back.");
+  if (next("cut_volume", cut_ ? "Show the whole volume  (C)" : "Cut the volume at the plane  (C)", ButtonKind::normal,
+           "The plane is that of the probe's picture"))
+    switch_cut();
   draw_words(theme, side, *swept);
   end_overlay();
   return answer;

@@ -49,6 +49,30 @@ pointer_to "$(($(middle_x plane_imaging) + 110))" "$(($(middle_y plane_imaging) 
 sleep 0.3
 xdotool mouseup 3
 await "a drag with the right button turns the planes" at_least planes_turned_deg 5
+
+echo "the volume itself turns by dragging, and its threshold moves"
+await "nothing changes any more" shows_nothing
+shot "$work/volume.png" swept_volume 4
+drag() {  # PLACE BY_X BY_Y, from the middle of the place
+  pointer_to "$(middle_x "$1")" "$(middle_y "$1")"
+  sleep 0.3
+  xdotool mousedown 1
+  sleep 0.3
+  pointer_to "$(($(middle_x "$1") + $2))" "$(($(middle_y "$1") + $3))"
+  sleep 0.3
+  xdotool mouseup 1
+}
+drag swept_volume 120 20
+await "nothing changes any more" shows_nothing
+shot "$work/volume_turned.png" swept_volume 4
+pixels=$(different "$work/volume.png" "$work/volume_turned.png")
+[ "$pixels" -gt 200 ] || fail "the volume has not turned: $pixels pixels changed"
+drag swept_threshold -100 0
+await "nothing changes any more" shows_nothing
+shot "$work/volume_fuller.png" swept_volume 4
+pixels=$(different "$work/volume_turned.png" "$work/volume_fuller.png")
+[ "$pixels" -gt 1000 ] || fail "a lower threshold shows no more: $pixels pixels changed"
+
 xdotool key Home
 await "Home turns them back" is planes_turned_deg 0.0
 is planes_x "$px" || fail "the point is elsewhere: $px, $(value planes_x)"
