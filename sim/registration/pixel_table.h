@@ -11,7 +11,7 @@
 #include "sim/imaging/fan_layout.h"
 #include "sim/probe/probe.h"
 
-/// The pixels that model W's stages convert (shared/wein_scan.glsl), divided among their invocations.
+/// The pixels that model W's stages convert (registration/wein_scan.glsl), divided among their invocations.
 namespace insonate::gl {
 
 /// The place of a pixel among the scan lines. x: the index of the sample in front of it in a scan, -1 outside the fan.

@@ -19,7 +19,7 @@ struct ScanStages {
   enum class Leaves { grey, terms, intensity };
 
   /// Throws std::runtime_error if a shader does not compile or the device's memory does not suffice for the scans.
-  /// @param constants  the defines of shared/wein_parameters.h, except those that are added here
+  /// @param constants  the defines of registration/wein_parameters.h, except those that are added here
   /// @param interleaved    interleaved images: 1 or kInterleaved
   /// @param wanted_per_invocation  WorkDivision::images_per_invocation, rounded up here to a multiple of
   /// `interleaved`

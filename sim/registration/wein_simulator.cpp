@@ -21,7 +21,7 @@
 #include "sim/registration/pixel_table.h"
 #include "sim/registration/scan_stages.h"
 #include "sim/registration/wein_settings_file.h"
-#include "sim/shaders/shared/wein_parameters.h"
+#include "sim/shaders/registration/wein_parameters.h"
 
 namespace insonate::gl {
 namespace {

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "sim/shaders/shared/mpr_parameters.h"
+#include "sim/shaders/view/mpr_parameters.h"
 #include "sim/view/picture_target.h"
 
 namespace insonate::view {

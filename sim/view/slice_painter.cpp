@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "sim/shaders/shared/slice_parameters.h"
+#include "sim/shaders/view/slice_parameters.h"
 
 namespace insonate::view {
 namespace {

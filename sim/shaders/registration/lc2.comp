@@ -7,7 +7,7 @@
 
 layout(local_size_x = GROUP) in;
 
-#include "shared/wein_parameters.h"
+#include "registration/wein_parameters.h"
 
 layout(binding = 0) uniform sampler2D sums;  // as lc2_parts.comp writes them
 layout(std430, binding = 0) writeonly buffer Similarities { float similarity[]; };

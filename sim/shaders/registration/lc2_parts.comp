@@ -9,8 +9,8 @@
 
 layout(local_size_x = GROUP) in;
 
-#include "shared/wein_parameters.h"
-#include "shared/wein_scan.glsl"
+#include "registration/wein_parameters.h"
+#include "registration/wein_scan.glsl"
 
 layout(binding = 2) uniform samplerBuffer ultrasound;  // per ultrasound image and entry of the pixels' table
 layout(binding = 0, rgba32f) writeonly uniform image2D sums;  // one row per image, three texels per part

@@ -7,8 +7,8 @@
 
 layout(local_size_x = GROUP) in;
 
-#include "shared/wein_parameters.h"
-#include "shared/wein_scan.glsl"
+#include "registration/wein_parameters.h"
+#include "registration/wein_scan.glsl"
 
 layout(std430, binding = 0) writeonly buffer Grid { uint grid[]; };  // four pixels each, row by row
 

@@ -30,7 +30,7 @@
 layout(local_size_x = GROUP) in;
 
 #include "shared/model_constants.h"
-#include "shared/wein_parameters.h"
+#include "registration/wein_parameters.h"
 #include "shared/exact_filter.glsl"
 
 layout(binding = 0) uniform sampler3D density;  // (HU, gradient along the CT's axes in eighths of HU) / 32767
@@ -41,7 +41,7 @@ layout(binding = 2) uniform sampler2D places;       // one row per image: the ro
 #else
 #define Stored Words
 #endif
-layout(std430, binding = 0) writeonly buffer Scan { Stored scan[]; };  // as shared/wein_scan.glsl reads it
+layout(std430, binding = 0) writeonly buffer Scan { Stored scan[]; };  // as registration/wein_scan.glsl reads it
 layout(std430, binding = 1) buffer Counter { uint samples_traversed; };  // of one call
 #ifdef INTENSITY
 layout(binding = 1, r32f) writeonly uniform image2D intensities;  // of the first image

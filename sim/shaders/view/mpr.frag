@@ -3,7 +3,7 @@
 // Reads the volume: grey, and what is known of each voxel. Writes the colour.
 // Draw: full-screen pass, one fragment per pixel of the picture.
 
-#include "shared/mpr_parameters.h"
+#include "view/mpr_parameters.h"
 
 layout(binding = 0) uniform sampler3D volume;  // grey; 0 unseen, 1/2 filled, 1 measured
 

@@ -4,8 +4,8 @@
 // Reads the CT, the ultrasound picture (if its share is above 0, or the CT is dimmed outside the fan) and the labels.
 // Writes the colour. Draw: full-screen pass, one fragment per pixel of the picture.
 
-#include "shared/slice_parameters.h"
-#include "shared/hounsfield.glsl"
+#include "view/slice_parameters.h"
+#include "view/hounsfield.glsl"
 
 layout(binding = 1) uniform sampler2D ultrasound_image;  // alpha 0 outside the fan
 layout(binding = 2) uniform usampler3D labels;

@@ -1,16 +1,16 @@
 // The volume view while things move, second pass, in many pixels: the ultrasound's plane, the face of the cut and the
 // probe, sharp, between the layers that volume_layers.frag has drawn in few pixels.
 //
-// Reads the layers and what shared/volume_ray.glsl lists. Writes the colour. Draw: full-screen pass.
+// Reads the layers and what view/volume_ray.glsl lists. Writes the colour. Draw: full-screen pass.
 layout(binding = 5) uniform sampler2D front_layer;
 layout(binding = 6) uniform sampler2D back_layer;
 layout(binding = 7) uniform sampler2D before_probe_layer;
 
 layout(location = 0) out vec4 colour;
 
-#include "shared/volume_ray.glsl"
+#include "view/volume_ray.glsl"
 
-// Loops stand for `if`, as in shared/volume_ray.glsl.
+// Loops stand for `if`, as in view/volume_ray.glsl.
 void main() {
   vec2 uv = gl_FragCoord.xy / picture.xy, at = 2.0 * uv - 1.0;
   Ray ray = ray_at(at);

@@ -1,17 +1,17 @@
 // The volume view while things move, first pass, in few pixels: skin, organs and bone in front of the ultrasound's plane
 // and behind it, without the plane and the probe. volume_finish.frag puts those in, in many pixels.
 //
-// Reads what shared/volume_ray.glsl lists. Writes both layers as colour times opacity and opacity, and the opacity of
+// Reads what view/volume_ray.glsl lists. Writes both layers as colour times opacity and opacity, and the opacity of
 // what hides the probe. Draw: full-screen pass, one ray per fragment.
 layout(location = 0) out vec4 front;
 layout(location = 1) out vec4 back;
 layout(location = 2) out float before_probe;
 
-#include "shared/volume_ray.glsl"
+#include "view/volume_ray.glsl"
 #ifdef CT_MARCH
-#include "shared/ct_march.glsl"
+#include "view/ct_march.glsl"
 #else
-#include "shared/organ_march.glsl"
+#include "view/organ_march.glsl"
 #endif
 
 // Returns whether the picture covers all that a pixel of the second pass can see of this one's back layer.

@@ -1,14 +1,14 @@
 // Volume view: direct volume rendering by ray casting. It composites skin, organs and bone front to back. The
 // ultrasound picture, the face of the cut and the probe take their places in depth.
 //
-// Reads what shared/volume_ray.glsl lists. Writes the colour. Draw: full-screen pass, one ray per fragment.
+// Reads what view/volume_ray.glsl lists. Writes the colour. Draw: full-screen pass, one ray per fragment.
 layout(location = 0) out vec4 colour;
 
-#include "shared/volume_ray.glsl"
+#include "view/volume_ray.glsl"
 #ifdef CT_MARCH
-#include "shared/ct_march.glsl"
+#include "view/ct_march.glsl"
 #else
-#include "shared/organ_march.glsl"
+#include "view/organ_march.glsl"
 #endif
 
 void main() {

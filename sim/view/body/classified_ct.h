@@ -21,7 +21,7 @@ public:
   /// Returns whether there are surfaces of structures to draw.
   bool shows_structures() const { return !with_structures_.empty(); }
 
-  /// Binds the textures that shared/ct_march.glsl reads.
+  /// Binds the textures that view/ct_march.glsl reads.
   void bind() const;
 
 private:

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "sim/shaders/shared/volume_view_parameters.h"
+#include "sim/shaders/view/volume_view_parameters.h"
 #include "sim/view/body/classified_ct.h"
 #include "sim/view/body/tissue_classes.h"
 #include "sim/view/picture_target.h"

@@ -2,9 +2,9 @@
 // declared its output, before one of the files that march along the ray: organ_march.glsl or ct_march.glsl. It reads the
 // CT, the ultrasound picture, and the tissue and body textures.
 
-#include "shared/volume_view_parameters.h"
-#include "shared/hounsfield.glsl"
-#include "shared/probe_body.glsl"
+#include "view/volume_view_parameters.h"
+#include "view/hounsfield.glsl"
+#include "view/probe_body.glsl"
 
 layout(binding = 1) uniform sampler2D ultrasound_image;  // alpha 0 outside the fan
 layout(binding = 2) uniform sampler3D tissue;            // colour times coverage, coverage
