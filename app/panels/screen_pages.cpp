@@ -309,7 +309,7 @@ void Screen::draw_overlay(Trainer& trainer) {
         close_page();
         break;
       }
-      switch (volume_page_.draw(theme_, screen_, trainer.swept(), places_)) {
+      switch (volume_page_.draw(theme_, screen_, trainer.swept(), trainer.pictures(), places_)) {
         case VolumeAnswer::none:
           break;
         case VolumeAnswer::close:

@@ -48,7 +48,12 @@ glm::vec3 white_of(BlendColour colour) {
 }  // namespace
 
 Pictures::Pictures(const gl::ShaderSources& sources, Quality level)
-    : level_(level), simulator_(sources), slice_view_(sources), blend_view_(sources), volume_view_(sources) {
+    : level_(level),
+      simulator_(sources),
+      slice_view_(sources),
+      blend_view_(sources),
+      volume_view_(sources),
+      cut_view_(sources) {
   for (int axis = 0; axis < 3; ++axis) axis_slices_.emplace_back(sources);
 }
 
@@ -70,6 +75,7 @@ void Pictures::show(const LoadedCase& loaded_case) {
   slice_view_.forget();
   blend_view_.forget();
   volume_view_.forget();
+  cut_view_.forget();
   grid_ = loaded_case.subject.ct.grid;
   reset_camera();
   look.begin(loaded_case.subject.name, loaded_case.subject.ct);
@@ -143,13 +149,11 @@ void Pictures::update(const std::optional<Pose>& pose, const Machine& machine, c
   if (!camera_placed_) camera = view::OrbitCamera::facing(grid_, *pose);
   camera_placed_ = true;
   view::VolumeStyle body;
-  if (!anatomy) {
+  if (anatomy) {
+    body = body_style();
+  } else {
     body.organs = false;
     body.skin = 1;
-  } else if (look.shown()) {
-    body.ct.emplace();
-    body.ct->function = *look.shown();
-    body.ct->structures = look.shown_structures();
   }
   body.cut = anatomy && std::abs(glm::dot(camera.patient_from_camera().rotation[2], pose->rotation[2])) > kEdgeOn;
   if (!shows_volume) volume_ = nullptr;
@@ -160,6 +164,16 @@ void Pictures::update(const std::optional<Pose>& pose, const Machine& machine, c
                                    body, {0.5 * effort.volume_ms, 0.5 * effort.volume_ms});
   }
   if (times_) times_->end(FramePart::volume);
+}
+
+view::VolumeStyle Pictures::body_style() const {
+  view::VolumeStyle body;
+  if (look.shown()) {
+    body.ct.emplace();
+    body.ct->function = *look.shown();
+    body.ct->structures = look.shown_structures();
+  }
+  return body;
 }
 
 view::CtStyle Pictures::ct_style() const {
@@ -235,12 +249,21 @@ const gl::Texture* Pictures::draw_body(const view::OrbitCamera& from, int width,
                                         {budget_ms, budget_ms});
 }
 
+const gl::Texture* Pictures::draw_cut(const view::UltrasoundPlane& plane, const view::OrbitCamera& from, int width,
+                                      int height, const view::VolumeBudget& budget) {
+  if (!patient_) return nullptr;
+  view::VolumeStyle body = body_style();
+  body.probe = false;
+  return cut_ = &cut_view_.render(width, height, *patient_, from, plane, body, budget);
+}
+
 long Pictures::version_of(GLuint texture) const {
   const auto is = [&](const gl::Texture* picture) { return picture && picture->name() == texture; };
   if (is(ultrasound_)) return simulator_.image_version();
   if (is(slice_)) return slice_view_.renders();
   if (is(blend_)) return blend_view_.renders();
   if (is(volume_)) return volume_view_.renders();
+  if (is(cut_)) return cut_view_.renders();
   for (const AxisPicture& each : axis_slices_)
     if (is(each.picture)) return each.view.renders();
   return 0;
@@ -275,6 +298,7 @@ std::optional<std::string> Pictures::reload(const gl::ShaderSources& sources) {
   add(blend_view_.reload(sources));
   for (AxisPicture& each : axis_slices_) add(each.view.reload(sources));
   add(volume_view_.reload(sources));
+  add(cut_view_.reload(sources));
   return problems.empty() ? std::nullopt : std::optional(problems);
 }
 

@@ -77,6 +77,10 @@ public:
   /// Draws the body alone, without probe and ultrasound plane, from any side, and returns it; null without a patient.
   /// Replaces volume().
   const gl::Texture* draw_body(const view::OrbitCamera& from, int width, int height, double budget_ms);
+  /// Draws the body as it looks, cut at a plane with a picture on the cut, from any side; null without a patient. The
+  /// result is valid until the next call.
+  const gl::Texture* draw_cut(const view::UltrasoundPlane& plane, const view::OrbitCamera& from, int width, int height,
+                              const view::VolumeBudget& budget);
   const Grid& grid() const { return grid_; }
 
   /// Shows the whole patient from one side in volume().
@@ -146,13 +150,15 @@ private:
   };
 
   view::CtStyle ct_style() const;
+  /// Returns how the patient looks in 3D.
+  view::VolumeStyle body_style() const;
   void draw_axis_slice(view::SliceAxis axis, const glm::ivec2& size);
 
   Quality level_;
   gl::Simulator simulator_;
   view::SliceView slice_view_, blend_view_;
   std::vector<AxisPicture> axis_slices_;  ///< by view::SliceAxis
-  view::VolumeView volume_view_;
+  view::VolumeView volume_view_, cut_view_;
   std::optional<view::PatientTextures> patient_;
   Grid grid_;  ///< the patient's
   bool camera_placed_ = false;
@@ -161,6 +167,7 @@ private:
   const gl::Texture* slice_ = nullptr;
   const gl::Texture* blend_ = nullptr;
   const gl::Texture* volume_ = nullptr;
+  const gl::Texture* cut_ = nullptr;
   view::UltrasoundPlane plane_;
   view::OrbitCamera volume_camera_;
   Pose volume_pose_;

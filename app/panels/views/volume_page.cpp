@@ -95,16 +95,26 @@ view::OrbitCamera facing_plane(const Grid& grid, const view::MprPlanes& planes) 
   return camera;
 }
 
+glm::dvec3 corner_of(const Grid& grid, int n) {
+  return grid.patient_from_index(glm::dvec3(n & 1, n >> 1 & 1, n >> 2) * glm::dvec3(grid.size) - 0.5);
+}
+
+void draw_box(const SpaceDrawing& drawing, const Grid& grid, ImU32 ink, float thickness) {
+  for (int from = 0; from < 8; ++from)
+    for (const int axis : {1, 2, 4})
+      if (!(from & axis)) {
+        const std::array<glm::dvec3, 2> edge{corner_of(grid, from), corner_of(grid, from | axis)};
+        drawing.path(edge, ink, thickness);
+      }
+}
+
 /// Returns the closed outline of the part of a plane that lies in a grid's box; empty if the plane misses it.
 std::vector<glm::dvec3> outline_in_box(const Grid& grid, const glm::dvec3& through, const glm::dvec3& normal) {
-  const auto corner = [&](int n) {
-    return grid.patient_from_index(glm::dvec3(n & 1, n >> 1 & 1, n >> 2) * glm::dvec3(grid.size) - 0.5);
-  };
   std::vector<glm::dvec3> points;
   for (int from = 0; from < 8; ++from)
     for (const int axis : {1, 2, 4}) {
       if (from & axis) continue;
-      const glm::dvec3 a = corner(from), b = corner(from | axis);
+      const glm::dvec3 a = corner_of(grid, from), b = corner_of(grid, from | axis);
       const double of_a = glm::dot(a - through, normal), of_b = glm::dot(b - through, normal);
       if ((of_a < 0) != (of_b < 0)) points.push_back(a + of_a / (of_a - of_b) * (b - a));
     }
@@ -229,7 +239,40 @@ void VolumePage::draw_plane(const Theme& theme, const Rect& panel, MprPlane plan
   outline(panel, look.colour);
 }
 
-void VolumePage::draw_volume(const Theme& theme, const Rect& panel) {
+view::UltrasoundPlane VolumePage::face() {
+  const Grid& grid = swept_->volume.grey.grid;
+  // Twice the volume's diagonal wide, so that the plane covers it however it is turned and wherever the point lies.
+  view::MprPicture drawn;
+  drawn.patient_from_picture = planes_.frame(MprPlane::imaging, false);
+  drawn.width = drawn.height = 600;
+  drawn.mm_per_pixel = 2 * glm::length(grid.spacing * glm::dvec3(grid.size)) / drawn.width;
+  drawn.unseen_clear = true;
+  view::UltrasoundPlane face;
+  face.image = &face_->render(*texture_, drawn);
+  face.image_version = face_->renders();
+  face.geometry = {drawn.width, drawn.height, drawn.mm_per_pixel,
+                   glm::dvec2(-drawn.mm_per_pixel * (drawn.width - 1) / 2)};
+  face.patient_from_probe = drawn.patient_from_picture;
+  return face;
+}
+
+void VolumePage::draw_volume(const Theme& theme, const Rect& panel, Pictures& pictures,
+                             std::map<std::string, Rect>& places) {
+  // Before the picture's own item, which lies below them.
+  Rect row{panel.x + theme.px(4), panel.y + theme.px(4), panel.w, theme.px(26)};
+  const auto choice = [&](const char* id, const char* text, bool in_patient, const char* tip) {
+    const Rect place = places[id] = row.take_left(theme.px(84));
+    row.take_left(theme.px(4));
+    if (button(theme, id, place, text, in_patient == in_patient_ ? ButtonKind::chosen : ButtonKind::normal, true, tip))
+      in_patient_ = in_patient;
+  };
+  const ImVec2 below = ImGui::GetCursorScreenPos();
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  list->ChannelsSplit(2);
+  list->ChannelsSetCurrent(1);
+  choice("show_volume", "Volume", false, "The swept volume, by volume rendering");
+  choice("show_patient", "Patient", true, "The patient as in the 3D view, cut at the probe's plane");
+  list->ChannelsSetCurrent(0);
   ImGui::SetCursorScreenPos(panel.min());
   ImGui::InvisibleButton(
       "swept_volume", {panel.w, panel.h},
@@ -239,38 +282,26 @@ void VolumePage::draw_volume(const Theme& theme, const Rect& panel) {
   constexpr double kMoving_ms = 30;
   const view::VolumeBudget budget =
       ImGui::IsAnyMouseDown() ? view::VolumeBudget{kMoving_ms, kMoving_ms} : view::VolumeBudget();
-  view::UltrasoundPlane face;
-  if (cut_) {
-    const Grid& grid = swept_->volume.grey.grid;
-    view::MprPicture drawn;
-    drawn.patient_from_picture = planes_.frame(MprPlane::imaging, false);
-    // Twice the volume's diagonal wide, so that the plane covers it however it is turned and wherever the point lies.
-    drawn.width = drawn.height = 600;
-    drawn.mm_per_pixel = 2 * glm::length(grid.spacing * glm::dvec3(grid.size)) / drawn.width;
-    drawn.unseen_clear = true;
-    face.image = &face_->render(*texture_, drawn);
-    face.image_version = face_->renders();
-    face.geometry = {drawn.width, drawn.height, drawn.mm_per_pixel,
-                     glm::dvec2(-drawn.mm_per_pixel * (drawn.width - 1) / 2)};
-    face.patient_from_probe = drawn.patient_from_picture;
-  }
-  const gl::Texture& texture = volume_->render(int(panel.w), int(panel.h), camera_, look_, face, budget);
-  volume_picture_ = texture.name();
-  ImDrawList* list = ImGui::GetWindowDrawList();
+  const gl::Texture* texture = in_patient_ ? pictures.draw_cut(face(), camera_, int(panel.w), int(panel.h), budget)
+                                           : &volume_->render(int(panel.w), int(panel.h), camera_, look_,
+                                                              cut_ ? face() : view::UltrasoundPlane(), budget);
+  if (!in_patient_) volume_picture_ = texture->name();
   list->PushClipRect(panel.min(), panel.max(), true);
-  list->AddImage(id_of(texture), panel.min(), panel.max());
+  if (texture) list->AddImage(id_of(*texture), panel.min(), panel.max());
   const SpaceDrawing drawing(panel, camera_);
+  const Grid& grid = swept_->volume.grey.grid;
   for (const MprPlane plane : kMprPlanes)
-    drawing.path(outline_in_box(swept_->volume.grey.grid, planes_.centre(), planes_.normal(plane)),
-                 look_of(plane).colour, theme.px(1.2f));
-  draw_chip(theme, {panel.x + theme.px(4), panel.y + theme.px(4)}, colour::kPlate, colour::kText, "The volume");
+    drawing.path(outline_in_box(grid, planes_.centre(), planes_.normal(plane)), look_of(plane).colour, theme.px(1.2f));
+  if (in_patient_) draw_box(drawing, grid, colour::kFaint, theme.px(1));
   draw_orientation(theme, panel, camera_);
   list->PopClipRect();
   outline(panel, colour::kFaint);
+  list->ChannelsMerge();
+  ImGui::SetCursorScreenPos(below);
 }
 
 VolumeAnswer VolumePage::draw(const Theme& theme, const Rect& screen, const std::shared_ptr<const SweptVolume>& swept,
-                              std::map<std::string, Rect>& places) {
+                              Pictures& pictures, std::map<std::string, Rect>& places) {
   show(swept);
   const float gap = theme.px(8);
   Rect rest = begin_overlay(theme, screen, {screen.w, screen.h}).inset(-theme.px(16), -theme.px(12));
@@ -286,14 +317,14 @@ VolumeAnswer VolumePage::draw(const Theme& theme, const Rect& screen, const std:
     if (problem_.empty()) draw_plane(theme, panel, plane, mm_per_pixel);
   }
   const Rect& volume_panel = places["swept_volume"] = {x + w + gap, y + h + gap, w, h};
-  if (problem_.empty()) draw_volume(theme, volume_panel);
+  if (problem_.empty()) draw_volume(theme, volume_panel, pictures, places);
   if (!problem_.empty()) draw_paragraph(panels[0], theme.text, colour::kAmber, problem_);
 
   VolumeAnswer answer = VolumeAnswer::none;
-  const auto next = [&](const char* id, const char* text, ButtonKind kind, const char* tip) {
+  const auto next = [&](const char* id, const char* text, ButtonKind kind, const char* tip, bool enabled = true) {
     const Rect place = places[id] = side.take_bottom(theme.px(38));
     side.take_bottom(gap);
-    return button(theme, id, place, text, kind, true, tip);
+    return button(theme, id, place, text, kind, enabled, tip);
   };
   if (next("close_volume", "Close  (Esc)", ButtonKind::primary, "")) answer = VolumeAnswer::close;
   if (next("save_volume", "Save  (S)", ButtonKind::normal, "Writes the volume as an NRRD, which 3D Slicer opens"))
@@ -303,7 +334,7 @@ VolumeAnswer VolumePage::draw(const Theme& theme, const Rect& screen, const std:
                                double step, double normal, const char* tip) {
     const Rect place = places[id] = side.take_bottom(theme.px(40));
     side.take_bottom(gap);
-    slider(theme, id, place, name, text, value, 0, most, step, normal, problem_.empty(), tip);
+    slider(theme, id, place, name, text, value, 0, most, step, normal, problem_.empty() && !in_patient_, tip);
   };
   const view::SweptLook usual;
   look_slider("swept_opacity", "Opacity", formatted("%.0f %%", 100 * look_.opacity), look_.opacity, view::kMostOpacity,
@@ -312,7 +343,7 @@ VolumeAnswer VolumePage::draw(const Theme& theme, const Rect& screen, const std:
               view::kMostSweptThreshold, 1, usual.threshold,
               "Grey level from which tissue shows in the volume. A double click takes it back.");
   if (next("cut_volume", cut_ ? "Show the whole volume  (C)" : "Cut the volume at the plane  (C)", ButtonKind::normal,
-           "The plane is that of the probe's picture"))
+           "The plane is that of the probe's picture", !in_patient_))
     switch_cut();
   draw_words(theme, side, *swept);
   end_overlay();
@@ -320,17 +351,7 @@ VolumeAnswer VolumePage::draw(const Theme& theme, const Rect& screen, const std:
 }
 
 void draw_swept_box(const Theme& theme, const Rect& space, const SweptVolume& swept, const view::OrbitCamera& camera) {
-  const SpaceDrawing drawing(space, camera);
-  const Grid& grid = swept.volume.grey.grid;
-  const auto corner = [&](int n) {
-    return grid.patient_from_index(glm::dvec3(n & 1, n >> 1 & 1, n >> 2) * glm::dvec3(grid.size) - 0.5);
-  };
-  for (int from = 0; from < 8; ++from)
-    for (const int axis : {1, 2, 4})
-      if (!(from & axis)) {
-        const std::array<glm::dvec3, 2> edge{corner(from), corner(from | axis)};
-        drawing.path(edge, colour::kAccent, theme.px(1));
-      }
+  draw_box(SpaceDrawing(space, camera), swept.volume.grey.grid, colour::kAccent, theme.px(1));
 }
 
 }  // namespace insonate::ui

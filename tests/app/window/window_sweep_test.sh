@@ -73,6 +73,14 @@ shot "$work/volume_fuller.png" swept_volume 4
 pixels=$(different "$work/volume_turned.png" "$work/volume_fuller.png")
 [ "$pixels" -gt 1000 ] || fail "a lower threshold shows no more: $pixels pixels changed"
 
+echo "the patient is shown in its place, cut at the probe's plane"
+click_on show_patient
+await "nothing changes any more" shows_nothing
+shot "$work/patient.png" swept_volume 4
+pixels=$(different "$work/volume_fuller.png" "$work/patient.png")
+[ "$pixels" -gt 1000 ] || fail "the patient is not shown: $pixels pixels changed"
+click_on show_volume
+
 xdotool key Home
 await "Home turns them back" is planes_turned_deg 0.0
 is planes_x "$px" || fail "the point is elsewhere: $px, $(value planes_x)"
