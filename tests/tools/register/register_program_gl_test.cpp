@@ -122,6 +122,22 @@ TEST_CASE("a registration that does not converge exits with 3 and says so in eve
     CHECK(read_file(out / file).find("Not converged: ") != std::string::npos);
 }
 
+TEST_CASE("a registration that does not fit on the disk ends in a sentence, and leaves nothing behind") {
+  const Workplace place;
+  // The first file is too large for each: a picture, a larger one, and a volume.
+  for (const char* bytes : {"500", "20000", "300000"}) {
+    const ProgramOutcome outcome = run_program(
+        std::string("prlimit --fsize=") + bytes + " " + INSONATE_REGISTER_PROGRAM " --ct " + place.in("ct.nrrd") +
+        " --depth 100 --search-mm 0 --search-deg 0 --slices 4 " + place.in("sweep.igs.mha") + " " + place.in("out"));
+    INFO(bytes << " bytes: " << outcome.errors);
+    CHECK(outcome.code == 2);
+    CHECK(outcome.errors.find("cannot be written") != std::string::npos);
+    CHECK(std::count(outcome.errors.begin(), outcome.errors.end(), '\n') == 1);
+    for (const auto& left : fs::directory_iterator(place.folder.path))
+      CHECK(left.path().filename().string().find("out") == std::string::npos);
+  }
+}
+
 TEST_CASE("what insonate-register cannot use it refuses in a sentence, with exit code 2") {
   const Workplace place;
   place.folder.put("away.txt", "1 0 0 0 0 1 0 -100 0 0 1 0 0 0 0 1\n");
