@@ -22,8 +22,11 @@ const float kFirstTransferHu = -1024.0, kLastTransferEntry = 4095.0;
 // Where two values are so close, the rounding of the integrals would show; the function changes little between them.
 const float kShortSpan_hu = 1.0;
 
+// In voxels of smooth_ct, a whole one: then the gradient is as smooth as the linear interpolation between voxels. With
+// 1.5, lines along the voxels' layers show on smooth skin.
+const float kGradientReach = 1.0;
+
 // A surface is lit where the CT changes by more than its noise does, HU per mm.
-const float kGradientReach = 1.5;  // voxels of smooth_ct, far enough that no steps of thick slices show
 const float kUnlit_hu_mm = 4.0, kLit_hu_mm = 20.0;
 const vec2 kLightWithin = vec2(0.8, 0.0);
 const float kHighlight = 0.18;

@@ -16,7 +16,7 @@ namespace insonate::view {
 namespace {
 
 // As in view/ct_march.glsl and view/volume_ray.glsl.
-constexpr double kGradientReach = 1.5;
+constexpr double kGradientReach = 1;
 constexpr double kUnlit_hu_mm = 4, kLit_hu_mm = 20, kHighlight = 0.18;
 constexpr glm::dvec2 kLightWithin(0.8, 0.0);
 
