@@ -107,9 +107,14 @@ double grey_of(GreyMap map, double g) {
 
 }  // namespace
 
+/// Returns the share of gel in what lies within the gel layer, 0 to 1 (sim/model/coupling.h).
+static double gel_share(double hu) {
+  return std::clamp((kCouplingTissueHu - hu) / (kCouplingTissueHu - kCouplingAirHu), 0.0, 1.0);
+}
+
 Medium with_gel(const Medium& medium, double r_mm, double coupling_depth_mm) {
   if (r_mm >= coupling_depth_mm) return medium;
-  const double gel = std::clamp((kCouplingTissueHu - medium.hu) / (kCouplingTissueHu - kCouplingAirHu), 0.0, 1.0);
+  const double gel = gel_share(medium.hu);
   return {(1 - gel) * medium.hu, (1 - gel) * medium.echogenicity_db + gel * kLeastEchogenicityDb};
 }
 
@@ -184,7 +189,9 @@ ReferenceScan traverse_reference(const MediumField& field, const TissueTable& ta
 
       if (k == 0) intensity *= absorbed(dr / 2);
       scan.intensity.at(line, k) = intensity;
-      const double directed = settings.waves ? std::pow(cosine, settings.specular_exponent) : cosine;
+      double directed = settings.waves ? std::pow(cosine, settings.specular_exponent) : cosine;
+      if (settings.waves && coupled > l / 2 + kLeastGel_mm && r - l / 2 < coupled && r + l / 2 >= coupled)
+        directed *= 1 + (kFreeGelShare - 1) * gel_share(hu_behind);
       scan.reflection.at(line, k) = heard(alpha * intensity * intensity * directed);  // (3)
       const double per_tenfold = settings.waves ? 20 : 10;  // amplitudes in dB of power, or as the paper's are
       const double amplitude =

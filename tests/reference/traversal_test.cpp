@@ -41,6 +41,34 @@ TEST_CASE("coupling gel takes the place of air in front of the skin, and of noth
   CHECK(at_depth(10, 6) < 1e-5);
 }
 
+TEST_CASE("gel that ends in air returns little, and gel that ends on skin or bone what they reflect") {
+  const TissueTable table = read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml");
+  Settings settings = without_absorption(0.6);
+  settings.waves = true;
+  settings.gel_mm = 6;
+  const ScanLines lines = one_line(60, 600);
+  // The greatest echo of an interface between two depths, mm.
+  const auto greatest = [&](double gap_mm, double hu, double from_mm, double to_mm) {
+    const MediumField body = [=](const glm::dvec3& p) { return Medium{p.y > gap_mm + 0.03 ? hu : -1000.0, 0}; };
+    const ReferenceScan scan = traverse_reference(body, table, lines, settings, {});
+    double most = 0;
+    for (int k = int(10 * from_mm); k < int(10 * to_mm); ++k) most = std::max(most, scan.reflection.at(0, k));
+    return most;
+  };
+  const auto reflected = [&](double one_hu, double other_hu) {
+    const double a = table.at(one_hu).impedance_mrayl, b = table.at(other_hu).impedance_mrayl;
+    return std::pow((a - b) / (a + b), 2);
+  };
+  CHECK(greatest(20, 60, 5, 7) == Approx(1e-3 * reflected(0, -1000)).epsilon(1e-6));
+  CHECK(greatest(4, 1000, 3, 5) == Approx(reflected(0, 1000)).epsilon(1e-6));
+  CHECK(greatest(6, 1000, 5, 7) == Approx(reflected(0, 1000)).epsilon(1e-6));  // where the gel's end is
+  settings.gel_mm = 0;
+  CHECK(greatest(20, 60, 0, 1) == Approx(reflected(0, -1000)).epsilon(1e-6));  // the face itself
+  settings.gel_mm = 6;
+  settings.waves = false;
+  CHECK(greatest(20, 60, 5, 7) == Approx(reflected(0, -1000)).epsilon(1e-6));
+}
+
 TEST_CASE("air against the face lets pass what an interface of water and air does, however many samples meet it") {
   const TissueTable table = read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml");
   const double water = table.at(0).impedance_mrayl, air = table.at(-1000).impedance_mrayl;

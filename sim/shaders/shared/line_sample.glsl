@@ -177,6 +177,15 @@ vec2 scatterers_echo(float k, Medium here) {
   return echo;
 }
 
+// Returns the share of sound that an interface returns although it may be the surface of gel that touches nothing
+// (sim/model/coupling.h).
+float returned_by_gel(float k, Medium behind) {
+  bool ends_here = coupling_depth_mm > half_reflection_length * dr_mm + kLeastGel_mm &&
+                   depth(k - half_reflection_length) < coupling_depth_mm &&
+                   depth(k + half_reflection_length) >= coupling_depth_mm;
+  return ends_here ? mix(1.0, kFreeGelShare, gel_share(behind.hu)) : 1.0;
+}
+
 // What sound meets at a sample, whatever intensity arrives there.
 struct Sample {
   float alpha, cosine;  // of the interface
@@ -209,7 +218,7 @@ Sample sample_at(float k, Medium here, Medium before, Medium behind) {
   float transmitted = log_transmission(met.alpha, before.impedance, behind.impedance);
   met.change = reflection_exponent * transmitted - absorbed(here);  // (5)
 #if WAVES == 1
-  met.cosine = pow(met.cosine, specular_exponent);
+  met.cosine = pow(met.cosine, specular_exponent) * returned_by_gel(k, behind);
   float squared = met.alpha * met.alpha, weak = 0.5 * blend;
   float mirrored = sqrt(met.alpha * met.cosine) * squared / max(squared + weak * weak, kLeastEcho);
   met.echo = vec2(scatterer_amplitude(here), behind.impedance < before.impedance ? -mirrored : mirrored);

@@ -10,7 +10,8 @@ namespace insonate {
 #endif
 
 // Coupling (sim/model/coupling.h), Hounsfield units.
-INSONATE_REAL kCouplingTissueHu = -150.0, kCouplingAirHu = -301.0;
+INSONATE_REAL kCouplingTissueHu = -150.0, kCouplingAirHu = -301.0, kFreeGelShare = 1e-3;
+INSONATE_REAL kLeastGel_mm = 2e-5;  // beyond half the reflection length
 
 // The weakest echo that counts (sim/model/stages.h).
 INSONATE_REAL kLeastEcho = 1e-30;
