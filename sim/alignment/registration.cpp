@@ -24,6 +24,7 @@ constexpr double kWideLength_mm = 4;  // of a reflection, so that interfaces are
 constexpr double kBasin_mm = 8;       // ends that are nearer to each other are one
 constexpr double kBasin_deg = 8;
 constexpr double kAmbiguous = 0.9;  // of the similarity
+constexpr int kClimbs = 3;          // most repetitions of the last search
 constexpr double kMostStretch = 0.15;
 constexpr std::size_t kBatch = 512;  // places per call, to bound memory
 
@@ -70,8 +71,23 @@ struct Run {
     return kept;
   }
 
+  // Goes on from an end that is not a maximum: small steps may stop on the unevenness of a slope. Returns the
+  // uncertainty at the end; none for mutual information, which is not a share of variance.
+  Uncertainty climb_on(Optimum& end, const EvaluateAll& evaluate, const TrackedSweep& compared) const {
+    if (settings.measure == Measure::mutual_information || end.value <= 0) return {};
+    const double pixels = independent_pixels(compared);
+    Uncertainty found = uncertainty_at(end.at, result.motion, evaluate, pixels, targets);
+    for (int i = 0; i < kClimbs && !found.is_maximum; ++i) {
+      Optimum higher = maximise_from({end.at}, evaluate, search(2, 0.01, 250)).front();
+      if (higher.value <= end.value) break;
+      end = std::move(higher);
+      found = uncertainty_at(end.at, result.motion, evaluate, pixels, targets);
+    }
+    return found;
+  }
+
   // Finds out how far the result can be trusted.
-  void judge(const Optimum& end, const EvaluateAll& evaluate, const TrackedSweep& compared) {
+  void judge(const Optimum& end, const Uncertainty& found) {
     const auto doubt = [&](const char* why) { result.doubts.emplace_back(why); };
     if (end.value <= 0) return doubt("the images show nothing of the CT");
     if (!end.within_tolerance) doubt("the search used up its evaluations");
@@ -81,12 +97,10 @@ struct Run {
       doubt("the search left its range around the start");
     if (!confirmed) doubt("no second search found the same place");
     if (result.runner_up > kAmbiguous * result.similarity_after) doubt("another place is nearly as similar");
-    if (settings.measure == Measure::mutual_information) return;  // it is not a share of variance
-    const Uncertainty uncertainty =
-        uncertainty_at(end.at, result.motion, evaluate, independent_pixels(compared), targets);
-    if (!uncertainty.is_maximum) return doubt("the similarity has no maximum there");
-    result.deviation = uncertainty.deviation;
-    result.expected_error_mm = uncertainty.expected_error_mm;
+    if (settings.measure == Measure::mutual_information) return;
+    if (!found.is_maximum) return doubt("the similarity has no maximum there");
+    result.deviation = found.deviation;
+    result.expected_error_mm = found.expected_error_mm;
   }
 
   LocalSearch search(double first_step, double tolerance, int most) const {
@@ -177,10 +191,11 @@ SweepRegistration SweepRegistrar::from(const glm::dmat4& start) {
     last = run.evaluator(*fine_, kAffine);
     end = maximise_from({end.at}, last, run.search(0.7, 0.01, 600)).front();
   }
+  const Uncertainty uncertainty = run.climb_on(end, last, compared_);
   result.at = end.at;
   result.similarity_after = end.value;
   result.ct_from_sweep = result.motion.at(result.at);
-  run.judge(end, last, compared_);
+  run.judge(end, uncertainty);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;
 }
