@@ -26,7 +26,6 @@ constexpr double kBasin_deg = 8;
 constexpr double kAmbiguous = 0.9;  // of the similarity
 constexpr int kClimbs = 3;          // most repetitions of the last search
 constexpr double kMostStretch = 0.15;
-constexpr std::size_t kBatch = 512;  // places per call, to bound memory
 
 std::unique_ptr<Similarity> similarity_of(const AcousticVolume& volume, const TrackedSweep& sweep,
                                           const WeinSettings& wein, Measure measure) {
@@ -43,9 +42,11 @@ struct Run {
   EvaluateAll evaluator(Similarity& similarity, Stage stage) {
     return [this, &similarity, stage](std::span<const Parameters> points) {
       std::vector<double> values;
-      for (std::size_t first = 0; first < points.size(); first += kBatch) {
+      const auto batch = std::size_t(settings.batch);
+      for (std::size_t first = 0; first < points.size(); first += batch) {
+        if (settings.between_calls) settings.between_calls();
         std::vector<glm::dmat4> places;
-        for (const Parameters& point : points.subspan(first, std::min(kBatch, points.size() - first)))
+        for (const Parameters& point : points.subspan(first, std::min(batch, points.size() - first)))
           places.push_back(result.motion.at(point));
         for (const double value : similarity.at(places)) {
           result.evaluations.push_back({stage, Parameters(points[values.size()]), value});
@@ -135,6 +136,16 @@ SweepRegistrar::SweepRegistrar(const AcousticVolume& volume, const TrackedSweep&
   compared_ = reduced(sweep, settings.slices, full.width, full.height);
   fine_ = similarity_of(volume, compared_, settings.wein, settings.measure);
   seconds_to_prepare_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+void SweepRegistrar::set_images(std::span<const SweepImage> images) {
+  const TrackedSweep sweep{Probe(compared_.probe), compared_.depth_mm, {images.begin(), images.end()}};
+  const Image<float>& full = compared_.images.front().grey;
+  TrackedSweep compared = reduced(sweep, settings_.slices, full.width, full.height);
+  wide_->set_images(reduced(sweep, settings_.wide_slices, kWideWidth, kWideHeight).images);
+  fine_->set_images(compared.images);
+  compared_ = std::move(compared);
+  targets_ = target_points(sweep);
 }
 
 void SweepRegistrar::set_range(double search_mm, double search_deg) {
