@@ -27,7 +27,6 @@ using namespace insonate;
 namespace {
 
 constexpr int kNotConverged = 3;
-constexpr std::size_t kShownImages = 4;
 
 }  // namespace
 
@@ -109,21 +108,8 @@ int main(int argc, char** argv) {
       found.seconds += registrar.seconds_to_prepare();
     });
 
-    const std::string sentence = verdict(found);
-    write_folder(out, [&](const std::filesystem::path& folder) {
-      RegistrationReport report{subject_path, recording, read, settings, found, {}};
-      report.pictures = write_comparison(folder / "pictures", read.sweep, subject.ct, ct_from_sweep,
-                                         found.ct_from_sweep, kShownImages);
-      write_file(folder / "registration.json", registration_json(report));
-      write_file(folder / "ct_from_sweep.tfm", itk_transform(found.ct_from_sweep, sentence));
-      write_file(folder / "sweep_from_ct.tfm", itk_transform(glm::inverse(found.ct_from_sweep), sentence));
-      write_file(folder / "evaluations.csv", evaluations_csv(found));
-      write_file(folder / "index.html", registration_page(report));
-      write_file(folder / "scene.mrml", slicer_scene(sentence));
-      write_ct(folder / "ct.nrrd", subject.ct);
-      write_labels(folder / "sweep.nrrd", volume_of(read.sweep));
-    });
-    std::printf("%s\nSimilarity (%s): %.4f before, %.4f after. %zu evaluations in %.1f s.\n", sentence.c_str(),
+    write_registration(out, RegistrationReport{subject_path, recording, read, settings, found, {}}, subject.ct);
+    std::printf("%s\nSimilarity (%s): %.4f before, %.4f after. %zu evaluations in %.1f s.\n", verdict(found).c_str(),
                 measure.c_str(), found.similarity_before, found.similarity_after, found.evaluations.size(),
                 found.seconds);
     return found.converged() ? 0 : kNotConverged;

@@ -90,8 +90,7 @@ FoundFan find_probe_in(const EchoSeen& seen, const glm::dmat4& probe_from_pixel,
   return *search.fan;
 }
 
-SweepImage place_image(const Image<std::uint8_t>& grey, const Pose& sweep_from_probe,
-                       const glm::dmat4& probe_from_pixel, const SweepInput& input) {
+ImagePlacement placement_of(const glm::dmat4& probe_from_pixel, const SweepInput& input) {
   const glm::dvec3 x(probe_from_pixel[0]), y(probe_from_pixel[1]), corner(probe_from_pixel[3]);
   const glm::dvec2 mm = pixel_size(probe_from_pixel);
   const glm::dmat3 axes(x / mm.x, y / mm.y, glm::cross(x, y) / (mm.x * mm.y));
@@ -107,11 +106,16 @@ SweepImage place_image(const Image<std::uint8_t>& grey, const Pose& sweep_from_p
                        "give the pixel of the face's middle as --face-pixel X,Y");
     face = glm::dvec2(origin) / mm;
   }
+  return {Pose{axes, corner + face.x * x + face.y * y}, glm::dmat3(1 / mm.x, 0, 0, 0, 1 / mm.y, 0, face.x, face.y, 1)};
+}
+
+SweepImage place_image(const Image<std::uint8_t>& grey, const Pose& sweep_from_probe,
+                       const glm::dmat4& probe_from_pixel, const SweepInput& input) {
+  const ImagePlacement placement = placement_of(probe_from_pixel, input);
   const ImageGeometry geometry =
       image_geometry(*input.probe, input.depth_mm.value_or(input.probe->depth_mm), input.width, input.height);
-  const glm::dmat3 pixel_from_plane(1 / mm.x, 0, 0, 0, 1 / mm.y, 0, face.x, face.y, 1);
-  return {sweep_from_probe * Pose{axes, corner + face.x * x + face.y * y},
-          resampled(clipped(grey, input), pixel_from_plane, geometry)};
+  return {sweep_from_probe * placement.probe_from_fan,
+          resampled(clipped(grey, input), placement.pixel_from_plane, geometry)};
 }
 
 namespace {

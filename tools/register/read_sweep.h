@@ -1,5 +1,6 @@
 #pragma once
 
+#include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 
@@ -50,8 +51,16 @@ ReadSweep read_sweep(const SweepInput& input);
 /// pixel and the clip. Throws InputError, which names `input.file`, if the images show no fan.
 FoundFan find_probe_in(const EchoSeen& seen, const glm::dmat4& probe_from_pixel, SweepInput& input);
 
-/// Returns an image on the pixels of the fan, with its pose. Throws InputError if the middle of the probe's face is
-/// neither given nor in the image, or if the clip is not within the image.
+/// How an image lies to the fan that it shows.
+struct ImagePlacement {
+  Pose probe_from_fan;
+  glm::dmat3 pixel_from_plane;  ///< maps (x, y, 1) of the fan's plane, mm, to a column and a row
+};
+/// Throws InputError if the middle of the probe's face is neither given nor in the image.
+ImagePlacement placement_of(const glm::dmat4& probe_from_pixel, const SweepInput& input);
+
+/// Returns an image on the pixels of the fan, with its pose. Throws what placement_of() throws, and InputError if the
+/// clip is not within the image.
 /// @param input  with a probe
 SweepImage place_image(const Image<std::uint8_t>& grey, const Pose& sweep_from_probe,
                        const glm::dmat4& probe_from_pixel, const SweepInput& input);

@@ -8,15 +8,20 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 
+#include "sim/core/files.h"
+#include "sim/core/new_folder.h"
 #include "sim/core/text.h"
 #include "sim/reconstruction/reconstruction.h"
 #include "sim/reconstruction/sweep_extent.h"
 #include "sim/reconstruction/tracked_picture.h"
+#include "sim/volume/ct_reader.h"
 
 namespace insonate {
 namespace {
 
+constexpr std::size_t kShownImages = 4;
 constexpr double kVoxel_mm = 1;  // of the sweep's volume
 constexpr std::array<const char*, 12> kParameters{"tx", "ty", "tz", "rx",       "ry",       "rz",
                                                   "sx", "sy", "sz", "shear_yz", "shear_xz", "shear_xy"};
@@ -199,6 +204,24 @@ std::string slicer_scene(const std::string& why) {
                 " transformNodeRef=\"vtkMRMLLinearTransformNode1\"") +
          "  <Selection id=\"vtkMRMLSelectionNodeSingleton\" activeVolumeID=\"vtkMRMLScalarVolumeNode1\" "
          "secondaryVolumeID=\"vtkMRMLScalarVolumeNode2\"/>\n</MRML>\n";
+}
+
+void write_registration(const std::filesystem::path& out, RegistrationReport report, const Volume<std::int16_t>& ct) {
+  const SweepRegistration& found = report.found;
+  const TrackedSweep& sweep = report.input.sweep;
+  const std::string sentence = verdict(found);
+  write_folder(out, [&](const std::filesystem::path& folder) {
+    report.pictures =
+        write_comparison(folder / "pictures", sweep, ct, found.motion.ct_from_sweep, found.ct_from_sweep, kShownImages);
+    write_file(folder / "registration.json", registration_json(report));
+    write_file(folder / "ct_from_sweep.tfm", itk_transform(found.ct_from_sweep, sentence));
+    write_file(folder / "sweep_from_ct.tfm", itk_transform(glm::inverse(found.ct_from_sweep), sentence));
+    write_file(folder / "evaluations.csv", evaluations_csv(found));
+    write_file(folder / "index.html", registration_page(report));
+    write_file(folder / "scene.mrml", slicer_scene(sentence));
+    write_ct(folder / "ct.nrrd", ct);
+    write_labels(folder / "sweep.nrrd", volume_of(sweep));
+  });
 }
 
 Volume<std::uint8_t> volume_of(const TrackedSweep& sweep) {

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <glm/mat4x4.hpp>
+
+#include <memory>
+
+#include "app/registration/live_session.h"
+#include "sim/core/image.h"
+#include "sim/gl/objects.h"
+#include "sim/imaging/simulator.h"
+#include "sim/model/acoustic_volume.h"
+#include "sim/model/tissue.h"
+#include "sim/probe/probe.h"
+
+namespace insonate {
+
+/// Draws the three pictures of a live registration on the pixels of one fan: the received image, the image that model S
+/// simulates at the estimate, and both blended. The probe's marker is on the left. Needs an OpenGL context that is
+/// current from construction to destruction.
+class RegistrationPictures {
+public:
+  static constexpr int kWidth = 512, kHeight = 384;
+
+  /// Uploads the patient. Throws what gl::Simulator throws.
+  RegistrationPictures(const AcousticVolume& volume, const TissueTable& table);
+
+  /// Draws the newest image at the estimate, unless both are those of the call before. Returns whether it drew. Does
+  /// nothing before the session knows the probe.
+  bool draw(const LiveSession& session);
+
+  const gl::Texture& received() const { return received_; }
+  const gl::Texture& simulated() const { return simulated_; }
+  const gl::Texture& blended() const { return blended_; }
+  /// Returns how often all three have been drawn.
+  long drawn() const { return drawn_; }
+
+private:
+  gl::Simulator simulator_;
+  gl::Texture received_, simulated_, blended_;
+  bool has_probe_ = false;
+  long of_image_ = -1, drawn_ = 0;
+  glm::dmat4 at_{0.0};
+};
+
+/// Returns an image as it lies in the fan's plane: black outside the fan.
+Image<Rgba8> image_in_fan(const LiveSession::Shown& shown, const Probe& probe, double depth_mm,
+                          const ImageGeometry& geometry);
+
+/// Returns the first image in orange and the second in blue. Where both are bright it is white.
+Image<Rgba8> blend(const Image<Rgba8>& orange, const Image<Rgba8>& blue);
+
+}  // namespace insonate
