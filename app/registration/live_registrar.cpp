@@ -131,7 +131,7 @@ bool LiveRegistrar::begin_round(Task& task) {
   for (; !ending_; changed_.wait_for(lock, std::chrono::milliseconds(100))) {
     const bool is_new = window_.version() != done_window_;
     if (!is_new || !(refines_ || wants_wide_)) {
-      if (!wants_wide_ && state_.work != Work::waiting) state_.work = Work::resting;
+      if (!wants_wide_ && (!refines_ || state_.work != Work::waiting)) state_.work = Work::resting;
       if (!wants_wide_) continue;
     }
     task.sweep = window_.chosen(std::size_t(settings_.slices));

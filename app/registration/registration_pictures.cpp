@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "sim/model/quality.h"
 #include "sim/model/settings.h"
 
 namespace insonate {
@@ -63,7 +64,7 @@ bool RegistrationPictures::draw(const LiveSession& session) {
   const Probe& probe = *session.probe();
   if (!has_probe_) {
     has_probe_ = true;
-    Settings settings = trainer_settings(probe.frequency_mhz, session.depth_mm());
+    Settings settings = at_quality(trainer_settings(probe.frequency_mhz, session.depth_mm()), Quality::fast);
     settings.image_width = kWidth;
     settings.image_height = kHeight;
     simulator_.set_probe(probe, session.depth_mm());

@@ -19,7 +19,7 @@ namespace insonate {
 /// current from construction to destruction.
 class RegistrationPictures {
 public:
-  static constexpr int kWidth = 512, kHeight = 384;
+  static constexpr int kWidth = 384, kHeight = 288;
 
   /// Uploads the patient. Throws what gl::Simulator throws.
   RegistrationPictures(const AcousticVolume& volume, const TissueTable& table);

@@ -36,7 +36,7 @@ int run_registration_headless(const RegistrationOptions& options) {
     session.update(now_s);
     if (!options.state_file.empty() && now_s - written_s > kStateEvery_s) {
       written_s = now_s;
-      write_registration_state(options.state_file, session, 0);
+      write_registration_state(options.state_file, session);
     }
     const LiveRegistrar::State state = session.state();
     if (state.last && state.last->found.converged()) break;

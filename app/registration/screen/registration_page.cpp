@@ -43,9 +43,9 @@ std::string moved_text(const SweepRegistration& found) {
 
 }  // namespace
 
-void RegistrationPage::draw_picture(const Theme& theme, const Rect& where, const char* title,
+void RegistrationPage::draw_picture(const Theme& theme, const Rect& where, const char* name, const char* title,
                                     const gl::Texture& texture, bool shown) {
-  places_[title] = where;
+  places_[name] = where;
   fill(where, colour::kImage, theme.px(4));
   if (shown) {
     const float scale = std::min(where.w / float(texture.width()), where.h / float(texture.height()));
@@ -139,12 +139,13 @@ RegistrationWish RegistrationPage::draw(const Theme& theme, const Rect& screen, 
   rest.take_bottom(theme.px(6));
   const float gap = theme.px(8), each = (rest.w - 2 * gap) / 3;
   const bool shown = pictures.drawn() > 0;
-  for (const auto& [title, texture] :
-       {std::pair("Received", &pictures.received()), std::pair("Simulated at the estimate", &pictures.simulated()),
-        std::pair("Both: received orange, simulated blue", &pictures.blended())}) {
-    draw_picture(theme, rest.take_left(each), title, *texture, shown);
+  const auto picture = [&](const char* name, const char* title, const gl::Texture& texture) {
+    draw_picture(theme, rest.take_left(each), name, title, texture, shown);
     rest.take_left(gap);
-  }
+  };
+  picture("received", "Received", pictures.received());
+  picture("simulated", "Simulated at the estimate", pictures.simulated());
+  picture("blended", "Both: received orange, simulated blue", pictures.blended());
   draw_facts(theme, facts, session, pictures_per_second);
   draw_text({buttons.x + theme.px(740), buttons.y, buttons.w - theme.px(740), buttons.h}, theme.small_text,
             colour::kMuted, notice, Align::right);

@@ -29,7 +29,8 @@ public:
   const std::map<std::string, Rect>& places() const { return places_; }
 
 private:
-  void draw_picture(const Theme& theme, const Rect& where, const char* title, const gl::Texture& texture, bool shown);
+  void draw_picture(const Theme& theme, const Rect& where, const char* name, const char* title,
+                    const gl::Texture& texture, bool shown);
   void draw_facts(const Theme& theme, Rect where, const LiveSession& session, double pictures_per_second) const;
   RegistrationWish draw_buttons(const Theme& theme, Rect row, const LiveSession& session);
 

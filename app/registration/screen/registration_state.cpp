@@ -7,7 +7,7 @@
 namespace insonate {
 
 void write_registration_state(const std::filesystem::path& file, const LiveSession& session,
-                              double pictures_per_second) {
+                              const RegistrationScreen& screen) {
   const LiveRegistrar::State state = session.state();
   nlohmann::ordered_json json;
   json["work"] = to_string(state.work);
@@ -20,7 +20,14 @@ void write_registration_state(const std::filesystem::path& file, const LiveSessi
   json["spread_mm"] = state.spread_mm;
   json["rounds"] = state.rounds;
   json["refines"] = session.refines();
-  json["pictures_per_second"] = pictures_per_second;
+  json["pictures_drawn"] = screen.drawn;
+  json["pictures_per_second"] = screen.pictures_per_second;
+  for (const auto& [name, place] : screen.places) {
+    json[name + "_x"] = int(place.x);
+    json[name + "_y"] = int(place.y);
+    json[name + "_w"] = int(place.w);
+    json[name + "_h"] = int(place.h);
+  }
   for (int row = 0; row < 4; ++row)
     for (int column = 0; column < 4; ++column)
       json["ct_from_sweep"][std::size_t(row)].push_back(state.ct_from_sweep[column][row]);

@@ -27,6 +27,7 @@
 #include "devices/live/steady_clock.h"
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/gl/headless_context.h"
 #include "sim/imaging/upload.h"
 #include "sim/model/tissue.h"
 #include "tools/cli/subject.h"
@@ -138,7 +139,7 @@ public:
 private:
   void step(double now_s) {
     session_.update(now_s);
-    session_.hold(true);
+    session_.hold(holds_);
     if (pictures_.draw(session_)) drawn_s_.push_back(now_s);
     while (!drawn_s_.empty() && drawn_s_.front() < now_s - 1) drawn_s_.pop_front();
     if (draw() || std::exchange(events_.exposed, false)) {
@@ -150,7 +151,8 @@ private:
     obey(std::exchange(events_.wish, {}));
     if (!options_.state_file.empty() && now_s - written_s_ > kStateEvery_s) {
       written_s_ = now_s;
-      write_registration_state(options_.state_file, session_, double(drawn_s_.size()));
+      write_registration_state(options_.state_file, session_,
+                               {pictures_.drawn(), double(drawn_s_.size()), page_.places()});
     }
   }
 
@@ -195,6 +197,8 @@ private:
   ui::RegistrationPage page_;
   Events events_;
   std::deque<double> drawn_s_;  // times of the last second's pictures
+  /// A graphics card does not know the priority of threads. Without one, that alone makes the registration give way.
+  const bool holds_ = !gl::is_software_renderer();
   double written_s_ = -1;
   std::string notice_;
 };
