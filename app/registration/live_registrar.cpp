@@ -1,7 +1,7 @@
 #include "app/registration/live_registrar.h"
 
-#include <sys/resource.h>
-#include <unistd.h>
+#include <pthread.h>
+#include <sched.h>
 
 #include <chrono>
 #include <exception>
@@ -16,7 +16,6 @@ namespace insonate {
 namespace {
 
 constexpr int kPlaces = 16;          // per call: 0.6 s of two cores without a graphics card
-constexpr int kLowest = 19;          // priority
 constexpr double kSamePlace_mm = 8;  // as register_sweep() counts ends as one
 constexpr auto kGlance = std::chrono::milliseconds(2);
 constexpr auto kLongestHold = std::chrono::milliseconds(200);
@@ -181,8 +180,11 @@ void LiveRegistrar::end_round(const Task& task, SweepRegistration found) {
 }
 
 void LiveRegistrar::run() {
-  // Per thread on Linux. A context's own threads, with which llvmpipe computes, are made by this one and inherit it.
-  if (gives_way_) setpriority(PRIO_PROCESS, id_t(gettid()), kLowest);
+  // Of this thread, whose priority those that it makes inherit, and with them those with which llvmpipe computes.
+  if (gives_way_) {
+    const sched_param none{};
+    pthread_setschedparam(pthread_self(), SCHED_IDLE, &none);
+  }
   try {
     std::optional<gl::HeadlessContext> context;
     std::unique_ptr<SweepRegistrar> registrar;

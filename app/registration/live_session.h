@@ -35,7 +35,7 @@ struct LiveRequest {
 /// probe in them if it is not named, and lets a LiveRegistrar refine the start. Needs no context of the caller.
 class LiveSession {
 public:
-  static constexpr double kTakenEvery_s = 0.1;  ///< images that are registered; all are shown
+  static constexpr double kTakenEvery_s = 0.2;  ///< images that are registered; all are shown
 
   /// Does not connect yet. Throws InputError if the request cannot be used.
   /// @param subject, volume  must outlive the session

@@ -2,7 +2,6 @@
 
 #include <glm/vec3.hpp>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -13,27 +12,50 @@
 namespace insonate {
 namespace {
 
-constexpr std::array<double, 3> kOrange{1.0, 0.55, 0.1};  // blue is the rest to white
+constexpr std::array<int, 3> kOrange{256, 141, 26};  // of 256; blue is the rest to white
 
 }  // namespace
 
-Image<Rgba8> image_in_fan(const LiveSession::Shown& shown, const Probe& probe, double depth_mm,
-                          const ImageGeometry& geometry) {
-  const Image<std::uint8_t>& grey = shown.image.grey;
-  Image<Rgba8> picture(geometry.width, geometry.height, Rgba8{0, 0, 0, 255});
+FanView::FanView(const Probe& probe, double depth_mm, const ImageGeometry& geometry, const glm::dmat3& pixel_from_plane,
+                 int width, int height)
+    : pixel_from_plane_(pixel_from_plane),
+      width_(width),
+      height_(height),
+      shown_width_(geometry.width),
+      shown_height_(geometry.height) {
   for (int y = 0; y < geometry.height; ++y)
     for (int x = 0; x < geometry.width; ++x) {
+      Source& source = sources_.emplace_back();
       const glm::dvec2 plane = geometry.plane_mm(x, y);
-      const glm::dvec3 at = shown.pixel_from_plane * glm::dvec3(plane, 1);
+      const glm::dvec3 at = pixel_from_plane * glm::dvec3(plane, 1);
       const int left = int(std::floor(at.x)), top = int(std::floor(at.y));
-      if (left < 0 || top < 0 || left + 1 >= grey.width || top + 1 >= grey.height) continue;
+      if (left < 0 || top < 0 || left + 1 >= width || top + 1 >= height) continue;
       if (!line_position(probe, depth_mm, plane)) continue;
-      const double u = at.x - left, v = at.y - top;
-      const double value = (1 - v) * ((1 - u) * grey.at(left, top) + u * grey.at(left + 1, top)) +
-                           v * ((1 - u) * grey.at(left, top + 1) + u * grey.at(left + 1, top + 1));
-      const auto level = std::uint8_t(std::lround(value));
-      picture.at(x, y) = {level, level, level, 255};
+      const int u = int(256 * (at.x - left)), v = int(256 * (at.y - top));
+      source.at = top * width + left;
+      source.weights[3] = std::uint16_t(u * v / 256);
+      source.weights[2] = std::uint16_t(v - source.weights[3]);
+      source.weights[1] = std::uint16_t(u - source.weights[3]);
+      source.weights[0] = std::uint16_t(256 - u - source.weights[2]);
     }
+}
+
+bool FanView::fits(const LiveSession::Shown& shown) const {
+  return shown.pixel_from_plane == pixel_from_plane_ && shown.image.grey.width == width_ &&
+         shown.image.grey.height == height_;
+}
+
+Image<Rgba8> FanView::of(const Image<std::uint8_t>& image) const {
+  Image<Rgba8> picture(shown_width_, shown_height_, Rgba8{0, 0, 0, 255});
+  for (std::size_t i = 0; i < sources_.size(); ++i) {
+    const Source& source = sources_[i];
+    if (source.at < 0) continue;
+    const std::uint8_t* at = image.pixels.data() + source.at;
+    const int sum = source.weights[0] * at[0] + source.weights[1] * at[1] + source.weights[2] * at[width_] +
+                    source.weights[3] * at[width_ + 1];
+    const auto level = std::uint8_t((sum + 128) / 256);
+    picture.pixels[i] = {level, level, level, 255};
+  }
   return picture;
 }
 
@@ -42,7 +64,7 @@ Image<Rgba8> blend(const Image<Rgba8>& orange, const Image<Rgba8>& blue) {
   for (std::size_t i = 0; i < both.pixels.size(); ++i) {
     for (std::size_t c = 0; c < 3; ++c)
       both.pixels[i][c] =
-          std::uint8_t(std::lround(kOrange[c] * orange.pixels[i][c] + (1 - kOrange[c]) * blue.pixels[i][c]));
+          std::uint8_t((kOrange[c] * orange.pixels[i][c] + (256 - kOrange[c]) * blue.pixels[i][c] + 128) / 256);
     both.pixels[i][3] = 255;
   }
   return both;
@@ -62,18 +84,21 @@ bool RegistrationPictures::draw(const LiveSession& session) {
   of_image_ = session.shown();
   at_ = ct_from_sweep;
   const Probe& probe = *session.probe();
-  if (!has_probe_) {
-    has_probe_ = true;
+  if (!view_) {
     Settings settings = at_quality(trainer_settings(probe.frequency_mhz, session.depth_mm()), Quality::fast);
     settings.image_width = kWidth;
     settings.image_height = kHeight;
     simulator_.set_probe(probe, session.depth_mm());
     simulator_.set_settings(settings);
   }
+  const ImageGeometry geometry = image_geometry(probe, session.depth_mm(), kWidth, kHeight);
+  const Image<std::uint8_t>& grey = shown->image.grey;
+  if (!view_ || !view_->fits(*shown))
+    view_.emplace(probe, session.depth_mm(), geometry, shown->pixel_from_plane, grey.width, grey.height);
   simulator_.set_pose(pose_from_matrix(ct_from_sweep * shown->sweep_from_fan.matrix()));
   Image<Rgba8> simulated(kWidth, kHeight);
   simulator_.image().read(GL_RGBA, GL_UNSIGNED_BYTE, simulated.pixels.data(), simulated.pixels.size() * sizeof(Rgba8));
-  const Image<Rgba8> received = image_in_fan(*shown, probe, session.depth_mm(), simulator_.geometry());
+  const Image<Rgba8> received = view_->of(grey);
   for (Rgba8& pixel : simulated.pixels)
     pixel = pixel[3] > 0 ? Rgba8{pixel[0], pixel[1], pixel[2], 255} : Rgba8{0, 0, 0, 255};
   const auto put = [](gl::Texture& texture, const Image<Rgba8>& picture) {
