@@ -18,6 +18,7 @@
 #include "tools/cli/subject.h"
 #include "tools/register/comparison_pictures.h"
 #include "tools/register/read_sweep.h"
+#include "tools/register/read_volume.h"
 #include "tools/register/result_files.h"
 #include "tools/register/start_transform.h"
 #include "tools/register/sweep_options.h"
@@ -38,6 +39,7 @@ int main(int argc, char** argv) {
   RegistrationSettings settings;
   SweepOptions sweep;
   std::string subject_path, transform, settings_file, measure = "lc2", recording, out;
+  std::vector<double> beam;
   std::optional<int> patch;
   bool affine = false;
   arguments.add_option("--case,--ct", subject_path, "Take the patient of this case folder, CT file or DICOM folder")
@@ -47,6 +49,16 @@ int main(int argc, char** argv) {
       ->type_name("NAME")
       ->default_str("ProbeToPatient, or a path to it");
   declare_sweep_options(arguments, sweep);
+  CLI::Option* along = arguments
+                           .add_option("--beam", beam,
+                                       "Take RECORDING to be a 3D ultrasound volume (NRRD, MetaImage, NIfTI) whose "
+                                       "sound ran in this direction of its frame (LPS)")
+                           ->type_name("X,Y,Z")
+                           ->delimiter(',')
+                           ->expected(3);
+  for (const char* of_images :
+       {"--probe", "--probe-file", "--depth", "--image-to-probe", "--face-pixel", "--clip", "--mask", "--transform"})
+    along->excludes(arguments.get_option(of_images));
   arguments
       .add_option("--measure", measure,
                   "Compare by LC2 with simulated images, or, as baselines, by mutual information or the correlation "
@@ -70,7 +82,9 @@ int main(int argc, char** argv) {
       .add_option("--settings", settings_file,
                   "Read model W's settings from this file (TOML): fields of sim/registration/wein_settings.h")
       ->type_name("FILE");
-  arguments.add_option("RECORDING", recording, "Register this recording (PLUS, 3D Slicer, or insonate)")
+  arguments
+      .add_option("RECORDING", recording,
+                  "Register this recording (PLUS, 3D Slicer, or insonate), or with --beam this volume")
       ->type_name("FILE")
       ->required();
   arguments
@@ -94,7 +108,8 @@ int main(int argc, char** argv) {
     settings.freedom = affine ? Freedom::affine : Freedom::rigid;
     const glm::dmat4 ct_from_sweep = sweep.start();
 
-    const ReadSweep read = read_sweep(input);
+    const ReadSweep read =
+        beam.empty() ? read_sweep(input) : read_volume_sweep(recording, glm::dvec3(beam[0], beam[1], beam[2]), input);
     if (read.fan) std::printf("Found in the images: %s.\n", description(*read.fan).c_str());
     const TissueTable table = read_tissue_table(assets_folder() / "tissues.toml");
     const Case subject = open_subject(subject_path);

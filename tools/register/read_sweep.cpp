@@ -22,7 +22,6 @@ namespace {
 
 constexpr double kMostOffPlane_mm = 1;  // of the face's middle from the image, where no --face-pixel is given
 constexpr std::size_t kLargestProbeFile = 1 << 20;
-constexpr double kLeastShown = 0.5;  // share of the fan that an image has to show
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
 constexpr std::size_t kLookedAt = 24;  // images in which a fan is sought
@@ -39,6 +38,15 @@ glm::dvec2 pixel_size(const glm::dmat4& probe_from_pixel) {
   return {glm::length(glm::dvec3(probe_from_pixel[0])), glm::length(glm::dvec3(probe_from_pixel[1]))};
 }
 
+void check_mask(const Image<std::uint8_t>& picture, const SweepInput& input) {
+  if (!input.mask || (input.mask->width == picture.width && input.mask->height == picture.height)) return;
+  const auto size = [](const Image<std::uint8_t>& image) {
+    return std::to_string(image.width) + " x " + std::to_string(image.height);
+  };
+  throw InputError("--mask", "", "it has " + size(*input.mask) + " pixels, and the images have " + size(picture),
+                   "draw it over one of the images");
+}
+
 Image<float> clipped(const Image<std::uint8_t>& picture, const SweepInput& input) {
   Image<float> result(picture.width, picture.height, kUnknown);
   const auto [x, y, width, height] = input.clip.value_or(std::array{0, 0, picture.width, picture.height});
@@ -47,14 +55,16 @@ Image<float> clipped(const Image<std::uint8_t>& picture, const SweepInput& input
                      "the rectangle is not within the images of " + std::to_string(picture.width) + " x " +
                          std::to_string(picture.height) + " pixels",
                      "give X,Y,WIDTH,HEIGHT in pixels");
+  check_mask(picture, input);
   for (int row = y; row < y + height; ++row)
-    for (int column = x; column < x + width; ++column) result.at(column, row) = float(picture.at(column, row));
+    for (int column = x; column < x + width; ++column)
+      if (!input.mask || input.mask->at(column, row) > 0) result.at(column, row) = float(picture.at(column, row));
   return result;
 }
 
 }  // namespace
 
-void check_shows_fan(const std::string& file, const TrackedSweep& sweep) {
+void check_shows_fan(const std::string& file, const TrackedSweep& sweep, double least_shown) {
   double fan = 0, known = 0, sum = 0, squares = 0;
   for (const SweepImage& image : sweep.images) {
     const ImageGeometry geometry = image_geometry(sweep.probe, sweep.depth_mm, image.grey.width, image.grey.height);
@@ -69,7 +79,7 @@ void check_shows_fan(const std::string& file, const TrackedSweep& sweep) {
         squares += value * value;
       }
   }
-  if (known < kLeastShown * fan)
+  if (known < least_shown * fan)
     throw InputError(
         file, "",
         "the images show only " + std::to_string(int(100 * known / std::max(fan, 1.0))) + " % of the probe's fan",
@@ -80,7 +90,11 @@ void check_shows_fan(const std::string& file, const TrackedSweep& sweep) {
 }
 
 FoundFan find_probe_in(const EchoSeen& seen, const glm::dmat4& probe_from_pixel, SweepInput& input) {
-  const FanSearch search = find_fan(seen.mask(), pixel_size(probe_from_pixel));
+  Image<std::uint8_t> echo = seen.mask();
+  check_mask(echo, input);
+  for (std::size_t i = 0; input.mask && i < echo.pixels.size(); ++i)
+    if (input.mask->pixels[i] == 0) echo.pixels[i] = 0;
+  const FanSearch search = find_fan(echo, pixel_size(probe_from_pixel));
   if (!search.fan)
     throw InputError(input.file, "", search.problem, "name the probe with --probe and --depth, or with --probe-file");
   input.probe = search.fan->probe;

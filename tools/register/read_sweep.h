@@ -26,6 +26,7 @@ struct SweepInput {
   std::optional<glm::dmat4> probe_from_pixel;  ///< in place of the recording's own ImageToProbe
   std::optional<glm::dvec2> face_pixel;        ///< where the middle of the probe's face lies in the images
   std::optional<std::array<int, 4>> clip;      ///< x, y, width, height of the part that is used, pixels
+  std::optional<Image<std::uint8_t>> mask;     ///< of the images' size: pixels of 0 are not used
   std::optional<Probe> probe;                  ///< whose fan the images show; empty: found from the images
   std::optional<double> depth_mm;              ///< empty: that of the probe
   int slices = 20;                             ///< images that are used, evenly spread over the recording
@@ -66,7 +67,8 @@ SweepImage place_image(const Image<std::uint8_t>& grey, const Pose& sweep_from_p
                        const glm::dmat4& probe_from_pixel, const SweepInput& input);
 
 /// Throws InputError, which names `file`, unless the images show the fan and something in it.
-void check_shows_fan(const std::string& file, const TrackedSweep& sweep);
+/// @param least_shown  share of the fan whose pixels are known
+void check_shows_fan(const std::string& file, const TrackedSweep& sweep, double least_shown = 0.5);
 
 /// Reads a probe from a TOML file: kind ("curvilinear", "linear" or "phased"), radius_mm and field_of_view_deg or
 /// width_mm as in Probe, and depth_mm. Throws InputError.

@@ -3,6 +3,7 @@
 #include <glm/vec2.hpp>
 
 #include "sim/core/input_error.h"
+#include "sim/core/read_png.h"
 #include "sim/core/suggest.h"
 #include "sim/probe/probe.h"
 #include "tools/cli/pose_file.h"
@@ -29,6 +30,7 @@ SweepInput SweepOptions::input() const {
   if (!image_matrix_file.empty()) input.probe_from_pixel = read_image_matrix(image_matrix_file);
   if (!face_pixel.empty()) input.face_pixel = glm::dvec2(face_pixel[0], face_pixel[1]);
   if (!clip.empty()) input.clip = {clip[0], clip[1], clip[2], clip[3]};
+  if (!mask_file.empty()) input.mask = read_png(mask_file);
   return input;
 }
 
@@ -66,6 +68,10 @@ std::vector<CLI::Option*> declare_sweep_options(CLI::App& arguments, SweepOption
       ->delimiter(',')
       ->expected(4)
       ->default_str("found, or with a named probe all of them");
+  arguments
+      .add_option("--mask", options.mask_file,
+                  "Leave out the pixels that are black in this picture of the images' size (PNG)")
+      ->type_name("FILE");
   CLI::Option* start =
       arguments
           .add_option("--start", options.start_file,

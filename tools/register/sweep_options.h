@@ -19,6 +19,7 @@ struct SweepOptions {
   std::string image_matrix_file;
   std::vector<double> face_pixel;  ///< 2 numbers or none
   std::vector<int> clip;           ///< 4 numbers or none
+  std::string mask_file;
   std::string start_file, landmarks_file;
 
   /// Returns the input that the options describe, without a file. Throws InputError.
@@ -27,7 +28,7 @@ struct SweepOptions {
   glm::dmat4 start() const;
 };
 
-/// Declares --probe, --probe-file, --depth, --image-to-probe, --face-pixel, --clip, --start and --landmarks.
+/// Declares --probe, --probe-file, --depth, --image-to-probe, --face-pixel, --clip, --mask, --start and --landmarks.
 /// @return the last two
 std::vector<CLI::Option*> declare_sweep_options(CLI::App& arguments, SweepOptions& options);
 

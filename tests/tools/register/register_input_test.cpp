@@ -1,6 +1,8 @@
 // What insonate-register reads besides the CT: recordings with images, probes, and whether the start fits the CT.
 #include <catch2/catch.hpp>
 
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -11,7 +13,9 @@
 #include "devices/sequence/recorded_images.h"
 #include "sim/alignment/echo_seen.h"
 #include "sim/alignment/find_fan.h"
+#include "sim/core/image.h"
 #include "sim/core/input_error.h"
+#include "sim/core/read_png.h"
 #include "tests/core/temporary_folder.h"
 #include "tools/register/read_sweep.h"
 #include "tools/register/start_transform.h"
@@ -130,6 +134,30 @@ TEST_CASE("a probe is read from a file, and refused with its line") {
   refused("kind = \"linear\"\nwidth_mm = 4\ndepth_mm = 50\n", "line 2");
   refused("kind = \"linear\"\nwidth_mm = 40\ndepth_mm = 500\n", "line 3");
   refused("kind = \"linear\"\nwidth_mm = 40\ndepth_mm = 50\nradius_mm = 60\n", "radius_mm");
+}
+
+TEST_CASE("a mask leaves pixels out") {
+  Recorded recorded;
+  recorded.record(usual_matrix());
+  const auto unknown = [&] {
+    std::size_t count = 0;
+    for (const float pixel : read_sweep(recorded.input).sweep.images[0].grey.pixels) count += std::isnan(pixel);
+    return count;
+  };
+  const std::size_t before = unknown();
+  Image<std::uint8_t> mask(kWidth, kHeight, 255);
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth / 2; ++x) mask.at(x, y) = 0;
+  const std::filesystem::path file = recorded.folder.path / "mask.png";
+  write_png(file, mask);
+  CHECK(read_png(file).pixels == mask.pixels);
+  recorded.input.mask = read_png(file);
+  // The left half of the images, of which the fan of 40 mm takes two thirds.
+  CHECK(double(unknown() - before) > 0.3 * double(128 * 96) / 2);
+  recorded.input.mask = Image<std::uint8_t>(kWidth + 1, kHeight);
+  recorded.refused("--mask: it has 41 x 30 pixels, and the images have 40 x 30; draw it over one of the images.");
+  CHECK_THROWS_WITH(read_png(recorded.input.file), Contains("it cannot be read as a PNG"));
+  CHECK_THROWS_WITH(read_png(recorded.folder.path / "none.png"), Contains("it cannot be read as a PNG"));
 }
 
 TEST_CASE("without a probe, it is found from the fan in the images") {

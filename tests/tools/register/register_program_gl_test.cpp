@@ -135,6 +135,35 @@ TEST_CASE("a recording is registered with the probe that its images show") {
         std::string::npos);
 }
 
+TEST_CASE("a volume of a sweep is registered along its beam") {
+  const Workplace place;
+  // The sweep as a volume of voxels of 1 mm, in the recording's frame.
+  REQUIRE(place.run(place.in("sweep.igs.mha") + " " + place.in("first")).code == 0);
+  const ProgramOutcome outcome = place.run_as_found(
+      "--beam 0,1,0 " + (fs::path(place.in("first")) / "sweep.nrrd").string() + " " + place.in("out"));
+  INFO(outcome.errors << outcome.output);
+  REQUIRE((outcome.code == 0 || outcome.code == 3));
+  const auto json = nlohmann::json::parse(read_file(fs::path(place.in("out")) / "registration.json"));
+  CHECK(json["probe"]["kind"] == "linear");
+  // The shift of the recording, within the size of the CT's voxels.
+  const double shift[] = {3, -2, 4};
+  for (std::size_t row = 0; row < 3; ++row) {
+    CHECK(json["ct_from_sweep"][row][3].get<double>() == Approx(shift[row]).margin(4));
+    CHECK(json["ct_from_sweep"][row][row].get<double>() > 0.99);
+  }
+  CHECK(json["similarity_after"] > json["similarity_before"]);
+  const auto refused = [&](const std::string& arguments, const std::string& sentence) {
+    const ProgramOutcome bad = place.run_as_found(arguments + " " + place.in("more"));
+    INFO(bad.errors);
+    CHECK(bad.code == 2);
+    CHECK(bad.errors.find(sentence) != std::string::npos);
+  };
+  refused("--beam 0,0,0 " + place.in("first/sweep.nrrd"), "--beam: it is not a direction");
+  refused("--beam 0,1,0 --depth 90 " + place.in("first/sweep.nrrd"), "--depth excludes --beam");
+  refused("--beam 0,1,0 " + place.in("sweep.igs.mha"),
+          "sweep.igs.mha: it is a recording, not a volume; leave out --beam");
+}
+
 TEST_CASE("a registration that does not converge exits with 3 and says so in every file") {
   const Workplace place;
   // The search may not leave the start, which is 50 mm off.
