@@ -34,7 +34,9 @@ grep -q '"work":' "$work/state.json" || fail "no state"
 # Where both maps put the tracker's point that truly lies in the middle of the body. A voxel is 1.3 to 2.1 mm large.
 cat "$work/truth.txt" "$work/out/ct_from_sweep.tfm" | awk '
   NR <= 3 { for (c = 1; c <= 4; ++c) t[NR, c] = $c }
-  /^Parameters/ { for (r = 1; r <= 3; ++r) { for (c = 1; c <= 3; ++c) m[r, c] = $(1 + 3 * (r - 1) + c); m[r, 4] = $(10 + r) } }
+  /^Parameters/ {
+    for (r = 1; r <= 3; ++r) { for (c = 1; c <= 3; ++c) m[r, c] = $(1 + 3 * (r - 1) + c); m[r, 4] = $(10 + r) }
+  }
   END {
     body[1] = 0; body[2] = 50; body[3] = 0
     for (c = 1; c <= 3; ++c) for (r = 1; r <= 3; ++r) p[c] += t[r, c] * (body[r] - t[r, 4])
