@@ -1,6 +1,9 @@
 #include <cstdio>
 
 #include "app/headless.h"
+#include "app/registration/registration_options.h"
+#include "app/registration/screen/registration_headless.h"
+#include "app/registration/screen/registration_window.h"
 #include "app/session/loading.h"
 #include "app/trainer/options.h"
 #include "app/window.h"
@@ -25,7 +28,12 @@ int main(int argc, char** argv) {
   CLI::App arguments("", "insonate");
   Options options;
   declare(arguments, options);
+  RegistrationOptions registration;
+  declare_registration(arguments, registration);
   const auto work = [&] {
+    if (registration.chosen)
+      return registration.headless || !has_display() ? run_registration_headless(registration)
+                                                     : run_registration_window(registration);
     const bool no_display = !options.headless && !has_display();
     if (no_display && (options.mode == Mode::author || options.mode == Mode::setup))
       throw InputError("command line", options.mode == Mode::author ? "author" : "setup",

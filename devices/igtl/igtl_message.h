@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "sim/core/image.h"
@@ -52,6 +53,20 @@ std::string metadata_value(const Parts& parts, std::string_view key);
 
 /// Returns the matrix of a TRANSFORM. Empty if the content has another size; the numbers are not checked.
 std::optional<glm::dmat4> parse_transform(ByteView content);
+
+/// An IMAGE message with one slice.
+struct ReceivedImage {
+  Image<std::uint8_t> grey;  ///< the message's pixel (0, 0) first
+  /// Maps (column, row, 0), the centre of a pixel, to mm in the frame that the sender placed the image in.
+  glm::dmat4 frame_from_pixel{1.0};
+  double time_s = 0;  ///< on the clock of the poses
+};
+
+/// Returns the image of an IMAGE message, or why it is not one that can be used, as a part of a sentence: "... has 3
+/// slices". Values of unsigned bytes are unchanged. Other types are scaled so that the largest value becomes 255, and
+/// negative values become 0. Colours (three or four components) become their luminance (BT.601). The format is that of
+/// https://github.com/openigtlink/OpenIGTLink/blob/master/Documents/Protocol/image.md.
+std::variant<ReceivedImage, std::string> parse_image(ByteView content);
 
 /// Content of a STATUS message.
 struct Status {

@@ -34,7 +34,7 @@ MessageReader::Damage MessageReader::feed(ByteView bytes) {
       header_ = parse_header(std::span<const std::uint8_t, kHeaderBytes>(kept_));
       kept_.clear();
       if (!plausible(header_)) return Damage::not_igtl;
-      if (header_.body_bytes > kMostKept || !wanted_(header_)) {
+      if (!wanted_(header_) || header_.body_bytes > most_kept_) {
         passing_ = header_.body_bytes;
         continue;
       }

@@ -9,6 +9,8 @@
 #include <cstring>
 #include <system_error>
 #include <thread>
+#include <utility>
+#include <variant>
 
 #include "devices/live/steady_clock.h"
 #include "devices/sequence/sequence.h"
@@ -54,13 +56,15 @@ void ClientSource::open() {
 void ClientSource::begin(double time_s) {
   since_s_ = time_s;
   followed_ = request_.name;
+  image_.clear();
   others_.clear();
   status_.clear();
   damaged_ = 0;
   clock_ = request_.clock;
   reader_ =
       std::make_unique<MessageReader>([this](const Header& header) { return wants(header); },
-                                      [this](const Header& header, ByteView body) { take(header, body, *batch_); });
+                                      [this](const Header& header, ByteView body) { take(header, body, *batch_); },
+                                      request_.images ? MessageReader::kMostKeptWithImages : MessageReader::kMostKept);
 }
 
 bool ClientSource::replay_open(const AttachedDevice& device, double time_s) {
@@ -166,6 +170,13 @@ void ClientSource::replay_read(insonate::Bytes bytes, double time_s, LiveBatch& 
 
 bool ClientSource::wants(const Header& header) {
   if (header.type == "STATUS") return true;
+  if (header.type == "IMAGE" && request_.images) {
+    if (image_.empty()) image_ = header.name;
+    if (header.name != image_) return false;
+    if (header.body_bytes > MessageReader::kMostKeptWithImages)
+      request_.images->complain("an image of " + where_ + " has more than 16 MiB");
+    return true;
+  }
   if (header.type != "TRANSFORM") return false;
   if (followed_.empty()) followed_ = header.name;
   if (header.name == followed_) return true;
@@ -183,6 +194,7 @@ void ClientSource::take(const Header& header, ByteView body, LiveBatch& batch) {
     status_s_ = arrival_s_;
     return;
   }
+  if (header.type == "IMAGE") return take_image(header, parts->content);
   const auto matrix = parse_transform(parts->content);
   const std::string status = metadata_value(*parts, "TransformStatus");
   ProbeSample sample;
@@ -196,6 +208,16 @@ void ClientSource::take(const Header& header, ByteView body, LiveBatch& batch) {
   batch.samples.push_back(sample);
 }
 
+void ClientSource::take_image(const Header& header, ByteView content) {
+  auto parsed = parse_image(content);
+  if (const auto* problem = std::get_if<std::string>(&parsed))
+    return request_.images->complain("an image of " + where_ + " " + *problem);
+  auto& image = std::get<ReceivedImage>(parsed);
+  image.time_s = time_of(header, arrival_s_);
+  if (request_.ras) image.frame_from_pixel = lps_from_ras(Pose{}).matrix() * image.frame_from_pixel;
+  request_.images->put(std::move(image));
+}
+
 double ClientSource::time_of(const Header& header, double arrival_s) {
   if (!request_.sender_times || header.stamp == 0) return arrival_s;
   return clock_.time_of(seconds_of(header.stamp), arrival_s);
@@ -204,6 +226,7 @@ double ClientSource::time_of(const Header& header, double arrival_s) {
 std::string ClientSource::note(double now_s) const {
   if (!status_.empty() && now_s - status_s_ < kStatusShown_s) return where_ + " reports: " + status_;
   if (now_s - since_s_ > kNameMissing_s) {
+    if (others_.empty() && request_.images) return "";
     if (others_.empty()) return where_ + " is connected but sends no transform.";
     std::string names;
     for (const std::string& name : others_) names += (names.empty() ? "'" : ", '") + name + "'";

@@ -8,6 +8,7 @@
 
 #include "devices/igtl/host_lookup.h"
 #include "devices/igtl/igtl_reader.h"
+#include "devices/igtl/image_queue.h"
 #include "devices/igtl/net_socket.h"
 #include "devices/igtl/sender_clock.h"
 #include "devices/live/raw_source.h"
@@ -24,10 +25,14 @@ struct ClientRequest {
   bool ras = false;           ///< transforms lead to RAS instead of LPS
   bool sender_times = false;  ///< steps between samples follow the senders' time stamps
   SenderClock clock;          ///< converts the sender's times to ours
+  /// Where IMAGE messages go: those of the first name that arrives. Null: they are skipped. With images, a stream
+  /// without a transform is not a problem.
+  std::shared_ptr<ImageQueue> images;
 };
 
-/// Receives poses from an OpenIGTLink server: its TRANSFORM messages. read() never waits longer than its timeout.
-/// MessageReader bounds the memory used, whatever the server sends.
+/// Receives poses from an OpenIGTLink server: its TRANSFORM messages, and on request its IMAGE messages. read() never
+/// waits longer than its timeout. MessageReader bounds the memory used, whatever the server sends: to
+/// MessageReader::kMostKept, or with images to kMostKeptWithImages. A larger image is a problem that ImageQueue states.
 ///
 /// Samples are stamped when their bytes arrive, or with `sender_times` by the stamps of their messages (SenderClock).
 class ClientSource : public RawSource {
@@ -52,6 +57,7 @@ private:
   void receive(LiveBatch& batch);
   bool wants(const Header& header);
   void take(const Header& header, ByteView body, LiveBatch& batch);
+  void take_image(const Header& header, ByteView content);
   double time_of(const Header& header, double arrival_s);
   std::string note(double now_s) const;
   [[noreturn]] void give_up(const std::string& problem);
@@ -68,6 +74,7 @@ private:
   double arrival_s_ = 0;
 
   std::string followed_;             ///< name of the transform that is used
+  std::string image_;                ///< name of the images that are used
   std::vector<std::string> others_;  ///< up to six names of other transforms that arrived
   std::string status_;               ///< error text of the server's last STATUS
   double status_s_ = 0;              ///< when the last STATUS arrived

@@ -16,16 +16,21 @@ WeinSettings of_size(WeinSettings settings, const Image<float>& image) {
   return settings;
 }
 
-class Lc2Similarity : public Similarity {
+class Lc2Similarity final : public Similarity {
 public:
   Lc2Similarity(const AcousticVolume& volume, const TrackedSweep& sweep, const WeinSettings& settings)
       : simulator_(volume, sweep.probe, sweep.depth_mm, of_size(settings, sweep.images.front().grey)) {
-    std::vector<Image<float>> images;
-    for (const SweepImage& image : sweep.images) {
-      images.push_back(image.grey);
+    set_images(sweep.images);
+  }
+
+  void set_images(std::span<const SweepImage> images) override {
+    std::vector<Image<float>> grey;
+    sweep_from_probe_.clear();
+    for (const SweepImage& image : images) {
+      grey.push_back(image.grey);
       sweep_from_probe_.push_back(image.sweep_from_probe.matrix());
     }
-    simulator_.set_ultrasound(images);
+    simulator_.set_ultrasound(grey);
   }
 
   std::vector<double> at(std::span<const glm::dmat4> ct_from_sweep) override {

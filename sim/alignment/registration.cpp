@@ -24,8 +24,8 @@ constexpr double kWideLength_mm = 4;  // of a reflection, so that interfaces are
 constexpr double kBasin_mm = 8;       // ends that are nearer to each other are one
 constexpr double kBasin_deg = 8;
 constexpr double kAmbiguous = 0.9;  // of the similarity
+constexpr int kClimbs = 3;          // most repetitions of the last search
 constexpr double kMostStretch = 0.15;
-constexpr std::size_t kBatch = 512;  // places per call, to bound memory
 
 std::unique_ptr<Similarity> similarity_of(const AcousticVolume& volume, const TrackedSweep& sweep,
                                           const WeinSettings& wein, Measure measure) {
@@ -42,9 +42,11 @@ struct Run {
   EvaluateAll evaluator(Similarity& similarity, Stage stage) {
     return [this, &similarity, stage](std::span<const Parameters> points) {
       std::vector<double> values;
-      for (std::size_t first = 0; first < points.size(); first += kBatch) {
+      const auto batch = std::size_t(settings.batch);
+      for (std::size_t first = 0; first < points.size(); first += batch) {
+        if (settings.between_calls) settings.between_calls();
         std::vector<glm::dmat4> places;
-        for (const Parameters& point : points.subspan(first, std::min(kBatch, points.size() - first)))
+        for (const Parameters& point : points.subspan(first, std::min(batch, points.size() - first)))
           places.push_back(result.motion.at(point));
         for (const double value : similarity.at(places)) {
           result.evaluations.push_back({stage, Parameters(points[values.size()]), value});
@@ -70,8 +72,23 @@ struct Run {
     return kept;
   }
 
+  // Goes on from an end that is not a maximum: small steps may stop on the unevenness of a slope. Returns the
+  // uncertainty at the end; none for mutual information, which is not a share of variance.
+  Uncertainty climb_on(Optimum& end, const EvaluateAll& evaluate, const TrackedSweep& compared) const {
+    if (settings.measure == Measure::mutual_information || end.value <= 0) return {};
+    const double pixels = independent_pixels(compared);
+    Uncertainty found = uncertainty_at(end.at, result.motion, evaluate, pixels, targets);
+    for (int i = 0; i < kClimbs && !found.is_maximum; ++i) {
+      Optimum higher = maximise_from({end.at}, evaluate, search(2, 0.01, 250)).front();
+      if (higher.value <= end.value) break;
+      end = std::move(higher);
+      found = uncertainty_at(end.at, result.motion, evaluate, pixels, targets);
+    }
+    return found;
+  }
+
   // Finds out how far the result can be trusted.
-  void judge(const Optimum& end, const EvaluateAll& evaluate, const TrackedSweep& compared) {
+  void judge(const Optimum& end, const Uncertainty& found) {
     const auto doubt = [&](const char* why) { result.doubts.emplace_back(why); };
     if (end.value <= 0) return doubt("the images show nothing of the CT");
     if (!end.within_tolerance) doubt("the search used up its evaluations");
@@ -81,12 +98,10 @@ struct Run {
       doubt("the search left its range around the start");
     if (!confirmed) doubt("no second search found the same place");
     if (result.runner_up > kAmbiguous * result.similarity_after) doubt("another place is nearly as similar");
-    if (settings.measure == Measure::mutual_information) return;  // it is not a share of variance
-    const Uncertainty uncertainty =
-        uncertainty_at(end.at, result.motion, evaluate, independent_pixels(compared), targets);
-    if (!uncertainty.is_maximum) return doubt("the similarity has no maximum there");
-    result.deviation = uncertainty.deviation;
-    result.expected_error_mm = uncertainty.expected_error_mm;
+    if (settings.measure == Measure::mutual_information) return;
+    if (!found.is_maximum) return doubt("the similarity has no maximum there");
+    result.deviation = found.deviation;
+    result.expected_error_mm = found.expected_error_mm;
   }
 
   LocalSearch search(double first_step, double tolerance, int most) const {
@@ -121,6 +136,16 @@ SweepRegistrar::SweepRegistrar(const AcousticVolume& volume, const TrackedSweep&
   compared_ = reduced(sweep, settings.slices, full.width, full.height);
   fine_ = similarity_of(volume, compared_, settings.wein, settings.measure);
   seconds_to_prepare_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+void SweepRegistrar::set_images(std::span<const SweepImage> images) {
+  const TrackedSweep sweep{Probe(compared_.probe), compared_.depth_mm, {images.begin(), images.end()}};
+  const Image<float>& full = compared_.images.front().grey;
+  TrackedSweep compared = reduced(sweep, settings_.slices, full.width, full.height);
+  wide_->set_images(reduced(sweep, settings_.wide_slices, kWideWidth, kWideHeight).images);
+  fine_->set_images(compared.images);
+  compared_ = std::move(compared);
+  targets_ = target_points(sweep);
 }
 
 void SweepRegistrar::set_range(double search_mm, double search_deg) {
@@ -160,6 +185,8 @@ SweepRegistration SweepRegistrar::from(const glm::dmat4& start) {
     std::vector<Parameters> promising;
     for (const Optimum& each : run.distinct(maximise_from(followed, follow, run.search(5, 0.5, 120)), kFineStarts))
       promising.push_back(each.at);
+    // The small images of the stage before may lead away from a start that is right already.
+    if (!wanders) promising.push_back(none);
     std::vector<Optimum> of_round = run.distinct(maximise_from(promising, fine, run.search(2, 0.5, 40)), kFineStarts);
     run.confirmed = !rough.empty() && run.apart(of_round.front().at, rough.front().at) < kBasin_mm;
     for (Optimum& each : of_round) rough.push_back(std::move(each));
@@ -177,10 +204,11 @@ SweepRegistration SweepRegistrar::from(const glm::dmat4& start) {
     last = run.evaluator(*fine_, kAffine);
     end = maximise_from({end.at}, last, run.search(0.7, 0.01, 600)).front();
   }
+  const Uncertainty uncertainty = run.climb_on(end, last, compared_);
   result.at = end.at;
   result.similarity_after = end.value;
   result.ct_from_sweep = result.motion.at(result.at);
-  run.judge(end, last, compared_);
+  run.judge(end, uncertainty);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;
 }

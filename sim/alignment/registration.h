@@ -4,7 +4,9 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -38,6 +40,9 @@ struct RegistrationSettings {
   int rounds = 5;          ///< most repetitions of that with other places, 2 to 100; see register_sweep()
   int wide_slices = 12;    ///< images of the widest stage, 1 to 1000
   int slices = 20;         ///< images of the finer stages, 1 to 1000
+
+  int batch = 512;  ///< most places per call of the similarity, 1 to 4096: bounds memory, and how long a call takes
+  std::function<void()> between_calls;  ///< called before each; may wait, and ends the search by an exception
 };
 
 /// One evaluation of the similarity.
@@ -69,7 +74,8 @@ struct SweepRegistration {
 /// Registers one sweep with one CT, from any number of starts. In the widest stage it evaluates places that are
 /// scattered over the search range, with small images, and follows the best by local searches. The finer stages go on
 /// from the best ends with the images as they are. That is repeated with other places until two rounds in succession
-/// agree on the best end, and no other end is nearly as similar.
+/// agree on the best end, and no other end is nearly as similar. With a search range of 0, local searches from the
+/// start alone go through the same stages; they never end at a lower similarity than the start's.
 ///
 /// LC2 needs an OpenGL context that is current at every use.
 class SweepRegistrar {
@@ -78,6 +84,9 @@ public:
   /// @param volume  must outlive the registrar
   SweepRegistrar(const AcousticVolume& volume, const TrackedSweep& sweep, const RegistrationSettings& settings);
 
+  /// Replaces the sweep's images. Probe, depth and the images' size stay: throws std::invalid_argument for another
+  /// size.
+  void set_images(std::span<const SweepImage> images);
   /// Replaces RegistrationSettings::search_mm and search_deg.
   void set_range(double search_mm, double search_deg);
 

@@ -32,6 +32,9 @@ public:
   /// Returns one number per place, higher where they are more similar. LC2 and the correlation ratio are 0 to 1,
   /// mutual information is 1 to 2.
   virtual std::vector<double> at(std::span<const glm::dmat4> ct_from_sweep) = 0;
+  /// Replaces the sweep's images, which costs far less than another similarity. There may be more or fewer than before.
+  /// Throws std::invalid_argument for images of another size than the first ones.
+  virtual void set_images(std::span<const SweepImage> images) = 0;
 };
 
 /// Returns LC2 of a sweep: the mean over its images, or over patches of them, weighted by the ultrasound's variation.

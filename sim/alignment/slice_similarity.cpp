@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <stdexcept>
 
 #include "sim/alignment/similarity.h"
 
@@ -58,7 +59,7 @@ double correlation_ratio(const Histogram& h) {
   return all > 0 ? 1 - within / all : 0;
 }
 
-class SliceSimilarity : public Similarity {
+class SliceSimilarity final : public Similarity {
 public:
   SliceSimilarity(Measure measure, const AcousticVolume& volume, const TrackedSweep& sweep,
                   const WeinSettings& settings)
@@ -66,14 +67,25 @@ public:
     const double half = (settings.bright_hu - settings.dark_hu) / 2;
     least_hu_ = float(settings.dark_hu - half);
     bins_per_hu_ = float(kBins / (4 * half));
+    probe_ = sweep.probe;
+    depth_mm_ = sweep.depth_mm;
+    width_ = sweep.images.front().grey.width;
+    height_ = sweep.images.front().grey.height;
+    set_images(sweep.images);
+  }
+
+  void set_images(std::span<const SweepImage> images) override {
+    const ImageGeometry geometry = image_geometry(probe_, depth_mm_, width_, height_);
+    counted_.clear();
     float least = 1e30f, most = -1e30f;
-    for (const SweepImage& image : sweep.images) {
-      const ImageGeometry geometry = image_geometry(sweep.probe, sweep.depth_mm, image.grey.width, image.grey.height);
+    for (const SweepImage& image : images) {
+      if (image.grey.width != width_ || image.grey.height != height_)
+        throw std::invalid_argument("the images have another size");
       for (int y = 0; y < image.grey.height; ++y)
         for (int x = 0; x < image.grey.width; ++x) {
           const float u = image.grey.at(x, y);
           const glm::dvec2 plane = geometry.plane_mm(x, y);
-          if (std::isnan(u) || !line_position(sweep.probe, sweep.depth_mm, plane)) continue;
+          if (std::isnan(u) || !line_position(probe_, depth_mm_, plane)) continue;
           counted_.push_back({glm::vec3(image.sweep_from_probe.point(glm::dvec3(plane, 0))), u, 0});
           least = std::min(least, u);
           most = std::max(most, u);
@@ -124,6 +136,9 @@ private:
   }
 
   Measure measure_;
+  Probe probe_;
+  double depth_mm_ = 0;
+  int width_ = 0, height_ = 0;
   const AcousticVolume& volume_;
   glm::dmat4 index_from_patient_;
   float least_hu_ = 0, bins_per_hu_ = 1;

@@ -10,14 +10,15 @@
 
 namespace insonate {
 
-/// Reads a pose file with one or more matrices patient_from_probe, row by row. The file is plain text with 16 numbers
-/// per pose, or JSON. The JSON is an array, or an object with the array under "patient_from_probe". The array holds 16
+/// Reads a pose file with one or more matrices, row by row. The file is plain text with 16 numbers per pose, or JSON.
+/// The JSON is an array, or an object with the array under the name of the matrix. The array holds 16
 /// numbers per pose, four rows of four, or several such matrices. Each matrix must be a rotation and a translation in
 /// mm (why_not_rigid()). Throws InputError.
-std::vector<Pose> read_poses(const std::string& file);
+/// @param name  of the matrix
+std::vector<Pose> read_poses(const std::string& file, const std::string& name = "patient_from_probe");
 
 /// Reads a file with exactly one pose. Throws InputError for any other number.
-Pose read_pose(const std::string& file);
+Pose read_pose(const std::string& file, const std::string& name = "patient_from_probe");
 
 /// Reads the matrix of one image in the same way: it maps (column, row, 0), the centre of a pixel, to mm in the probe's
 /// frame, as PLUS's ImageToProbe does. Throws InputError if it is not one matrix, or not one of an image.

@@ -2,11 +2,12 @@
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
-#include <glm/vec4.hpp>
+#include <glm/vec3.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "devices/replay/read_log.h"
@@ -21,36 +22,29 @@ namespace {
 
 constexpr double kMostOffPlane_mm = 1;  // of the face's middle from the image, where no --face-pixel is given
 constexpr std::size_t kLargestProbeFile = 1 << 20;
-constexpr double kLeastShown = 0.5;  // share of the fan that an image has to show
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
-struct Placed {
-  Pose sweep_from_fan;
-  glm::dmat3 pixel_from_plane;
+constexpr std::size_t kLookedAt = 24;  // images in which a fan is sought
+constexpr double kSamePixel = 0.01;    // by which the pixels of a recording's images may differ in size
+
+/// An image of the recording with a usable pose.
+struct Frame {
   std::uint64_t number = 0;
+  Pose sweep_from_probe;
+  glm::dmat4 probe_from_pixel;
 };
 
-// Returns where the fan lies, for an image that lies in the probe's frame as the matrix says.
-Placed placed(const Pose& sweep_from_probe, const glm::dmat4& probe_from_pixel, const SweepInput& input) {
-  const glm::dvec3 x(probe_from_pixel[0]), y(probe_from_pixel[1]), corner(probe_from_pixel[3]);
-  const double mm_x = glm::length(x), mm_y = glm::length(y);
-  const glm::dmat3 axes(x / mm_x, y / mm_y, glm::cross(x, y) / (mm_x * mm_y));
-  glm::dvec2 face(0.0);
-  if (input.face_pixel) {
-    face = *input.face_pixel;
-  } else {
-    const glm::dvec3 origin = glm::transpose(axes) * -corner;
-    if (std::abs(origin.z) > kMostOffPlane_mm)
-      throw InputError(input.file, "",
-                       "the origin of its probe's frame does not lie in the images, so it is not known where the "
-                       "probe's face is",
-                       "give the pixel of the face's middle as --face-pixel X,Y");
-    face = {origin.x / mm_x, origin.y / mm_y};
-  }
-  Placed result;
-  result.sweep_from_fan = sweep_from_probe * Pose{axes, corner + face.x * x + face.y * y};
-  result.pixel_from_plane = glm::dmat3(1 / mm_x, 0, 0, 0, 1 / mm_y, 0, face.x, face.y, 1);
-  return result;
+glm::dvec2 pixel_size(const glm::dmat4& probe_from_pixel) {
+  return {glm::length(glm::dvec3(probe_from_pixel[0])), glm::length(glm::dvec3(probe_from_pixel[1]))};
+}
+
+void check_mask(const Image<std::uint8_t>& picture, const SweepInput& input) {
+  if (!input.mask || (input.mask->width == picture.width && input.mask->height == picture.height)) return;
+  const auto size = [](const Image<std::uint8_t>& image) {
+    return std::to_string(image.width) + " x " + std::to_string(image.height);
+  };
+  throw InputError("--mask", "", "it has " + size(*input.mask) + " pixels, and the images have " + size(picture),
+                   "draw it over one of the images");
 }
 
 Image<float> clipped(const Image<std::uint8_t>& picture, const SweepInput& input) {
@@ -61,13 +55,16 @@ Image<float> clipped(const Image<std::uint8_t>& picture, const SweepInput& input
                      "the rectangle is not within the images of " + std::to_string(picture.width) + " x " +
                          std::to_string(picture.height) + " pixels",
                      "give X,Y,WIDTH,HEIGHT in pixels");
+  check_mask(picture, input);
   for (int row = y; row < y + height; ++row)
-    for (int column = x; column < x + width; ++column) result.at(column, row) = float(picture.at(column, row));
+    for (int column = x; column < x + width; ++column)
+      if (!input.mask || input.mask->at(column, row) > 0) result.at(column, row) = float(picture.at(column, row));
   return result;
 }
 
-// Throws InputError unless the images show the fan and something in it.
-void check_shows_fan(const SweepInput& input, const TrackedSweep& sweep) {
+}  // namespace
+
+void check_shows_fan(const std::string& file, const TrackedSweep& sweep, double least_shown) {
   double fan = 0, known = 0, sum = 0, squares = 0;
   for (const SweepImage& image : sweep.images) {
     const ImageGeometry geometry = image_geometry(sweep.probe, sweep.depth_mm, image.grey.width, image.grey.height);
@@ -82,28 +79,64 @@ void check_shows_fan(const SweepInput& input, const TrackedSweep& sweep) {
         squares += value * value;
       }
   }
-  if (known < kLeastShown * fan)
+  if (known < least_shown * fan)
     throw InputError(
-        input.file, "",
+        file, "",
         "the images show only " + std::to_string(int(100 * known / std::max(fan, 1.0))) + " % of the probe's fan",
         "name the probe and the depth that they are from, or --face-pixel");
   if (squares / known - std::pow(sum / known, 2) < 1)
-    throw InputError(input.file, "", "the images show nothing in the probe's fan: it is of one grey level",
+    throw InputError(file, "", "the images show nothing in the probe's fan: it is of one grey level",
                      "name the probe and the depth that they are from, or another recording");
 }
 
-}  // namespace
+FoundFan find_probe_in(const EchoSeen& seen, const glm::dmat4& probe_from_pixel, SweepInput& input) {
+  Image<std::uint8_t> echo = seen.mask();
+  check_mask(echo, input);
+  for (std::size_t i = 0; input.mask && i < echo.pixels.size(); ++i)
+    if (input.mask->pixels[i] == 0) echo.pixels[i] = 0;
+  const FanSearch search = find_fan(echo, pixel_size(probe_from_pixel));
+  if (!search.fan)
+    throw InputError(input.file, "", search.problem, "name the probe with --probe and --depth, or with --probe-file");
+  input.probe = search.fan->probe;
+  input.depth_mm = search.fan->depth_mm;
+  if (!input.face_pixel) input.face_pixel = search.fan->face_pixel;
+  if (!input.clip) input.clip = search.fan->clip;
+  return *search.fan;
+}
 
-ReadSweep read_sweep(const SweepInput& input) {
-  RecordingOptions options;
-  options.transform = input.transform;
-  options.without_times = true;
-  const RecordedScan scan = read_log(input.file, options);
-  if (!scan.images)
-    throw InputError(input.file, "", "it holds no images that can be read", "record the ultrasound with the poses");
-  ReadSweep result;
-  result.frames = scan.samples.size();
-  std::vector<Placed> all;
+ImagePlacement placement_of(const glm::dmat4& probe_from_pixel, const SweepInput& input) {
+  const glm::dvec3 x(probe_from_pixel[0]), y(probe_from_pixel[1]), corner(probe_from_pixel[3]);
+  const glm::dvec2 mm = pixel_size(probe_from_pixel);
+  const glm::dmat3 axes(x / mm.x, y / mm.y, glm::cross(x, y) / (mm.x * mm.y));
+  glm::dvec2 face(0.0);
+  if (input.face_pixel) {
+    face = *input.face_pixel;
+  } else {
+    const glm::dvec3 origin = glm::transpose(axes) * -corner;
+    if (std::abs(origin.z) > kMostOffPlane_mm)
+      throw InputError(input.file, "",
+                       "the origin of its probe's frame does not lie in the images, so it is not known where the "
+                       "probe's face is",
+                       "give the pixel of the face's middle as --face-pixel X,Y");
+    face = glm::dvec2(origin) / mm;
+  }
+  return {Pose{axes, corner + face.x * x + face.y * y}, glm::dmat3(1 / mm.x, 0, 0, 0, 1 / mm.y, 0, face.x, face.y, 1)};
+}
+
+SweepImage place_image(const Image<std::uint8_t>& grey, const Pose& sweep_from_probe,
+                       const glm::dmat4& probe_from_pixel, const SweepInput& input) {
+  const ImagePlacement placement = placement_of(probe_from_pixel, input);
+  const ImageGeometry geometry =
+      image_geometry(*input.probe, input.depth_mm.value_or(input.probe->depth_mm), input.width, input.height);
+  return {sweep_from_probe * placement.probe_from_fan,
+          resampled(clipped(grey, input), placement.pixel_from_plane, geometry)};
+}
+
+namespace {
+
+// Returns the frames that have a usable pose and a place of their image.
+std::vector<Frame> usable_frames(const RecordedScan& scan, const SweepInput& input) {
+  std::vector<Frame> all;
   bool is_placed = false;
   for (std::size_t n = 0; n < scan.samples.size(); ++n) {
     const RecordedImages::Frame& frame = scan.images->frames[n];
@@ -113,27 +146,56 @@ ReadSweep read_sweep(const SweepInput& input) {
     if (const auto why = why_not_image_matrix(*probe_from_pixel))
       throw InputError(input.file, "frame " + std::to_string(frame.number), "ImageToProbe: " + *why,
                        "give that matrix as --image-to-probe FILE, or calibrate and record again");
-    all.push_back(placed(scan.samples[n].patient_from_probe, *probe_from_pixel, input));
-    all.back().number = frame.number;
+    all.push_back({frame.number, scan.samples[n].patient_from_probe, *probe_from_pixel});
   }
   if (!is_placed)
     throw InputError(input.file, "", "it does not say how its images lie in the probe's frame: ImageToProbe is missing",
                      "give that matrix as --image-to-probe FILE");
   if (all.size() < 2)
     throw InputError(input.file, "", "fewer than two of its images have a pose", "name the probe's with --transform");
-  result.left_out = result.frames - all.size();
+  return all;
+}
 
-  const ImageGeometry geometry = image_geometry(input.probe, input.depth_mm, input.width, input.height);
-  result.sweep.probe = input.probe;
-  result.sweep.depth_mm = input.depth_mm;
+FoundFan find_probe_in_recording(ImageReader& reader, const std::vector<Frame>& frames, SweepInput& input) {
+  EchoSeen seen;
+  const glm::dvec2 mm = pixel_size(frames.front().probe_from_pixel);
+  const std::size_t kept = std::min(frames.size(), kLookedAt);
+  for (std::size_t i = 0; i < kept; ++i) {
+    const Frame& frame = frames[(2 * i + 1) * frames.size() / (2 * kept)];
+    if (glm::distance(pixel_size(frame.probe_from_pixel), mm) > kSamePixel * glm::length(mm))
+      throw InputError(input.file, "frame " + std::to_string(frame.number), "its pixels have another size",
+                       "register the parts of one depth alone");
+    seen.add(reader.grey(frame.number));
+  }
+  return find_probe_in(seen, frames.front().probe_from_pixel, input);
+}
+
+}  // namespace
+
+ReadSweep read_sweep(const SweepInput& given) {
+  SweepInput input = given;
+  RecordingOptions options;
+  options.transform = input.transform;
+  options.without_times = true;
+  const RecordedScan scan = read_log(input.file, options);
+  if (!scan.images)
+    throw InputError(input.file, "", "it holds no images that can be read", "record the ultrasound with the poses");
+  const std::vector<Frame> all = usable_frames(scan, input);
+  ReadSweep result;
+  result.frames = scan.samples.size();
+  result.left_out = result.frames - all.size();
   ImageReader reader(*scan.images);
+  if (!input.probe) result.fan = find_probe_in_recording(reader, all, input);
+  input.probe->lines = input.width;
+  result.sweep.probe = *input.probe;
+  result.sweep.depth_mm = input.depth_mm.value_or(input.probe->depth_mm);
   const std::size_t kept = std::min(all.size(), std::size_t(input.slices));
   for (std::size_t i = 0; i < kept; ++i) {
-    const Placed& place = all[(2 * i + 1) * all.size() / (2 * kept)];
+    const Frame& frame = all[(2 * i + 1) * all.size() / (2 * kept)];
     result.sweep.images.push_back(
-        {place.sweep_from_fan, resampled(clipped(reader.grey(place.number), input), place.pixel_from_plane, geometry)});
+        place_image(reader.grey(frame.number), frame.sweep_from_probe, frame.probe_from_pixel, input));
   }
-  check_shows_fan(input, result.sweep);
+  check_shows_fan(input.file, result.sweep);
   return result;
 }
 

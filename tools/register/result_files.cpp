@@ -7,18 +7,42 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <utility>
 
+#include "sim/core/files.h"
+#include "sim/core/new_folder.h"
 #include "sim/core/text.h"
 #include "sim/reconstruction/reconstruction.h"
 #include "sim/reconstruction/sweep_extent.h"
 #include "sim/reconstruction/tracked_picture.h"
+#include "sim/volume/ct_reader.h"
 
 namespace insonate {
 namespace {
 
+constexpr std::size_t kShownImages = 4;
 constexpr double kVoxel_mm = 1;  // of the sweep's volume
 constexpr std::array<const char*, 12> kParameters{"tx", "ty", "tz", "rx",       "ry",       "rz",
                                                   "sx", "sy", "sz", "shear_yz", "shear_xz", "shear_xy"};
+
+nlohmann::ordered_json probe_json(const TrackedSweep& sweep, const std::optional<FoundFan>& fan) {
+  const Probe& probe = sweep.probe;
+  nlohmann::ordered_json json;
+  constexpr std::array<const char*, 3> kKinds{"linear", "curvilinear", "phased"};
+  json["kind"] = kKinds[std::size_t(probe.kind)];
+  if (probe.kind == ProbeKind::curvilinear) json["radius_mm"] = probe.radius_mm;
+  if (probe.kind != ProbeKind::linear) json["field_of_view_deg"] = probe.field_of_view_deg;
+  if (probe.kind != ProbeKind::curvilinear) json["width_mm"] = probe.width_mm;
+  json["depth_mm"] = sweep.depth_mm;
+  json["found_from_images"] = fan.has_value();
+  if (!fan) return json;
+  json["face_pixel"] = {fan->face_pixel.x, fan->face_pixel.y};
+  json["clip"] = fan->clip;
+  json["share_shown"] = fan->shown;
+  json["share_with_echo"] = fan->filled;
+  return json;
+}
 
 std::string fixed(double value, int digits) {
   return formatted("%.*f", digits, value);
@@ -90,6 +114,7 @@ std::string registration_json(const RegistrationReport& report) {
   json["frames"] = report.input.frames;
   json["frames_left_out"] = report.input.left_out;
   json["slices"] = report.input.sweep.images.size();
+  json["probe"] = probe_json(report.input.sweep, report.input.fan);
   json["coordinates"] = "LPS, mm; matrices by rows";
   json["ct_from_sweep"] = rows_of(found.ct_from_sweep);
   json["sweep_from_ct"] = rows_of(glm::inverse(found.ct_from_sweep));
@@ -138,6 +163,7 @@ std::string registration_page(const RegistrationReport& report) {
   html += row("CT", escaped(report.ct.empty() ? "the built-in patient" : report.ct));
   html += row("Recording", escaped(report.recording) + ", " + std::to_string(report.input.sweep.images.size()) +
                                " of " + std::to_string(report.input.frames) + " images");
+  if (report.input.fan) html += row("Probe, found from the images", escaped(description(*report.input.fan)));
   html += row("Similarity (" + std::string(to_string(report.settings.measure)) + ") before and after",
               fixed(found.similarity_before, 4) + " &rarr; " + fixed(found.similarity_after, 4));
   html += row("Similarity of the next best place", found.runner_up > 0 ? fixed(found.runner_up, 4) : "none was found");
@@ -178,6 +204,24 @@ std::string slicer_scene(const std::string& why) {
                 " transformNodeRef=\"vtkMRMLLinearTransformNode1\"") +
          "  <Selection id=\"vtkMRMLSelectionNodeSingleton\" activeVolumeID=\"vtkMRMLScalarVolumeNode1\" "
          "secondaryVolumeID=\"vtkMRMLScalarVolumeNode2\"/>\n</MRML>\n";
+}
+
+void write_registration(const std::filesystem::path& out, RegistrationReport report, const Volume<std::int16_t>& ct) {
+  const SweepRegistration& found = report.found;
+  const TrackedSweep& sweep = report.input.sweep;
+  const std::string sentence = verdict(found);
+  write_folder(out, [&](const std::filesystem::path& folder) {
+    report.pictures =
+        write_comparison(folder / "pictures", sweep, ct, found.motion.ct_from_sweep, found.ct_from_sweep, kShownImages);
+    write_file(folder / "registration.json", registration_json(report));
+    write_file(folder / "ct_from_sweep.tfm", itk_transform(found.ct_from_sweep, sentence));
+    write_file(folder / "sweep_from_ct.tfm", itk_transform(glm::inverse(found.ct_from_sweep), sentence));
+    write_file(folder / "evaluations.csv", evaluations_csv(found));
+    write_file(folder / "index.html", registration_page(report));
+    write_file(folder / "scene.mrml", slicer_scene(sentence));
+    write_ct(folder / "ct.nrrd", ct);
+    write_labels(folder / "sweep.nrrd", volume_of(sweep));
+  });
 }
 
 Volume<std::uint8_t> volume_of(const TrackedSweep& sweep) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -38,6 +39,11 @@ std::string registration_page(const RegistrationReport& report);
 /// Returns a scene of 3D Slicer: ct.nrrd, and sweep.nrrd behind the transform of sweep_from_ct.tfm. Slicer reads an ITK
 /// transform as the map from the parent's points, which here are the CT's.
 std::string slicer_scene(const std::string& verdict);
+
+/// Writes everything about a registration into a new folder, whole or not at all: registration.json, the transforms,
+/// evaluations.csv, index.html with its pictures, and the scene with its volumes. Throws InputError if it cannot be
+/// written or exists.
+void write_registration(const std::filesystem::path& folder, RegistrationReport report, const Volume<std::int16_t>& ct);
 
 /// Returns the sweep as a volume of grey levels in its own frame.
 Volume<std::uint8_t> volume_of(const TrackedSweep& sweep);

@@ -1,6 +1,7 @@
 #include "igtl_promises.h"
 
 #include <algorithm>
+#include <variant>
 
 #include "devices/igtl/igtl_reader.h"
 
@@ -22,6 +23,8 @@ void parse_all(const Header& header, ByteView body, Seen& seen) {
   if (parts->content.size() + parts->metadata_index.size() + parts->metadata.size() > body.size())
     seen.broken = "the parts are longer than the body";
   parse_transform(parts->content);
+  if (const auto image = parse_image(parts->content); const auto* read = std::get_if<ReceivedImage>(&image))
+    if (read->grey.pixels.size() > body.size()) seen.broken = "an image has more pixels than bytes";
   const auto status = parse_status(parts->content);
   if (status && status->text.size() > 200) seen.broken = "a status is longer than promised";
   if (metadata_value(*parts, "TransformStatus").size() > 64) seen.broken = "a value is longer than promised";

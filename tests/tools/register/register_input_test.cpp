@@ -1,11 +1,21 @@
 // What insonate-register reads besides the CT: recordings with images, probes, and whether the start fits the CT.
 #include <catch2/catch.hpp>
 
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <string>
 
 #include "devices/record/sequence_recorder.h"
+#include "devices/replay/read_log.h"
+#include "devices/sequence/recorded_images.h"
+#include "sim/alignment/echo_seen.h"
+#include "sim/alignment/find_fan.h"
+#include "sim/core/image.h"
 #include "sim/core/input_error.h"
+#include "sim/core/read_png.h"
 #include "tests/core/temporary_folder.h"
 #include "tools/register/read_sweep.h"
 #include "tools/register/start_transform.h"
@@ -30,7 +40,7 @@ struct Recorded {
   Recorded() {
     input.file = (folder.path / "scan.igs.mha").string();
     input.probe = *find_probe("linear");
-    input.probe.lines = 64;
+    input.probe->lines = 64;
     input.depth_mm = 40;
   }
 
@@ -124,6 +134,100 @@ TEST_CASE("a probe is read from a file, and refused with its line") {
   refused("kind = \"linear\"\nwidth_mm = 4\ndepth_mm = 50\n", "line 2");
   refused("kind = \"linear\"\nwidth_mm = 40\ndepth_mm = 500\n", "line 3");
   refused("kind = \"linear\"\nwidth_mm = 40\ndepth_mm = 50\nradius_mm = 60\n", "radius_mm");
+}
+
+TEST_CASE("a mask leaves pixels out") {
+  Recorded recorded;
+  recorded.record(usual_matrix());
+  const auto unknown = [&] {
+    std::size_t count = 0;
+    for (const float pixel : read_sweep(recorded.input).sweep.images[0].grey.pixels) count += std::isnan(pixel);
+    return count;
+  };
+  const std::size_t before = unknown();
+  Image<std::uint8_t> mask(kWidth, kHeight, 255);
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth / 2; ++x) mask.at(x, y) = 0;
+  const std::filesystem::path file = recorded.folder.path / "mask.png";
+  write_png(file, mask);
+  CHECK(read_png(file).pixels == mask.pixels);
+  recorded.input.mask = read_png(file);
+  // The left half of the images, of which the fan of 40 mm takes two thirds.
+  CHECK(double(unknown() - before) > 0.3 * double(128 * 96) / 2);
+  recorded.input.mask = Image<std::uint8_t>(kWidth + 1, kHeight);
+  recorded.refused("--mask: it has 41 x 30 pixels, and the images have 40 x 30; draw it over one of the images.");
+  CHECK_THROWS_WITH(read_png(recorded.input.file), Contains("it cannot be read as a PNG"));
+  CHECK_THROWS_WITH(read_png(recorded.folder.path / "none.png"), Contains("it cannot be read as a PNG"));
+}
+
+TEST_CASE("without a probe, it is found from the fan in the images") {
+  constexpr int kLarge = 160;
+  Recorded recorded;
+  recorded.input.probe.reset();
+  recorded.input.depth_mm.reset();
+  const Probe phased = *find_probe("phased");
+  // A tilted face, 24 pixels below the image's top; the probe's frame begins elsewhere.
+  const glm::dvec2 face(85, 24);
+  {
+    SequenceRecorder recorder(recorded.input.file, kLarge, kLarge);
+    for (int i = 0; i < 4; ++i) {
+      Image<std::uint8_t> picture(kLarge, kLarge);
+      for (int y = 0; y < kLarge; ++y)
+        for (int x = 0; x < kLarge; ++x)
+          if (line_position(phased, 100, glm::dvec2(x, y) - face)) picture.at(x, y) = std::uint8_t(90 + 20 * i + y / 2);
+      recorder.add({double(i), PoseStatus::ok, Pose{glm::dmat3(1), {0, 0, 2.0 * i}}}, picture,
+                   glm::dmat4(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 7, 8, 9, 1));
+    }
+    recorder.finish();
+  }
+  const ReadSweep read = read_sweep(recorded.input);
+  REQUIRE(read.fan);
+  CHECK(read.sweep.probe.kind == ProbeKind::phased);
+  CHECK(read.sweep.probe.width_mm == Approx(20).margin(0.5));
+  CHECK(read.sweep.probe.field_of_view_deg == Approx(90).margin(1));
+  CHECK(read.sweep.depth_mm == Approx(100).margin(1));  // a pixel
+  // The fan's frame begins at its face.
+  const glm::dvec3 origin = read.sweep.images[0].sweep_from_probe.translation;
+  CHECK(origin.x == Approx(7 + face.x).margin(0.5));
+  CHECK(origin.y == Approx(8 + face.y).margin(0.5));
+  CHECK(origin.z == Approx(9));
+  recorded.record(usual_matrix());
+  CHECK(read_sweep(recorded.input).sweep.probe.kind == ProbeKind::linear);  // images that are full
+  recorded.record(usual_matrix(), 0);
+  recorded.refused("the images show nothing in the probe's fan");
+}
+
+TEST_CASE("the fan of a real scanner's image is found, and real images without a fan are refused") {
+  const std::filesystem::path plus = std::filesystem::path(INSONATE_SCANS_FOLDER) / "plus";
+  if (!std::filesystem::exists(plus)) {
+    WARN("skipped: there is no " << plus);
+    return;
+  }
+  const auto search = [&](const char* name) {
+    RecordingOptions options;
+    options.without_times = true;
+    // The transform is not used, so any will do.
+    options.transform = std::string(name).starts_with("Bk") ? "StylusToTracker" : "ImageToCroppedImage";
+    const RecordedScan scan = read_log((plus / name).string(), options);
+    REQUIRE(scan.images);
+    ImageReader reader(*scan.images);
+    EchoSeen seen;
+    for (const RecordedImages::Frame& frame : scan.images->frames) seen.add(reader.grey(frame.number));
+    return find_fan(seen.mask(), glm::dvec2(0.3));
+  };
+  const FanSearch curved = search("BkCurvilinearScanConvertedData.igs.mha");
+  REQUIRE(curved.fan);
+  INFO(description(*curved.fan));
+  // Read off the image by eye: the face's corners at (237, 10) and (362, 10) and its lowest point at row 53, the edges'
+  // angle from (237, 10) to (0, 95), the deepest row 386.
+  CHECK(curved.fan->probe.kind == ProbeKind::curvilinear);
+  CHECK(curved.fan->probe.radius_mm == Approx(0.3 * 67).margin(1));
+  CHECK(curved.fan->probe.field_of_view_deg == Approx(140).margin(2));
+  CHECK(curved.fan->depth_mm == Approx(0.3 * 333).margin(1));
+  CHECK(curved.fan->face_pixel.x == Approx(299.5).margin(1.5));
+  CHECK(curved.fan->face_pixel.y == Approx(53).margin(1.5));
+  CHECK(curved.fan->shown < 0.97);
+  CHECK(search("NwirePhantomFreehandCropped.igs.mha").problem.starts_with("its images show no fan"));
 }
 
 TEST_CASE("a start that does not fit the CT is refused before the search") {

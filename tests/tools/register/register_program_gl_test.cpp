@@ -62,8 +62,13 @@ struct Workplace {
     recorder.finish();
   }
   std::string in(const char* name) const { return (folder.path / name).string(); }
+  ProgramOutcome run_as_found(const std::string& arguments) const {
+    return run_program(INSONATE_REGISTER_PROGRAM " --ct " + in("ct.nrrd") + " --search-mm 12 --search-deg 8 " +
+                       arguments);
+  }
   ProgramOutcome run(const std::string& arguments, const std::string& search = "--search-mm 12 --search-deg 8") const {
-    return run_program(INSONATE_REGISTER_PROGRAM " --ct " + in("ct.nrrd") + " --depth 100 " + search + " " + arguments);
+    return run_program(INSONATE_REGISTER_PROGRAM " --ct " + in("ct.nrrd") + " --probe curvilinear --depth 100 " +
+                       search + " " + arguments);
   }
 };
 
@@ -106,6 +111,59 @@ TEST_CASE("a recording is registered, and everything about it lies in a new fold
   CHECK(again.code == 2);
 }
 
+TEST_CASE("a recording is registered with the probe that its images show") {
+  const Workplace place;
+  const ProgramOutcome outcome = place.run_as_found(place.in("sweep.igs.mha") + " " + place.in("out"));
+  INFO(outcome.errors << outcome.output);
+  REQUIRE(outcome.code == 0);
+  CHECK(outcome.output.find("Found in the images: curvilinear, radius ") == 0);
+  const auto json = nlohmann::json::parse(read_file(fs::path(place.in("out")) / "registration.json"));
+  CHECK(json["probe"]["found_from_images"] == true);
+  CHECK(json["probe"]["kind"] == "curvilinear");
+  // A pixel is 1 mm large.
+  CHECK(json["probe"]["radius_mm"].get<double>() == Approx(60).margin(2));
+  CHECK(json["probe"]["field_of_view_deg"].get<double>() == Approx(60).margin(1));
+  CHECK(json["probe"]["depth_mm"].get<double>() == Approx(kDepthMm).margin(1));
+  CHECK(read_file(fs::path(place.in("out")) / "index.html").find("found from the images") != std::string::npos);
+  const ProgramOutcome with_depth =
+      place.run_as_found("--depth 90 " + place.in("sweep.igs.mha") + " " + place.in("more"));
+  CHECK(with_depth.code == 2);
+  CHECK(with_depth.errors.find("--depth: the probe is found from the images") != std::string::npos);
+  const ProgramOutcome black = place.run_as_found(place.in("black.igs.mha") + " " + place.in("more"));
+  CHECK(black.code == 2);
+  CHECK(black.errors.find("black.igs.mha: its images show no fan: hardly any pixel carries echo; name the probe") !=
+        std::string::npos);
+}
+
+TEST_CASE("a volume of a sweep is registered along its beam") {
+  const Workplace place;
+  // The sweep as a volume of voxels of 1 mm, in the recording's frame.
+  REQUIRE(place.run(place.in("sweep.igs.mha") + " " + place.in("first")).code == 0);
+  const ProgramOutcome outcome = place.run_as_found(
+      "--beam 0,1,0 " + (fs::path(place.in("first")) / "sweep.nrrd").string() + " " + place.in("out"));
+  INFO(outcome.errors << outcome.output);
+  REQUIRE((outcome.code == 0 || outcome.code == 3));
+  const auto json = nlohmann::json::parse(read_file(fs::path(place.in("out")) / "registration.json"));
+  CHECK(json["probe"]["kind"] == "linear");
+  // The shift of the recording, within the size of the CT's voxels.
+  const double shift[] = {3, -2, 4};
+  for (std::size_t row = 0; row < 3; ++row) {
+    CHECK(json["ct_from_sweep"][row][3].get<double>() == Approx(shift[row]).margin(4));
+    CHECK(json["ct_from_sweep"][row][row].get<double>() > 0.99);
+  }
+  CHECK(json["similarity_after"] > json["similarity_before"]);
+  const auto refused = [&](const std::string& arguments, const std::string& sentence) {
+    const ProgramOutcome bad = place.run_as_found(arguments + " " + place.in("more"));
+    INFO(bad.errors);
+    CHECK(bad.code == 2);
+    CHECK(bad.errors.find(sentence) != std::string::npos);
+  };
+  refused("--beam 0,0,0 " + place.in("first/sweep.nrrd"), "--beam: it is not a direction");
+  refused("--beam 0,1,0 --depth 90 " + place.in("first/sweep.nrrd"), "--depth excludes --beam");
+  refused("--beam 0,1,0 " + place.in("sweep.igs.mha"),
+          "sweep.igs.mha: it is a recording, not a volume; leave out --beam");
+}
+
 TEST_CASE("a registration that does not converge exits with 3 and says so in every file") {
   const Workplace place;
   // The search may not leave the start, which is 50 mm off.
@@ -142,6 +200,7 @@ TEST_CASE("what insonate-register cannot use it refuses in a sentence, with exit
   const Workplace place;
   place.folder.put("away.txt", "1 0 0 0 0 1 0 -100 0 0 1 0 0 0 0 1\n");
   place.folder.put("far.txt", "1 0 0 0 0 1 0 0 0 0 1 900 0 0 0 1\n");
+  place.folder.put("start.json", "{\"patient_from_probe\": []}");
   place.folder.put("probe.toml", "kind = \"convex\"\n");
   const std::string sweep = place.in("sweep.igs.mha") + " " + place.in("out");
   const auto refused = [&](const std::string& arguments, const std::string& sentence) {
@@ -153,10 +212,13 @@ TEST_CASE("what insonate-register cannot use it refuses in a sentence, with exit
     CHECK_FALSE(fs::exists(place.in("out")));
   };
   refused("--start " + place.in("far.txt") + " " + sweep, "of what the sweep shows lies in the CT");
+  refused("--start " + place.in("start.json") + " " + sweep,
+          "there is no key 'ct_from_sweep'; write the matrix ct_from");
   refused("--start " + place.in("away.txt") + " " + sweep, "at the start ");
   refused(place.in("black.igs.mha") + " " + place.in("out"), "the images show nothing in the probe's fan");
   refused("--face-pixel 900,900 " + sweep, "% of the probe's fan; name the probe");
-  refused("--probe-file " + place.in("probe.toml") + " " + sweep, "there is no kind of probe named 'convex'");
+  CHECK(place.run_as_found("--probe-file " + place.in("probe.toml") + " " + sweep)
+            .errors.find("there is no kind of probe named 'convex'") != std::string::npos);
   refused("--transform ToolToTracker " + sweep, "sweep.igs.mha: ");
   refused("--patch 3 " + sweep, "--patch: ");
   refused(place.in("missing.igs.mha") + " " + place.in("out"), "missing.igs.mha: ");

@@ -1,0 +1,223 @@
+#include "app/registration/live_registrar.h"
+
+#include <pthread.h>
+#include <sched.h>
+
+#include <chrono>
+#include <exception>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "sim/core/input_error.h"
+#include "sim/gl/headless_context.h"
+
+namespace insonate {
+namespace {
+
+constexpr int kPlaces = 16;          // per call: 0.6 s of two cores without a graphics card
+constexpr double kSamePlace_mm = 8;  // as register_sweep() counts ends as one
+constexpr auto kGlance = std::chrono::milliseconds(2);
+constexpr auto kLongestHold = std::chrono::milliseconds(200);
+
+/// A round that is not worth going on with.
+struct Abandoned : std::exception {};
+
+}  // namespace
+
+std::string_view to_string(LiveRegistrar::Work work) {
+  switch (work) {
+    case LiveRegistrar::Work::waiting:
+      return "waiting";
+    case LiveRegistrar::Work::preparing:
+      return "preparing";
+    case LiveRegistrar::Work::refining:
+      return "refining";
+    case LiveRegistrar::Work::searching:
+      return "searching";
+    case LiveRegistrar::Work::resting:
+      return "resting";
+    case LiveRegistrar::Work::failed:
+      break;
+  }
+  return "failed";
+}
+
+LiveRegistrar::LiveRegistrar(const AcousticVolume& volume, const Probe& probe, double depth_mm, const glm::dmat4& start,
+                             const RegistrationSettings& settings, bool gives_way,
+                             std::function<void(const TrackedSweep&, const glm::dmat4&)> check)
+    : volume_(volume),
+      start_(start),
+      settings_(settings),
+      gives_way_(gives_way),
+      check_(std::move(check)),
+      window_(probe, depth_mm) {
+  settings_.batch = kPlaces;
+  state_.ct_from_sweep = start;
+  thread_ = std::thread([this] { run(); });
+}
+
+LiveRegistrar::~LiveRegistrar() {
+  ending_ = true;
+  changed_.notify_all();
+  thread_.join();
+}
+
+void LiveRegistrar::add(SweepImage image) {
+  {
+    const std::lock_guard lock(mutex_);
+    window_.add(std::move(image));
+    state_.kept = window_.size();
+  }
+  changed_.notify_all();
+}
+
+void LiveRegistrar::refine(bool on) {
+  {
+    const std::lock_guard lock(mutex_);
+    refines_ = on;
+  }
+  changed_.notify_all();
+}
+
+bool LiveRegistrar::refines() const {
+  const std::lock_guard lock(mutex_);
+  return refines_;
+}
+
+void LiveRegistrar::search_widely() {
+  {
+    const std::lock_guard lock(mutex_);
+    wants_wide_ = true;
+  }
+  changed_.notify_all();
+}
+
+void LiveRegistrar::reset() {
+  {
+    const std::lock_guard lock(mutex_);
+    ++epoch_;
+    wants_wide_ = has_wide_ = false;
+    done_window_ = 0;
+    state_.ct_from_sweep = start_;
+    state_.last.reset();
+    state_.rounds = 0;
+  }
+  changed_.notify_all();
+}
+
+LiveRegistrar::State LiveRegistrar::state() const {
+  const std::lock_guard lock(mutex_);
+  return state_;
+}
+
+bool LiveRegistrar::is_outdated(const Task& task) const {
+  const std::lock_guard lock(mutex_);
+  return task.epoch != epoch_ || (!task.wide && (wants_wide_ || !refines_));
+}
+
+void LiveRegistrar::give_way(const Task& task) {
+  // A caller that draws without end must not stop the registration for good.
+  const auto until = std::chrono::steady_clock::now() + kLongestHold;
+  while (held_.load(std::memory_order_relaxed) && !ending_ && std::chrono::steady_clock::now() < until)
+    std::this_thread::sleep_for(kGlance);
+  if (ending_ || is_outdated(task)) throw Abandoned();
+}
+
+/// Waits until a round is due and fills in its task. Returns false when the thread has to end.
+bool LiveRegistrar::begin_round(Task& task) {
+  std::unique_lock lock(mutex_);
+  for (; !ending_; changed_.wait_for(lock, std::chrono::milliseconds(100))) {
+    const bool is_new = window_.version() != done_window_;
+    if (!is_new || !(refines_ || wants_wide_)) {
+      if (!wants_wide_ && (!refines_ || state_.work != Work::waiting)) state_.work = Work::resting;
+      if (!wants_wide_) continue;
+    }
+    task.sweep = window_.chosen(std::size_t(settings_.slices));
+    state_.in_use = task.sweep.images.size();
+    state_.spread_mm = window_.spread_mm(task.sweep);
+    if (state_.in_use < kLeastImages || state_.spread_mm < kLeastSpread_mm) {
+      state_.work = Work::waiting;
+      continue;
+    }
+    task.from = state_.ct_from_sweep;
+    task.wide = std::exchange(wants_wide_, false);
+    task.window = done_window_ = window_.version();
+    task.epoch = epoch_;
+    lock.unlock();
+    std::string problem;
+    try {
+      check_(task.sweep, task.from);
+    } catch (const InputError& error) {
+      problem = error.what();
+    }
+    lock.lock();
+    state_.problem = problem;
+    if (problem.empty()) {
+      state_.work = task.wide ? Work::searching : Work::refining;
+      return true;
+    }
+    state_.work = Work::waiting;
+  }
+  return false;
+}
+
+void LiveRegistrar::end_round(const Task& task, SweepRegistration found) {
+  const std::lock_guard lock(mutex_);
+  if (task.epoch != epoch_) return;
+  const std::vector<glm::dvec3> targets = target_points(task.sweep);
+  if (task.wide) {
+    has_wide_ = found.converged();
+  } else if (!has_wide_) {
+    found.doubts.emplace_back("no wide search has looked for other places");
+  } else if (target_error_mm(targets, found.ct_from_sweep, confirmed_) > kSamePlace_mm) {
+    found.doubts.emplace_back("it has left the place that the wide search found");
+  }
+  if (has_wide_ && found.converged()) confirmed_ = found.ct_from_sweep;
+  state_.ct_from_sweep = found.ct_from_sweep;
+  ++state_.rounds;
+  state_.last = std::make_shared<const LiveRound>(LiveRound{TrackedSweep(task.sweep), std::move(found)});
+}
+
+void LiveRegistrar::run() {
+  // Of this thread, whose priority those that it makes inherit, and with them those with which llvmpipe computes.
+  if (gives_way_) {
+    const sched_param none{};
+    pthread_setschedparam(pthread_self(), SCHED_IDLE, &none);
+  }
+  try {
+    std::optional<gl::HeadlessContext> context;
+    std::unique_ptr<SweepRegistrar> registrar;
+    const double search_mm = settings_.search_mm, search_deg = settings_.search_deg;
+    Task task;
+    settings_.between_calls = [this, &task] { give_way(task); };
+    while (begin_round(task)) {
+      try {
+        if (!registrar) {
+          {
+            const std::lock_guard lock(mutex_);
+            state_.work = Work::preparing;
+          }
+          context.emplace();
+          registrar = std::make_unique<SweepRegistrar>(volume_, task.sweep, settings_);
+          const std::lock_guard lock(mutex_);
+          state_.work = task.wide ? Work::searching : Work::refining;
+        } else {
+          registrar->set_images(task.sweep.images);
+        }
+        registrar->set_range(task.wide ? search_mm : 0, task.wide ? search_deg : 0);
+        end_round(task, registrar->from(task.from));
+      } catch (const Abandoned&) {
+        const std::lock_guard lock(mutex_);
+        done_window_ = 0;
+      }
+    }
+    registrar.reset();
+  } catch (const std::exception& error) {
+    const std::lock_guard lock(mutex_);
+    state_.work = Work::failed;
+    state_.problem = std::string("The registration has ended: ") + error.what() + ".";
+  }
+}
+
+}  // namespace insonate

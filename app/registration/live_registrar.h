@@ -1,0 +1,125 @@
+#pragma once
+
+#include <glm/mat4x4.hpp>
+
+#include <atomic>
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "sim/alignment/registration.h"
+#include "sim/alignment/sweep_window.h"
+#include "sim/alignment/tracked_sweep.h"
+#include "sim/model/acoustic_volume.h"
+
+namespace insonate {
+
+/// A finished round of a live registration, as it is saved.
+struct LiveRound {
+  TrackedSweep sweep;  ///< the images that it compared
+  SweepRegistration found;
+};
+
+/// Refines a registration while images arrive, on a thread of its own with an OpenGL context of its own. Each round
+/// takes well-spread images of the newest ones and follows the estimate by local searches. A wide search looks for
+/// other places too; only one that converges makes the estimate count as converged.
+///
+/// The thread gives way to a picture, if there is one: it runs at the lowest priority, which its context's own threads
+/// inherit, it evaluates few places per call, and between calls it waits while the caller draws (hold()).
+///
+///     LiveRegistrar registrar(volume, probe, depth_mm, start, {}, true, check);
+///     registrar.add(image);                      // as they come
+///     show(registrar.state().ct_from_sweep);     // each frame
+class LiveRegistrar {
+public:
+  static constexpr std::size_t kLeastImages = 6;  ///< of a round
+  static constexpr double kLeastSpread_mm = 5;    ///< of a round's images: SweepWindow::spread_mm()
+
+  enum class Work {
+    waiting,    ///< for images, or for the probe to move
+    preparing,  ///< shaders and volumes, which takes seconds
+    refining,
+    searching,  ///< widely
+    resting,    ///< no new images, or refining is off
+    failed,     ///< for good
+  };
+
+  struct State {
+    Work work = Work::waiting;
+    glm::dmat4 ct_from_sweep{1.0};          ///< the estimate
+    std::size_t kept = 0;                   ///< images to choose from
+    std::size_t in_use = 0;                 ///< images of the last round, or of the next while waiting
+    double spread_mm = 0;                   ///< of those
+    std::size_t rounds = 0;                 ///< that have ended since the start or the last reset
+    std::shared_ptr<const LiveRound> last;  ///< null before the first round
+    std::string problem;  ///< why no round can begin or the thread has failed, as a sentence; usually empty
+  };
+
+  /// @param volume  must outlive the registrar
+  /// @param start   ct_from_sweep
+  /// @param check   called on the thread before each round with its images and the estimate; an InputError that it
+  ///                throws is the problem, and the round waits for other images
+  /// @param gives_way  false: there is no picture, and the thread has the caller's priority
+  LiveRegistrar(const AcousticVolume& volume, const Probe& probe, double depth_mm, const glm::dmat4& start,
+                const RegistrationSettings& settings, bool gives_way,
+                std::function<void(const TrackedSweep&, const glm::dmat4&)> check);
+  /// Ends the thread within one call of the similarity.
+  ~LiveRegistrar();
+  LiveRegistrar(const LiveRegistrar&) = delete;
+  LiveRegistrar& operator=(const LiveRegistrar&) = delete;
+
+  // The next functions return at once.
+
+  void add(SweepImage image);
+  /// Turns the rounds that follow each other on or off; they are on at first.
+  void refine(bool on);
+  bool refines() const;
+  /// Searches widely with the next round, in place of the one that runs.
+  void search_widely();
+  /// Goes back to the start, and forgets what was found.
+  void reset();
+  /// Makes the thread wait while the caller draws.
+  void hold(bool on) { held_.store(on, std::memory_order_relaxed); }
+
+  State state() const;
+
+private:
+  struct Task {
+    TrackedSweep sweep;
+    glm::dmat4 from{1.0};
+    bool wide = false;
+    std::uint64_t window = 0, epoch = 0;
+  };
+
+  void run();
+  bool begin_round(Task& task);
+  void end_round(const Task& task, SweepRegistration found);
+  void give_way(const Task& task);
+  bool is_outdated(const Task& task) const;
+
+  const AcousticVolume& volume_;
+  const glm::dmat4 start_;
+  RegistrationSettings settings_;
+  const bool gives_way_;
+  const std::function<void(const TrackedSweep&, const glm::dmat4&)> check_;
+
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  SweepWindow window_;
+  State state_;
+  bool refines_ = true, wants_wide_ = false, has_wide_ = false;
+  glm::dmat4 confirmed_{1.0};  // where the last wide search that converged ended; moves with the rounds that agree
+  std::uint64_t done_window_ = 0, epoch_ = 0;  // the epoch changes with each reset
+  std::atomic<bool> held_{false}, ending_{false};
+  std::thread thread_;
+};
+
+std::string_view to_string(LiveRegistrar::Work work);
+
+}  // namespace insonate

@@ -1,0 +1,137 @@
+#include "app/registration/live_session.h"
+
+#include <utility>
+
+#include "sim/core/input_error.h"
+#include "tools/cli/pose_file.h"
+#include "tools/register/result_files.h"
+#include "tools/register/start_transform.h"
+
+namespace insonate {
+namespace {
+
+constexpr std::size_t kLookedAt = 24;  // images in which the fan is sought
+
+igtl::ImagePlace place_of(const SweepInput& input) {
+  return input.probe_from_pixel ? igtl::ImagePlace::by_transform : igtl::ImagePlace::by_image;
+}
+
+}  // namespace
+
+LiveSession::LiveSession(LiveRequest request, const Case& subject, const AcousticVolume& volume)
+    : request_(std::move(request)),
+      input_(request_.input),
+      subject_(subject),
+      volume_(volume),
+      stream_(request_.tracker, place_of(request_.input)) {}
+
+void LiveSession::update(double now_s) {
+  arrived_.clear();
+  stream_.poll(now_s, arrived_);
+  for (igtl::TrackedImage& image : arrived_) {
+    if (width_ == 0) {
+      width_ = image.grey.width;
+      height_ = image.grey.height;
+    }
+    try {
+      const std::string size = std::to_string(image.grey.width) + " x " + std::to_string(image.grey.height);
+      if (image.grey.width != width_ || image.grey.height != height_)
+        throw InputError(input_.file, "",
+                         "its images have changed from " + std::to_string(width_) + " x " + std::to_string(height_) +
+                             " to " + size + " pixels",
+                         "go back to the size before, or start again");
+      if (!input_.probe_from_pixel)
+        if (const auto why = why_not_image_matrix(image.frame_from_pixel))
+          throw InputError(input_.file, "", "its images: " + *why, "give their place as --image-to-probe FILE");
+      if (!input_.probe) look_for_fan(image);
+      if (input_.probe) show(std::move(image), now_s);
+    } catch (const InputError& error) {
+      problem_ = error.what();
+    }
+  }
+}
+
+void LiveSession::look_for_fan(const igtl::TrackedImage& image) {
+  seen_.add(image.grey);
+  if (seen_.images() < kLookedAt) return;
+  const EchoSeen seen = std::exchange(seen_, EchoSeen());
+  fan_ = find_probe_in(seen, input_.probe_from_pixel.value_or(image.frame_from_pixel), input_);
+}
+
+void LiveSession::show(igtl::TrackedImage image, double now_s) {
+  const glm::dmat4 probe_from_pixel = input_.probe_from_pixel.value_or(image.frame_from_pixel);
+  const ImagePlacement placement = placement_of(probe_from_pixel, input_);
+  if (now_s - taken_s_ >= kTakenEvery_s) {
+    taken_s_ = now_s;
+    if (!registrar_) {
+      Probe probe = *input_.probe;
+      probe.lines = input_.width;
+      registrar_ = std::make_unique<LiveRegistrar>(volume_, probe, depth_mm(), request_.start, request_.settings,
+                                                   request_.gives_way,
+                                                   [this](const TrackedSweep& sweep, const glm::dmat4& ct_from_sweep) {
+                                                     check_shows_fan(input_.file, sweep);
+                                                     check_start(request_.subject, subject_.ct, sweep, ct_from_sweep);
+                                                   });
+      registrar_->refine(request_.refines);
+      if (request_.searches) registrar_->search_widely();
+    }
+    registrar_->add(place_image(image.grey, image.sweep_from_probe, probe_from_pixel, input_));
+  }
+  problem_.clear();
+  newest_ = Shown{std::move(image), Pose(), placement.pixel_from_plane};
+  newest_->sweep_from_fan = newest_->image.sweep_from_probe * placement.probe_from_fan;
+  ++shown_count_;
+}
+
+LiveRegistrar::State LiveSession::state() const {
+  if (registrar_) return registrar_->state();
+  LiveRegistrar::State state;
+  state.ct_from_sweep = request_.start;
+  return state;
+}
+
+void LiveSession::refine(bool on) {
+  request_.refines = on;
+  if (registrar_) registrar_->refine(on);
+}
+
+void LiveSession::search_widely() {
+  request_.searches = true;
+  if (registrar_) registrar_->search_widely();
+}
+
+void LiveSession::reset() {
+  if (registrar_) registrar_->reset();
+}
+
+std::string LiveSession::problem() const {
+  if (const std::string of_stream = stream_.problem(); !of_stream.empty()) return of_stream;
+  if (!problem_.empty()) return problem_;
+  return state().problem;
+}
+
+std::string LiveSession::verdict() const {
+  const auto last = state().last;
+  return last ? insonate::verdict(last->found) : std::string();
+}
+
+std::filesystem::path LiveSession::save(const std::filesystem::path& folder) const {
+  const auto last = state().last;
+  if (!last)
+    throw InputError(folder.string(), "", "nothing has been registered yet", "wait for the first round, and save then");
+  std::filesystem::path name = folder;
+  std::error_code error;
+  for (int n = 2; std::filesystem::exists(name, error); ++n) name = folder.string() + "-" + std::to_string(n);
+  ReadSweep read;
+  read.sweep = last->sweep;
+  read.fan = fan_;
+  read.frames = std::size_t(stream_.received());
+  read.left_out = std::size_t(stream_.unplaced());
+  write_registration(name,
+                     RegistrationReport{std::string(request_.subject), std::string(request_.tracker), read,
+                                        request_.settings, last->found, std::vector<ComparisonPictures>()},
+                     subject_.ct);
+  return name;
+}
+
+}  // namespace insonate

@@ -1,0 +1,211 @@
+// Registers images that arrive over OpenIGTLink, of a synthetic sweep whose place is known.
+
+#include "sweep_player.h"
+#include <catch2/catch.hpp>
+
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "app/registration/live_session.h"
+#include "devices/live/steady_clock.h"
+#include "sim/core/files.h"
+#include "sim/core/input_error.h"
+#include "tests/core/temporary_folder.h"
+#include "tests/gl/test_context.h"
+#include "tests/imaging/test_body.h"
+
+using namespace insonate;
+using Catch::Contains;
+
+namespace {
+
+constexpr double kDepthMm = 100;
+constexpr double kWithin_mm = 2;  // voxels are 1.3 to 2.1 mm large, as in tests/alignment
+
+struct Patient {
+  AcousticVolume volume = test::test_body();
+  Case subject;
+  test::Scan scan;
+
+  Patient() {
+    subject.ct.grid = volume.grid;
+    for (const AcousticVoxel& voxel : volume.voxels) subject.ct.voxels.push_back(voxel.hu);
+    const test::TestContext context;
+    scan = test::make_scan(volume, test::tissues(), *find_probe("curvilinear"), kDepthMm,
+                           hand_sweep(test::on_the_skin(0, 6, 0), 40, 14, 18), 240, 180);
+  }
+};
+
+const Patient& patient() {
+  static const Patient one;
+  return one;
+}
+
+LiveRequest request(const test::SweepPlayer& player, const glm::dmat4& start) {
+  LiveRequest request;
+  request.tracker = player.uri();
+  request.input.file = request.tracker;
+  request.input.probe = *find_probe("curvilinear");
+  request.input.depth_mm = kDepthMm;
+  request.input.probe_from_pixel = patient().scan.probe_from_pixel;
+  request.start = start;
+  request.gives_way = false;
+  request.settings.search_mm = 12;
+  request.settings.search_deg = 12;
+  request.settings.scattered = 300;
+  request.settings.followed = 6;
+  request.settings.wide_slices = 8;
+  request.settings.slices = 20;
+  return request;
+}
+
+struct Live {
+  LiveSession session;
+
+  explicit Live(const LiveRequest& begun) : session(begun, patient().subject, patient().volume) {}
+
+  /// Waits until something is so. The limit only ends a test that hangs.
+  bool wait_for(const std::function<bool()>& done) {
+    for (int i = 0; i < 20000 && !done(); ++i) {
+      session.update(steady_now_s());
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    INFO(session.problem() << " " << session.verdict() << " " << to_string(session.state().work));
+    CHECK(done());
+    return done();
+  }
+  double error() const { return test::error_of(patient().scan, session.state().ct_from_sweep); }
+};
+
+}  // namespace
+
+TEST_CASE("a near start is refined while the probe moves, and a wide search makes it count") {
+  const test::Scan& scan = patient().scan;
+  const glm::dmat4 start = test::start_off_by(scan, {3, -2, 2}, 4);
+  REQUIRE(test::error_of(scan, start) > 4);
+  const test::SweepPlayer player(scan);
+  Live live(request(player, start));
+  live.wait_for([&] {
+    const auto last = live.session.state().last;
+    return last && last->sweep.images.size() == 20;
+  });
+  CHECK(live.error() < kWithin_mm);
+  const auto local = live.session.state().last;
+  REQUIRE(local);
+  CHECK(local->sweep.images.size() == 20);
+  CHECK(local->found.similarity_after > 0.3);
+  // Nobody has looked elsewhere yet.
+  CHECK_FALSE(local->found.converged());
+  CHECK_THAT(live.session.verdict(), Contains("no wide search has looked for other places"));
+
+  live.session.search_widely();
+  live.wait_for([&] { return live.session.state().last && live.session.state().last->found.converged(); });
+  CHECK(live.error() < kWithin_mm);
+  // It goes on, and still counts.
+  const std::size_t rounds = live.session.state().rounds;
+  live.wait_for([&] { return live.session.state().rounds >= rounds + 2; });
+  CHECK(live.error() < kWithin_mm);
+  for (const std::string& doubt : live.session.state().last->found.doubts) CHECK_THAT(doubt, !Contains("wide search"));
+
+  SECTION("it is saved as insonate-register saves, each time to a name that is free") {
+    const TemporaryFolder folder;
+    CHECK(live.session.save(folder.path / "out") == folder.path / "out");
+    CHECK(live.session.save(folder.path / "out") == folder.path / "out-2");
+    for (const char* file : {"registration.json", "ct_from_sweep.tfm", "sweep_from_ct.tfm", "evaluations.csv",
+                             "index.html", "scene.mrml", "ct.nrrd", "sweep.nrrd"})
+      CHECK(std::filesystem::exists(folder.path / "out-2" / file));
+    CHECK_THAT(read_file(folder.path / "out" / "registration.json"), Contains(player.uri()));
+  }
+  SECTION("back to the start means that it all begins again") {
+    live.session.refine(false);
+    live.session.reset();
+    CHECK(live.session.state().ct_from_sweep == start);
+    CHECK_FALSE(live.session.state().last);
+    CHECK(live.session.verdict().empty());
+    const TemporaryFolder folder;
+    CHECK_THROWS_WITH(live.session.save(folder.path / "out"), Contains("nothing has been registered yet"));
+    live.wait_for([&] { return live.session.state().work == LiveRegistrar::Work::resting; });
+    CHECK(live.session.state().ct_from_sweep == start);
+    live.session.refine(true);
+    live.wait_for([&] { return live.session.state().rounds >= 1; });
+    CHECK_THAT(live.session.verdict(), Contains("no wide search has looked"));
+  }
+}
+
+TEST_CASE("images that carry their own place are registered, with the probe that they show") {
+  const test::Scan& scan = patient().scan;
+  test::SweepPlayer::What what;
+  what.in_place = true;
+  what.transforms = false;
+  const test::SweepPlayer player(scan, what);
+  LiveRequest begun = request(player, test::start_off_by(scan, {2, 2, -2}, 3));
+  begun.input.probe.reset();
+  begun.input.depth_mm.reset();
+  begun.input.probe_from_pixel.reset();
+  Live live(begun);
+  live.wait_for([&] { return live.session.state().rounds >= 2; });
+  REQUIRE(live.session.fan());
+  // A pixel is 0.7 mm large.
+  CHECK(live.session.fan()->probe.radius_mm == Approx(60).margin(1.5));
+  CHECK(live.session.depth_mm() == Approx(kDepthMm).margin(1));
+  CHECK(live.error() < kWithin_mm);
+}
+
+TEST_CASE("a live registration that cannot begin says why in a sentence, and goes on when it can") {
+  const test::Scan& scan = patient().scan;
+  const auto says = [](Live& live, const std::string& sentence) {
+    live.wait_for([&] { return live.session.problem().find(sentence) != std::string::npos; });
+    CHECK(live.session.problem().ends_with("."));
+    CHECK(live.session.state().rounds == 0);
+  };
+  SECTION("a start that looks away from the body") {
+    const test::SweepPlayer player(scan);
+    Live live(request(player, test::start_off_by(scan, {0, -95, 0}, 0)));
+    says(live, "at the start ");
+  }
+  SECTION("images without transforms") {
+    test::SweepPlayer::What what;
+    what.transforms = false;
+    const test::SweepPlayer player(scan, what);
+    Live live(request(player, scan.ct_from_tracker));
+    says(live, "sends images, but no usable TRANSFORM");
+  }
+  SECTION("transforms without images") {
+    test::SweepPlayer::What what;
+    what.images = false;
+    const test::SweepPlayer player(scan, what);
+    Live live(request(player, scan.ct_from_tracker));
+    says(live, "sends no IMAGE");
+  }
+  SECTION("images of one grey level") {
+    test::Scan black = scan;
+    for (Image<std::uint8_t>& image : black.images) std::ranges::fill(image.pixels, std::uint8_t(0));
+    const test::SweepPlayer player(black);
+    Live live(request(player, scan.ct_from_tracker));
+    says(live, "the images show nothing in the probe's fan");
+    LiveRequest unnamed = request(player, scan.ct_from_tracker);
+    unnamed.input.probe.reset();
+    unnamed.input.depth_mm.reset();
+    Live finding(unnamed);
+    says(finding, "its images show no fan: hardly any pixel carries echo");
+  }
+  SECTION("images whose size changes") {
+    test::Scan mixed = scan;
+    for (std::size_t i = 1; i < mixed.images.size(); i += 2) mixed.images[i] = Image<std::uint8_t>(120, 90, 50);
+    const test::SweepPlayer player(mixed);
+    Live live(request(player, scan.ct_from_tracker));
+    live.wait_for([&] { return live.session.problem().find("its images have changed from ") != std::string::npos; });
+  }
+  SECTION("a probe that rests") {
+    test::Scan still = scan;
+    for (Pose& pose : still.tracker_from_probe) pose = scan.tracker_from_probe[0];
+    const test::SweepPlayer player(still);
+    Live live(request(player, scan.ct_from_tracker));
+    live.wait_for([&] { return live.session.shown() > 20; });
+    CHECK(live.session.state().work == LiveRegistrar::Work::waiting);
+    CHECK(live.session.state().kept == 1);
+  }
+}
