@@ -27,6 +27,9 @@ int main(int argc, char** argv) {
   declare(arguments, options);
   const auto work = [&] {
     const bool no_display = !options.headless && !has_display();
+    if (no_display && options.mode == Mode::check)
+      throw InputError("command line", "check", "this mode needs a window, and there is no display",
+                       "run insonate-score check instead");
     if (no_display && (options.mode == Mode::author || options.mode == Mode::setup))
       throw InputError("command line", options.mode == Mode::author ? "author" : "setup",
                        "this mode needs a window, and there is no display", "start it where there is one");

@@ -230,7 +230,8 @@ private:
     ++frames_;
     const bool new_picture = pictures.ultrasound_version() != version_before;
     if (touched || moved || pictures.drawn() != drawn_before || trainer_.loading() || trainer_.setup() ||
-        (trainer_.learners_page() && trainer_.learners_page()->reading() > 0))
+        (trainer_.learners_page() && trainer_.learners_page()->reading() > 0) ||
+        (trainer_.check_page() && trainer_.check_page()->progress()))
       changed_s_ = now_s;
     governor_.see(now_s, steady_now_s() - now_s, pictures.simulator_runs() != runs_before);
     rate_.see(now_s, new_picture);

@@ -233,6 +233,18 @@ const gl::Texture* Pictures::draw_body(const view::OrbitCamera& from, int width,
                                         {budget_ms, budget_ms});
 }
 
+const gl::Texture* Pictures::draw_probe(const view::OrbitCamera& from, int width, int height, const Probe& probe,
+                                        const Pose& patient_from_probe, bool on_body) {
+  if (!patient_) return nullptr;
+  view::VolumeStyle style;
+  style.cut = style.plane = style.organs = false;
+  style.skin = on_body ? 1 : 0;
+  view::UltrasoundPlane plane;
+  plane.probe = probe;
+  plane.patient_from_probe = patient_from_probe;
+  return volume_ = &volume_view_.render(width, height, *patient_, from, plane, style);
+}
+
 long Pictures::version_of(GLuint texture) const {
   const auto is = [&](const gl::Texture* picture) { return picture && picture->name() == texture; };
   if (is(ultrasound_)) return simulator_.image_version();

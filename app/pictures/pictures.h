@@ -77,6 +77,9 @@ public:
   /// Draws the body alone, without probe and ultrasound plane, from any side, and returns it; null without a patient.
   /// Replaces volume().
   const gl::Texture* draw_body(const view::OrbitCamera& from, int width, int height, double budget_ms);
+  /// Draws a probe, and the closed body if it is `on_body`, and returns it; null without a patient. Replaces volume().
+  const gl::Texture* draw_probe(const view::OrbitCamera& from, int width, int height, const Probe& probe,
+                                const Pose& patient_from_probe, bool on_body);
   const Grid& grid() const { return grid_; }
 
   /// Shows the whole patient from one side in volume().

@@ -72,6 +72,11 @@ StartAnswer draw_scenarios(const Theme& theme, Rect rest, StartPage& page, std::
   places["browse"] = buttons.take_left(theme.px(190));
   if (button(theme, "browse", places["browse"], "Open a scenario\u2026"))
     answer = {StartAnswer::Kind::browse, Wanted::scenario};
+  buttons.take_left(theme.px(8));
+  places["check"] = buttons.take_left(theme.px(190));
+  if (button(theme, "check", places["check"], "Check a scenario\u2026", ButtonKind::normal, true,
+             "For authors: shows what is wrong with a scenario file, again whenever it is saved"))
+    answer = {StartAnswer::Kind::browse, Wanted::checked};
   if (!page.scenario) {
     draw_paragraph(details, theme.text, colour::kText, "Scan the built-in patient. Key G shows the way to its views.");
     return answer;

@@ -30,6 +30,12 @@ xdotool key F1
 await "F1 shows help after its end" is overlay help
 xdotool key Escape
 await "Escape closes it" is overlay ""
+xdotool key Tab
+await "Tab takes the probe after its end too" is holder learner
+is activity exam || fail "there is nothing to try"
+is overlay "" || fail "somebody else's score lies over the window"
+xdotool key Tab
+await "Tab gives it back, and the demonstration begins anew" is demonstration true
 click_on own_try
 await "the exam is one's own" is holder learner
 is activity exam || fail "there is nothing to try"
