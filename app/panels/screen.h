@@ -52,8 +52,8 @@ public:
   bool render(Trainer& trainer, FrameTimes* times = nullptr);
   /// Returns the drawn frame.
   Image<Rgba8> read() const { return canvas_.read(); }
-  /// Copies the drawn frame into the framebuffer that is bound.
-  void show() const { canvas_.show(); }
+  /// Returns the drawn frame, for a window to show.
+  const Canvas& canvas() const { return canvas_; }
 
   /// Returns the pixels of each picture on a screen of that size.
   PictureSizes picture_sizes(const Trainer& trainer, float width, float height);

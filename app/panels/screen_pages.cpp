@@ -226,7 +226,11 @@ void Screen::ask_for_path(Wanted wanted) {
 }
 
 void Screen::leave(Trainer& trainer) {
-  if (!trainer.can_leave()) return;
+  if (!trainer.can_leave()) {
+    if (trainer.session() && trainer.session()->strict())
+      show_note("This exam counts: go on to its end, then it can be left");
+    return;
+  }
   if (trainer.loses_by_leaving()) {
     show_page(Overlay::leave);
     return;

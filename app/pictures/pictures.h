@@ -39,8 +39,8 @@ struct Effort {
   double quality = 1;
   /// Time for the volume view, which gets coarser while things move to stay within it.
   double volume_ms = std::numeric_limits<double>::infinity();
-  /// The views beside the ultrasound take turns: each call draws one of them.
-  bool turns = false;
+  /// The views beside the ultrasound take turns: one of them is drawn per so many calls; 0: all of them in each.
+  int calls_per_turn = 0;
 };
 
 /// Draws a session's pictures on the graphics card, each only when something it shows has changed. Needs an OpenGL 4.5
@@ -176,7 +176,8 @@ private:
   Pose shown_pose_;
   double shown_quality_ = 0;
 
-  std::size_t turn_ = 0;  ///< which of the views that take turns was last
+  std::size_t turn_ = 0;      ///< which of the views that take turns was last
+  int calls_since_turn_ = 0;  ///< that were drawn without its next one
   FrameTimes* times_ = nullptr;
 };
 

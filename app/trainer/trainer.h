@@ -364,6 +364,7 @@ private:
   bool clients_ = false, records_pictures_ = false, sweeps_ = false;  ///< who wanted pictures at the last frame
   std::unique_ptr<IgtlFeed> feed_;                                    ///< nullptr when no clients are asked for
   std::optional<ResultFiles> result_files_;
+  Task begun_ = Task::first_scan;                 ///< last begun on the start page, which shows it again
   std::optional<LearnersChoice> reviewed_;        ///< on the page of learners, from which the replay was begun
   std::optional<std::filesystem::path> checked_;  ///< scenario on the page from which practice was begun
   bool covered_ = false;

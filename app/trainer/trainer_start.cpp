@@ -116,7 +116,7 @@ void Trainer::show_start_page() {
 }
 
 void Trainer::make_start_page() {
-  const Task task = start_page() ? start_page()->task : Task::first_scan;
+  const Task task = start_page() ? start_page()->task : begun_;
   open_results();
   mode_ = Choosing{std::make_unique<StartPage>(given_, results_ ? &*results_ : nullptr)};
   start_page()->task = task;
@@ -145,6 +145,7 @@ void Trainer::take_over_prepared() {
 void Trainer::begin_chosen() {
   const StartPage* page = start_page();
   if (!page || loading_ || !page->why_not().empty()) return;
+  begun_ = page->task;
   if (page->task == Task::learners) return show_learners();
   begin(page->chosen());
 }
