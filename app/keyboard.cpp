@@ -40,11 +40,38 @@ bool edits_text(const KeyEvent& event) {
   }
 }
 
-/// Returns the letter on a key of the person's keyboard; 0 if it has none. GLFW numbers keys by their place on an
-/// American one.
-char letter_of(int key) {
+/// Returns the key on which an American keyboard has what the person's keyboard has on this one. Returns
+/// GLFW_KEY_UNKNOWN if the trainer has no use for that.
+int written_on(int key) {
   const char* const name = glfwGetKeyName(key, 0);
-  return name && name[0] >= 'a' && name[0] <= 'z' && !name[1] ? name[0] : '\0';
+  if (!name || !name[0] || name[1]) return GLFW_KEY_UNKNOWN;
+  switch (name[0]) {
+    case '+':
+    case '=':
+      return GLFW_KEY_EQUAL;
+    case '-':
+      return GLFW_KEY_MINUS;
+    case '[':
+      return GLFW_KEY_LEFT_BRACKET;
+    case ']':
+      return GLFW_KEY_RIGHT_BRACKET;
+    default:
+      return name[0] >= 'a' && name[0] <= 'z' ? GLFW_KEY_A + (name[0] - 'a') : GLFW_KEY_UNKNOWN;
+  }
+}
+
+/// Returns what a key counts as. Letters count by what is written on them. Digits, of which some keyboards have only
+/// the places, and keys of other alphabets count by their place, unless that would make two keys the same.
+int meaning_of(int key) {
+  const bool is_digit = key >= GLFW_KEY_0 && key <= GLFW_KEY_9;
+  if (key < GLFW_KEY_APOSTROPHE || key > GLFW_KEY_WORLD_2 || is_digit) return key;
+  if (const int written = written_on(key); written != GLFW_KEY_UNKNOWN) return written;
+  for (int other = GLFW_KEY_A; other <= GLFW_KEY_RIGHT_BRACKET; ++other)
+    if (other != key && written_on(other) == key) return GLFW_KEY_UNKNOWN;
+  for (const int other : {GLFW_KEY_SEMICOLON, GLFW_KEY_APOSTROPHE, GLFW_KEY_COMMA, GLFW_KEY_PERIOD, GLFW_KEY_SLASH,
+                          GLFW_KEY_MINUS, GLFW_KEY_EQUAL})
+    if (other != key && written_on(other) == key) return GLFW_KEY_UNKNOWN;
+  return key;
 }
 
 bool is_enter(const KeyEvent& event) {
@@ -53,8 +80,20 @@ bool is_enter(const KeyEvent& event) {
 
 }  // namespace
 
+void Keyboard::note(KeyEvent event) {
+  if (event.kind != KeyEvent::Kind::typed) {
+    const auto down = down_.try_emplace(event.key, GLFW_KEY_UNKNOWN);
+    if (down.second) down.first->second = meaning_of(event.key);
+    const int place = std::exchange(event.key, down.first->second);
+    if (event.kind == KeyEvent::Kind::released) down_.erase(place);
+    if (event.key == GLFW_KEY_UNKNOWN) return;
+  }
+  events_.push_back(event);
+}
+
 bool Keyboard::held(int key) const {
-  return glfwGetKey(window_, key) == GLFW_PRESS || tapped_.contains(key);
+  return tapped_.contains(key) ||
+         std::any_of(down_.begin(), down_.end(), [&](const auto& down) { return down.second == key; });
 }
 
 bool Keyboard::apply(Trainer& trainer, ui::Screen& screen, double elapsed_s) {
@@ -191,6 +230,15 @@ void Keyboard::learners_page(const KeyEvent& pressed, LearnersPage& page, Traine
   if (is_enter(pressed) && pressed.kind == KeyEvent::Kind::pressed) screen.confirm(trainer);
 }
 
+void Keyboard::check_page(const KeyEvent& pressed, CheckPage& page, Trainer& trainer, ui::Screen& screen) {
+  if (pressed.key == GLFW_KEY_UP) page.move_choice(-1);
+  if (pressed.key == GLFW_KEY_DOWN) page.move_choice(+1);
+  if (pressed.kind != KeyEvent::Kind::pressed) return;
+  if (pressed.key == GLFW_KEY_F5) page.check_again();
+  if (pressed.key == GLFW_KEY_O && (pressed.modifiers & GLFW_MOD_CONTROL)) screen.ask_for_path(Wanted::checked);
+  if (is_enter(pressed)) screen.confirm(trainer);
+}
+
 /// Handles the keys of the views beside the ultrasound. Returns whether this was one.
 bool Keyboard::change_views(const KeyEvent& pressed, Trainer& trainer, ui::Screen& screen) {
   if (pressed.modifiers & GLFW_MOD_CONTROL) return false;
@@ -290,6 +338,7 @@ void Keyboard::press(const KeyEvent& pressed, Trainer& trainer, ui::Screen& scre
   if (pressed.key == GLFW_KEY_L && !repeated) return screen.toggle_clip(trainer);
   if (trainer.start_page()) return start_page(pressed, trainer, screen);
   if (LearnersPage* page = trainer.learners_page()) return learners_page(pressed, *page, trainer, screen);
+  if (CheckPage* page = trainer.check_page()) return check_page(pressed, *page, trainer, screen);
   if (trainer.replay()) return replay(pressed, trainer, screen);
   if (!(pressed.modifiers & GLFW_MOD_CONTROL)) tapped_.insert(pressed.key);
   if (pressed.key == GLFW_KEY_F2 && !repeated) return trainer.begin_setup();
@@ -298,9 +347,8 @@ void Keyboard::press(const KeyEvent& pressed, Trainer& trainer, ui::Screen& scre
   if (!trainer.session()) return;
   Session& session = *trainer.session();
   if (pressed.modifiers & GLFW_MOD_CONTROL) {
-    const char letter = letter_of(pressed.key);
-    const bool back = letter == 'z' && !(pressed.modifiers & GLFW_MOD_SHIFT);
-    const bool forward = letter == 'y' || (letter == 'z' && !back);
+    const bool back = pressed.key == GLFW_KEY_Z && !(pressed.modifiers & GLFW_MOD_SHIFT);
+    const bool forward = pressed.key == GLFW_KEY_Y || (pressed.key == GLFW_KEY_Z && !back);
     std::string why_not;
     if (back) why_not = trainer.undo_history().undo(session);
     if (forward) why_not = trainer.undo_history().redo(session);
@@ -332,7 +380,10 @@ void Keyboard::press(const KeyEvent& pressed, Trainer& trainer, ui::Screen& scre
                                          : PictureTools::Tool::distance);
       break;
     case GLFW_KEY_TAB:
-      if (!repeated)
+      if (repeated) break;
+      if (trainer.demonstration() && session.result())
+        screen.try_yourself(trainer);
+      else
         trainer.attempt(
             [&] { session.holder() == Holder::learner ? session.give_back_probe() : session.take_probe(); });
       break;
@@ -340,7 +391,8 @@ void Keyboard::press(const KeyEvent& pressed, Trainer& trainer, ui::Screen& scre
       if (!repeated) session.freeze(!machine.frozen);
       break;
     case GLFW_KEY_G:
-      if (!repeated) trainer.guide().next(session);
+      if (!repeated && session.strict()) screen.show_note("This exam counts: there is no guide in it");
+      if (!repeated && !session.strict()) trainer.guide().next(session);
       break;
     case GLFW_KEY_V:
       trainer.pictures().look_from_next();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <map>
 #include <set>
 
 #include "app/full_screen.h"
@@ -15,7 +16,7 @@ namespace insonate {
 struct KeyEvent {
   enum class Kind { pressed, repeated, released, typed };
   Kind kind = Kind::pressed;
-  int key = 0;             ///< as GLFW numbers it
+  int key = 0;             ///< as GLFW numbers it; Keyboard::note() replaces letters' places by the letters
   int modifiers = 0;       ///< GLFW's bits
   unsigned character = 0;  ///< of what was typed, Unicode
   double time_s = 0;       ///< steady_now_s()
@@ -28,8 +29,9 @@ class Keyboard {
 public:
   explicit Keyboard(GLFWwindow* window) : window_(window) {}
 
-  /// Stores an event. GLFW's callbacks call it.
-  void note(const KeyEvent& event) { events_.push_back(event); }
+  /// Stores an event. GLFW's callbacks call it. GLFW numbers keys by their place on an American keyboard: a letter on
+  /// another place of the person's keyboard counts as that letter.
+  void note(KeyEvent event);
 
   /// Handles the events so far. Call it before each of ImGui's frames. Returns whether a held key moves the probe.
   /// @param elapsed_s  since the last call
@@ -48,6 +50,7 @@ private:
   static void choose(int index, Trainer& trainer);
   static void start_page(const KeyEvent& pressed, Trainer& trainer, ui::Screen& screen);
   static void learners_page(const KeyEvent& pressed, LearnersPage& page, Trainer& trainer, ui::Screen& screen);
+  static void check_page(const KeyEvent& pressed, CheckPage& page, Trainer& trainer, ui::Screen& screen);
   static bool change_views(const KeyEvent& pressed, Trainer& trainer, ui::Screen& screen);
   static void replay(const KeyEvent& pressed, Trainer& trainer, ui::Screen& screen);
   static void volume_page(const KeyEvent& pressed, Trainer& trainer, ui::Screen& screen);
@@ -56,6 +59,7 @@ private:
   GLFWwindow* window_;
   FullScreen full_screen_;
   std::deque<KeyEvent> events_;
+  std::map<int, int> down_;     ///< keys that are down: by GLFW's number, what they count as
   std::set<int> tapped_;        ///< pressed since the last frame, even if up again
   bool field_is_busy_ = false;  ///< with a key that it has to see before the next one
 };

@@ -35,6 +35,9 @@ int main(int argc, char** argv) {
       return registration.headless || !has_display() ? run_registration_headless(registration)
                                                      : run_registration_window(registration);
     const bool no_display = !options.headless && !has_display();
+    if (no_display && options.mode == Mode::check)
+      throw InputError("command line", "check", "this mode needs a window, and there is no display",
+                       "run insonate-score check instead");
     if (no_display && (options.mode == Mode::author || options.mode == Mode::setup))
       throw InputError("command line", options.mode == Mode::author ? "author" : "setup",
                        "this mode needs a window, and there is no display", "start it where there is one");

@@ -90,6 +90,17 @@ void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::
     state["start_tracker"] = page->tracker();
     state["typing"] = screen.types_text(trainer);
   }
+  if (const CheckPage* page = trainer.check_page()) {
+    state["check_file"] = page->file().string();
+    state["check_state"] = page->state() == CheckPage::State::checking ? "checking"
+                           : page->state() == CheckPage::State::right  ? "right"
+                                                                       : "wrong";
+    state["check_problems"] = page->problems().size();
+    state["check_line"] = page->chosen() ? page->problems()[*page->chosen()].place.line : 0;
+    state["check_lines"] = page->lines().size();
+    state["check_failure"] = page->failure();
+    state["checks"] = page->checks();
+  }
   if (const LearnersPage* page = trainer.learners_page()) {
     state["learners"] = page->learners().size() - 1;
     state["learners_learner"] = page->choice().learner;

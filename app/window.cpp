@@ -20,6 +20,7 @@
 #include "app/panels/screen.h"
 #include "app/pictures/frame_times.h"
 #include "app/pictures/quality_governor.h"
+#include "app/presenter.h"
 #include "app/state_file.h"
 #include "app/trainer/trainer.h"
 #include "devices/live/steady_clock.h"
@@ -162,6 +163,7 @@ public:
       : window_(window),
         options_(options),
         trainer_(with_preferences(options, own.preferences), own.preferences, own.file),
+        presenter_(window),
         events_(window) {
     if (!own.problem.empty()) trainer_.problems().push_back(own.problem);
     if (!options.frame_times.empty()) {
@@ -226,11 +228,13 @@ private:
                version_before = pictures.ultrasound_version();
     const bool changed = draw();
     // The window's own picture may be lost while it is covered.
-    if (changed || std::exchange(events_.exposed, false)) present();
+    const bool exposed = std::exchange(events_.exposed, false);
+    if (changed || exposed) present(exposed);
     ++frames_;
     const bool new_picture = pictures.ultrasound_version() != version_before;
     if (touched || moved || pictures.drawn() != drawn_before || trainer_.loading() || trainer_.setup() ||
-        (trainer_.learners_page() && trainer_.learners_page()->reading() > 0))
+        (trainer_.learners_page() && trainer_.learners_page()->reading() > 0) ||
+        (trainer_.check_page() && trainer_.check_page()->progress()))
       changed_s_ = now_s;
     governor_.see(now_s, steady_now_s() - now_s, pictures.simulator_runs() != runs_before);
     rate_.see(now_s, new_picture);
@@ -265,14 +269,12 @@ private:
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     if (size.x <= 0 || size.y <= 0) return false;  // minimised
     trainer_.draw(screen_.picture_sizes(trainer_, size.x, size.y),
-                  {governor_.quality(), kVolumeBudget_ms, governor_.takes_turns()});
+                  {governor_.quality(), kVolumeBudget_ms, governor_.frames_per_turn()});
     return screen_.render(trainer_, times_ ? &*times_ : nullptr);
   }
 
-  void present() {
-    glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    screen_.show();
-    glfwSwapBuffers(window_);
+  void present(bool whole) {
+    presenter_.present(screen_.canvas(), whole);
     ++shown_;
     if (times_) times_->end(FramePart::present);
   }
@@ -281,6 +283,7 @@ private:
   Options options_;
   Trainer trainer_;
   ui::Screen screen_;
+  Presenter presenter_;
   Events events_;
   Cursors cursors_;
   QualityGovernor governor_;

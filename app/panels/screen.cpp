@@ -46,7 +46,7 @@ Screen::~Screen() = default;
 
 void Screen::lay_out(const Trainer& trainer, float width, float height) {
   screen_ = {0, 0, width, height};
-  if (trainer.start_page() || trainer.learners_page()) {
+  if (trainer.start_page() || trainer.learners_page() || trainer.check_page()) {
     views_.clear();
     large_.reset();
     return places_.clear();
@@ -189,6 +189,9 @@ void Screen::draw_panels(Trainer& trainer) {
     return ImGui::End();
   } else if (trainer.learners_page()) {
     draw_learners_page(trainer);
+    return ImGui::End();
+  } else if (trainer.check_page()) {
+    draw_check_page(trainer);
     return ImGui::End();
   } else if (!trainer.exam_refused()) {
     for (const Rect& panel : {top_, console_}) fill(panel, colour::kPanel, theme_.px(4));
@@ -401,9 +404,13 @@ void Screen::draw_status(Trainer& trainer) {
   }
   places_["start_page"] = line.take_left(theme_.px(110)).inset(0, theme_.px(6));
   line.take_left(theme_.px(8));
-  if (button(theme_, "start_page", places_["start_page"], trainer.leads_to_learners() ? "Learners" : "Start page",
+  if (button(theme_, "start_page", places_["start_page"],
+             trainer.leads_to_learners() ? "Learners"
+             : trainer.leads_to_check()  ? "Check"
+                                         : "Start page",
              ButtonKind::normal, trainer.can_leave(),
              trainer.leads_to_learners() ? "Back to the learners  (Esc)"
+             : trainer.leads_to_check()  ? "Back to the check of the scenario  (Esc)"
                                          : "Leaves this, and shows what else there is to do  (Esc)"))
     return leave(trainer);
   if (!trainer.replay()) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/panels/canvas.h"
+#include "app/panels/check/check_panel.h"
 #include "app/panels/layout.h"
 #include "app/panels/learners/learners_panel.h"
 #include "app/panels/pages/help_page.h"
@@ -51,8 +52,8 @@ public:
   bool render(Trainer& trainer, FrameTimes* times = nullptr);
   /// Returns the drawn frame.
   Image<Rgba8> read() const { return canvas_.read(); }
-  /// Copies the drawn frame into the framebuffer that is bound.
-  void show() const { canvas_.show(); }
+  /// Returns the drawn frame, for a window to show.
+  const Canvas& canvas() const { return canvas_; }
 
   /// Returns the pixels of each picture on a screen of that size.
   PictureSizes picture_sizes(const Trainer& trainer, float width, float height);
@@ -73,6 +74,9 @@ public:
   void save_picture(const Trainer& trainer) { saves_picture_ = can_save(trainer); }
   /// Begins a clip of the ultrasound, or ends it.
   void toggle_clip(Trainer& trainer);
+
+  /// Begins the steps of a demonstration that is over, with the probe in the person's own hand.
+  void try_yourself(Trainer& trainer) { answer_score(trainer, ScoreAnswer::own_try); }
 
   /// Shows a sentence over the screen for some seconds.
   void show_note(std::string text) { toast_.show(std::move(text)); }
@@ -140,6 +144,7 @@ private:
   void draw_sweep_buttons(Trainer& trainer, Rect& line);
   void draw_start_page(Trainer& trainer);
   void draw_learners_page(Trainer& trainer);
+  void draw_check_page(Trainer& trainer);
   void draw_demonstration(Trainer& trainer);
   void take_path(Trainer& trainer);
   Rect toast_place() const;
@@ -172,6 +177,7 @@ private:
   TextField text_field_;
   StartPanel start_panel_;
   LearnersPanel learners_panel_;
+  CheckPanel check_panel_;
   Toast toast_;
   std::vector<Overlay>
       pages_;  ///< what the person asked for, the topmost last: help, about, settings, open, leave or volume

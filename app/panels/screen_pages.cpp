@@ -80,6 +80,7 @@ void Screen::take_path(Trainer& trainer) {
     return trainer.prefer(preferences);
   }
   if (wanted == Wanted::look) return trainer.take_look(path);
+  if (wanted == Wanted::checked) return trainer.check_scenario(path);
   if (!page || wanted == Wanted::anything) return trainer.open(path);
   trainer.attempt([&] {
     if (!use_for_setup(*page, wanted, path)) page->add(path);
@@ -115,7 +116,9 @@ void Screen::dismiss(Trainer& trainer) {
       trainer.stop_loading();
       break;
     case Overlay::setup:
+      break;
     case Overlay::briefing:
+      trainer.leave();
       break;
     case Overlay::help:
     case Overlay::about:
@@ -137,12 +140,13 @@ void Screen::confirm(Trainer& trainer) {
     case Overlay::none:
       if (trainer.learners_page())
         return learners_panel_.types_text() ? learners_panel_.close_fields(true) : trainer.review();
+      if (trainer.check_page()) return trainer.practise_checked();
       if (!trainer.start_page()) return step_on(trainer);
       if (start_panel_.types_text()) return start_panel_.close_fields(true);
       return trainer.begin_chosen();
     case Overlay::leave:
       pages_.clear();
-      return trainer.show_start_page();
+      return trainer.leave();
     case Overlay::problem:
     case Overlay::help:
     case Overlay::about:
@@ -222,7 +226,11 @@ void Screen::ask_for_path(Wanted wanted) {
 }
 
 void Screen::leave(Trainer& trainer) {
-  if (!trainer.can_leave()) return;
+  if (!trainer.can_leave()) {
+    if (trainer.session() && trainer.session()->strict())
+      show_note("This exam counts: go on to its end, then it can be left");
+    return;
+  }
   if (trainer.loses_by_leaving()) {
     show_page(Overlay::leave);
     return;
@@ -242,6 +250,7 @@ HelpTopic Screen::help_topic(const Trainer& trainer) const {
   if (below == Overlay::open) return HelpTopic::open;
   if (trainer.start_page()) return HelpTopic::start;
   if (trainer.learners_page()) return HelpTopic::learners;
+  if (trainer.check_page()) return HelpTopic::check;
   if (trainer.setup()) return HelpTopic::setup;
   if (trainer.replay()) return HelpTopic::replay;
   if (trainer.author()) return HelpTopic::author;
@@ -250,7 +259,9 @@ HelpTopic Screen::help_topic(const Trainer& trainer) const {
 }
 
 void Screen::draw_setup(Trainer& trainer) {
-  if (draw_setup_page(theme_, screen_, *trainer.setup(), trainer.next_start(), trainer.pictures(), places_))
+  const glm::dvec3 belly = trainer.loaded_case() ? trainer.loaded_case()->surroundings.start.translation
+                                                 : trainer.pictures().grid().centre();
+  if (draw_setup_page(theme_, screen_, *trainer.setup(), trainer.next_start(), belly, trainer.pictures(), places_))
     trainer.end_setup();
 }
 
@@ -301,7 +312,7 @@ void Screen::draw_overlay(Trainer& trainer) {
     case Overlay::leave:
       if (const std::optional<bool> leaves = draw_leave(theme_, screen_, places_)) {
         close_page();
-        if (*leaves) trainer.show_start_page();
+        if (*leaves) trainer.leave();
       }
       break;
     case Overlay::volume:
@@ -328,7 +339,7 @@ void Screen::draw_overlay(Trainer& trainer) {
           trainer.start();
           break;
         case BriefingAnswer::leave:
-          trainer.show_start_page();
+          trainer.leave();
           break;
       }
       break;
@@ -417,6 +428,25 @@ void Screen::draw_learners_page(Trainer& trainer) {
       break;
     case LearnersAnswer::tables:
       trainer.export_tables();
+      break;
+  }
+}
+
+void Screen::draw_check_page(Trainer& trainer) {
+  switch (check_panel_.draw(theme_, screen_, *trainer.check_page(), places_)) {
+    case CheckAnswer::none:
+      break;
+    case CheckAnswer::leave:
+      leave(trainer);
+      break;
+    case CheckAnswer::help:
+      show_page(Overlay::help);
+      break;
+    case CheckAnswer::open:
+      ask_for_path(Wanted::checked);
+      break;
+    case CheckAnswer::practise:
+      trainer.practise_checked();
       break;
   }
 }

@@ -119,12 +119,14 @@ void Pictures::update(const std::optional<Pose>& pose, const Machine& machine, c
              shows_volume = sizes.volume_width > 0;
   std::array<bool, 6> shown{shows_slice, shows_blend, shows_volume};
   for (std::size_t i = 0; i < axis_slices_.size(); ++i) shown[3 + i] = anatomy && sizes.axis_slices[i].x > 0;
-  for (std::size_t i = 0; i < shown.size(); ++i) {
+  const bool next = ++calls_since_turn_ >= effort.calls_per_turn;
+  for (std::size_t i = 0; next && i < shown.size(); ++i) {
     turn_ = (turn_ + 1) % shown.size();
     if (shown[turn_]) break;
   }
+  if (next) calls_since_turn_ = 0;
   const auto is_due = [&](std::size_t turn, const gl::Texture* drawn) {
-    return shown[turn] && (!effort.turns || turn == turn_ || !drawn);
+    return shown[turn] && (effort.calls_per_turn == 0 || (next && turn == turn_) || !drawn);
   };
 
   view::SliceStyle style;
@@ -255,6 +257,18 @@ const gl::Texture* Pictures::draw_cut(const view::UltrasoundPlane& plane, const 
   view::VolumeStyle body = body_style();
   body.probe = false;
   return cut_ = &cut_view_.render(width, height, *patient_, from, plane, body, budget);
+}
+
+const gl::Texture* Pictures::draw_probe(const view::OrbitCamera& from, int width, int height, const Probe& probe,
+                                        const Pose& patient_from_probe, bool on_body) {
+  if (!patient_) return nullptr;
+  view::VolumeStyle style;
+  style.cut = style.plane = style.organs = false;
+  style.skin = on_body ? 1 : 0;
+  view::UltrasoundPlane plane;
+  plane.probe = probe;
+  plane.patient_from_probe = patient_from_probe;
+  return volume_ = &volume_view_.render(width, height, *patient_, from, plane, style);
 }
 
 long Pictures::version_of(GLuint texture) const {

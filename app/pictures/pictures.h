@@ -39,8 +39,8 @@ struct Effort {
   double quality = 1;
   /// Time for the volume view, which gets coarser while things move to stay within it.
   double volume_ms = std::numeric_limits<double>::infinity();
-  /// The views beside the ultrasound take turns: each call draws one of them.
-  bool turns = false;
+  /// The views beside the ultrasound take turns: one of them is drawn per so many calls; 0: all of them in each.
+  int calls_per_turn = 0;
 };
 
 /// Draws a session's pictures on the graphics card, each only when something it shows has changed. Needs an OpenGL 4.5
@@ -81,6 +81,9 @@ public:
   /// result is valid until the next call.
   const gl::Texture* draw_cut(const view::UltrasoundPlane& plane, const view::OrbitCamera& from, int width, int height,
                               const view::VolumeBudget& budget);
+  /// Draws a probe, and the closed body if it is `on_body`, and returns it; null without a patient. Replaces volume().
+  const gl::Texture* draw_probe(const view::OrbitCamera& from, int width, int height, const Probe& probe,
+                                const Pose& patient_from_probe, bool on_body);
   const Grid& grid() const { return grid_; }
 
   /// Shows the whole patient from one side in volume().
@@ -180,7 +183,8 @@ private:
   Pose shown_pose_;
   double shown_quality_ = 0;
 
-  std::size_t turn_ = 0;  ///< which of the views that take turns was last
+  std::size_t turn_ = 0;      ///< which of the views that take turns was last
+  int calls_since_turn_ = 0;  ///< that were drawn without its next one
   FrameTimes* times_ = nullptr;
 };
 

@@ -9,11 +9,17 @@
 namespace insonate {
 namespace {
 
-/// A frame is too slow above this share of its time, so that a screen of 60 Hz, which shows every second refresh, is
-/// not taken for slow.
-constexpr double kSlow = 1.15;
+/// A frame is too slow above this share of its time. A screen of 60 Hz, which shows every second refresh, is not taken
+/// for slow: its frames take their time to within a percent.
+constexpr double kSlow = 1.04;
+/// Above this share one turn per frame would not be enough.
+constexpr double kMuchTooSlow = 1.4;
 /// Below this share there is time for more.
-constexpr double kQuick = 0.8;
+constexpr double kQuick = 0.72;
+/// The share that a decision aims at. Single frames take longer than the median, so the rate needs some time to spare.
+constexpr double kAim = 0.85;
+/// One view per two frames.
+constexpr int kFewestTurns = 2;
 /// Below this share there is time for all views in each frame: they take at most as long as the ultrasound.
 constexpr double kQuickForAllViews = 0.45;
 /// Most by which one decision changes the quality.
@@ -47,12 +53,15 @@ void QualityGovernor::see_motion(double frame_s) {
 void QualityGovernor::decide(double frame_s) {
   const double share = frame_s / kFrame_s;
   if (share > kSlow) {
-    if (!std::exchange(turns_of_motion_, true)) return;
-    of_motion_ = std::max(kLeast, of_motion_ * std::max(kLeastStep, std::sqrt(1 / share)));
+    if (turns_of_motion_ < kFewestTurns) {
+      turns_of_motion_ = share > kMuchTooSlow ? kFewestTurns : turns_of_motion_ + 1;
+      return;
+    }
+    of_motion_ = std::max(kLeast, of_motion_ * std::max(kLeastStep, std::sqrt(kAim / share)));
   } else if (share < kQuick && of_motion_ < 1) {
-    of_motion_ = std::min(1.0, of_motion_ * std::min(kMostStep, std::sqrt(0.9 / share)));
-  } else if (share < kQuickForAllViews) {
-    turns_of_motion_ = false;
+    of_motion_ = std::min(1.0, of_motion_ * std::min(kMostStep, std::sqrt(kAim / share)));
+  } else if (share < (turns_of_motion_ == kFewestTurns ? kQuick : kQuickForAllViews)) {
+    turns_of_motion_ = std::max(0, turns_of_motion_ - 1);
   }
 }
 

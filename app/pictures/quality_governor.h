@@ -5,7 +5,8 @@
 namespace insonate {
 
 /// Decides what the window leaves out while the picture moves, on a machine that cannot draw everything 30 times a
-/// second. First the views beside the ultrasound take turns, one per frame. Then the ultrasound gets fewer pixels. Once
+/// second. First the views beside the ultrasound take turns, one per frame and then one per two frames. Then the
+/// ultrasound gets fewer pixels. Once
 /// the picture stands still everything is drawn in full, so that close inspection and measurements do not depend on the
 /// speed of the machine. A moving picture that is recorded keeps the pixels that it was drawn with.
 class QualityGovernor {
@@ -20,8 +21,9 @@ public:
 
   /// Returns the share of the screen's pixels along each side for the next frame, kLeast to 1.
   double quality() const { return moves_ ? of_motion_ : 1; }
-  /// Returns whether only one of the views beside the ultrasound is to be drawn in the next frame.
-  bool takes_turns() const { return moves_ && turns_of_motion_; }
+  /// Returns how many frames one of the views beside the ultrasound has for itself: 0 (all are drawn in each frame), 1
+  /// or 2.
+  int frames_per_turn() const { return moves_ ? turns_of_motion_ : 0; }
 
   /// To be called once per frame.
   /// @param now_s     when the frame began, on any monotonic clock
@@ -36,7 +38,7 @@ private:
   bool moves_ = false, computed_before_ = false;
   double computed_s_ = 0;  // of the last frame that computed anything
   double of_motion_ = 1;   // quality while the picture moves
-  bool turns_of_motion_ = false;
+  int turns_of_motion_ = 0;
   std::vector<double> frames_s_;  // since the last decision
 };
 

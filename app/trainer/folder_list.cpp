@@ -65,12 +65,12 @@ std::string kind_in_words(Material material, Wanted wanted) {
     case Material::ct:
       return any || wanted == Wanted::patient ? "CT" : "";
     case Material::scenario:  // every .toml
-      return wanted == Wanted::calibration       ? "calibration"
-             : wanted == Wanted::landmarks       ? "landmarks"
-             : wanted == Wanted::drawing         ? "drawing"
-             : wanted == Wanted::look            ? "transfer function"
-             : any || wanted == Wanted::scenario ? "scenario"
-                                                 : "";
+      return wanted == Wanted::calibration                                    ? "calibration"
+             : wanted == Wanted::landmarks                                    ? "landmarks"
+             : wanted == Wanted::drawing                                      ? "drawing"
+             : wanted == Wanted::look                                         ? "transfer function"
+             : any || wanted == Wanted::scenario || wanted == Wanted::checked ? "scenario"
+                                                                              : "";
     case Material::tracker_log:
       return any || wanted == Wanted::recording ? "recorded scan" : "";
     case Material::raw_log:

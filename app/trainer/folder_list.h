@@ -15,6 +15,7 @@ enum class Wanted {
   anything,
   patient,
   scenario,
+  checked,  ///< a scenario, to see what is wrong with it
   recording,
   calibration,
   landmarks,

@@ -12,6 +12,7 @@
 #include "app/session/session.h"
 #include "app/session/step_controls.h"
 #include "app/session/undo_history.h"
+#include "app/trainer/check_page.h"
 #include "app/trainer/learners_page.h"
 #include "app/trainer/setup_wizard.h"
 #include "app/trainer/start_page.h"
@@ -31,6 +32,11 @@ struct Choosing {
 /// An instructor looks at the learners and their attempts.
 struct Overseeing {
   std::unique_ptr<LearnersPage> page;  ///< never null
+};
+
+/// An author writes a scenario in an editor, and sees what is wrong with it.
+struct Checking {
+  std::unique_ptr<CheckPage> page;  ///< never null
 };
 
 /// A probe on a patient: what practice, exams and authoring have in common.
@@ -68,7 +74,7 @@ struct SettingUp {
   std::unique_ptr<SetupWizard> wizard;  ///< never null
 };
 
-using TrainerMode = std::variant<Idle, Choosing, Overseeing, Practice, Exam, Authoring, Playback, SettingUp>;
+using TrainerMode = std::variant<Idle, Choosing, Overseeing, Checking, Practice, Exam, Authoring, Playback, SettingUp>;
 
 /// Returns what practice, exams and authoring have in common; nullptr in another mode.
 inline Scan* scan_of(TrainerMode& mode) {

@@ -210,6 +210,12 @@ void add_setup(CLI::App& mode, Options& options) {
   add_screen(mode, options);
 }
 
+void add_check(CLI::App& mode, Options& options) {
+  mode.add_option("SCENARIO", options.scenario, "Check this scenario file (TOML)")->type_name("FILE")->required();
+  add_case(mode, options)->default_str("the scenario's patient");
+  add_screen(mode, options);
+}
+
 /// Throws InputError for an option before the mode: it would count as one of practice.
 void refuse_options_before(const CLI::App& arguments, const CLI::App& mode) {
   for (const CLI::Option* option : arguments.get_options())
@@ -253,6 +259,10 @@ constexpr ModeText kModes[] = {
     {Mode::setup, "setup", "Calibrate a tracker step by step, then practise; key F2 does the same", add_setup,
      "Examples:\n"
      "  insonate setup --tracker hydra: --calibration lab.toml\n"},
+    {Mode::check, "check", "Show the text of a scenario and what is wrong with it, again whenever the file changes",
+     add_check,
+     "Example:\n"
+     "  insonate check exam.toml\n"},
 };
 
 }  // namespace

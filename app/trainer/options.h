@@ -22,6 +22,7 @@ enum class Mode {
   replay,    ///< look at a run again; nothing is scored or stored
   author,    ///< make reference views of a case
   setup,     ///< calibrate the tracker, then practise
+  check,     ///< show an author what is wrong with a scenario file, again whenever it changes
 };
 
 /// The command line. An empty path or text means what is built in, unless its comment says otherwise.

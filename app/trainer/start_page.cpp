@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <iterator>
 #include <map>
 #include <set>
 #include <system_error>
@@ -37,6 +38,20 @@ std::vector<fs::path> files_in(const fs::path& folder, std::string_view ending) 
     if (at->path().filename().string().ends_with(ending)) files.push_back(at->path());
   std::sort(files.begin(), files.end());
   return files;
+}
+
+/// Returns the case folders in a folder, in the order of their names.
+std::vector<fs::path> cases_in(const fs::path& folder) {
+  std::vector<fs::path> cases;
+  std::error_code error;
+  if (folder.empty()) return cases;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    std::error_code missing;
+    if (!at->path().filename().string().starts_with(".") && fs::exists(at->path() / "case.toml", missing))
+      cases.push_back(at->path());
+  }
+  std::sort(cases.begin(), cases.end());
+  return cases;
 }
 
 /// Returns the smallest seed that draws this variant.
@@ -178,7 +193,7 @@ void StartPage::read_patients() {
     if (variants.empty()) variants.emplace_back();
     for (const OfferedVariant& drawn_by : variants) {
       const Scenario drawn = read_scenario(offered.file, drawn_by.seed);
-      OfferedPatient made{"", "Built-in patient", {}};
+      OfferedPatient made{"", "Built-in patient", CaseSource{}, fs::path()};
       std::string finding = drawn.variant;
       for (const auto& [option, value] : drawn.phantom_options)
         if (finding.empty()) finding = in_words(option);
@@ -189,30 +204,42 @@ void StartPage::read_patients() {
     }
   }
   for (auto& [phantom, offered] : found) patients_.push_back(std::move(offered));
-  std::error_code error;
-  add_cases_in(fs::current_path(error));
+  list_cases();
 }
 
 void StartPage::list_cases_in(const fs::path& folder) {
   std::error_code error;
-  std::erase_if(patients_, [&](const OfferedPatient& offered) {
-    return !case_folder_.empty() && offered.source.case_folder.parent_path() == case_folder_;
-  });
-  patient = 0;
   case_folder_ = folder == fs::current_path(error) ? fs::path() : folder;
+  list_cases();
   if (case_folder_.empty()) return;
   if (const FolderList list = list_folder(folder, Wanted::patient); !list.problem.empty())
     throw InputError(folder.string(), "", "its cases cannot be listed", "choose another folder in the settings");
-  add_cases_in(folder);
 }
 
-void StartPage::add_cases_in(const fs::path& folder) {
-  for (const FolderEntry& entry : list_folder(folder, Wanted::patient).entries)
-    if (entry.kind == "case") {
-      OfferedPatient offered{entry.path.filename().string(), "Case in " + folder.string(), {}};
-      offered.source.case_folder = entry.path;
-      patients_.push_back(std::move(offered));
+/// Lists the cases that are there now. The chosen patient stays chosen if it is still there.
+void StartPage::list_cases() {
+  std::error_code error;
+  std::vector<OfferedPatient> cases;
+  for (const fs::path& folder : {fs::current_path(error), case_folder_})
+    for (const fs::path& found : cases_in(folder)) {
+      OfferedPatient offered{found.filename().string(), "Case in " + folder.string(), CaseSource{}, folder};
+      offered.source.case_folder = found;
+      cases.push_back(std::move(offered));
     }
+  const auto listed = [](const OfferedPatient& offered) { return !offered.listed_in.empty(); };
+  const auto same = [](const OfferedPatient& a, const OfferedPatient& b) {
+    return a.source.case_folder == b.source.case_folder && a.listed_in == b.listed_in;
+  };
+  std::vector<OfferedPatient> before;
+  std::copy_if(patients_.begin(), patients_.end(), std::back_inserter(before), listed);
+  if (std::equal(before.begin(), before.end(), cases.begin(), cases.end(), same)) return;
+  const std::optional<OfferedPatient> chosen =
+      patient < patients_.size() ? std::optional(patients_[patient]) : std::nullopt;
+  std::erase_if(patients_, listed);
+  patients_.insert(patients_.end(), cases.begin(), cases.end());
+  patient = 0;
+  for (std::size_t i = 0; chosen && i < patients_.size(); ++i)
+    if (same(patients_[i], *chosen) && patients_[i].name == chosen->name) patient = i;
 }
 
 void StartPage::read_database(ResultsDatabase& database) {
@@ -290,6 +317,7 @@ void StartPage::update(double now_s) {
   if (search_.valid() && search_.wait_for(0s) == std::future_status::ready) list_trackers(search_.get());
   if (search_.valid() || (searched_s_ > 0 && now_s - searched_s_ < kSearch_s)) return;
   searched_s_ = now_s;
+  list_cases();
   search_ = std::async(std::launch::async, [] { return find_trackers(); });
 }
 
@@ -349,7 +377,7 @@ void StartPage::add(const fs::path& path) {
       return;
     case Material::case_folder:
     case Material::ct: {
-      OfferedPatient offered{name, material == Material::ct ? "CT" : "Case", {}};
+      OfferedPatient offered{name, material == Material::ct ? "CT" : "Case", CaseSource{}, fs::path()};
       (material == Material::ct ? offered.source.ct : offered.source.case_folder) = path;
       offered.about += " in " + path.parent_path().string();
       patients_.push_back(std::move(offered));

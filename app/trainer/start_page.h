@@ -41,6 +41,7 @@ struct OfferedScenario {
 struct OfferedPatient {
   std::string name, about;
   CaseSource source;
+  std::filesystem::path listed_in;  ///< the folder whose cases the page lists; empty for other patients
 };
 
 /// A run that can be looked at again.
@@ -101,7 +102,7 @@ public:
   /// Returns what could not be read, a sentence; empty if nothing.
   const std::string& problem() const { return problem_; }
 
-  /// Takes over the trackers that were found since, and looks again from time to time.
+  /// Takes over the trackers that were found since, and looks again from time to time for trackers and cases.
   void update(double now_s);
 
   // What is chosen
@@ -128,8 +129,8 @@ public:
   const std::filesystem::path& drawing() const { return options_.drawing; }
   /// Adds a file or folder that a person has chosen for the task, and chooses it. Throws InputError.
   void add(const std::filesystem::path& path);
-  /// Lists the cases of the person's own folder, in place of the one before; none for an empty path. Throws InputError
-  /// if it cannot be listed.
+  /// Lists the cases of the person's own folder, in place of the one before; none for an empty path. Cases that come
+  /// and go later are listed by update(). Throws InputError if it cannot be listed.
   void list_cases_in(const std::filesystem::path& folder);
   /// Reads the database and the recordings again, or others.
   /// @param out       the folder of recordings
@@ -148,7 +149,7 @@ public:
 private:
   void read_scenarios();
   void read_patients();
-  void add_cases_in(const std::filesystem::path& folder);
+  void list_cases();
   void read_runs();
   void read_database(ResultsDatabase& database);
   void list_trackers(const std::vector<FoundTracker>& found);

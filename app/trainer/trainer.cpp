@@ -52,6 +52,7 @@ Trainer::Trainer(Options options, Preferences preferences, std::filesystem::path
 
 void Trainer::open_from_options() {
   if (begins_on_start_page(options_)) return show_start_page();
+  if (options_.mode == Mode::check) return check_scenario(options_.scenario);
   find_calibration();
   load(request_of(options_, false));
 }
@@ -65,12 +66,13 @@ Trainer::Request Trainer::request_of(const Options& options, bool free_practice)
 
 void Trainer::open(const std::filesystem::path& path) {
   attempt([&] {
+    if (check_page() && kind_of_material(path) == Material::scenario) return check_scenario(path);
     if (in_exam()) throw InputError(path.string(), "", "an exam that counts is taken as it is", "open it in practice");
     Request next;
     if (const StartPage* page = start_page()) {
       given_ = page->options();
     }
-    if (start_page() || learners_page()) {
+    if (start_page() || learners_page() || check_page()) {
       options_ = given_;
       find_calibration();
       next.tracker = options_.tracker;

@@ -93,6 +93,16 @@ public:
     const auto* mode = std::get_if<Overseeing>(&mode_);
     return mode ? mode->page.get() : nullptr;
   }
+  /// Returns the page that checks a scenario; nullptr in another mode.
+  CheckPage* check_page() { return const_cast<CheckPage*>(std::as_const(*this).check_page()); }
+  const CheckPage* check_page() const {
+    const auto* mode = std::get_if<Checking>(&mode_);
+    return mode ? mode->page.get() : nullptr;
+  }
+  /// Goes from the start page to the page that checks a scenario file, or checks another one there.
+  void check_scenario(const std::filesystem::path& file);
+  /// Begins to load the checked scenario, to practise it.
+  void practise_checked();
   /// Goes from the start page to the page of learners, if there is a database of results.
   void show_learners(const LearnersChoice& choice = {});
   /// Begins to load the attempt that is chosen on the page of learners, to replay it.
@@ -102,11 +112,13 @@ public:
   /// Writes the database as CSV files. A notice names their folder.
   void export_tables();
 
-  /// Leaves the current mode for the page from which it was begun: the page of learners after a review, and otherwise
-  /// the start page. Does nothing where can_leave() is false.
+  /// Leaves the current mode for the page from which it was begun: the page of learners after a review, the check of a
+  /// scenario that is practised from there, and otherwise the start page. Does nothing where can_leave() is false.
   void leave();
   /// Returns whether leave() leads to the page of learners.
   bool leads_to_learners() const;
+  /// Returns whether leave() leads to the page that checks a scenario.
+  bool leads_to_check() const;
   /// Leaves the current mode for the start page, and begins to load the built-in patient in the background. Does
   /// nothing where can_leave() is false.
   void show_start_page();
@@ -291,6 +303,7 @@ private:
     notice_recordings();
     mode.page->update();
   }
+  void update(Checking& mode, double now_s) { mode.page->update(now_s); }
   void update(Playback& mode, double now_s) { mode.replay->advance(now_s); }
   void update(SettingUp& mode, double now_s);
   template <std::derived_from<Scan> Mode>
@@ -351,7 +364,9 @@ private:
   bool clients_ = false, records_pictures_ = false, sweeps_ = false;  ///< who wanted pictures at the last frame
   std::unique_ptr<IgtlFeed> feed_;                                    ///< nullptr when no clients are asked for
   std::optional<ResultFiles> result_files_;
-  std::optional<LearnersChoice> reviewed_;  ///< on the page of learners, from which the replay was begun
+  Task begun_ = Task::first_scan;                 ///< last begun on the start page, which shows it again
+  std::optional<LearnersChoice> reviewed_;        ///< on the page of learners, from which the replay was begun
+  std::optional<std::filesystem::path> checked_;  ///< scenario on the page from which practice was begun
   bool covered_ = false;
   bool results_due_ = false;
   std::optional<ResultsDatabase> results_;

@@ -21,6 +21,11 @@ bool Trainer::loses_by_leaving() const {
 }
 
 void Trainer::leave() {
+  if (leads_to_check()) {
+    const std::filesystem::path file = *checked_;
+    show_start_page();
+    return check_scenario(file);
+  }
   if (!replay() || !reviewed_) return show_start_page();
   const LearnersChoice choice = *reviewed_;
   show_start_page();
@@ -31,11 +36,35 @@ bool Trainer::leads_to_learners() const {
   return replay() && reviewed_;
 }
 
+bool Trainer::leads_to_check() const {
+  return session() && checked_;
+}
+
 void Trainer::show_learners(const LearnersChoice& choice) {
   const StartPage* page = start_page();
   if (!page || page->database().empty()) return;
   given_ = options_ = page->options();
   attempt([&] { mode_ = Overseeing{std::make_unique<LearnersPage>(page->database(), choice)}; });
+}
+
+void Trainer::check_scenario(const std::filesystem::path& file) {
+  if (loading_) return;
+  if (const StartPage* page = start_page()) given_ = options_ = page->options();
+  if (!start_page() && !check_page() && !std::holds_alternative<Idle>(mode_)) return;
+  mode_ = Checking{std::make_unique<CheckPage>(file, options_.case_folder)};
+}
+
+void Trainer::practise_checked() {
+  const CheckPage* page = check_page();
+  if (!page || loading_ || page->state() != CheckPage::State::right) return;
+  Options options = given_;
+  options.mode = Mode::practice;
+  options.scenario = page->file();
+  options.case_folder = page->case_folder();
+  if (options.tracker.empty()) options.tracker = "mouse:";
+  const std::filesystem::path file = page->file();
+  begin(Beginning{std::move(options), false, false});
+  checked_ = file;
 }
 
 void Trainer::review() {
@@ -68,6 +97,7 @@ void Trainer::export_tables() {
 void Trainer::show_start_page() {
   if (!can_leave()) return;
   reviewed_.reset();
+  checked_.reset();
   write_results_if_due();
   recorder_.stop();
   clip_.stop();
@@ -86,7 +116,7 @@ void Trainer::show_start_page() {
 }
 
 void Trainer::make_start_page() {
-  const Task task = start_page() ? start_page()->task : Task::first_scan;
+  const Task task = start_page() ? start_page()->task : begun_;
   open_results();
   mode_ = Choosing{std::make_unique<StartPage>(given_, results_ ? &*results_ : nullptr)};
   start_page()->task = task;
@@ -115,6 +145,7 @@ void Trainer::take_over_prepared() {
 void Trainer::begin_chosen() {
   const StartPage* page = start_page();
   if (!page || loading_ || !page->why_not().empty()) return;
+  begun_ = page->task;
   if (page->task == Task::learners) return show_learners();
   begin(page->chosen());
 }
@@ -132,7 +163,7 @@ void Trainer::begin(const Beginning& chosen) {
 
 /// After what was chosen has not begun: the page is there again, with the options that it had.
 void Trainer::give_up_choice() {
-  if (start_page() || learners_page()) options_ = given_;
+  if (start_page() || learners_page() || check_page()) options_ = given_;
 }
 
 /// Takes the built-in patient from what the start page has prepared, or prepares still. Returns false if it is not the

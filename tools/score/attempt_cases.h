@@ -4,6 +4,7 @@
 #include <string>
 
 #include "scenarios/scenario.h"
+#include "scenarios/scenario_check.h"
 #include "sim/core/files.h"
 #include "tools/cli/subject.h"
 
@@ -31,10 +32,7 @@ public:
 
   /// Returns a text that is equal for equal patients.
   static std::string key_of(const std::string& patient, const Scenario& scenario) {
-    if (!patient.empty()) return patient;
-    std::string key = '\n' + scenario.case_name + '\n' + scenario.file.parent_path().string();
-    for (const auto& [name, value] : scenario.phantom_options) key.append("\n").append(name).append("=").append(value);
-    return key;
+    return patient.empty() ? patient_key(scenario) : patient;
   }
 
 private:

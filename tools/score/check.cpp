@@ -1,6 +1,5 @@
 #include <unistd.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -9,10 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "scenarios/runner.h"
-#include "scenarios/scenario.h"
-#include "sim/core/files.h"
-#include "sim/model/tissue.h"
+#include "scenarios/scenario_check.h"
 #include "tools/score/attempt_cases.h"
 #include "tools/score/commands.h"
 
@@ -25,13 +21,9 @@ struct Given {
   bool without_case = false;
 };
 
-/// Returns the reason why a patient cannot be used, placed where the scenario names it.
-Mistake unusable(const Scenario& scenario, const InputError& error) {
-  const std::string sentence = error.what();  // "FILE: PLACE: PROBLEM; REMEDY."
-  const std::size_t remedy = sentence.rfind("; ");
-  if (remedy == std::string::npos) return {scenario.case_place, sentence, "correct it"};
-  return {scenario.case_place, "the case cannot be used: " + sentence.substr(0, remedy),
-          sentence.substr(remedy + 2, sentence.size() - remedy - 3)};
+CheckedOn patients_of(const Given& given) {
+  if (given.without_case) return CheckedOn::no_patient;
+  return given.case_folder.empty() ? CheckedOn::its_patients : CheckedOn::given_patient;
 }
 
 /// Shows the progress of the check of the patients, on a terminal only. Scripts expect only problems on standard error.
@@ -70,83 +62,32 @@ private:
   bool shown_ = false;
 };
 
-/// Returns the problems that do not need the patients: of the text, and of how each variant names its case.
-std::vector<Mistake> problems_before_patients(const ReadScenario& read, const Given& given) {
-  std::vector<Mistake> problems = read.problems;
-  if (!given.case_folder.empty() || given.without_case) return problems;
-  for (const Scenario& variant : read.variants)
-    if (!variant.case_name.empty())
-      for (Mistake& problem : problems_before_case(variant, assets_folder())) problems.push_back(std::move(problem));
-  return problems;
-}
-
-/// Returns the variants that can be checked on their patient. Variants with the same patient follow each other.
-std::vector<Scenario> with_patients(std::vector<Scenario> variants, const Given& given) {
-  if (given.without_case) return {};
-  std::erase_if(variants, [&](const Scenario& variant) {
-    if (variant.steps.empty()) return true;
-    if (!given.case_folder.empty() || variant.case_name == "abdomen") return false;
-    return variant.case_name.empty() || !problems_before_case(variant, assets_folder()).empty();
-  });
-  std::stable_sort(variants.begin(), variants.end(), [&](const Scenario& a, const Scenario& b) {
-    return AttemptCases::key_of(given.case_folder.string(), a) < AttemptCases::key_of(given.case_folder.string(), b);
-  });
-  return variants;
-}
-
-/// Returns the problems of a variant on its patient. Options that the phantom refuses are removed first, so that the
-/// rest can be checked.
-std::vector<Mistake> problems_with_patient(Scenario variant, const Given& given, bool text_is_right,
-                                           AttemptCases& cases, CheckProgress& progress) {
-  bool takes_options = true;
-  if (given.case_folder.empty() && !problems_with_phantom(variant, assets_folder()).empty()) {
-    takes_options = false;
-    std::erase_if(variant.phantom_options, [&](const auto& option) {
-      Scenario with_it = variant;
-      with_it.phantom_options = {option};
-      return !problems_with_phantom(with_it, assets_folder()).empty();
-    });
-  }
-  std::vector<Mistake> problems;
-  try {
-    const Case& subject = cases.of(given.case_folder.string(), variant, [&](double share) { progress.show(share); });
-    problems = problems_with_case(variant, subject);
-    // Building the runner checks the case's views against themselves.
-    if (text_is_right && takes_options && problems.empty())
-      Runner(variant, subject, read_tissue_table(assets_folder() / "tissues.toml"));
-  } catch (const ScenarioError& error) {
-    problems.insert(problems.end(), error.problems().begin(), error.problems().end());
-  } catch (const InputError& error) {
-    if (!given.case_folder.empty()) throw;
-    problems.push_back(unusable(variant, error));
-  }
-  return problems;
-}
-
 int check(const Given& given) {
-  const ReadScenario read = read_every_variant(given.scenario);
-  std::vector<Mistake> first = problems_before_patients(read, given);
-  const bool right_so_far = first.empty();
-  const std::vector<Scenario> variants = with_patients(read.variants, given);
+  const CheckedOn on = patients_of(given);
+  const CheckedText text = check_text(given.scenario, on);
+  const bool right_so_far = text.problems.empty();
   if (!right_so_far) {
-    const ScenarioError error(given.scenario.string(), std::move(first));
-    if (variants.empty()) throw error;
+    const ScenarioError error(given.scenario.string(), text.problems);
+    if (text.on_patients.empty()) throw error;
     // Printed now, because each patient takes seconds.
     std::fprintf(stderr, "insonate-score: %s\n", error.what());
   }
   std::vector<Mistake> problems;
   {
     AttemptCases cases;
-    CheckProgress progress(variants.size());
-    for (const Scenario& variant : variants) {
+    CheckProgress progress(text.on_patients.size());
+    for (const Scenario& variant : text.on_patients) {
       progress.begin(variant);
-      const std::vector<Mistake> more = problems_with_patient(variant, given, read.problems.empty(), cases, progress);
+      const std::vector<Mistake> more =
+          check_on_patient(text, variant, on, [&](const Scenario& checked) -> const Case& {
+            return cases.of(given.case_folder.string(), checked, [&](double share) { progress.show(share); });
+          });
       problems.insert(problems.end(), more.begin(), more.end());
     }
   }
   if (!problems.empty()) throw ScenarioError(given.scenario.string(), std::move(problems));
   if (!right_so_far) return 2;
-  const Scenario& exam = read.variants.front();
+  const Scenario& exam = text.read.variants.front();
   std::printf("%s: \"%s\", %zu steps: no problems found\n", given.scenario.string().c_str(), exam.title.c_str(),
               exam.steps.size());
   return 0;

@@ -27,7 +27,7 @@ void AttemptPanel::close_fields(bool keep) {
 AttemptRequest AttemptPanel::draw(const Theme& theme, Rect where, LearnersPage& page, const Run& run,
                                   std::map<std::string, Rect>& places) {
   const AttemptSummary* attempt = page.attempt();
-  if (std::exchange(shown_, attempt ? attempt->number : 0) != shown_) {
+  if (Key now(page.database().string(), attempt ? attempt->number : 0); std::exchange(shown_, now) != now) {
     comment_.close();
     store_ = forget_ = false;
     doubtful_ = 0;

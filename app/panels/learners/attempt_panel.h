@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <utility>
 
 #include "app/panels/widgets/text_field.h"
 #include "app/panels/widgets/theme.h"
@@ -38,9 +39,11 @@ private:
                    std::map<std::string, Rect>& places);
 
   TextField comment_{4 * Comment::kMostCharacters}, author_;
-  std::map<std::int64_t, std::string> drafts_;  ///< by attempt
+  /// An attempt in its database: numbers of other databases are the same.
+  using Key = std::pair<std::string, std::int64_t>;
+  std::map<Key, std::string> drafts_;
   std::string typed_author_;
-  std::int64_t shown_ = 0;     ///< the attempt of the last frame
+  Key shown_;                  ///< the attempt of the last frame; number 0: none
   std::int64_t doubtful_ = 0;  ///< comment that the next click on its button removes; 0 for none
   bool store_ = false, forget_ = false, author_was_open_ = false;
 };

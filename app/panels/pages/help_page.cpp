@@ -95,6 +95,16 @@ Help help_of(HelpTopic topic) {
                         {"Enter", "look at the chosen attempt again"},
                         {"Escape", "to the start page"}},
                        kWindow})};
+    case HelpTopic::check:
+      return {"Help: checking a scenario",
+              "On the left the text of the file, on the right what is wrong with it, as insonate-score check finds it. "
+              "Edit the file in any editor: when it is saved, it is checked again.",
+              keys_of({{{"Up, Down", "choose a problem, and show its line"},
+                        {"Enter", "practise the scenario, once no problem is left"},
+                        {"F5", "check again: a patient that the scenario names may have changed"},
+                        {"Ctrl O", "check another scenario; or drop it on the window"},
+                        {"Escape", "to the start page"}},
+                       kWindow})};
     case HelpTopic::scan:
       return {"Help: scanning", "The large picture is the ultrasound. The 3D view shows the probe that it comes from.",
               keys_of({kProbe,

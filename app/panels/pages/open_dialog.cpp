@@ -18,6 +18,8 @@ const char* title_of(Wanted wanted) {
       return "Open a CT or a case";
     case Wanted::scenario:
       return "Open a scenario";
+    case Wanted::checked:
+      return "Check a scenario";
     case Wanted::recording:
       return "Open a recorded scan";
     case Wanted::calibration:
@@ -45,6 +47,7 @@ const char* what_is_shown(Wanted wanted) {
     case Wanted::patient:
       return "CTs (NIfTI, NRRD, MetaImage), case folders and DICOM folders. Or drop one on the window.";
     case Wanted::scenario:
+    case Wanted::checked:
       return "Scenario files (.toml).";
     case Wanted::recording:
       return "Recorded scans (.igs.mha, .seq.mha, .seq.nrrd).";

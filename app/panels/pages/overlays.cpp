@@ -145,7 +145,7 @@ BriefingAnswer draw_briefing(const Theme& theme, const Rect& screen, const Scena
   places["start"] = buttons.take_right(theme.px(160));
   if (button(theme, "start", places["start"], "Start  (Enter)", ButtonKind::primary)) answer = BriefingAnswer::start;
   places["leave_briefing"] = buttons.take_left(theme.px(130));
-  if (button(theme, "leave_briefing", places["leave_briefing"], "Start page")) answer = BriefingAnswer::leave;
+  if (button(theme, "leave_briefing", places["leave_briefing"], "Back  (Esc)")) answer = BriefingAnswer::leave;
   end_overlay();
   return answer;
 }

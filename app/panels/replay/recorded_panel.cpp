@@ -9,6 +9,7 @@
 #include <cmath>
 #include <vector>
 
+#include "app/panels/scan/picture_plates.h"
 #include "app/panels/scan/ultrasound_panel.h"
 #include "sim/core/input_error.h"
 #include "sim/core/text.h"
@@ -105,9 +106,9 @@ void RecordedPanel::draw(const Theme& theme, const Rect& panel, const Replay& re
     ImGui::PushClipRect(area.min(), area.max(), true);
     draw_image(texture_, on_screen);
     ImGui::PopClipRect();
-    draw_text({line.x, line.y + line.h, line.w, theme.px(19)}, theme.small_text, colour::kMuted, note);
+    draw_on_plate(theme, {line.x, line.y + line.h, line.w, theme.px(19)}, theme.small_text, colour::kMuted, note);
   }
-  draw_text(line, theme.strong, colour::kText, "Recorded");
+  draw_on_plate(theme, line, theme.strong, colour::kText, "Recorded");
 }
 
 }  // namespace insonate::ui

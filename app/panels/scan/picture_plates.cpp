@@ -18,6 +18,18 @@ Rect draw_title(const Theme& theme, const Rect& panel, std::string_view title) {
   return plate;
 }
 
+Rect draw_on_plate(const Theme& theme, const Rect& where, ImFont* font, ImU32 colour, std::string_view text,
+                   Align align) {
+  const float margin = theme.px(4), width = std::min(text_width(font, text), where.w);
+  const float x = align == Align::left    ? where.x
+                  : align == Align::right ? where.x + where.w - width
+                                          : where.x + (where.w - width) / 2;
+  const Rect plate{x - margin, where.y, width + 2 * margin, where.h};
+  fill(plate, colour::kPlate, theme.px(3));
+  draw_text({x, where.y, width + 1, where.h}, font, colour, text);
+  return plate;
+}
+
 void draw_edge_letters(const Theme& theme, const Rect& picture, const view::EdgeLetters& letters,
                        const Rect& upper_left, const Rect& lower_left) {
   const float margin = theme.px(4), height = theme.px(20), gap = theme.px(6);

@@ -17,6 +17,13 @@ ImTextureID id_of(const gl::Texture& texture);
 /// Draws a picture's name in its upper left corner. Returns the plate's rectangle.
 Rect draw_title(const Theme& theme, const Rect& panel, std::string_view title);
 
+/// Draws text on a plate that is as wide as the text, so that it can be read on any echo. Returns the plate's
+/// rectangle.
+/// @param where  the text's line
+/// @param align  where the plate lies in the line
+Rect draw_on_plate(const Theme& theme, const Rect& where, ImFont* font, ImU32 colour, std::string_view text,
+                   Align align = Align::left);
+
 /// Draws letters at the middles of the edges, beside the plates in the corners.
 /// @param upper_left, lower_left  the plates in the corners; empty: none
 void draw_edge_letters(const Theme& theme, const Rect& picture, const view::EdgeLetters& letters,

@@ -6,6 +6,7 @@
 
 #include "app/panels/scan/annotation_layer.h"
 #include "app/panels/scan/exam_panel.h"
+#include "app/panels/scan/picture_plates.h"
 #include "sim/core/text.h"
 
 namespace insonate::ui {
@@ -27,11 +28,11 @@ void draw_depth_scale(const Theme& theme, const Rect& panel, const PlaneOnScreen
     const bool major = cm % 5 == 0;
     list->AddLine({right - theme.px(major ? 12 : 6), y}, {right, y}, major ? colour::kText : colour::kMuted, 1);
     if (cm % numbered_cm == 0 && cm > 0)
-      draw_text({right - theme.px(52), y - theme.px(10), theme.px(34), theme.px(20)}, theme.small_text, colour::kMuted,
-                std::to_string(in_mm ? 10 * cm : cm), Align::right);
+      draw_on_plate(theme, {right - theme.px(52), y - theme.px(10), theme.px(34), theme.px(20)}, theme.small_text,
+                    colour::kMuted, std::to_string(in_mm ? 10 * cm : cm), Align::right);
   }
-  draw_text({right - theme.px(52), at(plane, {0, 0}).y - theme.px(10), theme.px(34), theme.px(20)}, theme.small_text,
-            colour::kFaint, in_mm ? "mm" : "cm", Align::right);
+  draw_on_plate(theme, {right - theme.px(52), at(plane, {0, 0}).y - theme.px(10), theme.px(34), theme.px(20)},
+                theme.small_text, colour::kFaint, in_mm ? "mm" : "cm", Align::right);
 }
 
 void draw_grey_scale(const Theme& theme, const Rect& panel, double dynamic_range_db) {
@@ -43,10 +44,10 @@ void draw_grey_scale(const Theme& theme, const Rect& panel, double dynamic_range
   ImGui::GetWindowDrawList()->AddRectFilledMultiColor(bar.min(), bar.max(), IM_COL32_WHITE, IM_COL32_WHITE,
                                                       IM_COL32_BLACK, IM_COL32_BLACK);
   outline(bar, colour::kLine);
-  const Rect label{bar.x + theme.px(18), bar.y, theme.px(60), theme.px(16)};
-  draw_text(label, theme.small_text, colour::kMuted, "0 dB");
-  draw_text({label.x, bar.y + bar.h - theme.px(16), label.w, label.h}, theme.small_text, colour::kMuted,
-            formatted("\u2212%.0f", dynamic_range_db));
+  const Rect label{bar.x + theme.px(20), bar.y, theme.px(60), theme.px(18)};
+  draw_on_plate(theme, label, theme.small_text, colour::kMuted, "0 dB");
+  draw_on_plate(theme, {label.x, bar.y + bar.h - label.h, label.w, label.h}, theme.small_text, colour::kMuted,
+                formatted("\u2212%.0f", dynamic_range_db));
 }
 
 // Draws the dot beside the face's edge that is on the marker's side.
@@ -78,14 +79,14 @@ void draw_mark(const Theme& theme, const Rect& panel, const Session& session) {
 /// Draws the texts around the picture. Returns where the next line goes.
 Rect draw_annotations(const Theme& theme, const Rect& panel, const std::string& patient, const Machine& machine) {
   Rect line{panel.x + theme.px(16), panel.y + theme.px(12), panel.w * 0.27f, theme.px(24)};
-  draw_text(line, theme.strong, colour::kText, patient);
+  draw_on_plate(theme, line, theme.strong, colour::kText, patient);
   line.y += line.h;
   line.h = theme.px(19);
   for (const std::string& text :
        {machine.transducer().title + formatted(", %.1f MHz", machine.frequency_mhz),
         "Depth " + depth_text(theme.look(), machine.depth_mm), formatted("Gain %+.0f dB", machine.gain_db),
         formatted("Range %.0f dB", machine.dynamic_range_db)}) {
-    draw_text(line, theme.small_text, colour::kMuted, text);
+    draw_on_plate(theme, line, theme.small_text, colour::kMuted, text);
     line.y += line.h;
   }
   return line;
@@ -223,7 +224,8 @@ bool UltrasoundPanel::draw(const Theme& theme, const Rect& panel, Session& sessi
     draw_text(panel, theme.text, colour::kFaint, "Waiting for the probe", Align::centre);
   }
   const Rect below = draw_annotations(theme, panel, session.loaded_case().subject.name, session.machine());
-  if (!session.event_markers_s().empty()) draw_text(below, theme.small_text, colour::kAccent, mark_text(session));
+  if (!session.event_markers_s().empty())
+    draw_on_plate(theme, below, theme.small_text, colour::kAccent, mark_text(session));
   draw_mark(theme, panel, session);
   draw_banner(theme, panel, session.lost_for_s(), state_text(session, tools));
   draw_tracker_problem(theme, panel, session);

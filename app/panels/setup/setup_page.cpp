@@ -75,7 +75,7 @@ void draw_plate(const Theme& theme, Rect& rest, ImU32 edge, ImU32 ink, ImFont* f
 }
 
 void draw_task(const Theme& theme, const Rect& panel, const SetupWizard& wizard, const std::string& next_start,
-               Pictures& pictures) {
+               const glm::dvec3& belly, Pictures& pictures) {
   fill(panel, colour::kPanel, theme.px(8));
   Rect rest = panel.inset(theme.px(30), theme.px(24));
   const SetupView view = wizard.view();
@@ -94,13 +94,13 @@ void draw_task(const Theme& theme, const Rect& panel, const SetupWizard& wizard,
     draw_plate(theme, rest, colour::kAmber, colour::kAmber, theme.large, why);
   else if (view.done && why_incomplete(wizard.calibration()).empty())
     draw_plate(theme, rest, colour::kAccent, colour::kText, theme.large, "The probe can be used. " + next_start);
-  draw_setup_sketch(theme, rest, wizard, pictures);
+  draw_setup_sketch(theme, rest, wizard, belly, pictures);
 }
 
 }  // namespace
 
 bool draw_setup_page(const Theme& theme, const Rect& screen, SetupWizard& wizard, const std::string& next_start,
-                     Pictures& pictures, std::map<std::string, Rect>& places) {
+                     const glm::dvec3& belly, Pictures& pictures, std::map<std::string, Rect>& places) {
   ImGui::SetNextWindowPos(screen.min());
   ImGui::SetNextWindowSize({screen.w, screen.h});
   ImGui::SetNextWindowFocus();
@@ -142,7 +142,7 @@ bool draw_setup_page(const Theme& theme, const Rect& screen, SetupWizard& wizard
 
   draw_steps(theme, page.take_left(theme.px(270)), wizard, places);
   page.take_left(theme.px(18));
-  draw_task(theme, page, wizard, next_start, pictures);
+  draw_task(theme, page, wizard, next_start, belly, pictures);
   ImGui::End();
   return close;
 }

@@ -1,249 +1,326 @@
 #include "app/panels/setup/setup_sketches.h"
 
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
+#include <initializer_list>
 #include <limits>
+#include <string_view>
 #include <utility>
 #include <vector>
+
+#include "app/panels/scan/picture_plates.h"
+#include "sim/probe/probe.h"
 
 namespace insonate::ui {
 namespace {
 
-constexpr ImU32 kBody = IM_COL32(48, 56, 66, 255), kBodyLit = IM_COL32(60, 70, 82, 255),
-                kTable = IM_COL32(26, 31, 37, 255), kProbe = IM_COL32(190, 198, 206, 255),
-                kGhost = IM_COL32(190, 198, 206, 70);
+/// Length of the drawn probe from its face to its tail, mm, as sim/shaders/shared/probe_body.glsl has it.
+constexpr double kProbeLength_mm = 131;
 
 ImVec2 screen(const glm::dvec2& point) {
   return {float(point.x), float(point.y)};
 }
 
-/// Fills a convex polygon given in either order. ImGui smooths only edges that run clockwise on the screen.
-void polygon(const std::vector<glm::dvec2>& points, ImU32 colour) {
-  std::vector<ImVec2> corners;
-  double twice_area = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const glm::dvec2 &a = points[i], &b = points[(i + 1) % points.size()];
-    twice_area += a.x * b.y - b.x * a.y;
-    corners.push_back(screen(a));
-  }
-  if (twice_area < 0) std::reverse(corners.begin(), corners.end());
-  ImGui::GetWindowDrawList()->AddConvexPolyFilled(corners.data(), int(corners.size()), colour);
+/// The probe that is drawn. Which one is in the mannequin's box does not matter to the steps.
+const Probe& drawn_probe() {
+  return *find_probe("curvilinear");
 }
 
-void arrow(const Theme& theme, const glm::dvec2& from, const glm::dvec2& to, ImU32 colour) {
+/// A picture by the volume view, with what is drawn over it.
+class SpaceSketch {
+public:
+  SpaceSketch(const Rect& area, const view::OrbitCamera& camera) : area_(area), camera_(camera) {}
+
+  int width() const { return int(area_.w); }
+  int height() const { return int(area_.h); }
+  const view::OrbitCamera& camera() const { return camera_; }
+  glm::dvec2 at(const glm::dvec3& patient_mm) const {
+    return glm::dvec2(area_.x, area_.y) + camera_.project(patient_mm, width(), height());
+  }
+  /// Returns whether there was a picture to show.
+  bool show(const gl::Texture* picture) const {
+    if (picture) ImGui::GetWindowDrawList()->AddImage(id_of(*picture), area_.min(), area_.max());
+    return picture;
+  }
+
+private:
+  Rect area_;
+  view::OrbitCamera camera_;
+};
+
+void arrow(const Theme& theme, const glm::dvec2& from, const glm::dvec2& to) {
   ImDrawList* list = ImGui::GetWindowDrawList();
   const glm::dvec2 way = glm::normalize(to - from), side(-way.y, way.x);
-  const double head = theme.px(18);
-  list->AddLine(screen(from), screen(to - way * head), colour, theme.px(5));
-  const ImVec2 tip = screen(to), left = screen(to - way * head + side * (0.55 * head)),
-               right = screen(to - way * head - side * (0.55 * head));
-  list->AddTriangleFilled(tip, left, right, colour);
+  const double head = theme.px(20);
+  const ImVec2 tip = screen(to), left = screen(to - way * head + side * (0.5 * head)),
+               right = screen(to - way * head - side * (0.5 * head)), neck = screen(to - way * (0.9 * head));
+  // A dark edge keeps it visible on the bright skin.
+  list->AddLine(screen(from), neck, colour::kBackground, theme.px(9));
+  list->AddTriangle(tip, left, right, colour::kBackground, theme.px(4));
+  list->AddLine(screen(from), neck, colour::kAccent, theme.px(5));
+  list->AddTriangleFilled(tip, left, right, colour::kAccent);
 }
 
 void spot(const Theme& theme, const glm::dvec2& at, bool done, bool current) {
   ImDrawList* list = ImGui::GetWindowDrawList();
   const ImVec2 where = screen(at);
+  list->AddCircleFilled(where, theme.px(current ? 11 : 8), colour::kBackground, 24);
   list->AddCircleFilled(where, theme.px(current ? 9 : 6), done || current ? colour::kAccent : colour::kFaint, 24);
-  if (current) list->AddCircle(where, theme.px(17), colour::kAccent, 32, theme.px(2.5f));
+  if (!current) return;
+  list->AddCircle(where, theme.px(17), colour::kBackground, 32, theme.px(5));
+  list->AddCircle(where, theme.px(17), colour::kAccent, 32, theme.px(2.5f));
 }
 
-/// A patient who lies on a table with the head to the right, seen from above the right side. Lengths are in mm from the
-/// middle of the body, along (patient's right, up, towards the head).
-class LyingPatient {
-public:
-  explicit LyingPatient(const Rect& area)
-      : middle_(area.x + area.w * 0.46, area.y + area.h * 0.64), scale_(std::min(area.h / 760, area.w / 1400)) {}
-
-  glm::dvec2 at(const glm::dvec3& p) const {
-    return middle_ + scale_ * (p.x * glm::dvec2(-0.42, 0.46) + p.y * glm::dvec2(0, -1) + p.z * glm::dvec2(0.95, -0.16));
-  }
-  double scale() const { return scale_; }
-
-  void draw() const {
-    slab({250, -90, 560}, {-250, -90, -420}, 25, kTable, kTable);
-    slab({150, 90, 290}, {-150, 90, -330}, 180, kBodyLit, kBody);
-    const glm::dvec2 head = at({0, 20, 420});
-    ImGui::GetWindowDrawList()->AddCircleFilled(screen(head), float(105 * scale_), kBodyLit, 48);
-  }
-
-private:
-  // Draws a box whose upper side has two given corners and which is `thick` mm thick below it.
-  void slab(const glm::dvec3& a, const glm::dvec3& b, double thick, ImU32 top, ImU32 sides) const {
-    const glm::dvec3 down(0, -thick, 0);
-    const glm::dvec3 near_head = a, far_head(b.x, a.y, a.z), far_foot = b, near_foot(a.x, a.y, b.z);
-    polygon({at(near_head), at(near_foot), at(near_foot + down), at(near_head + down)}, sides);
-    polygon({at(near_foot), at(far_foot), at(far_foot + down), at(near_foot + down)}, sides);
-    polygon({at(near_head), at(far_head), at(far_foot), at(near_foot)}, top);
-  }
-
-  glm::dvec2 middle_;
-  double scale_;
-};
-
-/// Draws a probe in the patient's directions, given its face, the direction of its marker and that of its beam.
-void draw_probe(const Theme& theme, const LyingPatient& patient, const glm::dvec3& face, const glm::dvec3& marker,
-                const glm::dvec3& beam, ImU32 colour) {
-  // Larger than life. The second side, 0.45 times as wide, gives it thickness, so that it is never seen edge-on.
-  const glm::dvec3 across = glm::cross(marker, beam), neck = face - 110.0 * beam, tail = face - 340.0 * beam;
-  for (const glm::dvec3& side : {marker, 0.45 * across}) {
-    polygon({patient.at(face + 85.0 * side), patient.at(face - 85.0 * side), patient.at(neck - 50.0 * side),
-             patient.at(neck + 50.0 * side)},
-            colour);
-    polygon({patient.at(neck + 40.0 * side), patient.at(neck - 40.0 * side), patient.at(tail - 34.0 * side),
-             patient.at(tail + 34.0 * side)},
-            colour);
-  }
-  if (colour != kGhost)
-    ImGui::GetWindowDrawList()->AddCircleFilled(screen(patient.at(face + 66.0 * marker - 40.0 * beam)), theme.px(7),
-                                                colour::kAccent, 24);
+/// Draws words on a plate in the middle of `at`.
+void label(const Theme& theme, const glm::dvec2& at, std::string_view text, ImU32 ink = colour::kText) {
+  const float width = text_width(theme.text, text) + theme.px(16), height = theme.px(26);
+  const Rect plate{float(at.x) - width / 2, float(at.y) - height / 2, width, height};
+  fill(plate, colour::kPlate, theme.px(4));
+  draw_text(plate, theme.text, ink, text, Align::centre);
 }
 
-void draw_axes(const Theme& theme, const Rect& area, std::size_t part) {
+/// Returns a smooth line through points, which it closes: Catmull and Rom's spline.
+std::vector<glm::dvec2> smooth(const std::vector<glm::dvec2>& points) {
+  constexpr int kParts = 4;
+  const auto at = [&](std::size_t i) { return points[i % points.size()]; };
+  std::vector<glm::dvec2> line;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const glm::dvec2 a = at(i + points.size() - 1), b = at(i), c = at(i + 1), d = at(i + 2);
+    for (int part = 0; part < kParts; ++part) {
+      const double t = double(part) / kParts;
+      line.push_back(0.5 * (2.0 * b + (c - a) * t + (2.0 * a - 5.0 * b + 4.0 * c - d) * (t * t) +
+                            (3.0 * (b - c) + d - a) * (t * t * t)));
+    }
+  }
+  return line;
+}
+
+/// Returns the outline of the drawn probe seen along its z axis, mm in its frame.
+std::vector<glm::dvec2> outline_of(const Probe& probe) {
+  std::vector<glm::dvec2> half;  // of the marker's side, from the face's middle to the tail's
+  const glm::dvec2 edge = face_edge(probe);
+  for (int i = 0; i <= 8; ++i) {
+    const double angle = glm::radians(probe.field_of_view_deg / 2) * i / 8;
+    half.emplace_back(probe.radius_mm * std::sin(angle), probe.radius_mm * (std::cos(angle) - 1));
+  }
+  half.emplace_back(edge.x - 3, edge.y - 24);
+  half.emplace_back(15, edge.y - 34);
+  half.emplace_back(14, -62);
+  half.emplace_back(15, -75);
+  for (int i = 0; i <= 6; ++i)
+    half.emplace_back(13 * std::cos(glm::radians(15.0 * i)), -118 - 13 * std::sin(glm::radians(15.0 * i)));
+  std::vector<glm::dvec2> whole = half;
+  for (std::size_t i = half.size() - 2; i > 0; --i) whole.emplace_back(-half[i].x, half[i].y);
+  return smooth(whole);
+}
+
+/// Draws where a probe is to go, as its outline, or the outline of its grip alone.
+void ghost(const Theme& theme, const SpaceSketch& sketch, const Pose& patient_from_probe, bool grip_alone = false) {
+  constexpr double kGrip_mm = -50;
+  std::vector<ImVec2> line;
+  for (const glm::dvec2& point : outline_of(drawn_probe()))
+    if (!grip_alone || point.y < kGrip_mm) line.push_back(screen(sketch.at(patient_from_probe.point({point, 0}))));
+  const ImDrawFlags closed = grip_alone ? ImDrawFlags_None : ImDrawFlags_Closed;
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  list->AddPolyline(line.data(), int(line.size()), colour::kBackground, closed, theme.px(4));
+  list->AddPolyline(line.data(), int(line.size()), colour::kText, closed, theme.px(1.8f));
+}
+
+/// Draws the moves that show which way is which, on the patient who lies there, seen from the foot end of the table.
+void draw_axes(const Theme& theme, const Rect& area, const glm::dvec3& belly, Pictures& pictures, std::size_t part) {
   struct Move {
     glm::dvec3 marker, beam, way;
   };
-  const glm::dvec3 right(1, 0, 0), up(0, 1, 0), head(0, 0, 1);
+  const glm::dvec3 right(-1, 0, 0), up(0, -1, 0), head(0, 0, 1);
   const std::array<Move, 4> moves{{{right, -up, right}, {right, -up, up}, {head, -up, head}, {up, right, up}}};
   const Move& move = moves[std::min<std::size_t>(part / 2, 3)];
-  const LyingPatient patient(area);
-  patient.draw();
-  const glm::dvec3 from(0, move.beam.y < 0 ? 95 : 150, 0), to = from + 230.0 * move.way;
-  draw_probe(theme, patient, from, move.marker, move.beam, kProbe);
+  view::OrbitCamera camera = view::OrbitCamera::framing(pictures.grid());
+  camera.yaw_deg = -18;
+  camera.pitch_deg = -42;
+  camera.centre = belly + 55.0 * up;  // between the body and the probe that is lifted
+  camera.zoom(1.05);
+  const SpaceSketch sketch(area, camera);
+  // The probe that is laid over rests on its edge.
+  const double lifted_mm = move.beam == -up ? 2 : face_edge(drawn_probe()).x + 4;
+  const Pose from{glm::dmat3(move.marker, move.beam, glm::cross(move.marker, move.beam)), belly + lifted_mm * up};
+  if (!sketch.show(pictures.draw_probe(camera, sketch.width(), sketch.height(), drawn_probe(), from, true))) return;
+  constexpr double kHand_mm = 130;
   if (part % 2 == 1) {
-    draw_probe(theme, patient, to, move.marker, move.beam, kGhost);
-    const glm::dvec3 grip = from - 200.0 * move.beam;
-    arrow(theme, patient.at(grip), patient.at(grip + 230.0 * move.way), colour::kAccent);
+    Pose to = from;
+    to.translation += kHand_mm * move.way;
+    ghost(theme, sketch, to);
+    const glm::dvec3 grip(0, -70, 0);
+    arrow(theme, sketch.at(from.point(grip)), sketch.at(to.point(grip)));
   }
-  const auto label = [&](const glm::dvec3& place, const char* text) {
-    const glm::dvec2 at = patient.at(place);
-    draw_text({float(at.x) - theme.px(80), float(at.y) - theme.px(12), theme.px(160), theme.px(24)}, theme.text,
-              colour::kMuted, text, Align::centre);
-  };
-  label({0, 20, 420}, "head");
-  label({345, -90, -60}, "patient's right");
+  const glm::dvec3 size = glm::dvec3(pictures.grid().size) * pictures.grid().spacing;
+  const glm::dvec3 middle = pictures.grid().centre();
+  label(theme, sketch.at({middle.x, belly.y - 12, middle.z + 0.5 * size.z}), "to the head");
+  label(theme, sketch.at({middle.x - 0.5 * size.x, middle.y, middle.z - 0.25 * size.z}), "patient's right");
 }
 
-/// A probe seen from the front with its face down, showing the places that touch landmarks.
+/// A probe alone, seen from the front with its face down and its marker on the left, and the pointed tip that touches
+/// landmarks. The tip belongs to the mannequin's probe, not to the simulated one.
 class FrontProbe {
 public:
-  FrontProbe(const glm::dvec2& face, double height, double tilt_deg)
-      : face_(face), scale_(height / 260), turn_(tilt_deg * 3.14159265358979 / 180) {}
-
-  /// Converts mm, to the right and up from the middle of the face, to the screen.
-  glm::dvec2 at(double right, double up) const {
-    const glm::dvec2 p(right * std::cos(turn_) + up * std::sin(turn_), right * std::sin(turn_) - up * std::cos(turn_));
-    return face_ + scale_ * p;
+  /// @param below_mm, above_mm  room below the face and above the tail
+  /// @param tilt_deg  about the tip, to the right
+  FrontProbe(const Rect& area, double below_mm, double above_mm) : area_(area) {
+    camera_.field_of_view_deg = 12;  // narrow, so that both ends have the same scale
+    const double height_mm = below_mm + kProbeLength_mm + above_mm;
+    camera_.distance_mm = height_mm / 2 / std::tan(glm::radians(camera_.field_of_view_deg / 2));
+    camera_.centre = {0, 0, height_mm / 2 - below_mm};
   }
-  void draw(const Theme& theme, ImU32 colour) const {
-    polygon({at(-48, 0), at(48, 0), at(32, 72), at(-32, 72)}, colour);
-    polygon({at(-25, 72), at(25, 72), at(20, 230), at(-20, 230)}, colour);
-    polygon({at(47, 0), at(42, -30), at(33, 0)}, colour);
-    if (colour != kGhost)
-      ImGui::GetWindowDrawList()->AddCircleFilled(screen(at(-38, 18)), theme.px(6), colour::kAccentDark, 24);
-  }
-  glm::dvec2 tip() const { return at(42, -30); }
 
-  /// Returns a probe whose tip is at a place.
-  static FrontProbe standing(const glm::dvec2& tip, double height, double tilt_deg) {
-    return {tip - FrontProbe({0, 0}, height, tilt_deg).tip(), height, tilt_deg};
+  /// Returns where a place of the probe's frame (x to the marker, y along the beam, mm) is on the screen.
+  glm::dvec2 at(const glm::dvec2& mm) const { return sketch().at(pose(0).point({mm, 0})); }
+  glm::dvec2 tip() const { return at(kTip); }
+  double pixels_per_mm() const { return glm::distance(at({0, 0}), at({1, 0})); }
+
+  /// Draws the probe, and its outline at these tilts about the tip. Returns false without a patient, on whose texture
+  /// the drawing depends.
+  bool draw(const Theme& theme, Pictures& pictures, std::initializer_list<double> tilts_deg = {}) const {
+    const SpaceSketch space = sketch();
+    if (!space.show(pictures.draw_probe(camera_, space.width(), space.height(), drawn_probe(), pose(0), false)))
+      return false;
+    for (const double tilt_deg : tilts_deg) ghost(theme, space, pose(tilt_deg), true);
+    draw_tip();
+    return true;
   }
 
 private:
-  glm::dvec2 face_;
-  double scale_, turn_;
+  static constexpr glm::dvec2 kTip{-25, 18};
+
+  SpaceSketch sketch() const { return {area_, camera_}; }
+  /// Returns the pose with the tip where it is without a tilt.
+  static Pose pose(double tilt_deg) {
+    const double c = std::cos(glm::radians(tilt_deg)), s = std::sin(glm::radians(tilt_deg));
+    const glm::dvec3 marker(-c, 0, s), beam(-s, 0, -c);
+    const Pose turned{glm::dmat3(marker, beam, glm::cross(marker, beam)), glm::dvec3(0)};
+    const glm::dvec3 there(-kTip.x, 0, -kTip.y);
+    return {turned.rotation, there - turned.point({kTip, 0})};
+  }
+  /// Draws a steel cone below the edge that is away from the marker, lit from the left as the probe is.
+  void draw_tip() const {
+    const glm::dvec2 edge = face_edge(drawn_probe());
+    const ImVec2 left = screen(at({-edge.x + 9, edge.y - 5})), right = screen(at({-edge.x + 1, edge.y - 7})),
+                 middle{(left.x + right.x) / 2, (left.y + right.y) / 2}, end = screen(tip());
+    constexpr ImU32 kLit = IM_COL32(214, 219, 224, 255), kShaded = IM_COL32(122, 130, 138, 255);
+    ImDrawList* list = ImGui::GetWindowDrawList();
+    list->AddTriangleFilled(left, middle, end, kLit);
+    list->AddTriangleFilled(middle, right, end, kShaded);
+  }
+
+  Rect area_;
+  view::OrbitCamera camera_;
 };
 
-void draw_pivot(const Theme& theme, const Rect& area) {
-  const glm::dvec2 dimple(area.x + area.w / 2, area.y + area.h * 0.86);
-  const double height = area.h * 0.7, block = area.h * 0.55;
-  for (const double tilt : {-32.0, 32.0}) FrontProbe::standing(dimple, height, tilt).draw(theme, kGhost);
-  FrontProbe::standing(dimple, height, 0).draw(theme, kProbe);
-  polygon({dimple + glm::dvec2(-block, 0), dimple + glm::dvec2(block, 0), dimple + glm::dvec2(block, area.h * 0.12),
-           dimple + glm::dvec2(-block, area.h * 0.12)},
-          kBody);
-  spot(theme, dimple, false, true);
-  ImDrawList* list = ImGui::GetWindowDrawList();
-  list->PathArcTo(screen(dimple), float(height * 1.04), -3.14159f * 0.68f, -3.14159f * 0.32f, 32);
-  list->PathStroke(colour::kAccent, 0, theme.px(4));
+/// Fills a body that is lit from above.
+void lit_block(const Rect& where, ImU32 upper, ImU32 lower, float rounding) {
+  fill(where, lower, rounding);
+  const Rect top{where.x, where.y, where.w, where.h - rounding};
+  ImGui::GetWindowDrawList()->AddRectFilledMultiColor({top.x, top.y + rounding}, top.max(), upper, upper, lower, lower);
+  ImGui::GetWindowDrawList()->AddRectFilled(top.min(), {top.x + top.w, top.y + rounding + 1}, upper, rounding,
+                                            ImDrawFlags_RoundCornersTop);
 }
 
-void draw_face(const Theme& theme, const Rect& area, std::size_t part) {
-  const FrontProbe probe({area.x + area.w / 2, area.y + area.h * 0.78}, area.h * 0.76, 0);
-  probe.draw(theme, kProbe);
-  const std::array<std::pair<glm::dvec2, const char*>, 5> touches{{{probe.tip(), "1  tip"},
-                                                                   {probe.at(0, 0), "2  middle of the face"},
-                                                                   {probe.at(-48, 0), "3  end at the marker"},
-                                                                   {probe.at(48, 0), "4  other end"},
-                                                                   {probe.at(0, 230), "5  tail"}}};
+void draw_pivot(const Theme& theme, const Rect& area, Pictures& pictures) {
+  const FrontProbe probe(area, 42, 26);
+  if (!probe.draw(theme, pictures, {-34, 34})) return;
+  const glm::dvec2 tip = probe.tip();
+  const auto mm = float(probe.pixels_per_mm());
+  lit_block({float(tip.x) - 75 * mm, float(tip.y), 150 * mm, 16 * mm}, IM_COL32(72, 82, 94, 255),
+            IM_COL32(38, 45, 53, 255), 2 * mm);
+  spot(theme, tip, false, true);
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  for (const auto& [begin, end] : {std::pair{-0.70f, -0.57f}, {-0.43f, -0.30f}}) {
+    list->PathArcTo(screen(tip), 150 * mm, 3.14159f * begin, 3.14159f * end, 24);
+    list->PathStroke(colour::kAccent, 0, theme.px(3));
+  }
+  label(theme, tip + glm::dvec2(0, 9.5 * mm), "a dimple that stands fast");
+}
+
+void draw_face(const Theme& theme, const Rect& area, Pictures& pictures, std::size_t part) {
+  const FrontProbe probe(area, 34, 14);
+  if (!probe.draw(theme, pictures)) return;
+  const glm::dvec2 edge = face_edge(drawn_probe());
+  struct Touch {
+    glm::dvec2 at, aside;  ///< the place, and the way from it to its name, pixels
+    const char* name;
+  };
+  const double x = theme.px(150), y = theme.px(46);
+  const std::array<Touch, 5> touches{{{probe.tip(), {x, y / 3}, "1  tip"},
+                                      {probe.at({0, 0}), {-x * 0.5, y}, "2  middle of the face"},
+                                      {probe.at(edge), {-x, 0}, "3  end at the marker"},
+                                      {probe.at({-edge.x, edge.y}), {x, -y}, "4  other end"},
+                                      {probe.at({0, -kProbeLength_mm}), {x, 0}, "5  tail"}}};
   for (std::size_t i = 0; i < touches.size(); ++i) {
-    const auto& [at, name] = touches[i];
+    const auto& [at, aside, name] = touches[i];
+    ImGui::GetWindowDrawList()->AddLine(screen(at), screen(at + aside), i == part ? colour::kAccent : colour::kFaint,
+                                        theme.px(1.5f));
+  }
+  for (std::size_t i = 0; i < touches.size(); ++i) {
+    const auto& [at, aside, name] = touches[i];
     spot(theme, at, i < part, i == part);
-    const bool left = i == 2, below = i == 1;
-    const float x = float(at.x) + theme.px(below ? -140 : left ? -212 : 30);
-    const float y = float(at.y) + theme.px(below ? 20 : i == 0 ? 6 : i == 3 ? -30 : -12);
-    draw_text({x, y, theme.px(180), theme.px(24)}, i == part ? theme.strong : theme.text,
-              i == part ? colour::kText : colour::kMuted, name,
-              below  ? Align::centre
-              : left ? Align::right
-                     : Align::left);
+    label(theme, at + aside, name, i == part ? colour::kText : colour::kMuted);
   }
 }
 
 void draw_landmarks(const Theme& theme, const Rect& area, const SetupWizard& wizard, Pictures& pictures) {
   const std::vector<LandmarkPair> landmarks = wizard.landmarks();
-  const int width = int(area.w), height = int(area.h);
-  if (landmarks.empty() || width < 1 || height < 1) return;
+  if (landmarks.empty()) return;
   view::OrbitCamera camera = view::OrbitCamera::framing(pictures.grid());
   camera.yaw_deg = camera.pitch_deg = 0;
   camera.zoom(0.92);  // landmarks lie near the edges of the body
-  const gl::Texture* body = pictures.draw_body(camera, width, height, std::numeric_limits<double>::infinity());
-  if (!body) return;
-  ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(std::uintptr_t(body->name())), area.min(),
-                                       area.max());
+  const SpaceSketch sketch(area, camera);
+  if (!sketch.show(
+          pictures.draw_body(camera, sketch.width(), sketch.height(), std::numeric_limits<double>::infinity())))
+    return;
   const SetupView view = wizard.view();
-  for (std::size_t i = 0; i < landmarks.size(); ++i) {
-    const glm::dvec2 at = camera.project(landmarks[i].ct_mm, width, height);
-    spot(theme, at + glm::dvec2(area.x, area.y), view.done || i < view.part, !view.done && i == view.part);
-  }
-  const Rect caption{area.x + theme.px(12), area.y + theme.px(8), area.w - theme.px(24), theme.px(22)};
-  draw_text(caption, theme.small_text, colour::kMuted, "Seen from the front: the patient's right is on the left.");
+  for (std::size_t i = 0; i < landmarks.size(); ++i)
+    spot(theme, sketch.at(landmarks[i].ct_mm), view.done || i < view.part, !view.done && i == view.part);
+  draw_title(theme, area, "Seen from the front: the patient's right is on the left.");
 }
 
-void draw_blows(const Theme& theme, const Rect& area, std::size_t blows) {
+void draw_blows(const Theme& theme, const Rect& area, Pictures& pictures, std::size_t blows) {
   constexpr int kBlows = 10;
-  const glm::dvec2 key(area.x + area.w / 2, area.y + area.h * 0.74);
-  const double height = area.h * 0.5;
-  const FrontProbe probe(key + glm::dvec2(0, -area.h * 0.14), height, 0);
-  probe.draw(theme, kProbe);
-  arrow(theme, key + glm::dvec2(area.h * 0.22, -area.h * 0.42), key + glm::dvec2(area.h * 0.22, -area.h * 0.06),
-        colour::kAccent);
-  const Rect cap{float(key.x) - theme.px(90), float(key.y), theme.px(180), theme.px(40)};
-  fill(cap, colour::kRaised, theme.px(6));
-  outline(cap, colour::kFaint, theme.px(6), theme.px(2));
+  const FrontProbe probe(area, 88, 14);
+  if (!probe.draw(theme, pictures)) return;
+  const auto mm = float(probe.pixels_per_mm());
+  const glm::dvec2 key = probe.tip() + glm::dvec2(0, 14 * mm);
+  const Rect cap{float(key.x) - 38 * mm, float(key.y), 76 * mm, 17 * mm};
+  lit_block(cap, IM_COL32(66, 76, 88, 255), IM_COL32(36, 43, 51, 255), 3 * mm);
+  outline(cap, colour::kFaint, 3 * mm, theme.px(1.5f));
   draw_text(cap, theme.strong, colour::kText, "Space", Align::centre);
+  const glm::dvec2 beside = probe.at({-48, -70});
+  arrow(theme, beside, {beside.x, key.y - 4 * mm});
   for (int i = 0; i < kBlows; ++i) {
-    const ImVec2 at(float(key.x) + theme.px(26) * (float(i) - (kBlows - 1) / 2.0f), cap.y + cap.h + theme.px(24));
-    ImGui::GetWindowDrawList()->AddCircleFilled(at, theme.px(7), std::size_t(i) < blows ? colour::kAccent : kBody, 20);
+    const ImVec2 at(float(key.x) + theme.px(28) * (float(i) - (kBlows - 1) / 2.0f), cap.y + cap.h + 16 * mm);
+    ImGui::GetWindowDrawList()->AddCircleFilled(at, theme.px(8),
+                                                std::size_t(i) < blows ? colour::kAccent : colour::kRaised, 24);
+    ImGui::GetWindowDrawList()->AddCircle(at, theme.px(8), colour::kFaint, 24, theme.px(1.2f));
   }
 }
 
 }  // namespace
 
-void draw_setup_sketch(const Theme& theme, const Rect& area, const SetupWizard& wizard, Pictures& pictures) {
-  ImGui::GetWindowDrawList()->PushClipRect(area.min(), area.max(), true);
+void draw_setup_sketch(const Theme& theme, const Rect& area, const SetupWizard& wizard, const glm::dvec3& belly,
+                       Pictures& pictures) {
+  const Rect whole{std::round(area.x), std::round(area.y), std::floor(area.w), std::floor(area.h)};
+  if (whole.w < 1 || whole.h < 1) return;
+  ImGui::GetWindowDrawList()->PushClipRect(whole.min(), whole.max(), true);
   const SetupView view = wizard.view();
   const std::string_view step = kSetupSteps[wizard.current()];
-  if (step == "axes") draw_axes(theme, area, view.part);
-  if (step == "pivot") draw_pivot(theme, area);
-  if (step == "face") draw_face(theme, area, view.part);
-  if (step == "landmarks") draw_landmarks(theme, area, wizard, pictures);
-  if (step == "lag") draw_blows(theme, area, view.part);
+  if (step == "axes") draw_axes(theme, whole, belly, pictures, view.part);
+  if (step == "pivot") draw_pivot(theme, whole, pictures);
+  if (step == "face") draw_face(theme, whole, pictures, view.part);
+  if (step == "landmarks") draw_landmarks(theme, whole, wizard, pictures);
+  if (step == "lag") draw_blows(theme, whole, pictures, view.part);
   ImGui::GetWindowDrawList()->PopClipRect();
 }
 

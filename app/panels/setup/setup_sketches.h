@@ -1,5 +1,7 @@
 #pragma once
 
+#include <glm/vec3.hpp>
+
 #include "app/panels/widgets/theme.h"
 #include "app/panels/widgets/widgets.h"
 #include "app/pictures/pictures.h"
@@ -7,8 +9,9 @@
 
 namespace insonate::ui {
 
-/// Draws what the set-up asks for now: how to hold the probe and where to touch. Landmarks are shown on the patient's
-/// own body.
-void draw_setup_sketch(const Theme& theme, const Rect& area, const SetupWizard& wizard, Pictures& pictures);
+/// Draws what the set-up asks for now: how to hold the probe and where to touch, on the body of the patient.
+/// @param belly  where a probe stands on it, patient mm
+void draw_setup_sketch(const Theme& theme, const Rect& area, const SetupWizard& wizard, const glm::dvec3& belly,
+                       Pictures& pictures);
 
 }  // namespace insonate::ui

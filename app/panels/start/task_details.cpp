@@ -8,6 +8,7 @@
 
 #include "app/panels/start/start_list.h"
 #include "app/panels/widgets/choice_rows.h"
+#include "app/panels/widgets/scroll_area.h"
 #include "app/panels/widgets/widgets.h"
 
 namespace insonate::ui {
@@ -54,7 +55,12 @@ StartAnswer draw_scenarios(const Theme& theme, Rect rest, StartPage& page, std::
             practice ? "The steps are scored, with hints and a guide, as often as you like. Nothing counts."
                      : "It counts: once per learner, without help, and the patient's inside is hidden. The time runs "
                        "from Start. The patient is drawn by chance.");
-  Rect details = rest.take_bottom(std::min(theme.px(190), rest.h * 0.45f));
+  // As much as the longest briefing needs, so that the list stays where it is.
+  float height = 0;
+  for (const OfferedScenario& scenario : page.scenarios())
+    height = std::max(height, paragraph_height(theme.text, scenario.briefing, rest.w) +
+                                  (practice && !scenario.variants.empty() ? theme.px(kChoiceRow + 8) : 0));
+  Rect details = rest.take_bottom(std::min(height + theme.px(34 + 8 + 4), rest.h * 0.5f));
   rest.take_bottom(theme.px(12));
   std::vector<ListRow> rows;
   for (std::size_t i = 0; i < page.scenarios().size(); ++i)
@@ -62,7 +68,8 @@ StartAnswer draw_scenarios(const Theme& theme, Rect rest, StartPage& page, std::
   const std::size_t free = rows.size();
   if (practice) rows.push_back({"scenario_free", "Free practice", "no steps"});
   const std::size_t chosen = page.scenario.value_or(free);
-  if (const auto clicked = draw_list(theme, "scenarios", rest, rows, chosen, places); clicked && *clicked != chosen) {
+  if (const auto clicked = draw_list(theme, "scenarios", whole_rows(rest, theme.px(kListRow)), rows, chosen, places);
+      clicked && *clicked != chosen) {
     page.scenario = *clicked == free ? std::nullopt : clicked;
     page.variant.reset();
   }
@@ -72,6 +79,11 @@ StartAnswer draw_scenarios(const Theme& theme, Rect rest, StartPage& page, std::
   places["browse"] = buttons.take_left(theme.px(190));
   if (button(theme, "browse", places["browse"], "Open a scenario\u2026"))
     answer = {StartAnswer::Kind::browse, Wanted::scenario};
+  buttons.take_left(theme.px(8));
+  places["check"] = buttons.take_left(theme.px(190));
+  if (button(theme, "check", places["check"], "Check a scenario\u2026", ButtonKind::normal, true,
+             "For authors: shows what is wrong with a scenario file, again whenever it is saved"))
+    answer = {StartAnswer::Kind::browse, Wanted::checked};
   if (!page.scenario) {
     draw_paragraph(details, theme.text, colour::kText, "Scan the built-in patient. Key G shows the way to its views.");
     return answer;
@@ -109,7 +121,9 @@ StartAnswer draw_patients(const Theme& theme, Rect rest, StartPage& page, std::m
   std::vector<ListRow> rows;
   for (std::size_t i = 0; i < page.patients().size(); ++i)
     rows.push_back({"patient_" + std::to_string(i), page.patients()[i].name, page.patients()[i].about});
-  if (const auto clicked = draw_list(theme, "patients", rest, rows, page.patient, places)) page.patient = *clicked;
+  if (const auto clicked =
+          draw_list(theme, "patients", whole_rows(rest, theme.px(kListRow)), rows, page.patient, places))
+    page.patient = *clicked;
   return answer;
 }
 
@@ -143,7 +157,8 @@ StartAnswer draw_runs(const Theme& theme, Rect rest, StartPage& page, std::map<s
   std::vector<ListRow> rows;
   for (std::size_t i = 0; i < page.runs().size(); ++i)
     rows.push_back({"run_" + std::to_string(i), page.runs()[i].name, page.runs()[i].about});
-  if (const auto clicked = draw_list(theme, "runs", rest, rows, page.run, places)) page.run = *clicked;
+  if (const auto clicked = draw_list(theme, "runs", whole_rows(rest, theme.px(kListRow)), rows, page.run, places))
+    page.run = *clicked;
   return answer;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "app/panels/scan/picture_plates.h"
 #include "app/panels/widgets/scroll_area.h"
 
 namespace insonate::ui {
@@ -95,7 +96,8 @@ void LookPanel::draw_graph(const Theme& theme, const Rect& graph, PatientLook& l
   fill(graph, colour::kBackground, theme.px(3));
   draw_histogram(graph, look.histogram());
   if (!look.shown()) {
-    draw_text(graph, theme.text, colour::kMuted, "Choose one of the looks to edit it here", Align::centre);
+    draw_on_plate(theme, {graph.x, graph.centre().y - theme.px(14), graph.w, theme.px(28)}, theme.text, colour::kMuted,
+                  "Choose one of the looks to edit it here", Align::centre);
     return;
   }
   draw_curve(theme, graph, *look.shown());

@@ -69,16 +69,18 @@ TEST_CASE("a picture that comes alone is drawn in full, however slow the machine
 TEST_CASE("a frame that waited for something else leaves the next ones as they are") {
   Run run;
   for (int i = 0; i < 2000; ++i) {
-    run.frame(i % 5 == 0 ? 3.0 : 0.035, true);
+    run.frame(i % 5 == 0 ? 3.0 : 0.034, true);
     REQUIRE(run.governor.quality() == 1);
-    REQUIRE_FALSE(run.governor.takes_turns());
+    REQUIRE(run.governor.frames_per_turn() == 0);
   }
 }
 
 TEST_CASE("the views beside the ultrasound give way first, and within half a second of motion the rate is there") {
   // The ultrasound takes a third of the frame and goes with its pixels; the other views take the rest.
   const auto frame_s = [](const QualityGovernor& governor, double whole_s) {
-    return whole_s * (governor.quality() * governor.quality() / 3 + (governor.takes_turns() ? 1.0 : 3.0) * 2 / 9);
+    const int per_turn = governor.frames_per_turn();
+    const double views = per_turn == 0 ? 3.0 : 1.0 / per_turn;  // drawn per frame, in the mean
+    return whole_s * (governor.quality() * governor.quality() / 3 + views * 2 / 9);
   };
   for (const double whole_s : {0.045, 0.06, 0.07}) {
     Run run;
@@ -86,12 +88,12 @@ TEST_CASE("the views beside the ultrasound give way first, and within half a sec
     const double begin_s = run.now_s;
     while (run.now_s < begin_s + 0.5) {
       run.frame(frame_s(run.governor, whole_s), true);
-      if (!run.governor.takes_turns()) CHECK(run.governor.quality() == 1);
+      if (run.governor.frames_per_turn() < 2) CHECK(run.governor.quality() == 1);
     }
-    CHECK(frame_s(run.governor, whole_s) <= 1.15 * QualityGovernor::kFrame_s);
+    CHECK(frame_s(run.governor, whole_s) <= 1.04 * QualityGovernor::kFrame_s);
     run.rest(1);
     CHECK(run.governor.quality() == 1);
-    CHECK_FALSE(run.governor.takes_turns());
+    CHECK(run.governor.frames_per_turn() == 0);
   }
 }
 

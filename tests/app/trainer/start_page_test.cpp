@@ -3,6 +3,8 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <chrono>
+#include <thread>
 
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
@@ -220,4 +222,41 @@ TEST_CASE("another database is read into the page, and the learner and the track
   page.read_again(folder / "out", nullptr);
   CHECK(page.database().empty());
   CHECK(page.task == Task::first_scan);
+}
+
+TEST_CASE("cases that come and go are listed while the page is shown, and the chosen patient stays chosen") {
+  const ResultsFolder folder;
+  std::filesystem::create_directories(folder / "mine" / "patient7");
+  StartPage page(plain_options(folder), nullptr);
+  page.list_cases_in(folder / "mine");
+  const auto names = [&] {
+    std::vector<std::string> listed;
+    for (const OfferedPatient& patient : page.patients())
+      if (!patient.listed_in.empty()) listed.push_back(patient.name);
+    return listed;
+  };
+  CHECK(names().empty());
+  page.patient = 1;
+  const std::string chosen = page.patients()[1].name;
+  // As insonate-case makes it: the folder first, and case.toml last.
+  write_file(folder / "mine" / "patient7" / "case.toml", "");
+  page.update(100);
+  CHECK(names() == std::vector<std::string>{"patient7"});
+  CHECK(page.patients()[page.patient].name == chosen);
+
+  page.patient = page.patients().size() - 1;
+  std::filesystem::create_directories(folder / "mine" / "patient3");
+  write_file(folder / "mine" / "patient3" / "case.toml", "");
+  page.update(101);  // too early to look again
+  CHECK(names().size() == 1);
+  const auto look = [&](double now_s) {
+    // The search for trackers runs on a thread of its own, and the page looks for both.
+    for (int wait = 0; wait < 1000 && names().size() == 1; ++wait) {
+      page.update(now_s);
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+  };
+  look(200);
+  CHECK(names() == std::vector<std::string>{"patient3", "patient7"});
+  CHECK(page.patients()[page.patient].name == "patient7");
 }

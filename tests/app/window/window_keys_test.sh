@@ -104,5 +104,33 @@ for pause_s in $(seq 0 0.01 0.15); do
   await "Delete takes it back" is placed ""
 done
 
+echo "letters count by what is written on the keys: a French keyboard has Q where an American one has A"
+end_trainer
+setxkbmap -layout fr || fail "there is no French keyboard"
+water "$work/water.mha"
+start_trainer --ct "$work/water.mha" --tracker mouse:
+await "the probe is seen" is_not face_x ""
+tilt=$(value beam_z) turned=$(value marker_z)
+xdotool keydown a
+tilted() { moved beam_z "$tilt" 0.2; }
+await "A tilts the beam" tilted
+xdotool keyup a
+sleep 0.6  # the last of it is in the state
+moved marker_z "$turned" 0.05 && fail "A rotates the probe"
+tilt=$(value beam_z)
+xdotool keydown q
+rotated() { moved marker_z "$turned" 0.2; }
+await "Q rotates the probe" rotated
+xdotool keyup q
+sleep 0.6
+moved beam_z "$tilt" 0.1 && fail "Q tilts the beam"
+gain=$(value gain_db)
+xdotool key plus
+await "plus raises the gain" is_not gain_db "$gain"
+xdotool key m
+await "M, where an American keyboard has its semicolon, marks the moment" is marks 1
+xdotool key ctrl+z
+await "Ctrl Z takes the gain back" is gain_db "$gain"
+
 kill -0 "$trainer" || fail "the trainer ended by itself"
 echo "passed"

@@ -74,11 +74,11 @@ brightness() { convert "$1" -colorspace Gray -format '%[fx:mean] %[fx:standard_d
 # Pixels that differ between two pictures by more than 5 %.
 different() { compare -metric AE -fuzz 5% "$1" "$2" null: 2>&1 || true; }
 
-# Whether a panel shows the amber of warnings.
+# Whether a panel shows the amber of warnings, on more than some pixels: `amber_in PANEL [PIXELS]`.
 amber_in() {
   shot "$work/amber.png" "$1"
   [ "$(convert "$work/amber.png" -fill black +opaque 'rgb(236,172,62)' -fill white -opaque 'rgb(236,172,62)' \
-    -format '%[fx:mean*w*h>200]' info:)" = 1 ]
+    -format "%[fx:mean*w*h>${2:-200}]" info:)" = 1 ]
 }
 # A CT: a block of water, 160 mm wide, with a voxel of 1 HU, because a CT of one value alone is refused.
 water() {

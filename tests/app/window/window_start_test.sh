@@ -30,6 +30,12 @@ xdotool key F1
 await "F1 shows help after its end" is overlay help
 xdotool key Escape
 await "Escape closes it" is overlay ""
+xdotool key Tab
+await "Tab takes the probe after its end too" is holder learner
+is activity exam || fail "there is nothing to try"
+is overlay "" || fail "somebody else's score lies over the window"
+xdotool key Tab
+await "Tab gives it back, and the demonstration begins anew" is demonstration true
 click_on own_try
 await "the exam is one's own" is holder learner
 is activity exam || fail "there is nothing to try"
@@ -57,6 +63,31 @@ xdotool type "L-07"
 xdotool key Return
 await "the learner is known" is start_learner L-07
 contains start_why_not ': ""' || fail "$(value start_why_not)"
+
+echo "an exam can be left before it begins, and once it runs it says why not"
+click_on task_exam
+xdotool key Return
+await "the exam is explained first" is overlay briefing
+xdotool key Escape
+await "Escape leads back" is_page
+is start_task exam || fail "it leads to $(value start_task)"
+xdotool key Return
+await "the exam is explained again" is overlay briefing
+xdotool key Return
+await "it counts" is strict true
+await "it runs" is_not elapsed_s 0.0
+xdotool key Escape
+await "Escape says why it stays" contains toast "This exam counts: go on to its end"
+is overlay "" || fail "something lies over the exam"
+xdotool key g
+await "G says why there is no guide" contains toast "there is no guide"
+over() { xdotool key Return; sleep 0.3; is_not percent ""; }
+await "Return goes on to its end" over
+xdotool key Escape
+await "Escape closes the score" is overlay ""
+xdotool key Escape
+await "and the next one leaves" is_page
+is start_task exam || fail "it leads to $(value start_task)"
 
 echo "F2 without a sensor leads to the choice of a tracker"
 click_on task_first_scan
