@@ -79,8 +79,15 @@ void LineStages::lay_out(const ScanLines& of_plane, int most_planes, const Setti
   middle_ = TexelBuffer();
   echoes_ = TexelBuffer(GL_RGBA32F, n * d);
   pulsed_ = TexelBuffer();
+  repeats_ = TexelBuffer();
   if (settings.waves) scatterers_.lay_out(lines_, most_planes);
   mean_echo_ = TexelBuffer(GL_R32F, std::size_t(most_planes) * d);
+  beam_changed_ = true;
+}
+
+void LineStages::turn(const ScanLines& of_plane) {
+  lines_ = of_plane;
+  scatterers_.turn(lines_);
   beam_changed_ = true;
 }
 
@@ -163,7 +170,7 @@ void LineStages::prepare_beam(const Settings& settings) {
   }
   clutter_.define(with(division_, clutter_of(settings)));
   if (!beam_changed_) return;
-  if (reverberates(settings)) repeats_ = TexelBuffer(GL_R32F, most_samples());
+  if (reverberates(settings) && !repeats_) repeats_ = TexelBuffer(GL_R32F, most_samples());
   beam_window_ = half_beam_window(settings);
   beam_at_depth_ = beam_by_depth(lines_, settings);
   beam_changed_ = false;

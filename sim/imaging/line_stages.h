@@ -42,6 +42,8 @@ public:
   /// @param of_plane     in the plane's own frame, the same for all planes
   /// @param most_planes  traversed together, 1 or more
   void lay_out(const ScanLines& of_plane, int most_planes, const Settings& settings);
+  /// Takes other lines of the same number and samples, such as steered ones.
+  void turn(const ScanLines& of_plane);
   /// Notes that something changed on which the beam's windows depend; lay_out() implies it.
   void change_beam() { beam_changed_ = true; }
 

@@ -211,6 +211,8 @@ SimulationParameters parameters_of(const Settings& settings, const ScanLines& li
   p.blend = float(settings.blend);
   p.clutter_share = float(clutter_share(settings));
   p.noise_level = float(noise_level(settings));
+  p.edge_enhancement = float(settings.edge_enhancement);
+  p.speckle_reduction = float(settings.speckle_reduction);
   p.gain_db = float(settings.gain_db);
   p.dynamic_range_db = float(settings.dynamic_range_db);
   p.fixed_level = float(settings.fixed_level);

@@ -9,10 +9,12 @@
 #include <complex>
 #include <memory>
 
+#include "sim/model/compounding.h"
 #include "sim/model/noise.h"
 #include "sim/model/refraction.h"
 #include "sim/model/scatterers.h"
 #include "sim/model/waves.h"
+#include "sim/reference/display_reference.h"
 #include "sim/reference/reverberation_reference.h"
 #include "sim/reference/wave_reference.h"
 
@@ -88,21 +90,6 @@ Image<double> smoothed(const Image<double>& image, const Image<std::uint8_t>& in
   for (std::size_t i = 0; i < sum.pixels.size(); ++i)
     if (inside.pixels[i]) sum.pixels[i] /= weight.pixels[i];
   return sum;
-}
-
-/// Maps a share of the dynamic range, 0 to 1, to grey, 0 to 1.
-double grey_of(GreyMap map, double g) {
-  switch (map) {
-    case GreyMap::linear:
-      return g;
-    case GreyMap::soft:
-      return std::pow(g, 0.75);
-    case GreyMap::contrast:
-      return std::pow(g, 1.5);
-    case GreyMap::s_curve:
-      return g * g * (3 - 2 * g);
-  }
-  return g;
 }
 
 }  // namespace
@@ -216,22 +203,8 @@ ReferenceScan traverse_reference(const MediumField& field, const TissueTable& ta
   return scan;
 }
 
-double time_gain(const Settings& settings, double depth_share) {
-  const double at = std::clamp(depth_share, 0.0, 1.0) * double(settings.tgc_db.size() - 1);
-  const std::size_t below = std::min(std::size_t(at), settings.tgc_db.size() - 2);
-  const double f = at - double(below);
-  const double db = (1 - f) * settings.tgc_db[below] + f * settings.tgc_db[below + 1] + settings.gain_db;
-  return std::pow(10.0, db / 10);
-}
-
 double heard(double echo) {
   return echo > kLeastEcho ? echo : 0;
-}
-
-std::uint8_t grey_level(const Settings& settings, double echo, double level) {
-  if (echo <= 0) return 0;
-  const double grey = 1 + 10 * std::log10(echo / level) / settings.dynamic_range_db;
-  return std::uint8_t(std::lround(255 * grey_of(settings.grey_map, std::clamp(grey, 0.0, 1.0))));
 }
 
 namespace {
@@ -358,11 +331,10 @@ Image<double> mean_echo_of(const Image<double>& scattered, double dr_mm) {
   return mean;
 }
 
-}  // namespace
-
-Stages<double> simulate_reference(const MediumField& field, const TissueTable& table, const Probe& probe,
-                                  double depth_mm, const Settings& settings, const Pose& patient_from_probe) {
-  const ScanLines lines = scan_lines(probe, depth_mm, settings.samples);
+/// What one look of a picture (sim/model/compounding.h) shows: its stages up to f, and U and inside at its pixels.
+Stages<double> look_reference(const MediumField& field, const TissueTable& table, const Probe& probe,
+                              const ScanLines& lines, const Settings& settings, const Pose& patient_from_probe,
+                              int look) {
   Slice slice = traverse_slice(field, table, lines, settings, patient_from_probe);
   Stages<double> stages;
   if (settings.waves)
@@ -373,27 +345,29 @@ Stages<double> simulate_reference(const MediumField& field, const TissueTable& t
   stages.intensity = std::move(slice.scan.intensity);
 
   const int w = settings.image_width, h = settings.image_height;
-  const ImageGeometry geometry = image_geometry(probe, depth_mm, w, h);
+  const ImageGeometry geometry = image_geometry(probe, lines.r_max_mm, w, h);
   const Image<double> mean_echo = mean_echo_of(slice.scattered, lines.dr_mm()),
                       noise_of_lines = electronic_noise(lines, settings);
-  const Wave waves_of_receiver = noise_wave(lines, settings);
-  const glm::ivec2 shift = noise_shift(patient_from_probe);
-  Image<double> reflection(w, h), transmission(w, h), speckle(w, h), beside(w, h), gain(w, h);
+  const ScanLines straight = scan_lines(probe, lines.r_max_mm, lines.samples);
+  const Wave waves_of_receiver = noise_wave(straight, settings);
+  const glm::ivec2 shift = noise_shift(patient_from_probe, look);
+  Image<double> reflection(w, h), transmission(w, h), speckle(w, h), beside(w, h);
   stages.inside = Image<std::uint8_t>(w, h);
   for (int y = 0; y < h; ++y)
     for (int x = 0; x < w; ++x) {
-      const auto position = line_position(probe, depth_mm, geometry.plane_mm(x, y));
+      const glm::dvec2 at = geometry.plane_mm(x, y);
+      const auto position =
+          lines.fan.steering == 0 ? line_position(probe, lines.r_max_mm, at) : position_within(lines, at);
       if (!position) continue;
       const double sample = position->r_mm / lines.dr_mm() - 0.5;
       const auto here = [&](const Image<double>& image) { return bilinear(image, position->line, sample); };
       const double noise = noise_level(settings) + clutter_share(settings) * bilinear(mean_echo, 0, sample);
       stages.inside.at(x, y) = 1;
-      gain.at(x, y) = time_gain(settings, position->r_mm / depth_mm);
       if (settings.waves) {
         std::complex<double> wave(here(stages.wave_re), here(stages.wave_im));
         if (noise > 0)
           wave += std::sqrt(noise) *
-                  noise_of_pixel(waves_of_receiver, geometry, lines, (x + shift.x) % w, (y + shift.y) % h);
+                  noise_of_pixel(waves_of_receiver, geometry, straight, (x + shift.x) % w, (y + shift.y) % h);
         beside.at(x, y) = heard(std::norm(wave) + here(stages.repeated));
         continue;
       }
@@ -406,20 +380,43 @@ Stages<double> simulate_reference(const MediumField& field, const TissueTable& t
     reflection = smoothed(reflection, stages.inside, settings.reflection_sigma_mm / geometry.mm_per_pixel);
     transmission = smoothed(transmission, stages.inside, settings.transmission_sigma_mm / geometry.mm_per_pixel);
   }
-
   stages.fused = Image<double>(w, h);
-  double brightest = 0;
-  for (std::size_t i = 0; i < stages.fused.pixels.size(); ++i) {
+  for (std::size_t i = 0; i < stages.fused.pixels.size(); ++i)
     stages.fused.pixels[i] =
         (reflection.pixels[i] + settings.blend * transmission.pixels[i]) * speckle.pixels[i] + beside.pixels[i];  // (6)
-    brightest = std::max(brightest, heard(stages.fused.pixels[i]) * gain.pixels[i]);
-  }
-  const double level = settings.reference_level == ReferenceLevel::frame_maximum ? brightest : settings.fixed_level;
-  stages.grey = Image<std::uint8_t>(w, h);
-  for (std::size_t i = 0; i < stages.fused.pixels.size(); ++i) {
-    const double echo = heard(stages.fused.pixels[i]) * gain.pixels[i];
-    if (stages.inside.pixels[i]) stages.grey.pixels[i] = grey_level(settings, echo, level);
-  }
+  return stages;
+}
+
+}  // namespace
+
+Stages<double> simulate_reference(const MediumField& field, const TissueTable& table, const Probe& probe,
+                                  double depth_mm, const Settings& settings, const Pose& patient_from_probe) {
+  const std::vector<Pose> of_looks(look_angles(probe, settings).size(), patient_from_probe);
+  return looks_reference(field, table, probe, depth_mm, settings, of_looks);
+}
+
+Stages<double> looks_reference(const MediumField& field, const TissueTable& table, const Probe& probe, double depth_mm,
+                               const Settings& settings, std::span<const Pose> of_looks,
+                               const Image<double>* frame_before) {
+  const std::vector<double> angles = look_angles(probe, settings);
+  const std::size_t middle = angles.size() / 2;
+  std::vector<Stages<double>> looks;
+  for (std::size_t i = 0; i < angles.size(); ++i)
+    looks.push_back(look_reference(field, table, probe, scan_lines(probe, depth_mm, settings.samples, angles[i]),
+                                   settings, of_looks[i], i == middle ? 0 : int(i) + 1));
+  Stages<double> stages = looks[middle];
+  if (looks.size() > 1)
+    for (std::size_t i = 0; i < stages.fused.pixels.size(); ++i) {
+      double sum = 0;
+      int count = 0;
+      for (const Stages<double>& look : looks)
+        if (look.inside.pixels[i]) {
+          sum += std::sqrt(look.fused.pixels[i]);
+          ++count;
+        }
+      if (count > 0) stages.fused.pixels[i] = std::pow(sum / count, 2);
+    }
+  show_reference(stages, probe, depth_mm, settings, int(looks.size()), frame_before);
   return stages;
 }
 

@@ -81,8 +81,11 @@ int main(int argc, char** argv) {
   arguments.require_subcommand(1);
   bench::Request request;
   std::string csv, svg, old_file, new_file;
-  const CLI::App* frames = add_measurement(
-      arguments, "frames", "Measure the run time of a frame, and the share of each stage", request, csv);
+  const CLI::App* frames = add_measurement(arguments, "frames",
+                                           "Measure the run time of a frame, and the share of each stage: in the "
+                                           "paper's mode, in the trainer's settings, and "
+                                           "with what the trainer's machine adds to them",
+                                           request, csv);
   const CLI::App* paper = add_measurement(
       arguments, "paper",
       "Compare the traversal with that of Kutter, Shams and Navab (2009), which takes one render pass per sample",
