@@ -346,6 +346,12 @@ void Simulator::set_volume(const AcousticVolume& volume, const TissueTable& tabl
   state_->invalidate_from(Stage::traverse);
 }
 
+void Simulator::set_stored_speckle(const StoredSpeckle* speckle) {
+  state_->line_stages.store_speckle(speckle);
+  state_->continues = false;
+  state_->invalidate_from(Stage::traverse);
+}
+
 void Simulator::set_probe(const Probe& probe, double depth_mm) {
   check_probe("simulator", probe, depth_mm);
   if (probe == state_->probe && depth_mm == state_->depth_mm) return;

@@ -15,6 +15,7 @@
 #include "sim/model/acoustic_volume.h"
 #include "sim/model/settings.h"
 #include "sim/model/stages.h"
+#include "sim/model/stored_speckle.h"
 #include "sim/model/tissue.h"
 #include "sim/probe/probe.h"
 
@@ -35,6 +36,9 @@ public:
 
   /// Uploads a patient. Throws TextureRefused if the device cannot hold the volume.
   void set_volume(const AcousticVolume& volume, const TissueTable& table);
+  /// Takes S from a scattering volume instead of drawing scatterers, where settings have `speckle` and no `waves`; null
+  /// draws them again. Throws TextureRefused.
+  void set_stored_speckle(const StoredSpeckle* speckle);
   /// Throws std::invalid_argument for a probe or a depth that check_probe() (sim/imaging/view_limits.h) refuses.
   /// @param depth_mm  0.1 to 1000
   void set_probe(const Probe& probe, double depth_mm);

@@ -81,11 +81,12 @@ std::vector<PlacedLine> line_in_air(const Settings& settings) {
 }
 
 std::vector<PlacedLine> placed_lines(const DeviceVolume& volume, const Pose& patient_from_probe, const ScanLines& lines,
-                                     const Settings& settings) {
+                                     const Settings& settings, const glm::dmat4* stored_from_patient) {
   const glm::dmat4 texture_from_probe = volume.texture_from_patient() * patient_from_probe.matrix();
   glm::dmat4 lattice_from_probe = lattice_from_patient(settings.speckle_cell_mm) * patient_from_probe.matrix();
   // Whole periods of the translation change nothing, but would cost digits of the shader's single precision.
   for (int axis = 0; axis < 3; ++axis) lattice_from_probe[3][axis] -= std::floor(lattice_from_probe[3][axis]);
+  if (stored_from_patient) lattice_from_probe = *stored_from_patient * patient_from_probe.matrix();
 
   const auto point = [](const glm::dmat4& map, const glm::dvec3& p) { return glm::dvec3(map * glm::dvec4(p, 1)); };
   const auto step = [](const glm::dmat4& map, const glm::dvec3& d) { return glm::dvec3(map * glm::dvec4(d, 0)); };

@@ -123,7 +123,8 @@ MediumField trilinear_field(const AcousticVolume& volume) {
 }
 
 ReferenceScan traverse_reference(const MediumField& field, const TissueTable& table, const ScanLines& lines,
-                                 const Settings& settings, const Pose& patient_from_probe, const SlicePlane& plane) {
+                                 const Settings& settings, const Pose& patient_from_probe, const SlicePlane& plane,
+                                 const StoredSpeckle* stored) {
   const int count = int(lines.lines.size());
   const double dr = lines.dr_mm(), l = settings.reflection_length_mm, coupled = coupling_depth_mm(settings);
   const Scatterers lattice(settings);
@@ -182,7 +183,9 @@ ReferenceScan traverse_reference(const MediumField& field, const TissueTable& ta
                      surface = alpha * alpha / std::max(alpha * alpha + weak * weak, kLeastEcho);
         scan.mirror.at(line, k) = std::copysign(std::sqrt(alpha * directed) * surface, behind - before);
       } else {
-        const std::complex<double> echo = amplitude * (settings.speckle ? lattice.at(p) : 1.0);
+        const std::complex<double> echo = stored && settings.speckle
+                                              ? stored_speckle_at(*stored, p)
+                                              : amplitude * (settings.speckle ? lattice.at(p) : 1.0);
         scan.echo_re.at(line, k) = echo.real();
         scan.echo_im.at(line, k) = echo.imag();
       }
@@ -233,12 +236,12 @@ void add_waves(Slice& slice, const ReferenceScan& one, double weight, const Sett
 }
 
 Slice traverse_slice(const MediumField& field, const TissueTable& table, const ScanLines& lines,
-                     const Settings& settings, const Pose& patient_from_probe) {
+                     const Settings& settings, const Pose& patient_from_probe, const StoredSpeckle* stored) {
   const Image<double> none(int(lines.lines.size()), lines.samples);
   Slice slice{ReferenceScan{none, none, none, none, {}, {}}, none, none, none, none};
   const std::vector<SlicePlane> planes = slice_planes(settings);
   for (std::size_t p = 0; p < planes.size(); ++p) {
-    const ReferenceScan one = traverse_reference(field, table, lines, settings, patient_from_probe, planes[p]);
+    const ReferenceScan one = traverse_reference(field, table, lines, settings, patient_from_probe, planes[p], stored);
     if (settings.waves) {
       add_waves(slice, one, planes[p].weight, settings);
     } else {
@@ -253,7 +256,7 @@ Slice traverse_slice(const MediumField& field, const TissueTable& table, const S
 }
 
 /// Computes the stages of the beam (4) as the paper's model has them.
-void widen(Stages<double>& stages, Slice& slice, const ScanLines& lines, const Settings& settings) {
+void widen(Stages<double>& stages, Slice& slice, const ScanLines& lines, const Settings& settings, bool is_stored) {
   const int n = int(lines.lines.size()), d = lines.samples;
   stages.reflection_beam = stages.transmission = stages.speckle = Image<double>(n, d);
   const std::vector<double> sigma = focused_beam_sigma(lines, settings);
@@ -274,7 +277,9 @@ void widen(Stages<double>& stages, Slice& slice, const ScanLines& lines, const S
       stages.reflection_beam.at(line, k) = reflection / total;
       const double intensity = slice.scan.intensity.at(line, k);
       stages.transmission.at(line, k) = heard(settings.two_way ? intensity * intensity : intensity);
-      stages.speckle.at(line, k) = std::abs(echo) / total * (settings.speckle ? scale[std::size_t(k)] : 1);
+      stages.speckle.at(line, k) = is_stored && settings.speckle
+                                       ? slice.scan.echo_re.at(line, k)
+                                       : std::abs(echo) / total * (settings.speckle ? scale[std::size_t(k)] : 1);
       slice.scattered.at(line, k) = settings.blend * stages.transmission.at(line, k) * stages.speckle.at(line, k);
     }
   }
@@ -334,13 +339,13 @@ Image<double> mean_echo_of(const Image<double>& scattered, double dr_mm) {
 /// What one look of a picture (sim/model/compounding.h) shows: its stages up to f, and U and inside at its pixels.
 Stages<double> look_reference(const MediumField& field, const TissueTable& table, const Probe& probe,
                               const ScanLines& lines, const Settings& settings, const Pose& patient_from_probe,
-                              int look) {
-  Slice slice = traverse_slice(field, table, lines, settings, patient_from_probe);
+                              int look, const StoredSpeckle* stored) {
+  Slice slice = traverse_slice(field, table, lines, settings, patient_from_probe, stored);
   Stages<double> stages;
   if (settings.waves)
     sum_waves(stages, slice, lines, settings, patient_from_probe);
   else
-    widen(stages, slice, lines, settings);
+    widen(stages, slice, lines, settings, stored != nullptr);
   stages.repeated = widened(slice.repeats, lines, settings);
   stages.intensity = std::move(slice.scan.intensity);
 
@@ -390,20 +395,21 @@ Stages<double> look_reference(const MediumField& field, const TissueTable& table
 }  // namespace
 
 Stages<double> simulate_reference(const MediumField& field, const TissueTable& table, const Probe& probe,
-                                  double depth_mm, const Settings& settings, const Pose& patient_from_probe) {
+                                  double depth_mm, const Settings& settings, const Pose& patient_from_probe,
+                                  const StoredSpeckle* stored) {
   const std::vector<Pose> of_looks(look_angles(probe, settings).size(), patient_from_probe);
-  return looks_reference(field, table, probe, depth_mm, settings, of_looks);
+  return looks_reference(field, table, probe, depth_mm, settings, of_looks, nullptr, stored);
 }
 
 Stages<double> looks_reference(const MediumField& field, const TissueTable& table, const Probe& probe, double depth_mm,
                                const Settings& settings, std::span<const Pose> of_looks,
-                               const Image<double>* frame_before) {
+                               const Image<double>* frame_before, const StoredSpeckle* stored) {
   const std::vector<double> angles = look_angles(probe, settings);
   const std::size_t middle = angles.size() / 2;
   std::vector<Stages<double>> looks;
   for (std::size_t i = 0; i < angles.size(); ++i)
     looks.push_back(look_reference(field, table, probe, scan_lines(probe, depth_mm, settings.samples, angles[i]),
-                                   settings, of_looks[i], i == middle ? 0 : int(i) + 1));
+                                   settings, of_looks[i], i == middle ? 0 : int(i) + 1, stored));
   Stages<double> stages = looks[middle];
   if (looks.size() > 1)
     for (std::size_t i = 0; i < stages.fused.pixels.size(); ++i) {

@@ -10,6 +10,7 @@
 #include "sim/model/coupling.h"
 #include "sim/model/settings.h"
 #include "sim/model/stages.h"
+#include "sim/model/stored_speckle.h"
 #include "sim/model/tissue.h"
 #include "sim/probe/probe.h"
 
@@ -40,8 +41,10 @@ double heard(double echo);
 /// geometry of lines and pixels, the scatterers' lattice, the weights of the beam and the slice, the levels of noise
 /// and clutter, and constants. Everything computed along lines and at pixels is written here a second time. The
 /// arguments are not checked; they must be such as a simulator accepts (sim/imaging/simulator.h).
+/// @param stored  a scattering volume that stands for the scatterers without waves; null for none
 Stages<double> simulate_reference(const MediumField& field, const TissueTable& table, const Probe& probe,
-                                  double depth_mm, const Settings& settings, const Pose& patient_from_probe);
+                                  double depth_mm, const Settings& settings, const Pose& patient_from_probe,
+                                  const StoredSpeckle* stored = nullptr);
 
 /// Does the same for a probe in motion: each look has its own pose, and the frame before is mixed in
 /// (Simulator::image_in_motion()). The stages up to f are those of the straight look.
@@ -49,7 +52,7 @@ Stages<double> simulate_reference(const MediumField& field, const TissueTable& t
 /// @param frame_before  Stages::shown of it, of the same size; null for none
 Stages<double> looks_reference(const MediumField& field, const TissueTable& table, const Probe& probe, double depth_mm,
                                const Settings& settings, std::span<const Pose> of_looks,
-                               const Image<double>* frame_before = nullptr);
+                               const Image<double>* frame_before = nullptr, const StoredSpeckle* stored = nullptr);
 
 /// The results of the first step alone: I and R along given lines, and what makes the scatterers' echo.
 struct ReferenceScan {
@@ -59,6 +62,6 @@ struct ReferenceScan {
 };
 ReferenceScan traverse_reference(const MediumField& field, const TissueTable& table, const ScanLines& lines,
                                  const Settings& settings, const Pose& patient_from_probe,
-                                 const SlicePlane& plane = {0, 1});
+                                 const SlicePlane& plane = {0, 1}, const StoredSpeckle* stored = nullptr);
 
 }  // namespace insonate

@@ -163,6 +163,9 @@ int main(int argc, char** argv) {
   CLI::App* speckle = arguments.add_subcommand(
       "speckle", "Measure the speckle that the sum over many scatterers gives for each transducer at its focus");
   add_acoustics(*speckle, acoustics);
+  bool rates = false;
+  speckle->add_flag("--rates", rates,
+                    "Measure instead how many scatterers a second the live simulator adds up, and the direct sum");
   speckle->add_option("--lines", speckle_lines, "Measure this many scan lines per row")
       ->check(CLI::Range(10, 100000))
       ->capture_default_str();
@@ -214,12 +217,13 @@ int main(int argc, char** argv) {
               : batch->parsed()        ? bench::measure_batch(request)
               : grain->parsed()        ? bench::measure_grain()
               : beam->parsed()         ? bench::measure_beams(acoustics, svg)
-              : speckle->parsed()      ? bench::measure_speckle(acoustics, speckle_lines)
-              : scoring->parsed()      ? bench::measure_scoring(exams)
-              : view->parsed()         ? bench::measure_view(request)
-              : view_front->parsed()   ? bench::measure_view_front(request)
-              : window->parsed()       ? bench::measure_window(sizes_of(window_sizes))
-                                       : bench::measure_front(request, svg);
+              : speckle->parsed()
+                  ? (rates ? bench::measure_scatterer_rates() : bench::measure_speckle(acoustics, speckle_lines))
+              : scoring->parsed()    ? bench::measure_scoring(exams)
+              : view->parsed()       ? bench::measure_view(request)
+              : view_front->parsed() ? bench::measure_view_front(request)
+              : window->parsed()     ? bench::measure_window(sizes_of(window_sizes))
+                                     : bench::measure_front(request, svg);
     });
     if (registration->parsed()) {
       const std::string name = old_file.empty() ? "the table" : old_file;
