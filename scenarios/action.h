@@ -13,13 +13,17 @@ namespace insonate {
 
 /// What a learner does besides moving the probe. The brackets list the action's arguments: numbers, then a text.
 enum class ActionKind {
-  probe,          ///< selects another probe [its name] and sets that probe's own depth and frequency
-  depth,          ///< [mm]
-  frequency,      ///< [MHz]
-  gain,           ///< [dB]
-  dynamic_range,  ///< [dB]
-  time_gain,      ///< [slider, 1 = nearest; dB]
-  freeze,         ///< stops the picture at the last valid sample before the action
+  probe,              ///< selects another probe [its name] and sets that probe's own depth and frequency
+  depth,              ///< [mm]
+  frequency,          ///< [MHz]
+  gain,               ///< [dB]
+  dynamic_range,      ///< [dB]
+  time_gain,          ///< [slider, 1 = nearest; dB]
+  compounding,        ///< [steering angles, odd]
+  persistence,        ///< [share of the frame before, 0 to 0.95]
+  edge_enhancement,   ///< [0 to 4]
+  speckle_reduction,  ///< [0 to 1]
+  freeze,             ///< stops the picture at the last valid sample before the action
   unfreeze,
   caliper,    ///< places a caliper [slot from 1, x1, y1, x2, y2]; placing the same slot again moves it
   ellipse,    ///< places an ellipse [slot, x1, y1, x2, y2: the ends of one axis, half the length of the other axis]

@@ -20,7 +20,8 @@ void Machine::choose(const std::string& name) {
 }
 
 bool Machine::refuses(ActionKind kind) const {
-  return frozen && (kind == ActionKind::probe || kind == ActionKind::depth || kind == ActionKind::frequency);
+  return frozen && (kind == ActionKind::probe || kind == ActionKind::depth || kind == ActionKind::frequency ||
+                    kind == ActionKind::compounding);
 }
 
 void Machine::apply(const Action& action, const std::optional<Pose>& last_valid) {
@@ -44,6 +45,18 @@ void Machine::apply(const Action& action, const std::optional<Pose>& last_valid)
     case ActionKind::time_gain:
       time_gain_db.at(std::size_t(action.slot() - 1)) =
           std::clamp(action.numbers[1], -kMostTimeGain_db, kMostTimeGain_db);
+      break;
+    case ActionKind::compounding:
+      steering_angles = 2 * (int(std::clamp(action.numbers[0], 1.0, double(kMostSteeringAngles))) / 2) + 1;
+      break;
+    case ActionKind::persistence:
+      persistence = std::clamp(action.numbers[0], 0.0, kMostPersistence);
+      break;
+    case ActionKind::edge_enhancement:
+      edge_enhancement = std::clamp(action.numbers[0], 0.0, kMostEdgeEnhancement);
+      break;
+    case ActionKind::speckle_reduction:
+      speckle_reduction = std::clamp(action.numbers[0], 0.0, 1.0);
       break;
     case ActionKind::freeze:
       if (!frozen) frozen_at = last_valid;
@@ -71,6 +84,10 @@ std::vector<Action> actions_between(const Machine& from, const Machine& to) {
   if (machine.frequency_mhz != to.frequency_mhz) set(ActionKind::frequency, to.frequency_mhz);
   if (machine.gain_db != to.gain_db) set(ActionKind::gain, to.gain_db);
   if (machine.dynamic_range_db != to.dynamic_range_db) set(ActionKind::dynamic_range, to.dynamic_range_db);
+  if (machine.steering_angles != to.steering_angles) set(ActionKind::compounding, to.steering_angles);
+  if (machine.persistence != to.persistence) set(ActionKind::persistence, to.persistence);
+  if (machine.edge_enhancement != to.edge_enhancement) set(ActionKind::edge_enhancement, to.edge_enhancement);
+  if (machine.speckle_reduction != to.speckle_reduction) set(ActionKind::speckle_reduction, to.speckle_reduction);
   for (std::size_t i = 0; i < to.time_gain_db.size(); ++i)
     if (machine.time_gain_db[i] != to.time_gain_db[i])
       actions.push_back({ActionKind::time_gain, {double(i + 1), to.time_gain_db[i]}});

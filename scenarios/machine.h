@@ -22,12 +22,16 @@ struct Machine {
   double gain_db = 0;
   double dynamic_range_db = kDynamicRange_db;
   std::array<double, Action::kTimeGainSliders>
-      time_gain_db{};  ///< sliders from near to far, added to the machine's own compensation
+      time_gain_db{};       ///< sliders from near to far, added to the machine's own compensation
+  int steering_angles = 3;  ///< of compounding, odd; these four as in Settings, at rest as in with_usual_display()
+  double persistence = 0.3, edge_enhancement = 0.5, speckle_reduction = 0;
   bool frozen = false;
   std::optional<Pose> frozen_at;  ///< pose of the frozen picture; empty if no valid sample came before
 
   static constexpr double kLeastDepth_mm = 30, kMostDepth_mm = 240;
   static constexpr double kLeastDynamicRange_db = 30, kMostDynamicRange_db = 90, kDynamicRange_db = 60;
+  static constexpr int kMostSteeringAngles = 5;
+  static constexpr double kMostPersistence = 0.9, kMostEdgeEnhancement = 2;
   static constexpr double kMostGain_db = 30, kMostTimeGain_db = 20;  ///< in both directions from 0
 
   /// Returns the probe that `probe` names. Throws std::logic_error before a probe is chosen.
@@ -35,8 +39,8 @@ struct Machine {
   /// Selects a probe and sets its own depth and frequency. An unknown name changes nothing.
   void choose(const std::string& name);
   /// Returns whether the machine ignores actions of this kind now: while a picture is frozen, those that decide which
-  /// echoes are acquired, which are probe, depth and frequency. A frozen picture is data. Gain, time gain and dynamic
-  /// range act on what has been acquired, so they change a frozen picture too.
+  /// echoes are acquired, which are probe, depth, frequency and compounding. A frozen picture is data. Gain, time gain
+  /// and dynamic range act on what has been acquired, so they change a frozen picture too.
   bool refuses(ActionKind kind) const;
   /// Applies a setting, a freeze or an unfreeze; other actions, and those it refuses, change nothing. Depth, dynamic
   /// range and time gain are clamped to the machine's ranges.

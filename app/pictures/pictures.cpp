@@ -29,6 +29,10 @@ Settings settings_of(const Machine& machine) {
   Settings settings = trainer_settings(std::clamp(machine.frequency_mhz, 1.0, 20.0), machine.depth_mm);
   settings.gain_db = std::clamp(machine.gain_db, -60.0, 60.0);
   settings.dynamic_range_db = machine.dynamic_range_db;
+  settings.steering_angles = machine.steering_angles;
+  settings.persistence = machine.persistence;
+  settings.edge_enhancement = machine.edge_enhancement;
+  settings.speckle_reduction = machine.speckle_reduction;
   for (std::size_t i = 0; i < machine.time_gain_db.size(); ++i) settings.tgc_db[i] += machine.time_gain_db[i];
   return settings;
 }
@@ -105,7 +109,8 @@ void Pictures::update(const std::optional<Pose>& pose, const Machine& machine, c
   settings.image_height = high(settings.image_width);
   simulator_.set_settings(at_quality(settings, level_));
   simulator_.set_pose(*pose);
-  ultrasound_ = &simulator_.image();
+  // A frozen picture and that of a probe at rest are those of their pose alone.
+  ultrasound_ = machine.frozen || effort.at_rest ? &simulator_.image() : &simulator_.image_in_motion();
 
   if (times_) times_->end(FramePart::ultrasound);
 

@@ -41,6 +41,8 @@ struct Effort {
   double volume_ms = std::numeric_limits<double>::infinity();
   /// The views beside the ultrasound take turns: one of them is drawn per so many calls; 0: all of them in each.
   int calls_per_turn = 0;
+  /// The ultrasound is that of a probe at rest, at once (gl::Simulator::image()), as where a recording stands still.
+  bool at_rest = false;
 };
 
 /// Draws a session's pictures on the graphics card, each only when something it shows has changed. Needs an OpenGL 4.5

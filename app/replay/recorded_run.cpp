@@ -28,6 +28,15 @@ std::string in_words(const Action& action) {
       return formatted("Dynamic range %.0f dB", action.numbers[0]);
     case ActionKind::time_gain:
       return formatted("Time gain %d: %+.0f dB", action.slot(), action.numbers[1]);
+    case ActionKind::compounding:
+      return action.numbers[0] > 1 ? formatted("Compounding of %.0f angles", action.numbers[0])
+                                   : std::string("Compounding off");
+    case ActionKind::persistence:
+      return formatted("Persistence %.0f %%", 100 * action.numbers[0]);
+    case ActionKind::edge_enhancement:
+      return formatted("Edge enhancement %.1f", action.numbers[0]);
+    case ActionKind::speckle_reduction:
+      return formatted("Speckle reduction %.0f %%", 100 * action.numbers[0]);
     case ActionKind::freeze:
       return "Freeze";
     case ActionKind::unfreeze:

@@ -24,7 +24,17 @@ void push(MouseTracker& mouse, const Pose& from, const Pose& to) {
 
 /// Returns the setting that a scenario locks in order to lock `knob`.
 ActionKind lock_of(ActionKind knob) {
-  return knob == ActionKind::dynamic_range || knob == ActionKind::time_gain ? ActionKind::gain : knob;
+  switch (knob) {
+    case ActionKind::dynamic_range:
+    case ActionKind::time_gain:
+    case ActionKind::compounding:
+    case ActionKind::persistence:
+    case ActionKind::edge_enhancement:
+    case ActionKind::speckle_reduction:
+      return ActionKind::gain;
+    default:
+      return knob;
+  }
 }
 
 /// Returns what people call a setting, in the middle of a sentence.
@@ -39,6 +49,10 @@ bool replaces(const Action& action, const Action& before) {
     case ActionKind::frequency:
     case ActionKind::gain:
     case ActionKind::dynamic_range:
+    case ActionKind::compounding:
+    case ActionKind::persistence:
+    case ActionKind::edge_enhancement:
+    case ActionKind::speckle_reduction:
       return before.kind == action.kind;
     case ActionKind::time_gain:
       return before.kind == action.kind && before.slot() == action.slot();

@@ -274,7 +274,11 @@ void Trainer::update(Mode& mode, double now_s) {
 void Trainer::draw(const PictureSizes& sizes, const Effort& effort) {
   pictures_.ct = preferences_.ct;
   try {
-    if (const Replay* run = replay()) pictures_.update(run->moment().shown_pose, run->machine(), sizes, effort);
+    if (const Replay* run = replay()) {
+      Effort of_moment = effort;
+      of_moment.at_rest = !run->playing();
+      pictures_.update(run->moment().shown_pose, run->machine(), sizes, of_moment);
+    }
     if (session()) pictures_.update(*session(), sizes, effort);
   } catch (const std::runtime_error& error) {
     // What was built when the file changed may not build for settings that come later.

@@ -102,8 +102,8 @@ EchoLine point_echo(const ScanBeam& beam, const Pulse& pulse, const glm::dvec3& 
   return echo;
 }
 
-EchoLine echo_line(const ScanBeam& beam, const Pulse& pulse, const std::vector<Scatterer>& scatterers, double from_mm,
-                   double to_mm) {
+EchoLine echo_line(const ScanBeam& beam, const Pulse& pulse, const std::vector<PointScatterer>& scatterers,
+                   double from_mm, double to_mm) {
   const Sampling& sampling = beam.beamforming().sampling;
   const std::int64_t half_length = steps(pulse.half_length_us(), sampling);
   const std::int64_t first = std::int64_t(std::floor(2 * from_mm / sampling.speed_mm_us * sampling.per_us));
@@ -111,7 +111,7 @@ EchoLine echo_line(const ScanBeam& beam, const Pulse& pulse, const std::vector<S
   const std::size_t padded = std::size_t(end - first + 2 * half_length);
 
   Zones zones(beam, pulse.frequency_mhz(), from_mm, to_mm, first - half_length, padded);
-  for (const Scatterer& scatterer : scatterers)
+  for (const PointScatterer& scatterer : scatterers)
     zones.add(beam.both_ways(scatterer.position_mm), scatterer.amplitude,
               glm::distance(scatterer.position_mm, beam.line().start));
 
@@ -126,7 +126,7 @@ EchoLine echo_line(const ScanBeam& beam, const Pulse& pulse, const std::vector<S
 }
 
 std::vector<EchoLine> echo_lines(const Transducer& transducer, const Beamforming& beamforming,
-                                 const std::vector<ScanLine>& lines, const std::vector<Scatterer>& scatterers,
+                                 const std::vector<ScanLine>& lines, const std::vector<PointScatterer>& scatterers,
                                  double from_mm, double to_mm) {
   const Pulse pulse(transducer);
   std::vector<EchoLine> echoes(lines.size());

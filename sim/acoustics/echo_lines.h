@@ -12,11 +12,11 @@
 namespace insonate {
 
 /// A point that scatters equally in all directions and at all frequencies.
-struct Scatterer {
+struct PointScatterer {
   glm::dvec3 position_mm{0.0};  ///< probe's frame
   double amplitude = 1;
 
-  bool operator==(const Scatterer&) const = default;
+  bool operator==(const PointScatterer&) const = default;
 };
 
 /// What a scan line receives. The real part of a sample is the RF signal, the magnitude its envelope (analytic signal).
@@ -43,12 +43,12 @@ EchoLine point_echo(const ScanBeam& beam, const Pulse& pulse, const glm::dvec3& 
 /// or begin behind that part are left out. The attenuation is interpolated linearly between distances so close that the
 /// error is below 0.1 % at the centre frequency.
 /// @param from_mm  0 or more, below to_mm
-EchoLine echo_line(const ScanBeam& beam, const Pulse& pulse, const std::vector<Scatterer>& scatterers, double from_mm,
-                   double to_mm);
+EchoLine echo_line(const ScanBeam& beam, const Pulse& pulse, const std::vector<PointScatterer>& scatterers,
+                   double from_mm, double to_mm);
 
 /// Returns echo_line() for each scan line, computed by all processors.
 std::vector<EchoLine> echo_lines(const Transducer& transducer, const Beamforming& beamforming,
-                                 const std::vector<ScanLine>& lines, const std::vector<Scatterer>& scatterers,
+                                 const std::vector<ScanLine>& lines, const std::vector<PointScatterer>& scatterers,
                                  double from_mm, double to_mm);
 
 }  // namespace insonate

@@ -40,10 +40,10 @@ const char* name_of(Apodization apodization) {
 
 }  // namespace
 
-std::string scatterers_csv(const std::vector<Scatterer>& scatterers) {
+std::string scatterers_csv(const std::vector<PointScatterer>& scatterers) {
   std::string text = "x_m,y_m,z_m,amplitude\n";
   text.reserve(48 * (scatterers.size() + 1));
-  for (const Scatterer& scatterer : scatterers) {
+  for (const PointScatterer& scatterer : scatterers) {
     const glm::dvec3 at = in_file(scatterer.position_mm);
     append_line(text, {at.x, at.y, at.z, scatterer.amplitude});
   }
@@ -100,7 +100,7 @@ std::string samples_csv(const std::string& title, double first_us, double per_us
 }
 
 void write_scene(const std::filesystem::path& folder, const Transducer& transducer, const Beamforming& beamforming,
-                 const std::vector<Scatterer>& scatterers, double to_mm) {
+                 const std::vector<PointScatterer>& scatterers, double to_mm) {
   const Pulse pulse(transducer);
   const double per_us = beamforming.sampling.per_us;
   const std::vector<double> element = pulse.element_response(per_us);

@@ -12,7 +12,7 @@ namespace insonate {
 // of those programs: x lateral, z into the depth, y = z cross x along the elevation, which is minus the probe's z.
 
 /// Returns "x_m,y_m,z_m,amplitude" and a line per scatterer.
-std::string scatterers_csv(const std::vector<Scatterer>& scatterers);
+std::string scatterers_csv(const std::vector<PointScatterer>& scatterers);
 
 /// Returns "quantity,value,unit" and a line per number of the transducer and of its beamforming.
 std::string transducer_csv(const Transducer& transducer, const Beamforming& beamforming);
@@ -29,6 +29,6 @@ std::string samples_csv(const std::string& title, double first_us, double per_us
 /// Throws InputError if the folder's name is taken or it cannot be written.
 /// @param to_mm  above 1
 void write_scene(const std::filesystem::path& folder, const Transducer& transducer, const Beamforming& beamforming,
-                 const std::vector<Scatterer>& scatterers, double to_mm);
+                 const std::vector<PointScatterer>& scatterers, double to_mm);
 
 }  // namespace insonate

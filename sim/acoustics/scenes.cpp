@@ -55,8 +55,8 @@ double SceneBox::volume_mm3() const {
   return size.x * size.y * size.z;
 }
 
-std::vector<Scatterer> uniform_block(const SceneBox& box, double per_mm3, std::uint32_t seed) {
-  std::vector<Scatterer> scatterers(std::size_t(std::lround(per_mm3 * box.volume_mm3())));
+std::vector<PointScatterer> uniform_block(const SceneBox& box, double per_mm3, std::uint32_t seed) {
+  std::vector<PointScatterer> scatterers(std::size_t(std::lround(per_mm3 * box.volume_mm3())));
   for (std::uint32_t i = 0; i < scatterers.size(); ++i) {
     const glm::dvec3 share(random_at(seed, i, 0), random_at(seed, i, 1), random_at(seed, i, 2));
     scatterers[i].position_mm = box.low + share * (box.high - box.low);
@@ -65,26 +65,27 @@ std::vector<Scatterer> uniform_block(const SceneBox& box, double per_mm3, std::u
   return scatterers;
 }
 
-std::vector<Scatterer> cyst_phantom(const SceneBox& box, double per_mm3, const std::vector<Cylinder>& cylinders,
-                                    std::uint32_t seed) {
-  std::vector<Scatterer> scatterers = uniform_block(box, per_mm3, seed);
-  for (Scatterer& scatterer : scatterers)
+std::vector<PointScatterer> cyst_phantom(const SceneBox& box, double per_mm3, const std::vector<Cylinder>& cylinders,
+                                         std::uint32_t seed) {
+  std::vector<PointScatterer> scatterers = uniform_block(box, per_mm3, seed);
+  for (PointScatterer& scatterer : scatterers)
     for (const Cylinder& cylinder : cylinders)
       if (std::hypot(scatterer.position_mm.x - cylinder.x_mm, scatterer.position_mm.y - cylinder.y_mm) <
           cylinder.radius_mm)
         scatterer.amplitude *= cylinder.gain;
-  std::erase_if(scatterers, [](const Scatterer& scatterer) { return scatterer.amplitude == 0; });
+  std::erase_if(scatterers, [](const PointScatterer& scatterer) { return scatterer.amplitude == 0; });
   return scatterers;
 }
 
-std::vector<Scatterer> point_targets(const std::vector<double>& depths_mm) {
-  std::vector<Scatterer> scatterers;
+std::vector<PointScatterer> point_targets(const std::vector<double>& depths_mm) {
+  std::vector<PointScatterer> scatterers;
   for (const double depth : depths_mm) scatterers.push_back({glm::dvec3(0, depth, 0), 1});
   return scatterers;
 }
 
-std::vector<Scatterer> wire_targets(const std::vector<double>& depths_mm, double half_length_mm, double spacing_mm) {
-  std::vector<Scatterer> scatterers;
+std::vector<PointScatterer> wire_targets(const std::vector<double>& depths_mm, double half_length_mm,
+                                         double spacing_mm) {
+  std::vector<PointScatterer> scatterers;
   const int half = int(half_length_mm / spacing_mm);
   for (const double depth : depths_mm)
     for (int i = -half; i <= half; ++i) scatterers.push_back({glm::dvec3(0, depth, i * spacing_mm), spacing_mm});
@@ -100,8 +101,8 @@ const std::vector<std::string>& scene_names() {
   return names;
 }
 
-std::vector<Scatterer> scene_of(const Transducer& transducer, const Beamforming& beamforming,
-                                const SceneRequest& request) {
+std::vector<PointScatterer> scene_of(const Transducer& transducer, const Beamforming& beamforming,
+                                     const SceneRequest& request) {
   if (request.kind == SceneKind::points) return point_targets(depths_of(request));
   const double half_thickness = half_thickness_mm(transducer, beamforming, request);
   if (request.kind == SceneKind::wires)

@@ -27,19 +27,20 @@ struct Cylinder {
 
 /// Returns scatterers at random places of a box: amplitude 1 or -1 by chance, so that the box's faces do not echo.
 /// @param per_mm3  density, above 0
-std::vector<Scatterer> uniform_block(const SceneBox& box, double per_mm3, std::uint32_t seed);
+std::vector<PointScatterer> uniform_block(const SceneBox& box, double per_mm3, std::uint32_t seed);
 
 /// Returns uniform_block() with cylinders in it. Where cylinders overlap, their gains multiply.
-std::vector<Scatterer> cyst_phantom(const SceneBox& box, double per_mm3, const std::vector<Cylinder>& cylinders,
-                                    std::uint32_t seed);
+std::vector<PointScatterer> cyst_phantom(const SceneBox& box, double per_mm3, const std::vector<Cylinder>& cylinders,
+                                         std::uint32_t seed);
 
 /// Returns one scatterer of amplitude 1 on the central beam at each depth.
-std::vector<Scatterer> point_targets(const std::vector<double>& depths_mm);
+std::vector<PointScatterer> point_targets(const std::vector<double>& depths_mm);
 
 /// Returns wires along the elevation that cross the central beam at the depths: scatterers `spacing_mm` apart with
 /// amplitudes of `spacing_mm`, so that a wire's echo does not depend on the spacing.
 /// @param half_length_mm  how far a wire reaches to either side of the imaging plane
-std::vector<Scatterer> wire_targets(const std::vector<double>& depths_mm, double half_length_mm, double spacing_mm);
+std::vector<PointScatterer> wire_targets(const std::vector<double>& depths_mm, double half_length_mm,
+                                         double spacing_mm);
 
 /// Returns the volume of the resolution cell, mm^3: the product of a profile's three widths.
 double cell_volume_mm3(const BeamProfile& profile);
@@ -61,7 +62,7 @@ struct SceneRequest {
 /// the scene, at a tenth of the amplitude. Points and wires lie at 8 depths. The cysts are 3 echo-free cylinders on the
 /// left and 3 of 3.16 times the amplitude (10 dB) on the right. Throws InputError if the scene would have more than 5
 /// million scatterers.
-std::vector<Scatterer> scene_of(const Transducer& transducer, const Beamforming& beamforming,
-                                const SceneRequest& request);
+std::vector<PointScatterer> scene_of(const Transducer& transducer, const Beamforming& beamforming,
+                                     const SceneRequest& request);
 
 }  // namespace insonate

@@ -48,7 +48,8 @@ SpeckleSample sample_speckle(const Transducer& transducer, const Beamforming& be
 
   std::vector<std::vector<double>> envelopes(std::size_t(lines), std::vector<double>{});
   tbb::parallel_for(0, lines, [&](int i) {
-    const std::vector<Scatterer> block = uniform_block(box, per_cell / cell_volume_mm3(cell), std::uint32_t(i + 1));
+    const std::vector<PointScatterer> block =
+        uniform_block(box, per_cell / cell_volume_mm3(cell), std::uint32_t(i + 1));
     envelopes[std::size_t(i)] = echo_line(beam, pulse, block, focus - half, focus + half).envelope();
   });
 

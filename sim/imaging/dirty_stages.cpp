@@ -2,6 +2,7 @@
 
 #include "sim/imaging/stage_tables.h"
 #include "sim/model/beam.h"
+#include "sim/model/display_filter.h"
 
 namespace insonate::gl {
 namespace {
@@ -17,11 +18,14 @@ Settings in_use(Settings settings) {
     forget(&S::beam_window, &S::beam_lines);
   else
     forget(&S::focus_mm, &S::f_number);
-  if (!settings.absorption && !settings.focused_beam && !has_elevation_focus(settings)) forget(&S::frequency_mhz);
   if (settings.waves)
     forget(&S::reflection_sigma_mm, &S::transmission_sigma_mm);
   else
-    forget(&S::specular_exponent);
+    forget(&S::specular_exponent, &S::steering_angles, &S::steering_deg);
+  if (settings.steering_angles == 1) forget(&S::steering_deg);
+  if (!settings.absorption && !settings.focused_beam && !has_elevation_focus(settings) &&
+      settings.steering_angles == 1 && !is_filtered(settings))
+    forget(&S::frequency_mhz);
   if (!settings.clutter) forget(&S::clutter_db);
   if (!settings.electronic_noise) forget(&S::noise_db);
   if (!settings.electronic_noise && settings.reference_level == ReferenceLevel::frame_maximum) forget(&S::fixed_level);
@@ -34,6 +38,11 @@ Settings in_use_by_sweeps(Settings settings) {
   settings.image_height = unset.image_height;
   settings.reflection_sigma_mm = unset.reflection_sigma_mm;
   settings.transmission_sigma_mm = unset.transmission_sigma_mm;
+  settings.steering_angles = unset.steering_angles;
+  settings.steering_deg = unset.steering_deg;
+  settings.persistence = unset.persistence;
+  settings.edge_enhancement = unset.edge_enhancement;
+  settings.speckle_reduction = unset.speckle_reduction;
   return settings;
 }
 
@@ -50,6 +59,7 @@ SweepStage sweep_stage(Stage of_picture) {
     case Stage::fuse:
       return SweepStage::maximum;
     case Stage::compress:
+    case Stage::enhance:
       return SweepStage::compress;
   }
   return SweepStage::traverse;
@@ -63,7 +73,8 @@ DirtyStages dirty_stages(const Settings& before, const Settings& now) {
   const auto differ = [&](auto... members) { return ((from.*members != to.*members) || ...); };
 
   DirtyStages dirty;
-  dirty.layout = differ(&S::samples, &S::waves, &S::slice_planes, &S::image_width, &S::image_height);
+  dirty.layout = differ(&S::samples, &S::waves, &S::slice_planes, &S::image_width, &S::image_height,
+                        &S::steering_angles, &S::steering_deg);
   dirty.beam = differ(&S::beam_window, &S::beam_lines, &S::focused_beam, &S::focus_mm, &S::f_number, &S::frequency_mhz,
                       &S::speckle, &S::reverberation, &S::face_reflection, &S::speckle_cell_mm, &S::slice_thickness_mm,
                       &S::elevation_focus_mm, &S::waves, &S::reflection_length_mm);
@@ -71,7 +82,7 @@ DirtyStages dirty_stages(const Settings& before, const Settings& now) {
   if (differ(&S::samples, &S::reflection_length_mm, &S::frequency_mhz, &S::absorption, &S::gel_mm, &S::speckle,
              &S::speckle_seed, &S::speckle_cell_mm, &S::slice_planes, &S::slice_thickness_mm, &S::elevation_focus_mm,
              &S::edge_shadow, &S::waves, &S::specular_exponent, &S::image_width, &S::image_height, &S::exact_filter,
-             &S::skipping) ||
+             &S::skipping, &S::steering_angles, &S::steering_deg) ||
       (keeps_middle_plane(to) && !keeps_middle_plane(from)) ||
       // The scatterers' scale depends on the beam.
       (to.waves && differ(&S::blend, &S::two_way, &S::beam_window, &S::beam_lines, &S::focused_beam, &S::focus_mm,
@@ -89,6 +100,10 @@ DirtyStages dirty_stages(const Settings& before, const Settings& now) {
     dirty.first = Stage::fuse;
   else if (differ(&S::dynamic_range_db, &S::grey_map))
     dirty.first = to.reference_level == ReferenceLevel::fixed ? Stage::fuse : Stage::compress;
+  else if (is_filtered(to) != is_filtered(from))  // what the filter reads is kept for it alone
+    dirty.first = to.reference_level == ReferenceLevel::fixed ? Stage::fuse : Stage::compress;
+  else if (differ(&S::edge_enhancement, &S::speckle_reduction))
+    dirty.first = Stage::enhance;
   return dirty;
 }
 

@@ -36,6 +36,16 @@ FanLayout::FanLayout(const Probe& probe, double depth_mm, const ScanLines& lines
   blocks.resize(std::size_t(groups.x) * std::size_t(groups.y), kOutside);
 }
 
+std::vector<glm::vec2> places_among(const ScanLines& lines, const ImageGeometry& geometry) {
+  std::vector<glm::vec2> places;
+  for (int y = 0; y < geometry.height; ++y)
+    for (int x = 0; x < geometry.width; ++x) {
+      const auto at = position_within(lines, geometry.plane_mm(x, y));
+      places.push_back(at ? glm::vec2(at->line, at->r_mm / lines.dr_mm() - 0.5) : glm::vec2(-2));
+    }
+  return places;
+}
+
 std::size_t FanLayout::pixels_in_blocks() const {
   std::size_t count = 0;
   for (const glm::ivec2& block : blocks) {

@@ -32,4 +32,7 @@ struct FanLayout {
   std::size_t pixels_in_blocks() const;
 };
 
+/// Returns where a picture's pixels lie among lines that may be steered, as FanLayout::line_and_sample.
+std::vector<glm::vec2> places_among(const ScanLines& lines, const ImageGeometry& geometry);
+
 }  // namespace insonate::gl

@@ -1,7 +1,11 @@
 #include "sim/imaging/line_stages.h"
 
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/matrix.hpp>
+
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "sim/imaging/stage_tables.h"
 #include "sim/model/beam.h"
@@ -17,7 +21,7 @@ Defines with(const WorkDivision& division, Defines defines = {}) {
   return defines;
 }
 
-Defines traversal(const Settings& settings, double dr_mm, bool group_a_line) {
+Defines traversal(const Settings& settings, double dr_mm, bool group_a_line, bool is_stored) {
   const double samples_a_length = settings.reflection_length_mm / dr_mm;
   const auto is = [&](double whole) { return std::abs(samples_a_length - whole) < 1e-9; };
   return {{"GROUP_A_LINE", flag(group_a_line)},
@@ -27,6 +31,7 @@ Defines traversal(const Settings& settings, double dr_mm, bool group_a_line) {
                                     : "kEdgesAnywhere"},
           {"ABSORPTION", flag(settings.absorption)},
           {"SPECKLE", flag(settings.speckle)},
+          {"STORED_SPECKLE", flag(is_stored)},
           {"WAVES", flag(settings.waves)},
           {"TWO_WAY", flag(settings.two_way)},
           {"EDGE_SHADOW", flag(settings.edge_shadow)},
@@ -49,8 +54,9 @@ Defines clutter_of(const Settings& settings) {
   return {{"WAVES", flag(settings.waves)}};
 }
 
-Defines beam_of(const Settings& settings) {
-  return {{"FOCUSED_BEAM", flag(settings.focused_beam)},
+Defines beam_of(const Settings& settings, bool is_stored = false) {
+  return {{"STORED_SPECKLE", flag(is_stored)},
+          {"FOCUSED_BEAM", flag(settings.focused_beam)},
           {"BEAM_HALF", settings.focused_beam ? "0" : std::to_string(settings.beam_lines / 2)},
           {"REVERBERATION", flag(reverberates(settings))}};
 }
@@ -59,7 +65,8 @@ Defines beam_of(const Settings& settings) {
 
 LineStages::LineStages(const ShaderSources& sources, const WorkDivision& division)
     : division_(division),
-      traverse_(sources, {"imaging/traverse.comp"}, with(division, traversal({}, 1, division.lines_that_fill > 0))),
+      traverse_(sources, {"imaging/traverse.comp"},
+                with(division, traversal({}, 1, division.lines_that_fill > 0, false))),
       reverberation_(sources, {"imaging/reverberation.comp"}, with(division, reverberation_of({}))),
       beam_(sources, {"imaging/beam.comp"}, with(division, beam_of({}))),
       pulse_(sources, {"imaging/pulse.comp"}, pulse_of(1)),
@@ -79,9 +86,28 @@ void LineStages::lay_out(const ScanLines& of_plane, int most_planes, const Setti
   middle_ = TexelBuffer();
   echoes_ = TexelBuffer(GL_RGBA32F, n * d);
   pulsed_ = TexelBuffer();
+  repeats_ = TexelBuffer();
   if (settings.waves) scatterers_.lay_out(lines_, most_planes);
   mean_echo_ = TexelBuffer(GL_R32F, std::size_t(most_planes) * d);
   beam_changed_ = true;
+}
+
+void LineStages::turn(const ScanLines& of_plane) {
+  lines_ = of_plane;
+  scatterers_.turn(lines_);
+  beam_changed_ = true;
+}
+
+void LineStages::store_speckle(const StoredSpeckle* speckle) {
+  stored_ = Texture();
+  if (!speckle) return;
+  const glm::ivec3 size = speckle->grid.size + 2;  // with a margin of 0
+  Texture texture = Texture::make_3d(GL_R32F, size.x, size.y, size.z, Filter::linear, Wrap::edge);
+  texture.write_inside(GL_RED, GL_FLOAT, speckle->voxels.data(), {0, 0, 0, 0});
+  stored_ = std::move(texture);
+  const glm::dmat4 texture_from_index =
+      glm::translate(glm::scale(glm::dmat4(1.0), 1.0 / glm::dvec3(size)), glm::dvec3(1.5));
+  stored_from_patient_ = texture_from_index * glm::inverse(speckle->grid.matrix());
 }
 
 void LineStages::prepare_lattice(const Settings& settings) {
@@ -113,11 +139,13 @@ std::size_t LineStages::most_samples() const {
 void LineStages::traverse(const DeviceVolume& volume, std::span<const Pose> patient_from_plane,
                           const Settings& settings) {
   planes_ = int(patient_from_plane.size());
-  traverse_.define(with(division_, traversal(settings, lines_.dr_mm(), group_a_line())));
+  traverse_.define(with(division_, traversal(settings, lines_.dr_mm(), group_a_line(), is_stored(settings))));
   if (settings.speckle && settings.waves) {
     scatterers_.place(patient_from_plane, settings);
     scatterers_.scattered().bind(3);
     scatterers_.scale().bind(4);
+  } else if (is_stored(settings)) {
+    stored_.bind(1);
   } else if (settings.speckle) {
     prepare_lattice(settings);
     lattice_.bind(1);
@@ -129,7 +157,8 @@ void LineStages::traverse(const DeviceVolume& volume, std::span<const Pose> pati
 
   std::vector<PlacedLine> placed;
   for (const Pose& pose : patient_from_plane) {
-    const std::vector<PlacedLine> of_plane = placed_lines(volume, pose, lines_, settings);
+    const std::vector<PlacedLine> of_plane =
+        placed_lines(volume, pose, lines_, settings, is_stored(settings) ? &stored_from_patient_ : nullptr);
     placed.insert(placed.end(), of_plane.begin(), of_plane.end());
   }
   if (std::ranges::any_of(placed, meets_no_body)) walk(1, line_in_air(settings), air_line_buffer_, in_air_, uncounted_);
@@ -159,11 +188,11 @@ void LineStages::prepare_beam(const Settings& settings) {
     wave_beam_.define(beam_of(settings));
     if (!pulsed_) pulsed_ = TexelBuffer(GL_RG32F, most_samples());
   } else {
-    beam_.define(with(division_, beam_of(settings)));
+    beam_.define(with(division_, beam_of(settings, is_stored(settings))));
   }
   clutter_.define(with(division_, clutter_of(settings)));
   if (!beam_changed_) return;
-  if (reverberates(settings)) repeats_ = TexelBuffer(GL_R32F, most_samples());
+  if (reverberates(settings) && !repeats_) repeats_ = TexelBuffer(GL_R32F, most_samples());
   beam_window_ = half_beam_window(settings);
   beam_at_depth_ = beam_by_depth(lines_, settings);
   beam_changed_ = false;

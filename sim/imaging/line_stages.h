@@ -1,5 +1,7 @@
 #pragma once
 
+#include <glm/mat4x4.hpp>
+
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -11,6 +13,7 @@
 #include "sim/imaging/device_volume.h"
 #include "sim/imaging/scatterer_stage.h"
 #include "sim/model/settings.h"
+#include "sim/model/stored_speckle.h"
 #include "sim/probe/probe.h"
 
 namespace insonate::gl {
@@ -42,6 +45,11 @@ public:
   /// @param of_plane     in the plane's own frame, the same for all planes
   /// @param most_planes  traversed together, 1 or more
   void lay_out(const ScanLines& of_plane, int most_planes, const Settings& settings);
+  /// Takes other lines of the same number and samples, such as steered ones.
+  void turn(const ScanLines& of_plane);
+  /// Samples a scattering volume (sim/model/stored_speckle.h) instead of the scatterers' lattice, or the lattice again.
+  /// Throws TextureRefused.
+  void store_speckle(const StoredSpeckle* speckle);
   /// Notes that something changed on which the beam's windows depend; lay_out() implies it.
   void change_beam() { beam_changed_ = true; }
 
@@ -83,8 +91,11 @@ private:
 
   ScanLines lines_;
   int most_planes_ = 1, planes_ = 1;  // planes_: of the last traversal
-  Texture lattice_;
-  std::uint32_t lattice_seed_ = 0;  // of lattice_
+  bool is_stored(const Settings& settings) const { return stored_ && settings.speckle && !settings.waves; }
+
+  Texture lattice_, stored_;
+  glm::dmat4 stored_from_patient_{1.0};  // in the texture's coordinates
+  std::uint32_t lattice_seed_ = 0;       // of lattice_
   Buffer line_buffer_, air_line_buffer_, beam_window_;
   TexelBuffer beam_at_depth_;
   bool beam_changed_ = true;

@@ -12,6 +12,8 @@ namespace insonate::gl {
 struct PictureVariant {
   const Settings& settings;
   int reflection_radius_px, transmission_radius_px;  ///< of the smoothing windows
+  int looks;                                         ///< that are compounded (sim/model/compounding.h)
+  int filter_radius_px;                              ///< of the display filter's window; 0 without the filter
   bool keeps_fused;                                  ///< U is written, for a caller that reads the stages
 };
 
@@ -25,9 +27,9 @@ struct PicturePrograms {
   void build_from(Stage first, const PictureVariant& variant);
 
   /// For Program::reload().
-  std::vector<Program*> all() { return {&scan_convert, &smooth, &fuse, &maximum, &compress}; }
+  std::vector<Program*> all() { return {&scan_convert, &smooth, &fuse, &maximum, &compress, &enhance_rows, &enhance}; }
 
-  Program scan_convert, smooth, fuse, maximum, compress;
+  Program scan_convert, smooth, fuse, maximum, compress, enhance_rows, enhance;
 };
 
 }  // namespace insonate::gl

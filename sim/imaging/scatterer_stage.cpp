@@ -11,6 +11,7 @@
 
 #include "sim/core/hash.h"
 #include "sim/model/beam.h"
+#include "sim/model/compounding.h"
 #include "sim/model/waves.h"
 
 namespace insonate::gl {
@@ -34,7 +35,11 @@ double slice_half_mm(const ScanLines& lines, const Settings& settings) {
 // Returns a point of the imaging plane among the lines.
 glm::dvec2 point_among(const LineFan& fan, double line, double r_mm) {
   const double across = fan.first + line * fan.step;
-  if (fan.face == LineFan::Face::parallel) return {across, r_mm};
+  const glm::dvec2 turned(std::sin(fan.steering), std::cos(fan.steering));
+  if (fan.face == LineFan::Face::parallel) return glm::dvec2(across, 0) + r_mm * turned;
+  if (fan.steering != 0)
+    return fan.apex_mm * glm::dvec2(std::sin(across), std::cos(across) - 1) +
+           r_mm * glm::dvec2(std::sin(across + fan.steering), std::cos(across + fan.steering));
   const double face = fan.face == LineFan::Face::flat ? std::max(std::cos(across), std::cos(fan.first)) : 1;
   const double from_apex = r_mm + fan.apex_mm / face;
   return {from_apex * std::sin(across), from_apex * std::cos(across) - fan.apex_mm};
@@ -155,12 +160,20 @@ ScattererColumns scatterer_columns(const Pose& patient_from_probe, const ScanLin
   p.lines_across = float(1 / lines.fan.step);
   p.face_of_outer_line = float(std::cos(lines.fan.first));
   p.quanta = float(quanta_of(lines, settings));
+  p.steering_sine = float(std::sin(lines.fan.steering));
+  p.steering_cosine = float(std::cos(lines.fan.steering));
+  const std::array<std::uint32_t, 3> phase = phase_steps(probe_from_cells, settings, lines.fan.steering);
+  for (int axis = 0; axis < 3; ++axis) {
+    p.phase_steps[axis] = phase[std::size_t(axis)];
+    p.phase_steps.w += 1024u * std::uint32_t(corner[axis]) * phase[std::size_t(axis)];
+  }
   p.slice_half = float(kSliceHalf);
   return columns;
 }
 
 ScattererStage::ScattererStage(const ShaderSources& sources, const WorkDivision& division)
-    : division_(division), program_(sources, {"imaging/scatter.comp"}, {{"FACE", "1"}, {"ELEVATION_FOCUS", "0"}}) {}
+    : division_(division),
+      program_(sources, {"imaging/scatter.comp"}, {{"FACE", "1"}, {"STEERED", "0"}, {"ELEVATION_FOCUS", "0"}}) {}
 
 void ScattererStage::lay_out(const ScanLines& of_plane, int most_planes) {
   lines_ = of_plane;
@@ -176,8 +189,9 @@ void ScattererStage::place(std::span<const Pose> patient_from_plane, const Setti
     scale_ = TexelBuffer(GL_R32F, scale.size(), scale.data());
     scale_of_ = settings;
   }
-  program_.define(
-      {{"FACE", std::to_string(int(lines_.fan.face))}, {"ELEVATION_FOCUS", flag(has_elevation_focus(settings))}});
+  program_.define({{"FACE", std::to_string(int(lines_.fan.face))},
+                   {"STEERED", flag(lines_.fan.steering != 0)},
+                   {"ELEVATION_FOCUS", flag(has_elevation_focus(settings))}});
   scattered_.clear();
   for (std::size_t plane = 0; plane < patient_from_plane.size(); ++plane) {
     ScattererColumns columns = scatterer_columns(patient_from_plane[plane], lines_, settings);

@@ -33,6 +33,11 @@ public:
 
   /// Allocates the buffer. Throws DeviceRefused.
   void lay_out(const ScanLines& of_plane, int most_planes);
+  /// Takes other lines of the same number and samples, such as steered ones.
+  void turn(const ScanLines& of_plane) {
+    lines_ = of_plane;
+    scale_ = TexelBuffer();
+  }
   /// Runs the stage. The caller has bound the block of parameters (sim/shaders/shared/simulation_parameters.h).
   /// @param patient_from_plane  1 to most_planes poses
   void place(std::span<const Pose> patient_from_plane, const Settings& settings);

@@ -15,6 +15,7 @@
 #include "sim/model/acoustic_volume.h"
 #include "sim/model/settings.h"
 #include "sim/model/stages.h"
+#include "sim/model/stored_speckle.h"
 #include "sim/model/tissue.h"
 #include "sim/probe/probe.h"
 
@@ -35,6 +36,9 @@ public:
 
   /// Uploads a patient. Throws TextureRefused if the device cannot hold the volume.
   void set_volume(const AcousticVolume& volume, const TissueTable& table);
+  /// Takes S from a scattering volume instead of drawing scatterers, where settings have `speckle` and no `waves`; null
+  /// draws them again. Throws TextureRefused.
+  void set_stored_speckle(const StoredSpeckle* speckle);
   /// Throws std::invalid_argument for a probe or a depth that check_probe() (sim/imaging/view_limits.h) refuses.
   /// @param depth_mm  0.1 to 1000
   void set_probe(const Probe& probe, double depth_mm);
@@ -48,11 +52,19 @@ public:
   /// finite, or more than 10 km away. The previous pose then stays.
   void set_pose(const Pose& patient_from_probe);
 
-  /// Runs the outdated stages up to and including `last`, for measurements.
+  /// Runs the outdated stages up to and including `last`, for measurements; before scan conversion, of the straight
+  /// look alone.
   void run_through(Stage last);
 
   /// Returns the picture: RGBA8, grey in red, green and blue, alpha 255 inside the fan; row 0 is the top.
   const Texture& image();
+  /// Returns the picture while the probe moves. If only the pose has changed since the last picture, this computes one
+  /// look of those that are compounded (sim/model/compounding.h), in turn; the others stay as the last picture had
+  /// them. Of the frame before, a share Settings::persistence is mixed in, before filter and grey map. Anything else
+  /// that has changed begins anew with a picture as image() returns it. At the same pose, each call computes one more
+  /// look. When all are of this pose, nothing of a frame before is left in the picture: it is that of image(). So what
+  /// a probe at rest shows depends on its pose alone, and is complete after as many calls as there are looks.
+  const Texture& image_in_motion();
   /// Returns a number that differs whenever the picture has changed.
   long image_version() const;
   /// Returns how the picture's pixels lie in the probe's plane.

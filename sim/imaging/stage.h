@@ -7,9 +7,9 @@ namespace insonate::gl {
 /// The stages of model S in the order they run; each reads what the one before it wrote. Reverberation and clutter
 /// follow from the traversal's results and are part of the beam's stage, whose samples all count. Where white is a
 /// fixed level, the fuse stage also maps to grey. Compress is a separate stage only where each frame sets its own
-/// white.
-enum class Stage { traverse, beam, scan_convert, smooth, fuse, compress };
-inline constexpr int kStageCount = 6;
+/// white. Enhance is the display filter (sim/model/display_filter.h), and maps to grey where it is on.
+enum class Stage { traverse, beam, scan_convert, smooth, fuse, compress, enhance };
+inline constexpr int kStageCount = 7;
 
 /// The stages of model W. Compare computes LC2; it converts the scan lines itself and needs no image.
 enum class WeinStage { traverse, scan_convert, compare };

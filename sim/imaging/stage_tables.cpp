@@ -81,11 +81,12 @@ std::vector<PlacedLine> line_in_air(const Settings& settings) {
 }
 
 std::vector<PlacedLine> placed_lines(const DeviceVolume& volume, const Pose& patient_from_probe, const ScanLines& lines,
-                                     const Settings& settings) {
+                                     const Settings& settings, const glm::dmat4* stored_from_patient) {
   const glm::dmat4 texture_from_probe = volume.texture_from_patient() * patient_from_probe.matrix();
   glm::dmat4 lattice_from_probe = lattice_from_patient(settings.speckle_cell_mm) * patient_from_probe.matrix();
   // Whole periods of the translation change nothing, but would cost digits of the shader's single precision.
   for (int axis = 0; axis < 3; ++axis) lattice_from_probe[3][axis] -= std::floor(lattice_from_probe[3][axis]);
+  if (stored_from_patient) lattice_from_probe = *stored_from_patient * patient_from_probe.matrix();
 
   const auto point = [](const glm::dmat4& map, const glm::dvec3& p) { return glm::dvec3(map * glm::dvec4(p, 1)); };
   const auto step = [](const glm::dmat4& map, const glm::dvec3& d) { return glm::dvec3(map * glm::dvec4(d, 0)); };
@@ -211,6 +212,8 @@ SimulationParameters parameters_of(const Settings& settings, const ScanLines& li
   p.blend = float(settings.blend);
   p.clutter_share = float(clutter_share(settings));
   p.noise_level = float(noise_level(settings));
+  p.edge_enhancement = float(settings.edge_enhancement);
+  p.speckle_reduction = float(settings.speckle_reduction);
   p.gain_db = float(settings.gain_db);
   p.dynamic_range_db = float(settings.dynamic_range_db);
   p.fixed_level = float(settings.fixed_level);

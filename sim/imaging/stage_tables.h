@@ -24,8 +24,9 @@ struct PlacedLine {
 };
 
 /// Returns the lines of all slice planes for a pose of the probe, slice plane by slice plane.
+/// @param stored_from_patient  to the coordinates of a scattering volume that stands for the lattice; null for none
 std::vector<PlacedLine> placed_lines(const DeviceVolume& volume, const Pose& patient_from_probe, const ScanLines& lines,
-                                     const Settings& settings);
+                                     const Settings& settings, const glm::dmat4* stored_from_patient = nullptr);
 
 /// True if neither the line's samples nor the points used for their gradients touch the body. Such a line is skipped.
 bool meets_no_body(const PlacedLine& line);

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "sim/core/digest.h"
 #include "sim/core/input_error.h"
 #include "sim/core/suggest.h"
 
@@ -179,6 +180,34 @@ AcousticVolume make_acoustic_volume(const Volume<std::int16_t>& ct, const Volume
         }
   });
   return acoustic;
+}
+
+std::string digest_of(const AcousticVolume& volume) {
+  Digest digest;
+  const auto add = [&](const void* data, std::size_t bytes) { digest.add({static_cast<const char*>(data), bytes}); };
+  add(&volume.grid.size, sizeof volume.grid.size);
+  add(&volume.grid.spacing, sizeof volume.grid.spacing);
+  add(&volume.grid.origin, sizeof volume.grid.origin);
+  add(&volume.grid.direction, sizeof volume.grid.direction);
+  add(volume.voxels.data(), volume.voxels.size() * sizeof volume.voxels.front());
+  return digest.text();
+}
+
+double scatterer_amplitude_at(const AcousticVolume& volume, const glm::dmat4& index_from_patient,
+                              const glm::dvec3& patient_mm) {
+  const glm::dvec3 index(index_from_patient * glm::dvec4(patient_mm, 1));
+  if (glm::any(glm::lessThan(index, glm::dvec3(0))) ||
+      glm::any(glm::greaterThan(index, glm::dvec3(volume.grid.size - 1))))
+    return 0;
+  const glm::ivec3 low(floor_of(index.x), floor_of(index.y), floor_of(index.z));
+  const glm::dvec3 f = index - glm::dvec3(low);
+  double db = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::ivec3 step(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
+    const double weight = (step.x ? f.x : 1 - f.x) * (step.y ? f.y : 1 - f.y) * (step.z ? f.z : 1 - f.z);
+    if (weight > 0) db += weight * volume.at(low + step).echogenicity_cdb / 100.0;
+  }
+  return std::max(std::pow(10.0, db / 10) - std::pow(10.0, kSilentDb / 10), 0.0);
 }
 
 }  // namespace insonate

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "sim/core/grid.h"
 #include "sim/model/tissue.h"
@@ -68,5 +70,14 @@ inline constexpr double kSilentDb = kLeastEchogenicityDb + 0.005;
 /// @param tissue_of  per label value, the tissue's name in the table ("" for none); 256 entries, or empty
 AcousticVolume make_acoustic_volume(const Volume<std::int16_t>& ct, const Volume<std::uint8_t>& labels,
                                     const std::vector<std::string>& tissue_of, const TissueTable& table);
+
+/// Returns a digest of the grid and all voxels, as digest_of() (sim/core/digest.h).
+std::string digest_of(const AcousticVolume& volume);
+
+/// Returns the amplitude of the scatterers at a place in the paper's sums, 10^(e/10) - 10^(kSilentDb/10) with e the
+/// trilinear echogenicity; 0 outside the volume.
+/// @param index_from_patient  the inverse of volume.grid.matrix()
+double scatterer_amplitude_at(const AcousticVolume& volume, const glm::dmat4& index_from_patient,
+                              const glm::dvec3& patient_mm);
 
 }  // namespace insonate

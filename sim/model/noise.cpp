@@ -58,12 +58,13 @@ Image<std::complex<double>> noise_wave(const ScanLines& lines, const Settings& s
   return noise;
 }
 
-glm::ivec2 noise_shift(const Pose& patient_from_probe) {
+glm::ivec2 noise_shift(const Pose& patient_from_probe, int look) {
   const glm::dmat4 matrix = patient_from_probe.matrix();
   std::uint32_t h = kSeed;
   for (int column = 0; column < 4; ++column)
     for (int row = 0; row < 3; ++row) h = hash(h, std::bit_cast<std::uint32_t>(float(matrix[column][row])));
-  return {int(hash(h, 0) >> 8), int(hash(h, 1) >> 8)};
+  const auto of_look = std::uint32_t(2 * look);
+  return {int(hash(h, of_look) >> 8), int(hash(h, of_look + 1) >> 8)};
 }
 
 std::complex<double> noise_of_pixel(const Image<std::complex<double>>& noise, const ImageGeometry& geometry,

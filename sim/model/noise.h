@@ -28,7 +28,8 @@ Image<std::complex<double>> noise_wave(const ScanLines& lines, const Settings& s
 /// Returns the shift of the noise wave in a picture, pixels: pixel (x, y) has the noise of pixel ((x + shift.x) %
 /// width, (y + shift.y) % height), which lies among lines and samples that repeat beyond the fan. It is a hash of the
 /// pose in single precision. So noise is new in each frame of a moving probe, and the same for the same pose.
-glm::ivec2 noise_shift(const Pose& patient_from_probe);
+/// @param look  a look (compounding.h) counted from 1, or 0 for the straight one; each has noise of its own
+glm::ivec2 noise_shift(const Pose& patient_from_probe, int look = 0);
 
 /// Returns the noise wave at a pixel before that shift, bilinear between lines and samples with
 /// the power of a line. It repeats beyond the fan.

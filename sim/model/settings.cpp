@@ -10,6 +10,13 @@ double coupling_depth_mm(const Settings& settings) {
   return std::max(settings.gel_mm, settings.reflection_length_mm / 2 + kRounding_mm);
 }
 
+Settings with_usual_display(Settings settings) {
+  settings.steering_angles = 3;
+  settings.persistence = 0.3;
+  settings.edge_enhancement = 0.5;
+  return settings;
+}
+
 Settings paper_settings(double depth_mm, int samples) {
   Settings settings;
   settings.samples = samples;
@@ -22,6 +29,8 @@ Settings paper_settings(double depth_mm, int samples) {
   settings.edge_shadow = false;
   settings.face_reflection = 0;
   settings.clutter = settings.electronic_noise = false;
+  settings.steering_angles = 1;
+  settings.persistence = settings.edge_enhancement = settings.speckle_reduction = 0;
   settings.reference_level = ReferenceLevel::frame_maximum;
   return settings;
 }

@@ -67,6 +67,10 @@ struct Settings {
   bool waves = false;
   double specular_exponent = 1;  ///< with waves: m, how steeply an interface's echo falls with its tilt, 1 to 64
 
+  // Spatial compounding with waves, of pictures: see compounding.h
+  int steering_angles = 1;  ///< directions that the lines are steered to, odd, 1 (none) to 9
+  double steering_deg = 8;  ///< the outermost of these, from the middle one to either side, 1 to 20
+
   // Speckle
   bool speckle = true;
   std::uint32_t speckle_seed = 1;
@@ -91,6 +95,9 @@ struct Settings {
   ReferenceLevel reference_level = ReferenceLevel::fixed;
   double fixed_level = 0.014;  ///< the U that is white before gain, 1e-12 to 1e6
   GreyMap grey_map = GreyMap::linear;
+  double persistence = 0;        ///< share of the frame before in a picture in motion, 0 (none) to 0.95
+  double edge_enhancement = 0;   ///< of pictures, 0 (none) to 4, see display_filter.h
+  double speckle_reduction = 0;  ///< of pictures, 0 (none) to 1, see display_filter.h
 
   int image_width = 640;   ///< 1 to 8192
   int image_height = 480;  ///< 1 to 8192
@@ -104,6 +111,10 @@ struct Settings {
 /// over half the reflection length to either side. Lines begin at the face. So the interface to air must lie half its
 /// width behind it, or lines would meet only a part of it.
 double coupling_depth_mm(const Settings& settings);
+
+/// Returns the settings with what a machine's abdominal preset adds to a picture: three steering angles, mild
+/// persistence and edge enhancement (Szabo, Diagnostic Ultrasound Imaging, 10; the amounts are by eye).
+Settings with_usual_display(Settings settings);
 
 /// Returns the paper's settings: no absorption, reflection length = sample distance, one-way transmission, frame's
 /// maximum, no noise, no clutter, a beam equally wide at every depth.

@@ -36,6 +36,8 @@ const std::vector<Key<Settings>>& all_keys() {
       number("face_reflection", &S::face_reflection, 0, 1),
       flag("waves", &S::waves),
       number("specular_exponent", &S::specular_exponent, 1, 64),
+      whole("steering_angles", &S::steering_angles, 1, 9, true),
+      number("steering_deg", &S::steering_deg, 1, 20),
       flag("speckle", &S::speckle),
       whole("speckle_seed", &S::speckle_seed, 0u, std::numeric_limits<std::uint32_t>::max()),
       number("speckle_cell_mm", &S::speckle_cell_mm, 0.05, 10),
@@ -53,6 +55,9 @@ const std::vector<Key<Settings>>& all_keys() {
       choice("reference_level", &S::reference_level, {"frame_maximum", "fixed"}),
       number("fixed_level", &S::fixed_level, 1e-12, 1e6),
       choice("grey_map", &S::grey_map, {"linear", "soft", "contrast", "s_curve"}),
+      number("persistence", &S::persistence, 0, 0.95),
+      number("edge_enhancement", &S::edge_enhancement, 0, 4),
+      number("speckle_reduction", &S::speckle_reduction, 0, 1),
       whole("image_width", &S::image_width, 1, 8192),
       whole("image_height", &S::image_height, 1, 8192),
   };

@@ -37,10 +37,12 @@ namespace insonate {
 /// reflection_sigma_mm and transmission_sigma_mm; b = blend. The additive echoes are V of reverberation.h, and noise
 /// and clutter of noise.h. Time gain t is tgc_db at 8 depths, the first at the face and the last at the imaging depth,
 /// linear between. It is an amplifier's gain in dB of U, an intensity. White is the level L: the frame's brightest E in
-/// the paper, or fixed_level, so that the brightness does not change while the probe moves. m is grey_map.
+/// the paper, or fixed_level, so that the brightness does not change while the probe moves. m is grey_map. Pictures may
+/// be the mean of several looks (compounding.h), and filtered before the grey map (display_filter.h). The images on
+/// scan lines are then those of the straight look.
 ///
-/// Images up to `wave_im` are on scan lines: x is the line, y the sample. The last three are on the picture's pixels.
-/// With Settings::waves, echoes add up as sim/model/waves.h says, not as (3) to (6) do. `reflection`,
+/// Images up to `wave_im` are on scan lines: x is the line, y the sample. Those from `fused` on are on the picture's
+/// pixels. With Settings::waves, echoes add up as sim/model/waves.h says, not as (3) to (6) do. `reflection`,
 /// `reflection_beam`, `transmission` and `speckle` are empty then. Without it, those that need waves are empty.
 template <typename Real>
 struct Stages {
@@ -54,8 +56,10 @@ struct Stages {
   Image<Real> echo_re, echo_im;  ///< with waves: e
   Image<Real> wave_re, wave_im;  ///< with waves: f
   Image<Real> fused;             ///< U (6), before gain
-  Image<std::uint8_t> inside;    ///< 1 inside the fan
-  Image<std::uint8_t> grey;      ///< after log compression (7), 0 to 255
+  Image<Real> shown;           ///< the compressed echo of (7), 0 to 1, before filter and grey map; the device keeps it
+                               ///< only for persistence and filter
+  Image<std::uint8_t> inside;  ///< 1 inside the fan
+  Image<std::uint8_t> grey;    ///< after log compression (7), 0 to 255
 };
 
 }  // namespace insonate

@@ -14,10 +14,11 @@ namespace {
 
 constexpr double kMostCells = 1 << 22, kMostInBin = 64;
 
-// Returns the distance between neighbouring lines, mm.
+// Returns the distance between neighbouring lines, perpendicular to them, mm.
 double spacing_mm(const ScanLines& lines, double r_mm) {
   const LineFan& fan = lines.fan;
-  return fan.face == LineFan::Face::parallel ? fan.step : fan.step * (fan.apex_mm + r_mm);
+  const double cosine = std::cos(fan.steering);
+  return fan.face == LineFan::Face::parallel ? fan.step * cosine : fan.step * (fan.apex_mm * cosine + r_mm);
 }
 
 double depth_mm(const ScanLines& lines, int k) {

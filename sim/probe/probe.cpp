@@ -90,15 +90,17 @@ glm::dvec2 face_edge(const Probe& probe) {
   return probe.radius_mm * glm::dvec2(std::sin(half), std::cos(half) - 1);
 }
 
-ScanLines scan_lines(const Probe& probe, double depth_mm, int samples) {
+ScanLines scan_lines(const Probe& probe, double depth_mm, int samples, double steering) {
   ScanLines set;
   set.samples = samples;
   set.r_max_mm = depth_mm;
   set.fan = line_fan(probe);
+  set.fan.steering = steering;
+  const glm::dvec3 turned(std::sin(steering), std::cos(steering), 0);
   for (int i = 0; i < probe.lines; ++i) {
     const double across = (i + 0.5) / probe.lines;
     if (probe.kind == ProbeKind::linear) {
-      set.lines.push_back({{probe.width_mm * (across - 0.5), 0, 0}, {0, 1, 0}});
+      set.lines.push_back({{probe.width_mm * (across - 0.5), 0, 0}, turned});
       continue;
     }
     const double angle = angle_at(probe, across);
@@ -106,7 +108,8 @@ ScanLines scan_lines(const Probe& probe, double depth_mm, int samples) {
     const glm::dvec3 start = probe.kind == ProbeKind::phased
                                  ? glm::dvec3(apex_behind_mm(probe) * std::tan(angle), 0, 0)
                                  : glm::dvec3(0, -probe.radius_mm, 0) + probe.radius_mm * direction;
-    set.lines.push_back({start, direction});
+    const glm::dvec3 steered(std::sin(angle + steering), std::cos(angle + steering), 0);
+    set.lines.push_back({start, steering == 0 ? direction : steered});
   }
   return set;
 }
@@ -129,11 +132,28 @@ std::optional<LinePosition> line_position(const Probe& probe, double depth_mm, c
 }
 
 LinePosition position_among(const LineFan& fan, const glm::dvec2& xy_mm) {
-  if (fan.face == LineFan::Face::parallel) return {(xy_mm.x - fan.first) / fan.step, xy_mm.y};
+  const double sine = std::sin(fan.steering), cosine = std::cos(fan.steering);
+  if (fan.face == LineFan::Face::parallel)
+    return {(xy_mm.x - xy_mm.y * sine / cosine - fan.first) / fan.step, xy_mm.y / cosine};
   const double below_apex = xy_mm.y + fan.apex_mm, from_apex = std::hypot(xy_mm.x, below_apex);
+  if (fan.steering != 0) {
+    // A line that is turned by a touches the circle of radius R sin a about the apex, R the face's radius.
+    const double to_tangent = std::max(from_apex * from_apex - std::pow(fan.apex_mm * sine, 2), 0.0);
+    const double r = std::sqrt(to_tangent) - fan.apex_mm * cosine;
+    const double behind_start = std::atan2(r * sine, fan.apex_mm + r * cosine);
+    return {(std::atan2(xy_mm.x, below_apex) - behind_start - fan.first) / fan.step, r};
+  }
   const double face = fan.face == LineFan::Face::flat ? std::max(below_apex / from_apex, std::cos(fan.first)) : 1;
   const double r = from_apex - fan.apex_mm / face;
   return {(std::atan2(xy_mm.x, below_apex) - fan.first) / fan.step, r};
+}
+
+std::optional<LinePosition> position_within(const ScanLines& lines, const glm::dvec2& xy_mm) {
+  const LinePosition at = position_among(lines.fan, xy_mm);
+  const double beyond_outer = 0.5;
+  if (at.line < -beyond_outer || at.line > double(lines.lines.size()) - beyond_outer) return std::nullopt;
+  if (at.r_mm < lines.r_min_mm || at.r_mm > lines.r_max_mm) return std::nullopt;
+  return at;
 }
 
 ImageGeometry image_geometry(const Probe& probe, double depth_mm, int width, int height) {

@@ -64,6 +64,9 @@ struct LineFan {
   double apex_mm = 0;  ///< distance of the apex behind the face's middle, where lines meet; 0 if parallel
   double first = 0;    ///< of line 0, rad or mm
   double step = 1;     ///< from one line to the next, above 0
+  /// Lines are turned by this from the direction in which they leave the face, towards +x, rad; 0 for flat faces. r is
+  /// the distance along the turned line, and a place across that of the line's start.
+  double steering = 0;
 };
 
 /// The scan lines to traverse. The traversal depends on them alone, not on the probe.
@@ -83,7 +86,8 @@ struct ScanLines {
 /// range are refused where they enter a program, and give meaningless lines here.
 /// @param depth_mm  0.1 to 1000
 /// @param samples   per line, 1 to 8192
-ScanLines scan_lines(const Probe& probe, double depth_mm, int samples);
+/// @param steering   LineFan::steering, -0.5 to 0.5 rad; 0 for phased probes, whose lines are steered already
+ScanLines scan_lines(const Probe& probe, double depth_mm, int samples, double steering = 0);
 
 /// The position of a point of the imaging plane (x lateral, y along the central beam, probe frame, mm) among the lines.
 struct LinePosition {
@@ -98,6 +102,10 @@ std::optional<LinePosition> line_position(const Probe& probe, double depth_mm, c
 
 /// Returns the position of any point of the imaging plane in front of the apex, also beyond the fan's edges.
 LinePosition position_among(const LineFan& fan, const glm::dvec2& xy_mm);
+
+/// Returns the position of a point among the lines as line_position() does, also where they are steered: nothing beyond
+/// the edges of these lines, in front of the face, or deeper than they reach.
+std::optional<LinePosition> position_within(const ScanLines& lines, const glm::dvec2& xy_mm);
 
 /// Places the pixels of the displayed image in the imaging plane. Pixels are square; the fan is as large as fits, and
 /// centred. Pixel (x, y), counted from the top left, has its centre at top_left_mm + mm_per_pixel * (x, y) in the

@@ -9,10 +9,12 @@
 #include <complex>
 #include <memory>
 
+#include "sim/model/compounding.h"
 #include "sim/model/noise.h"
 #include "sim/model/refraction.h"
 #include "sim/model/scatterers.h"
 #include "sim/model/waves.h"
+#include "sim/reference/display_reference.h"
 #include "sim/reference/reverberation_reference.h"
 #include "sim/reference/wave_reference.h"
 
@@ -90,21 +92,6 @@ Image<double> smoothed(const Image<double>& image, const Image<std::uint8_t>& in
   return sum;
 }
 
-/// Maps a share of the dynamic range, 0 to 1, to grey, 0 to 1.
-double grey_of(GreyMap map, double g) {
-  switch (map) {
-    case GreyMap::linear:
-      return g;
-    case GreyMap::soft:
-      return std::pow(g, 0.75);
-    case GreyMap::contrast:
-      return std::pow(g, 1.5);
-    case GreyMap::s_curve:
-      return g * g * (3 - 2 * g);
-  }
-  return g;
-}
-
 }  // namespace
 
 /// Returns the share of gel in what lies within the gel layer, 0 to 1 (sim/model/coupling.h).
@@ -141,7 +128,8 @@ MediumField trilinear_field(const AcousticVolume& volume) {
 }
 
 ReferenceScan traverse_reference(const MediumField& field, const TissueTable& table, const ScanLines& lines,
-                                 const Settings& settings, const Pose& patient_from_probe, const SlicePlane& plane) {
+                                 const Settings& settings, const Pose& patient_from_probe, const SlicePlane& plane,
+                                 const StoredSpeckle* stored) {
   const int count = int(lines.lines.size());
   const double dr = lines.dr_mm(), l = settings.reflection_length_mm, coupled = coupling_depth_mm(settings);
   const Scatterers lattice(settings);
@@ -202,7 +190,9 @@ ReferenceScan traverse_reference(const MediumField& field, const TissueTable& ta
                      surface = alpha * alpha / std::max(alpha * alpha + weak * weak, kLeastEcho);
         scan.mirror.at(line, k) = std::copysign(std::sqrt(alpha * directed) * surface, behind - before);
       } else {
-        const std::complex<double> echo = amplitude * (settings.speckle ? lattice.at(p) : 1.0);
+        const std::complex<double> echo = stored && settings.speckle
+                                              ? stored_speckle_at(*stored, p)
+                                              : amplitude * (settings.speckle ? lattice.at(p) : 1.0);
         scan.echo_re.at(line, k) = echo.real();
         scan.echo_im.at(line, k) = echo.imag();
       }
@@ -223,22 +213,8 @@ ReferenceScan traverse_reference(const MediumField& field, const TissueTable& ta
   return scan;
 }
 
-double time_gain(const Settings& settings, double depth_share) {
-  const double at = std::clamp(depth_share, 0.0, 1.0) * double(settings.tgc_db.size() - 1);
-  const std::size_t below = std::min(std::size_t(at), settings.tgc_db.size() - 2);
-  const double f = at - double(below);
-  const double db = (1 - f) * settings.tgc_db[below] + f * settings.tgc_db[below + 1] + settings.gain_db;
-  return std::pow(10.0, db / 10);
-}
-
 double heard(double echo) {
   return echo > kLeastEcho ? echo : 0;
-}
-
-std::uint8_t grey_level(const Settings& settings, double echo, double level) {
-  if (echo <= 0) return 0;
-  const double grey = 1 + 10 * std::log10(echo / level) / settings.dynamic_range_db;
-  return std::uint8_t(std::lround(255 * grey_of(settings.grey_map, std::clamp(grey, 0.0, 1.0))));
 }
 
 namespace {
@@ -267,12 +243,12 @@ void add_waves(Slice& slice, const ReferenceScan& one, double weight, const Sett
 }
 
 Slice traverse_slice(const MediumField& field, const TissueTable& table, const ScanLines& lines,
-                     const Settings& settings, const Pose& patient_from_probe) {
+                     const Settings& settings, const Pose& patient_from_probe, const StoredSpeckle* stored) {
   const Image<double> none(int(lines.lines.size()), lines.samples);
   Slice slice{ReferenceScan{none, none, none, none, {}, {}}, none, none, none, none};
   const std::vector<SlicePlane> planes = slice_planes(settings);
   for (std::size_t p = 0; p < planes.size(); ++p) {
-    const ReferenceScan one = traverse_reference(field, table, lines, settings, patient_from_probe, planes[p]);
+    const ReferenceScan one = traverse_reference(field, table, lines, settings, patient_from_probe, planes[p], stored);
     if (settings.waves) {
       add_waves(slice, one, planes[p].weight, settings);
     } else {
@@ -287,7 +263,7 @@ Slice traverse_slice(const MediumField& field, const TissueTable& table, const S
 }
 
 /// Computes the stages of the beam (4) as the paper's model has them.
-void widen(Stages<double>& stages, Slice& slice, const ScanLines& lines, const Settings& settings) {
+void widen(Stages<double>& stages, Slice& slice, const ScanLines& lines, const Settings& settings, bool is_stored) {
   const int n = int(lines.lines.size()), d = lines.samples;
   stages.reflection_beam = stages.transmission = stages.speckle = Image<double>(n, d);
   const std::vector<double> sigma = focused_beam_sigma(lines, settings);
@@ -308,7 +284,9 @@ void widen(Stages<double>& stages, Slice& slice, const ScanLines& lines, const S
       stages.reflection_beam.at(line, k) = reflection / total;
       const double intensity = slice.scan.intensity.at(line, k);
       stages.transmission.at(line, k) = heard(settings.two_way ? intensity * intensity : intensity);
-      stages.speckle.at(line, k) = std::abs(echo) / total * (settings.speckle ? scale[std::size_t(k)] : 1);
+      stages.speckle.at(line, k) = is_stored && settings.speckle
+                                       ? slice.scan.echo_re.at(line, k)
+                                       : std::abs(echo) / total * (settings.speckle ? scale[std::size_t(k)] : 1);
       slice.scattered.at(line, k) = settings.blend * stages.transmission.at(line, k) * stages.speckle.at(line, k);
     }
   }
@@ -365,42 +343,43 @@ Image<double> mean_echo_of(const Image<double>& scattered, double dr_mm) {
   return mean;
 }
 
-}  // namespace
-
-Stages<double> simulate_reference(const MediumField& field, const TissueTable& table, const Probe& probe,
-                                  double depth_mm, const Settings& settings, const Pose& patient_from_probe) {
-  const ScanLines lines = scan_lines(probe, depth_mm, settings.samples);
-  Slice slice = traverse_slice(field, table, lines, settings, patient_from_probe);
+/// What one look of a picture (sim/model/compounding.h) shows: its stages up to f, and U and inside at its pixels.
+Stages<double> look_reference(const MediumField& field, const TissueTable& table, const Probe& probe,
+                              const ScanLines& lines, const Settings& settings, const Pose& patient_from_probe,
+                              int look, const StoredSpeckle* stored) {
+  Slice slice = traverse_slice(field, table, lines, settings, patient_from_probe, stored);
   Stages<double> stages;
   if (settings.waves)
     sum_waves(stages, slice, lines, settings, patient_from_probe);
   else
-    widen(stages, slice, lines, settings);
+    widen(stages, slice, lines, settings, stored != nullptr);
   stages.repeated = widened(slice.repeats, lines, settings);
   stages.intensity = std::move(slice.scan.intensity);
 
   const int w = settings.image_width, h = settings.image_height;
-  const ImageGeometry geometry = image_geometry(probe, depth_mm, w, h);
+  const ImageGeometry geometry = image_geometry(probe, lines.r_max_mm, w, h);
   const Image<double> mean_echo = mean_echo_of(slice.scattered, lines.dr_mm()),
                       noise_of_lines = electronic_noise(lines, settings);
-  const Wave waves_of_receiver = noise_wave(lines, settings);
-  const glm::ivec2 shift = noise_shift(patient_from_probe);
-  Image<double> reflection(w, h), transmission(w, h), speckle(w, h), beside(w, h), gain(w, h);
+  const ScanLines straight = scan_lines(probe, lines.r_max_mm, lines.samples);
+  const Wave waves_of_receiver = noise_wave(straight, settings);
+  const glm::ivec2 shift = noise_shift(patient_from_probe, look);
+  Image<double> reflection(w, h), transmission(w, h), speckle(w, h), beside(w, h);
   stages.inside = Image<std::uint8_t>(w, h);
   for (int y = 0; y < h; ++y)
     for (int x = 0; x < w; ++x) {
-      const auto position = line_position(probe, depth_mm, geometry.plane_mm(x, y));
+      const glm::dvec2 at = geometry.plane_mm(x, y);
+      const auto position =
+          lines.fan.steering == 0 ? line_position(probe, lines.r_max_mm, at) : position_within(lines, at);
       if (!position) continue;
       const double sample = position->r_mm / lines.dr_mm() - 0.5;
       const auto here = [&](const Image<double>& image) { return bilinear(image, position->line, sample); };
       const double noise = noise_level(settings) + clutter_share(settings) * bilinear(mean_echo, 0, sample);
       stages.inside.at(x, y) = 1;
-      gain.at(x, y) = time_gain(settings, position->r_mm / depth_mm);
       if (settings.waves) {
         std::complex<double> wave(here(stages.wave_re), here(stages.wave_im));
         if (noise > 0)
           wave += std::sqrt(noise) *
-                  noise_of_pixel(waves_of_receiver, geometry, lines, (x + shift.x) % w, (y + shift.y) % h);
+                  noise_of_pixel(waves_of_receiver, geometry, straight, (x + shift.x) % w, (y + shift.y) % h);
         beside.at(x, y) = heard(std::norm(wave) + here(stages.repeated));
         continue;
       }
@@ -413,20 +392,44 @@ Stages<double> simulate_reference(const MediumField& field, const TissueTable& t
     reflection = smoothed(reflection, stages.inside, settings.reflection_sigma_mm / geometry.mm_per_pixel);
     transmission = smoothed(transmission, stages.inside, settings.transmission_sigma_mm / geometry.mm_per_pixel);
   }
-
   stages.fused = Image<double>(w, h);
-  double brightest = 0;
-  for (std::size_t i = 0; i < stages.fused.pixels.size(); ++i) {
+  for (std::size_t i = 0; i < stages.fused.pixels.size(); ++i)
     stages.fused.pixels[i] =
         (reflection.pixels[i] + settings.blend * transmission.pixels[i]) * speckle.pixels[i] + beside.pixels[i];  // (6)
-    brightest = std::max(brightest, heard(stages.fused.pixels[i]) * gain.pixels[i]);
-  }
-  const double level = settings.reference_level == ReferenceLevel::frame_maximum ? brightest : settings.fixed_level;
-  stages.grey = Image<std::uint8_t>(w, h);
-  for (std::size_t i = 0; i < stages.fused.pixels.size(); ++i) {
-    const double echo = heard(stages.fused.pixels[i]) * gain.pixels[i];
-    if (stages.inside.pixels[i]) stages.grey.pixels[i] = grey_level(settings, echo, level);
-  }
+  return stages;
+}
+
+}  // namespace
+
+Stages<double> simulate_reference(const MediumField& field, const TissueTable& table, const Probe& probe,
+                                  double depth_mm, const Settings& settings, const Pose& patient_from_probe,
+                                  const StoredSpeckle* stored) {
+  const std::vector<Pose> of_looks(look_angles(probe, settings).size(), patient_from_probe);
+  return looks_reference(field, table, probe, depth_mm, settings, of_looks, nullptr, stored);
+}
+
+Stages<double> looks_reference(const MediumField& field, const TissueTable& table, const Probe& probe, double depth_mm,
+                               const Settings& settings, std::span<const Pose> of_looks,
+                               const Image<double>* frame_before, const StoredSpeckle* stored) {
+  const std::vector<double> angles = look_angles(probe, settings);
+  const std::size_t middle = angles.size() / 2;
+  std::vector<Stages<double>> looks;
+  for (std::size_t i = 0; i < angles.size(); ++i)
+    looks.push_back(look_reference(field, table, probe, scan_lines(probe, depth_mm, settings.samples, angles[i]),
+                                   settings, of_looks[i], i == middle ? 0 : int(i) + 1, stored));
+  Stages<double> stages = looks[middle];
+  if (looks.size() > 1)
+    for (std::size_t i = 0; i < stages.fused.pixels.size(); ++i) {
+      double sum = 0;
+      int count = 0;
+      for (const Stages<double>& look : looks)
+        if (look.inside.pixels[i]) {
+          sum += std::sqrt(look.fused.pixels[i]);
+          ++count;
+        }
+      if (count > 0) stages.fused.pixels[i] = std::pow(sum / count, 2);
+    }
+  show_reference(stages, probe, depth_mm, settings, int(looks.size()), frame_before);
   return stages;
 }
 

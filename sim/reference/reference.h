@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 
 #include "sim/core/pose.h"
 #include "sim/model/acoustic_volume.h"
@@ -9,6 +10,7 @@
 #include "sim/model/coupling.h"
 #include "sim/model/settings.h"
 #include "sim/model/stages.h"
+#include "sim/model/stored_speckle.h"
 #include "sim/model/tissue.h"
 #include "sim/probe/probe.h"
 
@@ -29,15 +31,8 @@ Medium with_gel(const Medium& medium, double r_mm, double coupling_depth_mm);
 /// Returns the trilinear field of a volume, with air outside. The volume must outlive it.
 MediumField trilinear_field(const AcousticVolume& volume);
 
-/// Returns gain and time gain at a share of the imaging depth, 0 to 1, as a factor on U.
-double time_gain(const Settings& settings, double depth_share);
-
 /// Returns the echo, or 0 if it is not above kLeastEcho.
 double heard(double echo);
-
-/// Returns grey after log compression (7) and the grey map: 255 at `level`, 0 if `echo` is 0 or lies the dynamic range
-/// below `level`.
-std::uint8_t grey_level(const Settings& settings, double echo, double level);
 
 /// Runs model S in double precision and plain loops, as the formulas of sim/model/stages.h read. Everything faster is
 /// measured against it.
@@ -46,8 +41,18 @@ std::uint8_t grey_level(const Settings& settings, double echo, double level);
 /// geometry of lines and pixels, the scatterers' lattice, the weights of the beam and the slice, the levels of noise
 /// and clutter, and constants. Everything computed along lines and at pixels is written here a second time. The
 /// arguments are not checked; they must be such as a simulator accepts (sim/imaging/simulator.h).
+/// @param stored  a scattering volume that stands for the scatterers without waves; null for none
 Stages<double> simulate_reference(const MediumField& field, const TissueTable& table, const Probe& probe,
-                                  double depth_mm, const Settings& settings, const Pose& patient_from_probe);
+                                  double depth_mm, const Settings& settings, const Pose& patient_from_probe,
+                                  const StoredSpeckle* stored = nullptr);
+
+/// Does the same for a probe in motion: each look has its own pose, and the frame before is mixed in
+/// (Simulator::image_in_motion()). The stages up to f are those of the straight look.
+/// @param of_looks      one pose per angle of look_angles() (sim/model/compounding.h)
+/// @param frame_before  Stages::shown of it, of the same size; null for none
+Stages<double> looks_reference(const MediumField& field, const TissueTable& table, const Probe& probe, double depth_mm,
+                               const Settings& settings, std::span<const Pose> of_looks,
+                               const Image<double>* frame_before = nullptr, const StoredSpeckle* stored = nullptr);
 
 /// The results of the first step alone: I and R along given lines, and what makes the scatterers' echo.
 struct ReferenceScan {
@@ -57,6 +62,6 @@ struct ReferenceScan {
 };
 ReferenceScan traverse_reference(const MediumField& field, const TissueTable& table, const ScanLines& lines,
                                  const Settings& settings, const Pose& patient_from_probe,
-                                 const SlicePlane& plane = {0, 1});
+                                 const SlicePlane& plane = {0, 1}, const StoredSpeckle* stored = nullptr);
 
 }  // namespace insonate

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "sim/model/noise.h"
+#include "sim/reference/display_reference.h"
 
 namespace insonate {
 namespace {

@@ -4,9 +4,11 @@
 #include <glm/matrix.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "sim/model/beam.h"
+#include "sim/model/compounding.h"
 #include "sim/model/waves.h"
 
 namespace insonate {
@@ -75,6 +77,13 @@ Wave scatterers_reference(const ScanLines& lines, const Settings& settings, cons
     low = glm::min(low, cell);
     high = glm::max(high, cell);
   }
+  const std::array<std::uint32_t, 3> phase = phase_steps(probe_from_cells, settings, lines.fan.steering);
+  const auto quarters = [&](const glm::ivec3& cell, const glm::dvec3& place) {  // q of sim/model/compounding.h
+    std::uint32_t turn = 0;
+    for (int axis = 0; axis < 3; ++axis)
+      turn += phase[std::size_t(axis)] * (std::uint32_t(cell[axis]) * 1024u + std::uint32_t(place[axis] * 1024));
+    return turn >> 30;
+  };
   // Of each row of cells along z, the part that the box cuts out.
   const glm::dvec3 step(probe_from_cells[2]);
   for (int x = int(std::floor(low.x)); x <= high.x; ++x)
@@ -93,7 +102,10 @@ Wave scatterers_reference(const ScanLines& lines, const Settings& settings, cons
       for (int z = int(first); z <= last; ++z) {
         const Scatterer scatterer = scatterer_of({x, y, z}, settings.speckle_seed);
         const glm::dvec3 at(probe_from_cells * glm::dvec4(glm::dvec3(x, y, z) + scatterer.place, 1));
-        add(sums, lines, settings, at, scatterer.amplitude);
+        std::complex<double> amplitude = scatterer.amplitude;
+        for (std::uint32_t quarter = quarters({x, y, z}, scatterer.place); quarter > 0; --quarter)
+          amplitude = {-amplitude.imag(), amplitude.real()};
+        add(sums, lines, settings, at, amplitude);
       }
     }
   const std::vector<double> scale = scatterer_scale(lines, settings);

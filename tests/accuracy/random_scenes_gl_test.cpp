@@ -11,6 +11,7 @@
 #include <optional>
 #include <utility>
 
+#include "sim/model/display_filter.h"
 #include "tests/accuracy/stress_bounds.h"
 #include "tests/accuracy/stressed.h"
 #include "tests/imaging/test_divisions.h"
@@ -63,18 +64,19 @@ struct Effects {
       &Settings::clutter,     &Settings::two_way,      &Settings::electronic_noise,
       &Settings::skipping};
   std::array<long, kSwitches.size()> on{};
-  long bent = 0, at_face = 0, sliced = 0, scenes = 0;
+  long bent = 0, at_face = 0, sliced = 0, filtered = 0, scenes = 0;
 
   void count(const Settings& settings) {
     for (std::size_t i = 0; i < on.size(); ++i) on[i] += settings.*kSwitches[i];
     bent += settings.slice_planes > 1 && settings.elevation_focus_mm > 0;
     at_face += settings.face_reflection > 0;
     sliced += settings.slice_planes > 1;
+    filtered += is_filtered(settings);
     ++scenes;
   }
   bool each_on_and_off() const {
     const auto both = [&](long count) { return count > 0 && count < scenes; };
-    return std::ranges::all_of(on, both) && both(bent) && both(at_face) && both(sliced);
+    return std::ranges::all_of(on, both) && both(bent) && both(at_face) && both(sliced) && both(filtered);
   }
 };
 

@@ -101,6 +101,15 @@ TEST_CASE("settings at the ends of their ranges") {
       {"soft", set(&S::grey_map, GreyMap::soft)},
       {"contrast", set(&S::grey_map, GreyMap::contrast)},
       {"S-curve", set(&S::grey_map, GreyMap::s_curve)},
+      {"edges at their most", set(&S::edge_enhancement, 4.0)},
+      {"speckle at its least", set(&S::speckle_reduction, 1.0)},
+      {"filtered over twelve wavelengths of 3 mm",
+       [](Scene& scene) {
+         scene.settings.edge_enhancement = 4;
+         scene.settings.speckle_reduction = 1;
+         scene.settings.frequency_mhz = 0.5;
+         scene.settings.reference_level = ReferenceLevel::frame_maximum;
+       }},
       {"scatterers 0.05 mm apart", set(&S::speckle_cell_mm, 0.05)},
       {"scatterers 10 mm apart", set(&S::speckle_cell_mm, 10.0)},
       {"an echo of what is met squarely alone", set(&S::specular_exponent, 64.0)},

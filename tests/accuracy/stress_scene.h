@@ -12,6 +12,7 @@
 #include "sim/core/hash.h"
 #include "sim/core/pose.h"
 #include "sim/model/acoustic_volume.h"
+#include "sim/model/display_filter.h"
 #include "sim/model/settings.h"
 #include "sim/probe/probe.h"
 #include "sim/registration/wein_settings.h"
@@ -180,6 +181,10 @@ inline Scene random_scene_of_everything(std::uint32_t seed) {
   s.skipping = draw.chance(0.5);
   s.edge_shadow = draw.chance(0.3);
   s.elevation_focus_mm = draw.chance(0.5) ? 0 : draw.within(5, 400);
+  if (draw.chance(0.3)) {
+    s.edge_enhancement = draw.one_of({0.0, draw.within(0, 4)});
+    s.speckle_reduction = draw.one_of({0.0, draw.within(0, 1)});
+  }
   return scene;
 }
 
@@ -213,7 +218,7 @@ inline Scene compiled_as(const Scene& first, Scene scene) {
   using S = Settings;
   take(&S::waves, &S::absorption, &S::speckle, &S::edge_shadow, &S::slice_planes, &S::focused_beam, &S::beam_lines,
        &S::reverberation, &S::electronic_noise, &S::clutter, &S::grey_map, &S::reference_level, &S::image_width,
-       &S::image_height);
+       &S::image_height, &S::edge_enhancement, &S::speckle_reduction);
   if (as.elevation_focus_mm == 0) s.elevation_focus_mm = 0;
   if (as.elevation_focus_mm > 0 && s.elevation_focus_mm == 0) s.elevation_focus_mm = as.elevation_focus_mm;
   if (as.face_reflection == 0) s.face_reflection = 0;
@@ -233,6 +238,7 @@ inline Scene compiled_as(const Scene& first, Scene scene) {
     return image_geometry(of.probe, of.depth_mm, of.settings.image_width, of.settings.image_height).mm_per_pixel;
   };
   const double larger = mm_per_pixel(scene) / mm_per_pixel(first);
+  if (is_filtered(s)) s.frequency_mhz = std::clamp(as.frequency_mhz / larger, 0.5, 30.0);
   s.reflection_sigma_mm = std::min(as.reflection_sigma_mm * larger, 1000.0);
   s.transmission_sigma_mm = std::min(as.transmission_sigma_mm * larger, 1000.0);
   return scene;

@@ -7,8 +7,10 @@
 #include <limits>
 #include <string>
 
+#include "sim/model/display_filter.h"
 #include "sim/model/settings_file.h"
 #include "sim/probe/probe.h"
+#include "sim/reference/display_reference.h"
 #include "tests/accuracy/spread.h"
 #include "tests/accuracy/stress_bounds.h"
 #include "tests/accuracy/stressed_waves.h"
@@ -164,6 +166,19 @@ std::string disagreement(const Scene& scene, const Stages<double>& expected, con
   const Worst fused = worst(expected.fused, got.fused, fused_tolerance);
   if (!(fused.error < 1)) return described("U", fused);
 
+  // The display filter has no error beyond that of what it filters, so grey is compared with what the reference makes
+  // of the shaders' own.
+  const bool filters = is_filtered(s);
+  if (filters) {
+    Image<double> shown(got.shown.width, got.shown.height);
+    std::ranges::copy(got.shown.pixels, shown.pixels.begin());
+    const ImageGeometry picture = image_geometry(scene.probe, scene.depth_mm, shown.width, shown.height);
+    const Image<std::uint8_t> grey = filtered_grey(shown, expected.inside, s, picture.mm_per_pixel, 1);
+    for (std::size_t i = 0; i < grey.pixels.size(); ++i)
+      if (std::abs(int(grey.pixels[i]) - int(got.grey.pixels[i])) > 1)
+        return at("filtered grey", got.grey, i) + ", " + at("reference of the shader's echo", grey, i);
+  }
+
   for (std::size_t i = 0; i < expected.grey.pixels.size(); ++i) {
     const double u = expected.fused.pixels[i];
     if (!expected.inside.pixels[i] || u <= kLeastEcho) continue;
@@ -173,7 +188,9 @@ std::string disagreement(const Scene& scene, const Stages<double>& expected, con
     const double db = -10 * std::log10(1 - fused_tolerance.pixels[i] / u);
     const double drawn = s.waves ? 0 : 4 * spread.grey().pixels[i];
     const double allowed = 2 + std::ceil(255 * db / s.dynamic_range_db) + drawn;
-    if (std::abs(int(got.grey.pixels[i]) - int(expected.grey.pixels[i])) > allowed)
+    const double off = filters ? 255 * std::abs(double(got.shown.pixels[i]) - expected.shown.pixels[i])
+                               : std::abs(int(got.grey.pixels[i]) - int(expected.grey.pixels[i]));
+    if (off > allowed)
       return at("grey", got.grey, i) + ", " + at("reference", expected.grey, i) + ", " + at("U", expected.fused, i) +
              ", " + at("shader's U", got.fused, i);
   }

@@ -80,7 +80,7 @@ TEST_CASE("attenuation takes its decibels, and takes more of the higher frequenc
 TEST_CASE("a line is the sum of its scatterers' echoes") {
   const Transducer transducer = shipped("linear");
   const ScanLine line = line_at(transducer, 2);
-  const std::vector<Scatterer> scatterers{
+  const std::vector<PointScatterer> scatterers{
       {{2, 15, 0}, 1}, {{1.4, 18.3, 0.7}, -2}, {{2.9, 23, -1}, 0.5}, {{2, 29.9, 0}, 3}, {{3, 60, 0}, 5}};
   for (const double attenuation : {0.0, 0.5}) {
     const ScanBeam beam(transducer, focused(20, attenuation), line);
@@ -89,7 +89,7 @@ TEST_CASE("a line is the sum of its scatterers' echoes") {
     CHECK(whole.distance_mm(0) == Approx(12).margin(0.01));
     CHECK(whole.distance_mm(double(whole.samples.size() - 1)) == Approx(30).margin(0.02));
     std::vector<Complex> sum(whole.samples.size());
-    for (const Scatterer& scatterer : scatterers) {
+    for (const PointScatterer& scatterer : scatterers) {
       const EchoLine one = point_echo(beam, pulse, scatterer.position_mm);
       const auto shift = std::int64_t(std::lround((one.first_us - whole.first_us) / whole.step_us));
       for (std::size_t k = 0; k < one.samples.size(); ++k) {
@@ -137,7 +137,7 @@ TEST_CASE("lines computed together equal lines computed alone") {
   const Transducer transducer = impulse_driven(60);
   std::vector<ScanLine> lines;
   for (int i = -3; i <= 3; ++i) lines.push_back(line_at(transducer, 0.5 * i));
-  const std::vector<Scatterer> scatterers{{{0.3, 30, 0}, 1}, {{-0.7, 34, 0.2}, 2}};
+  const std::vector<PointScatterer> scatterers{{{0.3, 30, 0}, 1}, {{-0.7, 34, 0.2}, 2}};
   const std::vector<EchoLine> together = echo_lines(transducer, focused(32), lines, scatterers, 25, 40);
   REQUIRE(together.size() == lines.size());
   for (std::size_t i = 0; i < lines.size(); ++i)

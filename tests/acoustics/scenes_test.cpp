@@ -40,11 +40,11 @@ SceneRequest request_of(SceneKind kind) {
 
 TEST_CASE("a block has its density everywhere, as many of either sign, and depends on its seed") {
   const SceneBox box{{-5, 20, -2}, {5, 30, 2}};
-  const std::vector<Scatterer> block = uniform_block(box, 50, 3);
+  const std::vector<PointScatterer> block = uniform_block(box, 50, 3);
   REQUIRE(block.size() == 20000);
   std::map<int, int> octants;
   double sum = 0;
-  for (const Scatterer& scatterer : block) {
+  for (const PointScatterer& scatterer : block) {
     CHECK(std::abs(scatterer.amplitude) == 1);
     const glm::dvec3 share = (scatterer.position_mm - box.low) / (box.high - box.low);
     REQUIRE(std::min({share.x, share.y, share.z}) >= 0);
@@ -61,9 +61,9 @@ TEST_CASE("a block has its density everywhere, as many of either sign, and depen
 
 TEST_CASE("cysts hold no scatterers, or stronger ones") {
   const SceneBox box{{-5, 20, -2}, {5, 30, 2}};
-  const std::vector<Scatterer> phantom = cyst_phantom(box, 50, {{-2, 25, 1.5, 0}, {2, 25, 1.5, 4}}, 3);
+  const std::vector<PointScatterer> phantom = cyst_phantom(box, 50, {{-2, 25, 1.5, 0}, {2, 25, 1.5, 4}}, 3);
   int strong = 0;
-  for (const Scatterer& scatterer : phantom) {
+  for (const PointScatterer& scatterer : phantom) {
     CHECK(std::hypot(scatterer.position_mm.x + 2, scatterer.position_mm.y - 25) >= 1.5);
     const bool within = std::hypot(scatterer.position_mm.x - 2, scatterer.position_mm.y - 25) < 1.5;
     CHECK(std::abs(scatterer.amplitude) == (within ? 4 : 1));
@@ -86,7 +86,7 @@ TEST_CASE("lines through a cyst are dark in it, and through a bright cylinder br
   beamforming.transmit_focus_mm = 20;
   beamforming.transmit_f_number = beamforming.receive_f_number = 2.5;
   const SceneBox box{{-5, 15.5, -1}, {5, 24.5, 1}};
-  const std::vector<Scatterer> phantom = cyst_phantom(box, 60, {{-2, 20, 2, 0}, {2, 20, 2, 3.16227766}}, 1);
+  const std::vector<PointScatterer> phantom = cyst_phantom(box, 60, {{-2, 20, 2, 0}, {2, 20, 2, 3.16227766}}, 1);
   const auto lines_at = [&](double x) {
     return echo_lines(transducer, beamforming,
                       {line_at(transducer, x - 0.4), line_at(transducer, x), line_at(transducer, x + 0.4)}, phantom, 15,
@@ -106,9 +106,9 @@ TEST_CASE("point targets and wires lie at 8 depths, and echo from there") {
   Beamforming beamforming;
   beamforming.transmit_focus_mm = 25;
   for (const SceneKind kind : {SceneKind::points, SceneKind::wires}) {
-    const std::vector<Scatterer> scene = scene_of(transducer, beamforming, request_of(kind));
+    const std::vector<PointScatterer> scene = scene_of(transducer, beamforming, request_of(kind));
     std::map<double, int> depths;
-    for (const Scatterer& scatterer : scene) {
+    for (const PointScatterer& scatterer : scene) {
       ++depths[scatterer.position_mm.y];
       CHECK(scatterer.position_mm.x == 0);
     }
@@ -150,10 +150,10 @@ TEST_CASE("blocks and cysts have their scatterers per resolution cell") {
     const Transducer transducer = shipped(name);
     Beamforming beamforming;
     beamforming.transmit_focus_mm = 25;
-    const std::vector<Scatterer> block = scene_of(transducer, beamforming, request_of(SceneKind::block));
+    const std::vector<PointScatterer> block = scene_of(transducer, beamforming, request_of(SceneKind::block));
     const double cell = cell_volume_mm3(beam_profile(transducer, beamforming, line_at(transducer, 0), 25));
     int within = 0;  // the middle eighth of the width and the depth, half a millimetre thick
-    for (const Scatterer& scatterer : block)
+    for (const PointScatterer& scatterer : block)
       within += std::abs(scatterer.position_mm.x) < 3 && std::abs(scatterer.position_mm.y - 25) < 7.5 &&
                 std::abs(scatterer.position_mm.z) < 0.5;
     const double expected = 2 / cell * 6 * 15 * 1;
@@ -162,10 +162,10 @@ TEST_CASE("blocks and cysts have their scatterers per resolution cell") {
 
     // Echo-free cylinders on the left, bright ones on the right, at 3 depths from 10 to 40 mm.
     SceneRequest cysts = request_of(SceneKind::cyst);
-    const std::vector<Scatterer> phantom = scene_of(transducer, beamforming, cysts);
+    const std::vector<PointScatterer> phantom = scene_of(transducer, beamforming, cysts);
     CHECK(phantom.size() < block.size());
     int bright = 0;
-    for (const Scatterer& scatterer : phantom)
+    for (const PointScatterer& scatterer : phantom)
       for (const double depth : {15.0, 25.0, 35.0}) {
         CHECK(std::hypot(scatterer.position_mm.x + 3, scatterer.position_mm.y - depth) >= 1.2);
         if (std::hypot(scatterer.position_mm.x - 3, scatterer.position_mm.y - depth) >= 1.2) continue;

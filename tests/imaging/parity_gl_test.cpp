@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "sim/core/hash.h"
 #include "sim/imaging/simulator.h"
 #include "sim/reference/reference.h"
 #include "tests/gl/test_context.h"
@@ -144,6 +145,50 @@ TEST_CASE("GLSL agrees with the reference: shadows at the edges of a rib, a cyst
   Settings settings = small(trainer_settings(3.5, 120));
   settings.edge_shadow = true;
   check_parity_over_rib_and_gas(settings);
+}
+
+TEST_CASE("GLSL agrees with the reference: speckle from a scattering volume") {
+  const test::TestContext context;
+  Probe probe = *find_probe("curvilinear");
+  probe.lines = 64;
+  Settings settings = small(trainer_settings(3.5, 120));
+  settings.waves = settings.skipping = false;
+  settings.slice_planes = 3;
+  const AcousticVolume body = test::test_body();
+  const TissueTable table = read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml");
+  // Turned, with voxels of three lengths, and ending within the picture.
+  StoredSpeckle stored;
+  stored.grid.size = {40, 90, 30};
+  stored.grid.spacing = {2.1, 1.3, 1.7};
+  stored.grid.direction = test::on_the_skin(0, 0, 25).rotation;
+  stored.grid.origin = glm::dvec3(-40, 5, -25);
+  for (std::size_t v = 0; v < stored.grid.count(); ++v) stored.voxels.push_back(2 * unit_float(hash(std::uint32_t(v))));
+  const Pose pose = test::on_the_skin(0, 9, 12);
+  const MediumField field = trilinear_field(body);
+  test::ReferenceStages reference;
+  reference.exact = simulate_reference(field, table, probe, 120, settings, pose, &stored);
+  for (std::uint32_t i = 0; i < reference.uncertain.size(); ++i) {
+    // Places are known in single precision, along a line as sums of steps.
+    Pose near = pose;
+    for (int axis = 0; axis < 3; ++axis) near.translation[axis] += 2e-5 * (i >> axis & 1u ? 1 : -1);
+    reference.uncertain[i] =
+        simulate_reference(test::as_single_precision_knows_it(field, i), table, probe, 120, settings, near, &stored);
+  }
+  double most = 0, least = 1;
+  for (const double s : reference.exact.speckle.pixels) most = std::max(most, s), least = std::min(least, s);
+  CHECK(most > 1.5);
+  CHECK(least == 0);
+  gl::Simulator simulator;
+  simulator.set_volume(body, table);
+  simulator.set_probe(probe, 120);
+  simulator.set_pose(pose);
+  settings.exact_filter = test::own_filter_is_coarse();
+  simulator.set_settings(settings);
+  const Stages<float> drawn = simulator.read_stages();
+  simulator.set_stored_speckle(&stored);
+  test::check_stages(reference, simulator.read_stages(), scan_lines(probe, 120, settings.samples), settings);
+  simulator.set_stored_speckle(nullptr);
+  CHECK((simulator.read_stages().speckle.pixels == drawn.speckle.pixels));
 }
 
 TEST_CASE("a frame without any echo is black, not NaN") {

@@ -132,6 +132,13 @@ TEST_CASE("each effect beyond the paper is off in the paper's own mode and on in
   CHECK(trainer.gain_db == 0);
   CHECK(paper.grey_map == GreyMap::linear);
   CHECK(trainer.grey_map == GreyMap::linear);
+  // Off unless a machine's knobs ask for them.
+  for (const Settings& settings : {paper, trainer}) {
+    CHECK(settings.steering_angles == 1);
+    CHECK(settings.persistence == 0);
+    CHECK(settings.edge_enhancement == 0);
+    CHECK(settings.speckle_reduction == 0);
+  }
 }
 
 TEST_CASE("what settings hold reads back as it was") {

@@ -171,3 +171,37 @@ TEST_CASE("a point beyond the fan has a position among lines that go on as they 
     CHECK(position_among(set.fan, {p.x, p.y}).line == Approx(-10).margin(1e-9));
   }
 }
+
+TEST_CASE("lines that are steered start where they did, turn by the angle, and are found among themselves") {
+  for (const char* name : {"linear", "curvilinear"}) {
+    const Probe& probe = *find_probe(name);
+    for (const double steering : {-0.3, -0.1, 0.1, 0.5}) {
+      CAPTURE(name, steering);
+      const ScanLines straight = scan_lines(probe, 80, 100), steered = scan_lines(probe, 80, 100, steering);
+      for (std::size_t i = 0; i < steered.lines.size(); i += 19) {
+        const ScanLine& line = steered.lines[i];
+        CHECK(glm::distance(line.start, straight.lines[i].start) < 1e-12);
+        const glm::dvec3 d = straight.lines[i].direction;
+        const double towards_marker = d.y * line.direction.x - d.x * line.direction.y;
+        CHECK(std::asin(towards_marker) == Approx(steering));
+        for (const double r : {0.0, 3.0, 40.0, 79.9}) {
+          const glm::dvec3 point = line.start + r * line.direction;
+          const LinePosition at = position_among(steered.fan, {point.x, point.y});
+          CHECK(at.line == Approx(double(i)).margin(1e-9));
+          CHECK(at.r_mm == Approx(r).margin(1e-9));
+          const auto within = position_within(steered, {point.x, point.y});
+          REQUIRE(within.has_value() == (at.r_mm >= 0));  // rounding may put the start in front of the face
+        }
+      }
+      const ScanLine& outer = steered.lines.back();
+      const glm::dvec3 beside(outer.direction.y, -outer.direction.x, 0),
+          too_deep = outer.start + 80.1 * outer.direction;
+      const double spacing = glm::distance(outer.start, steered.lines[steered.lines.size() - 2].start);
+      const glm::dvec3 in = outer.start + 0.3 * spacing * beside + 40.0 * outer.direction,
+                       out = outer.start + 2.0 * spacing * beside + 40.0 * outer.direction;
+      CHECK(position_within(steered, {in.x, in.y}));
+      CHECK_FALSE(position_within(steered, {out.x, out.y}));
+      CHECK_FALSE(position_within(steered, {too_deep.x, too_deep.y}));
+    }
+  }
+}

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <vector>
 
+#include "sim/reference/display_reference.h"
 #include "sim/reference/reference.h"
 #include "tests/accuracy/media.h"
 #include "tests/model/amplitudes.h"

@@ -154,7 +154,7 @@ void write_scenes(const AcousticRequest& request, SceneRequest scene, const std:
   const std::vector<Subject> subjects = subjects_of(request);
   for (const Subject& subject : subjects) {
     scene.depth_mm = subject.depth_mm;
-    const std::vector<Scatterer> scatterers = scene_of(subject.transducer, subject.beamforming, scene);
+    const std::vector<PointScatterer> scatterers = scene_of(subject.transducer, subject.beamforming, scene);
     const std::filesystem::path to = subjects.size() > 1 ? folder / subject.transducer.name : folder;
     write_scene(to, subject.transducer, subject.beamforming, scatterers, subject.depth_mm + 5);
     std::printf("%s: %zu scatterers; %s\n", to.c_str(), scatterers.size(), in_words(subject).c_str());

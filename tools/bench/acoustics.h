@@ -30,6 +30,10 @@ Table measure_beams(const AcousticRequest& request, const std::string& svg);
 /// @param lines  scan lines per row, each through a block of its own
 Table measure_speckle(const AcousticRequest& request, int lines);
 
+/// Measures how many scatterers the live simulator adds up in a second, beside the direct sum of the same field in
+/// double precision (sim/reference/wave_reference.h).
+Table measure_scatterer_rates();
+
 /// Writes a scene for each transducer to FOLDER, or to FOLDER/PROBE if there are several (write_scene()). Throws
 /// InputError.
 void write_scenes(const AcousticRequest& request, SceneRequest scene, const std::filesystem::path& folder);

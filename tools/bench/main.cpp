@@ -81,8 +81,11 @@ int main(int argc, char** argv) {
   arguments.require_subcommand(1);
   bench::Request request;
   std::string csv, svg, old_file, new_file;
-  const CLI::App* frames = add_measurement(
-      arguments, "frames", "Measure the run time of a frame, and the share of each stage", request, csv);
+  const CLI::App* frames = add_measurement(arguments, "frames",
+                                           "Measure the run time of a frame, and the share of each stage: in the "
+                                           "paper's mode, in the trainer's settings, and "
+                                           "with what the trainer's machine adds to them",
+                                           request, csv);
   const CLI::App* paper = add_measurement(
       arguments, "paper",
       "Compare the traversal with that of Kutter, Shams and Navab (2009), which takes one render pass per sample",
@@ -165,6 +168,9 @@ int main(int argc, char** argv) {
   CLI::App* speckle = arguments.add_subcommand(
       "speckle", "Measure the speckle that the sum over many scatterers gives for each transducer at its focus");
   add_acoustics(*speckle, acoustics);
+  bool rates = false;
+  speckle->add_flag("--rates", rates,
+                    "Measure instead how many scatterers a second the live simulator adds up, and the direct sum");
   speckle->add_option("--lines", speckle_lines, "Measure this many scan lines per row")
       ->check(CLI::Range(10, 100000))
       ->capture_default_str();
@@ -217,12 +223,13 @@ int main(int argc, char** argv) {
               : throughput->parsed()   ? bench::measure_throughput(request, svg)
               : grain->parsed()        ? bench::measure_grain()
               : beam->parsed()         ? bench::measure_beams(acoustics, svg)
-              : speckle->parsed()      ? bench::measure_speckle(acoustics, speckle_lines)
-              : scoring->parsed()      ? bench::measure_scoring(exams)
-              : view->parsed()         ? bench::measure_view(request)
-              : view_front->parsed()   ? bench::measure_view_front(request)
-              : window->parsed()       ? bench::measure_window(sizes_of(window_sizes))
-                                       : bench::measure_front(request, svg);
+              : speckle->parsed()
+                  ? (rates ? bench::measure_scatterer_rates() : bench::measure_speckle(acoustics, speckle_lines))
+              : scoring->parsed()    ? bench::measure_scoring(exams)
+              : view->parsed()       ? bench::measure_view(request)
+              : view_front->parsed() ? bench::measure_view_front(request)
+              : window->parsed()     ? bench::measure_window(sizes_of(window_sizes))
+                                     : bench::measure_front(request, svg);
     });
     if (registration->parsed()) {
       const std::string name = old_file.empty() ? "the table" : old_file;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -54,5 +55,18 @@ struct PatientPicture {
 };
 /// Draws the patient by direct volume rendering. Throws InputError.
 void draw_patient(const PatientPicture& picture);
+
+/// A scattering volume (sim/acoustics/speckle_volume.h) of a case, from one of its views.
+struct SpeckleRequest {
+  std::string subject;     ///< as open_subject() takes it
+  std::string view;        ///< empty: the first
+  std::string transducer;  ///< a file as in assets/transducers; empty: the one that stands for the view's probe
+  std::uint32_t seed = 1;
+  double voxel_mm = 0.25, thickness_mm = 20;
+  std::string out;  ///< NRRD
+};
+/// Computes it by all processors, and writes it atomically. Shows progress and the time left. A run that was killed
+/// goes on where it was, if it is asked for the same again. Throws InputError.
+void compute_speckle(const SpeckleRequest& request);
 
 }  // namespace insonate

@@ -141,6 +141,32 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   draw->add_option("IMAGE", picture.out, "Write this PNG")->type_name("FILE")->required();
 
+  SpeckleRequest speckle;
+  CLI::App* scatter = program.add_subcommand(
+      "speckle",
+      "Compute a scattering volume: the speckle of a case from one of its views, by the waves of a real transducer, "
+      "for "
+      "insonate-render --speckle-volume. A run that was killed goes on when it is started again");
+  scatter->add_option("--case,--ct", speckle.subject, "Take the patient of this case folder, CT file or DICOM folder")
+      ->type_name("PATH")
+      ->default_str("the built-in patient");
+  scatter->add_option("--view", speckle.view, "Look from this view of the case")
+      ->type_name("NAME")
+      ->default_str("its first view");
+  scatter->add_option("--transducer", speckle.transducer, "Take this transducer's file (TOML)")
+      ->type_name("FILE")
+      ->default_str("the one that stands for the view's probe");
+  scatter->add_option("--seed", speckle.seed, "Draw the scatterers from this seed")->capture_default_str();
+  scatter
+      ->add_option("--voxel", speckle.voxel_mm,
+                   "Set the voxels' size along the central line, mm; they are twice as wide and three times as thick")
+      ->check(CLI::Range(0.05, 2.0))
+      ->capture_default_str();
+  scatter->add_option("--thickness", speckle.thickness_mm, "Set the volume's thickness across the view's plane, mm")
+      ->check(CLI::Range(1.0, 200.0))
+      ->capture_default_str();
+  scatter->add_option("FILE", speckle.out, "Write this NRRD")->type_name("FILE")->required();
+
   return run_program(program, argc, argv, [&] {
     if (inspect_command->parsed())
       inspect(path, json);
@@ -148,6 +174,8 @@ int main(int argc, char** argv) {
       import_and_write(request, imported_folder, replace);
     else if (add_view->parsed())
       add_recorded_view(case_folder, view, pose_file, moment);
+    else if (scatter->parsed())
+      compute_speckle(speckle);
     else if (draw->parsed())
       draw_patient(picture);
     else

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "sim/acoustics/speckle_file.h"
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
 #include "sim/core/new_folder.h"
@@ -103,14 +104,29 @@ void check_settings(const std::string& file, const std::string& model, const Pro
 }
 
 /// @param file  what the person who gave the CT calls it
-Rendered render(const std::string& file, const RenderedScene& scene) {
+/// @param moved_from  where the probe was in the frames before; empty for a probe at rest
+/// @param stored      null for none
+Rendered render(const std::string& file, const RenderedScene& scene, const std::vector<Pose>& moved_from,
+                const StoredSpeckle* stored) {
   const gl::HeadlessContext context;
   gl::Simulator simulator;
   gl::upload_ct(file, scene.volume.grid, [&] { simulator.set_volume(scene.volume, scene.table); });
   simulator.set_probe(scene.probe, scene.depth_mm);
   simulator.set_settings(scene.settings);
+  if (stored) simulator.set_stored_speckle(stored);
+  for (const Pose& before : moved_from) {
+    simulator.set_pose(before);
+    simulator.image_in_motion();
+  }
   simulator.set_pose(scene.patient_from_probe);
-  return {simulator.read_stages(), gl::device_description()};
+  if (moved_from.empty()) return {simulator.read_stages(), gl::device_description()};
+  const gl::Texture& image = simulator.image_in_motion();
+  Image<Rgba8> rgba(image.width(), image.height());
+  image.read(GL_RGBA, GL_UNSIGNED_BYTE, rgba.pixels.data(), rgba.pixels.size() * sizeof(Rgba8));
+  Rendered rendered{{}, gl::device_description()};
+  rendered.stages.grey = Image<std::uint8_t>(rgba.width, rgba.height);
+  std::ranges::transform(rgba.pixels, rendered.stages.grey.pixels.begin(), [](const Rgba8& p) { return p[0]; });
+  return rendered;
 }
 
 /// @param file  what the person who gave the CT calls it
@@ -129,9 +145,9 @@ Volume<std::int16_t> render_volume(const std::string& file, const AcousticVolume
   return simulator.read_grey();
 }
 
-Rendered render_by_reference(const RenderedScene& scene) {
+Rendered render_by_reference(const RenderedScene& scene, const StoredSpeckle* stored) {
   return {in_single_precision(simulate_reference(trilinear_field(scene.volume), scene.table, scene.probe,
-                                                 scene.depth_mm, scene.settings, scene.patient_from_probe)),
+                                                 scene.depth_mm, scene.settings, scene.patient_from_probe, stored)),
           kMadeByReference};
 }
 
@@ -143,7 +159,8 @@ int main(int argc, char** argv) {
   std::string subject_path, view_name, pose_file, probe_name = "curvilinear", model = "S", settings_file, stages_folder,
                                                   out;
   std::string freehand_file, quality_name = name_of(Quality::balanced);
-  std::string log_file, image_matrix_file, known_file, insertion = "trilinear", compounding = "mean";
+  std::string speckle_file, moved_file, log_file, image_matrix_file, known_file, insertion = "trilinear",
+                                                                                 compounding = "mean";
   std::vector<int> clip;
   SweepLogSettings log;
   // Options of pictures that --sweep-log takes too.
@@ -164,6 +181,17 @@ int main(int argc, char** argv) {
       .add_option("--pose", pose_file,
                   "Read the pose from this file instead of a view: 16 numbers, row-major patient_from_probe")
       ->type_name("FILE");
+  CLI::Option* stored = arguments
+                            .add_option("--speckle-volume", speckle_file,
+                                        "Take the speckle from this scattering volume of insonate-case speckle. Needs "
+                                        "settings with 'waves = false', as the preset 'paper' has them")
+                            ->type_name("FILE");
+  CLI::Option* moved = arguments
+                           .add_option("--moved-from", moved_file,
+                                       "Render the probe in motion: the last frames before had the poses of this file, "
+                                       "in their order, 16 numbers each as in --pose. Persistence and compounding then "
+                                       "show some of them")
+                           ->type_name("FILE");
   arguments.add_option("--probe", probe_name, "Use this probe")
       ->type_name(one_of(probe_names()))
       ->capture_default_str();
@@ -225,7 +253,9 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(0.1, 10.0))
       ->capture_default_str();
   for (CLI::Option* of_volume : {sweep, freehand})
-    for (CLI::Option* of_picture : {stages_option, reference_flag}) of_volume->excludes(of_picture);
+    for (CLI::Option* of_picture : {stages_option, reference_flag, moved, stored}) of_volume->excludes(of_picture);
+  stored->excludes(stages_option);
+  moved->excludes(stages_option)->excludes(reference_flag);
   freehand->excludes(sweep);
   CLI::Option* sweep_log =
       arguments
@@ -295,7 +325,7 @@ int main(int argc, char** argv) {
       throw InputError("--probe", "", "there is no probe named '" + probe_name + "'",
                        suggest(probe_name, probe_names()));
     if (*stages_option) refuse_taken(stages_folder);
-    for (const CLI::Option* of_model_s : {quality, gain, sweep, freehand})
+    for (const CLI::Option* of_model_s : {quality, gain, sweep, freehand, moved, stored})
       if (model == "W" && *of_model_s)
         throw InputError(of_model_s->get_name(), "", "model W has no such thing", "leave it out or take --model S");
     const bool to_volume = *sweep || *freehand || *sweep_log;
@@ -322,6 +352,7 @@ int main(int argc, char** argv) {
       by_hand = read_sweep(freehand_file);
     else if (!pose_file.empty())
       by_hand = {read_pose(pose_file)};
+    const std::vector<Pose> moved_from = *moved ? read_poses(moved_file) : std::vector<Pose>();
     if (!by_hand.empty() && depth_mm == 0) depth_mm = probe->depth_mm;
     if (!settings_file.empty()) check_settings(settings_file, model, *probe, depth_mm);
     const TissueTable table = read_tissue_table(assets_folder() / "tissues.toml");
@@ -366,10 +397,20 @@ int main(int argc, char** argv) {
       write_ct(out, render_volume(subject_path, volume, table, swept, settings, voxel_mm));
       return;
     }
+    std::optional<StoredSpeckle> speckle;
+    if (*stored) {
+      if (settings.waves || !settings.speckle)
+        throw InputError("--speckle-volume", "", "these settings have no use for a scattering volume",
+                         "take --settings with preset = 'paper', or with waves = false and speckle = true");
+      const Transducer transducer = bundled_transducer(probe->name);
+      speckle = read_speckle_file(speckle_file, {digest_of(volume), identity_of(transducer), settings.speckle_seed});
+    }
     // Where samples are skipped, R uses a mean normal, which users cannot recompute.
     if (*stages_option) settings.skipping = false;
     const RenderedScene scene{volume, subject.labels, tissue_of, table, *probe, depth_mm, settings, pose};
-    const auto [stages, made_by] = by_reference ? render_by_reference(scene) : render(subject_path, scene);
+    const auto [stages, made_by] = by_reference
+                                       ? render_by_reference(scene, speckle ? &*speckle : nullptr)
+                                       : render(subject_path, scene, moved_from, speckle ? &*speckle : nullptr);
     write_all(stages.grey, [&, &stages = stages, &made_by = made_by](const auto& folder) {
       write_stages(folder, scene, stages, made_by);
     });

@@ -2,6 +2,8 @@
 
 #include "sim/core/hash.h"
 #include "sim/model/beam.h"
+#include "sim/model/compounding.h"
+#include "sim/model/display_filter.h"
 #include "sim/model/noise.h"
 #include "sim/model/refraction.h"
 #include "sim/model/reverberation.h"
@@ -123,6 +125,11 @@ Json describe(const RenderedScene& scene, const StageGeometry& geometry, const s
   text["silent_db"] = kSilentDb;
   text["least_echo"] = kLeastEcho;
   text["scatterers"] = scatterer_constants();
+  text["looks_rad"] = look_angles(scene.probe, scene.settings);
+  if (is_filtered(scene.settings))
+    text["display_filter"] = {{"sigma_mm", filter_sigma_mm(scene.settings)},
+                              {"radius_px", filter_radius_px(scene.settings, geometry.image.mm_per_pixel)},
+                              {"speckle_variance", speckle_variance(scene.settings, int(text["looks_rad"].size()))}};
   text["beam_weights"] = beam_weights(scene.settings);
   if (scene.settings.focused_beam) text["beam_sigma_lines"] = focused_beam_sigma(lines, scene.settings);
   text["noise_level"] = noise_level(scene.settings);

@@ -6,6 +6,7 @@
 #include <complex>
 
 #include "sim/core/files.h"
+#include "sim/model/display_filter.h"
 #include "sim/model/noise.h"
 #include "sim/reference/reference.h"
 #include "sim/reference/wave_reference.h"
@@ -135,6 +136,7 @@ Stages<float> in_single_precision(const Stages<double>& stages) {
   single.wave_re = in_single_precision(stages.wave_re);
   single.wave_im = in_single_precision(stages.wave_im);
   single.fused = in_single_precision(stages.fused);
+  single.shown = in_single_precision(stages.shown);
   single.inside = stages.inside;
   single.grey = stages.grey;
   return single;
@@ -172,6 +174,9 @@ void write_stages(const fs::path& folder, const RenderedScene& scene, const Stag
 
   write_pixel_positions(folder, geometry);
   write_as_picture(folder, "fused", stages.fused, "U (6), before gain");
+  if (is_filtered(settings))
+    write_as_picture(folder, "shown", stages.shown,
+                     "compressed echo (7), 0 to 1, before filter and grey map of sim/model/display_filter.h");
   write_as_picture(folder, "image", in_single_precision(stages.grey),
                    "grey level behind gain and log compression (7), 0 to 255; the marker on the right");
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "sim/core/text.h"
 
@@ -32,33 +33,66 @@ void draw_probe_choice(const Theme& theme, Rect where, Session& session, std::ma
   }
 }
 
-void draw_knobs(const Theme& theme, Rect where, Session& session) {
-  const Machine& machine = session.machine();
+/// A knob of the console. What it shows, turns by and goes back to is in the slider's own unit.
+struct Knob {
+  const char* id;
+  ActionKind kind;
+  const char* name;
+  std::string text;
+  double value, least, most, step, normal;
+  const char* tip;
+  double offset = 0, scale = 1;  ///< the action's number is offset + scale * value
+};
+
+std::vector<Knob> knobs_of(const Theme& theme, const Machine& machine) {
   const Probe& probe = machine.transducer();
-  const float gap = theme.px(24);
-  const float width = (where.w - gap) / 2, height = theme.px(46);
-  const Rect left{where.x, where.y, width, height}, right{where.x + width + gap, where.y, width, height};
-  const float next = theme.px(50);
-  const auto knob = [&](const char* id, const Rect& place, const char* name, const std::string& text, ActionKind kind,
-                        double value, double least, double most, double step, double normal, const char* tip) {
-    const std::string why_not = session.why_not(kind);
-    if (slider(theme, id, place, name, text, value, least, most, step, normal, why_not.empty(), tip))
-      session.set(kind, value);
-    if (!why_not.empty()) draw_tooltip(theme, place, why_not);
-  };
-  knob("depth", left, "Depth", depth_text(theme.look(), machine.depth_mm), ActionKind::depth, machine.depth_mm,
+  const Machine usual;
+  const auto percent = [](double share) { return share > 0 ? formatted("%.0f %%", 100 * share) : std::string("off"); };
+  return {
+      {"depth", ActionKind::depth, "Depth", depth_text(theme.look(), machine.depth_mm), machine.depth_mm,
        Machine::kLeastDepth_mm, Machine::kMostDepth_mm, 5, probe.depth_mm,
-       "How deep the picture goes. A double click takes the probe's own depth.  ([ and ])");
-  knob("gain", right, "Gain", formatted("%+.0f dB", machine.gain_db), ActionKind::gain, machine.gain_db,
+       "How deep the picture goes. A double click takes the probe's own depth.  ([ and ])"},
+      {"gain", ActionKind::gain, "Gain", formatted("%+.0f dB", machine.gain_db), machine.gain_db,
        -Machine::kMostGain_db, Machine::kMostGain_db, 1, 0,
-       "Makes all echoes brighter or darker. A double click takes it back.  (+ and \u2212)");
-  knob("frequency", {left.x, left.y + next, width, height}, "Frequency", formatted("%.1f MHz", machine.frequency_mhz),
-       ActionKind::frequency, machine.frequency_mhz, 1.5, 12, 0.5, probe.frequency_mhz,
-       "A high frequency shows finer detail and reaches less deep. A double click takes the probe's own.");
-  knob("range", {right.x, right.y + next, width, height}, "Dynamic range",
-       formatted("%.0f dB", machine.dynamic_range_db), ActionKind::dynamic_range, machine.dynamic_range_db,
-       Machine::kLeastDynamicRange_db, Machine::kMostDynamicRange_db, 5, Machine::kDynamicRange_db,
-       "How weak an echo is still grey. A small range is rich in contrast, a large one shows weak echoes.");
+       "Makes all echoes brighter or darker. A double click takes it back.  (+ and \u2212)"},
+      {"compounding", ActionKind::compounding, "Compound",
+       machine.steering_angles > 1 ? formatted("%d angles", machine.steering_angles) : std::string("off"),
+       double(machine.steering_angles / 2), 0, double(Machine::kMostSteeringAngles / 2), 1,
+       double(usual.steering_angles / 2),
+       "Averages pictures from several directions: less speckle, softer shadows, and outlines that are whole.", 1, 2},
+      {"edges", ActionKind::edge_enhancement, "Edges", formatted("%.2g", machine.edge_enhancement),
+       machine.edge_enhancement, 0, Machine::kMostEdgeEnhancement, 0.25, usual.edge_enhancement,
+       "Sharpens outlines. A double click takes the usual amount."},
+      {"frequency", ActionKind::frequency, "Frequency", formatted("%.1f MHz", machine.frequency_mhz),
+       machine.frequency_mhz, 1.5, 12, 0.5, probe.frequency_mhz,
+       "A high frequency shows finer detail and reaches less deep. A double click takes the probe's own."},
+      {"range", ActionKind::dynamic_range, "Range", formatted("%.0f dB", machine.dynamic_range_db),
+       machine.dynamic_range_db, Machine::kLeastDynamicRange_db, Machine::kMostDynamicRange_db, 5,
+       Machine::kDynamicRange_db,
+       "How weak an echo is still grey. A small range is rich in contrast, a large one shows weak echoes."},
+      {"persistence", ActionKind::persistence, "Persistence", percent(machine.persistence), machine.persistence, 0,
+       Machine::kMostPersistence, 0.1, usual.persistence,
+       "How much of the frame before stays in a moving picture: less noise, but a fast move smears."},
+      {"smoothing", ActionKind::speckle_reduction, "Smoothing", percent(machine.speckle_reduction),
+       machine.speckle_reduction, 0, 1, 0.1, usual.speckle_reduction, "Reduces speckle where the tissue is even."},
+  };
+}
+
+void draw_knobs(const Theme& theme, const Rect& where, Session& session) {
+  constexpr int kColumns = 4;
+  const float gap = theme.px(18), width = (where.w - (kColumns - 1) * gap) / kColumns;
+  const std::vector<Knob> knobs = knobs_of(theme, session.machine());
+  for (std::size_t i = 0; i < knobs.size(); ++i) {
+    const Knob& knob = knobs[i];
+    const Rect place{where.x + float(int(i) % kColumns) * (width + gap),
+                     where.y + float(int(i) / kColumns) * theme.px(50), width, theme.px(46)};
+    const std::string why_not = session.why_not(knob.kind);
+    double value = knob.value;
+    if (slider(theme, knob.id, place, knob.name, knob.text, value, knob.least, knob.most, knob.step, knob.normal,
+               why_not.empty(), knob.tip))
+      session.set(knob.kind, knob.offset + knob.scale * value);
+    if (!why_not.empty()) draw_tooltip(theme, place, why_not);
+  }
 }
 
 void draw_time_gain(const Theme& theme, Rect where, Session& session) {
@@ -92,7 +126,7 @@ ConsoleRequest draw_console_panel(const Theme& theme, const Rect& panel, Session
 
   Rect buttons = rest.take_right(theme.px(276));
   rest.take_right(gap);
-  draw_time_gain(theme, rest.take_right(theme.px(190)), session);
+  draw_time_gain(theme, rest.take_right(theme.px(150)), session);
   rest.take_right(gap);
   draw_knobs(theme, rest, session);
 

@@ -3,6 +3,8 @@
 //     R(i) = sum_j w(j) R(i + j) / sum_j w(j),  V alike
 //     S(i) = scale |sum_j w(j) echo(i + j)| / sum_j w(j)
 //
+// With STORED_SPECKLE, S is that of the sample, from a scattering volume (sim/model/stored_speckle.h).
+//
 // Scatterers add up as complex amplitudes before their envelope is taken, which is what makes speckle. Only lines of
 // the same plane count: the first line of the next plane lies at the array's other end.
 //
@@ -58,6 +60,11 @@ void main() {
   intensity.y = add(first, 1, k);
   intensity.z = add(first, 2, k);
   intensity.w = add(first, 3, k);
+#if STORED_SPECKLE == 1
+  vec4 stored;  // S of the lines themselves
+  for (int i = 0; i < 4; ++i)
+    stored[i] = texelFetch(scan, plane_row + min(first + i, lines - 1) * samples + k).z;
+#endif
   for (int j = 4; j <= radius + 3; ++j) add(first, j, k);
 
   reflection /= total;
@@ -65,7 +72,11 @@ void main() {
   float least = two_way == 1 ? kLeastIntensity : kLeastEcho;
   vec4 heard = mix(vec4(0.0), intensity, greaterThan(intensity, vec4(least)));
   vec4 transmission = two_way == 1 ? heard * heard : heard;
+#if STORED_SPECKLE == 1
+  vec4 envelope = stored;
+#else
   vec4 envelope = sqrt(re * re + im * im) / total * here.x;
+#endif
   for (int i = 0; i < 4; ++i)
     if (first + i < lines)
       echoes[plane_row + (first + i) * samples + k] = vec4(reflection[i], transmission[i], envelope[i], repeated[i]);

@@ -23,7 +23,12 @@ layout(binding = 0) uniform samplerBuffer echoes;           // one row per line:
 layout(binding = 1) uniform samplerBuffer line_and_sample;  // per pixel; line below -1 outside the fan
 layout(binding = 2) uniform samplerBuffer noise;            // per pixel, with mean 1; with WAVES complex
 layout(binding = 3) uniform samplerBuffer mean_echo;        // per sample: mean echo over the lines, with its tail
+#if LOOKS == 1
 layout(std430, binding = 0) writeonly buffer Picture { vec2 picture[]; };  // X, S
+#else
+layout(std430, binding = 0) writeonly buffer Picture { float picture[]; };  // U^(1/2) of one look after the other; -1
+                                                                           // outside a look's lines
+#endif
 layout(std430, binding = 1) writeonly buffer Sharp { SMOOTHED sharp[]; };  // R, T where smoothed; -1 outside the fan
 
 // Returns the noise's mean at a place along the lines: the electronic noise and, with CLUTTER, what side lobes bring.
@@ -59,7 +64,12 @@ void convert(ivec2 pixel) {
   value.xy += sqrt(noise_at(place.y)) * texelFetch(noise, index_of(shifted)).xy;
 #endif
   float echo = dot(value.xy, value.xy) + value.w;
-  picture[index_of(pixel)] = vec2(inside && echo > kLeastEcho ? echo : 0.0, 0.0);
+  echo = inside && echo > kLeastEcho ? echo : 0.0;
+#if LOOKS == 1
+  picture[index_of(pixel)] = vec2(echo, 0.0);
+#else
+  picture[look * width * height + index_of(pixel)] = inside ? sqrt(echo) : -1.0;
+#endif
 #else
   float rest = value.w;
 #if REFLECTION_SMOOTHED == 0

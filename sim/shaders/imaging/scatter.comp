@@ -44,9 +44,11 @@ float angle_of(vec2 at, float length) {
   return at.x < 0.0 ? -2.0 * half_angle : 2.0 * half_angle;
 }
 
-// Returns the place among lines (x) and the distance from the face (y).
+// Returns the place among lines (x) and the distance from the face (y), as position_among() of sim/probe/probe.h does.
 vec2 place_among(vec2 at) {
-#if FACE == 0
+#if FACE == 0 && STEERED == 1
+  return vec2((at.x - at.y * (steering_sine / steering_cosine) - first_across) * lines_across, at.y / steering_cosine);
+#elif FACE == 0
   return vec2((at.x - first_across) * lines_across, at.y);
 #else
   float below_apex = at.y + apex_mm, from_apex = sqrt(at.x * at.x + below_apex * below_apex);
@@ -55,6 +57,11 @@ vec2 place_among(vec2 at) {
     r = below_apex > face_of_outer_line * from_apex ? from_apex * at.y / below_apex
                                                     : from_apex - apex_mm / face_of_outer_line;
   float angle = angle_of(vec2(at.x, below_apex), from_apex);
+#if STEERED == 1
+  float to_tangent = apex_mm * steering_sine;
+  r = sqrt(max(from_apex * from_apex - to_tangent * to_tangent, 0.0)) - apex_mm * steering_cosine;
+  angle -= angle_of(vec2(r * steering_sine, apex_mm + r * steering_cosine), from_apex);
+#endif
   return vec2((angle - first_across) * lines_across, r);
 #endif
 }
@@ -87,6 +94,12 @@ void main() {
   mat3 per_place_mm = steps_mm / 1024.0;
   uint key = keys.w + keys.x * uint(bottom.x) + keys.y * uint(bottom.y) + keys.z * uint(bottom.z);
   uint key_step = keys.x * uint(down.x) + keys.y * uint(down.y) + keys.z * uint(down.z);
+#if STEERED == 1
+  uint phase = phase_steps.w + 1024u * (phase_steps.x * uint(bottom.x) + phase_steps.y * uint(bottom.y) +
+                                        phase_steps.z * uint(bottom.z));
+  uint phase_step = 1024u * (phase_steps.x * uint(down.x) + phase_steps.y * uint(down.y) +
+                             phase_steps.z * uint(down.z));
+#endif
   for (int i = 0; i < steps; ++i) {
     uint bits = hash(key + uint(i) * key_step);
     uvec3 places = (uvec3(bits) >> uvec3(0u, 10u, 20u)) & 1023u;
@@ -96,8 +109,13 @@ void main() {
     vec2 position = vec2(place.x, (place.y - r_min_mm) / dr_mm + 0.5);  // among lines, and among sums of a row
     if (window == 0.0 || position.y < 0.0 || position.y >= float(samples + 1)) continue;
 
-    float amplitude = (bits >> 31) == 0u ? window * window : -window * window;
-    int part = int(bits >> 30) & 1;
+    uint quarter = bits >> 30;  // the amplitude is this power of i
+#if STEERED == 1
+    quarter += (phase + uint(i) * phase_step + phase_steps.x * places.x + phase_steps.y * places.y +
+                phase_steps.z * places.z) >> 30;
+#endif
+    float amplitude = (quarter & 2u) == 0u ? window * window : -window * window;
+    int part = int(quarter & 1u);
     int line = int(floor(position.x)), between = int(position.y);
     vec2 beside = fract(position);
     if (line >= 0 && line < lines) add(first_row + line, between, amplitude * (1.0 - beside.x), beside.y, part);

@@ -39,7 +39,7 @@ void serve(int quad) {
 #else
 vec2 voxel_at(int voxel, float white_db) {
   float level = level_at(voxel);
-  return level == kOutsideFan ? vec2(0.0) : vec2(grey_at(level, white_db), 1.0);
+  return level == kOutsideFan ? vec2(0.0) : vec2(mapped(compressed(level, white_db)), 1.0);
 }
 
 void serve(int quad) {

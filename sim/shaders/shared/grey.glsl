@@ -16,14 +16,13 @@ float mapped(float g) {
   return g;
 }
 
-float grey_at(float level, float white_db) {
-  return mapped(level > kSilent ? 1.0 - clamp((white_db - level) / dynamic_range_db, 0.0, 1.0) : 0.0);
+// Returns the compressed echo (7) before the grey map, 0 to 1.
+float compressed(float level, float white_db) {
+  return level > kSilent ? 1.0 - clamp((white_db - level) / dynamic_range_db, 0.0, 1.0) : 0.0;
 }
 
 // The same number whether bytes are stored as red, green, blue or as blue, green, red.
-uint grey_pixel(float level, float white_db) {
-  return level == kOutsideFan ? 0u : packUnorm4x8(vec4(vec3(grey_at(level, white_db)), 1.0));
-}
+uint pixel_of(float echo) { return packUnorm4x8(vec4(vec3(mapped(echo)), 1.0)); }
 
 // Maps a level to an unsigned number that sorts in the same order, so that atomicMax() finds the brightest.
 uint ordered(float level) {

@@ -11,7 +11,7 @@
 #include "shared/acoustic_volume.glsl"
 #include "shared/exact_filter.glsl"
 
-layout(binding = 1) uniform sampler3D scatterers;  // complex, variance 1 at the lattice's points
+layout(binding = 1) uniform sampler3D scatterers;  // complex, variance 1 at the lattice's points; with STORED_SPECKLE S
 layout(binding = 3) uniform isamplerBuffer scattered;     // with WAVES: of scatter.comp
 layout(binding = 4) uniform samplerBuffer scatterer_scale;  // and what its whole numbers are multiplied by, by sample
 layout(binding = 2) uniform samplerBuffer in_air;  // of a line that does not meet the body, by sample: I, R; with WAVES then
@@ -171,10 +171,18 @@ float scatterer_amplitude(Medium here) {
 
 // Returns the complex amplitude of the scatterers at a sample of the paper's model.
 vec2 scatterers_echo(float k, Medium here) {
+#if STORED_SPECKLE == 1
+#if EXACT_FILTER == 1
+  return vec2(exact_to_edge(scatterers, lattice_place(k)).r, 0.0);
+#else
+  return vec2(textureLod(scatterers, lattice_place(k), 0.0).r, 0.0);
+#endif
+#else
   float above_silence = max(here.echogenicity - kSilentEchogenicity, 0.0);
   vec2 echo = vec2(kSilentAmplitude * (exp(above_silence * (kLn10 / 1000.0)) - 1.0), 0.0);
   if (SPECKLE == 1) echo = echo.x * scatterer(lattice_place(k));
   return echo;
+#endif
 }
 
 // Returns the share of sound that an interface returns although it may be the surface of gel that touches nothing

@@ -27,7 +27,10 @@ layout(std140, binding = 2) uniform ScatterParameters {
   float face_of_outer_line;  // the cosine of its angle
 
   float slice_half;  // in thicknesses
-  int unused_1, unused_2, unused_3;
+  float steering_sine, steering_cosine;  // of LineFan::steering
+  int unused;
+
+  uvec4 phase_steps;  // of sim/model/compounding.h; w: the phase at the lower corner of `corner`
 #ifdef __cplusplus
 };
 }  // namespace insonate::gl

@@ -54,6 +54,15 @@ layout(std140, binding = 0) uniform SimulationParameters {
   float blend_amplitude;  // b^(1/2)
   float pulse_exponent;   // of the pulse's Gaussian, by samples^2
 
+  int look;               // which of the looks is converted (sim/model/compounding.h)
+  float of_frame_before;  // its share in this frame; 0 for a probe at rest
+  float edge_enhancement;
+  float speckle_reduction;
+
+  float speckle_variance;    // v_0 of sim/model/display_filter.h
+  float filter_exponent_px;  // -1/(2 s^2) of its window, s in pixels
+  int unused_1, unused_2;
+
   vec4 tgc_db[2];  // time gain at 8 depths from the face to full depth
 #ifdef __cplusplus
 };

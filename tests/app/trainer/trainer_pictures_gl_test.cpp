@@ -30,10 +30,11 @@ TEST_CASE("where nothing changes nothing is drawn, and each change draws what it
 
   trainer.session()->set(ActionKind::gain, 3);
   trainer.draw(kSizes);
-  CHECK(pictures.simulator_runs() == simulated + 1);  // display alone
+  CHECK(pictures.simulator_runs() == simulated + 2);  // display alone: fusion, and the filter of edges
   trainer.update(0.6);
   trainer.draw(kSizes);
-  CHECK(pictures.simulator_runs() > simulated + 2);
+  CHECK(pictures.simulator_runs() > simulated + 3);
+  for (int look = 1; look < trainer.session()->machine().steering_angles; ++look) trainer.draw(kSizes);
   const long before_camera = pictures.simulator_runs(), all = pictures.drawn();
   pictures.camera.orbit(10, 0);
   trainer.draw(kSizes);

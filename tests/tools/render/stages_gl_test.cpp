@@ -8,6 +8,8 @@
 #include <cmath>
 
 #include "sim/core/hash.h"
+#include "sim/model/compounding.h"
+#include "sim/model/display_filter.h"
 #include "sim/model/noise.h"
 #include "sim/model/refraction.h"
 #include "sim/model/reverberation.h"
@@ -41,6 +43,7 @@ const View kSlice = {
 const View kWaves = {"curvilinear", kSlice.depth_mm, kSlice.patient_from_probe,
                      "preset = 'trainer'\nsamples = 240\nslice_thickness_mm = 4\nface_reflection = 1\n"
                      "noise_db = -70\nclutter_db = -10\ntgc_db = [0, 2, 5, 9, 14, 20, 27, 35]\ngain_db = 4\n"
+                     "steering_angles = 3\nedge_enhancement = 1\nspeckle_reduction = 0.3\n"
                      "image_width = 160\nimage_height = 120\nexact_filter = true\n"};
 
 // One plane, no effect that the paper leaves out, and gel in front of a face that stands off the skin.
@@ -102,6 +105,16 @@ void check_description(const nlohmann::json& text, const Insonated& scene) {
     CHECK(waves.at("rough_share") == kRoughShare);
   } else {
     CHECK(text.at("envelope_scale") == envelope_scale(scene.lines, settings));
+  }
+  CHECK(text.at("looks_rad") == look_angles(scene.probe, settings));
+  CHECK(text.contains("display_filter") == is_filtered(settings));
+  if (is_filtered(settings)) {
+    const ImageGeometry picture =
+        image_geometry(scene.probe, scene.depth_mm, settings.image_width, settings.image_height);
+    CHECK(text.at("display_filter").at("sigma_mm") == filter_sigma_mm(settings));
+    CHECK(text.at("display_filter").at("radius_px") == filter_radius_px(settings, picture.mm_per_pixel));
+    CHECK(text.at("display_filter").at("speckle_variance") ==
+          speckle_variance(settings, int(look_angles(scene.probe, settings).size())));
   }
   const std::vector<SlicePlane> planes = slice_planes(settings);
   REQUIRE(text.at("slice_planes").size() == planes.size());
@@ -310,6 +323,7 @@ void check_files(const StageFolder& stages, const Settings& settings, std::vecto
                                      {"pixel_sample", "sample at the pixel, 0 on the first; -2 outside the fan"},
                                      {"fused", "U (6), before gain"},
                                      {"image", "grey level"}};
+  if (is_filtered(settings)) of_pixels.push_back({"shown", "compressed echo (7), 0 to 1"});
   if (settings.electronic_noise && settings.waves)
     of_pixels.insert(of_pixels.end(), {{"noise_re", "of mean square 1"}, {"noise_im", "of mean square 1"}});
   else if (settings.electronic_noise)
@@ -407,6 +421,7 @@ TEST_CASE("each file of the reference's stages has its form, and holds the stage
   }
   if (scene.settings.reverberation) check_rounded(stages, "repeated", expected.repeated);
   check_rounded(stages, "fused", expected.fused);
+  if (is_filtered(scene.settings)) check_rounded(stages, "shown", expected.shown);
   CHECK((stages.grey().pixels == expected.grey.pixels));
 }
 
