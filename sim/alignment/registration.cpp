@@ -186,7 +186,7 @@ SweepRegistration SweepRegistrar::from(const glm::dmat4& start) {
     for (const Optimum& each : run.distinct(maximise_from(followed, follow, run.search(5, 0.5, 120)), kFineStarts))
       promising.push_back(each.at);
     // The small images of the stage before may lead away from a start that is right already.
-    if (!wanders) promising.push_back(none);
+    if (round == 0) promising.push_back(none);
     std::vector<Optimum> of_round = run.distinct(maximise_from(promising, fine, run.search(2, 0.5, 40)), kFineStarts);
     run.confirmed = !rough.empty() && run.apart(of_round.front().at, rough.front().at) < kBasin_mm;
     for (Optimum& each : of_round) rough.push_back(std::move(each));
