@@ -20,7 +20,6 @@
 #include "app/panels/screen.h"
 #include "app/pictures/frame_times.h"
 #include "app/pictures/quality_governor.h"
-#include "app/presenter.h"
 #include "app/state_file.h"
 #include "app/trainer/trainer.h"
 #include "devices/live/steady_clock.h"
@@ -163,7 +162,6 @@ public:
       : window_(window),
         options_(options),
         trainer_(with_preferences(options, own.preferences), own.preferences, own.file),
-        presenter_(window),
         events_(window) {
     if (!own.problem.empty()) trainer_.problems().push_back(own.problem);
     if (!options.frame_times.empty()) {
@@ -228,8 +226,7 @@ private:
                version_before = pictures.ultrasound_version();
     const bool changed = draw();
     // The window's own picture may be lost while it is covered.
-    const bool exposed = std::exchange(events_.exposed, false);
-    if (changed || exposed) present(exposed);
+    if (changed || std::exchange(events_.exposed, false)) present();
     ++frames_;
     const bool new_picture = pictures.ultrasound_version() != version_before;
     if (touched || moved || pictures.drawn() != drawn_before || trainer_.loading() || trainer_.setup() ||
@@ -273,8 +270,10 @@ private:
     return screen_.render(trainer_, times_ ? &*times_ : nullptr);
   }
 
-  void present(bool whole) {
-    presenter_.present(screen_.canvas(), whole);
+  void present() {
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    screen_.canvas().show();
+    glfwSwapBuffers(window_);
     ++shown_;
     if (times_) times_->end(FramePart::present);
   }
@@ -283,7 +282,6 @@ private:
   Options options_;
   Trainer trainer_;
   ui::Screen screen_;
-  Presenter presenter_;
   Events events_;
   Cursors cursors_;
   QualityGovernor governor_;
