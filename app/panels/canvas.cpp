@@ -52,34 +52,7 @@ bool is_opaque(const ImDrawVert& corner) {
   return corner.col >> IM_COL32_A_SHIFT == 0xff;
 }
 
-long area_of(const PixelBox& box) {
-  return long(box.end_x - box.x) * (box.end_y - box.y);
-}
-
-PixelBox around(const PixelBox& a, const PixelBox& b) {
-  return {std::min(a.x, b.x), std::min(a.y, b.y), std::max(a.end_x, b.end_x), std::max(a.end_y, b.end_y)};
-}
-
 }  // namespace
-
-std::vector<PixelBox> merged(std::vector<PixelBox> boxes, std::size_t most) {
-  while (boxes.size() > most) {
-    std::size_t first = 0, second = 1;
-    long least = 0;
-    for (std::size_t i = 0; i < boxes.size(); ++i)
-      for (std::size_t j = i + 1; j < boxes.size(); ++j) {
-        const long added = area_of(around(boxes[i], boxes[j])) - area_of(boxes[i]) - area_of(boxes[j]);
-        if ((i == 0 && j == 1) || added < least) {
-          least = added;
-          first = i;
-          second = j;
-        }
-      }
-    boxes[first] = around(boxes[first], boxes[second]);
-    boxes.erase(boxes.begin() + std::ptrdiff_t(second));
-  }
-  return boxes;
-}
 
 Canvas::Canvas()
     : plain_({}, {"window/shape.vert", "window/plain.frag"}),
@@ -263,8 +236,7 @@ bool Canvas::draw(const ImDrawData& frame, ImU32 background, const TextureVersio
   resize(int(frame.DisplaySize.x * frame.FramebufferScale.x), int(frame.DisplaySize.y * frame.FramebufferScale.y));
   const std::vector<std::uint64_t> before = std::exchange(hashes_, {});
   take(frame, version_of);
-  changed_ = changed_boxes(before);
-  const std::vector<PixelBox>& boxes = changed_;
+  const std::vector<PixelBox> boxes = changed_boxes(before);
   pixels_drawn_ = 0;
   if (boxes.empty()) return false;
 
@@ -299,13 +271,10 @@ Image<Rgba8> Canvas::read(const PixelBox& box) const {
   return picture;
 }
 
-void Canvas::show(const PixelBox& box) const {
+void Canvas::show() const {
   GLint target = 0;
   glGetIntegerv(GL_FRAMEBUFFER_BINDING, &target);
-  glEnable(GL_SCISSOR_TEST);
-  glScissor(box.x, height_ - box.end_y, box.end_x - box.x, box.end_y - box.y);
   framebuffer_.copy_to(GLuint(target));
-  glDisable(GL_SCISSOR_TEST);
 }
 
 }  // namespace insonate::ui

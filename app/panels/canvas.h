@@ -3,7 +3,6 @@
 #include <imgui.h>
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -19,10 +18,6 @@ struct PixelBox {
   int x, y, end_x, end_y;
   bool operator==(const PixelBox&) const = default;
 };
-
-/// Returns at most `most` boxes that cover all given ones. Merges those first whose common box adds the least.
-/// @param most  at least 1
-std::vector<PixelBox> merged(std::vector<PixelBox> boxes, std::size_t most);
 
 /// Holds the window's picture, and redraws only what a new frame changes in it. A software renderer takes as long for
 /// the whole window as for the simulation, and most frames change little of the window. Needs an OpenGL context from
@@ -41,12 +36,8 @@ public:
   void make_fonts();
   /// Draws a frame. Returns whether the picture has changed.
   bool draw(const ImDrawData& frame, ImU32 background, const TextureVersion& version_of);
-  /// Copies the picture, or a part of it, into the framebuffer that is bound, which must be of the same size.
-  void show() const { show({0, 0, width_, height_}); }
-  void show(const PixelBox& box) const;
-  /// Returns the parts of the picture that the last draw() has drawn.
-  const std::vector<PixelBox>& changed() const { return changed_; }
-  int height() const { return height_; }
+  /// Copies the picture into the framebuffer that is bound, which must be of the same size.
+  void show() const;
 
   /// Returns a part of the picture, which must lie within it.
   Image<Rgba8> read(const PixelBox& box) const;
@@ -84,7 +75,6 @@ private:
   std::vector<std::uint64_t> hashes_;  ///< of the tiles of the picture, row by row; empty if it shows no frame yet
   std::vector<Corner> corners_;
   std::vector<Batch> batches_;
-  std::vector<PixelBox> changed_;
   long pixels_drawn_ = 0;
 };
 

@@ -61,24 +61,6 @@ void draw_frame(const std::vector<Shape>& shapes, ImTextureID picture) {
   ImGui::Render();
 }
 
-/// What a window shows to which only the changed parts of each frame are copied.
-class Window {
-public:
-  Window() : framebuffer_(target_) {}
-  Image<Rgba8> after(const Canvas& canvas) {
-    framebuffer_.bind();
-    for (const ui::PixelBox& box : ui::merged(canvas.changed(), 3)) canvas.show(box);
-    glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    Image<Rgba8> image(kWidth, kHeight);
-    target_.read(GL_RGBA, GL_UNSIGNED_BYTE, image.pixels.data(), image.pixels.size() * sizeof(Rgba8));
-    return image;
-  }
-
-private:
-  gl::Texture target_ = gl::Texture::make_2d(GL_RGBA8, kWidth, kHeight, gl::Filter::nearest);
-  gl::Framebuffer framebuffer_;
-};
-
 Image<Rgba8> shown(const Canvas& canvas) {
   const gl::Texture target = gl::Texture::make_2d(GL_RGBA8, kWidth, kHeight, gl::Filter::nearest);
   const gl::Framebuffer framebuffer(target);
@@ -118,7 +100,6 @@ TEST_CASE("a canvas that redraws what changed shows the same as one that draws e
   std::vector<Shape> shapes(16);
   for (Shape& shape : shapes) shape = random_shape(random);
   Canvas canvas;
-  Window window;
   canvas.make_fonts();
   for (int frame = 0; frame < 200; ++frame) {
     switch (frame % 4) {
@@ -142,17 +123,7 @@ TEST_CASE("a canvas that redraws what changed shows the same as one that draws e
     fresh.draw(*ImGui::GetDrawData(), kBackground, picture.version_of());
     INFO("frame " << frame << ", scale " << scale);
     REQUIRE(shown(canvas).pixels == shown(fresh).pixels);
-    REQUIRE(window.after(canvas).pixels == shown(fresh).pixels);
   }
-}
-
-TEST_CASE("boxes are merged to few that cover all of them, those that lie together first") {
-  using ui::PixelBox;
-  const std::vector<PixelBox> boxes{{0, 0, 32, 32}, {32, 0, 64, 32}, {300, 200, 332, 222}, {0, 32, 32, 64}};
-  CHECK(ui::merged(boxes, 4) == boxes);
-  CHECK(ui::merged(boxes, 2) == std::vector<PixelBox>{{0, 0, 64, 64}, {300, 200, 332, 222}});
-  CHECK(ui::merged(boxes, 1) == std::vector<PixelBox>{{0, 0, 332, 222}});
-  CHECK(ui::merged({}, 1).empty());
 }
 
 TEST_CASE("a canvas draws nothing for a frame that is equal to the one before, and little for a small change") {
