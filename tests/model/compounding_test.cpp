@@ -14,7 +14,7 @@
 
 using namespace insonate;
 
-TEST_CASE("looks are spread evenly about the straight one; a phased probe and amplitudes have that alone") {
+TEST_CASE("looks are spread evenly about the straight one, and a phased probe and amplitudes have that alone") {
   Settings settings = trainer_settings(3.5, 100);
   settings.steering_angles = 5;
   settings.steering_deg = 10;

@@ -186,7 +186,7 @@ TEST_CASE("a registration that does not fit on the disk ends in a sentence, and 
   for (const char* bytes : {"500", "20000", "300000"}) {
     const ProgramOutcome outcome = run_program(
         std::string("prlimit --fsize=") + bytes + " " + INSONATE_REGISTER_PROGRAM " --ct " + place.in("ct.nrrd") +
-        " --depth 100 --search-mm 0 --search-deg 0 --slices 4 " + place.in("sweep.igs.mha") + " " + place.in("out"));
+        " --probe curvilinear --depth 100 --search-mm 0 --search-deg 0 --slices 4 " + place.in("sweep.igs.mha") + " " + place.in("out"));
     INFO(bytes << " bytes: " << outcome.errors);
     CHECK(outcome.code == 2);
     CHECK(outcome.errors.find("cannot be written") != std::string::npos);
