@@ -108,7 +108,7 @@ await "the picture is drawn" at_rest
 shot "$work/back.png" ultrasound 20
 pixels=$(different "$work/before.png" "$work/back.png")
 [ "$pixels" = 0 ] || fail "$pixels pixels have changed at the same depth"
-sed 's/vec3(grey_at(level, white_db))/vec3(1.0 - grey_at(level, white_db))/' "$shaders/shared/grey.glsl" >"$work/shaders/shared/grey.glsl"
+sed 's/vec3(mapped(echo))/vec3(1.0 - mapped(echo))/' "$shaders/shared/grey.glsl" >"$work/shaders/shared/grey.glsl"
 ! cmp -s "$shaders/shared/grey.glsl" "$work/shaders/shared/grey.glsl" || fail "shared/grey.glsl reads differently: edit it elsewhere"
 await "a shader that builds is taken" builds
 await "the picture is drawn" at_rest
