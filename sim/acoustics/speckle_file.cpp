@@ -142,11 +142,13 @@ Volume<float> read_speckle_file(const std::filesystem::path& file, const Speckle
                      "compute it again with insonate-case speckle");
   if (key("transducer") != expected.transducer)
     throw InputError(name, "key 'transducer'",
-                     "this volume is of the transducer " + insonate::quoted(std::string_view(key("transducer"))) + ", not " + expected.transducer,
+                     "this volume is of the transducer " + insonate::quoted(std::string_view(key("transducer"))) +
+                         ", not " + expected.transducer,
                      "take that one's probe, or compute it again with insonate-case speckle");
   if (key("seed") != std::to_string(expected.seed))
     throw InputError(name, "key 'seed'",
-                     "this volume has the seed " + insonate::quoted(std::string_view(key("seed"))) + ", not " + std::to_string(expected.seed),
+                     "this volume has the seed " + insonate::quoted(std::string_view(key("seed"))) + ", not " +
+                         std::to_string(expected.seed),
                      "set speckle_seed, or compute it again with insonate-case speckle");
   Volume<float> volume{grid_of(header, name), {}};
   const std::size_t wanted = volume.grid.count() * sizeof(float);

@@ -42,12 +42,19 @@ struct Sphere {
 constexpr double kFar = 1e9;
 const Sphere kTissue{{-14, 0, 4}, 24}, kRed{{12, 6, -2}, 20}, kBlue{{0, -22, 10}, 16};
 
+Volume<std::uint8_t> blank_labels(const Grid& grid) {
+  Volume<std::uint8_t> labels;
+  labels.grid = grid;
+  labels.voxels.resize(grid.count());
+  return labels;
+}
+
 /// A green ball of tissue, and two labelled balls that it hides in part.
 struct Balls {
   Volume<std::int16_t> ct = test::ct_of(test::skewed_grid(50), [](const glm::dvec3& p) {
     return std::clamp(500 * (kTissue.radius - glm::distance(p, kTissue.centre)), -1000.0, 1000.0);
   });
-  Volume<std::uint8_t> labels{ct.grid, std::vector<std::uint8_t>(ct.grid.count())};
+  Volume<std::uint8_t> labels = blank_labels(ct.grid);
   OrganColours colours{};
   std::optional<Scene> scene;
 

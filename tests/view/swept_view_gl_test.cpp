@@ -87,7 +87,7 @@ TEST_CASE("A swept volume is cut at its plane, which shows its picture") {
     return test::read(view.render(kWidth, kHeight, camera, {100, 0.9}, cut)).at(int(at.x), int(at.y));
   };
   const glm::dvec3 above(12, 0, 10), below(12, 0, -10);
-  CHECK(pixel({}, above)[1] > 80);  // the ball's surface
+  CHECK(pixel(UltrasoundPlane(), above)[1] > 80);  // the ball's surface
   CHECK(pixel(face, above)[1] < 40);
   CHECK(pixel(face, above)[0] > 200);
   CHECK(pixel(face, below)[1] > 80);                 // the ball behind the plane

@@ -41,7 +41,7 @@ struct RegistrationRequest {
   int first_start = 0;  ///< number of the first start, for measurements in parts
   int images = 20;      ///< of the sweep
   double tilt_deg = 20, slide_mm = 20;
-  RegistrationSettings settings{};
+  RegistrationSettings settings = RegistrationSettings();
 };
 
 /// Registers a synthetic sweep of model S from many starts that are off by known amounts, by each measure: half of them

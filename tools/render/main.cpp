@@ -123,7 +123,8 @@ Rendered render(const std::string& file, const RenderedScene& scene, const std::
   const gl::Texture& image = simulator.image_in_motion();
   Image<Rgba8> rgba(image.width(), image.height());
   image.read(GL_RGBA, GL_UNSIGNED_BYTE, rgba.pixels.data(), rgba.pixels.size() * sizeof(Rgba8));
-  Rendered rendered{{}, gl::device_description()};
+  Rendered rendered;
+  rendered.made_by = gl::device_description();
   rendered.stages.grey = Image<std::uint8_t>(rgba.width, rgba.height);
   std::ranges::transform(rgba.pixels, rendered.stages.grey.pixels.begin(), [](const Rgba8& p) { return p[0]; });
   return rendered;

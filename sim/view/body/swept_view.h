@@ -41,7 +41,7 @@ public:
   /// @param face  a plane of the volume with its picture, alpha 0 where nothing was seen. What lies between the camera
   ///              and the plane is cut away. Without a picture nothing is cut.
   const gl::Texture& render(int width, int height, const OrbitCamera& camera, const SweptLook& look,
-                            const UltrasoundPlane& face = {}, const VolumeBudget& budget = {});
+                            const UltrasoundPlane& face = UltrasoundPlane(), const VolumeBudget& budget = {});
   long renders() const;
   /// Returns as VolumeView::scale(): 1 for a complete picture.
   int scale() const;

@@ -184,9 +184,10 @@ TEST_CASE("a registration that does not fit on the disk ends in a sentence, and 
   const Workplace place;
   // The first file is too large for each: a picture, a larger one, and a volume.
   for (const char* bytes : {"500", "20000", "300000"}) {
-    const ProgramOutcome outcome = run_program(
-        std::string("prlimit --fsize=") + bytes + " " + INSONATE_REGISTER_PROGRAM " --ct " + place.in("ct.nrrd") +
-        " --probe curvilinear --depth 100 --search-mm 0 --search-deg 0 --slices 4 " + place.in("sweep.igs.mha") + " " + place.in("out"));
+    const ProgramOutcome outcome =
+        run_program(std::string("prlimit --fsize=") + bytes + " " + INSONATE_REGISTER_PROGRAM " --ct " +
+                    place.in("ct.nrrd") + " --probe curvilinear --depth 100 --search-mm 0 --search-deg 0 --slices 4 " +
+                    place.in("sweep.igs.mha") + " " + place.in("out"));
     INFO(bytes << " bytes: " << outcome.errors);
     CHECK(outcome.code == 2);
     CHECK(outcome.errors.find("cannot be written") != std::string::npos);
