@@ -77,6 +77,18 @@ struct Live {
     CHECK(done());
     return done();
   }
+  /// Waits for a round with all 20 images that ends near the truth. Rounds with the few images that have come by then
+  /// go first, and each begins where the one before ended, so that ten rounds are many.
+  bool comes_near() {
+    std::size_t first = 0;
+    wait_for([&] {
+      const LiveRegistrar::State state = session.state();
+      if (!state.last || state.last->sweep.images.size() < 20) return false;
+      if (first == 0) first = state.rounds;
+      return error() < kWithin_mm || state.rounds > first + 10;
+    });
+    return error() < kWithin_mm;
+  }
   double error() const { return test::error_of(patient().scan, session.state().ct_from_sweep); }
 };
 
@@ -88,11 +100,7 @@ TEST_CASE("a near start is refined while the probe moves, and a wide search make
   REQUIRE(test::error_of(scan, start) > 4);
   const test::SweepPlayer player(scan);
   Live live(request(player, start));
-  live.wait_for([&] {
-    const auto last = live.session.state().last;
-    return last && last->sweep.images.size() == 20;
-  });
-  CHECK(live.error() < kWithin_mm);
+  CHECK(live.comes_near());
   const auto local = live.session.state().last;
   REQUIRE(local);
   CHECK(local->sweep.images.size() == 20);
@@ -151,12 +159,11 @@ TEST_CASE("images that carry their own place are registered, with the probe that
   begun.input.depth_mm.reset();
   begun.input.probe_from_pixel.reset();
   Live live(begun);
-  live.wait_for([&] { return live.session.state().rounds >= 2; });
+  CHECK(live.comes_near());
   REQUIRE(live.session.fan());
   // A pixel is 0.7 mm large.
   CHECK(live.session.fan()->probe.radius_mm == Approx(60).margin(1.5));
   CHECK(live.session.depth_mm() == Approx(kDepthMm).margin(1));
-  CHECK(live.error() < kWithin_mm);
 }
 
 TEST_CASE("a live registration that cannot begin says why in a sentence, and goes on when it can") {
