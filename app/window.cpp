@@ -9,12 +9,11 @@
 #include <algorithm>
 #include <cstdio>
 #include <deque>
-#include <memory>
 #include <optional>
-#include <stdexcept>
 #include <vector>
 
 #include "app/cursors.h"
+#include "app/gl_window.h"
 #include "app/keyboard.h"
 #include "app/mouse.h"
 #include "app/panels/screen.h"
@@ -28,7 +27,6 @@
 namespace insonate {
 namespace {
 
-constexpr int kLeastWidth = 1024, kLeastHeight = 700;
 /// A higher frame rate would show nothing more.
 constexpr double kFrame_s = 1.0 / 60;
 /// While nothing changes, the screen still has clocks to update, and a tracker may begin to move.
@@ -37,17 +35,6 @@ constexpr double kIdle_s = 0.05;
 constexpr double kLively_s = 0.4;
 /// Time of the volume view, in a frame that draws it while things move.
 constexpr double kVolumeBudget_ms = 10;
-
-struct GlfwLibrary {
-  GlfwLibrary() {
-    if (!glfwInit()) throw std::runtime_error("there is no display to open a window on");
-  }
-  ~GlfwLibrary() { glfwTerminate(); }
-};
-
-struct WindowDeleter {
-  void operator()(GLFWwindow* window) const { glfwDestroyWindow(window); }
-};
 
 /// Events from GLFW's callbacks, held for the next frame.
 struct Events {
@@ -102,20 +89,6 @@ void listen(GLFWwindow* window, Events& events) {
     events_of(w).any = true;
     for (int i = 0; i < count; ++i) events_of(w).dropped.emplace_back(paths[i]);
   });
-}
-
-std::unique_ptr<GLFWwindow, WindowDeleter> open_window(const Options& options) {
-  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
-  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
-  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-  glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
-  std::unique_ptr<GLFWwindow, WindowDeleter> window(
-      glfwCreateWindow(options.width, options.height, "Insonate", nullptr, nullptr));
-  if (!window) throw std::runtime_error("no window with OpenGL 4.5 can be opened on this display");
-  glfwSetWindowSizeLimits(window.get(), kLeastWidth, kLeastHeight, GLFW_DONT_CARE, GLFW_DONT_CARE);
-  glfwMakeContextCurrent(window.get());
-  glfwSwapInterval(1);
-  return window;
 }
 
 /// Counts the pictures of the last second.
@@ -301,7 +274,7 @@ bool has_display() {
 
 int run_window(const Options& options) {
   const GlfwLibrary library;
-  const auto window = open_window(options);
+  const GlWindow window = open_gl_window("Insonate", options.width, options.height);
   return Loop(window.get(), options, own_preferences()).run();
 }
 

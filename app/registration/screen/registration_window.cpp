@@ -12,11 +12,11 @@
 #include <deque>
 #include <filesystem>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "app/gl_window.h"
 #include "app/mouse.h"
 #include "app/panels/canvas.h"
 #include "app/panels/widgets/theme.h"
@@ -35,20 +35,7 @@
 namespace insonate {
 namespace {
 
-constexpr int kLeastWidth = 1024, kLeastHeight = 700;
 constexpr double kFrame_s = 1.0 / 60, kStateEvery_s = 0.1;
-
-struct GlfwLibrary {
-  GlfwLibrary() {
-    if (!glfwInit()) throw std::runtime_error("there is no display to open a window on");
-  }
-  ~GlfwLibrary() { glfwTerminate(); }
-};
-
-struct WindowDeleter {
-  void operator()(GLFWwindow* window) const { glfwDestroyWindow(window); }
-};
-using Window = std::unique_ptr<GLFWwindow, WindowDeleter>;
 
 struct ImGuiOwner {
   explicit ImGuiOwner(GLFWwindow* window) {
@@ -62,19 +49,6 @@ struct ImGuiOwner {
     ImGui::DestroyContext();
   }
 };
-
-Window open_window(const RegistrationOptions& options) {
-  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
-  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
-  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-  glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
-  Window window(glfwCreateWindow(options.width, options.height, "Insonate: registration", nullptr, nullptr));
-  if (!window) throw std::runtime_error("no window with OpenGL 4.5 can be opened on this display");
-  glfwSetWindowSizeLimits(window.get(), kLeastWidth, kLeastHeight, GLFW_DONT_CARE, GLFW_DONT_CARE);
-  glfwMakeContextCurrent(window.get());
-  glfwSwapInterval(1);
-  return window;
-}
 
 /// What GLFW's callbacks note for the next frame.
 struct Events {
@@ -214,7 +188,7 @@ int run_registration_window(const RegistrationOptions& options) {
   const AcousticVolume volume = make_acoustic_volume(subject.ct, subject.labels, tissue_by_label(subject), table);
   LiveSession session(request, subject, volume);
   const GlfwLibrary library;
-  const Window window = open_window(options);
+  const GlWindow window = open_gl_window("Insonate: registration", options.width, options.height);
   std::unique_ptr<RegistrationPictures> pictures;
   gl::upload_ct(request.subject, volume.grid,
                 [&] { pictures = std::make_unique<RegistrationPictures>(volume, table); });

@@ -17,7 +17,7 @@ struct StructureSurfaces {
   std::vector<std::array<std::uint8_t, 4>> voxels;  ///< colour times coverage, and the coverage by the structures
 };
 
-/// Returns the surfaces of structures. Uses all cores; takes about a tenth of a second for a CT of 20 million voxels.
+/// Returns the surfaces of structures. Uses all cores.
 /// @param labels  on the CT's grid, not empty
 /// @param shown   label values, each 1 to 255; one without a colour is drawn light grey
 StructureSurfaces structure_surfaces(const Volume<std::uint8_t>& labels, const OrganColours& colours,

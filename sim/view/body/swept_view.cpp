@@ -78,8 +78,4 @@ long SweptView::renders() const {
   return state_->view.renders();
 }
 
-int SweptView::scale() const {
-  return state_->view.scale();
-}
-
 }  // namespace insonate::view

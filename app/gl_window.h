@@ -1,0 +1,28 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+struct GLFWwindow;
+
+namespace insonate {
+
+/// Holds GLFW while windows exist. Throws std::runtime_error without a display.
+struct GlfwLibrary {
+  GlfwLibrary();
+  ~GlfwLibrary();
+  GlfwLibrary(const GlfwLibrary&) = delete;
+  GlfwLibrary& operator=(const GlfwLibrary&) = delete;
+};
+
+struct WindowDeleter {
+  void operator()(GLFWwindow* window) const;
+};
+using GlWindow = std::unique_ptr<GLFWwindow, WindowDeleter>;
+
+/// Opens a window with OpenGL 4.5, which is current then. It cannot be made smaller than the screens' panels need.
+/// Throws std::runtime_error if the display has no such OpenGL.
+/// @param width, height  in the units of GLFW's screen coordinates
+GlWindow open_gl_window(const std::string& title, int width, int height);
+
+}  // namespace insonate
