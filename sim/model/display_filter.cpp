@@ -1,5 +1,7 @@
 #include "sim/model/display_filter.h"
 
+#include <glm/gtc/constants.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -11,8 +13,10 @@ int filter_radius_px(const Settings& settings, double mm_per_pixel) {
 }
 
 double speckle_variance(const Settings& settings, int looks) {
-  const double deviation_db = settings.waves ? 5.57 : 5.57 / 2;
-  return std::pow(deviation_db / settings.dynamic_range_db, 2) / looks;
+  double variance = glm::pi<double>() * glm::pi<double>() / 6;  // of the natural logarithm
+  for (int k = 1; k < looks; ++k) variance -= 1.0 / (k * k);
+  const double decibels = (settings.waves ? 10 : 5) / std::log(10.0);
+  return variance * std::pow(decibels / settings.dynamic_range_db, 2);
 }
 
 }  // namespace insonate

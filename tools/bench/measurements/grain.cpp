@@ -11,6 +11,8 @@
 #include "sim/gl/headless_context.h"
 #include "sim/imaging/simulator.h"
 #include "sim/model/beam.h"
+#include "sim/model/compounding.h"
+#include "sim/model/display_filter.h"
 #include "sim/model/waves.h"
 #include "tools/bench/commands.h"
 
@@ -93,6 +95,17 @@ private:
   std::string probe_;
 };
 
+/// Returns the standard deviation of the final picture's greys in dB, without the few pixels below the range.
+double deviation_on_display(const Stages<float>& stages) {
+  double sum = 0, squares = 0, n = 0;
+  for (std::size_t i = 0; i < stages.grey.pixels.size(); ++i) {
+    if (!stages.inside.pixels[i] || stages.grey.pixels[i] == 0) continue;
+    const double db = stages.grey.pixels[i] * kDynamicRange_db / 255;
+    sum += db, squares += db * db, ++n;
+  }
+  return std::sqrt(squares / n - sum / n * sum / n);
+}
+
 /// Rows of the statistics of several patterns: the envelope's and the display's.
 void add_statistics(Rows& rows, gl::Simulator& simulator, Settings settings) {
   constexpr std::uint32_t kPatterns = 8;
@@ -112,19 +125,33 @@ void add_statistics(Rows& rows, gl::Simulator& simulator, Settings settings) {
       }
     ratio += envelope_snr(envelope) / kPatterns;
     statistics.push_back(rayleigh_test(apart).statistic);
-    // The final picture's greys as decibels, without the few pixels below the range.
-    double sum = 0, squares = 0, n = 0;
-    for (std::size_t i = 0; i < stages.grey.pixels.size(); ++i) {
-      if (!stages.inside.pixels[i] || stages.grey.pixels[i] == 0) continue;
-      const double db = stages.grey.pixels[i] * kDynamicRange_db / 255;
-      sum += db, squares += db * db, ++n;
-    }
-    deviation_db += std::sqrt(squares / n - sum / n * sum / n) / kPatterns;
+    deviation_db += deviation_on_display(stages) / kPatterns;
   }
   std::ranges::sort(statistics);
   rows.add("mean of the envelope over its deviation", 0, "", ratio, kRayleighSnr);
   rows.add("Rayleigh statistic (expected: limit)", 0, "", statistics[kPatterns / 2], RayleighTest::kLimit);
   rows.add("deviation on the display in dB", 0, "", deviation_db, 5.57);
+}
+
+/// Rows of the contrast of speckle on the display, with the knobs that change it on a still picture, one after another.
+void add_knobs(Rows& rows, gl::Simulator& simulator, const Probe& probe, const Settings& plain) {
+  const auto add = [&](const std::string& knob, Settings settings, double expected_db) {
+    simulator.set_settings(settings);
+    rows.add("deviation on the display in dB, " + knob, 0, "", deviation_on_display(simulator.read_stages()),
+             expected_db);
+  };
+  const double one_look_db = kDynamicRange_db * std::sqrt(speckle_variance(plain, 1));
+  Settings settings = plain;
+  settings.edge_enhancement = with_usual_display(plain).edge_enhancement;
+  add("usual edges", settings, one_look_db);  // the filter leaves speckle alone
+  settings = plain;
+  settings.steering_angles = with_usual_display(plain).steering_angles;
+  if (const std::size_t looks = look_angles(probe, settings).size(); looks > 1)
+    add(std::to_string(looks) + " looks", settings,
+        kDynamicRange_db * std::sqrt(speckle_variance(settings, int(looks))));
+  settings = plain;
+  settings.speckle_reduction = 0.5;
+  add("half reduced (expected: at least)", settings, 0.5 * one_look_db);  // as much if the local mean were constant
 }
 
 /// Rows of a still picture: its brightness along the depth, and the grain.
@@ -199,6 +226,7 @@ Table measure_grain() {
     simulator.set_pose(inside);
     Rows rows(table, probe.name);
     add_statistics(rows, simulator, settings);
+    add_knobs(rows, simulator, probe, settings);
     simulator.set_settings(settings);
     add_still(rows, simulator.read_stages(), probe, settings);
     add_moved(rows, simulator, probe, settings);
