@@ -54,6 +54,32 @@ std::optional<glm::dvec3> ProbeHand::skin(const glm::dvec3& from, const glm::dve
   return met;
 }
 
+/// Returns the skin's normal at a point of it, unit, by where there is body around the point. It depends on no line of
+/// sight, which may run along the skin. Empty if there is as much body on every side.
+std::optional<glm::dvec3> ProbeHand::inward(const glm::dvec3& point) const {
+  constexpr int kSteps = 3;
+  constexpr double kStep_mm = kSlope_mm / kSteps;
+  const auto in_ct = [&](const glm::dvec3& p) {
+    const glm::dvec3 index = ct_->grid.index_from_patient(p);
+    for (int axis = 0; axis < 3; ++axis)
+      if (index[axis] < 0 || index[axis] > ct_->grid.size[axis] - 1) return false;
+    return true;
+  };
+  const auto body = [&](const glm::dvec3& p) { return distance_to_skin(*ct_, p, {0, 1, 0}, 0).has_value(); };
+  glm::dvec3 sum(0);
+  for (int k = -kSteps; k <= kSteps; ++k)
+    for (int j = -kSteps; j <= kSteps; ++j)
+      for (int i = -kSteps; i <= kSteps; ++i) {
+        const glm::dvec3 aside = kStep_mm * glm::dvec3(i, j, k);
+        if (glm::length(aside) > kSlope_mm) continue;
+        // Both sides or none: what is missing beyond the CT is not air.
+        if (in_ct(point + aside) && in_ct(point - aside) && body(point + aside) && !body(point - aside)) sum += aside;
+      }
+  const double length = glm::length(sum);
+  if (length < kStep_mm) return std::nullopt;
+  return sum / length;
+}
+
 std::optional<ProbeHand::Contact> ProbeHand::contact(const Pose& pose) const {
   const glm::dvec3 beam = pose.rotation[1];
   const auto below = [&](double x, double z) { return skin(pose.point({x, -kBehind_mm, z}), beam, kSearch_mm); };
@@ -119,8 +145,9 @@ std::optional<Pose> ProbeHand::put(const Pose& from, const glm::dvec3& eye, cons
   constexpr double kSight_mm = 3000;
   const auto met = skin(eye, direction, kSight_mm);
   if (!met) return std::nullopt;
-  // The slope is measured along the line of sight, because the beam may run along the skin, and then along the normal.
-  Pose looking{turn_between(from.rotation[1], direction) * from.rotation, *met};
+  // The slope is measured along a first estimate of the normal, because both the beam and the line of sight may run
+  // along the skin, and then along the normal.
+  Pose looking{turn_between(from.rotation[1], inward(*met).value_or(direction)) * from.rotation, *met};
   auto reached = contact(looking);
   if (!reached) return std::nullopt;
   looking = {turn_between(looking.rotation[1], reached->inward) * looking.rotation, reached->point};

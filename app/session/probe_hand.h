@@ -48,6 +48,7 @@ private:
     glm::dvec3 inward;  ///< the skin's normal there, unit
   };
   std::optional<glm::dvec3> skin(const glm::dvec3& from, const glm::dvec3& direction, double farthest_mm) const;
+  std::optional<glm::dvec3> inward(const glm::dvec3& point) const;
   std::optional<Contact> contact(const Pose& pose) const;
   /// Returns the pose that relates to the skin at `reached` as `from` relates to it at `old`.
   static Pose settle(const Pose& from, const Contact& old, const Contact& reached);

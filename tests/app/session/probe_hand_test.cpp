@@ -167,3 +167,17 @@ TEST_CASE("one key leads the probe all the way round the body, over both flanks 
   }
   CHECK(reached_deg >= 360);
 }
+
+TEST_CASE("a probe that is put faces the skin, also where the line of sight runs along it") {
+  const auto ct = cylinder();
+  const ProbeHand hand(ct);
+  for (const double to_skin_deg : {10.0, 20.0, 40.0}) {
+    CAPTURE(to_skin_deg);
+    const double angle = glm::radians(to_skin_deg);
+    const glm::dvec3 sight(0, std::sin(angle), std::cos(angle));  // from the feet
+    const auto put = hand.put(in_front(2), glm::dvec3(0, -kRadius_mm, 10) - 500.0 * sight, sight);
+    REQUIRE(put);
+    CHECK(pressed_mm(*put) == Approx(2).margin(1.0));
+    CHECK(off_normal_deg(*put) < 6);  // the staircase of 2 mm voxels, as above
+  }
+}
