@@ -68,7 +68,7 @@ private:
   PoseHistory history_;
   std::deque<ReceivedImage> waiting_;
   double newest_pose_s_ = -1e300, now_s_ = 0, first_s_ = -1, last_image_s_ = 0, last_placed_s_ = 0, last_pose_s_ = 0;
-  std::uint64_t unplaced_ = 0, seen_ = 0;
+  std::uint64_t unplaced_ = 0;
 };
 
 }  // namespace insonate::igtl

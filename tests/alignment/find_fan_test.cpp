@@ -64,8 +64,7 @@ TEST_CASE("an image that is full of echo is that of a linear probe") {
 }
 
 TEST_CASE("what is not a fan is refused, and so is one that no probe has") {
-  const glm::dvec2 mm(0.5);
-  const auto problem = [&](const Image<std::uint8_t>& mask, const glm::dvec2& size = glm::dvec2(0.5)) {
+  const auto problem = [](const Image<std::uint8_t>& mask, const glm::dvec2& size = glm::dvec2(0.5)) {
     const FanSearch search = find_fan(mask, size);
     CHECK_FALSE(search.fan);
     return search.problem;
