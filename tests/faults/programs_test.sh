@@ -55,6 +55,25 @@ printf '1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n' >"$work/pose.txt"
 add_view=("$bin/insonate-case" add-view "$work/made/tiny" --name more --targets ball --pose "$work/pose.txt")
 trainer=("$bin/insonate" --headless --scenario "$exam" --tracker "replay:$scan")
 
+# A dataset of two shards, begun without any, and a recording with images for a registration that searches hardly at all.
+cat >"$work/study.toml" <<'STUDY'
+format = 1
+name = "small"
+seed = 1
+images = 2
+shard_images = 1
+settings = { image_width = 128, image_height = 96, samples = 64 }
+case = [{ case = "made/tiny", licence = "CC0" }]
+probe = [{ name = "curvilinear", lines = 32 }]
+poses = [{ kind = "skin" }]
+STUDY
+dataset=("$bin/insonate-dataset") study=$work/study.toml
+"${dataset[@]}" plan "$study" "$work/set" >/dev/null
+"${trainer[@]}" --seconds 1 --record "$work/sweep.igs.mha" --record-images --out "$work/out" >/dev/null
+register=("$bin/insonate-register" --case "$work/made/tiny" --probe curvilinear --search-mm 0 --search-deg 0 --slices 2
+  "$work/sweep-images.igs.mha")
+rm -r "$work/out"
+
 # A small patient in the place of the built-in one, so that a cache is asked for it.
 cp -r "$INSONATE_ASSETS" "$work/assets"
 cat >"$work/assets/phantoms/abdomen.toml" <<'RECIPE'
@@ -83,12 +102,19 @@ for bytes in 0 100 3000; do
   says 2 "case.toml: it cannot be written" limited $((bytes / 10)) "${add_view[@]}"
   says 2 "lab.db" limited $bytes "${score[@]}" --results "$work/lab.db"
   says 2 "lab2.db" limited $bytes "${score[@]}" --results "$work/lab2.db"
-  rm -rf "$work/reports" "$work/lab2.db"*
+  says 2 "new/.*manifest.*: it cannot be written" limited $bytes "${dataset[@]}" plan "$study" "$work/new"
+  says 2 "set/shards/00000.h5: it cannot be written" limited $bytes "${dataset[@]}" make "$study" "$work/set"
+  says 2 "cannot be written" limited $bytes "${dataset[@]}" image "$study" 1 "$work/image"
+  says 2 "cannot be written" limited $bytes "${register[@]}" "$work/registration"
+  [ ! -e "$work/image" ] && [ ! -e "$work/registration" ] || fail "a part of a folder is there, at $bytes bytes"
+  rm -rf "$work/reports" "$work/lab2.db"* "$work/new"
   no_temporaries "$work"
   sum_of "$work" >"$work/now"
   diff "$work/before" "$work/now" || fail "something else is there than before, at $bytes bytes"
 done
 [ "$(attempts "$work/lab.db")" = 1 ] || fail "the attempt is lost"
+"${dataset[@]}" make "$study" "$work/set" >/dev/null
+"${dataset[@]}" check "$work/set" >"$work/log" || fail "the dataset is not finished by the next run: $(cat "$work/log")"
 says 2 "cannot be written" limited 3000 "${trainer[@]}" --out "$work/out"
 rm -rf "$work/out"
 
@@ -116,7 +142,8 @@ started=""
 echo "what is printed and does not arrive"
 to_full() { "$@" >/dev/full; }
 for command in "${score[*]}" "$bin/insonate-score attempts $work/lab.db" "$bin/insonate-case inspect $work/patient" \
-  "$bin/insonate-devices check $scan" "${score[0]} check $exam" "$bin/insonate --version" "$bin/insonate-case --help"; do
+  "$bin/insonate-devices check $scan" "${score[0]} check $exam" "$bin/insonate --version" "$bin/insonate-case --help" \
+  "${dataset[0]} status $work/set" "${register[*]} $work/registration"; do
   # shellcheck disable=SC2086
   says 2 "standard output: it cannot be written" to_full $command
 done
@@ -127,12 +154,16 @@ if mount -t tmpfs -o size=600k none "$disk" 2>/dev/null; then
   echo "a disk that is full"
   cp "$work/lab.db" "$disk/lab.db"
   "${phantom[@]}" "$disk/ball" >/dev/null 2>&1
+  "${dataset[@]}" plan "$study" "$disk/set" >/dev/null
   dd if=/dev/zero of="$disk/filler" bs=1k 2>/dev/null || true
   sum_of "$disk" >"$work/before"
   says 2 "No space left on device" "${score[@]}" --report "$disk/report.html"
   says 2 "lab.db: the disk is full" "${score[@]}" --results "$disk/lab.db"
   says 2 "cannot be written" "${phantom[@]}" "$disk/ball"
   says 2 "cannot be written" "${import[@]}" --out "$disk/patient"
+  says 2 "set/shards/00000.h5: it cannot be written" "${dataset[@]}" make "$study" "$disk/set"
+  says 2 "cannot be written" "${dataset[@]}" image "$study" 1 "$disk/image"
+  says 2 "cannot be written" "${register[@]}" "$disk/registration"
   says 2 "run.igs.mha" "${watch[@]}" --record "$disk/run.igs.mha"
   rm -f "$disk/run"*
   says 2 "cannot be written" "${trainer[@]}" --out "$disk/out"
@@ -147,11 +178,15 @@ if mount -t tmpfs -o size=600k none "$disk" 2>/dev/null; then
   XDG_CACHE_HOME=$disk/cache "${patient[@]}" --out "$work/out" >"$work/log" 2>&1 || fail "$(cat "$work/log")"
   [ -s "$work/out/score.json" ] || fail "there is no score"
   rm -r "$work/out" "$disk/filler"
+  "${dataset[@]}" make "$study" "$disk/set" >/dev/null
+  "${dataset[@]}" check "$disk/set" >"$work/log" || fail "the dataset is not finished by the next run: $(cat "$work/log")"
   mount -o remount,ro "$disk"
   XDG_CACHE_HOME=$disk/cache "${patient[@]}" --out "$work/out" >"$work/log" 2>&1 || fail "$(cat "$work/log")"
   says 2 "report.html: it cannot be written" "${score[@]}" --report "$disk/report.html"
   says 2 "the database cannot be opened for writing" "${score[@]}" --results "$disk/lab.db"
   says 2 "Read-only file system" "${watch[@]}" --record "$disk/run.igs.mha"
+  says 2 "Read-only file system" "${dataset[@]}" plan "$study" "$disk/new"
+  says 2 "Read-only file system" "${register[@]}" "$disk/registration"
   umount "$disk"
 else
   echo "mounts are not allowed here: no disk is filled"
@@ -169,6 +204,8 @@ says 2 "lab.db: the database cannot be opened for writing" "${plain[@]}" "${scor
 says 2 "new.db: the database cannot be opened for writing" "${plain[@]}" "${score[@]}" --results "$closed/new.db"
 says 2 "the folder cannot be made (Permission denied)" "${plain[@]}" "${phantom[@]}" "$closed/ball"
 says 2 "the folder cannot be made (Permission denied)" "${plain[@]}" "${import[@]}" --out "$closed/patient"
+says 2 "the folder cannot be made (Permission denied)" "${plain[@]}" "${dataset[@]}" plan "$study" "$closed/set"
+says 2 "the folder cannot be written (Permission denied)" "${plain[@]}" "${register[@]}" "$closed/registration"
 says 2 "it cannot be written (Permission denied)" "${plain[@]}" "${watch[@]}" --record "$closed/run.igs.mha"
 says 2 "it cannot be written (Permission denied)" "${plain[@]}" "${raw[@]}" --record-raw "$closed/run.raw"
 says 2 "the folder cannot be made (Permission denied)" "${plain[@]}" "${trainer[@]}" --out "$closed/out"
