@@ -227,8 +227,10 @@ TEST_CASE("From any side, plane and surface hide each other as their depths say"
   for (int round = 0; round < 50; ++round) {
     const OrbitCamera camera = random_camera(random);
     std::uniform_real_distribution<double> turn(-180, 180), aside(-30, 30);
-    const glm::dmat3 turned(
-        glm::rotate(glm::dmat4(1.0), glm::radians(turn(random)), glm::normalize(glm::dvec3(0.4, aside(random), 9))));
+    // One draw per line, because compilers evaluate the arguments of a call in different orders.
+    const glm::dvec3 axis(0.4, aside(random), 9);
+    const double angle = glm::radians(turn(random));
+    const glm::dmat3 turned(glm::rotate(glm::dmat4(1.0), angle, glm::normalize(axis)));
     scene.plane.patient_from_probe = {turned, turned * glm::dvec3(0, -55, aside(random))};
     view.forget();
     const Image<Rgba8> drawn = test::read(view.render(kWidth, kHeight, *scene.patient, camera, scene.plane, style));
