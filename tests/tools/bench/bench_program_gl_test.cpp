@@ -140,7 +140,8 @@ TEST_CASE("insonate-bench throughput: images of the device and of the processor,
     CHECK(table.cell(i, "method") == kMethods[i % 3]);
     CHECK(table.cell(i, "images_a_call") == "1");
     const double plain_ms = table.number("table.csv", i / 3 * 3 + 1, "median_ms");
-    // Times keep five digits behind the point, of at least a hundredth of a millisecond.
+    // Times keep five digits behind the point, of at least a hundredth of a millisecond. Speed-ups keep four,
+    // because the software renderer of a busy machine takes many times as long as the plain implementation.
     CHECK(table.number("table.csv", i, "speed_up_of_plain") * table.number("table.csv", i, "median_ms") ==
           Approx(plain_ms).epsilon(0.02).margin(0.001));
   }

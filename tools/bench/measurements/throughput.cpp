@@ -102,8 +102,8 @@ Table measure_throughput(const Request& request, const std::string& svg) {
                               std::to_string(request.frames), cell_of(ms[method].first_quartile, 5),
                               cell_of(ms[method].median, 5), cell_of(ms[method].third_quartile, 5),
                               cell_of(1000 / ms[method].median, 1), cell_of(mpixels_a_second(ms[method]), 2),
-                              cell_of(ms[1].median / ms[method].median, 2),
-                              cell_of(ms[2].median / ms[method].median, 2)});
+                              cell_of(ms[1].median / ms[method].median, 4),
+                              cell_of(ms[2].median / ms[method].median, 4)});
       }
     };
     for (const Configuration& c : configurations(request, kSingleImages))
