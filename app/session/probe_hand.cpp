@@ -59,12 +59,6 @@ std::optional<glm::dvec3> ProbeHand::skin(const glm::dvec3& from, const glm::dve
 std::optional<glm::dvec3> ProbeHand::inward(const glm::dvec3& point) const {
   constexpr int kSteps = 3;
   constexpr double kStep_mm = kSlope_mm / kSteps;
-  const auto in_ct = [&](const glm::dvec3& p) {
-    const glm::dvec3 index = ct_->grid.index_from_patient(p);
-    for (int axis = 0; axis < 3; ++axis)
-      if (index[axis] < 0 || index[axis] > ct_->grid.size[axis] - 1) return false;
-    return true;
-  };
   const auto body = [&](const glm::dvec3& p) { return distance_to_skin(*ct_, p, {0, 1, 0}, 0).has_value(); };
   glm::dvec3 sum(0);
   for (int k = -kSteps; k <= kSteps; ++k)
@@ -72,8 +66,7 @@ std::optional<glm::dvec3> ProbeHand::inward(const glm::dvec3& point) const {
       for (int i = -kSteps; i <= kSteps; ++i) {
         const glm::dvec3 aside = kStep_mm * glm::dvec3(i, j, k);
         if (glm::length(aside) > kSlope_mm) continue;
-        // Both sides or none: what is missing beyond the CT is not air.
-        if (in_ct(point + aside) && in_ct(point - aside) && body(point + aside) && !body(point - aside)) sum += aside;
+        if (body(point + aside) && !body(point - aside)) sum += aside;
       }
   const double length = glm::length(sum);
   if (length < kStep_mm) return std::nullopt;

@@ -35,7 +35,7 @@ inline double filter_sigma_mm(const Settings& settings) {
 int filter_radius_px(const Settings& settings, double mm_per_pixel);
 
 /// Returns v_0 for a mean of n looks (compounding.h), n >= 1. With waves it is the variance of the logarithm of a mean
-/// of n independent intensities, each exponentially distributed (Abramowitz and Stegun 6.4.1, 6.4.3):
+/// of n independent intensities, each exponentially distributed (psi_1(n) by Abramowitz and Stegun 6.4.2 and 6.4.3):
 ///
 ///     v_0 = (10 / ln 10)^2 psi_1(n) / dynamic_range_db^2,  psi_1(n) = pi^2 / 6 - sum_{k < n} 1 / k^2
 ///

@@ -56,6 +56,7 @@ TEST_CASE("the display filter's window follows the wavelength, and its speckle t
   CHECK(filter_sigma_mm(settings) == Approx(0.88));
   CHECK(filter_radius_px(settings, 0.4) == 5);
   CHECK(filter_radius_px(settings, 1e-6) == 639);
+  // 5.57 dB is rounded.
   CHECK(speckle_variance(settings, 1) == Approx(0.01).epsilon(1e-3));
   settings.waves = false;
   CHECK(speckle_variance(settings, 1) == Approx(0.0025).epsilon(1e-3));

@@ -171,11 +171,12 @@ TEST_CASE("one key leads the probe all the way round the body, over both flanks 
 TEST_CASE("a probe that is put faces the skin, also where the line of sight runs along it") {
   const auto ct = cylinder();
   const ProbeHand hand(ct);
+  const double z_mm = GENERATE(10.0, 58.5);  // far from the CT's end, and at it, where only one side has body
   for (const double to_skin_deg : {10.0, 20.0, 40.0}) {
-    CAPTURE(to_skin_deg);
+    CAPTURE(to_skin_deg, z_mm);
     const double angle = glm::radians(to_skin_deg);
     const glm::dvec3 sight(0, std::sin(angle), std::cos(angle));  // from the feet
-    const auto put = hand.put(in_front(2), glm::dvec3(0, -kRadius_mm, 10) - 500.0 * sight, sight);
+    const auto put = hand.put(in_front(2), glm::dvec3(0, -kRadius_mm, z_mm) - 500.0 * sight, sight);
     REQUIRE(put);
     CHECK(pressed_mm(*put) == Approx(2).margin(1.0));
     CHECK(off_normal_deg(*put) < 6);  // the staircase of 2 mm voxels, as above
