@@ -14,6 +14,7 @@
 #include "sim/core/digest.h"
 #include "sim/core/input_error.h"
 #include "sim/core/suggest.h"
+#include "sim/model/ct_noise.h"
 
 namespace insonate {
 namespace {
@@ -62,16 +63,8 @@ public:
   EchogenicityOf(const Volume<std::int16_t>& ct, const Volume<std::uint8_t>& labels,
                  const std::vector<std::string>& tissue_of, const TissueTable& table)
       : ct_(ct), labels_(labels), by_hu_(tabulate(table)), densest_air_(table.densest_air_hu()) {
-    for (int axis = 0; axis < 3; ++axis) {
+    for (int axis = 0; axis < 3; ++axis)
       reach_[axis] = std::max(1, int(std::lround(kEdgeRadius_mm / ct.grid.spacing[axis])));
-      neighbour_[axis] = std::max(1, int(std::lround(kNeighbour_mm / ct.grid.spacing[axis])));
-    }
-    const std::ptrdiff_t row = ct.grid.size.x, slice = row * ct.grid.size.y;
-    std::size_t n = 0;
-    for (int dz = -1; dz <= 1; ++dz)
-      for (int dy = -1; dy <= 1; ++dy)
-        for (int dx = -1; dx <= 1; ++dx)
-          around_[n++] = dx * neighbour_.x + dy * neighbour_.y * row + dz * neighbour_.z * slice;
     if (labels.empty()) return;
     means_ = mean_densities(ct, labels);
     for (std::size_t l = 1; l < tissue_of.size(); ++l) {
@@ -96,8 +89,7 @@ public:
       return centidecibel(
           std::clamp(tissue_db_[label] + texture_db(hu - means_[label]), kLeastEchogenicityDb, kMostEchogenicityDb));
     if (is_amid_air(i)) return centidecibel(kLeastEchogenicityDb);
-    const int density = local_density(i, v);
-    std::int16_t echo = std::int16_t(by_density(density) + centidecibel(texture_db(hu - density)));
+    std::int16_t echo = by_density(hu);
     std::ptrdiff_t stride = 1;
     for (int axis = 0; axis < 3; ++axis) {
       const int reach = reach_[axis];
@@ -125,47 +117,20 @@ private:
     return true;
   }
 
-  int local_density(const glm::ivec3& i, std::size_t v) const {
-    const int hu = ct_.voxels[v];
-    int sum = 0, count = 0;
-    const auto add = [&](int there) {
-      const bool alike = std::abs(there - hu) <= kAlikeHu;
-      sum += alike ? there : 0;
-      count += alike;
-    };
-    const glm::ivec3 last = ct_.grid.size - 1;
-    if (glm::all(glm::greaterThanEqual(i, neighbour_)) && glm::all(glm::lessThanEqual(i, last - neighbour_))) {
-      const std::int16_t* here = ct_.voxels.data() + v;
-      for (const std::ptrdiff_t step : around_) add(here[step]);
-    } else {
-      for (int dz = -1; dz <= 1; ++dz)
-        for (int dy = -1; dy <= 1; ++dy)
-          for (int dx = -1; dx <= 1; ++dx)
-            add(ct_.at(glm::clamp(i + neighbour_ * glm::ivec3(dx, dy, dz), glm::ivec3(0), last)));
-    }
-    return int(std::lround(double(sum) / count));  // never divides by 0: the voxel itself counts
-  }
-
   std::int16_t by_density(int hu) const { return by_hu_[std::size_t(hu + 32768)]; }
 
   const Volume<std::int16_t>& ct_;
   const Volume<std::uint8_t>& labels_;
   std::vector<std::int16_t> by_hu_;
   int densest_air_;
-  glm::ivec3 reach_{1}, neighbour_{1};
-  std::array<std::ptrdiff_t, 27> around_{};  ///< offsets from a voxel, not at the border, to its neighbours and itself
+  glm::ivec3 reach_{1};
   std::array<double, kLabels> means_{};
   std::array<double, kLabels> tissue_db_{};
   std::array<bool, kLabels> has_tissue_{};
 };
 
-}  // namespace
-
-AcousticVolume make_acoustic_volume(const Volume<std::int16_t>& ct, const Volume<std::uint8_t>& labels,
-                                    const std::vector<std::string>& tissue_of, const TissueTable& table) {
-  if (!labels.empty() && labels.grid.size != ct.grid.size)
-    throw std::invalid_argument("make_acoustic_volume: the labels are on another grid than the CT");
-  if (tissue_of.size() > kLabels) throw std::invalid_argument("make_acoustic_volume: more than 256 label values");
+AcousticVolume acoustic_volume_of(const Volume<std::int16_t>& ct, const Volume<std::uint8_t>& labels,
+                                  const std::vector<std::string>& tissue_of, const TissueTable& table) {
   const EchogenicityOf echogenicity(ct, labels, tissue_of, table);
   AcousticVolume acoustic;
   acoustic.grid = ct.grid;
@@ -180,6 +145,17 @@ AcousticVolume make_acoustic_volume(const Volume<std::int16_t>& ct, const Volume
         }
   });
   return acoustic;
+}
+
+}  // namespace
+
+AcousticVolume make_acoustic_volume(const Volume<std::int16_t>& ct, const Volume<std::uint8_t>& labels,
+                                    const std::vector<std::string>& tissue_of, const TissueTable& table) {
+  if (!labels.empty() && labels.grid.size != ct.grid.size)
+    throw std::invalid_argument("make_acoustic_volume: the labels are on another grid than the CT");
+  if (tissue_of.size() > kLabels) throw std::invalid_argument("make_acoustic_volume: more than 256 label values");
+  if (labels.empty()) return acoustic_volume_of(without_noise(ct, ct_noise_hu(ct)), labels, tissue_of, table);
+  return acoustic_volume_of(ct, labels, tissue_of, table);
 }
 
 std::string digest_of(const AcousticVolume& volume) {

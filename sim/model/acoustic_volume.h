@@ -25,15 +25,10 @@ inline constexpr double kTextureHu = 30;
 inline constexpr double kRimHu = 60;
 
 // A voxel counts as partial volume if two opposite neighbours at this distance enclose its density with a margin on
-// both sides. The distance spans half the blur of an edge in resampled thick slices. The margin is above the noise of
-// an abdominal CT (10 to 15 HU), so that noise in a cyst does not fill it with echoes.
+// both sides. The distance spans half the blur of an edge in resampled thick slices. The margin is above what is left
+// of the noise, so that noise in a cyst does not fill it with echoes.
 inline constexpr double kEdgeRadius_mm = 2;
 inline constexpr int kEdgeMarginHu = 20;
-
-// Without labels, a voxel's density is a mean over those neighbours that are as dense as it within the noise.
-// Unenhanced kidney (30 HU) and fluid (15 HU) differ by less than the noise of one voxel.
-inline constexpr double kNeighbour_mm = 3;
-inline constexpr int kAlikeHu = 36;  ///< three standard deviations of the noise
 
 // The range to which a labelled voxel is clamped: that of the tissue table.
 inline constexpr double kLeastEchogenicityDb = -60, kMostEchogenicityDb = 30;
@@ -46,24 +41,24 @@ inline constexpr double kSilentDb = kLeastEchogenicityDb + 0.005;
 /// for an unknown tissue, and std::invalid_argument for labels of another size or more than 256 label values.
 ///
 /// With a label, the echogenicity is that of the label's tissue, shifted by the voxel's own density relative to its
-/// label's mean. The shift preserves the texture of parenchyma. Without a label, the echogenicity follows the density
-/// of the voxel and of those neighbours that differ from it by no more than noise. There, a voxel on a steep gradient
-/// that passes through fluid's density is partial volume, not fluid, and takes the brighter of its neighbours. With
+/// label's mean. The shift preserves the texture of parenchyma. Without a label, the echogenicity follows the density.
+/// There, a voxel on a steep gradient that passes through fluid's density is partial volume, not fluid, and takes the
+/// brighter of its neighbours. Unenhanced kidney (30 HU) and fluid (15 HU) differ by less than the noise of one voxel,
+/// so a CT without labels is first freed of noise, without_noise(ct, ct_noise_hu(ct)) (ct_noise.h); its impedance
+/// follows from that too. With
 ///
 ///     g(x) = kTextureDbPerHu x clamp((kRimHu - |x|) / (kRimHu - kTextureHu), 0, 1)         dB of x HU
 ///     T(h) = the table's echogenicity at h Hounsfield units                                dB
 ///
-/// a voxel of H HU becomes, rounded to hundredths of a dB (without a label, T and g are rounded separately):
+/// a voxel of H HU becomes, rounded to hundredths of a dB:
 ///
 ///     with a label of a tissue t    t's echogenicity + g(H - the mean HU of all voxels of that label), clamped to
 ///                                   kLeastEchogenicityDb and kMostEchogenicityDb
-///     else                          T(D) + g(H - D), D the mean, rounded to whole HU, of those of the 27 voxels at -e,
-///                                   0, e along each axis that are within kAlikeHu of H; e is kNeighbour_mm in voxels,
-///                                   rounded, at least 1; at the border the grid's outermost voxels stand in
+///     else                          T(H)
 ///
 /// Without a label there are two exceptions. First, for each axis take the two voxels at -e and e, with e being
-/// kEdgeRadius_mm in voxels, rounded as above. If both lie in the grid, the lower lies kEdgeMarginHu or more below H,
-/// and the higher as much above H, the result is at least T of both. Second, if a voxel and its 26 neighbours are
+/// kEdgeRadius_mm in voxels, rounded, at least 1. If both lie in the grid, the lower lies kEdgeMarginHu or more below
+/// H, and the higher as much above H, the result is at least T of both. Second, if a voxel and its 26 neighbours are
 /// TissueTable::densest_air_hu() or less, the result is kLeastEchogenicityDb: no sound gets there, and the air around
 /// the body can be skipped.
 /// @param labels     on the CT's grid, or empty

@@ -9,6 +9,7 @@
 
 #include "sim/core/hash.h"
 #include "sim/core/input_error.h"
+#include "sim/model/ct_noise.h"
 
 using namespace insonate;
 
@@ -129,45 +130,54 @@ TEST_CASE("a label's tissue decides, and its voxels keep their texture") {
         Approx(shipped().at(5).echogenicity_db));
 }
 
-TEST_CASE("without labels a voxel's echogenicity is that of the voxels like it, plus its texture") {
+TEST_CASE("without labels density and echogenicity are those of the CT without noise") {
   // 0.5 dB per HU from -50 dB at 0 HU.
   const TissueTable table{{{-1000, 0.0004, 1, -60}, {0, 1.5, 0, -50}, {100, 1.6, 0, 0}}, {}};
-  // Neighbours are 2 voxels away, and their 27 include the voxel itself.
-  const auto with_one = [&](const glm::ivec3& place, int hu) {
-    auto ct = along_x({15, 15, 15}, 1.5, [](double) { return 60; });
-    ct.at(place) = std::int16_t(hu);
-    return make_acoustic_volume(ct, {}, {}, table);
-  };
-  const AcousticVolume raised = with_one({7, 7, 7}, 87);
-  CHECK(raised.at({7, 7, 7}).echogenicity_cdb == -1950 + 260);  // the mean is 61 HU
-  for (const glm::ivec3 step : {glm::ivec3(2, 0, 0), glm::ivec3(0, -2, 0), glm::ivec3(-2, 2, 2)})
-    CHECK(raised.at(glm::ivec3(7) + step).echogenicity_cdb == -1950 - 10);
-  for (const int apart : {1, 3}) CHECK(raised.at({7 + apart, 7, 7}).echogenicity_cdb == -2000);
-
-  CHECK(with_one({7, 7, 7}, 96).at({7, 7, 7}).echogenicity_cdb == -1950 + 292);  // 35 HU above: 5/6 of 3.5 dB
-  const AcousticVolume other_tissue = with_one({7, 7, 7}, 97);  // differs by more than noise from all others
-  CHECK(other_tissue.at({7, 7, 7}).echogenicity_cdb == -150);
-  CHECK(other_tissue.at({9, 7, 7}).echogenicity_cdb == -2000);
-  // Beyond the grid its outer voxels count again: 8 of 27 are the corner itself.
-  CHECK(with_one({0, 0, 0}, 87).at({0, 0, 0}).echogenicity_cdb == -1600 + 190);
+  const auto even_table = [&](int hu) { return std::clamp(hu, 0, 100) * 50 - 5000; };
+  auto ct = along_x({40, 40, 40}, 1, edge(20, 60, 4));
+  for (std::size_t v = 0; v < ct.voxels.size(); ++v)
+    ct.voxels[v] = std::int16_t(ct.voxels[v] + (unit_float(hash(std::uint32_t(v), 5)) - 0.5) * 60);
+  const Volume<std::int16_t> quiet = without_noise(ct, ct_noise_hu(ct));
+  const AcousticVolume volume = make_acoustic_volume(ct, {}, {}, table);
+  int partial = 0;
+  for (int z = 0; z < 40; ++z)
+    for (int y = 0; y < 40; ++y)
+      for (int x = 0; x < 40; ++x) {
+        const glm::ivec3 i(x, y, z);
+        const int hu = quiet.at(i);
+        int brightest = hu;
+        for (int axis = 0; axis < 3; ++axis) {  // 2 mm to either side
+          glm::ivec3 step(0);
+          step[axis] = 2;
+          if (!ct.grid.contains(i - step) || !ct.grid.contains(i + step)) continue;
+          const int before = quiet.at(i - step), behind = quiet.at(i + step);
+          if (std::min(before, behind) <= hu - kEdgeMarginHu && std::max(before, behind) >= hu + kEdgeMarginHu)
+            brightest = std::max({brightest, before, behind});
+        }
+        partial += brightest != hu;
+        if (volume.at(i).hu != hu || volume.at(i).echogenicity_cdb != even_table(brightest))
+          FAIL("voxel (" << x << ", " << y << ", " << z << ")");
+      }
+  CHECK(volume.at({5, 20, 20}).hu != ct.at({5, 20, 20}));
+  CHECK(partial == 0);  // this edge is not steep enough
 }
 
 TEST_CASE("a voxel between two that enclose its density by a margin takes the brighter one's echogenicity") {
-  const TissueTable table{{{-1000, 0.0004, 1, -60}, {0, 1.5, 0, -50}, {100, 1.6, 0, 0}}, {}};
-  // 40 HU within `half_width_mm` of x = 15 mm; the neighbours that count for the mean lie at 3 mm.
+  const TissueTable table{{{-1000, 0.0004, 1, -60}, {0, 1.5, 0, -50}, {200, 1.6, 0, 0}}, {}};
+  // 100 HU within `half_width_mm` of x = 15 mm, too far from what lies beside it to be taken for noise.
   const auto between = [&](double spacing_mm, double half_width_mm, int low, int high) {
     const auto ct = along_x({31, 9, 9}, spacing_mm, [&](double x) {
-      return std::abs(x - 15) < half_width_mm ? 40 : x < 15 ? low : high;
+      return std::abs(x - 15) < half_width_mm ? 100 : x < 15 ? low : high;
     });
     return make_acoustic_volume(ct, {}, {}, table).at({int(std::lround(15 / spacing_mm)), 4, 4}).echogenicity_cdb;
   };
-  CHECK(between(1.5, 1, 20, 60) == -2000);
-  CHECK(between(1.5, 1, 60, 20) == -2000);
-  CHECK(between(1.5, 1, 21, 60) == -3000);
-  CHECK(between(1.5, 1, 20, 59) == -3000);
-  CHECK(between(1.5, 2, 20, 60) == -3000);  // 2 mm are 1 voxel of 1.5 mm
-  CHECK(between(1.0, 2, 20, 60) == -2000);  // and 2 voxels of 1 mm
-  CHECK(between(1.0, 2.5, 20, 60) == -3000);
+  const int own = -2500, of_180 = -500;
+  CHECK(between(1.5, 1, 20, 180) == of_180);
+  CHECK(between(1.5, 1, 180, 20) == of_180);
+  CHECK(between(1.5, 1, 180, 180) == own);
+  CHECK(between(1.5, 2, 20, 180) == own);     // 2 mm are 1 voxel of 1.5 mm
+  CHECK(between(1.0, 2, 20, 180) == of_180);  // and 2 voxels of 1 mm
+  CHECK(between(1.0, 2.5, 20, 180) == own);
 }
 
 TEST_CASE("a label's texture fades out towards partial volume, within the range of echogenicities") {

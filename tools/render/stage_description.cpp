@@ -3,6 +3,7 @@
 #include "sim/core/hash.h"
 #include "sim/model/beam.h"
 #include "sim/model/compounding.h"
+#include "sim/model/ct_noise.h"
 #include "sim/model/display_filter.h"
 #include "sim/model/noise.h"
 #include "sim/model/refraction.h"
@@ -32,11 +33,18 @@ Json echogenicity_constants() {
           {"rim_hu", kRimHu},
           {"edge_reach_mm", kEdgeRadius_mm},
           {"edge_margin_hu", kEdgeMarginHu},
-          {"neighbour_mm", kNeighbour_mm},
-          {"alike_hu", kAlikeHu},
           {"most_air_hu", kMostAirHu},
           {"least_db", kLeastEchogenicityDb},
           {"most_db", kMostEchogenicityDb}};
+}
+
+Json ct_noise_constants() {
+  return {{"step_mm", kNoiseStep_mm},
+          {"usual_hu", kUsualNoiseHu},
+          {"least_tissue_ml", kLeastTissue_ml},
+          {"filtered_hu", kFilteredHu},
+          {"alike_in_guide", kAlikeInGuide},
+          {"alike_in_result", kAlikeInResult}};
 }
 
 Json scatterer_constants() {
@@ -122,6 +130,7 @@ Json describe(const RenderedScene& scene, const StageGeometry& geometry, const s
   for (std::size_t label = 0; label < scene.tissue_of.size(); ++label)
     if (!scene.tissue_of[label].empty()) text["tissue_of_label"][std::to_string(label)] = scene.tissue_of[label];
   text["echogenicity"] = echogenicity_constants();
+  text["ct_noise"] = ct_noise_constants();
   text["silent_db"] = kSilentDb;
   text["least_echo"] = kLeastEcho;
   text["scatterers"] = scatterer_constants();

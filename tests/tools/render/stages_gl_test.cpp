@@ -9,6 +9,7 @@
 
 #include "sim/core/hash.h"
 #include "sim/model/compounding.h"
+#include "sim/model/ct_noise.h"
 #include "sim/model/display_filter.h"
 #include "sim/model/noise.h"
 #include "sim/model/refraction.h"
@@ -145,8 +146,12 @@ void check_description(const nlohmann::json& text, const Insonated& scene) {
       {"/echogenicity/rim_hu", kRimHu},
       {"/echogenicity/edge_reach_mm", kEdgeRadius_mm},
       {"/echogenicity/edge_margin_hu", kEdgeMarginHu},
-      {"/echogenicity/neighbour_mm", kNeighbour_mm},
-      {"/echogenicity/alike_hu", kAlikeHu},
+      {"/ct_noise/step_mm", kNoiseStep_mm},
+      {"/ct_noise/usual_hu", kUsualNoiseHu},
+      {"/ct_noise/least_tissue_ml", kLeastTissue_ml},
+      {"/ct_noise/filtered_hu", kFilteredHu},
+      {"/ct_noise/alike_in_guide", kAlikeInGuide},
+      {"/ct_noise/alike_in_result", kAlikeInResult},
       {"/echogenicity/most_air_hu", kMostAirHu},
       {"/echogenicity/least_db", kLeastEchogenicityDb},
       {"/echogenicity/most_db", kMostEchogenicityDb},
