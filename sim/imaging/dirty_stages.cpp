@@ -21,7 +21,7 @@ Settings in_use(Settings settings) {
   if (settings.waves)
     forget(&S::reflection_sigma_mm, &S::transmission_sigma_mm);
   else
-    forget(&S::specular_exponent, &S::steering_angles, &S::steering_deg);
+    forget(&S::specular_exponent, &S::mirror_image, &S::steering_angles, &S::steering_deg);
   if (settings.steering_angles == 1) forget(&S::steering_deg);
   if (!settings.absorption && !settings.focused_beam && !has_elevation_focus(settings) &&
       settings.steering_angles == 1 && !is_filtered(settings))
@@ -81,8 +81,8 @@ DirtyStages dirty_stages(const Settings& before, const Settings& now) {
 
   if (differ(&S::samples, &S::reflection_length_mm, &S::frequency_mhz, &S::absorption, &S::gel_mm, &S::speckle,
              &S::speckle_seed, &S::speckle_cell_mm, &S::slice_planes, &S::slice_thickness_mm, &S::elevation_focus_mm,
-             &S::edge_shadow, &S::waves, &S::specular_exponent, &S::image_width, &S::image_height, &S::exact_filter,
-             &S::skipping, &S::steering_angles, &S::steering_deg) ||
+             &S::edge_shadow, &S::waves, &S::specular_exponent, &S::mirror_image, &S::image_width, &S::image_height,
+             &S::exact_filter, &S::skipping, &S::steering_angles, &S::steering_deg) ||
       (keeps_middle_plane(to) && !keeps_middle_plane(from)) ||
       // The scatterers' scale depends on the beam.
       (to.waves && differ(&S::blend, &S::two_way, &S::beam_window, &S::beam_lines, &S::focused_beam, &S::focus_mm,

@@ -67,6 +67,7 @@ LineStages::LineStages(const ShaderSources& sources, const WorkDivision& divisio
     : division_(division),
       traverse_(sources, {"imaging/traverse.comp"},
                 with(division, traversal({}, 1, division.lines_that_fill > 0, false))),
+      mirror_image_(sources, {"imaging/mirror_image.comp"}, with(division)),
       reverberation_(sources, {"imaging/reverberation.comp"}, with(division, reverberation_of({}))),
       beam_(sources, {"imaging/beam.comp"}, with(division, beam_of({}))),
       pulse_(sources, {"imaging/pulse.comp"}, pulse_of(1)),
@@ -164,6 +165,9 @@ void LineStages::traverse(const DeviceVolume& volume, std::span<const Pose> pati
   if (std::ranges::any_of(placed, meets_no_body)) walk(1, line_in_air(settings), air_line_buffer_, in_air_, uncounted_);
   in_air_.bind(2);
   walk(set_lines(), placed, line_buffer_, scan_, counters_);
+  if (!mirrors(settings)) return;
+  middle_.bind(0);
+  dispatch(mirror_image_, groups_of(set_lines()));
 }
 
 void LineStages::walk(std::size_t lines, const std::vector<PlacedLine>& placed, Buffer& line_buffer,
@@ -235,7 +239,8 @@ SampleCounts LineStages::sample_counts() const {
 }
 
 std::vector<Program*> LineStages::programs() {
-  return {&traverse_, &reverberation_, &beam_, &pulse_, &wave_beam_, &clutter_, &clutter_tail_, &scatterers_.program()};
+  return {&traverse_, &mirror_image_, &reverberation_,       &beam_, &pulse_, &wave_beam_,
+          &clutter_,  &clutter_tail_, &scatterers_.program()};
 }
 
 }  // namespace insonate::gl

@@ -86,7 +86,7 @@ private:
   void dispatch(const Program& program, std::size_t groups) const;
 
   WorkDivision division_;
-  Program traverse_, reverberation_, beam_, pulse_, wave_beam_, clutter_, clutter_tail_;
+  Program traverse_, mirror_image_, reverberation_, beam_, pulse_, wave_beam_, clutter_, clutter_tail_;
   ScattererStage scatterers_;
 
   ScanLines lines_;

@@ -169,7 +169,10 @@ bool has_time_gain(const Settings& settings) {
   return std::ranges::any_of(settings.tgc_db, [](double db) { return db != 0; });
 }
 bool keeps_middle_plane(const Settings& settings) {
-  return (settings.slice_planes > 1 || settings.waves) && reverberates(settings);
+  return mirrors(settings) || ((settings.slice_planes > 1 || settings.waves) && reverberates(settings));
+}
+bool mirrors(const Settings& settings) {
+  return settings.waves && settings.mirror_image > 0;
 }
 
 double least_alpha_with_normal(const Settings& settings) {
@@ -196,6 +199,7 @@ SimulationParameters parameters_of(const Settings& settings, const ScanLines& li
   p.reflection_exponent_px = float(reflection.exponent);
   p.transmission_exponent_px = float(transmission.exponent);
   p.face_reflection = float(settings.face_reflection);
+  p.mirror_amplitude = float(std::sqrt(settings.mirror_image));
   p.deflection_kept = float(std::exp(-dr / kDeflection_mm));
   p.deflection_per_step = float(dr / (settings.reflection_length_mm * kDeflection_rad));
   p.deflection_loss = float(dr / kDeflection_mm);

@@ -51,12 +51,14 @@ struct Gaussian {
   bool operator==(const Gaussian&) const = default;
 };
 
-/// True if the settings ask for reverberation (sim/model/reverberation.h), for noise or clutter (sim/model/noise.h),
-/// and for time gain other than 0.
+/// True if the settings ask for reverberation (sim/model/reverberation.h), for mirror images
+/// (sim/model/mirror_image.h), for noise or clutter (sim/model/noise.h), and for time gain other than 0.
 bool reverberates(const Settings& settings);
+bool mirrors(const Settings& settings);
 bool is_noisy(const Settings& settings);
 bool has_time_gain(const Settings& settings);
-/// True if the traversal must keep the slice's middle plane beside the sum of all planes: reverberation needs it.
+/// True if the traversal must keep the slice's middle plane beside the sum of all planes: reverberation and mirror
+/// images need it.
 bool keeps_middle_plane(const Settings& settings);
 
 /// Returns the alpha of (1) below which an interface's tilt is not computed, because its echo is not visible.

@@ -29,6 +29,7 @@ Settings paper_settings(double depth_mm, int samples) {
   settings.edge_shadow = false;
   settings.face_reflection = 0;
   settings.clutter = settings.electronic_noise = false;
+  settings.mirror_image = 0;
   settings.steering_angles = 1;
   settings.persistence = settings.edge_enhancement = settings.speckle_reduction = 0;
   settings.reference_level = ReferenceLevel::frame_maximum;
@@ -51,7 +52,8 @@ Settings trainer_settings(double frequency_mhz, double depth_mm) {
   settings.reverberation = settings.edge_shadow = settings.clutter = settings.electronic_noise = true;
   settings.face_reflection = 0.02;
   settings.waves = true;
-  settings.f_number = 3.5;  // between the transmit and the receive apertures that abdominal presets use, estimate
+  settings.f_number = 3.5;      // between the transmit and the receive apertures that abdominal presets use, estimate
+  settings.mirror_image = 0.1;  // by eye: an image is darker than what it shows, and dirty shadows are dark grey
   settings.specular_exponent = 6;  // by eye: side walls of vessels and cysts drop out, as they do on machines
   // Ten scatterers in a resolution cell, which is smallest at the focus (focused_beam_fwhm_mm()).
   const double lateral_mm = 0.886 * 1.54 / frequency_mhz * settings.f_number;

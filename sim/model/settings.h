@@ -66,6 +66,7 @@ struct Settings {
   /// Echoes add up as waves, see sim/model/waves.h; off in the paper's mode. The smoothing of (6) is then left out.
   bool waves = false;
   double specular_exponent = 1;  ///< with waves: m, how steeply an interface's echo falls with its tilt, 1 to 64
+  double mirror_image = 0;       ///< with waves: share of what gas mirrors that returns, see mirror_image.h, 0 to 1
 
   // Spatial compounding with waves, of pictures: see compounding.h
   int steering_angles = 1;  ///< directions that the lines are steered to, odd, 1 (none) to 9

@@ -36,6 +36,7 @@ const std::vector<Key<Settings>>& all_keys() {
       number("face_reflection", &S::face_reflection, 0, 1),
       flag("waves", &S::waves),
       number("specular_exponent", &S::specular_exponent, 1, 64),
+      number("mirror_image", &S::mirror_image, 0, 1),
       whole("steering_angles", &S::steering_angles, 1, 9, true),
       number("steering_deg", &S::steering_deg, 1, 20),
       flag("speckle", &S::speckle),

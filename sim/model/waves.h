@@ -23,8 +23,8 @@
 ///
 ///     n   = c sum_s a_s v(z_s) h(x_s)                                        over the scatterers s
 ///     e   = kMirrorShare sum_p g_p q_p I_p + n (sum_p g_p (kRoughShare q_p I_p + b^(1/2) A_p T_p^(1/2))^2)^(1/2)
-///     f   = e, convolved with the pulse along the line and with the beam across the lines
-///     U   = |f|^2 + V, with noise as in noise.h; 0 up to kLeastEcho
+///     f   = e and its mirror images (mirror_image.h), convolved with the pulse along the line and with the beam across
+///     the lines U   = |f|^2 + V, with noise as in noise.h; 0 up to kLeastEcho
 ///
 /// a_s is the scatterer's complex amplitude, v the slice's window at its distance z_s from the imaging plane, h linear
 /// weights of the two lines and the two samples nearest to it. c makes the mean of |f|^2 equal to b T A^2 in uniform

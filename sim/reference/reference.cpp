@@ -226,6 +226,7 @@ struct Slice {
   ReferenceScan scan;            // weighted sums over the planes
   Image<double> mirrors, rough;  // with waves: of q I, and of the square that n's factor is the root of
   Image<double> scattered, repeats;
+  Image<double> middle_intensity, middle_reflection;
 };
 
 /// Adds what a plane sends back, as waves (sim/model/waves.h).
@@ -245,7 +246,7 @@ void add_waves(Slice& slice, const ReferenceScan& one, double weight, const Sett
 Slice traverse_slice(const MediumField& field, const TissueTable& table, const ScanLines& lines,
                      const Settings& settings, const Pose& patient_from_probe, const StoredSpeckle* stored) {
   const Image<double> none(int(lines.lines.size()), lines.samples);
-  Slice slice{ReferenceScan{none, none, none, none, {}, {}}, none, none, none, none};
+  Slice slice{ReferenceScan{none, none, none, none, {}, {}}, none, none, none, none, {}, {}};
   const std::vector<SlicePlane> planes = slice_planes(settings);
   for (std::size_t p = 0; p < planes.size(); ++p) {
     const ReferenceScan one = traverse_reference(field, table, lines, settings, patient_from_probe, planes[p], stored);
@@ -257,7 +258,10 @@ Slice traverse_slice(const MediumField& field, const TissueTable& table, const S
         for (std::size_t i = 0; i < (one.*part).pixels.size(); ++i)
           (slice.scan.*part).pixels[i] += planes[p].weight * (one.*part).pixels[i];
     }
-    if (p == planes.size() / 2) slice.repeats = reverberation_reference(one.intensity, one.reflection, lines, settings);
+    if (p != planes.size() / 2) continue;
+    slice.repeats = reverberation_reference(one.intensity, one.reflection, lines, settings);
+    slice.middle_intensity = one.intensity;
+    slice.middle_reflection = one.reflection;
   }
   return slice;
 }
@@ -305,6 +309,8 @@ void sum_waves(Stages<double>& stages, const Slice& slice, const ScanLines& line
   Wave echo = scatterers_reference(lines, settings, patient_from_probe);
   for (std::size_t i = 0; i < echo.pixels.size(); ++i)
     echo.pixels[i] = kMirrorShare * slice.mirrors.pixels[i] + std::sqrt(slice.rough.pixels[i]) * echo.pixels[i];
+  if (settings.mirror_image > 0)
+    add_mirror_images(echo, slice.middle_intensity, slice.middle_reflection, lines, settings);
   const Wave wave = wave_reference(echo, lines, settings);
   stages.echo_re = part(echo, re);
   stages.echo_im = part(echo, im);

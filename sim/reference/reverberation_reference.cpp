@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "sim/model/mirror_image.h"
 #include "sim/model/reverberation.h"
 #include "sim/reference/reference.h"
 
@@ -20,33 +21,59 @@ double cubic_b_spline(double x) {
   return away < 1 ? 2.0 / 3 - away * away * (1 - away / 2) : std::pow(std::max(2 - away, 0.0), 3) / 6;
 }
 
+struct Reflector {
+  int sample;
+  double strength, place_mm;
+};
+
+/// What happens along a line.
+class Along {
+public:
+  Along(const Image<double>& intensity, const Image<double>& reflection, const ScanLines& lines,
+        const Settings& settings, int line)
+      : intensity_(intensity),
+        reflection_(reflection),
+        lines_(lines),
+        line_(line),
+        near_(std::max(int(std::ceil(settings.reflection_length_mm / lines.dr_mm() - 1e-3)), 1)) {}
+
+  double intensity(int k) const { return intensity_.at(line_, std::clamp(k, 0, lines_.samples - 1)); }
+  double before(int k) const { return intensity(k - near_ + 1); }
+  double behind(int k) const { return intensity(k + near_); }
+  double strength(int k) const {
+    const double arriving = intensity(k);
+    return arriving > kLeastReverberant ? std::min(reflection_.at(line_, k) / (arriving * arriving), 1.0) : 0;
+  }
+
+  /// Returns the place of the interface that a sample shows.
+  double place_mm(int k) const {
+    double sum = 0, moment = 0;
+    for (int j = std::max(k - near_ + 1, 0); j < std::min(k + near_, lines_.samples); ++j) {
+      sum += strength(j);
+      moment += strength(j) * (lines_.r_min_mm + (j + 0.5) * lines_.dr_mm());
+    }
+    return sum > 0 ? moment / sum : lines_.r_min_mm + (k + 0.5) * lines_.dr_mm();
+  }
+
+private:
+  const Image<double>& intensity_;
+  const Image<double>& reflection_;
+  const ScanLines& lines_;
+  int line_, near_;
+};
+
 }  // namespace
 
 Image<double> reverberation_reference(const Image<double>& intensity, const Image<double>& reflection,
                                       const ScanLines& lines, const Settings& settings) {
   const int d = lines.samples;
   const double dr = lines.dr_mm(), l = settings.reflection_length_mm;
-  const int near = std::max(int(std::ceil(l / dr - 1e-3)), 1);  // l in whole samples
-  struct Reflector {
-    int sample;
-    double strength, place_mm;
-  };
   Image<double> repeats(intensity.width, d);
   for (int line = 0; line < intensity.width; ++line) {
-    const auto i_at = [&](int k) { return intensity.at(line, std::clamp(k, 0, d - 1)); };
-    const auto strength = [&](int k) {
-      return i_at(k) > kLeastReverberant ? std::min(reflection.at(line, k) / (i_at(k) * i_at(k)), 1.0) : 0;
-    };
+    const Along along(intensity, reflection, lines, settings, line);
     std::vector<Reflector> reflectors;
-    for (int k = 0; k < d && reflectors.size() < std::size_t(kMostReflectors); ++k) {
-      if (strength(k) <= kLeastRound) continue;
-      double sum = 0, moment = 0;
-      for (int j = std::max(k - near + 1, 0); j < std::min(k + near, d); ++j) {
-        sum += strength(j);
-        moment += strength(j) * (lines.r_min_mm + (j + 0.5) * dr);
-      }
-      reflectors.push_back({k, strength(k), moment / sum});
-    }
+    for (int k = 0; k < d && reflectors.size() < std::size_t(kMostReflectors); ++k)
+      if (along.strength(k) > kLeastRound) reflectors.push_back({k, along.strength(k), along.place_mm(k)});
 
     const auto repeat = [&](const Reflector& deep, double echo, double apart_mm, double gain) {
       for (int n = 1; n <= kMostRepeats && apart_mm > 0; ++n) {
@@ -59,20 +86,57 @@ Image<double> reverberation_reference(const Image<double>& intensity, const Imag
     };
     for (std::size_t j = 0; j < reflectors.size(); ++j) {
       const Reflector& deep = reflectors[j];
-      const double echo = reflection.at(line, deep.sample), before = i_at(deep.sample - near + 1);
+      const double echo = reflection.at(line, deep.sample), before = along.before(deep.sample);
       repeat(deep, echo, deep.place_mm,
              settings.face_reflection * counted(deep.strength * before * before, kLeastFromFace));
       for (std::size_t i = 0; i < j && settings.reverberation; ++i) {
         const Reflector& shallow = reflectors[i];
         const double apart = deep.place_mm - shallow.place_mm;
         const double separate = std::clamp(2 * apart / l - 1, 0.0, 1.0);
-        const double behind = i_at(shallow.sample + near), between = behind > before ? before / behind : 1;
+        const double behind = along.behind(shallow.sample), between = behind > before ? before / behind : 1;
         repeat(deep, std::min(dr / l, 1.0) * echo, apart,
                counted(separate * shallow.strength * deep.strength * between * between, kLeastRound));
       }
     }
   }
   return repeats;
+}
+
+void add_mirror_images(Image<std::complex<double>>& echo, const Image<double>& intensity,
+                       const Image<double>& reflection, const ScanLines& lines, const Settings& settings) {
+  const double dr = lines.dr_mm(), l = settings.reflection_length_mm;
+  for (int line = 0; line < echo.width; ++line) {
+    const Along along(intensity, reflection, lines, settings, line);
+    const auto echo_at = [&](int k) { return k < 0 ? 0.0 : echo.at(line, k); };
+    const auto loss = [&](int k) {
+      const double arriving = along.intensity(k);
+      return arriving > kLeastReverberant ? 1 - std::pow(std::min(along.intensity(k + 1) / arriving, 1.0), l / dr) : 0;
+    };
+    std::vector<int> gas;
+    for (int k = 0; k < lines.samples && gas.size() < std::size_t(kMostMirrors); ++k) {
+      if (loss(k) <= kLeastMirror) continue;
+      if (!gas.empty() && along.before(k) < kLeastBehindFirst * along.before(gas.front())) break;
+      gas.push_back(k);
+    }
+    for (const int j : gas) {
+      const double place_mm = along.place_mm(j);
+      const double t = std::clamp((loss(j) - kLeastMirror) / (kFullMirror - kLeastMirror), 0.0, 1.0);
+      const double share = std::sqrt(settings.mirror_image) * std::min(dr / l, 1.0) * t * t * (3 - 2 * t);
+      for (int k = j + 1; k < lines.samples; ++k) {
+        const double r = 2 * place_mm - (lines.r_min_mm + (k + 0.5) * dr);  // where the echo comes from
+        const double source = (r - lines.r_min_mm) / dr - 0.5;
+        if (source < -1) break;
+        const double separate = std::clamp((place_mm - r) / l - 1, 0.0, 1.0);
+        if (separate == 0) continue;
+        const int low = int(std::floor(source));
+        const double f = source - low;
+        const double way =
+            std::min(along.before(j) / ((1 - f) * along.intensity(low) + f * along.intensity(low + 1)), 1.0);
+        echo.at(line, k) +=
+            share * separate * way * way * ((1 - f) * echo_at(low) + f * echo_at(low + 1)) / std::hypot(f, 1 - f);
+      }
+    }
+  }
 }
 
 }  // namespace insonate

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <complex>
+
 #include "sim/core/image.h"
 #include "sim/model/settings.h"
 #include "sim/probe/probe.h"
@@ -10,5 +12,9 @@ namespace insonate {
 /// sample.
 Image<double> reverberation_reference(const Image<double>& intensity, const Image<double>& reflection,
                                       const ScanLines& lines, const Settings& settings);
+
+/// Adds the images of sim/model/mirror_image.h to e of the scan lines, from I and R of the slice's middle plane.
+void add_mirror_images(Image<std::complex<double>>& echo, const Image<double>& intensity,
+                       const Image<double>& reflection, const ScanLines& lines, const Settings& settings);
 
 }  // namespace insonate

@@ -206,6 +206,7 @@ inline Scene random_scene_of_waves(std::uint32_t seed) {
   Draw draw(hash(seed, 0x3a7eu));
   scene.settings.waves = true;
   scene.settings.specular_exponent = draw.within(1, 64);
+  scene.settings.mirror_image = draw.chance(0.5) ? 0 : draw.within(0, 1);
   return scene;
 }
 

@@ -133,6 +133,15 @@ TEST_CASE("GLSL agrees with the reference: reverberation between a rib's faces, 
   check_parity_over_rib_and_gas(settings);
 }
 
+TEST_CASE("GLSL agrees with the reference: what gas and the face of a rib mirror") {
+  Settings settings = small(trainer_settings(3.5, 120));
+  settings.mirror_image = 1;
+  settings.slice_planes = GENERATE(1, 3);
+  settings.reverberation = settings.slice_planes == 3;
+  settings.gain_db = 20;
+  check_parity_over_rib_and_gas(settings);
+}
+
 TEST_CASE("GLSL agrees with the reference: a slice that is thinnest at its focus") {
   Settings settings = small(trainer_settings(3.5, 120));
   settings.slice_planes = 5;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <cstddef>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "sim/model/beam.h"
 #include "sim/model/waves.h"
 #include "sim/reference/reference.h"
+#include "sim/reference/reverberation_reference.h"
 
 /// How far the shaders' e and f of sim/model/waves.h may lie from the reference's. The shaders keep sums of scatterers
 /// in whole numbers of 16 bits (scatter.comp), so e has a random error, which adds up through pulse and beam as random
@@ -26,8 +28,10 @@ inline Image<double> rounding_of_waves(const MediumField& field, const TissueTab
   const double quanta = gl::scatterer_columns(pose, lines, settings).parameters.quanta;
   const double cell = std::pow(scatterer_pitch_mm(lines, settings), 3);
   Image<double> rough(deviation.width, deviation.height);
+  ReferenceScan middle;
   for (const SlicePlane& plane : slice_planes(settings)) {
     const ReferenceScan scan = traverse_reference(field, table, lines, settings, pose, plane);
+    if (plane.offset == 0) middle = scan;
     for (std::size_t i = 0; i < rough.pixels.size(); ++i) {
       const double intensity = scan.intensity.pixels[i];
       const double transmitted = settings.two_way ? intensity : std::sqrt(intensity);
@@ -44,6 +48,12 @@ inline Image<double> rounding_of_waves(const MediumField& field, const TissueTab
     const double of_sum = scale[std::size_t(k)] * std::sqrt(contributions / 12) / quanta;
     for (int line = 0; line < deviation.width; ++line) deviation.at(line, k) = of_sum * std::sqrt(rough.at(line, k));
   }
+  if (settings.mirror_image == 0) return deviation;
+  // Images have the errors of what they show.
+  Image<std::complex<double>> with_images(deviation.width, deviation.height);
+  std::ranges::copy(deviation.pixels, with_images.pixels.begin());
+  add_mirror_images(with_images, middle.intensity, middle.reflection, lines, settings);
+  std::ranges::transform(with_images.pixels, deviation.pixels.begin(), [](const auto& e) { return std::abs(e); });
   return deviation;
 }
 

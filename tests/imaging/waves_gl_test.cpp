@@ -48,6 +48,7 @@ TEST_CASE("waves run the stages that a change reaches, and never smooth") {
   CHECK(after([&] { s.f_number = 5; }) == "0124");  // the scatterers' scale depends on the beam
   CHECK(after([&] { s.blend *= 2; }) == "0124");
   CHECK(after([&] { s.specular_exponent = 3; }) == "0124");
+  CHECK(after([&] { s.mirror_image = 0.5; }) == "0124");
   CHECK(after([&] { s.two_way = false; }) == "0124");
   CHECK(after([&] { s.speckle_seed = 9; }) == "0124");
   CHECK(after([&] { s.face_reflection = 0.1; }) == "124");
@@ -74,7 +75,9 @@ TEST_CASE("a picture of waves after a change is the picture that a new simulator
       [](Settings& s) { s.reflection_length_mm = 1.7; },
       [](Settings& s) { s.samples = 90; },
       [](Settings& s) { s.reverberation = false, s.face_reflection = 0; },
-      [](Settings& s) { s.reverberation = true; },
+      [](Settings& s) { s.mirror_image = 1; },  // keeps the middle plane, which nothing else needs now
+      [](Settings& s) { s.mirror_image = 0; },
+      [](Settings& s) { s.reverberation = true, s.mirror_image = 0.3; },
       [](Settings& s) { s.clutter = s.electronic_noise = false; },
       [](Settings& s) { s.electronic_noise = true, s.noise_db = -70; },
       [](Settings& s) { s.clutter = true, s.clutter_db = -10; },

@@ -116,7 +116,7 @@ TEST_CASE("each effect beyond the paper is off in the paper's own mode and on in
     CHECK_FALSE(paper.*effect);
     CHECK(trainer.*effect);
   }
-  for (const auto amount : {&S::gel_mm, &S::face_reflection}) {
+  for (const auto amount : {&S::gel_mm, &S::face_reflection, &S::mirror_image}) {
     CHECK(paper.*amount == 0);
     CHECK(trainer.*amount > 0);
   }

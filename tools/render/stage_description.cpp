@@ -5,6 +5,7 @@
 #include "sim/model/compounding.h"
 #include "sim/model/ct_noise.h"
 #include "sim/model/display_filter.h"
+#include "sim/model/mirror_image.h"
 #include "sim/model/noise.h"
 #include "sim/model/refraction.h"
 #include "sim/model/reverberation.h"
@@ -28,23 +29,14 @@ Json json(const glm::dvec3& v) {
 }
 
 Json echogenicity_constants() {
-  return {{"texture_db_per_hu", kTextureDbPerHu},
-          {"texture_hu", kTextureHu},
-          {"rim_hu", kRimHu},
-          {"edge_reach_mm", kEdgeRadius_mm},
-          {"edge_margin_hu", kEdgeMarginHu},
-          {"most_air_hu", kMostAirHu},
-          {"least_db", kLeastEchogenicityDb},
-          {"most_db", kMostEchogenicityDb}};
+  return {{"texture_db_per_hu", kTextureDbPerHu}, {"texture_hu", kTextureHu},        {"rim_hu", kRimHu},
+          {"edge_reach_mm", kEdgeRadius_mm},      {"edge_margin_hu", kEdgeMarginHu}, {"most_air_hu", kMostAirHu},
+          {"least_db", kLeastEchogenicityDb},     {"most_db", kMostEchogenicityDb}};
 }
 
 Json ct_noise_constants() {
-  return {{"step_mm", kNoiseStep_mm},
-          {"usual_hu", kUsualNoiseHu},
-          {"least_tissue_ml", kLeastTissue_ml},
-          {"filtered_hu", kFilteredHu},
-          {"alike_in_guide", kAlikeInGuide},
-          {"alike_in_result", kAlikeInResult}};
+  return {{"step_mm", kNoiseStep_mm},   {"usual_hu", kUsualNoiseHu},       {"least_tissue_ml", kLeastTissue_ml},
+          {"filtered_hu", kFilteredHu}, {"alike_in_guide", kAlikeInGuide}, {"alike_in_result", kAlikeInResult}};
 }
 
 Json scatterer_constants() {
@@ -149,6 +141,10 @@ Json describe(const RenderedScene& scene, const StageGeometry& geometry, const s
                            {"least_reverberant", kLeastReverberant},
                            {"most_repeats", kMostRepeats},
                            {"most_reflectors", kMostReflectors}};
+  text["mirror_image"] = {{"least_mirror", kLeastMirror},
+                          {"full_mirror", kFullMirror},
+                          {"least_behind_first", kLeastBehindFirst},
+                          {"most_mirrors", kMostMirrors}};
   text["refraction"] = {{"log_speed_below_water", kLogSpeedBelowWater},
                         {"log_speed_above_water", kLogSpeedAboveWater},
                         {"least_hu", kLeastRefractingHu},

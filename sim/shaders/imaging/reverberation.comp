@@ -10,29 +10,10 @@ layout(local_size_x = GROUP) in;
 
 #include "shared/simulation_parameters.h"
 #include "shared/least_echo.glsl"
-#include "shared/model_constants.h"
+#include "shared/reflectors.glsl"
 #include "shared/rows.glsl"
 
-layout(binding = 0) uniform samplerBuffer scan;                   // one row per line: I, R of the slice's middle plane
 layout(std430, binding = 0) buffer Repeats { float repeats[]; };  // one row per line: V, 0 before
-
-int row;  // index of the line's first sample
-float intensity(int k) { return texelFetch(scan, row + clamp(k, 0, samples - 1)).x; }
-
-// Returns A and R of a sample.
-vec2 reflected(int k) {
-  vec2 value = texelFetch(scan, row + k).xy;
-  return value.x > kLeastReverberant ? vec2(min(value.y / (value.x * value.x), 1.0), value.y) : vec2(0.0);
-}
-
-// A compensated (Kahan) sum. A repeat lies as far away as c does and is as steep as its spline, so an error of c shows.
-struct Sum { float value, excess; };
-Sum added(Sum sum, float term) {
-  precise float less = term - sum.excess;
-  precise float value = sum.value + less;
-  precise float excess = (value - sum.value) - less;
-  return Sum(value, excess);
-}
 
 // Adds `echo` at a position between two samples: the cubic B-spline shares it among the nearest four.
 void add(float position, float echo) {
@@ -74,19 +55,12 @@ void main() {
     if (reflected(k).x > kLeastRound) at[count++] = k;
 
   float length_in_samples = 2.0 * half_reflection_length;
-  int near = max(int(ceil(length_in_samples - 1e-3)), 1);  // l in whole samples, rounded up
   float share = min(reflection_exponent, 1.0);
   float strength[kMostReflectors], place[kMostReflectors], behind[kMostReflectors];
   for (int j = 0; j < count; ++j) {
     int k = at[j];
     vec2 here = reflected(k);
-    Sum sum = Sum(0.0, 0.0), moment = sum;
-    for (int other = max(k - near + 1, 0); other <= min(k + near - 1, samples - 1); ++other) {
-      float weight = reflected(other).x;
-      sum = added(sum, weight);
-      moment = added(moment, weight * float(other - k));
-    }
-    float c = float(k) + moment.value / sum.value, before = intensity(k - near + 1);
+    float c = place_of_interface(k), before = intensity(k - reach() + 1);
 #if AT_FACE == 1
     float of_face = face_reflection * counted(here.x * before * before, kLeastFromFace);
     if (of_face > 0.0) repeat(k, here.y, c + 0.5 + r_min_mm / dr_mm, of_face);
@@ -105,7 +79,7 @@ void main() {
     }
     strength[j] = here.x;
     place[j] = c;
-    behind[j] = max(intensity(k + near), 1e-30);
+    behind[j] = max(intensity(k + reach()), 1e-30);
 #endif
   }
 }

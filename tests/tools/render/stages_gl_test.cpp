@@ -11,6 +11,7 @@
 #include "sim/model/compounding.h"
 #include "sim/model/ct_noise.h"
 #include "sim/model/display_filter.h"
+#include "sim/model/mirror_image.h"
 #include "sim/model/noise.h"
 #include "sim/model/refraction.h"
 #include "sim/model/reverberation.h"
@@ -171,6 +172,10 @@ void check_description(const nlohmann::json& text, const Insonated& scene) {
       {"/reverberation/least_reverberant", kLeastReverberant},
       {"/reverberation/most_repeats", kMostRepeats},
       {"/reverberation/most_reflectors", kMostReflectors},
+      {"/mirror_image/least_mirror", kLeastMirror},
+      {"/mirror_image/full_mirror", kFullMirror},
+      {"/mirror_image/least_behind_first", kLeastBehindFirst},
+      {"/mirror_image/most_mirrors", kMostMirrors},
       {"/refraction/log_speed_below_water", kLogSpeedBelowWater},
       {"/refraction/log_speed_above_water", kLogSpeedAboveWater},
       {"/refraction/least_hu", kLeastRefractingHu},

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "sim/shaders/shared/model_constants.h"
+
+namespace insonate {
+
+/// Mirror images, with Settings::waves: gas reflects all sound that arrives. The reflected sound meets the tissue
+/// before the gas a second time, from behind, and the echoes return over the gas. They arrive late and show behind the
+/// gas what lies before it, as a mirror does: liver behind the diaphragm, and grey haze instead of black behind bowel
+/// gas, which is called a dirty shadow (Feldman, Katyal, Blackwood, Radiographics 29, 2009: mirror images; Sommer and
+/// Taylor, Radiology 135, 1980: shadows of gas).
+///
+/// The images are computed on each line, as if the sound came back along it. That holds for gas which is met squarely.
+/// Tilted gas shows what lies beside the line instead, which is taken to be like that on the line. I is that of the
+/// slice's middle plane, l the reflection length, and c the interface's place as for reverberation (reverberation.h),
+/// or the sample's own where it reflects nothing. A sample loses the share
+///
+///     A(r) = 1 - (I(r + dr) / I(r))^(l/dr),      0 where I is up to kLeastReverberant
+///
+/// If that is gas, sample j adds to e (waves.h) at each r behind it
+///
+///     m^(1/2) (dr/l) s(A_j) w T^2 e(2 c_j - r),      T = I(j - l + dr) / I(2 c_j - r), at most 1,  m = mirror_image
+///
+/// - The image has travelled the way between the gas and what scatters four times more than the echo itself.
+/// - s rises smoothly, t^2 (3 - 2 t), from 0 at A = kLeastMirror to 1 at kFullMirror: gas is above, bone below.
+/// - w rises from 0 to 1 while c_j - (2 c_j - r) rises from l to 2 l, because nearer samples belong to the surface.
+/// - Between samples e is linear, divided by the root of the sum of the squares of its two weights, so that images are
+///   equally bright wherever they fall. I is linear. e is 0 before the first sample.
+/// - m is what a surface returns that is neither smooth nor wider than the beam.
+///
+/// Samples count in their order: at most kMostMirrors of those above kLeastMirror, and only while I(j - l + dr) is
+/// kLeastBehindFirst or more of what it is for the first. e then contains its images, so that later gas on a line
+/// would mirror them too.
+
+}  // namespace insonate
