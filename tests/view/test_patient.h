@@ -52,7 +52,9 @@ struct Scene {
 
   Scene(const Volume<std::int16_t>& ct, const Volume<std::uint8_t>& labels, const view::OrganColours& colours) {
     const TissueTable table{{{-1000, 0.0004, 0, 0}, {1000, 7.8, 0, 0}}, {}};
-    simulator.set_volume(make_acoustic_volume(ct, {}, {}, table), table);
+    AcousticVolume volume{ct.grid, {}};  // of the CT as it is, which make_acoustic_volume() frees of noise
+    for (const std::int16_t hu : ct.voxels) volume.voxels.push_back({hu, 0});
+    simulator.set_volume(volume, table);
     patient = std::make_unique<view::PatientTextures>(simulator.volume_texture(), ct, labels, colours);
   }
 

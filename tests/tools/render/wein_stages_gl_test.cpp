@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "sim/model/acoustic_volume.h"
 #include "sim/registration/wein_settings_file.h"
 #include "sim/volume/ct_reader.h"
 #include "tests/registration/wein_parity.h"
@@ -23,8 +24,10 @@ TEST_CASE("model W: each file of the stages has its form, and holds the stage of
                   "bright_hu = 120\nreflection_share = 0.4\nimage_width = 90\nimage_height = 70\n"
                   "exact_filter = true\n"};
   const Volume<std::int16_t> ct = synthetic_ct();
-  AcousticVolume volume{ct.grid, {}};  // model W has no use for echogenicity
-  for (const std::int16_t hu : ct.voxels) volume.voxels.push_back({hu, 0});
+  const AcousticVolume volume =
+      make_acoustic_volume(ct, {}, {}, read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml"));
+  Volume<std::int16_t> without_noise{ct.grid, {}};
+  for (const AcousticVoxel& voxel : volume.voxels) without_noise.voxels.push_back(voxel.hu);
   const TemporaryFolder folder;
   write_ct(folder.path / "ct.nrrd", ct);
   const StageFolder stages = export_stages(folder, "--ct " + (folder.path / "ct.nrrd").string(), view,
@@ -46,7 +49,7 @@ TEST_CASE("model W: each file of the stages has its form, and holds the stage of
   CHECK(stages.description.at("air_mu") == kAirMu);
   CHECK(stages.description.at("contact_tissue_hu") == kCouplingTissueHu);
   CHECK(stages.description.at("contact_air_hu") == kCouplingAirHu);
-  CHECK((stages.files.at("volume").volume<std::int16_t>().voxels == ct.voxels));
+  CHECK((stages.files.at("volume").volume<std::int16_t>().voxels == without_noise.voxels));
 
   const ReferenceWeinStages reference =
       reference_wein_stages(wein_field(volume, settings.reflection_length_mm), *find_probe(view.probe), view.depth_mm,
