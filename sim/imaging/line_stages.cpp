@@ -15,6 +15,10 @@
 namespace insonate::gl {
 namespace {
 
+// So many samples of a line are an invocation's (mirror_image.comp): fewer would find the line's gas more often, more
+// could take a software renderer beyond the steps that it grants to all loops of an invocation, 65536.
+constexpr int kMirrorPart = 256;
+
 // Adds what all stages are compiled for to the defines of one.
 Defines with(const WorkDivision& division, Defines defines = {}) {
   defines.emplace_back("GROUP", std::to_string(division.group));
@@ -67,7 +71,7 @@ LineStages::LineStages(const ShaderSources& sources, const WorkDivision& divisio
     : division_(division),
       traverse_(sources, {"imaging/traverse.comp"},
                 with(division, traversal({}, 1, division.lines_that_fill > 0, false))),
-      mirror_image_(sources, {"imaging/mirror_image.comp"}, with(division)),
+      mirror_image_(sources, {"imaging/mirror_image.comp"}, with(division, {{"PART", std::to_string(kMirrorPart)}})),
       reverberation_(sources, {"imaging/reverberation.comp"}, with(division, reverberation_of({}))),
       beam_(sources, {"imaging/beam.comp"}, with(division, beam_of({}))),
       pulse_(sources, {"imaging/pulse.comp"}, pulse_of(1)),
@@ -167,7 +171,8 @@ void LineStages::traverse(const DeviceVolume& volume, std::span<const Pose> pati
   walk(set_lines(), placed, line_buffer_, scan_, counters_);
   if (!mirrors(settings)) return;
   middle_.bind(0);
-  dispatch(mirror_image_, groups_of(set_lines()));
+  const int parts = (lines_.samples + kMirrorPart - 1) / kMirrorPart;
+  dispatch(mirror_image_, groups_of(set_lines() * std::size_t(parts)));
 }
 
 void LineStages::walk(std::size_t lines, const std::vector<PlacedLine>& placed, Buffer& line_buffer,

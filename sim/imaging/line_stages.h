@@ -82,7 +82,7 @@ private:
   std::size_t most_samples() const;
   void walk(std::size_t lines, const std::vector<PlacedLine>& placed, Buffer& line_buffer, const TexelBuffer& scan,
             const Buffer& counters);
-  std::size_t groups_of(std::size_t lines) const;  // where one invocation takes one line
+  std::size_t groups_of(std::size_t lines) const;  // where one invocation takes one line, or part of one
   void dispatch(const Program& program, std::size_t groups) const;
 
   WorkDivision division_;

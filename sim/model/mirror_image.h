@@ -12,24 +12,26 @@ namespace insonate {
 ///
 /// The images are computed on each line, as if the sound came back along it. That holds for gas which is met squarely.
 /// Tilted gas shows what lies beside the line instead, which is taken to be like that on the line. I is that of the
-/// slice's middle plane, l the reflection length, and c the interface's place as for reverberation (reverberation.h),
-/// or the sample's own where it reflects nothing. A sample loses the share
+/// slice's middle plane, l the reflection length, and c the interface's place as for reverberation (reverberation.h), but
+/// with kOwnPlace more for the sample itself, so that it is the sample's own within gas, which reflects hardly anything.
+/// A sample loses the share
 ///
 ///     A(r) = 1 - (I(r + dr) / I(r))^(l/dr),      0 where I is up to kLeastReverberant
 ///
 /// If that is gas, sample j adds to e (waves.h) at each r behind it
 ///
-///     m^(1/2) (dr/l) s(A_j) w T^2 e(2 c_j - r),      T = I(j - l + dr) / I(2 c_j - r), at most 1,  m = mirror_image
+///     m^(1/2) min(n dr/l, 1) s(A_j) w T^2 e(2 c_j - r),   T = I(j - l + dr) / I(2 c_j - r), at most 1,  m = mirror_image
 ///
 /// - The image has travelled the way between the gas and what scatters four times more than the echo itself.
+/// - Every n-th sample counts, from the first on, with n = l / (4 dr) rounded down, at least 1.
 /// - s rises smoothly, t^2 (3 - 2 t), from 0 at A = kLeastMirror to 1 at kFullMirror: gas is above, bone below.
 /// - w rises from 0 to 1 while c_j - (2 c_j - r) rises from l to 2 l, because nearer samples belong to the surface.
 /// - Between samples e is linear, divided by the root of the sum of the squares of its two weights, so that images are
-///   equally bright wherever they fall. I is linear. e is 0 before the first sample.
+///   equally bright wherever they fall. I is linear. e is 0 before the first sample, and from the line's first sample
+///   with s > 0 on: what lies within gas or behind it has no image.
 /// - m is what a surface returns that is neither smooth nor wider than the beam.
 ///
-/// Samples count in their order: at most kMostMirrors of those above kLeastMirror, and only while I(j - l + dr) is
-/// kLeastBehindFirst or more of what it is for the first. e then contains its images, so that later gas on a line
-/// would mirror them too.
+/// Samples count in their order, until the sum of min(n dr/l, 1) s is kMostMirrored; the last one counts in part.
+/// Hardly any sound gets farther into gas.
 
 }  // namespace insonate

@@ -45,9 +45,9 @@ public:
     return arriving > kLeastReverberant ? std::min(reflection_.at(line_, k) / (arriving * arriving), 1.0) : 0;
   }
 
-  /// Returns the place of the interface that a sample shows.
-  double place_mm(int k) const {
-    double sum = 0, moment = 0;
+  /// Returns the place of the interface that a sample shows; its own counts `own` besides.
+  double place_mm(int k, double own = 0) const {
+    double sum = own, moment = own * (lines_.r_min_mm + (k + 0.5) * lines_.dr_mm());
     for (int j = std::max(k - near_ + 1, 0); j < std::min(k + near_, lines_.samples); ++j) {
       sum += strength(j);
       moment += strength(j) * (lines_.r_min_mm + (j + 0.5) * lines_.dr_mm());
@@ -105,23 +105,23 @@ Image<double> reverberation_reference(const Image<double>& intensity, const Imag
 void add_mirror_images(Image<std::complex<double>>& echo, const Image<double>& intensity,
                        const Image<double>& reflection, const ScanLines& lines, const Settings& settings) {
   const double dr = lines.dr_mm(), l = settings.reflection_length_mm;
+  const int n = std::max(int(l / (4 * dr) + 1e-3), 1);  // every n-th sample counts
   for (int line = 0; line < echo.width; ++line) {
     const Along along(intensity, reflection, lines, settings, line);
-    const auto echo_at = [&](int k) { return k < 0 ? 0.0 : echo.at(line, k); };
+    int gas = lines.samples;  // the line's first sample in gas
+    const auto echo_at = [&](int k) { return k < 0 || k >= gas ? 0.0 : echo.at(line, k); };
     const auto loss = [&](int k) {
       const double arriving = along.intensity(k);
       return arriving > kLeastReverberant ? 1 - std::pow(std::min(along.intensity(k + 1) / arriving, 1.0), l / dr) : 0;
     };
-    std::vector<int> gas;
-    for (int k = 0; k < lines.samples && gas.size() < std::size_t(kMostMirrors); ++k) {
-      if (loss(k) <= kLeastMirror) continue;
-      if (!gas.empty() && along.before(k) < kLeastBehindFirst * along.before(gas.front())) break;
-      gas.push_back(k);
-    }
-    for (const int j : gas) {
-      const double place_mm = along.place_mm(j);
+    double left = kMostMirrored;
+    for (int j = 0; j < lines.samples && left > 0; j += n) {
       const double t = std::clamp((loss(j) - kLeastMirror) / (kFullMirror - kLeastMirror), 0.0, 1.0);
-      const double share = std::sqrt(settings.mirror_image) * std::min(dr / l, 1.0) * t * t * (3 - 2 * t);
+      const double counted = std::min(std::min(n * dr / l, 1.0) * t * t * (3 - 2 * t), left);
+      if (counted == 0) continue;
+      gas = std::min(gas, j);
+      left -= counted;
+      const double place_mm = along.place_mm(j, kOwnPlace), share = std::sqrt(settings.mirror_image) * counted;
       for (int k = j + 1; k < lines.samples; ++k) {
         const double r = 2 * place_mm - (lines.r_min_mm + (k + 0.5) * dr);  // where the echo comes from
         const double source = (r - lines.r_min_mm) / dr - 0.5;

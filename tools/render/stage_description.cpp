@@ -143,8 +143,8 @@ Json describe(const RenderedScene& scene, const StageGeometry& geometry, const s
                            {"most_reflectors", kMostReflectors}};
   text["mirror_image"] = {{"least_mirror", kLeastMirror},
                           {"full_mirror", kFullMirror},
-                          {"least_behind_first", kLeastBehindFirst},
-                          {"most_mirrors", kMostMirrors}};
+                          {"most_mirrored", kMostMirrored},
+                          {"own_place", kOwnPlace}};
   text["refraction"] = {{"log_speed_below_water", kLogSpeedBelowWater},
                         {"log_speed_above_water", kLogSpeedAboveWater},
                         {"least_hu", kLeastRefractingHu},

@@ -60,7 +60,7 @@ void main() {
   for (int j = 0; j < count; ++j) {
     int k = at[j];
     vec2 here = reflected(k);
-    float c = place_of_interface(k), before = intensity(k - reach() + 1);
+    float c = place_of_interface(k, 0.0), before = intensity(k - reach() + 1);
 #if AT_FACE == 1
     float of_face = face_reflection * counted(here.x * before * before, kLeastFromFace);
     if (of_face > 0.0) repeat(k, here.y, c + 0.5 + r_min_mm / dr_mm, of_face);

@@ -26,9 +26,9 @@ vec2 reflected(int k) {
   return value.x > kLeastReverberant ? vec2(min(value.y / (value.x * value.x), 1.0), value.y) : vec2(0.0);
 }
 
-// Returns c of the interface that sample k shows, in samples.
-float place_of_interface(int k) {
-  Sum sum = Sum(0.0, 0.0), moment = sum;
+// Returns c of the interface that sample k shows, in samples; its own place counts `own` besides.
+float place_of_interface(int k, float own) {
+  Sum sum = Sum(own, 0.0), moment = Sum(0.0, 0.0);
   for (int other = max(k - reach() + 1, 0); other <= min(k + reach() - 1, samples - 1); ++other) {
     float weight = reflected(other).x;
     sum = added(sum, weight);
