@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <memory>
 #include <vector>
 
-#include "app/session/probe_hand.h"
+#include "app/session/session.h"
+#include "devices/mouse/mouse_tracker.h"
 #include "sim/model/skin_contact.h"
 #include "sim/view/body/line_of_sight.h"
 #include "tests/phantom/abdomen.h"
@@ -20,9 +21,17 @@ namespace {
 
 constexpr int kWidth = 440, kHeight = 400;  // the 3D view's pixels in a window of 1280 x 800
 
+std::shared_ptr<const LoadedCase> loaded_case() {
+  static const std::shared_ptr<const LoadedCase> once = [] {
+    auto made = std::make_shared<LoadedCase>();
+    made->subject = abdomen();
+    return made;
+  }();
+  return once;
+}
+
 const Volume<std::int16_t>& patient() {
-  static const Case subject = abdomen();
-  return subject.ct;
+  return loaded_case()->subject.ct;
 }
 
 /// The z of the middles of the first and last slice, mm.
@@ -61,21 +70,34 @@ double off_skin_mm(const Pose& pose) {
   return glm::distance(face, skin_at(angle_deg, std::clamp(face.z, ends().feet + 3, ends().head - 3)));
 }
 
-/// Moves the pointer in steps, as a hand does, and puts the probe at each as the 3D view does. Returns the steps at
-/// which it stayed.
-int drag(const ProbeHand& hand, const view::OrbitCamera& camera, Pose& pose, const glm::dvec2& from,
-         const glm::dvec2& to) {
-  constexpr int kSteps = 8;
-  int stayed = 0;
-  for (int step = 1; step <= kSteps; ++step) {
-    const glm::dvec2 pointer = from + (to - from) * (double(step) / kSteps);
-    const view::LineOfSight line = view::line_of_sight(camera, pointer, kWidth, kHeight);
-    const std::optional<Pose> put = hand.put(pose, line.eye, line.direction);
-    if (put) pose = *put;
-    stayed += !put;
+/// A learner's hand at a pose, in a window that draws 10 times a second: 6 samples of the mouse per frame.
+class Hand {
+public:
+  explicit Hand(const Pose& start) : session_(loaded_case(), [&] { return std::make_unique<MouseTracker>(start); }) {
+    session_.advance(now_s_);
   }
-  return stayed;
-}
+
+  const Pose& pose() const { return session_.newest_pose().value(); }
+
+  /// Moves the pointer in steps, and the probe at each step as the 3D view does. Returns the steps at which it stayed.
+  int drag(const view::OrbitCamera& camera, const glm::dvec2& from, const glm::dvec2& to) {
+    constexpr int kSteps = 8;
+    int stayed = 0;
+    for (int step = 1; step <= kSteps; ++step) {
+      const glm::dvec2 pointer = from + (to - from) * (double(step) / kSteps);
+      const view::LineOfSight line = view::line_of_sight(camera, pointer, kWidth, kHeight);
+      session_.move_probe(
+          [&](const ProbeHand& hand, const Pose& pose) { return hand.put(pose, line.eye, line.direction); });
+      stayed += session_.stopped_at_edge();
+      session_.advance(now_s_ += 0.1);
+    }
+    return stayed;
+  }
+
+private:
+  Session session_;
+  double now_s_ = 0;
+};
 
 /// The cameras of a person who wants to see an end of the CT: beside it, above it and below it.
 std::vector<view::OrbitCamera> cameras() {
@@ -107,22 +129,21 @@ TEST_CASE("a probe that is dragged to skin near the ends of the CT keeps its ang
         for (const bool head : {false, true}) {
           CAPTURE(camera.yaw_deg, camera.pitch_deg, end_mm, angle_deg, head);
           const Pose start = on_belly(hand, tilt_deg);
-          Pose pose = start;
+          Hand learner(start);
           const double z = head ? ends().head - end_mm : ends().feet + end_mm;
           const glm::dvec2 from = camera.project(start.translation, kWidth, kHeight),
                            to = camera.project(skin_at(angle_deg, z), kWidth, kHeight);
-          drag(hand, camera, pose, from, to);
+          learner.drag(camera, from, to);
           // The skin's slope is measured over 36 mm, which is up to 8 degrees off on the flanks.
-          CHECK(off_normal_deg(pose) < tilt_deg + 10);
+          CHECK(off_normal_deg(learner.pose()) < tilt_deg + 10);
           // A tilted face is lifted at its middle, and 4 mm voxels make a staircase.
-          CHECK(off_skin_mm(pose) < 4);
-          drag(hand, camera, pose, to, from);
-          // Where the pointer was on the skin at the start, the probe is as it was.
+          CHECK(off_skin_mm(learner.pose()) < 4);
+          learner.drag(camera, to, from);
+          CHECK(off_normal_deg(learner.pose()) < tilt_deg + 10);
+          // Where the pointer was on the skin at the start, the probe is there again.
           const view::LineOfSight line = view::line_of_sight(camera, from, kWidth, kHeight);
           if (!hand.put(start, line.eye, line.direction)) continue;
-          CHECK(off_normal_deg(pose) < tilt_deg + 10);
-          const glm::dvec2 back = camera.project(pose.translation, kWidth, kHeight);
-          CHECK(glm::distance(back, from) < 3);
+          CHECK(glm::distance(camera.project(learner.pose().translation, kWidth, kHeight), from) < 3);
         }
 }
 
@@ -136,11 +157,11 @@ TEST_CASE("a probe stops where the CT ends, also where it cuts through the lungs
       CAPTURE(x, y);
       const glm::dvec3 cut(x, y, ends().head);
       through_lungs += !distance_to_skin(patient(), cut, {0, 1, 0}, 0).has_value();
-      Pose pose = on_belly(hand, 0);
-      const Pose before = pose;
+      Hand learner(on_belly(hand, 0));
+      const Pose before = learner.pose();
       const glm::dvec2 pointer = camera.project(cut, kWidth, kHeight);
-      CHECK(drag(hand, camera, pose, pointer, pointer) == 8);
-      CHECK(pose == before);
+      CHECK(learner.drag(camera, pointer, pointer) == 8);
+      CHECK(learner.pose() == before);
     }
   CHECK(through_lungs > 50);
 }
