@@ -347,12 +347,12 @@ void Screen::draw_time_runs_on(const Session& session) {
                 colour::kBackground, text.data(), text.data() + text.size());
 }
 
-/// In the 3D view, above its buttons, so that the ultrasound stays free. If it is hidden, in the view that is large, or
-/// at the bottom of a page.
+/// In the 3D view, above its buttons and axes, so that the ultrasound stays free. If it is hidden, in the view that is
+/// large, or at the bottom of a page.
 Rect Screen::toast_place() const {
   const Rect space = place(View::space);
   const Rect around = space.h > 0 ? space : views_.empty() ? screen_ : views_.begin()->second;
-  return {around.x, around.y, around.w, around.h - theme_.px(space.h > 0 ? 40 : 56)};
+  return {around.x, around.y, around.w, around.h - theme_.px(space.h > 0 ? 76 : 56)};
 }
 
 /// A page that the person reads is not covered: the toast waits, unless that page is the swept volume's.
