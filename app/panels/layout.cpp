@@ -20,11 +20,16 @@ std::pair<Rect, Rect> rows(Rect area, float gap) {
   return {upper, {area.x, area.y + area.h - upper.h, area.w, upper.h}};
 }
 
-/// The ultrasound comes first. The other views get a third of the width, and at most what makes them square. On a wide
-/// screen the height limits a fan, which is at most 1.5 times as wide as high: they get the width that it leaves.
+/// The widest fan, a curved one of usual depth or a sector, is so many times as wide as high.
+constexpr float kFan = 1.45f;
+
+/// The ultrasound comes first. The other views get a third of the width, and at most what makes them square. Where the
+/// height limits the fan, they get the width that it leaves. The CT's panes are not higher than a fan that fills their
+/// width. In a flat area they lie beside the 3D view, not below.
 Places standard(Rect area, float gap, const LayoutRules& rules) {
-  float others = std::min(area.w * 0.35f, area.h * (rules.charts ? 1.0f : 0.82f));
-  if (!rules.charts) others = std::max(others, std::min(area.w * 0.45f, area.w - gap - area.h * 1.5f));
+  float others = std::min(area.w * 0.35f, area.h * (rules.recorded ? 1.0f : 0.82f));
+  if (!rules.recorded)
+    others = std::max(others, std::min(area.w * (rules.charts ? 0.6f : 0.45f), area.w - gap - area.h * kFan));
   Rect side = area.take_right(std::round(others));
   area.take_right(gap);
   Places places{{View::ultrasound, area}};
@@ -32,7 +37,14 @@ Places standard(Rect area, float gap, const LayoutRules& rules) {
     places[View::space] = side;
     return places;
   }
-  places[View::space] = side.take_top(std::round(side.h * 0.58f));
+  constexpr float kFlat = 1.6f;
+  if (side.w > kFlat * side.h && !rules.joined) {
+    const auto [upper, lower] = rows(side.take_right(std::round(std::min(0.4f * side.w, kFan * side.h / 2))), gap);
+    side.take_right(gap);
+    return {{View::ultrasound, area}, {View::space, side}, {View::slice, upper}, {View::blend, lower}};
+  }
+  const float panes = std::min(side.h * 0.42f, (side.w - gap) / 2 / kFan + gap);
+  places[View::space] = side.take_top(std::round(side.h - panes));
   side.take_top(gap);
   std::tie(places[View::slice], places[View::blend]) = columns(side, gap);
   return places;

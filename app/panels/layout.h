@@ -32,7 +32,8 @@ struct Layout {
 struct LayoutRules {
   bool anatomy = true;    ///< without it the ultrasound and the 3D view alone may be seen
   bool recorded = false;  ///< a recording's image is there to be shown
-  bool charts = false;    ///< charts below take height, so that a wide screen has no width to spare
+  bool charts = false;    ///< charts below take height, so that the ultrasound needs less width
+  bool joined = false;    ///< slice and blend lie side by side, so that one panel can take the place of both
 };
 
 /// Returns where each view lies. A view that is not in the result is hidden.

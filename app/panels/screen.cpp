@@ -79,7 +79,7 @@ void Screen::lay_out(const Trainer& trainer, float width, float height) {
   const bool recorded = trainer.replay() && trainer.replay()->run().images;
   const bool shows_look = shows_look_ && may_look(trainer);
   views_ = ui::lay_out({shows_look ? LayoutName::standard : trainer.preferences().look.layout, large_}, rest, gap,
-                       {anatomy, recorded, trainer.replay() != nullptr});
+                       {anatomy, recorded, trainer.replay() != nullptr, shows_look});
   look_ = {};
   if (shows_look && !large_) {  // in place of the CT's views
     const Rect slice = place(View::slice), blend = place(View::blend);
@@ -347,21 +347,20 @@ void Screen::draw_time_runs_on(const Session& session) {
                 colour::kBackground, text.data(), text.data() + text.size());
 }
 
-/// Above the words at the bottom of the ultrasound, or of the screen where there is none.
+/// In the 3D view, above its buttons and axes, so that the ultrasound stays free. If it is hidden, in the view that is
+/// large, or at the bottom of a page.
 Rect Screen::toast_place() const {
-  const Rect ultrasound = place(View::ultrasound);
-  const Rect around = ultrasound.h > 0 ? ultrasound : screen_;
-  return {around.x, around.y, around.w, around.h - theme_.px(56)};
+  const Rect space = place(View::space);
+  const Rect around = space.h > 0 ? space : views_.empty() ? screen_ : views_.begin()->second;
+  return {around.x, around.y, around.w, around.h - theme_.px(space.h > 0 ? 76 : 56)};
 }
 
-/// A page that the person reads is not covered: the toast waits, unless that page is the swept volume's. While a clip
-/// is made it does not cover the ultrasound.
+/// A page that the person reads is not covered: the toast waits, unless that page is the swept volume's.
 void Screen::draw_toast(const Trainer& trainer) {
   const bool reads = top_page() != Overlay::none && top_page() != Overlay::volume;
   if (reads && overlay(trainer) == top_page()) return toast_.wait();
-  const Rect space = place(View::space);
-  toast_is_aside_ = trainer.clip().running() && space.w > 0;
-  const std::filesystem::path file = toast_.draw(theme_, toast_is_aside_ ? space : toast_place(), places_);
+  toast_is_aside_ = place(View::space).w > 0;
+  const std::filesystem::path file = toast_.draw(theme_, toast_place(), places_);
   if (!file.empty()) open_on_desktop(file.parent_path());
 }
 

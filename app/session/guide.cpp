@@ -9,6 +9,35 @@
 #include "scenarios/guidance.h"
 
 namespace insonate {
+namespace {
+
+/// Returns the arrow keys of a slide: the one of its larger part, and a second one if that part is at least half as
+/// large.
+std::string arrows(const glm::dvec2& around_and_up_mm) {
+  const auto& [around, up] = std::pair{around_and_up_mm.x, around_and_up_mm.y};
+  const std::string across = around > 0 ? "\u2192" : "\u2190", along = up > 0 ? "\u2191" : "\u2193";
+  const bool both = std::min(std::abs(around), std::abs(up)) >= std::max(std::abs(around), std::abs(up)) / 2;
+  if (std::abs(around) > std::abs(up)) return both ? across + " " + along : across;
+  return both ? along + " " + across : along;
+}
+
+/// Returns the keys of each part that in_words() mentions, as Keyboard moves the probe.
+std::vector<std::string> keys_of(const GuidingMove& move, const Pose& pose) {
+  std::vector<std::string> keys;
+  if (glm::length(move.slide_mm) > kGuidedSlide_mm) {
+    const auto along_face = [&](const glm::dvec2& key) {
+      const glm::dvec2 mm = ProbeHand::slide_in_patient(pose, key);
+      return glm::dot(move.slide_mm, pose.rotation * glm::dvec3(mm.x, 0, mm.y));
+    };
+    keys.push_back(arrows({along_face({1, 0}), along_face({0, 1})}));
+  }
+  if (std::abs(move.rotation_deg) > kGuidedTurn_deg) keys.emplace_back(move.rotation_deg > 0 ? "E" : "Q");
+  if (std::abs(move.tilt_deg) > kGuidedTurn_deg) keys.emplace_back(move.tilt_deg > 0 ? "D" : "A");
+  if (std::abs(move.rock_deg) > kGuidedTurn_deg) keys.emplace_back(move.rock_deg > 0 ? "W" : "S");
+  return keys;
+}
+
+}  // namespace
 
 const ReferenceView* Guide::find_view(const LoadedCase& loaded_case, const std::string& name) const {
   const auto made = std::find_if(made_.begin(), made_.end(), [&](const ReferenceView& v) { return v.name == name; });
@@ -63,7 +92,9 @@ std::optional<Guiding> Guide::now(const Session& session) const {
   if (!view || !pose) return std::nullopt;
   Guiding guiding;
   guiding.view = view;
-  guiding.advice = in_words(move_to(*pose, view->patient_from_probe), *pose);
+  const GuidingMove move = move_to(*pose, view->patient_from_probe);
+  guiding.advice = in_words(move, *pose);
+  if (session.holder() == Holder::learner) guiding.keys = keys_of(move, *pose);
   const glm::dvec3 middle(0, view->depth_mm / 2, 0), normal = view->patient_from_probe.rotation[2];
   guiding.plane_distance_mm = std::abs(glm::dot(pose->point(middle) - view->patient_from_probe.point(middle), normal));
   const double cosine = glm::dot(pose->rotation[2], normal);

@@ -1,6 +1,7 @@
 #include "app/session/probe_hand.h"
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -36,36 +37,54 @@ glm::dmat3 orthonormal(const glm::dmat3& m) {
   return glm::mat3_cast(glm::normalize(glm::quat_cast(m)));
 }
 
-}  // namespace
-
-/// Returns where a line meets the skin. Empty if it starts inside the body, because something else blocks it then, or
-/// meets a cut face of the CT.
-std::optional<glm::dvec3> ProbeHand::skin(const glm::dvec3& from, const glm::dvec3& direction,
-                                          double farthest_mm) const {
-  const auto distance = distance_to_skin(*ct_, from, direction, farthest_mm);
-  if (!distance || *distance <= 0) return std::nullopt;
-  const glm::dvec3 met = from + *distance * direction;
-  const Grid& grid = ct_->grid;
-  int along = 2;  // the axis of the grid that runs from feet to head
+/// Returns the grid's axis that runs from feet to head.
+int long_axis(const Grid& grid) {
+  int along = 2;
   for (int axis = 0; axis < 3; ++axis)
     if (std::abs(grid.direction[axis].z) > std::abs(grid.direction[along].z)) along = axis;
-  const double slice = grid.index_from_patient(met)[along];
-  if (slice < kCut_slices || slice > grid.size[along] - 1 - kCut_slices) return std::nullopt;
-  return met;
+  return along;
 }
 
-/// Returns the skin's normal at a point of it, unit, by where there is body around the point. It depends on no line of
-/// sight, which may run along the skin. Empty if there is as much body on every side.
-std::optional<glm::dvec3> ProbeHand::inward(const glm::dvec3& point) const {
+/// A place along the long axis.
+struct Slice {
+  double number;  ///< whole numbers are the slices' middles
+  double last;    ///< the last slice's number
+  bool in_ct() const { return number >= 0 && number <= last; }
+};
+Slice slice_of(const Volume<std::int16_t>& ct, const glm::dvec3& point) {
+  const int along = long_axis(ct.grid);
+  return {ct.grid.index_from_patient(point)[along], double(ct.grid.size[along] - 1)};
+}
+
+/// Returns whether there is body in every direction across the long axis: the point lies in the body or in air inside
+/// it, such as a lung's.
+bool encloses(const Volume<std::int16_t>& ct, const glm::dvec3& point) {
+  constexpr int kDirections = 16;
+  constexpr double kWidest_mm = 600;
+  const glm::dmat3& axes = ct.grid.direction;
+  const int along = long_axis(ct.grid);
+  for (int i = 0; i < kDirections; ++i) {
+    const double angle = glm::two_pi<double>() * i / kDirections;
+    const glm::dvec3 across = std::cos(angle) * axes[(along + 1) % 3] + std::sin(angle) * axes[(along + 2) % 3];
+    if (!distance_to_skin(ct, point, across, kWidest_mm)) return false;
+  }
+  return true;
+}
+
+/// Returns roughly the direction from a point of the skin into the body, unit, by where there is body around the point.
+/// Beyond the CT nothing is known, so directions that lead there do not count. Empty if there is as much body on every
+/// side.
+std::optional<glm::dvec3> towards_body(const Volume<std::int16_t>& ct, const glm::dvec3& point) {
   constexpr int kSteps = 3;
   constexpr double kStep_mm = kSlope_mm / kSteps;
-  const auto body = [&](const glm::dvec3& p) { return distance_to_skin(*ct_, p, {0, 1, 0}, 0).has_value(); };
+  const auto in_ct = [&](const glm::dvec3& p) { return slice_of(ct, p).in_ct(); };
+  const auto body = [&](const glm::dvec3& p) { return distance_to_skin(ct, p, {0, 1, 0}, 0).has_value(); };
   glm::dvec3 sum(0);
   for (int k = -kSteps; k <= kSteps; ++k)
     for (int j = -kSteps; j <= kSteps; ++j)
       for (int i = -kSteps; i <= kSteps; ++i) {
         const glm::dvec3 aside = kStep_mm * glm::dvec3(i, j, k);
-        if (glm::length(aside) > kSlope_mm) continue;
+        if (glm::length(aside) > kSlope_mm || !in_ct(point + aside) || !in_ct(point - aside)) continue;
         if (body(point + aside) && !body(point - aside)) sum += aside;
       }
   const double length = glm::length(sum);
@@ -73,21 +92,49 @@ std::optional<glm::dvec3> ProbeHand::inward(const glm::dvec3& point) const {
   return sum / length;
 }
 
+}  // namespace
+
+/// Returns where a line meets the skin. Empty if it starts inside the body, because something else blocks it then, or
+/// comes through a cut face of the CT, also where the cut goes through a lung.
+std::optional<glm::dvec3> ProbeHand::skin(const glm::dvec3& from, const glm::dvec3& direction,
+                                          double farthest_mm) const {
+  const auto distance = distance_to_skin(*ct_, from, direction, farthest_mm);
+  if (!distance || *distance <= 0) return std::nullopt;
+  const glm::dvec3 met = from + *distance * direction;
+  const Slice end = slice_of(*ct_, met), start = slice_of(*ct_, from);
+  if (end.number < kCut_slices || end.number > end.last - kCut_slices) return std::nullopt;
+  const double cut = start.number < 0 ? 0 : start.last;
+  const double way = (cut - start.number) / (end.number - start.number);
+  if (!start.in_ct() && encloses(*ct_, glm::mix(from, met, way))) return std::nullopt;
+  return met;
+}
+
+/// Returns the skin's normal at a point of it, unit. It depends on the point alone, so that a probe that is moved to
+/// and fro keeps its angle. Empty if it cannot be found.
+std::optional<glm::dvec3> ProbeHand::inward(const glm::dvec3& point) const {
+  constexpr int kRounds = 2;  // the first one measures along a rough direction
+  std::optional<glm::dvec3> normal = towards_body(*ct_, point);
+  for (int round = 0; normal && round < kRounds; ++round) {
+    const glm::dmat3& axes = ct_->grid.direction;
+    const int along = long_axis(ct_->grid);
+    const glm::dvec3 axis = axes[std::abs(glm::dot(*normal, axes[along])) < 0.9 ? along : (along + 1) % 3];
+    const glm::dvec3 x = kSlope_mm * glm::normalize(glm::cross(*normal, axis)), z = glm::cross(x, *normal);
+    // Beyond an outline the line goes on to other skin, which does not belong to this slope.
+    const auto beside = [&](const glm::dvec3& aside) {
+      const auto met = skin(point + aside - kBehind_mm * *normal, *normal, kSearch_mm);
+      return met && std::abs(glm::dot(*met - point, *normal)) < kSteepest_mm ? *met : point;
+    };
+    const glm::dvec3 across = glm::cross(beside(z) - beside(-z), beside(x) - beside(-x));
+    const double length = glm::length(across);
+    if (length > 1e-6) normal = across / length;
+  }
+  return normal;
+}
+
 std::optional<ProbeHand::Contact> ProbeHand::contact(const Pose& pose) const {
-  const glm::dvec3 beam = pose.rotation[1];
-  const auto below = [&](double x, double z) { return skin(pose.point({x, -kBehind_mm, z}), beam, kSearch_mm); };
-  const auto middle = below(0, 0);
-  if (!middle) return std::nullopt;
-  // Beyond an outline the line goes on to other skin, which does not belong to this slope.
-  const auto beside = [&](double x, double z) {
-    const auto met = below(x, z);
-    return met && std::abs(glm::dot(*met - *middle, beam)) < kSteepest_mm ? *met : *middle;
-  };
-  const glm::dvec3 along_x = beside(kSlope_mm, 0) - beside(-kSlope_mm, 0);
-  const glm::dvec3 along_z = beside(0, kSlope_mm) - beside(0, -kSlope_mm);
-  const glm::dvec3 normal = glm::cross(along_z, along_x);
-  const double length = glm::length(normal);
-  return Contact{*middle, length > 1e-6 ? normal / length : beam};
+  const auto point = skin(pose.point({0, -kBehind_mm, 0}), pose.rotation[1], kSearch_mm);
+  if (!point) return std::nullopt;
+  return Contact{*point, inward(*point).value_or(pose.rotation[1])};
 }
 
 Pose ProbeHand::settle(const Pose& from, const Contact& old, const Contact& reached) {
@@ -138,17 +185,12 @@ std::optional<Pose> ProbeHand::put(const Pose& from, const glm::dvec3& eye, cons
   constexpr double kSight_mm = 3000;
   const auto met = skin(eye, direction, kSight_mm);
   if (!met) return std::nullopt;
-  // The slope is measured along a first estimate of the normal, because both the beam and the line of sight may run
-  // along the skin, and then along the normal.
-  Pose looking{turn_between(from.rotation[1], inward(*met).value_or(direction)) * from.rotation, *met};
-  auto reached = contact(looking);
-  if (!reached) return std::nullopt;
-  looking = {turn_between(looking.rotation[1], reached->inward) * looking.rotation, reached->point};
-  if (const auto closer = contact(looking)) reached = closer;
+  const glm::dvec3 normal = inward(*met).value_or(direction);
   const auto old = contact(from);
-  if (!old || glm::dot(old->inward, from.rotation[1]) < kLeastFacing) return Pose{looking.rotation, reached->point};
-  Pose to = settle(from, *old, *reached);
-  const double pressed = glm::dot(to.translation - reached->point, to.rotation[1]);
+  if (!old || glm::dot(old->inward, from.rotation[1]) < kLeastFacing)
+    return Pose{orthonormal(turn_between(from.rotation[1], normal) * from.rotation), *met};
+  Pose to = settle(from, *old, {*met, normal});
+  const double pressed = glm::dot(to.translation - *met, to.rotation[1]);
   to.translation += std::max(-pressed, 0.0) * to.rotation[1];  // a lifted probe is put onto the skin
   return to;
 }

@@ -103,7 +103,7 @@ std::vector<LandmarkPair> SetupWizard::landmarks() const {
 
 std::vector<SetupWizard::Row> SetupWizard::rows() const {
   static constexpr const char* kTitles[kSetupSteps.size()] = {"Which way is which", "Probe tip", "Probe face",
-                                                              "Landmarks", "Lag"};
+                                                              "Landmarks", "Delay"};
   const std::vector<std::string> made = figures(calibration_);
   std::vector<Row> rows;
   for (std::size_t i = 0; i < kSetupSteps.size(); ++i) rows.push_back({kSetupSteps[i], kTitles[i], made[i]});

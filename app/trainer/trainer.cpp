@@ -1,5 +1,6 @@
 #include "app/trainer/trainer.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
 #include "sim/imaging/upload.h"
+#include "sim/model/skin_contact.h"
 
 namespace insonate {
 namespace {
@@ -23,6 +25,11 @@ std::string patient_of(const CaseSource& source) {
   for (const std::filesystem::path& named : {source.ct, source.case_folder, source.scenario})
     if (!named.empty()) return named.string();
   return "the built-in patient";
+}
+
+/// Every CT of a patient has air around the body. Labels, or images whose values are no Hounsfield units, have none.
+bool has_air(const Volume<std::int16_t>& ct) {
+  return std::any_of(ct.voxels.begin(), ct.voxels.end(), [](std::int16_t hu) { return hu < kSkinHu; });
 }
 
 gl::ShaderSources shaders_of(const Options& options) {
@@ -208,6 +215,10 @@ void Trainer::show(std::shared_ptr<const LoadedCase> loaded_case, const Request&
   if (loaded_case != loaded_case_) {
     keep_look();
     gl::upload_ct(patient_of(request.source), loaded_case->subject.ct.grid, [&] { pictures_.show(*loaded_case); });
+    if (!request.source.ct.empty() && !has_air(loaded_case->subject.ct))
+      notices_.push_back({request.source.ct.filename().string() +
+                              " holds no air around a body: it may be labels or another image, not a CT",
+                          {}});
     guide_.forget_made();
     sweep_.stop();
     swept_.reset();

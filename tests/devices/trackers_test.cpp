@@ -246,8 +246,16 @@ TEST_CASE("the mouse gives 60 samples a second, and what is pushed moves the pro
   CHECK(glm::distance(turned.direction({1, 0, 0}), start.direction({1, 0, 0})) < 1e-12);
   for (std::size_t i = 1; i < samples.size(); ++i) CHECK(samples[i].time_s - samples[i - 1].time_s == Approx(1 / 60.0));
 
+  // However many samples it takes, a probe that is moved and turned at once ends where it was sent.
+  const Pose quarter{glm::dmat3(glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1), glm::dvec3(0, -1, 0)), {60, -20, 40}};
   mouse.place(start);
+  mouse.move(quarter.translation, {glm::half_pi<double>(), 0, 0});
   mouse.poll(7.3, samples);
+  CHECK(glm::distance(samples.back().patient_from_probe.translation, (start * quarter).translation) < 1e-12);
+  CHECK(glm::distance(samples.back().patient_from_probe.rotation[1], (start * quarter).rotation[1]) < 1e-12);
+
+  mouse.place(start);
+  mouse.poll(7.4, samples);
   CHECK(glm::distance(samples.back().patient_from_probe.translation, start.translation) < 1e-12);
 }
 

@@ -11,17 +11,19 @@
 namespace insonate::ui {
 namespace {
 
-constexpr float kRow = 44;
+constexpr float kRow = 44, kWidestBar = 30;
 
 struct Columns {
   Rect name, bars, lost;
 };
 
-Columns columns_of(const Theme& theme, Rect row) {
+/// @param attempts  how many bars there are at most
+Columns columns_of(const Theme& theme, Rect row, std::size_t attempts) {
   Columns columns;
   columns.lost = row.take_right(theme.px(84));
   row.take_right(theme.px(14));
-  columns.bars = row.take_right(std::round(row.w * 0.38f));
+  const float bars = std::clamp(theme.px(kWidestBar) * float(attempts), theme.px(84), row.w * 0.38f);
+  columns.bars = row.take_right(std::round(bars));
   row.take_right(theme.px(14));
   columns.name = row;
   return columns;
@@ -32,7 +34,7 @@ void draw_bars(const Theme& theme, const Rect& where, const CriterionTrend& tren
   const auto fitting = std::max<std::size_t>(1, std::size_t(where.w / theme.px(5)));
   const std::size_t shown = std::min(trend.shares.size(), fitting), first = trend.shares.size() - shown;
   if (shown == 0) return;
-  const float step = std::min(where.w / float(shown), theme.px(30)), gap = std::min(theme.px(3), step * 0.3f);
+  const float step = std::min(where.w / float(shown), theme.px(kWidestBar)), gap = std::min(theme.px(3), step * 0.3f);
   for (std::size_t i = 0; i < shown; ++i) {
     const std::optional<double>& share = trend.shares[first + i];
     const float left = std::round(where.x + float(i) * step), right = std::round(where.x + float(i + 1) * step - gap);
@@ -45,8 +47,8 @@ void draw_bars(const Theme& theme, const Rect& where, const CriterionTrend& tren
   }
 }
 
-void draw_row(const Theme& theme, const Rect& row, const CriterionTrend& trend) {
-  const Columns columns = columns_of(theme, row);
+void draw_row(const Theme& theme, const Rect& row, const CriterionTrend& trend, std::size_t attempts) {
+  const Columns columns = columns_of(theme, row, attempts);
   Rect name = columns.name.inset(0, theme.px(3));
   const std::string_view words = info(trend.metric).words;
   if (text_width(theme.text, words) > name.w) draw_tooltip(theme, name, std::string(words));
@@ -77,7 +79,9 @@ void draw_criteria_list(const Theme& theme, Rect where, const ScoreTrend& trend)
   const float bar = height > where.h - theme.px(24) ? theme.px(14) : 0;
   Rect head = where.take_top(theme.px(20));
   head.take_right(bar);
-  const Columns columns = columns_of(theme, head);
+  std::size_t attempts = 0;
+  for (const CriterionTrend& criterion : trend.criteria) attempts = std::max(attempts, criterion.shares.size());
+  const Columns columns = columns_of(theme, head, attempts);
   draw_text(columns.name, theme.small_text, colour::kFaint, "Most lost first");
   draw_text(columns.bars, theme.small_text, colour::kFaint, "Share earned");
   draw_text(columns.lost, theme.small_text, colour::kFaint, "Lost points", Align::right);
@@ -93,7 +97,7 @@ void draw_criteria_list(const Theme& theme, Rect where, const ScoreTrend& trend)
     const Rect row = rest.take_top(theme.px(kRow));
     if (!area.shows(row)) continue;
     fill({row.x, row.y, row.w, 1}, colour::kLine);
-    draw_row(theme, row, criterion);
+    draw_row(theme, row, criterion, attempts);
   }
 }
 

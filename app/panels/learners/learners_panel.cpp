@@ -141,16 +141,16 @@ LearnersAnswer LearnersPanel::draw(const Theme& theme, const Rect& screen, Learn
   draw_tooltip(theme, foot, page.problem());
 
   const float gap = theme.px(16);
-  const Rect left = rest.take_left(theme.px(330));
+  const Rect left = rest.take_left(theme.px(300));
   rest.take_left(gap);
   Rect right = rest.take_right(theme.px(372));
   rest.take_right(gap);
   draw_learners(theme, left, page);
-  const Rect scores = rest.take_top(std::round(rest.h * 0.5f));
+  const Rect scores = rest.take_top(std::round(rest.h * 0.45f));
   rest.take_top(gap);
   draw_scores(theme, scores, page);
   draw_criteria(theme, rest, page);
-  const Rect attempts = right.take_top(std::round(right.h * 0.5f));
+  const Rect attempts = right.take_top(std::round(right.h * 0.45f));
   right.take_top(gap);
   draw_attempts(theme, attempts, page);
   if (const LearnersAnswer of_attempt = draw_attempt(theme, right, page, run); of_attempt != LearnersAnswer::none)

@@ -155,8 +155,9 @@ OpenDialog::Answer OpenDialog::draw(const Theme& theme, const Rect& screen, std:
   bool open = draw_entries(theme, sheet, places);
 
   const bool any = path_[0] != 0;
-  places["open_path"] = buttons.take_right(theme.px(120));
-  const bool asked = button(theme, "open_path", places["open_path"], "Open", ButtonKind::primary, any) || confirmed_;
+  places["open_path"] = buttons.take_right(theme.px(140));
+  const bool asked =
+      button(theme, "open_path", places["open_path"], "Open  (Enter)", ButtonKind::primary, any) || confirmed_;
   if (asked && any) {
     // A folder is gone into, unless it is itself what is looked for.
     const bool here = is_folder(wanted_) && path() == list_.folder;
@@ -166,8 +167,8 @@ OpenDialog::Answer OpenDialog::draw(const Theme& theme, const Rect& screen, std:
       open = true;
   }
   buttons.take_right(theme.px(8));
-  places["cancel_open"] = buttons.take_right(theme.px(120));
-  if (button(theme, "cancel", places["cancel_open"], "Cancel")) answer = Answer::cancelled;
+  places["cancel_open"] = buttons.take_right(theme.px(140));
+  if (button(theme, "cancel", places["cancel_open"], "Cancel  (Esc)")) answer = Answer::cancelled;
   if (open || (asked && !any)) answer = any ? Answer::chosen : Answer::cancelled;
   if (list_.left_out > 0)
     draw_text(buttons, theme.small_text, colour::kMuted, std::to_string(list_.left_out) + " more are not listed.");

@@ -106,7 +106,8 @@ bool draw_about(const Theme& theme, const Rect& screen, const std::string& devic
     sheet.take_top(gap);
   }
   Rect buttons = sheet.take_bottom(theme.px(38));
-  const bool closed = button(theme, "close_about", buttons.take_right(theme.px(120)), "Close", ButtonKind::primary);
+  const bool closed =
+      button(theme, "close_about", buttons.take_right(theme.px(140)), "Close  (Esc)", ButtonKind::primary);
   sheet.take_top(gap);
   draw_paragraph(sheet, theme.text, colour::kText, kNoMedicalDevice);
   end_overlay();

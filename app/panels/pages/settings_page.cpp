@@ -110,8 +110,8 @@ SettingsAnswer draw_settings(const Theme& theme, const Rect& screen, const Prefe
   const auto served = std::find(servers.begin(), servers.end(), wanted.igtl_server);
   if (served == servers.end()) server_texts.push_back("At " + wanted.igtl_server);
   if (!options.igtl_server.empty())
-    rows.fixed("Sent by OpenIGTLink", options.igtl_server + ", by the command line");
-  else if (const auto server = rows.choose("server", "Sent by OpenIGTLink", server_texts,
+    rows.fixed("Sent to 3D Slicer and others", options.igtl_server + ", by the command line");
+  else if (const auto server = rows.choose("server", "Sent to 3D Slicer and others", server_texts,
                                            std::size_t(std::distance(servers.begin(), served))))
     wanted.igtl_server = servers[*server];
 

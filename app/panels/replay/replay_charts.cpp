@@ -22,14 +22,17 @@ struct Quantity {
   std::optional<double> of(const RunMoment& moment) const {
     if (moment.last_usable_s != moment.time_s) return std::nullopt;
     if (!metric) return moment.speed_mm_s;
-    return moment.view ? std::optional(moment.view->of(*metric)) : std::nullopt;
+    if (!moment.view) return std::nullopt;
+    // More of the target than the expert reached counts as all of it.
+    const double value = moment.view->of(*metric);
+    return metric == Metric::target_insonated_percent ? std::min(value, 100.0) : value;
   }
   std::string words(double value) const { return metric ? in_words(*metric, value) : fixed(value, 0) + " mm/s"; }
 };
 
 constexpr std::array kQuantities{
     Quantity{"Plane's distance", Metric::plane_distance_mm, 40}, Quantity{"Plane's angle", Metric::plane_angle_deg, 90},
-    Quantity{"Insonated, of reference", Metric::target_insonated_percent, 120}, Quantity{"Speed", std::nullopt, 150}};
+    Quantity{"Target reached", Metric::target_insonated_percent, 100}, Quantity{"Speed", std::nullopt, 150}};
 
 /// Draws a curve of the largest value within each screen pixel. It is interrupted where there is no value.
 /// @param at  maps a time of the run to its place on the time line; empty if it has none

@@ -11,6 +11,17 @@ namespace {
 
 constexpr float kMargin = 8, kRow = 22;
 
+/// Draws a key as its cap, and takes its place off the left of `rest`.
+void draw_key(const Theme& theme, Rect& rest, ImU32 ink, const std::string& key) {
+  rest.take_left(theme.px(8));
+  const float width = text_width(theme.small_text, key) + theme.px(14);
+  if (width > rest.w) return;
+  const Rect cap = rest.take_left(width).inset(0, theme.px(1));
+  fill(cap, colour::kRaised, theme.px(4));
+  outline(cap, colour::kFaint, theme.px(4));
+  draw_text(cap, theme.small_text, ink, key, Align::centre);
+}
+
 }  // namespace
 
 void draw_ghost(const Theme& theme, const Rect& space, const Guiding& guiding, const view::OrbitCamera& camera) {
@@ -41,10 +52,11 @@ void draw_guide_strip(const Theme& theme, const Rect& strip, const Guiding& guid
             "plane " + fixed(guiding.plane_distance_mm, 0) + " mm and " + fixed(guiding.plane_angle_deg, 0) +
                 "\u00b0 off" + (counted ? "; costs no points, but the report says how long it was shown" : ""));
   if (guiding.there) return draw_text(rest, theme.text, colour::kAccent, "Here it is. Hold still.");
-  for (const std::string& advice : guiding.advice) {
-    const bool next = &advice == &guiding.advice.front();
-    draw_text(rest.take_left(std::min(rest.w, text_width(theme.text, advice) + 1)), theme.text,
-              next ? colour::kText : colour::kMuted, advice);
+  for (std::size_t i = 0; i < guiding.advice.size(); ++i) {
+    const std::string& advice = guiding.advice[i];
+    const ImU32 ink = i == 0 ? colour::kText : colour::kMuted;
+    draw_text(rest.take_left(std::min(rest.w, text_width(theme.text, advice) + 1)), theme.text, ink, advice);
+    if (i < guiding.keys.size()) draw_key(theme, rest, ink, guiding.keys[i]);
     rest.take_left(theme.px(16));
   }
 }

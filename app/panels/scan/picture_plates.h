@@ -9,6 +9,9 @@
 
 namespace insonate::ui {
 
+/// Explains why a probe that is moved does not follow (Session::stopped_at_edge()).
+inline constexpr char kStopWords[] = "The probe stays on the skin, which ends where the CT ends";
+
 // What lies over every picture of the patient.
 
 /// Returns the picture as ImGui refers to it.

@@ -88,6 +88,15 @@ void draw_group(const Theme& theme, const Rect& row, const std::string& title, c
   ImGui::GetWindowDrawList()->AddLine({row.x, row.y + row.h}, {row.x + row.w, row.y + row.h}, colour::kLine);
 }
 
+/// Returns the reasons for not passing, as many as leave room for the rows, and how many there are besides.
+std::vector<std::string> shown_reasons(const std::vector<std::string>& reasons) {
+  constexpr std::size_t kMost = 6;
+  if (reasons.size() <= kMost) return reasons;
+  std::vector<std::string> shown(reasons.begin(), reasons.begin() + kMost - 1);
+  shown.push_back("and " + std::to_string(reasons.size() - shown.size()) + " more, which the report names");
+  return shown;
+}
+
 std::size_t row_count(const ExamResult& result) {
   std::size_t rows = result.steps.size() + 1 + result.criteria.size();
   for (const StepResult& step : result.steps) rows += step.criteria.size();
@@ -110,15 +119,16 @@ void draw_rows(const Theme& theme, Rect rows, float height, const ExamResult& re
 ScoreAnswer draw_score_sheet(const Theme& theme, const Rect& screen, const ExamResult& result,
                              const std::optional<ResultFiles>& files, bool writing, bool watched, bool once) {
   const float row = theme.px(26), head_height = theme.px(74), reason_height = theme.px(22);
-  const std::size_t reasons = std::min<std::size_t>(result.reasons.size(), 3);
+  const std::vector<std::string> reasons = shown_reasons(result.reasons);
   const float rows_height = row * float(row_count(result));
-  const float others = theme.px(48) + row + head_height + theme.px(20) + reason_height * float(reasons) + theme.px(104);
+  const float others =
+      theme.px(48) + row + head_height + theme.px(20) + reason_height * float(reasons.size()) + theme.px(104);
   const float height = std::min(screen.h - theme.px(40), rows_height + others);
   Rect sheet = begin_overlay(theme, screen, {std::min(theme.px(860), screen.w - theme.px(40)), height});
   draw_verdict(theme, sheet.take_top(head_height), result);
   sheet.take_top(theme.px(8));
-  for (std::size_t i = 0; i < reasons; ++i)
-    draw_text(sheet.take_top(reason_height), theme.small_text, colour::kAmber, result.reasons[i]);
+  for (const std::string& reason : reasons)
+    draw_text(sheet.take_top(reason_height), theme.small_text, colour::kAmber, reason);
   sheet.take_top(theme.px(4));
   draw_column_titles(theme, sheet.take_top(row));
 

@@ -36,8 +36,8 @@ void draw_depth_scale(const Theme& theme, const Rect& panel, const PlaneOnScreen
 }
 
 void draw_grey_scale(const Theme& theme, const Rect& panel, double dynamic_range_db) {
-  // Below the texts, as far as a small panel has room there.
-  const float top = std::max(panel.h * 0.36f, theme.px(140));
+  // Below the texts and the state, as far as a small panel has room there.
+  const float top = std::max(panel.h * 0.36f, theme.px(196));
   const Rect bar{panel.x + theme.px(16), panel.y + top, theme.px(12),
                  std::min(panel.h * 0.28f, panel.h - theme.px(16) - top)};
   if (bar.h < theme.px(40)) return;
@@ -92,24 +92,22 @@ Rect draw_annotations(const Theme& theme, const Rect& panel, const std::string& 
   return line;
 }
 
-void draw_banner(const Theme& theme, const Rect& panel, std::optional<double> lost_for_s, const std::string& state) {
-  std::string text;
-  ImU32 background = colour::kAmber, ink = colour::kBackground;
-  if (lost_for_s) {
-    text = formatted("No usable pose for %.1f s: the picture stands still", *lost_for_s);
-  } else if (!state.empty()) {
-    text = state;
-    background = colour::kAccentDark;
-    ink = colour::kText;
-  } else {
-    return;
-  }
-  const float width = text_width(theme.strong, text) + theme.px(24);
-  draw_chip(theme, {panel.x + (panel.w - width) / 2, panel.y + panel.h - theme.px(46)}, background, ink, text);
+/// Says below the other texts, beside the fan, that the picture stands still or why the probe does.
+void draw_state(const Theme& theme, const Rect& below, std::optional<double> lost_for_s, const std::string& state) {
+  const std::string text =
+      lost_for_s ? formatted("No usable pose for %.1f s: the picture stands still", *lost_for_s) : state;
+  if (text.empty()) return;
+  const float margin = theme.px(10), widest = std::max(below.w, theme.px(170)) - 2 * margin;
+  const float width = std::min(text_width(theme.strong, text), widest);
+  const float height = paragraph_height(theme.strong, text, width + 1);
+  const Rect plate{below.x - theme.px(4), below.y + theme.px(6), width + 2 * margin, height + margin};
+  fill(plate, lost_for_s ? colour::kAmber : colour::kAccentDark, theme.px(4));
+  draw_paragraph({plate.x + margin, plate.y + margin / 2, width + 1, height}, theme.strong,
+                 lost_for_s ? colour::kBackground : colour::kText, text);
 }
 
 std::string state_text(const Session& session, const PictureTools& tools) {
-  if (session.stopped_at_edge()) return "No skin to follow there: the CT ends";
+  if (session.stopped_at_edge()) return kStopWords;
   if (!session.machine().frozen) return "";
   return PictureTools::ready(session) ? "Frozen:  " + tool_prompt(tools) : "Frozen";
 }
@@ -223,11 +221,13 @@ bool UltrasoundPanel::draw(const Theme& theme, const Rect& panel, Session& sessi
   } else {
     draw_text(panel, theme.text, colour::kFaint, "Waiting for the probe", Align::centre);
   }
-  const Rect below = draw_annotations(theme, panel, session.loaded_case().subject.name, session.machine());
-  if (!session.event_markers_s().empty())
+  Rect below = draw_annotations(theme, panel, session.loaded_case().subject.name, session.machine());
+  if (!session.event_markers_s().empty()) {
     draw_on_plate(theme, below, theme.small_text, colour::kAccent, mark_text(session));
+    below.y += below.h;
+  }
   draw_mark(theme, panel, session);
-  draw_banner(theme, panel, session.lost_for_s(), state_text(session, tools));
+  draw_state(theme, below, session.lost_for_s(), state_text(session, tools));
   draw_tracker_problem(theme, panel, session);
   return double_clicked;
 }
@@ -240,8 +240,8 @@ bool UltrasoundPanel::draw_still(const Theme& theme, const Rect& panel, const st
     draw_annotations(theme, panel, draw_picture(theme, panel, *picture, pictures, machine), annotations);
   else
     draw_text(panel, theme.text, colour::kFaint, "No pose has come yet", Align::centre);
-  draw_annotations(theme, panel, patient, machine);
-  draw_banner(theme, panel, lost_for_s, machine.frozen ? "Frozen" : "");
+  const Rect below = draw_annotations(theme, panel, patient, machine);
+  draw_state(theme, below, lost_for_s, machine.frozen ? "Frozen" : "");
   ImGui::SetCursorScreenPos(panel.min());
   ImGui::InvisibleButton("ultrasound", {panel.w, panel.h});
   return is_double_clicked();

@@ -189,7 +189,8 @@ void StartPanel::draw_trackers(const Theme& theme, Rect panel, StartPage& page, 
   const Rect field = rest.take_top(theme.px(36));
   (*places_)["tracker_address"] = field;
   ImGui::PushID("address");
-  typed_address_ = address_.draw(theme, field, typed_address_, "On the network (OpenIGTLink): HOST:18944");
+  typed_address_ = address_.draw(theme, field, typed_address_, "On the network: HOST:18944");
+  draw_tooltip(theme, field, "A computer that sends poses by OpenIGTLink, such as one with PLUS or 3D Slicer");
   ImGui::PopID();
   if (!chosen.empty()) attempt([&] { page.choose_tracker(chosen); });
 }

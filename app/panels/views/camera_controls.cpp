@@ -37,7 +37,12 @@ void draw_orientation(const Theme& theme, const Rect& panel, const view::OrbitCa
     const glm::dvec3 seen = camera_from_patient * axis.direction;  // z points into the picture
     const ImVec2 tip{centre.x + float(seen.x) * theme.px(22), centre.y + float(seen.y) * theme.px(22)};
     if (seen.z > kFaces) continue;
-    list->AddLine(centre, tip, colour::kFaint, 1);
+    // The line ends before the letter.
+    const float length = std::hypot(tip.x - centre.x, tip.y - centre.y), shown = length - theme.px(9);
+    if (shown > 0)
+      list->AddLine(centre,
+                    {centre.x + (tip.x - centre.x) * shown / length, centre.y + (tip.y - centre.y) * shown / length},
+                    colour::kFaint, 1);
     draw_text({tip.x - theme.px(10), tip.y - theme.px(9), theme.px(20), theme.px(18)}, theme.small_text, colour::kText,
               axis.name, Align::centre);
   }

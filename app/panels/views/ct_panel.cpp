@@ -44,18 +44,22 @@ std::string grey_text(const WindowLevel& grey) {
   return formatted("W %.0f  L %s%.0f", grey.window_hu, grey.level_hu < 0 ? "\u2212" : "", std::abs(grey.level_hu));
 }
 
-/// Draws a picture in the middle of the panel, with the marker on the same side as in the ultrasound. Crops its sides,
-/// which the fan does not reach, as far as that makes the rest larger. Returns its letters.
+/// Draws a picture over the panel, with the marker on the same side as in the ultrasound. Crops its sides, which the
+/// fan hardly reaches, and a little of its ends rather than leaving bars. Returns its letters.
 view::EdgeLetters draw_like_ultrasound(const Theme& theme, const Rect& panel, const gl::Texture& picture,
                                        const Pictures& pictures) {
+  constexpr float kCropped = 0.1f;  // of the fan's width or height, at most
   const float width = float(picture.width()), height = float(picture.height());
-  const float scale = std::min(panel.h / height, panel.w / (width * float(pictures.fan_share())));
-  const float shown = std::min(1.0f, panel.w / (width * scale));
-  const float w = shown * width * scale, h = height * scale;
+  const float filling = std::max(panel.w / width, panel.h / height);
+  const float fan = float(pictures.fan_share());
+  const float scale =
+      std::min({filling, panel.h / (height * (1 - kCropped)), panel.w / (width * fan * (1 - kCropped))});
+  const float w = std::min(width * scale, panel.w), h = std::min(height * scale, panel.h);
   const Rect area{panel.x + (panel.w - w) / 2, panel.y + (panel.h - h) / 2, w, h};
+  const float across = w / (width * scale), down = h / (height * scale);  // shares that are shown
   const bool marker_left = theme.look().marker == MarkerSide::left;
-  const float left = marker_left ? (1 + shown) / 2 : (1 - shown) / 2;
-  ImGui::GetWindowDrawList()->AddImage(id_of(picture), area.min(), area.max(), {left, 0}, {1 - left, 1});
+  const float left = marker_left ? (1 + across) / 2 : (1 - across) / 2, top = (1 - down) / 2;
+  ImGui::GetWindowDrawList()->AddImage(id_of(picture), area.min(), area.max(), {left, top}, {1 - left, 1 - top});
   const glm::dmat3& r = pictures.plane().patient_from_probe.rotation;
   return view::edge_letters(marker_left ? -r[0] : r[0], r[1]);
 }
@@ -234,9 +238,9 @@ bool CtPanel::draw(const Theme& theme, View view, const Rect& panel, Pictures& p
   }
   ImGui::PushID(name_of(view));
   Rect area = panel;
-  if (view == View::blend) draw_blend_controls(theme, area.take_bottom(theme.px(24)), pictures, look, places);
   const view::EdgeLetters letters = axis ? draw_axis_slice(theme, area, *axis, *picture, pictures, guiding)
                                          : draw_like_ultrasound(theme, area, *picture, pictures);
+  if (view == View::blend) draw_blend_controls(theme, area.take_bottom(theme.px(24)), pictures, look, places);
   const Rect title = draw_title(theme, area, title_of(view, pictures));
   const float grey_width = text_width(theme.text, grey_text(look.grey)) + theme.px(14);
   draw_edge_letters(theme, area, letters, title, {area.x + theme.px(4), area.y, grey_width, 0});

@@ -9,6 +9,7 @@
 
 #include "app/panels/scan/picture_plates.h"
 #include "app/panels/views/camera_controls.h"
+#include "sim/view/body/line_of_sight.h"
 
 namespace insonate::ui {
 namespace {
@@ -41,18 +42,6 @@ void draw_view_buttons(const Theme& theme, const Rect& panel, Pictures& pictures
   }
 }
 
-// The line of sight through a point of the screen, in patient mm.
-struct Sight {
-  glm::dvec3 eye, direction;
-};
-
-Sight sight(const view::OrbitCamera& camera, const Rect& panel, const ImVec2& pointer) {
-  const Pose pose = camera.patient_from_camera();
-  const double focal = panel.h / 2 / std::tan(glm::radians(camera.field_of_view_deg / 2));
-  const glm::dvec3 ray((pointer.x - panel.x - panel.w / 2) / focal, (pointer.y - panel.y - panel.h / 2) / focal, 1);
-  return {pose.translation, glm::normalize(pose.rotation * ray)};
-}
-
 // Returns whether the pointer is on the dummy probe: near its face or its handle.
 bool on_probe(const Theme& theme, const view::OrbitCamera& camera, const Rect& panel, const Pose& probe,
               const ImVec2& pointer) {
@@ -62,6 +51,17 @@ bool on_probe(const Theme& theme, const view::OrbitCamera& camera, const Rect& p
     if (std::hypot(at.x + panel.x - pointer.x, at.y + panel.y - pointer.y) < theme.px(26)) return true;
   }
   return false;
+}
+
+// Explains above the row of buttons, beside the axes, why the probe does not follow.
+void draw_stop(const Theme& theme, const Rect& panel) {
+  const float margin = theme.px(12), widest = panel.w - theme.px(76) - 3 * margin;
+  const float width = std::min(text_width(theme.strong, kStopWords), widest);
+  const float height = paragraph_height(theme.strong, kStopWords, width + 1);
+  const Rect plate{panel.x + margin / 2, panel.y + panel.h - theme.px(40) - height - margin, width + 2 * margin,
+                   height + margin};
+  fill(plate, colour::kAccentDark, theme.px(4));
+  draw_paragraph({plate.x + margin, plate.y + margin / 2, width + 1, height}, theme.strong, colour::kText, kStopWords);
 }
 
 }  // namespace
@@ -87,10 +87,12 @@ bool SpacePanel::draw(const Theme& theme, const Rect& panel, Session* session, P
   const bool drags_probe = holds_probe_ && session;
   move_by_mouse(theme, panel, camera, !drags_probe);
   if (drags_probe && ImGui::IsItemActive() && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0)) {
-    const Sight to = sight(camera, panel, io.MousePos);
+    const view::LineOfSight to =
+        view::line_of_sight(camera, {io.MousePos.x - panel.x, io.MousePos.y - panel.y}, int(panel.w), int(panel.h));
     session->move_probe([&](const ProbeHand& hand, const Pose& pose) { return hand.put(pose, to.eye, to.direction); });
   }
   draw_title(theme, panel, "Patient");
+  if (session && session->stopped_at_edge()) draw_stop(theme, panel);
   draw_orientation(theme, panel, camera);
   return double_clicked;
 }

@@ -13,7 +13,7 @@ class LagStep : public FindingStep {
 public:
   static constexpr std::size_t kBlows = 10;
 
-  explicit LagStep(const Calibration& base) : FindingStep(base, "Lag") {}
+  explicit LagStep(const Calibration& base) : FindingStep(base, "Delay of the tracker") {}
   void store(Calibration& calibration, std::int64_t now_s) const override;
 
 protected:
@@ -51,7 +51,7 @@ void LagStep::ask(SetupView& view) const {
 }
 
 std::string LagStep::result() const {
-  return formatted("the tracker lags by %.0f ms, single blows within %.0f ms of it", found_.lag_s * 1e3,
+  return formatted("the tracker is %.0f ms late, single blows within %.0f ms of it", found_.lag_s * 1e3,
                    found_.spread_s * 1e3);
 }
 

@@ -68,6 +68,37 @@ TEST_CASE("views lie within the area, apart from each other, and fill it on any 
         }
 }
 
+TEST_CASE("a fan fills the ultrasound's panel, and a CT's pane is as wide as the fan in it") {
+  struct Window {
+    Rect area;
+    bool charts;
+  };
+  // What top bar, console and charts leave of windows of 1280 x 720, 1600 x 1000 and 2560 x 1440.
+  for (const auto& [area, charts] : {Window{{8, 80, 1264, 312}, true},
+                                     {{8, 80, 1264, 460}, false},
+                                     {{8, 80, 1584, 592}, true},
+                                     {{8, 80, 1584, 715}, false},
+                                     {{8, 80, 2544, 860}, true},
+                                     {{8, 80, 2544, 1040}, false}}) {
+    const auto places = lay_out({LayoutName::standard, {}}, area, kGap, {.charts = charts});
+    CAPTURE(area.w, area.h, charts);
+    const Rect& ultrasound = places.at(View::ultrasound);
+    CHECK(ultrasound.w < 1.65f * ultrasound.h);  // a fan is 1.2 to 1.4 times as wide as high, and has scales beside it
+    for (const View view : {View::slice, View::blend}) CHECK(places.at(view).w > 1.2f * places.at(view).h);
+    CHECK(places.at(View::space).w > 1.0f * places.at(View::space).h);
+  }
+}
+
+TEST_CASE("slice and blend lie side by side if they are joined, in a flat area too") {
+  const Rect flat{8, 80, 1264, 312};
+  const auto beside = [&](bool joined) {
+    const auto places = lay_out({LayoutName::standard, {}}, flat, kGap, {.charts = true, .joined = joined});
+    return places.at(View::slice).y == places.at(View::blend).y;
+  };
+  CHECK(beside(true));
+  CHECK_FALSE(beside(false));
+}
+
 TEST_CASE("the four views are of equal size, and the slices too") {
   const auto four = lay_out({LayoutName::four, {}}, {0, 0, 1001, 601}, kGap, {});
   const auto slices = lay_out({LayoutName::slices, {}}, {0, 0, 1001, 601}, kGap, {});

@@ -1,8 +1,13 @@
 #include "app/session/guide.h"
 
 #include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
+
+#include <cmath>
+#include <set>
 
 #include "devices/mouse/mouse_tracker.h"
+#include "scenarios/guidance.h"
 #include "tests/scenarios/tiny_case.h"
 
 using namespace insonate;
@@ -65,6 +70,57 @@ TEST_CASE("in practice the guide leads to one view after the other, those of the
   CHECK(guide.now(session)->view->name == "bare");
   guide.next(session);
   CHECK_FALSE(guide.now(session));
+}
+
+TEST_CASE("the guide names the keys of its advice, and they lead nearer, however the probe is held") {
+  // What each key does, as F1 says. Slides are towards the patient's left and head, turns are tilt, rotation and rock.
+  struct Key {
+    const char* name;
+    glm::dvec2 slide;
+    glm::dvec3 turn;
+  };
+  const Key kKeys[] = {{"\u2191", {0, 1}, {}}, {"\u2193", {0, -1}, {}}, {"\u2190", {-1, 0}, {}}, {"\u2192", {1, 0}, {}},
+                       {"D", {}, {1, 0, 0}},   {"A", {}, {-1, 0, 0}},   {"E", {}, {0, 1, 0}},    {"Q", {}, {0, -1, 0}},
+                       {"W", {}, {0, 0, 1}},   {"S", {}, {0, 0, -1}}};
+  const auto loaded_case = tiny_loaded_case();
+  Session session = by_hand(loaded_case);
+  session.practise();
+  Guide guide;
+  guide.next(session);
+  const Pose view = loaded_case->subject.find_view("ball")->patient_from_probe;
+  double now_s = 0;
+  std::set<std::string> named;
+  for (const Pose& off : {turned(20, {1, 0, 0}, {0, 0, -40}), turned(-20, {1, 0, 0}, {0, 0, 40}),
+                          turned(20, {0, 1, 0}, {30, 0, 0}), turned(-20, {0, 1, 0}, {-30, 0, 0}),
+                          turned(20, {0, 0, 1}, {30, 0, -25}), turned(-20, {0, 0, 1}, {-25, 0, -30})}) {
+    const Pose pose = view * off;
+    session.move_probe([&](const ProbeHand&, const Pose&) { return pose; });
+    for (int i = 0; i < 3; ++i) session.advance(now_s += 0.1);
+    const std::optional<Guiding> guiding = guide.now(session);
+    REQUIRE(guiding);
+    REQUIRE(guiding->keys.size() == guiding->advice.size());
+    REQUIRE(glm::distance(session.newest_pose()->translation, pose.translation) < 1e-6);
+    for (std::size_t i = 0; i < guiding->keys.size(); ++i) {
+      CAPTURE(guiding->advice[i], guiding->keys[i]);
+      const GuidingMove before = move_to(pose, view);
+      for (const Key& key : kKeys) {
+        if (guiding->keys[i].find(key.name) == std::string::npos) continue;
+        named.insert(key.name);
+        const Pose turned = ProbeHand::turn(pose, key.turn.x, key.turn.y, key.turn.z);
+        const glm::dvec2 mm = ProbeHand::slide_in_patient(turned, key.slide);
+        const GuidingMove after = move_to({turned.rotation, turned.point({mm.x, 0, mm.y})}, view);
+        if (key.slide != glm::dvec2(0)) {
+          CHECK(glm::length(after.slide_mm) < glm::length(before.slide_mm));
+        } else {
+          const auto left = [](const GuidingMove& move) {
+            return std::abs(move.tilt_deg) + std::abs(move.rotation_deg) + std::abs(move.rock_deg);
+          };
+          CHECK(left(after) < left(before));
+        }
+      }
+    }
+  }
+  CHECK(named.size() == std::size(kKeys));
 }
 
 TEST_CASE("while a scenario is practised the guide leads to the view of the step under way") {

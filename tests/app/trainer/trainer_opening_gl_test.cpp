@@ -112,6 +112,21 @@ TEST_CASE("a CT that the device cannot hold is reported, and the patient on the 
   CHECK((pixels()[0] != before[0]));
 }
 
+TEST_CASE("an image without air is shown, with a word that it may be no CT") {
+  const test::TestContext context;
+  const TrainerFolder folder;
+  Trainer trainer(folder.options());
+  trainer.open_from_options();
+  trainer.finish_loading();
+  CHECK(trainer.take_notices().empty());
+  open_and_wait(trainer, folder.file("labels.mha", water(24, 1)));
+  REQUIRE(trainer.session());
+  CHECK(trainer.session()->loaded_case().subject.name == "labels.mha");
+  const std::vector<Notice> notices = trainer.take_notices();
+  REQUIRE(notices.size() == 1);
+  CHECK(notices[0].text.find("labels.mha holds no air") == 0);
+}
+
 TEST_CASE("another log can be opened in the same session's place, another patient too") {
   const test::TestContext context;
   const TrainerFolder folder;

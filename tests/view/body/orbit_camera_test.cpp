@@ -1,8 +1,8 @@
-#include "sim/view/body/orbit_camera.h"
-
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+
+#include "sim/view/body/line_of_sight.h"
 
 using insonate::Pose;
 using insonate::view::OrbitCamera;
@@ -44,6 +44,18 @@ TEST_CASE("Perspective: a length at the centre has the pixels that the field of 
   camera.distance_mm = 500;
   camera.field_of_view_deg = 90;  // the picture's height spans twice the distance
   CHECK(place(camera, {100, 0, 0}).x - kWidth / 2.0 == Approx(100 * kHeight / 1000.0));
+}
+
+TEST_CASE("The line of sight through a pixel meets what is seen there") {
+  OrbitCamera camera;
+  camera.yaw_deg = 35;
+  camera.pitch_deg = -20;
+  camera.centre = {10, -5, 40};
+  for (const glm::dvec3& point : {glm::dvec3(80, -60, 20), glm::dvec3(-120, 90, 130)}) {
+    const auto line = insonate::view::line_of_sight(camera, place(camera, point), kWidth, kHeight);
+    CHECK(line.eye == camera.patient_from_camera().translation);
+    CHECK(glm::distance(line.direction, glm::normalize(point - line.eye)) < 1e-9);
+  }
 }
 
 TEST_CASE("Panning moves what lies at the centre's depth by the pointer's pixels") {
