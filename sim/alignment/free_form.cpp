@@ -294,7 +294,7 @@ private:
       for (const double length : kLengths) {
         FreeFormField field = result_.field;
         for (std::size_t i = 0; i < at.size(); ++i) field.control_mm[i] = at[i] + length * step[i];
-        if (field.least_jacobian() < kLeastJacobian) break;  // longer steps fold more
+        if (field.least_jacobian() < settings_.least_jacobian) break;  // longer steps fold more
         tried.push_back(std::move(field.control_mm));
       }
     std::vector<double> similar(tried.size());

@@ -18,6 +18,9 @@ namespace insonate {
 struct FreeFormSettings {
   double spacing_mm = 25;        ///< between control points, 8 to 100
   double smoothness_mm2 = 1000;  ///< weight of FreeFormField::bending_energy(), mm^2, 0 to 1e6; see fit_free_form()
+  /// The least FreeFormField::least_jacobian() of a field that is accepted, above 0 to 1. At 0.2, no tissue is pressed
+  /// to a fifth of its volume, and what lies between the checked points does not fold either.
+  double least_jacobian = 0.2;
   WeinSettings wein = registration_settings();  ///< with patches; the image's size is not used
   int rounds = 12;                              ///< most of them, 1 to 100
   int batch = 512;                              ///< about how many images per call, 1 to 100000
@@ -47,10 +50,6 @@ struct FreeFormRegistration {
   /// the standard error.
   bool is_improved() const { return held_out_after - held_out_before > 2 * held_out_error; }
 };
-
-/// The least FreeFormField::least_jacobian() of a field that fit_free_form() accepts: no tissue is pressed to a fifth
-/// of its volume, and what lies between the checked points cannot fold either.
-inline constexpr double kLeastJacobian = 0.2;
 
 /// Fits a smooth deformation to a sweep that is registered already, so that
 ///     LC2 over the patches of the images - smoothness_mm2 * bending energy
