@@ -352,18 +352,19 @@ FreeFormRegistration fit_free_form(const AcousticVolume& volume, const TrackedSw
                                    const glm::dmat4& ct_from_sweep, const FreeFormSettings& settings) {
   const auto begin = std::chrono::steady_clock::now();
   if (settings.wein.similarity_patch == 0) throw std::invalid_argument("a deformation needs LC2 over patches");
-  if (sweep.images.size() < 4) throw std::invalid_argument("a deformation needs 4 images or more");
+  if (sweep.images.size() < kLeastFreeFormImages) throw std::invalid_argument("a deformation needs 4 images or more");
   TrackedSweep fitted{Probe(sweep.probe), sweep.depth_mm, {}}, held_out = fitted;
   for (std::size_t i = 0; i < sweep.images.size(); ++i)
     (i % 2 == 0 ? fitted : held_out).images.push_back(sweep.images[i]);
+  FreeFormRegistration result;
+  const std::vector<glm::dvec3> targets = target_points(sweep);
+  result.field = field_over(targets, settings.spacing_mm);
+  if (result.field.control_mm.size() > kMostControlPoints)
+    throw std::invalid_argument("a deformation has too many control points");
   WeinSettings wein = settings.wein;
   wein.image_width = sweep.images.front().grey.width;
   wein.image_height = sweep.images.front().grey.height;
   gl::WeinSimulator simulator(volume, sweep.probe, sweep.depth_mm, wein);
-
-  FreeFormRegistration result;
-  const std::vector<glm::dvec3> targets = target_points(sweep);
-  result.field = field_over(targets, settings.spacing_mm);
   {
     DeformedSweep deformed(simulator, fitted, ct_from_sweep, result.field, settings);
     Fit(deformed, result, settings).run();

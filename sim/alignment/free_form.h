@@ -19,13 +19,19 @@ struct FreeFormSettings {
   double spacing_mm = 25;        ///< between control points, 8 to 100
   double smoothness_mm2 = 1000;  ///< weight of FreeFormField::bending_energy(), mm^2, 0 to 1e6; see fit_free_form()
   /// The least FreeFormField::least_jacobian() of a field that is accepted, above 0 to 1. At 0.2, no tissue is pressed
-  /// to a fifth of its volume, and what lies between the checked points does not fold either.
+  /// to less than a fifth of its volume. That leaves room for the points between those that are checked, where even
+  /// random fields do not fall below 0.1.
   double least_jacobian = 0.2;
   WeinSettings wein = registration_settings();  ///< with patches; the image's size is not used
   int rounds = 12;                              ///< most of them, 1 to 100
   int batch = 512;                              ///< about how many images per call, 1 to 100000
   std::function<void()> between_calls;          ///< as RegistrationSettings::between_calls
 };
+
+/// Images of a sweep that a deformation needs: half of them judge it.
+inline constexpr std::size_t kLeastFreeFormImages = 4;
+/// Control points of a deformation. Time and memory of a step rise faster than their number.
+inline constexpr std::size_t kMostControlPoints = 10000;
 
 /// One evaluation of a deformation.
 struct FreeFormEvaluation {
@@ -59,11 +65,12 @@ struct FreeFormRegistration {
 /// Each round varies every control point along each axis by both signs. A patch depends on the 64 control points around
 /// it. So one evaluation varies every fourth control point along each axis, and each patch shows what its own one does:
 /// 384 evaluations are enough for any grid. A Newton step follows, with the curvature of each control point and,
-/// between control points, that of the splines' products. Its length is the best of several. A step whose field would
-/// fold is not taken: see kLeastJacobian. Rounds end when a step gains little.
+/// between control points, that of the splines' products. Its length is the best of several. A step whose field
+/// presses tissue beyond FreeFormSettings::least_jacobian is not taken. Rounds end when a step gains little.
 ///
 /// Needs an OpenGL context. The result depends on no thread's speed. Throws what gl::WeinSimulator throws, and
-/// std::invalid_argument for settings without patches or fewer than 4 images.
+/// std::invalid_argument for settings without patches, fewer than kLeastFreeFormImages, or more than
+/// kMostControlPoints.
 /// @param ct_from_sweep  the map so far
 FreeFormRegistration fit_free_form(const AcousticVolume& volume, const TrackedSweep& sweep,
                                    const glm::dmat4& ct_from_sweep, const FreeFormSettings& settings);

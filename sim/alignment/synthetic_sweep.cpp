@@ -83,7 +83,7 @@ AcousticVolume deformed(const AcousticVolume& volume, const std::function<glm::d
 
 std::function<glm::dvec3(const glm::dvec3&)> breath(const glm::dvec3& centre, double most_mm) {
   return [=](const glm::dvec3& p) {
-    constexpr double kWidth_mm = 45;
+    constexpr double kWidth_mm = 30;
     const glm::dvec3 apart = (p - centre) / kWidth_mm;
     return p + most_mm * std::exp(-glm::dot(apart, apart) / 2) * glm::dvec3(0, 1.0 / 3, 1);
   };

@@ -32,7 +32,7 @@ AcousticVolume deformed(const AcousticVolume& volume, const std::function<glm::d
 
 /// Returns what a breath does to the organs under the probe, as a map for deformed(). The tissue moves by up to most_mm
 /// along the patient's z axis and by up to a third of that along y. It does so most at a depth, and hardly in the skin
-/// and far away: a Gaussian of 45 mm about `centre`.
+/// and far away: a Gaussian with a standard deviation of 30 mm about `centre`.
 std::function<glm::dvec3(const glm::dvec3&)> breath(const glm::dvec3& centre, double most_mm);
 
 }  // namespace insonate

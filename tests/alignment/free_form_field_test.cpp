@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -118,6 +119,28 @@ TEST_CASE("a field that does not fold has an inverse, and one that folds is know
   folded.control_mm[folded.control_mm.size() / 2] = {10, 0, 0};
   // A spline is steepest 2/3 of the spacing from its middle, where its slope is 2/3. The checked points include that.
   CHECK(folded.least_jacobian() == Approx(1 - 10.0 / 20 * 2 / 3 * 4 / 9));
+}
+
+TEST_CASE("a field whose least checked Jacobian is 0.2 does not fold between the checked points") {
+  for (const double spacing_mm : {8.0, 20.0}) {
+    double most_mm = 0;
+    for (double step_mm = spacing_mm; step_mm > 1e-3 * spacing_mm; step_mm /= 2)
+      if (random_field(most_mm + step_mm, spacing_mm).least_jacobian() >= 0.2) most_mm += step_mm;
+    const FreeFormField field = random_field(most_mm, spacing_mm);
+    CHECK(field.least_jacobian() == Approx(0.2).margin(0.01));
+    constexpr int kFiner = 4;
+    const glm::ivec3 steps = (field.size + 3) * FreeFormField::kJacobianSteps * kFiner;
+    double least = 1;
+    for (int k = 0; k <= steps.z; ++k)
+      for (int j = 0; j <= steps.y; ++j)
+        for (int i = 0; i <= steps.x; ++i)
+          least = std::min(least, glm::determinant(field.jacobian(
+                                      field.origin_mm - 2 * spacing_mm +
+                                      spacing_mm / (FreeFormField::kJacobianSteps * kFiner) * glm::dvec3(i, j, k))));
+    INFO("spacing " << spacing_mm << " mm, control points move " << most_mm << " mm, least " << least);
+    CHECK(least > 0.1);
+    CHECK(least <= field.least_jacobian());
+  }
 }
 
 TEST_CASE("the weights of a point give its displacement, with entries that no other point shares") {

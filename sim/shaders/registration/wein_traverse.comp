@@ -37,8 +37,9 @@ layout(binding = 0) uniform sampler3D density;  // (HU, gradient along the CT's 
 layout(binding = 1) uniform sampler2D probe_lines;  // one row per line, probe's frame, mm: sample 0, step to the next
 layout(binding = 2) uniform sampler2D places;       // one row per image: the rows of texture_from_probe
 #ifdef BENT
-// One row per image: how far the nodes of its scan lines are moved, in the volume's texture. BEND_ACROSS nodes lie evenly
-// from the first line to the last; the next BEND_ACROSS lie BEND_SAMPLES samples deeper. Lines are straight in between.
+// One row per image: how far the nodes of its scan lines are moved, in the volume's texture. BEND_ACROSS nodes lie
+// evenly from the first line to the last; the next BEND_ACROSS lie BEND_SAMPLES samples deeper. Lines are straight in
+// between.
 layout(binding = 3) uniform sampler2D bends;
 #endif
 #if GREY == 1 && INTERLEAVED == 1

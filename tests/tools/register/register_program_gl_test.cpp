@@ -31,19 +31,25 @@ struct Workplace {
   TemporaryFolder folder;
   Volume<std::int16_t> ct;
 
-  explicit Workplace(bool with_images = true) {
-    const AcousticVolume body = test::test_body();
+  /// @param breath_mm  how far the body's organs have moved in the recording, but not in the CT
+  explicit Workplace(bool with_images = true, double breath_mm = 0) {
+    AcousticVolume body = test::test_body();
     ct.grid = body.grid;
     for (const AcousticVoxel& voxel : body.voxels) ct.voxels.push_back(voxel.hu);
     write_ct(folder.path / "ct.nrrd", ct);
     if (!with_images) return;
+    if (breath_mm > 0) body = deformed(body, breath({0, 55, 0}, breath_mm));
     const gl::HeadlessContext context;
     const Probe probe = *find_probe("curvilinear");
-    const TrackedSweep sweep = synthetic_sweep(body, read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml"), probe,
-                                               kDepthMm, trainer_settings(probe.frequency_mhz, kDepthMm),
-                                               hand_sweep(test::on_the_skin(0, 6, 0), 12, 12, 16), kWidth, kHeight);
+    const TrackedSweep sweep =
+        synthetic_sweep(body, read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml"), probe, kDepthMm,
+                        trainer_settings(probe.frequency_mhz, kDepthMm),
+                        hand_sweep(test::on_the_skin(0, 6, 0), breath_mm > 0 ? 16 : 12, 12, 16), kWidth, kHeight);
     record("sweep.igs.mha", sweep, [](float grey) { return std::isnan(grey) ? 0 : int(grey); });
     record("black.igs.mha", sweep, [](float) { return 0; });
+    TrackedSweep three = sweep;
+    three.images.resize(3);
+    record("three.igs.mha", three, [](float grey) { return std::isnan(grey) ? 0 : int(grey); });
   }
   template <typename Grey>
   void record(const char* name, const TrackedSweep& sweep, Grey&& grey) const {
@@ -164,6 +170,42 @@ TEST_CASE("a volume of a sweep is registered along its beam") {
           "sweep.igs.mha: it is a recording, not a volume; leave out --beam");
 }
 
+TEST_CASE("a recording of a body that has breathed is registered with a deformation") {
+  const Workplace place(true, 5);
+  const ProgramOutcome outcome =
+      place.run("--free-form 25 --smoothness 300 --slices 8 --search-mm 0 --search-deg 0 --start " +
+                    place.folder.put("start.txt", "1 0 0 3 0 1 0 -2 0 0 1 4 0 0 0 1\n").string() + " " +
+                    place.in("sweep.igs.mha") + " " + place.in("out"),
+                "");
+  INFO(outcome.errors << outcome.output);
+  REQUIRE(outcome.code == 0);
+  CHECK(outcome.output.find(" Deformation: LC2 of the images that were not fitted went from ") != std::string::npos);
+  const fs::path out = place.in("out");
+  const auto json = nlohmann::json::parse(read_file(out / "registration.json"));
+  const auto& free_form = json["free_form"];
+  CHECK(free_form["improved"] == true);
+  CHECK(free_form["spacing_mm"] == 25);
+  CHECK(free_form["least_jacobian"] > 0.2);
+  const auto& points = free_form["control_points"];
+  CHECK(free_form["control_mm"].size() ==
+        points[0].get<std::size_t>() * points[1].get<std::size_t>() * points[2].get<std::size_t>());
+  CHECK(json["parameters"].size() == 12);  // the deformation follows an affine registration
+  for (const char* file : {"ct_from_sweep.nrrd", "sweep_from_ct.nrrd"})
+    CHECK(read_file(out / file).find("kinds: vector domain domain domain\n") != std::string::npos);
+  for (const char* file : {"ct_from_sweep.tfm", "sweep_from_ct.tfm"})
+    CHECK(read_file(out / file).find("# The affine part alone; the .nrrd files hold the whole map. Converged") !=
+          std::string::npos);
+  CHECK(read_file(out / "scene.mrml").find("fileName=\"sweep_from_ct.nrrd\"") != std::string::npos);
+  const std::string csv = read_file(out / "evaluations.csv"), page = read_file(out / "index.html");
+  CHECK(csv.find(",shear_xy_mm,bending_energy_mm-2\n0,") != std::string::npos);
+  CHECK(csv.find(",free-form vary,") != std::string::npos);
+  CHECK(csv.find(",free-form step,") != std::string::npos);
+  CHECK(std::size_t(std::count(csv.begin(), csv.end(), '\n')) ==
+        1 + json["evaluations"].get<std::size_t>() + free_form["evaluations"].get<std::size_t>());
+  CHECK(page.find("Both, deformed") != std::string::npos);
+  CHECK(std::distance(fs::directory_iterator(out / "pictures"), {}) == 28);
+}
+
 TEST_CASE("a registration that does not converge exits with 3 and says so in every file") {
   const Workplace place;
   // The search may not leave the start, which is 50 mm off.
@@ -222,6 +264,13 @@ TEST_CASE("what insonate-register cannot use it refuses in a sentence, with exit
             .errors.find("there is no kind of probe named 'convex'") != std::string::npos);
   refused("--transform ToolToTracker " + sweep, "sweep.igs.mha: ");
   refused("--patch 3 " + sweep, "--patch: ");
+  refused("--free-form 25 --measure mi " + sweep,
+          "--free-form: a deformation is fitted by LC2 alone; leave out --measure.");
+  refused("--free-form 25 --patch 0 " + sweep, "--free-form: a deformation is fitted by patches; give --patch from 4");
+  refused("--free-form 2 " + sweep, "--free-form: ");
+  refused("--smoothness 10 " + sweep, "--smoothness requires --free-form");
+  refused("--free-form 25 " + place.in("three.igs.mha") + " " + place.in("out"),
+          "three.igs.mha: a deformation needs 4 images; there are 3; record a longer sweep, or leave out --free-form.");
   refused(place.in("missing.igs.mha") + " " + place.in("out"), "missing.igs.mha: ");
 }
 
