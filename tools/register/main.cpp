@@ -16,6 +16,7 @@
 #include "sim/imaging/upload.h"
 #include "sim/registration/wein_settings_file.h"
 #include "sim/volume/ct_reader.h"
+#include "tools/cli/pose_file.h"
 #include "tools/cli/program.h"
 #include "tools/cli/subject.h"
 #include "tools/register/comparison_pictures.h"
@@ -53,7 +54,7 @@ int main(int argc, char** argv) {
       "insonate-register");
   RegistrationSettings settings;
   SweepOptions sweep;
-  std::string subject_path, transform, settings_file, measure = "lc2", recording, out;
+  std::string subject_path, transform, settings_file, poses_file, mask_volume, measure = "lc2", recording, out;
   std::vector<double> beam;
   std::optional<int> patch;
   bool affine = false;
@@ -66,6 +67,16 @@ int main(int argc, char** argv) {
       ->type_name("NAME")
       ->default_str("ProbeToPatient, or a path to it");
   declare_sweep_options(arguments, sweep);
+  arguments
+      .add_option("--poses", poses_file,
+                  "Read where the probe was in each image of DICOM ultrasound from this file: per image 16 numbers by "
+                  "rows, the map sweep_from_probe in mm (LPS)")
+      ->type_name("FILE");
+  arguments
+      .add_option("--mask-volume", mask_volume,
+                  "Use only the pixels whose points have a label above 0 in this label map of the recording's frame "
+                  "(NRRD, MetaImage, NIfTI)")
+      ->type_name("FILE");
   CLI::Option* along = arguments
                            .add_option("--beam", beam,
                                        "Take RECORDING to be a 3D ultrasound volume (NRRD, MetaImage, NIfTI) whose "
@@ -73,8 +84,8 @@ int main(int argc, char** argv) {
                            ->type_name("X,Y,Z")
                            ->delimiter(',')
                            ->expected(3);
-  for (const char* of_images :
-       {"--probe", "--probe-file", "--depth", "--image-to-probe", "--face-pixel", "--clip", "--mask", "--transform"})
+  for (const char* of_images : {"--probe", "--probe-file", "--depth", "--image-to-probe", "--face-pixel", "--clip",
+                                "--mask", "--transform", "--poses"})
     along->excludes(arguments.get_option(of_images));
   arguments
       .add_option("--measure", measure,
@@ -115,8 +126,10 @@ int main(int argc, char** argv) {
                   "Read model W's settings from this file (TOML): fields of sim/registration/wein_settings.h")
       ->type_name("FILE");
   arguments
-      .add_option("RECORDING", recording,
-                  "Register this recording (PLUS, 3D Slicer, or insonate), or with --beam this volume")
+      .add_option(
+          "RECORDING", recording,
+          "Register this recording (PLUS, 3D Slicer, or insonate), with --poses this clip of DICOM ultrasound, or "
+          "with --beam this volume")
       ->type_name("FILE")
       ->required();
   arguments
@@ -132,6 +145,7 @@ int main(int argc, char** argv) {
     SweepInput input = sweep.input();
     input.file = recording;
     input.transform = transform;
+    if (!poses_file.empty()) input.poses = read_poses(poses_file, "sweep_from_probe");
     input.slices = settings.slices;
     if (!settings_file.empty()) settings.wein = read_wein_settings(settings_file);
     if (patch) settings.wein.similarity_patch = *patch;
@@ -150,8 +164,9 @@ int main(int argc, char** argv) {
     }
     const glm::dmat4 ct_from_sweep = sweep.start();
 
-    const ReadSweep read =
+    ReadSweep read =
         beam.empty() ? read_sweep(input) : read_volume_sweep(recording, glm::dvec3(beam[0], beam[1], beam[2]), input);
+    if (!mask_volume.empty()) keep_labelled(read.sweep, read_labels(mask_volume), mask_volume);
     if (spacing_mm) check_deformable(recording, read.sweep, *spacing_mm);
     if (read.fan) std::printf("Found in the images: %s.\n", description(*read.fan).c_str());
     const TissueTable table = read_tissue_table(assets_folder() / "tissues.toml");

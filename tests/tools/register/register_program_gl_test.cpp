@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <glm/matrix.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -12,11 +13,13 @@
 
 #include "devices/record/sequence_recorder.h"
 #include "sim/alignment/synthetic_sweep.h"
+#include "sim/core/text.h"
 #include "sim/gl/headless_context.h"
 #include "sim/reconstruction/tracked_picture.h"
 #include "sim/volume/ct_reader.h"
 #include "tests/core/run_program.h"
 #include "tests/imaging/test_body.h"
+#include "tests/volume/dicom_files.h"
 
 using namespace insonate;
 namespace fs = std::filesystem;
@@ -47,6 +50,7 @@ struct Workplace {
                         hand_sweep(test::on_the_skin(0, 6, 0), breath_mm > 0 ? 16 : 12, 12, 16), kWidth, kHeight);
     record("sweep.igs.mha", sweep, [](float grey) { return std::isnan(grey) ? 0 : int(grey); });
     record("black.igs.mha", sweep, [](float) { return 0; });
+    record_dicom("sweep.dcm", "poses.txt", sweep);
     TrackedSweep three = sweep;
     three.images.resize(3);
     record("three.igs.mha", three, [](float grey) { return std::isnan(grey) ? 0 : int(grey); });
@@ -66,6 +70,24 @@ struct Workplace {
       time_s += 0.1;
     }
     recorder.finish();
+  }
+  void record_dicom(const char* name, const char* poses_name, const TrackedSweep& sweep) const {
+    const ImageGeometry geometry = image_geometry(sweep.probe, kDepthMm, kWidth, kHeight);
+    DicomClip clip;
+    clip.columns = kWidth;
+    clip.rows = kHeight;
+    clip.frames = int(sweep.images.size());
+    clip.regions = {{0, 0, kWidth - 1, kHeight - 1, 1, 1, 3, geometry.mm_per_pixel / 10, geometry.mm_per_pixel / 10}};
+    std::string poses;
+    for (const SweepImage& image : sweep.images) {
+      for (const float grey : image.grey.pixels) clip.stored.push_back(std::isnan(grey) ? 0 : std::uint8_t(grey));
+      Pose pose = image.sweep_from_probe;
+      pose.translation -= glm::dvec3(3, -2, 4);
+      const glm::dmat4 rows = glm::transpose(pose.matrix());
+      for (int i = 0; i < 16; ++i) poses += exact_text(rows[i / 4][i % 4]) + (i < 15 ? " " : "\n");
+    }
+    write_dicom_clip(folder.path / name, clip);
+    folder.put(poses_name, poses);
   }
   std::string in(const char* name) const { return (folder.path / name).string(); }
   ProgramOutcome run_as_found(const std::string& arguments) const {
@@ -168,6 +190,31 @@ TEST_CASE("a volume of a sweep is registered along its beam") {
   refused("--beam 0,1,0 --depth 90 " + place.in("first/sweep.nrrd"), "--depth excludes --beam");
   refused("--beam 0,1,0 " + place.in("sweep.igs.mha"),
           "sweep.igs.mha: it is a recording, not a volume; leave out --beam");
+}
+
+TEST_CASE("a clip of DICOM ultrasound with its poses is registered inside a label map") {
+  const Workplace place;
+  // All but the last images of the sweep, which slides along z from -8 to 8 mm before the shift.
+  Volume<std::uint8_t> labels{{{61, 61, 61}, glm::dvec3(3), {-90, -60, -150}, glm::dmat3(1)}, {}};
+  labels.voxels.assign(labels.grid.count(), 0);
+  for (int k = 0; k < 61; ++k)
+    for (int j = 0; j < 61; ++j)
+      for (int i = 0; i < 61; ++i) labels.at({i, j, k}) = labels.grid.patient_from_index(glm::dvec3(i, j, k)).z < 0;
+  write_labels(place.folder.path / "inside.nrrd", labels);
+  const ProgramOutcome outcome =
+      run_program(INSONATE_REGISTER_PROGRAM " --ct " + place.in("ct.nrrd") + " --search-mm 12 --search-deg 8 --poses " +
+                  place.in("poses.txt") + " --mask-volume " + place.in("inside.nrrd") + " " + place.in("sweep.dcm") +
+                  " " + place.in("out"));
+  INFO(outcome.errors << outcome.output);
+  REQUIRE(outcome.code == 0);
+  const auto json = nlohmann::json::parse(read_file(fs::path(place.in("out")) / "registration.json"));
+  CHECK(json["frames"] == 12);
+  CHECK(json["slices"] > 3);
+  CHECK(json["slices"] < 12);
+  const double shift[] = {3, -2, 4};
+  for (std::size_t row = 0; row < 3; ++row)
+    CHECK(json["ct_from_sweep"][row][3].get<double>() == Approx(shift[row]).margin(4));
+  CHECK(place.run(place.in("sweep.dcm") + " " + place.in("other")).errors.find("as --poses FILE") != std::string::npos);
 }
 
 TEST_CASE("a recording of a body that has breathed is registered with a deformation") {
