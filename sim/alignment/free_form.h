@@ -53,7 +53,7 @@ struct FreeFormRegistration {
   double seconds = 0;
 
   /// Returns whether the images that were not fitted became more similar, by more than chance would make them: twice
-  /// the standard error.
+  /// the standard error. A fit of what model W leaves out makes them more similar too, also where nothing has moved.
   bool is_improved() const { return held_out_after - held_out_before > 2 * held_out_error; }
 };
 
