@@ -1,7 +1,10 @@
 #include "sim/alignment/synthetic_sweep.h"
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
+#include <tbb/parallel_for.h>
 
 #include <cmath>
 #include <limits>
@@ -52,6 +55,38 @@ TrackedSweep synthetic_sweep(const AcousticVolume& volume, const TissueTable& ta
     sweep.images.push_back({pose, resampled(picture, pixel_from_plane, to)});
   }
   return sweep;
+}
+
+AcousticVolume deformed(const AcousticVolume& volume, const std::function<glm::dvec3(const glm::dvec3&)>& moved) {
+  AcousticVolume result{volume.grid, std::vector<AcousticVoxel>(volume.grid.count())};
+  const glm::ivec3& size = volume.grid.size;
+  tbb::parallel_for(0, size.z, [&](int k) {
+    for (int j = 0; j < size.y; ++j)
+      for (int i = 0; i < size.x; ++i) {
+        const glm::dvec3 index =
+            volume.grid.index_from_patient(moved(volume.grid.patient_from_index(glm::dvec3(i, j, k))));
+        const glm::ivec3 low(glm::floor(index));
+        const glm::dvec3 f = index - glm::dvec3(low);
+        double hu = 0, echogenicity = 0;
+        for (int corner = 0; corner < 8; ++corner) {
+          const glm::ivec3 step(corner & 1, corner >> 1 & 1, corner >> 2);
+          const AcousticVoxel voxel = volume.grid.contains(low + step) ? volume.at(low + step) : AcousticVoxel{};
+          const double weight = (step.x ? f.x : 1 - f.x) * (step.y ? f.y : 1 - f.y) * (step.z ? f.z : 1 - f.z);
+          hu += weight * voxel.hu;
+          echogenicity += weight * voxel.echogenicity_cdb;
+        }
+        result.at({i, j, k}) = {std::int16_t(std::lround(hu)), std::int16_t(std::lround(echogenicity))};
+      }
+  });
+  return result;
+}
+
+std::function<glm::dvec3(const glm::dvec3&)> breath(const glm::dvec3& centre, double most_mm) {
+  return [=](const glm::dvec3& p) {
+    constexpr double kWidth_mm = 30;
+    const glm::dvec3 apart = (p - centre) / kWidth_mm;
+    return p + most_mm * std::exp(-glm::dot(apart, apart) / 2) * glm::dvec3(0, 1.0 / 3, 1);
+  };
 }
 
 }  // namespace insonate

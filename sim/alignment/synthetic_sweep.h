@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "sim/alignment/tracked_sweep.h"
@@ -24,5 +25,14 @@ std::vector<Pose> hand_sweep(const Pose& patient_from_probe, int images, double 
 TrackedSweep synthetic_sweep(const AcousticVolume& volume, const TissueTable& table, const Probe& probe,
                              double depth_mm, const Settings& settings, const std::vector<Pose>& patient_from_probe,
                              int width, int height);
+
+/// Returns the patient after a deformation: the voxel at p holds what the volume has at `moved(p)`, trilinear. Beyond
+/// the volume is air. So where a sweep of the result shows p, the truth is `moved(p)` in the volume.
+AcousticVolume deformed(const AcousticVolume& volume, const std::function<glm::dvec3(const glm::dvec3&)>& moved);
+
+/// Returns what a breath does to the organs under the probe, as a map for deformed(). The tissue moves by up to most_mm
+/// along the patient's z axis and by up to a third of that along y. It does so most at a depth, and hardly in the skin
+/// and far away: a Gaussian with a standard deviation of 30 mm about `centre`.
+std::function<glm::dvec3(const glm::dvec3&)> breath(const glm::dvec3& centre, double most_mm);
 
 }  // namespace insonate

@@ -29,7 +29,7 @@ struct ScanStages {
              std::size_t samples, std::size_t images);
 
   /// Builds the traversal.
-  /// @param compiled_in  as the member of this name
+  /// @param compiled_in  as the member of this name; with BENT, BEND_ACROSS and BEND_SAMPLES for lines that bend
   static Program traverse_program(const ShaderSources& sources, Defines compiled_in, Leaves leaves);
 
   /// Returns how many work groups `images` images take; each processes images_per_invocation of them.

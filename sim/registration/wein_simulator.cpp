@@ -35,6 +35,9 @@ constexpr std::size_t kMostChunk = 2048;  // images; some tables have one row pe
 // Below this no echo is left: with any compression, it is less than half a step of what the scan stores.
 constexpr double kLeastIntensity = 1e-10;
 
+// Nodes of bent lines: from the first line to the last, and segments along a line.
+constexpr int kBendAcross = 33, kMostBendSegments = 32;
+
 // Returns the number of images per chunk: whole texels of interleaved images if that many fit.
 std::size_t images_of_chunk(std::size_t image_samples) {
   const std::size_t fit = std::clamp<std::size_t>(kChunkBytes / (image_samples * kSampleBytes), 1, kMostChunk);
@@ -73,6 +76,16 @@ std::string literal(double value) {
 
 }  // namespace
 
+// What lines that bend need besides the rest, built when they are first asked for.
+struct Bent {
+  std::optional<Program> interleaved;
+  Program alone, lc2;
+  Texture bends;
+  std::vector<glm::vec4> rows;
+  Buffer shares;
+  std::size_t shares_held = 0;
+};
+
 struct WeinSimulator::State {
   State(const AcousticVolume& volume, const Probe& probe, double depth_mm, const WeinSettings& wanted,
         const ShaderSources& given, const WorkDivision& chosen);
@@ -81,6 +94,7 @@ struct WeinSimulator::State {
   void traverse(std::span<const glm::dmat4> chunk, std::size_t first, const ScanStages& stages, const Program& program,
                 const TexelBuffer& scan);
   void ran(WeinStage stage, std::size_t images, std::size_t pixels);
+  void place_bends(std::size_t first, std::size_t count);
   template <typename Work>
   void by_chunks(std::span<const glm::dmat4> poses, const ScanStages& stages, const Program& program,
                  const TexelBuffer& scan, Work&& work);
@@ -109,6 +123,11 @@ struct WeinSimulator::State {
   ComparedPixels ultrasound;
   Texture density, probe_lines, places, sums, grid;
   std::vector<glm::vec4> place_rows;
+
+  int bend_samples;  // per segment of a bent line: even, so that a pair of samples lies in one
+  std::vector<glm::dvec3> bend_nodes;
+  std::optional<Bent> bent;
+  std::span<const glm::vec3> bends;  // of the call; empty: lines are straight
 
   std::vector<glm::dmat4> drawn, compared;  // of the last calls
   std::vector<float> similar;               // for `compared`
@@ -154,6 +173,18 @@ WeinSimulator::State::State(const AcousticVolume& volume, const Probe& probe, do
 
   places = Texture::make_2d(GL_RGBA32F, 3, int(chunk_images), Filter::nearest);
   place_rows.resize(3 * chunk_images);
+
+  bend_samples = 2 * ((lines.samples + 2 * kMostBendSegments - 1) / (2 * kMostBendSegments));
+  for (int k = 0; k < lines.samples + bend_samples; k += bend_samples)
+    for (int node = 0; node < kBendAcross; ++node) {
+      const double across = double(node) * (n - 1) / (kBendAcross - 1), r = lines.r_min_mm + (k + 0.5) * dr;
+      const int left = std::clamp(int(across), 0, std::max(n - 2, 0)), right = std::min(left + 1, n - 1);
+      const auto at = [&](int line) {
+        const ScanLine& of = lines.lines[std::size_t(line)];
+        return of.start + r * of.direction;
+      };
+      bend_nodes.push_back(glm::mix(at(left), at(right), across - left));
+    }
 
   parameters.columns = 1;
   parameters.ultrasounds = 1;
@@ -202,10 +233,20 @@ void WeinSimulator::State::traverse(std::span<const glm::dmat4> chunk, std::size
   density.bind(0);
   probe_lines.bind(1);
   places.bind(2);
+  if (!bends.empty()) place_bends(first, chunk.size());
   scan.bind_storage(0);
   samples_traversed.bind_storage(1);
   program.dispatch_groups(stages.image_groups(int(chunk.size())),
                           (int(lines.lines.size()) + int(group) - 1) / int(group));
+}
+
+// Binds the bends of a chunk's lines, in the volume's texture.
+void WeinSimulator::State::place_bends(std::size_t first, std::size_t count) {
+  const std::size_t nodes = bend_nodes.size();
+  const glm::mat3 turned(texture_from_patient);
+  for (std::size_t i = 0; i < count * nodes; ++i) bent->rows[i] = glm::vec4(turned * bends[first * nodes + i], 0);
+  bent->bends.write(GL_RGBA, GL_FLOAT, bent->rows.data());
+  bent->bends.bind(3);
 }
 
 void WeinSimulator::State::ran(WeinStage stage, std::size_t images, std::size_t pixels) {
@@ -340,6 +381,75 @@ std::vector<float> WeinSimulator::similarity(std::span<const glm::dmat4> patient
   s.ran(WeinStage::compare, result.size(), s.ultrasound.table.pixels);
   s.compared.assign(patient_from_probe.begin(), patient_from_probe.end());
   s.similar = result;
+  return result;
+}
+
+const std::vector<glm::dvec3>& WeinSimulator::bend_nodes() const {
+  return state_->bend_nodes;
+}
+int WeinSimulator::patches_across() const {
+  const int patch = state_->settings.similarity_patch;
+  return patch > 0 ? (state_->settings.image_width + patch - 1) / patch : 1;
+}
+int WeinSimulator::patches_down() const {
+  const int patch = state_->settings.similarity_patch;
+  return patch > 0 ? (state_->settings.image_height + patch - 1) / patch : 1;
+}
+
+std::vector<float> WeinSimulator::patch_similarity(std::span<const glm::dmat4> patient_from_probe,
+                                                   std::span<const glm::vec3> bends) {
+  check_places(patient_from_probe);
+  State& s = *state_;
+  const auto refuse = [](const char* why) { throw std::invalid_argument(std::string(kName) + ": " + why); };
+  if (s.settings.similarity_patch == 0) refuse("there are no patches");
+  if (bends.size() != patient_from_probe.size() * s.bend_nodes.size()) refuse("there is not one bend per node");
+  if (!std::ranges::all_of(bends, [](const glm::vec3& bend) { return std::isfinite(glm::dot(bend, bend)); }))
+    refuse("a bend is not finite");
+  const std::size_t of_image = std::size_t(patches_across()) * std::size_t(patches_down());
+  std::vector<float> result(patient_from_probe.size() * of_image);
+  if (result.empty() || !s.ultrasound.table) return result;
+  if (!s.bent) {
+    const auto traverse = [&](const ScanStages& stages) {
+      Defines defines = stages.compiled_in;
+      defines.emplace_back("BENT", "");
+      defines.emplace_back("BEND_ACROSS", std::to_string(kBendAcross));
+      defines.emplace_back("BEND_SAMPLES", std::to_string(s.bend_samples));
+      return ScanStages::traverse_program(s.sources, std::move(defines), ScanStages::Leaves::terms);
+    };
+    Defines by_patch = s.alone.compiled_in;
+    by_patch.emplace_back("BY_PATCH", "");
+    s.bent.emplace();
+    if (s.interleaved) s.bent->interleaved = traverse(*s.interleaved);
+    s.bent->alone = traverse(s.alone);
+    s.bent->lc2 = Program(s.sources, {"registration/lc2.comp"}, std::move(by_patch));
+    s.bent->bends = Texture::make_2d(GL_RGBA32F, int(s.bend_nodes.size()), int(s.chunk_images), Filter::nearest);
+    s.bent->rows.resize(s.bend_nodes.size() * s.chunk_images);
+  }
+  Bent& bent = *s.bent;
+  const std::size_t columns = s.ultrasound.table.columns, count = patient_from_probe.size() * columns;
+  if (bent.shares_held < count) {
+    bent.shares = Buffer(count * sizeof(float), nullptr);
+    bent.shares_held = count;
+  }
+  const ScanStages& stages = s.stages_for(patient_from_probe.size());
+  s.bends = bends;
+  s.by_chunks(patient_from_probe, stages, &stages == &s.alone ? bent.alone : *bent.interleaved, stages.term_scan,
+              [&](int images) {
+                s.ultrasound.table.places.bind(1);
+                s.ultrasound.values.bind(2);
+                s.sums.bind_image(0, GL_WRITE_ONLY);
+                stages.parts.dispatch(int(columns), stages.term_groups(images));
+                bent.shares.bind_storage(0);
+                s.sums.bind(0);
+                bent.lc2.dispatch(images, 1);
+              });
+  s.bends = {};
+  std::vector<float> shares(count);
+  bent.shares.read(shares.data(), count * sizeof(float));
+  for (std::size_t i = 0; i < patient_from_probe.size(); ++i)
+    for (std::size_t patch = 0; patch < std::min(columns, of_image); ++patch)
+      result[i * of_image + patch] = shares[i * columns + patch];
+  s.ran(WeinStage::compare, patient_from_probe.size(), s.ultrasound.table.pixels);
   return result;
 }
 

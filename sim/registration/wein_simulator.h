@@ -73,6 +73,20 @@ public:
   /// The same for affine maps, as simulate() takes them.
   std::vector<float> similarity(std::span<const glm::dmat4> patient_from_probe);
 
+  /// Returns the points at which a deformation of the patient may bend scan lines, in the probe's frame, mm. Between
+  /// them, displacements are linear along the lines and from line to line. The points are about 32 by 32, at least 2
+  /// samples apart.
+  const std::vector<glm::dvec3>& bend_nodes() const;
+  /// Compares as similarity() does, with scan lines that a deformation of the patient bends. Returns what each patch
+  /// contributes to its image's LC2: per pose, patches_across() x patches_down() numbers, row by row, whose sum is the
+  /// LC2. Distances along a line remain the probe's. Throws std::invalid_argument without patches in the settings, for
+  /// another number of bends, or for one that is not finite.
+  /// @param bends  per pose, how far each of bend_nodes() is moved behind the pose, in the patient's frame, mm
+  std::vector<float> patch_similarity(std::span<const glm::dmat4> patient_from_probe, std::span<const glm::vec3> bends);
+  /// Returns how many patches lie side by side in an image, and one below the other; 1 without patches.
+  int patches_across() const;
+  int patches_down() const;
+
   /// Returns what a stage did in all images of the last call. A call with at least one pose is one run of its stages; a
   /// call with the same poses as the call before runs nothing. Evaluated samples are modulo 2^32; a line counts until
   /// the last of the lines traversed together with it has ended. Images of read_stages() count too. For the traversal,

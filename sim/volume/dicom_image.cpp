@@ -4,9 +4,12 @@
 #include <gdcmImageReader.h>
 #include <gdcmRescaler.h>
 
+#include <bit>
+#include <cstring>
 #include <map>
 #include <optional>
 
+#include "sim/core/files.h"
 #include "sim/core/input_error.h"
 #include "sim/volume/voxel_data.h"
 
@@ -71,6 +74,24 @@ DicomImage read_dicom_image(const std::filesystem::path& file, const glm::uvec2&
   DicomImage read{to_string(*type), {}};
   decode(native, bytes.data(), count, read.values);
   return read;
+}
+
+void check_raw_pixels(const std::filesystem::path& file, std::uint64_t needed, bool is_big_endian) {
+  // The element (7fe0,0010) with the image's own length. An icon image has another length.
+  const std::string bytes = read_file(file);
+  const char* const tag = is_big_endian ? "\x7f\xe0\x00\x10" : "\xe0\x7f\x10\x00";
+  for (std::size_t at = 0; (at = bytes.find(tag, at, 4)) != std::string::npos; ++at) {
+    const bool explicit_type = bytes.compare(at + 4, 2, "OW") == 0 || bytes.compare(at + 4, 2, "OB") == 0;
+    const std::size_t length_at = at + (explicit_type ? 8 : 4);
+    std::uint32_t length = 0;
+    if (length_at + sizeof length > bytes.size()) break;
+    std::memcpy(&length, bytes.data() + length_at, sizeof length);
+    if (is_big_endian) length = __builtin_bswap32(length);
+    if (length != needed + needed % 2) continue;
+    if (bytes.size() - length_at - sizeof length >= length) return;
+    throw InputError(file.string(), "voxels", "the file ends before its image does", "export it again");
+  }
+  throw InputError(file.string(), "voxels", "it holds no image of the size that its header gives", "export it again");
 }
 
 }  // namespace insonate

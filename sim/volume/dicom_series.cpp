@@ -22,6 +22,7 @@
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
 #include "sim/core/text.h"
+#include "sim/volume/dicom_image.h"
 #include "sim/volume/volume_checks.h"
 
 namespace insonate {
@@ -428,23 +429,7 @@ void check_dicom_slice(const fs::path& file) {
   columns.SetFromDataSet(header);
   bits.SetFromDataSet(header);
   const std::uint64_t needed = std::uint64_t(rows.GetValue()) * columns.GetValue() * bits.GetValue() / 8;
-
-  // The element (7fe0,0010) with the image's own length. An icon image has another length.
-  const std::string bytes = read_file(file);
-  const char* const tag = big_endian ? "\x7f\xe0\x00\x10" : "\xe0\x7f\x10\x00";
-  for (std::size_t at = 0; (at = bytes.find(tag, at, 4)) != std::string::npos; ++at) {
-    const bool explicit_type = bytes.compare(at + 4, 2, "OW") == 0 || bytes.compare(at + 4, 2, "OB") == 0;
-    const std::size_t length_at = at + (explicit_type ? 8 : 4);
-    std::uint32_t length = 0;
-    if (length_at + sizeof length > bytes.size()) break;
-    std::memcpy(&length, bytes.data() + length_at, sizeof length);
-    if (big_endian) length = __builtin_bswap32(length);
-    if (length != needed + needed % 2) continue;
-    if (bytes.size() - length_at - sizeof length >= length) return;
-    throw InputError(file.string(), "voxels", "the file ends before its image does", "export the series again");
-  }
-  throw InputError(file.string(), "voxels", "it holds no image of the size that its header gives",
-                   "export the series again");
+  check_raw_pixels(file, needed, big_endian);
 }
 
 void scan_dicom_file(const fs::path& file) {

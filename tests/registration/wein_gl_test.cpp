@@ -342,3 +342,95 @@ TEST_CASE("LC2 is 0 where there is nothing to compare") {
   bare.set_ultrasound(ultrasound);
   CHECK(bare.similarity({&in_air, 1}).front() == 0);
 }
+
+TEST_CASE("lines that do not bend give the LC2 of straight ones, patch by patch, for one image and for many") {
+  Fixture f;
+  f.settings.similarity_patch = 8;
+  gl::WeinSimulator simulator(f.body, f.probe, kDepthMm, test::exact_as_needed(f.settings));
+  simulator.set_ultrasound(f.ultrasound_like(f.expected(f.pose), 40, 7, 0.3));
+  CHECK(simulator.patches_across() == 9);
+  CHECK(simulator.patches_down() == 7);
+  for (const std::size_t count : {1, 5}) {
+    std::vector<glm::dmat4> places;
+    for (std::size_t i = 0; i < count; ++i)
+      places.push_back(test::on_the_skin(2.0 * double(i), 9, 12 - double(i)).matrix());
+    const std::vector<glm::vec3> none(count * simulator.bend_nodes().size(), glm::vec3(0.0f));
+    const std::vector<float> patches = simulator.patch_similarity(places, none), whole = simulator.similarity(places);
+    REQUIRE(patches.size() == count * 63);
+    for (std::size_t i = 0; i < count; ++i) {
+      double sum = 0;
+      for (std::size_t patch = 0; patch < 63; ++patch) sum += patches[63 * i + patch];
+      CHECK(whole[i] > 0.1);
+      // Lines that bend are computed node by node, which rounds differently.
+      CHECK(sum == Approx(whole[i]).margin(1e-4));
+    }
+  }
+}
+
+TEST_CASE("lines that bend as an affine map moves them give its LC2") {
+  Fixture f;
+  f.settings.similarity_patch = 8;
+  f.probe = *find_probe("linear");  // whose lines an affine map leaves evenly apart
+  f.probe.lines = 61;
+  gl::WeinSimulator simulator(f.body, f.probe, kDepthMm, test::exact_as_needed(f.settings));
+  const WeinStages<double> like =
+      wein_reference(wein_field(f.body, f.settings.reflection_length_mm), f.probe, kDepthMm, f.settings, f.pose);
+  simulator.set_ultrasound(f.ultrasound_like(like, 40, 7, 0.3));
+  glm::dmat4 moved(1.0);
+  moved[0] = {1.04, 0.02, 0, 0};
+  moved[1] = {-0.03, 0.95, 0.04, 0};
+  moved[3] = {1.5, -1, 2, 1};
+  for (const std::size_t count : {1, 3}) {
+    std::vector<glm::dmat4> straight, bent;
+    std::vector<glm::vec3> bends;
+    for (std::size_t i = 0; i < count; ++i) {
+      straight.push_back(test::on_the_skin(3.0 * double(i), 9, 12).matrix());
+      bent.push_back(moved * straight.back());
+      for (const glm::dvec3& node : simulator.bend_nodes())
+        bends.emplace_back(glm::dvec3((bent.back() - straight.back()) * glm::dvec4(node, 1)));
+    }
+    const std::vector<float> expected = simulator.similarity(bent), unmoved = simulator.similarity(straight),
+                             patches = simulator.patch_similarity(straight, bends);
+    for (std::size_t i = 0; i < count; ++i) {
+      double sum = 0;
+      for (std::size_t patch = 0; patch < 63; ++patch) sum += patches[63 * i + patch];
+      CHECK(std::abs(expected[i] - unmoved[i]) > 0.01);
+      CHECK(sum == Approx(expected[i]).margin(2e-4));
+    }
+  }
+}
+
+TEST_CASE("a bend behind a patch changes nothing in it") {
+  Fixture f;
+  f.settings.similarity_patch = 8;
+  gl::WeinSimulator simulator(f.body, f.probe, kDepthMm, test::exact_as_needed(f.settings));
+  simulator.set_ultrasound(f.ultrasound_like(f.expected(f.pose), 40, 7, 0.3));
+  const std::vector<glm::dvec3>& nodes = simulator.bend_nodes();
+  const glm::dmat4 place = f.pose.matrix();
+  std::vector<glm::vec3> bends(nodes.size(), glm::vec3(0.0f));
+  const std::vector<float> before = simulator.patch_similarity({&place, 1}, bends);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (nodes[i].y > 70) bends[i] = {0, 0, 4};
+  const std::vector<float> after = simulator.patch_similarity({&place, 1}, bends);
+  double changed = 0;
+  for (int row = 0; row < simulator.patches_down(); ++row)
+    for (int column = 0; column < simulator.patches_across(); ++column) {
+      const auto n = std::size_t(row * simulator.patches_across() + column);
+      const double deepest = simulator.geometry().plane_mm(8 * column, 8 * row + 8).y;
+      if (deepest < 60) CHECK(after[n] == Approx(before[n]).margin(1e-6));
+      changed += std::abs(after[n] - before[n]);
+    }
+  CHECK(changed > 0.01);
+}
+
+TEST_CASE("bends that make no sense are refused") {
+  Fixture f;
+  const glm::dmat4 place = f.pose.matrix();
+  std::vector<glm::vec3> bends(f.simulator.bend_nodes().size());
+  CHECK_THROWS_AS(f.simulator.patch_similarity({&place, 1}, bends), std::invalid_argument);  // no patches
+  f.settings.similarity_patch = 8;
+  gl::WeinSimulator simulator(f.body, f.probe, kDepthMm, f.settings);
+  CHECK_THROWS_AS(simulator.patch_similarity({&place, 1}, std::span(bends).first(5)), std::invalid_argument);
+  bends[7].y = std::numeric_limits<float>::quiet_NaN();
+  CHECK_THROWS_AS(simulator.patch_similarity({&place, 1}, bends), std::invalid_argument);
+}

@@ -28,6 +28,29 @@ struct DicomSlice {
 
 void write_dicom(const std::filesystem::path& file, const DicomSlice& slice);
 
+/// One item of a clip's Sequence of Ultrasound Regions: tissue in 2D, with pixels of 0.5 x 0.4 mm.
+struct DicomRegion {
+  std::uint32_t left = 0, top = 0, right = 0, bottom = 0;  ///< first and last pixels
+  std::uint16_t spatial_format = 1, data_type = 1, units = 3;
+  double across_cm = 0.05, down_cm = 0.04;
+};
+
+/// How a clip's pixels are stored: in grey, as colours pixel by pixel or plane by plane, or as indices into a palette.
+enum class DicomColours { grey, rgb, rgb_planes, ybr, palette };
+
+/// A multi-frame ultrasound clip as a scanner would export it, written by GDCM.
+struct DicomClip {
+  int columns = 8, rows = 6, frames = 3;
+  DicomColours colours = DicomColours::grey;
+  /// Frame by frame, and with colours 3 per pixel: red, green, blue for each pixel (also where they are stored by
+  /// planes), or luminance and chrominances. The palette has red 255 - n, green n and blue 7 at n.
+  std::vector<std::uint8_t> stored;
+  std::vector<DicomRegion> regions;
+  DicomCoding coding = DicomCoding::raw;
+};
+
+void write_dicom_clip(const std::filesystem::path& file, const DicomClip& clip);
+
 /// Replaces the bytes of an existing element of a DICOM file.
 void set_tag(const std::filesystem::path& file, std::uint16_t group, std::uint16_t element, const std::string& bytes);
 

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/alignment/free_form.h"
 #include "sim/alignment/registration.h"
 #include "tools/bench/scene.h"
 #include "tools/bench/tables/table.h"
@@ -47,6 +48,18 @@ struct RegistrationRequest {
 /// Registers a synthetic sweep of model S from many starts that are off by known amounts, by each measure: half of them
 /// by up to 40 mm and 40 degrees, the others by up to 20 mm and 15 degrees.
 Table measure_registration(const Request& request, const RegistrationRequest& wanted);
+
+/// What measure_deformation() measures.
+struct DeformationRequest {
+  std::vector<double> breaths_mm{0, 3, 4.5, 6};
+  int images = 40;  ///< of the sweep; half of them are fitted
+  double tilt_deg = 20, slide_mm = 20;
+  FreeFormSettings settings = FreeFormSettings();
+};
+
+/// Registers synthetic sweeps of model S of patients that have breathed since the CT: breath() about the middle of the
+/// sweep. Compares the errors of the rigid and affine maps and of the deformation with the known truth.
+Table measure_deformation(const Request& request, const DeformationRequest& wanted);
 
 /// Measures the error of the device's linear filter, which `exact_filter` in Settings avoids.
 Table measure_filter();

@@ -125,6 +125,25 @@ int main(int argc, char** argv) {
   registration->add_option("--read", old_file, "Summarise this table of an earlier run (CSV) instead of measuring")
       ->type_name("FILE");
   registration->add_option("--svg", svg, "Draw the plot to this file too (SVG)")->type_name("FILE");
+  bench::DeformationRequest deformation_request;
+  CLI::App* deformation =
+      add_measurement(arguments, "deformation",
+                      "Measure the error of registrations of patients that have breathed since the CT", request, csv);
+  deformation
+      ->add_option("--breath", deformation_request.breaths_mm,
+                   "Move the organs by up to this much, mm; may be repeated")
+      ->delimiter(',')
+      ->check(CLI::Range(0.0, 15.0))
+      ->capture_default_str();
+  deformation
+      ->add_option("--spacing", deformation_request.settings.spacing_mm, "Place control points this far apart, mm")
+      ->check(CLI::Range(8.0, 100.0))
+      ->capture_default_str();
+  deformation
+      ->add_option("--smoothness", deformation_request.settings.smoothness_mm2,
+                   "Set the weight of the bending energy, mm^2")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
   CLI::App* denormal =
       arguments.add_subcommand("denormal", "Compare the run time with numbers near 0 with that of ordinary numbers");
   denormal->add_option("--frames", request.frames, "Measure this many frames")
@@ -216,6 +235,7 @@ int main(int argc, char** argv) {
               : division->parsed()     ? bench::measure_work_divisions(request)
               : filter->parsed()       ? bench::measure_filter()
               : denormal->parsed()     ? bench::measure_denormals(request)
+              : deformation->parsed()  ? bench::measure_deformation(request, deformation_request)
               : registration->parsed() ? (old_file.empty() ? bench::measure_registration(request, registration_request)
                                                            : bench::Table::parse(old_file, read_file(old_file)))
               : sweep->parsed()        ? bench::measure_sweep(request)

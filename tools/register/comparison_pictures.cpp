@@ -35,11 +35,13 @@ Image<double> ultrasound_of(const TrackedSweep& sweep, const SweepImage& image, 
   return result;
 }
 
-Image<double> ct_slice(const Volume<std::int16_t>& ct, const glm::dmat4& ct_from_probe, const ImageGeometry& geometry) {
+Image<double> ct_slice(const Volume<std::int16_t>& ct, const glm::dmat4& ct_from_sweep,
+                       const FreeFormField& deformation, const Pose& sweep_from_probe, const ImageGeometry& geometry) {
   Image<double> result(geometry.width, geometry.height);
   for (int y = 0; y < geometry.height; ++y)
     for (int x = 0; x < geometry.width; ++x) {
-      const glm::dvec3 at(ct_from_probe * glm::dvec4(geometry.plane_mm(x, y), 0, 1));
+      const glm::dvec3 in_sweep = deformation.at(sweep_from_probe.point(glm::dvec3(geometry.plane_mm(x, y), 0)));
+      const glm::dvec3 at(ct_from_sweep * glm::dvec4(in_sweep, 1));
       const double hu = sample_trilinear(ct, ct.grid.index_from_patient(at));
       result.at(x, y) = std::clamp((hu - kDarkHu) / (kBrightHu - kDarkHu), 0.0, 1.0);
     }
@@ -60,7 +62,8 @@ Image<Rgba8> shown(const TrackedSweep& sweep, const ImageGeometry& geometry, Col
 
 std::vector<ComparisonPictures> write_comparison(const std::filesystem::path& folder, const TrackedSweep& sweep,
                                                  const Volume<std::int16_t>& ct, const glm::dmat4& before,
-                                                 const glm::dmat4& after, std::size_t count) {
+                                                 const glm::dmat4& after, const FreeFormField* deformation,
+                                                 std::size_t count) {
   std::filesystem::create_directories(folder);
   const ImageGeometry geometry = image_geometry(sweep.probe, sweep.depth_mm, kWidth, kHeight);
   std::vector<ComparisonPictures> all;
@@ -89,14 +92,20 @@ std::vector<ComparisonPictures> write_comparison(const std::filesystem::path& fo
         return pixel;
       });
     };
-    const glm::dmat4 of_image = image.sweep_from_probe.matrix();
-    const Image<double> slice_before = ct_slice(ct, before * of_image, geometry),
-                        slice_after = ct_slice(ct, after * of_image, geometry);
+    const auto slice = [&](const glm::dmat4& map, const FreeFormField& field) {
+      return ct_slice(ct, map, field, image.sweep_from_probe, geometry);
+    };
+    const Image<double> slice_before = slice(before, {}), slice_after = slice(after, {});
     one.ultrasound = write("ultrasound", grey(u));
     one.ct_before = write("ct-before", grey(slice_before));
     one.blend_before = write("blend-before", blend(slice_before));
     one.ct_after = write("ct-after", grey(slice_after));
     one.blend_after = write("blend-after", blend(slice_after));
+    if (deformation) {
+      const Image<double> slice_deformed = slice(after, *deformation);
+      one.ct_deformed = write("ct-deformed", grey(slice_deformed));
+      one.blend_deformed = write("blend-deformed", blend(slice_deformed));
+    }
     all.push_back(one);
   }
   return all;

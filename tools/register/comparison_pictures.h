@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/alignment/free_form_field.h"
 #include "sim/alignment/tracked_sweep.h"
 #include "sim/core/grid.h"
 
@@ -15,14 +16,17 @@ namespace insonate {
 struct ComparisonPictures {
   std::size_t image = 0;  ///< index into the sweep's images
   std::string ultrasound, ct_before, blend_before, ct_after, blend_after;
+  std::string ct_deformed, blend_deformed;  ///< empty without a deformation
 };
 
 /// Writes pictures of some images of a sweep, evenly spread, into a new folder: the ultrasound, the CT's slice in the
 /// same plane before and after registration, and both blended: ultrasound in orange, the CT in blue, and white where
 /// both are bright. The probe's marker is on the left. Throws InputError if they cannot be written.
-/// @param folder  returned paths begin with its last part
+/// @param folder       returned paths begin with its last part
+/// @param deformation  of the sweep, before the map `after`; null: none
 std::vector<ComparisonPictures> write_comparison(const std::filesystem::path& folder, const TrackedSweep& sweep,
                                                  const Volume<std::int16_t>& ct, const glm::dmat4& before,
-                                                 const glm::dmat4& after, std::size_t count);
+                                                 const glm::dmat4& after, const FreeFormField* deformation,
+                                                 std::size_t count);
 
 }  // namespace insonate

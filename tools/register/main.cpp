@@ -6,14 +6,17 @@
 #include <string>
 #include <vector>
 
+#include "sim/alignment/free_form.h"
 #include "sim/alignment/registration.h"
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
 #include "sim/core/new_folder.h"
+#include "sim/core/text.h"
 #include "sim/gl/headless_context.h"
 #include "sim/imaging/upload.h"
 #include "sim/registration/wein_settings_file.h"
 #include "sim/volume/ct_reader.h"
+#include "tools/cli/pose_file.h"
 #include "tools/cli/program.h"
 #include "tools/cli/subject.h"
 #include "tools/register/comparison_pictures.h"
@@ -29,6 +32,19 @@ namespace {
 
 constexpr int kNotConverged = 3;
 
+// Refuses a sweep to which no deformation can be fitted.
+void check_deformable(const std::string& file, const TrackedSweep& sweep, double spacing_mm) {
+  if (sweep.images.size() < kLeastFreeFormImages)
+    throw InputError(
+        file, "", formatted("a deformation needs %zu images; there are %zu", kLeastFreeFormImages, sweep.images.size()),
+        "record a longer sweep, or leave out --free-form");
+  const std::size_t points = field_over(target_points(sweep), spacing_mm).control_mm.size();
+  if (points > kMostControlPoints)
+    throw InputError("--free-form", "",
+                     formatted("the sweep would need %zu control points; %zu are the most", points, kMostControlPoints),
+                     "place them farther apart");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -38,10 +54,12 @@ int main(int argc, char** argv) {
       "insonate-register");
   RegistrationSettings settings;
   SweepOptions sweep;
-  std::string subject_path, transform, settings_file, measure = "lc2", recording, out;
+  std::string subject_path, transform, settings_file, poses_file, mask_volume, measure = "lc2", recording, out;
   std::vector<double> beam;
   std::optional<int> patch;
   bool affine = false;
+  std::optional<double> spacing_mm;
+  FreeFormSettings free_form;
   arguments.add_option("--case,--ct", subject_path, "Take the patient of this case folder, CT file or DICOM folder")
       ->type_name("PATH")
       ->default_str("the built-in patient");
@@ -49,6 +67,16 @@ int main(int argc, char** argv) {
       ->type_name("NAME")
       ->default_str("ProbeToPatient, or a path to it");
   declare_sweep_options(arguments, sweep);
+  arguments
+      .add_option("--poses", poses_file,
+                  "Read where the probe was in each image of DICOM ultrasound from this file: per image 16 numbers by "
+                  "rows, the map sweep_from_probe in mm (LPS)")
+      ->type_name("FILE");
+  arguments
+      .add_option("--mask-volume", mask_volume,
+                  "Use only the pixels whose points have a label above 0 in this label map of the recording's frame "
+                  "(NRRD, MetaImage, NIfTI)")
+      ->type_name("FILE");
   CLI::Option* along = arguments
                            .add_option("--beam", beam,
                                        "Take RECORDING to be a 3D ultrasound volume (NRRD, MetaImage, NIfTI) whose "
@@ -56,8 +84,8 @@ int main(int argc, char** argv) {
                            ->type_name("X,Y,Z")
                            ->delimiter(',')
                            ->expected(3);
-  for (const char* of_images :
-       {"--probe", "--probe-file", "--depth", "--image-to-probe", "--face-pixel", "--clip", "--mask", "--transform"})
+  for (const char* of_images : {"--probe", "--probe-file", "--depth", "--image-to-probe", "--face-pixel", "--clip",
+                                "--mask", "--transform", "--poses"})
     along->excludes(arguments.get_option(of_images));
   arguments
       .add_option("--measure", measure,
@@ -66,13 +94,28 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember({"lc2", "mi", "cr"}))
       ->capture_default_str();
   arguments.add_flag("--affine", affine, "Fit stretches and shears too, after the rigid registration");
+  CLI::Option* free =
+      arguments
+          .add_option("--free-form", spacing_mm,
+                      "After an affine registration, fit a smooth deformation by control points this far apart, mm")
+          ->type_name("MM")
+          ->check(CLI::Range(8.0, 100.0));
+  arguments
+      .add_option("--smoothness", free_form.smoothness_mm2,
+                  "Set the weight of the deformation's bending energy against the similarity, mm^2")
+      ->type_name("MM2")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str()
+      ->needs(free);
   arguments.add_option("--search-mm", settings.search_mm, "Search this far around the start, mm; 0: do not scatter")
       ->check(CLI::Range(0.0, 200.0))
       ->capture_default_str();
   arguments.add_option("--search-deg", settings.search_deg, "Search this far around the start, degrees")
       ->check(CLI::Range(0.0, 90.0))
       ->capture_default_str();
-  arguments.add_option("--slices", settings.slices, "Use this many images of the recording, evenly spread")
+  arguments
+      .add_option("--slices", settings.slices,
+                  "Use this many images of the recording, evenly spread; with --free-form twice as many")
       ->check(CLI::Range(2, 200))
       ->capture_default_str();
   arguments.add_option("--patch", patch, "Set the side of LC2's patches, pixels of 128 x 96; 0: whole images")
@@ -83,14 +126,17 @@ int main(int argc, char** argv) {
                   "Read model W's settings from this file (TOML): fields of sim/registration/wein_settings.h")
       ->type_name("FILE");
   arguments
-      .add_option("RECORDING", recording,
-                  "Register this recording (PLUS, 3D Slicer, or insonate), or with --beam this volume")
+      .add_option(
+          "RECORDING", recording,
+          "Register this recording (PLUS, 3D Slicer, or insonate), with --poses this clip of DICOM ultrasound, or "
+          "with --beam this volume")
       ->type_name("FILE")
       ->required();
   arguments
       .add_option("FOLDER", out,
                   "Write to this new folder: registration.json, ct_from_sweep.tfm and sweep_from_ct.tfm (ITK), "
-                  "evaluations.csv, index.html, and scene.mrml for 3D Slicer with ct.nrrd and sweep.nrrd")
+                  "ct_from_sweep.nrrd and sweep_from_ct.nrrd if it is deformed, evaluations.csv, index.html, and "
+                  "scene.mrml for 3D Slicer with ct.nrrd and sweep.nrrd")
       ->type_name("FOLDER")
       ->required();
 
@@ -99,17 +145,29 @@ int main(int argc, char** argv) {
     SweepInput input = sweep.input();
     input.file = recording;
     input.transform = transform;
+    if (!poses_file.empty()) input.poses = read_poses(poses_file, "sweep_from_probe");
     input.slices = settings.slices;
     if (!settings_file.empty()) settings.wein = read_wein_settings(settings_file);
     if (patch) settings.wein.similarity_patch = *patch;
     if (const auto why = why_not_valid(settings.wein))
       throw InputError("--patch", "", *why, "give 0, or a number from 4 to 128");
     settings.measure = measure_named(measure);
-    settings.freedom = affine ? Freedom::affine : Freedom::rigid;
+    settings.freedom = affine || spacing_mm ? Freedom::affine : Freedom::rigid;
+    if (spacing_mm) {
+      if (settings.measure != Measure::lc2)
+        throw InputError("--free-form", "", "a deformation is fitted by LC2 alone", "leave out --measure");
+      if (settings.wein.similarity_patch == 0)
+        throw InputError("--free-form", "", "a deformation is fitted by patches", "give --patch from 4 to 128");
+      free_form.spacing_mm = *spacing_mm;
+      free_form.wein = settings.wein;
+      input.slices = 2 * settings.slices;  // half of them judge
+    }
     const glm::dmat4 ct_from_sweep = sweep.start();
 
-    const ReadSweep read =
+    ReadSweep read =
         beam.empty() ? read_sweep(input) : read_volume_sweep(recording, glm::dvec3(beam[0], beam[1], beam[2]), input);
+    if (!mask_volume.empty()) keep_labelled(read.sweep, read_labels(mask_volume), mask_volume);
+    if (spacing_mm) check_deformable(recording, read.sweep, *spacing_mm);
     if (read.fan) std::printf("Found in the images: %s.\n", description(*read.fan).c_str());
     const TissueTable table = read_tissue_table(assets_folder() / "tissues.toml");
     const Case subject = open_subject(subject_path);
@@ -117,16 +175,22 @@ int main(int argc, char** argv) {
     const AcousticVolume volume = make_acoustic_volume(subject.ct, subject.labels, tissue_by_label(subject), table);
     const gl::HeadlessContext context;
     SweepRegistration found;
+    std::optional<FreeFormRegistration> deformed;
     gl::upload_ct(subject_path, volume.grid, [&] {
       SweepRegistrar registrar(volume, read.sweep, settings);
       found = registrar.from(ct_from_sweep);
       found.seconds += registrar.seconds_to_prepare();
+      if (spacing_mm && found.converged()) deformed = fit_free_form(volume, read.sweep, found.ct_from_sweep, free_form);
     });
 
-    write_registration(out, RegistrationReport{subject_path, recording, read, settings, found, {}}, subject.ct);
-    std::printf("%s\nSimilarity (%s): %.4f before, %.4f after. %zu evaluations in %.1f s.\n", verdict(found).c_str(),
+    const RegistrationReport report{subject_path, recording, read, settings, found, {}, deformed ? &*deformed : nullptr,
+                                    &free_form};
+    write_registration(out, report, subject.ct);
+    std::printf("%s\nSimilarity (%s): %.4f before, %.4f after. %zu evaluations in %.1f s.\n", verdict(report).c_str(),
                 measure.c_str(), found.similarity_before, found.similarity_after, found.evaluations.size(),
                 found.seconds);
+    if (deformed)
+      std::printf("Deformation: %zu evaluations in %.1f s.\n", deformed->evaluations.size(), deformed->seconds);
     return found.converged() ? 0 : kNotConverged;
   };
   return run_program(arguments, argc, argv, [&] {

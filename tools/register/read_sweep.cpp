@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "devices/replay/read_log.h"
@@ -15,7 +17,9 @@
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
 #include "sim/core/toml_table.h"
+#include "sim/volume/dicom_series.h"
 #include "tools/cli/pose_file.h"
+#include "tools/register/read_dicom_sweep.h"
 
 namespace insonate {
 namespace {
@@ -33,10 +37,6 @@ struct Frame {
   Pose sweep_from_probe;
   glm::dmat4 probe_from_pixel;
 };
-
-glm::dvec2 pixel_size(const glm::dmat4& probe_from_pixel) {
-  return {glm::length(glm::dvec3(probe_from_pixel[0])), glm::length(glm::dvec3(probe_from_pixel[1]))};
-}
 
 void check_mask(const Image<std::uint8_t>& picture, const SweepInput& input) {
   if (!input.mask || (input.mask->width == picture.width && input.mask->height == picture.height)) return;
@@ -63,6 +63,10 @@ Image<float> clipped(const Image<std::uint8_t>& picture, const SweepInput& input
 }
 
 }  // namespace
+
+glm::dvec2 pixel_size(const glm::dmat4& probe_from_pixel) {
+  return {glm::length(glm::dvec3(probe_from_pixel[0])), glm::length(glm::dvec3(probe_from_pixel[1]))};
+}
 
 void check_shows_fan(const std::string& file, const TrackedSweep& sweep, double least_shown) {
   double fan = 0, known = 0, sum = 0, squares = 0;
@@ -173,6 +177,10 @@ FoundFan find_probe_in_recording(ImageReader& reader, const std::vector<Frame>& 
 }  // namespace
 
 ReadSweep read_sweep(const SweepInput& given) {
+  std::error_code error;
+  if (std::filesystem::is_regular_file(given.file, error) && is_dicom_file(given.file)) return read_dicom_sweep(given);
+  if (given.poses)
+    throw InputError("--poses", "", "they are for DICOM ultrasound; a recording has poses of its own", "leave it out");
   SweepInput input = given;
   RecordingOptions options;
   options.transform = input.transform;
@@ -197,6 +205,24 @@ ReadSweep read_sweep(const SweepInput& given) {
   }
   check_shows_fan(input.file, result.sweep);
   return result;
+}
+
+void keep_labelled(TrackedSweep& sweep, const Volume<std::uint8_t>& labels, const std::string& file) {
+  std::erase_if(sweep.images, [&](SweepImage& image) {
+    const ImageGeometry geometry = image_geometry(sweep.probe, sweep.depth_mm, image.grey.width, image.grey.height);
+    std::size_t kept = 0;
+    for (int y = 0; y < geometry.height; ++y)
+      for (int x = 0; x < geometry.width; ++x) {
+        float& pixel = image.grey.at(x, y);
+        const glm::dvec3 at = image.sweep_from_probe.point(glm::dvec3(geometry.plane_mm(x, y), 0));
+        if (sample_nearest(labels, labels.grid.index_from_patient(at)) == 0) pixel = kUnknown;
+        kept += !std::isnan(pixel);
+      }
+    return kept == 0;
+  });
+  if (sweep.images.size() < 2)
+    throw InputError(file, "", "fewer than two images show anything inside its labels",
+                     "draw it in the recording's frame, such as over sweep.nrrd of an earlier result");
 }
 
 Probe read_probe(const std::string& file) {

@@ -9,10 +9,12 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "sim/alignment/echo_seen.h"
 #include "sim/alignment/find_fan.h"
 #include "sim/alignment/tracked_sweep.h"
+#include "sim/core/grid.h"
 #include "sim/core/image.h"
 #include "sim/core/pose.h"
 #include "sim/probe/probe.h"
@@ -29,6 +31,7 @@ struct SweepInput {
   std::optional<Image<std::uint8_t>> mask;     ///< of the images' size: pixels of 0 are not used
   std::optional<Probe> probe;                  ///< whose fan the images show; empty: found from the images
   std::optional<double> depth_mm;              ///< empty: that of the probe
+  std::optional<std::vector<Pose>> poses;      ///< one per image, of a file that has none: sweep_from_probe
   int slices = 20;                             ///< images that are used, evenly spread over the recording
   int width = 128, height = 96;
 };
@@ -41,11 +44,11 @@ struct ReadSweep {
   std::size_t left_out = 0;     ///< frames without a usable pose
 };
 
-/// Reads images and poses. The frame of each pose is that of the fan: its origin is the middle of the probe's face, x
-/// runs along the rows of the images, and y along their columns. Without `face_pixel` it is where the found fan has its
-/// face, or, with a given probe, where the probe's frame has its origin, as in recordings of Insonate. Throws
-/// InputError if the recording has no images or fewer than two with a pose, if its images are not placed, if there is
-/// no fan in them, or if they are of one grey level.
+/// Reads images and poses, of a DICOM file by read_dicom_sweep(). The frame of each pose is that of the fan: its origin
+/// is the middle of the probe's face, x runs along the rows of the images, and y along their columns. Without
+/// `face_pixel` it is where the found fan has its face, or, with a given probe, where the probe's frame has its origin,
+/// as in recordings of Insonate. Throws InputError if the recording has no images or fewer than two with a pose, if its
+/// images are not placed, if there is no fan in them, or if they are of one grey level.
 ReadSweep read_sweep(const SweepInput& input);
 
 /// Adds what is found from images to an input without a probe: probe, depth, and where they are not given the face's
@@ -57,6 +60,9 @@ struct ImagePlacement {
   Pose probe_from_fan;
   glm::dmat3 pixel_from_plane;  ///< maps (x, y, 1) of the fan's plane, mm, to a column and a row
 };
+/// Returns the size of a pixel along the rows and the columns, mm.
+glm::dvec2 pixel_size(const glm::dmat4& probe_from_pixel);
+
 /// Throws InputError if the middle of the probe's face is neither given nor in the image.
 ImagePlacement placement_of(const glm::dmat4& probe_from_pixel, const SweepInput& input);
 
@@ -69,6 +75,11 @@ SweepImage place_image(const Image<std::uint8_t>& grey, const Pose& sweep_from_p
 /// Throws InputError, which names `file`, unless the images show the fan and something in it.
 /// @param least_shown  share of the fan whose pixels are known
 void check_shows_fan(const std::string& file, const TrackedSweep& sweep, double least_shown = 0.5);
+
+/// Leaves out the pixels whose points have no label: only those inside the labels are compared. Removes images that
+/// have no pixel left. Throws InputError, which names `file`, if fewer than two images are left.
+/// @param labels  in the sweep's frame
+void keep_labelled(TrackedSweep& sweep, const Volume<std::uint8_t>& labels, const std::string& file);
 
 /// Reads a probe from a TOML file: kind ("curvilinear", "linear" or "phased"), radius_mm and field_of_view_deg or
 /// width_mm as in Probe, and depth_mm. Throws InputError.

@@ -2,6 +2,7 @@
 
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
+#include <glm/vec4.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -17,6 +18,7 @@
 #include "sim/reconstruction/sweep_extent.h"
 #include "sim/reconstruction/tracked_picture.h"
 #include "sim/volume/ct_reader.h"
+#include "tools/register/deformation_files.h"
 
 namespace insonate {
 namespace {
@@ -41,6 +43,34 @@ nlohmann::ordered_json probe_json(const TrackedSweep& sweep, const std::optional
   json["clip"] = fan->clip;
   json["share_shown"] = fan->shown;
   json["share_with_echo"] = fan->filled;
+  return json;
+}
+
+nlohmann::ordered_json numbers_of(const glm::dvec3& v) {
+  return {v.x, v.y, v.z};
+}
+
+nlohmann::ordered_json free_form_json(const FreeFormRegistration& found, const FreeFormSettings& settings) {
+  nlohmann::ordered_json json;
+  json["improved"] = found.is_improved();
+  json["spacing_mm"] = settings.spacing_mm;
+  json["smoothness_mm2"] = settings.smoothness_mm2;
+  json["similarity_of_fitted"] = {found.fitted_before, found.fitted_after};
+  json["similarity_of_held_out"] = {found.held_out_before, found.held_out_after};
+  json["standard_error_of_held_out"] = found.held_out_error;
+  json["rounds"] = found.rounds;
+  json["evaluations"] = found.evaluations.size();
+  json["seconds"] = found.seconds;
+  if (!found.is_improved()) return json;
+  json["least_jacobian"] = found.least_jacobian;
+  json["bending_energy_mm-2"] = found.field.bending_energy();
+  json["largest_displacement_mm"] = found.most_mm;
+  json["map"] = "ct_from_sweep (p + d(p)), with d the sum of control points times cubic B-splines";
+  json["origin_in_sweep"] = numbers_of(found.field.origin_mm);
+  json["control_points"] = {found.field.size.x, found.field.size.y, found.field.size.z};
+  nlohmann::ordered_json control = nlohmann::ordered_json::array();
+  for (const glm::dvec3& each : found.field.control_mm) control.push_back(numbers_of(each));
+  json["control_mm"] = std::move(control);
   return json;
 }
 
@@ -73,6 +103,18 @@ std::string figure(const std::string& file, const std::string& caption) {
   return "<figure><img alt='" + caption + "' src='" + file + "'><figcaption>" + caption + "</figcaption></figure>";
 }
 
+std::string free_form_rows(const FreeFormRegistration& found, const FreeFormSettings& settings) {
+  const auto change = [](double before, double after) { return fixed(before, 4) + " &rarr; " + fixed(after, 4); };
+  return row("Control points of the deformation",
+             formatted("%d x %d x %d, %g mm apart; weight of the bending energy %g mm&sup2;", found.field.size.x,
+                       found.field.size.y, found.field.size.z, settings.spacing_mm, settings.smoothness_mm2)) +
+         row("Similarity of the fitted images", change(found.fitted_before, found.fitted_after)) +
+         row("Similarity of the other images",
+             change(found.held_out_before, found.held_out_after) + " &plusmn; " + fixed(found.held_out_error, 4)) +
+         row("Rounds and evaluations",
+             formatted("%d and %zu in %.1f s", found.rounds, found.evaluations.size(), found.seconds));
+}
+
 constexpr char kStyle[] =
     "body{font:15px/1.5 sans-serif;color:#1d2733;max-width:1500px;margin:2em auto;padding:0 1em}"
     ".verdict{font-weight:600;padding:.6em 1em;border-left:6px solid #2e7d4f;background:#eef6f0}"
@@ -92,6 +134,10 @@ std::string verdict(const SweepRegistration& found) {
   return text + ". Do not use this transform.";
 }
 
+std::string verdict(const RegistrationReport& report) {
+  return verdict(report.found) + (report.free_form ? " " + sentence_about(*report.free_form) : std::string());
+}
+
 std::string itk_transform(const glm::dmat4& matrix, const std::string& why) {
   std::string text =
       "#Insight Transform File V1.0\n# " + why + "\n#Transform 0\nTransform: AffineTransform_double_3_3\n";
@@ -107,7 +153,7 @@ std::string registration_json(const RegistrationReport& report) {
   nlohmann::ordered_json json;
   json["format"] = 1;
   json["converged"] = found.converged();
-  json["verdict"] = verdict(found);
+  json["verdict"] = verdict(report);
   json["doubts"] = found.doubts;
   json["ct"] = report.ct.empty() ? "built-in" : report.ct;
   json["recording"] = report.recording;
@@ -137,19 +183,26 @@ std::string registration_json(const RegistrationReport& report) {
   json["search_deg"] = report.settings.search_deg;
   json["evaluations"] = found.evaluations.size();
   json["seconds"] = found.seconds;
+  if (report.free_form) json["free_form"] = free_form_json(*report.free_form, *report.free_form_settings);
   return json.dump(2) + "\n";
 }
 
-std::string evaluations_csv(const SweepRegistration& found) {
+std::string evaluations_csv(const RegistrationReport& report) {
+  const SweepRegistration& found = report.found;
   std::string csv = "evaluation,stage,similarity";
   for (std::size_t i = 0; i < found.at.size(); ++i) csv += std::string(",") + kParameters[i] + "_mm";
-  csv += "\n";
-  for (std::size_t n = 0; n < found.evaluations.size(); ++n) {
-    const Evaluation& each = found.evaluations[n];
-    csv += std::to_string(n) + "," + kStages[std::size_t(each.stage)] + "," + fixed(each.similarity, 6);
+  csv += report.free_form ? ",bending_energy_mm-2\n" : "\n";
+  std::size_t number = 0;
+  for (const Evaluation& each : found.evaluations) {
+    csv += std::to_string(number++) + "," + kStages[std::size_t(each.stage)] + "," + fixed(each.similarity, 6);
     for (std::size_t i = 0; i < found.at.size(); ++i) csv += "," + fixed(i < each.at.size() ? each.at[i] : 0, 4);
-    csv += "\n";
+    csv += report.free_form ? ",\n" : "\n";
   }
+  if (!report.free_form) return csv;
+  for (const FreeFormEvaluation& each : report.free_form->evaluations)
+    csv += std::to_string(number++) + (each.varied ? ",free-form vary," : ",free-form step,") +
+           fixed(each.similarity, 6) + std::string(found.at.size() + 1, ',') +
+           formatted("%.6g\n", each.bending_energy_mm2);
   return csv;
 }
 
@@ -159,7 +212,7 @@ std::string registration_page(const RegistrationReport& report) {
   html += kStyle;
   html += "</style></head><body>\n<h1>Registration of tracked ultrasound with CT</h1>\n<p class='verdict";
   html += found.converged() ? "" : " no";
-  html += "'>" + escaped(verdict(found)) + "</p>\n<table>\n";
+  html += "'>" + escaped(verdict(report)) + "</p>\n<table>\n";
   html += row("CT", escaped(report.ct.empty() ? "the built-in patient" : report.ct));
   html += row("Recording", escaped(report.recording) + ", " + std::to_string(report.input.sweep.images.size()) +
                                " of " + std::to_string(report.input.frames) + " images");
@@ -172,6 +225,7 @@ std::string registration_page(const RegistrationReport& report) {
               fixed(std::hypot(at[0], at[1], at[2]), 1) + " mm, " +
                   fixed(std::hypot(at[3], at[4], at[5]) / found.motion.radius_mm * 180 / M_PI, 1) + " degrees");
   html += row("Evaluations", std::to_string(found.evaluations.size()) + " in " + fixed(found.seconds, 1) + " s");
+  if (report.free_form) html += free_form_rows(*report.free_form, *report.free_form_settings);
   html +=
       "</table>\n<p>The blends show the ultrasound in orange and the CT in blue. Where both are bright they are "
       "white. The probe's marker is on the left.</p>\n";
@@ -179,11 +233,16 @@ std::string registration_page(const RegistrationReport& report) {
     html += "<h2>Image " + std::to_string(one.image + 1) + "</h2>\n<div class='row'>" +
             figure(one.ultrasound, "Ultrasound") + figure(one.ct_before, "CT, before") +
             figure(one.blend_before, "Both, before") + figure(one.ct_after, "CT, after") +
-            figure(one.blend_after, "Both, after") + "</div>\n";
+            figure(one.blend_after, "Both, after") +
+            (one.ct_deformed.empty()
+                 ? std::string()
+                 : figure(one.ct_deformed, "CT, deformed") + figure(one.blend_deformed, "Both, deformed")) +
+            "</div>\n";
   return html + "</body></html>\n";
 }
 
-std::string slicer_scene(const std::string& why) {
+std::string slicer_scene(const std::string& why, bool is_deformed) {
+  const std::string kind = is_deformed ? "GridTransform" : "LinearTransform", node = "vtkMRML" + kind + "Node1";
   const auto volume = [](int number, const std::string& name, const std::string& file, const std::string& window,
                          const std::string& more) {
     const std::string n = std::to_string(number);
@@ -196,12 +255,11 @@ std::string slicer_scene(const std::string& why) {
   };
   return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<!-- " + escaped(why) +
          " -->\n<MRML version=\"Slicer4.4.0\" userTags=\"\">\n"
-         "  <TransformStorage id=\"vtkMRMLTransformStorageNode1\" fileName=\"sweep_from_ct.tfm\"/>\n"
-         "  <LinearTransform id=\"vtkMRMLLinearTransformNode1\" name=\"ct_from_sweep\" "
-         "storageNodeRef=\"vtkMRMLTransformStorageNode1\"/>\n" +
+         "  <TransformStorage id=\"vtkMRMLTransformStorageNode1\" fileName=\"sweep_from_ct." +
+         (is_deformed ? "nrrd" : "tfm") + "\"/>\n  <" + kind + " id=\"" + node +
+         "\" name=\"ct_from_sweep\" storageNodeRef=\"vtkMRMLTransformStorageNode1\"/>\n" +
          volume(1, "CT", "ct.nrrd", "window=\"400\" level=\"50\"", "") +
-         volume(2, "Sweep", "sweep.nrrd", "window=\"255\" level=\"127\"",
-                " transformNodeRef=\"vtkMRMLLinearTransformNode1\"") +
+         volume(2, "Sweep", "sweep.nrrd", "window=\"255\" level=\"127\"", " transformNodeRef=\"" + node + "\"") +
          "  <Selection id=\"vtkMRMLSelectionNodeSingleton\" activeVolumeID=\"vtkMRMLScalarVolumeNode1\" "
          "secondaryVolumeID=\"vtkMRMLScalarVolumeNode2\"/>\n</MRML>\n";
 }
@@ -209,16 +267,29 @@ std::string slicer_scene(const std::string& why) {
 void write_registration(const std::filesystem::path& out, RegistrationReport report, const Volume<std::int16_t>& ct) {
   const SweepRegistration& found = report.found;
   const TrackedSweep& sweep = report.input.sweep;
-  const std::string sentence = verdict(found);
+  const FreeFormField* deformation = report.deformation();
+  const std::string sentence = verdict(report),
+                    of_matrix = deformation ? "The affine part alone; the .nrrd files hold the whole map. " + sentence
+                                            : sentence;
   write_folder(out, [&](const std::filesystem::path& folder) {
-    report.pictures =
-        write_comparison(folder / "pictures", sweep, ct, found.motion.ct_from_sweep, found.ct_from_sweep, kShownImages);
+    report.pictures = write_comparison(folder / "pictures", sweep, ct, found.motion.ct_from_sweep, found.ct_from_sweep,
+                                       deformation, kShownImages);
     write_file(folder / "registration.json", registration_json(report));
-    write_file(folder / "ct_from_sweep.tfm", itk_transform(found.ct_from_sweep, sentence));
-    write_file(folder / "sweep_from_ct.tfm", itk_transform(glm::inverse(found.ct_from_sweep), sentence));
-    write_file(folder / "evaluations.csv", evaluations_csv(found));
+    const glm::dmat4 sweep_from_ct = glm::inverse(found.ct_from_sweep);
+    write_file(folder / "ct_from_sweep.tfm", itk_transform(found.ct_from_sweep, of_matrix));
+    write_file(folder / "sweep_from_ct.tfm", itk_transform(sweep_from_ct, of_matrix));
+    if (deformation) {
+      const DeformationGrids grids = deformation_grids(*deformation, found.ct_from_sweep);
+      write_displacements(folder / "ct_from_sweep.nrrd", grids.of_sweep, [&](const glm::dvec3& p) {
+        return glm::dvec3(found.ct_from_sweep * glm::dvec4(deformation->at(p), 1));
+      });
+      write_displacements(folder / "sweep_from_ct.nrrd", grids.of_ct, [&](const glm::dvec3& p) {
+        return deformation->inverse(glm::dvec3(sweep_from_ct * glm::dvec4(p, 1)));
+      });
+    }
+    write_file(folder / "evaluations.csv", evaluations_csv(report));
     write_file(folder / "index.html", registration_page(report));
-    write_file(folder / "scene.mrml", slicer_scene(sentence));
+    write_file(folder / "scene.mrml", slicer_scene(sentence, deformation != nullptr));
     write_ct(folder / "ct.nrrd", ct);
     write_labels(folder / "sweep.nrrd", volume_of(sweep));
   });

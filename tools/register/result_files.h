@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/alignment/free_form.h"
 #include "sim/alignment/registration.h"
 #include "sim/core/grid.h"
 #include "tools/register/comparison_pictures.h"
@@ -19,6 +20,13 @@ struct RegistrationReport {
   const RegistrationSettings& settings;
   const SweepRegistration& found;
   std::vector<ComparisonPictures> pictures;
+  const FreeFormRegistration* free_form = nullptr;  ///< of the sweep, before found.ct_from_sweep; null: not asked for
+  const FreeFormSettings* free_form_settings = nullptr;  ///< of free_form
+
+  /// Returns the deformation that belongs to the result; null if there is none.
+  const FreeFormField* deformation() const {
+    return free_form && free_form->is_improved() ? &free_form->field : nullptr;
+  }
 };
 
 /// Returns the verdict in one sentence: "Converged: ..." or "Not converged: ...".
@@ -27,22 +35,28 @@ std::string verdict(const SweepRegistration& found);
 /// Returns a transform as ITK reads it (.tfm): an affine transform of LPS points, mm, with the verdict as a comment.
 std::string itk_transform(const glm::dmat4& matrix, const std::string& verdict);
 
+/// Returns the verdict, and what came of the deformation if one was asked for.
+std::string verdict(const RegistrationReport& report);
+
 /// Returns the transforms in both directions, the verdict, the uncertainty, the settings and the similarities as JSON.
 std::string registration_json(const RegistrationReport& report);
 
-/// Returns every evaluation as CSV: number, stage, similarity and the parameters in mm.
-std::string evaluations_csv(const SweepRegistration& found);
+/// Returns every evaluation as CSV: number, stage, similarity and the parameters in mm. Those of a deformation have the
+/// stages "free-form vary" and "free-form step", the bending energy in mm^-2, and no parameters.
+std::string evaluations_csv(const RegistrationReport& report);
 
 /// Returns the page about a registration. Its pictures lie beside it.
 std::string registration_page(const RegistrationReport& report);
 
-/// Returns a scene of 3D Slicer: ct.nrrd, and sweep.nrrd behind the transform of sweep_from_ct.tfm. Slicer reads an ITK
-/// transform as the map from the parent's points, which here are the CT's.
-std::string slicer_scene(const std::string& verdict);
+/// Returns a scene of 3D Slicer: ct.nrrd, and sweep.nrrd behind the transform of sweep_from_ct.tfm, or of
+/// sweep_from_ct.nrrd if it is deformed. Slicer reads an ITK transform as the map from the parent's points, which here
+/// are the CT's.
+std::string slicer_scene(const std::string& verdict, bool is_deformed);
 
 /// Writes everything about a registration into a new folder, whole or not at all: registration.json, the transforms,
-/// evaluations.csv, index.html with its pictures, and the scene with its volumes. Throws InputError if it cannot be
-/// written or exists.
+/// evaluations.csv, index.html with its pictures, and the scene with its volumes. With a deformation, also
+/// ct_from_sweep.nrrd and sweep_from_ct.nrrd; the .tfm files then hold the affine part. Throws InputError if it cannot
+/// be written or exists.
 void write_registration(const std::filesystem::path& folder, RegistrationReport report, const Volume<std::int16_t>& ct);
 
 /// Returns the sweep as a volume of grey levels in its own frame.

@@ -2,7 +2,8 @@
 // (sim/registration/wein_reference.h). It follows from the sums of all parts combined or, where the parts are patches,
 // from each part by itself.
 //
-// Reads the sums of lc2_parts.comp. Writes one similarity per image, 0 to 1.
+// Reads the sums of lc2_parts.comp. Writes one similarity per image, 0 to 1. With BY_PATCH it writes what each patch
+// contributes to it.
 // Dispatch: one invocation per image of the chunk, in work groups of GROUP.
 
 layout(local_size_x = GROUP) in;
@@ -10,7 +11,7 @@ layout(local_size_x = GROUP) in;
 #include "registration/wein_parameters.h"
 
 layout(binding = 0) uniform sampler2D sums;  // as lc2_parts.comp writes them
-layout(std430, binding = 0) writeonly buffer Similarities { float similarity[]; };
+layout(std430, binding = 0) buffer Similarities { float similarity[]; };
 
 const float kLeastVariance = 1e-10;  // of a term: kLeastTermDeviation squared
 
@@ -39,7 +40,11 @@ void main() {
     vec3 part_squares = texelFetch(sums, ivec2(3 * i + 1, image), 0).xyz;
     vec3 part_products = texelFetch(sums, ivec2(3 * i + 2, image), 0).xyz;
     if (patches == 1) {
-      if (part.w > 0.0) explained += explained_by(part_squares, part_products, part.w);
+      float of_patch = part.w > 0.0 ? explained_by(part_squares, part_products, part.w) : 0.0;
+#ifdef BY_PATCH
+      similarity[(first + image) * parts + i] = of_patch;
+#endif
+      explained += of_patch;
       variance += part_squares.x;
       continue;
     }
@@ -50,6 +55,10 @@ void main() {
     mean += apart * (part.w / both);
     count += part.w;
   }
+#ifdef BY_PATCH
+  for (int i = 0; i < parts; ++i) similarity[(first + image) * parts + i] /= max(variance, 1e-20);
+  return;
+#endif
   if (patches == 0) {
     explained = explained_by(squares, products, count);
     variance = squares.x;

@@ -36,6 +36,12 @@ layout(local_size_x = GROUP) in;
 layout(binding = 0) uniform sampler3D density;  // (HU, gradient along the CT's axes in eighths of HU) / 32767
 layout(binding = 1) uniform sampler2D probe_lines;  // one row per line, probe's frame, mm: sample 0, step to the next
 layout(binding = 2) uniform sampler2D places;       // one row per image: the rows of texture_from_probe
+#ifdef BENT
+// One row per image: how far the nodes of its scan lines are moved, in the volume's texture. BEND_ACROSS nodes lie
+// evenly from the first line to the last; the next BEND_ACROSS lie BEND_SAMPLES samples deeper. Lines are straight in
+// between.
+layout(binding = 3) uniform sampler2D bends;
+#endif
 #if GREY == 1 && INTERLEAVED == 1
 #define Stored uint
 #else
@@ -74,6 +80,20 @@ Line line_of(int image) {
   vec3 along = vec3(dot(x.xyz, to_next), dot(y.xyz, to_next), dot(z.xyz, to_next));
   return Line(start, along, along * sides_by_dr);
 }
+
+#ifdef BENT
+// Returns a line as it runs from sample k on, the first of a segment, to the segment's end.
+Line bent(Line straight, int image, int k) {
+  float across = float(line) * (float(BEND_ACROSS - 1) / float(max(lines - 1, 1)));
+  int left = min(int(across), BEND_ACROSS - 2), node = k / BEND_SAMPLES * BEND_ACROSS + left;
+  float share = across - float(left);
+  vec3 here = mix(texelFetch(bends, ivec2(node, image), 0).xyz, texelFetch(bends, ivec2(node + 1, image), 0).xyz, share);
+  node += BEND_ACROSS;
+  vec3 next = mix(texelFetch(bends, ivec2(node, image), 0).xyz, texelFetch(bends, ivec2(node + 1, image), 0).xyz, share);
+  vec3 slope = (next - here) / float(BEND_SAMPLES), along = straight.along + slope;
+  return Line(straight.start + here - float(k) * slope, along, along * sides_by_dr);
+}
+#endif
 
 vec4 density_at(Line of_image, float k) {
   vec3 at = of_image.start + k * of_image.along;
@@ -138,10 +158,13 @@ int traverse_line(int image) {
     ways[i] = line_of(min(image + i / kSamplesAPair, images - 1));
     last = max(last, last_in_ct(ways[i]));
   }
-#ifdef INTENSITY
-  int end = samples;  // the intensity is the only result that is not 0 behind the CT
+#if defined(INTENSITY) || defined(BENT)
+  int end = samples;  // the intensity is not 0 behind the CT, and a bent line may come back to it
 #else
   int end = int(min(last + 2.0, float(samples)));
+#endif
+#ifdef BENT
+  Line straight[2 * kPairs] = ways;
 #endif
   vec2 log_intensity[kPairs];
   float most = 0.0;
@@ -149,6 +172,10 @@ int traverse_line(int image) {
 
   int at = (image / kImages * lines + line) * (row_samples / kSamplesAPair), k = 0;
   for (; k < end && most > last_log_intensity; k += kSamplesAPair) {
+#ifdef BENT
+    if (k % BEND_SAMPLES == 0)
+      for (int i = 0; i < 2 * kPairs; ++i) ways[i] = bent(straight[i], min(image + i / kSamplesAPair, images - 1), k);
+#endif
     Terms terms[kPairs];
     most = kNothing;
     for (int i = 0; i < kPairs; ++i) {

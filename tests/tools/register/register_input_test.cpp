@@ -1,5 +1,6 @@
 // What insonate-register reads besides the CT: recordings with images, probes, and whether the start fits the CT.
 #include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
 
 #include <cmath>
 #include <cstddef>
@@ -17,6 +18,7 @@
 #include "sim/core/input_error.h"
 #include "sim/core/read_png.h"
 #include "tests/core/temporary_folder.h"
+#include "tests/volume/dicom_files.h"
 #include "tools/register/read_sweep.h"
 #include "tools/register/start_transform.h"
 
@@ -158,6 +160,101 @@ TEST_CASE("a mask leaves pixels out") {
   recorded.refused("--mask: it has 41 x 30 pixels, and the images have 40 x 30; draw it over one of the images.");
   CHECK_THROWS_WITH(read_png(recorded.input.file), Contains("it cannot be read as a PNG"));
   CHECK_THROWS_WITH(read_png(recorded.folder.path / "none.png"), Contains("it cannot be read as a PNG"));
+}
+
+TEST_CASE("a clip of DICOM ultrasound is read with a pose per image, as the same recording is") {
+  Recorded recorded;
+  recorded.record(usual_matrix());
+  recorded.input.clip = {{2, 0, kWidth - 4, kHeight}};
+  const ReadSweep expected = read_sweep(recorded.input);
+  // The same images, with text beside the region.
+  DicomClip clip;
+  clip.columns = kWidth;
+  clip.rows = kHeight;
+  for (int i = 0; i < 3; ++i)
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x)
+        clip.stored.push_back(x < 2 || x >= kWidth - 2 ? std::uint8_t(80 * i) : std::uint8_t(60 + 5 * y));
+  clip.regions = {{2, 0, kWidth - 3, kHeight - 1, 1, 1, 3, kPixelMm / 10, kPixelMm / 10}};
+  SweepInput input = recorded.input;
+  input.file = (recorded.folder.path / "clip.dcm").string();
+  input.clip.reset();
+  input.poses = {Pose{}, Pose{glm::dmat3(1), {0, 0, 2}}, Pose{glm::dmat3(1), {0, 0, 4}}};
+  input.face_pixel = {{kWidth / 2, 0}};
+  write_dicom_clip(input.file, clip);
+  const auto check_same = [&](const ReadSweep& read) {
+    CHECK(read.frames == 3);
+    REQUIRE(read.sweep.images.size() == 3);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const SweepImage &one = read.sweep.images[i], &other = expected.sweep.images[i];
+      CHECK(glm::distance(one.sweep_from_probe.translation, other.sweep_from_probe.translation) < 1e-9);
+      std::size_t differ = 0;
+      for (std::size_t n = 0; n < one.grey.pixels.size(); ++n) {
+        const float a = one.grey.pixels[n], b = other.grey.pixels[n];
+        differ += std::isnan(a) != std::isnan(b) || std::abs(a - b) > 1e-3;
+      }
+      CHECK(differ == 0);
+    }
+  };
+  check_same(read_sweep(input));
+  input.face_pixel.reset();
+  input.probe_from_pixel = usual_matrix();
+  check_same(read_sweep(input));
+  SweepInput found = input;
+  found.probe.reset();
+  found.depth_mm.reset();
+  found.probe_from_pixel.reset();
+  const ReadSweep by_fan = read_sweep(found);
+  REQUIRE(by_fan.fan);
+  CHECK(by_fan.sweep.probe.kind == ProbeKind::linear);
+  CHECK(by_fan.sweep.probe.width_mm == Approx(kPixelMm * (kWidth - 4)).margin(kPixelMm));
+  // The poses are those of the face.
+  CHECK(glm::distance(by_fan.sweep.images[2].sweep_from_probe.translation, glm::dvec3(0, 0, 4)) < 1e-9);
+
+  const auto refused = [&](const std::string& sentence) { CHECK_THROWS_WITH(read_sweep(input), Contains(sentence)); };
+  (*input.probe_from_pixel)[1] *= 1.06;
+  refused("--image-to-probe: its pixels are 1.5000 x 1.5900 mm large, and those of the clip 1.5000 x 1.5000 mm; take");
+  input.probe_from_pixel.reset();
+  refused("clip.dcm: it does not say where the probe's face is in its images; give the pixel");
+  input.face_pixel = {{kWidth / 2, 0}};
+  input.poses->pop_back();
+  refused("--poses: there are 2 poses, and the clip has 3 images; write one matrix per image.");
+  input.poses.reset();
+  refused("clip.dcm: DICOM does not say where the probe was; give the 3 poses of its images as --poses FILE.");
+  input.poses = {Pose{}, Pose{}, Pose{}};
+  clip.regions.clear();
+  write_dicom_clip(input.file, clip);
+  refused("clip.dcm: it has no ultrasound region that gives the size of its pixels; give the images' matrix as");
+  input.transform = "ProbeToPatient";
+  refused("--transform: DICOM ultrasound has no transforms; leave it out, and give --poses FILE.");
+  recorded.input.poses = input.poses;
+  recorded.refused("--poses: they are for DICOM ultrasound; a recording has poses of its own; leave it out.");
+}
+
+TEST_CASE("a label map keeps the pixels inside its labels alone") {
+  Recorded recorded;
+  recorded.record(usual_matrix());
+  TrackedSweep sweep = read_sweep(recorded.input).sweep;
+  const TrackedSweep whole = sweep;
+  // Labels left of the probe's middle, about the first two images at z = 0 and 2.
+  Volume<std::uint8_t> labels{{{40, 60, 5}, glm::dvec3(1), {-39.5, -10, -1}, glm::dmat3(1)}, {}};
+  labels.voxels.assign(labels.grid.count(), 3);
+  keep_labelled(sweep, labels, "labels.nrrd");
+  REQUIRE(sweep.images.size() == 2);
+  CHECK(sweep.images[1].sweep_from_probe.translation.z == Approx(2));
+  const Image<float>&kept = sweep.images[0].grey, &before = whole.images[0].grey;
+  const ImageGeometry geometry = image_geometry(sweep.probe, sweep.depth_mm, kept.width, kept.height);
+  for (int y = 0; y < kept.height; ++y)
+    for (int x = 0; x < kept.width; ++x) {
+      const bool is_known = geometry.plane_mm(x, y).x < 0 && !std::isnan(before.at(x, y));
+      CHECK(std::isnan(kept.at(x, y)) != is_known);
+      if (is_known) CHECK(kept.at(x, y) == before.at(x, y));
+    }
+  labels.grid.size.z = 2;  // the first image alone
+  labels.voxels.resize(labels.grid.count());
+  sweep = whole;
+  CHECK_THROWS_WITH(keep_labelled(sweep, labels, "labels.nrrd"),
+                    Contains("labels.nrrd: fewer than two images show anything inside its labels; draw it in"));
 }
 
 TEST_CASE("without a probe, it is found from the fan in the images") {

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <glm/matrix.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -12,11 +13,13 @@
 
 #include "devices/record/sequence_recorder.h"
 #include "sim/alignment/synthetic_sweep.h"
+#include "sim/core/text.h"
 #include "sim/gl/headless_context.h"
 #include "sim/reconstruction/tracked_picture.h"
 #include "sim/volume/ct_reader.h"
 #include "tests/core/run_program.h"
 #include "tests/imaging/test_body.h"
+#include "tests/volume/dicom_files.h"
 
 using namespace insonate;
 namespace fs = std::filesystem;
@@ -31,19 +34,26 @@ struct Workplace {
   TemporaryFolder folder;
   Volume<std::int16_t> ct;
 
-  explicit Workplace(bool with_images = true) {
-    const AcousticVolume body = test::test_body();
+  /// @param breath_mm  how far the body's organs have moved in the recording, but not in the CT
+  explicit Workplace(bool with_images = true, double breath_mm = 0) {
+    AcousticVolume body = test::test_body();
     ct.grid = body.grid;
     for (const AcousticVoxel& voxel : body.voxels) ct.voxels.push_back(voxel.hu);
     write_ct(folder.path / "ct.nrrd", ct);
     if (!with_images) return;
+    if (breath_mm > 0) body = deformed(body, breath({0, 55, 0}, breath_mm));
     const gl::HeadlessContext context;
     const Probe probe = *find_probe("curvilinear");
-    const TrackedSweep sweep = synthetic_sweep(body, read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml"), probe,
-                                               kDepthMm, trainer_settings(probe.frequency_mhz, kDepthMm),
-                                               hand_sweep(test::on_the_skin(0, 6, 0), 12, 12, 16), kWidth, kHeight);
+    const TrackedSweep sweep =
+        synthetic_sweep(body, read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml"), probe, kDepthMm,
+                        trainer_settings(probe.frequency_mhz, kDepthMm),
+                        hand_sweep(test::on_the_skin(0, 6, 0), breath_mm > 0 ? 16 : 12, 12, 16), kWidth, kHeight);
     record("sweep.igs.mha", sweep, [](float grey) { return std::isnan(grey) ? 0 : int(grey); });
     record("black.igs.mha", sweep, [](float) { return 0; });
+    record_dicom("sweep.dcm", "poses.txt", sweep);
+    TrackedSweep three = sweep;
+    three.images.resize(3);
+    record("three.igs.mha", three, [](float grey) { return std::isnan(grey) ? 0 : int(grey); });
   }
   template <typename Grey>
   void record(const char* name, const TrackedSweep& sweep, Grey&& grey) const {
@@ -60,6 +70,24 @@ struct Workplace {
       time_s += 0.1;
     }
     recorder.finish();
+  }
+  void record_dicom(const char* name, const char* poses_name, const TrackedSweep& sweep) const {
+    const ImageGeometry geometry = image_geometry(sweep.probe, kDepthMm, kWidth, kHeight);
+    DicomClip clip;
+    clip.columns = kWidth;
+    clip.rows = kHeight;
+    clip.frames = int(sweep.images.size());
+    clip.regions = {{0, 0, kWidth - 1, kHeight - 1, 1, 1, 3, geometry.mm_per_pixel / 10, geometry.mm_per_pixel / 10}};
+    std::string poses;
+    for (const SweepImage& image : sweep.images) {
+      for (const float grey : image.grey.pixels) clip.stored.push_back(std::isnan(grey) ? 0 : std::uint8_t(grey));
+      Pose pose = image.sweep_from_probe;
+      pose.translation -= glm::dvec3(3, -2, 4);
+      const glm::dmat4 rows = glm::transpose(pose.matrix());
+      for (int i = 0; i < 16; ++i) poses += exact_text(rows[i / 4][i % 4]) + (i < 15 ? " " : "\n");
+    }
+    write_dicom_clip(folder.path / name, clip);
+    folder.put(poses_name, poses);
   }
   std::string in(const char* name) const { return (folder.path / name).string(); }
   ProgramOutcome run_as_found(const std::string& arguments) const {
@@ -164,6 +192,67 @@ TEST_CASE("a volume of a sweep is registered along its beam") {
           "sweep.igs.mha: it is a recording, not a volume; leave out --beam");
 }
 
+TEST_CASE("a clip of DICOM ultrasound with its poses is registered inside a label map") {
+  const Workplace place;
+  // All but the last images of the sweep, which slides along z from -8 to 8 mm before the shift.
+  Volume<std::uint8_t> labels{{{61, 61, 61}, glm::dvec3(3), {-90, -60, -150}, glm::dmat3(1)}, {}};
+  labels.voxels.assign(labels.grid.count(), 0);
+  for (int k = 0; k < 61; ++k)
+    for (int j = 0; j < 61; ++j)
+      for (int i = 0; i < 61; ++i) labels.at({i, j, k}) = labels.grid.patient_from_index(glm::dvec3(i, j, k)).z < 0;
+  write_labels(place.folder.path / "inside.nrrd", labels);
+  const ProgramOutcome outcome =
+      run_program(INSONATE_REGISTER_PROGRAM " --ct " + place.in("ct.nrrd") + " --search-mm 12 --search-deg 8 --poses " +
+                  place.in("poses.txt") + " --mask-volume " + place.in("inside.nrrd") + " " + place.in("sweep.dcm") +
+                  " " + place.in("out"));
+  INFO(outcome.errors << outcome.output);
+  REQUIRE(outcome.code == 0);
+  const auto json = nlohmann::json::parse(read_file(fs::path(place.in("out")) / "registration.json"));
+  CHECK(json["frames"] == 12);
+  CHECK(json["slices"] > 3);
+  CHECK(json["slices"] < 12);
+  const double shift[] = {3, -2, 4};
+  for (std::size_t row = 0; row < 3; ++row)
+    CHECK(json["ct_from_sweep"][row][3].get<double>() == Approx(shift[row]).margin(4));
+  CHECK(place.run(place.in("sweep.dcm") + " " + place.in("other")).errors.find("as --poses FILE") != std::string::npos);
+}
+
+TEST_CASE("a recording of a body that has breathed is registered with a deformation") {
+  const Workplace place(true, 5);
+  const ProgramOutcome outcome =
+      place.run("--free-form 25 --smoothness 300 --slices 8 --search-mm 0 --search-deg 0 --start " +
+                    place.folder.put("start.txt", "1 0 0 3 0 1 0 -2 0 0 1 4 0 0 0 1\n").string() + " " +
+                    place.in("sweep.igs.mha") + " " + place.in("out"),
+                "");
+  INFO(outcome.errors << outcome.output);
+  REQUIRE(outcome.code == 0);
+  CHECK(outcome.output.find(" Deformation: LC2 of the images that were not fitted went from ") != std::string::npos);
+  const fs::path out = place.in("out");
+  const auto json = nlohmann::json::parse(read_file(out / "registration.json"));
+  const auto& free_form = json["free_form"];
+  CHECK(free_form["improved"] == true);
+  CHECK(free_form["spacing_mm"] == 25);
+  CHECK(free_form["least_jacobian"] > 0.2);
+  const auto& points = free_form["control_points"];
+  CHECK(free_form["control_mm"].size() ==
+        points[0].get<std::size_t>() * points[1].get<std::size_t>() * points[2].get<std::size_t>());
+  CHECK(json["parameters"].size() == 12);  // the deformation follows an affine registration
+  for (const char* file : {"ct_from_sweep.nrrd", "sweep_from_ct.nrrd"})
+    CHECK(read_file(out / file).find("kinds: vector domain domain domain\n") != std::string::npos);
+  for (const char* file : {"ct_from_sweep.tfm", "sweep_from_ct.tfm"})
+    CHECK(read_file(out / file).find("# The affine part alone; the .nrrd files hold the whole map. Converged") !=
+          std::string::npos);
+  CHECK(read_file(out / "scene.mrml").find("fileName=\"sweep_from_ct.nrrd\"") != std::string::npos);
+  const std::string csv = read_file(out / "evaluations.csv"), page = read_file(out / "index.html");
+  CHECK(csv.find(",shear_xy_mm,bending_energy_mm-2\n0,") != std::string::npos);
+  CHECK(csv.find(",free-form vary,") != std::string::npos);
+  CHECK(csv.find(",free-form step,") != std::string::npos);
+  CHECK(std::size_t(std::count(csv.begin(), csv.end(), '\n')) ==
+        1 + json["evaluations"].get<std::size_t>() + free_form["evaluations"].get<std::size_t>());
+  CHECK(page.find("Both, deformed") != std::string::npos);
+  CHECK(std::distance(fs::directory_iterator(out / "pictures"), {}) == 28);
+}
+
 TEST_CASE("a registration that does not converge exits with 3 and says so in every file") {
   const Workplace place;
   // The search may not leave the start, which is 50 mm off.
@@ -222,6 +311,13 @@ TEST_CASE("what insonate-register cannot use it refuses in a sentence, with exit
             .errors.find("there is no kind of probe named 'convex'") != std::string::npos);
   refused("--transform ToolToTracker " + sweep, "sweep.igs.mha: ");
   refused("--patch 3 " + sweep, "--patch: ");
+  refused("--free-form 25 --measure mi " + sweep,
+          "--free-form: a deformation is fitted by LC2 alone; leave out --measure.");
+  refused("--free-form 25 --patch 0 " + sweep, "--free-form: a deformation is fitted by patches; give --patch from 4");
+  refused("--free-form 2 " + sweep, "--free-form: ");
+  refused("--smoothness 10 " + sweep, "--smoothness requires --free-form");
+  refused("--free-form 25 " + place.in("three.igs.mha") + " " + place.in("out"),
+          "three.igs.mha: a deformation needs 4 images; there are 3; record a longer sweep, or leave out --free-form.");
   refused(place.in("missing.igs.mha") + " " + place.in("out"), "missing.igs.mha: ");
 }
 

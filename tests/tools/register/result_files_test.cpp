@@ -3,14 +3,21 @@
 #include "tools/register/result_files.h"
 
 #include <catch2/catch.hpp>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
 
+#include <cmath>
+#include <cstring>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "sim/core/input_error.h"
 #include "tests/core/run_program.h"
+#include "tools/register/deformation_files.h"
 #include "tools/register/start_transform.h"
 
 using namespace insonate;
@@ -37,7 +44,7 @@ TEST_CASE("a transform is written as ITK reads it, and never without its verdict
 }
 
 TEST_CASE("the scene places the sweep behind its transform") {
-  const std::string scene = slicer_scene("Converged & \"sure\"");
+  const std::string scene = slicer_scene("Converged & \"sure\"", false);
   CHECK(scene.find("<TransformStorage id=\"vtkMRMLTransformStorageNode1\" fileName=\"sweep_from_ct.tfm\"/>") !=
         std::string::npos);
   CHECK(scene.find("fileName=\"ct.nrrd\"") != std::string::npos);
@@ -45,6 +52,93 @@ TEST_CASE("the scene places the sweep behind its transform") {
   REQUIRE(sweep != std::string::npos);
   CHECK(scene.find("transformNodeRef=\"vtkMRMLLinearTransformNode1\"") > sweep);
   CHECK(scene.find("Converged &amp; &quot;sure&quot;") != std::string::npos);
+}
+
+TEST_CASE("the scene of a deformed sweep places it behind the displacement field") {
+  const std::string scene = slicer_scene("Converged", true);
+  CHECK(scene.find("fileName=\"sweep_from_ct.nrrd\"") != std::string::npos);
+  CHECK(scene.find("<GridTransform id=\"vtkMRMLGridTransformNode1\" name=\"ct_from_sweep\"") != std::string::npos);
+  CHECK(scene.find("transformNodeRef=\"vtkMRMLGridTransformNode1\"") > scene.find("name=\"Sweep\""));
+  CHECK(scene.find("LinearTransform") == std::string::npos);
+}
+
+TEST_CASE("displacements of both directions undo each other, also beyond the field") {
+  const TemporaryFolder folder;
+  FreeFormField field = field_over({{0, 0, 0}, {40, 30, 20}}, 20);
+  for (std::size_t i = 0; i < field.control_mm.size(); ++i)
+    field.control_mm[i] = 6.0 * glm::dvec3(std::sin(double(i)), std::cos(3.0 * double(i)), std::sin(5.0 * double(i)));
+  const glm::dmat4 ct_from_sweep = glm::translate(glm::dmat4(1.0), glm::dvec3(100, -20, 7)) *
+                                   glm::rotate(glm::dmat4(1.0), 0.3, glm::normalize(glm::dvec3(1, 2, 3)));
+  const glm::dmat4 sweep_from_ct = glm::inverse(ct_from_sweep);
+  const DeformationGrids grids = deformation_grids(field, ct_from_sweep);
+  CHECK(grids.of_sweep.spacing == glm::dvec3(2.5));
+  write_displacements(folder.path / "there.nrrd", grids.of_sweep,
+                      [&](const glm::dvec3& p) { return glm::dvec3(ct_from_sweep * glm::dvec4(field.at(p), 1)); });
+  write_displacements(folder.path / "back.nrrd", grids.of_ct,
+                      [&](const glm::dvec3& p) { return field.inverse(glm::dvec3(sweep_from_ct * glm::dvec4(p, 1))); });
+  // Reads a field as NRRD defines it, by its header alone.
+  struct Read {
+    std::string header;
+    glm::ivec3 size{0};
+    glm::dvec3 origin{0.0};
+    std::vector<float> values;
+
+    explicit Read(const std::string& bytes) : header(bytes.substr(0, bytes.find("\n\n") + 2)) {
+      const auto field = [&](const char* name) {
+        std::string text = header.substr(header.find(name) + std::string(name).size());
+        for (char& c : text) c = c == '(' || c == ')' || c == ',' ? ' ' : c;
+        return std::istringstream(text);
+      };
+      int components = 0;
+      field("sizes: ") >> components >> size.x >> size.y >> size.z;
+      CHECK(components == 3);
+      field("space origin: ") >> origin.x >> origin.y >> origin.z;
+      values.resize(3 * std::size_t(size.x) * std::size_t(size.y) * std::size_t(size.z));
+      REQUIRE(bytes.size() == header.size() + values.size() * sizeof(float));
+      std::memcpy(values.data(), bytes.data() + header.size(), values.size() * sizeof(float));
+    }
+    glm::dvec3 at(const glm::dvec3& p) const {
+      const glm::dvec3 index = (p - origin) / 2.5, low = glm::floor(index), f = index - low;
+      glm::dvec3 sum(0.0);
+      for (int corner = 0; corner < 8; ++corner) {
+        const glm::ivec3 step(corner & 1, corner >> 1 & 1, corner >> 2), i = glm::ivec3(low) + step;
+        REQUIRE((i.x >= 0 && i.y >= 0 && i.z >= 0 && i.x < size.x && i.y < size.y && i.z < size.z));
+        const glm::dvec3 w = glm::mix(1.0 - f, f, glm::dvec3(step));
+        const float* v =
+            values.data() +
+            3 * ((std::size_t(i.z) * std::size_t(size.y) + std::size_t(i.y)) * std::size_t(size.x) + std::size_t(i.x));
+        sum += w.x * w.y * w.z * glm::dvec3(v[0], v[1], v[2]);
+      }
+      return p + sum;
+    }
+  };
+  const Read there(read_file(folder.path / "there.nrrd")), back(read_file(folder.path / "back.nrrd"));
+  for (const char* line : {"type: float\n", "dimension: 4\n", "space: left-posterior-superior\n",
+                           "kinds: vector domain domain domain\n", "endian: little\n", "encoding: raw\n"})
+    CHECK(there.header.find(line) != std::string::npos);
+  for (const glm::dvec3& p :
+       {glm::dvec3(0, 0, 0), glm::dvec3(17, 21, 9), glm::dvec3(39, 4, 18), glm::dvec3(-50, 20, 30)}) {
+    const glm::dvec3 in_ct(ct_from_sweep * glm::dvec4(field.at(p), 1));
+    // Linear between voxels of 2.5 mm, where the field bends by up to 6 mm over 20 mm.
+    CHECK(glm::distance(there.at(p), in_ct) < 0.1);
+    CHECK(glm::distance(back.at(in_ct), p) < 0.15);
+  }
+  CHECK(glm::distance(there.at({17, 21, 9}), glm::dvec3(ct_from_sweep * glm::dvec4(17, 21, 9, 1))) > 0.5);
+}
+
+TEST_CASE("a deformation that chance explains is reported as none") {
+  FreeFormRegistration found;
+  found.held_out_before = 0.4;
+  found.held_out_after = 0.41;
+  found.held_out_error = 0.01;
+  CHECK(sentence_about(found).find(
+            "No deformation: LC2 of the images that were not fitted went from 0.4000 to 0.4100") == 0);
+  found.held_out_after = 0.45;
+  found.most_mm = 5.25;
+  found.least_jacobian = 0.81;
+  CHECK(sentence_about(found).find("Deformation: ") == 0);
+  CHECK(sentence_about(found).find("by up to 5.2 mm and does not fold: the least Jacobian is 0.81.") !=
+        std::string::npos);
 }
 
 TEST_CASE("landmarks give the start that maps them, and bad ones are refused in a sentence") {
