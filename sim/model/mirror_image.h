@@ -12,15 +12,17 @@ namespace insonate {
 ///
 /// The images are computed on each line, as if the sound came back along it. That holds for gas which is met squarely.
 /// Tilted gas shows what lies beside the line instead, which is taken to be like that on the line. I is that of the
-/// slice's middle plane, l the reflection length, and c the interface's place as for reverberation (reverberation.h), but
-/// with kOwnPlace more for the sample itself, so that it is the sample's own within gas, which reflects hardly anything.
-/// A sample loses the share
+/// slice's middle plane, l the reflection length, and c the interface's place as for reverberation (reverberation.h),
+/// but with kOwnPlace more for the sample itself, so that it is the sample's own within gas, which reflects hardly
+/// anything. A sample loses the share
 ///
 ///     A(r) = 1 - (I(r + dr) / I(r))^(l/dr),      0 where I is up to kLeastReverberant
 ///
 /// If that is gas, sample j adds to e (waves.h) at each r behind it
 ///
-///     m^(1/2) min(n dr/l, 1) s(A_j) w T^2 e(2 c_j - r),   T = I(j - l + dr) / I(2 c_j - r), at most 1,  m = mirror_image
+///     m^(1/2) min(n dr/l, 1) s(A_j) w T^2 e(2 c_j - r),   T = I(j - l + dr) / I(2 c_j - r), at most 1
+///
+/// with m the setting mirror_image.
 ///
 /// - The image has travelled the way between the gas and what scatters four times more than the echo itself.
 /// - Every n-th sample counts, from the first on, with n = l / (4 dr) rounded down, at least 1.
