@@ -97,7 +97,7 @@ void LiveRegistrar::reset() {
   {
     const std::lock_guard lock(mutex_);
     ++epoch_;
-    wants_wide_ = has_wide_ = false;
+    wants_wide_ = has_wide_ = is_settled_ = false;
     done_window_ = 0;
     state_.ct_from_sweep = start_;
     state_.last.reset();
@@ -140,8 +140,8 @@ bool LiveRegistrar::begin_round(Task& task) {
       state_.work = Work::waiting;
       continue;
     }
-    task.from = state_.ct_from_sweep;
     task.wide = std::exchange(wants_wide_, false);
+    task.from = task.wide || is_settled_ ? state_.ct_from_sweep : start_;
     task.window = done_window_ = window_.version();
     task.epoch = epoch_;
     lock.unlock();
@@ -174,6 +174,7 @@ void LiveRegistrar::end_round(const Task& task, SweepRegistration found) {
     found.doubts.emplace_back("it has left the place that the wide search found");
   }
   if (has_wide_ && found.converged()) confirmed_ = found.ct_from_sweep;
+  is_settled_ |= task.wide || task.sweep.images.size() == std::size_t(settings_.slices);
   state_.ct_from_sweep = found.ct_from_sweep;
   ++state_.rounds;
   state_.last = std::make_shared<const LiveRound>(LiveRound{TrackedSweep(task.sweep), std::move(found)});

@@ -28,7 +28,8 @@ struct LiveRound {
 
 /// Refines a registration while images arrive, on a thread of its own with an OpenGL context of its own. Each round
 /// takes well-spread images of the newest ones and follows the estimate by local searches. A wide search looks for
-/// other places too; only one that converges makes the estimate count as converged.
+/// other places too; only one that converges makes the estimate count as converged. Until there are as many images as a
+/// round takes, each round begins at the start: what few images find may be a wrong place that no later round leaves.
 ///
 /// The thread gives way to a picture, if there is one: it runs at the lowest priority, which its context's own threads
 /// inherit, it evaluates few places per call, and between calls it waits while the caller draws (hold()).
@@ -114,6 +115,7 @@ private:
   SweepWindow window_;
   State state_;
   bool refines_ = true, wants_wide_ = false, has_wide_ = false;
+  bool is_settled_ = false;  // a round with all the images that it may have, or a wide one, has ended
   glm::dmat4 confirmed_{1.0};  // where the last wide search that converged ended; moves with the rounds that agree
   std::uint64_t done_window_ = 0, epoch_ = 0;  // the epoch changes with each reset
   std::atomic<bool> held_{false}, ending_{false};
