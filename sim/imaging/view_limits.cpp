@@ -19,6 +19,7 @@ void check_within(const char* simulator, const char* what, double value, double 
 void check_probe(const char* simulator, const Probe& probe, double depth_mm) {
   check_within(simulator, "the depth in mm", depth_mm, kLeastDepthMm, kMostDepthMm);
   check_within(simulator, "the number of scan lines", probe.lines, 1, 4096);
+  check_within(simulator, "the widest aperture in mm", probe.aperture_mm, 1, 200);
   if (probe.kind == ProbeKind::curvilinear)
     check_within(simulator, "the face's radius in mm", probe.radius_mm, 5, 200);
   else

@@ -58,13 +58,15 @@ std::vector<double> beam_weights(const Settings& settings) {
   return with_sum_1(std::move(weights));
 }
 
-double focused_beam_fwhm_mm(const Settings& settings, double r_mm) {
+double focused_beam_fwhm_mm(const Settings& settings, double aperture_mm, double r_mm) {
   constexpr double kOfSincSquared = 0.8859;  // full width at half maximum of sinc^2
-  const double lambda = 1.54 / settings.frequency_mhz, waist = kOfSincSquared * lambda * settings.f_number;
-  const double spread = 2 * std::log(2.0) * lambda / (glm::pi<double>() * waist);
+  const double lambda = 1.54 / settings.frequency_mhz;
+  const auto width = [&](double distance_mm) {
+    return kOfSincSquared * lambda * std::max(settings.f_number, distance_mm / aperture_mm);
+  };
+  const double waist = width(settings.focus_mm), spread = 2 * std::log(2.0) * lambda / (glm::pi<double>() * waist);
   const double sent = std::hypot(waist, (r_mm - settings.focus_mm) * spread);
-  const double received = waist * std::max(1.0, r_mm / settings.focus_mm);
-  return 1 / std::hypot(1 / sent, 1 / received);
+  return 1 / std::hypot(1 / sent, 1 / width(r_mm));
 }
 
 std::vector<double> focused_beam_sigma(const ScanLines& lines, const Settings& settings) {
@@ -72,7 +74,7 @@ std::vector<double> focused_beam_sigma(const ScanLines& lines, const Settings& s
   std::vector<double> sigma;
   for (int k = 0; k < lines.samples; ++k) {
     const double r = lines.r_min_mm + (k + 0.5) * lines.dr_mm(), spacing = line_spacing_mm(lines, r);
-    double of_window = spacing > 0 ? of_fwhm * focused_beam_fwhm_mm(settings, r) / spacing : 0;
+    double of_window = spacing > 0 ? of_fwhm * focused_beam_fwhm_mm(settings, lines.aperture_mm, r) / spacing : 0;
     // Waves add up as amplitudes, whose width is 2^(1/2) times that of a Gaussian intensity. The linear weights that
     // place scatterers between lines (waves.h) have a variance of 1/6 of it already.
     if (settings.waves) of_window = std::sqrt(std::max(2 * of_window * of_window - 1.0 / 6.0, 0.0));

@@ -11,19 +11,20 @@ namespace insonate {
 std::vector<double> beam_weights(const Settings& settings);
 
 /// Returns the lateral full width at half maximum, mm, of a beam at a distance r >= 0 from the face. The beam is
-/// transmitted with a fixed focus F and received with a dynamic one. With N the f-number and lambda = 1.54 mm MHz /
-/// frequency:
+/// transmitted with a fixed focus F and received with a dynamic one, both with the f-number N as far as the aperture D
+/// allows. With lambda = 1.54 mm MHz / frequency:
 ///
-///     w         0.8859 lambda N
-///     sent      hypot(w, (r - F) 2 ln 2 lambda / (pi w))
-///     received  w max(1, r/F)
+///     w(n)      0.8859 lambda n
+///     sent      hypot(w_F, (r - F) 2 ln 2 lambda / (pi w_F)),      w_F = w(max(N, F/D))
+///     received  w(max(N, r/D))
 ///     both      (1/sent^2 + 1/received^2)^(-1/2)
 ///
-/// w is the width of sinc^2(x / (lambda N)), the intensity of an evenly weighted aperture at its focus (Szabo,
+/// w is the width of sinc^2(x / (lambda n)), the intensity of an evenly weighted aperture at its focus (Szabo,
 /// Diagnostic Ultrasound Imaging, 6). The transmitted beam is Gaussian with a waist of that width (Siegman, Lasers,
-/// 17.1). The received beam keeps N until the whole aperture F/N is in use. The combined beam is the product of two
-/// Gaussians: 0.626 lambda N at the focus, where sinc^4 has 0.638.
-double focused_beam_fwhm_mm(const Settings& settings, double r_mm);
+/// 17.1). The combined beam is the product of two Gaussians: 0.626 lambda N at the focus, where sinc^4 has 0.638.
+/// docs/speckle.md compares it with the arrays' own.
+/// @param aperture_mm  D, Probe::aperture_mm
+double focused_beam_fwhm_mm(const Settings& settings, double aperture_mm, double r_mm);
 
 /// The largest half width of a focused beam's window, in lines to either side.
 inline constexpr int kMaxFocusedRadius = 127;

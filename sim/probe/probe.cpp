@@ -46,7 +46,9 @@ Extent fan_extent(const Probe& probe, double depth_mm) {
 
 const std::vector<Probe>& probes() {
   static const std::vector<Probe> all = [] {
-    Probe curvilinear;  // like common abdominal arrays: 60 mm radius, 60 degrees, 2 to 5 MHz
+    // Like common abdominal arrays: 60 mm radius, 60 degrees, 2 to 5 MHz. The aperture is that by which beams of the
+    // C5-2v widen with depth (docs/speckle.md).
+    Probe curvilinear;
     curvilinear.name = "curvilinear";
     curvilinear.title = "Curvilinear";
     Probe linear;  // like common vascular arrays: 38 to 40 mm, 5 to 10 MHz
@@ -55,11 +57,12 @@ const std::vector<Probe>& probes() {
     linear.kind = ProbeKind::linear;
     linear.frequency_mhz = 7.5;
     linear.depth_mm = 50;
+    linear.aperture_mm = linear.width_mm;
     Probe phased;  // like common cardiac arrays: about 20 mm, 90 degrees, 1 to 5 MHz
     phased.name = "phased";
     phased.title = "Phased";
     phased.kind = ProbeKind::phased;
-    phased.width_mm = 20;
+    phased.width_mm = phased.aperture_mm = 20;
     phased.field_of_view_deg = 90;
     phased.frequency_mhz = 2.5;
     return std::vector<Probe>{curvilinear, linear, phased};
@@ -94,6 +97,7 @@ ScanLines scan_lines(const Probe& probe, double depth_mm, int samples, double st
   ScanLines set;
   set.samples = samples;
   set.r_max_mm = depth_mm;
+  set.aperture_mm = probe.aperture_mm;
   set.fan = line_fan(probe);
   set.fan.steering = steering;
   const glm::dvec3 turned(std::sin(steering), std::cos(steering), 0);

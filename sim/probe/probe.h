@@ -25,9 +25,12 @@ struct Probe {
   double radius_mm = 60;          ///< curvilinear: radius of the face, 5 to 200
   double field_of_view_deg = 60;  ///< curvilinear and phased: between the outer edges of the outer lines, 5 to 150
   double width_mm = 40;           ///< linear and phased: width of the face, 5 to 200
-  double frequency_mhz = 3.5;     ///< centre frequency, 1 to 20
-  double depth_mm = 160;          ///< default imaging depth, 10 to 400
-  int lines = 192;                ///< scan lines, 1 to 4096
+  /// The widest aperture of a line, 1 to 200. On a curved face it is narrower than the array, because elements far out
+  /// look away from the line.
+  double aperture_mm = 32;
+  double frequency_mhz = 3.5;  ///< centre frequency, 1 to 20
+  double depth_mm = 160;       ///< default imaging depth, 10 to 400
+  int lines = 192;             ///< scan lines, 1 to 4096
 
   bool operator==(const Probe&) const = default;
 };
@@ -76,6 +79,7 @@ struct ScanLines {
   int samples = 512;            ///< samples per line, 1 to 8192
   double r_min_mm = 0;          ///< where the first sample's part of a line begins, from the line's start; 0 or more
   double r_max_mm = 160;        ///< where the last sample's part ends, above r_min_mm
+  double aperture_mm = 32;      ///< Probe::aperture_mm
 
   double dr_mm() const { return (r_max_mm - r_min_mm) / samples; }
 };

@@ -180,7 +180,7 @@ TEST_CASE("the grain is as long as the pulse and as wide as the beam") {
       const int k = int(depth_mm / lines.dr_mm()), around = wave.height / 12;
       const double spacing =
           lines.fan.step * (lines.fan.face == LineFan::Face::parallel ? 1 : lines.fan.apex_mm + depth_mm);
-      const double fwhm = std::sqrt(2.0) * focused_beam_fwhm_mm(block.settings, depth_mm);
+      const double fwhm = std::sqrt(2.0) * focused_beam_fwhm_mm(block.settings, lines.aperture_mm, depth_mm);
       INFO("at " << depth_mm << " mm");
       CHECK(width_of(wave, {in.first_line, in.last_line, k - around, k + around}, false, spacing) ==
             Approx(fwhm).epsilon(0.15));
@@ -199,7 +199,8 @@ TEST_CASE("the grain decorrelates as the probe moves by as much as pulse, beam a
     double expected = 0;  // the beam's width changes with depth
     for (int k = in.first_sample; k < in.last_sample; ++k) {
       const double r = (k + 0.5) * block.lines().dr_mm();
-      const double lateral = sigma_of(std::sqrt(2.0) * focused_beam_fwhm_mm(block.settings, r));
+      const double lateral =
+          sigma_of(std::sqrt(2.0) * focused_beam_fwhm_mm(block.settings, block.lines().aperture_mm, r));
       expected += std::exp(-d * d / (2 * lateral * lateral)) / (in.last_sample - in.first_sample);
     }
     INFO(d << " mm to the side");

@@ -244,8 +244,9 @@ TEST_CASE("a dynamic receive focus keeps lines narrow beside the transmit focus"
   Beamforming fixed = dynamic;
   fixed.dynamic_receive = false;
   const ScanLine line = line_at(transducer, 0);
+  // Alike in the focus, but for the pulse's ends, which lie beside it.
   CHECK(beam_profile(transducer, dynamic, line, 20).lateral_mm ==
-        Approx(beam_profile(transducer, fixed, line, 20).lateral_mm).epsilon(1e-6));
+        Approx(beam_profile(transducer, fixed, line, 20).lateral_mm).epsilon(1e-4));
   for (const double depth : {10.0, 40.0})
     CHECK(beam_profile(transducer, dynamic, line, depth).lateral_mm <
           0.85 * beam_profile(transducer, fixed, line, depth).lateral_mm);

@@ -101,6 +101,9 @@ TEST_CASE("probes and depths beyond their ranges are refused, and those before s
   probe = good;
   probe.field_of_view_deg = 360;
   refused(probe, 100, "field of view in degrees is 360");
+  probe = good;
+  probe.aperture_mm = 0;
+  refused(probe, 100, "widest aperture in mm is 0");
   probe = test::small_probe("linear");
   probe.width_mm = -40;
   refused(probe, 100, "width in mm is -40");

@@ -72,9 +72,10 @@ TEST_CASE("a focused beam draws a point as wide as its aperture's theory says, n
   };
   CHECK(width_mm(20) == Approx(width_at_focus_mm(20, 4, 5)).epsilon(0.1));
   for (double depth : {5.0, 20.0, 40.0})
-    CHECK(width_mm(depth) == Approx(focused_beam_fwhm_mm(settings, depth)).epsilon(0.05));
+    CHECK(width_mm(depth) == Approx(focused_beam_fwhm_mm(settings, probe.aperture_mm, depth)).epsilon(0.05));
   CHECK(width_mm(20) < width_mm(5));
-  CHECK(width_mm(40) > 2 * width_mm(20));
+  // Reception at this f-number stays narrow as far as the aperture of 40 mm allows, transmission alone widens.
+  CHECK(width_mm(40) > 1.3 * width_mm(20));
   settings.focused_beam = false;
   CHECK(width_mm(40) == Approx(width_mm(20)));
 }

@@ -31,6 +31,7 @@ struct Subject {
   Beamforming beamforming;
   Settings settings;  // of the trainer's simulator at this depth
   double depth_mm;
+  double aperture_mm;  // of the trainer's probe
 };
 
 Subject subject_of(const Transducer& transducer, const AcousticRequest& request) {
@@ -47,7 +48,7 @@ Subject subject_of(const Transducer& transducer, const AcousticRequest& request)
   beamforming.transmit_f_number = beamforming.receive_f_number = settings.f_number;
   beamforming.attenuation_db_cm_mhz = request.attenuation_db_cm_mhz;
   beamforming.nearest_mm = std::min(beamforming.nearest_mm, depth / kDepths);
-  return {transducer, beamforming, settings, depth};
+  return {transducer, beamforming, settings, depth, probe->aperture_mm};
 }
 
 std::vector<Subject> subjects_of(const AcousticRequest& request) {
@@ -74,7 +75,7 @@ BeamRow beam_row(const Subject& subject, double depth_mm) {
   const ScanLine line = line_at(subject.transducer, 0);
   return {beam_profile(subject.transducer, subject.beamforming, line, depth_mm, kHalfAmplitude),
           beam_profile(subject.transducer, subject.beamforming, line, depth_mm, kHalfPower),
-          std::sqrt(2.0) * focused_beam_fwhm_mm(subject.settings, depth_mm),
+          std::sqrt(2.0) * focused_beam_fwhm_mm(subject.settings, subject.aperture_mm, depth_mm),
           slice_thickness_at_mm(subject.settings, depth_mm)};
 }
 

@@ -22,6 +22,8 @@ Probe made(const std::string& like, const py::kwargs& changes) {
       probe.field_of_view_deg = value.cast<double>();
     else if (name == "width_mm")
       probe.width_mm = value.cast<double>();
+    else if (name == "aperture_mm")
+      probe.aperture_mm = value.cast<double>();
     else if (name == "frequency_mhz")
       probe.frequency_mhz = value.cast<double>();
     else if (name == "depth_mm")
@@ -29,9 +31,9 @@ Probe made(const std::string& like, const py::kwargs& changes) {
     else if (name == "lines")
       probe.lines = value.cast<int>();
     else
-      throw InputError(
-          "Probe", "", "a probe has no '" + name + "'",
-          suggest(name, {"radius_mm", "field_of_view_deg", "width_mm", "frequency_mhz", "depth_mm", "lines"}));
+      throw InputError("Probe", "", "a probe has no '" + name + "'",
+                       suggest(name, {"radius_mm", "field_of_view_deg", "width_mm", "aperture_mm", "frequency_mhz",
+                                      "depth_mm", "lines"}));
   }
   gl::check_probe("Probe", probe, probe.depth_mm);
   return probe;
@@ -55,6 +57,7 @@ void bind_probes(py::module_& module) {
       .def_readonly("radius_mm", &Probe::radius_mm)
       .def_readonly("field_of_view_deg", &Probe::field_of_view_deg)
       .def_readonly("width_mm", &Probe::width_mm)
+      .def_readonly("aperture_mm", &Probe::aperture_mm)
       .def_readonly("frequency_mhz", &Probe::frequency_mhz)
       .def_readonly("depth_mm", &Probe::depth_mm)
       .def_readonly("lines", &Probe::lines)

@@ -67,7 +67,7 @@ TEST_CASE("insonate-bench beam: eight depths per probe, with the profile and the
   check("axial_3db_mm", power.axial_mm);
   check("lateral_3db_mm", power.lateral_mm);
   check("elevation_3db_mm", power.elevation_mm);
-  check("live_lateral_mm", std::sqrt(2.0) * focused_beam_fwhm_mm(settings, depth));
+  check("live_lateral_mm", std::sqrt(2.0) * focused_beam_fwhm_mm(settings, linear.aperture_mm, depth));
   check("live_elevation_mm", slice_thickness_at_mm(settings, depth));
 
   const std::string svg = read_file(folder.path / "beams.svg");

@@ -137,7 +137,7 @@ void add_statistics(Rows& rows, gl::Simulator& simulator, Settings settings) {
 void add_knobs(Rows& rows, gl::Simulator& simulator, const Probe& probe, const Settings& plain) {
   const auto add = [&](const std::string& knob, Settings settings, double expected_db) {
     simulator.set_settings(settings);
-    rows.add("deviation on the display in dB, " + knob, 0, "", deviation_on_display(simulator.read_stages()),
+    rows.add("deviation on the display in dB with " + knob, 0, "", deviation_on_display(simulator.read_stages()),
              expected_db);
   };
   const double one_look_db = kDynamicRange_db * std::sqrt(speckle_variance(plain, 1));
@@ -151,7 +151,8 @@ void add_knobs(Rows& rows, gl::Simulator& simulator, const Probe& probe, const S
         kDynamicRange_db * std::sqrt(speckle_variance(settings, int(looks))));
   settings = plain;
   settings.speckle_reduction = 0.5;
-  add("half reduced (expected: at least)", settings, 0.5 * one_look_db);  // as much if the local mean were constant
+  add("speckle half reduced (expected: at least)", settings,
+      0.5 * one_look_db);  // as much if the local mean were constant
 }
 
 /// Rows of a still picture: its brightness along the depth, and the grain.
@@ -176,7 +177,7 @@ void add_still(Rows& rows, const Stages<float>& stages, const Probe& probe, cons
     const double spacing = lines.fan.step * (lines.fan.apex_mm > 0 ? lines.fan.apex_mm + depth : 1);
     rows.add("grain across at this depth", depth, "mm",
              width_of(power, inner(power, share - 0.1, share + 0.1), false) * spacing,
-             std::sqrt(2.0) * focused_beam_fwhm_mm(settings, depth));
+             std::sqrt(2.0) * focused_beam_fwhm_mm(settings, probe.aperture_mm, depth));
   }
 }
 
@@ -192,7 +193,7 @@ void add_moved(Rows& rows, gl::Simulator& simulator, const Probe& probe, const S
   const Band deep = inner(still, 0.75, 0.85);
   // Deep down a sideways move of a fan's probe is one along the arc only in its middle.
   const Band middle{still.width * 3 / 8, still.width * 5 / 8, deep.first_sample, deep.last_sample};
-  const double lateral = std::sqrt(2.0) * focused_beam_fwhm_mm(settings, 0.8 * probe.depth_mm);
+  const double lateral = std::sqrt(2.0) * focused_beam_fwhm_mm(settings, probe.aperture_mm, 0.8 * probe.depth_mm);
   const double sigma = lateral / std::sqrt(8 * std::log(2.0));
   for (const double d : {0.25 * lateral, 0.5 * lateral, lateral})
     rows.add("correlation after a move across", d, "mm", correlation(still, at(d, 0), middle),
