@@ -22,7 +22,7 @@ using GlWindow = std::unique_ptr<GLFWwindow, WindowDeleter>;
 
 /// Opens a window with OpenGL 4.5, which is current then. It cannot be made smaller than the screens' panels need.
 /// Throws std::runtime_error if the display has no such OpenGL.
-/// @param width, height  in the units of GLFW's screen coordinates
+/// @param width, height  in the units of GLFW's screen coordinates; on a smaller screen the window fills it
 GlWindow open_gl_window(const std::string& title, int width, int height);
 
 }  // namespace insonate

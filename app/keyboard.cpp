@@ -96,12 +96,12 @@ bool Keyboard::held(int key) const {
          std::any_of(down_.begin(), down_.end(), [&](const auto& down) { return down.second == key; });
 }
 
-bool Keyboard::apply(Trainer& trainer, ui::Screen& screen, double elapsed_s) {
+bool Keyboard::apply(Trainer& trainer, ui::Screen& screen, double elapsed_s, double until_s) {
   ImGuiIO& io = ImGui::GetIO();
   tapped_.clear();
   io.KeyShift = held(GLFW_KEY_LEFT_SHIFT) || held(GLFW_KEY_RIGHT_SHIFT);
   io.KeyCtrl = held(GLFW_KEY_LEFT_CONTROL) || held(GLFW_KEY_RIGHT_CONTROL);
-  hand_on(trainer, screen);
+  hand_on(trainer, screen, until_s);
   if (!trainer.session() || screen.takes_keys(trainer)) return false;
   return move_probe(*trainer.session(), std::min(elapsed_s, kLongestFrame_s));
 }
@@ -130,9 +130,9 @@ bool Keyboard::move_probe(Session& session, double elapsed_s) const {
   return true;
 }
 
-void Keyboard::hand_on(Trainer& trainer, ui::Screen& screen) {
+void Keyboard::hand_on(Trainer& trainer, ui::Screen& screen, double until_s) {
   field_is_busy_ = false;
-  while (!events_.empty() && !screen.opens_text_field(trainer)) {
+  while (!events_.empty() && events_.front().time_s <= until_s && !screen.opens_text_field(trainer)) {
     const KeyEvent event = events_.front();
     if (screen.types_text(trainer)) {
       if (!type(event, trainer, screen)) return;

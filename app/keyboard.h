@@ -35,7 +35,8 @@ public:
 
   /// Handles the events so far. Call it before each of ImGui's frames. Returns whether a held key moves the probe.
   /// @param elapsed_s  since the last call
-  bool apply(Trainer& trainer, ui::Screen& screen, double elapsed_s);
+  /// @param until_s    later events wait: no frame has seen the click before them yet
+  bool apply(Trainer& trainer, ui::Screen& screen, double elapsed_s, double until_s);
 
   /// Returns whether events wait for the next frame.
   bool waiting() const { return !events_.empty(); }
@@ -43,7 +44,7 @@ public:
 private:
   bool held(int key) const;
   bool move_probe(Session& session, double elapsed_s) const;
-  void hand_on(Trainer& trainer, ui::Screen& screen);
+  void hand_on(Trainer& trainer, ui::Screen& screen, double until_s);
   bool type(const KeyEvent& event, Trainer& trainer, ui::Screen& screen);
   void press(const KeyEvent& event, Trainer& trainer, ui::Screen& screen);
   bool open_page(const KeyEvent& pressed, const Trainer& trainer, ui::Screen& screen);

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <deque>
+#include <limits>
 
 namespace insonate {
 
@@ -28,6 +29,11 @@ public:
 
   /// Returns whether an event waits for the next frame.
   bool waiting() const { return !events_.empty(); }
+
+  /// Returns the time of the oldest event that waits, steady_now_s(); infinity if none does.
+  double waiting_since_s() const {
+    return events_.empty() ? std::numeric_limits<double>::infinity() : events_.front().time_s;
+  }
 
 private:
   std::deque<Button> events_;

@@ -188,7 +188,7 @@ private:
     const bool touched = std::exchange(events_.any, false);
     if (times_) times_->begin(now_s);
     open_dropped();
-    const bool moved = events_.keyboard.apply(trainer_, screen_, now_s - last_s_);
+    const bool moved = events_.keyboard.apply(trainer_, screen_, now_s - last_s_, events_.mouse.waiting_since_s());
     last_s_ = now_s;
 
     trainer_.update(now_s);

@@ -158,23 +158,26 @@ void ClipRecorder::stop(double time_s) {
   stop();
 }
 
-void ClipRecorder::take(const Image<Rgba8>& picture, double time_s) {
-  if (!running_) return;
+bool ClipRecorder::take(const Image<Rgba8>& picture, double time_s) {
+  if (!running_) return false;
   if (!std::exchange(any_, true)) {
     first_s_ = time_s;
     last_ = picture;
   } else {
     last_ = fitted(picture, last_.width, last_.height);
   }
-  enqueue(last_, time_s);
+  const bool taken = enqueue(last_, time_s);
   if (duration_s() >= kLongest_s) stop();
+  return taken;
 }
 
-void ClipRecorder::enqueue(Image<Rgba8> picture, double time_s) {
+bool ClipRecorder::enqueue(Image<Rgba8> picture, double time_s) {
   last_s_ = time_s;
   const std::lock_guard lock(mutex_);
-  if (waiting_.size() < kMostWaiting) waiting_.push_back({std::move(picture), time_s - first_s_});
+  if (waiting_.size() >= kMostWaiting) return false;
+  waiting_.push_back({std::move(picture), time_s - first_s_});
   changed_.notify_all();
+  return true;
 }
 
 void ClipRecorder::wait() {

@@ -40,7 +40,8 @@ public:
   /// Adds a picture. A clip has the size of its first picture; others are cut or get a black edge, and keep their
   /// middle.
   /// @param time_s  on any clock that rises
-  void take(const Image<Rgba8>& picture, double time_s);
+  /// @return whether it is in the clip: not if it is left out
+  bool take(const Image<Rgba8>& picture, double time_s);
 
   /// Waits until the file of a stopped clip is written.
   void wait();
@@ -55,7 +56,7 @@ private:
   class Encoder;
 
   void run(const std::filesystem::path& stem);
-  void enqueue(Image<Rgba8> picture, double time_s);
+  bool enqueue(Image<Rgba8> picture, double time_s);
 
   bool running_ = false, any_ = false;
   Image<Rgba8> last_;  ///< picture that was taken

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Views are made of a case in a real window: frozen, named, said what they must show, and kept in its folder.
 #   window_author_test.sh PROGRAM ASSETS_FOLDER
+screen_size=1152x720  # smaller than the window as it begins elsewhere
 . "$(dirname "$0")/window_session.sh"
 block="$work/block"
 mkdir "$block"
@@ -34,6 +35,7 @@ views() { grep -c '^\[\[view\]\]' "$block/case.toml" || true; }
 start_trainer author --case "$block"
 await "the probe is seen" is_not face_x ""
 is text_field_x "" || fail "a view is made of a picture that runs"
+[ $(($(value start_page_y) + $(value start_page_h))) -le 720 ] || fail "the window's lower end is off the screen"
 
 echo "a frozen picture gets a title, and what it must show"
 remember_probe

@@ -67,6 +67,18 @@ pointer_to "$(freeze_x)" "$(freeze_y)"
 in_one_frame drag
 await "the drag slides the probe" far_enough
 
+echo "a key that follows a click in one frame comes after it"
+xdotool key F3
+await "F3 shows the settings" is overlay settings
+await "their buttons are there" is_not settings_depth_1_x ""
+click_and_close() {
+  click_on settings_depth_1
+  xdotool key Escape
+}
+in_one_frame click_and_close
+await "Escape closes them" is overlay ""
+await "the setting is taken" is depth_unit mm
+
 echo "short presses on a busy machine"
 for _ in 1 2; do
   (while :; do :; done) &
