@@ -4,6 +4,7 @@
 #include <gdcmImageChangeTransferSyntax.h>
 #include <gdcmImageWriter.h>
 #include <gdcmReader.h>
+#include <gdcmTrace.h>
 #include <gdcmWriter.h>
 
 #include <cstring>
@@ -131,6 +132,7 @@ void write_dicom(const std::filesystem::path& file, const DicomSlice& slice) {
 }
 
 void write_dicom_clip(const std::filesystem::path& file, const DicomClip& clip) {
+  gdcm::Trace::WarningOff();
   using Photometric = gdcm::PhotometricInterpretation;
   gdcm::SmartPointer<gdcm::Image> image = new gdcm::Image;
   image->SetNumberOfDimensions(3);
