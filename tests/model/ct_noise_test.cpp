@@ -97,7 +97,7 @@ TEST_CASE("a single voxel shows which of its neighbours count") {
 TEST_CASE("edges between fat, organs, fluid and bone stay in their place under noise") {
   for (const auto& [from, to] : {std::pair{-100.0, 50.0}, {50.0, 0.0}, {50.0, 400.0}, {-700.0, 50.0}}) {
     CAPTURE(from, to);
-    const auto ct = noisy({60, 40, 40}, 1, 15, [&](double x) { return x < 29.5 ? from : to; });
+    const auto ct = noisy({60, 40, 40}, 1, 15, [from = from, to = to](double x) { return x < 29.5 ? from : to; });
     const Volume<std::int16_t> filtered = without_noise(ct, 15);
     // Beside the edge, a seventh of the guide comes from the other side; it leaves organ and fluid two units apart.
     const double step = to - from;
