@@ -160,7 +160,7 @@ double ct_noise_hu(const Ct& ct) {
           for (int dy = -1; dy <= 1; ++dy)
             for (int dx = -1; dx <= 1; ++dx)
               for (std::size_t x = 0; x < kLanes; ++x) {
-                // Clamped so that 27 squares fit in 32 bits; what is clamped is no soft tissue.
+                // Clamped so that 27 squares fit in 32 bits; soft tissue is never clamped.
                 const std::int32_t hu =
                     std::clamp<std::int32_t>(rows.at(dx, dy, dz)[std::size_t(first) + x], -2000, 2000);
                 sum[x] += hu;

@@ -211,7 +211,7 @@ TEST_CASE("the grain decorrelates as the probe moves by as much as pulse, beam a
     INFO(d << " mm along the beam");
     CHECK(after(0, d, 0) == Approx(std::exp(-d * d / (2 * axial * axial))).epsilon(0.15));
   }
-  // The slice's window is no Gaussian, so its correlation is summed.
+  // The slice's window is not Gaussian, so its correlation is summed.
   const double thickness = block.settings.slice_thickness_mm;
   double before = 1;
   for (const double d : {0.2, 0.4, 1.0, 1.7, 3.0}) {

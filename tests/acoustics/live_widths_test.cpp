@@ -45,8 +45,8 @@ TEST_CASE("the live simulator's beam is as wide as the array's, and its pulse as
       const double depth = share * pair.settings.focus_mm;
       const BeamProfile array = beam_profile(pair.transducer, pair.beamforming, line, depth, kHalfAmplitude);
       CAPTURE(probe.name, share);
-      // Before the focus the transmitted field is no Gaussian beam: its outer parts arrive apart, which widens it here
-      // and narrows it there, and makes the pulse longer.
+      // Before the focus the transmitted field is not Gaussian: its outer parts arrive apart, which widens it
+      // here and narrows it there, and makes the pulse longer.
       const bool near = share < 1;
       CHECK(ratio(pair.settings.reflection_length_mm, array.axial_mm) == Approx(1).margin(near ? 0.17 : 0.1));
       // Waves take sqrt(2) of the width at half power for their amplitude, as for a Gaussian (sim/model/waves.h).
