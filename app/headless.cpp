@@ -27,22 +27,34 @@ class OffScreen {
 public:
   OffScreen(int width, int height) : width_(width), height_(height) {}
 
-  /// Draws the session's pictures only, not the screen around them.
-  void draw_pictures(Trainer& trainer) { trainer.draw(screen_.picture_sizes(trainer, float(width_), float(height_))); }
+  /// Draws the ultrasound alone, as the probe's movement shows it.
+  void draw_ultrasound(Trainer& trainer) {
+    PictureSizes sizes = picture_sizes(trainer);
+    sizes.volume_width = sizes.slice_width = sizes.blend_width = 0;
+    sizes.axis_slices = {};
+    trainer.draw(sizes);
+  }
 
+  /// Draws the whole screen, with the pictures of a probe at rest.
   Image<Rgba8> draw(Trainer& trainer) {
     ImGuiIO& io = ImGui::GetIO();
     io.DisplaySize = ImVec2(float(width_), float(height_));
     io.DeltaTime = float(kStep_s);
+    Effort effort;
+    effort.at_rest = true;
     // ImGui lays out a new window in its first frame but does not show it.
     for (int frame = 0; frame < 3; ++frame) {
-      draw_pictures(trainer);
+      trainer.draw(picture_sizes(trainer), effort);
       screen_.render(trainer);
     }
     return screen_.read();
   }
 
 private:
+  PictureSizes picture_sizes(const Trainer& trainer) {
+    return screen_.picture_sizes(trainer, float(width_), float(height_));
+  }
+
   int width_, height_;
   ui::Screen screen_;
 };
@@ -93,7 +105,7 @@ int run_headless(const Options& options) {
     const double now_s = double(step) * kStep_s;
     if (live || watched) sleep_until(start_s + now_s);
     trainer.update(live ? steady_now_s() : now_s);
-    if (seen) screen.draw_pictures(trainer);
+    if (seen) screen.draw_ultrasound(trainer);
     if (trainer.best_frame_due()) {
       const Image<Rgba8> now = screen.draw(trainer);
       if (!session.result()) held_screen = now;  // once there is a result, the score sheet covers the screen

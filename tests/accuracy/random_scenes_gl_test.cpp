@@ -41,10 +41,10 @@ std::uint32_t leader_of(std::uint32_t seed, std::uint32_t group = kGroup) {
   return seed / group * group;
 }
 
-/// Runs `check` for the scenes of `frames` seeds, in groups of which each has its own programs. In two groups of four
-/// echoes add up as waves.
-void for_many_scenes(long frames, std::uint32_t group, const std::function<void(long, const Scene&)>& check) {
-  const long first = from_environment("INSONATE_STRESS_SEED", 1);
+/// Runs `check` for the scenes of `frames` seeds from `first` on, in groups of which each has its own programs. In two
+/// groups of four echoes add up as waves.
+void for_many_scenes(long first, long frames, std::uint32_t group,
+                     const std::function<void(long, const Scene&)>& check) {
   Scene leader;
   for (long seed = first; seed < first + frames; ++seed) {
     INFO("seed " << seed);
@@ -157,18 +157,22 @@ TEST_CASE("lines in the air hold the same to the last place whether they are tra
 }
 
 TEST_CASE("random scenes in groups that share their programs") {
-  Stressed stressed(GENERATE(line_an_invocation(), line_a_group()));
+  long first = from_environment("INSONATE_STRESS_SEED", 1);
   Effects effects;
   long with_echo = 0;
   Compared of_amplitudes;
-  for_many_scenes(200, 20, [&](long, const Scene& scene) {
-    const Compared before = stressed.compared();
-    check(stressed, scene);
-    const Compared all = stressed.compared();
-    with_echo += all.with_echo > before.with_echo;
-    if (!scene.settings.waves) of_amplitudes += {all.with_echo - before.with_echo, all.in_grey - before.in_grey};
-    effects.count(scene.settings);
-  });
+  for (const gl::WorkDivision& division : {line_an_invocation(), line_a_group()}) {
+    Stressed stressed(division);
+    for_many_scenes(first, 100, 20, [&](long, const Scene& scene) {
+      const Compared before = stressed.compared();
+      check(stressed, scene);
+      const Compared all = stressed.compared();
+      with_echo += all.with_echo > before.with_echo;
+      if (!scene.settings.waves) of_amplitudes += {all.with_echo - before.with_echo, all.in_grey - before.in_grey};
+      effects.count(scene.settings);
+    });
+    first += 100;
+  }
   CHECK(effects.each_on_and_off());
   CHECK(with_echo > effects.scenes / 2);
   CHECK(of_amplitudes.share() > 0.65);
@@ -179,7 +183,9 @@ TEST_CASE("many random scenes", "[.][many]") {
   std::optional<Stressed> stressed;  // for one group of seeds; the next group uses the other work division
   long group = -1;
   Compared all;
-  for_many_scenes(from_environment("INSONATE_STRESS_FRAMES", 100000), kGroup, [&](long seed, const Scene& scene) {
+  const long first = from_environment("INSONATE_STRESS_SEED", 1),
+             frames = from_environment("INSONATE_STRESS_FRAMES", 100000);
+  for_many_scenes(first, frames, kGroup, [&](long seed, const Scene& scene) {
     if (seed / kGroup != group) {
       if (stressed) all += stressed->compared();
       group = seed / kGroup;

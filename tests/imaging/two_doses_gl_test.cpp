@@ -26,7 +26,7 @@ const std::filesystem::path kSlab = INSONATE_SCANS_FOLDER "/abdomen_ct/upper_ct.
 const std::filesystem::path kSlabLabels = INSONATE_SCANS_FOLDER "/abdomen_ct/upper_labels.nii.gz";
 
 /// Returns the scan as open_case() does, with noise of a standard deviation added to the scanner's own voxels.
-Case scan(const std::filesystem::path& file, double noise_hu) {
+Case scan_with_noise(const std::filesystem::path& file, double noise_hu) {
   Case subject;
   subject.ct = read_ct(file);
   std::mt19937 random(1);
@@ -37,14 +37,21 @@ Case scan(const std::filesystem::path& file, double noise_hu) {
   return subject;
 }
 
-Image<std::uint8_t> picture(gl::Simulator& simulator, const Case& subject, const Pose& pose) {
-  static const TissueTable table = read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml");
+/// Returns the patient's pictures, one for each pose.
+std::vector<Image<std::uint8_t>> pictures(gl::Simulator& simulator, const Case& subject,
+                                          const std::vector<Pose>& poses) {
+  const TissueTable table = read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml");
   const Probe& probe = *find_probe("curvilinear");
-  simulator.set_volume(make_acoustic_volume(subject.ct, {}, {}, table), table);
+  const AcousticVolume acoustic = make_acoustic_volume(subject.ct, {}, {}, table);
+  simulator.set_volume(acoustic, table);
   simulator.set_probe(probe, 160);
   simulator.set_settings(trainer_settings(probe.frequency_mhz, 160));
-  simulator.set_pose(pose);
-  return simulator.read_stages().grey;
+  std::vector<Image<std::uint8_t>> pictures;
+  for (const Pose& pose : poses) {
+    simulator.set_pose(pose);
+    pictures.push_back(simulator.read_stages().grey);
+  }
+  return pictures;
 }
 
 /// From the front, the flanks and between, at two heights.
@@ -73,13 +80,16 @@ TEST_CASE("noise of 20 HU changes no organ's mean grey by three levels") {
   }
   const test::TestContext context;
   gl::Simulator simulator;
-  const Case clear = scan(kSlab, 0), noisy = scan(kSlab, 20);
+  const Case clear = scan_with_noise(kSlab, 0), noisy = scan_with_noise(kSlab, 20);
   const Volume<std::uint8_t> labels = resample_labels(read_labels(kSlabLabels), clear.ct.grid);
   const Volume<std::int16_t> density = without_noise(clear.ct, ct_noise_hu(clear.ct));
   std::map<int, Means> organs;
-  for (const Pose& pose : poses_around(clear, 0)) {
-    const Image<std::uint8_t> before = picture(simulator, clear, pose), now = picture(simulator, noisy, pose);
-    const ImageGeometry geometry = simulator.geometry();
+  const std::vector<Pose> poses = poses_around(clear, 0);
+  const auto without_noise_added = pictures(simulator, clear, poses), with_noise = pictures(simulator, noisy, poses);
+  const ImageGeometry geometry = simulator.geometry();
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const Pose& pose = poses[i];
+    const Image<std::uint8_t>&before = without_noise_added[i], &now = with_noise[i];
     for (int y = 0; y < now.height; ++y)
       for (int x = 0; x < now.width; ++x) {
         const glm::dvec3 at = clear.ct.grid.index_from_patient(pose.point({geometry.plane_mm(x, y), 0}));
@@ -114,17 +124,16 @@ TEST_CASE("noise of 20 HU leaves a whole picture's mean grey as it is") {
   }
   const test::TestContext context;
   gl::Simulator simulator;
-  const Case clear = scan(test::kRealCt, 0), noisy = scan(test::kRealCt, 20);
-  for (const Pose& pose : poses_around(clear, 90)) {
-    const auto mean = [&](const Case& subject) {
-      double sum = 0, inside = 0;
-      const Image<std::uint8_t> grey = picture(simulator, subject, pose);
-      for (const std::uint8_t level : grey.pixels) {
-        sum += level;
-        inside += level > 0;
-      }
-      return sum / inside;
-    };
-    CHECK(mean(noisy) == Approx(mean(clear)).margin(3));
-  }
+  const Case clear = scan_with_noise(test::kRealCt, 0), noisy = scan_with_noise(test::kRealCt, 20);
+  const std::vector<Pose> poses = poses_around(clear, 90);
+  const auto before = pictures(simulator, clear, poses), now = pictures(simulator, noisy, poses);
+  const auto mean = [](const Image<std::uint8_t>& grey) {
+    double sum = 0, inside = 0;
+    for (const std::uint8_t level : grey.pixels) {
+      sum += level;
+      inside += level > 0;
+    }
+    return sum / inside;
+  };
+  for (std::size_t i = 0; i < poses.size(); ++i) CHECK(mean(now[i]) == Approx(mean(before[i])).margin(3));
 }
