@@ -95,14 +95,16 @@ std::vector<PlacedLine> placed_lines(const DeviceVolume& volume, const Pose& pat
   std::vector<PlacedLine> placed;
   placed.reserve(std::size_t(settings.slice_planes) * lines.lines.size());
   for (const SlicePlane& plane : slice_planes(settings))
-    for (const ScanLine& line : lines.lines) {
+    for (std::size_t i = 0; i < lines.lines.size(); ++i) {
+      const ScanLine& line = lines.lines[i];
+      const auto [offset, weight] = plane.of_line(i);
       const glm::dvec3 d = line.direction, lateral(d.y, -d.x, 0), elevation = glm::cross(d, lateral);
-      const double beside = has_elevation_focus(settings) ? 0 : plane.offset * settings.slice_thickness_mm;
+      const double beside = has_elevation_focus(settings) ? 0 : offset * settings.slice_thickness_mm;
       const glm::dvec3 first = line.start + glm::dvec3(0, 0, beside) + (lines.r_min_mm + dr / 2) * d;
       const glm::dvec3 start = point(texture_from_probe, first), along = step(texture_from_probe, dr * d);
       const glm::dvec3 to_side = step(texture_from_probe, half_length * lateral),
                        to_elevation = step(texture_from_probe, half_length * elevation),
-                       elevated = step(texture_from_probe, {0, 0, plane.offset});
+                       elevated = step(texture_from_probe, {0, 0, offset});
       // Sound meets what lies within half the reflection length of a sample. A bent line stays between its smallest and
       // its largest distance from the imaging plane.
       const glm::dvec3 margin = glm::abs(to_side) + glm::abs(to_elevation) + half_length / dr * glm::abs(along) +
@@ -113,12 +115,12 @@ std::vector<PlacedLine> placed_lines(const DeviceVolume& volume, const Pose& pat
                                              : std::pair(-kFar, kFar);
       placed.push_back({{start, first_met},
                         {along, last_met},
-                        {to_side, plane.weight},
+                        {to_side, weight},
                         {to_elevation, 0},
                         {point(lattice_from_probe, first), 0},
                         {step(lattice_from_probe, dr * d), 0},
                         {elevated, 0},
-                        {step(lattice_from_probe, {0, 0, plane.offset}), 0}});
+                        {step(lattice_from_probe, {0, 0, offset}), 0}});
     }
   return placed;
 }

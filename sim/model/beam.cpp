@@ -115,15 +115,20 @@ double slice_thickness_at_mm(const Settings& settings, double r_mm) {
 
 std::vector<SlicePlane> slice_planes(const Settings& settings) {
   const int count = settings.slice_planes;
-  const double sigma = 1 / std::sqrt(8 * std::log(2.0));
+  const double sigma = 1 / std::sqrt(8 * std::log(2.0)), between = 4.0 / count;
   std::vector<SlicePlane> planes;
-  double sum = 0;
-  for (int i = 0; i < count; ++i) {
-    const double offset = 2.0 * (2 * i + 1 - count) / count;
-    planes.push_back({sigma * offset, std::exp(-0.5 * offset * offset)});
-    sum += planes.back().weight;
+  planes.resize(std::size_t(count));
+  for (std::size_t line = 0; line < 2; ++line) {
+    const double moved = settings.waves && count > 1 ? between * (line == 0 ? -0.25 : 0.25) : 0;
+    double sum = 0;
+    for (int i = 0; i < count; ++i) {
+      const double offset = between * (i + 0.5) - 2 + moved;
+      SlicePlane::Place& place = planes[std::size_t(i)].places[line];
+      place = {sigma * offset, std::exp(-0.5 * offset * offset)};
+      sum += place.weight;
+    }
+    for (SlicePlane& plane : planes) plane.places[line].weight /= sum;
   }
-  for (SlicePlane& plane : planes) plane.weight /= sum;
   return planes;
 }
 
@@ -136,7 +141,8 @@ std::vector<double> envelope_scale(const ScanLines& lines, const Settings& setti
     double variance = 0;
     for (const SlicePlane& a : planes)
       for (const SlicePlane& b : planes)
-        variance += a.weight * b.weight * interpolation_correlation((a.offset - b.offset) * cells);
+        variance += a.of_line(0).weight * b.of_line(0).weight *
+                    interpolation_correlation((a.of_line(0).offset - b.of_line(0).offset) * cells);
     return variance;
   };
   std::vector<double> scale;

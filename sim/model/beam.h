@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <vector>
 
 #include "sim/model/settings.h"
@@ -59,15 +61,26 @@ bool has_elevation_focus(const Settings& settings);
 /// Returns how much thicker the slice gets far from its focus, mm per mm; 0 without an elevation focus.
 double slice_spread(const Settings& settings);
 
-/// One of the parallel planes of lines that sample the beam in elevation.
+/// One of the parallel planes of lines that sample the beam in elevation. It lies in different places for even and
+/// odd lines.
 struct SlicePlane {
-  double offset;  ///< distance from the imaging plane in elevation, in thicknesses of the slice
-  double weight;  ///< weight of its I, R and scatterer amplitudes; all sum to 1
+  struct Place {
+    double offset = 0;  ///< distance from the imaging plane in elevation, in thicknesses of the slice
+    double weight = 1;  ///< weight of its I, R and scatterer amplitudes; those of a line sum to 1
+  };
+  std::array<Place, 2> places;  ///< of even and of odd lines
+
+  const Place& of_line(std::size_t line) const { return places[line % places.size()]; }
 };
 
 /// Returns `slice_planes` planes that sample the slice's thickness: at the middles of equal parts of four standard
 /// deviations, with weights of the Gaussian across the beam. With an elevation focus, their distances follow the
 /// thickness.
+///
+/// With waves and several planes, those of even lines are moved in elevation by a quarter of their distance, and those
+/// of odd lines by as much to the other side. The beam sums over neighbouring lines, and thus over twice as many
+/// planes. Otherwise a rib that is steep in elevation would be a ladder: one echo for each plane. Patterns of more than
+/// two lines would show as stripes in shadows.
 std::vector<SlicePlane> slice_planes(const Settings& settings);
 
 /// Returns the factor on the speckle's envelope at each sample that gives fully developed speckle a mean of 1.

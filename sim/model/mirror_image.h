@@ -13,8 +13,8 @@ namespace insonate {
 /// The images are computed on each line, as if the sound came back along it. That holds for gas which is met squarely.
 /// Tilted gas shows what lies beside the line instead, which is taken to be like that on the line. I is that of the
 /// slice's middle plane, l the reflection length, and c the interface's place as for reverberation (reverberation.h),
-/// but with kOwnPlace more for the sample itself, so that it is the sample's own within gas, which reflects hardly
-/// anything. A sample loses the share
+/// but with kOwnPlace more for the sample itself, so that it is the sample's own within gas, and where gas is met so
+/// obliquely that next to nothing returns: a mean of tiny weights would jump with the pose. A sample loses the share
 ///
 ///     A(r) = 1 - (I(r + dr) / I(r))^(l/dr),      0 where I is up to kLeastReverberant
 ///

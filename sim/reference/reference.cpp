@@ -149,8 +149,9 @@ ReferenceScan traverse_reference(const MediumField& field, const TissueTable& ta
     const glm::dvec3 elevation = glm::cross(along, lateral);
 
     const glm::dvec3 out_of_plane = patient_from_probe.direction({0, 0, 1});
+    const double offset = plane.of_line(std::size_t(line)).offset;
     const auto place = [&](double r) {
-      return start + r * along + plane.offset * slice_thickness_at_mm(settings, r) * out_of_plane;
+      return start + r * along + offset * slice_thickness_at_mm(settings, r) * out_of_plane;
     };
 
     double intensity = 1;
@@ -230,8 +231,9 @@ struct Slice {
 };
 
 /// Adds what a plane sends back, as waves (sim/model/waves.h).
-void add_waves(Slice& slice, const ReferenceScan& one, double weight, const Settings& settings) {
+void add_waves(Slice& slice, const ReferenceScan& one, const SlicePlane& plane, const Settings& settings) {
   for (std::size_t i = 0; i < one.intensity.pixels.size(); ++i) {
+    const double weight = plane.of_line(i % std::size_t(one.intensity.width)).weight;
     const double intensity = one.intensity.pixels[i], squared = heard(intensity * intensity);
     const double transmission = settings.two_way ? squared : heard(intensity);
     const double scattered = std::sqrt(settings.blend * transmission) * one.amplitude.pixels[i];
@@ -251,12 +253,12 @@ Slice traverse_slice(const MediumField& field, const TissueTable& table, const S
   for (std::size_t p = 0; p < planes.size(); ++p) {
     const ReferenceScan one = traverse_reference(field, table, lines, settings, patient_from_probe, planes[p], stored);
     if (settings.waves) {
-      add_waves(slice, one, planes[p].weight, settings);
+      add_waves(slice, one, planes[p], settings);
     } else {
       for (Image<double> ReferenceScan::*part :
            {&ReferenceScan::intensity, &ReferenceScan::reflection, &ReferenceScan::echo_re, &ReferenceScan::echo_im})
         for (std::size_t i = 0; i < (one.*part).pixels.size(); ++i)
-          (slice.scan.*part).pixels[i] += planes[p].weight * (one.*part).pixels[i];
+          (slice.scan.*part).pixels[i] += planes[p].of_line(0).weight * (one.*part).pixels[i];  // of all lines alike
     }
     if (p != planes.size() / 2) continue;
     slice.repeats = reverberation_reference(one.intensity, one.reflection, lines, settings);

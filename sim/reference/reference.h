@@ -61,7 +61,7 @@ struct ReferenceScan {
   Image<double> amplitude, mirror;      ///< with waves: A and q of sim/model/waves.h
 };
 ReferenceScan traverse_reference(const MediumField& field, const TissueTable& table, const ScanLines& lines,
-                                 const Settings& settings, const Pose& patient_from_probe,
-                                 const SlicePlane& plane = {0, 1}, const StoredSpeckle* stored = nullptr);
+                                 const Settings& settings, const Pose& patient_from_probe, const SlicePlane& plane = {},
+                                 const StoredSpeckle* stored = nullptr);
 
 }  // namespace insonate

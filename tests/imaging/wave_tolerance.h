@@ -29,15 +29,17 @@ inline Image<double> rounding_of_waves(const MediumField& field, const TissueTab
   const double cell = std::pow(scatterer_pitch_mm(lines, settings), 3);
   Image<double> rough(deviation.width, deviation.height);
   ReferenceScan middle;
-  for (const SlicePlane& plane : slice_planes(settings)) {
-    const ReferenceScan scan = traverse_reference(field, table, lines, settings, pose, plane);
-    if (plane.offset == 0) middle = scan;
+  const std::vector<SlicePlane> planes = slice_planes(settings);
+  for (std::size_t p = 0; p < planes.size(); ++p) {
+    const ReferenceScan scan = traverse_reference(field, table, lines, settings, pose, planes[p]);
+    if (p == planes.size() / 2) middle = scan;
     for (std::size_t i = 0; i < rough.pixels.size(); ++i) {
       const double intensity = scan.intensity.pixels[i];
       const double transmitted = settings.two_way ? intensity : std::sqrt(intensity);
-      rough.pixels[i] += plane.weight * std::pow(kRoughShare * scan.mirror.pixels[i] * intensity +
-                                                     std::sqrt(settings.blend) * scan.amplitude.pixels[i] * transmitted,
-                                                 2);
+      rough.pixels[i] += planes[p].of_line(i % lines.lines.size()).weight *
+                         std::pow(kRoughShare * scan.mirror.pixels[i] * intensity +
+                                      std::sqrt(settings.blend) * scan.amplitude.pixels[i] * transmitted,
+                                  2);
     }
   }
   for (int k = 0; k < lines.samples; ++k) {

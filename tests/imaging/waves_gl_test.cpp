@@ -222,3 +222,42 @@ TEST_CASE("every scatterer that reaches a sample lies in one column of the list,
     }
   }
 }
+
+TEST_CASE("a bone that is steep in elevation is one broad echo, not one for each plane of the slice") {
+  // Bone behind the plane y = 40 mm + z. The slice is 3 mm thick, so that its planes meet it 1.7 mm apart.
+  AcousticVolume body;
+  body.grid.size = {40, 160, 40};
+  body.grid.spacing = {2, 0.5, 0.5};
+  body.grid.origin = {-39, 0, -9.75};
+  for (int z = 0; z < body.grid.size.z; ++z)
+    for (int y = 0; y < body.grid.size.y; ++y)
+      for (int x = 0; x < body.grid.size.x; ++x)
+        body.voxels.push_back({std::int16_t(body.grid.origin.z + 0.5 * z < 0.5 * y - 40 ? 900 : 60), -6000});
+  const test::TestContext context;
+  gl::Simulator simulator;
+  simulator.set_volume(body, read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml"));
+  simulator.set_probe(*find_probe("linear"), 60);
+  simulator.set_pose({glm::dmat3(1.0), {0, 2, 0}});
+  Settings settings = trainer_settings(3.5, 60);
+  settings.slice_thickness_mm = 3;
+  settings.reverberation = settings.electronic_noise = settings.clutter = false;
+  simulator.set_settings(settings);
+  const Stages<float> stages = simulator.read_stages();
+  const ScanLines lines = scan_lines(*find_probe("linear"), 60, settings.samples);
+  double least = 1, sum = 0;
+  int samples = 0;
+  for (int k = 0; k < lines.samples; ++k) {
+    const double y_mm = 2 + lines.r_min_mm + (k + 0.5) * lines.dr_mm();
+    if (std::abs(y_mm - 40) > 1.5) continue;  // half the slice: where its window has half its maximum
+    double power = 0;
+    for (int line = 16; line < stages.wave_re.width - 16; ++line)
+      power += std::pow(stages.wave_re.at(line, k), 2) + std::pow(stages.wave_im.at(line, k), 2);
+    least = std::min(least, power);
+    sum += power;
+    ++samples;
+  }
+  std::printf("a steep bone: the weakest depth has %.2g of the mean power of %d depths\n", least * samples / sum,
+              samples);
+  CHECK(samples >= 8);
+  CHECK(least > 0.05 * sum / samples);  // between the rungs of a ladder there is less than a thousandth
+}

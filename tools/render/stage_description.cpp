@@ -161,9 +161,14 @@ Json describe(const RenderedScene& scene, const StageGeometry& geometry, const s
   else
     text["envelope_scale"] = envelope_scale(lines, scene.settings);
   const std::vector<SlicePlane> planes = slice_planes(scene.settings);
-  for (std::size_t i = 0; i < planes.size(); ++i)
-    text["slice_planes"].push_back(
-        {{"offset", planes[i].offset}, {"weight", planes[i].weight}, {"folder", slice_folder(planes, i)}});
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    Json plane{{"folder", slice_folder(planes, i)}};
+    for (const SlicePlane::Place& place : planes[i].places) {
+      plane["offset"].push_back(place.offset);
+      plane["weight"].push_back(place.weight);
+    }
+    text["slice_planes"].push_back(plane);
+  }
   text["slice"] = {{"elevation", json(scene.patient_from_probe.direction({0, 0, 1}))},
                    {"thickness_mm", scene.settings.slice_thickness_mm},
                    {"focus_mm", scene.settings.elevation_focus_mm},

@@ -22,8 +22,9 @@ Tissue tissue_along(const ScanLines& lines, const RenderedScene& scene, const Sl
     const glm::dvec3 lateral = scene.patient_from_probe.direction({in_probe.direction.y, -in_probe.direction.x, 0});
     const glm::dvec3 elevation = glm::cross(along, lateral);
     const glm::dvec3 out_of_plane = scene.patient_from_probe.direction({0, 0, 1});
+    const double offset = plane.of_line(std::size_t(line)).offset;
     const auto place = [&](double r) {
-      return start + r * along + plane.offset * slice_thickness_at_mm(scene.settings, r) * out_of_plane;
+      return start + r * along + offset * slice_thickness_at_mm(scene.settings, r) * out_of_plane;
     };
     for (int k = 0; k < d; ++k) {
       const double r = lines.r_min_mm + (k + 0.5) * lines.dr_mm();

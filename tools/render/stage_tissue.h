@@ -17,7 +17,7 @@ struct Tissue {
 };
 
 /// Returns the tissue along the lines.
-/// @param plane  plane of the slice, which may be the imaging plane
+/// @param plane  of the slice
 Tissue tissue_along(const ScanLines& lines, const RenderedScene& scene, const SlicePlane& plane);
 
 }  // namespace insonate

@@ -69,7 +69,7 @@ void write_planes(const fs::path& folder, const RenderedScene& scene, const Scan
     if (planes.size() > 1) {
       write_among_lines(of_plane, "transmission", in_single_precision(scan.intensity), "I (5) of this plane");
       write_among_lines(of_plane, "reflection", in_single_precision(scan.reflection), "R (3) of this plane");
-      if (i == planes.size() / 2) {  // the imaging plane, also written to the main folder
+      if (i == planes.size() / 2) {  // the middle one, also written to the main folder
         write_among_lines(folder, "impedance", tissue.impedance, kImpedance);
         write_among_lines(folder, "alpha", tissue.alpha, kAlpha);
       }
@@ -78,8 +78,8 @@ void write_planes(const fs::path& folder, const RenderedScene& scene, const Scan
       write_among_lines(of_plane, "amplitude", in_single_precision(scan.amplitude), "A of sim/model/waves.h");
       write_among_lines(of_plane, "mirror", in_single_precision(scan.mirror), "q of sim/model/waves.h");
     } else {
-      add(echo_re, planes[i].weight, scan.echo_re);
-      add(echo_im, planes[i].weight, scan.echo_im);
+      add(echo_re, planes[i].of_line(0).weight, scan.echo_re);
+      add(echo_im, planes[i].of_line(0).weight, scan.echo_im);
     }
   }
   if (scene.settings.waves) {

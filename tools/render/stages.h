@@ -41,9 +41,9 @@ std::string slice_folder(const std::vector<SlicePlane>& planes, std::size_t plan
 ///   sizes N D, x line, y sample   hounsfield, echogenicity, impedance, absorption, alpha, incidence (by the model's
 ///                                 definitions on these lines, in double precision). If the slice has several planes,
 ///                                 each has them in its own folder (plane_1 and so on), together with its
-///                                 transmission and reflection; impedance and alpha of the middle plane, which is the
-///                                 imaging plane, are here too. echo_re, echo_im (the same, weighted sum of all
-///                                 planes); transmission, reflection, reflection_beam, speckle (as in `stages`)
+///                                 transmission and reflection; impedance and alpha of the middle plane are here
+///                                 too. echo_re, echo_im (the same, weighted sum of all planes); transmission,
+///                                 reflection, reflection_beam, speckle (as in `stages`)
 ///   sizes W H, marker (+x) right  pixel_line, pixel_sample (position of the pixel among the lines); fused, image
 /// Throws InputError if they cannot be written.
 /// @param scene    settings without skipping: where skipping omits a normal, R does not match the incidence

@@ -199,7 +199,7 @@ TEST_CASE("a clip of DICOM ultrasound with its poses is registered inside a labe
   labels.voxels.assign(labels.grid.count(), 0);
   for (int k = 0; k < 61; ++k)
     for (int j = 0; j < 61; ++j)
-      for (int i = 0; i < 61; ++i) labels.at({i, j, k}) = labels.grid.patient_from_index(glm::dvec3(i, j, k)).z < 0;
+      for (int i = 0; i < 61; ++i) labels.at({i, j, k}) = labels.grid.patient_from_index(glm::dvec3(i, j, k)).z < 4;
   write_labels(place.folder.path / "inside.nrrd", labels);
   const ProgramOutcome outcome =
       run_program(INSONATE_REGISTER_PROGRAM " --ct " + place.in("ct.nrrd") + " --search-mm 12 --search-deg 8 --poses " +

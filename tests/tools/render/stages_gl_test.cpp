@@ -121,8 +121,11 @@ void check_description(const nlohmann::json& text, const Insonated& scene) {
   const std::vector<SlicePlane> planes = slice_planes(settings);
   REQUIRE(text.at("slice_planes").size() == planes.size());
   for (std::size_t i = 0; i < planes.size(); ++i) {
-    CHECK(text.at("slice_planes").at(i).at("offset") == planes[i].offset);
-    CHECK(text.at("slice_planes").at(i).at("weight") == planes[i].weight);
+    const nlohmann::json& plane = text.at("slice_planes").at(i);
+    for (std::size_t line = 0; line < planes[i].places.size(); ++line) {
+      CHECK(plane.at("offset").at(line) == planes[i].places[line].offset);
+      CHECK(plane.at("weight").at(line) == planes[i].places[line].weight);
+    }
   }
   const glm::dvec3 elevation = scene.pose.direction({0, 0, 1});
   CHECK(text.at("slice").at("elevation") == std::vector<double>{elevation.x, elevation.y, elevation.z});
@@ -202,7 +205,7 @@ void check_tissue(const StageFolder& stages, const Insonated& scene, const Slice
     for (int k = 0; k < d; ++k) {
       const ScanLine& at = scene.lines.lines[std::size_t(line)];
       const double r = scene.lines.r_min_mm + (k + 0.5) * dr;
-      const glm::dvec3 aside(0, 0, plane.offset * slice_thickness_at_mm(settings, r));
+      const glm::dvec3 aside(0, 0, plane.of_line(std::size_t(line)).offset * slice_thickness_at_mm(settings, r));
       const glm::dvec3 place = scene.pose.point(at.start + r * at.direction + aside);
       const Medium met = with_gel(scene.field(place), r, coupling_depth_mm(settings));
       const TissueKnot tissue = scene.table.at(met.hu);
@@ -266,8 +269,8 @@ void check_planes(const StageFolder& stages, const Insonated& scene) {
       check_rounded(stages, prefix + "mirror", scan.mirror);
     }
     for (std::size_t i = 0; i < scan.echo_re.pixels.size(); ++i) {
-      echo_re.pixels[i] += planes[p].weight * scan.echo_re.pixels[i];
-      echo_im.pixels[i] += planes[p].weight * scan.echo_im.pixels[i];
+      echo_re.pixels[i] += planes[p].of_line(0).weight * scan.echo_re.pixels[i];
+      echo_im.pixels[i] += planes[p].of_line(0).weight * scan.echo_im.pixels[i];
     }
     if (folder.empty()) continue;
     check_rounded(stages, prefix + "transmission", scan.intensity);
