@@ -249,6 +249,9 @@ bool Keyboard::change_views(const KeyEvent& pressed, Trainer& trainer, ui::Scree
     case GLFW_KEY_F7:
       screen.choose(LayoutName(pressed.key - GLFW_KEY_F5), trainer);
       break;
+    case GLFW_KEY_F8:
+      screen.toggle_effects(trainer);
+      break;
     case GLFW_KEY_O:
       look.outlines = !look.outlines;
       break;

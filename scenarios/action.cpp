@@ -6,6 +6,8 @@
 
 #include "sim/core/input_error.h"
 #include "sim/core/suggest.h"
+#include "sim/core/text.h"
+#include "sim/model/effects.h"
 
 namespace insonate {
 namespace {
@@ -27,6 +29,7 @@ constexpr std::array kKinds{
     KindOfAction{ActionKind::persistence, "persistence", 1, false},
     KindOfAction{ActionKind::edge_enhancement, "edge_enhancement", 1, false},
     KindOfAction{ActionKind::speckle_reduction, "speckle_reduction", 1, false},
+    KindOfAction{ActionKind::effect, "effect", 1, true},
     KindOfAction{ActionKind::freeze, "freeze", 0, false},
     KindOfAction{ActionKind::unfreeze, "unfreeze", 0, false},
     KindOfAction{ActionKind::caliper, "caliper", 5, false},
@@ -97,6 +100,7 @@ public:
     if (kind.kind == ActionKind::time_gain) check_whole(action, "a slider", 1, Action::kTimeGainSliders);
     if (kind.has_text && words.back().front() != ':') refuse("an action's text does not begin with ':'");
     if (kind.has_text) action.text = unescaped(words.back().substr(1));
+    if (kind.kind == ActionKind::effect) check_effect(action);
     return action;
   }
 
@@ -109,6 +113,22 @@ private:
     const double number = action.numbers[0];
     if (!(number >= least && number <= most && number == action.slot()))
       refuse(what + " is not a whole number from " + std::to_string(least) + " to " + std::to_string(most));
+  }
+
+  void check_effect(const Action& action) const {
+    if (action.text.empty()) return;
+    const Effect* effect = find_effect(action.text);
+    if (!effect) {
+      std::vector<std::string> known;
+      for (const Effect& each : effects()) known.emplace_back(each.name);
+      std::string shown;
+      append_escaped(shown, std::string_view(action.text).substr(0, 40));
+      refuse("there is no effect '" + shown + "'", suggest(action.text, known));
+    }
+    const double value = action.numbers[0];
+    if (!(value >= effect->least && value <= effect->most) || (effect->whole && value != std::floor(value)))
+      refuse("the effect '" + action.text + "' has a value that is not a " + (effect->whole ? "whole " : "") +
+             "number from " + exact_text(effect->least) + " to " + exact_text(effect->most));
   }
 
   const KindOfAction& kind_of(std::string_view word) const {

@@ -23,6 +23,8 @@ enum class ActionKind {
   persistence,        ///< [share of the frame before, 0 to 0.95]
   edge_enhancement,   ///< [0 to 4]
   speckle_reduction,  ///< [0 to 1]
+  effect,             ///< changes an effect of the model (sim/model/effects.h) [value; its name], or takes all changes
+                      ///< back [0; ""]
   freeze,             ///< stops the picture at the last valid sample before the action
   unfreeze,
   caliper,    ///< places a caliper [slot from 1, x1, y1, x2, y2]; placing the same slot again moves it

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "sim/model/effects.h"
+
 namespace insonate {
 
 const Probe& Machine::transducer() const {
@@ -21,7 +23,7 @@ void Machine::choose(const std::string& name) {
 
 bool Machine::refuses(ActionKind kind) const {
   return frozen && (kind == ActionKind::probe || kind == ActionKind::depth || kind == ActionKind::frequency ||
-                    kind == ActionKind::compounding);
+                    kind == ActionKind::compounding || kind == ActionKind::effect);
 }
 
 void Machine::apply(const Action& action, const std::optional<Pose>& last_valid) {
@@ -58,6 +60,11 @@ void Machine::apply(const Action& action, const std::optional<Pose>& last_valid)
     case ActionKind::speckle_reduction:
       speckle_reduction = std::clamp(action.numbers[0], 0.0, 1.0);
       break;
+    case ActionKind::effect:
+      if (action.text.empty()) effects.clear();
+      if (const Effect* effect = find_effect(action.text))
+        effects[action.text] = std::clamp(action.numbers[0], effect->least, effect->most);
+      break;
     case ActionKind::freeze:
       if (!frozen) frozen_at = last_valid;
       frozen = true;
@@ -88,6 +95,13 @@ std::vector<Action> actions_between(const Machine& from, const Machine& to) {
   if (machine.persistence != to.persistence) set(ActionKind::persistence, to.persistence);
   if (machine.edge_enhancement != to.edge_enhancement) set(ActionKind::edge_enhancement, to.edge_enhancement);
   if (machine.speckle_reduction != to.speckle_reduction) set(ActionKind::speckle_reduction, to.speckle_reduction);
+  if (std::ranges::any_of(machine.effects, [&](const auto& each) { return !to.effects.contains(each.first); })) {
+    actions.push_back({ActionKind::effect});
+    machine.effects.clear();
+  }
+  for (const auto& [name, value] : to.effects)
+    if (const auto now = machine.effects.find(name); now == machine.effects.end() || now->second != value)
+      actions.push_back({ActionKind::effect, {value}, name});
   for (std::size_t i = 0; i < to.time_gain_db.size(); ++i)
     if (machine.time_gain_db[i] != to.time_gain_db[i])
       actions.push_back({ActionKind::time_gain, {double(i + 1), to.time_gain_db[i]}});

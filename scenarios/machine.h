@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,6 +26,7 @@ struct Machine {
       time_gain_db{};       ///< sliders from near to far, added to the machine's own compensation
   int steering_angles = 3;  ///< of compounding, odd; these four as in Settings, at rest as in with_usual_display()
   double persistence = 0.3, edge_enhancement = 0.5, speckle_reduction = 0;
+  std::map<std::string, double> effects;  ///< of the model (sim/model/effects.h), those that practice has changed
   bool frozen = false;
   std::optional<Pose> frozen_at;  ///< pose of the frozen picture; empty if no valid sample came before
 
@@ -39,7 +41,7 @@ struct Machine {
   /// Selects a probe and sets its own depth and frequency. An unknown name changes nothing.
   void choose(const std::string& name);
   /// Returns whether the machine ignores actions of this kind now: while a picture is frozen, those that decide which
-  /// echoes are acquired, which are probe, depth, frequency and compounding. A frozen picture is data. Gain, time gain
+  /// echoes are acquired: probe, depth, frequency, compounding and effects. A frozen picture is data. Gain, time gain
   /// and dynamic range act on what has been acquired, so they change a frozen picture too.
   bool refuses(ActionKind kind) const;
   /// Applies a setting, a freeze or an unfreeze; other actions, and those it refuses, change nothing. Depth, dynamic

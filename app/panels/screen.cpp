@@ -12,6 +12,7 @@
 #include "app/panels/replay/replay_page.h"
 #include "app/panels/scan/author_panel.h"
 #include "app/panels/scan/console_panel.h"
+#include "app/panels/scan/effects_panel.h"
 #include "app/panels/scan/exam_panel.h"
 #include "app/panels/scan/guide_layer.h"
 #include "app/panels/scan/ultrasound_panel.h"
@@ -77,21 +78,21 @@ void Screen::lay_out(const Trainer& trainer, float width, float height) {
   rest.take_bottom(gap);
   const bool anatomy = !trainer.session() || trainer.session()->shows_anatomy();
   const bool recorded = trainer.replay() && trainer.replay()->run().images;
-  const bool shows_look = shows_look_ && may_look(trainer);
-  views_ = ui::lay_out({shows_look ? LayoutName::standard : trainer.preferences().look.layout, large_}, rest, gap,
-                       {anatomy, recorded, trainer.replay() != nullptr, shows_look});
-  look_ = {};
-  if (shows_look && !large_) {  // in place of the CT's views
+  const bool shows_aside = shown_aside(trainer) != Aside::none;
+  views_ = ui::lay_out({shows_aside ? LayoutName::standard : trainer.preferences().look.layout, large_}, rest, gap,
+                       {anatomy, recorded, trainer.replay() != nullptr, shows_aside});
+  aside_place_ = {};
+  if (shows_aside && !large_) {  // in place of the CT's views
     const Rect slice = place(View::slice), blend = place(View::blend);
-    look_ = {slice.x, slice.y, blend.x + blend.w - slice.x, slice.h};
+    aside_place_ = {slice.x, slice.y, blend.x + blend.w - slice.x, slice.h};
     views_.erase(View::slice);
     views_.erase(View::blend);
     // A curve needs some height to be edited, also on a small screen.
     Rect& space = views_[View::space];
-    const float bottom = look_.y + look_.h;
-    look_.h = std::max(look_.h, std::min(theme_.px(250), 0.57f * (bottom - space.y)));
-    look_.y = bottom - look_.h;
-    space.h = look_.y - gap - space.y;
+    const float bottom = aside_place_.y + aside_place_.h;
+    aside_place_.h = std::max(aside_place_.h, std::min(theme_.px(250), 0.57f * (bottom - space.y)));
+    aside_place_.y = bottom - aside_place_.h;
+    space.h = aside_place_.y - gap - space.y;
   }
   places_ = {{"console", console_}, {"exam", top_}};
   for (const auto& [view, rect] : views_) places_[name_of(view)] = rect;
@@ -111,7 +112,7 @@ PictureSizes Screen::picture_sizes(const Trainer& trainer, float width, float he
 }
 
 void Screen::choose(LayoutName layout, Trainer& trainer) {
-  shows_look_ = false;
+  aside_ = Aside::none;
   large_.reset();
   Preferences preferences = trainer.preferences();
   preferences.look.layout = layout;
@@ -182,7 +183,7 @@ void Screen::draw_panels(Trainer& trainer) {
                          trainer, space_, recorded_panel_, places_, [&] { draw_space_buttons(trainer); });
     draw_space_lines(trainer);
     draw_ct_views(trainer, nullptr);
-    draw_look(trainer);
+    draw_aside(trainer);
     if (double_clicked) enlarge(*double_clicked);
   } else if (trainer.start_page()) {
     draw_start_page(trainer);
@@ -221,7 +222,7 @@ void Screen::draw_session(Trainer& trainer) {
     places_["guide"] = guide_;
   }
   draw_ct_views(trainer, guide);
-  draw_look(trainer);
+  draw_aside(trainer);
   const auto attempt = [&](const std::function<void()>& action) { trainer.attempt(action); };
   switch (draw_console_panel(theme_, console_, *session, attempt, places_)) {
     case ConsoleRequest::help:
@@ -261,10 +262,20 @@ void Screen::draw_space_buttons(Trainer& trainer) {
   Rect row = place(View::space).inset(theme_.px(4), theme_.px(4));
   row.h = theme_.px(26);
   draw_names_button(trainer, row);
+  draw_effects_button(trainer, row);
   if (may_look(trainer) && button(theme_, "look", places_["look"] = row.take_right(theme_.px(58)), "Look",
-                                  shows_look_ ? ButtonKind::chosen : ButtonKind::normal, true,
+                                  aside_ == Aside::look ? ButtonKind::chosen : ButtonKind::normal, true,
                                   "Shows organs, or the CT itself: skin, muscles, vessels, bones  (K)"))
     toggle_look(trainer);
+}
+
+void Screen::draw_effects_button(Trainer& trainer, Rect& row) {
+  if (!trainer.session() || !trainer.session()->shows_anatomy()) return;
+  const Rect where = places_["effects"] = row.take_right(theme_.px(66));
+  row.take_right(theme_.px(4));
+  if (button(theme_, "effects", where, "Effects", aside_ == Aside::effects ? ButtonKind::chosen : ButtonKind::normal,
+             true, "Turns the effects of the picture off and on, one by one  (F8)"))
+    toggle_effects(trainer);
 }
 
 void Screen::draw_names_button(Trainer& trainer, Rect& row) {
@@ -285,14 +296,31 @@ bool Screen::may_look(const Trainer& trainer) const {
 
 void Screen::toggle_look(Trainer& trainer) {
   if (!may_look(trainer)) return;
-  shows_look_ = !shows_look_;
+  if (aside_ == Aside::look) trainer.keep_look();
+  aside_ = aside_ == Aside::look ? Aside::none : Aside::look;
   large_.reset();
-  if (!shows_look_) trainer.keep_look();
 }
 
-void Screen::draw_look(Trainer& trainer) {
-  if (look_.w <= 0) return;
-  switch (look_panel_.draw(theme_, look_, trainer.pictures().look, places_)) {
+void Screen::toggle_effects(Trainer& trainer) {
+  if (!trainer.session()) return;
+  if (aside_ == Aside::look) trainer.keep_look();
+  aside_ = aside_ == Aside::effects ? Aside::none : Aside::effects;
+  large_.reset();
+}
+
+/// Returns which panel takes the place of the CT's views.
+Screen::Aside Screen::shown_aside(const Trainer& trainer) const {
+  if (aside_ == Aside::effects && !(trainer.session() && trainer.session()->shows_anatomy())) return Aside::none;
+  return may_look(trainer) ? aside_ : Aside::none;
+}
+
+void Screen::draw_aside(Trainer& trainer) {
+  if (aside_place_.w <= 0) return;
+  if (shown_aside(trainer) == Aside::effects) {
+    if (draw_effects_panel(theme_, aside_place_, *trainer.session(), places_)) toggle_effects(trainer);
+    return;
+  }
+  switch (look_panel_.draw(theme_, aside_place_, trainer.pictures().look, places_)) {
     case LookAnswer::none:
       break;
     case LookAnswer::close:

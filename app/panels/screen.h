@@ -66,6 +66,8 @@ public:
   void choose(LayoutName layout, Trainer& trainer);
   /// Shows the panel that says how the patient looks in the 3D view, in place of the CT's views, or closes it.
   void toggle_look(Trainer& trainer);
+  /// The panel with the effects of the picture's model.
+  void toggle_effects(Trainer& trainer);
   /// Makes a view large, or all views as they were if one is.
   void enlarge(View view) { large_ = large_ ? std::nullopt : std::optional(view); }
   const std::optional<View>& large() const { return large_; }
@@ -132,9 +134,13 @@ private:
   void draw_session(Trainer& trainer);
   void draw_space(Trainer& trainer, const Guiding* guiding);
   void draw_space_buttons(Trainer& trainer);
+  void draw_effects_button(Trainer& trainer, Rect& row);
   void draw_names_button(Trainer& trainer, Rect& row);
-  void draw_look(Trainer& trainer);
+  void draw_aside(Trainer& trainer);
   bool may_look(const Trainer& trainer) const;
+  /// A panel in place of the CT's views.
+  enum class Aside { none, look, effects };
+  Aside shown_aside(const Trainer& trainer) const;
   void draw_space_lines(const Trainer& trainer);
   void draw_ct_views(Trainer& trainer, const Guiding* guiding);
   void draw_layout_buttons(Trainer& trainer, Rect& line);
@@ -170,7 +176,7 @@ private:
   SpacePanel space_;
   CtPanel ct_panel_;
   LookPanel look_panel_;
-  bool shows_look_ = false;
+  Aside aside_ = Aside::none;
   RecordedPanel recorded_panel_;
   VolumePage volume_page_;
   OpenDialog open_dialog_;
@@ -190,7 +196,7 @@ private:
     return found == views_.end() ? Rect() : found->second;
   }
 
-  Rect screen_, top_, strip_, task_, guide_, console_, status_, look_;
+  Rect screen_, top_, strip_, task_, guide_, console_, status_, aside_place_;
   std::map<View, Rect> views_;
   std::optional<View> large_;
   std::map<std::string, Rect> places_;

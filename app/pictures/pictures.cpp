@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "sim/model/effects.h"
+
 namespace insonate {
 namespace {
 
@@ -23,20 +25,6 @@ std::vector<std::string> label_names(const Case& subject) {
   return names;
 }
 
-/// Converts the machine's settings to the simulator's. The caller sets the picture's size.
-Settings settings_of(const Machine& machine) {
-  // A log may contain any numbers. The scores use them unclamped.
-  Settings settings = trainer_settings(std::clamp(machine.frequency_mhz, 1.0, 20.0), machine.depth_mm);
-  settings.gain_db = std::clamp(machine.gain_db, -60.0, 60.0);
-  settings.dynamic_range_db = machine.dynamic_range_db;
-  settings.steering_angles = machine.steering_angles;
-  settings.persistence = machine.persistence;
-  settings.edge_enhancement = machine.edge_enhancement;
-  settings.speckle_reduction = machine.speckle_reduction;
-  for (std::size_t i = 0; i < machine.time_gain_db.size(); ++i) settings.tgc_db[i] += machine.time_gain_db[i];
-  return settings;
-}
-
 glm::vec3 white_of(BlendColour colour) {
   switch (colour) {
     case BlendColour::grey:
@@ -50,6 +38,26 @@ glm::vec3 white_of(BlendColour colour) {
 }
 
 }  // namespace
+
+Settings settings_of(const Machine& machine) {
+  // A log may contain any numbers. The scores use them unclamped.
+  Settings settings = trainer_settings(std::clamp(machine.frequency_mhz, 1.0, 20.0), machine.depth_mm);
+  settings.gain_db = std::clamp(machine.gain_db, -60.0, 60.0);
+  settings.dynamic_range_db = machine.dynamic_range_db;
+  settings.steering_angles = machine.steering_angles;
+  settings.persistence = machine.persistence;
+  settings.edge_enhancement = machine.edge_enhancement;
+  settings.speckle_reduction = machine.speckle_reduction;
+  for (std::size_t i = 0; i < machine.time_gain_db.size(); ++i) settings.tgc_db[i] += machine.time_gain_db[i];
+  for (const auto& [name, value] : machine.effects)
+    if (const Effect* effect = find_effect(name)) effect->set(settings, value);
+  return settings;
+}
+
+Machine with_usual_effects(Machine machine) {
+  machine.effects.clear();
+  return machine;
+}
 
 Pictures::Pictures(const gl::ShaderSources& sources, Quality level)
     : level_(level),

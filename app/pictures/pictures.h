@@ -45,6 +45,12 @@ struct Effort {
   bool at_rest = false;
 };
 
+/// Converts the machine's settings to the simulator's. The caller sets the picture's size.
+Settings settings_of(const Machine& machine);
+
+/// Returns the same machine without changed effects.
+Machine with_usual_effects(Machine machine);
+
 /// Draws a session's pictures on the graphics card, each only when something it shows has changed. Needs an OpenGL 4.5
 /// context from construction to destruction.
 class Pictures {

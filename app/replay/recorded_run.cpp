@@ -8,6 +8,7 @@
 #include "scenarios/metrics/motion_meter.h"
 #include "scenarios/words.h"
 #include "sim/core/text.h"
+#include "sim/model/effects.h"
 
 namespace insonate {
 namespace {
@@ -37,6 +38,13 @@ std::string in_words(const Action& action) {
       return formatted("Edge enhancement %.1f", action.numbers[0]);
     case ActionKind::speckle_reduction:
       return formatted("Speckle reduction %.0f %%", 100 * action.numbers[0]);
+    case ActionKind::effect: {
+      const Effect* effect = find_effect(action.text);
+      if (!effect) return "Effects as usual";
+      const std::string name = insonate::in_words(std::string(effect->name));
+      return "Effect " + name +
+             (effect->is_switch() ? action.numbers[0] != 0 ? " on" : " off" : formatted(" %.3g", action.numbers[0]));
+    }
     case ActionKind::freeze:
       return "Freeze";
     case ActionKind::unfreeze:

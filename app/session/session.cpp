@@ -56,6 +56,8 @@ bool replaces(const Action& action, const Action& before) {
       return before.kind == action.kind;
     case ActionKind::time_gain:
       return before.kind == action.kind && before.slot() == action.slot();
+    case ActionKind::effect:
+      return before.kind == action.kind && before.text == action.text;
     default:
       return false;
   }
@@ -130,6 +132,7 @@ void Session::begin_attempt() {
   // A recorded scan sets the machine anew each time.
   if (source().recording()) shown_ = first_machine();
   shown_.apply({ActionKind::unfreeze}, std::nullopt);
+  if (activity_ == Activity::exam) shown_.effects.clear();  // of practice
   machine_ = runner_ ? runner_->machine() : Machine();
   acts_ = actions_between(machine_, shown_);
   actions_.clear();
@@ -223,10 +226,12 @@ std::optional<Pose> Session::frozen_picture() const {
 }
 
 bool Session::locks(ActionKind setting) const {
+  if (setting == ActionKind::effect) return activity_ == Activity::exam;
   return strict() && runner_ && !result_ && runner_->scenario().locked.contains(lock_of(setting));
 }
 
 std::string Session::why_not(ActionKind setting) const {
+  if (setting == ActionKind::effect && locks(setting)) return "Effects are for practice, without steps and score.";
   if (locks(setting)) return "This exam keeps " + name_of(setting) + " as it is.";
   if (shown_.refuses(setting)) return "Frozen: press Space to scan on, then change " + name_of(setting) + ".";
   return "";

@@ -22,6 +22,9 @@ std::vector<Action> one_of_each() {
           {ActionKind::gain, {-6}},
           {ActionKind::dynamic_range, {45.5}},
           {ActionKind::time_gain, {8, -12.25}},
+          {ActionKind::effect, {0}, "mirror_image"},
+          {ActionKind::effect, {62.5}, "focus_mm"},
+          {ActionKind::effect, {0}, ""},
           {ActionKind::freeze},
           {ActionKind::unfreeze},
           {ActionKind::caliper, {2, -10.123456789012345, 40, 1.0 / 3, 41}},
@@ -71,6 +74,11 @@ TEST_CASE("a mistake in a log's actions is refused in words") {
   for (const char* bad : {"time_gain 0 3", "time_gain 9 3", "time_gain 1.5 3"})
     CHECK(refusal(bad).find("a slider is not a whole number from 1 to 8") != std::string::npos);
   CHECK(refusal("guide 2").find("a guide is not a whole number from 0 to 1") != std::string::npos);
+  CHECK(refusal("effect 0 :mirror_imag").find("there is no effect 'mirror_imag'; did you mean 'mirror_image'?") !=
+        std::string::npos);
+  for (const char* bad : {"effect 2 :waves", "effect 0.5 :waves", "effect -1 :waves"})
+    CHECK(refusal(bad).find("'waves' has a value that is not a whole number from 0 to 1") != std::string::npos);
+  CHECK(refusal("effect 9 :focus_mm").find("not a number from 10 to 240") != std::string::npos);
   CHECK(refusal("answer yes").find("begin with ':'") != std::string::npos);
   for (const char* bad : {"answer :50%", "answer :50%4", "answer :%zz"})
     CHECK(refusal(bad).find("hexadecimal") != std::string::npos);

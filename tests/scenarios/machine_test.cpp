@@ -14,6 +14,8 @@ TEST_CASE("the actions between two machines bring the knobs of one to those of t
   to.gain_db = -4;
   to.dynamic_range_db = 45;
   to.time_gain_db = {1, 0, -2, 0, 3, 0, 0, 20};
+  to.effects = {{"mirror_image", 0}, {"focus_mm", 55}};
+  from.effects = {{"waves", 0}, {"focus_mm", 30}};
   to.frozen = true;
   for (const Machine& untouched : {from, Machine()}) {
     Machine machine = untouched;
@@ -40,7 +42,10 @@ TEST_CASE("a machine limits what an action asks for, and knows its own probes al
   CHECK(machine.dynamic_range_db == Machine::kMostDynamicRange_db);
   machine.apply({ActionKind::time_gain, {8, -1e6}}, std::nullopt);
   CHECK(machine.time_gain_db[7] == -Machine::kMostTimeGain_db);
+  machine.apply({ActionKind::effect, {1e6}, "focus_mm"}, std::nullopt);
+  CHECK(machine.effects == std::map<std::string, double>{{"focus_mm", 240}});
   const Machine before = machine;
+  machine.apply({ActionKind::effect, {1}, "none"}, std::nullopt);
   machine.apply({ActionKind::probe, {}, "none"}, std::nullopt);
   CHECK(machine == before);
 }
@@ -51,8 +56,10 @@ TEST_CASE("a frozen picture follows what acts on acquired echoes, and nothing th
   const Pose at{glm::dmat3(1.0), {1, 2, 3}};
   machine.apply({ActionKind::freeze}, at);
   const Machine frozen = machine;
-  for (const Action& action :
-       {Action{ActionKind::probe, {}, "linear"}, {ActionKind::depth, {55}}, {ActionKind::frequency, {9}}}) {
+  for (const Action& action : {Action{ActionKind::probe, {}, "linear"},
+                               {ActionKind::depth, {55}},
+                               {ActionKind::frequency, {9}},
+                               {ActionKind::effect, {0}, "waves"}}) {
     CAPTURE(word_of(action.kind));
     CHECK(machine.refuses(action.kind));
     machine.apply(action, at);

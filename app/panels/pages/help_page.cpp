@@ -39,7 +39,7 @@ const std::vector<Key> kViews{
     {"F5, F6, F7", "the usual views; slices along the patient's axes; four of one size"},
     {"Double click a view", "make it large; again: back"},
     {"Drag the CT, O", "across the window, up and down the level; outlines of organs"},
-    {"K", "how the patient looks in 3D: organs, or skin, muscles, bones"},
+    {"K, F8", "how the patient looks in 3D; effects of the picture, off and on, in practice"},
     {"Wheel on a slice, B, X", "through the slices; to the probe; cross at its face or in the fan"},
 };
 /// While the anatomy is hidden there is no CT.

@@ -89,6 +89,10 @@ Rect draw_annotations(const Theme& theme, const Rect& panel, const std::string& 
     draw_on_plate(theme, line, theme.small_text, colour::kMuted, text);
     line.y += line.h;
   }
+  if (settings_of(machine) != settings_of(with_usual_effects(machine))) {
+    draw_on_plate(theme, line, theme.small_text, colour::kAmber, "Effects changed");
+    line.y += line.h;
+  }
   return line;
 }
 

@@ -201,3 +201,31 @@ TEST_CASE("knobs and acts between two samples keep their order, in practice too"
     CHECK(session.latest_actions().begin()->second == std::vector<Action>{{ActionKind::freeze}});
   }
 }
+
+TEST_CASE("effects are changed in practice alone, and an exam that follows has none of it") {
+  Session session(tiny_loaded_case(), [] { return std::make_unique<MouseTracker>(Pose{}); });
+  session.advance(0);
+  REQUIRE(session.activity() == Activity::exam);
+  session.set({ActionKind::effect, {0}, "noise"});
+  CHECK(session.machine().effects.empty());
+  CHECK(session.why_not(ActionKind::effect) == "Effects are for practice, without steps and score.");
+
+  session.practise();
+  CHECK(session.why_not(ActionKind::effect).empty());
+  session.set({ActionKind::effect, {0}, "noise"});
+  session.set({ActionKind::effect, {0}, "waves"});
+  CHECK(session.machine().effects.size() == 2);
+  session.advance(0.1);
+  REQUIRE(session.latest_actions().size() == 1);
+  const std::vector<Action>& done = session.latest_actions().begin()->second;
+  REQUIRE(done.size() >= 2);
+  CHECK(done[done.size() - 2] == Action{ActionKind::effect, {0}, "noise"});
+  CHECK(done.back() == Action{ActionKind::effect, {0}, "waves"});
+  session.freeze(true);
+  CHECK(session.why_not(ActionKind::effect).find("Frozen") == 0);
+  session.freeze(false);
+
+  session.start_over();
+  REQUIRE(session.activity() == Activity::exam);
+  CHECK(session.machine().effects.empty());
+}

@@ -56,4 +56,19 @@ await "the saved look is offered" is_not look7_x ""
 click_on look_close
 await "the CT's views come back" is_not slice_x ""
 
+echo "F8 opens the panel of effects there, and a switch changes the picture, until all is as usual again"
+xdotool key F8
+await "the panel is there" is_not effects_panel_x ""
+is slice_x "" || fail "the CT's slice lies below the panel"
+await "nothing changes any more" shows_nothing
+drawn=$(value pictures_drawn)
+click_on effect_waves
+await "the picture is drawn anew" is_not pictures_drawn "$drawn"
+await "nothing changes any more" shows_nothing
+drawn=$(value pictures_drawn)
+click_on effects_usual
+await "the picture is drawn anew" is_not pictures_drawn "$drawn"
+xdotool key F8
+await "the CT's views come back" is_not slice_x ""
+
 echo "passed"
