@@ -271,7 +271,7 @@ void Screen::draw_space_buttons(Trainer& trainer) {
 
 void Screen::draw_effects_button(Trainer& trainer, Rect& row) {
   if (!trainer.session() || !trainer.session()->shows_anatomy()) return;
-  const Rect where = places_["effects"] = row.take_right(theme_.px(66));
+  const Rect where = places_["effects"] = row.take_right(theme_.px(78));
   row.take_right(theme_.px(4));
   if (button(theme_, "effects", where, "Effects", aside_ == Aside::effects ? ButtonKind::chosen : ButtonKind::normal,
              true, "Turns the effects of the picture off and on, one by one  (F8)"))

@@ -67,7 +67,7 @@ bool draw_effects_panel(const Theme& theme, const Rect& panel, Session& session,
   const bool closes = button(theme, "effects_close", places["effects_close"] = title.take_right(high), "\u00d7",
                              ButtonKind::normal, true, "Closes this panel  (F8)");
   title.take_right(gap);
-  if (button(theme, "effects_usual", places["effects_usual"] = title.take_right(theme.px(76)), "As usual",
+  if (button(theme, "effects_usual", places["effects_usual"] = title.take_right(theme.px(94)), "As usual",
              changed ? ButtonKind::primary : ButtonKind::normal, why_not.empty() && changed,
              "Takes all changes of this panel back"))
     session.set({ActionKind::effect});
