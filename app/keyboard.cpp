@@ -253,7 +253,10 @@ bool Keyboard::change_views(const KeyEvent& pressed, Trainer& trainer, ui::Scree
       screen.toggle_effects(trainer);
       break;
     case GLFW_KEY_O:
-      look.outlines = !look.outlines;
+      if (trainer.loaded_case() && trainer.loaded_case()->subject.labels.empty())
+        screen.show_note("This patient has no labels to outline");
+      else
+        look.outlines = !look.outlines;
       break;
     case GLFW_KEY_X:
       look.cross_hair = look.cross_hair == CrossHair::face ? CrossHair::fan : CrossHair::face;
@@ -265,7 +268,10 @@ bool Keyboard::change_views(const KeyEvent& pressed, Trainer& trainer, ui::Scree
       screen.toggle_look(trainer);
       break;
     case GLFW_KEY_N:
-      if (trainer.may_name_landmarks()) trainer.toggle_landmarks();
+      if (trainer.loaded_case() && trainer.loaded_case()->subject.landmarks.empty())
+        screen.show_note("This patient has no landmarks to name");
+      else if (trainer.may_name_landmarks())
+        trainer.toggle_landmarks();
       break;
     default:
       return false;

@@ -125,6 +125,7 @@ bool Screen::render(Trainer& trainer, FrameTimes* times) {
       !ImGui::GetIO().Fonts->TexID)
     canvas_.make_fonts();
   ImGui::NewFrame();
+  hide_tips(saves_picture_);  // a tip may reach over the ultrasound
   lay_out(trainer, size.x, size.y);
   draw_panels(trainer);
   draw_overlay(trainer);
@@ -295,17 +296,24 @@ bool Screen::may_look(const Trainer& trainer) const {
 }
 
 void Screen::toggle_look(Trainer& trainer) {
-  if (!may_look(trainer)) return;
-  if (aside_ == Aside::look) trainer.keep_look();
-  aside_ = aside_ == Aside::look ? Aside::none : Aside::look;
-  large_.reset();
+  if (may_look(trainer)) toggle(Aside::look, trainer);
 }
 
 void Screen::toggle_effects(Trainer& trainer) {
-  if (!trainer.session()) return;
+  if (trainer.session()) toggle(Aside::effects, trainer);
+}
+
+void Screen::toggle(Aside panel, Trainer& trainer) {
   if (aside_ == Aside::look) trainer.keep_look();
-  aside_ = aside_ == Aside::effects ? Aside::none : Aside::effects;
+  aside_ = aside_ == panel ? Aside::none : panel;
   large_.reset();
+}
+
+/// Closes the panel in place of the CT's views. Returns whether one was shown.
+bool Screen::close_aside(Trainer& trainer) {
+  if (shown_aside(trainer) == Aside::none) return false;
+  toggle(aside_, trainer);
+  return true;
 }
 
 /// Returns which panel takes the place of the CT's views.

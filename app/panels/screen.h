@@ -141,6 +141,8 @@ private:
   /// A panel in place of the CT's views.
   enum class Aside { none, look, effects };
   Aside shown_aside(const Trainer& trainer) const;
+  void toggle(Aside panel, Trainer& trainer);
+  bool close_aside(Trainer& trainer);
   void draw_space_lines(const Trainer& trainer);
   void draw_ct_views(Trainer& trainer, const Guiding* guiding);
   void draw_layout_buttons(Trainer& trainer, Rect& line);

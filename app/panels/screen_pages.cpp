@@ -107,7 +107,11 @@ void Screen::dismiss(Trainer& trainer) {
       if (trainer.learners_page() && learners_panel_.types_text()) return learners_panel_.close_fields(false);
       if (trainer.start_page()) start_panel_.close_fields(false);
       if (trainer.start_page() || text_field_.is_open()) break;
-      if (!trainer.session() || !trainer.picture_tools().cancel()) leave(trainer);
+      if (trainer.session() && trainer.picture_tools().cancel()) break;
+      if (trainer.session() && !trainer.author() && trainer.step_controls().asks_again())
+        trainer.step_controls().stay();
+      else if (!close_aside(trainer))
+        leave(trainer);
       break;
     case Overlay::problem:
       trainer.problems().pop_front();
@@ -255,7 +259,9 @@ HelpTopic Screen::help_topic(const Trainer& trainer) const {
   if (trainer.replay()) return HelpTopic::replay;
   if (trainer.author()) return HelpTopic::author;
   if (shows_sheet(trainer)) return HelpTopic::score;
-  return trainer.session() && trainer.session()->strict() ? HelpTopic::exam : HelpTopic::scan;
+  if (below == Overlay::volume) return HelpTopic::volume;
+  const Session* session = trainer.session();
+  return session && session->strict() && !session->result() ? HelpTopic::exam : HelpTopic::scan;
 }
 
 void Screen::draw_setup(Trainer& trainer) {

@@ -39,6 +39,8 @@ public:
   /// Ends the step. If it would not count as done, the first call only asks (asks_again()), and the second one ends it.
   /// For a question, gives the answer if there is one, and does nothing otherwise.
   void go_on(Session& session);
+  /// Takes back what go_on() has asked.
+  void stay() { asks_again_ = false; }
   /// Returns whether go_on() has asked once.
   bool asks_again() const { return asks_again_; }
 

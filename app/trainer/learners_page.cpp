@@ -231,7 +231,7 @@ void LearnersPage::choose_attempt(std::int64_t number) {
 }
 
 void LearnersPage::choose_author(const std::string& id) {
-  if (!id.empty()) check_learner_id(id, "author", "");
+  if (!id.empty()) check_learner_id(id, "your id", "");
   choice_.author = id;
 }
 

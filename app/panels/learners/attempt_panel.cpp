@@ -19,7 +19,7 @@ std::string origin_of(const Comment& comment) {
 void AttemptPanel::close_fields(bool keep) {
   store_ = keep && comment_.is_open();
   forget_ = !keep && comment_.is_open();
-  if (!keep) author_was_open_ = false;
+  if (!keep) author_was_open_ = author_is_refused_ = false;
   comment_.close();
   author_.close();
 }
@@ -50,11 +50,19 @@ AttemptRequest AttemptPanel::draw(const Theme& theme, Rect where, LearnersPage& 
   return request;
 }
 
+/// Takes the typed id. One that is refused stays in its field, and no comment is stored without it.
+void AttemptPanel::choose_author(LearnersPage& page) {
+  author_is_refused_ = true;
+  page.choose_author(typed_author_);
+  author_is_refused_ = false;
+}
+
 void AttemptPanel::draw_fields(const Theme& theme, Rect where, LearnersPage& page, const Run& run,
                                std::map<std::string, Rect>& places) {
   std::string& draft = drafts_[shown_];
   const auto store = [&] {
     run([&] {
+      choose_author(page);
       page.add_comment(draft);
       draft.clear();
     });
@@ -69,9 +77,8 @@ void AttemptPanel::draw_fields(const Theme& theme, Rect where, LearnersPage& pag
 
   places["add_comment"] = where.take_right(theme.px(130));
   where.take_right(theme.px(8));
-  if (std::exchange(author_was_open_, author_.is_open()) && !author_.is_open())
-    run([&] { page.choose_author(typed_author_); });
-  if (!author_.is_open()) typed_author_ = page.choice().author;
+  if (std::exchange(author_was_open_, author_.is_open()) && !author_.is_open()) run([&] { choose_author(page); });
+  if (!author_.is_open() && !author_is_refused_) typed_author_ = page.choice().author;
   places["author_field"] = where;
   ImGui::PushID("author");
   typed_author_ = author_.draw(theme, where, typed_author_, "Your id, if you like");

@@ -35,6 +35,7 @@ public:
 private:
   void draw_comments(const Theme& theme, const Rect& where, LearnersPage& page, const Run& run,
                      std::map<std::string, Rect>& places);
+  void choose_author(LearnersPage& page);
   void draw_fields(const Theme& theme, Rect where, LearnersPage& page, const Run& run,
                    std::map<std::string, Rect>& places);
 
@@ -45,7 +46,7 @@ private:
   std::string typed_author_;
   Key shown_;                  ///< the attempt of the last frame; number 0: none
   std::int64_t doubtful_ = 0;  ///< comment that the next click on its button removes; 0 for none
-  bool store_ = false, forget_ = false, author_was_open_ = false;
+  bool store_ = false, forget_ = false, author_was_open_ = false, author_is_refused_ = false;
 };
 
 }  // namespace insonate::ui

@@ -42,7 +42,11 @@ const std::vector<Key> kViews{
     {"K, F8", "how the patient looks in 3D; effects of the picture, off and on, in practice"},
     {"Wheel on a slice, B, X", "through the slices; to the probe; cross at its face or in the fan"},
 };
-/// While the anatomy is hidden there is no CT.
+/// While the anatomy is hidden there is no CT, and landmarks have no names.
+const std::vector<Key> kExamPatient{
+    {"Drag the patient", "turn; middle button or Shift shifts; right button or wheel zooms"},
+    {"V, Home", "see the patient from the next side; as at first"},
+};
 const std::vector<Key> kExamViews{
     {"F5, F7", "the usual views; views of one size"},
     {"Double click a view", "make it large; again: back"},
@@ -122,11 +126,16 @@ Help help_of(HelpTopic topic) {
                         {"F2", "choose a tracker, or set up the one in use"}},
                        kWindow})};
     case HelpTopic::exam:
-      return {
-          "Help: an exam that counts",
-          "Do what each step asks for, and hold the view still until its ring is full. The clock runs on while this "
-          "page is open.",
-          keys_of({kProbe, kPatient, kExamViews, kMachine, kTools, kFiles, kWindow})};
+      return {"Help: an exam that counts",
+              "Do what each step asks for, hold the view still, and go on. The clock runs on while this page is open.",
+              keys_of({kProbe,
+                       kExamPatient,
+                       kExamViews,
+                       kMachine,
+                       {{"Ctrl Z, Ctrl Y", "undo a knob; do it again"}},
+                       kTools,
+                       kFiles,
+                       kWindow})};
     case HelpTopic::replay:
       return {"Help: looking at a run again",
               "The time line below shows the steps and how far the probe was from their views. Nothing is scored or "
@@ -172,6 +181,17 @@ Help help_of(HelpTopic topic) {
           "Each step has its points and, where some are missing, the reason. The report has all of it, with pictures "
           "and the probe's path, for printing or for a teacher.",
           keys_of({{{"Escape", "close the sheet, and go on scanning"}}, kWindow})};
+    case HelpTopic::volume:
+      return {"Help: the volume of a sweep",
+              "Three planes that are perpendicular to each other, and the volume itself. Bluish voxels lie between the "
+              "sweep's pictures, dark ones were not seen.",
+              keys_of({{{"Drag in a plane", "the point in which the planes meet; right button: turns the two others"},
+                        {"Wheel, Up, Down", "along the plane's normal; the probe's plane along the sweep"},
+                        {"Drag in the volume", "turn; middle button or Shift shifts; right button or wheel zooms"},
+                        {"C, Home", "cut the volume at the probe's plane, or not; planes and volume as at first"},
+                        {"S", "save the volume"},
+                        {"Escape, U", "back to the scan"}},
+                       kWindow})};
     case HelpTopic::open:
       return {"Help: opening a file",
               "Click through the folders or type a path. A CT is a NIfTI, NRRD or MetaImage file or a folder of DICOM "

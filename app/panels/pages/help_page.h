@@ -9,7 +9,7 @@
 namespace insonate::ui {
 
 /// The pages that have a help of their own.
-enum class HelpTopic { start, learners, check, scan, exam, replay, setup, author, score, open, settings };
+enum class HelpTopic { start, learners, check, scan, exam, replay, setup, author, score, volume, open, settings };
 
 enum class HelpAnswer { none, close, about, settings };
 

@@ -119,6 +119,7 @@ bool OpenDialog::draw_entries(const Theme& theme, const Rect& where, std::map<st
   if (rows.empty()) {
     const std::string empty = !list_.problem.empty() ? list_.problem
                               : list_.is_series      ? "This folder holds DICOM files: Open takes them as a CT."
+                              : is_folder(wanted_)   ? "There are no folders here. Open takes this one."
                                                      : "Nothing here can be opened.";
     draw_paragraph(where.inset(theme.px(14), theme.px(12)), theme.text,
                    list_.problem.empty() ? colour::kMuted : colour::kAmber, empty);

@@ -108,7 +108,7 @@ void draw_hold(const Theme& theme, const Rect& where, const Session& session, co
 }
 
 /// What is left of the step and of the exam, whose clock stands still during warm-ups.
-void draw_time(const Theme& theme, const Rect& where, const LiveExam& live, bool counts) {
+void draw_time(const Theme& theme, const Rect& where, const LiveExam& live, bool counts, bool strict) {
   Rect lines[] = {{where.x, where.y + theme.px(11), where.w, theme.px(21)},
                   {where.x, where.y + theme.px(32), where.w, theme.px(20)}};
   if (live.finished) {
@@ -123,8 +123,9 @@ void draw_time(const Theme& theme, const Rect& where, const LiveExam& live, bool
                                         : colour::kFaint,
               clock_text(left_s));
   };
-  draw(lines[0], theme.strong, "Step left", live.step_remaining_s, true);
-  draw(lines[1], theme.text, "Exam left", live.exam_remaining_s, counts);
+  draw(lines[0], theme.strong, "Step left",
+       counts ? std::min(live.step_remaining_s, live.exam_remaining_s) : live.step_remaining_s, true);
+  draw(lines[1], theme.text, strict ? "Exam left" : "All left", live.exam_remaining_s, counts);
 }
 
 /// What is special about a step.
@@ -178,7 +179,7 @@ void draw_exam_panel(const Theme& theme, const Rect& panel, const Session& sessi
   const LiveExam& live = runner->live();
   const Scenario& scenario = runner->scenario();
   const Step& step = scenario.steps[live.step];
-  draw_time(theme, rest.take_right(theme.px(112)), live, step.counts);
+  draw_time(theme, rest.take_right(theme.px(112)), live, step.counts, session.strict());
   rest.take_right(theme.px(12));
   // Whether the view is found is what an exam asks.
   if (!session.strict() || live.finished) {

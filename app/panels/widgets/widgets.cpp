@@ -51,9 +51,11 @@ void draw_knob(const Theme& theme, const ImVec2& centre, float radius, bool lit)
   ImGui::GetWindowDrawList()->AddCircleFilled(centre, theme.px(radius), lit ? colour::kText : colour::kAccent, 24);
 }
 
+bool tips_are_hidden = false;
+
 /// Draws a text in a box above `of`, or below where there is no room.
 void draw_box(const Theme& theme, const Rect& of, std::string_view text) {
-  if (text.empty()) return;
+  if (text.empty() || tips_are_hidden) return;
   const ImGuiIO& io = ImGui::GetIO();
   const ImVec2 size = size_of(theme.text, text, theme.px(340));
   Rect box{io.MousePos.x, 0, size.x + theme.px(24), size.y + theme.px(16)};
@@ -67,6 +69,10 @@ void draw_box(const Theme& theme, const Rect& of, std::string_view text) {
 }
 
 }  // namespace
+
+void hide_tips(bool hidden) {
+  tips_are_hidden = hidden;
+}
 
 Rect Rect::take_left(float width) {
   const Rect part{x, y, width, h};

@@ -64,6 +64,9 @@ bool upright_slider(const Theme& theme, const char* id, const Rect& where, doubl
 /// Explains ImGui's last item in a box beside the pointer, once the pointer has rested on it for a moment.
 void draw_tip(const Theme& theme, const Rect& of, std::string_view text);
 
+/// Leaves such boxes out of the frames to come, or draws them again.
+void hide_tips(bool hidden);
+
 /// Explains what lies in `of` in such a box as long as the pointer is there: what a person has to know at once, such as
 /// why a button is dim. Draws nothing for an empty text.
 void draw_tooltip(const Theme& theme, const Rect& of, std::string_view text);

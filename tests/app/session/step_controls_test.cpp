@@ -84,6 +84,10 @@ TEST_CASE("a step that is not done is left at the second asking") {
   desk.go_on();
   CHECK(desk.step() == 0);
   CHECK(desk.controls.asks_again());
+  desk.controls.stay();
+  CHECK_FALSE(desk.controls.asks_again());
+  desk.go_on();
+  CHECK(desk.step() == 0);
   desk.go_on();
   CHECK(desk.step() == 1);
   CHECK_FALSE(desk.controls.asks_again());

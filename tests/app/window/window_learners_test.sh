@@ -70,6 +70,37 @@ is learners_comments 2 || fail "one click removes a comment"
 click_on remove_comment_2
 await "the second click removes it" is learners_comments 1
 
+echo "a name in place of an id is refused, and no comment is stored without it"
+click_on comment_field
+await "the field takes text" is typing true
+xdotool type "By whom"
+click_on author_field
+sleep 0.5
+xdotool key ctrl+a
+xdotool type "Dr Jones"
+click_on add_comment
+await "a message says why" is overlay problem
+xdotool key Escape
+sleep 0.5
+is overlay problem && xdotool key Escape
+await "the message goes" is overlay ""
+click_on add_comment
+await "it comes again with another try" is overlay problem
+xdotool key Escape
+await "the message goes" is overlay ""
+is learners_comments 1 || fail "the comment is stored without its author"
+click_on author_field
+await "the field takes text" is typing true
+xdotool key ctrl+a
+xdotool type "T-02"
+xdotool key Return
+click_on add_comment
+await "it is stored with the id" is learners_comments 2
+click_on remove_comment_3
+sleep 0.5
+click_on remove_comment_3
+await "it is removed" is learners_comments 1
+
 echo "a report and the tables are written, and nothing of an attempt changes"
 click_on write_report
 await "the toast names the report" contains toast "report.html"
