@@ -272,6 +272,8 @@ bool Keyboard::change_views(const KeyEvent& pressed, Trainer& trainer, ui::Scree
         screen.show_note("This patient has no landmarks to name");
       else if (trainer.may_name_landmarks())
         trainer.toggle_landmarks();
+      else
+        screen.show_note("Landmarks have no names in scored steps, unless the guide is shown");
       break;
     default:
       return false;
@@ -350,7 +352,7 @@ void Keyboard::press(const KeyEvent& pressed, Trainer& trainer, ui::Screen& scre
   if (CheckPage* page = trainer.check_page()) return check_page(pressed, *page, trainer, screen);
   if (trainer.replay()) return replay(pressed, trainer, screen);
   if (!(pressed.modifiers & GLFW_MOD_CONTROL)) tapped_.insert(pressed.key);
-  if (pressed.key == GLFW_KEY_F2 && !repeated) return trainer.begin_setup();
+  if (pressed.key == GLFW_KEY_F2 && !repeated) return screen.begin_setup(trainer);
   const bool strict = trainer.session() && trainer.session()->strict();
   if (pressed.key == GLFW_KEY_O && (pressed.modifiers & GLFW_MOD_CONTROL) && !strict) return screen.ask_for_path();
   if (!trainer.session()) return;
@@ -393,8 +395,7 @@ void Keyboard::press(const KeyEvent& pressed, Trainer& trainer, ui::Screen& scre
       if (trainer.demonstration() && session.result())
         screen.try_yourself(trainer);
       else
-        trainer.attempt(
-            [&] { session.holder() == Holder::learner ? session.give_back_probe() : session.take_probe(); });
+        screen.hand_over(trainer);
       break;
     case GLFW_KEY_SPACE:
       if (!repeated) session.freeze(!machine.frozen);

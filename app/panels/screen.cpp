@@ -300,7 +300,32 @@ void Screen::toggle_look(Trainer& trainer) {
 }
 
 void Screen::toggle_effects(Trainer& trainer) {
-  if (trainer.session()) toggle(Aside::effects, trainer);
+  const Session* session = trainer.session();
+  if (session && session->strict() && !session->result())
+    show_note("This exam counts: effects are for practice");
+  else if (session)
+    toggle(Aside::effects, trainer);
+}
+
+void Screen::begin_setup(Trainer& trainer) {
+  const Session* session = trainer.session();
+  if (session && session->strict() && !session->result())
+    show_note("This exam counts: go on to its end, then the tracker can be set up");
+  else if (trainer.loses_by_leaving())
+    show_note("Leave these steps first (Escape): the set-up would end them");
+  else
+    trainer.begin_setup();
+}
+
+void Screen::hand_over(Trainer& trainer) {
+  constexpr double kAsked_s = 6;
+  Session& session = *trainer.session();
+  if (session.strict() && !session.result()) return show_note("This exam counts: the probe stays with the tracker");
+  if (session.only_learner()) return show_note("Mouse and keyboard move the probe already: there is no tracker");
+  const double now_s = ImGui::GetTime();
+  if (trainer.loses_by_leaving() && now_s - std::exchange(asked_to_hand_over_s_, now_s) > kAsked_s)
+    return show_note("Tab ends these steps: press it once more to go on without them");
+  trainer.attempt([&] { session.holder() == Holder::learner ? session.give_back_probe() : session.take_probe(); });
 }
 
 void Screen::toggle(Aside panel, Trainer& trainer) {
@@ -456,7 +481,7 @@ void Screen::draw_status(Trainer& trainer) {
     if (button(theme_, "setup", places_["setup"], "Set up", ButtonKind::normal,
                trainer.session() && !trainer.session()->strict(),
                "Finds how the tracker's sensor lies on the dummy probe  (F2)"))
-      trainer.begin_setup();
+      begin_setup(trainer);
     line.take_left(theme_.px(8));
   }
   const auto next = [&](const char* id, float width, const std::string& text, ButtonKind kind, bool enabled,

@@ -68,6 +68,10 @@ public:
   void toggle_look(Trainer& trainer);
   /// The panel with the effects of the picture's model.
   void toggle_effects(Trainer& trainer);
+  /// Begins the set-up of the tracker. In steps that it would end, says what to do first.
+  void begin_setup(Trainer& trainer);
+  /// Takes the probe from the tracker or gives it back. Steps that this ends are asked for once more.
+  void hand_over(Trainer& trainer);
   /// Makes a view large, or all views as they were if one is.
   void enlarge(View view) { large_ = large_ ? std::nullopt : std::optional(view); }
   const std::optional<View>& large() const { return large_; }
@@ -179,6 +183,7 @@ private:
   CtPanel ct_panel_;
   LookPanel look_panel_;
   Aside aside_ = Aside::none;
+  double asked_to_hand_over_s_ = -1000;
   RecordedPanel recorded_panel_;
   VolumePage volume_page_;
   OpenDialog open_dialog_;

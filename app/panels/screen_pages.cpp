@@ -210,6 +210,8 @@ void Screen::step_on(Trainer& trainer) {
 }
 
 void Screen::toggle_volume(const Trainer& trainer) {
+  if (trainer.session() && trainer.session()->strict() && !trainer.session()->result())
+    return show_note("This exam counts: there are no sweeps in it");
   if (!trainer.swept()) return show_note("Sweep a volume first: T begins a sweep and ends it");
   toggle(Overlay::volume);
 }

@@ -364,6 +364,16 @@ void StartPage::choose_drawing(const fs::path& file) {
   options_.drawing = file;
 }
 
+std::vector<OfferedPatient> StartPage::opened_patients() const {
+  std::vector<OfferedPatient> opened;
+  std::ranges::copy_if(patients_, std::back_inserter(opened), &OfferedPatient::opened);
+  return opened;
+}
+
+void StartPage::offer_again(const std::vector<OfferedPatient>& opened) {
+  patients_.insert(patients_.end(), opened.begin(), opened.end());
+}
+
 void StartPage::add(const fs::path& path) {
   if (task == Task::setup) return choose_calibration(path);
   const Material material = kind_of_material(path);
@@ -380,6 +390,7 @@ void StartPage::add(const fs::path& path) {
       OfferedPatient offered{name, material == Material::ct ? "CT" : "Case", CaseSource{}, fs::path()};
       (material == Material::ct ? offered.source.ct : offered.source.case_folder) = path;
       offered.about += " in " + path.parent_path().string();
+      offered.opened = true;
       patients_.push_back(std::move(offered));
       patient = patients_.size() - 1;
       task = Task::patients;

@@ -41,7 +41,8 @@ struct OfferedScenario {
 struct OfferedPatient {
   std::string name, about;
   CaseSource source;
-  std::filesystem::path listed_in;  ///< the folder whose cases the page lists; empty for other patients
+  std::filesystem::path listed_in{};  ///< the folder whose cases the page lists; empty for other patients
+  bool opened = false;                ///< from a file that the person chose
 };
 
 /// A run that can be looked at again.
@@ -92,6 +93,10 @@ public:
   void move_choice(int places);
   const std::vector<OfferedScenario>& scenarios() const { return scenarios_; }
   const std::vector<OfferedPatient>& patients() const { return patients_; }
+  /// Returns those of them that the person opened.
+  std::vector<OfferedPatient> opened_patients() const;
+  /// Offers patients that an earlier page had opened.
+  void offer_again(const std::vector<OfferedPatient>& opened);
   const std::vector<OfferedRun>& runs() const { return runs_; }
   const std::vector<OfferedTracker>& trackers() const { return trackers_; }
   const std::vector<std::string>& learners() const { return learners_; }

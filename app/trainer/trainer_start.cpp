@@ -120,6 +120,7 @@ void Trainer::make_start_page() {
   open_results();
   mode_ = Choosing{std::make_unique<StartPage>(given_, results_ ? &*results_ : nullptr)};
   start_page()->task = task;
+  start_page()->offer_again(opened_);
   attempt([&] { start_page()->list_cases_in(preferences_.cases); });
   given_ = start_page()->options();
   options_ = given_;
@@ -153,7 +154,10 @@ void Trainer::begin_chosen() {
 void Trainer::begin(const Beginning& chosen) {
   const bool possible = attempt([&] { check(chosen.options); });
   if (!possible) return;
-  if (const StartPage* page = start_page()) given_ = page->options();
+  if (const StartPage* page = start_page()) {
+    given_ = page->options();
+    opened_ = page->opened_patients();
+  }
   options_ = chosen.options;
   guide_.turn(chosen.guided);
   why_not_calibrated_.clear();

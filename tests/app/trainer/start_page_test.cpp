@@ -99,6 +99,14 @@ TEST_CASE("each task of the start page turns into what the command line would sa
   CHECK(patient.options.ct == folder / "water.mha");
   CHECK(patient.free_practice);
   CHECK_THROWS_WITH(page.add(folder / "nothing.mha"), Catch::Contains("there is no such file"));
+  const std::vector<OfferedPatient> opened = page.opened_patients();
+  REQUIRE(opened.size() == 1);
+  CHECK(opened.front().source.ct == folder / "water.mha");
+  StartPage later(Options{}, nullptr);
+  CHECK(later.opened_patients().empty());
+  later.offer_again(opened);
+  CHECK(later.patients().back().name == "water.mha");
+  CHECK(later.opened_patients().size() == 1);
 
   INFO("without a database there are no learners to look at");
   CHECK(page.tasks().size() == kTasks - 1);
