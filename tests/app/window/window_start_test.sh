@@ -35,6 +35,9 @@ await "Tab takes the probe after its end too" is holder learner
 is activity exam || fail "there is nothing to try"
 is overlay "" || fail "somebody else's score lies over the window"
 xdotool key Tab
+await "Tab says that it ends the steps" contains toast "press it once more"
+is demonstration false || fail "the steps have ended at once"
+xdotool key Tab
 await "Tab gives it back, and the demonstration begins anew" is demonstration true
 click_on own_try
 await "the exam is one's own" is holder learner
@@ -89,13 +92,20 @@ xdotool key Escape
 await "and the next one leaves" is_page
 is start_task exam || fail "it leads to $(value start_task)"
 
-echo "F2 without a sensor leads to the choice of a tracker"
+echo "F2 does not end steps, and without a sensor leads to the choice of a tracker"
 click_on task_first_scan
 await "the first scan is chosen" is start_task first_scan
 click_on begin
 await "it is explained first" is overlay briefing
 xdotool key Return
 await "the guide is on" is guided_to liver_subcostal
+xdotool key F2
+await "F2 says to leave the steps first" contains toast "Leave these steps first"
+is guided_to liver_subcostal || fail "F2 has ended the steps"
+xdotool key Escape
+await "it asks" is overlay leave
+xdotool key Return
+await "Return leaves" is_page
 xdotool key F2
 await "F2 shows the page's trackers" is start_task setup
 contains start_why_not "no sensor" || fail "$(value start_why_not)"
