@@ -15,8 +15,10 @@
 namespace insonate {
 namespace {
 
-constexpr int kPlaces = 16;          // per call: 0.6 s of two cores without a graphics card
-constexpr double kSamePlace_mm = 8;  // as register_sweep() counts ends as one
+constexpr int kPlaces = 16;                    // per call: 0.6 s of two cores without a graphics card
+constexpr double kSamePlace_mm = 8;            // as register_sweep() counts ends as one
+constexpr double kNear_mm = 6, kNear_deg = 6;  // that the first round with all its images looks around the start
+constexpr int kNearScattered = 64;
 constexpr auto kGlance = std::chrono::milliseconds(2);
 constexpr auto kLongestHold = std::chrono::milliseconds(200);
 
@@ -141,6 +143,7 @@ bool LiveRegistrar::begin_round(Task& task) {
       continue;
     }
     task.wide = std::exchange(wants_wide_, false);
+    task.settles = !is_settled_ && state_.in_use == std::size_t(settings_.slices);
     task.from = task.wide || is_settled_ ? state_.ct_from_sweep : start_;
     task.window = done_window_ = window_.version();
     task.epoch = epoch_;
@@ -174,7 +177,7 @@ void LiveRegistrar::end_round(const Task& task, SweepRegistration found) {
     found.doubts.emplace_back("it has left the place that the wide search found");
   }
   if (has_wide_ && found.converged()) confirmed_ = found.ct_from_sweep;
-  is_settled_ |= task.wide || task.sweep.images.size() == std::size_t(settings_.slices);
+  is_settled_ |= task.wide || task.settles;
   state_.ct_from_sweep = found.ct_from_sweep;
   ++state_.rounds;
   state_.last = std::make_shared<const LiveRound>(LiveRound{TrackedSweep(task.sweep), std::move(found)});
@@ -189,7 +192,7 @@ void LiveRegistrar::run() {
   try {
     std::optional<gl::HeadlessContext> context;
     std::unique_ptr<SweepRegistrar> registrar;
-    const double search_mm = settings_.search_mm, search_deg = settings_.search_deg;
+    const RegistrationSettings wide = settings_;
     Task task;
     settings_.between_calls = [this, &task] { give_way(task); };
     while (begin_round(task)) {
@@ -206,7 +209,12 @@ void LiveRegistrar::run() {
         } else {
           registrar->set_images(task.sweep.images);
         }
-        registrar->set_range(task.wide ? search_mm : 0, task.wide ? search_deg : 0);
+        if (task.wide)
+          registrar->set_range(wide.search_mm, wide.search_deg, wide.scattered);
+        else if (task.settles)
+          registrar->set_range(kNear_mm, kNear_deg, kNearScattered);
+        else
+          registrar->set_range(0, 0, 1);
         end_round(task, registrar->from(task.from));
       } catch (const Abandoned&) {
         const std::lock_guard lock(mutex_);

@@ -21,7 +21,7 @@ enum Stage { kScatter, kWide, kFine, kAffine };
 constexpr int kWideWidth = 64, kWideHeight = 48, kWidePatch = 8;  // pixels
 constexpr std::size_t kFineStarts = 4;
 constexpr double kWideLength_mm = 4;  // of a reflection, so that interfaces are as wide as a pixel
-constexpr double kBasin_mm = 8;       // ends that are nearer to each other are one
+constexpr double kBasin_mm = 8;       // ends that are nearer to each other are one, or half the search range if less
 constexpr double kBasin_deg = 8;
 constexpr double kAmbiguous = 0.9;  // of the similarity
 constexpr int kClimbs = 3;          // most repetitions of the last search
@@ -61,13 +61,15 @@ struct Run {
     return target_error_mm(targets, result.motion.at(a), result.motion.at(b));
   }
 
+  double basin_mm() const { return settings.search_mm > 0 ? std::min(kBasin_mm, settings.search_mm / 2) : kBasin_mm; }
+
   // Returns the best, of which no two lie in one basin.
   std::vector<Optimum> distinct(std::vector<Optimum> ends, std::size_t most) const {
     std::ranges::stable_sort(ends, std::ranges::greater{}, &Optimum::value);
     std::vector<Optimum> kept;
     for (Optimum& end : ends)
       if (kept.size() < most &&
-          std::ranges::none_of(kept, [&](const Optimum& k) { return apart(k.at, end.at) < kBasin_mm; }))
+          std::ranges::none_of(kept, [&](const Optimum& k) { return apart(k.at, end.at) < basin_mm(); }))
         kept.push_back(std::move(end));
     return kept;
   }
@@ -148,9 +150,10 @@ void SweepRegistrar::set_images(std::span<const SweepImage> images) {
   targets_ = target_points(sweep);
 }
 
-void SweepRegistrar::set_range(double search_mm, double search_deg) {
+void SweepRegistrar::set_range(double search_mm, double search_deg, int scattered) {
   settings_.search_mm = search_mm;
   settings_.search_deg = search_deg;
+  settings_.scattered = scattered;
 }
 
 SweepRegistration SweepRegistrar::from(const glm::dmat4& start) {

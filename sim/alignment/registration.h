@@ -87,8 +87,8 @@ public:
   /// Replaces the sweep's images. Probe, depth and the images' size stay: throws std::invalid_argument for another
   /// size.
   void set_images(std::span<const SweepImage> images);
-  /// Replaces RegistrationSettings::search_mm and search_deg.
-  void set_range(double search_mm, double search_deg);
+  /// Replaces RegistrationSettings::search_mm, search_deg and scattered.
+  void set_range(double search_mm, double search_deg, int scattered);
 
   /// Registers from a start.
   /// @param start  ct_from_sweep
