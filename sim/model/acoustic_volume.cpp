@@ -25,11 +25,32 @@ std::int16_t centidecibel(double db) {
   return std::int16_t(std::lround(db * 100));
 }
 
-double texture_db(double hu_above_mean) {
+/// Returns the part of a difference that is texture, not partial volume, HU.
+double texture_hu(double hu_above_mean) {
   const double away = std::abs(hu_above_mean);
-  const double fade = std::clamp((kRimHu - away) / (kRimHu - kTextureHu), 0.0, 1.0);
-  return kTextureDbPerHu * hu_above_mean * fade;
+  return hu_above_mean * std::clamp((kRimHu - away) / (kRimHu - kTextureHu), 0.0, 1.0);
 }
+
+/// The slices at the head's and the feet's end in which sound is lost.
+class Ends {
+public:
+  explicit Ends(const Grid& grid) {
+    for (int axis = 1; axis < 3; ++axis)
+      if (std::abs(grid.direction[axis].z) > std::abs(grid.direction[axis_].z)) axis_ = axis;
+    slices_ = std::max(2, int(std::lround(kEnd_mm / grid.spacing[axis_])));
+    last_ = grid.size[axis_] - 1;
+    if (grid.size[axis_] < 4 * slices_) slices_ = 0;
+  }
+  bool contain(const glm::ivec3& i) const { return distance(i) < slices_; }
+  double echogenicity_db(const glm::ivec3& i) const {
+    return kLeastEchogenicityDb + double(slices_ - distance(i)) / slices_ * (kEndDb - kLeastEchogenicityDb);
+  }
+
+private:
+  int distance(const glm::ivec3& i) const { return std::min(i[axis_], last_ - i[axis_]); }
+
+  int axis_ = 0, slices_ = 0, last_ = 0;
+};
 
 /// Returns the echogenicity by density alone, for each int16 value of HU.
 std::vector<std::int16_t> tabulate(const TissueTable& table) {
@@ -58,11 +79,11 @@ std::array<double, kLabels> mean_densities(const Volume<std::int16_t>& ct, const
   return means;
 }
 
-class EchogenicityOf {
+class VoxelOf {
 public:
-  EchogenicityOf(const Volume<std::int16_t>& ct, const Volume<std::uint8_t>& labels,
-                 const std::vector<std::string>& tissue_of, const TissueTable& table)
-      : ct_(ct), labels_(labels), by_hu_(tabulate(table)), densest_air_(table.densest_air_hu()) {
+  VoxelOf(const Volume<std::int16_t>& ct, const Volume<std::uint8_t>& labels, const std::vector<std::string>& tissue_of,
+          const TissueTable& table)
+      : ct_(ct), labels_(labels), ends_(ct.grid), by_hu_(tabulate(table)), densest_air_(table.densest_air_hu()) {
     for (int axis = 0; axis < 3; ++axis)
       reach_[axis] = std::max(1, int(std::lround(kEdgeRadius_mm / ct.grid.spacing[axis])));
     if (labels.empty()) return;
@@ -81,20 +102,29 @@ public:
     }
   }
 
-  std::int16_t operator()(const glm::ivec3& i) const {
+  AcousticVoxel operator()(const glm::ivec3& i) const {
     const std::size_t v = ct_.grid.offset(i);
     const std::uint8_t label = labels_.empty() ? 0 : labels_.voxels[v];
     const int hu = ct_.voxels[v];
+    const int noise_hu =
+        has_tissue_[label] && tissue_db_[label] < kFluidDb ? int(std::lround(texture_hu(hu - means_[label]))) : 0;
+    const bool is_end = hu > densest_air_ && ends_.contain(i);
+    return {std::int16_t(hu - noise_hu),
+            is_end ? centidecibel(ends_.echogenicity_db(i)) : echogenicity_cdb(i, label, hu)};
+  }
+
+private:
+  std::int16_t echogenicity_cdb(const glm::ivec3& i, std::uint8_t label, int hu) const {
     if (has_tissue_[label])
-      return centidecibel(
-          std::clamp(tissue_db_[label] + texture_db(hu - means_[label]), kLeastEchogenicityDb, kMostEchogenicityDb));
+      return centidecibel(std::clamp(tissue_db_[label] + kTextureDbPerHu * texture_hu(hu - means_[label]),
+                                     kLeastEchogenicityDb, kMostEchogenicityDb));
     if (is_amid_air(i)) return centidecibel(kLeastEchogenicityDb);
     std::int16_t echo = by_density(hu);
     std::ptrdiff_t stride = 1;
     for (int axis = 0; axis < 3; ++axis) {
       const int reach = reach_[axis];
       if (i[axis] >= reach && i[axis] + reach < ct_.grid.size[axis]) {
-        const std::int16_t* here = ct_.voxels.data() + v;
+        const std::int16_t* here = ct_.voxels.data() + ct_.grid.offset(i);
         const int before = here[-reach * stride], after = here[reach * stride];
         const auto [low, high] = std::minmax(before, after);
         if (hu - low >= kEdgeMarginHu && high - hu >= kEdgeMarginHu)
@@ -105,7 +135,6 @@ public:
     return echo;
   }
 
-private:
   // Voxels beyond the grid count as air.
   bool is_amid_air(const glm::ivec3& i) const {
     if (ct_.at(i) > densest_air_) return false;
@@ -121,6 +150,7 @@ private:
 
   const Volume<std::int16_t>& ct_;
   const Volume<std::uint8_t>& labels_;
+  Ends ends_;
   std::vector<std::int16_t> by_hu_;
   int densest_air_;
   glm::ivec3 reach_{1};
@@ -131,7 +161,7 @@ private:
 
 AcousticVolume acoustic_volume_of(const Volume<std::int16_t>& ct, const Volume<std::uint8_t>& labels,
                                   const std::vector<std::string>& tissue_of, const TissueTable& table) {
-  const EchogenicityOf echogenicity(ct, labels, tissue_of, table);
+  const VoxelOf voxel(ct, labels, tissue_of, table);
   AcousticVolume acoustic;
   acoustic.grid = ct.grid;
   acoustic.voxels.resize(ct.voxels.size());
@@ -140,8 +170,7 @@ AcousticVolume acoustic_volume_of(const Volume<std::int16_t>& ct, const Volume<s
       for (int y = 0; y < ct.grid.size.y; ++y)
         for (int x = 0; x < ct.grid.size.x; ++x) {
           const glm::ivec3 i(x, y, z);
-          const std::size_t v = ct.grid.offset(i);
-          acoustic.voxels[v] = {ct.voxels[v], echogenicity(i)};
+          acoustic.voxels[ct.grid.offset(i)] = voxel(i);
         }
   });
   return acoustic;

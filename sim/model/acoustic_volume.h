@@ -6,13 +6,15 @@
 
 #include "sim/core/grid.h"
 #include "sim/model/tissue.h"
+#include "sim/shaders/shared/model_constants.h"
 
 namespace insonate {
 
 /// The acoustic data of a voxel: 4 bytes, one texture fetch.
 struct AcousticVoxel {
   std::int16_t hu = -1000;                ///< determines impedance and absorption through the tissue table
-  std::int16_t echogenicity_cdb = -6000;  ///< backscatter relative to liver in hundredths of a dB; -6000: no echo
+  std::int16_t echogenicity_cdb = -6000;  ///< backscatter relative to liver in hundredths of a dB; -6000: no echo;
+                                          ///< below that, the CT ends here: end_absorption()
 };
 
 using AcousticVolume = Volume<AcousticVoxel>;
@@ -23,6 +25,18 @@ using AcousticVolume = Volume<AcousticVoxel>;
 inline constexpr double kTextureDbPerHu = 0.1;
 inline constexpr double kTextureHu = 30;
 inline constexpr double kRimHu = 60;
+
+// Fluid is what scatters less than this by its label. Differences of its density are noise, which would show as echoes
+// of interfaces within a gallbladder or an aorta. Its density becomes even; towards the rim that fades out as texture
+// does.
+inline constexpr double kFluidDb = -25;
+
+// Where a CT's first and last slice cut the body, the body goes on and the data do not. Air there would be a bright
+// straight line with a mirror image behind it. Instead the last kEnd_mm of tissue before the head's and the feet's end
+// absorb sound, so that the picture ends black. Absorption rises so slowly that it is not taken for gas, which has
+// mirror images (mirror_image.h). Two slices at least; none in a CT of fewer than four times as many.
+inline constexpr double kEnd_mm = 8;
+inline constexpr double kEndDb = -160;  // of the outermost slice
 
 // A voxel counts as partial volume if two opposite neighbours at this distance enclose its density with a margin on
 // both sides. The distance spans half the blur of an edge in resampled thick slices. The margin is above what is left
@@ -56,6 +70,10 @@ inline constexpr double kSilentDb = kLeastEchogenicityDb + 0.005;
 ///                                   kLeastEchogenicityDb and kMostEchogenicityDb
 ///     else                          T(H)
 ///
+/// In the i-th of the n slices of an end, counted from 0 at the outermost, tissue becomes kLeastEchogenicityDb +
+/// (n - i) / n (kEndDb - kLeastEchogenicityDb). The voxel's density stays H, but for labels of a tissue of less than
+/// kFluidDb: there it becomes H - g(H - mean) / kTextureDbPerHu, the difference rounded.
+///
 /// Without a label there are two exceptions. First, for each axis take the two voxels at -e and e, with e being
 /// kEdgeRadius_mm in voxels, rounded, at least 1. If both lie in the grid, the lower lies kEdgeMarginHu or more below
 /// H, and the higher as much above H, the result is at least T of both. Second, if a voxel and its 26 neighbours are
@@ -65,6 +83,13 @@ inline constexpr double kSilentDb = kLeastEchogenicityDb + 0.005;
 /// @param tissue_of  per label value, the tissue's name in the table ("" for none); 256 entries, or empty
 AcousticVolume make_acoustic_volume(const Volume<std::int16_t>& ct, const Volume<std::uint8_t>& labels,
                                     const std::vector<std::string>& tissue_of, const TissueTable& table);
+
+/// Returns what a medium absorbs in addition to its density's absorption, dB/(cm MHz), one way: above 0 at an end of
+/// the CT alone, also with Settings::absorption off.
+inline double end_absorption(double echogenicity_db) {
+  const double below = kEndlessDb - echogenicity_db;
+  return below > 0 ? kEndAbsorption * below * below : 0;
+}
 
 /// Returns a digest of the grid and all voxels, as digest_of() (sim/core/digest.h).
 std::string digest_of(const AcousticVolume& volume);

@@ -161,7 +161,8 @@ ReferenceScan traverse_reference(const MediumField& field, const TissueTable& ta
       const glm::dvec3 p = place(r);
       const Medium here = with_gel(field(p), r, coupled);
       const auto hu = [&](const glm::dvec3& at, double depth) { return with_gel(field(at), depth, coupled).hu; };
-      const double a = settings.absorption ? table.at(here.hu).absorption_db_cm_mhz : 0;
+      const double a =
+          (settings.absorption ? table.at(here.hu).absorption_db_cm_mhz : 0) + end_absorption(here.echogenicity_db);
       const auto absorbed = [&](double distance_mm) {
         return std::pow(10.0, -a * settings.frequency_mhz * distance_mm / 100);
       };

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "sim/imaging/simulator.h"
+#include "sim/reference/reference.h"
 #include "tests/gl/test_context.h"
 #include "tests/imaging/test_divisions.h"
 #include "tests/model/amplitudes.h"
@@ -63,6 +64,44 @@ TEST_CASE("in a homogeneous medium sound is absorbed exactly, however many sampl
     INFO(samples << " samples, I off by " << worst << " of itself at worst");
     CHECK(worst < 1e-5);  // the limit of the accuracy contract
   }
+}
+
+TEST_CASE("where the CT ends sound is absorbed, also without absorption, and nothing echoes") {
+  constexpr double kDepth_mm = 100, kFrequency_mhz = 3.5, kEnd = -71;  // dB
+  const test::TestContext context;
+  const TissueTable table = read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml");
+  Probe probe = *find_probe("linear");
+  probe.lines = 4;
+  AcousticVolume volume = medium(60, 60);
+  for (AcousticVoxel& voxel : volume.voxels) voxel.echogenicity_cdb = std::int16_t(100 * kEnd);
+  gl::Simulator simulator;
+  simulator.set_volume(volume, table);
+  simulator.set_probe(probe, kDepth_mm);
+  simulator.set_pose(at_y(-200));
+  for (const bool waves : {false, true})
+    for (const bool absorption : {false, true}) {
+      Settings settings = waves ? trainer_settings(kFrequency_mhz, kDepth_mm)
+                                : test::trainer_with_amplitudes(kFrequency_mhz, kDepth_mm);
+      settings.absorption = absorption;
+      settings.electronic_noise = false;
+      simulator.set_settings(settings);
+      const Stages<float> stages = simulator.read_stages();
+      const Stages<double> reference =
+          simulate_reference(trilinear_field(volume), table, probe, kDepth_mm, settings, at_y(-200));
+      const double a =
+          kEndAbsorption * std::pow(kEndlessDb - kEnd, 2) + (absorption ? table.at(60).absorption_db_cm_mhz : 0);
+      double worst = 0;
+      for (int k = 0; k < stages.intensity.height; ++k) {
+        const double expected =
+            std::pow(10.0, -a * kFrequency_mhz * (k + 0.5) * kDepth_mm / stages.intensity.height / 100);
+        for (int line = 0; line < probe.lines; ++line) {
+          worst = std::max(worst, std::abs(stages.intensity.at(line, k) / expected - 1));
+          worst = std::max(worst, std::abs(reference.intensity.at(line, k) / expected - 1));
+        }
+      }
+      CHECK(worst < 1e-5);  // the limit of the accuracy contract
+      CHECK(std::ranges::count(stages.grey.pixels, 0) == std::ssize(stages.grey.pixels));
+    }
 }
 
 TEST_CASE("a probe in air, or held off the skin, shows its own face and nothing behind") {

@@ -155,7 +155,9 @@ TEST_CASE("without labels density and echogenicity are those of the CT without n
             brightest = std::max({brightest, before, behind});
         }
         partial += brightest != hu;
-        if (volume.at(i).hu != hu || volume.at(i).echogenicity_cdb != even_table(brightest))
+        const int from_end = std::min(z, 39 - z);  // the first and the last 8 mm absorb
+        const int expected = from_end < 8 ? -6000 - (8 - from_end) * 10000 / 8 : even_table(brightest);
+        if (volume.at(i).hu != hu || volume.at(i).echogenicity_cdb != expected)
           FAIL("voxel (" << x << ", " << y << ", " << z << ")");
       }
   CHECK(volume.at({5, 20, 20}).hu != ct.at({5, 20, 20}));
@@ -199,6 +201,63 @@ TEST_CASE("a label's texture fades out towards partial volume, within the range 
   CHECK(of_tissue(-7) == std::vector<int>{-700, -400, -1000, -475, -925, -700, -700});
   CHECK(of_tissue(28) == std::vector<int>{2800, 3000, 2500, 3000, 2575, 2800, 2800});
   CHECK(of_tissue(-58) == std::vector<int>{-5800, -5500, -6000, -5575, -6000, -5800, -5800});
+}
+
+TEST_CASE("the density of a labelled fluid is even, that of a labelled organ is the CT's") {
+  auto ct = along_x({20, 9, 9}, 1, [](double) { return 20; });
+  ct.at({5, 4, 4}) = 45;  // pairs, which leave the label's mean at 20 HU
+  ct.at({6, 4, 4}) = -5;
+  ct.at({7, 4, 4}) = 65;  // half way out of the texture's range
+  ct.at({8, 4, 4}) = -25;
+  ct.at({9, 4, 4}) = 90;  // the rim
+  ct.at({10, 4, 4}) = -50;
+  const Volume<std::uint8_t> labels{ct.grid, std::vector<std::uint8_t>(ct.voxels.size(), 1)};
+  const auto density_of = [&](const char* tissue) {
+    const AcousticVolume volume = make_acoustic_volume(ct, labels, {"", tissue}, shipped());
+    std::vector<int> hu;
+    for (int i = 4; i < 11; ++i) hu.push_back(volume.at({i, 4, 4}).hu);
+    return hu;
+  };
+  for (const char* fluid : {"bile", "blood"}) CHECK(density_of(fluid) == std::vector<int>{20, 20, 20, 42, -2, 90, -50});
+  CHECK(density_of("liver") == std::vector<int>{20, 45, -5, 65, -25, 90, -50});
+}
+
+TEST_CASE("tissue at the head's and the feet's end of a CT absorbs more and more, whichever axis leads there") {
+  const auto ct_along = [](int axis, glm::ivec3 of_size) {
+    Volume<std::int16_t> ct = along_x(of_size, 3, [](double x) { return x < 10 ? -1000 : 60; });
+    ct.grid.direction = glm::dmat3(0);
+    for (int i = 0; i < 3; ++i) ct.grid.direction[(axis + i) % 3][(i + 2) % 3] = 1;
+    return ct;
+  };
+  const glm::ivec3 size(16, 14, 12), middle(8, 7, 6);
+  for (const int axis : {0, 1, 2}) {
+    const AcousticVolume volume = make_acoustic_volume(ct_along(axis, size), {}, {}, shipped());
+    for (const bool last : {false, true}) {
+      std::vector<double> db;
+      for (int k = 0; k < 4; ++k) {
+        glm::ivec3 i = middle;
+        i[axis] = last ? size[axis] - 1 - k : k;
+        if (volume.at(i).hu == 60) db.push_back(echogenicity_db(volume, i));
+      }
+      if (axis == 0 && !last) {
+        CHECK(db.empty());  // that end lies in air
+        CHECK(echogenicity_db(volume, {0, 7, 6}) == kLeastEchogenicityDb);
+      } else {
+        REQUIRE(db.size() == 4);
+        CHECK(db[0] == kEndDb);
+        CHECK(db[1] == Approx(-60 - 200.0 / 3).margin(0.01));
+        CHECK(db[2] == Approx(-60 - 100.0 / 3).margin(0.01));
+        CHECK(db[3] == 0);
+      }
+    }
+  }
+  // Too few slices to lose any: of eleven, six.
+  const AcousticVolume thin = make_acoustic_volume(ct_along(2, {16, 14, 11}), {}, {}, shipped());
+  CHECK(echogenicity_db(thin, {8, 7, 0}) == 0);
+
+  CHECK(end_absorption(kLeastEchogenicityDb) == 0);
+  CHECK(end_absorption(-71) == Approx(0.6));
+  CHECK(end_absorption(kEndDb) > 40);  // more than lung
 }
 
 TEST_CASE("a label's unknown tissue is refused with the name it resembles") {

@@ -108,7 +108,7 @@ TEST_CASE("a slice of some thickness sees what lies beside a thin gap, and is as
   const auto echo_in_gap = [&](double gap_mm) {
     const auto stages = simulate_reference(
         [=](const glm::dvec3& p) {
-          return Medium{0, std::abs(p.z) < gap_mm / 2 ? -200.0 : 0.0};
+          return Medium{0, std::abs(p.z) < gap_mm / 2 ? kLeastEchogenicityDb : 0.0};
         },
         plain_table(), probe, 40, settings, {});
     return stages.fused.at(8, 8) / settings.blend;

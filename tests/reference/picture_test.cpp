@@ -42,7 +42,7 @@ TEST_CASE("electronic noise comes before time gain: fluid is black where gain is
   const auto mean_grey = [&](double from, double to) {
     const auto stages = simulate_reference(
         [](const glm::dvec3&) {
-          return Medium{0, -200};
+          return Medium{0, kLeastEchogenicityDb};
         },
         plain_table(), probe, 40, settings, {});
     double sum = 0, count = 0;

@@ -35,7 +35,7 @@ Tissue tissue_along(const ScanLines& lines, const RenderedScene& scene, const Sl
       tissue.hounsfield.at(line, k) = float(here.hu);
       tissue.echogenicity.at(line, k) = float(here.echogenicity_db);
       tissue.impedance.at(line, k) = float(met.impedance_mrayl);
-      tissue.absorption.at(line, k) = float(met.absorption_db_cm_mhz);
+      tissue.absorption.at(line, k) = float(met.absorption_db_cm_mhz + end_absorption(here.echogenicity_db));
 
       const double hu_before = hu(place(r - l / 2), r - l / 2), hu_behind = hu(place(r + l / 2), r + l / 2);
       const double before = scene.table.at(hu_before).impedance_mrayl;

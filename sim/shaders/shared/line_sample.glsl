@@ -202,7 +202,11 @@ struct Sample {
   vec2 echo;            // of the scatterers; with WAVES their amplitude, and the interface's q
 };
 
-float absorbed(Medium here) { return ABSORPTION == 1 ? here.absorption * absorption_per_sample : 0.0; }
+float absorbed(Medium here) {
+  float below = max(kEndlessDb - 0.01 * here.echogenicity, 0.0);
+  float by_end = kEndAbsorption * below * below;  // sim/model/acoustic_volume.h
+  return (ABSORPTION == 1 ? here.absorption + by_end : by_end) * absorption_per_sample;
+}
 
 // Computes sample k from the media at the sample and at the ends of the reflection length before and behind it.
 Sample sample_at(float k, Medium here, Medium before, Medium behind) {

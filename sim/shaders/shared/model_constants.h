@@ -13,6 +13,9 @@ namespace insonate {
 INSONATE_REAL kCouplingTissueHu = -150.0, kCouplingAirHu = -301.0, kFreeGelShare = 1e-3;
 INSONATE_REAL kLeastGel_mm = 2e-5;  // beyond half the reflection length
 
+// Where the CT ends (sim/model/acoustic_volume.h): dB, and dB/(cm MHz) per square dB.
+INSONATE_REAL kEndlessDb = -61.0, kEndAbsorption = 0.006;
+
 // The weakest echo that counts (sim/model/stages.h).
 INSONATE_REAL kLeastEcho = 1e-30;
 

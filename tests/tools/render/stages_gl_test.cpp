@@ -212,14 +212,15 @@ void check_tissue(const StageFolder& stages, const Insonated& scene, const Slice
       hounsfield.at(line, k) = met.hu;
       echogenicity.at(line, k) = met.echogenicity_db;
       impedance.at(line, k) = tissue.impedance_mrayl;
-      absorption.at(line, k) = tissue.absorption_db_cm_mhz;
+      absorption.at(line, k) = tissue.absorption_db_cm_mhz + end_absorption(met.echogenicity_db);
     }
   check_rounded(stages, prefix + "hounsfield", hounsfield);
   check_rounded(stages, prefix + "echogenicity", echogenicity);
   check_rounded(stages, prefix + "impedance", impedance);
   check_rounded(stages, prefix + "absorption", absorption);
 
-  // Without other losses (5) gives alpha from the reference's I, and (3) then gives the incidence from its R.
+  // Without other losses, but for those at an end of the CT, (5) gives alpha from the reference's I, and (3) then gives
+  // the incidence from its R.
   Settings interfaces_alone = settings;
   interfaces_alone.absorption = interfaces_alone.edge_shadow = interfaces_alone.waves = false;
   const ReferenceScan scan = scene.traversed(interfaces_alone, plane);
@@ -229,7 +230,8 @@ void check_tissue(const StageFolder& stages, const Insonated& scene, const Slice
   for (int line = 0; line < n; ++line)
     for (int k = 0; k + 1 < d; ++k) {
       const double i = scan.intensity.at(line, k);
-      const double expected = 1 - std::pow(scan.intensity.at(line, k + 1) / i, l / dr);
+      const double kept = std::pow(10.0, -end_absorption(echogenicity.at(line, k)) * settings.frequency_mhz * dr / 100);
+      const double expected = 1 - std::pow(scan.intensity.at(line, k + 1) / (i * kept), l / dr);
       worst_alpha = std::max(worst_alpha, std::abs(alpha.at(line, k) - expected) / (1e-7 * expected + 1e-14));
       if (expected < 1e-8) continue;  // rounding of I hides it
       const double cosine = scan.reflection.at(line, k) / (expected * i * i);
