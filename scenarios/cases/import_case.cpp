@@ -5,6 +5,7 @@
 
 #include "scenarios/cases/anatomy.h"
 #include "scenarios/cases/body.h"
+#include "scenarios/cases/kidney_sinus.h"
 #include "scenarios/cases/plausibility.h"
 #include "scenarios/cases/segmentation.h"
 #include "scenarios/cases/suggested_views.h"
@@ -78,6 +79,7 @@ ImportedCase import_case(const ImportRequest& request, const TissueTable& tissue
   for (std::string& note : check_plausible(request.labels.string(), subject, structure_shapes(subject)))
     made.notes.push_back(std::move(note));
   const BodyMask body = clear_surroundings(request.ct.string(), subject, made.notes);
+  for (std::string& note : label_kidney_sinuses(subject)) made.notes.push_back(std::move(note));
   report_progress(kBodyFound);
 
   const std::vector<StructureShape> shapes = structure_shapes(subject);

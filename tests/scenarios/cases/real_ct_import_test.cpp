@@ -43,6 +43,11 @@ TEST_CASE("a real CT with TotalSegmentator's labels becomes a case with views th
   REQUIRE(liver);
   CHECK(double(std::count(subject.labels.voxels.begin(), subject.labels.voxels.end(), liver->value)) ==
         Approx(38634 * 27).epsilon(0.01));
+  for (const char* name : {"kidney_right_sinus", "kidney_left_sinus"}) {
+    const Label* sinus = subject.find_label(name);
+    REQUIRE(sinus);
+    CHECK(std::count(subject.labels.voxels.begin(), subject.labels.voxels.end(), sinus->value) > 5000);
+  }
   const Landmark *right = subject.find_landmark("kidney_right_centre"),
                  *left = subject.find_landmark("kidney_left_centre");
   REQUIRE(right);
