@@ -84,6 +84,7 @@ DirtyStages dirty_stages(const Settings& before, const Settings& now) {
              &S::edge_shadow, &S::waves, &S::specular_exponent, &S::mirror_image, &S::image_width, &S::image_height,
              &S::exact_filter, &S::skipping, &S::steering_angles, &S::steering_deg) ||
       (keeps_middle_plane(to) && !keeps_middle_plane(from)) ||
+      (to.mirror_image > 0 && differ(&S::face_reflection)) ||  // the face repeats what gas mirrors
       // The scatterers' scale depends on the beam.
       (to.waves && differ(&S::blend, &S::two_way, &S::beam_window, &S::beam_lines, &S::focused_beam, &S::focus_mm,
                           &S::f_number)) ||

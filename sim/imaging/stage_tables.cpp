@@ -202,6 +202,7 @@ SimulationParameters parameters_of(const Settings& settings, const ScanLines& li
   p.transmission_exponent_px = float(transmission.exponent);
   p.face_reflection = float(settings.face_reflection);
   p.mirror_amplitude = float(std::sqrt(settings.mirror_image));
+  p.face_amplitude = float(std::sqrt(settings.face_reflection));
   p.deflection_kept = float(std::exp(-dr / kDeflection_mm));
   p.deflection_per_step = float(dr / (settings.reflection_length_mm * kDeflection_rad));
   p.deflection_loss = float(dr / kDeflection_mm);

@@ -20,14 +20,17 @@ namespace insonate {
 ///
 /// If that is gas, sample j adds to e (waves.h) at each r behind it
 ///
-///     m^(1/2) min(n dr/l, 1) s(A_j) w T^2 e(2 c_j - r),   T = I(j - l + dr) / I(2 c_j - r), at most 1
+///     m^(1/2) min(n dr/l, 1) s(A_j) w T^2 k^(p-1) e((p + 1) c_j - r),   p = 1, 2, ...
+///     T = I(j - l + dr) / I((p + 1) c_j - r), at most 1,   k = F^(1/2) I(j - l + dr)
 ///
-/// with m the setting mirror_image.
+/// with m the setting mirror_image and F face_reflection: the probe's face sends what returns back again, so that the
+/// haze goes on between the repeats of the gas (A lines) and fades from one to the next. Images end with the first p of
+/// k^(p-1) < kLeastOfFace.
 ///
 /// - The image has travelled the way between the gas and what scatters four times more than the echo itself.
 /// - Every n-th sample counts, from the first on, with n = l / (4 dr) rounded down, at least 1.
 /// - s rises smoothly, t^2 (3 - 2 t), from 0 at A = kLeastMirror to 1 at kFullMirror: gas is above, bone below.
-/// - w rises from 0 to 1 while c_j - (2 c_j - r) rises from l to 2 l, because nearer samples belong to the surface.
+/// - w rises from 0 to 1 where what is seen lies l to 2 l before c_j, because nearer samples belong to the surface.
 /// - Between samples e is linear, divided by the root of the sum of the squares of its two weights, so that images are
 ///   equally bright wherever they fall. I is linear. e is 0 before the first sample, and from the line's first sample
 ///   with s > 0 on: what lies within gas or behind it has no image.

@@ -121,19 +121,24 @@ void add_mirror_images(Image<std::complex<double>>& echo, const Image<double>& i
       if (counted == 0) continue;
       gas = std::min(gas, j);
       left -= counted;
-      const double place_mm = along.place_mm(j, kOwnPlace), share = std::sqrt(settings.mirror_image) * counted;
-      for (int k = j + 1; k < lines.samples; ++k) {
-        const double r = 2 * place_mm - (lines.r_min_mm + (k + 0.5) * dr);  // where the echo comes from
-        const double source = (r - lines.r_min_mm) / dr - 0.5;
-        if (source < -1) break;
-        const double separate = std::clamp((place_mm - r) / l - 1, 0.0, 1.0);
-        if (separate == 0) continue;
-        const int low = int(std::floor(source));
-        const double f = source - low;
-        const double way =
-            std::min(along.before(j) / ((1 - f) * along.intensity(low) + f * along.intensity(low + 1)), 1.0);
-        echo.at(line, k) +=
-            share * separate * way * way * ((1 - f) * echo_at(low) + f * echo_at(low + 1)) / std::hypot(f, 1 - f);
+      const double place_mm = along.place_mm(j, kOwnPlace);
+      const double share = std::sqrt(settings.mirror_image) * counted;
+      double kept = 1;
+      for (int p = 1; kept >= kLeastOfFace && p * place_mm < lines.r_max_mm; ++p) {
+        for (int k = j + 1; k < lines.samples; ++k) {
+          const double r = (p + 1) * place_mm - (lines.r_min_mm + (k + 0.5) * dr);  // where the echo comes from
+          const double source = (r - lines.r_min_mm) / dr - 0.5;
+          if (source < -1) break;
+          const double separate = std::clamp((place_mm - r) / l - 1, 0.0, 1.0);
+          if (separate == 0) continue;
+          const int low = int(std::floor(source));
+          const double f = source - low;
+          const double way =
+              std::min(along.before(j) / ((1 - f) * along.intensity(low) + f * along.intensity(low + 1)), 1.0);
+          echo.at(line, k) += share * kept * separate * way * way * ((1 - f) * echo_at(low) + f * echo_at(low + 1)) /
+                              std::hypot(f, 1 - f);
+        }
+        kept *= std::sqrt(settings.face_reflection) * along.before(j);
       }
     }
   }

@@ -142,6 +142,14 @@ TEST_CASE("GLSL agrees with the reference: what gas and the face of a rib mirror
   check_parity_over_rib_and_gas(settings);
 }
 
+TEST_CASE("GLSL agrees with the reference: what gas mirrors again and again, 26 mm from the face") {
+  Settings settings = small(trainer_settings(3.5, 120));
+  settings.face_reflection = 0.5;
+  Probe probe = *find_probe("curvilinear");
+  probe.lines = 64;
+  check_parity(probe, 120, settings, test::on_the_skin(18, 60, 0));
+}
+
 TEST_CASE("GLSL agrees with the reference: a slice that is thinnest at its focus") {
   Settings settings = small(trainer_settings(3.5, 120));
   settings.slice_planes = 5;

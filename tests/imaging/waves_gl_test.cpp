@@ -51,7 +51,9 @@ TEST_CASE("waves run the stages that a change reaches, and never smooth") {
   CHECK(after([&] { s.mirror_image = 0.5; }) == "0124");
   CHECK(after([&] { s.two_way = false; }) == "0124");
   CHECK(after([&] { s.speckle_seed = 9; }) == "0124");
-  CHECK(after([&] { s.face_reflection = 0.1; }) == "124");
+  CHECK(after([&] { s.face_reflection = 0.1; }) == "0124");  // for the face repeats what gas mirrors
+  CHECK(after([&] { s.mirror_image = 0; }) == "0124");
+  CHECK(after([&] { s.face_reflection = 0.2; }) == "124");
   CHECK(after([&] { s.electronic_noise = false; }) == "24");
   CHECK(after([&] { s.gain_db = 6; }) == "4");
 }
@@ -78,6 +80,7 @@ TEST_CASE("a picture of waves after a change is the picture that a new simulator
       [](Settings& s) { s.mirror_image = 1; },  // keeps the middle plane, which nothing else needs now
       [](Settings& s) { s.mirror_image = 0; },
       [](Settings& s) { s.reverberation = true, s.mirror_image = 0.3; },
+      [](Settings& s) { s.face_reflection = 0.4; },
       [](Settings& s) { s.clutter = s.electronic_noise = false; },
       [](Settings& s) { s.electronic_noise = true, s.noise_db = -70; },
       [](Settings& s) { s.clutter = true, s.clutter_db = -10; },

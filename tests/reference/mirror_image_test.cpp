@@ -64,6 +64,26 @@ TEST_CASE("gas shows behind it, equally far, what lies before it") {
   for (const double e : with_images(mirroring(0), kWaterAndGas, kGas_mm, {0, 19})) CHECK((e == 0 || e == Approx(1)));
 }
 
+TEST_CASE("the probe's face sends an image back again, and what the gas mirrors then is fainter by one round trip") {
+  Settings settings = mirroring(0.25);
+  settings.face_reflection = 0.36;
+  const std::vector<double> seen = with_images(settings, kWaterAndGas, kGas_mm, {12, 14});
+  // Lit samples 120 to 139, mirrored at 200, and at 200 again after a way of 200 back to the face.
+  for (int k = 0; k < 600; ++k) {
+    CAPTURE(k);
+    const double expected = k >= 120 && k < 140 ? 1 : k >= 260 && k < 280 ? 0.5 : k >= 460 && k < 480 ? 0.5 * 0.6 : 0;
+    CHECK(seen[std::size_t(k)] == Approx(expected).margin(1.5 * kOwnPlace));  // the third image of a place that is off
+  }
+  // From the face on, without end: gas at 4 mm.
+  const std::vector<double> close = with_images(settings, kWaterAndGas, 4, {0, 4});
+  for (int n = 1; n < 10; ++n) {
+    CAPTURE(n);
+    double power = 0;
+    for (int k = 40 * n + 20; k < 40 * n + 38; ++k) power += std::pow(close[std::size_t(k)], 2) / 18;
+    CHECK(std::sqrt(power) == Approx(0.5 * std::pow(0.6, n - 1)).epsilon(0.1));
+  }
+}
+
 TEST_CASE("the surface of gas makes no image of itself, and water none of anything") {
   const std::vector<double> surface = with_images(mirroring(1), kWaterAndGas, kGas_mm, {19.8, 20.2});
   for (int k = 210; k < 600; ++k) CHECK(surface[std::size_t(k)] == 0);

@@ -24,11 +24,11 @@ int gas;  // the line's first sample in gas
 // Returns e of a sample before it.
 vec2 echo(int k) { return k < 0 || k >= gas ? vec2(0.0) : echoes[row + k].zw; }
 
-// Adds the image of what lies before the interface that sample j shows to the samples from `first` to before `end`.
-void add_image(int j, float amplitude, int first, int end) {
-  float c = place_of_interface(j, kOwnPlace), arriving = intensity(j - reach() + 1);
+// Adds an image of what lies before an interface at c, which sound reaches with the intensity `arriving`, to the samples
+// from `first` to before `end`. Sample k shows what lies at `mirrored` - k.
+void add_image(float c, float arriving, float mirrored, float amplitude, int first, int end) {
   // All samples take theirs from equally far between two samples before.
-  float low_of_first = floor(2.0 * c - float(first)), f = 2.0 * c - float(first) - low_of_first;
+  float low_of_first = floor(mirrored - float(first)), f = mirrored - float(first) - low_of_first;
   float even = inversesqrt(f * f + (1.0 - f) * (1.0 - f));
   int low = int(low_of_first);
   for (int k = first; k < end && low >= -1; ++k, --low) {
@@ -37,6 +37,17 @@ void add_image(int j, float amplitude, int first, int end) {
     if (separate == 0.0 || low >= gas) continue;
     float way = min(arriving / mix(intensity(low), intensity(low + 1), f), 1.0);
     echoes[row + k].zw += amplitude * separate * even * way * way * mix(echo(low), echo(low + 1), f);
+  }
+}
+
+// Adds the images that the interface makes which sample j shows, one per round trip to the face.
+void add_images(int j, float amplitude, int first, int end) {
+  float c = place_of_interface(j, kOwnPlace), arriving = intensity(j - reach() + 1);
+  float from_face = c + 0.5 + r_min_mm / dr_mm, kept = 1.0;
+  for (float trips = 1.0; kept >= kLeastOfFace && trips * from_face < float(samples) + from_face - c; ++trips) {
+    float before = (trips - 1.0) * from_face;
+    add_image(c, arriving, 2.0 * c + before, amplitude * kept, max(first, int(before)), end);
+    kept *= face_amplitude * arriving;
   }
 }
 
@@ -52,6 +63,6 @@ void main() {
     if (share <= 0.0) continue;
     gas = min(gas, j);
     left -= share;
-    add_image(j, mirror_amplitude * share, max(first, j + 1), end);
+    add_images(j, mirror_amplitude * share, max(first, j + 1), end);
   }
 }

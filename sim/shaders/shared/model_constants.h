@@ -27,7 +27,7 @@ INSONATE_REAL kLeastRound = 1e-3, kLeastFromFace = 1e-2, kLeastReverberant = 1e-
 INSONATE_INT kMostRepeats = 16, kMostReflectors = 64;
 
 // Mirror images (sim/model/mirror_image.h).
-INSONATE_REAL kLeastMirror = 0.6, kFullMirror = 0.9, kMostMirrored = 3.0, kOwnPlace = 1e-2;
+INSONATE_REAL kLeastMirror = 0.6, kFullMirror = 0.9, kMostMirrored = 3.0, kOwnPlace = 1e-2, kLeastOfFace = 1e-3;
 
 // Shares of an interface's amplitude (sim/model/waves.h).
 INSONATE_REAL kMirrorShare = 0.8, kRoughShare = 0.6;
