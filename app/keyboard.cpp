@@ -344,6 +344,8 @@ void Keyboard::press(const KeyEvent& pressed, Trainer& trainer, ui::Screen& scre
     return;
   }
   if (overlay == Overlay::volume) return volume_page(pressed, trainer, screen);
+  const bool scans = trainer.session() && (overlay == Overlay::none || overlay == Overlay::score);
+  if (pressed.key == GLFW_KEY_F4 && scans && !repeated) return screen.toggle_sheet(trainer);
   if (overlay != Overlay::none) return;
   if (pressed.key == GLFW_KEY_P && !repeated) return screen.save_picture(trainer);
   if (pressed.key == GLFW_KEY_L && !repeated) return screen.toggle_clip(trainer);

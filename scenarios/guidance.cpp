@@ -29,16 +29,19 @@ std::string direction_words(const glm::dvec3& direction) {
 
 GuidingMove move_to(const Pose& patient_from_probe, const Pose& reference) {
   const glm::dmat3 turn = glm::transpose(patient_from_probe.rotation) * reference.rotation;
-  const glm::dvec3 beam = turn[1];  // beam of the reference, in the probe's frame
+  const glm::dvec3 lateral = turn[0], beam = turn[1], elevation = turn[2];  // of the reference, in the probe's frame
+  // If the beams point to opposite sides, the probe tilts past 90 degrees, which turns its elevation axis over.
+  const double side = beam.y < 0 ? -1 : 1;
+  const double rotation = std::atan2(side * elevation.x, side * elevation.z);
+  const double tilt = std::atan2(-elevation.y, side * std::hypot(elevation.x, elevation.z));
+  // The probe's lateral axis and beam once it is rotated and tilted: what is left is rock.
+  const glm::dvec3 rotated(std::cos(rotation), 0, -std::sin(rotation));
+  const glm::dvec3 tilted(std::sin(tilt) * std::sin(rotation), std::cos(tilt), std::sin(tilt) * std::cos(rotation));
   GuidingMove move;
-  move.rock_deg = glm::degrees(std::asin(std::clamp(-beam.x, -1.0, 1.0)));
-  move.tilt_deg = glm::degrees(std::atan2(beam.z, beam.y));
-  // Without tilt and rock, the remaining rotation is about the beam only.
-  const double a = std::atan2(beam.z, beam.y), b = glm::radians(move.rock_deg);
-  const glm::dvec3 lateral(std::cos(b), std::cos(a) * std::sin(b), std::sin(a) * std::sin(b));
-  const glm::dvec3 elevation(0, -std::sin(a), std::cos(a));
-  move.rotation_deg = glm::degrees(std::atan2(-glm::dot(turn[0], elevation), glm::dot(turn[0], lateral)));
-  const glm::dvec3 way = reference.translation - patient_from_probe.translation, axis = patient_from_probe.rotation[1];
+  move.rotation_deg = glm::degrees(rotation);
+  move.tilt_deg = glm::degrees(tilt);
+  move.rock_deg = glm::degrees(std::atan2(glm::dot(lateral, tilted), glm::dot(lateral, rotated)));
+  const glm::dvec3 way = reference.translation - patient_from_probe.translation, axis = reference.rotation[1];
   move.slide_mm = way - glm::dot(way, axis) * axis;
   return move;
 }
@@ -52,7 +55,9 @@ std::vector<std::string> in_words(const GuidingMove& move, const Pose& patient_f
     sentences.push_back("Rotate " + degrees(move.rotation_deg) +
                         (move.rotation_deg > 0 ? " clockwise." : " counter-clockwise."));
   if (std::abs(move.tilt_deg) > kGuidedTurn_deg) {
-    const glm::dvec3 towards = patient_from_probe.rotation[2] * (move.tilt_deg > 0 ? 1.0 : -1.0);
+    const double rotation = glm::radians(move.rotation_deg);
+    const glm::dvec3 elevation = patient_from_probe.rotation * glm::dvec3(std::sin(rotation), 0, std::cos(rotation));
+    const glm::dvec3 towards = elevation * (move.tilt_deg > 0 ? 1.0 : -1.0);
     sentences.push_back("Tilt " + degrees(move.tilt_deg) + ", the beam towards " + direction_words(towards) + ".");
   }
   if (std::abs(move.rock_deg) > kGuidedTurn_deg)

@@ -205,7 +205,7 @@ void Screen::draw_panels(Trainer& trainer) {
 
 void Screen::draw_session(Trainer& trainer) {
   Session* session = trainer.session();
-  draw_exam_panel(theme_, top_, *session, trainer.author() != nullptr);
+  draw_exam_panel(theme_, top_, *session, trainer.author() != nullptr, learner_of(trainer), places_);
   if (strip_.h > 0) draw_demonstration(trainer);
   if (!trainer.session()) return;  // it was left
   if (trainer.author())
@@ -231,6 +231,9 @@ void Screen::draw_session(Trainer& trainer) {
       break;
     case ConsoleRequest::open:
       ask_for_path();
+      break;
+    case ConsoleRequest::brief:
+      trainer.brief();
       break;
     case ConsoleRequest::none:
       break;
@@ -498,6 +501,8 @@ void Screen::draw_status(Trainer& trainer) {
            "Begins and ends a film of the ultrasound, a WebM file  (L)"))
     toggle_clip(trainer);
   draw_sweep_buttons(trainer, line);
+  if (sheet(trainer) && next("score_sheet", 72, "Score", ButtonKind::normal, true, "Shows the score sheet again  (F4)"))
+    toggle_sheet(trainer);
   if (next("settings", 84, "Settings", ButtonKind::normal, true, "Text, marker, colours, folders  (F3)"))
     show_page(Overlay::settings);
   draw_layout_buttons(trainer, line);

@@ -81,6 +81,9 @@ public:
   /// Begins a clip of the ultrasound, or ends it.
   void toggle_clip(Trainer& trainer);
 
+  /// Shows the score sheet of the steps that are over, or closes it; if there is none, says when it comes.
+  void toggle_sheet(const Trainer& trainer);
+
   /// Begins the steps of a demonstration that is over, with the probe in the person's own hand.
   void try_yourself(Trainer& trainer) { answer_score(trainer, ScoreAnswer::own_try); }
 
@@ -166,6 +169,9 @@ private:
   void show_page(Overlay page);
   void close_page();
   HelpTopic help_topic(const Trainer& trainer) const;
+  static const ExamResult* sheet(const Trainer& trainer);
+  /// Returns the id of who is learning; empty for nobody in particular, and while a recorded scan is watched.
+  static std::string learner_of(const Trainer& trainer);
   bool shows_sheet(const Trainer& trainer) const;
   void draw_setup(Trainer& trainer);
   bool can_save(const Trainer& trainer) const;

@@ -1,6 +1,7 @@
 #include "app/panels/pages/open_on_desktop.h"
 #include "app/panels/pages/settings_page.h"
 #include "app/panels/screen.h"
+#include "scenarios/results/learner_id.h"
 
 // The pages and sheets over the screen: which one is shown, and what its answers do.
 namespace insonate::ui {
@@ -96,9 +97,26 @@ Overlay Screen::overlay(const Trainer& trainer) const {
   return shows_sheet(trainer) ? Overlay::score : Overlay::none;
 }
 
-bool Screen::shows_sheet(const Trainer& trainer) const {
+/// Returns the result that has a score sheet; nullptr if there is none.
+const ExamResult* Screen::sheet(const Trainer& trainer) {
   const Session* session = trainer.session();
-  return session && session->result() && !trainer.demonstration() && &*session->result() != closed_sheet_of_;
+  return session && session->result() && !trainer.demonstration() ? &*session->result() : nullptr;
+}
+
+std::string Screen::learner_of(const Trainer& trainer) {
+  const std::string& learner = trainer.options().learner;
+  const bool watched = trainer.session() && trainer.session()->source().recording();
+  return watched || learner == kNobodyInParticular ? std::string() : learner;
+}
+
+bool Screen::shows_sheet(const Trainer& trainer) const {
+  return sheet(trainer) && sheet(trainer) != closed_sheet_of_;
+}
+
+void Screen::toggle_sheet(const Trainer& trainer) {
+  const ExamResult* result = sheet(trainer);
+  if (!result) return show_note("The score sheet comes at the end of scored steps");
+  closed_sheet_of_ = shows_sheet(trainer) ? result : nullptr;
 }
 
 void Screen::dismiss(Trainer& trainer) {
@@ -122,7 +140,7 @@ void Screen::dismiss(Trainer& trainer) {
     case Overlay::setup:
       break;
     case Overlay::briefing:
-      trainer.leave();
+      trainer.leave_briefing();
       break;
     case Overlay::help:
     case Overlay::about:
@@ -340,22 +358,24 @@ void Screen::draw_overlay(Trainer& trainer) {
       }
       break;
     case Overlay::briefing:
-      switch (draw_briefing(theme_, screen_, *trainer.briefing(), trainer.session()->strict(), places_)) {
+      switch (draw_briefing(theme_, screen_, *trainer.briefing(), trainer.session()->strict(), learner_of(trainer),
+                            places_)) {
         case BriefingAnswer::none:
           break;
         case BriefingAnswer::start:
           trainer.start();
           break;
         case BriefingAnswer::leave:
-          trainer.leave();
+          trainer.leave_briefing();
           break;
       }
       break;
     case Overlay::score: {
       const Session& scored = *trainer.session();
       const bool watched = scored.source().recording() != nullptr;
-      answer_score(trainer, draw_score_sheet(theme_, screen_, *scored.result(), trainer.result_files(),
-                                             trainer.results_due(), watched, scored.strict()));
+      answer_score(trainer,
+                   draw_score_sheet(theme_, screen_, *scored.result(), trainer.result_files(), trainer.results_due(),
+                                    watched, scored.strict(), learner_of(trainer), places_));
       break;
     }
   }

@@ -92,8 +92,15 @@ std::optional<Guiding> Guide::now(const Session& session) const {
   if (!view || !pose) return std::nullopt;
   Guiding guiding;
   guiding.view = view;
-  const GuidingMove move = move_to(*pose, view->patient_from_probe);
-  guiding.advice = in_words(move, *pose);
+  GuidingMove move = move_to(*pose, view->patient_from_probe);
+  Pose slid_to = *pose;
+  // A hand slides over the skin and keeps the probe's angle to it, so the turns are those that are left then.
+  if (const auto slide = ProbeHand(session.loaded_case().subject.ct).slide_to(*pose, view->patient_from_probe)) {
+    if (glm::length(slide->way_mm) > kGuidedSlide_mm) slid_to = slide->pose;
+    move = move_to(slid_to, view->patient_from_probe);
+    move.slide_mm = slide->way_mm;
+  }
+  guiding.advice = in_words(move, slid_to);
   if (session.holder() == Holder::learner) guiding.keys = keys_of(move, *pose);
   const glm::dvec3 middle(0, view->depth_mm / 2, 0), normal = view->patient_from_probe.rotation[2];
   guiding.plane_distance_mm = std::abs(glm::dot(pose->point(middle) - view->patient_from_probe.point(middle), normal));

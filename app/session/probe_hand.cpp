@@ -152,6 +152,12 @@ std::optional<Pose> ProbeHand::slide(const Pose& from, const glm::dvec2& mm) con
   return settle(from, *old, *reached);
 }
 
+std::optional<ProbeHand::Slide> ProbeHand::slide_to(const Pose& from, const Pose& to) const {
+  const auto old = contact(from), reached = contact(to);
+  if (!old || !reached) return std::nullopt;
+  return Slide{settle(from, *old, *reached), reached->point - old->point};
+}
+
 glm::dvec2 ProbeHand::slide_in_patient(const Pose& from, const glm::dvec2& mm) {
   constexpr double kLeastSine = 0.3;  // of the angle between beam and body's axis: 17 degrees
   const glm::dvec3 left(1, 0, 0), head(0, 0, 1), beam = from.rotation[1];

@@ -20,6 +20,14 @@ public:
   /// keeps its distance and its angle to the skin. Empty if there is no skin there, as at the end of the CT.
   std::optional<Pose> slide(const Pose& from, const glm::dvec2& mm) const;
 
+  /// A slide over the skin.
+  struct Slide {
+    Pose pose;               ///< after it: the face has kept its distance and its angle to the skin
+    glm::dvec3 way_mm{0.0};  ///< from the place on the skin to the one that was reached, patient
+  };
+  /// Returns the slide to where the beam of `to` enters the skin. Empty if either beam faces no skin.
+  std::optional<Slide> slide_to(const Pose& from, const Pose& to) const;
+
   /// Returns the slide (for slide(), mm) that moves the face by `mm` around the body and towards the head. Around the
   /// body is to the patient's left on their front, on over the left flank to the back, and so on. Where the beam runs
   /// nearly along the body's axis, no direction along the face leads to the head: that part is zero, and the other one

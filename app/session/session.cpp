@@ -144,9 +144,9 @@ void Session::begin_attempt() {
     log_actions_ = parse_action_log(recording->actions, recording->file);
 }
 
-void Session::start_over() {
+void Session::start_over(Activity activity) {
   if (strict() && runner_ && runner_->live().started) return;
-  activity_ = loaded_case_->scenario ? Activity::exam : Activity::practice;
+  activity_ = loaded_case_->scenario ? activity : Activity::practice;
   if (holder_ == Holder::learner)
     learner_ = std::make_unique<MouseTracker>(loaded_case_->surroundings.start);
   else

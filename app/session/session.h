@@ -74,8 +74,9 @@ public:
   /// Returns whether the CT and the patient's inside may be shown. False in an exam under strict rules until it is
   /// finished, because it tests what the learner sees in the ultrasound.
   bool shows_anatomy() const { return !strict() || !runner_ || result_; }
-  /// Starts the exam from its beginning, or without a scenario the scan. The holder of the probe stays.
-  void start_over();
+  /// Starts the exam from its beginning, or practice: without a scenario there is no exam. The holder of the probe
+  /// stays, and the probe goes back to where it started.
+  void start_over(Activity activity = Activity::exam);
   /// Ends the exam without a score and starts practice. The holder of the probe stays.
   void practise();
   /// Ends the current exam now and scores it, as when a scan ends. Does nothing without an exam or before its first

@@ -248,8 +248,20 @@ const Scenario* Trainer::briefing() const {
   return scan() && !scan()->begun ? &*loaded_case_->scenario : nullptr;
 }
 
+void Trainer::brief() {
+  if (session() && !session()->runner() && loaded_case_->scenario) scan()->begun = false;
+}
+
 void Trainer::start() {
-  if (scan()) scan()->begun = true;
+  if (!briefing()) return;
+  scan()->begun = true;
+  if (!session()->runner()) attempt([&] { session()->start_over(); });
+}
+
+void Trainer::leave_briefing() {
+  if (!briefing()) return;
+  if (session()->runner()) return leave();
+  scan()->begun = true;
 }
 
 void Trainer::update(SettingUp& mode, double now_s) {
@@ -260,8 +272,8 @@ void Trainer::update(SettingUp& mode, double now_s) {
 template <std::derived_from<Scan> Mode>
 void Trainer::update(Mode& mode, double now_s) {
   const double since_s = now_s - std::exchange(mode.now_s, now_s);
-  if (!mode.begun) return;
   Session& session = *mode.session;
+  if (!mode.begun && session.runner()) return;
   if (covered_ && session.can_stand_still()) {
     mode.behind_s += since_s;
     return;

@@ -143,8 +143,12 @@ public:
   /// Returns the scenario whose briefing the learner has to read before the session begins; nullptr if there is none.
   /// The session's time stands still meanwhile. A recorded scan and a run without a window begin at once.
   const Scenario* briefing() const;
-  /// Begins the session after the briefing.
+  /// Shows the briefing over free practice, which goes on behind it.
+  void brief();
+  /// Begins the session after the briefing, or over free practice the steps.
   void start();
+  /// Goes back from the briefing to free practice, or leaves if the session has not begun.
+  void leave_briefing();
 
   /// Says whether something covers the screen, such as the help, from the next update() on. Time stands still meanwhile
   /// if it can (Session::can_stand_still()).

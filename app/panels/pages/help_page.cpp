@@ -119,7 +119,8 @@ Help help_of(HelpTopic topic) {
                        kUndo,
                        kTools,
                        {{"Escape", "give up what is being placed; else to the start page"},
-                        {"G", "the guide: the way to the view; its use is in the report"}},
+                        {"G", "the guide: the way to the view; its use is in the report"},
+                        {"F4", "the score sheet of steps that are over, again"}},
                        kFiles,
                        kSweep,
                        {{"Ctrl O", "open a case, CT, scenario or recorded scan"},
@@ -180,7 +181,8 @@ Help help_of(HelpTopic topic) {
           "Help: the score",
           "Each step has its points and, where some are missing, the reason. The report has all of it, with pictures "
           "and the probe's path, for printing or for a teacher.",
-          keys_of({{{"Escape", "close the sheet, and go on scanning"}}, kWindow})};
+          keys_of({{{"Escape", "close the sheet, and go on scanning"}, {"F4", "close the sheet; show it again"}},
+                   kWindow})};
     case HelpTopic::volume:
       return {"Help: the volume of a sweep",
               "Three planes that are perpendicular to each other, and the volume itself. Bluish voxels lie between the "

@@ -115,7 +115,7 @@ bool draw_about(const Theme& theme, const Rect& screen, const std::string& devic
 }
 
 BriefingAnswer draw_briefing(const Theme& theme, const Rect& screen, const Scenario& scenario, bool counts,
-                             std::map<std::string, Rect>& places) {
+                             const std::string& learner, std::map<std::string, Rect>& places) {
   const std::size_t steps = scenario.steps.size();
   const bool whole_minutes = std::fmod(scenario.time_limit_s, 60) == 0;
   char facts[160];
@@ -127,7 +127,7 @@ BriefingAnswer draw_briefing(const Theme& theme, const Rect& screen, const Scena
   const std::string rules = counts ? "This exam counts. You take it once, without help, and the time runs from Start."
                                    : "This is practice. The time runs from Start; you can begin again at any time.";
   const float width = theme.px(620), text = width - 2 * theme.px(28), gap = theme.px(12);
-  float height = theme.px(28 + 48 + 38 + 20);
+  float height = theme.px(28 + 48 + 38 + 20 + 22) + gap;
   for (const std::string& paragraph : {scenario.briefing, std::string(facts), rules})
     if (!paragraph.empty()) height += paragraph_height(theme.text, paragraph, text) + gap;
 
@@ -141,6 +141,10 @@ BriefingAnswer draw_briefing(const Theme& theme, const Rect& screen, const Scena
   draw(colour::kText, scenario.briefing);
   draw(colour::kMuted, facts);
   draw(colour::kMuted, rules);
+  sheet.take_top(gap);
+  places["learner"] = sheet.take_top(theme.px(22));
+  draw_text(places["learner"], theme.strong, colour::kText,
+            learner.empty() ? "Nobody is named as the learner." : "Learner: " + learner);
   Rect buttons = sheet.take_bottom(theme.px(38));
   BriefingAnswer answer = BriefingAnswer::none;
   places["start"] = buttons.take_right(theme.px(160));

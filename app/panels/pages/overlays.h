@@ -32,9 +32,10 @@ bool draw_about(const Theme& theme, const Rect& screen, const std::string& devic
 enum class BriefingAnswer { none, start, leave };
 /// Draws what the learner reads before a scenario: the briefing, and the exam's steps, time and pass mark.
 /// @param counts  the exam counts
-/// @param places  receives the buttons' rectangles
+/// @param learner  who is learning; empty for nobody in particular
+/// @param places  receives the rectangles of the buttons and of the learner's id
 BriefingAnswer draw_briefing(const Theme& theme, const Rect& screen, const Scenario& scenario, bool counts,
-                             std::map<std::string, Rect>& places);
+                             const std::string& learner, std::map<std::string, Rect>& places);
 
 /// Asks whether the steps that are not finished are to be left. Returns the answer once there is one.
 /// @param places  receives the buttons' rectangles

@@ -143,10 +143,11 @@ ConsoleRequest draw_console_panel(const Theme& theme, const Rect& panel, Session
     session.freeze(!session.machine().frozen);
   upper.take_left(between);
   const bool learner = session.holder() == Holder::learner;
+  const bool steps = session.activity() == Activity::exam;
   if (session.only_learner()) {
-    if (button(theme, "restart", upper, session.loaded_case().scenario ? "Start over" : "Back to the start",
-               ButtonKind::normal, !session.strict(), "Begins again: the probe goes back to where it started"))
-      attempt([&] { session.start_over(); });
+    if (button(theme, "restart", upper, steps ? "Start over" : "Back to the start", ButtonKind::normal,
+               !session.strict(), "Begins again: the probe goes back to where it started"))
+      attempt([&] { session.start_over(session.activity()); });
   } else if (button(theme, "hands", upper, learner ? "Give the probe back" : "Take the probe",
                     learner ? ButtonKind::chosen : ButtonKind::normal, !session.strict(),
                     learner ? "The tracker moves the probe again, from the beginning  (Tab)"
@@ -157,13 +158,15 @@ ConsoleRequest draw_console_panel(const Theme& theme, const Rect& panel, Session
              "What the keys and the mouse do  (F1)"))
     request = ConsoleRequest::help;
   lower.take_left(between);
-  const bool practising = session.activity() == Activity::practice && session.loaded_case().scenario;
   const Rect first = lower.take_left((lower.w - between) / 2);
   lower.take_left(between);
-  if (practising) {
-    if (button(theme, "exam", first, "Exam", ButtonKind::normal, true,
-               "Begins the scored steps again, with their clock"))
-      attempt([&] { session.start_over(); });
+  places[steps ? "practice" : "steps"] = first;
+  if (!steps) {
+    const auto& scenario = session.loaded_case().scenario;
+    if (button(theme, "steps", first, "Steps", ButtonKind::normal, scenario.has_value(),
+               scenario ? "Scored steps: the briefing of \"" + scenario->title + "\", and then Start"
+                        : "This patient has no scored steps"))
+      request = ConsoleRequest::brief;
   } else if (button(theme, "practice", first, "Practice", ButtonKind::normal,
                     session.loaded_case().scenario.has_value() && !session.strict(),
                     "Scans without steps, clock and score")) {

@@ -1,8 +1,8 @@
 #include "app/panels/scan/exam_panel.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <string>
 
 #include "sim/core/text.h"
 
@@ -100,7 +100,7 @@ void draw_hold(const Theme& theme, const Rect& where, const Session& session, co
   draw_text(upper, theme.strong, on_target ? colour::kAccent : colour::kText, progress_text(live, words));
   draw_text(lower, theme.small_text, colour::kMuted,
             live.finished && session.source().recording() ? "the recorded scan is over"
-            : live.finished                               ? "see the score sheet"
+            : live.finished                               ? "F4: the score sheet"
             : !live.started                               ? "not started"
             : live.on_skin                                ? "probe on the skin"
             : live.tracking == PoseStatus::ok             ? "probe off the skin"
@@ -161,7 +161,8 @@ std::string clock_text(double seconds) {
   return formatted("%d:%02d", whole / 60, whole % 60);
 }
 
-void draw_exam_panel(const Theme& theme, const Rect& panel, const Session& session, bool makes_views) {
+void draw_exam_panel(const Theme& theme, const Rect& panel, const Session& session, bool makes_views,
+                     const std::string& learner, std::map<std::string, Rect>& places) {
   fill(panel, colour::kPanel, theme.px(4));
   Rect rest = panel.inset(theme.px(16), 0);
   draw_tracker(theme, rest.take_right(theme.px(264)), session);
@@ -171,7 +172,7 @@ void draw_exam_panel(const Theme& theme, const Rect& panel, const Session& sessi
   if (!runner) {
     draw_text(upper, theme.heading, colour::kText, makes_views ? "Making views" : "Free practice");
     draw_text({rest.x, upper.y + upper.h, rest.w, theme.px(20)}, theme.text, colour::kMuted,
-              session.loaded_case().scenario ? "Nothing is scored. The Exam button begins the steps from the first."
+              session.loaded_case().scenario        ? "Nothing is scored. The Steps button leads to scored steps."
               : session.holder() == Holder::learner ? "Move the probe with the arrow keys or drag it over the patient."
                                                     : "The tracker moves the probe. Any arrow key takes it over.");
     return;
@@ -193,12 +194,19 @@ void draw_exam_panel(const Theme& theme, const Rect& panel, const Session& sessi
   fill(plate.inset(0, theme.px(1)), colour::kAccentDark, theme.px(4));
   draw_text(plate, theme.strong, colour::kText, number, Align::centre);
   title.take_left(theme.px(10));
-  if (const std::string status = status_of(scenario, step); !status.empty()) {
-    const Rect chip = title.take_right(text_width(theme.small_text, status) + theme.px(20));
+  const auto draw_chip = [&](const std::string& text, ImU32 ink, float widest) {
+    const Rect chip = title.take_right(std::min(text_width(theme.small_text, text) + theme.px(20), widest));
     title.take_right(theme.px(10));
     fill(chip.inset(0, theme.px(2)), colour::kRaised, theme.px(4));
-    draw_text(chip, theme.small_text, colour::kAccent, status, Align::centre);
+    draw_text(chip.inset(theme.px(8), 0), theme.small_text, ink, text, Align::centre);
+    return chip;
+  };
+  if (!learner.empty()) {
+    places["learner"] = draw_chip(learner, colour::kText, title.w / 4);
+    draw_tooltip(theme, places["learner"], "The learner of this attempt: " + learner);
   }
+  if (const std::string status = status_of(scenario, step); !status.empty())
+    draw_chip(status, colour::kAccent, title.w);
   draw_text(title, theme.heading, colour::kText, step.title);
   ImFont* font = text_width(theme.text, step.instruction) <= rest.w ? theme.text : theme.small_text;
   draw_text({rest.x, upper.y + upper.h, rest.w, theme.px(22)}, font, colour::kMuted, step.instruction);

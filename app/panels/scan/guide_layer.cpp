@@ -52,10 +52,13 @@ void draw_guide_strip(const Theme& theme, const Rect& strip, const Guiding& guid
             "plane " + fixed(guiding.plane_distance_mm, 0) + " mm and " + fixed(guiding.plane_angle_deg, 0) +
                 "\u00b0 off" + (counted ? "; costs no points, but the report says how long it was shown" : ""));
   if (guiding.there) return draw_text(rest, theme.text, colour::kAccent, "Here it is. Hold still.");
+  const auto draw = [&](ImFont* font, ImU32 ink, const std::string& text) {
+    draw_text(rest.take_left(std::min(rest.w, text_width(font, text) + 1)), font, ink, text);
+  };
   for (std::size_t i = 0; i < guiding.advice.size(); ++i) {
-    const std::string& advice = guiding.advice[i];
     const ImU32 ink = i == 0 ? colour::kText : colour::kMuted;
-    draw_text(rest.take_left(std::min(rest.w, text_width(theme.text, advice) + 1)), theme.text, ink, advice);
+    if (i > 0) draw(theme.text, ink, "then ");
+    draw(i == 0 ? theme.strong : theme.text, ink, guiding.advice[i]);
     if (i < guiding.keys.size()) draw_key(theme, rest, ink, guiding.keys[i]);
     rest.take_left(theme.px(16));
   }

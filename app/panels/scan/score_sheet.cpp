@@ -46,11 +46,18 @@ Columns columns_of(const Theme& theme, Rect row) {
   return columns;
 }
 
-void draw_verdict(const Theme& theme, Rect head, const ExamResult& result) {
+void draw_verdict(const Theme& theme, Rect head, const ExamResult& result, const std::string& learner,
+                  std::map<std::string, Rect>& places) {
   const ImU32 colour = result.passed ? colour::kAccent : colour::kRed;
   draw_text(head.take_right(theme.px(190)), theme.huge, colour, percentage(result) + " %", Align::right);
   draw_text(head.take_top(theme.px(26)), theme.heading, colour::kText, result.title);
-  draw_text(head.take_top(theme.px(24)), theme.strong, colour, result.passed ? "Passed" : "Not passed");
+  Rect verdict = head.take_top(theme.px(24));
+  const std::string word = result.passed ? "Passed" : "Not passed";
+  draw_text(verdict.take_left(text_width(theme.strong, word) + 1), theme.strong, colour, word);
+  if (!learner.empty()) {
+    verdict.take_left(theme.px(16));
+    draw_text(places["learner"] = verdict, theme.strong, colour::kText, "Learner: " + learner);
+  }
   std::string line = short_number(result.points) + " of " + short_number(result.points_possible) + " points; " +
                      short_number(result.pass_mark_percent) + " % are needed";
   if (result.provenance.mode == AttemptMode::practice) line += "; practice, which does not count as an exam";
@@ -117,7 +124,8 @@ void draw_rows(const Theme& theme, Rect rows, float height, const ExamResult& re
 }  // namespace
 
 ScoreAnswer draw_score_sheet(const Theme& theme, const Rect& screen, const ExamResult& result,
-                             const std::optional<ResultFiles>& files, bool writing, bool watched, bool once) {
+                             const std::optional<ResultFiles>& files, bool writing, bool watched, bool once,
+                             const std::string& learner, std::map<std::string, Rect>& places) {
   const float row = theme.px(26), head_height = theme.px(74), reason_height = theme.px(22);
   const std::vector<std::string> reasons = shown_reasons(result.reasons);
   const float rows_height = row * float(row_count(result));
@@ -125,7 +133,7 @@ ScoreAnswer draw_score_sheet(const Theme& theme, const Rect& screen, const ExamR
       theme.px(48) + row + head_height + theme.px(20) + reason_height * float(reasons.size()) + theme.px(104);
   const float height = std::min(screen.h - theme.px(40), rows_height + others);
   Rect sheet = begin_overlay(theme, screen, {std::min(theme.px(860), screen.w - theme.px(40)), height});
-  draw_verdict(theme, sheet.take_top(head_height), result);
+  draw_verdict(theme, sheet.take_top(head_height), result, learner, places);
   sheet.take_top(theme.px(8));
   for (const std::string& reason : reasons)
     draw_text(sheet.take_top(reason_height), theme.small_text, colour::kAmber, reason);
@@ -156,7 +164,7 @@ ScoreAnswer draw_score_sheet(const Theme& theme, const Rect& screen, const ExamR
     return place;
   };
   if (button(theme, "close_sheet", next(), "Close", ButtonKind::normal, true,
-             "Leaves the sheet and stays with the patient  (Esc)"))
+             "Leaves the sheet and stays with the patient  (Esc); F4 shows it again"))
     answer = ScoreAnswer::close;
   if (button(theme, "open_report", next(), "Open the report", ButtonKind::normal, files.has_value(),
              "Every step and criterion with its reason, pictures and the probe's path, in the browser"))

@@ -3,7 +3,9 @@
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <set>
 
 #include "devices/mouse/mouse_tracker.h"
@@ -121,6 +123,68 @@ TEST_CASE("the guide names the keys of its advice, and they lead nearer, however
     }
   }
   CHECK(named.size() == std::size(kKeys));
+}
+
+TEST_CASE("who does what the guide lists, one after the other over the skin, arrives") {
+  auto on_body = std::make_shared<LoadedCase>(*tiny_loaded_case());
+  on_body->scenario.reset();
+  Volume<std::int16_t>& ct = on_body->subject.ct;
+  ct.grid.origin = {-80, -80, -80};
+  ct.grid.size = {81, 81, 81};
+  ct.voxels.assign(ct.grid.count(), -1000);
+  constexpr double kRadius_mm = 60;  // a cylinder of tissue from feet to head
+  for (int k = 0; k < ct.grid.size.z; ++k)
+    for (int j = 0; j < ct.grid.size.y; ++j)
+      for (int i = 0; i < ct.grid.size.x; ++i) {
+        const glm::dvec3 p = ct.grid.patient_from_index({i, j, k});
+        const double inside = std::clamp((kRadius_mm - std::hypot(p.x, p.y)) / 4 + 0.5, 0.0, 1.0);
+        ct.at({i, j, k}) = std::int16_t(std::lround(-1000 + 1000 * inside));
+      }
+  const Pose front{glm::dmat3(glm::dvec3(-1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, -1)), {0, -kRadius_mm, 0}};
+  const ProbeHand hand(ct);
+  const auto away = [&](double around_mm, double up_mm, double tilt, double rotation, double rock) {
+    const Pose there = hand.slide(front, ProbeHand::slide_in_patient(front, {around_mm, up_mm})).value();
+    return ProbeHand::turn(ProbeHand::turn(ProbeHand::turn(there, 0, rotation, 0), tilt, 0, 0), 0, 0, rock);
+  };
+  for (const Pose& goal : {away(30, 20, 35, 0, 0), away(-25, -25, 30, 60, -15), away(10, 30, -25, -80, 20)}) {
+    for (ReferenceView& view : on_body->subject.views) view.patient_from_probe = goal;
+    Session session = by_hand(on_body);
+    session.practise();
+    Guide guide;
+    guide.next(session);
+    double now_s = 0;
+    const auto put = [&](const Pose& pose) {
+      session.move_probe([&](const ProbeHand&, const Pose&) { return pose; });
+      for (int i = 0; i < 3; ++i) session.advance(now_s += 0.1);
+      return guide.now(session).value();
+    };
+    Pose probe = ProbeHand::turn(front, -10, 40, 10);
+    const std::vector<std::string> advice = put(probe).advice;
+    CAPTURE(advice);
+    REQUIRE(advice.size() == 4);
+    const auto amount = [](const std::string& said) {
+      return std::atof(said.c_str() + said.find_first_of("0123456789"));
+    };
+    REQUIRE(advice[0].find("Slide") == 0);
+    const glm::dvec3 begun = probe.translation;
+    const auto way = hand.slide_to(probe, goal).value().way_mm;
+    for (int i = 0; i < 200 && glm::distance(begun, probe.translation) < amount(advice[0]) - 0.5; ++i)
+      probe = hand.slide(probe, {glm::dot(way, probe.rotation[0]) / glm::length(way),
+                                 glm::dot(way, probe.rotation[2]) / glm::length(way)})
+                  .value();
+    const Pose slid = probe;
+    for (const std::string& said : advice) {
+      const auto says = [&](const char* part) { return said.find(part) != std::string::npos; };
+      if (says("Rotate")) probe = ProbeHand::turn(probe, 0, says("counter") ? -amount(said) : amount(said), 0);
+      if (says("Rock")) probe = ProbeHand::turn(probe, 0, 0, says("away") ? amount(said) : -amount(said));
+      if (says("Tilt"))
+        probe = ProbeHand::turn(probe, move_to(slid, goal).tilt_deg > 0 ? amount(said) : -amount(said), 0, 0);
+    }
+    const Guiding arrived = put(probe);
+    CAPTURE(arrived.advice);
+    CHECK(glm::distance(probe.translation, goal.translation) < kGuidedSlide_mm);
+    CHECK(arrived.plane_angle_deg < 2 * kGuidedTurn_deg);
+  }
 }
 
 TEST_CASE("while a scenario is practised the guide leads to the view of the step under way") {

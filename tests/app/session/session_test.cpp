@@ -131,6 +131,10 @@ TEST_CASE("free practice has no exam, and an exam can be started from it") {
   session.start_over();
   REQUIRE(session.runner());
   CHECK(session.holder() == Holder::tracker);
+  session.practise();
+  session.start_over(Activity::practice);
+  CHECK(session.runner() == nullptr);
+  CHECK(session.activity() == Activity::practice);
 
   Session without(tiny_loaded_case(false), replay_of(searching_scan()));
   without.advance(0);

@@ -112,6 +112,22 @@ TEST_CASE("the start page begins what is chosen, and is there again afterwards")
   for (int i = 0; i < 5; ++i) trainer.update(1 + i / 30.0);
   CHECK(trainer.loses_by_leaving());
   CHECK(trainer.can_leave());
+
+  INFO("from free practice, steps begin with their briefing, which leads back");
+  trainer.session()->practise();
+  trainer.brief();
+  CHECK(trainer.briefing());
+  CHECK_FALSE(trainer.session()->runner());
+  trainer.leave_briefing();
+  CHECK_FALSE(trainer.briefing());
+  REQUIRE(trainer.session());
+  CHECK_FALSE(trainer.session()->runner());
+  trainer.brief();
+  trainer.start();
+  CHECK_FALSE(trainer.briefing());
+  REQUIRE(trainer.session()->runner());
+  trainer.brief();
+  CHECK_FALSE(trainer.briefing());  // steps that run have been explained
 }
 
 TEST_CASE("a review of an attempt leads back to the page of learners, with what was chosen there") {

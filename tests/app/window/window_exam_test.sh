@@ -179,7 +179,19 @@ await "it is typed" is draft 41.7
 xdotool key Return
 await "the exam ends" is overlay score
 kill -0 "$trainer" || fail "the trainer ended by itself"
+
+echo "a sheet that was closed is shown again by its key and by its button"
 xdotool key Escape
+await "Escape closes the sheet" is overlay ""
+xdotool key F4
+await "F4 shows it again" is overlay score
+xdotool key F4
+await "F4 closes it" is overlay ""
+await "there is a button" is_not score_sheet_x ""
+click_on score_sheet
+await "the button shows it" is overlay score
+xdotool key Escape
+await "Escape closes it again" is overlay ""
 xdotool key r
 await "the recording ends" is recording ""
 written() { [ -s "$work/run.igs.mha" ]; }

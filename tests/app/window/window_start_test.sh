@@ -56,6 +56,29 @@ await "it asks" is overlay leave
 xdotool key Return
 await "Return leaves" is_page
 
+echo "from free practice a button leads to the briefing of steps, and back"
+click_on task_practice
+await "the scenarios are there" is start_task practice
+await "free practice is offered" is_not scenario_free_x ""
+click_on scenario_free
+click_on begin
+await "practice begins" is activity practice
+await "the button for steps is there" is_not steps_x ""
+click_on steps
+await "the steps are explained first" is overlay briefing
+xdotool key Escape
+await "Escape leads back" is overlay ""
+is activity practice || fail "it leads to $(value activity)"
+click_on steps
+await "the steps are explained again" is overlay briefing
+xdotool key Return
+await "Return begins them" is activity exam
+await "the time runs" is_not elapsed_s 0.0
+xdotool key Escape
+await "it asks" is overlay leave
+xdotool key Return
+await "Return leaves" is_page
+
 echo "a learner is named, and only then an exam can begin"
 click_on task_exam
 await "the exams are there" is start_task exam
@@ -76,8 +99,11 @@ await "Escape leads back" is_page
 is start_task exam || fail "it leads to $(value start_task)"
 xdotool key Return
 await "the exam is explained again" is overlay briefing
+await "the briefing names the learner" is_not learner_x ""
 xdotool key Return
 await "it counts" is strict true
+await "the exam is begun" is overlay ""
+await "the steps name the learner" is_not learner_x ""
 await "it runs" is_not elapsed_s 0.0
 xdotool key Escape
 await "Escape says why it stays" contains toast "This exam counts: go on to its end"
@@ -86,6 +112,8 @@ xdotool key g
 await "G says why there is no guide" contains toast "there is no guide"
 over() { xdotool key Return; sleep 0.3; is_not percent ""; }
 await "Return goes on to its end" over
+await "the score is shown" is overlay score
+await "the score names the learner" is_not learner_x ""
 xdotool key Escape
 await "Escape closes the score" is overlay ""
 xdotool key Escape
