@@ -101,7 +101,7 @@ bool Keyboard::apply(Trainer& trainer, ui::Screen& screen, double elapsed_s, dou
   tapped_.clear();
   io.KeyShift = held(GLFW_KEY_LEFT_SHIFT) || held(GLFW_KEY_RIGHT_SHIFT);
   io.KeyCtrl = held(GLFW_KEY_LEFT_CONTROL) || held(GLFW_KEY_RIGHT_CONTROL);
-  hand_on(trainer, screen, until_s);
+  dispatch(trainer, screen, until_s);
   if (!trainer.session() || screen.takes_keys(trainer)) return false;
   return move_probe(*trainer.session(), std::min(elapsed_s, kLongestFrame_s));
 }
@@ -130,7 +130,7 @@ bool Keyboard::move_probe(Session& session, double elapsed_s) const {
   return true;
 }
 
-void Keyboard::hand_on(Trainer& trainer, ui::Screen& screen, double until_s) {
+void Keyboard::dispatch(Trainer& trainer, ui::Screen& screen, double until_s) {
   field_is_busy_ = false;
   while (!events_.empty() && events_.front().time_s <= until_s && !screen.opens_text_field(trainer)) {
     const KeyEvent event = events_.front();
@@ -397,7 +397,7 @@ void Keyboard::press(const KeyEvent& pressed, Trainer& trainer, ui::Screen& scre
       if (trainer.demonstration() && session.result())
         screen.try_yourself(trainer);
       else
-        screen.hand_over(trainer);
+        screen.switch_holder(trainer);
       break;
     case GLFW_KEY_SPACE:
       if (!repeated) session.freeze(!machine.frozen);

@@ -44,7 +44,7 @@ public:
 private:
   bool held(int key) const;
   bool move_probe(Session& session, double elapsed_s) const;
-  void hand_on(Trainer& trainer, ui::Screen& screen, double until_s);
+  void dispatch(Trainer& trainer, ui::Screen& screen, double until_s);
   bool type(const KeyEvent& event, Trainer& trainer, ui::Screen& screen);
   void press(const KeyEvent& event, Trainer& trainer, ui::Screen& screen);
   bool open_page(const KeyEvent& pressed, const Trainer& trainer, ui::Screen& screen);

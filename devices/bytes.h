@@ -9,7 +9,8 @@ namespace insonate {
 
 using Bytes = std::span<const std::uint8_t>;
 
-/// Reads the little-endian number at byte `offset`. The caller has checked that `bytes` is long enough.
+// The functions read the little-endian number at byte `offset`. The caller has checked that `bytes` is long enough.
+
 constexpr std::uint16_t u16_at(Bytes bytes, std::size_t offset) {
   return std::uint16_t(bytes[offset] | bytes[offset + 1] << 8);
 }

@@ -47,7 +47,7 @@ public:
   long pixels_drawn() const { return pixels_drawn_; }
 
 private:
-  /// How triangles are drawn. What reads no texture, and what covers what is below it, is drawn much faster.
+  /// How triangles are drawn. Those that read no texture, or that cover everything below them, are drawn much faster.
   enum class Kind { plain, covering, picture, toned, tinted };  // toned: a picture in another colour
   /// A corner as the shaders read it; its place in the window is in clip space.
   using Corner = ImDrawVert;

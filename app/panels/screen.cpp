@@ -320,13 +320,13 @@ void Screen::begin_setup(Trainer& trainer) {
     trainer.begin_setup();
 }
 
-void Screen::hand_over(Trainer& trainer) {
+void Screen::switch_holder(Trainer& trainer) {
   constexpr double kAsked_s = 6;
   Session& session = *trainer.session();
   if (session.strict() && !session.result()) return show_note("This exam counts: the probe stays with the tracker");
   if (session.only_learner()) return show_note("Mouse and keyboard move the probe already: there is no tracker");
   const double now_s = ImGui::GetTime();
-  if (trainer.loses_by_leaving() && now_s - std::exchange(asked_to_hand_over_s_, now_s) > kAsked_s)
+  if (trainer.loses_by_leaving() && now_s - std::exchange(asked_to_switch_s_, now_s) > kAsked_s)
     return show_note("Tab ends these steps: press it once more to go on without them");
   trainer.attempt([&] { session.holder() == Holder::learner ? session.give_back_probe() : session.take_probe(); });
 }

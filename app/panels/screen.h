@@ -64,14 +64,14 @@ public:
 
   /// Chooses where the views lie, from the next frame on.
   void choose(LayoutName layout, Trainer& trainer);
-  /// Shows the panel that says how the patient looks in the 3D view, in place of the CT's views, or closes it.
+  /// Shows the panel that sets how the patient looks in the 3D view, in place of the CT's views, or closes it.
   void toggle_look(Trainer& trainer);
-  /// The panel with the effects of the picture's model.
+  /// Shows the panel with the effects of the picture's model, or closes it.
   void toggle_effects(Trainer& trainer);
-  /// Begins the set-up of the tracker. In steps that it would end, says what to do first.
+  /// Begins the set-up of the tracker. In steps that it would end, shows what to do first.
   void begin_setup(Trainer& trainer);
-  /// Takes the probe from the tracker or gives it back. Steps that this ends are asked for once more.
-  void hand_over(Trainer& trainer);
+  /// Takes the probe from the tracker or gives it back. If this ends steps, it has to be called twice within 6 s.
+  void switch_holder(Trainer& trainer);
   /// Makes a view large, or all views as they were if one is.
   void enlarge(View view) { large_ = large_ ? std::nullopt : std::optional(view); }
   const std::optional<View>& large() const { return large_; }
@@ -189,7 +189,7 @@ private:
   CtPanel ct_panel_;
   LookPanel look_panel_;
   Aside aside_ = Aside::none;
-  double asked_to_hand_over_s_ = -1000;
+  double asked_to_switch_s_ = -1000;
   RecordedPanel recorded_panel_;
   VolumePage volume_page_;
   OpenDialog open_dialog_;
@@ -198,8 +198,8 @@ private:
   LearnersPanel learners_panel_;
   CheckPanel check_panel_;
   Toast toast_;
-  std::vector<Overlay>
-      pages_;  ///< what the person asked for, the topmost last: help, about, settings, open, leave or volume
+  /// What the person asked for, the topmost last: help, about, settings, open, leave or volume.
+  std::vector<Overlay> pages_;
   bool fonts_are_new_ = false, saves_picture_ = false, toast_is_aside_ = false;
   const ExamResult* closed_sheet_of_ = nullptr;
   double pictures_per_second_ = 0;

@@ -26,7 +26,7 @@ struct StructureChoice {
 };
 
 /// How the patient looks in the 3D view: with labelled organs, or as the CT through a transfer function, which a person
-/// chooses and edits. What they leave a patient with is there again when that patient is shown the next time.
+/// chooses and edits. The class stores the look per patient, and shows the patient so again.
 class PatientLook {
 public:
   /// Takes the bundled functions. Throws InputError if one cannot be read.

@@ -8,8 +8,8 @@
 namespace insonate {
 
 /// Replays a finished run: its time can be set freely, by hand or by a clock that is passed in. An optional expert's
-/// run is shown beside it, aligned to the same step. What the replay shows at a time depends on that time alone, not on
-/// how it was reached.
+/// run is shown beside it, aligned to the same step. The picture at a time depends on that time alone, not on how it
+/// was reached.
 class Replay {
 public:
   /// Available speeds, in multiples of the run's own.

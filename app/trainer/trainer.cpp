@@ -27,7 +27,7 @@ std::string patient_of(const CaseSource& source) {
   return "the built-in patient";
 }
 
-/// Every CT of a patient has air around the body. Labels, or images whose values are no Hounsfield units, have none.
+/// Every CT of a patient has air around the body. Labels, or images whose values are not Hounsfield units, have none.
 bool has_air(const Volume<std::int16_t>& ct) {
   return std::any_of(ct.voxels.begin(), ct.voxels.end(), [](std::int16_t hu) { return hu < kSkinHu; });
 }

@@ -48,9 +48,10 @@ public:
 
   const Preferences& preferences() const { return preferences_; }
   const std::filesystem::path& preferences_file() const { return preferences_file_; }
-  /// Takes other preferences at once, and stores them. What cannot be used becomes a problem to acknowledge.
+  /// Applies other preferences at once, and stores them. A value that cannot be used becomes a problem to acknowledge.
   void prefer(const Preferences& preferences);
-  /// Shows the patient with a transfer function from a file. What cannot be used becomes a problem to acknowledge.
+  /// Shows the patient with a transfer function from a file. A file that cannot be used becomes a problem to
+  /// acknowledge.
   void take_look(const std::filesystem::path& file);
   /// Saves how the patient looks now for later patients. A notice names the file.
   void save_look();
@@ -69,7 +70,7 @@ public:
   /// Begins to load what the command line names, or shows the start page if it names nothing. Returns at once.
   void open_from_options();
   /// Begins to load a file or folder that a person dropped, typed or chose: a case, a CT, a scenario or a recorded
-  /// scan. It replaces what is being loaded. What cannot be opened becomes a problem to acknowledge.
+  /// scan. It replaces what is being loaded. A path that cannot be opened becomes a problem to acknowledge.
   void open(const std::filesystem::path& path);
 
   /// Returns what is being loaded; nullptr if nothing is.

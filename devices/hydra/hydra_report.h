@@ -23,6 +23,7 @@ struct HydraReport {
 inline constexpr std::size_t kHydraReportLength = 52;
 inline constexpr std::size_t kHydraFeatureLength = 91;
 
+/// Parses a report. Returns a fault if its length, its header or its checksum is wrong.
 Parsed<HydraReport> parse_hydra(Bytes bytes);
 
 /// Returns the feature report, beginning with its number 0, that makes the device send poses (true) or act as a gamepad

@@ -37,6 +37,7 @@ struct Header {
 /// Returns the CRC-64 of ECMA-182: polynomial 0x42F0E1EBA9EA3693, initial value 0, not reflected.
 std::uint64_t crc64(ByteView bytes, std::uint64_t before = 0);
 
+/// Reads the fields of a header. Checks nothing.
 Header parse_header(std::span<const std::uint8_t, kHeaderBytes> bytes);
 
 /// The parts of a body. Versions 2 and 3 have an extended header before the content and metadata behind it.
@@ -74,6 +75,7 @@ struct Status {
   std::string text;        ///< for users; at most 200 characters
 };
 inline constexpr std::uint16_t kStatusOk = 1;
+/// Returns the content of a STATUS message; nothing if it is too short.
 std::optional<Status> parse_status(ByteView content);
 
 /// Converts seconds since 1970 to a header's time stamp, and back.

@@ -16,8 +16,8 @@ struct InPicture {
 };
 
 /// Returns the content of a probe's picture at a pose. Structures are sampled every kLookedAt_mm, so that a smaller one
-/// in the plane may be missed. Whether sound reaches them is not checked.
-/// @param depth_mm  depth of the picture from the face
+/// in the plane may be missed. It does not check whether sound reaches them.
+/// @param depth_mm  of the picture from the face
 InPicture in_picture(const Case& subject, const Probe& probe, double depth_mm, const Pose& patient_from_probe);
 inline constexpr double kLookedAt_mm = 1;
 

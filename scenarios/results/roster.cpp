@@ -80,7 +80,7 @@ std::vector<std::string> read_roster(const std::filesystem::path& file) {
     const auto [before, first_time] = places.emplace(entry.id, entry.place);
     if (!first_time)
       throw InputError(name, entry.place, "'" + entry.id + "' stands at " + before->second + " already",
-                       "give each learner an id of his own");
+                       "give each learner an id of their own");
     ids.push_back(entry.id);
   }
   return ids;

@@ -13,8 +13,10 @@
 
 namespace insonate {
 
+/// Returns `text` with A to Z as a to z.
 std::string lower_case(std::string_view text);
 
+/// Returns whether the texts are equal but for the case of A to Z.
 bool same_ignoring_case(std::string_view a, std::string_view b);
 
 /// Returns the parts between blanks.

@@ -25,6 +25,7 @@ struct DirtySweepStages {
   bool beam = false;
 };
 
+/// Returns what a change of settings from `before` to `now` invalidates in a sweep's volume.
 DirtySweepStages dirty_sweep_stages(const Settings& before, const Settings& now);
 
 }  // namespace insonate::gl

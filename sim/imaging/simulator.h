@@ -52,18 +52,18 @@ public:
   /// finite, or more than 10 km away. The previous pose then stays.
   void set_pose(const Pose& patient_from_probe);
 
-  /// Runs the outdated stages up to and including `last`, for measurements; before scan conversion, of the straight
-  /// look alone.
+  /// Runs the outdated stages up to and including `last`, for measurements. Stages before scan conversion run for the
+  /// straight look alone.
   void run_through(Stage last);
 
   /// Returns the picture: RGBA8, grey in red, green and blue, alpha 255 inside the fan; row 0 is the top.
   const Texture& image();
-  /// Returns the picture while the probe moves. If only the pose has changed since the last picture, this computes one
-  /// look of those that are compounded (sim/model/compounding.h), in turn; the others stay as the last picture had
-  /// them. Of the frame before, a share Settings::persistence is mixed in, before filter and grey map. Anything else
-  /// that has changed begins anew with a picture as image() returns it. At the same pose, each call computes one more
-  /// look. When all are of this pose, nothing of a frame before is left in the picture: it is that of image(). So what
-  /// a probe at rest shows depends on its pose alone, and is complete after as many calls as there are looks.
+  /// Returns the picture while the probe moves. If only the pose has changed since the last picture, each call computes
+  /// the next look of those that are compounded (sim/model/compounding.h). The other looks stay as the last picture had
+  /// them. A share Settings::persistence of the frame before is mixed in, before filter and grey map. After any other
+  /// change, the picture is that of image(). At the same pose, each call computes one more look. Once all looks are of
+  /// this pose, nothing of a frame before is left: the picture is that of image(). So the picture of a probe at rest
+  /// depends on its pose alone, and is complete after as many calls as there are looks.
   const Texture& image_in_motion();
   /// Returns a number that differs whenever the picture has changed.
   long image_version() const;

@@ -31,9 +31,8 @@ Image<std::complex<double>> noise_wave(const ScanLines& lines, const Settings& s
 /// @param look  a look (compounding.h) counted from 1, or 0 for the straight one; each has noise of its own
 glm::ivec2 noise_shift(const Pose& patient_from_probe, int look = 0);
 
-/// Returns the noise wave at a pixel before that shift, bilinear between lines and samples with
-/// the power of a line. It repeats beyond the fan.
-/// In front of the face it is that of the same distance behind.
+/// Returns the noise wave at a pixel before that shift, bilinear between lines and samples with the power of a line. It
+/// repeats beyond the fan. In front of the face it is that of the same distance behind.
 std::complex<double> noise_of_pixel(const Image<std::complex<double>>& noise, const ImageGeometry& geometry,
                                     const ScanLines& lines, int x, int y);
 

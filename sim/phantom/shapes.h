@@ -87,8 +87,12 @@ private:
 
 // --- Solids of their own ---------------------------------------------------------------------------------------------
 
+/// Returns a shape without points.
 ShapePtr make_empty();
+/// @param centre, radii  mm
 ShapePtr make_ellipsoid(const glm::vec3& centre, const glm::vec3& radii);
+/// @param centre, half_sizes  mm
+/// @param rounding_mm         radius of the edges; 0: sharp
 ShapePtr make_box(const glm::vec3& centre, const glm::vec3& half_sizes, float rounding_mm);
 
 /// Returns the half space on the side of the plane opposite to `normal`, which may have any length.
@@ -144,6 +148,7 @@ struct LoftForm {
   glm::vec3 outline_point(float angle_deg, float z, float inset_mm) const;
 };
 
+/// Returns the body. The caller has checked the form.
 ShapePtr make_loft(const LoftForm& form);
 
 // --- Solids made of others -------------------------------------------------------------------------------------------
@@ -172,6 +177,7 @@ struct Frame {
   glm::vec3 part_from_patient(const glm::vec3& p) const;
 };
 
+/// Returns the part at its place in the patient.
 ShapePtr make_placed(ShapePtr part, const Frame& frame);
 
 /// Returns the shape with its surface moved in and out by about `amplitude_mm` (a standard deviation), in bumps of

@@ -70,8 +70,8 @@ public:
   /// Inserts a picture. Pixels beyond the grid are left out.
   void add(const TrackedPicture& picture);
 
-  /// Extends the grid by voxels before its first and behind its last ones along each axis, 0 or more. What was inserted
-  /// stays where it lies in the patient.
+  /// Extends the grid by voxels before its first and behind its last ones along each axis, 0 or more. Inserted
+  /// pictures stay where they lie in the patient.
   void extend(const glm::ivec3& before, const glm::ivec3& behind);
 
   const Grid& grid() const { return grid_; }

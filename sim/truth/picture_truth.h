@@ -47,7 +47,7 @@ public:
   /// Keeps references to both. A case without labels has label 0 everywhere.
   TruthMaker(const Case& subject, const TissueTable& tissues);
 
-  /// Sets the probe of the following pictures. Of the settings, it uses the picture's size, the frequency and the gel.
+  /// Sets the probe of the following pictures. It uses three settings: the picture's size, the frequency and the gel.
   /// Does nothing if none of these changes.
   /// @param depth_mm  0.1 to 1000
   void set_view(const Probe& probe, double depth_mm, const Settings& settings);

@@ -22,7 +22,7 @@ struct VoxelData {
   std::uint64_t skipped = 0;        ///< bytes of the packed stream in front of the voxels
 };
 
-/// Throws InputError if the data file does not exist or cannot hold `count` voxels. Of a packed file it checks only
+/// Throws InputError if the data file does not exist or cannot hold `count` voxels. For a packed file it checks only
 /// that so few bytes can become so many; read_values() checks the rest.
 /// @param header_file  the file's name in error messages, here and below
 void check_voxel_data(const std::filesystem::path& header_file, const VoxelData& data, std::uint64_t count);

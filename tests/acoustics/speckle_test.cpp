@@ -84,6 +84,19 @@ TEST_CASE("the direct sum of many scatterers is fully developed speckle") {
   CHECK(rayleigh_test(speckle.independent).is_rayleigh());
 }
 
+TEST_CASE("a sample of speckle is as strong at all depths") {
+  constexpr int kLines = 300;
+  const SpeckleSample speckle = speckle_of(40);
+  const std::size_t depths = speckle.all.size() / kLines;
+  double slope = 0;  // of the logarithm of the mean square against depth, times a constant
+  for (std::size_t k = 0; k < depths; ++k) {
+    double square = 0;
+    for (std::size_t line = 0; line < kLines; ++line) square += std::pow(speckle.all[line * depths + k], 2);
+    slope += (double(k) - double(depths - 1) / 2) * std::log(square);
+  }
+  CHECK(slope == Approx(0).margin(1e-6));
+}
+
 TEST_CASE("few scatterers per cell are not fully developed speckle") {
   const SpeckleSample speckle = speckle_of(0.5);
   CHECK(envelope_snr(speckle.all) < 1.5);

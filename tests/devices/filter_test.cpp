@@ -150,7 +150,7 @@ TEST_CASE("samples that no hand has made are rejected, and those around them kep
   CHECK(out[21].patient_from_probe == samples[21].patient_from_probe);
 }
 
-TEST_CASE("noise at a high rate, a quick hand and a dropout are no outliers") {
+TEST_CASE("noise at a high rate, a quick hand and a dropout are not outliers") {
   const auto settings = only(&FilterSettings::outlier);
   CHECK(measure_rejection(settings, 1000).good_rejected == 0);
   // 800 mm/s there and back within a second: more than a scanning hand does.
@@ -226,7 +226,7 @@ TEST_CASE("a rejected sample says why, and those that pass say nothing") {
   }
 }
 
-TEST_CASE("samples that were read in one go are no quicker for it") {
+TEST_CASE("samples that were read in one go are not quicker for it") {
   OutlierGate gate;
   for (int i = 0; i < 200; ++i) {
     const double time_s = i / 2 / 50.0 + (i % 2) * 1e-9;

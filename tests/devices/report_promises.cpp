@@ -47,7 +47,7 @@ std::string broken_by_stream(Bytes bytes) {
   // 32 bytes is the least that a sensor takes.
   if (whole.size() * 32 > bytes.size() || one.foreign() > whole.size()) return "more came out than went in";
   for (const PolhemusRecord& record : whole)
-    if (!is_pose(record.reading) || record.reading.sensor > 127) return "a record is no pose";
+    if (!is_pose(record.reading) || record.reading.sensor > 127) return "a record is not a pose";
   return "";
 }
 
@@ -68,7 +68,7 @@ std::string broken_promise(Bytes bytes) {
   }
   if (const auto osvr = parse_osvr(bytes); osvr.fault == ReportFault::none)
     if (std::abs(glm::length(osvr.report.world_from_sensor) - 1) > 1e-12 || !within(osvr.report.rad_per_s, 64))
-      return "an OSVR report is no rotation";
+      return "an OSVR report is not a rotation";
   return broken_by_stream(bytes);
 }
 

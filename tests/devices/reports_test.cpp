@@ -88,7 +88,7 @@ TEST_CASE("a Hydra's report that is cut, prolonged or has any bit flipped is dis
   }
 }
 
-TEST_CASE("a Hydra's handset whose numbers are no rotation is invalid, the other one stays") {
+TEST_CASE("a Hydra's handset whose numbers are not a rotation is invalid, the other one stays") {
   Report report = copy(golden::kHydra);
   for (std::size_t i = 14; i < 22; ++i) report[i] = 0;
   const std::uint16_t crc = crc16_1021(Bytes(report).first(50), 0x1d0f);
@@ -145,7 +145,7 @@ TEST_CASE("a Viper's frame holds its own units") {
   };
   check_pose(with_info(0x58)[0].reading, glm::dvec3(10.5, -2.25, 31) * 25.4, kTurned);
   check_pose(with_info(0x59)[0].reading, glm::dvec3(10.5, -2.25, 31) * 304.8, kTurned);
-  // 31 m is farther than any tracker reaches; Euler angles are no quaternion.
+  // 31 m is farther than any tracker reaches; Euler angles are not a quaternion.
   CHECK(with_info(0x5b)[0].reading.status == PoseStatus::invalid);
   CHECK(with_info(0x52)[0].reading.status == PoseStatus::invalid);
 }
@@ -169,7 +169,7 @@ TEST_CASE("Polhemus records come whole however the bytes are cut, with anything 
     stream = stream + golden::kLiberty + Bytes(golden::kLiberty).first(std::size_t(i * 15)) + golden::kViper +
              golden::kViperStart;
   // A cut Liberty record has no checksum: its first bytes and the Viper frame behind it can make a false record of 48
-  // bytes, whose quaternion is no rotation here. So every whole one must come.
+  // bytes, whose quaternion is not a rotation here. So every whole one must come.
   const std::size_t expected = records_of(stream).size();
   CHECK(expected == 8);
   for (std::size_t portion = 1; portion < 130; ++portion) {

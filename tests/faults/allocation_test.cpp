@@ -166,7 +166,7 @@ long run_out_everywhere(const std::function<double()>& read) {
     } catch (const std::exception&) {
     }
     allocations_left = -1;
-    const long after = blocks;  // before anything is told, which takes memory too
+    const long after = blocks;  // before anything is reported, which takes memory too
     if (outcome == gave && value == expected && after == before) {
       if (!any_failed) break;
       continue;

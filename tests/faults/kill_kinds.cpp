@@ -331,7 +331,7 @@ public:
     write_file(folder / "whole.raw", whole_text());
     const auto all = read_raw_scan(folder / "whole.raw").samples;
     fs::remove(folder / "whole.raw");
-    require(int(all.size()) == kReports, "a report is no sample");
+    require(int(all.size()) == kReports, "a report is not a sample");
     for (std::int32_t number = 0; number < next_of(folder, "run", promises); ++number) {
       if (!fs::exists(file(folder, number))) {
         require(!most(promises, number), "a recording is lost");

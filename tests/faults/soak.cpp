@@ -290,7 +290,7 @@ private:
     std::copy_if(memory_.begin(), memory_.end(), std::back_inserter(warm),
                  [&](const Memory& one) { return one.at_s >= warm_s && one.at_s < seconds_; });
     const double kib_h = growth(warm), hours = (seconds_ - warm_s) / 3600;
-    // In less than an hour, less than that in all: a short run tells little of an hour.
+    // In less than an hour, less than that in all: a short run shows little about an hour.
     const double most_kib_h = kMostGrowth_kib_h * std::max(1.0, 1 / hours);
     expect(warm.size() > 10 && kib_h < most_kib_h, "the trainer's memory grows");
     std::printf("%-28s %.0f s, seed %u\n", "ran for", seconds_, seed_);

@@ -192,7 +192,7 @@ TEST_CASE("a cached phantom that somebody reads stays") {
   CHECK(place.folders().size() == kKeptPhantoms);
 }
 
-TEST_CASE("what was left half done goes from a cache when it is old, and nothing that is no folder") {
+TEST_CASE("what was left half done goes from a cache when it is old, and nothing that is not a folder") {
   Workplace place;
   const fs::path phantoms = place.cache() / "phantoms";
   write_file(phantoms / ".old.partial" / "ct.nrrd", "x");

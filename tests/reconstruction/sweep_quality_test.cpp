@@ -128,7 +128,7 @@ TEST_CASE("a tilting probe is measured where its pictures are farthest apart") {
   CHECK(quality.is_good());
 }
 
-TEST_CASE("fewer than two pictures are no sweep") {
+TEST_CASE("fewer than two pictures are not a sweep") {
   CHECK_FALSE(sweep_quality({}, {1, 2}).is_good());
   CHECK_FALSE(Hand().quality().is_good());
   CHECK(Hand().quality().verdict() == "No sweep: it has fewer than two pictures.");

@@ -50,18 +50,38 @@ std::map<std::string, Scenario> variants_of(const std::filesystem::path& file) {
   return drawn;
 }
 
+/// Adds up what a result measures and scores. A change of any of it changes the sum.
+double sum_of(const ExamResult& result) {
+  const auto of_motion = [](const MotionValues& motion) {
+    return motion.time_s + motion.path_length_mm + motion.angular_path_deg + motion.translational_movements +
+           motion.rotational_movements + motion.tracked_s + motion.on_skin_s + motion.untracked_s + motion.dropouts +
+           motion.log_dimensionless_jerk.value_or(0) + motion.spectral_arc_length.value_or(0);
+  };
+  double sum = result.points + of_motion(result.motion);
+  for (const CriterionScore& criterion : result.criteria) sum += criterion.points;
+  for (const StepResult& step : result.steps) {
+    sum += step.end_s + step.longest_hold_s + of_motion(step.motion);
+    if (step.judged)
+      for (const ViewValues::Field& field : ViewValues::fields()) sum += *step.judged.*field.value;
+    for (const auto& [metric, value] : step.values) sum += value;
+    for (const CriterionScore& criterion : step.criteria) sum += criterion.points;
+  }
+  return sum;
+}
+
 /// The bundled scenarios with logs of their own, and the variants that these were made for.
 struct Row {
   std::string name;
   std::string variant;
+  double good_sum, poor_sum;  ///< sum_of() of the logs' results
 };
-const std::vector<Row> kRows{{"knobs", "feet"},
-                             {"gallbladder", "stone"},
-                             {"aorta", "aneurysm"},
-                             {"fast", "fluid in the left upper quadrant"},
-                             {"kidneys", "stone on the right"},
-                             {"liver_sweep", "cyst"},
-                             {"bladder_volume", "retention"}};
+const std::vector<Row> kRows{{"knobs", "feet", 1198.92490862, 1346.19486658},
+                             {"gallbladder", "stone", 2048.96126804, 1367.44625685},
+                             {"aorta", "aneurysm", 2482.52567403, 2423.29480496},
+                             {"fast", "fluid in the left upper quadrant", 5921.99976069, 5882.45532318},
+                             {"kidneys", "stone on the right", 6245.36545093, 4620.00886015},
+                             {"liver_sweep", "cyst", 3813.99602821, 2829.32271765},
+                             {"bladder_volume", "retention", 1847.88382604, 1349.45032107}};
 
 std::filesystem::path file_of(const Row& row) {
   return kAssets / "scenarios" / (row.name + ".toml");
@@ -82,6 +102,9 @@ TEST_CASE("of each scenario's bundled logs the good one passes, the poor one fai
     const ExamResult good = bundled.score(row.name + "_good.igs.mha");
     const ExamResult poor = bundled.score(row.name + "_poor.igs.mha");
     INFO(to_json(good) << to_json(poor));
+    // A change of either sum needs a new ExamResult::kScoringVersion.
+    CHECK(sum_of(good) == Approx(row.good_sum).epsilon(1e-9));
+    CHECK(sum_of(poor) == Approx(row.poor_sum).epsilon(1e-9));
     CHECK(good.passed);
     CHECK(good.percent > 90);
     CHECK_FALSE(poor.passed);

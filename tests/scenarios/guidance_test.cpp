@@ -101,7 +101,7 @@ TEST_CASE("advice names the patient's sides, the marker, and the sense of rotati
         std::vector<std::string>{"Slide 36 mm towards the patient's left and the feet."});
   INFO("pressing is not sliding");
   CHECK(advice(kOnBelly, from(Pose{glm::dmat3(1.0), {0, 30, 0}})).empty());
-  // Seen from the handle, which is along the beam: the patient's right is on the left hand side when his head is up.
+  // Seen from the handle, which is along the beam: the patient's right is on the left hand side when their head is up.
   // Clockwise takes a marker on the left up, towards the head.
   const Pose clockwise = from(turned(90, {0, 1, 0}));
   CHECK(glm::distance(clockwise.rotation[0], glm::dvec3(0, 0, 1)) < 1e-9);
@@ -111,7 +111,7 @@ TEST_CASE("advice names the patient's sides, the marker, and the sense of rotati
   CHECK(to_feet.rotation[1].z < -0.3);  // the beam goes to the feet
   CHECK(advice(kOnBelly, to_feet) == std::vector<std::string>{"Tilt 20\u00b0, the beam towards the feet."});
   const Pose from_marker = from(turned(12, {0, 0, 1}));
-  CHECK(from_marker.rotation[1].x > 0.2);  // to the patient's left, the marker being on his right
+  CHECK(from_marker.rotation[1].x > 0.2);  // to the patient's left, the marker being on their right
   CHECK(advice(kOnBelly, from_marker) == std::vector<std::string>{"Rock 12\u00b0, the beam away from the marker."});
   CHECK(advice(from_marker, kOnBelly) == std::vector<std::string>{"Rock 12\u00b0, the beam towards the marker."});
   CHECK(advice(kOnBelly, from(turned(4, {1, 1, 1}, {2, 0, 2}))).empty());

@@ -77,7 +77,7 @@ TEST_CASE("a result of another scoring version reads, and says so") {
   CHECK(report_html(result, {}).find("scoring 99") != std::string::npos);
 }
 
-TEST_CASE("JSON that is no result is refused") {
+TEST_CASE("JSON that is not a result is refused") {
   const std::string json = to_json(scan(1).result);
   CHECK_THROWS_AS(result_from_json("", "x"), InputError);
   CHECK_THROWS_AS(result_from_json("{}", "x"), InputError);

@@ -195,7 +195,7 @@ TEST_CASE("a hold that ends with the scan counts, one that is a sample short doe
 }
 
 TEST_CASE("a hold that ends at the time limit comes too late, wherever time begins") {
-  // Tenths are no doubles, and times since 1970 are rounded once more: some limits lie above their sample, some below.
+  // Tenths are not doubles, and times since 1970 are rounded once more: some limits lie above their sample, some below.
   for (int tenths = 90; tenths <= 99; ++tenths)
     for (const double begin_s : {0.0, 1.7e9}) {
       const double limit_s = tenths / 10.0;
@@ -272,7 +272,7 @@ TEST_CASE("a pose that is not valid is never looked at") {
   CHECK(result.steps[0].criteria[0].why == "there was no valid pose to judge.");
   CHECK(*result.motion.of(Metric::dropout_percent) == Approx(100));
 
-  // Neither is one that is called valid and is no number, nor one whose time goes back.
+  // Neither is one that is called valid and is not a number, nor one whose time goes back.
   auto spoiled = samples_of(6, 50, approach);
   const ExamResult clean = scored(spoiled);
   ProbeSample broken = sample_at(1.5001, at_z(0));

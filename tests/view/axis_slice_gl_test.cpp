@@ -31,7 +31,7 @@ glm::dvec2 brightest(const Image<Rgba8>& image) {
 
 }  // namespace
 
-// The grid is rotated and mirrored, and its voxels are no cubes, so a view that ignores any of that puts the ball
+// The grid is rotated and mirrored, and its voxels are not cubes, so a view that ignores any of that puts the ball
 // elsewhere. Half a pixel: the ball's edge has steps of voxels.
 TEST_CASE("Axis slices show a marked place of the patient where they say it is") {
   const glm::dvec3 place(22, -31, 14);

@@ -110,7 +110,7 @@ TEST_CASE("a file that cannot be opened is refused, and a folder whose files can
                     folder.path.string() + ": there are more than 2 files below it; name the folder of one study.");
 }
 
-TEST_CASE("what is no volume file is refused by name") {
+TEST_CASE("a file that is not a volume is refused by name") {
   const TemporaryFolder folder;
   CHECK(why_refused(folder.path / "none.nii").find("there is no such file") != std::string::npos);
   CHECK(why_refused(folder.path).find("no DICOM images") != std::string::npos);

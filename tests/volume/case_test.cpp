@@ -167,7 +167,7 @@ TEST_CASE("a case without labels is a case") {
   CHECK(read.views.size() == 1);
 }
 
-TEST_CASE("a case replaces an older one whole, and nothing that is no case") {
+TEST_CASE("a case replaces an older one whole, and nothing that is not a case") {
   const TemporaryFolder folder;
   Case subject = small_case();
   write_case(folder.path / "case/", subject);

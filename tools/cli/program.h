@@ -27,6 +27,7 @@ inline std::string one_of(const std::vector<std::string>& words) {
   return "NAME:" + CLI::detail::generate_set(words);
 }
 
+/// Sets HelpFormatter for a program and all of its commands.
 inline void format_help_of(CLI::App& app) {
   app.formatter(std::make_shared<HelpFormatter>());
   for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) format_help_of(*command);

@@ -13,7 +13,7 @@
 namespace insonate::python {
 namespace {
 
-/// Tells the simulator where the assets are from where this module is, in an install as in a build.
+/// Sets the path of the assets from the path of this module, in an install as in a build.
 void find_assets() {
   Dl_info module;
   if (std::getenv("INSONATE_ASSETS") || dladdr(reinterpret_cast<void*>(&find_assets), &module) == 0) return;

@@ -20,6 +20,7 @@ void write_among_lines(const std::filesystem::path& folder, const char* name, co
 void write_as_picture(const std::filesystem::path& folder, const char* name, const Image<float>& image,
                       const std::string& content);
 
+/// Return the image as floats, rounded.
 Image<float> in_single_precision(const Image<double>& image);
 Image<float> in_single_precision(const Image<std::uint8_t>& image);
 

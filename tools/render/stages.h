@@ -26,6 +26,7 @@ struct RenderedScene {
   const Pose& patient_from_probe;
 };
 
+/// Returns the stages rounded to float.
 Stages<float> in_single_precision(const Stages<double>& stages);
 
 /// Returns the folder of one plane's files within the folder of stages: "" if the slice has only one plane.

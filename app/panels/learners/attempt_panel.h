@@ -16,8 +16,8 @@ namespace insonate::ui {
 /// What a click asks for.
 enum class AttemptRequest { none, review, report };
 
-/// Draws the chosen attempt: what can be done with it, the comments on it, and the field for another one. What is typed
-/// belongs to its attempt, and is there again when the attempt is chosen again.
+/// Draws the chosen attempt: what can be done with it, the comments on it, and the field for another one. The typed
+/// text belongs to its attempt, and is there again when the attempt is chosen again.
 class AttemptPanel {
 public:
   using Run = std::function<void(const std::function<void()>&)>;

@@ -10,6 +10,7 @@
 
 namespace insonate::ui {
 
+/// Returns the height of the strip that draw_author_panel() draws, pixels.
 float author_panel_height(const Theme& theme);
 
 /// Draws the strip that turns the frozen picture into a view: its title, what it must show, and the button that stores

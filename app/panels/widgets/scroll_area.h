@@ -12,8 +12,8 @@ inline Rect whole_rows(const Rect& area, float row) {
   return {area.x, area.y, area.w, row * float(std::max(1, int(area.h / row)))};
 }
 
-/// An area that scrolls if its content is higher than it. What is drawn during its life lies in it and is cut off at
-/// its edges.
+/// An area that scrolls if its content is higher than it. Everything that is drawn during its life lies in it and
+/// is cut off at its edges.
 ///
 ///     const ScrollArea area(theme, "rows", where, kRow * rows.size());
 ///     draw(area.content());

@@ -26,11 +26,13 @@ struct Rect {
 
 enum class Align { left, centre, right };
 
+/// Returns the width of one line of text, pixels.
 float text_width(ImFont* font, std::string_view text);
 
 /// Draws one line of text, centred in the rectangle's height. Text that does not fit ends in an ellipsis.
 void draw_text(const Rect& where, ImFont* font, ImU32 colour, std::string_view text, Align align = Align::left);
 
+/// Returns the height, pixels, of text that is wrapped to `width` pixels.
 float paragraph_height(ImFont* font, std::string_view text, float width);
 
 /// Wraps text to the rectangle's width and returns the height it takes. Does not draw below the rectangle's bottom.

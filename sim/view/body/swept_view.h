@@ -25,7 +25,7 @@ inline constexpr double kMostSweptThreshold = 200;
 TransferFunction swept_function(const SweptLook& look);
 
 /// Draws a reconstructed ultrasound volume in 3D, by the same volume rendering as the CT (VolumeView). Grey levels are
-/// smoothed with a standard deviation of 1.4 voxels first, because single grains of speckle are no surfaces. Voxels
+/// smoothed with a standard deviation of 1.4 voxels first, because single grains of speckle are not surfaces. Voxels
 /// that nothing was seen in are transparent. Needs a current OpenGL context.
 class SweptView {
 public:
@@ -38,8 +38,8 @@ public:
   ~SweptView();
 
   /// Returns the picture, as VolumeView::render() does.
-  /// @param face  a plane of the volume with its picture, alpha 0 where nothing was seen. What lies between the camera
-  ///              and the plane is cut away. Without a picture nothing is cut.
+  /// @param face  a plane of the volume with its picture, alpha 0 where nothing was seen. Everything between the
+  ///              camera and the plane is cut away. Without a picture nothing is cut.
   const gl::Texture& render(int width, int height, const OrbitCamera& camera, const SweptLook& look,
                             const UltrasoundPlane& face = UltrasoundPlane(), const VolumeBudget& budget = {});
   /// Returns as VolumeView::renders().

@@ -25,6 +25,7 @@ inline glm::ivec3 view_step(const Grid& grid) {
   return step;
 }
 
+/// Maps 0 to 1 to 0 to 255, rounded; values beyond are clamped.
 inline std::uint8_t byte(float share) {
   return std::uint8_t(std::lround(std::clamp(share, 0.0f, 1.0f) * 255));
 }

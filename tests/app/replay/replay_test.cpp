@@ -223,7 +223,7 @@ TEST_CASE("an expert's run lies beside another step by step") {
   REQUIRE(boundary > expert_boundary + 1);
   replay.seek(0.5);
   CHECK(replay.expert_time_s() == 0.5);
-  INFO("who was done sooner waits at his step's end");
+  INFO("who was done sooner waits at their step's end");
   replay.seek(boundary - 0.1);
   CHECK(replay.expert_time_s() == fast.stretches[0].end_s);
   INFO("both begin the next step together");

@@ -42,7 +42,7 @@ const std::string kLabels =
     "[[step]]\nkind = \"label_structures\"\ntitle = \"Names\"\ninstruction = \"Name.\"\n"
     "structures = [\"rib\", \"ball\"]\n";
 
-/// A learner with the probe on the reference pose, and tools that see what he does.
+/// A learner with the probe on the reference pose, and tools that see what they do.
 struct Desk {
   std::shared_ptr<const LoadedCase> loaded_case;
   std::unique_ptr<Session> session;

@@ -115,7 +115,7 @@ TEST_CASE("a probe slides to the end of the CT and no farther") {
   CHECK(off_normal_deg(pose) < 6);
 }
 
-TEST_CASE("the faces at which the CT cuts the body are no skin, and a probe that faces none can be put back") {
+TEST_CASE("the faces at which the CT cuts the body are not skin, and a probe that faces none can be put back") {
   const auto ct = cylinder();
   const ProbeHand hand(ct);
   const Pose from = in_front(2);

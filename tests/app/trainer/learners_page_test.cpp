@@ -147,7 +147,7 @@ TEST_CASE("a group has quartiles where a handful of learners have a score of one
     if (i < 4) add(database, "L-0" + std::to_string(i), AttemptMode::practice, 90, 10 + i);
   }
   LearnersPage page(folder / "results.db");
-  REQUIRE(page.trend().spreads.size() == 1);  // four at the second attempt are no handful
+  REQUIRE(page.trend().spreads.size() == 1);  // four at the second attempt are not a handful
   CHECK(page.trend().spreads[0].ordinal == 0);
   CHECK(page.trend().spreads[0].learners == 5);
   CHECK(page.trend().spreads[0].percent.first_quartile == 20);

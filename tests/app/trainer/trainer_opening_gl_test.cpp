@@ -54,7 +54,7 @@ TEST_CASE("what cannot be opened is reported, and the session goes on as it was"
       {folder.path / "broken", "case.toml"},
       {folder.file("typo.toml", "format = 1\ntitel = \"x\"\n"), "titel"},
       {folder.file("other_case.toml", of_nobody), "nobody"},
-      {folder.file("words.igs.mha", "this is no sequence\n"), "words.igs.mha"},
+      {folder.file("words.igs.mha", "this is not a sequence\n"), "words.igs.mha"},
   };
   for (const auto& [path, words] : bad) {
     CAPTURE(path.string());

@@ -46,7 +46,7 @@ await "a CT is the patient" is patient "Jürgen's CT 50%.mha"
 is activity practice || fail "a CT of one's own has no exam"
 : >"$work/picture.jpg"
 drop_here "$work/picture.jpg"
-await "what is no patient brings a dialog" is overlay problem
+await "a file that is not a patient brings a dialog" is overlay problem
 grep -q '"problem": ".*picture.jpg' "$state" || fail "the dialog does not name the file"
 import -window root "$work/refused.png"
 xdotool key Escape
@@ -83,7 +83,7 @@ does_not_build() { ! builds; }
 await "the picture is drawn" at_rest
 shot "$work/before.png" ultrasound 20
 shot "$work/console.png" console
-echo 'this is no GLSL' >>"$work/shaders/shared/grey.glsl"
+echo 'this is not GLSL' >>"$work/shaders/shared/grey.glsl"
 await "a broken shader is reported" does_not_build
 grep -q 'shared/grey.glsl' "$state" || fail "the broken shader is not named"
 await "the picture is drawn" at_rest

@@ -104,7 +104,7 @@ sleep 1.5
 xdotool keyup Left
 xdotool key l
 await "it is saved" contains toast ".webm"
-[ "$(head -c 4 "$work/files/pictures/"*.webm | od -An -tx1 | tr -d ' ')" = 1a45dfa3 ] || fail "it is no WebM"
+[ "$(head -c 4 "$work/files/pictures/"*.webm | od -An -tx1 | tr -d ' ')" = 1a45dfa3 ] || fail "it is not a WebM"
 
 echo "a knob and a move go back, and forward again"
 depth=$(value depth_mm)

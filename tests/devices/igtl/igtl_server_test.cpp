@@ -201,7 +201,7 @@ TEST_CASE("a client that begins a message and waits is let go, one that says not
   while (!half.receive().empty()) continue;
 }
 
-TEST_CASE("what is no OpenIGTLink, or claims more than any message has, ends its client's connection") {
+TEST_CASE("a message that is not OpenIGTLink, or claims more than any message has, ends its client's connection") {
   Timed timed;
   std::mt19937 random(7);
   Bytes noise(3000);

@@ -31,6 +31,15 @@ TEST_CASE("a first message that was held up is not what the others are tied to")
   }
 }
 
+TEST_CASE("if no message of a window is as early as the first was, later ones are tied to the earliest of them") {
+  SenderClock clock;
+  const auto delayed = [&](double sent_s) { return clock.time_of(sent_s, kOffset_s + sent_s + 0.05) - kOffset_s; };
+  clock.time_of(0, kOffset_s);
+  // The first message is in the first window, so the second one decides.
+  for (int tenth = 1; tenth < 100; ++tenth) CHECK(delayed(tenth / 10.0) == Approx(tenth / 10.0));
+  CHECK(delayed(10.1) == Approx(10.15));
+}
+
 TEST_CASE("as long as nothing speaks against it the steps between messages are the sender's own") {
   SenderClock clock;
   double before_s = clock.time_of(100, 100 + kOffset_s + held_up_s(0)), before_sent_s = 100;

@@ -90,6 +90,21 @@ TEST_CASE("an image between poses that are far apart, or before the first, is le
   CHECK(served.images.empty());
 }
 
+TEST_CASE("at most 32 images wait for a pose") {
+  Served served;
+  const double now_s = steady_now_s();  // stands still, so that no image has waited too long
+  for (std::uint64_t sent = 10; sent <= 40; sent += 10) {
+    for (int i = 0; i < 10; ++i) served.peer->send(image_at(kFirst_s));
+    for (int i = 0; i < 2000 && served.stream.received() < sent; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      served.stream.poll(now_s, served.images);
+    }
+    served.stream.poll(now_s, served.images);
+    CHECK(served.stream.unplaced() == (sent < 40 ? 0 : 8));
+  }
+  CHECK(served.images.empty());
+}
+
 TEST_CASE("images that carry their own place need no transform") {
   Served served(ImagePlace::by_image, "?frame=ras");
   served.peer->send(image_at(kFirst_s));

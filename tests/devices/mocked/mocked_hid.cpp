@@ -29,7 +29,7 @@ MockedHid::MockedHid(Testbed& testbed, const Identity& identity, int number)
     : testbed_(testbed), dev_("/dev/hidraw" + std::to_string(number)) {
   const std::string port = "1-" + std::to_string(number + 1), vendor = hex("%04x", identity.vendor),
                     product = hex("%04x", identity.product), bus_number = hex("%04X", unsigned(number));
-  // Each under its parent, by its whole path: told of parents as such, umockdev would look for them on this machine.
+  // Each under its parent, by its whole path: with parents given as such, umockdev would look for them on this machine.
   usb_path_ = taken(umockdev_testbed_add_device(
       testbed.get(), "usb", port.c_str(), nullptr, "idVendor", vendor.c_str(), "idProduct", product.c_str(), "product",
       identity.name.c_str(), "serial", identity.serial.c_str(), nullptr, "DEVTYPE", "usb_device", nullptr));
@@ -67,7 +67,7 @@ void MockedHid::send(std::deque<Report>& reports) {
 
 void MockedHid::pull() {
   pulled_ = true;
-  node_->write({0});  // whoever waits wakes up, and on_read tells
+  node_->write({0});  // whoever waits wakes up, and on_read reports
 }
 
 int MockedHid::on_ioctl(_UMockdevIoctlBase*, _UMockdevIoctlClient* client, void* self) {

@@ -1,6 +1,7 @@
 #include "scenarios/metrics/smoothness.h"
 
 #include <catch2/catch.hpp>
+#include <glm/gtc/constants.hpp>
 
 #include <cmath>
 #include <functional>
@@ -43,6 +44,20 @@ TEST_CASE("a minimum-jerk reach is as smooth as its formula says") {
   // The spectral arc length of such a reach is -1.41 with the paper's settings; rests before and after change nothing
   // but where its spectrum is sampled.
   CHECK(*moved(4, [](double t) { return reach(t - 1, 2, 100); }).spectral_arc_length() == Approx(-1.41).margin(0.08));
+}
+
+TEST_CASE("the spectral arc length of a jump is that of the smoothing's spectrum") {
+  // The speeds of a jump are the smoothing's weights, of magnitude cos^4(w/2) at w radians per sample. The transform of
+  // 55 speeds has 256 samples, and up to sample 87 the magnitude is above 5 %.
+  const auto magnitude = [](double share) { return std::pow(std::cos(glm::pi<double>() * 87 / 256 * share), 4); };
+  REQUIRE(magnitude(1) > 0.05);
+  REQUIRE(magnitude(88.0 / 87) < 0.05);
+  double length = 0;
+  constexpr int kPieces = 100000;
+  for (int i = 0; i < kPieces; ++i)
+    length += std::hypot(1.0 / kPieces, magnitude((i + 1.0) / kPieces) - magnitude(double(i) / kPieces));
+  const Smoothness jump = moved(59 / kRate_hz, [](double t) { return glm::dvec3(t < 1.51 ? 0 : 30, 0, 0); });
+  CHECK(*jump.spectral_arc_length() == Approx(-length).margin(1e-4));
 }
 
 TEST_CASE("smoothness does not depend on how far, how fast or where to the hand moves") {

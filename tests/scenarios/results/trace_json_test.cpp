@@ -32,7 +32,7 @@ TEST_CASE("a trace goes to JSON and back without losing a bit") {
   CHECK(trace_from_json(to_json(std::span<const TracePoint>{}), "x").empty());
 }
 
-TEST_CASE("JSON that is no trace is refused") {
+TEST_CASE("JSON that is not a trace is refused") {
   const std::string json = to_json(tiny_exam(1).trace);
   CHECK_THROWS_AS(trace_from_json("", "x"), InputError);
   CHECK_THROWS_AS(trace_from_json("[]", "x"), InputError);

@@ -32,7 +32,7 @@ const Scenario& exam() {
   return scenario;
 }
 
-/// What a learner does, at his own times; `clumsy` is how far off he is, 0 not at all.
+/// What a learner does, at their own times; `clumsy` is how far off they are, 0 not at all.
 struct Learner {
   double clumsy = 0;
 

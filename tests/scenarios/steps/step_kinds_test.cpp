@@ -327,7 +327,7 @@ TEST_CASE("who turns away from a step and comes back has made its way and taken 
   const StepResult straight = scan({}), detour = scan({{4.0, {go_to("two"), go_to("one")}}});
   CHECK(detour.start_s == straight.start_s);
   CHECK(detour.motion.time_s == Approx(straight.motion.time_s));
-  // What lies between the sample before a turn and the one behind it is no step's: at most 60 mm/s for 0.1 s.
+  // What lies between the sample before a turn and the one behind it is not a step's: at most 60 mm/s for 0.1 s.
   CHECK(detour.motion.path_length_mm == Approx(straight.motion.path_length_mm).margin(6));
   CHECK(detour.motion.tracked_s == Approx(straight.motion.tracked_s));
   CHECK(detour.criteria[0].points == Approx(straight.criteria[0].points).margin(1e-9));

@@ -93,7 +93,7 @@ TEST_CASE("insonate-bench beam: depth, focus and f-number are those that were as
         Approx(beam_profile(transducer, beamforming, line_at(transducer, 0), 48).lateral_mm).margin(6e-5));
 }
 
-TEST_CASE("insonate-bench speckle: few scatterers are no Rayleigh speckle") {
+TEST_CASE("insonate-bench speckle: few scatterers are not Rayleigh speckle") {
   AcousticRequest request;
   request.probes = {"linear"};
   request.focus_mm = 12;

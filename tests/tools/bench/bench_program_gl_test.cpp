@@ -227,7 +227,7 @@ TEST_CASE("insonate-bench compare: a run against itself has not changed") {
         std::string::npos);
 }
 
-TEST_CASE("insonate-bench measures the EGL device that is asked for, and says loudly when it is no graphics card") {
+TEST_CASE("insonate-bench measures the EGL device that is asked for, and says loudly when it is not a graphics card") {
   Fixture f;
   ::setenv("INSONATE_EGL_DEVICE", "99", 1);
   CHECK(f.run("frames --case " + (f.folder / "tiny").string()) == 2);

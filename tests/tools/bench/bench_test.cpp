@@ -77,7 +77,7 @@ TEST_CASE("a table comes back from its CSV as it was, whatever its cells hold") 
   CHECK(Table::parse("t.csv", "a,b\r\n1,2").rows == std::vector<std::vector<std::string>>{{"1", "2"}});
 }
 
-TEST_CASE("what is no table is refused with its place") {
+TEST_CASE("a file that is not a table is refused with its place") {
   CHECK_THROWS_WITH(Table::parse("t.csv", ""), Catch::Contains("t.csv") && Catch::Contains("no table"));
   CHECK_THROWS_WITH(Table::parse("t.csv", "a,b\n1,2\n1\n"), Catch::Contains("line 3") && Catch::Contains("1 cells"));
   CHECK_THROWS_WITH(Table::parse("t.csv", "a\n\"b\n"), Catch::Contains("quotation mark"));

@@ -96,7 +96,7 @@ TEST_CASE("an exam under way is kept part by part until an attempt takes its pla
   database.check();
 }
 
-TEST_CASE("nobody takes an exam twice, at two stations, or once more when it has been handed in for him") {
+TEST_CASE("nobody takes an exam twice, at two stations, or once more when it has been handed in for them") {
   const ResultsFolder folder;
   ResultsDatabase database = ResultsDatabase::open_or_make(folder / "results.db");
   Sitting sitting;
@@ -181,7 +181,7 @@ TEST_CASE("lists say who took what, and how it went") {
   CHECK(learners[1].last_ms == attempts[2].finished_ms);
 }
 
-TEST_CASE("what is no attempt leaves nothing behind") {
+TEST_CASE("JSON that is not an attempt leaves nothing behind") {
   const ResultsFolder folder;
   ResultsDatabase database = ResultsDatabase::open_or_make(folder / "results.db");
   Attempt named = made_attempt("Ada Lovelace", tiny_exam(0));

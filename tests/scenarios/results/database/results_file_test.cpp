@@ -74,7 +74,7 @@ TEST_CASE("files that are not a database of results are refused and left as they
   CHECK_THROWS_AS(ResultsDatabase::open_or_make(folder / "file" / "results.db"), InputError);
 }
 
-TEST_CASE("a missing and an empty file are no database to read, but one to make") {
+TEST_CASE("a missing and an empty file are not databases to read, but one to make") {
   const ResultsFolder folder;
   CHECK_THROWS_AS(ResultsDatabase::open(folder / "none.db"), InputError);
   CHECK_FALSE(std::filesystem::exists(folder / "none.db"));
