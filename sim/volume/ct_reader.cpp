@@ -1,6 +1,7 @@
 #include "sim/volume/ct_reader.h"
 
 #include <algorithm>
+#include <bitset>
 #include <cmath>
 #include <cstring>
 #include <new>
@@ -23,6 +24,11 @@ constexpr double kLeastHu = -1024, kMostHu = 32767;
 constexpr std::int16_t kLeastBodyHu = -300, kMostBodyHu = 3071;
 // Metal may exceed int16's range, but a tenth of a CT cannot be metal.
 constexpr double kMostTooDense = 0.1;
+// TotalSegmentator's 117 structures and the background. A CT has noise, and air below 0 HU.
+constexpr int kMostLabel = 255;
+constexpr std::size_t kMostLabels = 128;
+// A volume with fewer voxels per value is too small to be told from a label map.
+constexpr std::size_t kLeastVoxelsALabel = 100;
 
 const char* const kDicom = "DICOM series";
 
@@ -52,6 +58,7 @@ void append_hounsfield(const fs::path& file, const std::vector<double>& values, 
     const double kept = std::clamp(hu, kLeastHu, kMostHu);
     source.clamped += kept != hu;
     source.too_dense += hu > kMostHu;
+    source.rounded += hu != std::round(hu);
     ct.voxels.push_back(std::int16_t(std::lround(kept)));
   }
 }
@@ -59,7 +66,7 @@ void append_hounsfield(const fs::path& file, const std::vector<double>& values, 
 Volume<std::int16_t> read_dicom_folder(const fs::path& folder, CtSource& source) {
   DicomSeries series = find_dicom_series(folder);
   Volume<std::int16_t> ct{series.grid, {}};
-  source = {kDicom, "", std::move(series.other_series), 0, 0};
+  source = {kDicom, "", std::move(series.other_series)};
   // Memory grows slice by slice: a header may claim more than its file holds.
   for (const fs::path& slice : series.slices) {
     check_dicom_slice(slice);
@@ -68,6 +75,23 @@ Volume<std::int16_t> read_dicom_folder(const fs::path& folder, CtSource& source)
     append_hounsfield(slice, image.values, ct, source);
   }
   return ct;
+}
+
+/// Refuses the numbers of structures, which would pass as Hounsfield units of soft tissue.
+void check_no_labels(const std::string& file, const Volume<std::int16_t>& ct, const CtSource& source) {
+  if (source.rounded > 0) return;
+  std::bitset<kMostLabel + 1> found;
+  for (const std::int16_t value : ct.voxels) {
+    if (value < 0 || value > kMostLabel) return;
+    found.set(std::size_t(value));
+  }
+  if (found.count() > kMostLabels || ct.voxels.size() < kLeastVoxelsALabel * found.count()) return;
+  const std::int16_t most = *std::max_element(ct.voxels.begin(), ct.voxels.end());
+  throw InputError(file, "voxels",
+                   "this is a label map, not a CT: it has " + std::to_string(found.count()) +
+                       " different values, all whole numbers from 0 to " + std::to_string(most),
+                   "open the CT that it belongs to, or make a case of both with 'insonate-case import --ct CT --labels "
+                   "LABELS --out FOLDER'");
 }
 
 /// Refuses values that cannot come from a CT of a body, as after a wrong rescale.
@@ -85,6 +109,7 @@ void check_values(const std::string& file, const Volume<std::int16_t>& ct, const
   if (double(source.too_dense) > kMostTooDense * double(ct.voxels.size()))
     refuse(std::to_string(100 * source.too_dense / ct.voxels.size()) + " % of the voxels are above " +
            std::to_string(int(kMostHu)) + " HU, denser than any metal in a CT");
+  check_no_labels(file, ct, source);
 }
 
 const char* const kExportAgain = "export the series again, or take the file out of the folder";
@@ -101,6 +126,7 @@ std::string packed(const Volume<std::int16_t>& ct, const CtSource& source) {
   };
   add_number(source.clamped);
   add_number(source.too_dense);
+  add_number(source.rounded);
   add_text(source.stored_as);
   add_number(source.other_series.size());
   for (const std::string& line : source.other_series) add_text(line);
@@ -125,7 +151,7 @@ Volume<std::int16_t> unpacked(const std::string& bytes, CtSource& source) {
   };
   Volume<std::int16_t> ct;
   take(&ct.grid, sizeof ct.grid);
-  source = {kDicom, "", {}, take_number(), take_number()};
+  source = {kDicom, "", {}, take_number(), take_number(), take_number()};
   source.stored_as = take_text();
   for (std::uint64_t left = take_number(); left > 0; --left) source.other_series.push_back(take_text());
   ct.voxels.resize(ct.grid.count());
@@ -196,7 +222,7 @@ auto within_memory(const fs::path& file, Read read) {
 }
 
 Volume<std::int16_t> read_ct_file(const fs::path& file, const VolumeHeader& header, CtSource& source) {
-  source = {header.format, to_string(header.data.type), {}, 0, 0};
+  source = {header.format, to_string(header.data.type), {}};
   return read_voxels<std::int16_t>(file, header, [&](const std::vector<double>& values, Volume<std::int16_t>& ct) {
     append_hounsfield(file, values, ct, source);
   });

@@ -17,6 +17,7 @@ struct CtSource {
   std::vector<std::string> other_series;  ///< DICOM: one text for each series that was not read
   std::size_t clamped = 0;                ///< voxels that were clamped to the range of air or of int16
   std::size_t too_dense = 0;              ///< the part of these that was above the range of int16
+  std::size_t rounded = 0;                ///< voxels whose values were not whole numbers
 };
 
 /// Reads a CT and returns it in Hounsfield units. The source is a NIfTI (.nii, .nii.gz), NRRD (.nrrd, .nhdr) or
@@ -27,8 +28,8 @@ struct CtSource {
 /// Throws InputError for input that is not a 3D scalar volume of finite numbers with at most 4096 voxels per side, at
 /// most 2^31 voxels in all, positive spacing (1e-3 to 100 mm) and an invertible orthogonal direction matrix. Also
 /// refuses what cannot be a person's CT: a side below 20 mm or above 3 m; a header that claims fewer or more bytes than
-/// the file holds; values that are all equal or all outside a body's range (-300 to 3071 HU); and values above int16's
-/// range in more than a tenth of the voxels.
+/// the file holds; values that are all equal or all outside a body's range (-300 to 3071 HU); values above int16's
+/// range in more than a tenth of the voxels; and a label map, which has few values, all whole numbers from 0 to 255.
 Volume<std::int16_t> read_ct(const std::filesystem::path& file_or_folder, CtSource* source = nullptr);
 
 /// Reads the CT file of a case in the same way, but accepts any size and density: a recipe may ask for a block of 10 mm

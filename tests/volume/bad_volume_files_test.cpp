@@ -355,6 +355,30 @@ TEST_CASE("a volume that cannot be a person's CT is refused, and asks about the 
     CHECK(why_refused(folder.put("a.nrrd", bytes)).empty());
 }
 
+TEST_CASE("a label map is refused as a CT, and says what to do with it") {
+  // The values in turn, each in more than 200 voxels.
+  const auto file_of = [](const std::vector<float>& values) {
+    NiftiSpec spec;
+    spec.dim = {3, 30, 30, 30, 1, 1, 1, 1};
+    spec.datatype = 16;  // float, which holds integers too
+    spec.bits = 32;
+    std::vector<float> voxels;
+    for (std::size_t i = 0; i < 27000; ++i) voxels.push_back(values[i % values.size()]);
+    return nifti(spec, bytes_of_values(voxels));
+  };
+  check_refused(
+      {{"a.nii", file_of({0, 1, 5, 20}),
+        "a.nii: voxels: this is a label map, not a CT: it has 4 different values, all whole numbers from 0 to "
+        "20; open the CT that it belongs to, or make a case of both with 'insonate-case import"},
+       {"a.nii", file_of({0, 255}), "2 different values, all whole numbers from 0 to 255"}});
+  const TemporaryFolder folder;
+  for (const std::vector<float>& ct : {std::vector<float>{0, 1, 5, -1}, {0, 1, 5, 0.5f}, {0, 1, 5, 256}})
+    CHECK(why_refused(folder.put("a.nii", file_of(ct))).empty());
+  std::vector<float> many(129);
+  for (std::size_t i = 0; i < many.size(); ++i) many[i] = float(i);
+  CHECK(why_refused(folder.put("a.nii", file_of(many))).empty());
+}
+
 TEST_CASE("a volume that does not fit into memory is refused") {
 #ifndef UNDER_ASAN  // whose own memory would count
   const TemporaryFolder folder;

@@ -38,8 +38,8 @@ water="$work/Jürgen's CT 50%.mha"
 {
   printf 'ObjectType = Image\nNDims = 3\nDimSize = 60 60 60\nElementSpacing = 1 1 1\n'
   printf 'ElementType = MET_SHORT\nElementDataFile = LOCAL\n'
-  printf '\1'  # a CT of one value alone is refused
-  head -c $((60 * 60 * 60 * 2 - 1)) /dev/zero
+  printf '\030\374'  # a voxel of air, because a CT of one value alone is refused
+  head -c $((60 * 60 * 60 * 2 - 2)) /dev/zero
 } >"$water"
 drop_here "$water"
 await "a CT is the patient" is patient "Jürgen's CT 50%.mha"

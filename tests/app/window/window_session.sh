@@ -80,13 +80,13 @@ amber_in() {
   [ "$(convert "$work/amber.png" -fill black +opaque 'rgb(236,172,62)' -fill white -opaque 'rgb(236,172,62)' \
     -format "%[fx:mean*w*h>${2:-200}]" info:)" = 1 ]
 }
-# A CT: a block of water, 160 mm wide, with a voxel of 1 HU, because a CT of one value alone is refused.
+# A CT: a block of water, 160 mm wide, with a voxel of air, because a CT of one value alone is refused.
 water() {
   {
     printf 'ObjectType = Image\nNDims = 3\nDimSize = 80 80 80\nElementSpacing = 2 2 2\nOffset = -80 -80 -80\n'
     printf 'ElementType = MET_SHORT\nElementDataFile = LOCAL\n'
-    printf '\1'
-    head -c 1023999 /dev/zero
+    printf '\030\374'  # -1000 HU
+    head -c 1023998 /dev/zero
   } >"$1"
 }
 
